@@ -67,6 +67,7 @@ pub mod engines;
 mod files;
 #[doc(hidden)]
 pub mod mutate;
+mod numbers;
 mod outside;
 #[doc(hidden)]
 pub mod proof;

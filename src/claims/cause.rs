@@ -5,6 +5,7 @@ use std::fmt;
 use super::judged::Pair;
 use super::slips::{Slip, mended};
 use super::{Course, Judge, Judged, Outcome};
+use crate::numbers::{fixed, significant};
 use crate::scenario::{Claim, Formula, Formulas};
 use formula::Program;
 use linkage::error::Result;
@@ -41,14 +42,14 @@ impl fmt::Display for Cause {
             Cause::Slip(Slip { formula, kind, written, right }) => {
                 write!(f, "{}, in {formula}: `{right}` instead of `{written}`", kind.words())
             }
-            Cause::Offset(offset) => write!(f, "{offset:e} too much everywhere"),
-            Cause::Factor(factor) => write!(f, "too large by the factor {factor} everywhere"),
-            Cause::Term { coefficient, term } => write!(f, "a missing term, {coefficient:e}*{term}"),
+            Cause::Offset(offset) => write!(f, "{} too much everywhere", significant(*offset, 6)),
+            Cause::Factor(factor) => write!(f, "too large by the factor {} everywhere", significant(*factor, 6)),
+            Cause::Term { coefficient, term } => write!(f, "a missing term, {}*{term}", significant(*coefficient, 6)),
             Cause::Leaves { after, before } => {
-                let [after, before] = [after, before].map(|crank| crank.to_degrees());
+                let [after, before] = [after, before].map(|crank| fixed(crank.to_degrees(), 3));
                 write!(
                     f,
-                    "another branch: it is right up to crank angle {after:.3} deg, and no longer at {before:.3} deg; \
+                    "another branch: it is right up to crank angle {after} deg, and no longer at {before} deg; \
                      atan2 in place of acos, asin or atan follows it"
                 )
             }

@@ -5,11 +5,11 @@ use std::path::{Path, PathBuf};
 use super::engine_args::EngineArgs;
 use super::progress::Bar;
 use super::run::{exit_code_of, graver};
-use super::{advice, exit_code, output};
+use super::{advice, exit_code, output, terminal};
 use crate::accept::{compared, figures, renewed};
 use crate::proof::{Proof, Reference, memory, prove_with};
 use crate::report::accept::{Deed, Document, Item, text};
-use crate::report::text as report;
+use crate::report::brief;
 use crate::scenario::Scenario;
 use crate::scenario::accepted::{self, beside};
 use linkage::error::{Error, ErrorKind, Result};
@@ -99,7 +99,7 @@ fn one(args: &Args, file: &Path, document: &mut Document) -> Result<u8> {
         output::print(&text(&item))?;
         let is_worse = comparison.as_ref().is_some_and(|comparison| comparison.proof.is_some());
         if !is_proven && (deed == Deed::Refused || deed == Deed::Checked && is_worse) {
-            output::print(&format!("\n{}", report::proof(&proof, advice::told)))?;
+            terminal::print(&format!("\n{}", brief::proof(&proof, advice::told, terminal::columns())))?;
         }
     }
     Ok(match (deed, &comparison) {

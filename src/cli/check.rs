@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use super::grid::GridArgs;
 use super::load::StartArgs;
 use super::run::exit_code_of;
-use super::{advice, exit_code, number, output};
+use super::{advice, exit_code, number, output, terminal};
 use crate::proof::claimed;
 use crate::report::check as report;
 use crate::scenario::formula::refused;
@@ -15,6 +15,7 @@ use linkage::error::{Error, ErrorKind, Result};
 const EXAMPLES: &str = "\
 Examples:
   linkproof check scenarios/formulas/slider_crank_centric.toml           every [[formula]] of a file
+  linkproof check scenarios/formulas/slider_crank_centric.toml --verbose  each of them, by value and by derivative
   linkproof check scenarios/crank_rocker.toml 'phi*180/pi' --channel link.crank.angle_deg
   linkproof check scenarios/scotch_yoke.toml 'r*cos(phi)' --set r_mm=80 --channel point.A.x_m
   linkproof check mine.toml 'atan2(u, v)' --let 'u=a*sin(phi)' --let 'v=d - a*cos(phi)' --set a_mm=30 --set d_mm=80 \\
@@ -57,6 +58,12 @@ pub(super) struct Args {
     grid: GridArgs,
     #[command(flatten)]
     start: StartArgs,
+    /// Show every formula and every derivative
+    #[arg(short, long, conflicts_with = "quiet")]
+    verbose: bool,
+    /// Show only the verdict, in one line
+    #[arg(short, long)]
+    quiet: bool,
     /// Write the judgement as JSON to a file, or to standard output instead of the text with `-`
     #[arg(long, value_name = "FILE", value_parser = output::target)]
     json: Option<PathBuf>,
@@ -77,7 +84,12 @@ pub(super) fn check(args: &Args) -> u8 {
             output::write(&report::json(&scenario, &found, advice::told), to)?;
         }
         if args.json.as_deref() != Some(Path::new("-")) {
-            output::print(&report::text(&scenario, &found, advice::told))?;
+            let width = terminal::columns();
+            terminal::print(&match (args.quiet, args.verbose) {
+                (true, _) => format!("{}\n", report::verdict_line(&scenario, &found)),
+                (_, true) => report::text(&scenario, &found, advice::told, width),
+                _ => report::brief(&scenario, &found, advice::told, width),
+            })?;
         }
         Ok(exit_code_of(&found.verdict))
     };

@@ -8,7 +8,7 @@ use super::grid::GridArgs;
 use super::load::StartArgs;
 use super::number::not_negative;
 use super::run::exit_code_of;
-use super::{advice, exit_code, output};
+use super::{advice, exit_code, output, terminal};
 use crate::record;
 use crate::report::versus as report;
 use crate::scenario::mapping::{Allowed, Mapped, Mapping, Size};
@@ -77,6 +77,9 @@ pub(super) struct Args {
     /// Show every channel, not only those that use most of their bounds
     #[arg(long, short)]
     verbose: bool,
+    /// Show the verdicts alone
+    #[arg(long, short, conflicts_with = "verbose")]
+    quiet: bool,
     /// Write the comparison as JSON to a file, or to standard output instead of the text with `-`
     #[arg(long, value_name = "FILE", value_parser = output::target)]
     json: Option<PathBuf>,
@@ -126,7 +129,8 @@ pub(super) fn compare(args: &Args) -> u8 {
             output::write(&report::json(paths, &found, advice::told), to)?;
         }
         if args.json.as_deref() != Some(Path::new("-")) {
-            output::print(&report::text(paths, &found, args.verbose, advice::told))?;
+            let how = [args.verbose, args.quiet];
+            terminal::print(&report::text(paths, &found, how, advice::told, terminal::columns()))?;
         }
         Ok(exit_code_of(&found.verdict))
     };

@@ -15,6 +15,7 @@ mod exit_code;
 mod export;
 mod grid;
 mod inspect;
+mod jobs;
 mod list;
 mod load;
 mod motor_choice;
@@ -25,14 +26,16 @@ mod panics;
 mod plan;
 mod progress;
 mod run;
+mod shell;
 mod solve;
 mod stress;
 mod synthesize;
+mod terminal;
 mod tune;
 
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -94,6 +97,10 @@ enum Command {
     Export(export::Args),
     /// List scenarios, or the available channels and solvers
     List(list::Args),
+    /// Write the completions of a shell
+    Completions(shell::CompletionArgs),
+    /// Write the manual: the page of linkproof, or the pages of all commands
+    Man(shell::ManArgs),
 }
 
 /// Runs the command line and returns its exit code.
@@ -120,6 +127,8 @@ pub fn main() -> ExitCode {
         Command::Synthesize(args) => output::exit(synthesize::synthesize(&args)),
         Command::Export(args) => output::exit(export::export(&args)),
         Command::List(args) => output::exit(list::list(&args)),
+        Command::Completions(args) => output::exit(shell::completions(&args, Cli::command())),
+        Command::Man(args) => output::exit(shell::man(&args, Cli::command())),
     };
     ExitCode::from(code)
 }
@@ -129,9 +138,7 @@ mod tests {
     use std::fs;
     use std::path::{Path, PathBuf};
 
-    use clap::{CommandFactory, Parser};
-
-    use super::Cli;
+    use super::*;
 
     #[test]
     fn arguments_are_consistent() {

@@ -1,5 +1,6 @@
 //! A progress bar that appears only when the work takes long enough.
 
+use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
@@ -38,6 +39,33 @@ impl Drop for Bar {
     fn drop(&mut self) {
         if let Some(bar) = &self.bar {
             bar.finish_and_clear();
+        }
+    }
+}
+
+/// One bar for work on several files side by side.
+#[derive(Debug)]
+pub(super) struct Shared(Mutex<(Bar, Vec<f64>)>);
+
+impl Shared {
+    /// A bar for the work called `what`, on so many files.
+    pub(super) fn new(what: &str, files: usize) -> Self {
+        Shared(Mutex::new((Bar::new(what), vec![0.0; files])))
+    }
+
+    /// Sets the finished share of the work on a file.
+    pub(super) fn at(&self, file: usize, part: f64) {
+        let (bar, parts) = &mut *self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        parts[file] = part;
+        bar.at(parts.iter().sum::<f64>() / parts.len() as f64);
+    }
+
+    /// Prints while the bar is hidden, so that neither writes into the other.
+    pub(super) fn hidden<R>(&self, print: impl FnOnce() -> R) -> R {
+        let shown = self.0.lock().unwrap_or_else(PoisonError::into_inner).0.bar.clone();
+        match shown {
+            Some(bar) => bar.suspend(print),
+            None => print(),
         }
     }
 }

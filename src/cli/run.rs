@@ -1,23 +1,27 @@
 //! `linkproof run`.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
+use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
+use std::thread::available_parallelism;
 
 use clap::builder::PossibleValuesParser;
 
 use super::engine_args::EngineArgs;
 use super::engine_section::{self, keys};
 use super::grid::GridArgs;
+use super::jobs::{Room, side_by_side};
 use super::load::{StartArgs, only, reference_names};
-use super::progress::Bar;
-use super::{advice, exit_code, number, output};
+use super::progress::Shared;
+use super::{advice, exit_code, number, output, terminal};
 use crate::compare::Verdict;
 use crate::files;
 use crate::proof::{EngineProof, Entry, Proof, memory, prove_with};
 use crate::record::{self as recorder, Recording, Side};
+use crate::report::closing::Closing;
 use crate::report::outcomes::Outcomes;
-use crate::report::{explain, json, junit, markdown, recorded, residuals, text};
+use crate::report::{brief, explain, json, junit, markdown, recorded, residuals, text};
 use crate::scenario::Scenario;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::work::Work;
@@ -27,6 +31,8 @@ Examples:
   linkproof run scenarios/crank_rocker.toml
   linkproof run scenarios/crank_rocker.toml --dt 1e-4          this step of the engine, not one that the run finds
   linkproof run mine.toml --write                              keep the settings that the run has found in the file
+  linkproof run scenarios/crank_rocker.toml --verbose          every quantity and every check
+  linkproof run scenarios/*.toml --no-record --quiet           one line for each file
   linkproof run scenarios/*.toml --reference newton            the other analytic side as reference
   linkproof run scenarios/crank_rocker.toml --engine all       every engine side by side, and who stands alone
   linkproof run scenarios/ov7_base.toml --sweeps 4096 --extrapolate   other settings of the engine
@@ -73,6 +79,15 @@ pub(super) struct Args {
     /// other channels are left out. May be given several times
     #[arg(long, value_name = "WORD")]
     only: Vec<String>,
+    /// Show everything: structure, settings, every quantity, every check
+    #[arg(short, long, conflicts_with = "quiet")]
+    verbose: bool,
+    /// Show only the verdict, in one line for each file
+    #[arg(short, long)]
+    quiet: bool,
+    /// Number of files that are proven side by side; the output is the same for any number [default: all cores]
+    #[arg(long, value_name = "N")]
+    jobs: Option<NonZeroUsize>,
     /// Show what ran, how often and why, and what was skipped
     #[arg(long)]
     explain: bool,
@@ -107,80 +122,190 @@ pub(super) fn run(args: &Args) -> u8 {
     if let Err(found) = args.record_target() {
         return output::exit(Err(found));
     }
-    let mut document = json::Document::told_by(advice::told);
-    let mut outcomes = Outcomes::told_by(advice::told);
-    let mut worst = exit_code::AGREE;
-    let quiet = args.json.as_deref() == Some(Path::new("-"));
-    let mut written = BTreeMap::new();
-    for file in &args.files {
-        let mut failed = |error: &Error| {
-            output::show(error);
-            document.add_failure(&file.display().to_string(), error);
-            outcomes.add_failure(&file.display().to_string(), error);
-            worst = exit_code::BAD_INPUT;
-        };
-        let (scenario, proof) = match prove_file(args, file, quiet) {
-            Ok(proven) => proven,
+    let mut session = Session::of(args);
+    let what = match args.files.as_slice() {
+        [only] => only.file_stem().map_or(String::new(), |stem| stem.to_string_lossy().into_owned()),
+        several => format!("{} scenarios", several.len()),
+    };
+    let bar = Shared::new(&what, args.files.len());
+    let most = args.engine.memory.bytes();
+    let work = |index: usize, file: &PathBuf, room: &Room| prove_file(args, file, room, index, &bar);
+    side_by_side(&args.files, threads(args), most, work, |index, file, proven| {
+        bar.at(index, 1.0);
+        bar.hidden(|| session.take(file, proven));
+    });
+    drop(bar);
+    session.end()
+}
+
+/// Number of files that are proven at a time. A file that is given twice and written is read again when it is written.
+fn threads(args: &Args) -> usize {
+    let mut seen = BTreeSet::new();
+    let is_new = |file: &PathBuf| seen.insert(fs::canonicalize(file).unwrap_or_else(|_| file.clone()));
+    match args.write && !args.files.iter().all(is_new) {
+        true => 1,
+        false => args.jobs.or_else(|| available_parallelism().ok()).map_or(1, usize::from),
+    }
+}
+
+/// What the command has shown and written so far. It takes the proofs in the order of the files.
+struct Session<'a> {
+    args: &'a Args,
+    document: json::Document,
+    outcomes: Outcomes,
+    closing: Closing,
+    worst: u8,
+    /// The recordings of this command: path and scenario.
+    written: BTreeMap<PathBuf, String>,
+}
+
+impl<'a> Session<'a> {
+    fn of(args: &'a Args) -> Self {
+        Session {
+            args,
+            document: json::Document::told_by(advice::told),
+            outcomes: Outcomes::told_by(advice::told),
+            closing: Closing::default(),
+            worst: exit_code::AGREE,
+            written: BTreeMap::new(),
+        }
+    }
+
+    /// Whether standard output has the report; it is JSON otherwise.
+    fn reports(&self) -> bool {
+        self.args.json.as_deref() != Some(Path::new("-"))
+    }
+
+    fn failed(&mut self, file: &Path, error: &Error) {
+        output::show(error);
+        self.document.add_failure(&file.display().to_string(), error);
+        self.outcomes.add_failure(&file.display().to_string(), error);
+        self.worst = exit_code::BAD_INPUT;
+    }
+
+    /// Shows a proof, writes its settings and its recording.
+    fn take(&mut self, file: &Path, proven: Result<(Scenario, Proof)>) {
+        let shown = proven.and_then(|(scenario, proof)| {
+            if self.args.write {
+                write_settings(file, &scenario, &proof)?;
+            }
+            self.show(&proof)?;
+            Ok((scenario, proof))
+        });
+        let (scenario, proof) = match shown {
+            Ok(shown) => shown,
             Err(error) => {
-                failed(&error);
-                continue;
+                self.failed(file, &error);
+                self.closing.add_failure(&file.display().to_string());
+                return;
             }
         };
         // A proof is valid whether or not it can be recorded.
-        let recording = record(args, &scenario, &proof, quiet, &mut written).unwrap_or_else(|error| {
-            failed(&error);
+        let recording = self.record(&scenario, &proof).unwrap_or_else(|error| {
+            self.failed(file, &error);
             None
         });
-        worst = graver(worst, exit_code_of(&proof.verdict));
+        if self.reports() && !self.args.quiet && self.args.files.len() > 1 {
+            self.print("\n");
+        }
+        self.worst = graver(self.worst, exit_code_of(&proof.verdict));
         // With several engines, the report states the failure of one. With a single engine, its failure is the outcome.
         if let [EngineProof { failure: Some(error), .. }] = proof.engines.as_slice() {
             output::show(error);
-            worst = exit_code::BAD_INPUT;
+            self.worst = exit_code::BAD_INPUT;
         }
-        outcomes.add(&proof);
-        document.add(&proof, recording.map(|path| path.display().to_string()));
+        self.closing.add(&proof);
+        self.outcomes.add(&proof);
+        self.document.add(&proof, recording.map(|path| path.display().to_string()));
     }
-    type Text<'a> = &'a dyn Fn() -> String;
-    let targets: [(&Option<PathBuf>, Text); 3] = [
-        (&args.json, &|| document.text()),
-        (&args.junit, &|| junit::xml(&outcomes)),
-        (&args.markdown, &|| markdown::text(&outcomes)),
-    ];
-    for (to, text) in targets {
-        if let Some(to) = to
-            && let Err(error) = output::write(&text(), to)
-        {
+
+    /// The report of one proof: a line, what is needed to act, or everything.
+    fn show(&self, proof: &Proof) -> Result<()> {
+        let args = self.args;
+        if !self.reports() {
+            return Ok(());
+        }
+        terminal::print(&match (args.quiet, args.verbose) {
+            (true, _) => format!("{}\n", brief::verdict_line(proof)),
+            (_, true) => text::proof(proof, advice::told, terminal::width()),
+            _ => brief::proof(proof, advice::told, terminal::columns()),
+        })?;
+        if args.explain {
+            output::print(&format!("\n{}", explain::text(proof, &[recording_told(args)])))?;
+        }
+        if args.tolerance_scale == Some(0.0) {
+            output::print(&residuals::all(proof))?;
+        }
+        Ok(())
+    }
+
+    /// Prints what stands between and below the reports.
+    fn print(&mut self, text: &str) {
+        if let Err(error) = terminal::print(text) {
             output::show(&error);
-            worst = exit_code::BAD_INPUT;
+            self.worst = exit_code::BAD_INPUT;
         }
     }
-    worst
+
+    /// Records a proof, unless recording is off.
+    fn record(&mut self, scenario: &Scenario, proof: &Proof) -> Result<Option<PathBuf>> {
+        let args = self.args;
+        if args.no_record {
+            return Ok(None);
+        }
+        let path = args.record.join(format!("{}.mcap", scenario.name));
+        let first = self.written.entry(path.clone()).or_insert_with(|| scenario.text.clone());
+        if *first != scenario.text {
+            let message =
+                format!("{} holds another scenario of this command, also called {}", path.display(), scenario.name);
+            return Err(Error::new(ErrorKind::Input, message)
+                .help("change the `name` of one of the two, or run them one by one with different --record"));
+        }
+        write_recording(scenario, proof, args, &path)?;
+        if self.reports() && !args.quiet {
+            output::print(&format!("\nrecording  {}\n", path.display()))?;
+        }
+        Ok(Some(path))
+    }
+
+    /// The table over all files, and the results for other programs; returns the exit code.
+    fn end(mut self) -> u8 {
+        if self.reports()
+            && !self.args.quiet
+            && let Some(table) = self.closing.text(terminal::columns())
+        {
+            self.print(&table);
+        }
+        type Text<'a> = &'a dyn Fn() -> String;
+        let (document, outcomes) = (&self.document, &self.outcomes);
+        let targets: [(&Option<PathBuf>, Text); 3] = [
+            (&self.args.json, &|| document.text()),
+            (&self.args.junit, &|| junit::xml(outcomes)),
+            (&self.args.markdown, &|| markdown::text(outcomes)),
+        ];
+        for (to, text) in targets {
+            if let Some(to) = to
+                && let Err(error) = output::write(&text(), to)
+            {
+                output::show(&error);
+                self.worst = exit_code::BAD_INPUT;
+            }
+        }
+        self.worst
+    }
 }
 
-fn prove_file(args: &Args, file: &Path, quiet: bool) -> Result<(Scenario, Proof)> {
+/// Proves a file when there is room for it.
+fn prove_file(args: &Args, file: &Path, room: &Room, index: usize, bar: &Shared) -> Result<(Scenario, Proof)> {
     let scenario = only(args.start.load(file, &args.grid)?, &args.only)?;
     let options = args.engine.options(&args.reference);
-    let engines = options.engines.len().max(1);
-    args.engine.memory.tell(&scenario.case, memory::of_proof(&scenario.case, engines));
-    let mut bar = Bar::new(&scenario.name);
-    let proof = prove_with(&scenario, &options, &mut |part| bar.at(part))?;
-    drop(bar);
-    if args.write {
-        write_settings(file, &scenario, &proof)?;
-    }
+    let needed = memory::of_proof(&scenario.case, options.engines.len().max(1));
+    room.take(index, needed, || bar.hidden(|| args.engine.memory.tell(&scenario.case, needed)));
+    let proof = prove_with(&scenario, &options, &mut |part| bar.at(index, part))?;
     let proof = match args.tolerance_scale {
         Some(dial) if dial > 0.0 => proof.with_bounds_scaled(dial),
         _ => proof,
     };
-    if !quiet {
-        output::print(&text::proof(&proof, advice::told))?;
-        if args.explain {
-            output::print(&format!("{}\n", explain::text(&proof, &[recording_told(args)])))?;
-        }
-        if args.tolerance_scale == Some(0.0) {
-            output::print(&residuals::all(&proof))?;
-        }
-    }
     Ok((scenario, proof))
 }
 
@@ -198,32 +323,6 @@ fn write_settings(file: &Path, scenario: &Scenario, proof: &Proof) -> Result<()>
         None => Ok(()),
         Some(_) => engine_section::write(file, scenario, keys(scenario, engine.info.name, engine.info.settings)),
     }
-}
-
-/// Records a proof, unless recording is off. `written` holds the recordings of this command: path and scenario.
-fn record(
-    args: &Args,
-    scenario: &Scenario,
-    proof: &Proof,
-    quiet: bool,
-    written: &mut BTreeMap<PathBuf, String>,
-) -> Result<Option<PathBuf>> {
-    if args.no_record {
-        return Ok(None);
-    }
-    let path = args.record.join(format!("{}.mcap", scenario.name));
-    let first = written.entry(path.clone()).or_insert_with(|| scenario.text.clone());
-    if *first != scenario.text {
-        let message =
-            format!("{} holds another scenario of this command, also called {}", path.display(), scenario.name);
-        return Err(Error::new(ErrorKind::Input, message)
-            .help("change the `name` of one of the two, or run them one by one with different --record"));
-    }
-    write_recording(scenario, proof, args, &path)?;
-    if !quiet {
-        output::print(&format!("recording  {}\n\n", path.display()))?;
-    }
-    Ok(Some(path))
 }
 
 fn write_recording(scenario: &Scenario, proof: &Proof, args: &Args, path: &Path) -> Result<()> {

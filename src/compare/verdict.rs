@@ -1,6 +1,7 @@
 //! The verdict: agree, disagree, expected or inconclusive.
 
 use super::{Convergence, Residual};
+use crate::numbers::{error_in, fixed, percent};
 use crate::tolerance::{Basis, Part, Parts, Tolerance};
 use linkage::error::Advice;
 use linkage::math::KeepNan;
@@ -95,8 +96,10 @@ impl Verdict {
     pub fn of_engine(residual: &Residual, convergence: &Convergence, parts: Parts, wanted: f64) -> Self {
         let place = || {
             let (t, crank) = (residual.worst_time, residual.worst_crank.to_degrees());
-            let bound = parts.sum();
-            format!("{:.3e} beyond the bound {bound:.3e} at t = {t:.6} s, crank angle {crank:.3} deg", residual.max)
+            let unit = residual.channel.kind.unit.symbol();
+            let (error, bound) = (error_in(residual.max, unit), error_in(parts.sum(), unit));
+            let (t, crank) = (fixed(t, 6), fixed(crank, 3));
+            format!("{error} is beyond the bound {bound} at t = {t} s, crank angle {crank} deg")
         };
         Verdict::of_estimate(residual.max, residual.scale, convergence, parts, wanted, place)
     }
@@ -139,8 +142,9 @@ impl Verdict {
             {
                 let (why, advice) = way_out(parts);
                 let reason = format!(
-                    "the engine's error may reach {:.1e} of the channel's scale, more than the {wanted:.0e} that still proves something{why}",
-                    bound / scale,
+                    "the engine's error may reach {} of the channel's scale, more than the {} that still proves something{why}",
+                    percent(bound / scale),
+                    percent(wanted),
                 );
                 Verdict::Inconclusive { reason, advice }
             }
@@ -271,8 +275,7 @@ impl Check {
 
 /// Text of a disagreement: the number and its bound.
 fn beyond(value: f64, bound: f64, unit: &str) -> String {
-    let space = if unit.is_empty() { "" } else { " " };
-    format!("{value:.3e}{space}{unit} is beyond the bound {bound:.3e}")
+    format!("{} is beyond the bound {}", error_in(value, unit), error_in(bound, unit))
 }
 
 /// Verdict on the whole. One disagreement makes it disagree; otherwise one inconclusive verdict leaves it inconclusive.

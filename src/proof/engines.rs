@@ -14,6 +14,7 @@ use super::runs::{Bank, FEWER, other_sweeps};
 use super::settle::{End, Free, Search, Settling};
 use crate::compare::{Check, Verdict, difference, overall};
 use crate::engines::coarse_step;
+use crate::numbers::error;
 use crate::scenario::Scenario;
 use linkage::case::Case;
 use linkage::engine::{Engine, Settings};
@@ -200,7 +201,8 @@ fn tried(judge: &Judge, bank: &mut Bank, chosen: &Chosen) -> Advice {
         times => format!("extrapolated {times} times"),
     };
     Advice::Text(format!(
-        "leave the step to the proof: it takes {resolution:.2e} s and {sweeps} sweeps, {combined}, and {outcome}"
+        "leave the step to the proof: it takes {} s and {sweeps} sweeps, {combined}, and {outcome}",
+        error(resolution)
     ))
 }
 

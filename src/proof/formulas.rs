@@ -2,6 +2,7 @@
 
 use crate::claims::{At, Cause, Judged, Outcome, WORDS};
 use crate::compare::{Check, Verdict};
+use crate::numbers::{fixed, significant};
 use crate::tolerance::{Basis, Tolerance};
 
 /// What formulas come to.
@@ -54,9 +55,12 @@ fn name(judged: &Judged) -> String {
 /// Since when, in words.
 fn place(since: &At) -> String {
     let At { time, crank, formula, mechanism, .. } = since;
-    let found = if formula.is_nan() { "it has no value".to_string() } else { format!("it gives {formula:.9e}") };
+    let found =
+        if formula.is_nan() { "it has no value".to_string() } else { format!("it gives {}", significant(*formula, 9)) };
     format!(
-        "first at t = {time:.6} s, crank angle {:.3} deg: {found}, the mechanism {mechanism:.9e}",
-        crank.to_degrees()
+        "first at t = {} s, crank angle {} deg: {found}, the mechanism {}",
+        fixed(*time, 6),
+        fixed(crank.to_degrees(), 3),
+        significant(*mechanism, 9)
     )
 }

@@ -13,6 +13,7 @@ use super::judge::{ChannelProof, Judge, Judged};
 use super::observe::Stopped;
 use super::runs::{Bank, FEWER, other_sweeps};
 use crate::compare::{Convergence, Verdict};
+use crate::numbers::error;
 
 /// Share of the formal order below which an order is looked at again.
 const LOW: f64 = 0.75;
@@ -63,9 +64,11 @@ pub(super) fn look(judge: &Judge, bank: &mut Bank, judged: &mut Judged) -> Resul
             if let Some(order) = steady(coarse, middle, fine) {
                 let steps = [8.0, 0.5].map(|times| times * finest);
                 let place = format!(
-                    "the runs converge with order {order:.2}, at all of five steps from {:.2e} to {:.2e} s, where the \
+                    "the runs converge with order {order:.2}, at all of five steps from {} to {} s, where the \
                      method has {}: what is read or computed is not what the method gives",
-                    steps[0], steps[1], fine.convergence.formal
+                    error(steps[0]),
+                    error(steps[1]),
+                    fine.convergence.formal
                 );
                 judged.channels[index].verdict = Verdict::Disagree { place };
                 is_found = true;

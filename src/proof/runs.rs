@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::observe::{Observed, Stopped, Watch, observe};
 use crate::compare::{Ladder, OtherSweeps};
+use crate::numbers::significant;
 use linkage::case::Case;
 use linkage::engine::{Engine, Kept, Settings, plain_runs};
 use linkage::error::Advice;
@@ -146,7 +147,7 @@ impl<'a> Bank<'a> {
         let unit = if controls_error { "" } else { " s" };
         let mut auxiliary = |rung: Settings| {
             let what = match rung.sweeps == settings.sweeps {
-                true => format!("at {:e}{unit}", rung.resolution),
+                true => format!("at {}{unit}", significant(rung.resolution, 5)),
                 false => format!("with {} sweeps", rung.sweeps),
             };
             let failed = |stopped| in_ladder(stopped, &what, settings, controls_error);

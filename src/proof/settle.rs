@@ -6,6 +6,7 @@
 //!
 //! Everything is decided by the engine's own runs and by counted work, so that the same input gives the same settings.
 
+use crate::numbers::error;
 use linkage::engine::{Engine, Settings};
 use linkage::error::{Advice, Error, ErrorKind};
 use linkage::math::KeepNan;
@@ -206,7 +207,7 @@ impl<'a, 'b> Settling<'a, 'b> {
         // A step that is given is refused by the engine itself where it is too fine.
         if self.free.step && first > self.budget.larger(FIRST) {
             let message =
-                format!("the first runs of the engine take {first:.1e} steps, {:.1e} are allowed", self.budget);
+                format!("the first runs of the engine take {} steps, {} are allowed", error(first), error(self.budget));
             let error = Error::new(ErrorKind::Unsupported, message).help("shorten the grid");
             return Err(error.or_help(Advice::MoreWork { to: 10.0 * first }).into());
         }

@@ -6,6 +6,7 @@ use serde_json::json;
 
 use super::cells::table;
 use super::pretty::pretty;
+use crate::numbers;
 use crate::scenario::Scenario;
 use workshop::bearings::{Peak, Peaks, journal_diameter};
 
@@ -26,13 +27,17 @@ fn diameter(journals: Journals, peak: Peak) -> f64 {
 pub(crate) fn text(journals: Journals, scenario: &Scenario, peaks: &Peaks) -> String {
     let header = ["joint", "largest reaction", "at crank deg", "smallest journal", "largest moment", "at crank deg"];
     let mut table = table(header, &[1, 2, 3, 4, 5]);
-    let degrees = |peak: Peak| format!("{:.4}", peak.crank.to_degrees());
+    let degrees = |peak: Peak| numbers::fixed(peak.crank.to_degrees(), 4);
     for (index, joint) in scenario.case.mechanism.joints().iter().enumerate() {
         let reaction = peaks.reactions[index];
-        let mut row = vec![joint.name.clone(), format!("{:.6} N", reaction.value), degrees(reaction)];
+        let mut row = vec![joint.name.clone(), numbers::fixed_in(reaction.value, 6, "N"), degrees(reaction)];
         match peaks.moments[index] {
-            None => row.extend([format!("{:.3} mm", 1e3 * diameter(journals, reaction)), String::new(), String::new()]),
-            Some(moment) => row.extend(["slider".into(), format!("{:.6} N m", moment.value), degrees(moment)]),
+            None => row.extend([
+                numbers::fixed_in(1e3 * diameter(journals, reaction), 3, "mm"),
+                String::new(),
+                String::new(),
+            ]),
+            Some(moment) => row.extend(["slider".into(), numbers::fixed_in(moment.value, 6, "N m"), degrees(moment)]),
         }
         table.add_row(row);
     }

@@ -1,8 +1,9 @@
 //! Tables and cells that several reports use.
 
-use comfy_table::{CellAlignment, Table, presets};
+use comfy_table::{CellAlignment, ColumnConstraint, ContentArrangement, Table, presets};
 
 use crate::compare::Verdict;
+use crate::numbers;
 use crate::proof::ChannelProof;
 
 /// An empty table without lines; the columns in `numbers` are aligned right.
@@ -17,6 +18,34 @@ pub(super) fn table<const N: usize>(header: [&str; N], numbers: &[usize]) -> Tab
     table
 }
 
+/// The same, in at most `width` columns if there is a width: there the texts of the first column are broken, and numbers
+/// stay whole.
+pub(super) fn fitted<const N: usize>(header: [&str; N], numbers: &[usize], width: Option<usize>) -> Table {
+    let mut table = table(header, numbers);
+    if let Some(width) = width {
+        table.set_content_arrangement(ContentArrangement::Dynamic).set_width(width as u16);
+        table.column_iter_mut().skip(1).for_each(|column| {
+            column.set_constraint(ColumnConstraint::ContentWidth);
+        });
+    }
+    table
+}
+
+/// The same without a margin on the left.
+pub(super) fn flush<const N: usize>(header: [&str; N], numbers: &[usize], width: Option<usize>) -> Table {
+    let mut table = fitted(header, numbers, width);
+    let last = N - 1;
+    table.column_iter_mut().enumerate().for_each(|(index, column)| {
+        column.set_padding((0, if index == last { 0 } else { 2 }));
+    });
+    table
+}
+
+/// A table as text, without blanks at the ends of its lines.
+pub(super) fn trimmed(table: &Table) -> String {
+    table.lines().map(|line| line.trim_end().to_string()).collect::<Vec<_>>().join("\n")
+}
+
 /// Share of its bound that a channel uses. A verdict other than agreement counts more than any share.
 pub(super) fn used(channel: &ChannelProof) -> f64 {
     let share = if channel.residual.max == 0.0 { 0.0 } else { channel.residual.max / channel.bound };
@@ -27,6 +56,7 @@ pub(super) fn used(channel: &ChannelProof) -> f64 {
     }
 }
 
+/// A value over its scale; 0 of a scale of 0 is 0.
 pub(super) fn share(value: f64, scale: f64) -> String {
-    if value == 0.0 { "0".into() } else { format!("{:.1e}", value / scale) }
+    if value == 0.0 { "0".into() } else { numbers::significant(value / scale, 2) }
 }

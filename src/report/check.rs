@@ -1,16 +1,24 @@
 //! Judgements of formulas as text and JSON.
 
+use std::cmp::Ordering;
 use std::fmt::Write;
 
 use serde_json::{Value, json};
 
-use super::cells::table;
+use super::cells::{flush, trimmed};
 use super::pretty::pretty;
+use super::style::{self, wrapped};
 use super::tell::Tell;
 use crate::claims::{At, Cause, Judged, Outcome, WORDS};
 use crate::compare::Verdict;
+use crate::numbers::{beside, error, error_in, fixed, fixed_in, with_unit};
 use crate::proof::claimed::Claimed;
 use crate::scenario::{Formula, Scenario};
+
+/// Claims that the short report shows with their values.
+const WORST: usize = 3;
+/// Column at which the text below a formula begins.
+const INDENT: usize = 9;
 
 /// One claim, by value or by a derivative: the side that it fits worse.
 struct Line<'a> {
@@ -60,53 +68,93 @@ fn lines<'a>(scenario: &'a Scenario, claimed: &'a Claimed) -> Vec<Line<'a>> {
     lines
 }
 
-/// The report: the verdict, a line for each claim and derivative, and what is wrong.
+/// The verdict in one line.
 #[must_use]
-pub fn text(scenario: &Scenario, claimed: &Claimed, tell: Tell) -> String {
+pub fn verdict_line(scenario: &Scenario, claimed: &Claimed) -> String {
+    let told = sentence(&lines(scenario, claimed), claimed);
+    format!("{}: {}: {told}", scenario.name, style::verdict(&claimed.verdict))
+}
+
+/// The short report, in lines of at most `width` columns: the verdict, the formulas that use most of their bounds, and
+/// what is wrong.
+#[must_use]
+pub fn brief(scenario: &Scenario, claimed: &Claimed, tell: Tell, width: usize) -> String {
     let lines = lines(scenario, claimed);
-    let mut text = format!("{}\n", sentence(&lines, claimed));
-    let mut table = table(["formula", "claim", "crank deg", "difference", "bound", "verdict"], &[2, 3, 4]);
+    let is_told = |line: &&Line| line.judged.worst.is_some() && !is_consequence(&lines, line);
+    let mut worst: Vec<&Line> = lines.iter().filter(is_told).collect();
+    worst.sort_by(|a, b| (b.rank().0, b.rank().1).partial_cmp(&(a.rank().0, a.rank().1)).unwrap_or(Ordering::Equal));
+    let header = ["worst formula", "at deg", "formula", "mechanism", "error", "bound", "unit"];
+    let mut table = flush(header, &[1, 2, 3, 4, 5], Some(width));
+    for line in worst.into_iter().take(WORST) {
+        let Some(at) = line.judged.worst else { continue };
+        let [found, right] = beside([at.formula, at.mechanism], at.bound);
+        table.add_row([
+            format!("{}{}", of(line.judged.order), line.judged.name),
+            fixed(at.crank.to_degrees(), 1),
+            found,
+            right,
+            error(at.difference.abs()),
+            error(at.bound),
+            line.judged.unit.to_string(),
+        ]);
+    }
+    let mut text = format!("{}\n\n{}\n", verdict_line(scenario, claimed), trimmed(&table));
+    reasons(&lines, claimed, tell, width, &mut text);
+    text
+}
+
+/// The whole report: the verdict, a line for each claim and derivative, and what is wrong.
+#[must_use]
+pub fn text(scenario: &Scenario, claimed: &Claimed, tell: Tell, width: usize) -> String {
+    let lines = lines(scenario, claimed);
+    let mut table = flush(["formula", "claim", "at deg", "error", "bound", "verdict"], &[2, 3, 4], Some(width));
+    if let Some(claims) = table.column_mut(1) {
+        claims.remove_constraint();
+    }
     for line in &lines {
         let worst = line.judged.worst;
         table.add_row([
             line.name(),
             if line.judged.order == 0 { line.judged.claim.clone() } else { String::new() },
-            worst.map_or(String::new(), |at| format!("{:.1}", at.crank.to_degrees())),
-            worst.map_or(String::new(), |at| format!("{:.1e} {}", at.difference, line.judged.unit)),
-            worst.map_or(String::new(), |at| format!("{:.1e}", at.bound)),
+            worst.map_or(String::new(), |at| fixed(at.crank.to_degrees(), 1)),
+            worst.map_or(String::new(), |at| error_in(at.difference.abs(), &line.judged.unit)),
+            worst.map_or(String::new(), |at| error(at.bound)),
             line.word().into(),
         ]);
     }
-    let _ = writeln!(text, "\n{table}");
-    let has_wrong_value =
-        |name: &str| lines.iter().any(|line| line.judged.order == 0 && line.judged.name == name && line.rank().0 == 2);
-    // The derivatives of a wrong value say nothing more.
-    let told = |line: &&Line| line.rank().0 > 0 && (line.judged.order == 0 || !has_wrong_value(&line.judged.name));
+    let mut text = format!("{}\n\n{}\n", verdict_line(scenario, claimed), trimmed(&table));
+    reasons(&lines, claimed, tell, width, &mut text);
+    text
+}
+
+/// Whether it is the derivative of a wrong value, which says nothing more.
+fn is_consequence(lines: &[Line], of: &Line) -> bool {
+    let is_wrong_value =
+        |line: &Line| line.judged.order == 0 && line.judged.name == of.judged.name && line.rank().0 == 2;
+    of.judged.order > 0 && lines.iter().any(is_wrong_value)
+}
+
+/// What is wrong or open, and why.
+fn reasons(lines: &[Line], claimed: &Claimed, tell: Tell, width: usize, text: &mut String) {
+    let told = |line: &&Line| line.rank().0 > 0 && !is_consequence(lines, line);
     for line in lines.iter().filter(told) {
-        let _ = writeln!(text, "\n{}", reason(line, tell));
+        let _ = writeln!(text, "\n{}", wrapped(&reason(line, tell), Some(width), INDENT));
         if line.judged.order > 0 {
             continue;
         }
-        match cause(claimed, &line.judged.name) {
-            Some(Some(found @ Cause::Leaves { .. })) => {
-                let _ = writeln!(text, "  cause  {found}.");
-            }
-            Some(Some(found)) => {
-                let _ = writeln!(text, "  cause  {found}.\n         With that, nothing is left over.");
-            }
-            Some(None) => {
-                let _ =
-                    writeln!(text, "  cause  none that is simple: no single slip, offset, factor or term explains it.");
-            }
-            None => {}
-        }
+        let told = match cause(claimed, &line.judged.name) {
+            Some(Some(found @ Cause::Leaves { .. })) => format!("  cause  {found}."),
+            Some(Some(found)) => format!("  cause  {found}.\n         With that, nothing is left over."),
+            Some(None) => "  cause  none that is simple: no single slip, offset, factor or term explains it.".into(),
+            None => continue,
+        };
+        let _ = writeln!(text, "{}", wrapped(&told, Some(width), INDENT));
     }
     for check in &claimed.checks {
         if let Some(reason) = check.verdict.reason(tell) {
-            let _ = writeln!(text, "\n{}: {reason}", check.name());
+            let _ = writeln!(text, "\n{}", wrapped(&format!("{}: {reason}", check.name()), Some(width), 2));
         }
     }
-    text
 }
 
 /// The cause of a wrong formula, if it is wrong, and if there is a simple one.
@@ -125,24 +173,21 @@ fn sentence(lines: &[Line], claimed: &Claimed) -> String {
     match &claimed.verdict {
         Verdict::Agree { .. } | Verdict::Expected { .. } => {
             let (claims, instants) = (plural(claims, "formula"), plural(instants, "instant"));
-            format!("AGREE: {claims}, at {instants}, against {first} and {second}.")
+            format!("{claims} at {instants}, {first} and {second}")
         }
         Verdict::Disagree { .. } if names.is_empty() => {
-            format!("DISAGREE: {first} and {second} contradict each other; nothing is proven of the formulas.")
+            format!("{first} and {second} contradict each other")
         }
         Verdict::Disagree { .. } => {
-            format!("DISAGREE: {} of {} wrong: {}.", names.len(), plural(claims, "formula"), names.join(", "))
+            format!("{} of {} wrong", names.len(), plural(claims, "formula"))
         }
-        Verdict::Inconclusive { .. } => "INCONCLUSIVE: something proves nothing either way.".into(),
+        Verdict::Inconclusive { .. } => "something is open".into(),
     }
 }
 
 fn reason(line: &Line, tell: Tell) -> String {
     let Judged { claim, unit, order, .. } = line.judged;
-    let of = match order {
-        0 => String::new(),
-        order => format!("the {} of ", WORDS[*order]),
-    };
+    let of = of(*order);
     match line.judged.outcome() {
         Outcome::Right => String::new(),
         Outcome::Open { reason, advice } => {
@@ -153,9 +198,11 @@ fn reason(line: &Line, tell: Tell) -> String {
             let mut text =
                 format!("{of}{} = {}\n  is not {of}{claim} ({})", line.judged.name, line.formula.text, line.side);
             let says = |word: &str, at: At| {
-                let place = format!("crank angle {:.3} deg, t = {:.6} s", at.crank.to_degrees(), at.time);
-                let found = if at.formula.is_nan() { "no value".into() } else { number(at.formula, unit) };
-                format!("\n  {word:6} {place}: formula {found}, mechanism {}", number(at.mechanism, unit))
+                let place =
+                    format!("crank angle {}, t = {} s", fixed_in(at.crank.to_degrees(), 3, "deg"), fixed(at.time, 6));
+                let [found, right] = beside([at.formula, at.mechanism], at.bound).map(|text| with_unit(&text, unit));
+                let found = if at.formula.is_nan() { "no value".into() } else { found };
+                format!("\n  {word:6} {place}: formula {found}, mechanism {right}")
             };
             if let (Some(since), Some(worst)) = (line.judged.since, line.judged.worst) {
                 text += &says("first", since);
@@ -168,11 +215,12 @@ fn reason(line: &Line, tell: Tell) -> String {
     }
 }
 
-fn number(value: f64, unit: &str) -> String {
-    let size = value.abs();
-    let number =
-        if size != 0.0 && !(1e-3..1e6).contains(&size) { format!("{value:.6e}") } else { format!("{value:.6}") };
-    format!("{number} {unit}").trim_end().to_string()
+/// Words before the name of what is judged by a derivative.
+fn of(order: usize) -> String {
+    match order {
+        0 => String::new(),
+        order => format!("the {} of ", WORDS[order]),
+    }
 }
 
 fn cause_json(cause: &Cause) -> Value {

@@ -6,6 +6,7 @@ use serde_json::{Value, json};
 
 use super::cells::table;
 use super::pretty::pretty;
+use crate::numbers;
 use crate::scenario::Scenario;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::Vec2;
@@ -49,15 +50,15 @@ impl Standing {
 }
 
 fn millimetres(value: f64) -> String {
-    format!("{:.4}", 1e3 * value + 0.0)
+    numbers::fixed(1e3 * value, 4)
 }
 
 fn degrees(value: f64) -> String {
-    format!("{:.4}", value.to_degrees() + 0.0)
+    numbers::fixed(value.to_degrees(), 4)
 }
 
 fn place(point: Vec2) -> String {
-    format!("({:.3}, {:.3})", 1e3 * point.x + 0.0, 1e3 * point.y + 0.0)
+    format!("({}, {})", numbers::fixed(1e3 * point.x, 3), numbers::fixed(1e3 * point.y, 3))
 }
 
 fn names<'a>(asked: &'a Question, pair: &PairClearance) -> [&'a str; 2] {
@@ -90,14 +91,18 @@ pub(crate) fn text(scenario: &Scenario, asked: &Question, found: &Clearance) -> 
         let mut areas =
             table(["\nswept area", "\nmm2", "\nerror at most", "\nproven covered", "\nat most"], &[1, 2, 3, 4]);
         for (body, area) in swept {
-            let of = |value: f64| format!("{:.2}", 1e6 * value);
+            let of = |value: f64| numbers::fixed(1e6 * value, 2);
             let name = asked.bodies[*body].name.clone();
             areas.add_row([name, of(area.value), of(area.error()), of(area.least), of(area.most)]);
         }
         let _ = writeln!(text, "{areas}\n");
         if let Some((body, area)) = found.swept.iter().find(|(_, area)| area.error() > asked.area * area.value) {
             let (name, share) = (&asked.bodies[*body].name, area.error() / area.value);
-            let _ = writeln!(text, "the area of {name} is known to {share:.1e} only: the work allowed is done");
+            let _ = writeln!(
+                text,
+                "the area of {name} is known to {} only: the work allowed is done",
+                numbers::percent(share)
+            );
         }
     }
     for &[from, to] in &found.open {
@@ -128,7 +133,7 @@ pub(crate) fn text(scenario: &Scenario, asked: &Question, found: &Clearance) -> 
 }
 
 fn significant(value: f64) -> String {
-    format!("{value:.1e}")
+    numbers::significant(value, 2)
 }
 
 /// The answer as JSON: one entry of the document.

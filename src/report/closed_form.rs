@@ -5,6 +5,7 @@ use std::fmt::Write;
 use serde_json::json;
 
 use super::pretty::pretty;
+use crate::numbers::fixed_in;
 use workshop::synthesis::crank_rocker::{CrankRocker, Extreme};
 use workshop::synthesis::slider_crank::SliderCrank;
 
@@ -26,14 +27,14 @@ pub(crate) fn crank_rocker(found: &CrankRocker, rocker: f64) -> Told {
         found.crank, found.coupler, rocker
     );
     for (name, extreme) in [("stretched", found.stretched), ("folded", found.folded)] {
-        let [crank, rocker] = [extreme.crank, extreme.rocker].map(f64::to_degrees);
-        let _ = writeln!(text, "  {name:13} crank {crank:.9} deg, rocker {rocker:.9} deg");
+        let [crank, rocker] = [extreme.crank, extreme.rocker].map(|angle| fixed_in(angle.to_degrees(), 9, "deg"));
+        let _ = writeln!(text, "  {name:13} crank {crank}, rocker {rocker}");
     }
     let _ = writeln!(
         text,
-        "  transmission  {:.4} deg at least, at crank {:.4} deg\n  time ratio    {:.6}\n  mode          {}",
+        "  transmission  {:.4} deg at least, at crank {}\n  time ratio    {:.6}\n  mode          {}",
         found.transmission.to_degrees(),
-        found.transmission_at.to_degrees(),
+        fixed_in(found.transmission_at.to_degrees(), 4, "deg"),
         found.time_ratio,
         found.mode.name()
     );
@@ -51,7 +52,12 @@ pub(crate) fn slider_crank(found: &SliderCrank) -> Told {
     let mut text = String::from("slider-crank from stroke and offset\n");
     let _ = writeln!(text, "  crank         {:.15} m\n  rod           {:.15} m", found.crank, found.rod);
     for (name, [crank, place]) in [("farthest", found.far), ("nearest", found.near)] {
-        let _ = writeln!(text, "  {name:13} crank {:.9} deg, slider {place:.12} m", crank.to_degrees());
+        let _ = writeln!(
+            text,
+            "  {name:13} crank {}, slider {}",
+            fixed_in(crank.to_degrees(), 9, "deg"),
+            fixed_in(place, 12, "m")
+        );
     }
     let _ = writeln!(
         text,

@@ -5,7 +5,11 @@ use std::fmt::Write;
 use serde::Serialize;
 
 use crate::diagnosis::{Axis, Cause, Change, Diagnosis, How, Part, Since, Slip, Standing};
+use crate::numbers::{fixed, significant};
 use linkage::trajectory::{Channel, Stage};
+
+/// Column at which the text of a line begins.
+pub(super) const INDENT: usize = 12;
 
 /// Channels that are named; the others are counted.
 const NAMED: usize = 3;
@@ -66,10 +70,11 @@ pub fn standing(standing: &Standing) -> String {
 fn since(diagnosis: &Diagnosis, first: &Since) -> String {
     let together: Vec<Channel> = diagnosis.first().iter().map(|one| one.channel.clone()).collect();
     let (time, crank) = (first.time, first.crank.to_degrees());
-    let mut told = format!("t = {time:.6} s, crank angle {crank:.3} deg, first in {}", names(&together));
+    let mut told =
+        format!("t = {} s, crank angle {} deg, first in {}", fixed(time, 6), fixed(crank, 3), names(&together));
     if let Some(next) = diagnosis.since.get(together.len()) {
         let (time, crank) = (next.time, next.crank.to_degrees());
-        let _ = write!(told, "; from {time:.6} s, {crank:.3} deg, in {}", next.channel);
+        let _ = write!(told, "; from {} s, {} deg, in {}", fixed(time, 6), fixed(crank, 3), next.channel);
         let more = diagnosis.since.len() - together.len() - 1;
         if more > 0 {
             let _ = write!(told, " and later in {more} more");
@@ -193,18 +198,13 @@ fn part(part: &Part) -> String {
 
 /// A number with so many digits that it differs from another.
 pub(super) fn told_apart(value: f64, other: f64) -> String {
-    let differ = |digits: &usize| with_digits(value, *digits) != with_digits(other, *digits);
-    with_digits(value, (6..15).find(differ).unwrap_or(15))
+    let differ = |digits: &usize| significant(value, *digits) != significant(other, *digits);
+    significant(value, (6..15).find(differ).unwrap_or(15))
 }
 
 /// A number with at most six significant digits.
 pub(super) fn number(value: f64) -> String {
-    with_digits(value, 6)
-}
-
-fn with_digits(value: f64, digits: usize) -> String {
-    let rounded: f64 = format!("{value:.*e}", digits - 1).parse().unwrap_or(value);
-    if rounded == 0.0 || (1e-4..1e6).contains(&rounded.abs()) { format!("{rounded}") } else { format!("{rounded:e}") }
+    significant(value, 6)
 }
 
 /// A diagnosis in the JSON report.

@@ -6,6 +6,7 @@ use serde_json::{Value, json};
 
 use super::cells::table;
 use super::pretty::pretty;
+use crate::numbers::{fixed, fixed_in};
 use crate::scenario::Scenario;
 use analytic::reduced::means::Means;
 use analytic::steady::course::{Extremes, Row};
@@ -39,8 +40,10 @@ pub(crate) fn text(scenario: &Scenario, found: &Found, by_angle: bool) -> String
     let names = [("reduced moment of inertia", "kg m^2"), ("reduced moment of resistance", "N m")];
     let means = [found.means.inertia, found.means.resistance * scenario.case.crank().sense()];
     for (((name, unit), mean), extremes) in names.into_iter().zip(means).zip(&found.extremes) {
-        let end = |(crank, value): (f64, f64)| format!("{value:.9} {unit} at {:.4} deg", crank.to_degrees());
-        let _ = writeln!(text, "{name}\n  mean      {mean:.9} {unit}");
+        let end = |(crank, value): (f64, f64)| {
+            format!("{} at {}", fixed_in(value, 9, unit), fixed_in(crank.to_degrees(), 4, "deg"))
+        };
+        let _ = writeln!(text, "{name}\n  mean      {}", fixed_in(mean, 9, unit));
         let _ = writeln!(text, "  least     {}\n  greatest  {}", end(extremes.least), end(extremes.greatest));
     }
     if found.added > 0.0 {
@@ -70,7 +73,7 @@ pub(crate) fn text(scenario: &Scenario, found: &Found, by_angle: bool) -> String
 }
 
 fn of_regime(regime: &Regime) -> String {
-    let at = |at: &At| format!("{:.9} rad/s at {:.4} deg", at.omega, at.crank.to_degrees());
+    let at = |at: &At| format!("{} at {}", fixed_in(at.omega, 9, "rad/s"), fixed_in(at.crank.to_degrees(), 4, "deg"));
     let mut text = String::new();
     let _ = writeln!(text, "  mean      {:.10} rad/s, period {:.13} s", regime.mean_speed, regime.period);
     let _ = writeln!(text, "  at start  {:.10} rad/s", regime.start_speed);
@@ -84,12 +87,12 @@ fn angles(found: &Found) -> String {
     let mut table = table(header, &[0, 1, 2, 3, 4, 5]);
     for (index, row) in found.rows.iter().enumerate() {
         let at = found.steady.as_ref().map(|(_, regime)| regime.samples[index]);
-        let steady = |of: fn(At) -> f64| at.map_or("-".into(), |at| format!("{:.6}", of(at)));
+        let steady = |of: fn(At) -> f64| at.map_or("-".into(), |at| fixed(of(at), 6));
         table.add_row([
-            format!("{:.3}", row.crank.to_degrees()),
-            format!("{:.9}", row.inertia),
-            format!("{:.9}", row.slope),
-            format!("{:.6}", row.resistance),
+            fixed(row.crank.to_degrees(), 3),
+            fixed(row.inertia, 9),
+            fixed(row.slope, 9),
+            fixed(row.resistance, 6),
             steady(|at| at.omega),
             steady(|at| at.alpha),
         ]);

@@ -10,10 +10,10 @@ use crate::proof::{EngineProof, Proof};
 use linkage::trajectory::Stage;
 
 /// One row per engine, one column per stage: the channel that uses the largest share of its bound.
-pub(super) fn table(engines: &[EngineProof]) -> Table {
+pub(super) fn table(engines: &[EngineProof], width: Option<usize>) -> Table {
     let stages = Stage::ALL.map(Stage::name);
     let header = ["engine", stages[0], stages[1], stages[2], stages[3], stages[4], "verdict"];
-    let mut table = cells::table(header, &[1, 2, 3, 4, 5]);
+    let mut table = cells::fitted(header, &[1, 2, 3, 4, 5], width);
     for engine in engines {
         let mut row = vec![engine.info.name.to_string()];
         row.extend(Stage::ALL.map(|stage| worst(engine, stage)));

@@ -6,11 +6,15 @@ use serde_json::{Value, json};
 
 use super::pretty::pretty;
 use super::{modes, range};
+use crate::numbers::{fixed_in, significant};
 use crate::scenario::{Scenario, Undecided};
 use analytic::modes::Modes;
 use analytic::range::Range;
 use linkage::mechanism::assembly::{Choice, transmission_sine};
 use linkage::mechanism::{GROUND, Joint, Mechanism};
+
+/// Digits of a mass or a moment of inertia: all that a scenario states, and none that a conversion has left.
+const SHOWN: usize = 12;
 
 /// The structure as text.
 pub(crate) fn text(scenario: &Scenario) -> String {
@@ -29,11 +33,14 @@ pub(crate) fn text(scenario: &Scenario) -> String {
         let body = if index == GROUND {
             "fixed".to_string()
         } else {
-            let at = format!("at {:.3} deg", pose.angle.to_degrees());
+            let at = format!("at {}", fixed_in(pose.angle.to_degrees(), 3, "deg"));
             if link.mass == 0.0 {
                 format!("massless, {at}")
             } else {
-                format!("m = {} kg, J = {:e} kg m^2, {at}", link.mass, link.inertia)
+                {
+                    let [mass, inertia] = [link.mass, link.inertia].map(|value| significant(value, SHOWN));
+                    format!("m = {mass} kg, J = {inertia} kg m^2, {at}")
+                }
             }
         };
         let _ = writeln!(text, "  {:14} points {:14} {body}", link.name, points.join(" "));
@@ -44,7 +51,7 @@ pub(crate) fn text(scenario: &Scenario) -> String {
         let driven = if joint.name == mechanism.joints()[case.crank().joint].name { ", driven" } else { "" };
         let _ = writeln!(text, "  {:14} {}, {first} - {second}{driven}", joint.name, joint.kind.name());
     }
-    let _ = writeln!(text, "\ngroups at the start (crank {:.3} deg)", case.crank().start.to_degrees());
+    let _ = writeln!(text, "\ngroups at the start (crank {})", fixed_in(case.crank().start.to_degrees(), 3, "deg"));
     for ((group, &mode), choice) in structure.groups.iter().zip(&case.modes).zip(&scenario.choices) {
         let transmission = transmission_sine(mechanism, group, &case.start)
             .map_or_else(String::new, |sine| format!(", transmission angle {:.2} deg", sine.abs().asin().to_degrees()));

@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use serde_json::{Value, json};
 
+use crate::numbers::{fixed, fixed_in};
 use crate::scenario::{Scenario, Undecided};
 use analytic::modes::Modes;
 use linkage::mechanism::AssemblyMode;
@@ -34,7 +35,7 @@ fn open<'a>(scenario: &Scenario, all: &[Modes], undecided: &'a [Undecided], inde
 pub(crate) fn text(scenario: &Scenario, crank: f64, all: &[Modes], undecided: &[Undecided]) -> String {
     let mechanism = &scenario.case.mechanism;
     let mut text = String::new();
-    let _ = writeln!(text, "{} at crank angle {:.4} deg", scenario.name, crank.to_degrees());
+    let _ = writeln!(text, "{} at crank angle {}", scenario.name, fixed_in(crank.to_degrees(), 4, "deg"));
     for (index, (group, found)) in scenario.case.structure.groups.iter().zip(all).enumerate() {
         let names = group.names(mechanism);
         let open = open(scenario, all, undecided, index);
@@ -53,16 +54,18 @@ pub(crate) fn text(scenario: &Scenario, crank: f64, all: &[Modes], undecided: &[
             let followed = if mode.is_followed && open.is_none() { ", followed by the scenario" } else { "" };
             let _ = writeln!(text, "  {}{name}{followed}", number + 1);
             for (k, (&link, pose)) in group.links.iter().zip(&mode.poses).enumerate() {
-                let omega =
-                    mode.omegas.as_ref().map_or_else(|| "singular".into(), |all| format!("{:>12.5} rad/s", all[k]));
+                let omega = mode
+                    .omegas
+                    .as_ref()
+                    .map_or_else(|| "singular".into(), |all| format!("{:>12} rad/s", fixed(all[k], 5)));
                 let link = &mechanism.links()[link];
                 let points = link.points.iter().map(|point| {
                     let at = pose.point(point.local);
-                    format!("{} ({:.6}, {:.6})", point.name, at.x, at.y)
+                    format!("{} ({}, {})", point.name, fixed(at.x, 6), fixed(at.y, 6))
                 });
                 let points: Vec<String> = points.collect();
-                let angle = pose.angle.to_degrees();
-                let _ = writeln!(text, "    {:14} {angle:>11.5} deg {omega:<18}   {} m", link.name, points.join(", "));
+                let angle = fixed(pose.angle.to_degrees(), 5);
+                let _ = writeln!(text, "    {:14} {angle:>11} deg {omega:<18}   {} m", link.name, points.join(", "));
             }
         }
     }

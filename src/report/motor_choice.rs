@@ -6,6 +6,7 @@ use std::fmt::Write;
 use serde_json::json;
 
 use super::pretty::pretty;
+use crate::numbers::fixed_in;
 use crate::scenario::Scenario;
 use linkage::drive::MotorLaw;
 use workshop::motor::Choice;
@@ -30,9 +31,9 @@ pub(crate) fn text(scenario: &Scenario, choice: &Choice) -> String {
     let _ = writeln!(text, "{}: {}\n", scenario.name, scenario.title);
     let _ = writeln!(
         text,
-        "power\n  peak      {:.6} N m at {:.4} deg, times {:.6} rad/s: {:.6} kW\n  asked     {:.6} kW with an efficiency of {}",
+        "power\n  peak      {:.6} N m at {}, times {:.6} rad/s: {:.6} kW\n  asked     {:.6} kW with an efficiency of {}",
         choice.peak.1,
-        choice.peak.0.to_degrees(),
+        fixed_in(choice.peak.0.to_degrees(), 4, "deg"),
         choice.wanted,
         choice.power / 1e3,
         choice.asked / 1e3,

@@ -1,6 +1,7 @@
 //! Forces as an engine itself exerts them, beside those that follow from its motion.
 
 use super::cells::used;
+use crate::numbers;
 use crate::proof::{ChannelProof, EngineProof, ForceFault, OwnForces};
 use linkage::solver::Provision;
 use linkage::trajectory::Stage;
@@ -32,7 +33,8 @@ pub(super) fn source(engine: &EngineProof) -> &str {
 pub(super) fn line(own: &OwnForces) -> String {
     let Some(worst) = own.channels.iter().max_by(|a, b| used(a).total_cmp(&used(b))) else { return "none".into() };
     let (residual, unit) = (&worst.residual, worst.residual.channel.kind.unit);
-    let numbers = format!("{:.1e} {unit} of {:.1e} {unit} in {}", residual.max, worst.bound, residual.channel);
+    let [error, bound] = [residual.max, worst.bound].map(|value| numbers::error_in(value, unit.symbol()));
+    let numbers = format!("{error} of {bound} in {}", residual.channel);
     format!("{} channels {}, at most {numbers}", own.channels.len(), own.verdict.word())
 }
 

@@ -6,6 +6,7 @@ use serde_json::json;
 
 use super::pretty::pretty;
 use super::tell::Tell;
+use crate::numbers::fixed_in;
 use crate::scenario::Scenario;
 use linkage::case::Case;
 use linkage::error::Result;
@@ -22,7 +23,7 @@ pub(crate) fn text(
     tell: Tell,
 ) -> String {
     let mut text = String::new();
-    let _ = writeln!(text, "{} at crank angle {:.4} deg", scenario.name, plans.crank.to_degrees());
+    let _ = writeln!(text, "{} at crank angle {}", scenario.name, fixed_in(plans.crank.to_degrees(), 4, "deg"));
     if is_free {
         let speed = significant(scenario.case.crank().top_speed());
         let _ = writeln!(

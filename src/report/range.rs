@@ -6,6 +6,7 @@ use std::fmt::Write;
 use serde_json::{Value, json};
 
 use super::cells::table;
+use crate::numbers;
 use crate::scenario::Scenario;
 use analytic::range::{At, Extent, Extreme, LinkRange, Measure, Range, Singularity};
 
@@ -36,17 +37,17 @@ fn extent(range: &Range) -> String {
         Extent::FullTurn(1) => "turns fully".into(),
         Extent::FullTurn(turns) => format!("turns fully; the mechanism is back at its first pose after {turns} turns"),
         Extent::Limited([from, to]) => format!(
-            "from {} to {} deg, {:.6} deg in all",
+            "from {} to {} deg, {} deg in all",
             degrees(from.crank, range),
             degrees(to.crank, range),
-            (to.crank - from.crank).to_degrees()
+            numbers::fixed((to.crank - from.crank).to_degrees(), 6)
         ),
     }
 }
 
 /// A crank angle in degrees. If the crank rotates fully, the angle is reduced to the first turn.
 fn degrees(crank: f64, range: &Range) -> String {
-    format!("{:.6}", in_turn(crank, range).to_degrees())
+    numbers::fixed(in_turn(crank, range).to_degrees(), 6)
 }
 
 fn in_turn(crank: f64, range: &Range) -> f64 {
@@ -72,7 +73,7 @@ fn singularities(scenario: &Scenario, range: &Range) -> String {
     let mut table = table(["singular pose", "crank deg", "group", "determinant"], &[1, 3]);
     for Singularity { kind, crank, group, determinant } in &range.singularities {
         let crank = degrees(*crank, range);
-        table.add_row([kind.name().to_string(), crank, names(scenario, *group), format!("{determinant:.1e}")]);
+        table.add_row([kind.name().to_string(), crank, names(scenario, *group), numbers::significant(*determinant, 2)]);
     }
     format!("{table}\n")
 }
@@ -84,14 +85,14 @@ fn groups(scenario: &Scenario, range: &Range) -> String {
     for (index, group) in range.groups.iter().enumerate() {
         let At { crank, value } = group.determinant;
         let transmission =
-            if is_dyad(scenario, index) { format!("{:.4}", value.abs().asin().to_degrees()) } else { "-".into() };
+            if is_dyad(scenario, index) { numbers::fixed(value.abs().asin().to_degrees(), 4) } else { "-".into() };
         let (condition, at) = match group.condition {
-            Some(worst) => (format!("{:.4}", worst.value), degrees(worst.crank, range)),
+            Some(worst) => (numbers::fixed(worst.value, 4), degrees(worst.crank, range)),
             None => ("without bound".into(), degrees(crank, range)),
         };
         table.add_row([
             names(scenario, index),
-            format!("{value:.6}"),
+            numbers::fixed(value, 6),
             transmission,
             degrees(crank, range),
             condition,
@@ -105,7 +106,7 @@ fn links(scenario: &Scenario, range: &Range) -> String {
     let mut table = table(["link", "motion", "from deg", "to deg", "extreme positions, at crank deg"], &[2, 3]);
     for link in &range.links {
         // For a link that rotates fully, the interval of its angle has no meaning.
-        let end = |at: At| if link.turns == 0 { format!("{:.6}", at.value.to_degrees()) } else { "-".into() };
+        let end = |at: At| if link.turns == 0 { numbers::fixed(at.value.to_degrees(), 6) } else { "-".into() };
         let [least, most] = link.angles.map(end);
         table.add_row([
             scenario.case.mechanism.links()[link.link].name.clone(),
@@ -131,7 +132,7 @@ fn motion(link: &LinkRange) -> String {
 fn positions(extremes: &[Extreme], range: &Range) -> String {
     let one = |extreme: &Extreme| {
         let word = if extreme.is_greatest { "greatest" } else { "smallest" };
-        format!("{:.6} ({word}, {})", extreme.angle.to_degrees(), degrees(extreme.crank, range))
+        format!("{} ({word}, {})", numbers::fixed(extreme.angle.to_degrees(), 6), degrees(extreme.crank, range))
     };
     let mut shown: Vec<String> = extremes.iter().take(EXTREMES).map(one).collect();
     if extremes.len() > EXTREMES {

@@ -2,6 +2,7 @@
 
 use super::cells::table;
 use super::own_forces;
+use crate::numbers;
 use crate::proof::Proof;
 
 /// One line for every channel of every engine, and for every check.
@@ -10,8 +11,8 @@ pub fn all(proof: &Proof) -> String {
     let mut table = table(["channel or check", "side", "residual", "bound", "unit", "used", "verdict"], &[2, 3, 5]);
     let mut add = |name: String, side: &str, [value, bound]: [f64; 2], unit: &str, verdict: &str| {
         let used = if value == 0.0 { 0.0 } else { value / bound };
-        let [value, bound] = [value, bound].map(|number| format!("{number:.3e}"));
-        table.add_row([name, side.into(), value, bound, unit.into(), format!("{used:.3}"), verdict.into()]);
+        let [value, bound] = [value, bound].map(|number| numbers::significant(number, 4));
+        table.add_row([name, side.into(), value, bound, unit.into(), numbers::significant(used, 3), verdict.into()]);
     };
     for engine in &proof.engines {
         for channel in &engine.channels {

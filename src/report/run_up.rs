@@ -2,19 +2,21 @@
 
 use std::fmt::Write;
 
+use crate::numbers;
 use analytic::reduced::{End, RunUp};
 
 /// The end of a run-up as text, with an empty line after it.
 pub(crate) fn text(run_up: &RunUp) -> String {
+    let degrees = |crank: f64| numbers::fixed_in(crank.to_degrees(), 6, "deg");
     let mut text = match run_up.end {
         End::Reached => "run-up followed to its end".to_string(),
-        End::Held(t, crank) => format!("run-up: held at {t:.9} s, crank angle {:.6} deg", crank.to_degrees()),
+        End::Held(t, crank) => format!("run-up: held at {t:.9} s, crank angle {}", degrees(crank)),
         End::Limit(t, crank) => {
-            format!("run-up: at a limit of rotation at {t:.9} s, crank angle {:.6} deg", crank.to_degrees())
+            format!("run-up: at a limit of rotation at {t:.9} s, crank angle {}", degrees(crank))
         }
     };
     if let Some(residual) = run_up.power_residual() {
-        let _ = write!(text, "; motor against reactions: {residual:.1e} of the largest moment");
+        let _ = write!(text, "; motor against reactions: {} of the largest moment", numbers::error(residual));
     }
     text.push_str("\n\n");
     text

@@ -6,6 +6,7 @@ use serde_json::json;
 
 use super::cells::table;
 use super::pretty::pretty;
+use crate::numbers;
 use workshop::diagram::timing::{Stretch, TimingDiagram};
 use workshop::synthesis::achieved::BAND;
 use workshop::synthesis::{Achieved, Found};
@@ -25,8 +26,8 @@ pub(crate) struct Story<'a> {
 /// The stroke with its unit.
 fn stroke(task: &Task, achieved: &Achieved) -> String {
     match task.output {
-        Output::Angle { .. } => format!("{:.4} deg", achieved.stroke.to_degrees()),
-        Output::Coordinate { .. } => format!("{:.4} mm", achieved.stroke * 1e3),
+        Output::Angle { .. } => numbers::fixed_in(achieved.stroke.to_degrees(), 4, "deg"),
+        Output::Coordinate { .. } => numbers::fixed_in(achieved.stroke * 1e3, 4, "mm"),
     }
 }
 
@@ -55,16 +56,16 @@ pub(crate) fn text(story: &Story) -> String {
         let [drawn, assembled] = found.candidates;
         let _ = writeln!(
             text,
-            "{drawn} random candidates, {assembled} of them assembled near the limits; cost {:.3e}, refined {:.3e} (worst of the refined {:.3e})\n",
-            found.random_cost,
-            found.cost,
-            found.refined.last().copied().unwrap_or(f64::NAN)
+            "{drawn} random candidates, {assembled} of them assembled near the limits; cost {}, refined {} (worst of the refined {})\n",
+            numbers::significant(found.random_cost, 4),
+            numbers::significant(found.cost, 4),
+            numbers::significant(found.refined.last().copied().unwrap_or(f64::NAN), 4)
         );
         let mut dimensions = table(["dimension", "value", "from", "to"], &[1, 2, 3]);
         for (variable, &value) in task.variables.iter().zip(values) {
             let show = |value: f64| match variable.is_angle {
-                true => format!("{:.4} deg", value.to_degrees()),
-                false => format!("{:.3} mm", value * 1e3),
+                true => numbers::fixed_in(value.to_degrees(), 4, "deg"),
+                false => numbers::fixed_in(value * 1e3, 3, "mm"),
             };
             dimensions.add_row([
                 variable.name.clone(),
@@ -78,16 +79,16 @@ pub(crate) fn text(story: &Story) -> String {
     let header = ["from deg", "to deg", "sense", "displacement %", "motion %", "wrong way %", "level %", "ends at deg"];
     let mut phases = table(header, &[0, 1, 3, 4, 5, 6, 7]);
     for (phase, done) in task.timing.phases().iter().zip(&achieved.phases) {
-        let percent = |share: f64| format!("{:.3}", 100.0 * share);
+        let percent = |share: f64| numbers::fixed(100.0 * share, 3);
         phases.add_row([
-            format!("{:.1}", phase.from.to_degrees()),
-            format!("{:.1}", phase.to.to_degrees()),
+            numbers::fixed(phase.from.to_degrees(), 1),
+            numbers::fixed(phase.to.to_degrees(), 1),
             phase.sense.name().to_string(),
             percent(done.displacement),
             percent(done.motion),
             if phase.sense == Sense::Dwell { "-".into() } else { percent(done.wrong) },
             percent(done.level),
-            done.end.map_or("-".into(), |end| format!("{:.2}", end.to_degrees())),
+            done.end.map_or("-".into(), |end| numbers::fixed(end.to_degrees(), 2)),
         ]);
     }
     let _ = writeln!(text, "{phases}\n\n{}", summary(task, achieved));

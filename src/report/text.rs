@@ -4,30 +4,39 @@ use std::fmt::Write;
 
 use comfy_table::Table;
 
-use super::cells::{share, table, used};
-use super::diagnosis;
+use super::brief;
+use super::cells::{fitted, share, trimmed, used};
 use super::engines;
 use super::own_forces;
+use super::reasons::{self, count};
+use super::style::wrapped;
 use super::tell::Tell;
 use crate::compare::{Check, Verdict};
+use crate::numbers;
 use crate::proof::{ChannelProof, End, EngineInfo, EngineProof, OwnForces, Proof, Search};
-use linkage::error::Advice;
 
 /// Number of reasons that are shown in full; the others are only counted.
 const REASONS: usize = 5;
 
-/// The whole report of one proof, with its advice worded by `tell`.
+/// The whole report of one proof, with its advice worded by `tell`: verdict and worst channels, then everything else. Its
+/// lines have at most `width` columns, if there is a width.
 #[must_use]
-pub fn proof(proof: &Proof, tell: Tell) -> String {
-    let mut text = String::new();
-    let _ = writeln!(text, "{}: {}", proof.scenario, proof.title);
-    let _ = writeln!(text, "structure  {}", proof.formula);
-    let _ = writeln!(text, "reference  {}, {} instants", proof.reference, proof.reference_trajectory.times().len());
+pub fn proof(proof: &Proof, tell: Tell, width: Option<usize>) -> String {
+    let mut text = format!("{}\n{}\n", brief::verdict_line(proof), sentence(&proof.verdict, proof));
+    brief::worst(proof, width, &mut text);
+    text.push('\n');
+    let mut line = |what: &str, told: &str| {
+        let _ = writeln!(text, "{}", wrapped(&format!("{what:<11}{told}"), width, 11));
+    };
+    line("title", &proof.title);
+    line("structure", &proof.formula);
+    let instants = proof.reference_trajectory.times().len();
+    line("reference", &format!("{}, {instants} instants", proof.reference));
     for engine in &proof.engines {
         let name = if proof.engines.len() > 1 { format!("{}: ", engine.info.name) } else { String::new() };
-        let _ = writeln!(text, "engine     {name}{}", described(&engine.info));
+        line("engine", &format!("{name}{}", described(&engine.info)));
         if let Some(search) = &engine.search {
-            let _ = writeln!(text, "settings   {name}{}", found(&engine.info, search));
+            line("settings", &format!("{name}{}", found(&engine.info, search)));
         }
     }
     match proof.engines.as_slice() {
@@ -35,30 +44,27 @@ pub fn proof(proof: &Proof, tell: Tell) -> String {
             let _ = writeln!(
                 text,
                 "\nEngine against reference, the worst channel of each quantity:\n{}",
-                channels(&only.channels)
+                trimmed(&channels(&only.channels, width))
             );
         }
         several => {
             let _ = writeln!(
                 text,
                 "\nSide by side, the largest error over its scale (and its bound):\n{}",
-                engines::table(several)
+                trimmed(&engines::table(several, width))
             );
-            let _ = writeln!(text, "\n{}", engines::disputes(proof));
+            let _ = writeln!(text, "\n{}", wrapped(&engines::disputes(proof), width, 2));
         }
     }
     for engine in &proof.engines {
-        own_section(engine, proof.engines.len() > 1, &mut text);
+        own_section(engine, proof.engines.len() > 1, width, &mut text);
     }
-    left_out(proof, &mut text);
+    reasons::left_out(proof, width, &mut text);
     let all: Vec<&Check> = proof.all_checks().collect();
-    let _ = writeln!(text, "\nChecks:\n{}", checks(&all));
-    expected(proof, &mut text);
-    reasons(proof, tell, &mut text);
-    let _ = writeln!(text, "\n{}", sentence(&proof.verdict, proof));
-    if let (Some(found), Verdict::Disagree { .. }) = (&proof.diagnosis, &proof.verdict) {
-        let _ = writeln!(text, "\n{}", diagnosis::text(found));
-    }
+    let _ = writeln!(text, "\nChecks:\n{}", trimmed(&checks(&all, width)));
+    reasons::expected(proof, width, &mut text);
+    reasons::reasons(proof, tell, width, REASONS, &mut text);
+    reasons::diagnosed(proof, width, &mut text);
     text
 }
 
@@ -74,34 +80,29 @@ fn described(info: &EngineInfo) -> String {
 }
 
 /// The section on an engine's own forces, after the table of its channels: a table, or a line beside `several` engines.
-fn own_section(engine: &EngineProof, several: bool, text: &mut String) {
+fn own_section(engine: &EngineProof, several: bool, width: Option<usize>, text: &mut String) {
     let Some(own) = &engine.own_forces else { return };
     let route = own.info.settings.route.name();
     match &own.failure {
         Some(error) => {
-            let _ = writeln!(
-                text,
-                "\nForces as {} itself exerts them (route {route}) failed: {}",
-                engine.info.name,
-                error.message()
-            );
+            let (name, why) = (engine.info.name, error.message());
+            let told = format!("Forces as {name} itself exerts them (route {route}) failed: {why}");
+            let _ = writeln!(text, "\n{}", wrapped(&told, width, 2));
         }
         None if several => {
-            let _ = writeln!(
-                text,
-                "\nForces as {} itself exerts them (route {route}): {}",
-                engine.info.name,
-                own_forces::line(own)
-            );
+            let (name, how) = (engine.info.name, own_forces::line(own));
+            let told = format!("Forces as {name} itself exerts them (route {route}): {how}");
+            let _ = writeln!(text, "\n{}", wrapped(&told, width, 2));
         }
         None => {
-            let _ = writeln!(text, "\nThe forces above: {}.", own_forces::source(engine));
-            let _ = writeln!(text, "Forces as the engine itself exerts them, by {}", own_how(own));
-            let _ = writeln!(text, "{}", channels(&own.channels));
+            let source = format!("The forces above: {}.", own_forces::source(engine));
+            let told = format!("{source}\nForces as the engine itself exerts them, by {}", own_how(own));
+            let _ = writeln!(text, "\n{}", wrapped(&told, width, 2));
+            let _ = writeln!(text, "{}", trimmed(&channels(&own.channels, width)));
         }
     }
     if let Some(fault) = engine.force_fault() {
-        let _ = writeln!(text, "\n{}", own_forces::sentence(fault));
+        let _ = writeln!(text, "\n{}", wrapped(own_forces::sentence(fault), width, 2));
     }
 }
 
@@ -113,28 +114,6 @@ fn own_how(own: &OwnForces) -> String {
     let step = seconds(settings.resolution);
     let search = own.search.as_ref().map(|search| found(&own.info, search)).unwrap_or_default();
     format!("{told}\n(route {}, step {step} s; {search}):", settings.route.name())
-}
-
-/// How many instants are not judged, and of what.
-fn left_out(proof: &Proof, text: &mut String) {
-    for engine in &proof.engines {
-        let Some(most) = engine.channels.iter().map(|channel| channel.left_out).max().filter(|&most| most > 0) else {
-            continue;
-        };
-        let mut quantities: Vec<&str> = Vec::new();
-        for channel in engine.channels.iter().filter(|channel| channel.left_out > 0) {
-            if !quantities.contains(&channel.residual.channel.kind.stage.name()) {
-                quantities.push(channel.residual.channel.kind.stage.name());
-            }
-        }
-        let _ = writeln!(
-            text,
-            "\nUp to {most} of {} instants are not judged in {} ({}): a drive or a loaded link reverses there, or the motion begins.",
-            proof.reference_trajectory.times().len(),
-            quantities.join(", "),
-            engine.info.name
-        );
-    }
 }
 
 /// The settings that a proof has found, and the work it took.
@@ -152,13 +131,15 @@ fn found(info: &EngineInfo, search: &Search) -> String {
     };
     let (sweeps, runs, effort) = (info.settings.sweeps, search.runs, search.effort);
     let plural = if sweeps == 1 { "sweep" } else { "sweeps" };
-    format!("found: {sweeps} {plural}, {times}, from {runs} runs with the work of {effort:.1e} steps{why}")
+    format!(
+        "found: {sweeps} {plural}, {times}, from {runs} runs with the work of {} steps{why}",
+        numbers::error(effort)
+    )
 }
 
 /// A step with at most five significant digits; the JSON has all digits.
 fn seconds(step: f64) -> String {
-    let rounded: f64 = format!("{step:.4e}").parse().unwrap_or(step);
-    format!("{rounded:e}")
+    numbers::significant(step, 5)
 }
 
 fn sentence(verdict: &Verdict, proof: &Proof) -> String {
@@ -175,56 +156,24 @@ fn sentence(verdict: &Verdict, proof: &Proof) -> String {
         _ => format!("{channels} channels, {own} forces that the engine itself exerts"),
     };
     let checks = proof.all_checks().count();
-    let count = |is: fn(&Verdict) -> bool| verdicts(proof).filter(|(_, verdict)| is(verdict)).count();
     match verdict {
         Verdict::Agree { .. } | Verdict::Expected { .. } => {
-            let known = count(|verdict| matches!(verdict, Verdict::Expected { .. }));
+            let known = count(proof, |verdict| matches!(verdict, Verdict::Expected { .. }));
             let expected = if known == 0 { String::new() } else { format!(", {known} disagree as expected") };
-            let within = verdicts(proof).filter(|(_, verdict)| matches!(verdict, Verdict::Agree { .. })).count();
+            let within = count(proof, |verdict| matches!(verdict, Verdict::Agree { .. }));
             match proof.engines.len() {
-                1 => format!("AGREE: {channels} and {} checks are within their bounds{expected}.", checks - known),
-                _ => format!("AGREE: {within} channels and checks are within their bounds{expected}."),
+                1 => format!("{channels} and {} checks are within their bounds{expected}.", checks - known),
+                _ => format!("{within} channels and checks are within their bounds{expected}."),
             }
         }
         Verdict::Disagree { .. } => {
-            let wrong = count(|verdict| matches!(verdict, Verdict::Disagree { .. }));
-            format!("DISAGREE: {wrong} of {channels} and {checks} checks are beyond their bounds.")
+            let wrong = count(proof, |verdict| matches!(verdict, Verdict::Disagree { .. }));
+            format!("{wrong} of {channels} and {checks} checks are beyond their bounds.")
         }
         Verdict::Inconclusive { .. } => {
-            let open = count(|verdict| matches!(verdict, Verdict::Inconclusive { .. }));
-            format!("INCONCLUSIVE: {open} of {channels} and {checks} checks prove nothing either way.")
+            let open = count(proof, |verdict| matches!(verdict, Verdict::Inconclusive { .. }));
+            format!("{open} of {channels} and {checks} checks prove nothing either way.")
         }
-    }
-}
-
-fn verdicts(proof: &Proof) -> impl Iterator<Item = (String, &Verdict)> {
-    let several = proof.engines.len() > 1;
-    let channels = proof.engines.iter().flat_map(move |engine| {
-        let name = move |channel: &ChannelProof| match several {
-            true => format!("{} ({})", channel.residual.channel, engine.info.name),
-            false => channel.residual.channel.to_string(),
-        };
-        let own = engine.own_forces.iter().flat_map(move |own| {
-            let failed = own.failure.iter().map(move |_| (own_forces::of_all(engine, several), &own.verdict));
-            let named = move |channel: &'_ ChannelProof| match several {
-                true => format!("{} ({})", own_forces::name(channel), engine.info.name),
-                false => own_forces::name(channel),
-            };
-            own.channels.iter().map(move |channel| (named(channel), &channel.verdict)).chain(failed)
-        });
-        engine.channels.iter().map(move |channel| (name(channel), &channel.verdict)).chain(own)
-    });
-    channels.chain(proof.all_checks().map(|c| (c.name(), &c.verdict)))
-}
-
-fn reasons(proof: &Proof, tell: Tell, text: &mut String) {
-    let of_report = |verdict: &Verdict| matches!(verdict, Verdict::Disagree { .. } | Verdict::Inconclusive { .. });
-    let open: Vec<(String, &Verdict)> = verdicts(proof).filter(|(_, verdict)| of_report(verdict)).collect();
-    for (name, verdict) in open.iter().take(REASONS) {
-        let _ = writeln!(text, "\n{name}: {}", verdict.reason(tell).unwrap_or_default());
-    }
-    if open.len() > REASONS {
-        let _ = writeln!(text, "\n... and {} more ({})", open.len() - REASONS, tell(&Advice::AllResults));
     }
 }
 
@@ -235,25 +184,9 @@ fn family_word<'a>(family: impl Iterator<Item = &'a Check> + Clone) -> &'static 
     if known && word == "agree" { "expected" } else { word }
 }
 
-/// The published numbers that are wrong as expected, by finding.
-fn expected(proof: &Proof, text: &mut String) {
-    let mut findings: Vec<(&str, usize)> = Vec::new();
-    for check in proof.all_checks() {
-        if let Verdict::Expected { finding, .. } = &check.verdict {
-            match findings.iter_mut().find(|(known, _)| known == finding) {
-                Some((_, count)) => *count += 1,
-                None => findings.push((finding, 1)),
-            }
-        }
-    }
-    for (finding, count) in findings {
-        let _ = writeln!(text, "\n{count} checks disagree as expected, see docs/findings.md#{finding}");
-    }
-}
-
-fn channels(channels: &[ChannelProof]) -> Table {
+fn channels(channels: &[ChannelProof], width: Option<usize>) -> Table {
     let header = ["quantity", "worst channel", "crank deg", "error", "of scale", "bound", "order", "verdict"];
-    let mut table = table(header, &[2, 3, 4, 5, 6]);
+    let mut table = fitted(header, &[2, 3, 4, 5, 6], width);
     let mut seen: Vec<&str> = Vec::new();
     for first in channels {
         let quantity = first.residual.channel.kind.quantity;
@@ -267,8 +200,8 @@ fn channels(channels: &[ChannelProof]) -> Table {
         table.add_row([
             format!("{quantity} ({})", family().count()),
             residual.channel.to_string(),
-            format!("{:.1}", residual.worst_crank.to_degrees()),
-            format!("{:.1e} {}", residual.max, residual.channel.kind.unit),
+            numbers::fixed(residual.worst_crank.to_degrees(), 1),
+            numbers::error_in(residual.max, residual.channel.kind.unit.symbol()),
             share(residual.max, residual.scale),
             share(worst.bound, residual.scale),
             order(worst.convergence.observed),
@@ -282,8 +215,8 @@ fn order(observed: f64) -> String {
     if observed.is_nan() { "rounding".into() } else { format!("{observed:.2}") }
 }
 
-fn checks(checks: &[&Check]) -> Table {
-    let mut table = table(["check", "numbers", "worst", "bound", "basis", "verdict"], &[1, 2, 3]);
+fn checks(checks: &[&Check], width: Option<usize>) -> Table {
+    let mut table = fitted(["check", "numbers", "worst", "bound", "basis", "verdict"], &[1, 2, 3], width);
     let mut seen: Vec<&str> = Vec::new();
     for first in checks {
         if seen.contains(&first.family.as_str()) {
@@ -292,13 +225,12 @@ fn checks(checks: &[&Check]) -> Table {
         seen.push(&first.family);
         let family = || checks.iter().copied().filter(|check| check.family == first.family);
         let worst = family().max_by(|a, b| a.used().total_cmp(&b.used())).unwrap_or(first);
-        let unit = |value: f64| format!("{value:.1e} {}", worst.unit).trim_end().to_string();
         let detail = if worst.detail.is_empty() { String::new() } else { format!(", worst in {}", worst.detail) };
         table.add_row([
             format!("{}{detail}", first.family),
             family().count().to_string(),
-            unit(worst.value),
-            unit(worst.bound),
+            numbers::error_in(worst.value, worst.unit),
+            numbers::error_in(worst.bound, worst.unit),
             worst.basis.origin().word().to_string(),
             family_word(family()).to_string(),
         ]);

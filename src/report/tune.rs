@@ -7,6 +7,7 @@ use serde_json::json;
 
 use super::cells::table;
 use super::pretty::pretty;
+use crate::numbers;
 use crate::scenario::Scenario;
 use crate::tune::{Candidate, Tuning};
 use linkage::engine::Settings;
@@ -39,22 +40,23 @@ pub(crate) fn text(scenario: &Scenario, found: &Tuning, within: f64, section: &S
         let Settings { resolution, sweeps, substeps, route, extrapolated } = candidate.settings;
         table.add_row([
             candidate.engine.to_string(),
-            format!("{resolution:.3e}"),
+            numbers::significant(resolution, 4),
             sweeps.to_string(),
             substeps.to_string(),
             extrapolated.to_string(),
             route.name().to_string(),
-            format!("{:.2e}", candidate.verified),
+            numbers::significant(candidate.verified, 3),
             candidate.worst.clone(),
-            format!("{:.2}", candidate.price / found.best.price),
+            numbers::fixed(candidate.price / found.best.price, 2),
         ]);
     }
     let mut text = String::new();
     let _ = writeln!(text, "{}: {}\n", scenario.name, scenario.title);
-    let _ = writeln!(text, "The cheapest settings within {:e} of every channel's scale:\n{table}\n", within);
+    let _ =
+        writeln!(text, "The cheapest settings within {} of every channel's scale:\n{table}\n", numbers::error(within));
     for (name, error) in &found.too_coarse {
         let _ = match error.is_finite() {
-            true => writeln!(text, "{name} does not meet it: its smallest error was {error:.1e}."),
+            true => writeln!(text, "{name} does not meet it: its smallest error was {}.", numbers::error(*error)),
             false => {
                 writeln!(text, "{name} does not run it with any settings: {} says why.", (hints.why)(name))
             }
@@ -65,8 +67,11 @@ pub(crate) fn text(scenario: &Scenario, found: &Tuning, within: f64, section: &S
     }
     let _ = writeln!(
         text,
-        "{}: error {:.2e} measured against the reference, {:.2e} expected from its own runs; {} runs.",
-        found.best.engine, found.best.verified, found.predicted, found.runs
+        "{}: error {} measured against the reference, {} expected from its own runs; {} runs.",
+        found.best.engine,
+        numbers::error(found.best.verified),
+        numbers::error(found.predicted),
+        found.runs
     );
     let _ = match found.best.is_proven {
         true if found.cheapest.price < found.best.price => {
@@ -74,8 +79,9 @@ pub(crate) fn text(scenario: &Scenario, found: &Tuning, within: f64, section: &S
             let (share, name) = (found.cheapest.price / found.best.price, found.cheapest.engine);
             writeln!(
                 text,
-                "A proof at these settings agrees. {name} at {resolution:.3e} with {sweeps} sweeps meets the error for {share:.2} \
-                 of the price, but proves less."
+                "A proof at these settings agrees. {name} at {} with {sweeps} sweeps meets the error for {share:.2} \
+                 of the price, but proves less.",
+                numbers::significant(resolution, 4)
             )
         }
         true => writeln!(text, "A proof at these settings agrees."),

@@ -5,11 +5,13 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 
-use super::cells::table;
+use super::cells::{flush, trimmed};
 use super::diagnosis;
 use super::pretty::pretty;
+use super::style;
 use super::tell::Tell;
 use crate::compare::Verdict;
+use crate::numbers;
 use crate::versus::{Compared, Comparison, Explained, Pair, Row};
 use linkage::math::KeepNan;
 
@@ -18,59 +20,75 @@ const SHOWN: usize = 3;
 /// Names that are listed; the others are counted.
 const NAMED: usize = 3;
 
-/// The report: the verdict, the channels that use most of their bounds, and why others are off. All channels if `all`.
+/// The report in lines of at most `width` columns: the verdict, the channels that use most of their bounds, and why
+/// others are off. All channels if `all`; the verdicts alone if `quiet`.
 #[must_use]
-pub fn text(paths: [&Path; 2], comparison: &Comparison, all: bool, tell: Tell) -> String {
+pub fn text(paths: [&Path; 2], comparison: &Comparison, [all, quiet]: [bool; 2], tell: Tell, width: usize) -> String {
     let mut text = String::new();
     for pair in &comparison.pairs {
-        let _ = writeln!(text, "{}", sentence(paths, pair));
-        let mut order: Vec<&Compared> = pair.channels.iter().collect();
-        order.sort_by(|a, b| rank(b).total_cmp(&rank(a)));
-        let shown = if all { order.len() } else { SHOWN };
-        let mut table = table(["channel", "at", "first", "second", "difference", "bound", ""], &[1, 2, 3, 4, 5]);
-        for own in order.iter().take(shown) {
-            let cells = match own.worst {
-                None => std::array::from_fn(|_| String::new()),
-                Some(at) => [
-                    when(&at, pair.by_crank),
-                    value(at.values[0], at.bound),
-                    value(at.values[1], at.bound),
-                    format!("{:.1e}", at.difference),
-                    format!("{:.1e}", at.bound),
-                ],
-            };
-            table.add_row([own.claim.text.clone()].into_iter().chain(cells).chain([word(&own.verdict).into()]));
+        if !text.is_empty() && !quiet {
+            text.push('\n');
         }
-        let _ = writeln!(text, "\n{table}");
-        let more = order.len().saturating_sub(shown);
-        if more > 0 {
-            let worst = if order[shown..].iter().any(|own| rank(own) > 1.0) { "" } else { ", all within their bounds" };
-            let _ = writeln!(text, "and {more} more{worst}");
+        let _ = writeln!(text, "{}", style::wrapped(&sentence(paths, pair), Some(width), 2));
+        if !quiet {
+            let _ = write!(text, "{}", of_pair(pair, all, tell, width));
         }
-        let _ = write!(text, "{}", notes(pair));
-        for own in order.iter().filter(|own| matches!(own.verdict, Verdict::Inconclusive { .. })).take(SHOWN) {
-            let _ = writeln!(text, "\n{}: {}", own.claim.text, own.verdict.reason(tell).unwrap_or_default());
-        }
-        for explained in &pair.causes {
-            let _ = writeln!(text, "\n{}", cause(explained));
-        }
-        if pair.channels.iter().any(|own| looks_like_a_simulation(pair, own)) {
-            let _ = writeln!(text, "\n{SIMULATION}");
-        }
-        for check in &pair.checks {
-            if let Some(reason) = check.verdict.reason(tell) {
-                let _ = writeln!(text, "\n{}: {reason}", check.name());
-            }
-        }
-        let _ = writeln!(text);
     }
     text
 }
 
-const SIMULATION: &str = "\
-The rest is off by less than a fiftieth of its scale, as by the error of a
-method or of its step. Bounds are what digits and the analytic sides leave
-open: say what the other party is trusted to.";
+fn of_pair(pair: &Pair, all: bool, tell: Tell, width: usize) -> String {
+    let mut text = String::new();
+    let mut order: Vec<&Compared> = pair.channels.iter().collect();
+    order.sort_by(|a, b| rank(b).total_cmp(&rank(a)));
+    let shown = if all { order.len() } else { SHOWN.min(order.len()) };
+    let at = if pair.by_crank { "at deg" } else { "at s" };
+    let header = ["channel", at, "first", "second", "difference", "bound", ""];
+    let mut table = flush(header, &[1, 2, 3, 4, 5], Some(width));
+    for own in &order[..shown] {
+        table.add_row(row(own, pair.by_crank));
+    }
+    let mut told = trimmed(&table);
+    let more = order.len() - shown;
+    if more > 0 {
+        let is_fine = order[shown..].iter().all(|own| rank(own) <= 1.0);
+        let _ = write!(told, "\nand {more} more{}", if is_fine { ", all within their bounds" } else { "" });
+    }
+    told += &notes(pair);
+    let _ = writeln!(text, "\n{told}");
+    let paragraph = |text: &mut String, told: &str| {
+        let _ = writeln!(text, "\n{}", style::wrapped(told, Some(width), 2));
+    };
+    for own in order.iter().filter(|own| matches!(own.verdict, Verdict::Inconclusive { .. })).take(SHOWN) {
+        paragraph(&mut text, &format!("{}: {}", own.claim.text, own.verdict.reason(tell).unwrap_or_default()));
+    }
+    for explained in &pair.causes {
+        let _ = writeln!(text, "\n{}", cause(explained, width));
+    }
+    if pair.channels.iter().any(|own| looks_like_a_simulation(pair, own)) {
+        paragraph(&mut text, SIMULATION);
+    }
+    for check in &pair.checks {
+        if let Some(reason) = check.verdict.reason(tell) {
+            paragraph(&mut text, &format!("{}: {reason}", check.name()));
+        }
+    }
+    text
+}
+
+fn row(own: &Compared, by_crank: bool) -> [String; 7] {
+    let [at, first, second, difference, bound] = own.worst.map_or_else(Default::default, |at| {
+        let when = if by_crank { numbers::fixed(at.crank.to_degrees(), 2) } else { numbers::fixed(at.time, 6) };
+        // An angle may differ by whole turns, which nobody counts as a difference.
+        let [first, second] = numbers::beside([at.values[0], at.values[0] + at.difference], at.bound);
+        [when, first, second, numbers::error(at.difference), numbers::error(at.bound)]
+    });
+    [own.claim.text.clone(), at, first, second, difference, bound, word(&own.verdict).into()]
+}
+
+const SIMULATION: &str = "The rest is off by less than a fiftieth of its scale, as by the error of a method or of its \
+                          step. Bounds are what digits and the analytic sides leave open: say what the other party is \
+                          trusted to.";
 
 /// Whether a channel is off by as little as a simulation is wrong, and no cause was found.
 fn looks_like_a_simulation(pair: &Pair, own: &Compared) -> bool {
@@ -85,10 +103,11 @@ fn sentence(paths: [&Path; 2], pair: &Pair) -> String {
     };
     let count = |word: &str| pair.channels.iter().filter(|own| own.verdict.word() == word).count();
     let [agree, disagree, open] = ["agree", "disagree", "inconclusive"].map(count);
+    let word = style::verdict(&pair.verdict());
     let verdict = match (disagree, open) {
-        (0, 0) => format!("AGREE in all {agree} channels"),
-        (0, open) => format!("INCONCLUSIVE in {open} of {} channels", pair.channels.len()),
-        (disagree, _) => format!("DISAGREE in {disagree} of {} channels", pair.channels.len()),
+        (0, 0) => format!("{word}: all {agree} channels"),
+        (0, open) => format!("{word}: {open} of {} channels", pair.channels.len()),
+        (disagree, _) => format!("{word}: {disagree} of {} channels", pair.channels.len()),
     };
     let by = if pair.by_crank { "crank angle" } else { "time" };
     let count = pair.instants - pair.unshared;
@@ -114,48 +133,25 @@ fn word(verdict: &Verdict) -> &'static str {
     }
 }
 
-fn when(at: &Row, by_crank: bool) -> String {
-    match by_crank {
-        true => format!("{:.2} deg", at.crank.to_degrees()),
-        false => format!("{:.6} s", at.time),
-    }
-}
-
-/// A number with the digits that its bound carries.
-fn value(value: f64, bound: f64) -> String {
-    let size = value.abs().log10().floor();
-    let digits = (size - bound.log10().floor() + 1.0).clamp(3.0, 7.0);
-    if value.abs() <= 1e-3 * bound {
-        return "0".into();
-    }
-    if !(1e-3..1e6).contains(&value.abs()) {
-        return format!("{value:.*e}", digits as usize - 1);
-    }
-    format!("{value:.*}", (digits - 1.0 - size).clamp(0.0, 9.0) as usize)
-}
-
 /// What was not compared.
 fn notes(pair: &Pair) -> String {
     let mut text = String::new();
     if pair.unshared > 0 {
-        let _ = writeln!(text, "left out: {} instants of the second that the first does not have", pair.unshared);
+        let _ = write!(text, "\nleft out: {} instants of the second that the first does not have", pair.unshared);
     }
     let missing: usize = pair.channels.iter().map(|own| own.missing).max().unwrap_or(0);
     if missing > pair.unshared {
-        let _ = writeln!(text, "left out: up to {} instants of a channel without a number", missing - pair.unshared);
+        let _ = write!(text, "\nleft out: up to {} instants of a channel without a number", missing - pair.unshared);
     }
     if let Some((row, [from, to])) = pair.turns_back {
-        let [what, from, to] = match pair.by_crank {
-            true => {
-                ["crank angles".into(), format!("{:.2} deg", from.to_degrees()), format!("{:.2} deg", to.to_degrees())]
-            }
-            false => ["times".to_string(), format!("{from:.6} s"), format!("{to:.6} s")],
-        };
-        let _ = writeln!(text, "the {what} jump back in row {}, from {from} to {to}: has it begun anew?", row + 1);
+        let (what, factor, unit) = if pair.by_crank { ("angle", 1f64.to_degrees(), "deg") } else { ("time", 1.0, "s") };
+        let [from, to] = [from, to].map(|at| numbers::significant(factor * at, 6));
+        let _ =
+            write!(text, "\nthe {what} jumps back in row {}, from {from} to {to} {unit}: has it begun anew?", row + 1);
     }
     for (side, which) in ["first", "second"].into_iter().enumerate() {
         if !pair.alone[side].is_empty() {
-            let _ = writeln!(text, "only in the {which}: {}", some(&pair.alone[side]));
+            let _ = write!(text, "\nonly in the {which}: {}", some(&pair.alone[side]));
         }
     }
     text
@@ -169,21 +165,27 @@ fn some(names: &[String]) -> String {
     }
 }
 
-fn cause(explained: &Explained) -> String {
+fn cause(explained: &Explained, width: usize) -> String {
     let Explained { of, diagnosis: found, left } = explained;
-    let since = found.since.first().map_or(String::new(), |since| {
-        format!("\n  since   t = {:.6} s, crank angle {:.3} deg", since.time, since.crank.to_degrees())
-    });
-    match &found.cause {
-        None => format!("{}:{since}\n  cause   nothing simple", some(of)),
-        Some(cause) => {
-            let left = match *left {
-                0.0 => "nothing beyond the bounds".to_string(),
-                left => format!("at most {} % of the difference", 100.0 * left),
-            };
-            format!("{}:{since}\n  cause   {}\n  left    {left}", some(of), diagnosis::cause(cause))
-        }
+    let mut text = style::wrapped(&format!("{}:", some(of)), Some(width), 2);
+    let mut line = |what: &str, told: &str| {
+        let _ = write!(text, "\n{}", style::wrapped(&format!("  {what:<8}{told}"), Some(width), 10));
+    };
+    if let Some(since) = found.since.first() {
+        let [time, crank] = [numbers::fixed(since.time, 6), numbers::fixed(since.crank.to_degrees(), 3)];
+        line("since", &format!("t = {time} s, crank angle {crank} deg"));
     }
+    line("cause", &found.cause.as_ref().map_or("nothing simple".into(), diagnosis::cause));
+    if found.cause.is_some() {
+        line(
+            "left",
+            &match *left {
+                0.0 => "nothing beyond the bounds".to_string(),
+                left => format!("at most {} of the difference", numbers::percent(left)),
+            },
+        );
+    }
+    text
 }
 
 /// The comparison as JSON, schema 1.

@@ -14,7 +14,7 @@ use std::path::PathBuf;
 
 use crate::compare::Verdict;
 use crate::proof::{Options, Proof, prove};
-use crate::report::{errors, text};
+use crate::report::{brief, errors, style};
 use crate::scenario::grid::listed;
 use crate::scenario::{Asked, Scenario};
 use linkage::case::Grid;
@@ -70,7 +70,7 @@ impl Proof {
     /// The report, as the terminal shows it.
     #[must_use]
     pub fn report(&self) -> String {
-        text::proof(self, Advice::to_string)
+        style::plain(&brief::proof(self, Advice::to_string, style::COLUMNS))
     }
 
     /// Gives the proof back if it agrees.

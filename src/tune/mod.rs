@@ -14,6 +14,7 @@ mod ways;
 
 pub use candidate::{Candidate, Price};
 
+use crate::numbers::significant;
 use crate::proof::{Options, memory};
 use crate::scenario::Scenario;
 use analytic::AssurSolver;
@@ -120,11 +121,15 @@ pub fn tune(
     cheapest.sort_by(by_price);
     let (Some(best), Some(cheapest)) = (by_engine.first().cloned(), cheapest.into_iter().next()) else {
         let tell = |(name, error): &(&str, f64)| match error.is_finite() {
-            true => format!("{name} comes to {error:.1e}"),
+            true => format!("{name} comes to {}", significant(*error, 2)),
             false => format!("{name} does not run it"),
         };
         let tells: Vec<String> = too_coarse.iter().map(tell).collect();
-        let message = format!("no settings meet an error within {:e} of the scale: {}", wish.within, tells.join(", "));
+        let message = format!(
+            "no settings meet an error within {} of the scale: {}",
+            significant(wish.within, 6),
+            tells.join(", ")
+        );
         let error = Error::new(ErrorKind::Numeric, message).help(Advice::WeakerWish);
         return Err(match bench.is_spent {
             true => error

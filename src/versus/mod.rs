@@ -83,14 +83,8 @@ pub fn compare(parties: [Party; 2], paths: [&Path; 2], how: &How) -> Result<Comp
         }
     }
     how.check_used(pairs.iter().flat_map(|pair| &pair.channels).map(|own| &own.claim))?;
-    let verdicts: Vec<&Verdict> = pairs
-        .iter()
-        .flat_map(|pair| {
-            let channels = pair.channels.iter().map(|channel| &channel.verdict);
-            channels.chain(pair.checks.iter().map(|check| &check.verdict))
-        })
-        .collect();
-    let verdict = overall(verdicts);
+    let verdicts: Vec<Verdict> = pairs.iter().map(Pair::verdict).collect();
+    let verdict = overall(&verdicts);
     Ok(Comparison { pairs, verdict })
 }
 

@@ -2,7 +2,7 @@
 
 use super::cause::Explained;
 use super::judge::Compared;
-use crate::compare::Check;
+use crate::compare::{Check, Verdict, overall};
 use crate::tables::Held;
 
 /// A side by its name in a recording; empty for others.
@@ -28,4 +28,13 @@ pub struct Pair {
     pub by_crank: bool,
     /// Why channels are off, where that is simple.
     pub causes: Vec<Explained>,
+}
+
+impl Pair {
+    /// The verdict on all channels, and on the analytic sides that solved them.
+    #[must_use]
+    pub fn verdict(&self) -> Verdict {
+        let channels = self.channels.iter().map(|channel| &channel.verdict);
+        overall(channels.chain(self.checks.iter().map(|check| &check.verdict)))
+    }
 }

@@ -24,7 +24,7 @@ const CRATES: &[(&str, &str, &str, &str)] = &[
         "linkproof",
         "",
         "analytic formula linkage precise rapier-twin simbody-twin workshop",
-        "annotate-snippets chacha20 clap comfy-table csv foxglove indicatif libtest-mimic mcap parquet plotters prost prost-types quick-junit serde serde_json strsim tempfile toml toml_edit",
+        "annotate-snippets anstream anstyle chacha20 clap clap_complete clap_mangen comfy-table csv foxglove indicatif libtest-mimic mcap parquet plotters prost prost-types quick-junit serde serde_json strsim tempfile terminal_size textwrap toml toml_edit",
     ),
 ];
 
@@ -138,7 +138,13 @@ const HOMES: &[(&str, &str)] = &[
     // `scenario` reads tables of published numbers, `outside` those of peers, `tables` any; `report` writes tables.
     ("csv", "linkproof::outside linkproof::report linkproof::scenario linkproof::tables"),
     ("parquet", "linkproof::tables"),
+    ("anstream", "linkproof::cli linkproof::report"),
+    ("anstyle", "linkproof::report"),
     ("clap", "linkproof::cli"),
+    ("clap_complete", "linkproof::cli"),
+    ("clap_mangen", "linkproof::cli"),
+    ("terminal_size", "linkproof::cli"),
+    ("textwrap", "linkproof::report"),
     ("indicatif", "linkproof::cli"),
     ("libtest_mimic", "linkproof::testing"),
     ("annotate_snippets", "linkproof::report"),

@@ -1,0 +1,191 @@
+//! Work on several files side by side, with results in the order of the files whatever the number of threads.
+
+use std::any::Any;
+use std::collections::BTreeMap;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Condvar, Mutex, MutexGuard, PoisonError, mpsc};
+
+use linkage::error::{Error, ErrorKind, Result};
+
+/// Memory that the work in hand takes together. A share is held until the result has been given on.
+pub(super) struct Room {
+    most: f64,
+    held: Mutex<Held>,
+    freed: Condvar,
+}
+
+/// Who is next, and what is held.
+#[derive(Debug, Default)]
+struct Held {
+    next: usize,
+    bytes: f64,
+    shares: BTreeMap<usize, f64>,
+}
+
+impl Room {
+    fn of(most: f64) -> Self {
+        Room { most, held: Mutex::new(Held::default()), freed: Condvar::new() }
+    }
+
+    fn lock(&self) -> MutexGuard<'_, Held> {
+        self.held.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Waits until item `index` may take `bytes`. Items take their shares in their order, and one alone always gets
+    /// its share: so the first one whose result is missing never waits for a later one. `tell` is called in that order.
+    pub(super) fn take(&self, index: usize, bytes: f64, tell: impl FnOnce()) {
+        let full = |held: &mut Held| held.next != index || (held.bytes > 0.0 && held.bytes + bytes > self.most);
+        let mut held = self.freed.wait_while(self.lock(), full).unwrap_or_else(PoisonError::into_inner);
+        tell();
+        held.next += 1;
+        held.bytes += bytes;
+        held.shares.insert(index, bytes);
+        self.freed.notify_all();
+    }
+
+    /// Gives the share of an item back; one that has none yet is passed over.
+    fn give_back(&self, index: usize) {
+        let mut held = self.lock();
+        held.shares.remove(&index);
+        // Summed anew, so that nothing is left by rounding.
+        held.bytes = held.shares.values().sum();
+        self.freed.notify_all();
+    }
+
+    /// Lets the others go on if an item ends before it has taken its share.
+    fn pass(&self, index: usize) {
+        let mut held =
+            self.freed.wait_while(self.lock(), |held| held.next < index).unwrap_or_else(PoisonError::into_inner);
+        if held.next == index {
+            held.next += 1;
+        }
+        self.freed.notify_all();
+    }
+}
+
+/// Does `work` on all items, on so many threads, with `most` bytes of memory for all in hand together. `give` receives
+/// the results in the order of the items, each as soon as all before it are there. Work that panics ends as an error.
+///
+/// `work` gets the index of its item and the room, which it asks once, before it takes memory. With one thread, the next
+/// item begins when the result before it has been given on.
+pub(super) fn side_by_side<T, R: Send>(
+    items: &[T],
+    threads: usize,
+    most: f64,
+    work: impl Fn(usize, &T, &Room) -> Result<R> + Sync,
+    mut give: impl FnMut(usize, &T, Result<R>),
+) where
+    T: Sync,
+{
+    let room = Room::of(most);
+    let done = |index: usize| {
+        let result = catch_unwind(AssertUnwindSafe(|| work(index, &items[index], &room)));
+        room.pass(index);
+        result.unwrap_or_else(|panic| Err(panicked(panic.as_ref())))
+    };
+    if threads <= 1 || items.len() <= 1 {
+        for (index, item) in items.iter().enumerate() {
+            give(index, item, done(index));
+            room.give_back(index);
+        }
+        return;
+    }
+    let next = AtomicUsize::new(0);
+    std::thread::scope(|scope| {
+        let (tell, told) = mpsc::channel();
+        for _ in 0..threads.min(items.len()) {
+            let (tell, next, done) = (tell.clone(), &next, &done);
+            scope.spawn(move || {
+                loop {
+                    let index = next.fetch_add(1, Ordering::Relaxed);
+                    // The receiver lives as long as this scope.
+                    if index >= items.len() || tell.send((index, done(index))).is_err() {
+                        return;
+                    }
+                }
+            });
+        }
+        drop(tell);
+        let mut waiting = BTreeMap::new();
+        let mut due = 0;
+        for (index, result) in told {
+            waiting.insert(index, result);
+            while let Some(result) = waiting.remove(&due) {
+                give(due, &items[due], result);
+                room.give_back(due);
+                due += 1;
+            }
+        }
+    });
+}
+
+/// A panic as an error. Its place is on standard error already.
+fn panicked(panic: &(dyn Any + Send)) -> Error {
+    let text = panic.downcast_ref::<&str>().copied().or(panic.downcast_ref::<String>().map(String::as_str));
+    let message = format!("this is a fault of the program: {}", text.unwrap_or("it panicked"));
+    Error::new(ErrorKind::Numeric, message).help("report it with the scenario; the other files are not concerned")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::time::Duration;
+
+    fn results(threads: usize, most: f64, work: impl Fn(usize, &Room) -> Result<usize> + Sync) -> Vec<Result<usize>> {
+        let items = [(); 20];
+        let mut given = Vec::new();
+        let work = |index: usize, (): &(), room: &Room| work(index, room);
+        side_by_side(&items, threads, most, work, |index, (), result| {
+            assert_eq!(index, given.len(), "in the order of the items");
+            given.push(result);
+        });
+        assert_eq!(given.len(), items.len());
+        given
+    }
+
+    #[test]
+    fn results_come_in_order_from_any_number_of_threads() {
+        for threads in [1, 2, 7, 100] {
+            let squares = results(threads, 1.0, |index, room| {
+                // The first ones take longest.
+                std::thread::sleep(Duration::from_millis(20 - index as u64));
+                room.take(index, 0.0, || {});
+                Ok(index * index)
+            });
+            let squares: Vec<usize> = squares.into_iter().map(|square| square.unwrap()).collect();
+            assert_eq!(squares, (0..20).map(|index| index * index).collect::<Vec<_>>());
+        }
+    }
+
+    #[test]
+    fn a_panic_is_an_error_of_its_own_item() {
+        let given = results(3, 1.0, |index, room| {
+            assert!(index != 4, "item four");
+            room.take(index, 1.0, || {});
+            assert!(index != 7, "item seven");
+            if index == 9 { Err(Error::new(ErrorKind::Input, "item nine")) } else { Ok(index) }
+        });
+        for (index, result) in given.iter().enumerate() {
+            match index {
+                4 | 7 | 9 => assert!(result.as_ref().unwrap_err().message().contains("item "), "{index}"),
+                _ => assert!(result.is_ok(), "{index}"),
+            }
+        }
+    }
+
+    #[test]
+    fn all_in_hand_take_no_more_than_there_is_and_too_large_a_one_goes_alone() {
+        let taken = AtomicUsize::new(0);
+        let given = results(6, 100.0, |index, room| {
+            let own = if index == 11 { 500 } else { 10 * (index % 5) };
+            room.take(index, own as f64, || {});
+            let all = taken.fetch_add(own, Ordering::SeqCst) + own;
+            assert!(all <= 100 || all == 500, "{all}");
+            std::thread::sleep(Duration::from_millis(2));
+            taken.fetch_sub(own, Ordering::SeqCst);
+            Ok(index)
+        });
+        assert!(given.iter().all(Result::is_ok), "{given:?}");
+    }
+}

@@ -1,0 +1,181 @@
+//! Numbers as people write them: plain decimals where those are short, no digits that mean nothing, and zero as `0`.
+//!
+//! What is zero has a scale, so every function asks for it: digits that count, or the resolution of a value.
+
+/// Digits of an error or a bound. More would be read as more than an estimate knows.
+const DIGITS: usize = 3;
+
+/// Digits that a double holds for certain.
+const MOST_DIGITS: usize = 15;
+
+/// An error, a bound or a share of one: three significant digits.
+#[must_use]
+pub fn error(value: f64) -> String {
+    significant(value, DIGITS)
+}
+
+/// An error with its unit, or alone if it has none.
+#[must_use]
+pub fn error_in(value: f64, unit: &str) -> String {
+    with_unit(&error(value), unit)
+}
+
+/// A number with so many significant digits at most: plain from a thousandth to a hundred thousand, else with an
+/// exponent.
+#[must_use]
+pub fn significant(value: f64, digits: usize) -> String {
+    if !value.is_finite() {
+        return value.to_string();
+    }
+    let rounded = rounded(value, digits);
+    if rounded == 0.0 {
+        "0".into()
+    } else if is_plain(rounded) {
+        rounded.to_string()
+    } else {
+        format!("{rounded:e}")
+    }
+}
+
+/// A value that is known to `resolution`, its own bound or rounding: digits that say less are left out, and a smaller
+/// value is `0`. With a resolution of 0 it has all its digits.
+#[must_use]
+pub fn resolved(value: f64, resolution: f64) -> String {
+    let resolution = resolution.abs();
+    if !value.is_finite() || !resolution.is_finite() {
+        return significant(value, MOST_DIGITS);
+    }
+    if value.abs() < resolution || value == 0.0 {
+        return "0".into();
+    }
+    // With a resolution of 0 the ratio is infinite, and the cast saturates.
+    let digits = (value.abs() / resolution).log10().ceil() as usize;
+    let digits = digits.clamp(1, MOST_DIGITS);
+    let decimals = -resolution.log10().floor();
+    if is_plain(value) && decimals >= 0.0 && decimals <= MOST_DIGITS as f64 && digits < MOST_DIGITS {
+        fixed(value, decimals as usize)
+    } else {
+        significant(value, digits)
+    }
+}
+
+/// Two values with the digits in which they differ, and with four at least. Where they do not differ, `bound` is the
+/// resolution.
+#[must_use]
+pub fn beside(values: [f64; 2], bound: f64) -> [String; 2] {
+    let [a, b] = values;
+    let difference = (a - b).abs();
+    let size = if a.abs() > b.abs() { a.abs() } else { b.abs() };
+    let resolution = match difference > 0.0 {
+        true if difference > 1e-3 * size => 1e-3 * size,
+        true => difference,
+        // Not a number too.
+        false => bound,
+    };
+    values.map(|value| resolved(value, resolution))
+}
+
+/// A number with so many decimals, for columns and places: a value that rounds to zero has no sign.
+#[must_use]
+pub fn fixed(value: f64, decimals: usize) -> String {
+    let text = format!("{value:.decimals$}");
+    match text.strip_prefix('-') {
+        Some(size) if size.chars().all(|sign| matches!(sign, '0' | '.')) => size.into(),
+        _ => text,
+    }
+}
+
+/// The same with its unit.
+#[must_use]
+pub fn fixed_in(value: f64, decimals: usize, unit: &str) -> String {
+    with_unit(&fixed(value, decimals), unit)
+}
+
+/// Part of a whole in per cent: `0.2 %`, `34 %`.
+#[must_use]
+pub fn percent(share: f64) -> String {
+    format!("{} %", significant(100.0 * share, 2))
+}
+
+/// A number with its unit after a blank, or alone if it has none.
+#[must_use]
+pub fn with_unit(number: &str, unit: &str) -> String {
+    if unit.is_empty() { number.into() } else { format!("{number} {unit}") }
+}
+
+/// From a thousandth to a hundred thousand, decimals are shorter than an exponent.
+fn is_plain(value: f64) -> bool {
+    (1e-3..1e5).contains(&value.abs())
+}
+
+fn rounded(value: f64, digits: usize) -> f64 {
+    let decimals = digits.max(1) - 1;
+    format!("{value:.decimals$e}").parse().unwrap_or(value)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn errors_have_three_digits_and_an_exponent_only_where_it_is_shorter() {
+        for (value, text) in [
+            (0.0, "0"),
+            (-0.0, "0"),
+            (1.0, "1"),
+            (0.25, "0.25"),
+            (-0.012_345, "-0.0123"),
+            (0.001, "0.001"),
+            (9.996e-4, "0.001"),
+            (9.99e-4, "9.99e-4"),
+            (2.622e-14, "2.62e-14"),
+            (17.77777, "17.8"),
+            (12_345.0, "12300"),
+            (99_999.0, "1e5"),
+            (1.5e7, "1.5e7"),
+            (f64::INFINITY, "inf"),
+        ] {
+            assert_eq!(error(value), text);
+        }
+        assert_eq!(error(f64::NAN), "NaN");
+        assert_eq!([error_in(0.5, "N m"), error_in(0.5, "")], ["0.5 N m", "0.5"]);
+    }
+
+    #[test]
+    fn a_value_has_the_digits_that_its_resolution_allows() {
+        for (value, resolution, text) in [
+            (17.345_123_04, 1e-4, "17.3451"),
+            (17.345_123_04, 4.4e-3, "17.345"),
+            (-613.245_5, 0.01, "-613.25"),
+            (613.2, 10.0, "610"),
+            (-2.622e-14, 1e-10, "0"),
+            (-2.622e-14, 1e-16, "-2.62e-14"),
+            (123_456.7, 1.0, "1.23457e5"),
+            (0.3, 0.0, "0.3"),
+            (0.0, 0.0, "0"),
+            (1.0, f64::NAN, "1"),
+        ] {
+            assert_eq!(resolved(value, resolution), text, "{value} to {resolution}");
+        }
+    }
+
+    #[test]
+    fn two_values_show_where_they_differ() {
+        for (values, bound, texts) in [
+            ([5.137_56, 5.137_82], 1e-3, ["5.1376", "5.1378"]),
+            ([0.0, 180.0], 1e-10, ["0", "180.0"]),
+            ([7e-15, 180.0], 1e-10, ["0", "180.0"]),
+            ([2.5, 2.5], 1e-3, ["2.500", "2.500"]),
+            ([f64::NAN, 2.5], 1e-3, ["NaN", "2.500"]),
+        ] {
+            assert_eq!(beside(values, bound), texts);
+        }
+    }
+
+    #[test]
+    fn what_rounds_to_zero_has_no_sign() {
+        assert_eq!([fixed(-0.000_000_4, 6), fixed(-0.000_4, 3)], ["0.000000", "0.000"]);
+        assert_eq!([fixed(-0.06, 1), fixed(-10.0, 0), fixed(0.0, 2)], ["-0.1", "-10", "0.00"]);
+        assert_eq!([percent(0.344), percent(1.0), percent(0.0), percent(2.5e-7)], ["34 %", "100 %", "0 %", "2.5e-5 %"]);
+    }
+}

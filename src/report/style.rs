@@ -1,0 +1,63 @@
+//! Colour and width of what a terminal shows. Colours are escape codes, which the command line takes out again where
+//! nobody sees them.
+
+use anstyle::{AnsiColor, Style};
+use textwrap::{Options, WordSplitter, wrap};
+
+use crate::compare::Verdict;
+
+/// Columns of a report that goes to a file or a pipe.
+pub const COLUMNS: usize = 80;
+
+/// The same text without colours.
+#[must_use]
+pub fn plain(text: &str) -> String {
+    anstream::adapter::strip_str(text).to_string()
+}
+
+/// The word of a verdict in capitals, in its colour.
+pub(super) fn verdict(verdict: &Verdict) -> String {
+    let colour = match verdict {
+        Verdict::Agree { .. } | Verdict::Expected { .. } => AnsiColor::Green,
+        Verdict::Disagree { .. } => AnsiColor::Red,
+        Verdict::Inconclusive { .. } => AnsiColor::Yellow,
+    };
+    let style = Style::new().bold().fg_color(Some(colour.into()));
+    format!("{style}{}{style:#}", capitals(verdict))
+}
+
+/// `AGREE`, `DISAGREE` or `INCONCLUSIVE`: the verdict on a whole.
+pub(super) fn capitals(verdict: &Verdict) -> &'static str {
+    match verdict {
+        Verdict::Agree { .. } | Verdict::Expected { .. } => "AGREE",
+        Verdict::Disagree { .. } => "DISAGREE",
+        Verdict::Inconclusive { .. } => "INCONCLUSIVE",
+    }
+}
+
+/// Text in lines of at most `width` columns, if there is a width. Lines after the first of each line given are indented.
+/// A word is never broken: names and commands stay whole.
+pub(super) fn wrapped(text: &str, width: Option<usize>, indent: usize) -> String {
+    let Some(width) = width else { return text.into() };
+    let indent = " ".repeat(indent);
+    let options =
+        Options::new(width).subsequent_indent(&indent).word_splitter(WordSplitter::NoHyphenation).break_words(false);
+    let lines = text.lines().flat_map(|line| match line.trim_end() {
+        "" => vec![String::new()],
+        line => wrap(line, &options).into_iter().map(|line| line.into_owned()).collect(),
+    });
+    lines.collect::<Vec<_>>().join("\n")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_stay_whole_and_following_lines_are_indented() {
+        let text = "first --option=1e-4 of\n\nsecond";
+        assert_eq!(wrapped(text, Some(20), 2), "first\n  --option=1e-4 of\n\nsecond");
+        assert_eq!(wrapped("averylongword x", Some(5), 0), "averylongword\nx");
+        assert_eq!(wrapped(text, None, 2), text);
+    }
+}
