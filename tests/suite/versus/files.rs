@@ -24,7 +24,7 @@ fn place() -> Place {
 fn a_recording_of_the_first_version_is_read() {
     let place = place();
     let told = place.ok("compare scenarios/crank_rocker.toml first_version.mcap --side reference");
-    assert!(told.starts_with("AGREE in all 54 channels"), "{told}");
+    assert!(told.starts_with("AGREE: all 54 channels"), "{told}");
     let outcome = place.run("compare scenarios/crank_rocker.toml first_version.mcap --side engine --rel 0.01");
     assert_eq!((outcome.code, outcome.stderr.as_str()), (0, ""), "{}", outcome.stdout);
     let outcome = place.run("compare scenarios/crank_rocker.toml first_version.mcap --side engine --rel 1e-7");
@@ -37,7 +37,7 @@ fn two_recordings_are_compared_side_by_side() {
     let place = place();
     place.run("run scenarios/crank_rocker.toml --budget 1e4");
     let told = place.ok("compare first_version.mcap recordings/crank_rocker.mcap --side reference");
-    assert!(told.starts_with("AGREE in all 54 channels at 25 times"), "{told}");
+    assert!(told.starts_with("AGREE: all 54 channels at 25 times"), "{told}");
     assert!(told.contains("only in the second: frame.fx_N"), "{told}");
     let outcome = place.run("compare first_version.mcap recordings/crank_rocker.mcap");
     assert_eq!(outcome.code, 3, "{}", outcome.stdout);
@@ -49,7 +49,7 @@ fn two_recordings_are_compared_side_by_side() {
 fn parquet_files_of_pandas_and_polars_are_read() {
     let place = place();
     let told = place.ok("compare scenarios/crank_rocker.toml pandas.parquet -v");
-    assert!(told.starts_with("AGREE in all 3 channels at 31 times") && told.contains("without a number"), "{told}");
+    assert!(told.starts_with("AGREE: all 3 channels at 31 times") && told.contains("without a number"), "{told}");
     // Single precision is known by its digits.
     place.ok("compare scenarios/crank_rocker.toml polars_f32.parquet");
     place.ok("compare pandas.parquet polars_f32.parquet --rel 1e-6");
