@@ -47,7 +47,9 @@ def report(proof):
     found = sorted(not_agreeing(proof), key=used, reverse=True)
     if found:
         worst = found[0]
-        lines.append(f"worst: {worst['name']}, {used(worst):.3g} times its bound {worst['bound']:.3e} {worst['unit']}")
+        # JSON has no numbers that are not finite.
+        bound = "a bound that is no number" if worst["bound"] is None else f"its bound {worst['bound']:.3e} {worst['unit']}"
+        lines.append(f"worst: {worst['name']}, {used(worst):.3g} times {bound}")
     diagnosis = proof.get("diagnosis") or {}
     if diagnosis.get("cause"):
         lines.append(f"cause: {diagnosis['cause']}")

@@ -16,14 +16,15 @@ use linkage::error::{Error, ErrorKind, Result};
 
 const EXAMPLES: &str = "\
 Examples:
-  linkproof accept scenarios/crank_rocker.toml               prove it, and keep its figures in scenarios/crank_rocker.accepted
-  linkproof accept --check scenarios/crank_rocker.toml       prove it, and judge its figures by those kept: for CI
-  linkproof accept --check scenarios/*.toml --json out.json  what has moved, by how many bounds, for a script
-  linkproof accept mine.toml --unproven                      keep the figures although the proof is open
+  linkproof accept scenarios/crank_rocker.toml             prove it, and keep its figures beside it
+  linkproof accept --check scenarios/crank_rocker.toml     judge it by the figures kept: for CI
+  linkproof accept --check scenarios/crank_rocker.toml --json -   what has moved, for a script
+  linkproof accept scenarios/crank_rocker.toml --dt 2e-2 --unproven   though the proof is open
 
-Figures are values at five instants, the smallest, the largest and the root mean square of every channel of the reference,
-each with its bound. One has moved if it differs by more than the bounds of both allow: docs/testing.md. What has not
-moved is left as it stands in the file. Write nothing by hand: restore the file, or accept anew.
+The file is called as the scenario, with `.accepted` in place of `.toml`; commit it.
+Figures are values at five instants, the least, the greatest and the root mean square of every channel of the reference.
+One has moved if it differs by more than both bounds, the one kept and the present one, allow: docs/testing.md.
+What has not moved stays as it stands in the file.
 
 Exit codes: 0 as accepted, 1 a figure is moved, new or gone or the proof disagrees, 2 bad input or usage, 3 inconclusive.";
 

@@ -113,7 +113,7 @@ fn list_shows_channels_and_solvers() {
 #[test]
 fn every_help_shows_examples_that_the_command_understands() {
     let place = Place::new();
-    for command in ["", "run", "solve", "bench", "inspect", "list"] {
+    for command in ["", "run", "accept", "solve", "bench", "inspect", "list"] {
         let help = place.ok(&format!("{command} --help"));
         let examples = help.split("Examples:\n").nth(1).unwrap_or_else(|| panic!("{command}: no examples in\n{help}"));
         let lines = examples.lines().take_while(|line| line.starts_with("  linkproof "));
