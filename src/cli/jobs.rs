@@ -55,7 +55,8 @@ impl Room {
 
     /// Lets the others go on if an item ends before it has taken its share.
     fn pass(&self, index: usize) {
-        let mut held = self.freed.wait_while(self.lock(), |held| held.next < index).unwrap_or_else(PoisonError::into_inner);
+        let mut held =
+            self.freed.wait_while(self.lock(), |held| held.next < index).unwrap_or_else(PoisonError::into_inner);
         if held.next == index {
             held.next += 1;
         }

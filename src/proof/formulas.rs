@@ -1,8 +1,8 @@
 //! Formulas as checks of a proof.
 
-use crate::numbers::{fixed, significant};
 use crate::claims::{At, Cause, Judged, Outcome, WORDS};
 use crate::compare::{Check, Verdict};
+use crate::numbers::{fixed, significant};
 use crate::tolerance::{Basis, Tolerance};
 
 /// What formulas come to.
@@ -55,7 +55,8 @@ fn name(judged: &Judged) -> String {
 /// Since when, in words.
 fn place(since: &At) -> String {
     let At { time, crank, formula, mechanism, .. } = since;
-    let found = if formula.is_nan() { "it has no value".to_string() } else { format!("it gives {}", significant(*formula, 9)) };
+    let found =
+        if formula.is_nan() { "it has no value".to_string() } else { format!("it gives {}", significant(*formula, 9)) };
     format!(
         "first at t = {} s, crank angle {} deg: {found}, the mechanism {}",
         fixed(*time, 6),

@@ -66,7 +66,9 @@ pub(super) fn look(judge: &Judge, bank: &mut Bank, judged: &mut Judged) -> Resul
                 let place = format!(
                     "the runs converge with order {order:.2}, at all of five steps from {} to {} s, where the \
                      method has {}: what is read or computed is not what the method gives",
-                    error(steps[0]), error(steps[1]), fine.convergence.formal
+                    error(steps[0]),
+                    error(steps[1]),
+                    fine.convergence.formal
                 );
                 judged.channels[index].verdict = Verdict::Disagree { place };
                 is_found = true;

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use super::observe::{Observed, Stopped, Watch, observe};
-use crate::numbers::significant;
 use crate::compare::{Ladder, OtherSweeps};
+use crate::numbers::significant;
 use linkage::case::Case;
 use linkage::engine::{Engine, Kept, Settings, plain_runs};
 use linkage::error::Advice;

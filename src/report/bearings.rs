@@ -32,7 +32,11 @@ pub(crate) fn text(journals: Journals, scenario: &Scenario, peaks: &Peaks) -> St
         let reaction = peaks.reactions[index];
         let mut row = vec![joint.name.clone(), numbers::fixed_in(reaction.value, 6, "N"), degrees(reaction)];
         match peaks.moments[index] {
-            None => row.extend([numbers::fixed_in(1e3 * diameter(journals, reaction), 3, "mm"), String::new(), String::new()]),
+            None => row.extend([
+                numbers::fixed_in(1e3 * diameter(journals, reaction), 3, "mm"),
+                String::new(),
+                String::new(),
+            ]),
             Some(moment) => row.extend(["slider".into(), numbers::fixed_in(moment.value, 6, "N m"), degrees(moment)]),
         }
         table.add_row(row);

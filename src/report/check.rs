@@ -11,7 +11,7 @@ use super::style::{self, wrapped};
 use super::tell::Tell;
 use crate::claims::{At, Cause, Judged, Outcome, WORDS};
 use crate::compare::Verdict;
-use crate::numbers::{beside, error, error_in, fixed, fixed_in, with_unit};
+use crate::numbers::{beside, error, fixed, fixed_in, with_unit};
 use crate::proof::claimed::Claimed;
 use crate::scenario::{Formula, Scenario};
 
@@ -48,7 +48,7 @@ impl Line<'_> {
     fn name(&self) -> String {
         match self.judged.order {
             0 => self.judged.name.clone(),
-            order => format!("  its {}", WORDS[order]),
+            order => format!("  {}", WORDS[order]),
         }
     }
 }
@@ -117,7 +117,7 @@ pub fn text(scenario: &Scenario, claimed: &Claimed, tell: Tell, width: usize) ->
             line.name(),
             if line.judged.order == 0 { line.judged.claim.clone() } else { String::new() },
             worst.map_or(String::new(), |at| fixed(at.crank.to_degrees(), 1)),
-            worst.map_or(String::new(), |at| error_in(at.difference.abs(), &line.judged.unit)),
+            worst.map_or(String::new(), |at| error(at.difference.abs())),
             worst.map_or(String::new(), |at| error(at.bound)),
             line.word().into(),
         ]);
@@ -198,7 +198,8 @@ fn reason(line: &Line, tell: Tell) -> String {
             let mut text =
                 format!("{of}{} = {}\n  is not {of}{claim} ({})", line.judged.name, line.formula.text, line.side);
             let says = |word: &str, at: At| {
-                let place = format!("crank angle {}, t = {} s", fixed_in(at.crank.to_degrees(), 3, "deg"), fixed(at.time, 6));
+                let place =
+                    format!("crank angle {}, t = {} s", fixed_in(at.crank.to_degrees(), 3, "deg"), fixed(at.time, 6));
                 let [found, right] = beside([at.formula, at.mechanism], at.bound).map(|text| with_unit(&text, unit));
                 let found = if at.formula.is_nan() { "no value".into() } else { found };
                 format!("\n  {word:6} {place}: formula {found}, mechanism {right}")

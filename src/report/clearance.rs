@@ -98,7 +98,11 @@ pub(crate) fn text(scenario: &Scenario, asked: &Question, found: &Clearance) -> 
         let _ = writeln!(text, "{areas}\n");
         if let Some((body, area)) = found.swept.iter().find(|(_, area)| area.error() > asked.area * area.value) {
             let (name, share) = (&asked.bodies[*body].name, area.error() / area.value);
-            let _ = writeln!(text, "the area of {name} is known to {} only: the work allowed is done", numbers::percent(share));
+            let _ = writeln!(
+                text,
+                "the area of {name} is known to {} only: the work allowed is done",
+                numbers::percent(share)
+            );
         }
     }
     for &[from, to] in &found.open {

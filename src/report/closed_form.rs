@@ -52,7 +52,12 @@ pub(crate) fn slider_crank(found: &SliderCrank) -> Told {
     let mut text = String::from("slider-crank from stroke and offset\n");
     let _ = writeln!(text, "  crank         {:.15} m\n  rod           {:.15} m", found.crank, found.rod);
     for (name, [crank, place]) in [("farthest", found.far), ("nearest", found.near)] {
-        let _ = writeln!(text, "  {name:13} crank {}, slider {}", fixed_in(crank.to_degrees(), 9, "deg"), fixed_in(place, 12, "m"));
+        let _ = writeln!(
+            text,
+            "  {name:13} crank {}, slider {}",
+            fixed_in(crank.to_degrees(), 9, "deg"),
+            fixed_in(place, 12, "m")
+        );
     }
     let _ = writeln!(
         text,

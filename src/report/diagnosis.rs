@@ -70,7 +70,8 @@ pub fn standing(standing: &Standing) -> String {
 fn since(diagnosis: &Diagnosis, first: &Since) -> String {
     let together: Vec<Channel> = diagnosis.first().iter().map(|one| one.channel.clone()).collect();
     let (time, crank) = (first.time, first.crank.to_degrees());
-    let mut told = format!("t = {} s, crank angle {} deg, first in {}", fixed(time, 6), fixed(crank, 3), names(&together));
+    let mut told =
+        format!("t = {} s, crank angle {} deg, first in {}", fixed(time, 6), fixed(crank, 3), names(&together));
     if let Some(next) = diagnosis.since.get(together.len()) {
         let (time, crank) = (next.time, next.crank.to_degrees());
         let _ = write!(told, "; from {} s, {} deg, in {}", fixed(time, 6), fixed(crank, 3), next.channel);

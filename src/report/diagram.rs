@@ -24,7 +24,8 @@ pub(crate) fn text(scenario: &Scenario, diagram: &MotionDiagram) -> String {
     let _ = writeln!(text, "\n  {:34} {largest:>20} {rms:>20} {share:>14} {first:>6} {second:>6}", "method");
     for found in &diagram.found {
         let unit = diagram.course.0[found.method.gives()].kind.unit.symbol();
-        let [first, second] = found.orders.map(|order| order.map_or_else(|| "-".into(), |order| numbers::fixed(order, 2)));
+        let [first, second] =
+            found.orders.map(|order| order.map_or_else(|| "-".into(), |order| numbers::fixed(order, 2)));
         let with = |value: f64| format!("{} {unit}", significant(value));
         let _ = writeln!(
             text,

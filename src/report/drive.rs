@@ -40,7 +40,9 @@ pub(crate) fn text(scenario: &Scenario, found: &Found, by_angle: bool) -> String
     let names = [("reduced moment of inertia", "kg m^2"), ("reduced moment of resistance", "N m")];
     let means = [found.means.inertia, found.means.resistance * scenario.case.crank().sense()];
     for (((name, unit), mean), extremes) in names.into_iter().zip(means).zip(&found.extremes) {
-        let end = |(crank, value): (f64, f64)| format!("{} at {}", fixed_in(value, 9, unit), fixed_in(crank.to_degrees(), 4, "deg"));
+        let end = |(crank, value): (f64, f64)| {
+            format!("{} at {}", fixed_in(value, 9, unit), fixed_in(crank.to_degrees(), 4, "deg"))
+        };
         let _ = writeln!(text, "{name}\n  mean      {}", fixed_in(mean, 9, unit));
         let _ = writeln!(text, "  least     {}\n  greatest  {}", end(extremes.least), end(extremes.greatest));
     }

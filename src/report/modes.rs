@@ -54,8 +54,10 @@ pub(crate) fn text(scenario: &Scenario, crank: f64, all: &[Modes], undecided: &[
             let followed = if mode.is_followed && open.is_none() { ", followed by the scenario" } else { "" };
             let _ = writeln!(text, "  {}{name}{followed}", number + 1);
             for (k, (&link, pose)) in group.links.iter().zip(&mode.poses).enumerate() {
-                let omega =
-                    mode.omegas.as_ref().map_or_else(|| "singular".into(), |all| format!("{:>12} rad/s", fixed(all[k], 5)));
+                let omega = mode
+                    .omegas
+                    .as_ref()
+                    .map_or_else(|| "singular".into(), |all| format!("{:>12} rad/s", fixed(all[k], 5)));
                 let link = &mechanism.links()[link];
                 let points = link.points.iter().map(|point| {
                     let at = pose.point(point.local);

@@ -131,7 +131,10 @@ fn found(info: &EngineInfo, search: &Search) -> String {
     };
     let (sweeps, runs, effort) = (info.settings.sweeps, search.runs, search.effort);
     let plural = if sweeps == 1 { "sweep" } else { "sweeps" };
-    format!("found: {sweeps} {plural}, {times}, from {runs} runs with the work of {} steps{why}", numbers::error(effort))
+    format!(
+        "found: {sweeps} {plural}, {times}, from {runs} runs with the work of {} steps{why}",
+        numbers::error(effort)
+    )
 }
 
 /// A step with at most five significant digits; the JSON has all digits.

@@ -125,7 +125,11 @@ pub fn tune(
             false => format!("{name} does not run it"),
         };
         let tells: Vec<String> = too_coarse.iter().map(tell).collect();
-        let message = format!("no settings meet an error within {} of the scale: {}", significant(wish.within, 6), tells.join(", "));
+        let message = format!(
+            "no settings meet an error within {} of the scale: {}",
+            significant(wish.within, 6),
+            tells.join(", ")
+        );
         let error = Error::new(ErrorKind::Numeric, message).help(Advice::WeakerWish);
         return Err(match bench.is_spent {
             true => error

@@ -15,9 +15,9 @@ fn against(from: &str, to: &str) -> Proof {
 #[test]
 fn a_diagnosis_stands_under_the_verdict_and_in_the_json() {
     let proof = against("y_m_s2 = -9.81", "y_m_s2 = 0");
-    let report = told(&proof, Advice::to_string);
+    let report = told(&proof, Advice::to_string, None);
     println!("{report}");
-    let (verdict, diagnosis) = (report.find("\nDISAGREE").unwrap(), report.find("\nDiagnosis of rapier:").unwrap());
+    let (verdict, diagnosis) = (report.find("DISAGREE").unwrap(), report.find("\nDiagnosis of rapier:").unwrap());
     assert!(verdict < diagnosis);
     for line in [
         "\n  alone     rapier; all others agree with each other",
@@ -39,7 +39,7 @@ fn a_diagnosis_stands_under_the_verdict_and_in_the_json() {
 #[test]
 fn without_a_disagreement_there_is_no_diagnosis() {
     let proof = against("y_m_s2 = -9.81", "y_m_s2 = -9.810");
-    assert!(proof.diagnosis.is_none() && !told(&proof, Advice::to_string).contains("Diagnosis"));
+    assert!(proof.diagnosis.is_none() && !told(&proof, Advice::to_string, None).contains("Diagnosis"));
     let mut document = Document::new();
     document.add(&proof, None);
     assert!(!document.text().contains("\"diagnosis\":"));
@@ -55,7 +55,7 @@ fn two_faults_at_once_have_no_single_cause() {
     let proof = prove_against(&parsed("crank_rocker", &right), &wrong, &Options::default()).unwrap();
     let found = proof.diagnosis.as_ref().unwrap();
     assert!(!found.is_explained() && !found.left_over.is_empty(), "{:?}", found.cause);
-    let report = told(&proof, Advice::to_string);
+    let report = told(&proof, Advice::to_string, None);
     println!("{}", &report[report.find("Diagnosis").unwrap()..]);
     assert!(report.contains("\n  cause     no"));
 }
