@@ -52,6 +52,9 @@ pub(super) fn completions(args: &CompletionArgs, mut command: Command) -> Result
 pub(super) fn man(args: &ManArgs, command: Command) -> Result<()> {
     let Some(directory) = &args.output else {
         let mut page = Vec::new();
+        // As for the directory: both pages are the same.
+        let mut command = command.disable_help_subcommand(true);
+        command.build();
         Man::new(command).render(&mut page).map_err(|error| failed(Path::new("-"), &error))?;
         return output::print(&String::from_utf8_lossy(&page));
     };

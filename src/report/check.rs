@@ -11,7 +11,7 @@ use super::style::{self, wrapped};
 use super::tell::Tell;
 use crate::claims::{At, Cause, Judged, Outcome, WORDS};
 use crate::compare::Verdict;
-use crate::numbers::{beside, error, error_in, fixed, fixed_in, with_unit};
+use crate::numbers::{beside, error, fixed, fixed_in, with_unit};
 use crate::proof::claimed::Claimed;
 use crate::scenario::{Formula, Scenario};
 
@@ -48,7 +48,7 @@ impl Line<'_> {
     fn name(&self) -> String {
         match self.judged.order {
             0 => self.judged.name.clone(),
-            order => format!("  its {}", WORDS[order]),
+            order => format!("  {}", WORDS[order]),
         }
     }
 }
@@ -117,7 +117,7 @@ pub fn text(scenario: &Scenario, claimed: &Claimed, tell: Tell, width: usize) ->
             line.name(),
             if line.judged.order == 0 { line.judged.claim.clone() } else { String::new() },
             worst.map_or(String::new(), |at| fixed(at.crank.to_degrees(), 1)),
-            worst.map_or(String::new(), |at| error_in(at.difference.abs(), &line.judged.unit)),
+            worst.map_or(String::new(), |at| error(at.difference.abs())),
             worst.map_or(String::new(), |at| error(at.bound)),
             line.word().into(),
         ]);

@@ -56,7 +56,7 @@ mod tests {
     #[test]
     fn words_stay_whole_and_following_lines_are_indented() {
         let text = "first --option=1e-4 of\n\nsecond";
-        assert_eq!(wrapped(text, Some(20), 2), "first\n  --option=1e-4 of\n\nsecond");
+        assert_eq!(wrapped(text, Some(20), 2), "first --option=1e-4\n  of\n\nsecond");
         assert_eq!(wrapped("averylongword x", Some(5), 0), "averylongword\nx");
         assert_eq!(wrapped(text, None, 2), text);
     }

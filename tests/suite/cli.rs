@@ -21,4 +21,5 @@ mod solve;
 mod starts;
 mod stress;
 mod synthesize;
+mod terminal;
 pub mod tools;

@@ -180,7 +180,7 @@ fn without_recording_nothing_is_written() {
 #[test]
 fn json_in_a_file_leaves_the_report_on_the_terminal() {
     let place = Place::new();
-    let report = place.ok("run scenarios/crank_rocker.toml --no-record --json out.json --reference newton");
+    let report = place.ok("run scenarios/crank_rocker.toml --no-record --json out.json --reference newton -v");
     assert!(report.contains("reference  newton") && report.contains("AGREE: "));
     let document: Value = serde_json::from_str(&fs::read_to_string(place.path("out.json")).unwrap()).unwrap();
     assert_eq!(document["runs"][0]["reference"]["name"], "newton");
@@ -236,7 +236,7 @@ fn a_wrong_published_number_disagrees_by_name() {
 #[test]
 fn too_coarse_a_step_proves_nothing_and_a_hopeless_one_is_refused() {
     let place = Place::new();
-    let outcome = place.run("run scenarios/crank_rocker.toml --no-record --dt 2e-2");
+    let outcome = place.run("run scenarios/crank_rocker.toml --no-record --verbose --dt 2e-2");
     assert_eq!(outcome.code, 3, "{}", outcome.stderr);
     assert!(
         outcome.stdout.contains("INCONCLUSIVE: ")
@@ -244,7 +244,7 @@ fn too_coarse_a_step_proves_nothing_and_a_hopeless_one_is_refused() {
     );
     place.refused(
         "run scenarios/crank_rocker.toml --no-record --dt 3e-2",
-        &["the run at 6e-2 s", "smaller time step, such as --dt 1.5e-2"],
+        &["the run at 0.06 s", "smaller time step, such as --dt 1.5e-2"],
     );
     place.refused(
         "run scenarios/crank_rocker.toml --no-record --dt 2e-1",

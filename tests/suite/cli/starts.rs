@@ -37,11 +37,14 @@ fn run_takes_another_grid() {
         ("pendulum --times 0.2,0,0.1", 3),
     ] {
         let (name, grid) = command.split_once(' ').unwrap();
-        let text = place.ok(&format!("run scenarios/{name}.toml --no-record {grid}"));
-        assert!(text.contains(&format!("{instants} instants")) && text.contains("\nAGREE"), "{command}: {text}");
+        let text = place.ok(&format!("run scenarios/{name}.toml --verbose --no-record {grid}"));
+        assert!(
+            text.contains(&format!("{instants} instants")) && text.starts_with(&format!("{name}: AGREE: ")),
+            "{command}: {text}"
+        );
     }
     // What the grid replaces does not touch published numbers.
-    let text = place.ok("run scenarios/fourth_class.toml --no-record --crank-deg 70,80");
+    let text = place.ok("run scenarios/fourth_class.toml -v --no-record --crank-deg 70,80");
     assert!(text.contains("published"), "{text}");
     for (command, words) in [
         ("pendulum.toml --crank-deg 0,10", ["the motion is free", "--times"]),
@@ -145,7 +148,7 @@ fn regress_an_ambiguous_rough_place_does_not_block_what_resolves_it() {
         assert_eq!(solve(mode), own(mode), "{mode}");
     }
     let run = place.ok("run scenarios/open.toml --no-record --mode coupler,rocker=left");
-    assert!(run.contains("\nAGREE"), "{run}");
+    assert!(run.starts_with("crank_rocker: AGREE: "), "{run}");
     let words = ["does not tell them apart", "inspect FILE --modes", "open.toml:"];
     place.refused("solve scenarios/open.toml --with assur", &words);
     place.refused("inspect scenarios/open.toml", &words);

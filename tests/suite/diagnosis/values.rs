@@ -93,12 +93,12 @@ fn values_of_another_instant_are_named() {
         add(
             "half a step late",
             &late(&case, 5e-4, |stage| stage == Stage::Velocities),
-            "velocities are 0.0005 s, 0.5 steps too late",
+            "velocities are 5e-4 s, 0.5 steps too late",
         );
         add(
             "a quarter early",
             &late(&case, -2.5e-4, |stage| stage == Stage::Accelerations),
-            "accelerations are 0.00025 s, 0.25 steps too early",
+            "accelerations are 2.5e-4 s, 0.25 steps too early",
         );
     }
     tally.told("other instants");

@@ -13,12 +13,16 @@ fn with(place: &Place, formulas: &str) {
 fn a_formula_of_the_command_line_is_judged() {
     let place = Place::new();
     let right = place.ok("check scenarios/crank_rocker.toml phi*180/pi --channel link.crank.angle_deg");
-    assert!(right.starts_with("AGREE: 1 formula, at 361 instants"), "{right}");
+    assert!(right.starts_with("crank_rocker: AGREE: 1 formula at 361 instants"), "{right}");
     let ratio = "link.crank.omega_rad_s/link.crank.omega_rad_s";
     place.ok(&format!("check scenarios/crank_rocker.toml 1 --channel {ratio}"));
     let wrong = place.run("check scenarios/crank_rocker.toml phi --channel link.crank.angle_deg");
     assert_eq!(wrong.code, 1, "{}", wrong.stderr);
-    assert!(wrong.stdout.starts_with("DISAGREE") && wrong.stdout.contains("a unit"), "{}", wrong.stdout);
+    assert!(
+        wrong.stdout.starts_with("crank_rocker: DISAGREE: ") && wrong.stdout.contains("a unit"),
+        "{}",
+        wrong.stdout
+    );
     let json = place.run("check scenarios/crank_rocker.toml -phi --channel link.crank.angle_rad --json -");
     let json: serde_json::Value = serde_json::from_str(&json.stdout).unwrap();
     assert_eq!(
