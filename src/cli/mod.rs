@@ -24,6 +24,7 @@ mod plan;
 mod progress;
 mod run;
 mod solve;
+mod standard_input;
 mod stress;
 mod synthesize;
 mod tune;

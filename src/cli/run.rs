@@ -11,7 +11,7 @@ use super::engine_section::{self, keys};
 use super::grid::GridArgs;
 use super::load::{StartArgs, only, reference_names};
 use super::progress::Bar;
-use super::{advice, exit_code, number, output};
+use super::{advice, exit_code, number, output, standard_input};
 use crate::compare::Verdict;
 use crate::files;
 use crate::proof::{EngineProof, Entry, Proof, memory, prove_with};
@@ -43,7 +43,7 @@ Exit codes: 0 all agree, 1 something disagrees, 2 bad input or usage, 3 nothing 
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Args {
-    /// Scenario files
+    /// Scenario files; `-` for standard input
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
     /// Analytic solver that the engine is compared with; the other one checks it
@@ -111,12 +111,12 @@ pub(super) fn run(args: &Args) -> u8 {
     let mut outcomes = Outcomes::told_by(advice::told);
     let mut worst = exit_code::AGREE;
     let quiet = args.json.as_deref() == Some(Path::new("-"));
-    let mut written = BTreeMap::new();
     for file in &args.files {
         let mut failed = |error: &Error| {
             output::show(error);
-            document.add_failure(&file.display().to_string(), error);
-            outcomes.add_failure(&file.display().to_string(), error);
+            let named = standard_input::named(file).display().to_string();
+            document.add_failure(&named, error);
+            outcomes.add_failure(&named, error);
             worst = exit_code::BAD_INPUT;
         };
         let (scenario, proof) = match prove_file(args, file, quiet) {
@@ -127,7 +127,7 @@ pub(super) fn run(args: &Args) -> u8 {
             }
         };
         // A proof is valid whether or not it can be recorded.
-        let recording = record(args, &scenario, &proof, quiet, &mut written).unwrap_or_else(|error| {
+        let recording = record(args, &scenario, &proof, quiet).unwrap_or_else(|error| {
             failed(&error);
             None
         });
@@ -158,6 +158,7 @@ pub(super) fn run(args: &Args) -> u8 {
 }
 
 fn prove_file(args: &Args, file: &Path, quiet: bool) -> Result<(Scenario, Proof)> {
+    standard_input::refuse_writing(file, args.write)?;
     let scenario = only(args.start.load(file, &args.grid)?, &args.only)?;
     let options = args.engine.options(&args.reference);
     let engines = options.engines.len().max(1);
@@ -200,40 +201,31 @@ fn write_settings(file: &Path, scenario: &Scenario, proof: &Proof) -> Result<()>
     }
 }
 
-/// Records a proof, unless recording is off. `written` holds the recordings of this command: path and scenario.
-fn record(
-    args: &Args,
-    scenario: &Scenario,
-    proof: &Proof,
-    quiet: bool,
-    written: &mut BTreeMap<PathBuf, String>,
-) -> Result<Option<PathBuf>> {
+/// Records a proof, unless recording is off. A recording of another run is left alone.
+fn record(args: &Args, scenario: &Scenario, proof: &Proof, quiet: bool) -> Result<Option<PathBuf>> {
     if args.no_record {
         return Ok(None);
     }
-    let path = args.record.join(format!("{}.mcap", scenario.name));
-    let first = written.entry(path.clone()).or_insert_with(|| scenario.text.clone());
-    if *first != scenario.text {
-        let message =
-            format!("{} holds another scenario of this command, also called {}", path.display(), scenario.name);
-        return Err(Error::new(ErrorKind::Input, message)
-            .help("change the `name` of one of the two, or run them one by one with different --record"));
-    }
-    write_recording(scenario, proof, args, &path)?;
-    if !quiet {
-        output::print(&format!("recording  {}\n\n", path.display()))?;
-    }
-    Ok(Some(path))
-}
-
-fn write_recording(scenario: &Scenario, proof: &Proof, args: &Args, path: &Path) -> Result<()> {
     let directory = &args.record;
     fs::create_dir_all(directory).map_err(|error| {
         Error::new(ErrorKind::Io, format!("the directory {} cannot be made: {error}", directory.display()))
             .help("name another directory with --record, or use --no-record")
     })?;
+    let metadata = metadata(args, proof);
+    let recorder::Place { path, other } = recorder::place(directory, &scenario.name, &scenario.text, &metadata)?;
+    write_recording(scenario, proof, &metadata, &path)?;
+    if !quiet {
+        let why = other.map_or(String::new(), |found| {
+            format!("\n           {}.mcap is of another run and is kept: {found}", scenario.name)
+        });
+        output::print(&format!("recording  {}{why}\n\n", path.display()))?;
+    }
+    Ok(Some(path))
+}
+
+/// Versions, settings and verdict, and what the command asks for beyond the scenario's text.
+fn metadata(args: &Args, proof: &Proof) -> BTreeMap<String, String> {
     let mut metadata = recorded::metadata(proof);
-    // The scenario text in the recording does not contain what is asked for on the command line.
     if !args.start.mode.is_empty() {
         metadata.insert("modes".into(), args.start.mode.join(" "));
     }
@@ -241,8 +233,15 @@ fn write_recording(scenario: &Scenario, proof: &Proof, args: &Args, path: &Path)
         let set: Vec<String> = args.start.set.iter().map(|(key, value)| format!("{key}={value}")).collect();
         metadata.insert("parameters".into(), set.join(" "));
     }
+    if !args.only.is_empty() {
+        metadata.insert("only".into(), args.only.join(" "));
+    }
     metadata.extend(args.start.start_crank_deg.map(|degrees| ("start_crank_deg".into(), degrees.to_string())));
     metadata.extend(args.grid.told().map(|(name, values)| (format!("grid_{name}"), values.to_string())));
+    metadata
+}
+
+fn write_recording(scenario: &Scenario, proof: &Proof, metadata: &BTreeMap<String, String>, path: &Path) -> Result<()> {
     let mut sides = vec![Side { name: "reference", trajectory: &proof.reference_trajectory }];
     for engine in &proof.engines {
         let name = if proof.engines.len() == 1 { "engine" } else { engine.info.name };
@@ -252,7 +251,7 @@ fn write_recording(scenario: &Scenario, proof: &Proof, args: &Args, path: &Path)
     let recording = Recording {
         name: &scenario.name,
         scenario_text: &scenario.text,
-        metadata: &metadata,
+        metadata,
         mechanism: &proof.scene.case.mechanism,
         sides: &sides,
         errors: proof.engine().errors.as_ref(),
