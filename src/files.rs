@@ -12,7 +12,7 @@ use std::io;
 use std::path::Path;
 
 pub(crate) use target::{may_fill, may_write, unwritten};
-pub(crate) use text::{read_named, read_text, text, way_out};
+pub(crate) use text::{read_named, read_text, text, text_from, way_out};
 
 use temporary::{clear, create, directory_of};
 

@@ -2,9 +2,9 @@
 
 use std::path::PathBuf;
 
+use super::load::plain;
 use super::{number, output};
 use crate::report::bearings::{self as report, Journals};
-use crate::scenario::Scenario;
 use analytic::range::explained;
 use linkage::error::{Error, ErrorKind, Result};
 use workshop::bearings;
@@ -20,7 +20,7 @@ The smallest journal carries the reaction F at the lever l in bending: d = cbrt(
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Args {
-    /// Scenario file
+    /// Scenario file; `-` for standard input
     #[arg(value_name = "FILE")]
     file: PathBuf,
     /// Lever of the reaction on its journal, in mm
@@ -40,7 +40,7 @@ pub(super) fn bearings(args: &Args) -> Result<()> {
             return Err(Error::new(ErrorKind::Input, format!("{name} is {value}")).help("give a number above zero"));
         }
     }
-    let scenario = Scenario::load(&args.file)?.nominal();
+    let scenario = plain(&args.file)?.nominal();
     let peaks = bearings::over_range(&scenario.case).map_err(|error| explained(&scenario.case, error))?;
     let journals = Journals { lever_mm: args.lever_mm, stress_mpa: args.stress_mpa };
     match &args.json {

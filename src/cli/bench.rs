@@ -7,7 +7,7 @@ use std::time::Instant;
 use clap::builder::PossibleValuesParser;
 
 use super::engine_args::engine_names;
-use super::load::only;
+use super::load::{only, plain};
 use super::progress::Bar;
 use super::{number, output};
 use crate::bench::{Axis, Bench, Clock, Options, Peer, bench};
@@ -38,7 +38,7 @@ const LIMIT: f64 = 60.0;
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Args {
-    /// Scenario files
+    /// Scenario files; `-` for standard input
     #[arg(value_name = "FILE", required = true)]
     files: Vec<PathBuf>,
     /// Directory for diagrams and numbers; it is made if it is missing
@@ -82,8 +82,7 @@ fn peer(text: &str) -> std::result::Result<(String, String), String> {
 }
 
 pub(super) fn run(args: &Args) -> Result<()> {
-    let scenarios =
-        args.files.iter().map(|file| only(Scenario::load(file)?, &args.only)).collect::<Result<Vec<_>>>()?;
+    let scenarios = args.files.iter().map(|file| only(plain(file)?, &args.only)).collect::<Result<Vec<_>>>()?;
     if let Some(twice) = (1..scenarios.len()).find(|&k| scenarios[..k].iter().any(|own| own.name == scenarios[k].name))
     {
         return Err(Error::new(ErrorKind::Input, format!("two scenarios are called \"{}\"", scenarios[twice].name))

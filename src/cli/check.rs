@@ -8,7 +8,7 @@ use super::run::exit_code_of;
 use super::{advice, exit_code, number, output, terminal};
 use crate::proof::claimed;
 use crate::report::check as report;
-use crate::scenario::formula::refused;
+use crate::scenario::formula::{fault_of_claim, refused};
 use crate::scenario::{Claim, Scenario};
 use linkage::error::{Error, ErrorKind, Result};
 
@@ -33,7 +33,7 @@ Exit codes: 0 right, 1 wrong, 2 bad input, 3 nothing proven.";
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Args {
-    /// Scenario files; of one scenario only if a formula is given
+    /// Scenario file; `-` for standard input
     #[arg(required = true, value_name = "FILE")]
     file: PathBuf,
     /// Formula over phi, t, parameters and named formulas [default: every `[[formula]]` of the file]
@@ -116,15 +116,9 @@ fn asked(args: &Args) -> Result<Scenario> {
     formula.claim = Some(claim);
     formula.valid = [args.from_deg, args.to_deg].map(|degrees| degrees.map(f64::to_radians));
     formula.error = args.error;
-    if let [Some(from), Some(to)] = formula.valid
-        && !(from <= to)
-    {
-        let message = format!("--to-deg {} is less than --from-deg {}", to.to_degrees(), from.to_degrees());
-        return Err(Error::new(ErrorKind::Input, message).help("exchange them"));
-    }
-    if args.error.is_some_and(|error| !(error > 0.0) || !error.is_finite()) {
-        let message = "a claimed error must be a positive number";
-        return Err(Error::new(ErrorKind::Input, message).key("--error").help("leave it out if the formula is exact"));
+    if let Some((key, message, help)) = fault_of_claim(formula.valid, formula.error) {
+        let option = if key == "to" { "--to-deg" } else { "--error" };
+        return Err(Error::new(ErrorKind::Input, message).key(option).help(help));
     }
     Ok(scenario)
 }

@@ -2,9 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
+use super::load::plain;
 use super::progress::Bar;
 use super::run::graver;
-use super::{exit_code, output};
+use super::{exit_code, output, standard_input};
 use crate::report::clearance::{self as report, Standing};
 use crate::scenario::Scenario;
 use analytic::range::explained;
@@ -27,7 +28,7 @@ Exit codes: 0 all clear, 1 links collide or are nearer than wanted, 2 bad input 
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Args {
-    /// Scenario files with a section `[clearance]`
+    /// Scenario files with a section `[clearance]`; `-` for standard input
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
     /// Draw outlines, housing, swept areas and nearest points to a file, or to standard output instead of the text with
@@ -66,7 +67,7 @@ pub(super) fn clearance(args: &Args) -> u8 {
             Err(error) => {
                 output::show(&error);
                 worst = exit_code::BAD_INPUT;
-                documents.extend(report::failures(&file.display().to_string(), &error));
+                documents.extend(report::failures(&standard_input::named(file).display().to_string(), &error));
             }
         }
     }
@@ -84,7 +85,7 @@ fn question(scenario: &Scenario) -> &Question {
 }
 
 fn answer(args: &Args, file: &Path) -> Result<(Scenario, Clearance)> {
-    let scenario = Scenario::load(file)?;
+    let scenario = plain(file)?;
     let Some(asked) = &scenario.clearance else {
         let message = format!("the scenario {} asks nothing about clearance", file.display());
         return Err(Error::new(ErrorKind::Input, message).key("clearance").help(

@@ -4,10 +4,9 @@ use std::path::PathBuf;
 
 use clap::builder::PossibleValuesParser;
 
-use super::load::reference_names;
+use super::load::{plain, reference_names};
 use super::{number, output};
 use crate::report::diagram as report;
-use crate::scenario::Scenario;
 use analytic::range::explained;
 use linkage::error::Result;
 use workshop::diagram::{Course, MotionDiagram, draw};
@@ -24,7 +23,7 @@ backwards, the exact velocity and acceleration at the middles are summed up.";
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Args {
-    /// Scenario file
+    /// Scenario file; `-` for standard input
     #[arg(value_name = "FILE")]
     file: PathBuf,
     /// Position or angle, named as in `linkproof list --channels`
@@ -48,7 +47,7 @@ pub(super) struct Args {
 }
 
 pub(super) fn diagram(args: &Args) -> Result<()> {
-    let scenario = Scenario::load(&args.file)?.nominal();
+    let scenario = plain(&args.file)?.nominal();
     let solver = analytic::named(&args.with).expect("the argument parser knows all names");
     let course = Course::named(&scenario.case, &args.channel)?;
     let diagram = MotionDiagram::of(&scenario.case, solver, &course, args.divisions)

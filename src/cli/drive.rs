@@ -35,7 +35,7 @@ crank's shaft for a wanted one. A run-up begins at the start of the scenario.";
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Args {
-    /// Scenario file
+    /// Scenario file; `-` for standard input
     #[arg(value_name = "FILE")]
     file: PathBuf,
     /// Start a group in another assembly mode than the file states, as in `linkproof run`

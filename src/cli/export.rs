@@ -24,7 +24,7 @@ docs/mjcf.md tells what is in the model and how exactly MuJoCo simulates it, doc
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Args {
-    /// Scenario file
+    /// Scenario file; `-` for standard input
     #[arg(value_name = "FILE")]
     file: PathBuf,
     /// Write MJCF to a file, to standard output with `-`, to NAME.xml in this directory without a value; NAME is the

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use super::{load, number, output};
 use crate::report::{inspect as report, modes, range};
-use crate::scenario::{Asked, Scenario};
+use crate::scenario::Asked;
 use analytic::range::explained;
 use linkage::case::Grid;
 use linkage::error::{Error, ErrorKind, Result};
@@ -20,7 +20,7 @@ Examples:
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Args {
-    /// Scenario file
+    /// Scenario file; `-` for standard input
     #[arg(value_name = "FILE")]
     file: PathBuf,
     /// List all real configurations of every group, with angles, angular velocities and places of points
@@ -45,10 +45,9 @@ pub(super) fn inspect(args: &Args) -> Result<()> {
     let asked = Asked { modes: args.mode.clone(), ..Asked::default() };
     // A list of configurations is wanted above all where the file does not decide between them.
     let (scenario, undecided) = match args.modes {
-        true => Scenario::load_to_list(&args.file, &asked),
-        false => Scenario::load_as(&args.file, &asked).map(|scenario| (scenario, Vec::new())),
-    }
-    .map_err(|error| load::of_mode(&asked, error))?;
+        true => load::to_list(&args.file, &asked)?,
+        false => (load::as_asked(&args.file, &asked)?, Vec::new()),
+    };
     let scenario = scenario.nominal();
     let case = &scenario.case;
     let modes = match args.modes {

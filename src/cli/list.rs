@@ -1,7 +1,8 @@
 //! `linkproof list`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
+use super::load::plain;
 use super::{advice, output};
 use crate::report::lists;
 use crate::scenario::{self, Scenario};
@@ -12,15 +13,16 @@ Examples:
   linkproof list                 the scenarios in scenarios/
   linkproof list my_scenarios    those of another directory
   linkproof list --channels      every channel, its unit and meaning
+  linkproof list --channels scenarios/crank_rocker.toml   those of one scenario, by name
   linkproof list --solvers       analytic solvers and engines";
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Args {
-    /// Directory of scenario files
-    #[arg(value_name = "DIR", default_value = "scenarios")]
-    directory: PathBuf,
-    /// List the channels instead
+    /// Directory of scenario files [default: scenarios]; with --channels a scenario file
+    #[arg(value_name = "DIR")]
+    place: Option<PathBuf>,
+    /// List the channels instead: those of a scenario, with a file
     #[arg(long)]
     channels: bool,
     /// List the solvers instead
@@ -30,16 +32,20 @@ pub(super) struct Args {
 
 pub(super) fn list(args: &Args) -> Result<()> {
     let text = if args.channels {
-        lists::channels()
+        match &args.place {
+            Some(file) => lists::channels_of(&plain(file)?.case),
+            None => lists::channels(),
+        }
     } else if args.solvers {
         let (solvers, engines) = (analytic::all(), crate::engines::all(1.0));
         let engines = engines.iter().map(|engine| (engine.name(), engine.version()));
         lists::solvers(solvers.iter().map(|solver| solver.name()), engines)
     } else {
-        let files = scenario::files_in(&args.directory)
+        let directory = args.place.as_deref().unwrap_or(Path::new("scenarios"));
+        let files = scenario::files_in(directory)
             .map_err(|error| error.help("name the directory that holds your scenario files: linkproof list DIR"))?;
         let all: Vec<_> = files.into_iter().map(|file| (Scenario::load(&file), file)).collect();
-        lists::scenarios(&args.directory, &all, advice::told)
+        lists::scenarios(directory, &all, advice::told)
     };
     output::print(&text)
 }

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use super::grid::GridArgs;
-use super::number;
-use crate::scenario::{Asked, Scenario};
+use super::{number, standard_input};
+use crate::scenario::{Asked, Scenario, Undecided};
 use linkage::error::{Error, ErrorKind, Result};
 
 /// Another start than that of the file.
@@ -56,17 +56,35 @@ fn setting(text: &str) -> std::result::Result<(String, f64), String> {
     Ok((key.trim().into(), number::decimal(value, "a finite number behind the `=`, such as a_mm=30")?))
 }
 
+/// Reads a scenario as it is.
+pub(super) fn plain(file: &Path) -> Result<Scenario> {
+    as_asked(file, &Asked::default())
+}
+
 /// Reads a scenario and starts its groups in the given `modes`.
 pub(super) fn load(file: &Path, modes: &[String]) -> Result<Scenario> {
     as_asked(file, &Asked { modes: modes.to_vec(), ..Asked::default() })
 }
 
-fn as_asked(file: &Path, asked: &Asked) -> Result<Scenario> {
-    Scenario::load_as(file, asked).map_err(|error| of_mode(asked, error))
+pub(super) fn as_asked(file: &Path, asked: &Asked) -> Result<Scenario> {
+    let found = match standard_input::is_meant(file) {
+        true => Scenario::parse_as(standard_input::text()?, standard_input::named(file), asked),
+        false => Scenario::load_as(file, asked),
+    };
+    found.map_err(|error| of_mode(asked, error))
+}
+
+/// The same for a list of configurations: with the groups that the file does not decide.
+pub(super) fn to_list(file: &Path, asked: &Asked) -> Result<(Scenario, Vec<Undecided>)> {
+    let found = match standard_input::is_meant(file) {
+        true => Scenario::parse_to_list(standard_input::text()?, standard_input::named(file), asked),
+        false => Scenario::load_to_list(file, asked),
+    };
+    found.map_err(|error| of_mode(asked, error))
 }
 
 /// An error that has no place in the file is one of the modes asked for.
-pub(super) fn of_mode(asked: &Asked, error: Error) -> Error {
+fn of_mode(asked: &Asked, error: Error) -> Error {
     let is_asked = !asked.modes.is_empty() && error.place().is_none() && error.kind() != ErrorKind::Io;
     if is_asked { error.key("--mode") } else { error }
 }

@@ -28,6 +28,7 @@ mod progress;
 mod run;
 mod shell;
 mod solve;
+mod standard_input;
 mod stress;
 mod synthesize;
 mod terminal;

@@ -5,11 +5,11 @@ use std::path::PathBuf;
 use clap::builder::PossibleValuesParser;
 
 use super::engine_args::EngineArgs;
+use super::load::plain;
 use super::progress::Bar;
-use super::{advice, exit_code, output};
+use super::{advice, exit_code, output, standard_input};
 use crate::mutate::{Asked, Mutated, Party, all, mutate, named, tally};
 use crate::report::{errors, mutate as report};
-use crate::scenario::Scenario;
 use linkage::error::{Error, ErrorKind, Result};
 
 const EXAMPLES: &str = "\
@@ -28,7 +28,7 @@ Exit codes: 0 no fault in one party escapes, 1 some escape, 2 bad input or usage
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Args {
-    /// Scenario files
+    /// Scenario files; `-` for standard input
     #[arg(required_unless_present = "list", value_name = "FILE")]
     files: Vec<PathBuf>,
     /// Kind of fault, or family of kinds. May be given several times [default: all]
@@ -74,7 +74,7 @@ pub(super) fn run(args: &Args) -> u8 {
     let asked = Asked { kinds: args.kind.clone(), parties, with_sizes: !args.no_sizes, jobs: args.jobs, options };
     let (mut found, mut failures) = (Vec::new(), Vec::new());
     for file in &args.files {
-        let one = Scenario::load(file).and_then(|scenario| {
+        let one = plain(file).and_then(|scenario| {
             let mut bar = Bar::new(&scenario.name);
             mutate(&scenario, &asked, &mut |part| bar.at(part))
         });
@@ -82,7 +82,7 @@ pub(super) fn run(args: &Args) -> u8 {
             Ok(one) => found.push(one),
             Err(error) => {
                 output::show(&error);
-                failures.push((file.display().to_string(), errors::text(&error, advice::told)));
+                failures.push((standard_input::named(file).display().to_string(), errors::text(&error, advice::told)));
             }
         }
     }

@@ -4,10 +4,9 @@ use std::path::PathBuf;
 
 use clap::builder::PossibleValuesParser;
 
-use super::load::reference_names;
+use super::load::{plain, reference_names};
 use super::{advice, number, output};
 use crate::report::plan as report;
-use crate::scenario::Scenario;
 use analytic::range::explained;
 use linkage::error::Result;
 use workshop::diagram::plan::state_at;
@@ -25,7 +24,7 @@ link 3 under A, which slides on it, k1, k2, ... ends of Coriolis parts; points o
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Args {
-    /// Scenario file
+    /// Scenario file; `-` for standard input
     #[arg(value_name = "FILE")]
     file: PathBuf,
     /// Crank angle in degrees, as the scenario states it [default: that of the start]
@@ -44,7 +43,7 @@ pub(super) struct Args {
 }
 
 pub(super) fn plan(args: &Args) -> Result<()> {
-    let scenario = Scenario::load(&args.file)?;
+    let scenario = plain(&args.file)?;
     let is_free = scenario.case.is_free();
     let scenario = scenario.nominal();
     let case = &scenario.case;

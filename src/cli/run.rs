@@ -14,7 +14,7 @@ use super::grid::GridArgs;
 use super::jobs::{Room, side_by_side};
 use super::load::{StartArgs, only, reference_names};
 use super::progress::Shared;
-use super::{advice, exit_code, number, output, terminal};
+use super::{advice, exit_code, number, output, standard_input, terminal};
 use crate::compare::Verdict;
 use crate::files;
 use crate::proof::{EngineProof, Entry, Proof, memory, prove_with};
@@ -49,7 +49,7 @@ Exit codes: 0 all agree, 1 something disagrees, 2 bad input or usage, 3 nothing 
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Args {
-    /// Scenario files
+    /// Scenario files; `-` for standard input
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
     /// Analytic solver that the engine is compared with; the other one checks it
@@ -155,8 +155,6 @@ struct Session<'a> {
     outcomes: Outcomes,
     closing: Closing,
     worst: u8,
-    /// The recordings of this command: path and scenario.
-    written: BTreeMap<PathBuf, String>,
 }
 
 impl<'a> Session<'a> {
@@ -167,7 +165,6 @@ impl<'a> Session<'a> {
             outcomes: Outcomes::told_by(advice::told),
             closing: Closing::default(),
             worst: exit_code::AGREE,
-            written: BTreeMap::new(),
         }
     }
 
@@ -178,8 +175,9 @@ impl<'a> Session<'a> {
 
     fn failed(&mut self, file: &Path, error: &Error) {
         output::show(error);
-        self.document.add_failure(&file.display().to_string(), error);
-        self.outcomes.add_failure(&file.display().to_string(), error);
+        let named = standard_input::named(file).display().to_string();
+        self.document.add_failure(&named, error);
+        self.outcomes.add_failure(&named, error);
         self.worst = exit_code::BAD_INPUT;
     }
 
@@ -196,7 +194,7 @@ impl<'a> Session<'a> {
             Ok(shown) => shown,
             Err(error) => {
                 self.failed(file, &error);
-                self.closing.add_failure(&file.display().to_string());
+                self.closing.add_failure(&standard_input::named(file).display().to_string());
                 return;
             }
         };
@@ -247,23 +245,25 @@ impl<'a> Session<'a> {
         }
     }
 
-    /// Records a proof, unless recording is off.
-    fn record(&mut self, scenario: &Scenario, proof: &Proof) -> Result<Option<PathBuf>> {
+    /// Records a proof, unless recording is off. A recording of another run is left alone.
+    fn record(&self, scenario: &Scenario, proof: &Proof) -> Result<Option<PathBuf>> {
         let args = self.args;
         if args.no_record {
             return Ok(None);
         }
-        let path = args.record.join(format!("{}.mcap", scenario.name));
-        let first = self.written.entry(path.clone()).or_insert_with(|| scenario.text.clone());
-        if *first != scenario.text {
-            let message =
-                format!("{} holds another scenario of this command, also called {}", path.display(), scenario.name);
-            return Err(Error::new(ErrorKind::Input, message)
-                .help("change the `name` of one of the two, or run them one by one with different --record"));
-        }
-        write_recording(scenario, proof, args, &path)?;
+        let directory = &args.record;
+        fs::create_dir_all(directory).map_err(|error| {
+            Error::new(ErrorKind::Io, format!("the directory {} cannot be made: {error}", directory.display()))
+                .help("name another directory with --record, or use --no-record")
+        })?;
+        let metadata = metadata(args, proof);
+        let recorder::Place { path, other } = recorder::place(directory, &scenario.name, &scenario.text, &metadata)?;
+        write_recording(scenario, proof, &metadata, &path)?;
         if self.reports() && !args.quiet {
-            output::print(&format!("\nrecording  {}\n", path.display()))?;
+            let why = other.map_or(String::new(), |found| {
+                format!("\n           {}.mcap is of another run and is kept: {found}", scenario.name)
+            });
+            output::print(&format!("\nrecording  {}{why}\n", path.display()))?;
         }
         Ok(Some(path))
     }
@@ -297,6 +297,7 @@ impl<'a> Session<'a> {
 
 /// Proves a file when there is room for it.
 fn prove_file(args: &Args, file: &Path, room: &Room, index: usize, bar: &Shared) -> Result<(Scenario, Proof)> {
+    standard_input::refuse_writing(file, args.write)?;
     let scenario = only(args.start.load(file, &args.grid)?, &args.only)?;
     let options = args.engine.options(&args.reference);
     let needed = memory::of_proof(&scenario.case, options.engines.len().max(1));
@@ -325,14 +326,9 @@ fn write_settings(file: &Path, scenario: &Scenario, proof: &Proof) -> Result<()>
     }
 }
 
-fn write_recording(scenario: &Scenario, proof: &Proof, args: &Args, path: &Path) -> Result<()> {
-    let directory = &args.record;
-    fs::create_dir_all(directory).map_err(|error| {
-        Error::new(ErrorKind::Io, format!("the directory {} cannot be made: {error}", directory.display()))
-            .help("name another directory with --record, or use --no-record")
-    })?;
+/// Versions, settings and verdict, and what the command asks for beyond the scenario's text.
+fn metadata(args: &Args, proof: &Proof) -> BTreeMap<String, String> {
     let mut metadata = recorded::metadata(proof);
-    // The scenario text in the recording does not contain what is asked for on the command line.
     if !args.start.mode.is_empty() {
         metadata.insert("modes".into(), args.start.mode.join(" "));
     }
@@ -340,8 +336,15 @@ fn write_recording(scenario: &Scenario, proof: &Proof, args: &Args, path: &Path)
         let set: Vec<String> = args.start.set.iter().map(|(key, value)| format!("{key}={value}")).collect();
         metadata.insert("parameters".into(), set.join(" "));
     }
+    if !args.only.is_empty() {
+        metadata.insert("only".into(), args.only.join(" "));
+    }
     metadata.extend(args.start.start_crank_deg.map(|degrees| ("start_crank_deg".into(), degrees.to_string())));
     metadata.extend(args.grid.told().map(|(name, values)| (format!("grid_{name}"), values.to_string())));
+    metadata
+}
+
+fn write_recording(scenario: &Scenario, proof: &Proof, metadata: &BTreeMap<String, String>, path: &Path) -> Result<()> {
     let mut sides = vec![Side { name: "reference", trajectory: &proof.reference_trajectory }];
     for engine in &proof.engines {
         let name = if proof.engines.len() == 1 { "engine" } else { engine.info.name };
@@ -351,7 +354,7 @@ fn write_recording(scenario: &Scenario, proof: &Proof, args: &Args, path: &Path)
     let recording = Recording {
         name: &scenario.name,
         scenario_text: &scenario.text,
-        metadata: &metadata,
+        metadata,
         mechanism: &proof.scene.case.mechanism,
         sides: &sides,
         errors: proof.engine().errors.as_ref(),

@@ -30,7 +30,7 @@ Columns: t_s, crank_rad, then link.NAME, point.NAME, joint.NAME and drive channe
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Args {
-    /// Scenario file
+    /// Scenario file; `-` for standard input
     #[arg(value_name = "FILE")]
     file: PathBuf,
     /// Solver: an analytic one or an engine

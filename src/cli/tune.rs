@@ -6,8 +6,9 @@ use std::time::Instant;
 
 use super::engine_args::EngineArgs;
 use super::engine_section::{self, keys};
+use super::load::plain;
 use super::progress::Bar;
-use super::{number, output};
+use super::{number, output, standard_input};
 use crate::report::tune as report;
 use crate::scenario::{EngineKeys, Scenario, edit};
 use crate::tune::{Candidate, Wish, tune};
@@ -33,7 +34,7 @@ const LONG: f64 = 0.1;
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Args {
-    /// Scenario file
+    /// Scenario file; `-` for standard input
     #[arg(value_name = "FILE")]
     file: PathBuf,
     /// Largest error wanted, as a share of each channel's scale
@@ -53,7 +54,8 @@ pub(super) struct Args {
 }
 
 pub(super) fn run(args: &Args) -> Result<()> {
-    let scenario = Scenario::load(&args.file)?;
+    standard_input::refuse_writing(&args.file, args.write)?;
+    let scenario = plain(&args.file)?;
     let wish = Wish { within: args.within, channels: args.channel.clone() };
     let mut options = args.engine.options("assur");
     if options.engines.is_empty() {
@@ -81,7 +83,8 @@ pub(super) fn run(args: &Args) -> Result<()> {
         Some(to) => output::write(&report::json(&scenario, &found, args.within), to),
         None => {
             let section = edit::engine_section(best_keys(&scenario, &found.best));
-            let place = report::Section { text: &section, file: &args.file, is_written: args.write };
+            let place =
+                report::Section { text: &section, file: standard_input::named(&args.file), is_written: args.write };
             let hints = report::Hints { why: &|engine| format!("`linkproof run --engine {engine}`"), write: "--write" };
             output::print(&report::text(&scenario, &found, args.within, &place, hints))
         }

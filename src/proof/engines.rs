@@ -11,7 +11,7 @@ use super::options::Chosen;
 use super::order;
 use super::own_forces::{ForceFault, OwnForces};
 use super::runs::{Bank, FEWER, other_sweeps};
-use super::settle::{End, Free, Search, Settling};
+use super::settle::{End, FIRST, Free, Search, Settling};
 use crate::compare::{Check, Verdict, difference, overall};
 use crate::engines::coarse_step;
 use crate::numbers::error;
@@ -19,6 +19,7 @@ use crate::scenario::Scenario;
 use linkage::case::Case;
 use linkage::engine::{Engine, Settings};
 use linkage::error::{Advice, Error, ErrorKind, Result};
+use linkage::math::KeepNan;
 use linkage::trajectory::Trajectory;
 
 /// One engine's part of a proof.
@@ -88,18 +89,27 @@ pub(super) fn prove(
     });
     let (judged, search) = match found {
         Ok(found) => found,
-        Err(Stopped { error, kept }) => {
+        Err(Stopped { error, kept, spent }) => {
+            // Without work for finer steps nobody knows whether the engine fails or only its coarse steps.
+            let (verdict, failure) = match spent {
+                None => (Verdict::open(error.message()), Some(error)),
+                Some(budget) => {
+                    let reason = format!("the work that was allowed is done, and no run stands: {}", error.message());
+                    let advice = vec![Advice::MoreWork { to: FIRST.larger(10.0 * budget) }];
+                    (Verdict::Inconclusive { reason, advice }, None)
+                }
+            };
             return Ok(EngineProof {
                 info: describe(engine),
                 search: None,
                 channels: Vec::new(),
                 checks: Vec::new(),
                 own_forces: None,
-                verdict: Verdict::open(error.message()),
+                verdict,
                 trajectory: kept.map(|kept| *kept),
                 errors: None,
                 kept: Vec::new(),
-                failure: Some(error),
+                failure,
             });
         }
     };

@@ -90,11 +90,13 @@ impl Observed {
 pub(super) struct Stopped {
     pub(super) error: Error,
     pub(super) kept: Option<Box<Trajectory>>,
+    /// Work that was allowed, if other settings were left to try and only work was not.
+    pub(super) spent: Option<f64>,
 }
 
 impl From<Error> for Stopped {
     fn from(error: Error) -> Self {
-        Stopped { error, kept: None }
+        Stopped { error, kept: None, spent: None }
     }
 }
 
@@ -157,7 +159,7 @@ pub(super) fn observe(
     };
     if let Err(error) = solver.sweep(case, &mut visit, progress) {
         let kept = sampler.so_far(case).map(Box::new);
-        return Err(Stopped { error, kept });
+        return Err(Stopped { error, kept, spent: None });
     }
     if !steady {
         // A free motion has only its nominal speed in the case, and may be much faster. An engine's may be rounding.

@@ -178,5 +178,5 @@ fn in_ladder(stopped: Stopped, what: &str, asked: Settings, controls_error: bool
     };
     // Values to try start from the settings that the user asked for.
     let advised = |advice: Advice| advice.from_settings(asked.resolution, controls_error, asked.sweeps);
-    Stopped { error: stopped.error.map_message(told).map_advice(advised), kept: None }
+    Stopped { error: stopped.error.map_message(told).map_advice(advised), kept: None, spent: None }
 }

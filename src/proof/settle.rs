@@ -78,7 +78,7 @@ const MOST_TIMES: usize = 4;
 /// Coarsest step that is tried against rounding, in units of the first one.
 const COARSEST: f64 = 16.0;
 /// Work of the first runs that is done whatever is allowed: without them nothing can be told.
-const FIRST: f64 = 2e5;
+pub(super) const FIRST: f64 = 2e5;
 /// Failed runs after which more sweeps are tried instead of a smaller step.
 const FAILURES: usize = 6;
 /// Rounds of a search that is not long.
@@ -286,7 +286,7 @@ impl<'a, 'b> Settling<'a, 'b> {
                 }
                 Ok((best.judged, search))
             }
-            (None, Some(stopped)) => Err(stopped),
+            (None, Some(stopped)) => Err(Stopped { spent: (end == End::Budget).then_some(self.budget), ..stopped }),
             (None, None) => unreachable!("a round ends with a trial or a failure"),
         }
     }

@@ -19,6 +19,7 @@
 //! fields named like the suffixes of [`CHANNELS`](linkage::trajectory::CHANNELS). The field numbers are looked up in
 //! the file.
 
+mod beside;
 mod forces;
 mod guides;
 mod messages;
@@ -32,10 +33,12 @@ mod schema;
 mod shapes;
 mod write;
 
+pub use beside::Place;
 pub use recording::{Level, LogEntry, Recording, Side};
 
 use linkage::error::Result;
 use linkage::trajectory::Trajectory;
+use std::collections::BTreeMap;
 use std::path::Path;
 
 /// Writes a recording to `path`, by way of a temporary file. So only a complete recording replaces an older one.
@@ -46,6 +49,15 @@ use std::path::Path;
 /// grid is not finite.
 pub fn write(recording: &Recording, path: &Path) -> Result<()> {
     write::write(recording, path)
+}
+
+/// Where the recording of a run goes: `NAME.mcap` in the directory, or `NAME-2.mcap`, ... if that is one of another
+/// run. `text` is the scenario's, and `metadata` as in [`Recording`].
+///
+/// # Errors
+/// [`ErrorKind::Io`](linkage::ErrorKind::Io) if there are a thousand recordings of other runs.
+pub fn place(directory: &Path, name: &str, text: &str, metadata: &BTreeMap<String, String>) -> Result<Place> {
+    beside::place(directory, name, text, metadata)
 }
 
 /// Reads every side of a recording, in the order in which they were recorded.

@@ -5,8 +5,9 @@ use std::path::{Path, PathBuf};
 
 use super::tell::Tell;
 use crate::scenario::Scenario;
+use linkage::case::Case;
 use linkage::error::Result;
-use linkage::trajectory::{CHANNELS, Channel};
+use linkage::trajectory::{CHANNELS, Channel, Subject};
 
 /// The scenario files of a directory with title and structure, or the reason why a file cannot be read.
 pub(crate) fn scenarios(directory: &Path, all: &[(Result<Scenario>, PathBuf)], tell: Tell) -> String {
@@ -43,6 +44,47 @@ pub(crate) fn channels() -> String {
         let _ = writeln!(text, "{name:40} {:8} {:26} with \"{}\"", kind.unit, kind.quantity, kind.stage.name());
     }
     text
+}
+
+/// Every channel of a case with its unit, its meaning and the stage that it is computed with.
+pub(crate) fn channels_of(case: &Case) -> String {
+    let rows: Vec<[String; 4]> = case
+        .all_channels()
+        .iter()
+        .map(|own| [own.to_string(), own.kind.unit.to_string(), meaning(own, case), own.kind.stage.name().into()])
+        .collect();
+    let width = |column: usize| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or_default();
+    let (name, meaning) = (width(0), width(2));
+    let mut text = String::new();
+    for [own, unit, what, stage] in &rows {
+        let _ = writeln!(text, "{own:name$}  {unit:8} {what:meaning$}  with \"{stage}\"");
+    }
+    text
+}
+
+/// What a channel of a case means, in words.
+fn meaning(channel: &Channel, case: &Case) -> String {
+    let (mechanism, of, quantity) = (&case.mechanism, channel.of.as_str(), channel.kind.quantity);
+    let name = |link: usize| mechanism.links()[link].name.as_str();
+    let what = match channel.kind.subject {
+        Subject::Link => format!("{quantity} of link {of}"),
+        Subject::Point => format!("{quantity}, {of}"),
+        Subject::Joint | Subject::Slider => match mechanism.joint_named(of).map(|index| &mechanism.joints()[index]) {
+            Some(joint) => format!("{quantity} in {of}, {} on {}", name(joint.first.link), name(joint.second.link)),
+            None => format!("{quantity} in {of}"),
+        },
+        Subject::Frame => format!("{quantity} on the frame"),
+        Subject::Drive => format!("{quantity} on link {}", name(case.crank().link)),
+        Subject::Motor => match case.drives.iter().find(|drive| mechanism.joints()[drive.joint].name == of) {
+            Some(drive) => format!("{quantity} on link {}", name(drive.link)),
+            None => format!("{quantity} of the drive at {of}"),
+        },
+    };
+    let letters = channel.kind.suffix.split('_').next().unwrap_or_default();
+    match letters.chars().next_back().filter(|_| letters.len() <= 2) {
+        Some(axis @ ('x' | 'y')) => format!("{what}, along world {axis}"),
+        _ => what,
+    }
 }
 
 /// Names of the analytic solvers, then names and versions of the engines.

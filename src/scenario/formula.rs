@@ -217,6 +217,21 @@ impl Formulas {
     }
 }
 
+/// What is wrong with the range (rad) and the error of a claim: the key `to` or `error`, a message and the way out.
+#[must_use]
+pub fn fault_of_claim(
+    valid: [Option<f64>; 2],
+    error: Option<f64>,
+) -> Option<(&'static str, &'static str, &'static str)> {
+    if let [Some(from), Some(to)] = valid
+        && !(from <= to)
+    {
+        return Some(("to", "the last crank angle is less than the first", "exchange them"));
+    }
+    let is_wrong = error.is_some_and(|error| !(error > 0.0) || !error.is_finite());
+    is_wrong.then_some(("error", "a claimed error must be a positive number", "leave it out if the formula is exact"))
+}
+
 /// An error of a text that is no key of a file, such as an argument: `what` it is.
 #[must_use]
 pub fn refused(what: &str, text: &str, fault: &Fault) -> Error {
@@ -250,16 +265,9 @@ fn formula(table: &mut Table, formulas: &mut Formulas, all: &[Channel]) -> Resul
         table.optional_quantity("from", &unit::ANGLE, Sign::Any)?,
         table.optional_quantity("to", &unit::ANGLE, Sign::Any)?,
     ];
-    if let [Some(from), Some(to)] = valid
-        && from > to
-    {
-        let message = "the last crank angle is less than the first";
-        return Err(table.wrong(ErrorKind::Input, "to", message).help("exchange them"));
-    }
     let error = table.optional_number("error")?;
-    if error.is_some_and(|error| error <= 0.0) {
-        let message = "a claimed error must be positive";
-        return Err(table.wrong(ErrorKind::Input, "error", message).help("leave it out if the formula is exact"));
+    if let Some((key, message, help)) = fault_of_claim(valid, error) {
+        return Err(table.wrong(ErrorKind::Input, key, message).help(help));
     }
     if claimed.is_none() {
         let of_claim = ["from_deg", "to_deg", "from_rad", "to_rad", "error"];

@@ -152,7 +152,15 @@ impl Scenario {
     /// Those of [`Scenario::load`], and [`ErrorKind::Input`] without a place in the file if a group, its mode or its
     /// number is not known.
     pub fn load_as(path: &Path, asked: &Asked) -> Result<Scenario> {
-        Ok(parse(&text_of(path)?, path, asked, false)?.0)
+        Scenario::parse_as(&text_of(path)?, path, asked)
+    }
+
+    /// The same from the text of the file.
+    ///
+    /// # Errors
+    /// Those of [`Scenario::load_as`], except that the file cannot be read.
+    pub fn parse_as(text: &str, path: &Path, asked: &Asked) -> Result<Scenario> {
+        Ok(parse(text, path, asked, false)?.0)
     }
 
     /// As [`Scenario::load_as`], for a list of configurations: groups for which the file does not decide are placed in
@@ -161,7 +169,15 @@ impl Scenario {
     /// # Errors
     /// Those of [`Scenario::load_as`], except that nothing decides for a group.
     pub fn load_to_list(path: &Path, asked: &Asked) -> Result<(Scenario, Vec<Undecided>)> {
-        let (scenario, mut undecided) = parse(&text_of(path)?, path, asked, true)?;
+        Scenario::parse_to_list(&text_of(path)?, path, asked)
+    }
+
+    /// The same from the text of the file.
+    ///
+    /// # Errors
+    /// Those of [`Scenario::load_to_list`], except that the file cannot be read.
+    pub fn parse_to_list(text: &str, path: &Path, asked: &Asked) -> Result<(Scenario, Vec<Undecided>)> {
+        let (scenario, mut undecided) = parse(text, path, asked, true)?;
         undecided.sort_by_key(|undecided| undecided.group);
         Ok((scenario, undecided))
     }

@@ -72,7 +72,10 @@ const ROOMS: &[(&str, &str)] = &[
     ("linkproof::outside", "bench"),
     ("linkproof::proof", "claims compare diagnosis engines numbers scenario tolerance"),
     ("linkproof::record", "files"),
-    ("linkproof::report", "accept bench claims compare diagnosis mutate numbers proof record scenario stress tune versus"),
+    (
+        "linkproof::report",
+        "accept bench claims compare diagnosis mutate numbers proof record scenario stress tune versus",
+    ),
     ("linkproof::scenario", "files"),
     ("linkproof::specimens", "scenario"),
     ("linkproof::stress", "compare engines proof scenario specimens"),

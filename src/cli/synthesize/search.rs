@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::target::{scenario_target, write_scenario};
+use crate::cli::load::plain;
 use crate::cli::{output, progress};
 use crate::report::synthesis::{self as report, Story};
 use crate::scenario::task_file::TaskFile;
@@ -104,7 +105,7 @@ fn comment(args: &Args, task: &Task, achieved: &Achieved) -> String {
 
 pub(super) fn check(args: &CheckArgs) -> Result<()> {
     let TaskFile { task, drawing } = TaskFile::load(&args.file)?;
-    let scenario = Scenario::load(&args.scenario)?;
+    let scenario = plain(&args.scenario)?;
     let names =
         |scenario: &Scenario| scenario.case.mechanism.links().iter().map(|link| link.name.clone()).collect::<Vec<_>>();
     if names(&scenario) != names(&drawing) || scenario.case.structure != drawing.case.structure {

@@ -175,7 +175,7 @@ fn what_cannot_be_written_is_named_with_a_way_out() {
         (format!("solve {scenario} --with assur --csv plain/out.csv"), "plain/out.csv"),
         (format!("inspect {scenario} --json plain/out.json"), "plain/out.json"),
     ] {
-        place.refused(&command, &[path, "help: "]);
+        place.refused(&command, &[path, "expected "]);
     }
     assert_eq!(fs::read_to_string(place.path("plain")).unwrap(), "a file, not a directory");
     place.refused(&format!("run {scenario} --no-record --record there"), &["cannot be used with"]);

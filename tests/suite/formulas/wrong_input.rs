@@ -69,7 +69,7 @@ fn what_is_wrong_is_shown_with_its_place_and_the_way_out() {
         ),
         ("check scenarios/crank_rocker.toml phi --channel 3", ["names no channel", "link.rocker.angle_deg"]),
         ("check scenarios/crank_rocker.toml", ["no formula", "channel"]),
-        (&format!("check scenarios/crank_rocker.toml phi {to} --error -1"), ["greater than 0", "--error"]),
+        (&format!("check scenarios/crank_rocker.toml phi {to} --error -1"), ["--error", "greater than 0"]),
         (&format!("check scenarios/crank_rocker.toml phi {to} --set phi=1"), ["meaning", "another name"]),
         (&format!("check scenarios/crank_rocker.toml phi {to} --let t=1"), ["meaning", "another name"]),
         (&format!("check scenarios/crank_rocker.toml phi {to} --set a_mm=1 --set a_m=2"), ["stand for", "unit"]),
