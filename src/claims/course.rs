@@ -1,6 +1,6 @@
 //! What a side found, with how well it knows it.
 
-use crate::scenario::{Claim, Formula, PrintedChannel};
+use crate::scenario::{Claim, Figure, Formula, PrintedChannel};
 use formula::{Function, Operator, Rounded};
 use linkage::case::Case;
 use linkage::error::{Error, ErrorKind, Result};
@@ -14,6 +14,8 @@ pub struct Course<'a> {
     crank: [Option<usize>; 2],
     /// Angle of a crank that moves under forces, where the side has it: it is known as well as it was integrated.
     angle: Option<usize>,
+    /// Figures of the whole mechanism, in SI.
+    figures: &'a [(Figure, Rounded)],
 }
 
 /// One column in the unit of a claim.
@@ -80,7 +82,13 @@ impl<'a> Course<'a> {
             trajectory.channels().iter().position(|own| *own == channel)
         };
         let angle = case.is_free().then(|| of("angle_rad")).flatten();
-        Course { trajectory, error, crank: ["omega_rad_s", "alpha_rad_s2"].map(of), angle }
+        Course { trajectory, error, crank: ["omega_rad_s", "alpha_rad_s2"].map(of), angle, figures: &[] }
+    }
+
+    /// The same with figures of the whole mechanism, in SI.
+    #[must_use]
+    pub fn with_figures(self, figures: &'a [(Figure, Rounded)]) -> Self {
+        Course { figures, ..self }
     }
 
     pub(super) fn len(&self) -> usize {
@@ -113,14 +121,27 @@ impl<'a> Course<'a> {
         [phi, Rounded::nearly(self.times()[row]), omega, alpha]
     }
 
-    /// Number of derivatives of a claim that the side has channels for.
+    /// Number of derivatives of a claim that the side has channels for. Figures are numbers and have none.
     ///
     /// # Errors
-    /// If a channel of the claim itself is missing.
+    /// If a channel or figure of the claim itself is missing.
     pub(super) fn orders(&self, claim: &Claim) -> Result<usize> {
         self.channels(claim, 0)?;
+        self.figures(claim)?;
+        if claim.channels.is_empty() {
+            return Ok(0);
+        }
         let own = (1..=2).take_while(|&order| self.channels(claim, order).is_ok()).count();
         Ok(own.min(self.crank.iter().take_while(|column| column.is_some()).count()))
+    }
+
+    /// The figures of a claim.
+    pub(super) fn figures(&self, claim: &Claim) -> Result<Vec<Rounded>> {
+        let of = |(name, figure): &(String, Figure)| {
+            let found = self.figures.iter().find(|(own, _)| own == figure);
+            found.map(|(_, number)| *number).ok_or_else(|| missing(name))
+        };
+        claim.figures.iter().map(of).collect()
     }
 
     /// The columns of a claim's channels, then of their rates, and of the rates of those, up to an order.
@@ -152,6 +173,6 @@ impl<'a> Course<'a> {
     }
 }
 
-fn missing(channel: &Channel) -> Error {
-    Error::new(ErrorKind::Input, format!("{channel} was not asked for"))
+fn missing(what: &dyn std::fmt::Display) -> Error {
+    Error::new(ErrorKind::Input, format!("{what} was not asked for"))
 }

@@ -41,7 +41,7 @@ pub fn judge(scenario: &Scenario) -> Result<Claimed> {
     let scene = Scenario { case, oracles: Vec::new(), ..scenario.clone() };
     let explain = |error| explained(&scene.case, error);
     let mut ledger = Ledger::default();
-    let sides = Sides::of([&scene, &scene], TRUE_SIDES, Reference::Assur, &mut ledger).map_err(explain)?;
+    let sides = Sides::of([&scene, scenario], TRUE_SIDES, Reference::Assur, &mut ledger).map_err(explain)?;
     let verdict = sides.verdict();
     let judgement = sides.judgement.ok_or_else(|| {
         Error::new(ErrorKind::Input, "no claimed channel was solved")

@@ -215,7 +215,8 @@ pub fn json(scenario: &Scenario, claimed: &Claimed, tell: Tell) -> String {
                     Outcome::Wrong => "disagree",
                 },
                 "cause": cause(claimed, &judged.name).flatten().map(cause_json),
-                "judged": judged.judged, "lost": judged.lost, "scale": judged.scale,
+                "judged": judged.judged, "lost": judged.lost, "undefined": judged.undefined,
+                "scale": judged.scale,
                 "first": judged.since.as_ref().map(at), "worst": judged.worst.as_ref().map(at),
             })
         };

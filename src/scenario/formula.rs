@@ -1,15 +1,14 @@
 //! `[[formula]]`: formulas as they were derived, and the channels that they claim.
 
+use super::claim::Claim;
 use super::parameters::{INPUTS, Parameter, fault_of_name};
-use super::printed::PrintedChannel;
 use super::reader::{Sign, Table};
 use super::unit;
-use super::words::{nearest, suggestion};
-use formula::{Fault, Graph, Id, Operator, Rounded, Shape, Tree};
+use super::words::suggestion;
+use formula::{Fault, Graph, Id, Rounded, Tree};
 use linkage::case::Case;
 use linkage::error::{Error, ErrorKind, Place, Result};
 use linkage::math::KeepNan;
-use linkage::trajectory::Channel;
 
 /// The crank's angular velocity, as a diagnosis names it.
 pub const OMEGA: &str = "omega_crank";
@@ -47,17 +46,6 @@ pub struct Formula {
     pub error: Option<f64>,
 }
 
-/// A channel, or an arithmetic of channels, in the units of their names.
-#[derive(Clone, Debug)]
-pub struct Claim {
-    /// Its text.
-    pub text: String,
-    /// The text as it was read. Its names are those of the channels.
-    pub tree: Tree,
-    /// The channels with their names in the text.
-    pub channels: Vec<(String, PrintedChannel)>,
-}
-
 impl Formula {
     /// Whether it is claimed to hold at a crank angle (rad). The ends belong to the range, rounding included.
     #[must_use]
@@ -65,67 +53,6 @@ impl Formula {
         let slack = 1e-9 * crank.abs().larger(1.0);
         let [from, to] = self.valid;
         from.is_none_or(|from| crank >= from - slack) && to.is_none_or(|to| crank <= to + slack)
-    }
-}
-
-impl Claim {
-    /// Reads a claim; every channel must be one of `all`.
-    ///
-    /// # Errors
-    /// What is wrong, with its place in the text.
-    pub fn parse(text: &str, all: &[Channel]) -> std::result::Result<Claim, Fault> {
-        let whole = || Tree { shape: Shape::Name(text.into()), at: 0..text.len() };
-        // A name may have signs in it that mean something in an arithmetic.
-        let is_channel = PrintedChannel::named(text).is_some_and(|found| all.contains(&found.channel));
-        let tree = if is_channel { whole() } else { Tree::parse(text)? };
-        let mut channels: Vec<(String, PrintedChannel)> = Vec::new();
-        for (name, at) in tree.names() {
-            if channels.iter().any(|(own, _)| own == name) {
-                continue;
-            }
-            let found = PrintedChannel::named(name).filter(|found| all.contains(&found.channel));
-            let Some(found) = found else {
-                let known: Vec<String> = all.iter().map(Channel::to_string).collect();
-                let near = nearest(name, known.iter().map(String::as_str));
-                let help = match near {
-                    Some(near) => format!("did you mean `{near}`?"),
-                    None => "name one of this scenario, such as link.rocker.angle_deg or point.B.x_mm".into(),
-                };
-                return Err(Fault { message: format!("there is no channel {name} here"), at, help });
-            };
-            channels.push((name.into(), found));
-        }
-        if channels.is_empty() {
-            let help = "name a channel, such as link.rocker.angle_deg".to_string();
-            return Err(Fault { message: "the claim names no channel".into(), at: 0..text.len(), help });
-        }
-        Ok(Claim { text: text.into(), tree, channels })
-    }
-
-    /// Unit of its numbers; empty for an arithmetic of several channels.
-    #[must_use]
-    pub fn unit(&self) -> &'static str {
-        match (&self.tree.shape, self.turn()) {
-            (_, Some(360.0)) => "deg",
-            (Shape::Name(_), _) => self.channels[0].1.unit_symbol(),
-            _ => "",
-        }
-    }
-
-    /// A turn in its unit, if it is an angle, or a sum and difference of angles: values a turn apart mean the same.
-    #[must_use]
-    pub fn turn(&self) -> Option<f64> {
-        fn is_sum(tree: &Tree) -> bool {
-            match &tree.shape {
-                Shape::Number(_) | Shape::Name(_) => true,
-                Shape::Negative(part) => is_sum(part),
-                Shape::Pair(Operator::Plus | Operator::Minus, parts) => parts.iter().all(is_sum),
-                Shape::Pair(Operator::Times | Operator::Over | Operator::Power, _) | Shape::Call(..) => false,
-            }
-        }
-        let turns: Vec<Option<f64>> = self.channels.iter().map(|(_, channel)| channel.turn()).collect();
-        let first = turns[0]?;
-        (is_sum(&self.tree) && turns.iter().all(|turn| *turn == Some(first))).then_some(first)
     }
 }
 
@@ -227,7 +154,6 @@ pub fn refused(what: &str, text: &str, fault: &Fault) -> Error {
 /// All formulas of a scenario.
 pub(super) fn read(parameters: Vec<Parameter>, tables: Vec<Table>, case: &Case) -> Result<Formulas> {
     let mut formulas = Formulas::over(parameters);
-    let all = case.all_channels();
     for mut table in tables {
         let name = table.string("name")?;
         formulas.check_name(&name).map_err(|error| {
@@ -261,7 +187,7 @@ pub(super) fn read(parameters: Vec<Parameter>, tables: Vec<Table>, case: &Case) 
         }
         let formula = formulas.add(&name, &text).map_err(|fault| table.fault_in("expression", &fault))?;
         if let Some(claimed) = claimed {
-            let claim = Claim::parse(&claimed, &all).map_err(|fault| table.fault_in("channel", &fault))?;
+            let claim = Claim::parse(&claimed, case).map_err(|fault| table.fault_in("channel", &fault))?;
             formula.claim = Some(claim);
         }
         (formula.source, formula.valid, formula.error) = (source, valid, error);

@@ -3,6 +3,7 @@
 
 mod asked;
 pub mod catalogue;
+mod claim;
 mod clearance;
 mod correction;
 pub mod edit;
@@ -23,6 +24,7 @@ mod parameters;
 mod printed;
 mod reader;
 pub mod redraw;
+mod reduced;
 mod series;
 mod settings;
 mod source;
@@ -34,7 +36,8 @@ mod tests;
 pub mod unit;
 mod words;
 
-pub use self::formula::{Claim, Formula, Formulas};
+pub use self::claim::Claim;
+pub use self::formula::{Formula, Formulas};
 pub use asked::{Asked, Undecided};
 pub use figure::{Figure, FigureValue, OracleFigure};
 pub use oracle::{Oracle, OracleBasis};
@@ -205,7 +208,9 @@ impl Scenario {
             oracle.figures.clear();
         }
         self.oracles.retain(|oracle| !oracle.series.is_empty());
-        let is_wanted = |claim: &Claim| claim.channels.iter().all(|(_, own)| wanted.contains(&own.channel));
+        let is_wanted = |claim: &Claim| {
+            claim.figures.is_empty() && claim.channels.iter().all(|(_, own)| wanted.contains(&own.channel))
+        };
         for formula in &mut self.formulas.list {
             formula.claim = formula.claim.take().filter(|claim| is_wanted(claim));
         }

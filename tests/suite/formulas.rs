@@ -3,6 +3,7 @@
 mod library;
 mod parameters;
 mod planted;
+mod reduced;
 mod wrong_input;
 
 use std::path::{Path, PathBuf};
