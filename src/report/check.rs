@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use super::cells::table;
 use super::pretty::pretty;
 use super::tell::Tell;
-use crate::claims::{At, Cause, Judged, Outcome, WORDS};
+use crate::claims::{At, Cause, Judged, Missing, Outcome, Term, WORDS};
 use crate::compare::Verdict;
 use crate::proof::claimed::Claimed;
 use crate::scenario::{Formula, Scenario};
@@ -88,7 +88,7 @@ pub fn text(scenario: &Scenario, claimed: &Claimed, tell: Tell) -> String {
             continue;
         }
         match cause(claimed, &line.judged.name) {
-            Some(Some(found @ Cause::Leaves { .. })) => {
+            Some(Some(found @ (Cause::Leaves { .. } | Cause::Mostly { .. }))) => {
                 let _ = writeln!(text, "  cause  {found}.");
             }
             Some(Some(found)) => {
@@ -179,12 +179,21 @@ fn cause_json(cause: &Cause) -> Value {
     let words = cause.to_string();
     match cause {
         Cause::Slip(slip) => json!({
-            "kind": slip.kind.words(), "in": slip.formula, "written": slip.written, "right": slip.right, "words": words,
+            "kind": slip.kind.words(), "in": slip.formula, "written": slip.written, "right": slip.right,
+            "everywhere": slip.everywhere, "words": words,
         }),
         Cause::Offset(offset) => json!({ "kind": "an offset", "offset": offset, "words": words }),
         Cause::Factor(factor) => json!({ "kind": "a factor", "factor": factor, "words": words }),
-        Cause::Term { coefficient, term } => {
-            json!({ "kind": "a missing term", "coefficient": coefficient, "term": term, "words": words })
+        Cause::Missing(Missing { formula, beside, what, is_factor }) => json!({
+            "kind": if *is_factor { "a missing factor" } else { "a missing term" },
+            "in": formula, "beside": beside, "missing": what, "words": words,
+        }),
+        Cause::Terms(terms) => {
+            let term = |term: &Term| json!({ "coefficient": term.coefficient, "factor": term.factor, "of": term.of });
+            json!({ "kind": "missing terms", "terms": terms.iter().map(term).collect::<Vec<_>>(), "words": words })
+        }
+        Cause::Mostly { cause, left } => {
+            json!({ "kind": "for the most part", "cause": cause_json(cause), "left": left, "words": words })
         }
         Cause::Leaves { after, before } => json!({
             "kind": "another branch", "after_deg": after.to_degrees(), "before_deg": before.to_degrees(), "words": words,

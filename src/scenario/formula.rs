@@ -13,6 +13,9 @@ use linkage::math::KeepNan;
 /// The crank's angular velocity, as a diagnosis names it.
 pub const OMEGA: &str = "omega_crank";
 
+/// A number that a diagnosis looks for, which no formula can name.
+pub const UNKNOWN: &str = "?";
+
 /// The formulas of a scenario over their parameters, the crank angle and time.
 #[derive(Clone, Debug)]
 pub struct Formulas {
@@ -21,7 +24,7 @@ pub struct Formulas {
     /// The formulas, in the order of the file: each may use those before it.
     pub list: Vec<Formula>,
     /// All of them, over the crank angle (rad, as the scenario states it), the time (s), and without names the crank's
-    /// angular velocity (rad/s) and angular acceleration (rad/s^2).
+    /// angular velocity (rad/s) and angular acceleration (rad/s^2), and a number that a diagnosis looks for.
     pub graph: Graph,
 }
 
@@ -60,7 +63,7 @@ impl Formulas {
     /// Formulas over some parameters: none yet.
     #[must_use]
     pub fn over(parameters: Vec<Parameter>) -> Self {
-        let mut graph = Graph::new(&INPUTS, 2);
+        let mut graph = Graph::new(&INPUTS, 3);
         for (name, number) in parameters.iter().flat_map(Parameter::names) {
             let id = graph.constant(number);
             graph.name(name, id);
@@ -107,27 +110,31 @@ impl Formulas {
         Fault { help, ..fault }
     }
 
-    /// What `then` makes of the formula `of` with another tree in the formula `index`: formulas that use it follow.
-    /// Afterwards everything is as before. `None` if a name is not known.
-    pub fn with_tree<T>(
+    /// What `then` makes of the formula `of` with other trees in the formulas `changed`, each with its index: formulas
+    /// that use them follow. [`OMEGA`] and [`UNKNOWN`] are known there. Afterwards everything is as before. `None` if
+    /// a name is not known.
+    pub fn with_trees<T>(
         &mut self,
-        (index, tree): (usize, &Tree),
+        changed: &[(usize, Tree)],
         of: usize,
-        then: impl FnOnce(&Graph, Id) -> T,
+        then: impl FnOnce(&mut Graph, Id) -> T,
     ) -> Option<T> {
+        let first = changed.iter().map(|(index, _)| *index).min()?;
         let list = &self.list;
         self.graph.meanwhile(|graph| {
             if !graph.knows(OMEGA) {
                 graph.name(OMEGA, graph.input(2));
             }
+            graph.name(UNKNOWN, graph.input(4));
             // A name stands for the formula before it, as when the file was read.
-            let mut changed = None;
-            for (own, formula) in list.iter().enumerate().take(of + 1).skip(index) {
-                let id = graph.add(if own == index { tree } else { &formula.tree }).ok()?;
+            let mut last = None;
+            for (own, formula) in list.iter().enumerate().take(of + 1).skip(first) {
+                let other = changed.iter().find(|(index, _)| *index == own).map(|(_, tree)| tree);
+                let id = graph.add(other.unwrap_or(&formula.tree)).ok()?;
                 graph.name(&formula.name, id);
-                changed = Some(id);
+                last = Some(id);
             }
-            changed.map(|id| then(graph, id))
+            last.map(|id| then(graph, id))
         })
     }
 

@@ -1,5 +1,6 @@
 //! Formulas: the library of textbook results is right, spoiled ones are found and explained, and a user is understood.
 
+mod diagnosis;
 mod library;
 mod parameters;
 mod planted;

@@ -263,3 +263,17 @@ fn what_was_added_meanwhile_is_forgotten() {
     assert_relative_eq!(found[0].value, 4.0 + 2f64.sin());
     assert_relative_eq!(found[1].value, 4.0 + 2f64.cos());
 }
+
+/// The place of a node may be taken by another one afterwards: what was known of the first is no derivative of it.
+#[test]
+fn derivatives_taken_meanwhile_are_forgotten() {
+    let mut graph = Graph::new(&["x", "y"], 0);
+    graph.constant(Rounded::exact(0.0));
+    graph.meanwhile(|graph| {
+        let other = graph.add(&Tree::parse("sin(y)").unwrap()).unwrap();
+        graph.derivative(other, 0);
+    });
+    let own = graph.add(&Tree::parse("sin(x)").unwrap()).unwrap();
+    let slope = graph.derivative(own, 0);
+    assert_eq!(Program::of(&graph, &[slope]).run(&[Rounded::exact(0.0)])[0].value, 1.0);
+}
