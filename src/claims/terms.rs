@@ -56,7 +56,8 @@ pub(super) fn of(trial: &Trial, course: &Course, dimensions: &Dimensions) -> Res
     let singles = (0..bases.len()).map(|one| vec![one]);
     let pairs = (0..bases.len()).flat_map(|one| (one + 1..bases.len()).map(move |other| vec![one, other]));
     // What explains all of it with its complexity, and what explains most with the share that it leaves.
-    let (mut whole, mut most): (Option<(usize, Vec<Term>)>, Option<(f64, Vec<usize>)>) = (None, None);
+    let mut whole: Option<(usize, Vec<Term>)> = None;
+    let mut most: Option<(f64, Vec<usize>)> = None;
     for chosen in singles.chain(pairs) {
         let Some((coefficients, left)) = fitted(&bases, &chosen, &differences, &trial.few) else { continue };
         if left < 1e-6 && explains(trial, &bases, &chosen, &coefficients, &differences) {

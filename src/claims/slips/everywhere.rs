@@ -36,10 +36,9 @@ pub(super) fn mended(formulas: &Formulas, used: &[usize], names: &[&str]) -> Vec
                 with_function(tree, &|own| if own == from { to } else { own })
             });
         }
-        let exchanged = |own: Function| match own {
-            Function::Sin => Function::Cos,
-            Function::Cos => Function::Sin,
-            other => other,
+        let exchanged = |own: Function| {
+            let other = [(Function::Sin, Function::Cos), (Function::Cos, Function::Sin)];
+            other.into_iter().find(|(from, _)| *from == own).map_or(own, |(_, to)| to)
         };
         put(Kind::Function, "sin and cos".into(), "cos and sin".into(), &|tree| with_function(tree, &exchanged));
     }
