@@ -2,16 +2,18 @@
 
 use std::fmt;
 
-use super::judged::Pair;
+use super::Course;
+use super::dimension::Dimensions;
+use super::missing::{Missing, missing};
 use super::slips::{Slip, mended};
-use super::{Course, Judge, Judged, Outcome};
+use super::terms::{self, Term};
+use super::trial::Trial;
 use crate::numbers::{fixed, significant};
-use crate::scenario::{Claim, Formula, Formulas};
-use formula::Program;
+use crate::scenario::Formulas;
 use linkage::error::Result;
 use linkage::math::KeepNan;
 
-/// The simplest explanation of a wrong formula: with it granted, nothing is left over.
+/// The simplest explanation of a wrong formula: with it granted, nothing is left over, unless it says so.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Cause {
     /// One slip of the pen.
@@ -20,13 +22,10 @@ pub enum Cause {
     Offset(f64),
     /// Too large by the same factor everywhere.
     Factor(f64),
-    /// A term is missing: its coefficient, in the unit of the claim, and its text.
-    Term {
-        /// Its coefficient.
-        coefficient: f64,
-        /// Its text.
-        term: &'static str,
-    },
+    /// A term or factor of the derivation is missing.
+    Missing(Missing),
+    /// Terms are missing that the mechanism has.
+    Terms(Vec<Term>),
     /// It is right up to a crank angle (rad) and then another branch.
     Leaves {
         /// The last crank angle at which it is right.
@@ -34,17 +33,38 @@ pub enum Cause {
         /// The first at which it is not.
         before: f64,
     },
+    /// Nothing simple explains all of it; this explains most.
+    Mostly {
+        /// What explains most of it.
+        cause: Box<Cause>,
+        /// Share of the difference that stays over when it is granted.
+        left: f64,
+    },
 }
 
 impl fmt::Display for Cause {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Cause::Slip(Slip { formula, kind, written, right }) => {
-                write!(f, "{}, in {formula}: `{right}` instead of `{written}`", kind.words())
+            Cause::Slip(Slip { formula, kind, written, right, everywhere }) => {
+                let wherever = if *everywhere { " wherever it stands" } else { "" };
+                write!(f, "{}, in {formula}: `{right}` instead of `{written}`{wherever}", kind.words())
             }
             Cause::Offset(offset) => write!(f, "{} too much everywhere", significant(*offset, 6)),
             Cause::Factor(factor) => write!(f, "too large by the factor {} everywhere", significant(*factor, 6)),
-            Cause::Term { coefficient, term } => write!(f, "a missing term, {}*{term}", significant(*coefficient, 6)),
+            Cause::Missing(Missing { formula, beside, what, is_factor }) => {
+                let noun = match is_factor {
+                    true if what.starts_with('/') => "divisor, or a factor too many",
+                    true => "factor",
+                    false => "term",
+                };
+                let beside = beside.as_ref().map_or(String::new(), |part| format!(" beside `{part}`"));
+                write!(f, "a missing {noun}, in {formula}: `{what}`{beside}")
+            }
+            Cause::Terms(terms) => {
+                let noun = if terms.len() == 1 { "a missing term" } else { "missing terms" };
+                let terms: Vec<String> = terms.iter().map(Term::to_string).collect();
+                write!(f, "{noun}, {}", terms.join(" and "))
+            }
             Cause::Leaves { after, before } => {
                 let [after, before] = [after, before].map(|crank| fixed(crank.to_degrees(), 3));
                 write!(
@@ -53,119 +73,127 @@ impl fmt::Display for Cause {
                      atan2 in place of acos, asin or atan follows it"
                 )
             }
+            Cause::Mostly { cause, left } => {
+                write!(f, "for the most part {cause}; with that, {:.2} % of the difference stays over", 100.0 * left)
+            }
         }
     }
 }
 
-/// Instants at which every slip is tried first.
-const FIRST: usize = 7;
+impl fmt::Display for Term {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let factor = self.factor.clone().unwrap_or_else(|| format!("{:.6e}", self.coefficient));
+        let (sign, factor) = factor.strip_prefix('-').map_or(("+", factor.as_str()), |size| ("-", size));
+        match self.of.as_str() {
+            "" => write!(f, "`{sign} {factor}`"),
+            of => write!(f, "`{sign} {factor}*{of}`"),
+        }
+    }
+}
+
+impl Cause {
+    /// Whether nothing is left over when it is granted.
+    #[must_use]
+    pub fn is_whole(&self) -> bool {
+        !matches!(self, Cause::Mostly { .. })
+    }
+}
+
+/// Share of the difference that an explanation may leave and still be told.
+const MOST_LEFT: f64 = 0.1;
 
 /// Why the formula called `name` is wrong on a course; `None` if it claims nothing, or nothing simple explains it.
 ///
 /// # Errors
 /// If the course lacks a channel of the claim.
 pub fn cause(formulas: &Formulas, name: &str, course: &Course) -> Result<Option<Cause>> {
-    match formulas.claims().find(|(formula, _)| formula.name == name) {
-        Some((formula, claim)) => find(formulas, formula, claim, course),
-        None => Ok(None),
-    }
-}
-
-/// The cause of a formula that a course contradicts; `None` if nothing simple explains it.
-///
-/// # Errors
-/// If the course lacks a channel of the claim.
-fn find(formulas: &Formulas, formula: &Formula, claim: &Claim, course: &Course) -> Result<Option<Cause>> {
-    let Some(index) = formulas.list.iter().position(|own| own.name == formula.name) else { return Ok(None) };
-    let all = course.rows(formula);
-    let mut judge = Judge::of_values(formulas, formula, claim);
-    let pairs = judge.pairs(course, &all)?;
-    let step = all.len().div_ceil(FIRST).max(1);
-    // Neither the first instant nor the last alone: much is zero there.
-    let few: Vec<usize> = (0..all.len()).skip(step / 2).step_by(step).collect();
-    let (mut changed, every): (Formulas, Vec<usize>) = (formulas.clone(), (0..all.len()).collect());
-    for tried in mended(formulas, index) {
-        let fits = changed.with_tree((tried.index, &tried.tree), index, |graph, id| {
-            let mut program = Program::of(graph, &[id]);
-            let mut fits = |places: &[usize]| {
-                let pairs: Vec<Pair> = places
-                    .iter()
-                    .map(|&place| Pair { formula: program.run(&course.inputs(all[place]))[0], ..pairs[place] })
-                    .collect();
-                let judged = Judged::of((formula, claim), 0, claim.turn(), pairs.iter().copied());
-                judged.outcome() == Outcome::Right && judged.lost == 0
-            };
-            fits(&few) && fits(&every)
-        });
-        if fits == Some(true) {
-            return Ok(Some(Cause::Slip(tried.slip)));
+    let Some(index) = formulas.list.iter().position(|own| own.name == name) else { return Ok(None) };
+    let Some(claim) = &formulas.list[index].claim else { return Ok(None) };
+    let mut trial = Trial::of(formulas, index, claim, course)?;
+    let rows = trial.rows();
+    let number = of_numbers(&rows);
+    let dimensions = Dimensions::of(formulas, index, claim);
+    let mut nearest: Option<(f64, Slip)> = None;
+    let mut has_sought = false;
+    for tried in mended(formulas, index, &dimensions) {
+        // What is missing comes before slips whose units do not fit together.
+        if !tried.is_sound && !has_sought {
+            has_sought = true;
+            if let Some(found) = missing(&mut trial, &dimensions, number.is_some()) {
+                return Ok(Some(Cause::Missing(found)));
+            }
+        }
+        match trial.left(&tried.changed, 0.0) {
+            Some(0.0) => return Ok(Some(Cause::Slip(tried.slip))),
+            // A simpler one that leaves hardly more is nearer.
+            Some(left) if nearest.as_ref().is_none_or(|(least, _)| left < 0.8 * least) => {
+                nearest = Some((left, tried.slip));
+            }
+            Some(_) | None => {}
         }
     }
-    Ok(left_over(formula, claim, &pairs))
+    if !has_sought && let Some(found) = missing(&mut trial, &dimensions, number.is_some()) {
+        return Ok(Some(Cause::Missing(found)));
+    }
+    if number.is_some() {
+        return Ok(number);
+    }
+    let terms = terms::of(&trial, course, &dimensions)?;
+    if let Some(found) = terms.as_ref().filter(|found| found.left == 0.0) {
+        return Ok(Some(Cause::Terms(found.terms.clone())));
+    }
+    if let Some(found) = leaves(&rows, formulas.list[index].error.is_none()) {
+        return Ok(Some(found));
+    }
+    let by_slip = nearest.map(|(left, slip)| (left, Cause::Slip(slip)));
+    let by_terms = terms.map(|found| (found.left, Cause::Terms(found.terms)));
+    let most = [by_slip, by_terms].into_iter().flatten().filter(|(left, _)| *left <= MOST_LEFT);
+    let most = most.min_by(|one, other| one.0.total_cmp(&other.0));
+    Ok(most.map(|(left, cause)| Cause::Mostly { cause: Box::new(cause), left }))
 }
 
-/// A term's text, and its value at a crank angle (rad) and time (s).
-type Term = (&'static str, fn(f64, f64) -> f64);
+/// Formula and mechanism at an instant: time, crank, formula without whole turns, mechanism, bound.
+pub(super) type Row = [f64; 5];
 
-/// Terms that a derivation loses.
-const TERMS: [Term; 6] = [
-    ("cos(phi)", |phi, _| phi.cos()),
-    ("sin(phi)", |phi, _| phi.sin()),
-    ("cos(2*phi)", |phi, _| (2.0 * phi).cos()),
-    ("sin(2*phi)", |phi, _| (2.0 * phi).sin()),
-    ("phi", |phi, _| phi),
-    ("t", |_, t| t),
-];
-
-/// What the numbers of a wrong formula say where no slip explains them.
-fn left_over(formula: &Formula, claim: &Claim, pairs: &[Pair]) -> Option<Cause> {
-    let of = |pair: &Pair| {
-        let difference = pair.formula.value - pair.mechanism.value;
-        let turns = claim.turn().map_or(0.0, |turn| turn * (difference / turn).round());
-        let bound = pair.formula.error + pair.mechanism.error + formula.error.unwrap_or(0.0);
-        [pair.place[0], pair.place[1], pair.formula.value - turns, pair.mechanism.value, bound]
-    };
-    let rows: Vec<[f64; 5]> = pairs.iter().map(of).collect();
-    of_numbers(&rows, formula.error.is_none())
+impl Trial<'_> {
+    fn rows(&self) -> Vec<Row> {
+        let of = |(place, pair): (usize, &super::judged::Pair)| {
+            let mechanism = pair.mechanism.value;
+            let formula = mechanism + self.difference(pair.formula.value, place);
+            [pair.place[0], pair.place[1], formula, mechanism, self.bound(place)]
+        };
+        self.pairs.iter().enumerate().map(of).collect()
+    }
 }
 
-/// What may be said of a course of formula and mechanism with their bounds, by instants: time, crank, formula,
-/// mechanism, bound.
-fn of_numbers(rows: &[[f64; 5]], may_leave: bool) -> Option<Cause> {
+/// An offset or a factor, if either is all that is wrong.
+fn of_numbers(rows: &[Row]) -> Option<Cause> {
     if rows.len() < 3 || rows.iter().any(|row| !row[2].is_finite()) {
         return None;
     }
-    let left = |row: &[f64; 5]| row[2] - row[3];
+    let left = |row: &Row| row[2] - row[3];
     let largest = |column: usize| rows.iter().map(|row| row[column].abs()).fold(0.0, f64::larger);
     // A coefficient that is taken from the numbers themselves is as well known as they are.
     let slack = 8.0 * f64::EPSILON * (largest(2) + largest(3));
-    let fits = |explained: &dyn Fn(&[f64; 5]) -> f64| {
-        rows.iter().all(|row| (left(row) - explained(row)).abs() <= 4.0 * row[4] + slack)
-    };
-    let by = |basis: &dyn Fn(&[f64; 5]) -> f64| {
+    let by = |basis: &dyn Fn(&Row) -> f64| {
         let [above, below] = rows.iter().fold([0.0, 0.0], |[above, below], row| {
             let basis = basis(row);
             [above + basis * left(row), below + basis * basis]
         });
         let coefficient = above / below;
-        (coefficient.is_finite() && fits(&|row| coefficient * basis(row))).then_some(coefficient)
+        let fits = rows.iter().all(|row| (left(row) - coefficient * basis(row)).abs() <= 4.0 * row[4] + slack);
+        (coefficient.is_finite() && fits).then_some(coefficient)
     };
-    if let Some(offset) = by(&|_| 1.0) {
-        return Some(Cause::Offset(offset));
-    }
-    if let Some(more) = by(&|row| row[3]) {
-        return Some(Cause::Factor(1.0 + more));
-    }
-    for (term, of) in TERMS {
-        if let Some(coefficient) = by(&|row| of(row[1], row[0])) {
-            return Some(Cause::Term { coefficient: -coefficient, term });
-        }
-    }
-    // Right up to somewhere, and wrong from there on.
-    let mut order: Vec<&[f64; 5]> = rows.iter().collect();
+    let offset = by(&|_| 1.0).map(Cause::Offset);
+    offset.or_else(|| by(&|row| row[3]).map(|more| Cause::Factor(1.0 + more)))
+}
+
+/// Right up to somewhere, and wrong from there on; an approximation is right by chance where it crosses.
+fn leaves(rows: &[Row], is_exact: bool) -> Option<Cause> {
+    let mut order: Vec<&Row> = rows.iter().collect();
     order.sort_by(|a, b| a[0].total_cmp(&b[0]));
-    let is_right = |row: &&[f64; 5]| left(row).abs() <= row[4];
+    let is_right = |row: &&Row| (row[2] - row[3]).abs() <= row[4];
     let right = order.iter().copied().take_while(is_right).count();
-    (may_leave && right >= 2 && right < order.len())
+    (is_exact && right >= 2 && right < order.len())
         .then(|| Cause::Leaves { after: order[right - 1][1], before: order[right][1] })
 }

@@ -1,19 +1,22 @@
 //! What a side found, with how well it knows it.
 
-use crate::scenario::{Claim, Formula, PrintedChannel};
+use crate::scenario::{Claim, Figure, Formula, PrintedChannel};
 use formula::{Function, Operator, Rounded};
 use linkage::case::Case;
 use linkage::error::{Error, ErrorKind, Result};
-use linkage::trajectory::{Channel, OfJoint, Reading, Trajectory};
+use linkage::trajectory::{Channel, OfJoint, OfLink, OfPoint, Reading, Trajectory};
 
 /// A side's trajectory, and how far every number of it is known (by column and row, in its SI unit).
 pub struct Course<'a> {
     trajectory: &'a Trajectory,
     error: &'a dyn Fn(usize, usize) -> f64,
+    crank_name: &'a str,
     /// Angular velocity and acceleration of the crank, where the side has them.
     crank: [Option<usize>; 2],
     /// Angle of a crank that moves under forces, where the side has it: it is known as well as it was integrated.
     angle: Option<usize>,
+    /// Figures of the whole mechanism, in SI.
+    figures: &'a [(Figure, Rounded)],
 }
 
 /// One column in the unit of a claim.
@@ -63,6 +66,14 @@ pub fn needed(claim: &Claim, case: &Case) -> Vec<Channel> {
     all
 }
 
+/// The channels that a diagnosis may find a missing term among: angles, velocities and accelerations of all links and
+/// points.
+#[must_use]
+pub fn telling(case: &Case) -> Vec<Channel> {
+    let of = |channel: &Channel| matches!(channel.kind.reading, Reading::Link(_) | Reading::Point(_));
+    case.all_channels().into_iter().filter(of).collect()
+}
+
 /// The other component of a vector whose magnitude is claimed.
 fn across(channel: &PrintedChannel) -> Option<Channel> {
     let is_other = |kind: &&'static linkage::trajectory::ChannelKind| kind.reading == Reading::Joint(OfJoint::ForceY);
@@ -73,14 +84,27 @@ fn across(channel: &PrintedChannel) -> Option<Channel> {
 impl<'a> Course<'a> {
     /// What a side found on a case; `error` says how far a number is known, by column and row.
     #[must_use]
-    pub fn new(case: &Case, trajectory: &'a Trajectory, error: &'a dyn Fn(usize, usize) -> f64) -> Self {
+    pub fn new(case: &'a Case, trajectory: &'a Trajectory, error: &'a dyn Fn(usize, usize) -> f64) -> Self {
         let crank = &case.mechanism.links()[case.crank().link].name;
         let of = |suffix: &str| {
             let channel = Channel::named(&format!("link.{crank}.{suffix}"))?;
             trajectory.channels().iter().position(|own| *own == channel)
         };
         let angle = case.is_free().then(|| of("angle_rad")).flatten();
-        Course { trajectory, error, crank: ["omega_rad_s", "alpha_rad_s2"].map(of), angle }
+        Course {
+            trajectory,
+            error,
+            crank_name: crank,
+            crank: ["omega_rad_s", "alpha_rad_s2"].map(of),
+            angle,
+            figures: &[],
+        }
+    }
+
+    /// The same with figures of the whole mechanism, in SI.
+    #[must_use]
+    pub fn with_figures(self, figures: &'a [(Figure, Rounded)]) -> Self {
+        Course { figures, ..self }
     }
 
     pub(super) fn len(&self) -> usize {
@@ -100,6 +124,32 @@ impl<'a> Course<'a> {
         (0..self.len()).filter(|&row| formula.holds_at(self.cranks()[row])).collect()
     }
 
+    /// Names of the links, except the crank, of which all is known here, with angle (rad), angular velocity and
+    /// angular acceleration.
+    pub(super) fn links(&self) -> impl Iterator<Item = (&str, [&[f64]; 3])> {
+        let channels = self.trajectory.channels();
+        let column = |channel: &Channel| {
+            let index = channels.iter().position(|own| own == channel)?;
+            self.trajectory.column_near(channel, index)
+        };
+        channels.iter().filter_map(move |angle| {
+            let is_angle = angle.kind.reading == Reading::Link(OfLink::Angle) && angle.of != self.crank_name;
+            let omega = angle.rate().filter(|_| is_angle)?;
+            let alpha = omega.rate()?;
+            Some((angle.of.as_str(), [column(angle)?, column(&omega)?, column(&alpha)?]))
+        })
+    }
+
+    /// Channels and columns of velocities and accelerations of points and mass centres.
+    pub(super) fn points(&self) -> impl Iterator<Item = (&Channel, &[f64])> {
+        let all = self.trajectory.channels().iter().enumerate();
+        let moving = all.filter(|(_, channel)| {
+            let (Reading::Point(of) | Reading::Link(OfLink::Centre(of))) = channel.kind.reading else { return false };
+            !matches!(of, OfPoint::X | OfPoint::Y)
+        });
+        moving.filter_map(|(index, own)| Some((own, self.trajectory.column_near(own, index)?)))
+    }
+
     /// The inputs of formulas at an instant.
     pub(super) fn inputs(&self, row: usize) -> [Rounded; 4] {
         let of = |column: Option<usize>| {
@@ -113,14 +163,27 @@ impl<'a> Course<'a> {
         [phi, Rounded::nearly(self.times()[row]), omega, alpha]
     }
 
-    /// Number of derivatives of a claim that the side has channels for.
+    /// Number of derivatives of a claim that the side has channels for. Figures are numbers and have none.
     ///
     /// # Errors
-    /// If a channel of the claim itself is missing.
+    /// If a channel or figure of the claim itself is missing.
     pub(super) fn orders(&self, claim: &Claim) -> Result<usize> {
         self.channels(claim, 0)?;
+        self.figures(claim)?;
+        if claim.channels.is_empty() {
+            return Ok(0);
+        }
         let own = (1..=2).take_while(|&order| self.channels(claim, order).is_ok()).count();
         Ok(own.min(self.crank.iter().take_while(|column| column.is_some()).count()))
+    }
+
+    /// The figures of a claim.
+    pub(super) fn figures(&self, claim: &Claim) -> Result<Vec<Rounded>> {
+        let of = |(name, figure): &(String, Figure)| {
+            let found = self.figures.iter().find(|(own, _)| own == figure);
+            found.map(|(_, number)| *number).ok_or_else(|| missing(name))
+        };
+        claim.figures.iter().map(of).collect()
     }
 
     /// The columns of a claim's channels, then of their rates, and of the rates of those, up to an order.
@@ -152,6 +215,6 @@ impl<'a> Course<'a> {
     }
 }
 
-fn missing(channel: &Channel) -> Error {
-    Error::new(ErrorKind::Input, format!("{channel} was not asked for"))
+fn missing(what: &dyn std::fmt::Display) -> Error {
+    Error::new(ErrorKind::Input, format!("{what} was not asked for"))
 }

@@ -12,7 +12,7 @@ pub struct Judge<'a> {
     claim: &'a Claim,
     /// The formula and its derivatives.
     own: Program,
-    /// The claim and its derivatives, over its channels, their rates and the rates of those.
+    /// The claim and its derivatives, over its figures, its channels, their rates and the rates of those.
     claimed: Program,
     orders: usize,
 }
@@ -32,9 +32,10 @@ impl<'a> Judge<'a> {
         }
         let mut own = vec![formula.id];
         let (mut graph, node) = graph_of(claim);
-        let count = claim.channels.len();
-        let rates: Vec<Option<Id>> =
-            (0..3 * count).map(|input| (input < 2 * count).then(|| graph.input(input + count))).collect();
+        let (numbers, count) = (claim.figures.len(), claim.channels.len());
+        let changes = numbers..numbers + 2 * count;
+        let rate = |input: usize| changes.contains(&input).then(|| graph.input(input + count));
+        let rates: Vec<Option<Id>> = (0..numbers + 3 * count).map(rate).collect();
         let mut claimed = vec![node];
         for order in 0..orders {
             let next = formulas.rate(own[order]);
@@ -71,10 +72,12 @@ impl<'a> Judge<'a> {
     /// Formula and mechanism at some rows of the course, by value and then by every derivative.
     pub(super) fn pairs(&mut self, course: &Course, rows: &[usize]) -> Result<Vec<Pair>> {
         let channels = course.channels(self.claim, self.orders)?;
-        let mut inputs = vec![Rounded::exact(0.0); channels.len()];
+        let mut inputs = course.figures(self.claim)?;
+        let numbers = inputs.len();
+        inputs.resize(numbers + channels.len(), Rounded::exact(0.0));
         let mut pairs = Vec::with_capacity(rows.len() * (self.orders + 1));
         for &row in rows {
-            for (input, channel) in inputs.iter_mut().zip(&channels) {
+            for (input, channel) in inputs[numbers..].iter_mut().zip(&channels) {
                 *input = channel.at(row);
             }
             let (formula, mechanism) = (self.own.run(&course.inputs(row)), self.claimed.run(&inputs));
@@ -86,10 +89,11 @@ impl<'a> Judge<'a> {
     }
 }
 
-/// A claim over its channels, their rates, and the rates of those.
+/// A claim over its figures, its channels, their rates, and the rates of those.
 pub(super) fn graph_of(claim: &Claim) -> (Graph, Id) {
-    let names: Vec<&str> = claim.channels.iter().map(|(name, _)| name.as_str()).collect();
-    let mut graph = Graph::new(&names, 2 * names.len());
+    let (figures, channels) = (claim.figures.iter().map(|(name, _)| name), claim.channels.iter().map(|(name, _)| name));
+    let names: Vec<&str> = figures.chain(channels).map(String::as_str).collect();
+    let mut graph = Graph::new(&names, 2 * claim.channels.len());
     let node = graph.add(&claim.tree).expect("a claim knows its channels");
     (graph, node)
 }

@@ -72,6 +72,8 @@ pub struct Judged {
     pub judged: usize,
     /// Number of instants at which the formula has lost so many digits that nothing can be said.
     pub lost: usize,
+    /// Number of instants at which the claim itself has no number, as what is reduced to a crank that rests.
+    pub undefined: usize,
     /// First instant beyond its bound.
     pub since: Option<At>,
     /// The instant that uses most of its bound.
@@ -96,7 +98,8 @@ impl Judged {
         turn: Option<f64>,
         course: impl Iterator<Item = Pair> + Clone,
     ) -> Self {
-        let scale = course.clone().map(|pair| pair.mechanism.value.abs()).fold(0.0, f64::larger);
+        let has_number = |pair: &Pair| pair.mechanism.value.is_finite() && pair.mechanism.error.is_finite();
+        let scale = course.clone().filter(has_number).map(|pair| pair.mechanism.value.abs()).fold(0.0, f64::larger);
         let mut own = Judged {
             name: formula.name.clone(),
             claim: claim.text.clone(),
@@ -105,11 +108,12 @@ impl Judged {
             claimed: formula.error.is_some(),
             judged: 0,
             lost: 0,
+            undefined: course.clone().filter(|pair| !has_number(pair)).count(),
             since: None,
             worst: None,
             scale,
         };
-        for Pair { place: [time, crank], formula: found, mechanism } in course {
+        for Pair { place: [time, crank], formula: found, mechanism } in course.filter(has_number) {
             let difference = found.value - mechanism.value;
             let difference = turn.map_or(difference, |turn| difference - turn * (difference / turn).round());
             let bound = formula.error.unwrap_or(0.0) + found.error + mechanism.error;
@@ -142,6 +146,10 @@ impl Judged {
         let open = |reason: String, advice: &str| Outcome::Open { reason, advice: vec![advice.into()] };
         let all = self.judged + self.lost;
         match self.worst {
+            None if all == 0 && self.undefined > 0 => open(
+                format!("the claim has no number at any of {} instants: it divides by zero", self.undefined),
+                "claim it where the crank turns",
+            ),
             None if all == 0 => open(
                 "no instant lies between the crank angles for which the formula is claimed".into(),
                 "let the grid come to them, or claim it for others",

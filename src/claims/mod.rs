@@ -5,16 +5,22 @@
 
 mod cause;
 mod course;
+mod dimension;
 mod judge;
 mod judged;
+mod missing;
 mod slips;
+mod terms;
+mod trial;
 mod values;
 
 pub use cause::{Cause, cause};
-pub use course::{Course, needed};
+pub use course::{Course, needed, telling};
 pub use judge::{Judge, judge};
 pub use judged::{At, Judged, Outcome};
+pub use missing::Missing;
 pub use slips::{Kind, Slip};
+pub use terms::Term;
 
 /// Which derivative with respect to time.
 pub const WORDS: [&str; 3] = ["", "first derivative", "second derivative"];

@@ -15,9 +15,11 @@ impl Course<'_> {
         let channels = self.channels(claim, 0)?;
         let (graph, node) = graph_of(claim);
         let mut program = Program::of(&graph, &[node]);
-        let mut inputs = vec![Rounded::exact(0.0); channels.len()];
+        let mut inputs = self.figures(claim)?;
+        let numbers = inputs.len();
+        inputs.resize(numbers + channels.len(), Rounded::exact(0.0));
         let mut at = |row: usize| {
-            for (input, channel) in inputs.iter_mut().zip(&channels) {
+            for (input, channel) in inputs[numbers..].iter_mut().zip(&channels) {
                 *input = channel.at(row);
             }
             program.run(&inputs)[0]

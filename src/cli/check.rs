@@ -39,7 +39,8 @@ pub(super) struct Args {
     /// Formula over phi, t, parameters and named formulas [default: every `[[formula]]` of the file]
     #[arg(value_name = "EXPR", requires = "channel", allow_hyphen_values = true)]
     expression: Option<String>,
-    /// What the formula claims to be: a channel such as link.rocker.angle_deg, or an arithmetic of channels
+    /// What the formula claims to be: a channel such as link.rocker.angle_deg, drive.reduced_inertia_kg_m2, or an
+    /// arithmetic of channels
     #[arg(long, value_name = "CHANNEL", requires = "expression", allow_hyphen_values = true)]
     channel: Option<String>,
     /// Step of the derivation: a formula with a name, which those after it and EXPR may use; may be given several times
@@ -110,8 +111,7 @@ fn asked(args: &Args) -> Result<Scenario> {
         scenario.formulas.check_name(name).map_err(|error| error.key("--let"))?;
         scenario.formulas.add(name, text).map_err(|fault| refused("--let", text, &fault))?;
     }
-    let all = scenario.case.all_channels();
-    let claim = Claim::parse(channel, &all).map_err(|fault| refused("--channel", channel, &fault))?;
+    let claim = Claim::parse(channel, &scenario.case).map_err(|fault| refused("--channel", channel, &fault))?;
     let formula = scenario.formulas.add("formula", expression).map_err(|fault| refused("EXPR", expression, &fault))?;
     formula.claim = Some(claim);
     formula.valid = [args.from_deg, args.to_deg].map(|degrees| degrees.map(f64::to_radians));

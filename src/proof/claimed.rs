@@ -4,12 +4,13 @@ use super::entrants::{Sides, TRUE_SIDES};
 use super::formulas::Judgement;
 use super::ledger::Ledger;
 use super::options::Reference;
-use crate::claims::needed;
+use crate::claims::{Cause, needed, telling};
 use crate::compare::{Check, Verdict};
 use crate::scenario::Scenario;
 use crate::tolerance::Basis;
 use analytic::range::explained;
 use linkage::error::{Error, ErrorKind, Result};
+use linkage::trajectory::Channel;
 
 /// What formulas come to on both sides.
 #[derive(Clone, Debug)]
@@ -20,6 +21,15 @@ pub struct Claimed {
     pub checks: Vec<Check>,
     /// The verdict on all of it.
     pub verdict: Verdict,
+}
+
+/// Both sides on what is asked of a scenario.
+fn solved(scenario: &Scenario, asked: &[Channel]) -> Result<Sides> {
+    let case = scenario.case.wanting_only(asked).scene()?.case;
+    let scene = Scenario { case, oracles: Vec::new(), ..scenario.clone() };
+    let mut ledger = Ledger::default();
+    let sides = Sides::of([&scene, scenario], TRUE_SIDES, Reference::Assur, &mut ledger);
+    sides.map_err(|error| explained(&scene.case, error))
 }
 
 /// Judges the formulas of a scenario. Only what they claim is solved, and what their derivatives need.
@@ -37,11 +47,13 @@ pub fn judge(scenario: &Scenario) -> Result<Claimed> {
             .key("formula")
             .help("add `channel` to a [[formula]], or give a formula as an argument; docs/formulas.md has examples"));
     }
-    let case = scenario.case.wanting_only(&asked).scene()?.case;
-    let scene = Scenario { case, oracles: Vec::new(), ..scenario.clone() };
-    let explain = |error| explained(&scene.case, error);
-    let mut ledger = Ledger::default();
-    let sides = Sides::of([&scene, &scene], TRUE_SIDES, Reference::Assur, &mut ledger).map_err(explain)?;
+    let mut sides = solved(scenario, &asked)?;
+    let is_open = |(_, cause): &(String, Option<Cause>)| !cause.as_ref().is_some_and(Cause::is_whole);
+    if let Some(own) = sides.judgement.as_mut().filter(|own| own.causes.iter().any(is_open)) {
+        // What is wrong may be a term that the mechanism has and nobody asked for.
+        asked.extend(telling(&scenario.case));
+        own.causes = solved(scenario, &asked)?.judgement.map_or_else(Vec::new, |judgement| judgement.causes);
+    }
     let verdict = sides.verdict();
     let judgement = sides.judgement.ok_or_else(|| {
         Error::new(ErrorKind::Input, "no claimed channel was solved")

@@ -7,11 +7,12 @@ use super::known::Known;
 use super::ledger::Ledger;
 use super::observe::{Observed, Watch, observe};
 use super::options::{Chosen, Reference};
-use super::{formulas, methods, oracle, sensitivity};
+use super::{figures, formulas, methods, oracle, sensitivity};
 use crate::claims::{self, Course, Judged, Outcome};
 use crate::compare::{Check, Verdict, overall};
-use crate::scenario::{Formulas, Scenario};
+use crate::scenario::{Figure, Formulas, Scenario};
 use analytic::{AssurSolver, NewtonSolver, TIGHT_ASSUR, TIGHT_NEWTON};
+use formula::Rounded;
 use linkage::case::Case;
 use linkage::engine::Engine;
 use linkage::error::Result;
@@ -62,6 +63,8 @@ pub(crate) struct Sides {
     pub(super) sensitivity: Vec<f64>,
     /// Checks on both, published numbers among them.
     pub(crate) checks: Vec<Check>,
+    /// Figures that formulas claim, by side 1 and side 2.
+    figures: [Vec<(Figure, Rounded)>; 2],
     /// What formulas come to, if any claims something.
     pub(super) judgement: Option<Judgement>,
 }
@@ -128,11 +131,15 @@ impl Sides {
                 checks.extend(ledger.done("published numbers", "solved at their own instants", numbers)?);
             }
         }
-        let mut own = Sides { order, observed: sides, known, sensitivity, checks, judgement: None };
+        let mut own =
+            Sides { order, observed: sides, known, sensitivity, checks, figures: Default::default(), judgement: None };
         match scenario.formulas.claims().next() {
             None => ledger.skipped("formulas", "none claims a wanted channel"),
             Some(_) => {
                 let judged = ledger.done("formulas", "by value and by derivative, on both sides", || {
+                    // As with published figures: means over a turn belong to the nominal motion.
+                    let (nominal, solvers) = (whole.clone().nominal(), entrants.map(|entrant| entrant.solver));
+                    own.figures = figures::claimed(&scenario.formulas, &nominal, solvers)?;
                     own.judged(case, &scenario.formulas)
                 })?;
                 own.checks.extend(formulas::checks(&judged));
@@ -170,7 +177,7 @@ impl Sides {
             // Both sides have the same channels in the same order.
             self.known.at(place, trajectory.channels()[column].kind.stage, column, row)
         };
-        then(&Course::new(case, trajectory, &error))
+        then(&Course::new(case, trajectory, &error).with_figures(&self.figures[side]))
     }
 
     /// What was observed of the reference.

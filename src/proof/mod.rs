@@ -9,6 +9,7 @@ mod doubt;
 mod engines;
 mod entrants;
 mod examined;
+mod figures;
 mod formulas;
 mod judge;
 mod known;

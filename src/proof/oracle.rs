@@ -1,18 +1,15 @@
 //! Numbers of other sources against both analytic sides.
 
+use super::figures::Measured;
 use crate::compare::{Check, Verdict, magnitudes};
-use crate::scenario::{
-    ExpectedCell, Figure, FigureValue, Oracle, OracleBasis, OraclePoint, OracleSeries, Scenario, When,
-};
+use crate::scenario::{ExpectedCell, FigureValue, Oracle, OracleBasis, OraclePoint, OracleSeries, Scenario, When};
 use crate::tolerance::{Basis, Origin, Tolerance};
-use analytic::reduced::means::{self as reduced, Means};
 use linkage::case::{Case, Grid, Wanted};
 use linkage::drive::Drive;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::KeepNan;
 use linkage::math::angle::wrapped;
-use linkage::mechanism::Side;
-use linkage::solver::{Solver, State};
+use linkage::solver::Solver;
 use linkage::trajectory::{Channel, Stage, Trajectory};
 
 /// One check for every series and figure of an oracle and for each analytic side.
@@ -211,7 +208,7 @@ fn of_figures(scenario: &Scenario, solvers: [&dyn Solver; 2]) -> Result<Vec<Chec
     let all = || scenario.oracles.iter().flat_map(|oracle| oracle.figures.iter().map(move |figure| (oracle, figure)));
     let mut values = [Vec::new(), Vec::new()];
     for (values, solver) in values.iter_mut().zip(solvers) {
-        let mut measured = Measured { scenario, solver, means: None };
+        let mut measured = Measured::of(scenario, solver);
         for (_, figure) in all() {
             values.push(measured.value(figure.figure)?);
         }
@@ -236,65 +233,6 @@ fn of_figures(scenario: &Scenario, solvers: [&dyn Solver; 2]) -> Result<Vec<Chec
         }
     }
     Ok(checks)
-}
-
-/// Figures computed by one analytic side. The means over a turn are computed once, if one is asked for.
-struct Measured<'a> {
-    scenario: &'a Scenario,
-    solver: &'a dyn Solver,
-    means: Option<Means>,
-}
-
-impl Measured<'_> {
-    fn value(&mut self, figure: Figure) -> Result<f64> {
-        Ok(match figure {
-            Figure::ReducedInertiaMean => self.means()?.inertia,
-            Figure::ReducedResistanceMean => self.means()?.resistance,
-            Figure::SteadyCrankSpeed => self.steady()?[0],
-            Figure::SteadyMotorSpeed => self.steady()?[1],
-            Figure::Distance(ends) => self.distance(ends)?,
-        })
-    }
-
-    fn means(&mut self) -> Result<Means> {
-        let found = match self.means {
-            Some(means) => means,
-            None => reduced::means_over_turn(&self.scenario.case, self.solver)?,
-        };
-        self.means = Some(found);
-        Ok(found)
-    }
-
-    /// Steady speeds of the crank and of the motor (rad/s).
-    fn steady(&mut self) -> Result<[f64; 2]> {
-        let case = &self.scenario.case;
-        // A scenario with this figure has one; a case that is changed afterwards may not.
-        let no_motor = || Error::new(ErrorKind::Input, "the steady speed needs a motor, and the crank has none");
-        let motor = case.crank().motor().ok_or_else(|| no_motor().help("add `[motor]`, or leave the figure out"))?;
-        // The motor acts in the direction in which the crank is driven.
-        let sense = case.crank().sense();
-        let resistance = sense * self.means()?.resistance;
-        let Some(speed) = motor.steady_speed(resistance) else {
-            return Err(reduced::no_steady_speed(resistance));
-        };
-        let crank = sense * speed;
-        Ok([crank, crank * motor.ratio])
-    }
-
-    /// Distance of two points at t = 0 by this side (m).
-    fn distance(&self, ends: [Side; 2]) -> Result<f64> {
-        let base = &self.scenario.case;
-        let grid = Grid::of_times(base.crank(), vec![0.0]);
-        let case = base.on(grid)?.wanting(Wanted::of(&[Stage::Positions]));
-        let mut distance = f64::NAN;
-        let mut visit = |_: usize, state: &State| {
-            let [first, second] = ends.map(|end| state.motions[end.link].point(end.local));
-            distance = (second - first).norm();
-            Ok(())
-        };
-        self.solver.each(&case, &mut visit)?;
-        Ok(distance)
-    }
 }
 
 /// Heading of the checks of an oracle.

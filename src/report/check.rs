@@ -9,7 +9,7 @@ use super::cells::{flush, trimmed};
 use super::pretty::pretty;
 use super::style::{self, wrapped};
 use super::tell::Tell;
-use crate::claims::{At, Cause, Judged, Outcome, WORDS};
+use crate::claims::{At, Cause, Judged, Missing, Outcome, Term, WORDS};
 use crate::compare::Verdict;
 use crate::numbers::{beside, error, fixed, fixed_in, with_unit};
 use crate::proof::claimed::Claimed;
@@ -143,7 +143,7 @@ fn reasons(lines: &[Line], claimed: &Claimed, tell: Tell, width: usize, text: &m
             continue;
         }
         let told = match cause(claimed, &line.judged.name) {
-            Some(Some(found @ Cause::Leaves { .. })) => format!("  cause  {found}."),
+            Some(Some(found @ (Cause::Leaves { .. } | Cause::Mostly { .. }))) => format!("  cause  {found}."),
             Some(Some(found)) => format!("  cause  {found}.\n         With that, nothing is left over."),
             Some(None) => "  cause  none that is simple: no single slip, offset, factor or term explains it.".into(),
             None => continue,
@@ -227,12 +227,21 @@ fn cause_json(cause: &Cause) -> Value {
     let words = cause.to_string();
     match cause {
         Cause::Slip(slip) => json!({
-            "kind": slip.kind.words(), "in": slip.formula, "written": slip.written, "right": slip.right, "words": words,
+            "kind": slip.kind.words(), "in": slip.formula, "written": slip.written, "right": slip.right,
+            "everywhere": slip.everywhere, "words": words,
         }),
         Cause::Offset(offset) => json!({ "kind": "an offset", "offset": offset, "words": words }),
         Cause::Factor(factor) => json!({ "kind": "a factor", "factor": factor, "words": words }),
-        Cause::Term { coefficient, term } => {
-            json!({ "kind": "a missing term", "coefficient": coefficient, "term": term, "words": words })
+        Cause::Missing(Missing { formula, beside, what, is_factor }) => json!({
+            "kind": if *is_factor { "a missing factor" } else { "a missing term" },
+            "in": formula, "beside": beside, "missing": what, "words": words,
+        }),
+        Cause::Terms(terms) => {
+            let term = |term: &Term| json!({ "coefficient": term.coefficient, "factor": term.factor, "of": term.of });
+            json!({ "kind": "missing terms", "terms": terms.iter().map(term).collect::<Vec<_>>(), "words": words })
+        }
+        Cause::Mostly { cause, left } => {
+            json!({ "kind": "for the most part", "cause": cause_json(cause), "left": left, "words": words })
         }
         Cause::Leaves { after, before } => json!({
             "kind": "another branch", "after_deg": after.to_degrees(), "before_deg": before.to_degrees(), "words": words,
@@ -263,7 +272,8 @@ pub fn json(scenario: &Scenario, claimed: &Claimed, tell: Tell) -> String {
                     Outcome::Wrong => "disagree",
                 },
                 "cause": cause(claimed, &judged.name).flatten().map(cause_json),
-                "judged": judged.judged, "lost": judged.lost, "scale": judged.scale,
+                "judged": judged.judged, "lost": judged.lost, "undefined": judged.undefined,
+                "scale": judged.scale,
                 "first": judged.since.as_ref().map(at), "worst": judged.worst.as_ref().map(at),
             })
         };

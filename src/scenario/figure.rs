@@ -62,18 +62,48 @@ impl Figure {
     }
 }
 
-/// Reads a figure that has a name in scenario files.
-type Reader = fn(&mut Table, &Case) -> Result<(Figure, String)>;
-
-/// Every figure: its name in scenario files, unit included, and its reader.
-const FIGURES: [(&str, Reader); 6] = [
-    ("reduced_inertia_mean_kg_m2", |_, _| Ok((Figure::ReducedInertiaMean, String::new()))),
-    ("reduced_resistance_mean_N_m", |_, _| Ok((Figure::ReducedResistanceMean, String::new()))),
-    ("steady_crank_speed_rad_s", |entry, case| with_motor(entry, case, Figure::SteadyCrankSpeed)),
-    ("steady_motor_speed_rad_s", |entry, case| with_motor(entry, case, Figure::SteadyMotorSpeed)),
-    ("distance_m", distance),
-    ("distance_mm", distance),
+/// Figures of the whole mechanism: their names in scenario files, unit included.
+const OF_MECHANISM: [(&str, Figure); 4] = [
+    ("reduced_inertia_mean_kg_m2", Figure::ReducedInertiaMean),
+    ("reduced_resistance_mean_N_m", Figure::ReducedResistanceMean),
+    ("steady_crank_speed_rad_s", Figure::SteadyCrankSpeed),
+    ("steady_motor_speed_rad_s", Figure::SteadyMotorSpeed),
 ];
+
+/// Names of the figures between two points.
+const OF_POINTS: [&str; 2] = ["distance_m", "distance_mm"];
+
+/// What the name of a figure begins with in a claim.
+const CLAIMED: &str = "figure.";
+
+impl Figure {
+    /// The names of all figures that a formula may claim.
+    pub(super) fn claims() -> impl Iterator<Item = String> {
+        OF_MECHANISM.iter().map(|(name, _)| format!("{CLAIMED}{name}"))
+    }
+
+    /// The figure that a claim names, `None` if it names none.
+    ///
+    /// # Errors
+    /// A figure that the case does not have: the message, and the way out.
+    pub(super) fn claimed(name: &str, case: &Case) -> Option<std::result::Result<Figure, (String, String)>> {
+        let name = name.strip_prefix(CLAIMED)?;
+        let (_, figure) = OF_MECHANISM.iter().find(|(own, _)| *own == name)?;
+        Some(figure.lacks(case).map_or(Ok(*figure), |(message, help)| Err((message.into(), help.into()))))
+    }
+
+    /// What a case lacks for the figure, and the way out.
+    fn lacks(self, case: &Case) -> Option<(&'static str, &'static str)> {
+        match self {
+            Figure::SteadyCrankSpeed | Figure::SteadyMotorSpeed if case.crank().motor().is_none() => Some((
+                "a steady speed needs a motor, and the scenario has none",
+                "add a `[motor]` section: its law, and the ratio of the reducer",
+            )),
+            Figure::SteadyCrankSpeed | Figure::SteadyMotorSpeed => None,
+            Figure::ReducedInertiaMean | Figure::ReducedResistanceMean | Figure::Distance(_) => None,
+        }
+    }
+}
 
 /// The figures of an oracle.
 pub(super) fn read(table: &mut Table, case: &Case) -> Result<Vec<OracleFigure>> {
@@ -83,7 +113,7 @@ pub(super) fn read(table: &mut Table, case: &Case) -> Result<Vec<OracleFigure>> 
         figures.extend(table.part(figure));
     }
     if figures.is_empty() {
-        let names = suggestion("", FIGURES.map(|(known, _)| known), "\"");
+        let names = suggestion("", names(), "\"");
         return Err(table.wrong(ErrorKind::Input, "figures", "there is no figure").help(names));
     }
     Ok(figures)
@@ -91,11 +121,17 @@ pub(super) fn read(table: &mut Table, case: &Case) -> Result<Vec<OracleFigure>> 
 
 fn one(entry: &mut Table, case: &Case) -> Result<OracleFigure> {
     let name = entry.string("figure")?;
-    let Some((_, reader)) = FIGURES.iter().find(|(known, _)| *known == name) else {
-        let error = entry.wrong(ErrorKind::Input, "figure", format!("there is no figure \"{name}\""));
-        return Err(error.help(suggestion(&name, FIGURES.map(|(known, _)| known), "\"")));
+    let (figure, of) = match OF_MECHANISM.iter().find(|(known, _)| *known == name) {
+        Some((_, figure)) => (*figure, String::new()),
+        None if OF_POINTS.contains(&name.as_str()) => distance(entry, case)?,
+        None => {
+            let error = entry.wrong(ErrorKind::Input, "figure", format!("there is no figure \"{name}\""));
+            return Err(error.help(suggestion(&name, names(), "\"")));
+        }
     };
-    let (figure, of) = reader(entry, case)?;
+    if let Some((message, help)) = figure.lacks(case) {
+        return Err(entry.wrong(ErrorKind::Input, "figure", message).help(help));
+    }
     let printed = number(entry)?;
     let correction = Correction::read(entry, &printed)?;
     entry.finish()?;
@@ -111,13 +147,8 @@ fn one(entry: &mut Table, case: &Case) -> Result<OracleFigure> {
     Ok(OracleFigure { figure, name, printed: of_number(&printed), wrong })
 }
 
-fn with_motor(entry: &mut Table, case: &Case, figure: Figure) -> Result<(Figure, String)> {
-    match case.crank().motor() {
-        Some(_) => Ok((figure, String::new())),
-        None => Err(entry
-            .wrong(ErrorKind::Input, "figure", "a steady speed needs a motor, and the scenario has none")
-            .help("add a `[motor]` section: its law, and the ratio of the reducer")),
-    }
+fn names() -> impl Iterator<Item = &'static str> {
+    OF_MECHANISM.into_iter().map(|(name, _)| name).chain(OF_POINTS)
 }
 
 fn distance(entry: &mut Table, case: &Case) -> Result<(Figure, String)> {

@@ -1,18 +1,20 @@
 //! `[[formula]]`: formulas as they were derived, and the channels that they claim.
 
+use super::claim::Claim;
 use super::parameters::{INPUTS, Parameter, fault_of_name};
-use super::printed::PrintedChannel;
 use super::reader::{Faults, Sign, Table};
 use super::unit;
-use super::words::{nearest, suggestion};
-use formula::{Fault, Graph, Id, Operator, Rounded, Shape, Tree};
+use super::words::suggestion;
+use formula::{Fault, Graph, Id, Rounded, Tree};
 use linkage::case::Case;
 use linkage::error::{Error, ErrorKind, Place, Result};
 use linkage::math::KeepNan;
-use linkage::trajectory::Channel;
 
 /// The crank's angular velocity, as a diagnosis names it.
 pub const OMEGA: &str = "omega_crank";
+
+/// A number that a diagnosis looks for, which no formula can name.
+pub const UNKNOWN: &str = "?";
 
 /// The formulas of a scenario over their parameters, the crank angle and time.
 #[derive(Clone, Debug)]
@@ -22,7 +24,7 @@ pub struct Formulas {
     /// The formulas, in the order of the file: each may use those before it.
     pub list: Vec<Formula>,
     /// All of them, over the crank angle (rad, as the scenario states it), the time (s), and without names the crank's
-    /// angular velocity (rad/s) and angular acceleration (rad/s^2).
+    /// angular velocity (rad/s) and angular acceleration (rad/s^2), and a number that a diagnosis looks for.
     pub graph: Graph,
 }
 
@@ -47,17 +49,6 @@ pub struct Formula {
     pub error: Option<f64>,
 }
 
-/// A channel, or an arithmetic of channels, in the units of their names.
-#[derive(Clone, Debug)]
-pub struct Claim {
-    /// Its text.
-    pub text: String,
-    /// The text as it was read. Its names are those of the channels.
-    pub tree: Tree,
-    /// The channels with their names in the text.
-    pub channels: Vec<(String, PrintedChannel)>,
-}
-
 impl Formula {
     /// Whether it is claimed to hold at a crank angle (rad). The ends belong to the range, rounding included.
     #[must_use]
@@ -68,72 +59,11 @@ impl Formula {
     }
 }
 
-impl Claim {
-    /// Reads a claim; every channel must be one of `all`.
-    ///
-    /// # Errors
-    /// What is wrong, with its place in the text.
-    pub fn parse(text: &str, all: &[Channel]) -> std::result::Result<Claim, Fault> {
-        let whole = || Tree { shape: Shape::Name(text.into()), at: 0..text.len() };
-        // A name may have signs in it that mean something in an arithmetic.
-        let is_channel = PrintedChannel::named(text).is_some_and(|found| all.contains(&found.channel));
-        let tree = if is_channel { whole() } else { Tree::parse(text)? };
-        let mut channels: Vec<(String, PrintedChannel)> = Vec::new();
-        for (name, at) in tree.names() {
-            if channels.iter().any(|(own, _)| own == name) {
-                continue;
-            }
-            let found = PrintedChannel::named(name).filter(|found| all.contains(&found.channel));
-            let Some(found) = found else {
-                let known: Vec<String> = all.iter().map(Channel::to_string).collect();
-                let near = nearest(name, known.iter().map(String::as_str));
-                let help = match near {
-                    Some(near) => format!("did you mean `{near}`?"),
-                    None => "name one of this scenario, such as link.rocker.angle_deg or point.B.x_mm".into(),
-                };
-                return Err(Fault { message: format!("there is no channel {name} here"), at, help });
-            };
-            channels.push((name.into(), found));
-        }
-        if channels.is_empty() {
-            let help = "name a channel, such as link.rocker.angle_deg".to_string();
-            return Err(Fault { message: "the claim names no channel".into(), at: 0..text.len(), help });
-        }
-        Ok(Claim { text: text.into(), tree, channels })
-    }
-
-    /// Unit of its numbers; empty for an arithmetic of several channels.
-    #[must_use]
-    pub fn unit(&self) -> &'static str {
-        match (&self.tree.shape, self.turn()) {
-            (_, Some(360.0)) => "deg",
-            (Shape::Name(_), _) => self.channels[0].1.unit_symbol(),
-            _ => "",
-        }
-    }
-
-    /// A turn in its unit, if it is an angle, or a sum and difference of angles: values a turn apart mean the same.
-    #[must_use]
-    pub fn turn(&self) -> Option<f64> {
-        fn is_sum(tree: &Tree) -> bool {
-            match &tree.shape {
-                Shape::Number(_) | Shape::Name(_) => true,
-                Shape::Negative(part) => is_sum(part),
-                Shape::Pair(Operator::Plus | Operator::Minus, parts) => parts.iter().all(is_sum),
-                Shape::Pair(Operator::Times | Operator::Over | Operator::Power, _) | Shape::Call(..) => false,
-            }
-        }
-        let turns: Vec<Option<f64>> = self.channels.iter().map(|(_, channel)| channel.turn()).collect();
-        let first = turns[0]?;
-        (is_sum(&self.tree) && turns.iter().all(|turn| *turn == Some(first))).then_some(first)
-    }
-}
-
 impl Formulas {
     /// Formulas over some parameters: none yet.
     #[must_use]
     pub fn over(parameters: Vec<Parameter>) -> Self {
-        let mut graph = Graph::new(&INPUTS, 2);
+        let mut graph = Graph::new(&INPUTS, 3);
         for (name, number) in parameters.iter().flat_map(Parameter::names) {
             let id = graph.constant(number);
             graph.name(name, id);
@@ -180,27 +110,31 @@ impl Formulas {
         Fault { help, ..fault }
     }
 
-    /// What `then` makes of the formula `of` with another tree in the formula `index`: formulas that use it follow.
-    /// Afterwards everything is as before. `None` if a name is not known.
-    pub fn with_tree<T>(
+    /// What `then` makes of the formula `of` with other trees in the formulas `changed`, each with its index: formulas
+    /// that use them follow. [`OMEGA`] and [`UNKNOWN`] are known there. Afterwards everything is as before. `None` if
+    /// a name is not known.
+    pub fn with_trees<T>(
         &mut self,
-        (index, tree): (usize, &Tree),
+        changed: &[(usize, Tree)],
         of: usize,
-        then: impl FnOnce(&Graph, Id) -> T,
+        then: impl FnOnce(&mut Graph, Id) -> T,
     ) -> Option<T> {
+        let first = changed.iter().map(|(index, _)| *index).min()?;
         let list = &self.list;
         self.graph.meanwhile(|graph| {
             if !graph.knows(OMEGA) {
                 graph.name(OMEGA, graph.input(2));
             }
+            graph.name(UNKNOWN, graph.input(4));
             // A name stands for the formula before it, as when the file was read.
-            let mut changed = None;
-            for (own, formula) in list.iter().enumerate().take(of + 1).skip(index) {
-                let id = graph.add(if own == index { tree } else { &formula.tree }).ok()?;
+            let mut last = None;
+            for (own, formula) in list.iter().enumerate().take(of + 1).skip(first) {
+                let other = changed.iter().find(|(index, _)| *index == own).map(|(_, tree)| tree);
+                let id = graph.add(other.unwrap_or(&formula.tree)).ok()?;
                 graph.name(&formula.name, id);
-                changed = Some(id);
+                last = Some(id);
             }
-            changed.map(|id| then(graph, id))
+            last.map(|id| then(graph, id))
         })
     }
 
@@ -242,9 +176,8 @@ pub fn refused(what: &str, text: &str, fault: &Fault) -> Error {
 /// The formulas of a scenario, but those with mistakes.
 pub(super) fn read(parameters: Vec<Parameter>, tables: Vec<Table>, case: &Case, faults: &mut Faults) -> Formulas {
     let mut formulas = Formulas::over(parameters);
-    let all = case.all_channels();
     for mut table in tables {
-        let read = faults.read(&mut table, |table| formula(table, &mut formulas, &all));
+        let read = faults.read(&mut table, |table| formula(table, &mut formulas, case));
         // A formula that is left out is missed by those after it.
         faults.whole &= read.is_some();
     }
@@ -252,7 +185,7 @@ pub(super) fn read(parameters: Vec<Parameter>, tables: Vec<Table>, case: &Case, 
 }
 
 /// Adds one formula.
-fn formula(table: &mut Table, formulas: &mut Formulas, all: &[Channel]) -> Result<()> {
+fn formula(table: &mut Table, formulas: &mut Formulas, case: &Case) -> Result<()> {
     let name = table.string("name")?;
     formulas.check_name(&name).map_err(|error| {
         let wrong = table.wrong(ErrorKind::Input, "name", error.message());
@@ -278,7 +211,7 @@ fn formula(table: &mut Table, formulas: &mut Formulas, all: &[Channel]) -> Resul
     }
     let formula = formulas.add(&name, &text).map_err(|fault| table.fault_in("expression", &fault))?;
     if let Some(claimed) = claimed {
-        let claim = Claim::parse(&claimed, all).map_err(|fault| table.fault_in("channel", &fault))?;
+        let claim = Claim::parse(&claimed, case).map_err(|fault| table.fault_in("channel", &fault))?;
         formula.claim = Some(claim);
     }
     (formula.source, formula.valid, formula.error) = (source, valid, error);

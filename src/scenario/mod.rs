@@ -4,6 +4,7 @@
 pub mod accepted;
 mod asked;
 pub mod catalogue;
+mod claim;
 mod clearance;
 mod correction;
 pub mod edit;
@@ -27,6 +28,7 @@ mod parameters;
 mod printed;
 mod reader;
 pub mod redraw;
+mod reduced;
 mod series;
 mod settings;
 mod source;
@@ -39,7 +41,8 @@ mod tests;
 pub mod unit;
 pub mod words;
 
-pub use self::formula::{Claim, Formula, Formulas};
+pub use self::claim::Claim;
+pub use self::formula::{Formula, Formulas};
 pub use asked::{Asked, Undecided};
 pub use figure::{Figure, FigureValue, OracleFigure};
 pub use oracle::{Oracle, OracleBasis};
@@ -225,7 +228,9 @@ impl Scenario {
             oracle.figures.clear();
         }
         self.oracles.retain(|oracle| !oracle.series.is_empty());
-        let is_wanted = |claim: &Claim| claim.channels.iter().all(|(_, own)| wanted.contains(&own.channel));
+        let is_wanted = |claim: &Claim| {
+            claim.figures.is_empty() && claim.channels.iter().all(|(_, own)| wanted.contains(&own.channel))
+        };
         for formula in &mut self.formulas.list {
             formula.claim = formula.claim.take().filter(|claim| is_wanted(claim));
         }

@@ -25,6 +25,24 @@ impl Parameter {
         self.unit.map(|unit| &self.key[..self.key.len() - unit.suffix.len() - 1])
     }
 
+    /// Its unit, as its key ends.
+    #[must_use]
+    pub fn unit(&self) -> Option<&'static str> {
+        self.unit.map(|unit| unit.suffix)
+    }
+
+    /// Whether it is an angle, by its unit.
+    #[must_use]
+    pub fn is_angle(&self) -> bool {
+        self.unit.is_some_and(|unit| unit::ANGLE.units.contains(unit))
+    }
+
+    /// The name that stands for it in SI: the short one, or its key if that has no unit.
+    #[must_use]
+    pub fn quantity(&self) -> &str {
+        self.short().unwrap_or(&self.key)
+    }
+
     /// Its names, each with the number that it stands for.
     pub fn names(&self) -> impl Iterator<Item = (&str, Rounded)> {
         let plain = Rounded::decimal(self.given);

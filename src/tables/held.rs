@@ -141,7 +141,7 @@ impl Held {
         let cranks = Some(trajectory.cranks().iter().map(|&crank| Rounded::exact(crank)).collect());
         let column = |(channel, values): (&Channel, &[f64])| {
             let name = channel.to_string();
-            let claim = Claim::parse(&name, std::slice::from_ref(channel)).ok()?;
+            let claim = Claim::of_channels(&name, std::slice::from_ref(channel)).ok()?;
             Some(Column { claim, values: exact(values), mapped: None })
         };
         let columns = trajectory.iter().filter_map(column).collect();
@@ -213,7 +213,7 @@ fn claim_of(text: &str) -> std::result::Result<Claim, Fault> {
         Some(channel) => vec![channel],
         None => Tree::parse(text)?.names().iter().filter_map(|(name, _)| known(name)).collect(),
     };
-    Claim::parse(text, &all)
+    Claim::of_channels(text, &all)
 }
 
 fn scaled(number: Rounded, factor: f64) -> Rounded {

@@ -14,7 +14,7 @@ use linkage::trajectory::Channel;
 
 /// What a scenario says of its own channels, at its own instants.
 pub(super) fn held(scenario: &Scenario) -> Result<Held> {
-    let channel = |channel: &Channel| Claim::parse(&channel.to_string(), std::slice::from_ref(channel)).ok();
+    let channel = |channel: &Channel| Claim::of_channels(&channel.to_string(), std::slice::from_ref(channel)).ok();
     let claims: Vec<Claim> = scenario.case.channels().iter().filter_map(channel).collect();
     let solved = Solved::of(scenario, scenario.case.grid.clone(), &claims)?;
     let columns = columns(&solved, &claims, &|row| row, scenario.case.grid.len())?;
@@ -61,10 +61,9 @@ pub(super) fn beside(scenario: &Scenario, (name, held): Side, is_first: bool, ho
 
 /// What a party says of channels that the scenario has, and the names of its other ones.
 fn claims(scenario: &Scenario, held: &Held, how: &How) -> Result<(Vec<Claim>, Vec<String>)> {
-    let all = scenario.case.all_channels();
     let (mut claims, mut alone) = (Vec::new(), Vec::new());
     for column in held.columns.iter().filter(|column| how.asks_for(&column.claim)) {
-        match (Claim::parse(&column.claim.text, &all), &column.mapped) {
+        match (Claim::parse(&column.claim.text, &scenario.case), &column.mapped) {
             (Ok(claim), _) => claims.push(claim),
             (Err(fault), Some(mapped)) => return Err(mapped.wrong(&fault.message, &fault.help)),
             (Err(_), None) => alone.push(column.claim.text.clone()),

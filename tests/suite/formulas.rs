@@ -1,8 +1,10 @@
 //! Formulas: the library of textbook results is right, spoiled ones are found and explained, and a user is understood.
 
+mod diagnosis;
 mod library;
 mod parameters;
 mod planted;
+mod reduced;
 mod wrong_input;
 
 use std::path::{Path, PathBuf};

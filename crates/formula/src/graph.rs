@@ -166,7 +166,8 @@ impl Graph {
             self.known.remove(&key(node));
         }
         self.names = names;
-        self.derivatives.retain(|_, id| (id.0 as usize) < nodes);
+        let is_kept = |id: &Id| (id.0 as usize) < nodes;
+        self.derivatives.retain(|(of, _), id| is_kept(of) && is_kept(id));
         result
     }
 

@@ -273,3 +273,17 @@ fn a_name_with_other_signs_stands_between_backquotes() {
         assert!(Tree::parse(open).unwrap_err().help.starts_with("close it"), "{open}");
     }
 }
+
+/// The place of a node may be taken by another one afterwards: what was known of the first is no derivative of it.
+#[test]
+fn derivatives_taken_meanwhile_are_forgotten() {
+    let mut graph = Graph::new(&["x", "y"], 0);
+    graph.constant(Rounded::exact(0.0));
+    graph.meanwhile(|graph| {
+        let other = graph.add(&Tree::parse("sin(y)").unwrap()).unwrap();
+        graph.derivative(other, 0);
+    });
+    let own = graph.add(&Tree::parse("sin(x)").unwrap()).unwrap();
+    let slope = graph.derivative(own, 0);
+    assert_eq!(Program::of(&graph, &[slope]).run(&[Rounded::exact(0.0)])[0].value, 1.0);
+}

@@ -73,6 +73,58 @@ pub struct Tree {
 }
 
 impl Tree {
+    /// A number that stands in no text.
+    #[must_use]
+    pub fn number(value: f64) -> Tree {
+        Tree::of(Shape::Number(value))
+    }
+
+    /// A name that stands in no text.
+    #[must_use]
+    pub fn name(name: impl Into<String>) -> Tree {
+        Tree::of(Shape::Name(name.into()))
+    }
+
+    /// Two parts and an operator between them.
+    #[must_use]
+    pub fn pair(operator: Operator, left: Tree, right: Tree) -> Tree {
+        Tree::of(Shape::Pair(operator, Box::new([left, right])))
+    }
+
+    /// A function of its arguments.
+    #[must_use]
+    pub fn call(function: Function, arguments: Vec<Tree>) -> Tree {
+        Tree::of(Shape::Call(function, arguments))
+    }
+
+    /// The negative of a part; of a negative, what it is the negative of.
+    #[must_use]
+    pub fn negative(&self) -> Tree {
+        match &self.shape {
+            Shape::Negative(inner) => (**inner).clone(),
+            Shape::Number(_) | Shape::Name(_) | Shape::Pair(..) | Shape::Call(..) => {
+                Tree::of(Shape::Negative(Box::new(self.clone())))
+            }
+        }
+    }
+
+    fn of(shape: Shape) -> Tree {
+        Tree { shape, at: 0..0 }
+    }
+
+    /// The same with another tree wherever a name stands.
+    #[must_use]
+    pub fn with_name(&self, name: &str, other: &Tree) -> Tree {
+        if matches!(&self.shape, Shape::Name(own) if own == name) {
+            return other.clone();
+        }
+        let mut changed = self.clone();
+        for part in changed.parts_mut() {
+            *part = part.with_name(name, other);
+        }
+        changed
+    }
+
     /// The parts of the uppermost level.
     #[must_use]
     pub fn parts(&self) -> &[Tree] {

@@ -1,0 +1,167 @@
+//! Dimensions of formulas, as far as the units of their parameters tell: a mended formula that adds metres to kilograms
+//! is no explanation while another one is.
+
+use crate::scenario::{Claim, Formulas};
+use formula::{Function, Operator, Shape, Tree};
+
+/// Powers of kilogram, metre and second.
+type Dimension = [f64; 3];
+
+/// A dimension; `None` where it is not known.
+type Known = Option<Dimension>;
+
+/// Parts that cannot be added, or are no argument of a function.
+struct Unsound;
+
+const NONE: Dimension = [0.0; 3];
+
+/// Dimensions of the formulas of a derivation.
+pub(super) struct Dimensions<'a> {
+    formulas: &'a Formulas,
+    of: usize,
+    claimed: Known,
+    /// Dimensions of the formulas as they are written, up to the first that is unsound.
+    written: Vec<Known>,
+}
+
+impl<'a> Dimensions<'a> {
+    /// Of the formula `of`, which makes a claim, and of all before it.
+    pub(super) fn of(formulas: &'a Formulas, of: usize, claim: &Claim) -> Self {
+        let mut own = Dimensions { formulas, of, claimed: claimed(claim), written: Vec::new() };
+        for formula in &formulas.list[..of] {
+            match own.dimension(&formula.tree, &own.written) {
+                Ok(known) => own.written.push(known),
+                Err(Unsound) => break,
+            }
+        }
+        own
+    }
+
+    /// Whether nothing contradicts the units with other trees in some of the formulas.
+    pub(super) fn are_sound(&self, changed: &[(usize, Tree)]) -> bool {
+        let first = changed.iter().map(|(index, _)| *index).min().unwrap_or(self.of);
+        let Some(known) = self.written.get(..first) else { return false };
+        let mut known = known.to_vec();
+        for index in first..=self.of {
+            let other = changed.iter().find(|(own, _)| *own == index).map(|(_, tree)| tree);
+            match self.dimension(other.unwrap_or(&self.formulas.list[index].tree), &known) {
+                Ok(own) => known.push(own),
+                Err(Unsound) => return false,
+            }
+        }
+        same(known[self.of], self.claimed).is_ok()
+    }
+
+    /// Whether a factor of a quantity with this unit makes what the formula claims.
+    pub(super) fn is_sound_term(&self, factor: &Tree, unit: &str) -> bool {
+        let Ok(Some(factor)) = self.dimension(factor, &[]) else { return false };
+        let Some(basis) = of_unit(unit) else { return false };
+        self.claimed == Some([0, 1, 2].map(|axis: usize| factor[axis] + basis[axis]))
+    }
+
+    fn dimension(&self, tree: &Tree, known: &[Known]) -> Result<Known, Unsound> {
+        of_tree(tree, &|name| match self.formulas.list[..known.len()].iter().position(|own| own.name == name) {
+            Some(step) => known[step],
+            None => self.of_parameter(name),
+        })
+    }
+
+    fn of_parameter(&self, name: &str) -> Known {
+        match name {
+            "phi" | "pi" => Some(NONE),
+            "t" => Some([0.0, 0.0, 1.0]),
+            crate::scenario::formula::OMEGA => Some([0.0, 0.0, -1.0]),
+            _ => {
+                let has_name = |own: &&crate::scenario::Parameter| own.names().any(|(own, _)| own == name);
+                of_unit(self.formulas.parameters.iter().find(has_name)?.unit()?)
+            }
+        }
+    }
+}
+
+/// Dimension of the numbers of a claim.
+fn claimed(claim: &Claim) -> Known {
+    if !claim.unit().is_empty() {
+        return of_unit(claim.unit());
+    }
+    // What is reduced to the crank has masses as plain numbers in it.
+    if claim.channels.iter().any(|(name, _)| !claim.text.contains(name.as_str())) {
+        return None;
+    }
+    let channel = |name: &str| claim.channels.iter().find(|(own, _)| own == name).map(|(_, own)| own.unit_symbol());
+    let figure = |name: &str| claim.figures.iter().find(|(own, _)| own == name).map(|(_, own)| own.unit());
+    of_tree(&claim.tree, &|name| of_unit(channel(name).or_else(|| figure(name))?)).ok().flatten()
+}
+
+/// Dimension of a unit, as channels and keys have it. `N_m` is taken for newton metres: formulas of linkages have more
+/// moments than springs.
+fn of_unit(unit: &str) -> Known {
+    Some(match unit {
+        "rad" | "deg" => NONE,
+        "m" | "mm" => [0.0, 1.0, 0.0],
+        "rad_s" | "rpm" | "rad/s" => [0.0, 0.0, -1.0],
+        "rad_s2" | "rad/s^2" => [0.0, 0.0, -2.0],
+        "m_s" | "m/s" => [0.0, 1.0, -1.0],
+        "m_s2" | "m/s^2" => [0.0, 1.0, -2.0],
+        "s" | "ms" => [0.0, 0.0, 1.0],
+        "kg" | "g" => [1.0, 0.0, 0.0],
+        "kg_m2" | "kg m^2" => [1.0, 2.0, 0.0],
+        "N" | "kN" => [1.0, 1.0, -2.0],
+        "N m" | "N_m" | "N_m_rad" => [1.0, 2.0, -2.0],
+        "N_m_s" => [1.0, 2.0, -1.0],
+        "N_s_m" => [1.0, 0.0, -1.0],
+        "N_mm" => [1.0, 0.0, -2.0],
+        "kg_per_m" => [1.0, -1.0, 0.0],
+        "W" | "kW" => [1.0, 2.0, -3.0],
+        _ => return None,
+    })
+}
+
+/// What two parts have in common that are added, compared or divided into a ratio.
+fn same(one: Known, other: Known) -> Result<Known, Unsound> {
+    match (one, other) {
+        (Some(one), Some(other)) if one != other => Err(Unsound),
+        (None, other) => Ok(other),
+        (one, _) => Ok(one),
+    }
+}
+
+fn of_tree(tree: &Tree, named: &dyn Fn(&str) -> Known) -> Result<Known, Unsound> {
+    let both = |one: Known, other: Known, sign: f64| {
+        let [one, other] = [one?, other?];
+        Some([0, 1, 2].map(|axis: usize| one[axis] + sign * other[axis]))
+    };
+    Ok(match &tree.shape {
+        // Zero fits everywhere; what is not whole may have a unit of its own, as 9.81.
+        Shape::Number(value) => (*value != 0.0 && (24.0 * value).fract() == 0.0).then_some(NONE),
+        Shape::Name(name) => named(name),
+        Shape::Negative(part) => of_tree(part, named)?,
+        Shape::Pair(operator, parts) => {
+            let (left, right) = (of_tree(&parts[0], named)?, of_tree(&parts[1], named)?);
+            match (operator, &parts[1].shape) {
+                (Operator::Plus | Operator::Minus, _) => same(left, right)?,
+                (Operator::Times, _) => both(left, right, 1.0),
+                (Operator::Over, _) => both(left, right, -1.0),
+                (Operator::Power, Shape::Number(power)) => left.map(|left| left.map(|own| power * own)),
+                (Operator::Power, _) => same(left, Some(NONE))?.and(same(right, Some(NONE))?),
+            }
+        }
+        Shape::Call(function, arguments) => {
+            let first = of_tree(&arguments[0], named)?;
+            match function {
+                Function::Sqrt => first.map(|own| own.map(|power| power / 2.0)),
+                Function::Abs => first,
+                Function::Sign => Some(NONE),
+                Function::Atan2 => same(first, of_tree(&arguments[1], named)?).map(|_| Some(NONE))?,
+                Function::Sin
+                | Function::Cos
+                | Function::Tan
+                | Function::Asin
+                | Function::Acos
+                | Function::Atan
+                | Function::Exp
+                | Function::Ln => same(first, Some(NONE))?,
+            }
+        }
+    })
+}

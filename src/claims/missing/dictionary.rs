@@ -1,0 +1,146 @@
+//! Terms and factors that a derivation may have lost: steps, sines and cosines of its angles, products of these.
+
+use crate::claims::trial::Trial;
+use formula::{Function, Operator, Program, Shape, Tree};
+use linkage::math::KeepNan;
+
+/// An expression that changes with the crank.
+#[derive(Clone, Debug)]
+pub(super) struct Entry {
+    pub(super) tree: Tree,
+    /// How complicated it is.
+    pub(super) weight: usize,
+    /// Its values at the trial's few instants.
+    pub(super) values: Vec<f64>,
+    /// Index after that of the last formula in it.
+    pub(super) after: usize,
+}
+
+impl Entry {
+    /// Whether it is the one that a constant is a multiple of.
+    pub(super) fn is_one(&self) -> bool {
+        matches!(self.tree.shape, Shape::Number(_))
+    }
+}
+
+/// The dictionary of a trial, and the steps before it that do not change, by name and value.
+pub(super) struct Dictionary {
+    pub(super) entries: Vec<Entry>,
+    pub(super) constants: Vec<(String, f64)>,
+}
+
+fn call(function: Function, argument: &Tree) -> Tree {
+    Tree::call(function, vec![argument.clone()])
+}
+
+fn times(one: &Tree, other: &Tree) -> Tree {
+    Tree::pair(Operator::Times, one.clone(), other.clone())
+}
+
+fn over(one: &Tree, other: &Tree) -> Tree {
+    Tree::pair(Operator::Over, one.clone(), other.clone())
+}
+
+fn power(of: &Tree, exponent: f64) -> Tree {
+    Tree::pair(Operator::Power, of.clone(), Tree::number(exponent))
+}
+
+impl Dictionary {
+    /// What may be missing in the formula of a trial, made of all that stands before it.
+    pub(super) fn of(trial: &Trial) -> Self {
+        let steps: Vec<Tree> =
+            trial.formulas.list[..trial.index].iter().map(|own| Tree::name(own.name.as_str())).collect();
+        let steps = valued(trial, steps.into_iter().map(|tree| (tree, 1)));
+        let is_constant = |entry: &Entry| {
+            let size = entry.values.iter().fold(0.0, |size: f64, value| size.larger(value.abs()));
+            entry.values.iter().all(|value| (value - entry.values[0]).abs() <= 1e-13 * size)
+        };
+        let (fixed, steps): (Vec<Entry>, Vec<Entry>) = steps.into_iter().partition(is_constant);
+        let constants = fixed.iter().map(|own| (own.tree.to_string(), own.values[0])).collect();
+        let steps: Vec<Tree> = steps.into_iter().map(|own| own.tree).collect();
+        let mut all: Vec<(Tree, usize)> = vec![(Tree::number(1.0), 0)];
+        for (index, step) in steps.iter().enumerate() {
+            all.extend([(step.clone(), 1), (power(step, 2.0), 2)]);
+            all.extend([(over(&Tree::number(1.0), step), 2), (over(&Tree::number(1.0), &power(step, 2.0)), 3)]);
+            for other in &steps[index + 1..] {
+                all.extend([(times(step, other), 2), (over(step, other), 3), (over(other, step), 3)]);
+                all.extend([(times(&power(step, 2.0), other), 4), (times(step, &power(other, 2.0)), 4)]);
+            }
+        }
+        all.extend([(Tree::name("phi"), 2), (Tree::name("t"), 2)]);
+        let angles = angles(trial);
+        for (angle, weight) in &angles {
+            for (other, more) in angles.iter().filter(|(other, _)| other.to_string() != angle.to_string()) {
+                let tangent = call(Function::Tan, other);
+                all.push((times(&call(Function::Cos, angle), &tangent), weight + more));
+                all.push((times(&call(Function::Sin, angle), &tangent), weight + more));
+            }
+        }
+        for (angle, weight) in angles {
+            let [sine, cosine, tangent] = [Function::Sin, Function::Cos, Function::Tan].map(|of| call(of, &angle));
+            for step in &steps {
+                for (own, more) in [(&cosine, 2), (&sine, 2), (&tangent, 3)] {
+                    all.extend([(times(step, own), weight + more), (times(&power(step, 2.0), own), weight + more + 1)]);
+                    all.push((over(step, own), weight + more + 1));
+                }
+            }
+            all.push((times(&cosine, &sine), weight + 2));
+            for own in [&cosine, &sine] {
+                all.extend([2.0, 3.0].map(|exponent| (power(own, exponent), weight + 2)));
+                all.push((over(&Tree::number(1.0), own), weight + 2));
+                all.extend([2.0, 3.0].map(|exponent| (over(&Tree::number(1.0), &power(own, exponent)), weight + 3)));
+            }
+            all.extend([(cosine, weight), (sine, weight), (tangent, weight + 1)]);
+        }
+        let entries = valued(trial, all.into_iter())
+            .into_iter()
+            .filter(|own| own.values.iter().all(|value| value.is_finite()) && (own.is_one() || !is_constant(own)));
+        Dictionary { entries: entries.collect(), constants }
+    }
+}
+
+/// Angles of the derivation, with the weight of a function of them: the crank angle, what stands within a sine or
+/// cosine, and differences of two of these.
+fn angles(trial: &Trial) -> Vec<(Tree, usize)> {
+    let mut names: Vec<Tree> = vec![Tree::name("phi")];
+    let known = &trial.formulas.list[..trial.index];
+    for own in &trial.formulas.list {
+        crate::claims::slips::at_every_place(&own.tree, &mut |_, part| {
+            let Shape::Call(Function::Sin | Function::Cos | Function::Tan, arguments) = &part.shape else { return };
+            for (name, _) in arguments[0].names() {
+                let is_new = names.iter().all(|own| own.to_string() != name);
+                if is_new && known.iter().any(|step| step.name == name) {
+                    names.push(Tree::name(name));
+                }
+            }
+        });
+    }
+    let multiple = |factor: f64| Tree::pair(Operator::Times, Tree::number(factor), Tree::name("phi"));
+    let pairs = (0..names.len()).flat_map(|first| (first + 1..names.len()).map(move |second| (first, second)));
+    let minus =
+        |(first, second): (usize, usize)| (Tree::pair(Operator::Minus, names[first].clone(), names[second].clone()), 4);
+    let differences: Vec<(Tree, usize)> = pairs.map(minus).collect();
+    let single = names.into_iter().map(|name| (name, 2));
+    single.chain([2.0, 3.0].map(|factor| (multiple(factor), 3))).chain(differences).collect()
+}
+
+/// Expressions with their values at the trial's few instants.
+fn valued(trial: &Trial, all: impl Iterator<Item = (Tree, usize)>) -> Vec<Entry> {
+    let mut graph = trial.formulas.graph.clone();
+    let all: Vec<(Tree, usize)> = all.collect();
+    let ids: Vec<_> = all.iter().map(|(tree, _)| graph.add(tree).expect("made of names that are known")).collect();
+    let mut program = Program::of(&graph, &ids);
+    let mut values = vec![Vec::with_capacity(trial.few.len()); all.len()];
+    for &place in &trial.few {
+        let found = program.run(&trial.inputs(place, f64::NAN));
+        values.iter_mut().zip(found).for_each(|(values, found)| values.push(found.value));
+    }
+    let after = |tree: &Tree| {
+        let index_of = |name: &str| trial.formulas.list.iter().position(|own| own.name == name);
+        tree.names().into_iter().filter_map(|(name, _)| index_of(name)).map(|index| index + 1).max().unwrap_or(0)
+    };
+    all.into_iter()
+        .zip(values)
+        .map(|((tree, weight), values)| Entry { after: after(&tree), tree, weight, values })
+        .collect()
+}

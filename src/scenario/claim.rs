@@ -1,0 +1,128 @@
+//! What a formula is said to be.
+
+use super::figure::Figure;
+use super::printed::PrintedChannel;
+use super::reduced::QUANTITIES;
+use super::words::nearest;
+use formula::{Fault, Operator, Shape, Tree};
+use linkage::case::Case;
+use linkage::trajectory::Channel;
+
+/// A channel, a figure, or an arithmetic of both, in the units of their names.
+#[derive(Clone, Debug)]
+pub struct Claim {
+    /// Its text.
+    pub text: String,
+    /// The text as it was read. Its names are those of the channels and figures; what is reduced to the crank stands
+    /// there as the arithmetic of channels that it is.
+    pub tree: Tree,
+    /// The channels with their names in the tree.
+    pub channels: Vec<(String, PrintedChannel)>,
+    /// The figures with their names in the tree.
+    pub figures: Vec<(String, Figure)>,
+    /// Unit of its numbers; empty for an arithmetic.
+    unit: &'static str,
+}
+
+impl Claim {
+    /// Reads a claim about a case.
+    ///
+    /// # Errors
+    /// What is wrong, with its place in the text.
+    pub fn parse(text: &str, case: &Case) -> Result<Claim, Fault> {
+        Claim::read(text, &case.all_channels(), Some(case))
+    }
+
+    /// Reads a claim about some channels, whatever case they are of.
+    ///
+    /// # Errors
+    /// What is wrong, with its place in the text.
+    pub fn of_channels(text: &str, all: &[Channel]) -> Result<Claim, Fault> {
+        Claim::read(text, all, None)
+    }
+
+    fn read(text: &str, all: &[Channel], case: Option<&Case>) -> Result<Claim, Fault> {
+        let channel = |name: &str| PrintedChannel::named(name).filter(|found| all.contains(&found.channel));
+        // A name may have signs in it that mean something in an arithmetic.
+        let written = match channel(text) {
+            Some(_) => Tree { shape: Shape::Name(text.into()), at: 0..text.len() },
+            None => Tree::parse(text)?,
+        };
+        let mut claim =
+            Claim { text: text.into(), tree: written.clone(), channels: Vec::new(), figures: Vec::new(), unit: "" };
+        for (name, at) in written.names() {
+            let fault = |(message, help): (String, String)| Fault { message, at, help };
+            let quantity = case.and_then(|case| Some((QUANTITIES.iter().find(|own| own.name == name)?, case)));
+            let unit = if let Some((quantity, case)) = quantity {
+                claim.tree = claim.tree.with_name(name, &quantity.of(case).map_err(fault)?);
+                quantity.unit
+            } else if let Some(figure) = case.and_then(|case| Figure::claimed(name, case)) {
+                let figure = figure.map_err(fault)?;
+                claim.figures.push((name.into(), figure));
+                figure.unit()
+            } else if let Some(found) = channel(name) {
+                found.unit_symbol()
+            } else {
+                return Err(fault(unknown(name, all)));
+            };
+            if matches!(written.shape, Shape::Name(_)) {
+                claim.unit = unit;
+            }
+        }
+        let is_figure = |name: &str| claim.figures.iter().any(|(own, _)| own == name);
+        let names = claim.tree.names().into_iter().map(|(name, _)| name).filter(|name| !is_figure(name));
+        let mut channels: Vec<(String, PrintedChannel)> = Vec::new();
+        for name in names {
+            if channels.iter().all(|(own, _)| own != name) {
+                channels.extend(channel(name).map(|found| (name.into(), found)));
+            }
+        }
+        claim.channels = channels;
+        claim.figures.sort_by(|one, other| one.0.cmp(&other.0));
+        claim.figures.dedup_by(|one, other| one.0 == other.0);
+        if claim.channels.is_empty() && claim.figures.is_empty() {
+            let help = "name a channel, such as link.rocker.angle_deg".to_string();
+            return Err(Fault { message: "the claim names no channel".into(), at: 0..text.len(), help });
+        }
+        Ok(claim)
+    }
+
+    /// Unit of its numbers; empty for an arithmetic.
+    #[must_use]
+    pub fn unit(&self) -> &'static str {
+        match self.turn() {
+            Some(360.0) => "deg",
+            _ => self.unit,
+        }
+    }
+
+    /// A turn in its unit, if it is an angle, or a sum and difference of angles: values a turn apart mean the same.
+    #[must_use]
+    pub fn turn(&self) -> Option<f64> {
+        fn is_sum(tree: &Tree) -> bool {
+            match &tree.shape {
+                Shape::Number(_) | Shape::Name(_) => true,
+                Shape::Negative(part) => is_sum(part),
+                Shape::Pair(Operator::Plus | Operator::Minus, parts) => parts.iter().all(is_sum),
+                Shape::Pair(Operator::Times | Operator::Over | Operator::Power, _) | Shape::Call(..) => false,
+            }
+        }
+        let turns: Vec<Option<f64>> = self.channels.iter().map(|(_, channel)| channel.turn()).collect();
+        let first = turns.first().copied().flatten()?;
+        let is_angle = self.figures.is_empty() && is_sum(&self.tree) && turns.iter().all(|turn| *turn == Some(first));
+        is_angle.then_some(first)
+    }
+}
+
+/// A name that stands for nothing here: the message, and the nearest that does.
+fn unknown(name: &str, all: &[Channel]) -> (String, String) {
+    let known: Vec<String> = all.iter().map(Channel::to_string).collect();
+    let reduced = QUANTITIES.iter().map(|own| own.name);
+    let figures: Vec<String> = Figure::claims().collect();
+    let all = known.iter().chain(&figures).map(String::as_str).chain(reduced);
+    let help = match nearest(name, all) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => "name one of this scenario, such as link.rocker.angle_deg or point.B.x_mm".into(),
+    };
+    (format!("there is no channel {name} here"), help)
+}

@@ -1,0 +1,102 @@
+//! Quantities of the mechanism reduced to its crank, as an arithmetic of channels: what a claim may name besides.
+//!
+//! They are twice the kinetic energy, and the balance of powers, of whatever motion a side has found. Each side finds
+//! velocities, accelerations and the drive's moment by equations of its own.
+
+use formula::{Operator, Tree};
+use linkage::case::Case;
+use linkage::mechanism::{GROUND, Link};
+
+/// A quantity that is an arithmetic of channels.
+pub(super) struct Quantity {
+    /// Its name in a claim, unit included.
+    pub(super) name: &'static str,
+    /// Symbol of its unit.
+    pub(super) unit: &'static str,
+    tree: fn(&Case) -> Found,
+}
+
+/// The arithmetic, or what is wrong and the way out.
+type Found = Result<Tree, (String, String)>;
+
+/// All of them. Motor, reducer and flywheel are not counted.
+pub(super) const QUANTITIES: [Quantity; 2] = [
+    // I* = sum of m (v / omega)^2 + J (omega_link / omega)^2.
+    Quantity { name: "drive.reduced_inertia_kg_m2", unit: "kg m^2", tree: inertia },
+    // Moment of gravity and loads reduced to the crank, counter-clockwise positive.
+    Quantity { name: "drive.reduced_moment_N_m", unit: "N m", tree: moment },
+];
+
+impl Quantity {
+    /// The arithmetic of channels that it stands for in a case.
+    ///
+    /// # Errors
+    /// Where it has no meaning: the message, and the way out.
+    pub(super) fn of(&self, case: &Case) -> Found {
+        match case.drives.len() {
+            1 => (self.tree)(case),
+            count => Err((
+                format!("{} is of one crank, but the mechanism has {count} drives", self.name),
+                "take a scenario with one [drive], or claim channels of single links".into(),
+            )),
+        }
+    }
+}
+
+fn inertia(case: &Case) -> Found {
+    let square = |link: &Link, word: &str| Tree::pair(Operator::Power, of_link(link, word), Tree::number(2.0));
+    let energies = masses(case).map(|link| {
+        let across = Tree::pair(Operator::Plus, square(link, "vx_m_s"), square(link, "vy_m_s"));
+        of_inertias(link, across, square(link, "omega_rad_s"))
+    });
+    let Some(sum) = sum(energies) else {
+        let help = "give the links mass_kg and inertia_kg_m2; a motor's rotor is not counted".into();
+        return Err(("nothing in the mechanism has a mass, so that no inertia is reduced to the crank".into(), help));
+    };
+    Ok(Tree::pair(Operator::Over, sum, square(crank(case), "omega_rad_s")))
+}
+
+fn moment(case: &Case) -> Found {
+    let product = |link: &Link, words: [&str; 2]| {
+        let [one, other] = words.map(|word| of_link(link, word));
+        Tree::pair(Operator::Times, one, other)
+    };
+    let powers = masses(case).map(|link| {
+        let across =
+            Tree::pair(Operator::Plus, product(link, ["vx_m_s", "ax_m_s2"]), product(link, ["vy_m_s", "ay_m_s2"]));
+        of_inertias(link, across, product(link, ["omega_rad_s", "alpha_rad_s2"]))
+    });
+    let gained = sum(powers)
+        .map_or(Tree::number(0.0), |sum| Tree::pair(Operator::Over, sum, of_link(crank(case), "omega_rad_s")));
+    // A crank that nothing drives has no moment of a drive.
+    Ok(match case.drives.with_moment().next() {
+        Some(_) => Tree::pair(Operator::Minus, gained, Tree::name("drive.torque_N_m")),
+        None => gained,
+    })
+}
+
+/// The links that move and have inertia.
+fn masses(case: &Case) -> impl Iterator<Item = &Link> {
+    let links = case.mechanism.links().iter().enumerate().filter(|(index, _)| *index != GROUND);
+    links.map(|(_, link)| link).filter(|link| link.mass > 0.0 || link.inertia > 0.0)
+}
+
+fn crank(case: &Case) -> &Link {
+    &case.mechanism.links()[case.crank().link]
+}
+
+/// Mass times one part and moment of inertia times another, without what is zero.
+fn of_inertias(link: &Link, of_mass: Tree, of_inertia: Tree) -> Tree {
+    let parts = [(link.mass, of_mass), (link.inertia, of_inertia)];
+    let parts = parts.into_iter().filter(|(factor, _)| *factor > 0.0);
+    sum(parts.map(|(factor, part)| Tree::pair(Operator::Times, Tree::number(factor), part)))
+        .expect("a link with inertia")
+}
+
+fn sum(parts: impl Iterator<Item = Tree>) -> Option<Tree> {
+    parts.reduce(|sum, part| Tree::pair(Operator::Plus, sum, part))
+}
+
+fn of_link(link: &Link, word: &str) -> Tree {
+    Tree::name(format!("link.{}.{word}", link.name))
+}
