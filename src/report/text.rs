@@ -219,7 +219,11 @@ fn verdicts(proof: &Proof) -> impl Iterator<Item = (String, &Verdict)> {
 
 fn reasons(proof: &Proof, tell: Tell, text: &mut String) {
     let of_report = |verdict: &Verdict| matches!(verdict, Verdict::Disagree { .. } | Verdict::Inconclusive { .. });
-    let open: Vec<(String, &Verdict)> = verdicts(proof).filter(|(_, verdict)| of_report(verdict)).collect();
+    // An engine without a run that stands has no channel to say so.
+    let without_run = proof.engines.iter().filter(|engine| engine.channels.is_empty() && engine.failure.is_none());
+    let without_run = without_run.map(|engine| (engine.info.name.to_string(), &engine.verdict));
+    let open: Vec<(String, &Verdict)> =
+        without_run.chain(verdicts(proof)).filter(|(_, verdict)| of_report(verdict)).collect();
     for (name, verdict) in open.iter().take(REASONS) {
         let _ = writeln!(text, "\n{name}: {}", verdict.reason(tell).unwrap_or_default());
     }
