@@ -59,6 +59,7 @@ fn try_directory(directory: &Path) -> Result<(), String> {
 }
 
 /// Why something could not be written, in words.
+#[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the standard library")]
 fn why(error: &io::Error) -> String {
     match error.kind() {
         io::ErrorKind::StorageFull => "no room is left on the device".into(),
@@ -70,6 +71,7 @@ fn why(error: &io::Error) -> String {
 
 /// The error of an output that could not be written: `what` it is, and how many bytes it `needs`, if that is known.
 /// `usual` is the way out where there is room.
+#[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the standard library")]
 pub(crate) fn unwritten(what: &str, error: &io::Error, needs: Option<usize>, usual: &str) -> Error {
     let way_out = match error.kind() {
         io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => "make room there, or write to another device",

@@ -68,8 +68,11 @@ fn difference(path: &Path, text: &str, metadata: &BTreeMap<String, String>) -> O
     Some(format!("its {key} is {}, not {}", told(&old), told(metadata)))
 }
 
-/// Scenario and metadata of a recording, without its samples; `None` if it has none.
-fn described(bytes: &[u8]) -> McapResult<Option<(Vec<u8>, BTreeMap<String, String>)>> {
+/// Text of the scenario, and metadata.
+type Described = (Vec<u8>, BTreeMap<String, String>);
+
+/// What describes a recording; `None` if nothing does.
+fn described(bytes: &[u8]) -> McapResult<Option<Described>> {
     let Some(summary) = Summary::read(bytes)? else { return Ok(None) };
     let text = summary.attachment_indexes.iter().find(|index| index.name == "scenario.toml");
     let metadata = summary.metadata_indexes.iter().find(|index| index.name == "linkproof");

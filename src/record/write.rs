@@ -21,6 +21,7 @@ use std::path::Path;
 /// Number of point clouds above which only every second one is written.
 const CLOUDS: usize = 200;
 
+#[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the MCAP library")]
 pub(super) fn write(recording: &Recording, path: &Path) -> Result<()> {
     check(recording)?;
     files::replace(path, |file| fill(recording, file.try_clone()?)).map_err(|error| {

@@ -31,6 +31,9 @@ pub fn verdict_line(proof: &Proof) -> String {
             format!("{wrong} of {} numbers differ", channels + checks)
         }
         Verdict::Inconclusive { .. } if !failed.is_empty() => format!("{} failed", failed.join(", ")),
+        Verdict::Inconclusive { .. } if proof.engines.iter().all(|engine| engine.channels.is_empty()) => {
+            "no run stands".to_string()
+        }
         Verdict::Inconclusive { .. } => {
             let open = count(proof, |verdict| matches!(verdict, Verdict::Inconclusive { .. }));
             format!("{open} of {} numbers are open", channels + checks)

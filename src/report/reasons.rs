@@ -29,7 +29,10 @@ pub(super) fn verdicts(proof: &Proof) -> impl Iterator<Item = (String, &Verdict)
         });
         engine.channels.iter().map(move |channel| (name(channel), &channel.verdict)).chain(own)
     });
-    channels.chain(proof.all_checks().map(|c| (c.name(), &c.verdict)))
+    // An engine without a run that stands has no channel to say so.
+    let without_run = proof.engines.iter().filter(|engine| engine.channels.is_empty() && engine.failure.is_none());
+    let without_run = without_run.map(|engine| (engine.info.name.to_string(), &engine.verdict));
+    without_run.chain(channels).chain(proof.all_checks().map(|c| (c.name(), &c.verdict)))
 }
 
 /// Number of verdicts of a sort.

@@ -115,7 +115,9 @@ fn no_output_is_left_by_halves() {
     for (command, _) in FILES {
         for old in [Some("an older file"), None] {
             let _ = fs::remove_file(place.path("out"));
-            old.map(|old| fs::write(place.path("out"), old).unwrap());
+            if let Some(old) = old {
+                fs::write(place.path("out"), old).unwrap();
+            }
             let output = in_shell(&place, "ulimit -f 0; trap '' XFSZ;", &format!("{command} out"));
             let told = String::from_utf8_lossy(&output.stderr);
             assert_eq!(output.status.code(), Some(2), "{command}: {told}");

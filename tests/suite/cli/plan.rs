@@ -40,7 +40,7 @@ fn diagrams_as_text_json_csv_and_drawing() {
 fn wrong_questions_are_refused() {
     let place = Place::new();
     place.refused("plan scenarios/crank_rocker.toml --crank-deg 1e30", &["turns away"]);
-    place.refused("plan scenarios/crank_rocker.toml --crank-deg nan", &["turns away"]);
+    place.refused("plan scenarios/crank_rocker.toml --crank-deg nan", &["finite number"]);
     place.refused("plan scenarios/crank_rocker.toml --with rapier", &["rapier"]);
     place.refused("plan scenarios/crank_rocker.toml --svg scenarios/crank_rocker.toml", &["scenario file"]);
     let of = "diagram scenarios/crank_rocker.toml --channel";
