@@ -8,6 +8,9 @@ const DIGITS: usize = 3;
 /// Digits that a double holds for certain.
 const MOST_DIGITS: usize = 15;
 
+/// Share of a value from which a difference is seen in its first four digits.
+const FAR: f64 = 1e-3;
+
 /// An error, a bound or a share of one: three significant digits.
 #[must_use]
 pub fn error(value: f64) -> String {
@@ -59,20 +62,21 @@ pub fn resolved(value: f64, resolution: f64) -> String {
     }
 }
 
-/// Two values with the digits in which they differ, and with four at least. Where they do not differ, `bound` is the
-/// resolution.
+/// Two values with the digits in which they differ, and with four at least. One that is less than the `bound` on their
+/// difference, and much less than the other, is `0`. Where they do not differ, the bound is their resolution.
 #[must_use]
 pub fn beside(values: [f64; 2], bound: f64) -> [String; 2] {
     let [a, b] = values;
     let difference = (a - b).abs();
-    let size = if a.abs() > b.abs() { a.abs() } else { b.abs() };
-    let resolution = match difference > 0.0 {
-        true if difference > 1e-3 * size => 1e-3 * size,
+    let is_far = |value: f64| difference > FAR * value.abs();
+    let resolution = |value: f64| match difference > 0.0 {
+        true if is_far(value) && value.abs() < bound => bound,
+        true if is_far(value) => FAR * value.abs(),
         true => difference,
         // Not a number too.
         false => bound,
     };
-    values.map(|value| resolved(value, resolution))
+    values.map(|value| resolved(value, resolution(value)))
 }
 
 /// A number with so many decimals, for columns and places: a value that rounds to zero has no sign.
@@ -165,6 +169,7 @@ mod tests {
             ([5.137_56, 5.137_82], 1e-3, ["5.1376", "5.1378"]),
             ([0.0, 180.0], 1e-10, ["0", "180.0"]),
             ([7e-15, 180.0], 1e-10, ["0", "180.0"]),
+            ([-0.006_972_4, -0.209_174], 1e-12, ["-0.006972", "-0.2092"]),
             ([2.5, 2.5], 1e-3, ["2.500", "2.500"]),
             ([f64::NAN, 2.5], 1e-3, ["NaN", "2.500"]),
         ] {

@@ -36,7 +36,7 @@ pub(super) struct EngineArgs {
 #[derive(Clone, Copy, Debug, clap::Args)]
 #[group(skip)]
 pub(super) struct MemoryArgs {
-    /// Memory allowed in GB; a run that is estimated to need more does not begin
+    /// Memory allowed in GB, for everything that runs at a time; a run that is estimated to need more does not begin
     #[arg(long, value_name = "GB", default_value = "4", allow_hyphen_values = true, value_parser = number::positive)]
     memory: f64,
 }
