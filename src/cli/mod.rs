@@ -22,6 +22,7 @@ mod panics;
 mod plan;
 mod progress;
 mod run;
+mod schema;
 mod solve;
 mod stress;
 mod synthesize;
@@ -86,6 +87,8 @@ enum Command {
     Export(export::Args),
     /// List scenarios, or the available channels and solvers
     List(list::Args),
+    /// Write the format of scenario files as a JSON Schema, by which editors complete and check keys
+    Schema(schema::Args),
 }
 
 /// Runs the command line and returns its exit code.
@@ -110,6 +113,7 @@ pub fn main() -> ExitCode {
         Command::Synthesize(args) => output::exit(synthesize::synthesize(&args)),
         Command::Export(args) => output::exit(export::export(&args)),
         Command::List(args) => output::exit(list::list(&args)),
+        Command::Schema(args) => output::exit(schema::schema(&args)),
     };
     ExitCode::from(code)
 }

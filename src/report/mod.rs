@@ -33,6 +33,7 @@ pub(crate) mod range;
 pub(crate) mod recorded;
 pub mod residuals;
 pub(crate) mod run_up;
+pub mod schema;
 pub(crate) mod stress;
 pub(crate) mod synthesis;
 pub(crate) mod table_csv;

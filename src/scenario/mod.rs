@@ -13,6 +13,7 @@ pub mod grid;
 mod hostile;
 mod instant;
 mod joints;
+pub mod keys;
 mod links;
 mod loads;
 mod masses;

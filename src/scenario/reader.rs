@@ -1,6 +1,8 @@
 //! Typed reading of a spanned TOML table. A reader knows its dotted path, returns typed values, remembers the keys that
 //! were asked for, and at the end refuses the keys that nobody asked for.
 
+#[cfg(test)]
+pub mod asked;
 mod quantity;
 
 pub use quantity::Sign;
@@ -31,6 +33,9 @@ pub struct Table<'a> {
     entries: Vec<Entry<'a>>,
     used: Vec<&'a str>,
     asked: Vec<String>,
+    /// Keys that lead here, with `*` for names: for the test of the table of keys.
+    #[cfg(test)]
+    section: String,
 }
 
 impl<'a> Table<'a> {
@@ -46,7 +51,17 @@ impl<'a> Table<'a> {
             .collect();
         // The parser moves a table if its header comes after one of its children.
         entries.sort_by_key(|entry| entry.key_span.start);
-        Table { source, name, path, span, entries, used: Vec::new(), asked: Vec::new() }
+        Table {
+            source,
+            name,
+            path,
+            span,
+            entries,
+            used: Vec::new(),
+            asked: Vec::new(),
+            #[cfg(test)]
+            section: String::new(),
+        }
     }
 
     /// The table's own key, for entries of a table of tables.
@@ -295,7 +310,12 @@ impl<'a> Table<'a> {
     #[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the TOML parser")]
     fn child(&self, key: &str, path: String, value: &'a Spanned<DeValue<'a>>) -> Result<Table<'a>> {
         match value.get_ref() {
-            DeValue::Table(table) => Ok(Table::new(self.source, key.to_string(), path, value.span(), table)),
+            DeValue::Table(table) => {
+                let child = Table::new(self.source, key.to_string(), path, value.span(), table);
+                #[cfg(test)]
+                let child = Table { section: asked::section(&self.section, key, &self.asked), ..child };
+                Ok(child)
+            }
             _ => Err(self.mistyped(key, value, "a table")),
         }
     }
@@ -322,6 +342,8 @@ impl<'a> Table<'a> {
 
     /// Ends the reading. A key that nobody asked for is an error that names the nearest known key.
     pub fn finish(&self) -> Result<()> {
+        #[cfg(test)]
+        asked::put(&self.section, &self.asked);
         let Some(entry) = self.entries.iter().find(|entry| !self.used.contains(&entry.key)) else { return Ok(()) };
         let asked = || self.asked.iter().map(String::as_str);
         let help = match nearest(entry.key, asked().filter(|key| !self.has(key))) {
