@@ -26,6 +26,7 @@ mod panics;
 mod plan;
 mod progress;
 mod run;
+mod schema;
 mod shell;
 mod solve;
 mod standard_input;
@@ -102,6 +103,8 @@ enum Command {
     Completions(shell::CompletionArgs),
     /// Write the manual: the page of linkproof, or the pages of all commands
     Man(shell::ManArgs),
+    /// Write the format of scenario files as a JSON Schema, by which editors complete and check keys
+    Schema(schema::Args),
 }
 
 /// Runs the command line and returns its exit code.
@@ -130,6 +133,7 @@ pub fn main() -> ExitCode {
         Command::List(args) => output::exit(list::list(&args)),
         Command::Completions(args) => output::exit(shell::completions(&args, Cli::command())),
         Command::Man(args) => output::exit(shell::man(&args, Cli::command())),
+        Command::Schema(args) => output::exit(schema::schema(&args)),
     };
     ExitCode::from(code)
 }

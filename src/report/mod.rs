@@ -37,6 +37,7 @@ mod reasons;
 pub(crate) mod recorded;
 pub mod residuals;
 pub(crate) mod run_up;
+pub mod schema;
 pub(crate) mod stress;
 pub mod style;
 pub(crate) mod synthesis;

@@ -15,6 +15,7 @@ mod header;
 mod hostile;
 mod instant;
 mod joints;
+pub mod keys;
 mod links;
 mod loads;
 mod malformed;

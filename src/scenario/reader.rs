@@ -3,6 +3,8 @@
 //!
 //! A table that is read by [`Table::read`] tells all mistakes of its keys and values at once.
 
+#[cfg(test)]
+pub mod asked;
 mod quantity;
 mod several;
 
@@ -43,6 +45,9 @@ pub struct Table<'a> {
     settled: Vec<String>,
     /// Spellings of each key that is missing, and the way out.
     missing: Vec<(Vec<String>, Option<&'static str>)>,
+    /// Keys that lead here, with `*` for names: for the test of the table of keys.
+    #[cfg(test)]
+    section: String,
 }
 
 impl<'a> Table<'a> {
@@ -71,6 +76,8 @@ impl<'a> Table<'a> {
             unknown_names: Vec::new(),
             settled: Vec::new(),
             missing: Vec::new(),
+            #[cfg(test)]
+            section: String::new(),
         }
     }
 
@@ -334,7 +341,12 @@ impl<'a> Table<'a> {
     #[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the TOML parser")]
     fn child(&self, key: &str, path: String, value: &'a Spanned<DeValue<'a>>) -> Result<Table<'a>> {
         match value.get_ref() {
-            DeValue::Table(table) => Ok(Table::new(self.source, key.to_string(), path, value.span(), table)),
+            DeValue::Table(table) => {
+                let child = Table::new(self.source, key.to_string(), path, value.span(), table);
+                #[cfg(test)]
+                let child = Table { section: asked::section(&self.section, key, &self.asked), ..child };
+                Ok(child)
+            }
             _ => Err(self.mistyped(key, value, "a table")),
         }
     }

@@ -39,6 +39,7 @@ mod record;
 mod robustness;
 mod scenario_docs;
 mod scenes;
+mod schema;
 mod setting_off;
 mod settling;
 #[cfg(feature = "simbody")]

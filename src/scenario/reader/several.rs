@@ -185,6 +185,8 @@ impl<'a> Table<'a> {
 
     /// Ends the reading. A key that nobody asked for is an error that names the nearest known key.
     pub fn finish(&mut self) -> Result<()> {
+        #[cfg(test)]
+        super::asked::put(&self.section, &self.asked);
         self.pair_missing();
         let unknown: Vec<&Entry> = self.entries.iter().filter(|entry| self.is_unknown(entry)).collect();
         let asked = || self.asked.iter().map(String::as_str);

@@ -1,0 +1,75 @@
+//! The format of scenario files as a JSON Schema, for editors of TOML.
+
+use serde_json::{Map, Value, json};
+
+use super::pretty::pretty;
+use crate::scenario::keys::{Key, Kind, section};
+
+/// The schema (draft 7), with a line feed at its end.
+#[must_use]
+pub fn scenario() -> String {
+    let mut schema = object("");
+    let head = schema.as_object_mut().expect("a section is an object");
+    head.insert("$schema".into(), json!("http://json-schema.org/draft-07/schema#"));
+    head.insert("title".into(), json!("Scenario of linkproof"));
+    pretty(&schema)
+}
+
+/// The section with a path, which the table of sections has.
+fn object(path: &str) -> Value {
+    let keys = section(path).map_or(&[][..], |section| section.keys);
+    let mut properties = Map::new();
+    let (mut required, mut choices) = (Vec::new(), Vec::new());
+    for key in keys {
+        let spellings = key.spellings();
+        for spelling in &spellings {
+            properties.insert(spelling.clone(), of_key(key, path));
+        }
+        match (key.is_needed, spellings.as_slice()) {
+            (false, _) => {}
+            (true, [only]) => required.push(json!(only)),
+            (true, several) => {
+                let one = |spelling: &String| json!({ "required": [spelling] });
+                choices.push(json!({ "oneOf": several.iter().map(one).collect::<Vec<_>>() }));
+            }
+        }
+    }
+    let mut object = json!({ "type": "object", "additionalProperties": false, "properties": properties });
+    for (name, list) in [("required", required), ("allOf", choices)] {
+        if !list.is_empty() {
+            object[name] = json!(list);
+        }
+    }
+    object
+}
+
+fn of_key(key: &Key, path: &str) -> Value {
+    let child = if path.is_empty() { key.name.to_string() } else { format!("{path}.{}", key.name) };
+    // Any number may be an arithmetic of parameters.
+    let number = || json!({ "type": ["number", "string"] });
+    let list = |items: Value| json!({ "type": "array", "items": items });
+    let mut value = match key.kind {
+        Kind::Text => json!({ "type": "string" }),
+        Kind::Choice(words) => json!({ "enum": words }),
+        Kind::Texts => list(json!({ "type": "string" })),
+        Kind::Number | Kind::Quantity(_) => number(),
+        Kind::Numbers | Kind::Quantities(_) => list(number()),
+        Kind::Integer => json!({ "type": "integer" }),
+        Kind::IntegerOrBoolean => json!({ "type": ["integer", "boolean"] }),
+        Kind::Table => table(&child),
+        Kind::Tables => list(table(&child)),
+        Kind::TableOrTables => json!({ "anyOf": [table(&child), list(table(&child))] }),
+    };
+    value["description"] = json!(key.meaning);
+    value
+}
+
+/// A section with keys of its own, with names for keys, or with names for numbers.
+fn table(path: &str) -> Value {
+    let named = format!("{path}.*");
+    match (section(path), section(&named)) {
+        (Some(_), _) => object(path),
+        (None, Some(_)) => json!({ "type": "object", "additionalProperties": object(&named) }),
+        (None, None) => json!({ "type": "object", "additionalProperties": { "type": ["number", "string"] } }),
+    }
+}
