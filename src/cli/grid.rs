@@ -71,7 +71,7 @@ impl FromStr for Values {
     fn from_str(text: &str) -> std::result::Result<Self, String> {
         let number = |part: &str| match part.trim().parse::<f64>() {
             Ok(number) if number.is_finite() => Ok(number),
-            Ok(_) => Err(format!("\"{part}\" is no finite number; {EXPECTED}")),
+            Ok(_) => Err(format!("\"{part}\" is not finite; {EXPECTED}")),
             Err(_) => Err(format!("\"{part}\" is not a number; {EXPECTED}")),
         };
         let mut values = Vec::new();

@@ -52,7 +52,7 @@ fn run_takes_another_grid() {
         ("crank_rocker.toml --times 0,a", ["not a number", "0:360:30 or 0,45,90"]),
         ("crank_rocker.toml --times 0:1e300:1e300", ["turns away, the limit is", "--times"]),
         ("crank_rocker.toml --times 0 --crank-deg 0", ["cannot be used with", "--crank-deg"]),
-        ("crank_rocker.toml --start-crank-deg inf", ["not finite", "--start-crank-deg"]),
+        ("crank_rocker.toml --start-crank-deg inf", ["finite number", "--start-crank-deg"]),
     ] {
         place.refused(&format!("run scenarios/{command} --no-record"), &words);
     }
