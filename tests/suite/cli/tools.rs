@@ -69,6 +69,11 @@ impl Place {
 }
 
 impl Outcome {
+    /// Standard output without the ends of its lines, so that a sentence is found wherever it is broken.
+    pub fn unbroken(&self) -> String {
+        self.stdout.split_whitespace().collect::<Vec<_>>().join(" ")
+    }
+
     /// Standard output, which must be JSON only.
     pub fn json(&self) -> Value {
         serde_json::from_str(&self.stdout).unwrap_or_else(|error| panic!("{error}: {}", self.stdout))
