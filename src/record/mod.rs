@@ -76,7 +76,7 @@ pub fn load(path: &Path) -> Result<Vec<(String, Trajectory)>> {
 /// The same from the bytes of a recording; messages call it `path`.
 ///
 /// # Errors
-/// Those of [`read()`], except that the file cannot be read.
+/// Those of [`load`], except that the file cannot be read.
 pub fn read_bytes(bytes: &[u8], path: &Path) -> Result<Vec<(String, Trajectory)>> {
     read::of_bytes(bytes, path)
 }

@@ -12,7 +12,7 @@ use linkage::error::{Error, ErrorKind, Place, Result};
 /// Which numbers of a table are what.
 #[derive(Clone, Debug, Default)]
 pub struct Mapping {
-    /// Where the rows hold: names `time_s` and the like, see [`super::instant`].
+    /// Where the rows hold: names `time_s` and the like, as in the measurements of a scenario.
     pub at: Vec<Mapped>,
     /// Channels, or arithmetics of channels.
     pub channels: Vec<Mapped>,
