@@ -82,7 +82,7 @@ impl fmt::Display for Cause {
 
 impl fmt::Display for Term {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let factor = self.factor.clone().unwrap_or_else(|| format!("{:.6e}", self.coefficient));
+        let factor = self.factor.clone().unwrap_or_else(|| significant(self.coefficient, 6));
         let (sign, factor) = factor.strip_prefix('-').map_or(("+", factor.as_str()), |size| ("-", size));
         match self.of.as_str() {
             "" => write!(f, "`{sign} {factor}`"),
@@ -138,7 +138,7 @@ pub fn cause(formulas: &Formulas, name: &str, course: &Course) -> Result<Option<
     if number.is_some() {
         return Ok(number);
     }
-    let terms = terms::of(&trial, course, &dimensions)?;
+    let terms = terms::of(&trial, course, &dimensions);
     if let Some(found) = terms.as_ref().filter(|found| found.left == 0.0) {
         return Ok(Some(Cause::Terms(found.terms.clone())));
     }

@@ -20,7 +20,7 @@ pub use judge::{Judge, judge};
 pub use judged::{At, Judged, Outcome};
 pub use missing::Missing;
 pub use slips::{Kind, Slip};
-pub use terms::Term;
+pub use terms::{Term, Wrong, missing_in_numbers};
 
 /// Which derivative with respect to time.
 pub const WORDS: [&str; 3] = ["", "first derivative", "second derivative"];

@@ -10,7 +10,8 @@ use super::number::not_negative;
 use super::run::exit_code_of;
 use super::{advice, exit_code, output, terminal};
 use crate::record;
-use crate::report::versus as report;
+use crate::report::outcomes::Outcomes;
+use crate::report::{junit, markdown, versus as report};
 use crate::scenario::mapping::{Allowed, Mapped, Mapping, Size};
 use crate::tables::{self, Held};
 use crate::versus::{How, Party, compare as compared};
@@ -25,6 +26,7 @@ Examples:
   linkproof compare old.mcap new.mcap --rel 1e-9                    two recordings, side by side
   linkproof compare one.csv other.parquet --interpolate --rel 1e-4  two tables at the instants of the second
   linkproof compare scenarios/crank_rocker.toml mine.toml --json -  two models of one mechanism
+  linkproof compare scenarios/crank_rocker.toml mine.csv --junit out.xml --markdown out.md   for reports of tests
 
 Each of A and B is a scenario (.toml), which is solved by both analytic sides at the instants of the other, a recording
 (.mcap), or a table: text with separated columns, or Parquet. A column named as a channel with its unit needs no
@@ -52,7 +54,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "EXPR=CHANNEL|FILE", allow_hyphen_values = true)]
     map_a: Vec<String>,
     /// Write what --map, --rel and --abs say to a mapping file
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", value_parser = mapping_target)]
     write_map: Option<PathBuf>,
     /// Allow differences of this share of a channel's scale: for all channels, or for one channel, subject or stage
     #[arg(long, value_name = "[CHANNEL=]SHARE", value_parser = share)]
@@ -83,12 +85,31 @@ pub(super) struct Args {
     /// Write the comparison as JSON to a file, or to standard output instead of the text with `-`
     #[arg(long, value_name = "FILE", value_parser = output::target)]
     json: Option<PathBuf>,
+    /// Write every channel and check as a case of a JUnit report to a file, or to standard output after the report with `-`
+    #[arg(long, value_name = "FILE", value_parser = output::target)]
+    junit: Option<PathBuf>,
+    /// Write the verdicts as Markdown to a file, for a comment to a pull request; `-` for standard output after the
+    /// report
+    #[arg(long, value_name = "FILE", value_parser = output::target)]
+    markdown: Option<PathBuf>,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum By {
     Time,
     Crank,
+}
+
+/// A path that a mapping may be written to: a mapping there is replaced, another file is not.
+fn mapping_target(text: &str) -> std::result::Result<PathBuf, String> {
+    let path = output::writable(PathBuf::from(text))?;
+    if path.extension().is_none_or(|ending| ending != "toml") {
+        return Err("a mapping file ends in .toml, by which --map knows it".into());
+    }
+    if path.exists() && Mapping::load(&path).is_err() {
+        return Err("this file is no mapping and would be overwritten".into());
+    }
+    Ok(path)
 }
 
 /// Reads `[CHANNEL=]SHARE`.
@@ -125,12 +146,18 @@ pub(super) fn compare(args: &Args) -> u8 {
         };
         let paths = [args.first.as_path(), args.second.as_path()];
         let found = compared([first, second], paths, &how)?;
-        if let Some(to) = &args.json {
-            output::write(&report::json(paths, &found, advice::told), to)?;
-        }
+        let outcomes = Outcomes::of_comparison(paths, &found, advice::told);
         if args.json.as_deref() != Some(Path::new("-")) {
             let how = [args.verbose, args.quiet];
             terminal::print(&report::text(paths, &found, how, advice::told, terminal::columns()))?;
+        }
+        let targets: [(&Option<PathBuf>, &dyn Fn() -> String); 3] = [
+            (&args.json, &|| report::json(paths, &found, advice::told)),
+            (&args.junit, &|| junit::xml(&outcomes)),
+            (&args.markdown, &|| markdown::text(&outcomes)),
+        ];
+        for (to, text) in targets {
+            to.as_ref().map_or(Ok(()), |to| output::write(&text(), to))?;
         }
         Ok(exit_code_of(&found.verdict))
     };

@@ -44,9 +44,9 @@ Examples:
   linkproof list                                        what scenarios there are
   linkproof run scenarios/crank_rocker.toml             prove one, record it to recordings/
   linkproof run scenarios/*.toml --no-record --json -   prove all, as JSON
-  linkproof compare scenarios/crank_rocker.toml recordings/crank_rocker.mcap --side reference   tables too
+  linkproof compare scenarios/crank_rocker.toml recordings/crank_rocker.mcap --rel 0.01   tables too
   linkproof solve scenarios/ov7_base.toml --with assur --crank-deg 0:-360:-30
-  linkproof tune scenarios/crank_rocker.toml --within 1e-3 --engine rapier --channel positions   the settings it takes
+  linkproof tune scenarios/crank_rocker.toml --within 1e-3 --engine rapier --channel positions
   linkproof mutate scenarios/crank_rocker.toml --no-sizes --kind load   does the proof see faults?
   linkproof inspect scenarios/ov7_base.toml             links, joints, Assur groups
 

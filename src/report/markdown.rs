@@ -17,8 +17,9 @@ pub fn text(outcomes: &Outcomes) -> String {
     let parts: Vec<String> =
         parts.into_iter().filter(|(count, _)| *count > 0).map(|(count, word)| format!("{count} {word}")).collect();
     let plural = if entries.len() == 1 { "" } else { "s" };
-    let mut text = format!("**linkproof**: {} scenario{plural}, {}\n\n", entries.len(), parts.join(", "));
-    text += "| scenario | verdict | agree | expected | disagree | open |\n|---|---|---|---|---|---|\n";
+    let mut text = format!("**linkproof**: {} {}{plural}, {}\n\n", entries.len(), outcomes.noun, parts.join(", "));
+    let _ = write!(text, "| {} ", outcomes.noun);
+    text += "| verdict | agree | expected | disagree | open |\n|---|---|---|---|---|---|\n";
     for entry in entries {
         let of = |is: fn(&Outcome) -> bool| entry.cases.iter().filter(|case| is(&case.outcome)).count();
         let _ = writeln!(

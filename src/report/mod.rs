@@ -45,6 +45,6 @@ pub(crate) mod table_csv;
 mod tell;
 pub mod text;
 pub(crate) mod tune;
-pub(crate) mod versus;
+pub mod versus;
 
 pub use tell::Tell;

@@ -1,9 +1,12 @@
-//! What came of several scenarios, in one list for test reports and comments.
+//! What came of scenarios or comparisons, in one list for test reports and comments.
 
-use super::own_forces;
+use std::path::Path;
+
 use super::tell::Tell;
+use super::{own_forces, versus};
 use crate::compare::Verdict;
 use crate::proof::Proof;
+use crate::versus::{Comparison, Pair};
 use linkage::error::{Advice, Error};
 
 /// One channel or check.
@@ -13,6 +16,22 @@ pub(super) struct Case {
     pub(super) by: String,
     pub(super) name: String,
     pub(super) outcome: Outcome,
+}
+
+/// Who judges checks of the analytic sides on each other.
+const SIDES: &str = "analytic sides";
+
+impl Case {
+    fn of(by: &str, name: String, verdict: &Verdict, tell: Tell) -> Case {
+        let reason = || verdict.reason(|advice: &Advice| tell(advice)).unwrap_or_default();
+        let outcome = match verdict {
+            Verdict::Agree { .. } => Outcome::Agrees,
+            Verdict::Expected { .. } => Outcome::Expected(reason()),
+            Verdict::Disagree { .. } => Outcome::Disagrees(reason()),
+            Verdict::Inconclusive { .. } => Outcome::Open(reason()),
+        };
+        Case { by: by.into(), name, outcome }
+    }
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -35,9 +54,11 @@ pub(super) struct Entry {
     pub(super) error: Option<String>,
 }
 
-/// The outcomes of a command, scenario by scenario.
+/// The outcomes of a command, scenario by scenario, or comparison by comparison.
 #[derive(Clone, Debug)]
 pub struct Outcomes {
+    /// What an entry is: a scenario, or a comparison.
+    pub(super) noun: &'static str,
     pub(super) entries: Vec<Entry>,
     tell: Tell,
 }
@@ -46,25 +67,29 @@ impl Outcomes {
     /// None yet; `tell` words advice.
     #[must_use]
     pub fn told_by(tell: Tell) -> Self {
-        Outcomes { entries: Vec::new(), tell }
+        Outcomes { noun: "scenario", entries: Vec::new(), tell }
+    }
+
+    /// Those of a comparison: every channel and every check of every pair.
+    #[must_use]
+    pub fn of_comparison(paths: [&Path; 2], comparison: &Comparison, tell: Tell) -> Self {
+        let entry = |pair: &Pair| {
+            let channels = pair.channels.iter().map(|own| ("comparison", own.claim.text.clone(), &own.verdict));
+            let checks = pair.checks.iter().map(|check| (SIDES, check.name(), &check.verdict));
+            let cases = channels.chain(checks).map(|(by, name, verdict)| Case::of(by, name, verdict, tell));
+            let verdict = pair.verdict().word();
+            Entry { name: versus::who(paths, pair), title: String::new(), verdict, cases: cases.collect(), error: None }
+        };
+        Outcomes { noun: "comparison", entries: comparison.pairs.iter().map(entry).collect(), tell }
     }
 
     /// Adds a proof: every channel of every engine, and every check.
     pub fn add(&mut self, proof: &Proof) {
         let mut cases = Vec::new();
         let tell = self.tell;
-        let mut add = |by: &str, name: String, verdict: &Verdict| {
-            let reason = || verdict.reason(|advice: &Advice| tell(advice)).unwrap_or_default();
-            let outcome = match verdict {
-                Verdict::Agree { .. } => Outcome::Agrees,
-                Verdict::Expected { .. } => Outcome::Expected(reason()),
-                Verdict::Disagree { .. } => Outcome::Disagrees(reason()),
-                Verdict::Inconclusive { .. } => Outcome::Open(reason()),
-            };
-            cases.push(Case { by: by.into(), name, outcome });
-        };
+        let mut add = |by: &str, name: String, verdict: &Verdict| cases.push(Case::of(by, name, verdict, tell));
         for check in &proof.checks {
-            add("analytic sides", check.name(), &check.verdict);
+            add(SIDES, check.name(), &check.verdict);
         }
         for engine in &proof.engines {
             let by = engine.info.name;

@@ -10,6 +10,7 @@ use super::diagnosis;
 use super::pretty::pretty;
 use super::style;
 use super::tell::Tell;
+use crate::claims::Cause;
 use crate::compare::Verdict;
 use crate::numbers;
 use crate::versus::{Compared, Comparison, Explained, Pair, Row};
@@ -96,11 +97,16 @@ fn looks_like_a_simulation(pair: &Pair, own: &Compared) -> bool {
     own.is_derived && own.since.is_some() && !own.is_gross() && !is_explained
 }
 
-fn sentence(paths: [&Path; 2], pair: &Pair) -> String {
-    let name = |side: usize| match pair.names[side].as_str() {
+/// Which two are compared.
+pub(super) fn who(paths: [&Path; 2], pair: &Pair) -> String {
+    let [first, second] = [0, 1].map(|side: usize| match pair.names[side].as_str() {
         "" => paths[side].display().to_string(),
         own => format!("{} ({own})", paths[side].display()),
-    };
+    });
+    format!("{second} against {first}")
+}
+
+fn sentence(paths: [&Path; 2], pair: &Pair) -> String {
     let count = |word: &str| pair.channels.iter().filter(|own| own.verdict.word() == word).count();
     let [agree, disagree, open] = ["agree", "disagree", "inconclusive"].map(count);
     let word = style::verdict(&pair.verdict());
@@ -112,7 +118,7 @@ fn sentence(paths: [&Path; 2], pair: &Pair) -> String {
     let by = if pair.by_crank { "crank angle" } else { "time" };
     let count = pair.instants - pair.unshared;
     let several = if count == 1 { "" } else { "s" };
-    format!("{verdict} at {count} {by}{several}: {} against {}", name(1), name(0))
+    format!("{verdict} at {count} {by}{several}: {}", who(paths, pair))
 }
 
 fn rank(own: &Compared) -> f64 {
@@ -166,7 +172,7 @@ fn some(names: &[String]) -> String {
 }
 
 fn cause(explained: &Explained, width: usize) -> String {
-    let Explained { of, diagnosis: found, left } = explained;
+    let Explained { of, diagnosis: found, left, .. } = explained;
     let mut text = style::wrapped(&format!("{}:", some(of)), Some(width), 2);
     let mut line = |what: &str, told: &str| {
         let _ = write!(text, "\n{}", style::wrapped(&format!("  {what:<8}{told}"), Some(width), 10));
@@ -175,8 +181,9 @@ fn cause(explained: &Explained, width: usize) -> String {
         let [time, crank] = [numbers::fixed(since.time, 6), numbers::fixed(since.crank.to_degrees(), 3)];
         line("since", &format!("t = {time} s, crank angle {crank} deg"));
     }
-    line("cause", &found.cause.as_ref().map_or("nothing simple".into(), diagnosis::cause));
-    if found.cause.is_some() {
+    let named = why(explained);
+    line("cause", named.as_deref().unwrap_or("nothing simple"));
+    if named.is_some() {
         line(
             "left",
             &match *left {
@@ -186,6 +193,13 @@ fn cause(explained: &Explained, width: usize) -> String {
         );
     }
     text
+}
+
+/// The cause in words, if one was found.
+#[must_use]
+pub fn why(explained: &Explained) -> Option<String> {
+    let terms = (!explained.terms.is_empty()).then(|| Cause::Terms(explained.terms.clone()).to_string());
+    terms.or_else(|| explained.diagnosis.cause.as_ref().map(diagnosis::cause))
 }
 
 /// The comparison as JSON, schema 1.
@@ -215,7 +229,11 @@ pub fn json(paths: [&Path; 2], comparison: &Comparison, tell: Tell) -> String {
             "since": own.since.as_ref().map(instant),
         })
     };
-    let cause = |own: &Explained| json!({ "channels": own.of, "left_over_share": own.left, "diagnosis": diagnosis::row(&own.diagnosis) });
+    let cause = |own: &Explained| {
+        json!({
+            "channels": own.of, "cause": why(own), "left_over_share": own.left, "diagnosis": diagnosis::row(&own.diagnosis),
+        })
+    };
     let pair = |pair: &Pair| {
         json!({
             "first": pair.names[0],

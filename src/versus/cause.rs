@@ -1,6 +1,7 @@
 //! Why a table is off, where that is simple.
 
 use super::judge::{Both, Compared, Row};
+use crate::claims::{Course, Term, Wrong, missing_in_numbers};
 use crate::diagnosis::{Diagnosis, Judged, Party, Question, diagnose};
 use crate::scenario::Scenario;
 use analytic::AssurSolver;
@@ -18,6 +19,8 @@ pub struct Explained {
     pub of: Vec<String>,
     /// What was found.
     pub diagnosis: Diagnosis,
+    /// Terms that are missing, where that is the cause.
+    pub terms: Vec<Term>,
     /// Share of the largest difference that may stay over when the cause is granted; zero for what the bounds allow.
     pub left: f64,
 }
@@ -25,6 +28,12 @@ pub struct Explained {
 /// Shares of the largest difference that a cause may leave over: nothing but the bounds, then little, as the error of a
 /// simulation that is wrong besides.
 const LEFT: [f64; 3] = [0.0, 0.01, 0.05];
+
+/// Number of channels that are off by little that terms are tried on.
+const TRIED: usize = 12;
+
+/// Number of instants that terms are tried on at first.
+const FEW: usize = 24;
 
 /// Share of a channel's scale from which on a difference is a mistake, and not the error of a method.
 pub const GROSS: f64 = 0.02;
@@ -44,13 +53,14 @@ pub(super) fn explained(
         return Ok(vec![all]);
     }
     let mut found = Vec::new();
-    let mut open: Vec<&Compared> = wrong.into_iter().filter(|own| own.is_gross()).collect();
+    let (mut open, little): (Vec<&Compared>, Vec<&Compared>) = wrong.into_iter().partition(|own| own.is_gross());
     while !open.is_empty() {
         // All of them at once, unless that explains none.
         let mut next = stage.examined(&open, &LEFT);
         if next.is_none() && open.len() > 1 {
             next = open.iter().find_map(|one| stage.examined(&[*one], &LEFT));
         }
+        next = next.or_else(|| open.iter().find_map(|one| stage.lacking(one)));
         let Some(explained) = next else {
             found.extend(stage.unexplained(&open));
             break;
@@ -58,6 +68,9 @@ pub(super) fn explained(
         open.retain(|own| !explained.of.contains(&own.claim.text));
         found.push(explained);
     }
+    // What is off by little may be a method's error, unless a term explains all of it.
+    let lacking = little.into_iter().take(TRIED).filter_map(|one| stage.lacking(one));
+    found.extend(lacking.filter(|explained| explained.left == 0.0));
     Ok(found)
 }
 
@@ -121,14 +134,41 @@ impl Stage {
             let is_left = |text: &str| diagnosis.left_over.iter().any(|channel| self.text(channel) == Some(text));
             let explained: Vec<String> =
                 of.iter().map(|own| own.claim.text.clone()).filter(|text| !is_left(text)).collect();
-            (!explained.is_empty()).then_some(Explained { of: explained, diagnosis, left })
+            (!explained.is_empty()).then_some(Explained { of: explained, diagnosis, terms: Vec::new(), left })
         })
     }
 
     /// What can be said where no cause is simple: since when.
     fn unexplained(&self, of: &[&Compared]) -> Option<Explained> {
         let diagnosis = self.diagnosis(of, 0.0)?;
-        Some(Explained { of: of.iter().map(|own| own.claim.text.clone()).collect(), diagnosis, left: 0.0 })
+        let of = of.iter().map(|own| own.claim.text.clone()).collect();
+        Some(Explained { of, diagnosis, terms: Vec::new(), left: 0.0 })
+    }
+
+    /// What a channel lacks that the mechanism has, in the unit that it is printed in.
+    fn lacking(&self, own: &Compared) -> Option<Explained> {
+        let place = self.bounds.iter().position(|(text, ..)| *text == own.claim.text)?;
+        let channel = &self.found.channels()[place];
+        let right = self.right.column(channel)?;
+        let (printed, turn) = (&own.claim.channels[0].1, own.claim.turn());
+        let gap = |(right, found): (&f64, &f64)| {
+            let gap = (right - found) / printed.to_si(1.0);
+            turn.map_or(gap, |turn| gap - turn * (gap / turn).round())
+        };
+        let differences: Vec<f64> = right.iter().zip(self.found.column(channel)?).map(gap).collect();
+        let rows: Vec<usize> = (0..differences.len()).collect();
+        let few: Vec<usize> = (0..FEW).map(|part| (2 * part + 1) * rows.len() / (2 * FEW)).collect();
+        let wrong = Wrong {
+            rows: &rows,
+            bounds: vec![self.bounds[place].1 / printed.to_si(1.0); rows.len()],
+            differences,
+            right: right.to_vec(),
+            few: &few,
+        };
+        let (terms, left) = missing_in_numbers(&Course::new(&self.case, &self.right, &|_, _| 0.0), &wrong)?;
+        let is_little = left <= LEFT[1];
+        is_little.then_some(())?;
+        Some(Explained { of: vec![own.claim.text.clone()], diagnosis: self.diagnosis(&[own], 0.0)?, terms, left })
     }
 
     fn text(&self, channel: &Channel) -> Option<&str> {

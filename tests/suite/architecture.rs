@@ -83,7 +83,7 @@ const ROOMS: &[(&str, &str)] = &[
     ("linkproof::testing", "compare proof report scenario"),
     ("linkproof::tolerance", ""),
     ("linkproof::tune", "compare numbers proof scenario"),
-    ("linkproof::versus", "compare diagnosis proof scenario tables"),
+    ("linkproof::versus", "claims compare diagnosis proof scenario tables"),
 ];
 
 /// Parts of other crates that rooms of the harness must not name, even where Cargo would allow it.

@@ -128,3 +128,26 @@ fn the_json_has_both_values_at_the_worst_instant() {
     let kept = fs::read_to_string(place.path("kept.toml")).unwrap();
     assert_eq!(kept, "[tolerance]\nall = { rel = 0.1 }\n");
 }
+
+/// Reports of tests and comments have the same verdicts, and nothing that is no mapping is written over by one.
+#[test]
+fn other_programs_read_the_verdicts() {
+    let place = place();
+    fs::write(place.path("some.csv"), "t_s,link.rocker.angle_deg\n0,80\n0.1,60.5\n0.2,70\n0.25,71\n").unwrap();
+    let line = "compare scenarios/crank_rocker.toml some.csv";
+    let outcome = place.run(&format!("{line} --junit out.xml --markdown - -q"));
+    assert_eq!(outcome.code, 1, "{}", outcome.stderr);
+    let comment = "**linkproof**: 1 comparison, 1 disagree\n\n| comparison | verdict |";
+    assert!(outcome.stdout.contains(comment), "{}", outcome.stdout);
+    let row = "| some.csv against scenarios/crank_rocker.toml | **disagree** |";
+    assert!(outcome.stdout.contains(row), "{}", outcome.stdout);
+    let xml = fs::read_to_string(place.path("out.xml")).unwrap();
+    assert!(xml.contains("name=\"link.rocker.angle_deg\"") && xml.contains("type=\"disagree\""), "{xml}");
+    for (target, words) in [
+        ("scenarios/crank_rocker.toml", "no mapping and would be overwritten"),
+        ("kept.map", "ends in .toml"),
+        ("nowhere/kept.toml", "no directory nowhere"),
+    ] {
+        place.refused(&format!("{line} --write-map {target}"), &["--write-map", words]);
+    }
+}

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use super::{against, scenario, solved, table};
 use linkage::case::Case;
 use linkage::trajectory::Trajectory;
-use linkproof::report::diagnosis::cause;
+use linkproof::report::versus::why;
 use linkproof::scenario::mapping::{Allowed, Size};
 use linkproof::versus::{Comparison, How};
 
@@ -112,8 +112,7 @@ const SCENARIOS: [(&str, &str, &str); 5] = [
 ];
 
 fn words(found: &Comparison) -> Vec<String> {
-    let causes = found.pairs.iter().flat_map(|pair| &pair.causes);
-    causes.filter_map(|explained| explained.diagnosis.cause.as_ref()).map(cause).collect()
+    found.pairs.iter().flat_map(|pair| &pair.causes).filter_map(why).collect()
 }
 
 /// All planted mistakes are found; those that are not named rightly are counted, and shown with --nocapture.
@@ -146,6 +145,33 @@ fn every_planted_mistake_is_found_and_most_are_named() {
     }
     println!("{named} of {all} named");
     assert!(all >= 60 && named * 10 >= all * 9, "{named} of {all}");
+}
+
+/// What a quantity lacks as a whole, no change of the mechanism explains: terms of what it has, by least squares.
+#[test]
+fn a_term_that_is_missing_is_named() {
+    let scenario = scenario("crank_rocker");
+    let right = solved(&scenario);
+    let agreed = Columns::of(&right, "rocker", "coupler", &scenario.case);
+    let of = |link: &str, suffix: &str| right.named(&format!("link.{link}.{suffix}")).unwrap().to_vec();
+    let (coupler, speed) = (of("coupler", "angle_rad"), of("rocker", "omega_rad_s"));
+    type Lack<'a> = (&'a str, &'a dyn Fn(usize) -> f64, &'a str);
+    let terms: [Lack; 3] = [
+        ("torque_N_m", &|row| 0.25 * coupler[row].cos(), "a missing term, `+ 0.25*cos(coupler)`"),
+        ("alpha_rad_s2", &|row| -0.5 * speed[row].powi(2), "a missing term, `- 0.5*omega(rocker)^2`"),
+        (
+            "angle_rad",
+            &|row| 0.01 * (2.0 * right.cranks()[row]).sin() + 0.03 * coupler[row].sin(),
+            "missing terms, `+ 0.01*sin(2*phi)` and `+ 0.03*sin(coupler)`",
+        ),
+    ];
+    for (suffix, term, expected) in terms {
+        let mut columns = Columns { all: agreed.all.clone(), time: agreed.time.clone(), other: Vec::new(), speed: 0.0 };
+        let (_, values) = columns.all.iter_mut().find(|(name, _)| name.ends_with(suffix)).unwrap();
+        values.iter_mut().enumerate().for_each(|(row, value)| *value -= term(row));
+        let found = columns.compared("crank_rocker", &How::default());
+        assert_eq!(words(&found), [expected]);
+    }
 }
 
 /// A simulation is wrong by its step besides. The mistake is named all the same, and what it leaves over is told.

@@ -1,74 +1,77 @@
-//! Terms that a wrong formula lacks as a whole, by least squares over what the mechanism has: sines and cosines of its
-//! links' angles, the squares of their speeds, their accelerations.
+//! What is missing in numbers, by least squares over what the mechanism has: sines and cosines of its links' angles, the
+//! squares of their speeds, their accelerations.
 
-use super::Course;
-use super::dimension::Dimensions;
-use super::missing::Monomials;
-use super::trial::Trial;
-use linkage::error::Result;
+use crate::claims::Course;
 use linkage::math::{Column, KeepNan, Matrix};
 
-/// A term with its coefficient.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Term {
-    /// Its coefficient, in the unit of the claim.
-    pub coefficient: f64,
-    /// The coefficient as a product of parameters, if it is one whose unit fits.
-    pub factor: Option<String>,
-    /// What it is a multiple of; empty for a constant.
-    pub of: String,
-}
-
-/// Terms that are missing, and the share of the largest difference that they leave; zero if the formula is right with
-/// them.
-pub(super) struct Found {
-    pub(super) terms: Vec<Term>,
-    pub(super) left: f64,
+/// Numbers that are wrong.
+pub struct Wrong<'a> {
+    /// The instants of the course that they belong to.
+    pub rows: &'a [usize],
+    /// What would have to be added to them.
+    pub differences: Vec<f64>,
+    /// How far the difference may be from zero.
+    pub bounds: Vec<f64>,
+    /// The right numbers.
+    pub right: Vec<f64>,
+    /// Some of the places that everything is tried at first.
+    pub few: &'a [usize],
 }
 
 /// A quantity of the mechanism by instants.
-struct Basis {
-    text: String,
-    unit: &'static str,
+pub struct Basis {
+    /// What it is; empty for a constant.
+    pub text: String,
+    /// Its unit.
+    pub unit: &'static str,
     values: Vec<f64>,
 }
 
-/// Relative accuracy to which a coefficient is recognised as a product of parameters.
-const ACCURACY: f64 = 1e-8;
-/// Complexity of a coefficient that is no product of parameters.
-const UNKNOWN_NUMBER: usize = 20;
+/// A quantity with its coefficient.
+pub struct Part<'a> {
+    /// The quantity.
+    pub basis: &'a Basis,
+    /// Its coefficient, in the unit of the wrong numbers.
+    pub coefficient: f64,
+}
+
+/// What explains the difference.
+pub struct Explanation<'a> {
+    /// One quantity or two.
+    pub parts: Vec<Part<'a>>,
+    /// Share of the largest difference that stays over; zero if nothing does.
+    pub left: f64,
+}
+
+/// Fewest instants that say anything.
+const FEWEST: usize = 8;
 /// Error of a channel's number over the largest of its column, as a basis.
 const KNOWN: f64 = 1e-10;
+/// Share of the difference that may stay over at a few places for all of them to be tried.
+const PROMISING: f64 = 1e-6;
 
-/// What one or two terms explain best of the difference, all of it if they can.
-///
-/// # Errors
-/// Those of the course's channels.
-pub(super) fn of(trial: &Trial, course: &Course, dimensions: &Dimensions) -> Result<Option<Found>> {
-    let rows = course.rows(trial.formula);
-    let differences: Vec<f64> =
-        (0..rows.len()).map(|place| -trial.difference(trial.pairs[place].formula.value, place)).collect();
-    if rows.len() < 8 || differences.iter().any(|own| !own.is_finite()) {
-        return Ok(None);
+/// Calls `whole` with every explanation by one quantity or two that leaves nothing, as long as no single one has;
+/// returns the one that leaves least, if there is one.
+pub fn explanations<'a>(
+    wrong: &Wrong,
+    bases: &'a [Basis],
+    mut whole: impl FnMut(Vec<Part<'a>>),
+) -> Option<Explanation<'a>> {
+    let Wrong { differences, few, .. } = wrong;
+    if differences.len() < FEWEST || differences.iter().any(|own| !own.is_finite()) {
+        return None;
     }
-    let bases = bases(trial, course, &rows)?;
-    let monomials = Monomials::of(&trial.formulas, trial.index, &[]);
+    let parts = |chosen: &[usize], coefficients: &[f64]| {
+        let part = |(&one, &coefficient): (&usize, &f64)| Part { basis: &bases[one], coefficient };
+        chosen.iter().zip(coefficients).map(part).collect::<Vec<_>>()
+    };
     let singles = (0..bases.len()).map(|one| vec![one]);
     let pairs = (0..bases.len()).flat_map(|one| (one + 1..bases.len()).map(move |other| vec![one, other]));
-    // What explains all of it with its complexity, and what explains most with the share that it leaves.
-    let mut whole: Option<(usize, Vec<Term>)> = None;
     let mut most: Option<(f64, Vec<usize>)> = None;
     for chosen in singles.chain(pairs) {
-        let Some((coefficients, left)) = fitted(&bases, &chosen, &differences, &trial.few) else { continue };
-        if left < 1e-6 && explains(trial, &bases, &chosen, &coefficients, &differences) {
-            let written = chosen.iter().zip(&coefficients);
-            let written =
-                written.map(|(&one, &coefficient)| written_as(&bases[one], coefficient, &monomials, dimensions));
-            let (terms, weights): (Vec<Term>, Vec<usize>) = written.unzip();
-            let weight: usize = weights.iter().sum();
-            if whole.as_ref().is_none_or(|(least, _)| weight < *least) {
-                whole = Some((weight, terms));
-            }
+        let Some((coefficients, left)) = fitted(bases, &chosen, differences, few) else { continue };
+        if left < PROMISING && explains(wrong, bases, &chosen, &coefficients) {
+            whole(parts(&chosen, &coefficients));
             // Two terms are no better than one.
             if chosen.len() == 1 {
                 break;
@@ -79,25 +82,13 @@ pub(super) fn of(trial: &Trial, course: &Course, dimensions: &Dimensions) -> Res
             most = Some((penalty, chosen));
         }
     }
-    if let Some((_, terms)) = whole {
-        return Ok(Some(Found { terms, left: 0.0 }));
-    }
-    let all: Vec<usize> = (0..rows.len()).collect();
-    let fitted = most.and_then(|(_, chosen)| Some((fitted(&bases, &chosen, &differences, &all)?.0, chosen)));
-    let Some((coefficients, chosen)) = fitted else { return Ok(None) };
-    let over = |place: usize| differences[place] - explained(&bases, &chosen, &coefficients, place);
+    let (_, chosen) = most?;
+    let all: Vec<usize> = (0..differences.len()).collect();
+    let (coefficients, _) = fitted(bases, &chosen, differences, &all)?;
+    let over = |place: usize| differences[place] - explained(bases, &chosen, &coefficients, place);
     let largest = |of: &dyn Fn(usize) -> f64| all.iter().fold(0.0, |most: f64, &place| most.larger(of(place).abs()));
     let left = largest(&over) / largest(&|place| differences[place]);
-    let term = |(&one, &coefficient): (&usize, &f64)| Term { coefficient, factor: None, of: bases[one].text.clone() };
-    Ok(Some(Found { terms: chosen.iter().zip(&coefficients).map(term).collect(), left }))
-}
-
-/// A term as it may be written, and how complicated it is.
-fn written_as(basis: &Basis, coefficient: f64, monomials: &Monomials, dimensions: &Dimensions) -> (Term, usize) {
-    let mut products = monomials.with_value(coefficient, ACCURACY).into_iter();
-    let product = products.find(|(tree, _)| dimensions.is_sound_term(tree, basis.unit));
-    let weight = product.as_ref().map_or(UNKNOWN_NUMBER, |(_, weight)| *weight);
-    (Term { coefficient, factor: product.map(|(tree, _)| tree.to_string()), of: basis.text.clone() }, weight)
+    Some(Explanation { parts: parts(&chosen, &coefficients), left })
 }
 
 /// What the chosen quantities explain at an instant.
@@ -122,18 +113,18 @@ fn fitted(bases: &[Basis], chosen: &[usize], differences: &[f64], places: &[usiz
 }
 
 /// Whether nothing is left over at any instant.
-fn explains(trial: &Trial, bases: &[Basis], chosen: &[usize], coefficients: &[f64], differences: &[f64]) -> bool {
+fn explains(wrong: &Wrong, bases: &[Basis], chosen: &[usize], coefficients: &[f64]) -> bool {
     let largest = |values: &[f64]| values.iter().fold(0.0, |largest: f64, value| largest.larger(value.abs()));
     let known: f64 =
         chosen.iter().zip(coefficients).map(|(&one, own)| KNOWN * own.abs() * largest(&bases[one].values)).sum();
-    (0..differences.len()).all(|place| {
-        let left = differences[place] - explained(bases, chosen, coefficients, place);
-        left.abs() <= 4.0 * trial.bound(place) + known
+    wrong.differences.iter().zip(&wrong.bounds).enumerate().all(|(place, (difference, bound))| {
+        (difference - explained(bases, chosen, coefficients, place)).abs() <= 4.0 * bound + known
     })
 }
 
 /// What the mechanism has, the simplest first.
-fn bases(trial: &Trial, course: &Course, rows: &[usize]) -> Result<Vec<Basis>> {
+pub fn bases(course: &Course, wrong: &Wrong) -> Vec<Basis> {
+    let rows = wrong.rows;
     let mut all = Vec::new();
     let mut put = |text: &str, unit: &'static str, of: &dyn Fn(usize) -> f64| {
         let values: Vec<f64> = rows.iter().map(|&row| of(row)).collect();
@@ -169,11 +160,11 @@ fn bases(trial: &Trial, course: &Course, rows: &[usize]) -> Result<Vec<Basis>> {
     };
     all.retain(changes);
     // The claim itself, or what goes with it, explains nothing.
-    let claimed = Column::from_iterator(rows.len(), trial.pairs.iter().map(|pair| pair.mechanism.value));
+    let claimed = Column::from_column_slice(&wrong.right);
     let is_claim = |own: &Basis| {
         let values = Column::from_column_slice(&own.values);
         values.dot(&claimed).abs() >= (1.0 - 1e-12) * values.norm() * claimed.norm()
     };
     all.retain(|own| own.text.is_empty() || !is_claim(own));
-    Ok(all)
+    all
 }
