@@ -2,6 +2,8 @@
 //!
 //! What is zero has a scale, so every function asks for it: digits that count, or the resolution of a value.
 
+use linkage::math::KeepNan;
+
 /// Digits of an error or a bound. More would be read as more than an estimate knows.
 const DIGITS: usize = 3;
 
@@ -10,6 +12,9 @@ const MOST_DIGITS: usize = 15;
 
 /// Share of a value from which a difference is seen in its first four digits.
 const FAR: f64 = 1e-3;
+
+/// Share of a value from which a difference that means nothing is seen in its digits.
+const NEAR: f64 = 1e-6;
 
 /// An error, a bound or a share of one: three significant digits.
 #[must_use]
@@ -63,7 +68,7 @@ pub fn resolved(value: f64, resolution: f64) -> String {
 }
 
 /// Two values with the digits in which they differ, and with four at least. One that is less than the `bound` on their
-/// difference, and much less than the other, is `0`. Where they do not differ, the bound is their resolution.
+/// difference, and much less than the other, is `0`. Values within the bound have seven digits at most.
 #[must_use]
 pub fn beside(values: [f64; 2], bound: f64) -> [String; 2] {
     let [a, b] = values;
@@ -72,9 +77,10 @@ pub fn beside(values: [f64; 2], bound: f64) -> [String; 2] {
     let resolution = |value: f64| match difference > 0.0 {
         true if is_far(value) && value.abs() < bound => bound,
         true if is_far(value) => FAR * value.abs(),
+        true if difference <= bound => difference.larger(NEAR * value.abs()),
         true => difference,
         // Not a number too.
-        false => bound,
+        false => bound.larger(NEAR * value.abs()),
     };
     values.map(|value| resolved(value, resolution(value)))
 }
@@ -172,6 +178,8 @@ mod tests {
             ([-0.006_972_4, -0.209_174], 1e-12, ["-0.006972", "-0.2092"]),
             ([2.5, 2.5], 1e-3, ["2.500", "2.500"]),
             ([f64::NAN, 2.5], 1e-3, ["NaN", "2.500"]),
+            ([2.512_345_678_9, 2.512_345_678_8], 1e-9, ["2.512346", "2.512346"]),
+            ([2.512_345_678_9, 2.512_345_678_8], 1e-12, ["2.5123456789", "2.5123456788"]),
         ] {
             assert_eq!(beside(values, bound), texts);
         }

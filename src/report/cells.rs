@@ -1,6 +1,6 @@
 //! Tables and cells that several reports use.
 
-use comfy_table::{CellAlignment, ColumnConstraint, ContentArrangement, Table, presets};
+use comfy_table::{CellAlignment, ColumnConstraint, ContentArrangement, Table, Width, presets};
 
 use crate::compare::Verdict;
 use crate::numbers;
@@ -18,14 +18,20 @@ pub(super) fn table<const N: usize>(header: [&str; N], numbers: &[usize]) -> Tab
     table
 }
 
+/// Fewest columns of a text that is broken.
+const NARROWEST: u16 = 16;
+
 /// The same, in at most `width` columns if there is a width: there the texts of the first column are broken, and numbers
-/// stay whole.
+/// stay whole. Where these leave no room for the texts, the table is wider.
 pub(super) fn fitted<const N: usize>(header: [&str; N], numbers: &[usize], width: Option<usize>) -> Table {
     let mut table = table(header, numbers);
     if let Some(width) = width {
         table.set_content_arrangement(ContentArrangement::Dynamic).set_width(width as u16);
-        table.column_iter_mut().skip(1).for_each(|column| {
-            column.set_constraint(ColumnConstraint::ContentWidth);
+        table.column_iter_mut().enumerate().for_each(|(index, column)| {
+            column.set_constraint(match index {
+                0 => ColumnConstraint::LowerBoundary(Width::Fixed(NARROWEST)),
+                _ => ColumnConstraint::ContentWidth,
+            });
         });
     }
     table
