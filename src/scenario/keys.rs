@@ -27,8 +27,10 @@ pub struct Key {
     pub kind: Kind,
     /// Whether it must be there.
     pub is_needed: bool,
-    /// What it means, in one sentence.
+    /// What it means, in one sentence of Markdown.
     pub meaning: &'static str,
+    /// What holds without it; empty of a key that must be there.
+    pub default: &'static str,
 }
 
 /// What stands at a key.

@@ -25,6 +25,7 @@ mod figures;
 mod formulas;
 mod higher_groups;
 mod invariants;
+mod key_tables;
 mod laws;
 mod library_texts;
 mod loads;

@@ -1,4 +1,4 @@
-//! The table of keys against what the readers ask for, and against the document.
+//! The table of keys against what the readers ask for.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -90,20 +90,4 @@ fn every_key_of_the_table_is_asked_for() {
         }
     }
     assert!(never.is_empty(), "{never:?}");
-}
-
-/// The document names every key, with `+ unit` in place of its ending.
-#[test]
-fn every_key_of_the_table_is_in_the_document() {
-    let document = include_str!("../../../docs/scenario.md");
-    for section in SECTIONS {
-        for key in section.keys {
-            let is_written = document.match_indices(key.name).any(|(at, name)| {
-                let before = document[..at].chars().next_back().is_some_and(|sign| "`. {[".contains(sign));
-                let after = document[at + name.len()..].chars().next().is_some_and(|sign| "`_ ].".contains(sign));
-                before && after
-            });
-            assert!(is_written, "{}.{}", section.path, key.name);
-        }
-    }
 }

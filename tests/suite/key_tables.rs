@@ -1,0 +1,100 @@
+//! The tables of keys in docs/scenario.md are made from the table of keys that the schema is made from.
+
+use std::path::Path;
+
+use linkproof::scenario::keys::{Key, Kind, SECTIONS, Section, section};
+
+const DOCUMENT: &str = include_str!("../../docs/scenario.md");
+const BEGIN: &str = "<!-- keys of ";
+const END: &str = "<!-- end of keys -->\n";
+
+/// What stands at a key, for the second column.
+fn kind(key: &Key) -> String {
+    let word = |word: &&str| format!("`\"{word}\"`");
+    match key.kind {
+        Kind::Text => "text".into(),
+        Kind::Choice(words) => words.iter().map(word).collect::<Vec<_>>().join(", "),
+        Kind::Texts => "list of texts".into(),
+        Kind::Number | Kind::Quantity(_) => "number".into(),
+        Kind::Numbers | Kind::Quantities(_) => "list of numbers".into(),
+        Kind::Integer => "whole number".into(),
+        Kind::IntegerOrBoolean => "whole number, or `true`, `false`".into(),
+        Kind::Table => "table".into(),
+        Kind::Tables => "list of tables".into(),
+        Kind::TableOrTables => "table, or list of tables".into(),
+    }
+}
+
+fn row(key: &Key) -> String {
+    let spellings: Vec<String> = key.spellings().iter().map(|spelling| format!("`{spelling}`")).collect();
+    let default = if key.is_needed { "required" } else { key.default };
+    let cells = [spellings.join(", "), kind(key), key.meaning.into(), default.into()];
+    assert!(cells.iter().all(|cell| !cell.is_empty() && !cell.contains('|')), "{key:?}");
+    format!("| {} |\n", cells.join(" | "))
+}
+
+fn table(section: &Section) -> String {
+    let rows: String = section.keys.iter().map(row).collect();
+    format!("\n| key | value | meaning | default |\n|---|---|---|---|\n{rows}\n")
+}
+
+/// Path of the section that a marker names.
+fn path(marker: &str) -> &str {
+    let named = marker.strip_suffix(" -->").unwrap_or_else(|| panic!("{marker}"));
+    if named == "the file" { "" } else { named.trim_matches('`') }
+}
+
+/// The document with the tables as they should be, and the sections that it has.
+fn renewed(document: &str) -> (String, Vec<&str>) {
+    let mut parts = document.split(BEGIN);
+    let (mut text, mut paths) = (parts.next().unwrap().to_string(), Vec::new());
+    for part in parts {
+        let (marker, _) = part.split_once('\n').unwrap();
+        let (_, after) = part.split_once(END).unwrap_or_else(|| panic!("no end of the keys of {marker}"));
+        let section = section(path(marker)).unwrap_or_else(|| panic!("there is no section {marker}"));
+        text.push_str(&format!("{BEGIN}{marker}\n{}{END}{after}", table(section)));
+        paths.push(section.path);
+    }
+    (text, paths)
+}
+
+/// `INSTA_UPDATE=always` writes them anew, as it does with snapshots.
+#[test]
+fn the_tables_of_keys_in_the_document_are_current() {
+    let (text, _) = renewed(DOCUMENT);
+    if std::env::var_os("INSTA_UPDATE").is_some_and(|value| value == "always") {
+        std::fs::write(Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/scenario.md"), text).unwrap();
+        return;
+    }
+    let differing = text.lines().zip(DOCUMENT.lines()).find(|(new, old)| new != old);
+    assert!(text == DOCUMENT, "{differing:#?}\nINSTA_UPDATE=always cargo test --release --test suite key_tables");
+}
+
+/// One table may stand for sections with equal keys: places, and numbers that are right.
+#[test]
+fn every_section_has_a_table_in_the_document() {
+    let (_, paths) = renewed(DOCUMENT);
+    let names = |section: &Section| section.keys.iter().map(|key| key.name).collect::<Vec<_>>();
+    for own in SECTIONS.iter().filter(|own| own.path != "ground") {
+        let is_shown = paths.iter().any(|path| section(path).is_some_and(|shown| names(shown) == names(own)));
+        assert!(is_shown, "docs/scenario.md has no `{BEGIN}`{}` -->`", own.path);
+    }
+}
+
+/// What a word does is told outside the tables, which only list the words.
+#[test]
+fn every_word_is_explained() {
+    let outside: String = DOCUMENT
+        .split(BEGIN)
+        .map(|part| part.split_once(END).map_or(part, |(_, after)| after))
+        .flat_map(|part| part.split("```").step_by(2))
+        .collect();
+    for own in SECTIONS {
+        for key in own.keys {
+            let Kind::Choice(words) = key.kind else { continue };
+            for word in words {
+                assert!(outside.contains(word), "{}.{}: \"{word}\"", own.path, key.name);
+            }
+        }
+    }
+}
