@@ -14,6 +14,7 @@ use graph::Graph;
 const CRATES: &[(&str, &str, &str, &str)] = &[
     ("linkage", "crates/linkage", "", "nalgebra petgraph"),
     ("analytic", "crates/analytic", "linkage", "differential-equations num-integer pulp wide"),
+    ("drawing", "crates/drawing", "linkage", ""),
     ("formula", "crates/formula", "", "winnow"),
     ("precise", "crates/precise", "linkage", "qd"),
     ("rapier_twin", "crates/rapier-twin", "linkage", "parry2d parry2d-f64 rapier2d rapier2d-f64"),
