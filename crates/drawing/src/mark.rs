@@ -199,7 +199,7 @@ impl Role {
             Role::Tracer => look(Ink::Link, Fill::None, 0.5, Layer::Joints),
             Role::Drive => look(Ink::Text, Fill::None, 0.4, Layer::Signs),
             Role::DriveHead => look(Ink::Text, Fill::Ink, 0.1, Layer::Signs),
-            Role::Motor => look(Ink::Text, Fill::Paper, 0.4, Layer::Signs),
+            Role::Motor => look(Ink::Text, Fill::None, 0.4, Layer::Signs),
             Role::Load => look(Ink::Load, Fill::None, 0.6, Layer::Signs),
             Role::LoadHead => look(Ink::Load, Fill::Ink, 0.1, Layer::Signs),
         }
