@@ -33,6 +33,7 @@ mod sign;
 mod sketch;
 mod stretched;
 mod travel;
+pub mod view;
 
 pub use acting::{Acting, acting};
 pub use mark::{Fill, Ink, Layer, Look, Mark, Role, Shape};

@@ -26,6 +26,8 @@ const LEAST: f64 = 1e-6;
 /// Dashes of what has no certain place, of traces, and of construction lines.
 const LOOSE: &str = "2 1.4";
 const CONSTRUCTION: &str = "4 1 0.5 1";
+/// Angle to either side over which a circle of what can be reached is drawn (rad).
+const REACH: f64 = 0.7;
 /// Opacity of tints.
 const TINT: f64 = 0.14;
 
@@ -256,11 +258,12 @@ impl<'a> Picture<'a> {
         }
     }
 
-    /// A circle that a point can reach (world, m), as a construction line.
-    pub fn draw_reach(&mut self, centre: Vec2, radius: f64) {
-        let circle = Shape::Circle { centre: centre / self.scale, radius: radius / self.scale };
-        let (points, _) = circle.outline();
-        self.figure.shape(points, true, None, Style { colour: GREY, width: 0.25, dash: CONSTRUCTION });
+    /// The part of the circle that a point can reach (world, m) in the direction `toward`, as a construction line.
+    pub fn draw_reach(&mut self, centre: Vec2, radius: f64, toward: Vec2) {
+        let from = toward.y.atan2(toward.x) - REACH;
+        let (centre, radius) = (centre / self.scale, radius / self.scale);
+        let (points, _) = Shape::Arc { centre, radius, from, sweep: 2.0 * REACH }.outline();
+        self.figure.shape(points, false, None, Style { colour: GREY, width: 0.3, dash: CONSTRUCTION });
     }
 
     /// A gap between two points in the world (m) that a joint should hold together, with its size.
