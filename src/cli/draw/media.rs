@@ -2,7 +2,6 @@
 
 use std::path::Path;
 
-use super::is_standard_output;
 use drawing::bitmap::{Bitmap, bitmap, gif, png, webp};
 use drawing::paper::document::document;
 use drawing::paper::figure::Figure;
@@ -23,7 +22,7 @@ impl Medium {
         let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
         match ending.as_deref() {
             Some("svg") => Ok(Medium::Svg),
-            None if is_standard_output(path) => Ok(Medium::Svg),
+            None if path == Path::new("-") => Ok(Medium::Svg),
             Some("png") => Ok(Medium::Png),
             Some("gif") => Ok(Medium::Gif),
             Some("webp") => Ok(Medium::WebP),
