@@ -3,7 +3,7 @@
 mod media;
 mod subject;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::builder::PossibleValuesParser;
 
@@ -21,7 +21,7 @@ Examples:
   linkproof draw scenarios/crank_rocker.toml -o crank_rocker.svg
   linkproof draw scenarios/rotary_engine.toml --crank-deg 60 --loads -o engine.png
   linkproof draw scenarios/ov7_base.toml --each-mode -o modes.svg      all configurations, with the names that `mode` takes
-  linkproof draw scenarios/class3_group.toml --traces -o moving.gif    one turn; .webp is smaller
+  linkproof draw scenarios/class3_group.toml --traces -o moving.gif    one turn; or .webp, without loss
   linkproof draw scenarios/scotch_yoke.toml scenarios/quick_return.toml --dimensions -o both.svg
 
 What cannot be assembled is drawn as far as it goes: dashed where a link has no certain place, with the gap of every joint
@@ -29,7 +29,7 @@ that stays open. The picture is written then too, and the exit code is 2.";
 
 /// Room of a picture that stands alone, and of one among others (mm).
 const ALONE: [f64; 2] = [150.0, 120.0];
-const AMONG: [f64; 2] = [84.0, 76.0];
+const AMONG: [f64; 2] = [100.0, 96.0];
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
@@ -128,7 +128,7 @@ fn drawn(args: &Args) -> Result<bool> {
         }
     }
     let (title, subtitle) = headline(&all);
-    let pages: Vec<_> = sheets.iter().map(|cells| sheet(&title, &subtitle, cells)).collect();
+    let pages: Vec<_> = sheets.iter().map(|cells| sheet(&title, &subtitle, cells, room.x)).collect();
     let bytes = medium.bytes(&pages, &title, args.width, args.seconds / frames as f64)?;
     output::write_bytes(&bytes, &args.output)?;
     for error in all.iter().flat_map(Drawn::faults) {
@@ -146,9 +146,4 @@ fn headline(all: &[Drawn]) -> (String, String) {
         [one] => (format!("{}, crank at {}", one.name, one.angle()), one.title.clone()),
         _ => (all.iter().map(|own| own.name.clone()).collect::<Vec<_>>().join(", "), String::new()),
     }
-}
-
-/// Whether a path is that of standard output.
-fn is_standard_output(path: &Path) -> bool {
-    path == Path::new("-")
 }
