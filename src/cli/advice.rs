@@ -1,5 +1,6 @@
 //! Advice in the words of the command line: it names the options and commands.
 
+use super::docs;
 use linkage::error::{Advice, rounded_up};
 
 /// Advice as text for a user of the command line.
@@ -33,7 +34,8 @@ pub(super) fn told(advice: &Advice) -> String {
             "ask for a larger error, other channels (--channel) or further engines (--engine all)".into()
         }
         Advice::AllResults => "all of them with --json".into(),
-        Advice::Text(_) | Advice::DoublePrecision | Advice::FewerInstants | Advice::ShortenGrid => advice.to_string(),
+        Advice::Text(text) => docs::as_commands(text),
+        Advice::DoublePrecision | Advice::FewerInstants | Advice::ShortenGrid => advice.to_string(),
     }
 }
 

@@ -51,7 +51,7 @@ pub(super) fn only(scenario: Scenario, words: &[String]) -> Result<Scenario> {
 }
 
 /// Reads `KEY=NUMBER`.
-fn setting(text: &str) -> std::result::Result<(String, f64), String> {
+pub(super) fn setting(text: &str) -> std::result::Result<(String, f64), String> {
     let (key, value) = text.split_once('=').ok_or("expected KEY=NUMBER, such as a_mm=30")?;
     Ok((key.trim().into(), number::decimal(value, "a finite number behind the `=`, such as a_mm=30")?))
 }

@@ -32,11 +32,13 @@ pub mod redraw;
 mod reduced;
 mod series;
 mod settings;
+pub mod shipped;
 mod source;
 mod start;
 mod stated;
 mod table_file;
 pub mod task_file;
+pub mod templates;
 #[cfg(test)]
 mod tests;
 pub mod unit;
@@ -248,7 +250,7 @@ impl Scenario {
 fn text_of(path: &Path) -> Result<String> {
     files::read_text(path).map_err(|error| {
         Error::new(ErrorKind::Io, format!("the scenario {} cannot be read: {error}", path.display()))
-            .help(files::way_out(&error, "give the path of a scenario file, such as scenarios/crank_rocker.toml"))
+            .help(files::way_out(&error, "give the path of a scenario file, such as four_bar.toml"))
     })
 }
 

@@ -11,6 +11,7 @@ mod files;
 mod messages;
 mod modes;
 mod mutate;
+mod new;
 mod numbers;
 mod outputs;
 mod plan;
