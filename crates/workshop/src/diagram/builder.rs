@@ -1,9 +1,9 @@
 //! Computes the vectors of a plan from the motions of the links, pair of points by pair of points.
 
 use super::names::{Place, fixed_guide, pair, pivot, primed};
-use super::scale::factor;
 use super::sliding::Slide;
 use super::vectors::{Part, Plan, Quantity, Tip, TipKind, Vector};
+use drawing::paper::scale::factor;
 use linkage::math::{KeepNan, Motion, Vec2, turned};
 use linkage::mechanism::Mechanism;
 use linkage::solver::State;

@@ -1,10 +1,10 @@
 //! The sheet of motion diagrams: displacement, velocity and acceleration over the crank angle, arranged vertically.
 
 use super::axes::{Axis, GRID, frame};
-use super::document::document;
-use super::figure::{Figure, Style, Type, solid, sub, words};
-use super::style::{BLACK, COLOURS, significant};
 use crate::diagram::motion::{Found, Method, MotionDiagram};
+use drawing::paper::document::document;
+use drawing::paper::figure::{Figure, Style, Type, solid, sub, words};
+use drawing::paper::style::{BLACK, COLOURS, significant};
 use linkage::math::{KeepNan, Vec2};
 
 /// Length of the crank angle axis (mm): two degrees per millimetre.

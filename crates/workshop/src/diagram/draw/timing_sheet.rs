@@ -2,10 +2,10 @@
 
 use std::f64::consts::TAU;
 
-use super::document::document;
-use super::figure::{Figure, Style, Type, solid, words};
-use super::style::{BLACK, COLOURS, GREY};
 use crate::diagram::timing::TimingDiagram;
+use drawing::paper::document::document;
+use drawing::paper::figure::{Figure, Style, Type, solid, words};
+use drawing::paper::style::{BLACK, COLOURS, GREY};
 use linkage::math::Vec2;
 
 /// Length of the crank angle axis (mm): two degrees per millimetre.

@@ -1,0 +1,127 @@
+//! Links: bars, plates, mass centres and traced points.
+
+use super::mark::{Mark, Role};
+use linkage::math::{KeepNan, Vec2, cross, turned, unit};
+use linkage::mechanism::{GROUND, Mechanism};
+
+/// Radius of the half disc that says that a bar goes on, of a mass centre, and half the width of a traced point's cross.
+const WELD: f64 = 2.0;
+const MASS: f64 = 1.2;
+const TRACER: f64 = 1.1;
+/// Corners of a quarter of a circle.
+const QUARTER: usize = 6;
+
+/// Places of a link (m, its frame): its points, then its joints that have no named point.
+pub fn places(mechanism: &Mechanism, link: usize) -> Vec<Vec2> {
+    let mut places: Vec<Vec2> = Vec::new();
+    let points = mechanism.links()[link].points.iter().map(|point| point.local);
+    for place in points.chain(mechanism.joints().iter().filter_map(|joint| joint.on(link))) {
+        if !places.contains(&place) {
+            places.push(place);
+        }
+    }
+    places
+}
+
+/// Corners of a link: its hull, or both ends of a bar.
+pub fn corners(mechanism: &Mechanism, link: usize) -> Vec<Vec2> {
+    hull(places(mechanism, link))
+}
+
+/// The bar or plate of a moving link, its mass centre and its traced points.
+pub fn marks(mechanism: &Mechanism, link: usize, unit: f64) -> Vec<Mark> {
+    let corners = corners(mechanism, link);
+    let mut marks = Vec::new();
+    match corners.len() {
+        0 | 1 => {}
+        2 => {
+            marks.push(Mark::line(Role::Bar, corners.clone()));
+            let along = (corners[1] - corners[0]).normalize();
+            let pins = mechanism.joints().iter().filter(|joint| joint.is_pin()).filter_map(|joint| joint.on(link));
+            let mut inner: Vec<Vec2> = pins.filter(|at| !corners.contains(at)).collect();
+            inner.dedup();
+            marks.extend(
+                inner.into_iter().map(|at| Mark::area(Role::Weld, sector(at, WELD * unit, along, 2 * QUARTER))),
+            );
+        }
+        _ => marks.push(Mark::area(Role::Plate, corners)),
+    }
+    marks.extend(traced(mechanism, link).into_iter().flat_map(|at| tracer(at, unit)));
+    let body = &mechanism.links()[link];
+    if body.mass > 0.0 {
+        let (at, radius) = (body.mass_centre, MASS * unit);
+        marks.push(Mark::circle(Role::MassCentre, at, radius));
+        for side in [1.0, -1.0].map(|side| Vec2::new(side, 0.0)) {
+            let mut quarter = sector(at, radius, side, QUARTER);
+            quarter.push(at);
+            marks.push(Mark::area(Role::MassQuarter, quarter));
+        }
+    }
+    marks
+}
+
+/// Named points of a link that are no joints.
+pub fn traced(mechanism: &Mechanism, link: usize) -> Vec<Vec2> {
+    let is_joint = |at: Vec2| mechanism.joints().iter().any(|joint| joint.on(link) == Some(at));
+    let points = mechanism.links()[link].points.iter().map(|point| point.local);
+    points.filter(|&at| !is_joint(at)).collect()
+}
+
+/// The cross of a traced point.
+pub fn tracer(at: Vec2, unit: f64) -> [Mark; 2] {
+    let half = Vec2::new(TRACER, TRACER) * unit;
+    [half, turned(half)].map(|half| Mark::line(Role::Tracer, [at - half, at + half]))
+}
+
+/// Points on a circle from the direction `from` on, counter-clockwise, `steps` of 90 deg / [`QUARTER`].
+fn sector(centre: Vec2, radius: f64, from: Vec2, steps: usize) -> Vec<Vec2> {
+    let start = from.y.atan2(from.x);
+    let step = std::f64::consts::FRAC_PI_2 / QUARTER as f64;
+    (0..=steps).map(|k| centre + unit(start + step * k as f64) * radius).collect()
+}
+
+/// Largest distance of two places of a link (m); of the ground more than of any other.
+pub fn size(mechanism: &Mechanism, link: usize) -> f64 {
+    if link == GROUND {
+        return f64::INFINITY;
+    }
+    let places = places(mechanism, link);
+    places.iter().flat_map(|a| places.iter().map(move |b| (a - b).norm())).fold(0.0, f64::larger)
+}
+
+/// Convex hull, counter-clockwise; both ends if all places are on one line (Andrew 1979).
+fn hull(mut places: Vec<Vec2>) -> Vec<Vec2> {
+    places.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
+    let far = places.iter().map(|at| (at - places[0]).norm_squared()).fold(0.0, f64::larger);
+    let half = |order: &mut dyn Iterator<Item = &Vec2>| {
+        let mut chain: Vec<Vec2> = Vec::new();
+        for &place in order {
+            while let [.., a, b] = chain[..]
+                && cross(b - a, place - b) <= 1e-6 * far
+            {
+                chain.pop();
+            }
+            chain.push(place);
+        }
+        chain.pop();
+        chain
+    };
+    let mut corners = half(&mut places.iter());
+    corners.extend(half(&mut places.iter().rev()));
+    if corners.is_empty() { places } else { corners }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn hulls_of_bars_and_plates() {
+        let at = |points: &[(f64, f64)]| hull(points.iter().map(|&(x, y)| Vec2::new(x, y)).collect()).len();
+        assert_eq!(at(&[(0.0, 0.0), (2.0, 2.0), (1.0, 1.0)]), 2);
+        assert_eq!(at(&[(0.0, 0.0), (2.0, 0.0), (1.0, 1.0), (1.0, 0.2)]), 3);
+        assert_eq!((at(&[(0.0, 0.0)]), at(&[])), (1, 0));
+        // Far from its frame's origin too.
+        assert_eq!(at(&[(1e4, 0.0), (1e4 + 1.0, 0.0), (1e4, 1.0)]), 3);
+    }
+}

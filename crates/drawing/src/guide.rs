@@ -1,0 +1,234 @@
+//! Prismatic pairs: block on rails, block in a slot, piston in a cylinder.
+
+use super::body::places;
+use super::mark::{Mark, Role};
+use super::pins::pivots;
+use super::travel::Travels;
+use linkage::math::{KeepNan, Vec2, cross, turned};
+use linkage::mechanism::{GROUND, Joint, Mechanism, Side};
+
+/// Half length and half width of a block in a fixed guide, and on a moving one. They differ so that both are visible if
+/// they sit on the same joint.
+const FIXED: [f64; 2] = [5.0, 3.2];
+const MOVING: [f64; 2] = [3.8, 2.0];
+/// Clearance between a block and the wall beside it.
+const PLAY: f64 = 0.5;
+/// Room between a piston and the head of its cylinder.
+const HEAD: f64 = 2.5;
+/// Length of hatching lines, and their spacing along the rail.
+const HATCH: f64 = 1.6;
+const PITCH: f64 = 2.0;
+/// Longest extension of a centre line beyond the rail towards the ground point that it goes through.
+const AXIS: f64 = 150.0;
+/// Box that a pivot keeps free of rails: its centre below the pin, and its half size.
+const BELOW: f64 = 2.0;
+const BOX: [f64; 2] = [5.2, 5.0];
+/// Words in the names of a joint and its links that make the pair a piston in a cylinder.
+const CYLINDERS: [&str; 4] = ["bore", "cylinder", "piston", "plunger"];
+/// Distance from an axis, as a share of the link's size, below which a place lies on it.
+const ON_AXIS: f64 = 1e-6;
+
+/// The guide of a joint and what slides on it.
+struct Guide {
+    guide: Side,
+    block: Side,
+    /// Unit vectors along the guide, in the frame of its link and in that of the block.
+    axes: [Vec2; 2],
+    /// Travel of the block from the guide's place (m).
+    travel: [f64; 2],
+    /// Half length and half width of the block (m).
+    half: [f64; 2],
+    is_cylinder: bool,
+    unit: f64,
+}
+
+/// All guides and blocks: the link that each mark belongs to, and the mark.
+pub fn marks(mechanism: &Mechanism, travels: &Travels, unit: f64) -> Vec<(usize, Mark)> {
+    let guide = |(index, joint): (usize, &Joint)| {
+        let [guide, block] = mechanism.guide_and_block(joint)?;
+        let axes = [joint.axis_on(guide.link)?, joint.axis_on(block.link)?];
+        let half = if guide.link == GROUND { FIXED } else { MOVING }.map(|part| part * unit);
+        let is_cylinder = is_cylinder(mechanism, joint, guide, block, axes[1]);
+        Some(Guide { guide, block, axes, travel: travels.of(index).unwrap_or([0.0; 2]), half, is_cylinder, unit })
+    };
+    let guides = mechanism.joints().iter().enumerate().filter_map(guide);
+    let mut drawn: Vec<[Vec2; 2]> = Vec::new();
+    let pivots = pivots(mechanism);
+    let mut marks = Vec::new();
+    for guide in guides {
+        marks.extend(guide.block().into_iter().map(|mark| (guide.block.link, mark)));
+        let of_guide = match (guide.guide.link == GROUND, guide.is_cylinder) {
+            (true, _) => guide.fixed(&pivots, &mut drawn),
+            (false, true) => guide.cylinder(),
+            (false, false) => guide.slot(),
+        };
+        marks.extend(of_guide.into_iter().map(|mark| (guide.guide.link, mark)));
+    }
+    marks
+}
+
+/// Whether a prismatic pair is a piston in a cylinder: its names say so, or the rod is pinned farther along the axis and
+/// guide and block both move.
+fn is_cylinder(mechanism: &Mechanism, joint: &Joint, guide: Side, block: Side, axis: Vec2) -> bool {
+    let links = [guide, block].map(|side| mechanism.links()[side.link].name.as_str());
+    let has_word = |name: &str| CYLINDERS.iter().any(|word| name.to_lowercase().contains(word));
+    let rod: Vec<Vec2> = places(mechanism, block.link).iter().map(|at| at - block.local).collect();
+    let far = rod.iter().map(|arm| arm.norm()).fold(0.0, f64::larger);
+    let is_rod = far > 0.0 && rod.iter().all(|arm| cross(axis, *arm).abs() <= ON_AXIS * far);
+    has_word(&joint.name) || links.into_iter().any(has_word) || guide.link != GROUND && is_rod
+}
+
+impl Guide {
+    /// Half width of the gap in which the block moves (m).
+    fn gap(&self) -> f64 {
+        self.half[1] + PLAY * self.unit
+    }
+
+    /// Distances from the guide's place to both ends of what the block itself covers (m).
+    fn covered(&self) -> [f64; 2] {
+        [self.travel[0] - self.half[0], self.travel[1] + self.half[0]]
+    }
+
+    /// The corners of a strip around the guide, in its link's frame.
+    fn strip(&self, [from, to]: [f64; 2], half: f64) -> [Vec2; 4] {
+        let aside = turned(self.axes[0]) * half;
+        let [start, end] = [from, to].map(|way| self.guide.local + self.axes[0] * way);
+        [start + aside, start - aside, end - aside, end + aside]
+    }
+
+    fn block(&self) -> Vec<Mark> {
+        let [long, wide] = self.half;
+        let (along, aside) = (self.axes[1] * long, turned(self.axes[1]) * wide);
+        let at = self.block.local;
+        let role = if self.is_cylinder { Role::Piston } else { Role::Block };
+        let mut marks =
+            vec![Mark::area(role, [along + aside, aside - along, -along - aside, along - aside].map(|arm| at + arm))];
+        if self.is_cylinder {
+            let ring = |share: f64| {
+                let end = along * (self.head() * share);
+                Mark::line(Role::Piston, [at + end + aside, at + end - aside])
+            };
+            marks.extend([0.45, 0.7].map(ring));
+        }
+        marks
+    }
+
+    /// The end of a cylinder that is closed: 1 in the direction of the axis, -1 against it. It is farther from the
+    /// guide's place, where the crank is.
+    fn head(&self) -> f64 {
+        if self.travel[1] + self.travel[0] >= 0.0 { 1.0 } else { -1.0 }
+    }
+
+    /// Ends of a cylinder: beyond the piston, with room at its head.
+    fn barrel(&self) -> [f64; 2] {
+        let [from, to] = self.covered();
+        if self.head() > 0.0 { [from, to + HEAD * self.unit] } else { [from - HEAD * self.unit, to] }
+    }
+
+    /// A slot of a moving link, and the bar that leads to it.
+    fn slot(&self) -> Vec<Mark> {
+        let [from, to] = self.covered();
+        let ends = [from - PLAY * self.unit, to + PLAY * self.unit];
+        let mut marks = self.lead(ends);
+        marks.push(Mark::area(Role::Slot, self.strip(ends, self.gap())));
+        marks
+    }
+
+    /// A moving cylinder, open where its piston comes from.
+    fn cylinder(&self) -> Vec<Mark> {
+        let ends = self.barrel();
+        let mut marks = self.lead(ends);
+        marks.push(Mark::line(Role::Cylinder, self.open(self.strip(ends, self.gap()))));
+        marks
+    }
+
+    /// The corners of a strip from its open end around the head.
+    fn open(&self, [a, b, c, d]: [Vec2; 4]) -> [Vec2; 4] {
+        if self.head() > 0.0 { [a, d, c, b] } else { [d, a, b, c] }
+    }
+
+    /// The bar from the guide's place to a slot or cylinder that does not reach it.
+    fn lead(&self, [from, to]: [f64; 2]) -> Vec<Mark> {
+        let near = 0.0_f64.clamp(from, to);
+        let ends = [0.0, near].map(|way| self.guide.local + self.axes[0] * way);
+        if near == 0.0 { Vec::new() } else { vec![Mark::line(Role::Bar, ends)] }
+    }
+
+    /// Rails or bore of a fixed guide, hatched, and its centre line. Rails leave the pivots free; hatching of two guides
+    /// on one axis would fill each other's gaps.
+    fn fixed(&self, pivots: &[Vec2], drawn: &mut Vec<[Vec2; 2]>) -> Vec<Mark> {
+        let u = self.unit;
+        let (role, ends) = if self.is_cylinder { (Role::Bore, self.barrel()) } else { (Role::Rail, self.covered()) };
+        let near = 0.0_f64.clamp(ends[0] - AXIS * u, ends[1] + AXIS * u);
+        let centre = [ends[0].smaller(near) - 2.0 * u, ends[1].larger(near) + 2.0 * u];
+        let mut marks = vec![Mark::line(Role::Axis, centre.map(|way| self.guide.local + self.axes[0] * way))];
+        let [a, b, c, d] = self.open(self.strip(ends, self.gap()));
+        // Their outer sides: on the left of the way from the open end over the head and back, or on the right.
+        let walls = if self.is_cylinder { vec![[a, b], [b, c], [c, d]] } else { vec![[a, b], [c, d]] };
+        let middle = (a + b + c + d) / 4.0;
+        for wall in walls {
+            let normal = turned((wall[1] - wall[0]).normalize());
+            let out = if normal.dot(&(wall[0] - middle)) > 0.0 { normal } else { -normal };
+            for piece in pieces(wall, pivots, u) {
+                marks.push(Mark::line(role, piece));
+                let along = (piece[1] - piece[0]).normalize();
+                let free = feet(piece, u).filter(|foot| !drawn.iter().any(|other| lies_on(*foot, other, u)));
+                marks.extend(free.map(|foot| Mark::line(Role::Hatch, [foot, foot + (out - along) * (HATCH * u)])));
+                drawn.push(piece);
+            }
+        }
+        marks
+    }
+}
+
+/// The parts of a rail outside the boxes of all pivots.
+fn pieces(rail: [Vec2; 2], pivots: &[Vec2], unit: f64) -> Vec<[Vec2; 2]> {
+    pivots.iter().fold(vec![rail], |pieces, pivot| {
+        let centre = pivot - Vec2::new(0.0, BELOW * unit);
+        let half = Vec2::from(BOX) * unit;
+        let cut = |piece: [Vec2; 2]| match inside(&piece, centre, half) {
+            None => vec![piece],
+            Some(shares) => {
+                let [from, to] = shares.map(|share| piece[0] + (piece[1] - piece[0]) * share);
+                vec![[piece[0], from], [to, piece[1]]]
+            }
+        };
+        pieces.into_iter().flat_map(cut).filter(|[a, b]| (b - a).norm() > PITCH * unit).collect()
+    })
+}
+
+/// Shares of a segment's length at which it enters and leaves the box around `centre` (Liang and Barsky 1984).
+#[must_use]
+pub fn inside(segment: &[Vec2; 2], centre: Vec2, half: Vec2) -> Option<[f64; 2]> {
+    let [start, end] = segment.map(|point| point - centre);
+    let along = end - start;
+    let (mut from, mut to) = (0.0f64, 1.0f64);
+    for axis in 0..2 {
+        if along[axis] == 0.0 {
+            if start[axis].abs() >= half[axis] {
+                return None;
+            }
+            continue;
+        }
+        let (a, b) = ((-half[axis] - start[axis]) / along[axis], (half[axis] - start[axis]) / along[axis]);
+        from = from.larger(a.smaller(b));
+        to = to.smaller(a.larger(b));
+    }
+    (to > from).then_some([from, to])
+}
+
+/// Start points of the hatching lines of a rail.
+fn feet([start, end]: [Vec2; 2], unit: f64) -> impl Iterator<Item = Vec2> {
+    let (hatch, pitch) = (HATCH * unit, PITCH * unit);
+    let (length, axis) = ((end - start).norm(), (end - start).normalize());
+    let strokes = ((length - hatch) / pitch).floor().larger(0.0) + 1.0;
+    let inset = (length - hatch - pitch * (strokes - 1.0)) / 2.0 + hatch;
+    (0..strokes as usize).map(move |k| start + axis * (inset + pitch * k as f64))
+}
+
+/// Whether the start point of a hatching line lies on a rail from `a` to `b`.
+fn lies_on(foot: Vec2, &[a, b]: &[Vec2; 2], unit: f64) -> bool {
+    let axis = (b - a).normalize();
+    let way = (foot - a).dot(&axis);
+    turned(axis).dot(&(foot - a)).abs() < 0.1 * unit && way > 0.0 && way < (b - a).norm()
+}

@@ -1,0 +1,43 @@
+//! What a mechanism looks like: marks in the frames of its links, by the rules of ISO 3952.
+//!
+//! A [`Sketch`] is made once. Whoever shows it puts every [`Body`] where its link is, and every [`Stretched`] between
+//! its ends:
+//!
+//! ```
+//! # use linkage::fixtures::four_bar;
+//! # use linkage::mechanism::LinkPose;
+//! use drawing::{Sketch, Travels, unit};
+//!
+//! # let mechanism = four_bar();
+//! let sketch = Sketch::of(&mechanism, &Travels::none(&mechanism), unit(&mechanism));
+//! let pose = LinkPose::GROUND;
+//! for (link, mark) in sketch.in_order() {
+//!     let (line, closed) = mark.shape.outline();
+//!     // Draw `line` with the pose of `link`, as `mark.role` says.
+//!     # let _ = (line.iter().map(|&local| pose.point(local)).collect::<Vec<_>>(), closed, mark.role.look(), link);
+//! }
+//! ```
+
+mod acting;
+pub mod bitmap;
+mod body;
+mod guide;
+pub mod lay;
+mod mark;
+pub mod palette;
+pub mod paper;
+pub mod picture;
+mod pins;
+pub mod sheet;
+mod sign;
+mod sketch;
+mod stretched;
+mod travel;
+pub mod view;
+
+pub use acting::{Acting, acting};
+pub use mark::{Fill, Ink, Layer, Look, Mark, Role, Shape};
+pub use sign::{LoadSign, arrow, turning};
+pub use sketch::{Body, Label, Lettering, Sketch, unit};
+pub use stretched::Stretched;
+pub use travel::Travels;

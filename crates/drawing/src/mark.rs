@@ -1,0 +1,276 @@
+//! Marks: shapes in the frame of a link, and what each of them stands for.
+
+use std::f64::consts::TAU;
+
+use linkage::math::{Vec2, unit};
+
+/// Corners of a full circle where it is drawn as a line.
+const CORNERS: f64 = 32.0;
+
+/// A shape in the frame of a link (m).
+#[derive(Clone, Debug, PartialEq)]
+pub enum Shape {
+    /// A line through points, or a polygon.
+    Line {
+        /// Its corners.
+        points: Vec<Vec2>,
+        /// Whether the last corner is joined to the first.
+        closed: bool,
+    },
+    /// A circle.
+    Circle {
+        /// Its centre.
+        centre: Vec2,
+        /// Its radius.
+        radius: f64,
+    },
+    /// A part of a circle.
+    Arc {
+        /// Centre of the circle.
+        centre: Vec2,
+        /// Its radius.
+        radius: f64,
+        /// Direction of the first end from the centre (rad), counter-clockwise from the frame's x axis.
+        from: f64,
+        /// Angle from the first end to the last (rad), counter-clockwise positive.
+        sweep: f64,
+    },
+}
+
+impl Shape {
+    /// The shape as a line through points, and whether it is closed: for whoever draws lines only.
+    #[must_use]
+    pub fn outline(&self) -> (Vec<Vec2>, bool) {
+        let arc = |centre: Vec2, radius: f64, from: f64, sweep: f64, count: usize| {
+            (0..=count).map(|k| centre + unit(from + sweep * k as f64 / count as f64) * radius).collect::<Vec<_>>()
+        };
+        match *self {
+            Shape::Line { ref points, closed } => (points.clone(), closed),
+            Shape::Circle { centre, radius } => {
+                let mut points = arc(centre, radius, 0.0, TAU, CORNERS as usize);
+                points.pop();
+                (points, true)
+            }
+            Shape::Arc { centre, radius, from, sweep } => {
+                let count = (CORNERS * sweep.abs() / TAU).ceil() as usize;
+                (arc(centre, radius, from, sweep, count.max(2)), false)
+            }
+        }
+    }
+}
+
+/// What a mark stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Role {
+    /// Centre line of a fixed guide.
+    Axis,
+    /// Hatching: the side of a line that belongs to the ground.
+    Hatch,
+    /// Rail of a fixed guide.
+    Rail,
+    /// Wall of a fixed cylinder.
+    Bore,
+    /// Triangle of a pivot on the ground, and the line that it stands on.
+    Pivot,
+    /// Stroke across a guide at a point of the ground that is no pivot.
+    Stop,
+    /// A link of three and more places that are not on a line.
+    Plate,
+    /// A link of two places, or of several on a line.
+    Bar,
+    /// Says that a bar does not end at the pin in its middle.
+    Weld,
+    /// Slot of a moving link, in which a block slides.
+    Slot,
+    /// Cylinder of a moving link, in which a piston slides.
+    Cylinder,
+    /// Block on a guide.
+    Block,
+    /// Piston, and its rings.
+    Piston,
+    /// Zigzag of a spring.
+    Spring,
+    /// Cup, rod and piston of a damper.
+    Damper,
+    /// Spiral of a torsional spring.
+    TorsionSpring,
+    /// Drum of a torsional damper.
+    TorsionDamper,
+    /// Revolute pair.
+    Pin,
+    /// Ring around a pin that joins one link more; two rings, two links more.
+    CoincidentPin,
+    /// Mass centre: its circle.
+    MassCentre,
+    /// Mass centre: two of its quarters.
+    MassQuarter,
+    /// Named point of a link that is no joint.
+    Tracer,
+    /// Arrow in the sense in which a drive turns its link: the arc.
+    Drive,
+    /// Arrow in the sense in which a drive turns its link: the head.
+    DriveHead,
+    /// A motor: a circle, with the letter M beside it as [`Lettering::Motor`](crate::Lettering::Motor).
+    Motor,
+    /// Arrow of a force or a moment: its line.
+    Load,
+    /// Arrow of a force or a moment: its head.
+    LoadHead,
+}
+
+/// The colour of a line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ink {
+    /// That of the link.
+    Link,
+    /// That of text.
+    Text,
+    /// A quiet one, for what is in the background.
+    Quiet,
+    /// That of loads.
+    Load,
+}
+
+/// What a closed line encloses.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fill {
+    /// Nothing: what lies beneath is seen.
+    None,
+    /// The colour of the paper: what lies beneath is covered.
+    Paper,
+    /// A tint of the ink.
+    Tint,
+    /// The ink.
+    Ink,
+}
+
+/// What covers what, lowest first. Within a layer, larger links lie below smaller ones, so that none hides another.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Layer {
+    /// What stands still.
+    Ground,
+    /// Links.
+    Links,
+    /// What slides on them.
+    Blocks,
+    /// Springs and dampers.
+    Stretched,
+    /// Joints.
+    Joints,
+    /// What is said about them.
+    Signs,
+}
+
+/// How a mark is drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Look {
+    /// Colour of its line.
+    pub ink: Ink,
+    /// What it encloses.
+    pub fill: Fill,
+    /// Thickness of its line, in units of the sketch.
+    pub width: f64,
+    /// Where it lies.
+    pub layer: Layer,
+}
+
+impl Role {
+    /// How marks of this role are drawn.
+    #[must_use]
+    pub fn look(self) -> Look {
+        let look = |ink, fill, width, layer| Look { ink, fill, width, layer };
+        match self {
+            Role::Axis => look(Ink::Quiet, Fill::None, 0.2, Layer::Ground),
+            Role::Hatch => look(Ink::Text, Fill::None, 0.25, Layer::Ground),
+            Role::Rail | Role::Bore => look(Ink::Text, Fill::None, 0.5, Layer::Ground),
+            Role::Pivot => look(Ink::Text, Fill::Tint, 0.4, Layer::Ground),
+            Role::Stop => look(Ink::Text, Fill::None, 0.4, Layer::Ground),
+            Role::Plate => look(Ink::Link, Fill::Tint, 0.9, Layer::Links),
+            Role::Bar => look(Ink::Link, Fill::None, 1.1, Layer::Links),
+            Role::Weld => look(Ink::Link, Fill::Ink, 0.2, Layer::Links),
+            Role::Slot | Role::Cylinder => look(Ink::Link, Fill::Paper, 0.6, Layer::Links),
+            Role::Block | Role::Piston => look(Ink::Link, Fill::Paper, 0.7, Layer::Blocks),
+            Role::Spring | Role::Damper => look(Ink::Load, Fill::None, 0.4, Layer::Stretched),
+            Role::TorsionSpring | Role::TorsionDamper => look(Ink::Load, Fill::None, 0.4, Layer::Stretched),
+            Role::Pin => look(Ink::Text, Fill::Paper, 0.5, Layer::Joints),
+            Role::CoincidentPin => look(Ink::Text, Fill::None, 0.35, Layer::Joints),
+            Role::MassCentre => look(Ink::Quiet, Fill::Paper, 0.3, Layer::Joints),
+            Role::MassQuarter => look(Ink::Quiet, Fill::Ink, 0.1, Layer::Joints),
+            Role::Tracer => look(Ink::Link, Fill::None, 0.5, Layer::Joints),
+            Role::Drive => look(Ink::Text, Fill::None, 0.4, Layer::Signs),
+            Role::DriveHead => look(Ink::Text, Fill::Ink, 0.1, Layer::Signs),
+            Role::Motor => look(Ink::Text, Fill::None, 0.4, Layer::Signs),
+            Role::Load => look(Ink::Load, Fill::None, 0.6, Layer::Signs),
+            Role::LoadHead => look(Ink::Load, Fill::Ink, 0.1, Layer::Signs),
+        }
+    }
+
+    /// Name, for classes and identifiers: lower-case letters and `-`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Role::Axis => "axis",
+            Role::Hatch => "hatch",
+            Role::Rail => "rail",
+            Role::Bore => "bore",
+            Role::Pivot => "pivot",
+            Role::Stop => "stop",
+            Role::Plate => "plate",
+            Role::Bar => "bar",
+            Role::Weld => "weld",
+            Role::Slot => "slot",
+            Role::Cylinder => "cylinder",
+            Role::Block => "block",
+            Role::Piston => "piston",
+            Role::Spring => "spring",
+            Role::Damper => "damper",
+            Role::TorsionSpring => "torsion-spring",
+            Role::TorsionDamper => "torsion-damper",
+            Role::Pin => "pin",
+            Role::CoincidentPin => "coincident-pin",
+            Role::MassCentre => "mass-centre",
+            Role::MassQuarter => "mass-quarter",
+            Role::Tracer => "tracer",
+            Role::Drive => "drive",
+            Role::DriveHead => "drive-head",
+            Role::Motor => "motor",
+            Role::Load => "load",
+            Role::LoadHead => "load-head",
+        }
+    }
+}
+
+/// A shape and what it stands for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mark {
+    /// The shape, in the frame of its link (m).
+    pub shape: Shape,
+    /// What it stands for.
+    pub role: Role,
+}
+
+impl Mark {
+    /// An open line.
+    #[must_use]
+    pub fn line(role: Role, points: impl Into<Vec<Vec2>>) -> Mark {
+        Mark { role, shape: Shape::Line { points: points.into(), closed: false } }
+    }
+
+    /// A polygon.
+    #[must_use]
+    pub fn area(role: Role, points: impl Into<Vec<Vec2>>) -> Mark {
+        Mark { role, shape: Shape::Line { points: points.into(), closed: true } }
+    }
+
+    /// A circle.
+    #[must_use]
+    pub fn circle(role: Role, centre: Vec2, radius: f64) -> Mark {
+        Mark { role, shape: Shape::Circle { centre, radius } }
+    }
+
+    /// A part of a circle: directions of its first end and angle to its last (rad).
+    #[must_use]
+    pub fn arc(role: Role, centre: Vec2, radius: f64, [from, sweep]: [f64; 2]) -> Mark {
+        Mark { role, shape: Shape::Arc { centre, radius, from, sweep } }
+    }
+}

@@ -1,0 +1,64 @@
+//! Colours of links, the same in every picture.
+//!
+//! Colour is never the only sign: links have numbers, and plates are hatched at an angle of their own.
+
+/// A colour on light and on dark paper, and what replaces it where there is none.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Paint {
+    /// On light paper, `#rrggbb`: at least 3 : 1 against white.
+    pub light: &'static str,
+    /// On dark paper, `#rrggbb`: at least 3 : 1 against #16181c.
+    pub dark: &'static str,
+    /// Angle of the hatching of plates (deg).
+    pub hatch_deg: f64,
+}
+
+/// Colours of links, different in grey scale too (after Okabe and Ito 2008).
+pub const LINKS: [Paint; 7] = [
+    Paint { light: "#0072b2", dark: "#56b4e9", hatch_deg: 45.0 },
+    Paint { light: "#d55e00", dark: "#ff8c42", hatch_deg: -45.0 },
+    Paint { light: "#009e73", dark: "#2ec99a", hatch_deg: 15.0 },
+    Paint { light: "#b0578d", dark: "#e38fc0", hatch_deg: -15.0 },
+    Paint { light: "#b8860b", dark: "#f0c550", hatch_deg: 75.0 },
+    Paint { light: "#4b2e83", dark: "#a991e0", hatch_deg: -75.0 },
+    Paint { light: "#3b8ea5", dark: "#7fd1e6", hatch_deg: 0.0 },
+];
+
+/// Colour of text and of what stands still.
+pub const TEXT: Paint = Paint { light: "#1a1a1a", dark: "#eceff4", hatch_deg: 45.0 };
+/// Colour of the background's lines.
+pub const QUIET: Paint = Paint { light: "#767676", dark: "#9aa0aa", hatch_deg: 45.0 };
+/// Colour of loads, springs and dampers.
+pub const LOAD: Paint = Paint { light: "#c1121f", dark: "#ff6b6b", hatch_deg: 45.0 };
+/// The paper.
+pub const PAPER: Paint = Paint { light: "#ffffff", dark: "#16181c", hatch_deg: 45.0 };
+
+/// Colour of the link with this number; the ground, number 0, has that of text.
+#[must_use]
+pub fn link(number: usize) -> Paint {
+    match number.checked_sub(1) {
+        None => TEXT,
+        Some(index) => LINKS[index % LINKS.len()],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Relative luminance of a colour, after WCAG 2.
+    fn luminance(colour: &str) -> f64 {
+        let part = |at: usize| f64::from(u8::from_str_radix(&colour[at..at + 2], 16).unwrap()) / 255.0;
+        let linear = |part: f64| if part <= 0.04045 { part / 12.92 } else { ((part + 0.055) / 1.055).powf(2.4) };
+        [(1, 0.2126), (3, 0.7152), (5, 0.0722)].map(|(at, share)| share * linear(part(at))).iter().sum()
+    }
+
+    #[test]
+    fn every_colour_stands_out_from_its_paper() {
+        for paint in LINKS.into_iter().chain([TEXT, QUIET, LOAD]) {
+            let light = (luminance(PAPER.light) + 0.05) / (luminance(paint.light) + 0.05);
+            let dark = (luminance(paint.dark) + 0.05) / (luminance(PAPER.dark) + 0.05);
+            assert!(light >= 3.0 && dark >= 3.0, "{paint:?}: {light} {dark}");
+        }
+    }
+}

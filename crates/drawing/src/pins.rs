@@ -1,0 +1,68 @@
+//! Revolute pairs: pins, pivots on the ground, and several pins in one place.
+
+use super::mark::{Mark, Role};
+use linkage::math::Vec2;
+use linkage::mechanism::{GROUND, Mechanism, Side};
+
+/// Radius of a pin, and distance of the rings around it.
+pub const PIN: f64 = 1.2;
+const RING: f64 = 0.9;
+
+/// Revolute joints in one place: every link with its place there, and the number of joints.
+struct Place {
+    sides: Vec<Side>,
+    joints: usize,
+}
+
+/// Places of revolute pairs. Joints that share a place of one link are in one place in every pose.
+fn shared(mechanism: &Mechanism) -> Vec<Place> {
+    let mut all: Vec<Place> = Vec::new();
+    for joint in mechanism.joints().iter().filter(|joint| joint.is_pin()) {
+        let sides = [joint.first, joint.second];
+        let (same, mut rest): (Vec<Place>, Vec<Place>) =
+            all.into_iter().partition(|place| place.sides.iter().any(|side| sides.contains(side)));
+        let joints = 1 + same.iter().map(|place| place.joints).sum::<usize>();
+        let mut merged: Vec<Side> = same.into_iter().flat_map(|place| place.sides).collect();
+        merged.extend(sides.iter().filter(|side| !merged.contains(side)).copied().collect::<Vec<_>>());
+        rest.push(Place { sides: merged, joints });
+        all = rest;
+    }
+    all
+}
+
+/// Places on the ground of all revolute pairs with it (m).
+pub fn pivots(mechanism: &Mechanism) -> Vec<Vec2> {
+    let on_ground = |place: &Place| place.sides.iter().find(|side| side.link == GROUND).map(|side| side.local);
+    shared(mechanism).iter().filter_map(on_ground).collect()
+}
+
+/// All pins and pivots: the link that each mark belongs to, and the mark. A pin is drawn once, on the first of its links.
+pub fn marks(mechanism: &Mechanism, unit: f64) -> Vec<(usize, Mark)> {
+    let mut marks = Vec::new();
+    for place in shared(mechanism) {
+        let Some(side) = place.sides.iter().min_by_key(|side| side.link) else { continue };
+        if side.link == GROUND {
+            marks.extend(pivot(side.local, unit).into_iter().map(|mark| (GROUND, mark)));
+        }
+        marks.push((side.link, Mark::circle(Role::Pin, side.local, PIN * unit)));
+        for ring in 1..place.joints {
+            let radius = (PIN + RING * ring as f64) * unit;
+            marks.push((side.link, Mark::circle(Role::CoincidentPin, side.local, radius)));
+        }
+    }
+    marks
+}
+
+/// A pivot on the ground: triangle, line and hatching.
+pub fn pivot(at: Vec2, unit: f64) -> Vec<Mark> {
+    let corner = |x: f64, y: f64| at + Vec2::new(x, y) * unit;
+    let mut marks = vec![
+        Mark::area(Role::Pivot, [at, corner(-2.4, -4.4), corner(2.4, -4.4)]),
+        Mark::line(Role::Pivot, [corner(-4.0, -4.4), corner(4.0, -4.4)]),
+    ];
+    marks.extend((0..6).map(|k| {
+        let x = -2.7 + 1.25 * f64::from(k);
+        Mark::line(Role::Hatch, [corner(x, -4.4), corner(x - 1.2, -6.0)])
+    }));
+    marks
+}

@@ -1,0 +1,160 @@
+//! What acts on a mechanism: drives, motors, forces, moments, torsional springs and dampers.
+
+use super::mark::{Mark, Role};
+use linkage::drive::{Drive, Load, LoadSort};
+use linkage::math::{KeepNan, Vec2, turned, unit};
+use linkage::mechanism::{GROUND, Mechanism, Side};
+use std::f64::consts::{PI, TAU};
+
+/// Radius of the arrow that shows a drive's sense, its angle (rad), and that from its link to its begin.
+const DRIVE: f64 = 8.0;
+const SWEEP: f64 = 1.7;
+const AHEAD: f64 = 0.35;
+/// Radius of a motor's circle.
+const MOTOR: f64 = 3.4;
+/// Length of an arrow's head, its largest share of the arrow, and its half width.
+const HEAD: f64 = 2.8;
+const HEAD_SHARE: f64 = 0.45;
+const HALF: f64 = 0.9;
+/// Smallest and largest radius of a spiral, and its turns.
+const SPIRAL: [f64; 2] = [1.9, 4.6];
+const TURNS: f64 = 2.25;
+const STEPS: usize = 54;
+/// Radius of a torsional damper's drum.
+const DRUM: f64 = 5.4;
+
+/// A load that is drawn as an arrow: its size and direction are known only for a state of the mechanism.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LoadSign {
+    /// Number of the load in its case.
+    pub load: usize,
+    /// Its sort.
+    pub sort: LoadSort,
+    /// Where it is drawn: for a force the point on which it acts, for a moment a pin of the link.
+    pub at: Side,
+}
+
+/// The place at which moments on a link are drawn: its pin on the ground, any pin, any point, or its mass centre.
+fn place_of(mechanism: &Mechanism, link: usize) -> Vec2 {
+    let pins = || mechanism.joints().iter().filter(|joint| joint.is_pin() && joint.on(link).is_some());
+    let on_ground = pins().find(|joint| joint.other(link).link == GROUND);
+    let pin = on_ground.or_else(|| pins().next()).and_then(|joint| joint.on(link));
+    let point = || mechanism.links()[link].points.first().map(|point| point.local);
+    pin.or_else(point).unwrap_or(mechanism.links()[link].mass_centre)
+}
+
+/// The place of two links at which springs and dampers between their angles are drawn.
+fn place_between(mechanism: &Mechanism, links: [usize; 2]) -> Side {
+    let common = mechanism.joints().iter().find(|joint| links.iter().all(|&link| joint.on(link).is_some()));
+    match common.and_then(|joint| joint.on(links[0])) {
+        Some(local) => Side { link: links[0], local },
+        None => {
+            let link = if links[0] == GROUND { links[1] } else { links[0] };
+            Side { link, local: place_of(mechanism, link) }
+        }
+    }
+}
+
+/// The arrow of a load; `None` for springs and dampers, which have symbols of their own.
+pub fn of_load(mechanism: &Mechanism, number: usize, load: &Load) -> Option<LoadSign> {
+    let at = match *load {
+        Load::Resistance { link, .. } | Load::Moment { link, .. } => Side { link, local: place_of(mechanism, link) },
+        Load::Force { at, .. } | Load::ResistingForce { at, .. } => at,
+        Load::Spring { .. } | Load::Damper { .. } | Load::TorsionSpring { .. } | Load::TorsionDamper { .. } => {
+            return None;
+        }
+    };
+    Some(LoadSign { load: number, sort: load.nature().sort, at })
+}
+
+/// The symbol of a torsional spring or damper, and its link; `None` for other loads.
+pub fn twisted(mechanism: &Mechanism, load: &Load, u: f64) -> Option<(usize, Vec<Mark>)> {
+    match *load {
+        Load::TorsionSpring { links, .. } => {
+            let Side { link, local } = place_between(mechanism, links);
+            let step = |k: usize| {
+                let share = k as f64 / STEPS as f64;
+                local + unit(TURNS * TAU * share) * ((SPIRAL[0] + (SPIRAL[1] - SPIRAL[0]) * share) * u)
+            };
+            Some((link, vec![Mark::line(Role::TorsionSpring, (0..=STEPS).map(step).collect::<Vec<_>>())]))
+        }
+        Load::TorsionDamper { links, .. } => {
+            let Side { link, local } = place_between(mechanism, links);
+            let (from, sweep) = (-0.75 * PI, 1.5 * PI);
+            let vane = [DRUM - 1.0, DRUM + 1.0].map(|radius| local + unit(PI / 4.0) * (radius * u));
+            let ends = [from, from + sweep].map(|angle| {
+                Mark::line(Role::TorsionDamper, [DRUM - 1.0, DRUM].map(|radius| local + unit(angle) * (radius * u)))
+            });
+            let mut marks = vec![
+                Mark::arc(Role::TorsionDamper, local, DRUM * u, [from, sweep]),
+                Mark::line(Role::TorsionDamper, vane),
+            ];
+            marks.extend(ends);
+            Some((link, marks))
+        }
+        Load::Resistance { .. } | Load::Moment { .. } | Load::Force { .. } | Load::ResistingForce { .. } => None,
+        Load::Spring { .. } | Load::Damper { .. } => None,
+    }
+}
+
+/// The arrow in the sense of a drive, in the frame of the driven link, and the circle of its motor.
+pub fn of_drive(mechanism: &Mechanism, drive: &Drive, u: f64) -> Vec<Mark> {
+    let Some(pin) = mechanism.joints()[drive.joint].on(drive.link) else { return Vec::new() };
+    let places = super::body::places(mechanism, drive.link);
+    let arm = places.iter().map(|at| at - pin).max_by(|a, b| a.norm().total_cmp(&b.norm()));
+    let arm = arm.unwrap_or_else(|| Vec2::new(1.0, 0.0));
+    let sense = drive.sense();
+    let mut marks = Vec::new();
+    if drive.has_moment() {
+        let [arc, head] = turning(sense, DRIVE * u, arm.y.atan2(arm.x) + sense * AHEAD, u);
+        marks.extend(
+            [(arc, Role::Drive), (head, Role::DriveHead)].map(|(mark, role)| Mark { role, ..moved(mark, pin) }),
+        );
+    }
+    if drive.motor().is_some() {
+        marks.push(Mark::circle(Role::Motor, pin, MOTOR * u));
+    }
+    marks
+}
+
+fn moved(mark: Mark, by: Vec2) -> Mark {
+    use super::mark::Shape;
+    let shape = match mark.shape {
+        Shape::Line { points, closed } => {
+            Shape::Line { points: points.into_iter().map(|at| at + by).collect(), closed }
+        }
+        Shape::Circle { centre, radius } => Shape::Circle { centre: centre + by, radius },
+        Shape::Arc { centre, radius, from, sweep } => Shape::Arc { centre: centre + by, radius, from, sweep },
+    };
+    Mark { shape, role: mark.role }
+}
+
+/// An arrow from the origin to `tip` (m), its line and its head, for a sketch of this unit (m). Nothing for no length.
+#[must_use]
+pub fn arrow(tip: Vec2, unit: f64) -> Vec<Mark> {
+    let length = tip.norm();
+    if !(length > 0.0 && length.is_finite()) {
+        return Vec::new();
+    }
+    let along = tip / length;
+    let head = (HEAD * unit).smaller(HEAD_SHARE * length);
+    let (base, side) = (tip - along * head, turned(along) * (head * HALF / HEAD));
+    vec![
+        Mark::line(Role::Load, [Vec2::zeros(), tip - along * (0.7 * head)]),
+        Mark::area(Role::LoadHead, [tip, base + side, base - side]),
+    ]
+}
+
+/// An arrow around the origin, its arc and its head: counter-clockwise for a `sense` above 0. It begins in the direction
+/// `from` (rad) at the distance `radius` (m), for a sketch of this unit (m).
+#[must_use]
+pub fn turning(sense: f64, radius: f64, from: f64, u: f64) -> [Mark; 2] {
+    let sense = sense.signum();
+    let end = unit(from + sense * SWEEP) * radius;
+    let tangent = turned(end).normalize() * sense;
+    let corner = |along: f64, aside: f64| end + tangent * (along * u) + turned(tangent) * (aside * u);
+    [
+        Mark::arc(Role::Load, Vec2::zeros(), radius, [from, sense * SWEEP]),
+        Mark::area(Role::LoadHead, [corner(2.6, 0.0), corner(-0.2, HALF), corner(-0.2, -HALF)]),
+    ]
+}

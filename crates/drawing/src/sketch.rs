@@ -1,0 +1,179 @@
+//! The sketch: all marks of a mechanism.
+
+use super::mark::{Layer, Mark, Role};
+use super::sign::LoadSign;
+use super::stretched::Stretched;
+use super::travel::Travels;
+use super::{body, guide, pins, sign, stretched};
+use linkage::case::CaseParts;
+use linkage::drive::{Drives, Load};
+use linkage::math::{Vec2, turned};
+use linkage::mechanism::{GROUND, Mechanism, Side};
+
+/// Units in the size of a mechanism, where the size of the picture is not known.
+const UNITS: f64 = 60.0;
+/// Half length of the stroke at a ground point on a guide.
+const STOP: f64 = 1.4;
+
+/// The unit (m) of a sketch where the size of its picture is not known: a pin is 2.4 units wide, a block 10 units long. A
+/// picture about 150 units wide reads well.
+#[must_use]
+pub fn unit(mechanism: &Mechanism) -> f64 {
+    mechanism.size() / UNITS
+}
+
+/// What a mechanism looks like.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sketch {
+    /// The length (m) that symbols and line widths are multiples of.
+    pub unit: f64,
+    /// Every link, in the order of the mechanism; the first is the ground, in world coordinates.
+    pub bodies: Vec<Body>,
+    /// Springs and dampers between points.
+    pub stretched: Vec<Stretched>,
+    /// Forces and moments, drawn as arrows once a state is known.
+    pub loads: Vec<LoadSign>,
+    /// Names, each with the place that it names.
+    pub labels: Vec<Label>,
+}
+
+/// The marks of one link, in its frame.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Body {
+    /// Number of the link.
+    pub link: usize,
+    /// Its marks.
+    pub marks: Vec<Mark>,
+    /// Largest distance of two of its places (m); infinite for the ground.
+    pub size: f64,
+}
+
+/// What a label names.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Lettering {
+    /// A named point.
+    Point,
+    /// A link: its number.
+    Link,
+    /// The mass centre of a link: S and its number.
+    MassCentre,
+    /// A motor: M.
+    Motor,
+}
+
+/// A text and the place that it names. Where the text stands is left to whoever draws it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Label {
+    /// The text.
+    pub text: String,
+    /// What it names.
+    pub names: Lettering,
+    /// The place.
+    pub at: Side,
+}
+
+impl Sketch {
+    /// Links and joints of a mechanism, with guides as long as these travels. Symbols are multiples of `unit` (m): see
+    /// [`unit`](self::unit).
+    #[must_use]
+    pub fn of(mechanism: &Mechanism, travels: &Travels, unit: f64) -> Sketch {
+        let links = 0..mechanism.links().len();
+        let body = |link| {
+            let marks = if link == GROUND { ground(mechanism, unit) } else { body::marks(mechanism, link, unit) };
+            Body { link, marks, size: body::size(mechanism, link) }
+        };
+        let mut bodies: Vec<Body> = links.map(body).collect();
+        for (link, mark) in guide::marks(mechanism, travels, unit).into_iter().chain(pins::marks(mechanism, unit)) {
+            bodies[link].marks.push(mark);
+        }
+        Sketch { unit, bodies, stretched: Vec::new(), loads: Vec::new(), labels: labels(mechanism) }
+    }
+
+    /// A whole case: links, joints, drives and loads.
+    #[must_use]
+    pub fn of_case(case: &CaseParts, travels: &Travels, unit: f64) -> Sketch {
+        let sketch = Sketch::of(&case.mechanism, travels, unit);
+        sketch.with_drives(&case.mechanism, &case.drives).with_loads(&case.mechanism, &case.loads)
+    }
+
+    /// The same with the senses of drives, and with motors.
+    #[must_use]
+    pub fn with_drives(mut self, mechanism: &Mechanism, drives: &Drives) -> Sketch {
+        for drive in drives {
+            self.bodies[drive.link].marks.extend(sign::of_drive(mechanism, drive, self.unit));
+            if let (Some(_), Some(local)) = (drive.motor(), mechanism.joints()[drive.joint].on(drive.link)) {
+                let at = Side { link: drive.link, local };
+                self.labels.push(Label { text: "M".into(), names: Lettering::Motor, at });
+            }
+        }
+        self
+    }
+
+    /// The same with loads. Points of the ground on which springs and dampers hang are drawn as pivots.
+    #[must_use]
+    pub fn with_loads(mut self, mechanism: &Mechanism, loads: &[Load]) -> Sketch {
+        self.stretched = stretched::of_loads(loads, self.unit);
+        self.loads = loads.iter().enumerate().filter_map(|(k, load)| sign::of_load(mechanism, k, load)).collect();
+        let mut hooks: Vec<Vec2> = body::traced(mechanism, GROUND);
+        hooks.retain(|at| {
+            self.stretched.iter().flat_map(|own| own.ends).any(|end| end.link == GROUND && end.local == *at)
+        });
+        for at in hooks {
+            let crosses = body::tracer(at, self.unit);
+            let ground = &mut self.bodies[GROUND].marks;
+            ground.retain(|mark| !crosses.contains(mark));
+            ground.extend(pins::pivot(at, self.unit));
+            ground.push(Mark::circle(Role::Pin, at, pins::PIN * self.unit));
+        }
+        for (link, marks) in loads.iter().filter_map(|load| sign::twisted(mechanism, load, self.unit)) {
+            self.bodies[link].marks.extend(marks);
+        }
+        self
+    }
+
+    /// All marks of all links, with the number of their link, in the order in which they are drawn: by layers, and within
+    /// a layer larger links first. Springs and dampers belong to [`Layer::Stretched`].
+    #[must_use]
+    pub fn in_order(&self) -> Vec<(usize, &Mark)> {
+        let mut all: Vec<(Layer, f64, usize, &Mark)> = Vec::new();
+        for body in &self.bodies {
+            all.extend(body.marks.iter().map(|mark| (mark.role.look().layer, body.size, body.link, mark)));
+        }
+        // Stable: the marks of one link keep their order.
+        all.sort_by(|a, b| a.0.cmp(&b.0).then(b.1.total_cmp(&a.1)).then(a.2.cmp(&b.2)));
+        all.into_iter().map(|(_, _, link, mark)| (link, mark)).collect()
+    }
+}
+
+/// What is on the ground besides guides and pivots: traced points, and strokes across guides at their points.
+fn ground(mechanism: &Mechanism, unit: f64) -> Vec<Mark> {
+    let mut marks: Vec<Mark> =
+        body::traced(mechanism, GROUND).into_iter().flat_map(|at| body::tracer(at, unit)).collect();
+    let pivots = pins::pivots(mechanism);
+    let points = &mechanism.links()[GROUND].points;
+    for joint in mechanism.joints() {
+        let (Some(at), Some(axis)) = (joint.on(GROUND), joint.axis_on(GROUND)) else { continue };
+        if !pivots.contains(&at) && points.iter().any(|point| point.local == at) {
+            let half = turned(axis) * (STOP * unit);
+            marks.push(Mark::line(Role::Stop, [at - half, at + half]));
+        }
+    }
+    marks
+}
+
+fn labels(mechanism: &Mechanism) -> Vec<Label> {
+    let fixed = mechanism.links()[GROUND].points.iter();
+    let fixed = fixed.map(|point| (point.name.as_str(), Side { link: GROUND, local: point.local }));
+    let point = |(name, at): (&str, Side)| Label { text: name.into(), names: Lettering::Point, at };
+    let mut labels: Vec<Label> = fixed.chain(mechanism.moving_points()).map(point).collect();
+    for (link, body) in mechanism.links().iter().enumerate().skip(1) {
+        let places = body::places(mechanism, link);
+        let middle = places.iter().sum::<Vec2>() / (places.len().max(1) as f64);
+        labels.push(Label { text: link.to_string(), names: Lettering::Link, at: Side { link, local: middle } });
+        if body.mass > 0.0 {
+            let at = Side { link, local: body.mass_centre };
+            labels.push(Label { text: format!("S{link}"), names: Lettering::MassCentre, at });
+        }
+    }
+    labels
+}

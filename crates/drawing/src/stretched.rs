@@ -1,0 +1,100 @@
+//! Springs and dampers: drawings that reach from one point to another, whatever their distance.
+
+use super::mark::{Mark, Role};
+use linkage::drive::Load;
+use linkage::math::Vec2;
+use linkage::mechanism::Side;
+
+/// Width of springs and dampers.
+const WIDTH: f64 = 4.0;
+/// Distance of the middle lines of several between the same points, in widths.
+const APART: f64 = 1.25;
+/// Teeth of a spring's zigzag, and the shares of its length at which they begin and end.
+const TEETH: usize = 8;
+const COIL: [f64; 2] = [0.18, 0.82];
+
+/// What reaches from a point of one link to a point of another.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stretched {
+    /// [`Role::Spring`] or [`Role::Damper`].
+    pub role: Role,
+    /// Number of the load in its case.
+    pub load: usize,
+    /// The points.
+    pub ends: [Side; 2],
+    /// Width (m). Multiply the y of the marks with it, and the x with the distance of the ends.
+    pub width: f64,
+    /// The drawing from (0, 0) to (1, 0); lines only.
+    pub marks: Vec<Mark>,
+}
+
+impl Stretched {
+    /// World place of a point of the drawing (m), for the world places of the ends (m).
+    #[must_use]
+    pub fn at(&self, local: Vec2, [start, end]: [Vec2; 2]) -> Vec2 {
+        let span = end - start;
+        let across = if span.norm() > 0.0 { linkage::math::turned(span.normalize()) } else { Vec2::zeros() };
+        start + span * local.x + across * (local.y * self.width)
+    }
+}
+
+/// The springs and dampers among loads.
+pub fn of_loads(loads: &[Load], unit: f64) -> Vec<Stretched> {
+    let mut all: Vec<Stretched> = Vec::new();
+    for (load, own) in loads.iter().enumerate() {
+        let (role, ends) = match *own {
+            Load::Spring { ends, .. } => (Role::Spring, ends),
+            Load::Damper { ends, .. } => (Role::Damper, ends),
+            Load::Resistance { .. } | Load::Moment { .. } | Load::Force { .. } | Load::ResistingForce { .. } => {
+                continue;
+            }
+            Load::TorsionSpring { .. } | Load::TorsionDamper { .. } => continue,
+        };
+        all.push(Stretched { role, load, ends, width: WIDTH * unit, marks: Vec::new() });
+    }
+    let same = |a: &Stretched, b: &Stretched| a.ends == b.ends || a.ends == [b.ends[1], b.ends[0]];
+    let asides: Vec<f64> = all
+        .iter()
+        .enumerate()
+        .map(|(index, own)| {
+            let count = all.iter().filter(|other| same(own, other)).count();
+            let before = all[..index].iter().filter(|other| same(own, other)).count();
+            let side = if all.iter().find(|other| same(own, other)).is_some_and(|first| first.ends == own.ends) {
+                1.0
+            } else {
+                -1.0
+            };
+            side * APART * (before as f64 - (count as f64 - 1.0) / 2.0)
+        })
+        .collect();
+    for (own, aside) in all.iter_mut().zip(asides) {
+        own.marks = if own.role == Role::Spring { spring(aside) } else { damper(aside) };
+    }
+    all
+}
+
+/// A zigzag between two straight ends, `aside` of the middle line.
+fn spring(aside: f64) -> Vec<Mark> {
+    let tooth = |k: usize| {
+        let x = COIL[0] + (COIL[1] - COIL[0]) * (k as f64 + 0.5) / TEETH as f64;
+        Vec2::new(x, aside + if k.is_multiple_of(2) { 0.5 } else { -0.5 })
+    };
+    let mut points = vec![Vec2::zeros(), Vec2::new(0.0, aside), Vec2::new(COIL[0], aside)];
+    points.extend((0..TEETH).map(tooth));
+    points.extend([Vec2::new(COIL[1], aside), Vec2::new(1.0, aside), Vec2::new(1.0, 0.0)]);
+    vec![Mark::line(Role::Spring, points)]
+}
+
+/// A cup, open at its end, and a piston with its rod in it.
+fn damper(aside: f64) -> Vec<Mark> {
+    let at = |x: f64, y: f64| Vec2::new(x, y + aside);
+    let cup = [at(0.68, 0.5), at(0.36, 0.5), at(0.36, -0.5), at(0.68, -0.5)];
+    [
+        vec![Vec2::zeros(), at(0.0, 0.0), at(0.36, 0.0)],
+        cup.to_vec(),
+        vec![at(0.54, 0.36), at(0.54, -0.36)],
+        vec![at(0.54, 0.0), at(1.0, 0.0), Vec2::new(1.0, 0.0)],
+    ]
+    .map(|points| Mark::line(Role::Damper, points))
+    .to_vec()
+}

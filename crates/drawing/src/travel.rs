@@ -1,0 +1,57 @@
+//! How far blocks travel on their guides: guides are drawn as long as that.
+
+use linkage::math::{KeepNan, Vec2};
+use linkage::mechanism::Mechanism;
+
+/// Least and largest distance of the block's place from the guide's place along the axis of the guide's link (m), for
+/// every joint; `None` for joints that do not slide, and before any pose is known.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Travels(Vec<Option<[f64; 2]>>);
+
+impl Travels {
+    /// Nothing is known yet.
+    #[must_use]
+    pub fn none(mechanism: &Mechanism) -> Travels {
+        Travels(vec![None; mechanism.joints().len()])
+    }
+
+    /// Takes in one pose: `point` gives the world place (m) of a point of a link, in the frame of that link. `None`, or
+    /// NaN, says that the link has no place.
+    pub fn take_in(&mut self, mechanism: &Mechanism, point: impl Fn(usize, Vec2) -> Option<Vec2>) {
+        for (joint, travel) in mechanism.joints().iter().zip(&mut self.0) {
+            let way = || {
+                let [guide, block] = mechanism.guide_and_block(joint)?;
+                let at = point(guide.link, guide.local)?;
+                let axis = point(guide.link, guide.local + joint.axis_on(guide.link)?)? - at;
+                Some((point(block.link, block.local)? - at).dot(&axis)).filter(|way| way.is_finite())
+            };
+            if let Some(way) = way() {
+                let [low, high] = travel.unwrap_or([way; 2]);
+                *travel = Some([low.smaller(way), high.larger(way)]);
+            }
+        }
+    }
+
+    /// Takes in other travels of the same mechanism.
+    pub fn widen(&mut self, others: &Travels) {
+        for (own, other) in self.0.iter_mut().zip(&others.0) {
+            *own = match (*own, *other) {
+                (Some(a), Some(b)) => Some([a[0].smaller(b[0]), a[1].larger(b[1])]),
+                (own, other) => own.or(other),
+            };
+        }
+    }
+
+    /// Travel on the joint of this number (m).
+    #[must_use]
+    pub fn of(&self, joint: usize) -> Option<[f64; 2]> {
+        self.0[joint]
+    }
+
+    /// The same with this travel (m) on a joint.
+    #[must_use]
+    pub fn with(mut self, joint: usize, travel: [f64; 2]) -> Travels {
+        self.0[joint] = Some(travel);
+        self
+    }
+}
