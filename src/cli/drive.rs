@@ -103,7 +103,7 @@ fn driven(args: &Args, scenario: &Scenario) -> Result<()> {
             output::print(&run_up::text(&motion))?;
         }
     }
-    let found = find(args, scenario, &model)?;
+    let found = find(scenario, &model, args.step_deg, args.non_uniformity)?;
     if let Some(to) = &args.svg {
         output::write(&drive_graphs::draw(scenario, &found, &curves(scenario, &model, &found)?), to)?;
     }
@@ -132,14 +132,15 @@ fn check(args: &Args) -> Result<()> {
     Ok(())
 }
 
-fn find(args: &Args, scenario: &Scenario, model: &Model) -> Result<Found> {
+/// The reduced quantities every `step_deg` of the crank, the steady motion, and the flywheel for a wanted non-uniformity.
+pub(super) fn find(scenario: &Scenario, model: &Model, step_deg: f64, non_uniformity: Option<f64>) -> Result<Found> {
     let case = &scenario.case;
     let means = reduced::means_over_turn(case, &AssurSolver)?;
     let sense = case.crank().sense();
     let period = model.kinks().period.unwrap_or(std::f64::consts::TAU).to_degrees();
-    let count = (period / args.step_deg + 1e-9).floor() as usize;
+    let count = (period / step_deg + 1e-9).floor() as usize;
     let cranks: Vec<f64> =
-        (0..=count).map(|k| case.crank().start + sense * (args.step_deg * k as f64).to_radians()).collect();
+        (0..=count).map(|k| case.crank().start + sense * (step_deg * k as f64).to_radians()).collect();
     let resistance = sense * means.resistance;
     let inertia = means.inertia + model.added_inertia();
     let averaged = case.crank().motor().and_then(|motor| Averaged::of(motor, inertia, resistance));
@@ -150,7 +151,7 @@ fn find(args: &Args, scenario: &Scenario, model: &Model) -> Result<Found> {
             Some(([sense * speed, sense * speed * motor.ratio], model.regime(&cranks, ACCURACY)?))
         }
     };
-    let flywheel = match args.non_uniformity {
+    let flywheel = match non_uniformity {
         Some(wanted) => Some((wanted, Flywheel::of(model, wanted, ACCURACY)?)),
         None => None,
     };
@@ -159,7 +160,7 @@ fn find(args: &Args, scenario: &Scenario, model: &Model) -> Result<Found> {
 }
 
 /// Data of the graphs: at equal intervals, and at the kinks of the reduced quantities.
-fn curves(scenario: &Scenario, model: &Model, found: &Found) -> Result<Curves> {
+pub(super) fn curves(scenario: &Scenario, model: &Model, found: &Found) -> Result<Curves> {
     let (start, sense) = (scenario.case.crank().start, scenario.case.crank().sense());
     let period = model.kinks().period.unwrap_or(std::f64::consts::TAU);
     let even: Vec<f64> = (0..=PARTS).map(|k| start + sense * period * (f64::from(k) / f64::from(PARTS))).collect();

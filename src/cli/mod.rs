@@ -16,6 +16,7 @@ mod engine_section;
 mod exit_code;
 mod export;
 mod grid;
+mod html;
 mod inspect;
 mod jobs;
 mod list;

@@ -14,6 +14,7 @@ use super::grid::GridArgs;
 use super::jobs::{Room, side_by_side};
 use super::load::{StartArgs, only, reference_names};
 use super::progress::Shared;
+use super::html::{self, Pages};
 use super::{advice, exit_code, number, output, standard_input, terminal};
 use crate::compare::Verdict;
 use crate::files;
@@ -42,6 +43,8 @@ Examples:
   linkproof run scenarios/crank_rocker_runup.toml --no-record --times 0,0.01,0.05,0.1   only these instants
   linkproof run scenarios/*.toml --no-record --json out.json   no recording, results for a script
   linkproof run scenarios/*.toml --no-record --junit out.xml --markdown out.md   for reports of tests, and a comment
+  linkproof run scenarios/crank_rocker.toml --no-record --html crank_rocker.html   a page to look at, in any browser
+  linkproof run scenarios/*.toml --no-record --html pages/     a page for each
   linkproof run mine.toml --set a_mm=30                        another number for a parameter of the file
   linkproof run scenarios/ov7_base.toml --no-record --only point.9.positions --explain   one point, and what that takes
 
@@ -99,6 +102,11 @@ pub(super) struct Args {
     /// each channel and check
     #[arg(long, value_name = "FILE", value_parser = output::target)]
     junit: Option<PathBuf>,
+    /// Write a page to look at: the mechanism moving, all channels of both sides with errors and bounds, verdict and
+    /// findings. It needs nothing else, no network either. A file for one scenario; for several, or if it is there or
+    /// ends with `/`, a directory with NAME.html for each
+    #[arg(long, value_name = "FILE|DIR", value_parser = html::target)]
+    html: Option<PathBuf>,
     /// Write the results as Markdown to a file, for a comment to a pull request; `-` for standard output after the report
     #[arg(long, value_name = "FILE", value_parser = output::target)]
     markdown: Option<PathBuf>,
@@ -123,7 +131,12 @@ pub(super) fn run(args: &Args) -> u8 {
     if let Err(found) = args.record_target() {
         return output::exit(Err(found));
     }
-    let mut session = Session::of(args);
+    let pages = args.html.as_deref().map(|to| Pages::of(to, args.files.len())).transpose();
+    let pages = match pages {
+        Ok(pages) => pages,
+        Err(found) => return output::exit(Err(found)),
+    };
+    let mut session = Session::of(args, pages);
     let what = match args.files.as_slice() {
         [only] => only.file_stem().map_or(String::new(), |stem| stem.to_string_lossy().into_owned()),
         several => format!("{} scenarios", several.len()),
@@ -152,6 +165,7 @@ fn threads(args: &Args) -> usize {
 /// What the command has shown and written so far. It takes the proofs in the order of the files.
 struct Session<'a> {
     args: &'a Args,
+    pages: Option<Pages>,
     document: json::Document,
     outcomes: Outcomes,
     closing: Closing,
@@ -159,9 +173,10 @@ struct Session<'a> {
 }
 
 impl<'a> Session<'a> {
-    fn of(args: &'a Args) -> Self {
+    fn of(args: &'a Args, pages: Option<Pages>) -> Self {
         Session {
             args,
+            pages,
             document: json::Document::told_by(advice::told),
             outcomes: Outcomes::told_by(advice::told),
             closing: Closing::default(),
@@ -204,6 +219,9 @@ impl<'a> Session<'a> {
             self.failed(file, &error);
             None
         });
+        if let Err(error) = self.page(&scenario, &proof) {
+            self.failed(file, &error);
+        }
         if self.reports() && !self.args.quiet && self.args.files.len() > 1 {
             self.print("\n");
         }
@@ -267,6 +285,17 @@ impl<'a> Session<'a> {
             output::print(&format!("\nrecording  {}{why}\n", path.display()))?;
         }
         Ok(Some(path))
+    }
+
+    /// Writes the page of a proof, if pages are asked for.
+    fn page(&mut self, scenario: &Scenario, proof: &Proof) -> Result<()> {
+        let Some(pages) = &mut self.pages else { return Ok(()) };
+        let path = pages.write(scenario, proof, &metadata(self.args, proof))?;
+        if self.reports() && !self.args.quiet {
+            let gap = if self.args.no_record { "\n" } else { "" };
+            output::print(&format!("{gap}page       {}\n", path.display()))?;
+        }
+        Ok(())
     }
 
     /// The table over all files, and the results for other programs; returns the exit code.

@@ -22,6 +22,11 @@ pub(crate) struct Curves {
 
 /// The graphs as an SVG document.
 pub(crate) fn draw(scenario: &Scenario, found: &Found, curves: &Curves) -> String {
+    draw::graphs(&graphs(scenario, found, curves), &scenario.name)
+}
+
+/// The graphs as data.
+pub(crate) fn graphs(scenario: &Scenario, found: &Found, curves: &Curves) -> Graphs {
     let Curves { period, rows, slope, steady } = curves;
     let (start, sense) = (scenario.case.crank().start, scenario.case.crank().sense());
     let points = |of: fn(&Row) -> f64| rows.iter().map(|row| [row.crank, of(row)]).collect::<Vec<[f64; 2]>>();
@@ -72,6 +77,5 @@ pub(crate) fn draw(scenario: &Scenario, found: &Found, curves: &Curves) -> Strin
         });
         note += &format!("; non-uniformity {:.6}", regime.non_uniformity());
     }
-    let graphs = Graphs { period: [start, start + sense * period], graphs, notes: vec![scenario.title.clone(), note] };
-    draw::graphs(&graphs, &scenario.name)
+    Graphs { period: [start, start + sense * period], graphs, notes: vec![scenario.title.clone(), note] }
 }

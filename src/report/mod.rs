@@ -20,6 +20,7 @@ pub(crate) mod drive_graphs;
 mod engines;
 pub(crate) mod errors;
 pub mod explain;
+pub(crate) mod html;
 pub(crate) mod inspect;
 pub mod json;
 pub mod junit;

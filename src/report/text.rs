@@ -142,7 +142,8 @@ fn seconds(step: f64) -> String {
     numbers::significant(step, 5)
 }
 
-fn sentence(verdict: &Verdict, proof: &Proof) -> String {
+/// How much was judged, and what came of it.
+pub(super) fn sentence(verdict: &Verdict, proof: &Proof) -> String {
     let own: Vec<&ChannelProof> =
         proof.engines.iter().flat_map(|engine| &engine.own_forces).flat_map(|own| &own.channels).collect();
     let closed = own.iter().filter(|own| !matches!(own.verdict, Verdict::Inconclusive { .. })).count();

@@ -25,7 +25,7 @@ const CRATES: &[(&str, &str, &str, &str)] = &[
         "linkproof",
         "",
         "analytic drawing formula linkage precise rapier-twin simbody-twin workshop",
-        "annotate-snippets anstream anstyle chacha20 clap clap_complete clap_mangen comfy-table csv foxglove include_dir indicatif libtest-mimic mcap parquet plotters prost prost-types quick-junit serde serde_json strsim tempfile terminal_size textwrap toml toml_edit",
+        "annotate-snippets anstream anstyle base64 chacha20 clap clap_complete clap_mangen comfy-table csv foxglove include_dir indicatif libtest-mimic mcap parquet plotters prost prost-types quick-junit serde serde_json strsim tempfile terminal_size textwrap toml toml_edit",
     ),
 ];
 
@@ -138,6 +138,7 @@ const HOMES: &[(&str, &str)] = &[
     ("Command", "linkproof::cli linkproof::outside"),
     ("process", "linkproof::cli linkproof::outside linkproof::testing"),
     ("serde", "linkproof::report"),
+    ("base64", "linkproof::report"),
     ("strsim", "linkproof::scenario"),
     ("serde_json", "linkproof::outside linkproof::report"),
     // `scenario` reads tables of published numbers, `outside` those of peers, `tables` any; `report` writes tables.

@@ -1,0 +1,104 @@
+//! Pages of `linkproof run --html`.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use super::{advice, drive, output};
+use crate::files;
+use crate::proof::Proof;
+use crate::report::html::{self, Beside};
+use crate::report::drive_graphs;
+use crate::scenario::Scenario;
+use analytic::range::explained;
+use analytic::reduced::Model;
+use linkage::error::{Error, ErrorKind, Result};
+use workshop::diagram::Graphs;
+
+/// Crank angle between two rows of the reduced quantities (deg): only their means and extremes are told.
+const STEP_DEG: f64 = 10.0;
+
+/// Where pages go: one file, or a directory with a page for each scenario.
+pub(super) struct Pages {
+    to: PathBuf,
+    is_directory: bool,
+    /// Names that are taken.
+    taken: BTreeSet<String>,
+}
+
+impl Pages {
+    /// The pages of this many scenarios. Tries whether they can be written, before any work is done.
+    ///
+    /// # Errors
+    /// What is in the way.
+    pub(super) fn of(to: &Path, scenarios: usize) -> Result<Pages> {
+        let is_directory = scenarios > 1 || to.is_dir() || to.as_os_str().to_string_lossy().ends_with('/');
+        let tried = match is_directory {
+            true => files::may_fill(to),
+            false => files::may_write(to),
+        };
+        let wrong = |found: String| {
+            let what = if is_directory { "pages cannot be written to" } else { "the page cannot be written to" };
+            Error::new(ErrorKind::Io, format!("{what} {}: {found}", to.display()))
+                .key("--html")
+                .help("name a file for one scenario, or a directory for several")
+        };
+        tried.map_err(wrong)?;
+        Ok(Pages { to: to.to_path_buf(), is_directory, taken: BTreeSet::new() })
+    }
+
+    /// Writes the page of a proof, and returns its path.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Io`] if it cannot be written.
+    pub(super) fn write(
+        &mut self,
+        scenario: &Scenario,
+        proof: &Proof,
+        settings: &BTreeMap<String, String>,
+    ) -> Result<PathBuf> {
+        let beside = Beside { given: &scenario.text, settings, reduced: reduced(scenario) };
+        let page = html::page(proof, &beside, advice::told);
+        let path = self.place(&scenario.name)?;
+        output::write(&page, &path)?;
+        Ok(path)
+    }
+
+    /// `NAME.html` in the directory; `NAME-2.html` if a scenario before had that name.
+    fn place(&mut self, name: &str) -> Result<PathBuf> {
+        if !self.is_directory {
+            return Ok(self.to.clone());
+        }
+        fs::create_dir_all(&self.to).map_err(|error| {
+            Error::new(ErrorKind::Io, format!("the directory {} cannot be made: {error}", self.to.display()))
+                .help("name another directory with --html")
+        })?;
+        let mut own = name.to_string();
+        let mut number = 1;
+        while !self.taken.insert(own.clone()) {
+            number += 1;
+            own = format!("{name}-{number}");
+        }
+        Ok(self.to.join(format!("{own}.html")))
+    }
+}
+
+/// Path for a page or for several; standard output has the report.
+pub(super) fn target(text: &str) -> std::result::Result<PathBuf, String> {
+    match text {
+        "-" => Err("a page goes to a file; expected one, or a directory for several scenarios".into()),
+        _ if text.ends_with(".toml") => output::target(text),
+        _ => Ok(PathBuf::from(text)),
+    }
+}
+
+/// The mechanism reduced to its crank, or why it is not.
+fn reduced(scenario: &Scenario) -> std::result::Result<Graphs, String> {
+    let scenario = scenario.clone().nominal();
+    let graphs = || {
+        let model = Model::of(&scenario.case)?;
+        let found = drive::find(&scenario, &model, STEP_DEG, None)?;
+        Ok(drive_graphs::graphs(&scenario, &found, &drive::curves(&scenario, &model, &found)?))
+    };
+    graphs().map_err(|error: Error| explained(&scenario.case, error).message().to_string())
+}

@@ -1,0 +1,129 @@
+//! What the script of a page reads: columns of all channels, errors, bounds, and what moves.
+
+use serde_json::{Map, Value, json};
+
+use super::markup::{doubles, singles};
+use super::thinned::{Errors, Thinned, is_wide};
+use crate::compare::Verdict;
+use crate::proof::{ChannelProof, EngineProof, Proof};
+use crate::report::tell::Tell;
+use drawing::{Lettering, Shape, Sketch};
+use linkage::math::Vec2;
+use linkage::mechanism::Side;
+use linkage::trajectory::{Channel, Trajectory};
+
+/// Everything, as one object.
+pub(super) fn of(proof: &Proof, errors: &[Errors], thinned: &Thinned, tell: Tell) -> Map<String, Value> {
+    let reference = &proof.reference_trajectory;
+    let at = |values: &[f64]| doubles(thinned.rows.iter().map(|&row| values[row]));
+    let mut data = Map::new();
+    data.insert("reference".into(), proof.reference.into());
+    data.insert("instants".into(), thinned.all.into());
+    data.insert("time".into(), at(reference.times()).into());
+    data.insert("crank".into(), at(reference.cranks()).into());
+    data.insert("channels".into(), reference.iter().map(|(own, values)| channel(own, values, &thinned.rows)).collect());
+    let engines = proof.engines.iter().zip(errors).map(|(own, errors)| engine(own, reference, errors, thinned, tell));
+    data.insert("engines".into(), engines.collect());
+    data
+}
+
+fn channel(channel: &Channel, values: &[f64], rows: &[usize]) -> Value {
+    let values = rows.iter().map(|&row| values[row]);
+    let is_wide = is_wide(channel);
+    json!({
+        "name": channel.to_string(), "unit": channel.kind.unit.symbol(), "quantity": channel.kind.quantity,
+        "wide": is_wide, "values": if is_wide { doubles(values) } else { singles(values) },
+    })
+}
+
+fn engine(proof: &EngineProof, reference: &Trajectory, errors: &Errors, thinned: &Thinned, tell: Tell) -> Value {
+    let judged = |channel: &Channel| proof.channels.iter().find(|own| own.residual.channel == *channel);
+    let channels = reference.channels().iter().zip(errors).map(|(channel, errors)| {
+        let mut value = judged(channel).map_or_else(|| json!({}), |own| judgement(own, tell));
+        if let Some(errors) = errors {
+            value["errors"] = singles(thinned.rows.iter().map(|&row| errors[row])).into();
+        }
+        value
+    });
+    let doubt = thinned.rows.iter().enumerate().filter(|(_, row)| proof.kept.get(**row) == Some(&false));
+    json!({
+        "name": proof.info.name, "version": proof.info.version,
+        "channels": channels.collect::<Vec<_>>(), "unjudged": doubt.map(|(place, _)| place).collect::<Vec<_>>(),
+    })
+}
+
+fn judgement(own: &ChannelProof, tell: Tell) -> Value {
+    let residual = &own.residual;
+    let reason = match own.verdict {
+        Verdict::Agree { .. } => None,
+        Verdict::Expected { .. } | Verdict::Disagree { .. } | Verdict::Inconclusive { .. } => own.verdict.reason(tell),
+    };
+    json!({
+        "max": residual.max, "bound": own.bound, "scale": residual.scale, "order": own.convergence.observed,
+        "verdict": own.verdict.word(), "reason": reason, "at": residual.worst_time, "left_out": own.left_out,
+    })
+}
+
+/// What moves, in units of the picture; columns are told by their place among the channels.
+pub(super) fn motion(proof: &Proof, sketch: &Sketch, view: [f64; 4]) -> Value {
+    let (mechanism, unit) = (&proof.scene.case.mechanism, sketch.unit);
+    let channels = proof.reference_trajectory.channels();
+    let column = |name: String| channels.iter().position(|own| own.to_string() == name);
+    let columns = |word: &str, name: &str, suffixes: &[&str]| -> Option<Vec<usize>> {
+        suffixes.iter().map(|suffix| column(format!("{word}.{name}.{suffix}"))).collect()
+    };
+    let links = mechanism.links().iter().skip(1).map(|link| {
+        json!({
+            "name": link.name, "centre": pair(link.mass_centre),
+            "at": columns("link", &link.name, &["angle_rad", "x_m", "y_m"]),
+            "rates": columns("link", &link.name, &["omega_rad_s", "vx_m_s", "vy_m_s"]),
+            "alpha": columns("link", &link.name, &["alpha_rad_s2"]),
+            "points": link.points.iter().map(|point| json!([point.name, point.local.x, point.local.y])).collect::<Vec<_>>(),
+        })
+    });
+    let points = mechanism.moving_points().map(|(name, own)| {
+        json!({
+            "name": name, "link": own.link,
+            "at": columns("point", name, &["x_m", "y_m"]), "velocity": columns("point", name, &["vx_m_s", "vy_m_s"]),
+            "acceleration": columns("point", name, &["ax_m_s2", "ay_m_s2"]),
+        })
+    });
+    let joints = mechanism.joints().iter().map(|joint| {
+        json!({
+            "name": joint.name, "on": side(joint.second), "force": columns("joint", &joint.name, &["fx_N", "fy_N"]),
+            "links": [mechanism.links()[joint.first.link].name, mechanism.links()[joint.second.link].name],
+        })
+    });
+    let stretched = sketch.stretched.iter().map(|own| {
+        let lines = own.marks.iter().filter_map(|mark| match &mark.shape {
+            Shape::Line { points, .. } => Some(points.iter().map(|at| pair(*at)).collect::<Vec<_>>()),
+            Shape::Circle { .. } | Shape::Arc { .. } => None,
+        });
+        let ends = own.ends.map(side);
+        json!({ "role": own.role.name(), "ends": ends, "width": own.width / unit, "lines": lines.collect::<Vec<_>>() })
+    });
+    let labels = sketch.labels.iter().map(|label| {
+        let names = match label.names {
+            Lettering::Point => "point",
+            Lettering::Link => "link",
+            Lettering::MassCentre => "centre",
+            Lettering::Motor => "motor",
+        };
+        json!({ "text": label.text, "names": names, "on": side(label.at) })
+    });
+    json!({
+        "unit": unit, "size": mechanism.size(), "view": view,
+        "links": links.collect::<Vec<_>>(), "points": points.collect::<Vec<_>>(),
+        "joints": joints.collect::<Vec<_>>(), "stretched": stretched.collect::<Vec<_>>(),
+        "labels": labels.collect::<Vec<_>>(),
+    })
+}
+
+fn pair(at: Vec2) -> Value {
+    json!([at.x, at.y])
+}
+
+/// The number of a link, and a place in its frame (m).
+fn side(side: Side) -> Value {
+    json!([side.link, side.local.x, side.local.y])
+}

@@ -1,0 +1,112 @@
+//! A proof as one page of HTML that needs nothing else: the mechanism in motion, all channels with errors and bounds,
+//! verdict and findings. Drawn by a script of its own; what is in words is there without it.
+
+mod data;
+mod graphs;
+mod markup;
+mod picture;
+mod placed;
+mod thinned;
+mod words;
+
+use std::collections::BTreeMap;
+
+use super::tell::Tell;
+use crate::proof::Proof;
+use drawing::{Sketch, Travels};
+use markup::{contained, escaped, filled};
+use placed::Placed;
+use serde_json::Value;
+use thinned::Thinned;
+use workshop::diagram::Graphs;
+
+const TEMPLATE: &str = include_str!("page.html");
+const STYLE: &str = include_str!("page.css");
+/// The script, in the order in which its parts need each other.
+const SCRIPT: [&str; 6] = [
+    include_str!("script/read.js"),
+    include_str!("script/svg.js"),
+    include_str!("script/motion.js"),
+    include_str!("script/charts.js"),
+    include_str!("script/curves.js"),
+    include_str!("script/main.js"),
+];
+
+/// What a page tells besides the proof itself.
+pub(crate) struct Beside<'a> {
+    /// The scenario's text.
+    pub(crate) given: &'a str,
+    /// Versions, settings, and what was asked for beyond the scenario, by name.
+    pub(crate) settings: &'a BTreeMap<String, String>,
+    /// Graphs over the crank angle, or why there are none.
+    pub(crate) reduced: Result<Graphs, String>,
+}
+
+/// The page of a proof; advice is worded by `tell`.
+pub(crate) fn page(proof: &Proof, beside: &Beside, tell: Tell) -> String {
+    let Beside { given, settings, reduced } = beside;
+    let case = &proof.scene.case;
+    let errors = thinned::errors(proof);
+    let thinned = Thinned::of(proof, &errors);
+    let mut data = data::of(proof, &errors, &thinned, tell);
+    let picture = match Placed::of(&case.mechanism, &proof.reference_trajectory) {
+        Some(placed) => {
+            let room = placed.room(&thinned.rows);
+            let unit = placed::unit(&case.mechanism, room);
+            let mut travels = Travels::none(&case.mechanism);
+            for &row in &thinned.rows {
+                travels.take_in(&case.mechanism, |link, local| Some(placed.point(row, link, local)));
+            }
+            let sketch = Sketch::of_case(case, &travels, unit);
+            let view = picture::view(room, unit);
+            data.insert("motion".into(), data::motion(proof, &sketch, view));
+            picture::svg(&sketch, &placed, view, thinned.rows[0])
+        }
+        None => "<p>The places of all links are not among the channels asked for: nothing can be drawn.</p>".into(),
+    };
+    let no_graphs = match reduced {
+        Ok(graphs) => {
+            data.insert("reduced".into(), graphs::over_crank(graphs));
+            String::new()
+        }
+        Err(why) => format!("<p>The mechanism is not reduced to its crank here: {}</p>", escaped(why)),
+    };
+    data.insert("motor".into(), graphs::motor(case, &proof.reference_trajectory));
+    let links = case.mechanism.links().len();
+    let inks: String = (0..links).map(|link| format!(".k{link}{{--ink:var(--k{link})}}")).collect();
+    let style = filled(STYLE, &[
+        ("light", &picture::colours(links, false)),
+        ("dark", &picture::colours(links, true)),
+        ("links", &inks),
+    ]);
+    filled(TEMPLATE, &[
+        ("name", &escaped(&proof.scenario)),
+        ("title", &escaped(&proof.title)),
+        ("style", &style),
+        ("verdict", &words::verdict(proof)),
+        ("sentence", &words::sentence(proof)),
+        ("findings", &words::findings(proof, tell)),
+        ("picture", &picture),
+        ("thinned", &told(&thinned)),
+        ("reduced", &no_graphs),
+        ("checks", &words::table("Checks", &["check", "value", "bound", "basis of the bound", "verdict"], words::checks(proof))),
+        ("structure", &words::structure(proof)),
+        ("settings", &words::settings(settings)),
+        ("scenario", &words::scenario(given)),
+        ("version", env!("CARGO_PKG_VERSION")),
+        ("data", &contained(&Value::Object(data).to_string())),
+        ("script", &SCRIPT.concat()),
+    ])
+}
+
+/// How many instants the page has, where it has not all of them.
+fn told(thinned: &Thinned) -> String {
+    let (shown, all) = (thinned.rows.len(), thinned.all);
+    match shown == all {
+        true => format!("{all} instants."),
+        false => format!(
+            "{shown} of {all} instants: evenly chosen, and those with the least and greatest values and errors. Verdicts, \
+             errors and bounds in numbers are about all of them."
+        ),
+    }
+}

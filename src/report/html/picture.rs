@@ -1,0 +1,130 @@
+//! The mechanism as SVG, at the first instant. The script moves the links.
+
+use std::fmt::Write;
+
+use super::markup::escaped;
+use super::placed::Placed;
+use drawing::palette;
+use drawing::{Fill, Ink, Layer, Mark, Shape, Sketch};
+use linkage::mechanism::{GROUND, LinkPose};
+
+/// Room around the motion, in units: for arrows and names.
+const MARGIN: f64 = 15.0;
+/// Radius of an engine's pin over that of the reference.
+const RING: f64 = 1.5;
+
+/// The view of a room (m) in units: x, y (downwards), width, height.
+pub(super) fn view([x, y]: [[f64; 2]; 2], unit: f64) -> [f64; 4] {
+    let [width, height] = [x, y].map(|ends| (ends[1] - ends[0]) / unit + 2.0 * MARGIN);
+    [x[0] / unit - MARGIN, -y[1] / unit - MARGIN, width, height]
+}
+
+/// The ground, the reference and, dashed with hollow pins, an engine, at this row.
+pub(super) fn svg(sketch: &Sketch, placed: &Placed, view: [f64; 4], row: usize) -> String {
+    let [x, y, width, height] = view.map(number);
+    let mut out = format!(
+        "<svg id=\"picture\" viewBox=\"{x} {y} {width} {height}\" role=\"img\" aria-labelledby=\"picture-title\" aria-describedby=\"picture-words\">\n\
+         <title id=\"picture-title\">The mechanism in motion</title>\n<g id=\"paths\"></g>\n"
+    );
+    let order = sketch.in_order();
+    let is_ground = |link: usize| link == GROUND;
+    let ground = |mark: &Mark| mark.role.look().layer == Layer::Ground;
+    let _ = writeln!(out, "<g class=\"ground\">{}</g>", group(&order, sketch, placed, row, &|link, mark| {
+        is_ground(link) && ground(mark)
+    }));
+    let _ = writeln!(out, "<g class=\"reference\">{}</g>", group(&order, sketch, placed, row, &|link, mark| {
+        !(is_ground(link) && ground(mark))
+    }));
+    let moves = |link: usize, mark: &Mark| {
+        let layer = mark.role.look().layer;
+        let is_body = matches!(layer, Layer::Links | Layer::Blocks) || mark.role.name() == "pin";
+        is_body && !is_ground(link)
+    };
+    let _ = writeln!(out, "<g class=\"engine\">{}</g>", group(&order, sketch, placed, row, &moves));
+    out.push_str("<g id=\"stretched\"></g>\n<g id=\"arrows\"></g>\n<g id=\"names\"></g>\n<g id=\"scales\"></g>\n</svg>");
+    out
+}
+
+/// Marks in their order, those of one link that follow each other in one element.
+fn group(
+    order: &[(usize, &Mark)],
+    sketch: &Sketch,
+    placed: &Placed,
+    row: usize,
+    has: &dyn Fn(usize, &Mark) -> bool,
+) -> String {
+    let mut out = String::new();
+    let mut open: Option<usize> = None;
+    for &(link, mark) in order.iter().filter(|(link, mark)| has(*link, mark)) {
+        if open != Some(link) {
+            if open.is_some() {
+                out.push_str("</g>");
+            }
+            let place = transform(placed.pose(row, link), sketch.unit);
+            let name = escaped(&placed.mechanism.links()[link].name);
+            let _ = write!(out, "\n<g class=\"k{link}\" data-link=\"{link}\" data-name=\"{name}\" transform=\"{place}\">");
+            open = Some(link);
+        }
+        out.push_str(&element(mark, sketch.unit));
+    }
+    if open.is_some() {
+        out.push_str("</g>");
+    }
+    out
+}
+
+/// Places a link: its coordinates are units, y upwards; those of the picture are units, y downwards.
+fn transform(pose: LinkPose, unit: f64) -> String {
+    let (sine, cosine) = pose.angle.sin_cos();
+    let at = pose.origin / unit;
+    format!("matrix({cosine} {} {} {} {} {})", -sine, -sine, -cosine, at.x, -at.y)
+}
+
+fn element(mark: &Mark, unit: f64) -> String {
+    let look = mark.role.look();
+    let ink = match look.ink {
+        Ink::Link => "il",
+        Ink::Text => "it",
+        Ink::Quiet => "iq",
+        Ink::Load => "io",
+    };
+    let fill = match look.fill {
+        Fill::None => "fn",
+        Fill::Paper => "fp",
+        Fill::Tint => "ft",
+        Fill::Ink => "fi",
+    };
+    let class = format!("class=\"{} {ink} {fill}\" stroke-width=\"{}\"", mark.role.name(), number(look.width));
+    match &mark.shape {
+        Shape::Circle { centre, radius } => {
+            let [x, y, r, ring] = [centre.x, centre.y, *radius, RING * radius].map(|own| number(own / unit));
+            format!("<circle {class} cx=\"{x}\" cy=\"{y}\" r=\"{r}\" data-ring=\"{ring}\"/>")
+        }
+        Shape::Line { .. } | Shape::Arc { .. } => {
+            let (points, closed) = mark.shape.outline();
+            format!("<path {class} d=\"{}\"/>", path(points.iter().map(|at| [at.x / unit, at.y / unit]), closed))
+        }
+    }
+}
+
+/// The way through some points, in units.
+pub(super) fn path(points: impl Iterator<Item = [f64; 2]>, closed: bool) -> String {
+    let points: Vec<String> = points.map(|[x, y]| format!("{} {}", number(x), number(y))).collect();
+    format!("M{}{}", points.join("L"), if closed { "Z" } else { "" })
+}
+
+/// A length in units, to a tenth of a thousandth of one.
+fn number(value: f64) -> String {
+    let text = format!("{value:.4}");
+    let short = text.trim_end_matches('0').trim_end_matches('.');
+    if short == "-0" { "0".into() } else { short.into() }
+}
+
+/// Rules for the colours of all links and of what else is drawn: on light paper, or on dark.
+pub(super) fn colours(links: usize, dark: bool) -> String {
+    let of = |paint: palette::Paint| if dark { paint.dark } else { paint.light };
+    let named = [("text", palette::TEXT), ("quiet", palette::QUIET), ("load", palette::LOAD), ("paper", palette::PAPER)];
+    let mut rules: Vec<String> = named.iter().map(|(name, paint)| format!("--{name}:{}", of(*paint))).collect();
+    rules.extend((0..links).map(|link| format!("--k{link}:{}", of(palette::link(link)))));
+    rules.join(";")
+}

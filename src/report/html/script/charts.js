@@ -1,0 +1,180 @@
+// Channels: both sides over time or crank angle, and the size of their difference below, with its bound.
+
+const PLOT = { width: 340, left: 52, right: 8, upper: 110, gap: 12, lower: 66, axis: 26 };
+/** Units that people read. */
+const READ = { rad: ['deg', 180 / Math.PI], m: ['mm', 1e3] };
+const readUnit = (unit) => READ[unit] || [nice(unit), 1];
+
+let over = 'time';
+const isOneWay = crank.every((value, k) => k === 0 || (value - crank[k - 1]) * (crank[last] - crank[0]) > 0);
+const abscissa = () => (over === 'crank' ? crank.map((value) => value * 180 / Math.PI) : time);
+const abscissaUnit = () => (over === 'crank' ? 'crank, deg' : 't, s');
+
+/** Functions of what is near the window, called at every instant shown. */
+const near = new Map();
+const nearWatcher = new IntersectionObserver((entries) => {
+  for (const entry of entries) {
+    const own = near.get(entry.target);
+    if (own !== undefined) own.isNear = entry.isIntersecting;
+    if (entry.isIntersecting && own !== undefined) own.move();
+  }
+});
+function follow(element, move) {
+  near.set(element, { move, isNear: true });
+  nearWatcher.observe(element);
+  move();
+}
+followers.push(() => { for (const own of near.values()) if (own.isNear) own.move(); });
+
+/** Least and greatest with some room, never the same. */
+function roomy([low, high]) {
+  const size = Math.max(Math.abs(low), Math.abs(high)) || 1;
+  const room = Math.max(0.06 * (high - low), 1e-6 * size);
+  return [low - room, high + room];
+}
+
+function axes(svg, box, xs, ys, labels) {
+  const [x0, x1, y0, y1] = box;
+  for (const own of ticks(ys.low, ys.high, 3)) {
+    const y = ys.at(own);
+    draw(svg, 'line', { class: 'tick', x1: x0, x2: x1, y1: y, y2: y });
+    draw(svg, 'text', { x: x0 - 4, y: y + 3.5, 'text-anchor': 'end' }, (ys.name || digits)(own));
+  }
+  for (const own of ticks(xs.low, xs.high, 5)) {
+    const x = xs.at(own);
+    draw(svg, 'line', { class: 'tick', x1: x, x2: x, y1: y0, y2: y1 });
+    if (labels) draw(svg, 'text', { x, y: y1 + 12, 'text-anchor': 'middle' }, digits(own));
+  }
+  draw(svg, 'rect', { class: 'frame', x: x0, y: y0, width: x1 - x0, height: y1 - y0 });
+}
+
+/** A straight scale from numbers to a part of a picture. */
+function scale(low, high, from, to, name = null) {
+  return { low, high, name, at: (value) => from + (value - low) / (high - low) * (to - from) };
+}
+
+function bands(svg, own, xs, top, bottom, engine) {
+  if (!(own.left_out > 0)) return;
+  const rows = engine.unjudged;
+  for (let k = 0; k < rows.length; k += 1) {
+    const first = rows[k];
+    while (rows[k + 1] === rows[k] + 1) k += 1;
+    const ends = [xs.line[Math.max(first - 1, 0)], xs.line[Math.min(rows[k] + 1, last)]].map(xs.at).sort((a, b) => a - b);
+    draw(svg, 'rect', { class: 'doubt', x: ends[0], y: top, width: Math.max(ends[1] - ends[0], 1), height: bottom - top });
+  }
+}
+
+function chart(card, index) {
+  const channel = page.channels[index];
+  const engine = page.engines[shown.engine];
+  const own = engine ? engine.channels[index] : {};
+  const [unit, factor] = readUnit(channel.unit);
+  const reference = values(index);
+  const difference = errors(shown.engine, index);
+  const line = abscissa();
+  const { width, left, right, upper, gap, lower, axis } = PLOT;
+  const height = 14 + upper + axis + (difference ? gap + lower : 0);
+  const told = own.bound === undefined ? '' : `; largest error ${digits(own.max * factor, 3)} of ${digits(own.bound * factor, 3)} ${unit} allowed: ${own.verdict}`;
+  const svg = draw(card, 'svg', { class: 'chart', viewBox: `0 0 ${width} ${height}`, role: 'img', 'aria-label': `${channel.name} over ${over === 'crank' ? 'crank angle' : 'time'}${told}` });
+  const [x0, x1] = [left, width - right];
+  const ends = range([line]);
+  const xs = { ...scale(ends[0], ends[1] > ends[0] ? ends[1] : ends[0] + 1, x0, x1), line };
+  const [low, high] = roomy(range([reference]).map((value) => value * factor));
+  const [top, bottom] = [14, 14 + upper];
+  const ys = scale(low, high, bottom, top);
+  draw(svg, 'text', { x: 2, y: 9 }, unit);
+  bands(svg, own, xs, top, bottom, engine);
+  axes(svg, [x0, x1, top, bottom], xs, ys, !difference);
+  const x = (k) => xs.at(line[k]);
+  draw(svg, 'path', { class: 'first', d: way(line.length, x, (k) => ys.at(reference[k] * factor)) });
+  let end = bottom;
+  if (difference) {
+    draw(svg, 'path', { class: 'second', d: way(line.length, x, (k) => Math.min(Math.max(ys.at((reference[k] + difference[k]) * factor), top), bottom)) });
+    end = bottom + gap + lower;
+    const most = Math.max(...range([difference]).map(Math.abs)) * factor;
+    const bound = (own.bound || 0) * factor;
+    const decade = (value, rounded) => rounded(Math.log10(value > 0 ? value : 1e-300));
+    const highest = decade(Math.max(most, bound), Math.ceil);
+    const lowest = Math.max(Math.min(decade(most, Math.floor) - 2, highest - 3), highest - 12);
+    const [from, to] = [bottom + gap, end];
+    const log = scale(lowest, highest, to, from, (value) => `1e${Math.round(value)}`);
+    bands(svg, own, xs, from, to, engine);
+    axes(svg, [x0, x1, from, to], xs, { ...log, ...{ low: lowest, high: highest } }, true);
+    const y = (value) => Math.min(log.at(value > 0 ? Math.log10(value) : lowest), to);
+    draw(svg, 'path', { class: 'error', d: way(line.length, x, (k) => y(Math.abs(difference[k]) * factor)) });
+    if (bound > 0) draw(svg, 'line', { class: 'bound', x1: x0, x2: x1, y1: y(bound), y2: y(bound) });
+  }
+  draw(svg, 'text', { x: x1, y: end + 23, 'text-anchor': 'end' }, abscissaUnit());
+  const cursor = draw(svg, 'line', { class: 'cursor', y1: top, y2: end });
+  const now = put(card, 'p', 'numbers');
+  svg.addEventListener('click', (event) => {
+    const box = svg.getBoundingClientRect();
+    const at = ((event.clientX - box.left) / box.width * width - x0) / (x1 - x0) * (xs.high - xs.low) + xs.low;
+    let best = 0;
+    for (let k = 1; k <= last; k += 1) if (Math.abs(line[k] - at) < Math.abs(line[best] - at)) best = k;
+    goTo(best);
+  });
+  follow(svg, () => {
+    const place = xs.at(linear(line));
+    cursor.setAttribute('x1', place);
+    cursor.setAttribute('x2', place);
+    const [ours, apart] = [reference[shown.row] * factor, difference ? difference[shown.row] * factor : NaN];
+    now.textContent = difference ? `${digits(ours, 6)} ${unit}, engine ${apart < 0 ? '−' : '+'}${digits(Math.abs(apart), 3)}` : `${digits(ours, 6)} ${unit}`;
+  });
+}
+
+const used = (own) => (own.bound > 0 ? own.max / own.bound : 0);
+const GRAVITY = ['disagree', 'inconclusive', 'expected', 'agree'];
+
+function card(parent, index) {
+  const channel = page.channels[index];
+  const own = page.engines[shown.engine] ? page.engines[shown.engine].channels[index] : {};
+  const element = put(parent, 'div', 'card');
+  put(element, 'h3', '', channel.name);
+  if (own.bound !== undefined) {
+    const [unit, factor] = readUnit(channel.unit);
+    const line = put(element, 'p', 'numbers', `error ${digits(own.max * factor, 3)} of ${digits(own.bound * factor, 3)} ${unit}, `);
+    put(line, 'span', own.verdict, own.verdict);
+    if (own.reason) put(element, 'p', '', own.reason);
+  }
+  later(element, () => chart(element, index));
+}
+
+/** All channels by quantity; those open that disagree, and the first and the worst. */
+function setUpCharts() {
+  const list = byId('charts');
+  list.replaceChildren();
+  near.forEach((own, element) => { if (!element.isConnected) near.delete(element); });
+  const engine = page.engines[shown.engine];
+  const quantities = new Map();
+  page.channels.forEach((channel, index) => {
+    if (!quantities.has(channel.quantity)) quantities.set(channel.quantity, []);
+    quantities.get(channel.quantity).push(index);
+  });
+  const judged = (index) => (engine ? engine.channels[index] : {});
+  const worst = page.channels.reduce((best, _, index) => (used(judged(index)) > used(judged(best)) ? index : best), 0);
+  let isFirst = true;
+  for (const [quantity, members] of quantities) {
+    const verdicts = members.map((index) => judged(index).verdict).filter((own) => own !== undefined);
+    const word = GRAVITY.find((own) => verdicts.includes(own));
+    const details = put(list, 'details');
+    const summary = put(details, 'summary', '', `${quantity} (${members.length})`);
+    if (word !== undefined) {
+      const share = Math.max(...members.map((index) => used(judged(index))));
+      summary.append(': ');
+      put(summary, 'span', word, word);
+      summary.append(`, at most ${digits(100 * share, 2)} % of the bound used`);
+    }
+    details.open = isFirst || members.includes(worst) || word === 'disagree';
+    isFirst = false;
+    const grid = put(details, 'div', 'grid');
+    members.forEach((index) => card(grid, index));
+  }
+  const told = byId('worst');
+  told.replaceChildren();
+  if (engine && judged(worst).bound !== undefined) {
+    const [unit, factor] = readUnit(page.channels[worst].unit);
+    const own = judged(worst);
+    put(told, 'p', '', `Closest to its bound: ${page.channels[worst].name}, error ${digits(own.max * factor, 3)} of ${digits(own.bound * factor, 3)} ${unit} (${digits(100 * used(own), 2)} %).`);
+  }
+}

@@ -1,0 +1,133 @@
+//! The instants that a page shows, and the errors of engines at all of them.
+
+use std::collections::BTreeSet;
+
+use linkage::math::KeepNan;
+use linkage::math::statistics::{ascending, differences};
+use linkage::trajectory::{Channel, Stage, Trajectory};
+
+use crate::proof::Proof;
+
+/// Bytes of base64 that all columns may take. A page then stays below 3 MB.
+const BYTES: usize = 1_900_000;
+
+/// Errors of an engine, channel by channel of the reference; NaN where it has no value.
+pub(super) type Errors = Vec<Option<Vec<f64>>>;
+
+/// What a page shows of all instants.
+pub(super) struct Thinned {
+    /// Rows of the reference's grid, in ascending order of time.
+    pub(super) rows: Vec<usize>,
+    /// How many instants there are.
+    pub(super) all: usize,
+}
+
+impl Thinned {
+    /// All instants, or as many as a page holds: evenly chosen, and the extremes of values and errors.
+    pub(super) fn of(proof: &Proof, errors: &[Errors]) -> Thinned {
+        let reference = &proof.reference_trajectory;
+        let times = reference.times();
+        let mut rows = ascending(times);
+        rows.dedup_by_key(|row| times[*row].to_bits());
+        let all = rows.len();
+        let most = (BYTES / bytes_of_row(reference, errors)).max(2);
+        if all <= most {
+            return Thinned { rows, all };
+        }
+        let mut kept: BTreeSet<usize> = extremes(reference, errors).into_iter().take(most / 2).collect();
+        let stride = all.div_ceil(most - kept.len());
+        kept.extend(rows.iter().step_by(stride));
+        kept.extend(rows.last());
+        rows.retain(|row| kept.contains(row));
+        Thinned { rows, all }
+    }
+}
+
+/// Whether a page holds a channel in doubles: places must meet, whatever their distance from the origin.
+pub(super) fn is_wide(channel: &Channel) -> bool {
+    channel.kind.stage == Stage::Positions
+}
+
+/// Bytes of base64 that an instant takes.
+fn bytes_of_row(reference: &Trajectory, errors: &[Errors]) -> usize {
+    let values: usize = reference.channels().iter().map(|own| if is_wide(own) { 8 } else { 4 }).sum();
+    let errors: usize = errors.iter().flatten().map(|own| if own.is_some() { 4 } else { 0 }).sum();
+    // Time and crank angle are doubles; base64 takes four letters for three bytes.
+    (16 + values + errors) * 4 / 3
+}
+
+/// Rows with the largest error, the least or the greatest value of any channel; errors first.
+fn extremes(reference: &Trajectory, errors: &[Errors]) -> Vec<usize> {
+    let place = |values: &[f64], better: fn(f64, f64) -> bool| {
+        let mut best: Option<(usize, f64)> = None;
+        for (row, &value) in values.iter().enumerate() {
+            if value.is_finite() && best.is_none_or(|(_, own)| better(value, own)) {
+                best = Some((row, value));
+            }
+        }
+        best.map(|(row, _)| row)
+    };
+    let largest = |values: &Vec<f64>| place(&values.iter().map(|value| value.abs()).collect::<Vec<_>>(), |a, b| a > b);
+    let of_errors = errors.iter().flatten().flatten().filter_map(largest);
+    let of_values =
+        reference.iter().flat_map(|(_, values)| [place(values, |a, b| a > b), place(values, |a, b| a < b)]).flatten();
+    of_errors.chain(of_values).collect()
+}
+
+/// Engine minus reference over the whole grid, for every engine. An engine that stopped has no errors beyond.
+pub(super) fn errors(proof: &Proof) -> Vec<Errors> {
+    let reference = &proof.reference_trajectory;
+    let of = |own: &Trajectory| -> Errors {
+        let rows = matching(reference.times(), own.times());
+        reference
+            .iter()
+            .enumerate()
+            .map(|(index, (channel, ours))| {
+                let theirs = own.column_near(channel, index)?;
+                let pairs: Vec<(usize, usize)> =
+                    rows.iter().enumerate().filter_map(|(row, other)| other.map(|other| (row, other))).collect();
+                let [ours, theirs]: [Vec<f64>; 2] = [
+                    pairs.iter().map(|(row, _)| ours[*row]).collect(),
+                    pairs.iter().map(|(_, row)| theirs[*row]).collect(),
+                ];
+                let mut all = vec![f64::NAN; rows.len()];
+                for ((row, _), error) in pairs.iter().zip(differences(&ours, &theirs, channel.kind.periodic)) {
+                    all[*row] = error;
+                }
+                Some(all)
+            })
+            .collect()
+    };
+    let nothing = || vec![None; reference.channels().len()];
+    proof.engines.iter().map(|engine| engine.trajectory.as_ref().map_or_else(nothing, of)).collect()
+}
+
+/// For every instant of a grid the row of another grid at the same instant.
+fn matching(times: &[f64], others: &[f64]) -> Vec<Option<usize>> {
+    let order = ascending(others);
+    let at = |time: &f64| {
+        let place = order.partition_point(|&row| others[row] < *time);
+        order.get(place).copied().filter(|&row| others[row] == *time)
+    };
+    times.iter().map(at).collect()
+}
+
+/// Least and greatest of some numbers; zeros if there are none.
+pub(super) fn ends(values: impl Iterator<Item = f64>) -> [f64; 2] {
+    let [low, high] =
+        values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.smaller(value), high.larger(value)]);
+    if low <= high { [low, high] } else { [0.0; 2] }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn instants_meet_whatever_their_order() {
+        assert_eq!(matching(&[0.0, 2.0, 1.0], &[1.0, 0.0]), [Some(1), None, Some(0)]);
+        assert_eq!(matching(&[0.0], &[]), [None]);
+        assert_eq!(ends([2.0, -1.0].into_iter()), [-1.0, 2.0]);
+        assert_eq!(ends([].into_iter()), [0.0; 2]);
+    }
+}

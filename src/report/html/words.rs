@@ -1,0 +1,184 @@
+//! What a page says in words: verdict, findings, structure, settings.
+
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+use super::markup::escaped;
+use crate::compare::Verdict;
+use crate::numbers::{error_in, fixed, significant};
+use crate::proof::Proof;
+use crate::report::tell::Tell;
+use crate::report::{brief, engines, own_forces, reasons, style, text};
+use linkage::mechanism::Mechanism;
+
+/// Reasons that are written out; the others are counted.
+const MOST: usize = 40;
+/// Longest scenario that is shown (bytes).
+const LONGEST: usize = 200_000;
+
+/// Sign and word of a verdict on the whole.
+pub(super) fn verdict(proof: &Proof) -> String {
+    let (sign, class) = match proof.verdict {
+        Verdict::Agree { .. } | Verdict::Expected { .. } => ("✓", "agree"),
+        Verdict::Disagree { .. } => ("✗", "disagree"),
+        Verdict::Inconclusive { .. } => ("?", "inconclusive"),
+    };
+    let word = style::capitals(&proof.verdict);
+    format!("<span class=\"{class}\"><span aria-hidden=\"true\">{sign}</span> {word}</span>")
+}
+
+/// One sentence on how much was judged, and by what.
+pub(super) fn sentence(proof: &Proof) -> String {
+    let parties: Vec<&str> = proof.engines.iter().map(|engine| engine.info.name).collect();
+    escaped(&format!(
+        "{} Reference: {}. Engine: {}; {}.",
+        text::sentence(&proof.verdict, proof),
+        proof.reference,
+        parties.join(", "),
+        brief::resolution(proof)
+    ))
+}
+
+/// Everything that is found besides the verdict, as paragraphs; empty where there is nothing to say.
+pub(super) fn findings(proof: &Proof, tell: Tell) -> String {
+    let mut told = String::new();
+    for engine in &proof.engines {
+        if let (Some(error), 1) = (&engine.failure, proof.engines.len()) {
+            let _ = writeln!(told, "{} failed: {}\n", engine.info.name, error.message());
+        }
+        if let Some(fault) = engine.force_fault() {
+            let _ = writeln!(told, "{}\n", own_forces::sentence(fault));
+        }
+    }
+    if proof.engines.len() > 1 {
+        let _ = writeln!(told, "{}\n", engines::disputes(proof));
+    }
+    reasons::diagnosed(proof, None, &mut told);
+    reasons::reasons(proof, tell, None, MOST, &mut told);
+    reasons::left_out(proof, None, &mut told);
+    reasons::expected(proof, None, &mut told);
+    paragraphs(&told)
+}
+
+/// Blocks between empty lines as paragraphs, their lines as lines.
+fn paragraphs(told: &str) -> String {
+    let blocks = told.split("\n\n").map(str::trim).filter(|block| !block.is_empty());
+    blocks.map(|block| format!("<p>{}</p>\n", escaped(block).replace('\n', "<br>\n"))).collect()
+}
+
+/// Checks, and forces as engines themselves exert them, as rows of a table; what uses most of its bound first.
+pub(super) fn checks(proof: &Proof) -> String {
+    let mut rows: Vec<(f64, String)> = Vec::new();
+    let mut add = |name: &str, value: f64, bound: f64, unit: &str, how: &str, verdict: &Verdict| {
+        let cells = [escaped(name), error_in(value, unit), error_in(bound, unit), escaped(how)];
+        let cells: String = cells.iter().map(|cell| format!("<td>{cell}</td>")).collect();
+        let word = verdict.word();
+        let share = if bound > 0.0 { value / bound } else { f64::from(value > 0.0) };
+        rows.push((share, format!("<tr>{cells}<td class=\"{word}\">{word}</td></tr>\n")));
+    };
+    for check in proof.all_checks() {
+        let how = check.basis.to_string();
+        add(&check.name(), check.value, check.bound, check.unit, &how, &check.verdict);
+    }
+    for (engine, own) in proof.engines.iter().flat_map(|own| own.own_forces.iter().map(move |forces| (own, forces))) {
+        for channel in &own.channels {
+            let name = format!("{} ({})", own_forces::name(channel), engine.info.name);
+            let (value, unit) = (channel.residual.max, channel.residual.channel.kind.unit.symbol());
+            add(&name, value, channel.bound, unit, &channel.basis.to_string(), &channel.verdict);
+        }
+    }
+    rows.sort_by(|a, b| b.0.total_cmp(&a.0));
+    rows.into_iter().map(|(_, row)| row).collect()
+}
+
+/// Mobility, driving links and groups, links and joints.
+pub(super) fn structure(proof: &Proof) -> String {
+    let case = &proof.scene.case;
+    let (mechanism, structure) = (&case.mechanism, &case.structure);
+    let mut out = format!("<p><code>{}</code></p>\n", escaped(&proof.formula));
+    let mobility = structure.mobility;
+    let _ = writeln!(out, "<p>Mobility {mobility} by counting. Groups in the order in which they are solved:</p>\n<ol>");
+    for &(link, joint) in &structure.drivers {
+        let _ = writeln!(out, "<li>driving link {} at {}</li>", link_name(mechanism, link), joint_name(mechanism, joint));
+    }
+    for (group, mode) in structure.groups.iter().zip(&case.modes) {
+        let joints = |all: &[usize]| all.iter().map(|&joint| joint_name(mechanism, joint)).collect::<Vec<_>>().join(", ");
+        let _ = writeln!(
+            out,
+            "<li>{}: class {}, order {}, {}, mode {}; inner joints {}; outer joints {}</li>",
+            escaped(&group.names(mechanism)),
+            group.class,
+            group.order(),
+            escaped(&group.pairs().to_string()),
+            escaped(mode.name()),
+            joints(&group.inner),
+            joints(&group.outer)
+        );
+    }
+    out.push_str("</ol>\n");
+    out + &links(mechanism) + &joints(mechanism)
+}
+
+fn link_name(mechanism: &Mechanism, link: usize) -> String {
+    escaped(&mechanism.links()[link].name)
+}
+
+fn joint_name(mechanism: &Mechanism, joint: usize) -> String {
+    escaped(&mechanism.joints()[joint].name)
+}
+
+fn links(mechanism: &Mechanism) -> String {
+    let rows = mechanism.links().iter().enumerate().map(|(number, link)| {
+        let points: Vec<String> = link
+            .points
+            .iter()
+            .map(|point| {
+                let [x, y] = [point.local.x, point.local.y].map(|own| fixed(1e3 * own, 3));
+                format!("{} ({x}, {y})", escaped(&point.name))
+            })
+            .collect();
+        let [mass, inertia] = [link.mass, link.inertia].map(|own| significant(own, 5));
+        let swatch = format!("<span class=\"swatch k{number}\" aria-hidden=\"true\"></span>");
+        format!(
+            "<tr><td>{swatch}{number}</td><td>{}</td><td>{}</td><td>{mass}</td><td>{inertia}</td></tr>\n",
+            escaped(&link.name),
+            points.join(", ")
+        )
+    });
+    table("Links", &["no.", "link", "points (mm, its frame)", "mass kg", "inertia kg m²"], rows.collect())
+}
+
+fn joints(mechanism: &Mechanism) -> String {
+    let rows = mechanism.joints().iter().map(|joint| {
+        let [first, second] = [joint.first, joint.second].map(|side| link_name(mechanism, side.link));
+        format!("<tr><td>{}</td><td>{}</td><td>{first}</td><td>{second}</td></tr>\n", escaped(&joint.name), joint.kind.name())
+    });
+    table("Joints", &["joint", "kind", "first link", "second link"], rows.collect())
+}
+
+/// A table that is wider than a phone scrolls by itself.
+pub(super) fn table(caption: &str, heads: &[&str], rows: String) -> String {
+    let heads: String = heads.iter().map(|head| format!("<th scope=\"col\">{head}</th>")).collect();
+    format!(
+        "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"{caption}\"><table><caption>{caption}</caption>\n\
+         <thead><tr>{heads}</tr></thead>\n<tbody>\n{rows}</tbody></table></div>\n"
+    )
+}
+
+/// Settings and versions.
+pub(super) fn settings(told: &BTreeMap<String, String>) -> String {
+    let row = |(key, value): (&String, &String)| {
+        format!("<tr><th scope=\"row\">{}</th><td>{}</td></tr>\n", escaped(&key.replace('_', " ")), escaped(value))
+    };
+    let rows: String = told.iter().map(row).collect();
+    format!("<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Settings and versions\"><table><tbody>\n{rows}</tbody></table></div>\n")
+}
+
+/// The scenario as it was given.
+pub(super) fn scenario(given: &str) -> String {
+    match given.len() {
+        0 => "<p>The case was built in code; there is no file.</p>".into(),
+        1..=LONGEST => format!("<pre tabindex=\"0\">{}</pre>", escaped(given)),
+        long => format!("<p>The file has {long} bytes and is not repeated here.</p>"),
+    }
+}

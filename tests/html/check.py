@@ -1,0 +1,185 @@
+"""Opens pages of `linkproof run --html` in headless Chromium: check.py LINKPROOF CHROMIUM DIRECTORY SCENARIO...
+
+For every page: no message on the console, no request, links where the solution has them, keyboard, printing, names of
+everything that can be seen, no width that does not fit. Screenshots at three widths, light and dark, go to DIRECTORY.
+"""
+
+import csv
+import io
+import json
+import math
+import subprocess
+import sys
+from pathlib import Path
+
+from playwright.sync_api import sync_playwright
+
+WIDTHS = [360, 800, 1400]
+MOST_BYTES = 3_000_000
+# Of the mechanism's size.
+WITHIN = 1e-6
+
+# Places of all mass centres and angles of a side, in metres, from what is drawn.
+READ = """
+(side) => [...document.querySelectorAll(`#picture .${side} [data-link]`)].map((part) => ({
+    link: Number(part.dataset.link), matrix: part.getAttribute('transform').match(/-?[\\d.]+(?:e[-+]?\\d+)?/g).map(Number),
+    hidden: part.classList.contains('hidden'),
+}))
+"""
+GO_TO = """
+(row) => { const slider = document.getElementById('slider'); slider.value = row; slider.dispatchEvent(new Event('input')); }
+"""
+UNNAMED = """
+() => [...document.querySelectorAll('svg, input, select, button')].filter((own) => own.getAttribute('aria-hidden') !== 'true'
+    && !own.getAttribute('aria-label') && !own.getAttribute('aria-labelledby') && !own.closest('label')
+    && !own.textContent.trim()).map((own) => own.outerHTML.slice(0, 120))
+"""
+TOO_WIDE = "() => document.documentElement.scrollWidth - document.documentElement.clientWidth"
+
+
+class Wrong(Exception):
+    """A page that is not as it must be."""
+
+
+def need(holds, what):
+    if not holds:
+        raise Wrong(what)
+
+
+def solution(linkproof, scenario, reference):
+    """Rows of the solution by time, as printed."""
+    told = subprocess.run([linkproof, "solve", scenario, "--with", reference, "--csv", "-"], check=True, capture_output=True, text=True)
+    return {float(row["t_s"]): row for row in csv.DictReader(io.StringIO(told.stdout))}
+
+
+def places(parts, motion):
+    """Link by link: angle, and world coordinates of the mass centre (m)."""
+    found = {}
+    for part in parts:
+        if part["link"] == 0:
+            continue
+        a, b, c, d, e, f = part["matrix"]
+        need(abs(a + d) < 1e-12 and abs(b - c) < 1e-12, "a link is stretched")
+        x, y = motion["links"][part["link"] - 1]["centre"]
+        unit = motion["unit"]
+        found[part["link"]] = (math.atan2(-b, a), e * unit + a * x + b * y, -(f * unit + b * x - a * y))
+    return found
+
+
+def check_motion(tab, data, rows):
+    """The slider moves links to the coordinates of the solution."""
+    motion = data["motion"]
+    time = tab.evaluate("() => [...time]")
+    count = len(time)
+    tried = sorted({0, 1 % count, count // 7, count // 3, count // 2, 5 * count // 6, count - 1})
+    worst, met = 0.0, 0
+    for row in tried:
+        tab.evaluate(GO_TO, row)
+        sides = [places(tab.evaluate(READ, side), motion) for side in ["reference", "engine"]]
+        right = rows.get(time[row])
+        for number, link in enumerate(motion["links"], 1):
+            angle, x, y = sides[0][number]
+            if right is not None:
+                met += 1
+                name = link["name"]
+                off = [float(right[f"link.{name}.{axis}_m"]) - own for axis, own in [("x", x), ("y", y)]]
+                turn = math.remainder(float(right[f"link.{name}.angle_rad"]) - angle, math.tau)
+                worst = max(worst, math.hypot(*off) / motion["size"], abs(turn))
+            if number in sides[1] and data["engines"][0]["channels"][link["at"][1]].get("max") is not None:
+                allowed = sum(data["engines"][0]["channels"][own]["max"] for own in link["at"][1:]) + WITHIN * motion["size"]
+                need(math.hypot(sides[1][number][1] - x, sides[1][number][2] - y) <= allowed, f"the engine is off at row {row}")
+    need(met >= len(motion["links"]) * min(4, len(tried)), "the solution has other instants")
+    need(worst <= WITHIN, f"links are off by {worst:.1e} of the size")
+    return worst
+
+
+def check_keys(tab, count):
+    """Works without a mouse."""
+    at = lambda: int(tab.evaluate("() => document.getElementById('slider').value"))
+    tab.evaluate("() => document.activeElement.blur()")
+    for key, row in [("Home", 0), ("ArrowRight", 1), ("ArrowLeft", 0), ("End", count - 1), ("Home", 0), ("Shift+ArrowRight", min(10, count - 1))]:
+        tab.keyboard.press(key)
+        need(at() == row, f"{key} shows row {at()}, not {row}")
+    playing = lambda: tab.evaluate("() => document.getElementById('play').getAttribute('aria-pressed')")
+    if count > 1:
+        tab.keyboard.press("Space")
+        need(playing() == "true", "Space does not play")
+        tab.wait_for_timeout(300)
+        need(at() != min(10, count - 1) or count < 60, "what plays does not move")
+        tab.keyboard.press("Space")
+        need(playing() == "false", "Space does not stop")
+    named = "() => document.querySelector('#picture').classList.contains('no-names')"
+    tab.keyboard.press("n")
+    need(tab.evaluate(named), "N does not hide names")
+    tab.keyboard.press("n")
+    # From the top, the tabulator reaches the first control.
+    tab.evaluate("() => document.activeElement.blur()")
+    tab.keyboard.press("Tab")
+    need(tab.evaluate("() => document.activeElement.id") == "play", "the tabulator does not reach the first button")
+
+
+def check_page(browser, path, rows, pictures):
+    size = path.stat().st_size
+    need(size < MOST_BYTES, f"{size} bytes")
+    said = []
+    context = browser.new_context(viewport={"width": 800, "height": 1100}, reduced_motion="reduce", offline=True)
+    tab = context.new_page()
+    tab.on("console", lambda message: said.append(f"console: {message.text}"))
+    tab.on("pageerror", lambda error: said.append(f"error: {error}"))
+    tab.on("request", lambda request: said.append(f"request: {request.url[:100]}")
+           if request.url != path.as_uri() and not request.url.startswith("data:") else None)
+    tab.goto(path.as_uri())
+    data = json.loads(tab.evaluate("() => document.getElementById('data').textContent"))
+    worst = check_motion(tab, data, rows) if rows is not None else 0.0
+    check_keys(tab, tab.evaluate("() => time.length"))
+    need(len(data["channels"]) == tab.locator("#charts .card").count(), "a channel has no card")
+    tab.locator("#open-all").click()
+    for step in range(60):
+        tab.evaluate(f"() => window.scrollTo(0, {step} * 900)")
+    tab.wait_for_timeout(50)
+    need(tab.pdf()[:4] == b"%PDF", "it cannot be printed")
+    drawn = tab.locator("#charts svg").count()
+    need(drawn == len(data["channels"]), f"{drawn} of {len(data['channels'])} channels are drawn when printed")
+    unnamed = tab.evaluate(UNNAMED)
+    need(not unnamed, f"nothing tells what this is: {unnamed}")
+    for own in ["#engine", "#magnify", "#over"]:
+        if tab.locator(own).count():
+            for index in reversed(range(tab.locator(f"{own} option").count())):
+                tab.locator(own).select_option(index=index)
+    context.close()
+    for scheme in ["light", "dark"] if pictures else []:
+        for width in WIDTHS:
+            context = browser.new_context(viewport={"width": width, "height": 1500}, color_scheme=scheme, reduced_motion="reduce")
+            tab = context.new_page()
+            tab.goto(path.as_uri())
+            tab.evaluate(GO_TO, max(1, len(rows or []) // 5))
+            wide = tab.evaluate(TOO_WIDE)
+            need(wide <= 0, f"at {width} pixels it is {wide} too wide")
+            tab.screenshot(path=path.with_name(f"{path.stem}-{width}-{scheme}.png"))
+            context.close()
+    need(not said, "; ".join(said[:5]))
+    return size, worst
+
+
+def main():
+    linkproof, chromium, directory = sys.argv[1], sys.argv[2], Path(sys.argv[3]).resolve()
+    cases = [(scenario, Path(scenario).stem, []) for scenario in sys.argv[4:]]
+    failed = 0
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=chromium, args=["--no-sandbox"])
+        for scenario, name, options in cases:
+            path = directory / f"{name}.html"
+            made = subprocess.run([linkproof, "run", scenario, "--no-record", "--quiet", "--html", path, *options], capture_output=True, text=True)
+            try:
+                need(made.returncode in (0, 1, 3), made.stderr)
+                reference = "assur"
+                size, worst = check_page(browser, path, solution(linkproof, scenario, reference), True)
+                print(f"{name:24} {size / 1e6:6.2f} MB  links within {worst:.1e}", flush=True)
+            except Wrong as wrong:
+                print(f"{name:24} WRONG: {wrong}", flush=True)
+                failed += 1
+        browser.close()
+    return 1 if failed else 0
+
+
+sys.exit(main())
