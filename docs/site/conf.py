@@ -33,6 +33,8 @@ include_patterns = ["*.md", "docs/*.md", "docs/*/*.md", "crates/*/README.md", "e
 exclude_patterns = ["target", "**/.*"]
 # Anchors as the repository's web page makes them.
 myst_heading_anchors = 4
+# Pictures with a width.
+myst_enable_extensions = ["html_image"]
 # Blocks of TOML, shell and others are coloured as far as Pygments knows them; "..." in one is no fault of a document.
 suppress_warnings = ["misc.highlighting_failure"]
 

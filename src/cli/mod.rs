@@ -46,7 +46,8 @@ use clap::{CommandFactory, Parser, Subcommand};
 const EXAMPLES: &str = "\
 Examples:
   linkproof new four-bar                                a mechanism of your own: four_bar.toml
-  linkproof run four_bar.toml                           prove it, record it to recordings/
+  linkproof draw four_bar.toml -o four_bar.svg          look at it
+  linkproof run four_bar.toml --html four_bar.html      prove it, and see it move
   linkproof new --shipped                               the files of all examples
   linkproof list                                        what scenarios there are
   linkproof run scenarios/crank_rocker.toml             one of those files

@@ -64,7 +64,12 @@ fn list() -> String {
 
 /// What has been written, and what to do with it.
 fn begun(template: &Template, file: &str) -> String {
-    format!("{file}: {}\n\nnext  linkproof run {file}\n", template.title())
+    let stem = Path::new(file).with_extension("");
+    let stem = stem.display();
+    format!(
+        "{file}: {}\n\nnext  linkproof draw {file} -o {stem}.svg\n      linkproof run {file} --html {stem}.html\n",
+        template.title()
+    )
 }
 
 /// Refuses what would replace a file.
@@ -102,7 +107,8 @@ fn told(text: &str, path: &Path, template: &Template) -> u8 {
     };
     output::show(&error);
     output::note(&format!(
-        "{} is written nevertheless: correct its lengths in [parameters] there. The template's own fit together: {}",
+        "{0} is written nevertheless, to be corrected: `linkproof draw {0} -o picture.svg` shows how far it goes. Lengths that \
+         fit together are the template's own: {1}",
         path.display(),
         template.dimensions(),
     ));

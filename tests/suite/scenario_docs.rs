@@ -49,8 +49,11 @@ fn the_gallery_has_every_mechanism() {
             let title = Scenario::load(&path).unwrap_or_else(|error| panic!("{error}")).title;
             let row = page.lines().find(|line| line.contains(&file)).unwrap_or_else(|| panic!("no row of {file}"));
             assert!(row.contains(&format!("| {title} |")), "{row}");
+            let picture = row.split("src=\"").nth(1).unwrap().split('"').next().unwrap();
+            assert!(top.join("docs").join(picture).is_file(), "{picture}");
             count += 1;
         }
     }
     assert_eq!(page.matches("](../").count(), count);
+    assert_eq!(std::fs::read_dir(top.join("docs/gallery")).unwrap().count(), count);
 }
