@@ -30,7 +30,7 @@ that stays open. The picture is written then too, and the exit code is 2.";
 
 /// Room of a picture that stands alone, and of one among others (mm).
 const ALONE: [f64; 2] = [150.0, 120.0];
-const AMONG: [f64; 2] = [84.0, 76.0];
+const AMONG: [f64; 2] = [100.0, 96.0];
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
@@ -129,7 +129,7 @@ fn drawn(args: &Args) -> Result<bool> {
         }
     }
     let (title, subtitle) = headline(&all);
-    let pages: Vec<_> = sheets.iter().map(|cells| sheet(&title, &subtitle, cells)).collect();
+    let pages: Vec<_> = sheets.iter().map(|cells| sheet(&title, &subtitle, cells, room.x)).collect();
     let bytes = medium.bytes(&pages, &title, args.width, args.seconds / frames as f64)?;
     output::write_bytes(&bytes, &args.output)?;
     for error in all.iter().flat_map(Drawn::faults) {

@@ -6,7 +6,7 @@ use linkage::mechanism::{GROUND, Mechanism};
 
 /// Radius of the half disc that says that a bar goes on, of a mass centre, and half the width of a traced point's cross.
 const WELD: f64 = 2.0;
-const MASS: f64 = 1.2;
+const MASS: f64 = 1.7;
 const TRACER: f64 = 1.1;
 /// Corners of a quarter of a circle.
 const QUARTER: usize = 6;

@@ -4,12 +4,14 @@ mod nearest;
 
 use super::picture::Place;
 use linkage::error::{Error, ErrorKind};
-use linkage::math::{Vec2, cross, turned, unit};
+use linkage::math::{KeepNan, Vec2, cross, turned, unit};
 use linkage::mechanism::assembly::{configurations, first_choices};
 use linkage::mechanism::{AssemblyMode, GROUND, Group, GroupKind, LinkPose, Mechanism, Pose, StartGroup, Structure};
 
 /// Share of the mechanism's size above which a joint is open.
 const OPEN: f64 = 1e-6;
+/// Share of the largest gap below which a gap only comes from sharing it out.
+const SEEN: f64 = 1e-2;
 
 /// A mechanism at one instant, whole or in part.
 #[derive(Clone, Debug)]
@@ -158,6 +160,7 @@ fn close(mechanism: &Mechanism, mut laid: Laid) -> Laid {
             laid.places[link] = Place::Loose(pose);
         }
     }
+    let mut gaps = Vec::new();
     for (index, joint) in mechanism.joints().iter().enumerate() {
         let sides =
             [joint.first, joint.second].map(|side| laid.places[side.link].pose().map(|pose| (*pose, side.local)));
@@ -170,10 +173,12 @@ fn close(mechanism: &Mechanism, mut laid: Laid) -> Laid {
                 [to - turned(axis) * cross(axis, to - from), to]
             }
         };
-        if (gap[1] - gap[0]).norm() > OPEN * mechanism.size() {
-            laid.gaps.push((index, gap));
-        }
+        gaps.push((index, gap));
     }
+    let size = |gap: &[Vec2; 2]| (gap[1] - gap[0]).norm();
+    let largest = gaps.iter().map(|(_, gap)| size(gap)).fold(0.0, f64::larger);
+    gaps.retain(|(_, gap)| size(gap) > OPEN * mechanism.size() && size(gap) > SEEN * largest);
+    laid.gaps = gaps;
     laid
 }
 

@@ -207,12 +207,12 @@ impl<'a> Picture<'a> {
             if own.force.norm() > LEAST * largest {
                 let tip = own.force * (FORCE / largest);
                 self.sign(arrow(tip, 1.0), at);
-                self.letters(at + tip, tip, 0.6, format!("{} N", significant(own.force.norm())), LOAD.light);
+                self.letters(at + tip, tip, 0.6, format!("{} N", short(own.force.norm())), LOAD.light);
             }
             if own.moment.abs() > LEAST * moments {
                 self.sign(turning(own.moment, MOMENT, 0.4, 1.0).to_vec(), at);
                 let beside = Vec2::new(0.0, MOMENT * own.moment.signum());
-                self.letters(at + beside, beside, 0.8, format!("{} N m", significant(own.moment.abs())), LOAD.light);
+                self.letters(at + beside, beside, 0.8, format!("{} N m", short(own.moment.abs())), LOAD.light);
             }
         }
     }
@@ -302,13 +302,16 @@ impl<'a> Picture<'a> {
 /// A length (m) in mm, with as many digits as are seen on a drawing.
 #[must_use]
 pub fn millimetres(length: f64) -> String {
-    let digits = significant(length * 1e3);
-    let short = if digits.contains('.') && !digits.contains('e') {
-        digits.trim_end_matches('0').trim_end_matches('.').to_string()
-    } else {
-        digits
-    };
-    format!("{short} mm")
+    format!("{} mm", short(length * 1e3))
+}
+
+/// Four digits, without zeros at the end.
+fn short(value: f64) -> String {
+    let digits = significant(value);
+    match digits.contains('.') && !digits.contains('e') {
+        true => digits.trim_end_matches('0').trim_end_matches('.').to_string(),
+        false => digits,
+    }
 }
 
 /// Line and fill of a look.

@@ -17,8 +17,6 @@ const LINE: f64 = 1.45;
 /// Room for the scale below a picture (mm), and the longest it is.
 const SCALE: f64 = 9.0;
 const LONGEST: f64 = 40.0;
-/// Least width of a cell (mm).
-const LEAST: f64 = 60.0;
 
 /// One picture of a sheet.
 #[derive(Clone, Debug)]
@@ -51,19 +49,15 @@ pub fn fit(extent: Vec2, room: Vec2) -> f64 {
 /// Columns in which so many cells stand.
 #[must_use]
 pub fn columns(cells: usize) -> usize {
-    match cells {
-        0..=3 => cells.max(1),
-        4 => 2,
-        _ => 3,
-    }
+    cells.clamp(1, 2)
 }
 
-/// The sheet, with its size (mm). Its upper left corner is the origin.
+/// The sheet, with its size (mm). Its upper left corner is the origin; every cell is at least `least` (mm) wide.
 #[must_use]
-pub fn sheet(title: &str, subtitle: &str, cells: &[Cell]) -> (Figure, [f64; 2]) {
+pub fn sheet(title: &str, subtitle: &str, cells: &[Cell], least: f64) -> (Figure, [f64; 2]) {
     let columns = columns(cells.len());
     let size = |cell: &Cell| cell.bounds[1] - cell.bounds[0];
-    let wide = cells.iter().map(|cell| size(cell).x).fold(LEAST, f64::larger);
+    let wide = cells.iter().map(|cell| size(cell).x).fold(least, f64::larger);
     let whole = wide * columns as f64 + GAP * (columns - 1) as f64;
     let mut sheet = Figure::default();
     let mut top = -MARGIN;

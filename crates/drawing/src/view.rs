@@ -2,6 +2,7 @@
 
 use super::acting::Acting;
 use super::lay::Laid;
+use super::mark::Role;
 use super::picture::{AROUND, Picture};
 use super::sheet::{Cell, fit};
 use super::sketch::{Lettering, Sketch};
@@ -26,7 +27,7 @@ pub struct Subject<'a> {
 /// What is drawn besides links, joints, springs and dampers.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Extras {
-    /// Gravity, and a place for the arrows of loads.
+    /// Gravity, mass centres, and the arrows of loads.
     pub loads: bool,
     /// Lengths of the links.
     pub dimensions: bool,
@@ -64,6 +65,7 @@ pub fn cells(
     let sketch = Sketch::of(subject.mechanism, travels, scale)
         .with_drives(subject.mechanism, subject.drives)
         .with_loads(subject.mechanism, subject.loads);
+    let sketch = if extras.loads { sketch } else { sketch.without(&[Role::MassCentre, Role::MassQuarter]) };
     let figures: Vec<_> = shots.iter().map(|shot| figure(subject, &sketch, shot, traces, extras, scale)).collect();
     let bounds = figures.iter().map(super::paper::figure::Figure::bounds);
     let bounds = bounds.reduce(|a, b| [a[0].inf(&b[0]), a[1].sup(&b[1])]).unwrap_or([Vec2::zeros(); 2]);

@@ -4,7 +4,7 @@ use linkage::math::{Column, KeepNan, Matrix, Vec2, cross, rotated, unit};
 use linkage::mechanism::{Joint, LinkPose, Mechanism, Pose, Side};
 
 /// Weight of joints with links that have their place: what is missing shows between the others.
-const HELD: f64 = 30.0;
+const HELD: f64 = 1000.0;
 /// Directions of the links from which it is tried, and steps from each.
 const STARTS: usize = 12;
 const STEPS: usize = 60;
