@@ -234,10 +234,11 @@ mod tests {
         std::iter::once(command.clone()).chain(inner).collect()
     }
 
-    /// Commands of the examples of a help; what they do stands behind two blanks.
-    fn examples(help: &str) -> impl Iterator<Item = Vec<String>> {
-        let lines = help.lines().filter_map(|line| line.strip_prefix("  linkproof "));
-        lines.map(|line| command(&format!("linkproof {}", line.split("  ").next().unwrap())).unwrap())
+    /// Commands of the examples of a help, with lines that go on joined; what they do stands behind two blanks.
+    fn examples(help: &str) -> Vec<Vec<String>> {
+        let joined: String = help.split("\\\n").map(str::trim_start).collect();
+        let lines = joined.lines().filter_map(|line| line.strip_prefix("  linkproof "));
+        lines.map(|line| command(&format!("linkproof {}", line.split("  ").next().unwrap())).unwrap()).collect()
     }
 
     /// The first example brings the files that the others name; the program carries them.
