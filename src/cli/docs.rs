@@ -107,25 +107,6 @@ fn part(text: &str, anchor: &str) -> Option<String> {
     Some(text[begins..ends].into())
 }
 
-/// A text that speaks of pages as files, for whom may not have the files: `docs/scenario.md` is the command that shows it.
-pub(super) fn as_commands(text: &str) -> String {
-    let is_of_path = |sign: char| sign.is_alphanumeric() || matches!(sign, '/' | '.' | '#' | '-' | '_');
-    let mut told = String::new();
-    let mut rest = text;
-    while let Some(at) = rest.find("docs/") {
-        let path = &rest[at..];
-        let path = &path[..path.find(|sign| !is_of_path(sign)).unwrap_or(path.len())];
-        let path = path.trim_end_matches('.');
-        told.push_str(&rest[..at]);
-        match path.strip_prefix("docs/").and_then(|page| page.split_once(".md")) {
-            Some((page, section)) => told.push_str(&format!("`linkproof docs {page}{section}`")),
-            None => told.push_str(path),
-        }
-        rest = &rest[at + path.len()..];
-    }
-    told + rest
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -148,16 +129,5 @@ mod tests {
         assert_eq!(part(page, "b-c").unwrap(), "## B, *c*\nb\n```sh\n# no heading\n```\n### D\nd\n");
         assert_eq!(part(page, "e").unwrap(), "## E\ne\n");
         assert!(part(page, "no-heading").is_none());
-    }
-
-    #[test]
-    fn pages_become_commands() {
-        for (text, told) in [
-            ("docs/scenario.md describes it.", "`linkproof docs scenario` describes it."),
-            ("see docs/findings.md#a-b.", "see `linkproof docs findings#a-b`."),
-            ("in docs/ and docs/bench", "in docs/ and docs/bench"),
-        ] {
-            assert_eq!(as_commands(text), told);
-        }
     }
 }
