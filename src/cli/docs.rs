@@ -30,6 +30,7 @@ static PAGES: &[(&str, &str)] = pages![
     "bench",
     "clearance",
     "compare",
+    "draw",
     "engines",
     "findings",
     "foreign",

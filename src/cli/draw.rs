@@ -3,7 +3,7 @@
 mod media;
 mod subject;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::builder::PossibleValuesParser;
 
@@ -22,7 +22,7 @@ Examples:
   linkproof draw scenarios/crank_rocker.toml -o crank_rocker.svg
   linkproof draw scenarios/rotary_engine.toml --crank-deg 60 --loads -o engine.png
   linkproof draw scenarios/ov7_base.toml --each-mode -o modes.svg      all configurations, with the names that `mode` takes
-  linkproof draw scenarios/class3_group.toml --traces -o moving.gif    one turn; .webp is smaller
+  linkproof draw scenarios/class3_group.toml --traces -o moving.gif    one turn; or .webp, without loss
   linkproof draw scenarios/scotch_yoke.toml scenarios/quick_return.toml --dimensions -o both.svg
 
 What cannot be assembled is drawn as far as it goes: dashed where a link has no certain place, with the gap of every joint
@@ -147,9 +147,4 @@ fn headline(all: &[Drawn]) -> (String, String) {
         [one] => (format!("{}, crank at {}", one.name, one.angle()), one.title.clone()),
         _ => (all.iter().map(|own| own.name.clone()).collect::<Vec<_>>().join(", "), String::new()),
     }
-}
-
-/// Whether a path is that of standard output.
-fn is_standard_output(path: &Path) -> bool {
-    path == Path::new("-")
 }

@@ -4,9 +4,9 @@ use std::path::Path;
 
 use super::asked::Asked;
 use super::reader::Table;
-use super::source::Source;
+use super::source::{Source, text_of};
 use super::stated::Stated;
-use super::{parameter_table, start, text_of};
+use super::{parameter_table, start};
 use linkage::drive::{Drives, Load};
 use linkage::error::Result;
 use linkage::math::Vec2;

@@ -6,4 +6,4 @@ mod encode;
 mod glyphs;
 
 pub use canvas::{Bitmap, bitmap};
-pub use encode::{gif, png, webp};
+pub use encode::{to_gif, to_png, to_webp};

@@ -21,8 +21,9 @@ const ONE: f64 = 0.7;
 const FORCE: f64 = 22.0;
 const GRAVITY: f64 = 12.0;
 const MOMENT: f64 = 6.5;
-/// Share of the largest force from which on an arrow is drawn.
+/// Share of the largest force or moment from which on an arrow is drawn, and the least (N, N m): below it is rounding.
 const LEAST: f64 = 1e-6;
+const NOTHING: f64 = 1e-9;
 /// Dashes of what has no certain place, of traces, and of construction lines.
 const LOOSE: &str = "2 1.4";
 const CONSTRUCTION: &str = "4 1 0.5 1";
@@ -204,12 +205,12 @@ impl<'a> Picture<'a> {
         let moments = all.iter().map(|own| own.moment.abs()).fold(0.0, f64::larger);
         for own in all {
             let at = own.at / self.scale;
-            if own.force.norm() > LEAST * largest {
+            if own.force.norm() > NOTHING.larger(LEAST * largest) {
                 let tip = own.force * (FORCE / largest);
                 self.sign(arrow(tip, 1.0), at);
                 self.letters(at + tip, tip, 0.6, format!("{} N", short(own.force.norm())), LOAD.light);
             }
-            if own.moment.abs() > LEAST * moments {
+            if own.moment.abs() > NOTHING.larger(LEAST * moments) {
                 self.sign(turning(own.moment, MOMENT, 0.4, 1.0).to_vec(), at);
                 let beside = Vec2::new(0.0, MOMENT * own.moment.signum());
                 self.letters(at + beside, beside, 0.8, format!("{} N m", short(own.moment.abs())), LOAD.light);

@@ -2,8 +2,7 @@
 
 use std::path::Path;
 
-use super::is_standard_output;
-use drawing::bitmap::{Bitmap, bitmap, gif, png, webp};
+use drawing::bitmap::{Bitmap, bitmap, to_gif, to_png, to_webp};
 use drawing::paper::document::document;
 use drawing::paper::figure::Figure;
 use linkage::error::Result;
@@ -23,7 +22,7 @@ impl Medium {
         let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
         match ending.as_deref() {
             Some("svg") => Ok(Medium::Svg),
-            None if is_standard_output(path) => Ok(Medium::Svg),
+            None if path == Path::new("-") => Ok(Medium::Svg),
             Some("png") => Ok(Medium::Png),
             Some("gif") => Ok(Medium::Gif),
             Some("webp") => Ok(Medium::WebP),
@@ -49,9 +48,9 @@ impl Medium {
             Medium::Svg => {
                 Ok(pages.iter().map(|(figure, size)| document(figure, *size, title)).collect::<String>().into_bytes())
             }
-            Medium::Png => bitmaps()?.first().map_or_else(|| Ok(Vec::new()), png),
-            Medium::Gif => gif(&bitmaps()?, (seconds * 100.0).round().clamp(2.0, 60_000.0) as u16),
-            Medium::WebP => webp(&bitmaps()?, (seconds * 1000.0).round().clamp(10.0, 1e6) as u32),
+            Medium::Png => bitmaps()?.first().map_or_else(|| Ok(Vec::new()), to_png),
+            Medium::Gif => to_gif(&bitmaps()?, (seconds * 100.0).round().clamp(2.0, 60_000.0) as u16),
+            Medium::WebP => to_webp(&bitmaps()?, (seconds * 1000.0).round().clamp(10.0, 1e6) as u32),
         }
     }
 }

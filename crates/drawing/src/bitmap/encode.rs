@@ -14,7 +14,7 @@ fn unwritten(what: &str, error: &dyn std::fmt::Display) -> Error {
 ///
 /// # Errors
 /// [`ErrorKind::Io`] if the picture cannot be encoded.
-pub fn png(bitmap: &Bitmap) -> Result<Vec<u8>> {
+pub fn to_png(bitmap: &Bitmap) -> Result<Vec<u8>> {
     let size = tiny_skia::IntSize::from_wh(bitmap.width, bitmap.height);
     let pixmap = size.and_then(|size| tiny_skia::Pixmap::from_vec(bitmap.rgba.clone(), size));
     let pixmap = pixmap.ok_or_else(|| unwritten("the PNG", &"it has no pixels"))?;
@@ -26,7 +26,7 @@ pub fn png(bitmap: &Bitmap) -> Result<Vec<u8>> {
 /// # Errors
 /// [`ErrorKind::Input`] for frames of more than 65535 pixels in width or height; [`ErrorKind::Io`] if the picture
 /// cannot be encoded.
-pub fn gif(frames: &[Bitmap], hundredths: u16) -> Result<Vec<u8>> {
+pub fn to_gif(frames: &[Bitmap], hundredths: u16) -> Result<Vec<u8>> {
     let Some(first) = frames.first() else { return Ok(Vec::new()) };
     let (Ok(width), Ok(height)) = (u16::try_from(first.width), u16::try_from(first.height)) else {
         let message = format!("a GIF has at most 65535 pixels in a row, and {} are asked for", first.width);
@@ -49,7 +49,7 @@ pub fn gif(frames: &[Bitmap], hundredths: u16) -> Result<Vec<u8>> {
 ///
 /// # Errors
 /// [`ErrorKind::Io`] if the picture cannot be encoded.
-pub fn webp(frames: &[Bitmap], milliseconds: u32) -> Result<Vec<u8>> {
+pub fn to_webp(frames: &[Bitmap], milliseconds: u32) -> Result<Vec<u8>> {
     let Some(first) = frames.first() else { return Ok(Vec::new()) };
     let three = |number: u32| number.to_le_bytes()[..3].to_vec();
     let size = [three(first.width - 1), three(first.height - 1)].concat();
