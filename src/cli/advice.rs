@@ -33,7 +33,8 @@ pub(super) fn told(advice: &Advice) -> String {
             "ask for a larger error, other channels (--channel) or further engines (--engine all)".into()
         }
         Advice::AllResults => "all of them with --json".into(),
-        Advice::Text(_) | Advice::DoublePrecision | Advice::FewerInstants | Advice::ShortenGrid => advice.to_string(),
+        Advice::Text(text) => as_commands(text),
+        Advice::DoublePrecision | Advice::FewerInstants | Advice::ShortenGrid => advice.to_string(),
     }
 }
 
@@ -43,6 +44,25 @@ fn option(name: &str, to: Option<f64>) -> String {
         Some(to) => format!(", such as {name} {to:e}"),
         None => format!(" ({name})"),
     }
+}
+
+/// A text that speaks of pages as files, for whom may not have the files: `docs/scenario.md` is the command that shows it.
+fn as_commands(text: &str) -> String {
+    let is_of_path = |sign: char| sign.is_alphanumeric() || matches!(sign, '/' | '.' | '#' | '-' | '_');
+    let mut told = String::new();
+    let mut rest = text;
+    while let Some(at) = rest.find("docs/") {
+        let path = &rest[at..];
+        let path = &path[..path.find(|sign| !is_of_path(sign)).unwrap_or(path.len())];
+        let path = path.trim_end_matches('.');
+        told.push_str(&rest[..at]);
+        match path.strip_prefix("docs/").and_then(|page| page.split_once(".md")) {
+            Some((page, section)) => told.push_str(&format!("`linkproof docs {page}{section}`")),
+            None => told.push_str(path),
+        }
+        rest = &rest[at + path.len()..];
+    }
+    told + rest
 }
 
 #[cfg(test)]
@@ -71,5 +91,16 @@ mod tests {
         assert!(told(&routes).ends_with("--route differences or --route native"));
         let modes = Advice::Configuration { give: "a number from 1 to 2".into() };
         assert_eq!(told(&modes), "give a number from 1 to 2; `linkproof inspect FILE --modes` lists them");
+    }
+
+    #[test]
+    fn pages_become_commands() {
+        for (text, told) in [
+            ("docs/scenario.md describes it.", "`linkproof docs scenario` describes it."),
+            ("see docs/findings.md#a-b.", "see `linkproof docs findings#a-b`."),
+            ("in docs/ and docs/bench", "in docs/ and docs/bench"),
+        ] {
+            assert_eq!(as_commands(text), told);
+        }
     }
 }

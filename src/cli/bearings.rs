@@ -11,6 +11,7 @@ use workshop::bearings;
 
 const EXAMPLES: &str = "\
 Examples:
+  linkproof new --shipped      write the files that the examples name
   linkproof bearings scenarios/crank_rocker.toml
   linkproof bearings scenarios/ov7_new_tabulated.toml --lever-mm 10 --stress-mpa 200
   linkproof bearings scenarios/compressor.toml --json -

@@ -22,15 +22,16 @@ use workshop::export::{first_state, mjcf};
 
 const EXAMPLES: &str = "\
 Examples:
+  linkproof new --shipped      write the files that the examples name
   linkproof bench scenarios/crank_rocker.toml --out bench --quick     in seconds
   linkproof bench scenarios/five_bar.toml --out bench --quick --only positions --engine rapier
 
 All scenarios, beside another program, with a page:
-  linkproof bench scenarios/*.toml --out bench --page bench.md --peer mujoco='python3 examples/peers/mujoco_peer.py'
+  linkproof bench scenarios/*.toml --out bench --page bench.md --peer mine='python3 mine.py'
 
 Writes NAME.time.svg, NAME.solutions.svg, NAME.inner.svg and NAME.csv of every scenario, and bench.json, to the directory.
 Times are ratios to that of side 1 in the same command; they may differ from run to run, errors and counts do not.
-docs/peers.md tells how any other program is put on the diagrams.";
+`linkproof docs peers` tells how any other program is put on the diagrams.";
 
 /// Longest time of one call of a peer (s).
 const LIMIT: f64 = 60.0;

@@ -14,6 +14,7 @@ use linkage::error::{Error, ErrorKind, Result};
 
 const EXAMPLES: &str = "\
 Examples:
+  linkproof new --shipped      write the files that the examples name
   linkproof check scenarios/formulas/slider_crank_centric.toml           every [[formula]] of a file
   linkproof check scenarios/formulas/slider_crank_centric.toml --verbose  each of them, by value and by derivative
   linkproof check scenarios/crank_rocker.toml 'phi*180/pi' --channel link.crank.angle_deg
@@ -26,7 +27,7 @@ Examples:
 phi is the crank angle in rad as the scenario states it, t the time in s; pi, sin cos tan asin acos atan atan2(y, x)
 sqrt abs exp ln are known. The value counts in the channel's unit. -x^2 is -(x^2). --set a_mm=30 makes `a` known in
 SI (0.03) and `a_mm` as the plain number. Judged by value, and by first and second derivative where the mechanism has
-channels for them, at every instant of the grid and against both analytic sides: docs/formulas.md.
+channels for them, at every instant of the grid and against both analytic sides: `linkproof docs formulas`.
 
 Exit codes: 0 right, 1 wrong, 2 bad input, 3 nothing proven.";
 

@@ -15,12 +15,13 @@ use workshop::diagram::draw;
 
 const EXAMPLES: &str = "\
 Examples:
+  linkproof new --shipped      write the files that the examples name
   linkproof clearance scenarios/crankcase.toml
   linkproof clearance scenarios/crankcase.toml --svg swept.svg        outlines, housing and swept areas
   linkproof clearance scenarios/crankcase.toml --csv distances.csv    every distance at the instants of the grid
   linkproof clearance scenarios/crankcase.toml --json -
 
-Every distance holds for the whole range of the grid, not for its instants only: docs/clearance.md says how.
+Every distance holds for the whole range of the grid, not for its instants only: `linkproof docs clearance` says how.
 Outlines and housing are in the scenario's section [clearance].
 
 Exit codes: 0 all clear, 1 links collide or are nearer than wanted, 2 bad input or usage, 3 a part of the range is not proven.";
@@ -89,7 +90,7 @@ fn answer(args: &Args, file: &Path) -> Result<(Scenario, Clearance)> {
     let Some(asked) = &scenario.clearance else {
         let message = format!("the scenario {} asks nothing about clearance", file.display());
         return Err(Error::new(ErrorKind::Input, message).key("clearance").help(
-            "add a section `[clearance]`, for example with `radius_mm = 5` for all links; docs/scenario.md describes it",
+            "add a section `[clearance]`, for example with `radius_mm = 5` for all links; `linkproof docs scenario` describes it",
         ));
     };
     let mut bar = Bar::new(&scenario.name);

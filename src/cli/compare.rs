@@ -19,6 +19,7 @@ use linkage::error::{Error, ErrorKind, Result};
 
 const EXAMPLES: &str = "\
 Examples:
+  linkproof new --shipped      write the files that the examples name
   linkproof compare scenarios/crank_rocker.toml mine.csv            a table whose columns are named as channels
   linkproof compare scenarios/crank_rocker.toml mine.csv --map 't=time_s' --map 'phi3*180/pi=link.rocker.angle_deg'
   linkproof compare scenarios/crank_rocker.toml mine.csv --map mine.map.toml --rel 1e-3 --abs point.B.x_mm=0.01
@@ -32,7 +33,7 @@ Each of A and B is a scenario (.toml), which is solved by both analytic sides at
 (.mcap), or a table: text with separated columns, or Parquet. A column named as a channel with its unit needs no
 mapping, nor do t_s, t, time (in s), time_ms, crank_deg and crank_rad. --map reads EXPR=CHANNEL: an arithmetic over
 columns, so that sign, factor, offset and unit are written as they are; a name with other signs stands in backquotes.
-Bounds are what digits, rounding and the analytic sides leave open, plus what --rel and --abs allow. docs/compare.md
+Bounds are what digits, rounding and the analytic sides leave open, plus what --rel and --abs allow. `linkproof docs compare`
 says more.
 
 Exit codes: 0 they agree, 1 they disagree, 2 bad input, 3 nothing proven.";

@@ -13,6 +13,7 @@ use workshop::diagram::{Course, MotionDiagram, draw};
 
 const EXAMPLES: &str = "\
 Examples:
+  linkproof new --shipped      write the files that the examples name
   linkproof diagram scenarios/crank_rocker.toml --channel point.B.x_m
   linkproof diagram scenarios/ov7_base.toml --channel link.rocker_87.angle_rad --divisions 24 --svg needle.svg
   linkproof diagram scenarios/crank_rocker.toml --channel link.rocker.angle_rad --csv points.csv

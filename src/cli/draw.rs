@@ -18,6 +18,7 @@ use subject::{Drawn, Wish};
 
 const EXAMPLES: &str = "\
 Examples:
+  linkproof new --shipped      write the files that the examples name
   linkproof draw scenarios/crank_rocker.toml -o crank_rocker.svg
   linkproof draw scenarios/rotary_engine.toml --crank-deg 60 --loads -o engine.png
   linkproof draw scenarios/ov7_base.toml --each-mode -o modes.svg      all configurations, with the names that `mode` takes

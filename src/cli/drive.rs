@@ -19,6 +19,7 @@ use workshop::flywheel::Flywheel;
 
 const EXAMPLES: &str = "\
 Examples:
+  linkproof new --shipped      write the files that the examples name
   linkproof drive scenarios/crank_rocker.toml
   linkproof drive scenarios/crank_rocker.toml --non-uniformity 0.02
   linkproof drive scenarios/crank_rocker.toml --step-deg 5 --table

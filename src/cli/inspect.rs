@@ -11,6 +11,7 @@ use linkage::error::{Error, ErrorKind, Result};
 
 const EXAMPLES: &str = "\
 Examples:
+  linkproof new --shipped      write the files that the examples name
   linkproof inspect scenarios/crank_rocker.toml
   linkproof inspect scenarios/ov7_base.toml --json -
   linkproof inspect scenarios/fourth_class.toml --modes --at-crank-deg 70   all configurations of its groups

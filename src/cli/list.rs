@@ -10,8 +10,9 @@ use linkage::error::Result;
 
 const EXAMPLES: &str = "\
 Examples:
+  linkproof new --shipped      write the files that the examples name
   linkproof list                 the scenarios in scenarios/
-  linkproof list my_scenarios    those of another directory
+  linkproof list scenarios/formulas    those of another directory
   linkproof list --channels      every channel, its unit and meaning
   linkproof list --channels scenarios/crank_rocker.toml   those of one scenario, by name
   linkproof list --solvers       analytic solvers and engines";
@@ -43,7 +44,7 @@ pub(super) fn list(args: &Args) -> Result<()> {
     } else {
         let directory = args.place.as_deref().unwrap_or(Path::new("scenarios"));
         let files = scenario::files_in(directory)
-            .map_err(|error| error.help("name the directory that holds your scenario files: linkproof list DIR"))?;
+            .map_err(|error| error.help("name the directory that holds your scenario files: linkproof list DIR; `linkproof new --shipped` writes some to scenarios/"))?;
         let all: Vec<_> = files.into_iter().map(|file| (Scenario::load(&file), file)).collect();
         lists::scenarios(directory, &all, advice::told)
     };

@@ -8,6 +8,7 @@ mod check;
 mod clearance;
 mod compare;
 mod diagram;
+mod docs;
 mod draw;
 mod drive;
 mod engine_args;
@@ -22,6 +23,7 @@ mod list;
 mod load;
 mod motor_choice;
 mod mutate;
+mod new;
 mod number;
 mod output;
 mod panics;
@@ -43,8 +45,12 @@ use clap::{CommandFactory, Parser, Subcommand};
 
 const EXAMPLES: &str = "\
 Examples:
+  linkproof new four-bar                                a mechanism of your own: four_bar.toml
+  linkproof draw four_bar.toml -o four_bar.svg          look at it
+  linkproof run four_bar.toml --html four_bar.html      prove it, and see it move
+  linkproof new --shipped                               the files of all examples
   linkproof list                                        what scenarios there are
-  linkproof run scenarios/crank_rocker.toml             prove one, record it to recordings/
+  linkproof run scenarios/crank_rocker.toml             one of those files
   linkproof run scenarios/*.toml --no-record --json -   prove all, as JSON
   linkproof compare scenarios/crank_rocker.toml recordings/crank_rocker.mcap --rel 0.01   tables too
   linkproof solve scenarios/ov7_base.toml --with assur --crank-deg 0:-360:-30
@@ -65,6 +71,8 @@ struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    /// Write a mechanism to begin with: a commented scenario, with dimensions as options
+    New(new::Args),
     /// Solve scenarios both ways, compare, check, record, and say whether the two sides agree
     Run(run::Args),
     /// Keep the figures of proven scenarios in files beside them, and judge later runs by these, within their bounds
@@ -108,6 +116,8 @@ enum Command {
     Completions(shell::CompletionArgs),
     /// Write the manual: the page of linkproof, or the pages of all commands
     Man(shell::ManArgs),
+    /// Show a page of the documents
+    Docs(docs::Args),
     /// Write the format of scenario files as a JSON Schema, by which editors complete and check keys
     Schema(schema::Args),
 }
@@ -118,6 +128,7 @@ pub fn main() -> ExitCode {
     panics::silence(crate::engines::panic_is_caught);
     let cli = Cli::parse();
     let code = match cli.command {
+        Command::New(args) => new::new(&args),
         Command::Run(args) => run::run(&args),
         Command::Accept(args) => accept::run(&args),
         Command::Check(args) => check::check(&args),
@@ -139,6 +150,7 @@ pub fn main() -> ExitCode {
         Command::List(args) => output::exit(list::list(&args)),
         Command::Completions(args) => output::exit(shell::completions(&args, Cli::command())),
         Command::Man(args) => output::exit(shell::man(&args, Cli::command())),
+        Command::Docs(args) => output::exit(docs::docs(&args)),
         Command::Schema(args) => output::exit(schema::schema(&args)),
     };
     ExitCode::from(code)
@@ -214,6 +226,63 @@ mod tests {
             }
         }
         assert!(count >= 70, "only {count} commands are found");
+    }
+
+    /// A command with its subcommands.
+    fn with_all(command: &clap::Command) -> Vec<clap::Command> {
+        let inner = command.get_subcommands().flat_map(with_all);
+        std::iter::once(command.clone()).chain(inner).collect()
+    }
+
+    /// Commands of the examples of a help, with lines that go on joined; what they do stands behind two blanks.
+    fn examples(help: &str) -> Vec<Vec<String>> {
+        let joined: String = help.split("\\\n").map(str::trim_start).collect();
+        let lines = joined.lines().filter_map(|line| line.strip_prefix("  linkproof "));
+        lines.map(|line| command(&format!("linkproof {}", line.split("  ").next().unwrap())).unwrap()).collect()
+    }
+
+    /// The first example brings the files that the others name; the program carries them.
+    #[test]
+    fn every_example_of_help_is_understood_and_has_its_files() {
+        let shipped = crate::scenario::shipped::files();
+        let is_there = |word: &str| {
+            let (begin, end) = word.split_once('*').unwrap_or((word, ""));
+            shipped.iter().any(|(path, _)| path.starts_with(begin) && path.ends_with(end))
+        };
+        let mut count = 0;
+        for command in with_all(&Cli::command()) {
+            let help = command.get_after_help().map(ToString::to_string).unwrap_or_default();
+            assert!(!help.contains("docs/"), "{}: a file that is not there", command.get_name());
+            let mut brings_files = false;
+            for words in examples(&help) {
+                let told = words.join(" ");
+                if let Err(error) = Cli::try_parse_from(&words) {
+                    assert_eq!(error.exit_code(), 0, "{told}\n{error}");
+                }
+                brings_files |= words.contains(&"--shipped".to_string());
+                for word in
+                    words.iter().filter(|word| word.starts_with("scenarios/") || word.starts_with("catalogues/"))
+                {
+                    assert!(brings_files && is_there(word), "{told}: {word}");
+                }
+                count += 1;
+            }
+        }
+        assert!(count >= 90, "only {count} examples are found");
+    }
+
+    /// Whoever has installed the program has no other files of the repository.
+    #[test]
+    fn no_option_points_at_a_file_that_is_not_there() {
+        for command in with_all(&Cli::command()) {
+            let told = command.clone().render_long_help().to_string();
+            for word in told.split_whitespace() {
+                assert!(
+                    !["docs/", "examples/", "tests/", "src/"].iter().any(|folder| word.starts_with(folder)),
+                    "{word}"
+                );
+            }
+        }
     }
 
     #[test]

@@ -14,6 +14,7 @@ use linkage::error::{Error, ErrorKind, Result};
 
 const EXAMPLES: &str = "\
 Examples:
+  linkproof new --shipped      write the files that the examples name
   linkproof mutate --list                                                       all kinds of faults
   linkproof mutate scenarios/crank_rocker.toml --kind mass-heaviest --no-sizes  one kind, in every party
   linkproof mutate scenarios/quick_return.toml --kind force --party assur       one family, in side 1 only

@@ -14,6 +14,7 @@ use workshop::diagram::{Plans, SingularPoint, draw};
 
 const EXAMPLES: &str = "\
 Examples:
+  linkproof new --shipped      write the files that the examples name
   linkproof plan scenarios/crank_rocker.toml --crank-deg 70
   linkproof plan scenarios/fourth_class.toml --svg plans.svg      drawn to scale, at the start
   linkproof plan scenarios/ov7_base.toml --only 7,9 --svg needle.svg   two points of many

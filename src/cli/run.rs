@@ -29,6 +29,7 @@ use linkage::work::Work;
 
 const EXAMPLES: &str = "\
 Examples:
+  linkproof new --shipped      write the files that the examples name
   linkproof run scenarios/crank_rocker.toml
   linkproof run scenarios/crank_rocker.toml --dt 1e-4          this step of the engine, not one that the run finds
   linkproof run mine.toml --write                              keep the settings that the run has found in the file

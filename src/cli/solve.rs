@@ -16,6 +16,7 @@ use linkage::error::{Error, ErrorKind, Result};
 
 const EXAMPLES: &str = "\
 Examples:
+  linkproof new --shipped      write the files that the examples name
   linkproof solve scenarios/crank_rocker.toml --with assur
   linkproof solve scenarios/ov7_base.toml --with newton --crank-deg 0:-360:-30 --csv table.csv
   linkproof solve scenarios/crank_rocker.toml --with rapier --dt 1e-4 --times 0:0.46:0.01

@@ -32,7 +32,7 @@ pub(super) fn text() -> Result<&'static str> {
             output::note("the scenario is read from standard input, up to its end (Ctrl-D)");
         }
         files::text_from(io::stdin().lock()).map_err(|error| {
-            let usual = "give a scenario, as in: linkproof run - < scenarios/crank_rocker.toml";
+            let usual = "give a scenario, as in: linkproof run - < four_bar.toml";
             Error::new(ErrorKind::Io, format!("{NAME} cannot be read: {error}")).help(files::way_out(&error, usual))
         })
     };

@@ -17,6 +17,7 @@ use linkage::error::{Advice, Error, Result};
 
 const EXAMPLES: &str = "\
 Examples:
+  linkproof new --shipped      write the files that the examples name
   linkproof tune scenarios/crank_rocker.toml --within 1e-4            every engine and route
   linkproof tune scenarios/crank_rocker.toml --within 1e-4 --engine rapier --route differences
   linkproof tune scenarios/ov7_base.toml --within 1e-3 --channel positions --channel joint.A.fx_N

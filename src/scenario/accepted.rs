@@ -141,7 +141,7 @@ pub fn text(accepted: &Accepted) -> String {
     let Accepted { scenario, verdict, instants, times, channels } = accepted;
     let mut text = format!(
         "# Accepted figures of {scenario}: the reference's, each known within `bound`, in the units of the names.\n\
-         # docs/testing.md says how later runs are judged by them.\n\
+         # How later runs are judged by them: docs/testing.md in the repository of linkproof.\n\
          format = {}\nscenario = {}\nverdict = {}\ninstants = {instants}\ntimes_s = {}\n",
         super::header::FORMAT,
         quoted(scenario),

@@ -33,11 +33,13 @@ pub mod redraw;
 mod reduced;
 mod series;
 mod settings;
+pub mod shipped;
 mod source;
 mod start;
 mod stated;
 mod table_file;
 pub mod task_file;
+pub mod templates;
 #[cfg(test)]
 mod tests;
 pub mod unit;

@@ -17,7 +17,7 @@ use linkage::error::{Error, ErrorKind, Place, Result};
 pub fn text_of(path: &Path) -> Result<String> {
     files::read_text(path).map_err(|error| {
         Error::new(ErrorKind::Io, format!("the scenario {} cannot be read: {error}", path.display()))
-            .help(files::way_out(&error, "give the path of a scenario file, such as scenarios/crank_rocker.toml"))
+            .help(files::way_out(&error, "give the path of a scenario file, such as four_bar.toml"))
     })
 }
 

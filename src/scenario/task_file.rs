@@ -36,12 +36,8 @@ impl TaskFile {
     /// [`Scenario::load`] and [`Task::check`].
     pub fn load(path: &Path) -> Result<Self> {
         let text = files::read_text(path).map_err(|error| {
-            Error::new(ErrorKind::Io, format!("the synthesis file {} cannot be read: {error}", path.display())).help(
-                files::way_out(
-                    &error,
-                    "give the path of a synthesis file, such as scenarios/ov7_drives/sinker_task.toml",
-                ),
-            )
+            Error::new(ErrorKind::Io, format!("the synthesis file {} cannot be read: {error}", path.display()))
+                .help(files::way_out(&error, "give the path of a synthesis file, such as sinker_task.toml"))
         })?;
         let source = Source::new(path, &text);
         let tree = source.tree()?;

@@ -25,7 +25,7 @@ const CRATES: &[(&str, &str, &str, &str)] = &[
         "linkproof",
         "",
         "analytic drawing formula linkage precise rapier-twin simbody-twin workshop",
-        "annotate-snippets anstream anstyle base64 chacha20 clap clap_complete clap_mangen comfy-table csv foxglove indicatif libtest-mimic mcap parquet plotters prost prost-types quick-junit serde serde_json strsim tempfile terminal_size textwrap toml toml_edit",
+        "annotate-snippets anstream anstyle base64 chacha20 clap clap_complete clap_mangen comfy-table csv foxglove include_dir indicatif libtest-mimic mcap parquet plotters prost prost-types quick-junit serde serde_json strsim tempfile terminal_size textwrap toml toml_edit",
     ),
 ];
 

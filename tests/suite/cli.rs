@@ -12,6 +12,7 @@ mod html;
 mod messages;
 mod modes;
 mod mutate;
+mod new;
 mod numbers;
 mod outputs;
 mod plan;

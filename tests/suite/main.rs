@@ -60,5 +60,6 @@ mod timed_numbers;
 mod triad_methods;
 mod trunk;
 mod tune;
+mod tutorial;
 mod variants60;
 mod versus;

@@ -3,7 +3,7 @@
 use crate::common::assert_within;
 use std::path::Path;
 
-use linkproof::scenario::Scenario;
+use linkproof::scenario::{Scenario, files_in};
 
 #[test]
 fn the_worked_example_is_a_scenario() {
@@ -35,4 +35,25 @@ fn every_scenario_of_the_repository_can_be_read() {
         }
     }
     assert!(count >= 2);
+}
+
+/// docs/site/gallery writes the page, with the verdict of a run of each; `.ci/run` compares the whole.
+#[test]
+fn the_gallery_has_every_mechanism() {
+    let page = include_str!("../../docs/gallery.md");
+    let top = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut count = 0;
+    for folder in ["src/scenario/templates", "scenarios", "scenarios/formulas"] {
+        for path in files_in(&top.join(folder)).unwrap() {
+            let file = format!("(../{folder}/{})", path.file_name().unwrap().to_string_lossy());
+            let title = Scenario::load(&path).unwrap_or_else(|error| panic!("{error}")).title;
+            let row = page.lines().find(|line| line.contains(&file)).unwrap_or_else(|| panic!("no row of {file}"));
+            assert!(row.contains(&format!("| {title} |")), "{row}");
+            let picture = row.split("src=\"").nth(1).unwrap().split('"').next().unwrap();
+            assert!(top.join("docs").join(picture).is_file(), "{picture}");
+            count += 1;
+        }
+    }
+    assert_eq!(page.matches("](../").count(), count);
+    assert_eq!(std::fs::read_dir(top.join("docs/gallery")).unwrap().count(), count);
 }

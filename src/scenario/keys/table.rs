@@ -110,7 +110,12 @@ pub static SECTIONS: &[Section] = &[
             optional("engine", Table, "settings of the engine", "found by `run`"),
             optional("tolerances", Table, "at what bound agreement still proves something", "its defaults"),
             optional("oracle", Tables, "numbers that the mechanism must reproduce", "none"),
-            optional("clearance", Table, "outlines of links and a housing, whose distances are wanted", "none"),
+            optional(
+                "clearance",
+                Table,
+                "outlines of links and a housing: do they meet, and how near are they?",
+                "none",
+            ),
             optional("formula", Tables, "formulas as they were derived, and what they claim to be", "none"),
         ],
     ),
@@ -407,7 +412,7 @@ pub static SECTIONS: &[Section] = &[
                 "found by `run`",
             ),
             optional("step", ANGLES, "the same as the angle that the crank turns through in a step", "found by `run`"),
-            optional("name", Text, "engine of the proof", "the first"),
+            optional("name", Text, "engine that judges unless another is asked for", "the first"),
             optional("sweeps", Integer, "sweeps of the engine's iteration in a step", "found by `run`"),
             optional(
                 "substeps",

@@ -1,0 +1,134 @@
+//! `linkproof docs`: the documents, in the program itself.
+
+use super::output;
+use crate::scenario::words::suggestion;
+use linkage::error::{Error, ErrorKind, Result};
+
+const EXAMPLES: &str = "\
+Examples:
+  linkproof docs                                 the pages
+  linkproof docs scenario                        the format of scenario files, key by key
+  linkproof docs scenario#what-goes-wrong-and-what-the-message-says
+  linkproof docs formulas                        how formulas are written and judged";
+
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct Args {
+    /// Page, or one section of it; without one, the pages are listed
+    #[arg(value_name = "PAGE[#SECTION]")]
+    page: Option<String>,
+}
+
+macro_rules! pages {
+    ($($name:literal),* $(,)?) => {
+        &[$(($name, include_str!(concat!("../../docs/", $name, ".md")))),*]
+    };
+}
+
+/// Names and texts.
+static PAGES: &[(&str, &str)] = pages![
+    "bench",
+    "clearance",
+    "compare",
+    "draw",
+    "engines",
+    "findings",
+    "foreign",
+    "formulas",
+    "gallery",
+    "mjcf",
+    "mutate",
+    "notation",
+    "peers",
+    "plans",
+    "rapier",
+    "scenario",
+    "skip",
+    "stories",
+    "stress",
+    "synthesis",
+    "testing",
+    "tutorial",
+    "variants60",
+];
+
+pub(super) fn docs(args: &Args) -> Result<()> {
+    let Some(asked) = &args.page else { return output::print(&list()) };
+    let (name, section) = match asked.split_once('#') {
+        Some((name, section)) => (name, Some(section)),
+        None => (asked.as_str(), None),
+    };
+    let name = name.trim_start_matches("docs/").trim_end_matches(".md");
+    let Some((_, text)) = PAGES.iter().find(|(own, _)| *own == name) else {
+        let names = PAGES.iter().map(|(own, _)| *own);
+        return Err(
+            Error::new(ErrorKind::Input, format!("there is no page \"{name}\"")).help(suggestion(name, names, "\""))
+        );
+    };
+    match section {
+        None => output::print(text),
+        Some(anchor) => output::print(&part(text, anchor).ok_or_else(|| {
+            Error::new(ErrorKind::Input, format!("the page \"{name}\" has no section \"{anchor}\"")).help(suggestion(
+                anchor,
+                headings(text).map(|(_, _, own)| own).collect::<Vec<_>>().iter().map(String::as_str),
+                "\"",
+            ))
+        })?),
+    }
+}
+
+fn list() -> String {
+    let width = PAGES.iter().map(|(name, _)| name.len()).max().unwrap_or_default();
+    let title = |text: &str| text.lines().next().unwrap_or_default().trim_start_matches("# ").to_string();
+    PAGES.iter().map(|(name, text)| format!("{name:width$}  {}\n", title(text))).collect()
+}
+
+/// Headings outside of blocks: where their line begins, their level, and the anchor that web pages give them.
+fn headings(text: &str) -> impl Iterator<Item = (usize, usize, String)> {
+    let mut at = 0;
+    let mut is_block = false;
+    text.split_inclusive('\n').filter_map(move |line| {
+        let begins = at;
+        at += line.len();
+        is_block ^= line.starts_with("```");
+        let level = line.bytes().take_while(|byte| *byte == b'#').count();
+        let anchor = || {
+            let kept = |sign: &char| sign.is_alphanumeric() || matches!(sign, ' ' | '-' | '_');
+            line[level..].trim().to_lowercase().chars().filter(kept).collect::<String>().replace(' ', "-")
+        };
+        (level > 0 && !is_block).then(|| (begins, level, anchor()))
+    })
+}
+
+/// The section with an anchor, up to the next of its level or above.
+fn part(text: &str, anchor: &str) -> Option<String> {
+    let mut all = headings(text);
+    let (begins, level, _) = all.find(|(_, _, own)| own == anchor)?;
+    let ends = all.find(|(_, other, _)| *other <= level).map_or(text.len(), |(at, _, _)| at);
+    Some(text[begins..ends].into())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_page_is_there() {
+        let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("docs");
+        let mut names: Vec<String> = std::fs::read_dir(folder)
+            .unwrap()
+            .map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned())
+            .filter_map(|name| name.strip_suffix(".md").map(str::to_string))
+            .collect();
+        names.sort();
+        assert_eq!(PAGES.iter().map(|(name, _)| *name).collect::<Vec<_>>(), names);
+    }
+
+    #[test]
+    fn a_section_ends_where_the_next_begins() {
+        let page = "# A\n\na\n\n## B, *c*\nb\n```sh\n# no heading\n```\n### D\nd\n## E\ne\n";
+        assert_eq!(part(page, "b-c").unwrap(), "## B, *c*\nb\n```sh\n# no heading\n```\n### D\nd\n");
+        assert_eq!(part(page, "e").unwrap(), "## E\ne\n");
+        assert!(part(page, "no-heading").is_none());
+    }
+}

@@ -1,0 +1,133 @@
+//! `linkproof new`.
+
+use std::path::{Path, PathBuf};
+
+use super::{exit_code, load, output};
+use crate::scenario::templates::{self, TEMPLATES, Template};
+use crate::scenario::{Scenario, shipped};
+use linkage::error::{Error, ErrorKind, Result};
+
+const EXAMPLES: &str = "\
+Examples:
+  linkproof new                                   the templates, one line each
+  linkproof new four-bar                          write four_bar.toml
+  linkproof new four-bar -o mine.toml --set crank_mm=30 --set coupler_mm=110
+  linkproof new jansen -o -                       to standard output
+  linkproof new --shipped                         write scenarios/, catalogues/ and findings that help and documents name
+
+A mechanism that cannot be assembled, or does not turn, is written nevertheless: its lengths are corrected in the file.
+The message says how far it goes, and the exit code is 2.";
+
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct Args {
+    /// Mechanism to begin with; without one, the templates are listed
+    #[arg(value_name = "TEMPLATE")]
+    template: Option<String>,
+    /// File to write, or `-` for standard output [default: the template's name, in this directory]
+    #[arg(short, long, value_name = "FILE", requires = "template", value_parser = target)]
+    output: Option<PathBuf>,
+    /// Dimension, by its key in `[parameters]`; may be given several times
+    #[arg(long, value_name = "KEY=NUMBER", requires = "template", value_parser = load::setting)]
+    set: Vec<(String, f64)>,
+    /// Replace files that are there
+    #[arg(long)]
+    force: bool,
+    /// List the templates
+    #[arg(long, conflicts_with_all = ["template", "shipped", "force"])]
+    list: bool,
+    /// Write the files of all examples, below this directory
+    #[arg(long, value_name = "DIR", num_args = 0..=1, default_missing_value = ".", conflicts_with = "template")]
+    #[arg(value_parser = output::directory)]
+    shipped: Option<PathBuf>,
+}
+
+fn target(text: &str) -> std::result::Result<PathBuf, String> {
+    output::writable(text.into())
+}
+
+pub(super) fn new(args: &Args) -> u8 {
+    match (&args.template, &args.shipped) {
+        (Some(name), _) => begin(name, args).unwrap_or_else(|error| output::exit(Err(error))),
+        (None, Some(directory)) => output::exit(ship(directory, args.force)),
+        (None, None) => output::exit(output::print(&list())),
+    }
+}
+
+/// The templates, one line each.
+fn list() -> String {
+    let width = TEMPLATES.iter().map(|template| template.name.len()).max().unwrap_or_default();
+    let line = |template: &Template| format!("{:width$}  {}\n", template.name, template.title());
+    let lines: String = TEMPLATES.iter().map(line).collect();
+    format!("{lines}\nlinkproof new TEMPLATE writes one; its dimensions are set there, or with --set\n")
+}
+
+/// What has been written, and what to do with it.
+fn begun(template: &Template, file: &str) -> String {
+    let stem = Path::new(file).with_extension("");
+    let stem = stem.display();
+    format!(
+        "{file}: {}\n\nnext  linkproof draw {file} -o {stem}.svg\n      linkproof run {file} --html {stem}.html\n",
+        template.title()
+    )
+}
+
+/// Refuses what would replace a file.
+fn free(path: &Path, force: bool, other: &str) -> Result<()> {
+    if force || !path.exists() {
+        return Ok(());
+    }
+    Err(Error::new(ErrorKind::Input, format!("{} is there already", path.display()))
+        .help(format!("{other}, or replace what is there with --force")))
+}
+
+fn begin(name: &str, args: &Args) -> Result<u8> {
+    let template = templates::named(name)?;
+    let own = PathBuf::from(format!("{}.toml", template.scenario_name()));
+    let path = args.output.as_ref().unwrap_or(&own);
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    let text = template.scenario(&stem, &args.set).map_err(|error| error.key("--set"))?;
+    if path == Path::new("-") {
+        output::print(&text)?;
+        return Ok(told(&text, Path::new("standard output"), template));
+    }
+    free(path, args.force, "give another name with --output")?;
+    output::write(&text, path)?;
+    let code = told(&text, path, template);
+    if code == exit_code::AGREE {
+        output::print(&begun(template, &path.display().to_string()))?;
+    }
+    Ok(code)
+}
+
+/// Says why the mechanism cannot be assembled or does not turn; the exit code.
+fn told(text: &str, path: &Path, template: &Template) -> u8 {
+    let Err(error) = Scenario::parse(text, path).and_then(|scenario| crate::proof::solve(&scenario.case)) else {
+        return exit_code::AGREE;
+    };
+    output::show(&error);
+    output::note(&format!(
+        "{0} is written nevertheless, to be corrected: `linkproof draw {0} -o picture.svg` shows how far it goes. Lengths that \
+         fit together are the template's own: {1}",
+        path.display(),
+        template.dimensions(),
+    ));
+    exit_code::BAD_INPUT
+}
+
+fn ship(directory: &Path, force: bool) -> Result<()> {
+    let files = shipped::files();
+    for (path, _) in &files {
+        free(&directory.join(path), force, "name another directory, as in --shipped DIR")?;
+    }
+    for (path, bytes) in &files {
+        let path = directory.join(path);
+        let made = path.parent().map_or(Ok(()), std::fs::create_dir_all);
+        made.map_err(|error| {
+            Error::new(ErrorKind::Io, format!("cannot make the directory of {}: {error}", path.display()))
+                .help("check that this directory may be written to")
+        })?;
+        output::stream(&path, |out| out.write_all(bytes))?;
+    }
+    output::print(&format!("{} files in {}\n", files.len(), directory.display()))
+}

@@ -1,0 +1,125 @@
+//! docs/tutorial.md, followed word for word: its commands run in an empty directory, and print what stands below them.
+
+use std::path::Path;
+use std::{env, fs};
+
+use assert_cmd::Command;
+use tempfile::TempDir;
+
+const PAGE: &str = "docs/tutorial.md";
+
+/// A block of the page.
+struct Block<'a> {
+    language: &'a str,
+    /// The text before it, from the block before on.
+    before: &'a str,
+    body: &'a str,
+}
+
+fn blocks(page: &str) -> Vec<Block<'_>> {
+    let mut found = Vec::new();
+    let mut rest = page;
+    while let Some((before, block)) = rest.split_once("```") {
+        let (language, block) = block.split_once('\n').unwrap();
+        let (body, after) = block.split_once("```\n").unwrap_or_else(|| panic!("{PAGE}: a block has no end"));
+        found.push(Block { language, before, body });
+        rest = after;
+    }
+    found
+}
+
+/// What a command prints, both streams, as on a terminal without colours; a refused one prints its error.
+fn run(line: &str, place: &Path) -> String {
+    let words = shlex::split(line).unwrap_or_else(|| panic!("no shell understands {line}"));
+    let (program, arguments) = words.split_first().unwrap();
+    assert_eq!(program, "linkproof", "{line}");
+    let output = Command::cargo_bin("linkproof").unwrap().current_dir(place).args(arguments).output().unwrap();
+    String::from_utf8([output.stdout, output.stderr].concat()).unwrap()
+}
+
+/// The page with the outputs that its commands have now. What goes to a file is named before its block, as in
+/// `<!-- at the end of four_bar.toml -->`.
+fn followed(page: &str, place: &Path) -> (String, usize) {
+    let mut text = page.to_string();
+    let (mut printed, mut count) = (String::new(), 0);
+    for block in blocks(page) {
+        match block.language {
+            "sh" => {
+                printed.clear();
+                for line in block.body.lines() {
+                    printed = run(line.split("  #").next().unwrap(), place);
+                    count += 1;
+                }
+            }
+            "text" => {
+                text = text.replacen(&format!("```text\n{}```", block.body), &format!("```text\n{printed}```"), 1)
+            }
+            "toml" => {
+                let named = block.before.rsplit("<!-- at the end of ").next().and_then(|rest| rest.split_once(" -->"));
+                let file =
+                    place.join(named.unwrap_or_else(|| panic!("{PAGE}: which file is this for?\n{}", block.body)).0);
+                let old = fs::read_to_string(&file).unwrap();
+                fs::write(file, format!("{old}\n{}", block.body)).unwrap();
+            }
+            other => panic!("{PAGE}: a block of {other:?}"),
+        }
+    }
+    (text, count)
+}
+
+/// Whether two lines say the same. The last bit of a sine depends on the processor: numbers may differ by a hundredth,
+/// and what is rounding by more.
+fn are_alike(one: &str, other: &str) -> bool {
+    let is_near = |(one, other): (&str, &str)| {
+        let number =
+            |word: &str| word.trim_matches(|sign: char| !sign.is_ascii_alphanumeric() && sign != '-').parse::<f64>();
+        match (number(one), number(other)) {
+            (Ok(a), Ok(b)) => (a - b).abs() <= 1e-2 * a.abs() || a.abs() < 1e-9 && b.abs() < 1e-9,
+            _ => one == other,
+        }
+    };
+    let words = |line| str::split(line, [' ', ',']).filter(|word| !word.is_empty());
+    words(one).count() == words(other).count() && words(one).zip(words(other)).all(is_near)
+}
+
+#[test]
+fn a_line_that_says_something_else_is_seen() {
+    for (one, other) in
+        [("a  1.000 mm, 2e-16", "a 1.001 mm, 8e-16"), ("t_s,1.9999999999999999e0", "t_s,2.0000000000000000e0")]
+    {
+        assert!(are_alike(one, other));
+    }
+    for (one, other) in [("1.0 mm", "1.1 mm"), ("1.0 mm", "1.0 m"), ("agree", "agree 1"), ("2e-16", "2e-6")] {
+        assert!(!are_alike(one, other));
+    }
+}
+
+/// Pictures that the page shows, and their names where they are made.
+fn pictures(page: &str) -> impl Iterator<Item = &str> {
+    page.split("](tutorial/").skip(1).map(|rest| rest.split_once(')').unwrap().0)
+}
+
+/// `INSTA_UPDATE=always` writes outputs and pictures anew, as it does with snapshots.
+#[test]
+fn the_tutorial_runs_as_it_stands() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(PAGE);
+    let page = fs::read_to_string(&path).unwrap();
+    let place = TempDir::new().unwrap();
+    let (text, count) = followed(&page, place.path());
+    assert!(count >= 8, "only {count} commands");
+    if env::var_os("INSTA_UPDATE").is_some_and(|value| value == "always") {
+        fs::write(&path, text).unwrap();
+        fs::create_dir_all(path.with_extension("")).unwrap();
+        for name in pictures(&page) {
+            fs::copy(place.path().join(name), path.with_extension("").join(name)).unwrap();
+        }
+        return;
+    }
+    for name in pictures(&page) {
+        let kept = fs::read(path.with_extension("").join(name)).unwrap();
+        assert!(kept == fs::read(place.path().join(name)).unwrap(), "{name} is drawn otherwise now");
+    }
+    assert_eq!(text.lines().count(), page.lines().count(), "INSTA_UPDATE=always ... --test suite tutorial");
+    let differing = text.lines().zip(page.lines()).find(|(new, old)| !are_alike(new, old));
+    assert!(differing.is_none(), "{differing:#?}\nINSTA_UPDATE=always cargo test --release --test suite tutorial");
+}
