@@ -176,6 +176,21 @@ fn configurations_stand_side_by_side_with_their_names() {
     assert_ne!(one, svg(&[&file("ov7_base")]));
 }
 
+/// Where the file leaves the mode open, the list of configurations is the answer.
+#[test]
+fn a_mode_that_is_not_given_can_be_chosen_from_the_picture() {
+    let directory = tempfile::tempdir().unwrap();
+    let open = changed(directory.path(), "six_bar_slider", |text| {
+        text.lines().filter(|line| !line.starts_with("mode = ")).map(|line| format!("{line}\n")).collect()
+    });
+    let (code, _, told) = draw(&[open.to_str().unwrap(), "-o", "-"]);
+    assert!(code == 2 && told.contains("mode"), "{told}");
+    let (code, out, told) = draw(&[open.to_str().unwrap(), "--each-mode", "-o", "-"]);
+    assert!(code == 0 && told.starts_with("note: "), "{told}");
+    let text = String::from_utf8(out).unwrap();
+    assert!(["= left", "= right", "= ahead", "= behind"].iter().all(|mode| text.contains(mode)), "{text}");
+}
+
 #[test]
 fn bitmaps_move_and_are_the_same_again() {
     let directory = tempfile::tempdir().unwrap();

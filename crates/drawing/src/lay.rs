@@ -97,7 +97,10 @@ pub fn lay(mechanism: &Mechanism, structure: &Structure, angles: &[f64], starts:
                 done = tried;
             }
             Err(error) => {
-                laid.reaches.extend(reaches(mechanism, group, &laid));
+                // A group that only leaves its mode open reaches.
+                if configurations(mechanism, group, &laid.pose()).is_err() {
+                    laid.reaches.extend(reaches(mechanism, group, &laid));
+                }
                 laid.faults.push(error);
             }
         }

@@ -194,7 +194,11 @@ impl Drawn {
                 format!("joint {name} stays open by {} mm", significant((to - from).norm() * 1e3))
             })
             .collect();
-        let note = (!gaps.is_empty()).then(|| format!("{}: {}", draft.name, gaps.join(", ")));
+        let note = match (&gaps[..], &draft.structure) {
+            ([], Ok(_)) => Some(format!("{}: --each-mode draws all configurations, with their names", draft.name)),
+            ([], Err(_)) => None,
+            (gaps, _) => Some(format!("{}: {}", draft.name, gaps.join(", "))),
+        };
         let mut drawn = Drawn::new(draft, crank, vec![Shot { laid, acting: Vec::new() }]);
         (drawn.fault, drawn.note) = (Some(error), note);
         Ok(drawn)
@@ -207,12 +211,14 @@ impl Drawn {
         let (all, is_cut) = all_modes(&draft.mechanism, &structure, &angles, &draft.starts, MOST);
         let own = lay(&draft.mechanism, &structure, &angles, &draft.starts);
         let headings = all.iter().map(|laid| heading(&draft.mechanism, &structure, laid, &own)).collect();
-        let note = is_cut.then(|| format!("{}: only the first {MOST} configurations are drawn", draft.name));
-        // A configuration that does not close is no fault of the file, unless none does.
-        let error = error.or_else(|| {
-            let none = !all.iter().any(Laid::is_whole);
-            all.first().filter(|_| none).and_then(|laid| laid.faults.first().cloned())
-        });
+        // A file that leaves its mode open is answered by the list, and a configuration that does not close is no fault.
+        let is_answered = all.iter().any(Laid::is_whole);
+        let cut = is_cut.then(|| format!("only the first {MOST} configurations are drawn"));
+        let open = error.as_ref().filter(|_| is_answered).map(|error| error.message().to_string());
+        let told: Vec<String> = open.into_iter().chain(cut).collect();
+        let note = (!told.is_empty()).then(|| format!("{}: {}", draft.name, told.join("; ")));
+        let first = all.first().and_then(|laid| laid.faults.first().cloned());
+        let error = error.or(first).filter(|_| !is_answered);
         let shots = all.into_iter().map(|laid| Shot { laid, acting: Vec::new() }).collect();
         let mut drawn = Drawn::new(draft, crank, shots);
         (drawn.headings, drawn.note, drawn.fault, drawn.each_mode) = (headings, note, error, true);
