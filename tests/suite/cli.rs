@@ -8,6 +8,7 @@ mod encodings;
 mod engines;
 mod export;
 mod files;
+mod html;
 mod messages;
 mod modes;
 mod mutate;

@@ -4,10 +4,10 @@ use serde_json::{Value, json};
 
 use super::markup::singles;
 use super::thinned::ends;
+use linkage::case::Case;
 use linkage::drive::{Motor, MotorLaw};
 use linkage::math::KeepNan;
 use linkage::trajectory::{Channel, Trajectory};
-use linkage::case::Case;
 use workshop::diagram::Graphs;
 
 /// Points of the motor's curve.
@@ -40,10 +40,7 @@ pub(super) fn motor(case: &Case, trajectory: &Trajectory) -> Value {
     let most = BEYOND * run[1].larger(no_load(motor)).larger(1e-9);
     let least = run[0].smaller(0.0);
     let speed = |k: u32| least + (most - least) * f64::from(k) / f64::from(POINTS);
-    let [x, y] = [
-        singles((0..=POINTS).map(speed)),
-        singles((0..=POINTS).map(|k| motor.moment_on_crank(speed(k)))),
-    ];
+    let [x, y] = [singles((0..=POINTS).map(speed)), singles((0..=POINTS).map(|k| motor.moment_on_crank(speed(k))))];
     json!({ "x": x, "y": y, "sense": sense, "speed": column, "ratio": motor.ratio, "efficiency": motor.efficiency })
 }
 
@@ -51,7 +48,13 @@ pub(super) fn motor(case: &Case, trajectory: &Trajectory) -> Value {
 fn no_load(motor: &Motor) -> f64 {
     let own = match &motor.law {
         MotorLaw::Constant { .. } => 0.0,
-        MotorLaw::Linear { at_rest, slope } => if *slope < 0.0 { -at_rest / slope } else { 0.0 },
+        MotorLaw::Linear { at_rest, slope } => {
+            if *slope < 0.0 {
+                -at_rest / slope
+            } else {
+                0.0
+            }
+        }
         MotorLaw::Kloss { synchronous_speed, .. } => *synchronous_speed,
         MotorLaw::Table { speeds, .. } => speeds.last().copied().unwrap_or_default(),
     };

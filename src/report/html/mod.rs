@@ -60,7 +60,7 @@ pub(crate) fn page(proof: &Proof, beside: &Beside, tell: Tell) -> String {
             let sketch = Sketch::of_case(case, &travels, unit);
             let view = picture::view(room, unit);
             data.insert("motion".into(), data::motion(proof, &sketch, view));
-            picture::svg(&sketch, &placed, view, thinned.rows[0])
+            picture::drawn(&sketch, &placed, view, thinned.rows[0])
         }
         None => "<p>The places of all links are not among the channels asked for: nothing can be drawn.</p>".into(),
     };
@@ -73,30 +73,42 @@ pub(crate) fn page(proof: &Proof, beside: &Beside, tell: Tell) -> String {
     };
     data.insert("motor".into(), graphs::motor(case, &proof.reference_trajectory));
     let links = case.mechanism.links().len();
-    let inks: String = (0..links).map(|link| format!(".k{link}{{--ink:var(--k{link})}}")).collect();
-    let style = filled(STYLE, &[
-        ("light", &picture::colours(links, false)),
-        ("dark", &picture::colours(links, true)),
-        ("links", &inks),
-    ]);
-    filled(TEMPLATE, &[
-        ("name", &escaped(&proof.scenario)),
-        ("title", &escaped(&proof.title)),
-        ("style", &style),
-        ("verdict", &words::verdict(proof)),
-        ("sentence", &words::sentence(proof)),
-        ("findings", &words::findings(proof, tell)),
-        ("picture", &picture),
-        ("thinned", &told(&thinned)),
-        ("reduced", &no_graphs),
-        ("checks", &words::table("Checks", &["check", "value", "bound", "basis of the bound", "verdict"], words::checks(proof))),
-        ("structure", &words::structure(proof)),
-        ("settings", &words::settings(settings)),
-        ("scenario", &words::scenario(given)),
-        ("version", env!("CARGO_PKG_VERSION")),
-        ("data", &contained(&Value::Object(data).to_string())),
-        ("script", &SCRIPT.concat()),
-    ])
+    let style = filled(
+        STYLE,
+        &[
+            ("light", &picture::colours(links, false)),
+            ("dark", &picture::colours(links, true)),
+            ("links", &picture::inks(links)),
+        ],
+    );
+    filled(
+        TEMPLATE,
+        &[
+            ("name", &escaped(&proof.scenario)),
+            ("title", &escaped(&proof.title)),
+            ("style", &style),
+            ("verdict", &words::verdict(proof)),
+            ("sentence", &words::sentence(proof)),
+            ("findings", &words::findings(proof, tell)),
+            ("picture", &picture),
+            ("thinned", &told(&thinned)),
+            ("reduced", &no_graphs),
+            (
+                "checks",
+                &words::table(
+                    "Checks",
+                    &["check", "value", "bound", "basis of the bound", "verdict"],
+                    words::checks(proof),
+                ),
+            ),
+            ("structure", &words::structure(proof)),
+            ("settings", &words::settings(settings)),
+            ("scenario", &words::scenario(given)),
+            ("version", env!("CARGO_PKG_VERSION")),
+            ("data", &contained(&Value::Object(data).to_string())),
+            ("script", &SCRIPT.concat()),
+        ],
+    )
 }
 
 /// How many instants the page has, where it has not all of them.

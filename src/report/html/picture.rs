@@ -6,6 +6,7 @@ use super::markup::escaped;
 use super::placed::Placed;
 use drawing::palette;
 use drawing::{Fill, Ink, Layer, Mark, Shape, Sketch};
+use linkage::math::KeepNan;
 use linkage::mechanism::{GROUND, LinkPose};
 
 /// Room around the motion, in units: for arrows and names.
@@ -15,12 +16,14 @@ const RING: f64 = 1.5;
 
 /// The view of a room (m) in units: x, y (downwards), width, height.
 pub(super) fn view([x, y]: [[f64; 2]; 2], unit: f64) -> [f64; 4] {
-    let [width, height] = [x, y].map(|ends| (ends[1] - ends[0]) / unit + 2.0 * MARGIN);
-    [x[0] / unit - MARGIN, -y[1] / unit - MARGIN, width, height]
+    let [wide, height] = [x, y].map(|ends| (ends[1] - ends[0]) / unit + 2.0 * MARGIN);
+    // No higher than wide: the controls below stay in sight.
+    let width = wide.larger(height);
+    [x[0] / unit - MARGIN - (width - wide) / 2.0, -y[1] / unit - MARGIN, width, height]
 }
 
 /// The ground, the reference and, dashed with hollow pins, an engine, at this row.
-pub(super) fn svg(sketch: &Sketch, placed: &Placed, view: [f64; 4], row: usize) -> String {
+pub(super) fn drawn(sketch: &Sketch, placed: &Placed, view: [f64; 4], row: usize) -> String {
     let [x, y, width, height] = view.map(number);
     let mut out = format!(
         "<svg id=\"picture\" viewBox=\"{x} {y} {width} {height}\" role=\"img\" aria-labelledby=\"picture-title\" aria-describedby=\"picture-words\">\n\
@@ -29,19 +32,25 @@ pub(super) fn svg(sketch: &Sketch, placed: &Placed, view: [f64; 4], row: usize) 
     let order = sketch.in_order();
     let is_ground = |link: usize| link == GROUND;
     let ground = |mark: &Mark| mark.role.look().layer == Layer::Ground;
-    let _ = writeln!(out, "<g class=\"ground\">{}</g>", group(&order, sketch, placed, row, &|link, mark| {
-        is_ground(link) && ground(mark)
-    }));
-    let _ = writeln!(out, "<g class=\"reference\">{}</g>", group(&order, sketch, placed, row, &|link, mark| {
-        !(is_ground(link) && ground(mark))
-    }));
+    let _ = writeln!(
+        out,
+        "<g class=\"ground\">{}</g>",
+        group(&order, sketch, placed, row, &|link, mark| { is_ground(link) && ground(mark) })
+    );
+    let _ = writeln!(
+        out,
+        "<g class=\"reference\">{}</g>",
+        group(&order, sketch, placed, row, &|link, mark| { !(is_ground(link) && ground(mark)) })
+    );
     let moves = |link: usize, mark: &Mark| {
         let layer = mark.role.look().layer;
         let is_body = matches!(layer, Layer::Links | Layer::Blocks) || mark.role.name() == "pin";
         is_body && !is_ground(link)
     };
     let _ = writeln!(out, "<g class=\"engine\">{}</g>", group(&order, sketch, placed, row, &moves));
-    out.push_str("<g id=\"stretched\"></g>\n<g id=\"arrows\"></g>\n<g id=\"names\"></g>\n<g id=\"scales\"></g>\n</svg>");
+    out.push_str(
+        "<g id=\"stretched\"></g>\n<g id=\"arrows\"></g>\n<g id=\"names\"></g>\n<g id=\"scales\"></g>\n</svg>",
+    );
     out
 }
 
@@ -62,7 +71,8 @@ fn group(
             }
             let place = transform(placed.pose(row, link), sketch.unit);
             let name = escaped(&placed.mechanism.links()[link].name);
-            let _ = write!(out, "\n<g class=\"k{link}\" data-link=\"{link}\" data-name=\"{name}\" transform=\"{place}\">");
+            let _ =
+                write!(out, "\n<g class=\"k{link}\" data-link=\"{link}\" data-name=\"{name}\" transform=\"{place}\">");
             open = Some(link);
         }
         out.push_str(&element(mark, sketch.unit));
@@ -120,11 +130,30 @@ fn number(value: f64) -> String {
     if short == "-0" { "0".into() } else { short.into() }
 }
 
+/// Name of a property of the page's own in its style.
+fn property(name: &str) -> String {
+    format!("--{name}")
+}
+
+/// Name of the colour of a link; that of its elements' class too.
+fn of_link(link: usize) -> String {
+    format!("k{link}")
+}
+
 /// Rules for the colours of all links and of what else is drawn: on light paper, or on dark.
 pub(super) fn colours(links: usize, dark: bool) -> String {
-    let of = |paint: palette::Paint| if dark { paint.dark } else { paint.light };
-    let named = [("text", palette::TEXT), ("quiet", palette::QUIET), ("load", palette::LOAD), ("paper", palette::PAPER)];
-    let mut rules: Vec<String> = named.iter().map(|(name, paint)| format!("--{name}:{}", of(*paint))).collect();
-    rules.extend((0..links).map(|link| format!("--k{link}:{}", of(palette::link(link)))));
+    let rule = |name: &str, paint: palette::Paint| {
+        format!("{}:{}", property(name), if dark { paint.dark } else { paint.light })
+    };
+    let named =
+        [("text", palette::TEXT), ("quiet", palette::QUIET), ("load", palette::LOAD), ("paper", palette::PAPER)];
+    let mut rules: Vec<String> = named.into_iter().map(|(name, paint)| rule(name, paint)).collect();
+    rules.extend((0..links).map(|link| rule(&of_link(link), palette::link(link))));
     rules.join(";")
+}
+
+/// Rules that give the elements of each link its colour.
+pub(super) fn inks(links: usize) -> String {
+    let rule = |link| format!(".{0}{{{1}:var({2})}}", of_link(link), property("ink"), property(&of_link(link)));
+    (0..links).map(rule).collect()
 }

@@ -12,7 +12,7 @@ use crate::report::{brief, engines, own_forces, reasons, style, text};
 use linkage::mechanism::Mechanism;
 
 /// Reasons that are written out; the others are counted.
-const MOST: usize = 40;
+const MOST: usize = 10;
 /// Longest scenario that is shown (bytes).
 const LONGEST: usize = 200_000;
 
@@ -97,12 +97,15 @@ pub(super) fn structure(proof: &Proof) -> String {
     let (mechanism, structure) = (&case.mechanism, &case.structure);
     let mut out = format!("<p><code>{}</code></p>\n", escaped(&proof.formula));
     let mobility = structure.mobility;
-    let _ = writeln!(out, "<p>Mobility {mobility} by counting. Groups in the order in which they are solved:</p>\n<ol>");
+    let _ =
+        writeln!(out, "<p>Mobility {mobility} by counting. Groups in the order in which they are solved:</p>\n<ol>");
     for &(link, joint) in &structure.drivers {
-        let _ = writeln!(out, "<li>driving link {} at {}</li>", link_name(mechanism, link), joint_name(mechanism, joint));
+        let _ =
+            writeln!(out, "<li>driving link {} at {}</li>", link_name(mechanism, link), joint_name(mechanism, joint));
     }
     for (group, mode) in structure.groups.iter().zip(&case.modes) {
-        let joints = |all: &[usize]| all.iter().map(|&joint| joint_name(mechanism, joint)).collect::<Vec<_>>().join(", ");
+        let joints =
+            |all: &[usize]| all.iter().map(|&joint| joint_name(mechanism, joint)).collect::<Vec<_>>().join(", ");
         let _ = writeln!(
             out,
             "<li>{}: class {}, order {}, {}, mode {}; inner joints {}; outer joints {}</li>",
@@ -151,7 +154,11 @@ fn links(mechanism: &Mechanism) -> String {
 fn joints(mechanism: &Mechanism) -> String {
     let rows = mechanism.joints().iter().map(|joint| {
         let [first, second] = [joint.first, joint.second].map(|side| link_name(mechanism, side.link));
-        format!("<tr><td>{}</td><td>{}</td><td>{first}</td><td>{second}</td></tr>\n", escaped(&joint.name), joint.kind.name())
+        format!(
+            "<tr><td>{}</td><td>{}</td><td>{first}</td><td>{second}</td></tr>\n",
+            escaped(&joint.name),
+            joint.kind.name()
+        )
     });
     table("Joints", &["joint", "kind", "first link", "second link"], rows.collect())
 }
@@ -171,7 +178,9 @@ pub(super) fn settings(told: &BTreeMap<String, String>) -> String {
         format!("<tr><th scope=\"row\">{}</th><td>{}</td></tr>\n", escaped(&key.replace('_', " ")), escaped(value))
     };
     let rows: String = told.iter().map(row).collect();
-    format!("<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Settings and versions\"><table><tbody>\n{rows}</tbody></table></div>\n")
+    format!(
+        "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Settings and versions\"><table><tbody>\n{rows}</tbody></table></div>\n"
+    )
 }
 
 /// The scenario as it was given.

@@ -53,6 +53,13 @@ function scale(low, high, from, to, name = null) {
   return { low, high, name, at: (value) => from + (value - low) / (high - low) * (to - from) };
 }
 
+/** The largest size among an instant and two on either side: at the level of rounding, sizes jump. */
+function envelope(column, row) {
+  let most = NaN;
+  for (let k = Math.max(row - 2, 0); k <= Math.min(row + 2, last); k += 1) if (!(most >= Math.abs(column[k]))) most = Math.abs(column[k]);
+  return most;
+}
+
 function bands(svg, own, xs, top, bottom, engine) {
   if (!(own.left_out > 0)) return;
   const rows = engine.unjudged;
@@ -101,7 +108,7 @@ function chart(card, index) {
     bands(svg, own, xs, from, to, engine);
     axes(svg, [x0, x1, from, to], xs, { ...log, ...{ low: lowest, high: highest } }, true);
     const y = (value) => Math.min(log.at(value > 0 ? Math.log10(value) : lowest), to);
-    draw(svg, 'path', { class: 'error', d: way(line.length, x, (k) => y(Math.abs(difference[k]) * factor)) });
+    draw(svg, 'path', { class: 'error', d: way(line.length, x, (k) => y(envelope(difference, k) * factor)) });
     if (bound > 0) draw(svg, 'line', { class: 'bound', x1: x0, x2: x1, y1: y(bound), y2: y(bound) });
   }
   draw(svg, 'text', { x: x1, y: end + 23, 'text-anchor': 'end' }, abscissaUnit());
@@ -124,6 +131,7 @@ function chart(card, index) {
 }
 
 const used = (own) => (own.bound > 0 ? own.max / own.bound : 0);
+const ofBound = (share) => (share > 1.5 ? `${digits(share, 2)} times the bound` : `${digits(100 * share, 2)} % of the bound`);
 const GRAVITY = ['disagree', 'inconclusive', 'expected', 'agree'];
 
 function card(parent, index) {
@@ -163,7 +171,7 @@ function setUpCharts() {
       const share = Math.max(...members.map((index) => used(judged(index))));
       summary.append(': ');
       put(summary, 'span', word, word);
-      summary.append(`, at most ${digits(100 * share, 2)} % of the bound used`);
+      summary.append(`, at most ${ofBound(share)}`);
     }
     details.open = isFirst || members.includes(worst) || word === 'disagree';
     isFirst = false;
@@ -173,8 +181,7 @@ function setUpCharts() {
   const told = byId('worst');
   told.replaceChildren();
   if (engine && judged(worst).bound !== undefined) {
-    const [unit, factor] = readUnit(page.channels[worst].unit);
-    const own = judged(worst);
-    put(told, 'p', '', `Closest to its bound: ${page.channels[worst].name}, error ${digits(own.max * factor, 3)} of ${digits(own.bound * factor, 3)} ${unit} (${digits(100 * used(own), 2)} %).`);
+    put(told, 'p', '', `Nearest to its bound, or farthest beyond it (${ofBound(used(judged(worst)))}):`);
+    card(told, worst);
   }
 }

@@ -41,8 +41,9 @@ function hodograph(parent, name, columns, unit) {
 
 function setUpHodographs() {
   const list = byId('hodograph-list');
+  // Taken away where there are none.
+  if (list === null || motion === null) return false;
   list.replaceChildren();
-  if (motion === null) return false;
   const sorts = [
     ['velocities of points', motion.points.filter((own) => own.velocity !== null).map((own) => [own.name, own.velocity]), 'm/s'],
     ['reactions', withForces.map((own) => [`${own.name}: ${own.links[0]} on ${own.links[1]}`, own.force]), 'N'],
@@ -78,15 +79,25 @@ function partsOf(number, from, to) {
   return [[-omega * omega * u, -omega * omega * v], [-alpha * v, alpha * u]];
 }
 
+/** Half the width of a plan, and the room for its vectors. */
+const MIDDLE = 170;
+const REACH = 135;
+
+/** The smallest of 1, 2, 5 times a power of ten that is not below a number. */
+function roundUp(least) {
+  if (!(least > 0) || !Number.isFinite(least)) return 1;
+  const power = 10 ** Math.floor(Math.log10(least));
+  return [1, 2, 5, 10].map((own) => own * power).find((own) => own >= least * (1 - 1e-9));
+}
+
 function plan(parent, kind, letter, unit) {
   const columns = motion.points.filter((own) => own[kind] !== null).map((own) => own[kind].map(values));
-  if (columns.length === 0) return false;
-  let most = 0;
-  for (const [x, y] of columns) for (let k = 0; k <= last; k += 1) most = Math.max(most, Math.hypot(x[k], y[k]));
-  if (!(most > 0)) return false;
+  if (!columns.flat().some((column) => column.some((value) => value !== 0))) return false;
   const element = put(parent, 'div', 'card');
   put(element, 'h3', '', `${kind} plan`);
-  const { svg, at } = poled(element, `${kind} plan at the instant shown`, most, unit, 340);
+  const svg = draw(element, 'svg', { class: 'curve', viewBox: `0 0 ${2 * MIDDLE} ${2 * MIDDLE}`, role: 'img', 'aria-label': `${kind} plan at the instant shown` });
+  let reach = 1;
+  const at = (x, y) => [MIDDLE + x * reach, MIDDLE - y * reach];
   const content = draw(svg, 'g');
   const line = (attributes, points, closed = false) => draw(content, 'path', {
     ...attributes, d: way(points.length, (k) => points[k][0], (k) => points[k][1]) + (closed ? 'Z' : ''),
@@ -94,6 +105,11 @@ function plan(parent, kind, letter, unit) {
   follow(svg, () => {
     content.replaceChildren();
     const tips = tipsNow(kind);
+    // The scale goes in steps, so that a plan is neither tiny nor too large, and lengths can be read.
+    const whole = roundUp(Math.max(...[...tips.values()].map(([x, y]) => Math.hypot(x, y))));
+    reach = REACH / whole;
+    line({ class: 'cursor', fill: 'none' }, [[6, 2 * MIDDLE - 6], [6 + REACH / 2, 2 * MIDDLE - 6]]);
+    draw(content, 'text', { x: 6, y: 2 * MIDDLE - 12 }, `${digits(whole / 2)} ${nice(unit)}`);
     const grounded = motion.labels.filter((own) => own.names === 'point' && own.on[0] === 0).map((own) => own.text);
     for (const name of grounded) if (!tips.has(name)) tips.set(name, [0, 0]);
     motion.links.forEach((link, k) => {
@@ -120,7 +136,7 @@ function plan(parent, kind, letter, unit) {
     }
     for (const [[x, y], names] of places) {
       draw(content, 'circle', { class: 'dot', cx: x, cy: y, r: 2.2 });
-      draw(content, 'text', { x: x + (x < 170 ? -6 : 6), y: y + (y < 170 ? -4 : 11), 'text-anchor': x < 170 ? 'end' : 'start' }, names.slice(0, 6).join(', '));
+      draw(content, 'text', { x: x + (x < MIDDLE ? -6 : 6), y: y + (y < MIDDLE ? -4 : 11), 'text-anchor': x < MIDDLE ? 'end' : 'start' }, names.slice(0, 6).join(', '));
     }
   });
   return true;

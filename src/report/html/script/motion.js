@@ -3,6 +3,8 @@
 const picture = byId('picture');
 /** Length of the longest arrow, in units of the picture. */
 const LONGEST = 26;
+/** Least length of a link that shows its number, in units. */
+const ROOM = 24;
 const hasEngine = page.engines.some((engine) => engine.channels.some((own) => own.errors !== undefined));
 const following = [];
 
@@ -18,8 +20,11 @@ function setUpLinks() {
   for (const circle of picture.querySelectorAll('.engine circle')) circle.setAttribute('r', circle.dataset.ring);
   for (const [side, isEngine] of [['reference', false], ['engine', true]]) {
     const parts = [...picture.querySelectorAll(`.${side} [data-link]`)];
+    if (isEngine && !hasEngine) {
+      parts.forEach((part) => part.classList.add('hidden'));
+      continue;
+    }
     following.push(() => {
-      if (isEngine && !hasEngine) return;
       const poses = once((number) => pose(number, isEngine));
       for (const part of parts) {
         const at = poses(Number(part.dataset.link));
@@ -152,7 +157,13 @@ function setUpPaths() {
 function setUpNames() {
   const [left, top, width, height] = motion.view;
   const centre = [left + width / 2, top + height / 2];
-  for (const label of motion.labels.filter((own) => own.names !== 'centre')) {
+  // A link that is short in the picture has no room for its number; its colour is in the table of links.
+  const extent = (number) => {
+    const xs = motion.links[number - 1].points.map((point) => [point[1], point[2]]);
+    return Math.max(0, ...xs.flatMap((a) => xs.map((b) => Math.hypot(a[0] - b[0], a[1] - b[1])))) / motion.unit;
+  };
+  const hasRoom = (own) => own.names !== 'centre' && (own.names !== 'link' || extent(own.on[0]) > ROOM);
+  for (const label of motion.labels.filter(hasRoom)) {
     const isMotor = label.names === 'motor';
     const element = draw(byId('names'), 'text', { class: label.names === 'link' ? `link k${label.text}` : label.names });
     element.textContent = label.text;

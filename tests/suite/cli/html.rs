@@ -1,0 +1,178 @@
+//! `run --html`. What a browser makes of the pages is in `tests/html`.
+
+use std::fs;
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use linkage::math::KeepNan;
+use serde_json::Value;
+
+use super::tools::{Place, Table};
+
+/// The largest page that may be.
+const MOST_BYTES: usize = 3_000_000;
+
+/// Everything between two texts, each of which must be there.
+fn between<'a>(text: &'a str, start: &str, end: &str) -> &'a str {
+    let from = text.find(start).unwrap_or_else(|| panic!("no {start}")) + start.len();
+    &text[from..from + text[from..].find(end).unwrap_or_else(|| panic!("no {end}"))]
+}
+
+fn data(page: &str) -> Value {
+    serde_json::from_str(between(page, "<script type=\"application/json\" id=\"data\">", "</script>")).unwrap()
+}
+
+fn doubles(column: &Value) -> Vec<f64> {
+    let bytes = STANDARD.decode(column.as_str().unwrap()).unwrap();
+    bytes.as_chunks::<8>().0.iter().map(|eight| f64::from_le_bytes(*eight)).collect()
+}
+
+fn singles(column: &Value) -> Vec<f64> {
+    let bytes = STANDARD.decode(column.as_str().unwrap()).unwrap();
+    bytes.as_chunks::<4>().0.iter().map(|four| f64::from(f32::from_le_bytes(*four))).collect()
+}
+
+/// What loads anything, besides the empty icon. The namespace of SVG is a name.
+fn assert_alone(page: &str) {
+    for word in ["src=", "@import", "url(", "fetch(", "XMLHttpRequest", "import("] {
+        assert!(!page.contains(word), "{word}");
+    }
+    assert_eq!(page.matches("href=").count(), page.matches("<link rel=\"icon\" href=\"data:,\">").count());
+    assert_eq!(
+        page.matches("http").count(),
+        page.matches("http://www.w3.org/2000/svg").count() + 1,
+        "http-equiv alone"
+    );
+    assert!(page.contains("content=\"default-src 'none';"));
+}
+
+#[test]
+fn a_page_has_verdict_channels_errors_and_the_places_of_the_solution() {
+    let place = Place::new();
+    let run = "run scenarios/pendulum.toml --no-record --budget 1e5";
+    let told = place.ok(&format!("{run} --html page.html --json out.json"));
+    assert!(told.contains("page       page.html"), "{told}");
+    let page = fs::read_to_string(place.path("page.html")).unwrap();
+    assert!(page.len() < MOST_BYTES, "{} bytes", page.len());
+    assert!(page.starts_with("<!doctype html>") && page.trim_end().ends_with("</html>"));
+    assert_alone(&page);
+    assert!(between(&page, "id=\"verdict\">", "</p>").contains("AGREE"));
+    assert!(!page.contains("{{"), "a slot is open");
+    let data = data(&page);
+    // Channel by channel what the JSON has.
+    let json: Value = serde_json::from_str(&fs::read_to_string(place.path("out.json")).unwrap()).unwrap();
+    let judged = json["runs"][0]["engines"][0]["channels"].as_array().unwrap();
+    let channels = data["channels"].as_array().unwrap();
+    assert_eq!(channels.len(), judged.len());
+    for ((channel, own), judged) in channels.iter().zip(data["engines"][0]["channels"].as_array().unwrap()).zip(judged)
+    {
+        assert_eq!(channel["name"], judged["channel"]);
+        for key in ["max", "bound", "verdict", "scale"] {
+            assert_eq!(own[key], judged[key], "{key} of {}", channel["name"]);
+        }
+        // Errors are taken before they are rounded: the largest is that of the report to single precision.
+        let largest = singles(&own["errors"]).iter().map(|error| error.abs()).fold(0.0, f64::larger);
+        let max = judged["max"].as_f64().unwrap();
+        assert!(judged["left_out"] != 0 || (largest - max).abs() <= 1e-6 * max, "{largest} {max}");
+    }
+    // Places are doubles: the bits of the solution.
+    let solved = Table::of(&place.ok("solve scenarios/pendulum.toml --with assur"));
+    let times = solved.column("t_s");
+    let rows: Vec<usize> =
+        doubles(&data["time"]).iter().map(|time| times.iter().position(|own| own == time).unwrap()).collect();
+    assert_eq!(rows.len(), times.len());
+    for name in ["link.rod.angle_rad", "link.rod.x_m", "point.E.y_m"] {
+        let own = channels.iter().find(|own| own["name"] == name).unwrap();
+        let right = solved.column(name);
+        assert_eq!(doubles(&own["values"]), rows.iter().map(|&row| right[row]).collect::<Vec<_>>(), "{name}");
+    }
+    // Equal runs give equal bytes.
+    place.ok(&format!("{run} --html again.html"));
+    assert!(fs::read_to_string(place.path("again.html")).unwrap() == page);
+}
+
+#[test]
+fn no_text_of_a_scenario_is_markup() {
+    let place = Place::new();
+    // Names of links are words; titles, names of published numbers and comments are any text.
+    let bad = "</title></script><b>&'<!-- <script>alert(1)</script>";
+    let [title, oracle] =
+        ["title = \"", "name = \"Newton"].map(|own| (own, own.replace("= \"", &format!("= \"{bad}"))));
+    place.edited("pendulum.toml", "bad.toml", &[(title.0, &title.1), (oracle.0, &oracle.1)]);
+    let text = fs::read_to_string(place.path("scenarios/bad.toml")).unwrap();
+    fs::write(place.path("scenarios/bad.toml"), format!("# {bad}\n{text}")).unwrap();
+    place.ok("run scenarios/bad.toml --no-record --budget 1e5 --html page.html");
+    let page = fs::read_to_string(place.path("page.html")).unwrap();
+    assert!(page.matches("&lt;b&gt;").count() > 3, "title, check, comment and scenario");
+    for markup in ["<b>", "alert(1)</script>", "<!-- "] {
+        assert!(!page.contains(markup), "{markup}");
+    }
+    // Two scripts, and each ends where it should.
+    assert_eq!([page.matches("<script").count(), page.matches("</script>").count()], [2, 2]);
+    assert_eq!(data(&page)["motion"]["links"][0]["name"], "rod");
+    assert_alone(&page);
+}
+
+#[test]
+fn a_long_run_is_thinned_and_says_so() {
+    let place = Place::new();
+    place
+        .ok("run scenarios/pendulum.toml --no-record --budget 1e5 --times 0:3:0.0001 --html page.html --json out.json");
+    let page = fs::read_to_string(place.path("page.html")).unwrap();
+    assert!(page.len() < MOST_BYTES, "{} bytes", page.len());
+    let data = data(&page);
+    let shown = doubles(&data["time"]).len();
+    assert!(shown > 1000 && data["instants"] == 30_001, "{shown} of {}", data["instants"]);
+    assert!(page.contains(&format!("{shown} of 30001 instants")), "{shown}");
+    // The worst instant of every channel that is judged everywhere is there.
+    let json: Value = serde_json::from_str(&fs::read_to_string(place.path("out.json")).unwrap()).unwrap();
+    let judged = json["runs"][0]["engines"][0]["channels"].as_array().unwrap();
+    for own in judged.iter().filter(|own| own["left_out"] == 0) {
+        let worst = own["worst_t_s"].as_f64().unwrap();
+        assert!(doubles(&data["time"]).contains(&worst), "{}: {worst} s", own["channel"]);
+    }
+}
+
+#[test]
+fn several_scenarios_go_to_a_directory_and_what_is_in_the_way_is_found_first() {
+    let place = Place::new();
+    fs::copy(place.path("scenarios/pendulum.toml"), place.path("scenarios/same.toml")).unwrap();
+    let files = "scenarios/pendulum.toml scenarios/same.toml";
+    place.ok(&format!("run {files} --no-record --budget 1e5 --quiet --html new/pages"));
+    let mut names: Vec<_> =
+        fs::read_dir(place.path("new/pages")).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+    names.sort();
+    assert_eq!(names, ["pendulum-2.html", "pendulum.html"]);
+    fs::write(place.path("file"), "old").unwrap();
+    for (target, words) in [
+        ("no/page.html", ["--html", "there is no directory"]),
+        ("file/page.html", ["--html", "directory"]),
+        ("-", ["--html", "a page goes to a file"]),
+        ("scenarios/pendulum.toml", ["--html", "scenario file"]),
+    ] {
+        let outcome = place.refused(&format!("run scenarios/pendulum.toml --no-record --html {target}"), &words);
+        assert_eq!(outcome.stdout, "", "nothing is proven before");
+    }
+    place.refused(&format!("run {files} --no-record --html file"), &["--html", "no directory"]);
+    assert_eq!(fs::read_to_string(place.path("file")).unwrap(), "old");
+}
+
+#[test]
+fn runs_that_disagree_prove_nothing_or_have_no_places_have_pages() {
+    let place = Place::new();
+    let page = |options: &str, code: i32| {
+        let outcome = place.run(&format!("run scenarios/crank_rocker.toml --no-record --html page.html {options}"));
+        assert_eq!(outcome.code, code, "{}", outcome.stderr);
+        fs::read_to_string(place.path("page.html")).unwrap()
+    };
+    let wrong = page("--budget 1e5 --tolerance-scale 1e-4", 1);
+    assert!(between(&wrong, "id=\"verdict\">", "</p>").contains("DISAGREE"));
+    assert!(between(&wrong, "<h2 id=\"findings-head\">", "</section>").contains("is beyond the scaled bound"));
+    let open = page("--dt 0.02", 3);
+    assert!(between(&open, "id=\"verdict\">", "</p>").contains("INCONCLUSIVE"));
+    let placeless = page("--budget 1e5 --only joint.B", 0);
+    assert!(placeless.contains("nothing can be drawn") && data(&placeless)["motion"].is_null());
+    let several = page("--budget 1e5 --engine rapier --engine impulse --only positions", 0);
+    assert_eq!(data(&several)["engines"].as_array().unwrap().len(), 2);
+    assert!(data(&several)["motion"]["joints"][0]["force"].is_null(), "no reactions were asked for");
+}
