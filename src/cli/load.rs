@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::grid::GridArgs;
 use super::{number, standard_input};
-use crate::scenario::{Asked, Scenario, Undecided};
+use crate::scenario::{Asked, Draft, Scenario, Undecided};
 use linkage::error::{Error, ErrorKind, Result};
 
 /// Another start than that of the file.
@@ -51,7 +51,7 @@ pub(super) fn only(scenario: Scenario, words: &[String]) -> Result<Scenario> {
 }
 
 /// Reads `KEY=NUMBER`.
-fn setting(text: &str) -> std::result::Result<(String, f64), String> {
+pub(super) fn setting(text: &str) -> std::result::Result<(String, f64), String> {
     let (key, value) = text.split_once('=').ok_or("expected KEY=NUMBER, such as a_mm=30")?;
     Ok((key.trim().into(), number::decimal(value, "a finite number behind the `=`, such as a_mm=30")?))
 }
@@ -81,6 +81,14 @@ pub(super) fn to_list(file: &Path, asked: &Asked) -> Result<(Scenario, Vec<Undec
         false => Scenario::load_to_list(file, asked),
     };
     found.map_err(|error| of_mode(asked, error))
+}
+
+/// The mechanism of a file that cannot be assembled, as far as the file states it.
+pub(super) fn draft(file: &Path, asked: &Asked) -> Result<Draft> {
+    match standard_input::is_meant(file) {
+        true => Draft::parse(standard_input::text()?, standard_input::named(file), asked),
+        false => Draft::load(file, asked),
+    }
 }
 
 /// An error that has no place in the file is one of the modes asked for.

@@ -8,6 +8,7 @@ mod check;
 mod clearance;
 mod compare;
 mod diagram;
+mod draw;
 mod drive;
 mod engine_args;
 mod engine_section;
@@ -49,6 +50,7 @@ Examples:
   linkproof solve scenarios/ov7_base.toml --with assur --crank-deg 0:-360:-30
   linkproof tune scenarios/crank_rocker.toml --within 1e-3 --engine rapier --channel positions   the settings it takes
   linkproof mutate scenarios/crank_rocker.toml --no-sizes --kind load   does the proof see faults?
+  linkproof draw scenarios/crank_rocker.toml -o crank_rocker.svg   what it looks like, before anything is proven
   linkproof inspect scenarios/ov7_base.toml             links, joints, Assur groups
 
 Exit codes: 0 all agree, 1 something disagrees, 2 bad input or usage, 3 nothing proven either way.";
@@ -92,6 +94,8 @@ enum Command {
     Drive(drive::Args),
     /// Velocity and acceleration plans at one crank angle, as a table, as JSON or drawn to scale
     Plan(plan::Args),
+    /// Draw mechanisms, also those that cannot be assembled yet, and all configurations: SVG, PNG, animated GIF and WebP
+    Draw(draw::Args),
     /// Velocity and acceleration from a displacement by the chord method, and back, with their errors
     Diagram(diagram::Args),
     /// Find dimensions for a wanted motion: crank-rocker and slider-crank in closed form, any linkage by search
@@ -128,6 +132,7 @@ pub fn main() -> ExitCode {
         Command::Clearance(args) => clearance::clearance(&args),
         Command::Drive(args) => output::exit(drive::drive(&args)),
         Command::Plan(args) => output::exit(plan::plan(&args)),
+        Command::Draw(args) => draw::draw(&args),
         Command::Diagram(args) => output::exit(diagram::diagram(&args)),
         Command::Synthesize(args) => output::exit(synthesize::synthesize(&args)),
         Command::Export(args) => output::exit(export::export(&args)),

@@ -47,6 +47,11 @@ pub(super) fn write(text: &str, to: &Path) -> Result<()> {
     sized(to, Some(text.len()), |out| out.write_all(text.as_bytes()))
 }
 
+/// Writes bytes to a file, or to standard output for `-`.
+pub(super) fn write_bytes(bytes: &[u8], to: &Path) -> Result<()> {
+    sized(to, Some(bytes.len()), |out| out.write_all(bytes))
+}
+
 /// Lets `fill` write piece by piece to a file, or to standard output for `-`.
 pub(super) fn stream(to: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<()> {
     sized(to, None, fill)

@@ -16,6 +16,7 @@ const EXAMPLES: &str = "\
 Examples:
   linkproof plan scenarios/crank_rocker.toml --crank-deg 70
   linkproof plan scenarios/fourth_class.toml --svg plans.svg      drawn to scale, at the start
+  linkproof plan scenarios/ov7_base.toml --only 7,9 --svg needle.svg   two points of many
   linkproof plan scenarios/ov7_base.toml --crank-deg -120 --with newton --json -
 
 Letters: a, b, ... are the points A, B, ..., s2 the mass centre of link 2, n1, n2, ... ends of normal parts; a3 is the point of
@@ -30,6 +31,9 @@ pub(super) struct Args {
     /// Crank angle in degrees, as the scenario states it [default: that of the start]
     #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = number::finite)]
     crank_deg: Option<f64>,
+    /// Show only the vectors of this point, or of this link with its points; may be given several times
+    #[arg(long, value_name = "NAME", value_delimiter = ',')]
+    only: Vec<String>,
     /// Analytic solver
     #[arg(long, value_name = "SOLVER", default_value = "assur", value_parser = PossibleValuesParser::new(reference_names()))]
     with: String,
@@ -51,6 +55,8 @@ pub(super) fn plan(args: &Args) -> Result<()> {
     let solver = analytic::named(&args.with).expect("the argument parser knows all names");
     let state = state_at(case, solver, crank).map_err(|error| explained(case, error))?;
     let plans = Plans::of(case, solver, &state, crank);
+    let plans =
+        if args.only.is_empty() { plans } else { plans.only(&args.only).map_err(|error| error.key("--only"))? };
     let singular: Vec<Result<SingularPoint>> = case
         .structure
         .groups

@@ -132,6 +132,19 @@ pub(crate) fn json(story: &Story) -> String {
 pub(crate) fn diagram(story: &Story) -> TimingDiagram {
     let (task, achieved) = (story.task, story.achieved);
     let rows = (0..achieved.turns.len()).step_by((achieved.turns.len() / 720).max(1));
+    let share = |crank: f64| {
+        let row = achieved.turns.iter().position(|&turn| turn >= crank);
+        achieved.shares[row.unwrap_or(achieved.shares.len() - 1)]
+    };
+    let least = |phase: &workshop::task::Phase| {
+        let start = share(phase.from);
+        let way = match phase.sense {
+            Sense::Dwell => 0.0,
+            Sense::Forward => phase.least,
+            Sense::Back => -phase.least,
+        };
+        [start, phase.level.unwrap_or(start + way)]
+    };
     let stretch = |(phase, done): (&workshop::task::Phase, &workshop::synthesis::achieved::PhaseDone)| Stretch {
         from: phase.from,
         to: phase.to,
@@ -141,6 +154,7 @@ pub(crate) fn diagram(story: &Story) -> TimingDiagram {
             Sense::Dwell => format!("moves {:.2} %", 100.0 * done.motion),
             Sense::Forward | Sense::Back => format!("{:+.1} %", 100.0 * done.displacement),
         },
+        least: least(phase),
     };
     TimingDiagram {
         curve: rows.map(|row| [achieved.turns[row], achieved.shares[row]]).collect(),

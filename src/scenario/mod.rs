@@ -7,6 +7,7 @@ pub mod catalogue;
 mod claim;
 mod clearance;
 mod correction;
+mod draft;
 pub mod edit;
 mod figure;
 pub mod formula;
@@ -45,6 +46,7 @@ pub mod words;
 pub use self::claim::Claim;
 pub use self::formula::{Formula, Formulas};
 pub use asked::{Asked, Undecided};
+pub use draft::Draft;
 pub use figure::{Figure, FigureValue, OracleFigure};
 pub use oracle::{Oracle, OracleBasis};
 pub use parameters::Parameter;
@@ -56,9 +58,8 @@ use std::path::{Path, PathBuf};
 
 use self::header::{NAME_HELP, is_name};
 use self::reader::{Faults, Table};
-use self::source::Source;
+use self::source::{Source, text_of};
 use self::stated::Stated;
-use crate::files;
 use linkage::case::{Case, CaseParts, Grid, Wanted};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::mechanism::assembly::{Choice, group_of};
@@ -243,13 +244,6 @@ impl Scenario {
     pub fn nominal(self) -> Scenario {
         Scenario { case: self.case.nominal(), ..self }
     }
-}
-
-fn text_of(path: &Path) -> Result<String> {
-    files::read_text(path).map_err(|error| {
-        Error::new(ErrorKind::Io, format!("the scenario {} cannot be read: {error}", path.display()))
-            .help(files::way_out(&error, "give the path of a scenario file, such as scenarios/crank_rocker.toml"))
-    })
 }
 
 fn parse(text: &str, path: &Path, asked: &Asked, lists: bool) -> Found {

@@ -10,7 +10,16 @@ use toml::de::{DeTable, DeValue};
 
 use super::parameters::Parameter;
 use super::{hostile, malformed};
-use linkage::error::{Error, Place, Result};
+use crate::files;
+use linkage::error::{Error, ErrorKind, Place, Result};
+
+/// The text of the scenario file at `path`.
+pub fn text_of(path: &Path) -> Result<String> {
+    files::read_text(path).map_err(|error| {
+        Error::new(ErrorKind::Io, format!("the scenario {} cannot be read: {error}", path.display()))
+            .help(files::way_out(&error, "give the path of a scenario file, such as scenarios/crank_rocker.toml"))
+    })
+}
 
 /// Text of a file and the path that messages use for it.
 pub struct Source<'a> {

@@ -17,6 +17,7 @@ mod cli;
 mod common;
 mod degenerate;
 mod diagnosis;
+mod drawings;
 mod dynamics;
 mod engine;
 mod export;

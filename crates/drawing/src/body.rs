@@ -6,7 +6,7 @@ use linkage::mechanism::{GROUND, Mechanism};
 
 /// Radius of the half disc that says that a bar goes on, of a mass centre, and half the width of a traced point's cross.
 const WELD: f64 = 2.0;
-const MASS: f64 = 1.2;
+const MASS: f64 = 1.7;
 const TRACER: f64 = 1.1;
 /// Corners of a quarter of a circle.
 const QUARTER: usize = 6;
@@ -23,9 +23,14 @@ pub fn places(mechanism: &Mechanism, link: usize) -> Vec<Vec2> {
     places
 }
 
+/// Corners of a link: its hull, or both ends of a bar.
+pub fn corners(mechanism: &Mechanism, link: usize) -> Vec<Vec2> {
+    hull(places(mechanism, link))
+}
+
 /// The bar or plate of a moving link, its mass centre and its traced points.
 pub fn marks(mechanism: &Mechanism, link: usize, unit: f64) -> Vec<Mark> {
-    let corners = hull(places(mechanism, link));
+    let corners = corners(mechanism, link);
     let mut marks = Vec::new();
     match corners.len() {
         0 | 1 => {}

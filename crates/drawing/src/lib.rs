@@ -18,16 +18,24 @@
 //! }
 //! ```
 
+mod acting;
+pub mod bitmap;
 mod body;
 mod guide;
+pub mod lay;
 mod mark;
 pub mod palette;
+pub mod paper;
+pub mod picture;
 mod pins;
+pub mod sheet;
 mod sign;
 mod sketch;
 mod stretched;
 mod travel;
+pub mod view;
 
+pub use acting::{Acting, acting};
 pub use mark::{Fill, Ink, Layer, Look, Mark, Role, Shape};
 pub use sign::{LoadSign, arrow, turning};
 pub use sketch::{Body, Label, Lettering, Sketch, unit};

@@ -70,7 +70,7 @@ pub enum Role {
     Rail,
     /// Wall of a fixed cylinder.
     Bore,
-    /// Triangle of a pivot on the ground, and the line that it stands on.
+    /// Pivot on the ground: its triangle, the line that it stands on, and the hatching below.
     Pivot,
     /// Stroke across a guide at a point of the ground that is no pivot.
     Stop,
@@ -151,9 +151,9 @@ pub enum Layer {
     Ground,
     /// Links.
     Links,
-    /// What slides on them.
+    /// What slides on them, and the pivots that they turn about.
     Blocks,
-    /// Springs and dampers.
+    /// Mass centres, springs and dampers.
     Stretched,
     /// Joints.
     Joints,
@@ -183,7 +183,7 @@ impl Role {
             Role::Axis => look(Ink::Quiet, Fill::None, 0.2, Layer::Ground),
             Role::Hatch => look(Ink::Text, Fill::None, 0.25, Layer::Ground),
             Role::Rail | Role::Bore => look(Ink::Text, Fill::None, 0.5, Layer::Ground),
-            Role::Pivot => look(Ink::Text, Fill::Tint, 0.4, Layer::Ground),
+            Role::Pivot => look(Ink::Text, Fill::Tint, 0.35, Layer::Blocks),
             Role::Stop => look(Ink::Text, Fill::None, 0.4, Layer::Ground),
             Role::Plate => look(Ink::Link, Fill::Tint, 0.9, Layer::Links),
             Role::Bar => look(Ink::Link, Fill::None, 1.1, Layer::Links),
@@ -194,12 +194,12 @@ impl Role {
             Role::TorsionSpring | Role::TorsionDamper => look(Ink::Load, Fill::None, 0.4, Layer::Stretched),
             Role::Pin => look(Ink::Text, Fill::Paper, 0.5, Layer::Joints),
             Role::CoincidentPin => look(Ink::Text, Fill::None, 0.35, Layer::Joints),
-            Role::MassCentre => look(Ink::Quiet, Fill::Paper, 0.3, Layer::Joints),
-            Role::MassQuarter => look(Ink::Quiet, Fill::Ink, 0.1, Layer::Joints),
+            Role::MassCentre => look(Ink::Quiet, Fill::Paper, 0.3, Layer::Stretched),
+            Role::MassQuarter => look(Ink::Quiet, Fill::Ink, 0.1, Layer::Stretched),
             Role::Tracer => look(Ink::Link, Fill::None, 0.5, Layer::Joints),
             Role::Drive => look(Ink::Text, Fill::None, 0.4, Layer::Signs),
             Role::DriveHead => look(Ink::Text, Fill::Ink, 0.1, Layer::Signs),
-            Role::Motor => look(Ink::Text, Fill::Paper, 0.4, Layer::Signs),
+            Role::Motor => look(Ink::Text, Fill::None, 0.4, Layer::Signs),
             Role::Load => look(Ink::Load, Fill::None, 0.6, Layer::Signs),
             Role::LoadHead => look(Ink::Load, Fill::Ink, 0.1, Layer::Signs),
         }

@@ -14,7 +14,7 @@ pub struct Paint {
 }
 
 /// Colours of links, different in grey scale too (after Okabe and Ito 2008).
-const LINKS: [Paint; 7] = [
+pub const LINKS: [Paint; 7] = [
     Paint { light: "#0072b2", dark: "#56b4e9", hatch_deg: 45.0 },
     Paint { light: "#d55e00", dark: "#ff8c42", hatch_deg: -45.0 },
     Paint { light: "#009e73", dark: "#2ec99a", hatch_deg: 15.0 },

@@ -62,7 +62,7 @@ pub fn pivot(at: Vec2, unit: f64) -> Vec<Mark> {
     ];
     marks.extend((0..6).map(|k| {
         let x = -2.7 + 1.25 * f64::from(k);
-        Mark::line(Role::Hatch, [corner(x, -4.4), corner(x - 1.2, -6.0)])
+        Mark::line(Role::Pivot, [corner(x, -4.4), corner(x - 1.2, -6.0)])
     }));
     marks
 }

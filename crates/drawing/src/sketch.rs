@@ -131,6 +131,15 @@ impl Sketch {
         self
     }
 
+    /// The same without the marks of some roles.
+    #[must_use]
+    pub fn without(mut self, roles: &[Role]) -> Sketch {
+        for body in &mut self.bodies {
+            body.marks.retain(|mark| !roles.contains(&mark.role));
+        }
+        self
+    }
+
     /// All marks of all links, with the number of their link, in the order in which they are drawn: by layers, and within
     /// a layer larger links first. Springs and dampers belong to [`Layer::Stretched`].
     #[must_use]

@@ -32,6 +32,16 @@ impl Travels {
         }
     }
 
+    /// Takes in other travels of the same mechanism.
+    pub fn widen(&mut self, others: &Travels) {
+        for (own, other) in self.0.iter_mut().zip(&others.0) {
+            *own = match (*own, *other) {
+                (Some(a), Some(b)) => Some([a[0].smaller(b[0]), a[1].larger(b[1])]),
+                (own, other) => own.or(other),
+            };
+        }
+    }
+
     /// Travel on the joint of this number (m).
     #[must_use]
     pub fn of(&self, joint: usize) -> Option<[f64; 2]> {

@@ -1,15 +1,13 @@
 //! Computes the vectors of a plan from the motions of the links, pair of points by pair of points.
 
 use super::names::{Place, fixed_guide, pair, pivot, primed};
-use super::scale::factor;
 use super::sliding::Slide;
-use super::vectors::{Part, Plan, Quantity, Tip, TipKind, Vector};
+use super::vectors::{Part, Plan, Quantity, ROOM, Tip, TipKind, Vector};
+use drawing::paper::scale::factor;
 use linkage::math::{KeepNan, Motion, Vec2, turned};
 use linkage::mechanism::Mechanism;
 use linkage::solver::State;
 
-/// Largest length (mm) of the longest vector of a plan.
-const ROOM: f64 = 100.0;
 /// A tangential part shorter than this on paper (mm) counts as zero: the link turns uniformly.
 pub(super) const NOTHING: f64 = 1e-9;
 

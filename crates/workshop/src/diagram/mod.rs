@@ -9,7 +9,6 @@ pub mod graphs;
 pub mod motion;
 mod names;
 pub mod plan;
-pub mod scale;
 pub mod scheme;
 pub mod singular;
 mod sliding;

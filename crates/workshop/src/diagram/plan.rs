@@ -36,6 +36,8 @@ pub struct Plans {
     pub velocity: Plan,
     /// The acceleration plan.
     pub acceleration: Plan,
+    /// Names of points, each with its letter and the links that have it.
+    points: Vec<(String, String, Vec<usize>)>,
 }
 
 impl Plans {
@@ -48,7 +50,41 @@ impl Plans {
         let plan = |quantity| Builder::new(quantity, &case.mechanism, state, &all, &slides).plan();
         let travels = travels(case, solver, state, &slides);
         let scheme = Scheme::of(case, state, &all, &slides, &travels);
-        Plans { crank, scheme, velocity: plan(Quantity::Velocity), acceleration: plan(Quantity::Acceleration) }
+        let links = case.mechanism.links().iter().enumerate();
+        let carriers = |name: &str| {
+            let carry = links.clone().filter(|(_, link)| link.points.iter().any(|point| point.name == name));
+            carry.map(|(number, _)| number).collect()
+        };
+        let points =
+            all.iter().map(|place| (place.name.clone(), place.letter.clone(), carriers(&place.name))).collect();
+        Plans { crank, scheme, velocity: plan(Quantity::Velocity), acceleration: plan(Quantity::Acceleration), points }
+    }
+
+    /// The plans of some points and links only: a point with its own vectors, a link with all its points and its mass
+    /// centre.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Input`] for a name that is neither a point's nor a link's.
+    pub fn only(mut self, names: &[String]) -> Result<Plans> {
+        let mut letters: Vec<String> = Vec::new();
+        for name in names {
+            let link = self.scheme.links.iter().find(|link| link.name == *name).map(|link| link.number);
+            let has = |(own, _, links): &&(String, String, Vec<usize>)| {
+                own == name || link.is_some_and(|link| links.contains(&link))
+            };
+            let before = letters.len();
+            letters.extend(self.points.iter().filter(has).map(|(_, letter, _)| letter.clone()));
+            letters.extend(link.map(|link| format!("s{link}")));
+            if letters.len() == before {
+                let points = self.points.iter().map(|(name, ..)| name.as_str());
+                let all: Vec<&str> = points.chain(self.scheme.links.iter().map(|link| link.name.as_str())).collect();
+                return Err(Error::new(ErrorKind::Input, format!("no point and no link is called \"{name}\""))
+                    .help(format!("name some of {}", all.join(", "))));
+            }
+        }
+        self.velocity.keep(&letters);
+        self.acceleration.keep(&letters);
+        Ok(self)
     }
 }
 

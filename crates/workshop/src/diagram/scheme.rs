@@ -1,12 +1,14 @@
 //! The kinematic diagram: the mechanism drawn to scale.
 
 use super::names::{Place, pivot};
-use super::scale::factor;
 use super::singular::SingularPoint;
 use super::sliding::Slide;
+use drawing::paper::scale::factor;
+use drawing::picture::Place::Here;
+use drawing::{Acting, Sketch, Travels, acting};
 use linkage::case::Case;
-use linkage::math::{KeepNan, Vec2};
-use linkage::mechanism::{GROUND, Joint};
+use linkage::math::{KeepNan, Motion, Vec2};
+use linkage::mechanism::LinkPose;
 use linkage::solver::State;
 
 /// Largest width and height (mm) of the kinematic diagram on paper.
@@ -61,14 +63,18 @@ pub struct Scheme {
     pub points: Vec<(String, Vec2)>,
     /// Number of ground points.
     pub fixed: usize,
-    /// World positions of the ground points that are not pivots but only lie on a guide (m).
-    pub marks: Vec<Vec2>,
     /// Guides, fixed and moving.
     pub guides: Vec<SchemeGuide>,
     /// Number of the driving link.
     pub driver: usize,
     /// Singular points of class IV groups that have one.
     pub singular: Vec<SingularPoint>,
+    /// What the mechanism looks like; its unit is a millimetre on paper.
+    pub sketch: Sketch,
+    /// Where its links are.
+    pub places: Vec<drawing::picture::Place>,
+    /// What its loads do.
+    pub acting: Vec<Acting>,
 }
 
 impl Scheme {
@@ -119,18 +125,17 @@ impl Scheme {
             high - low
         };
         let scale = factor(extent(|v| v.x), ROOM[0]).larger(factor(extent(|v| v.y), ROOM[1]));
-        let grounded = |joint: &&Joint| joint.on(GROUND).is_some();
-        let sliding = mechanism.joints().iter().filter(grounded).filter(|joint| joint.slides());
-        let pinned = |local: Vec2| {
-            let mut pins = mechanism.joints().iter().filter(grounded).filter(|joint| joint.is_pin());
-            pins.any(|joint| joint.on(GROUND) == Some(local))
-        };
-        let marks = sliding.filter_map(|joint| joint.on(GROUND)).filter(|local| !pinned(*local)).collect();
         let fixed = places.iter().filter(|place| place.fixed).count();
         // Parallel leads have no point that could be drawn.
         let groups = case.structure.groups.iter();
         let singular =
             groups.filter_map(|group| SingularPoint::of(case, group, &state.motions).ok().flatten()).collect();
-        Scheme { scale, links, points, fixed, marks, guides, driver: case.crank().link, singular }
+        let lengths = slides.iter().zip(travels);
+        let travels = lengths.fold(Travels::none(mechanism), |all, (slide, travel)| all.with(slide.joint, *travel));
+        let sketch = Sketch::of_case(case, &travels, scale);
+        let acting = acting(case, &sketch, &state.motions, &state.angles);
+        let pose = |(motion, &angle): (&Motion, &f64)| Here(LinkPose { origin: motion.origin, angle });
+        let places = state.motions.iter().zip(&state.angles).map(pose).collect();
+        Scheme { scale, links, points, fixed, guides, driver: case.crank().link, singular, sketch, places, acting }
     }
 }

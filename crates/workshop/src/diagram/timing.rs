@@ -13,6 +13,8 @@ pub struct Stretch {
     pub rests: bool,
     /// The achieved motion, in a few characters.
     pub figure: String,
+    /// The least that is wanted of it: share of the stroke where it begins, as achieved, and where it ends.
+    pub least: [f64; 2],
 }
 
 /// A timing diagram: shares of the stroke over the crank angle.

@@ -1,6 +1,12 @@
 //! A velocity or acceleration plan: its vectors and their end points.
 
-use linkage::math::Vec2;
+use drawing::paper::scale::factor;
+use linkage::math::{KeepNan, Vec2};
+
+/// Largest length (mm) of the longest vector of a plan.
+pub(super) const ROOM: f64 = 100.0;
+/// Smallest share of a plan's scale factor that one of some of its vectors has.
+const FINEST: f64 = 1e-3;
 
 /// The quantity of a plan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -132,6 +138,28 @@ pub struct Plan {
 }
 
 impl Plan {
+    /// Leaves only the vectors, at a scale of their own, between the pole and these letters. Ends of normal and Coriolis parts and coincident
+    /// points stay where all their vectors do.
+    pub(super) fn keep(&mut self, letters: &[String]) {
+        let pole = self.quantity.pole();
+        let kind = |letter: &str| self.tips.iter().find(|tip| tip.letter == letter).map(|tip| tip.kind);
+        let is_between =
+            |letter: &str| matches!(kind(letter), Some(TipKind::Normal | TipKind::Coriolis | TipKind::Coincident));
+        let is_chosen = |letter: &str| letter == pole || letters.iter().any(|own| own == letter);
+        let leads_on = |letter: &str| {
+            let touching = self.vectors.iter().filter(|own| own.from == letter || own.to == letter);
+            touching.flat_map(|own| [&own.from, &own.to]).all(|end| is_chosen(end) || is_between(end))
+        };
+        let stays = |letter: &str| is_chosen(letter) || is_between(letter) && leads_on(letter);
+        let kept: Vec<Vector> = self.vectors.iter().filter(|own| stays(&own.from) && stays(&own.to)).cloned().collect();
+        let is_touched = |tip: &Tip| kept.iter().any(|own| own.from == tip.letter || own.to == tip.letter);
+        let tips = self.tips.iter().filter(|tip| is_chosen(&tip.letter) || is_touched(tip)).cloned().collect();
+        let longest = kept.iter().map(|vector| vector.value.norm()).fold(0.0, f64::larger);
+        // Vectors that are only rounding stay as short as they are.
+        self.scale = factor(longest, ROOM).larger(self.scale * FINEST);
+        (self.vectors, self.tips) = (kept, tips);
+    }
+
     /// Length of a vector on paper (mm).
     #[must_use]
     pub fn paper(&self, vector: &Vector) -> f64 {

@@ -1,8 +1,8 @@
 //! Axes with round numbers.
 
-use super::figure::{Figure, Style, Type, solid, words};
-use super::style::{BLACK, GREY};
-use crate::diagram::scale::{factor, round_up};
+use drawing::paper::figure::{Figure, Style, Type, solid, words};
+use drawing::paper::scale::{factor, round_up};
+use drawing::paper::style::{BLACK, GREY};
 use linkage::math::{KeepNan, Vec2};
 
 /// Style of a grid line.

@@ -1,9 +1,9 @@
 //! Clearance as a drawing: the housing, the positions of all links over the range, the links at the start, and the
 //! smallest distance.
 
-use super::figure::clean;
-use super::style::{BLACK, colour, significant};
 use crate::clearance::{Clearance, Outline, Question, poses};
+use drawing::paper::figure::clean;
+use drawing::paper::style::{BLACK, colour, significant};
 use linkage::case::Case;
 use linkage::error::Result;
 use linkage::math::{KeepNan, Motion, Vec2};

@@ -1,10 +1,10 @@
 //! The sheet of graphs over the crank angle, arranged vertically.
 
 use super::axes::{Axis, GRID, frame};
-use super::document::document;
-use super::figure::{Figure, Style, Type, scripted, solid, words};
-use super::style::{COLOURS, significant};
 use crate::diagram::graphs::{Graph, Graphs};
+use drawing::paper::document::document;
+use drawing::paper::figure::{Figure, Style, Type, scripted, solid, words};
+use drawing::paper::style::{COLOURS, significant};
 use linkage::math::{KeepNan, Vec2};
 
 /// Length of the crank angle axis (mm): over one turn two degrees per millimetre.

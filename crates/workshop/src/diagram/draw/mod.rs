@@ -2,22 +2,16 @@
 
 mod axes;
 mod clearance_sheet;
-mod document;
-mod figure;
 mod graph_sheet;
-mod guide_figure;
-mod labels;
 mod motion_sheet;
 mod plan_figure;
 mod plan_sheet;
 mod scheme_figure;
-mod style;
-mod table;
 mod timing_sheet;
 
 pub use clearance_sheet::clearance;
+pub use drawing::paper::style::significant;
 pub use graph_sheet::graphs;
 pub use motion_sheet::motion;
 pub use plan_sheet::plans;
-pub use style::significant;
 pub use timing_sheet::timing;

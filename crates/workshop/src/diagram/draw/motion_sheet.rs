@@ -1,10 +1,10 @@
 //! The sheet of motion diagrams: displacement, velocity and acceleration over the crank angle, arranged vertically.
 
 use super::axes::{Axis, GRID, frame};
-use super::document::document;
-use super::figure::{Figure, Style, Type, solid, sub, words};
-use super::style::{BLACK, COLOURS, significant};
 use crate::diagram::motion::{Found, Method, MotionDiagram};
+use drawing::paper::document::document;
+use drawing::paper::figure::{Figure, Style, Type, solid, sub, words};
+use drawing::paper::style::{BLACK, COLOURS, significant};
 use linkage::math::{KeepNan, Vec2};
 
 /// Length of the crank angle axis (mm): two degrees per millimetre.
@@ -15,6 +15,9 @@ const BETWEEN: f64 = 10.0;
 /// Left margin, for the numbers of the axis, and the other margins (mm).
 const LEFT: f64 = 28.0;
 const MARGIN: f64 = 12.0;
+/// Font size of the legend, and distance of its lines (mm).
+const TEXT: f64 = 3.3;
+const LINE: f64 = 5.0;
 /// Largest number of points of a curve on paper: more are not visible.
 const POINTS: usize = 361;
 
@@ -69,21 +72,27 @@ fn panel(diagram: &MotionDiagram, which: usize) -> Figure {
     let unit = channel.kind.unit.symbol().replace("s^2", "s²");
     let per = if unit.contains('/') { format!("({unit})/mm") } else { format!("{unit}/mm") };
     let heading = format!("{channel}, scale factor μ{} = {scale} {per}", sub(symbol));
-    figure.text(Vec2::new(0.0, height + 3.0), heading, Type { bold: true, ..words(3.6) });
+    figure.text(Vec2::new(0.0, height + 8.0), heading, Type { bold: true, ..words(3.8) });
+    let middle = Type { anchor: "middle", ..words(TEXT) };
+    figure.text(Vec2::new(LONG / 2.0, -9.0), "crank angle, deg", middle);
+    figure.text(Vec2::new(0.0, height + 2.5), format!("{symbol}, {unit}"), Type { anchor: "end", ..middle });
     caption(&mut figure, &found, which, &unit);
     figure
 }
 
 /// The legend: the method of each mark, and its error relative to the curve.
 fn caption(figure: &mut Figure, found: &[&Found], which: usize, unit: &str) {
-    let mut line = -9.5;
+    let mut line = -14.5;
+    figure.line([Vec2::new(0.0, line + 1.0), Vec2::new(6.0, line + 1.0)], solid(BLACK, 0.45));
+    figure.text(Vec2::new(8.0, line), "exact, by the solver", words(TEXT));
+    line -= LINE;
     if which == 0 {
         figure.line(
             [Vec2::new(0.0, line + 1.0), Vec2::new(6.0, line + 1.0)],
             Style { colour: COLOURS[0], width: 0.25, dash: "1.5 1" },
         );
-        figure.text(Vec2::new(8.0, line), "chords whose slopes give the velocity", words(3.0));
-        line -= 4.6;
+        figure.text(Vec2::new(8.0, line), "chords whose slopes give the velocity", words(TEXT));
+        line -= LINE;
     }
     for one in found {
         mark(figure, one.method, Vec2::new(3.0, line + 1.0));
@@ -95,8 +104,8 @@ fn caption(figure: &mut Figure, found: &[&Found], which: usize, unit: &str) {
             one.share * 100.0,
             significant(one.rms)
         );
-        figure.text(Vec2::new(8.0, line), text, words(3.0));
-        line -= 4.6;
+        figure.text(Vec2::new(8.0, line), text, words(TEXT));
+        line -= LINE;
     }
 }
 

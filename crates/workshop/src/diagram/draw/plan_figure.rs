@@ -1,21 +1,21 @@
 //! One velocity or acceleration plan as a figure, and the table of its vectors.
 
-use super::figure::{Figure, Style, Type, scripted, solid, sub, width, words};
-use super::labels::{Label, Obstacles, place};
-use super::style::{BLACK, GREY, colour, significant};
-use super::table::Table;
 use crate::diagram::builder::NOTHING;
 use crate::diagram::vectors::{Part, Plan, Tip, TipKind, Vector};
-use linkage::math::{KeepNan, Vec2};
+use drawing::paper::figure::{Figure, Style, scripted, solid, sub};
+use drawing::paper::labels::{Label, Obstacles, place};
+use drawing::paper::lettering::{label_size, letter};
+use drawing::paper::style::{BLACK, GREY, colour, significant};
+use drawing::paper::table::Table;
+use linkage::math::{KeepNan, Vec2, cross, turned};
 
-/// Font size of labels (mm).
-pub const LETTER: f64 = 4.2;
 /// Points closer to each other on paper than this (mm) share one label.
 const ONE: f64 = 0.7;
+/// Distance (mm) of arrows that would lie on each other, and the length that they must share for it.
+const APART: f64 = 0.8;
+const SHARED: f64 = 1.0;
 /// Arrows shorter than this (mm) are drawn as points.
 const POINT: f64 = 0.15;
-/// Labels farther than this from their point (mm) are connected with it by a line.
-const FAR: f64 = 3.2;
 
 /// Line style of each kind of vector.
 pub fn style(vector: &Vector) -> Style {
@@ -34,6 +34,7 @@ pub fn style(vector: &Vector) -> Style {
 pub fn plan(plan: &Plan) -> Figure {
     let mut figure = Figure::default();
     let mut obstacles = Obstacles::default();
+    let mut drawn: Vec<[Vec2; 2]> = Vec::new();
     let order = [
         Part::MassCentre,
         Part::Absolute,
@@ -48,8 +49,10 @@ pub fn plan(plan: &Plan) -> Figure {
         if (ends[1] - ends[0]).norm() > POINT {
             let size = significant(vector.value.norm());
             let title = format!("{} = {size} {}: {}", vector.name, plan.quantity.unit(), vector.meaning);
+            let ends = beside(ends, &drawn);
             figure.arrow(ends, style(vector), title);
             obstacles.segments.push(ends);
+            drawn.push(ends);
         }
     }
     let marks = marks(plan);
@@ -76,23 +79,22 @@ pub fn plan(plan: &Plan) -> Figure {
     figure
 }
 
-/// Box of a label.
-/// It is a little larger than its letters in the fonts that viewers fall back on, subscripts included.
-pub fn label_size(text: &str) -> Vec2 {
-    Vec2::new(1.05 * width(text, LETTER), 1.15 * LETTER)
-}
-
-/// A label at its position, with a line to its point if that is far away.
-pub fn letter(figure: &mut Figure, label: &Label, at: Vec2, text: &str, paint: &'static str) {
-    let toward = label.anchor - at;
-    let half = label.size / 2.0;
-    let edge = (half.x / toward.x.abs().larger(1e-9)).smaller(half.y / toward.y.abs().larger(1e-9));
-    if toward.norm() * (1.0 - edge) > FAR + label.clear {
-        let end = label.anchor - toward.normalize() * (label.clear + 0.2);
-        figure.line([at + toward * edge, end], solid(GREY, 0.15));
-    }
-    let set = Type { anchor: "middle", italic: true, colour: paint, ..words(LETTER) };
-    figure.text(at - Vec2::new(0.0, 0.28 * LETTER), text, set);
+/// An arrow beside all those drawn before that would cover it: vectors on one line are set apart, their lengths kept.
+fn beside(ends: [Vec2; 2], drawn: &[[Vec2; 2]]) -> [Vec2; 2] {
+    let along = (ends[1] - ends[0]).normalize();
+    let aside = turned(along) * APART;
+    let covers = |ends: &[Vec2; 2], other: &[Vec2; 2]| {
+        let off = |at: &Vec2| cross(along, at - ends[0]).abs();
+        let way = |at: &Vec2| (at - ends[0]).dot(&along);
+        let [low, high] = [way(&other[0]).smaller(way(&other[1])), way(&other[0]).larger(way(&other[1]))];
+        let common = high.smaller((ends[1] - ends[0]).norm()) - low.larger(0.0);
+        other.iter().all(|at| off(at) < APART / 2.0) && common > SHARED
+    };
+    // To either side in turn, ever farther.
+    let shifts =
+        (0..=2 * drawn.len()).map(|k| f64::from(k.div_ceil(2) as u32) * if k.is_multiple_of(2) { 1.0 } else { -1.0 });
+    let mut places = shifts.map(|shift| ends.map(|end| end + aside * shift));
+    places.find(|place| !drawn.iter().any(|other| covers(place, other))).unwrap_or(ends)
 }
 
 /// Points of the plan on paper, with the letters of all points that coincide there; the pole is first.

@@ -1,20 +1,20 @@
-//! The sheet of a mechanism's plans: kinematic diagram, velocity plan and acceleration plan side by side.
-//! Each stands above its table.
+//! The sheet of a mechanism's plans: kinematic diagram, velocity plan and acceleration plan below each other.
+//! Each stands above its table. So the sheet is narrow, and its letters can be read at the width of a web page.
 
-use super::document::document;
-use super::figure::{Figure, Type, scripted, sub, words};
 use super::{plan_figure, scheme_figure};
 use crate::diagram::plan::Plans;
 use crate::diagram::vectors::Plan;
+use drawing::paper::document::document;
+use drawing::paper::figure::{Figure, Type, scripted, sub, words};
 use linkage::math::{KeepNan, Vec2};
 
-/// Margin of the sheet, distance between columns, and distance between a figure and its table (mm).
-const MARGIN: f64 = 10.0;
-const GAP: f64 = 14.0;
+/// Margin of the sheet, distance between plans, and distance between a figure and its table (mm).
+const MARGIN: f64 = 8.0;
+const GAP: f64 = 12.0;
 const SPACE: f64 = 6.0;
 /// Height of the sheet's title and of a column's heading (mm).
 const TITLE: f64 = 18.0;
-const HEADING: f64 = 13.0;
+const HEADING: f64 = 15.0;
 
 /// The plans as an SVG document, true to scale; `name` and `title` are written above them.
 #[must_use]
@@ -44,23 +44,24 @@ pub fn plans(plans: &Plans, name: &str, title: &str) -> String {
     let mut sheet = Figure::default();
     let large = Type { bold: true, ..words(5.5) };
     sheet.text(Vec2::new(MARGIN, -MARGIN - 4.0), format!("{name}, crank at {}°", degrees(plans.crank)), large);
-    sheet.text(Vec2::new(MARGIN, -MARGIN - 10.0), title, words(3.4));
-    let mut left = MARGIN;
-    let top = -MARGIN - TITLE;
-    for ((name, scale), figure, table) in columns {
-        sheet.text(Vec2::new(left, top - 4.0), name, Type { bold: true, ..words(4.2) });
-        sheet.text(Vec2::new(left, top - 9.0), scale, words(3.4));
+    sheet.text(Vec2::new(MARGIN, -MARGIN - 10.0), title, words(3.6));
+    let columns = columns.map(|(heading, figure, table)| (heading, figure, table.figure()));
+    let wide = |figure: &Figure| figure.bounds()[1].x - figure.bounds()[0].x;
+    let widest = columns.iter().map(|(_, figure, table)| wide(figure).larger(wide(table))).fold(0.0, f64::larger);
+    let mut top = -MARGIN - TITLE;
+    for ((name, scale), figure, table) in &columns {
+        sheet.text(Vec2::new(MARGIN, top - 4.5), name.as_str(), Type { bold: true, ..words(4.8) });
+        sheet.text(Vec2::new(MARGIN, top - 10.0), scale.as_str(), words(3.6));
         let [low, high] = figure.bounds();
-        let table = table.figure();
+        let inset = (widest - wide(figure)) / 2.0;
+        sheet.add(figure, Vec2::new(MARGIN + inset - low.x, top - HEADING - high.y));
+        top -= HEADING + (high.y - low.y) + SPACE;
         let [table_low, table_high] = table.bounds();
-        let wide = (high.x - low.x).larger(table_high.x - table_low.x).larger(60.0);
-        let inset = (wide - (high.x - low.x)) / 2.0;
-        sheet.add(&figure, Vec2::new(left + inset - low.x, top - HEADING - high.y));
-        sheet.add(&table, Vec2::new(left - table_low.x, top - HEADING - (high.y - low.y) - SPACE));
-        left += wide + GAP;
+        sheet.add(table, Vec2::new(MARGIN - table_low.x, top - table_high.y));
+        top -= table_high.y - table_low.y + GAP;
     }
     let [low, high] = sheet.bounds();
-    document(&sheet, [(high.x.larger(left - GAP) + MARGIN).ceil(), (MARGIN - low.y).ceil()], name)
+    document(&sheet, [(high.x.larger(MARGIN + widest) + MARGIN).ceil(), (MARGIN - low.y).ceil()], name)
 }
 
 /// An angle in degrees, without digits that are only rounding.

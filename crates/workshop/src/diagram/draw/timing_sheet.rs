@@ -2,10 +2,10 @@
 
 use std::f64::consts::TAU;
 
-use super::document::document;
-use super::figure::{Figure, Style, Type, solid, words};
-use super::style::{BLACK, COLOURS, GREY};
 use crate::diagram::timing::TimingDiagram;
+use drawing::paper::document::document;
+use drawing::paper::figure::{Figure, Style, Type, solid, words};
+use drawing::paper::style::{BLACK, COLOURS, GREY};
 use linkage::math::Vec2;
 
 /// Length of the crank angle axis (mm): two degrees per millimetre.
@@ -17,6 +17,8 @@ const STRIP: f64 = 11.0;
 /// Left margin, for the numbers of the axis, and the other margins (mm).
 const LEFT: f64 = 14.0;
 const MARGIN: f64 = 12.0;
+/// The wanted motion.
+const WANTED: Style = Style { colour: COLOURS[1], width: 0.45, dash: "2 1.2" };
 /// Background of a phase in which the output should dwell.
 const REST: &str = "#e3edf4";
 
@@ -45,9 +47,13 @@ pub fn timing(diagram: &TimingDiagram, title: &str) -> String {
         figure.text(Vec2::new(middle, HIGH + STRIP - 4.0), stretch.word, set);
         figure.text(Vec2::new(middle, HIGH + STRIP - 8.5), stretch.figure.as_str(), set);
     }
-    if !diagram.wanted.is_empty() {
-        let style = Style { colour: COLOURS[1], width: 0.35, dash: "2 1.2" };
-        figure.shape(diagram.wanted.iter().copied().map(at).collect(), false, None, style);
+    if diagram.wanted.is_empty() {
+        for stretch in &diagram.stretches {
+            let [from, to] = stretch.least;
+            figure.line([at([stretch.from, from]), at([stretch.to, to])], WANTED);
+        }
+    } else {
+        figure.shape(diagram.wanted.iter().copied().map(at).collect(), false, None, WANTED);
     }
     figure.shape(diagram.curve.iter().copied().map(at).collect(), false, None, solid(COLOURS[0], 0.5));
     legend(&mut figure, diagram);
@@ -90,7 +96,5 @@ fn legend(figure: &mut Figure, diagram: &TimingDiagram) {
         left += 62.0;
     };
     entry(solid(COLOURS[0], 0.5), "achieved, share of the stroke");
-    if !diagram.wanted.is_empty() {
-        entry(Style { colour: COLOURS[1], width: 0.35, dash: "2 1.2" }, "wanted, cycloidal");
-    }
+    entry(WANTED, if diagram.wanted.is_empty() { "wanted: rest, or at least so far" } else { "wanted, cycloidal" });
 }

@@ -3,8 +3,9 @@
 use super::figure::Figure;
 use svg::Document;
 
-/// The document of a figure on white paper.
-pub(super) fn document(figure: &Figure, [width, height]: [f64; 2], title: &str) -> String {
+/// The document of a figure on white paper: its upper left corner is the figure's origin, its size is in mm.
+#[must_use]
+pub fn document(figure: &Figure, [width, height]: [f64; 2], title: &str) -> String {
     let mut document = Document::new()
         .set("width", format!("{width:.0}mm"))
         .set("height", format!("{height:.0}mm"))

@@ -5,15 +5,17 @@ use super::style::{BLACK, GREY};
 use linkage::math::{KeepNan, Vec2};
 
 /// Font size and line spacing (mm).
-const SIZE: f64 = 2.5;
-const LINE: f64 = 3.9;
+const SIZE: f64 = 3.3;
+const LINE: f64 = 5.0;
 /// Distance between columns, and width of the line sample before the first column (mm).
 const GAP: f64 = 3.0;
 const SAMPLE: f64 = 9.0;
 
 /// A table: a heading, and rows that each start with a sample of the line they explain.
 pub struct Table {
+    /// Headings of the columns.
     pub head: Vec<&'static str>,
+    /// Rows: the line that each explains, and its cells.
     pub rows: Vec<(Style, Vec<String>)>,
     /// Columns of numbers, which are aligned right.
     pub numbers: &'static [usize],
@@ -21,6 +23,7 @@ pub struct Table {
 
 impl Table {
     /// The table as a figure; its upper left corner is the origin.
+    #[must_use]
     pub fn figure(&self) -> Figure {
         let mut figure = Figure::default();
         let cells = |column: usize| self.rows.iter().filter_map(move |(_, row)| row.get(column));

@@ -14,16 +14,21 @@ const END: char = '\u{3}';
 const LETTER: f64 = 0.56;
 /// Size of sub- and superscripts divided by the font size.
 const SMALL: f64 = 0.72;
+/// How far subscripts are lowered and superscripts lifted, divided by the font size.
+const LOW: f64 = 0.28;
+const HIGH: f64 = 0.36;
 /// Length of an arrow head (mm), and its largest share of the arrow.
 const HEAD: f64 = 2.8;
 const HEAD_SHARE: f64 = 0.45;
 
 /// `text` as a subscript.
+#[must_use]
 pub fn sub(text: &str) -> String {
     format!("{SUB}{text}{END}")
 }
 
 /// A name such as `a_BA^n` or a unit such as `m/s^2` with its sub- and superscripts.
+#[must_use]
 pub fn scripted(name: &str) -> String {
     let (symbol, rest) = name.split_once('_').unwrap_or((name, ""));
     let lifted = |text: &str, low: bool| {
@@ -35,11 +40,13 @@ pub fn scripted(name: &str) -> String {
 }
 
 /// Text without control characters, as XML requires.
+#[must_use]
 pub fn clean(text: &str) -> String {
     text.chars().filter(|sign| !sign.is_control()).collect()
 }
 
 /// Estimated width of a text (mm) at its font size.
+#[must_use]
 pub fn width(text: &str, size: f64) -> f64 {
     let mut scale = 1.0;
     let mut sum = 0.0;
@@ -65,12 +72,16 @@ fn left(text: &str, set: &Type) -> f64 {
 /// How a line is drawn.
 #[derive(Clone, Copy, Debug)]
 pub struct Style {
+    /// Colour, `#rrggbb`.
     pub colour: &'static str,
+    /// Thickness (mm).
     pub width: f64,
+    /// Lengths of strokes and gaps (mm), as in SVG; empty for a solid line.
     pub dash: &'static str,
 }
 
 /// A solid line.
+#[must_use]
 pub const fn solid(colour: &'static str, width: f64) -> Style {
     Style { colour, width, dash: "" }
 }
@@ -78,21 +89,26 @@ pub const fn solid(colour: &'static str, width: f64) -> Style {
 /// Typography of a text.
 #[derive(Clone, Copy, Debug)]
 pub struct Type {
+    /// Font size (mm).
     pub size: f64,
+    /// Colour, `#rrggbb`.
     pub colour: &'static str,
     /// `start`, `middle` or `end`.
     pub anchor: &'static str,
+    /// Whether the letters lean.
     pub italic: bool,
+    /// Whether the letters are bold.
     pub bold: bool,
 }
 
 /// Upright text that starts at its position.
+#[must_use]
 pub const fn words(size: f64) -> Type {
     Type { size, colour: super::style::BLACK, anchor: "start", italic: false, bold: false }
 }
 
 #[derive(Clone, Debug)]
-enum Ink {
+pub(crate) enum Ink {
     Line([Vec2; 2], Style),
     Arrow([Vec2; 2], Style, String),
     Shape { corners: Vec<Vec2>, closed: bool, fill: Option<(&'static str, f64)>, style: Style },
@@ -103,11 +119,12 @@ enum Ink {
 /// A figure, or a part of one.
 #[derive(Clone, Debug, Default)]
 pub struct Figure {
-    ink: Vec<Ink>,
+    pub(crate) ink: Vec<Ink>,
     low: Option<[Vec2; 2]>,
 }
 
 impl Figure {
+    /// A straight line.
     pub fn line(&mut self, ends: [Vec2; 2], style: Style) {
         ends.iter().for_each(|end| self.reach(*end));
         self.ink.push(Ink::Line(ends, style));
@@ -119,11 +136,13 @@ impl Figure {
         self.ink.push(Ink::Arrow(ends, style, name));
     }
 
+    /// A line through corners, or a polygon with the colour and the opacity of what it encloses.
     pub fn shape(&mut self, corners: Vec<Vec2>, closed: bool, fill: Option<(&'static str, f64)>, style: Style) {
         corners.iter().for_each(|corner| self.reach(*corner));
         self.ink.push(Ink::Shape { corners, closed, fill, style });
     }
 
+    /// A circle.
     pub fn disc(&mut self, centre: Vec2, radius: f64, fill: &'static str, style: Style) {
         let half = Vec2::new(radius, radius);
         self.reach(centre - half);
@@ -141,6 +160,7 @@ impl Figure {
     }
 
     /// Lower left and upper right corner of all elements.
+    #[must_use]
     pub fn bounds(&self) -> [Vec2; 2] {
         self.low.unwrap_or([Vec2::zeros(); 2])
     }
@@ -222,17 +242,46 @@ fn line(ends: &[Vec2; 2], style: &Style) -> Line {
     if style.dash.is_empty() { line } else { line.set("stroke-dasharray", style.dash) }
 }
 
-fn arrow(ends: [Vec2; 2], style: &Style, name: &str) -> Group {
+/// The end of an arrow's line, and the corners of its head.
+pub(crate) fn head(ends: [Vec2; 2]) -> (Vec2, [Vec2; 3]) {
     let along = ends[1] - ends[0];
     let length = along.norm();
     let unit = along / length;
     let head = HEAD.smaller(HEAD_SHARE * length);
     let base = ends[1] - unit * head;
     let side = turned(unit) * (head * 0.3);
-    let corners = [ends[1], base + side, base - side].map(|corner| format!("{} {}", mm(corner.x), mm(-corner.y)));
+    (base + unit * 0.3, [ends[1], base + side, base - side])
+}
+
+fn arrow(ends: [Vec2; 2], style: &Style, name: &str) -> Group {
+    let (base, corners) = head(ends);
+    let corners = corners.map(|corner| format!("{} {}", mm(corner.x), mm(-corner.y)));
     let head = Path::new().set("d", format!("M{}Z", corners.join("L"))).set("fill", style.colour);
     let group = if name.is_empty() { Group::new() } else { Group::new().add(Title::new(clean(name))) };
-    group.add(line(&[ends[0], base + unit * 0.3], style)).add(head)
+    group.add(line(&[ends[0], base], style)).add(head)
+}
+
+/// A letter of a text, with its font size and its height above the base line (mm).
+pub(crate) struct Piece {
+    pub sign: char,
+    pub size: f64,
+    pub rise: f64,
+}
+
+/// The letters of a text at its font size (mm).
+pub(crate) fn pieces(text: &str, size: f64) -> Vec<Piece> {
+    let (mut own, mut rise) = (size, 0.0);
+    let mut pieces = Vec::new();
+    for sign in text.chars() {
+        match sign {
+            SUB => (own, rise) = (SMALL * size, -LOW * size),
+            SUP => (own, rise) = (SMALL * size, HIGH * size),
+            END => (own, rise) = (size, 0.0),
+            sign if sign.is_control() => {}
+            sign => pieces.push(Piece { sign, size: own, rise }),
+        }
+    }
+    pieces
 }
 
 /// Written as a string, because an element inside a text must not be separated by white space.
@@ -250,8 +299,8 @@ fn text_element(at: Vec2, text: &str, set: &Type) -> String {
     };
     for sign in text.chars() {
         match sign {
-            SUB => start(&mut body, 0.28 * size, SMALL * size),
-            SUP => start(&mut body, -0.36 * size, SMALL * size),
+            SUB => start(&mut body, LOW * size, SMALL * size),
+            SUP => start(&mut body, -HIGH * size, SMALL * size),
             END => start(&mut body, 0.0, size),
             '&' => body += "&amp;",
             '<' => body += "&lt;",

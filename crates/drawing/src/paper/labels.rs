@@ -1,6 +1,7 @@
 //! Places labels so that they touch neither lines nor each other.
 //! Each label takes the cheapest position around its anchor, in a few rounds.
 
+use crate::guide::inside;
 use linkage::math::{KeepNan, Vec2};
 
 /// Clearance between a label and lines (mm).
@@ -37,6 +38,7 @@ pub struct Obstacles {
 }
 
 /// Centres of the labels' boxes.
+#[must_use]
 pub fn place(labels: &[Label], obstacles: &Obstacles) -> Vec<Vec2> {
     let mut places: Vec<Option<Vec2>> = vec![None; labels.len()];
     for _ in 0..ROUNDS {
@@ -139,25 +141,6 @@ fn cost(index: usize, place: Vec2, labels: &[Label], places: &[Option<Vec2>], ob
 /// Length of the part of a segment inside the box around `centre`.
 fn length_inside(segment: &[Vec2; 2], centre: Vec2, half: Vec2) -> f64 {
     inside(segment, centre, half).map_or(0.0, |[from, to]| (to - from) * (segment[1] - segment[0]).norm())
-}
-
-/// Shares of a segment's length at which it enters and leaves the box around `centre` (Liang and Barsky 1984).
-pub fn inside(segment: &[Vec2; 2], centre: Vec2, half: Vec2) -> Option<[f64; 2]> {
-    let [start, end] = segment.map(|point| point - centre);
-    let along = end - start;
-    let (mut from, mut to) = (0.0f64, 1.0f64);
-    for axis in 0..2 {
-        if along[axis] == 0.0 {
-            if start[axis].abs() >= half[axis] {
-                return None;
-            }
-            continue;
-        }
-        let (a, b) = ((-half[axis] - start[axis]) / along[axis], (half[axis] - start[axis]) / along[axis]);
-        from = from.larger(a.smaller(b));
-        to = to.smaller(a.larger(b));
-    }
-    (to > from).then_some([from, to])
 }
 
 #[cfg(test)]

@@ -1,17 +1,28 @@
 //! Colours of links, and the number format of drawings.
 
-/// Colours of links, dark enough for white paper and different in grey scale (after Okabe and Ito 2008).
-pub(super) const COLOURS: [&str; 7] = ["#0072b2", "#d55e00", "#009e73", "#b0578d", "#b8860b", "#4b2e83", "#3b8ea5"];
+use crate::palette::{LINKS, QUIET, TEXT, link};
+
+/// Colours of links on light paper.
+pub const COLOURS: [&str; LINKS.len()] = {
+    let mut colours = [""; LINKS.len()];
+    let mut index = 0;
+    while index < LINKS.len() {
+        colours[index] = LINKS[index].light;
+        index += 1;
+    }
+    colours
+};
 
 /// Colour of elements that belong to no link.
-pub(super) const BLACK: &str = "#1a1a1a";
+pub const BLACK: &str = TEXT.light;
 
 /// Colour of background elements.
-pub(super) const GREY: &str = "#8a8a8a";
+pub const GREY: &str = QUIET.light;
 
 /// Colour of the link with this number.
-pub(super) fn colour(link: usize) -> &'static str {
-    COLOURS[(link + COLOURS.len() - 1) % COLOURS.len()]
+#[must_use]
+pub fn colour(number: usize) -> &'static str {
+    link(number).light
 }
 
 /// A number with four significant digits, as in drawings and tables.

@@ -1,0 +1,9 @@
+//! Figures as bitmaps: PNG, and animated GIF and WebP. The same figure gives the same bytes on every machine: letters
+//! come from a font of our own.
+
+mod canvas;
+mod encode;
+mod glyphs;
+
+pub use canvas::{Bitmap, bitmap};
+pub use encode::{to_gif, to_png, to_webp};

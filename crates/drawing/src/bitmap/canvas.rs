@@ -1,0 +1,117 @@
+//! Paints a figure into pixels.
+
+use tiny_skia::{Color, FillRule, LineCap, LineJoin, Paint, PathBuilder, Pixmap, Stroke, StrokeDash, Transform};
+
+use super::glyphs::Glyphs;
+use crate::paper::figure::{Figure, Ink, Style, head};
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::math::Vec2;
+
+/// Largest number of pixels.
+const MOST: f64 = 4e7;
+
+/// Pixels, row by row from the top, opaque.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bitmap {
+    /// Pixels in a row.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// Red, green, blue and opacity of each pixel.
+    pub rgba: Vec<u8>,
+}
+
+/// A figure on white paper of this size (mm), so many pixels wide. The paper's upper left corner is the figure's origin.
+///
+/// # Errors
+/// [`ErrorKind::Input`] for more than forty million pixels, or none.
+pub fn bitmap(figure: &Figure, [width, height]: [f64; 2], pixels: u32) -> Result<Bitmap> {
+    let scale = f64::from(pixels) / width;
+    let rows = (height * scale).round();
+    if !(rows >= 1.0 && rows * f64::from(pixels) <= MOST) {
+        let message = format!("a picture of {pixels} by {rows:.0} pixels is asked for");
+        return Err(Error::new(ErrorKind::Input, message).help("give a width between 100 and 4000 pixels"));
+    }
+    let none = || Error::new(ErrorKind::Input, "there is no memory for the picture");
+    let mut pixmap = Pixmap::new(pixels, rows as u32).ok_or_else(none)?;
+    pixmap.fill(Color::WHITE);
+    let mut canvas = Canvas { pixmap, view: Transform::from_scale(scale as f32, scale as f32), glyphs: Glyphs::new() };
+    for ink in &figure.ink {
+        canvas.draw(ink);
+    }
+    let Canvas { pixmap, .. } = canvas;
+    Ok(Bitmap { width: pixels, height: rows as u32, rgba: pixmap.take() })
+}
+
+struct Canvas {
+    pixmap: Pixmap,
+    view: Transform,
+    glyphs: Glyphs,
+}
+
+impl Canvas {
+    fn draw(&mut self, ink: &Ink) {
+        match ink {
+            Ink::Line(ends, style) => self.line(ends, false, None, style),
+            Ink::Arrow(ends, style, _) => {
+                let (base, corners) = head(*ends);
+                self.line(&[ends[0], base], false, None, style);
+                self.line(&corners, true, Some((style.colour, 1.0)), &Style { width: 0.0, ..*style });
+            }
+            Ink::Shape { corners, closed, fill, style } => self.line(corners, *closed, *fill, style),
+            Ink::Disc { centre, radius, fill, style } => {
+                let path = PathBuilder::from_circle(centre.x as f32, -centre.y as f32, *radius as f32);
+                if let Some(path) = path {
+                    self.paint(&path, (*fill != "none").then_some((*fill, 1.0)), style);
+                }
+            }
+            Ink::Text { at, text, set } => {
+                let (path, strength) = self.glyphs.path(*at, text, set);
+                if let Some(path) = path {
+                    let style = Style { colour: set.colour, width: strength, dash: "" };
+                    self.paint(&path, Some((set.colour, 1.0)), &style);
+                }
+            }
+        }
+    }
+
+    fn line(&mut self, corners: &[Vec2], closed: bool, fill: Option<(&str, f64)>, style: &Style) {
+        let mut path = PathBuilder::new();
+        for (index, corner) in corners.iter().enumerate() {
+            let (x, y) = (corner.x as f32, -corner.y as f32);
+            if index == 0 { path.move_to(x, y) } else { path.line_to(x, y) }
+        }
+        if closed {
+            path.close();
+        }
+        if let Some(path) = path.finish() {
+            self.paint(&path, fill, style);
+        }
+    }
+
+    fn paint(&mut self, path: &tiny_skia::Path, fill: Option<(&str, f64)>, style: &Style) {
+        if let Some((colour, opacity)) = fill {
+            self.pixmap.fill_path(path, &paint(colour, opacity), FillRule::Winding, self.view, None);
+        }
+        if style.width > 0.0 {
+            let dashes: Vec<f32> = style.dash.split_whitespace().filter_map(|part| part.parse().ok()).collect();
+            let stroke = Stroke {
+                width: style.width as f32,
+                line_cap: LineCap::Round,
+                line_join: LineJoin::Round,
+                dash: StrokeDash::new(dashes, 0.0),
+                ..Stroke::default()
+            };
+            self.pixmap.stroke_path(path, &paint(style.colour, 1.0), &stroke, self.view, None);
+        }
+    }
+}
+
+/// A paint from `#rrggbb` or `white`; black for anything else.
+fn paint(colour: &str, opacity: f64) -> Paint<'static> {
+    let part = |at: usize| colour.get(at..at + 2).and_then(|part| u8::from_str_radix(part, 16).ok()).unwrap_or(0);
+    let [red, green, blue] = if colour == "white" { [255; 3] } else { [1, 3, 5].map(part) };
+    let mut paint = Paint { anti_alias: true, ..Paint::default() };
+    paint.set_color_rgba8(red, green, blue, (opacity * 255.0).round() as u8);
+    paint
+}

@@ -1,0 +1,77 @@
+//! Bitmaps as files.
+
+use super::Bitmap;
+use linkage::error::{Error, ErrorKind, Result};
+
+/// Effort of the palette's search: 1 is best, 30 fastest.
+const PALETTE: i32 = 10;
+
+fn unwritten(what: &str, error: &dyn std::fmt::Display) -> Error {
+    Error::new(ErrorKind::Io, format!("{what} could not be made: {error}"))
+}
+
+/// A PNG.
+///
+/// # Errors
+/// [`ErrorKind::Io`] if the picture cannot be encoded.
+pub fn to_png(bitmap: &Bitmap) -> Result<Vec<u8>> {
+    let size = tiny_skia::IntSize::from_wh(bitmap.width, bitmap.height);
+    let pixmap = size.and_then(|size| tiny_skia::Pixmap::from_vec(bitmap.rgba.clone(), size));
+    let pixmap = pixmap.ok_or_else(|| unwritten("the PNG", &"it has no pixels"))?;
+    pixmap.encode_png().map_err(|error| unwritten("the PNG", &error))
+}
+
+/// An animated GIF that goes on for ever; every frame stands for `hundredths` of a second. All frames have one size.
+///
+/// # Errors
+/// [`ErrorKind::Input`] for frames of more than 65535 pixels in width or height; [`ErrorKind::Io`] if the picture
+/// cannot be encoded.
+pub fn to_gif(frames: &[Bitmap], hundredths: u16) -> Result<Vec<u8>> {
+    let Some(first) = frames.first() else { return Ok(Vec::new()) };
+    let (Ok(width), Ok(height)) = (u16::try_from(first.width), u16::try_from(first.height)) else {
+        let message = format!("a GIF has at most 65535 pixels in a row, and {} are asked for", first.width);
+        return Err(Error::new(ErrorKind::Input, message).help("give a smaller width"));
+    };
+    let failed = |error: gif::EncodingError| unwritten("the GIF", &error);
+    let mut bytes = Vec::new();
+    let mut encoder = gif::Encoder::new(&mut bytes, width, height, &[]).map_err(failed)?;
+    encoder.set_repeat(gif::Repeat::Infinite).map_err(failed)?;
+    for frame in frames {
+        let mut frame = gif::Frame::from_rgba_speed(width, height, &mut frame.rgba.clone(), PALETTE);
+        frame.delay = hundredths;
+        encoder.write_frame(&frame).map_err(failed)?;
+    }
+    drop(encoder);
+    Ok(bytes)
+}
+
+/// An animated WebP without loss that goes on for ever; every frame stands for `milliseconds`. All frames have one size.
+///
+/// # Errors
+/// [`ErrorKind::Io`] if the picture cannot be encoded.
+pub fn to_webp(frames: &[Bitmap], milliseconds: u32) -> Result<Vec<u8>> {
+    let Some(first) = frames.first() else { return Ok(Vec::new()) };
+    let three = |number: u32| number.to_le_bytes()[..3].to_vec();
+    let size = [three(first.width - 1), three(first.height - 1)].concat();
+    // No crate writes the container of an animation: flags say that it moves; background and endless loop follow.
+    let mut body = chunk(*b"VP8X", &[&[0b0000_0010, 0, 0, 0], &size[..]].concat());
+    body.extend(chunk(*b"ANIM", &[255, 255, 255, 255, 0, 0]));
+    for frame in frames {
+        let mut still = Vec::new();
+        image_webp::WebPEncoder::new(&mut still)
+            .encode(&frame.rgba, frame.width, frame.height, image_webp::ColorType::Rgba8)
+            .map_err(|error| unwritten("the WebP", &error))?;
+        // Behind the still picture's header of twelve bytes stands its one chunk. The frame replaces the one before.
+        let place = [vec![0; 6], size.clone(), three(milliseconds), vec![0b0000_0010]].concat();
+        body.extend(chunk(*b"ANMF", &[&place[..], &still[12..]].concat()));
+    }
+    let length = u32::try_from(body.len() + 4).map_err(|error| unwritten("the WebP", &error))?;
+    Ok([&b"RIFF"[..], &length.to_le_bytes(), b"WEBP", &body].concat())
+}
+
+/// A chunk of a RIFF file: its name, its length and its content, of an even number of bytes.
+fn chunk(name: [u8; 4], content: &[u8]) -> Vec<u8> {
+    let length = (content.len() as u32).to_le_bytes();
+    let pad: &[u8] = if content.len().is_multiple_of(2) { &[] } else { &[0] };
+    [&name[..], &length, content, pad].concat()
+}

@@ -1,0 +1,256 @@
+//! A mechanism as far as it can be laid: every group that can be placed, and the rest as near to closed as it goes.
+
+mod nearest;
+
+use super::picture::Place;
+use linkage::error::{Error, ErrorKind};
+use linkage::math::{KeepNan, Vec2, cross, turned, unit};
+use linkage::mechanism::assembly::{configurations, first_choices};
+use linkage::mechanism::{AssemblyMode, GROUND, Group, GroupKind, LinkPose, Mechanism, Pose, StartGroup, Structure};
+
+/// Share of the mechanism's size above which a joint is open.
+const OPEN: f64 = 1e-6;
+/// Share of the largest gap below which a gap only comes from sharing it out.
+const SEEN: f64 = 1e-2;
+
+/// A mechanism at one instant, whole or in part.
+#[derive(Clone, Debug)]
+pub struct Laid {
+    /// Where every link is.
+    pub places: Vec<Place>,
+    /// Joints that stay open: number, and the two world points (m) that should be one.
+    pub gaps: Vec<(usize, [Vec2; 2])>,
+    /// Circles that points of links reach and that do not meet: centres and radii (m).
+    pub reaches: Vec<(Vec2, f64)>,
+    /// What is missing, group by group.
+    pub faults: Vec<Error>,
+    /// The mode and the number of the configuration of each group placed, with the group's number.
+    pub modes: Vec<(usize, AssemblyMode, usize)>,
+}
+
+impl Laid {
+    /// A pose that is known.
+    #[must_use]
+    pub fn whole(pose: impl IntoIterator<Item = LinkPose>) -> Laid {
+        let places = pose.into_iter().map(Place::Here).collect();
+        Laid { places, gaps: Vec::new(), reaches: Vec::new(), faults: Vec::new(), modes: Vec::new() }
+    }
+
+    /// Whether nothing is missing.
+    #[must_use]
+    pub fn is_whole(&self) -> bool {
+        self.faults.is_empty() && self.places.iter().all(|place| matches!(place, Place::Here(_)))
+    }
+
+    fn start(mechanism: &Mechanism, drivers: &[(usize, usize)], angles: &[f64]) -> Laid {
+        let mut laid = Laid::whole([]);
+        laid.places = vec![Place::Nowhere; mechanism.links().len()];
+        laid.places[GROUND] = Place::Here(LinkPose::GROUND);
+        for (&(link, joint), &angle) in drivers.iter().zip(angles) {
+            let joint = &mechanism.joints()[joint];
+            let base = joint.other(link);
+            if let (Some(local), Some(pose)) = (joint.on(link), laid.places[base.link].pose()) {
+                laid.places[link] = Place::Here(LinkPose::through(local, pose.point(base.local), angle));
+            }
+        }
+        laid
+    }
+
+    /// The poses of all links; those that have none are at the origin.
+    fn pose(&self) -> Pose {
+        Pose(self.places.iter().map(|place| place.pose().copied().unwrap_or(LinkPose::GROUND)).collect())
+    }
+
+    fn has(&self, mechanism: &Mechanism, group: &Group) -> bool {
+        group.outer.iter().all(|&joint| {
+            let joint = &mechanism.joints()[joint];
+            let bases = [joint.first.link, joint.second.link].into_iter().filter(|link| !group.links.contains(link));
+            bases.into_iter().all(|link| matches!(self.places[link], Place::Here(_)))
+        })
+    }
+}
+
+/// Lays a mechanism with this structure: driving links at their world angles (rad), every group as `starts` wants it.
+#[must_use]
+pub fn lay(mechanism: &Mechanism, structure: &Structure, angles: &[f64], starts: &[StartGroup]) -> Laid {
+    let mut laid = Laid::start(mechanism, &structure.drivers, angles);
+    let mut done: Vec<usize> = Vec::new();
+    for (index, group) in structure.groups.iter().enumerate() {
+        if !laid.has(mechanism, group) {
+            continue;
+        }
+        let mut tried = done.clone();
+        tried.push(index);
+        let part = Structure {
+            groups: tried.iter().map(|&index| structure.groups[index].clone()).collect(),
+            ..structure.clone()
+        };
+        let wanted: Vec<StartGroup> = tried.iter().map(|&index| starts[index].clone()).collect();
+        match first_choices(mechanism, &part, angles, &wanted) {
+            Ok((pose, choices)) => {
+                for &link in &group.links {
+                    laid.places[link] = Place::Here(pose.0[link]);
+                }
+                if let Some(choice) = choices.last() {
+                    laid.modes.push((index, choice.mode, wanted.last().and_then(|own| own.rank).unwrap_or(0)));
+                }
+                done = tried;
+            }
+            Err(error) => {
+                laid.reaches.extend(reaches(mechanism, group, &laid));
+                laid.faults.push(error);
+            }
+        }
+    }
+    close(mechanism, laid)
+}
+
+/// Lays a mechanism that has no structure, because links or joints are missing or too many: what dyads can be found.
+#[must_use]
+pub fn lay_loose(mechanism: &Mechanism, drivers: &[(usize, usize)], angles: &[f64], fault: Error) -> Laid {
+    let mut laid = Laid::start(mechanism, drivers, angles);
+    laid.faults.push(fault);
+    while let Some(group) = dyad(mechanism, &laid) {
+        let found = configurations(mechanism, &group, &laid.pose());
+        match found.ok().and_then(|all| all.into_iter().next()) {
+            Some(one) => {
+                for (&link, pose) in group.links.iter().zip(one.links) {
+                    laid.places[link] = Place::Loose(pose);
+                }
+            }
+            None => break,
+        }
+    }
+    close(mechanism, laid)
+}
+
+/// A dyad of links without a place, between links that have one.
+fn dyad(mechanism: &Mechanism, laid: &Laid) -> Option<Group> {
+    let is_placed = |link: usize| laid.places[link].pose().is_some();
+    let joints = mechanism.joints();
+    let outer = |link: usize| {
+        let mut own = joints.iter().enumerate().filter(|(_, joint)| joint.on(link).is_some());
+        own.find(|(_, joint)| is_placed(joint.other(link).link)).map(|(index, _)| index)
+    };
+    joints.iter().enumerate().find_map(|(inner, joint)| {
+        let mut links = vec![joint.first.link, joint.second.link];
+        links.sort_unstable();
+        if links.iter().any(|&link| is_placed(link)) {
+            return None;
+        }
+        let outer = [outer(links[0])?, outer(links[1])?];
+        let slides = [joints[outer[0]].slides(), joint.slides(), joints[outer[1]].slides()];
+        let kind = match slides {
+            [false, false, false] => GroupKind::Rrr,
+            [true, false, false] | [false, false, true] => GroupKind::Rrp,
+            [false, true, false] => GroupKind::Rpr,
+            [true, true, false] | [false, true, true] => GroupKind::Rpp,
+            [true, false, true] => GroupKind::Prp,
+            [true, true, true] => return None,
+        };
+        Some(Group { links, inner: vec![inner], outer: outer.to_vec(), class: 2, kind })
+    })
+}
+
+/// Puts all links without a place as near to their neighbours as it goes, and tells which joints stay open.
+fn close(mechanism: &Mechanism, mut laid: Laid) -> Laid {
+    let missing: Vec<usize> = (0..laid.places.len()).filter(|&link| laid.places[link].pose().is_none()).collect();
+    if !missing.is_empty() {
+        for (link, pose) in nearest::nearest(mechanism, &laid.pose(), &missing) {
+            laid.places[link] = Place::Loose(pose);
+        }
+    }
+    let mut gaps = Vec::new();
+    for (index, joint) in mechanism.joints().iter().enumerate() {
+        let sides =
+            [joint.first, joint.second].map(|side| laid.places[side.link].pose().map(|pose| (*pose, side.local)));
+        let [Some(first), Some(second)] = sides else { continue };
+        let [from, to] = [first, second].map(|(pose, local)| pose.point(local));
+        let gap = match joint.kind.axes() {
+            None => [from, to],
+            Some(axes) => {
+                let axis = linkage::math::rotated(unit(first.0.angle), axes[0]);
+                [to - turned(axis) * cross(axis, to - from), to]
+            }
+        };
+        gaps.push((index, gap));
+    }
+    let size = |gap: &[Vec2; 2]| (gap[1] - gap[0]).norm();
+    let largest = gaps.iter().map(|(_, gap)| size(gap)).fold(0.0, f64::larger);
+    gaps.retain(|(_, gap)| size(gap) > OPEN * mechanism.size() && size(gap) > SEEN * largest);
+    laid.gaps = gaps;
+    laid
+}
+
+/// The circles on which the inner joint of a dyad of three pins would lie.
+fn reaches(mechanism: &Mechanism, group: &Group, laid: &Laid) -> Vec<(Vec2, f64)> {
+    let (GroupKind::Rrr | GroupKind::Rrp, Some(&inner)) = (group.kind, group.inner.first()) else { return Vec::new() };
+    let of_link = |(&link, &outer): (&usize, &usize)| {
+        let joint = &mechanism.joints()[outer];
+        let (own, base) = (joint.on(link)?, joint.other(link));
+        let pin = mechanism.joints()[inner].on(link)?;
+        let centre = laid.places[base.link].pose()?.point(base.local);
+        joint.is_pin().then_some((centre, (pin - own).norm()))
+    };
+    group.links.iter().zip(&group.outer).filter_map(of_link).collect()
+}
+
+/// All configurations of a mechanism with the driving links at these world angles (rad), at most `most` of them, each
+/// laid as far as it goes, and whether there are more. A group whose configurations are not all known is placed as
+/// `starts` wants it.
+#[must_use]
+pub fn all_modes(
+    mechanism: &Mechanism,
+    structure: &Structure,
+    angles: &[f64],
+    starts: &[StartGroup],
+    most: usize,
+) -> (Vec<Laid>, bool) {
+    let mut found: Vec<Laid> = Vec::new();
+    let mut open = vec![(Laid::start(mechanism, &structure.drivers, angles), 0)];
+    while let Some((mut laid, index)) = open.pop() {
+        let Some(group) = structure.groups.get(index) else {
+            if found.len() == most {
+                return (found, true);
+            }
+            found.push(close(mechanism, laid));
+            continue;
+        };
+        if !laid.has(mechanism, group) {
+            open.push((laid, index + 1));
+            continue;
+        }
+        match configurations(mechanism, group, &laid.pose()) {
+            Ok(all) => {
+                for (number, one) in all.into_iter().enumerate().rev() {
+                    let mut next = laid.clone();
+                    for (&link, pose) in group.links.iter().zip(&one.links) {
+                        next.places[link] = Place::Here(*pose);
+                    }
+                    next.modes.push((index, one.mode, number + 1));
+                    open.push((next, index + 1));
+                }
+            }
+            Err(error) => {
+                let placed = (error.kind() == ErrorKind::Unsupported)
+                    .then(|| lay(mechanism, structure, angles, starts))
+                    .filter(|own| group.links.iter().all(|&link| matches!(own.places[link], Place::Here(_))));
+                match placed {
+                    Some(own) => {
+                        for &link in &group.links {
+                            laid.places[link] = own.places[link];
+                        }
+                        laid.modes.push((index, AssemblyMode::Followed, 0));
+                    }
+                    None => {
+                        laid.reaches.extend(reaches(mechanism, group, &laid));
+                        let names = group.names(mechanism);
+                        laid.faults.push(error.key(format!("start.groups ({names})")).of_group(names));
+                    }
+                }
+                open.push((laid, index + 1));
+            }
+        }
+    }
+    (found, false)
+}

@@ -1,0 +1,113 @@
+//! Links as near to closed as it goes: the least squares of all gaps, after Levenberg and Marquardt.
+
+use linkage::math::{Column, KeepNan, Matrix, Vec2, cross, rotated, unit};
+use linkage::mechanism::{Joint, LinkPose, Mechanism, Pose, Side};
+
+/// Weight of joints with links that have their place: what is missing shows between the others.
+const HELD: f64 = 1000.0;
+/// Directions of the links from which it is tried, and steps from each.
+const STARTS: usize = 12;
+const STEPS: usize = 60;
+/// Step of the difference quotients, in radians and in sizes of the mechanism.
+const TINY: f64 = 1e-7;
+
+/// Places of the links `missing`, beside all others at `pose`.
+pub fn nearest(mechanism: &Mechanism, pose: &Pose, missing: &[usize]) -> Vec<(usize, LinkPose)> {
+    let problem = Problem { mechanism, pose, missing, size: mechanism.size() };
+    let best = (0..STARTS).map(|start| problem.solved(start)).min_by(|a, b| a.1.total_cmp(&b.1));
+    let Some((found, _)) = best else { return Vec::new() };
+    missing.iter().enumerate().map(|(k, &link)| (link, problem.pose_of(&found, k))).collect()
+}
+
+struct Problem<'a> {
+    mechanism: &'a Mechanism,
+    pose: &'a Pose,
+    missing: &'a [usize],
+    size: f64,
+}
+
+impl Problem<'_> {
+    /// The pose of a missing link: its unknowns are x and y in sizes of the mechanism, and its angle.
+    fn pose_of(&self, unknowns: &Column, k: usize) -> LinkPose {
+        let origin = Vec2::new(unknowns[3 * k], unknowns[3 * k + 1]) * self.size;
+        LinkPose { origin, angle: unknowns[3 * k + 2] }
+    }
+
+    fn place(&self, unknowns: &Column, link: usize) -> LinkPose {
+        match self.missing.iter().position(|&own| own == link) {
+            Some(k) => self.pose_of(unknowns, k),
+            None => self.pose.0[link],
+        }
+    }
+
+    /// Links turned by a multiple of the same angle, each at a neighbour that has a place.
+    fn start(&self, number: usize) -> Column {
+        let mut unknowns = Column::zeros(3 * self.missing.len());
+        for (k, &link) in self.missing.iter().enumerate() {
+            let angle = std::f64::consts::TAU * ((number * (k + 1)) as f64 / STARTS as f64 + 0.01);
+            let known = |joint: &&Joint| joint.on(link).is_some() && !self.missing.contains(&joint.other(link).link);
+            let at = self.mechanism.joints().iter().find(known).and_then(|joint| {
+                let Side { link: base, local } = joint.other(link);
+                Some(LinkPose::through(joint.on(link)?, self.pose.0[base].point(local), angle).origin)
+            });
+            let at = at.unwrap_or_else(Vec2::zeros) / self.size;
+            (unknowns[3 * k], unknowns[3 * k + 1], unknowns[3 * k + 2]) = (at.x, at.y, angle);
+        }
+        unknowns
+    }
+
+    /// Gaps of all joints on missing links, in sizes of the mechanism.
+    fn gaps(&self, unknowns: &Column) -> Column {
+        let mut gaps = Vec::new();
+        for joint in self.mechanism.joints() {
+            let sides = [joint.first, joint.second];
+            let loose = sides.iter().filter(|side| self.missing.contains(&side.link)).count();
+            if loose == 0 {
+                continue;
+            }
+            let weight = if loose == 1 { HELD } else { 1.0 };
+            let poses = sides.map(|side| self.place(unknowns, side.link));
+            let gap = (poses[1].point(joint.second.local) - poses[0].point(joint.first.local)) / self.size;
+            let own = match joint.kind.axes() {
+                None => [gap.x, gap.y],
+                Some(axes) => {
+                    let [a, b] = [0, 1].map(|k| rotated(unit(poses[k].angle), axes[k]));
+                    [cross(a, gap), HELD * (cross(a, b).atan2(a.dot(&b)))]
+                }
+            };
+            gaps.extend(own.map(|part| weight * part));
+        }
+        Column::from_vec(gaps)
+    }
+
+    /// Unknowns with the least squares of the gaps that are found from a start, and their sum.
+    fn solved(&self, start: usize) -> (Column, f64) {
+        let mut at = self.start(start);
+        let mut gaps = self.gaps(&at);
+        let mut damping = 1e-3;
+        for _ in 0..STEPS {
+            let mut jacobian = Matrix::zeros(gaps.len(), at.len());
+            for k in 0..at.len() {
+                let mut beside = at.clone();
+                beside[k] += TINY;
+                jacobian.set_column(k, &((self.gaps(&beside) - &gaps) / TINY));
+            }
+            let (square, slope) = (jacobian.transpose() * &jacobian, jacobian.transpose() * &gaps);
+            let damped =
+                &square + Matrix::identity(at.len(), at.len()) * (damping * square.diagonal().max().larger(1e-9));
+            let Some(step) = damped.lu().solve(&slope) else { break };
+            let next = &at - &step;
+            let found = self.gaps(&next);
+            if found.norm_squared() < gaps.norm_squared() {
+                (at, gaps, damping) = (next, found, damping * 0.3);
+                if step.norm() < 1e-13 {
+                    break;
+                }
+            } else {
+                damping *= 4.0;
+            }
+        }
+        let sum = gaps.norm_squared();
+        (at, sum)
+    }
+}

@@ -1,0 +1,338 @@
+//! The picture of a sketch on paper: links in their places, names, arrows, dimensions and gaps.
+
+use super::acting::Acting;
+use super::mark::{Fill, Ink, Layer, Look, Mark, Role, Shape};
+use super::palette::LOAD;
+use super::paper::figure::{Figure, Style, Type, solid, sub, words};
+use super::paper::labels::{self, Obstacles, place};
+use super::paper::lettering::{LETTER, label_size, letter};
+use super::paper::style::{BLACK, GREY, colour, significant};
+use super::sign::{arrow, turning};
+use super::sketch::{Label, Lettering, Sketch};
+use linkage::math::{KeepNan, Vec2};
+use linkage::mechanism::{LinkPose, Mechanism};
+
+/// Radius (mm) of the disc around a link's number, and of what a pin covers.
+const NUMBER: f64 = 2.3;
+const CLEAR: f64 = 1.4;
+/// Points closer to each other on paper than this (mm) share one label.
+const ONE: f64 = 0.7;
+/// Length (mm) of the arrow of the largest force, of that of gravity, and radius of the arrows of moments.
+const FORCE: f64 = 22.0;
+const GRAVITY: f64 = 12.0;
+const MOMENT: f64 = 6.5;
+/// Share of the largest force or moment from which on an arrow is drawn, and the least (N, N m): below it is rounding.
+const LEAST: f64 = 1e-6;
+const NOTHING: f64 = 1e-9;
+/// Dashes of what has no certain place, of traces, and of construction lines.
+const LOOSE: &str = "2 1.4";
+const CONSTRUCTION: &str = "4 1 0.5 1";
+/// Angle to either side over which a circle of what can be reached is drawn (rad).
+const REACH: f64 = 0.7;
+/// Opacity of tints.
+const TINT: f64 = 0.14;
+
+/// A colour that is used for what is wrong.
+pub const ALARM: &str = "#d11149";
+
+/// Where a link is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Place {
+    /// Here.
+    Here(LinkPose),
+    /// Here, for want of a better place: it is drawn with dashes.
+    Loose(LinkPose),
+    /// Nowhere: it is not drawn.
+    Nowhere,
+}
+
+impl Place {
+    /// The pose, if the link has one.
+    #[must_use]
+    pub fn pose(&self) -> Option<&LinkPose> {
+        match self {
+            Place::Here(pose) | Place::Loose(pose) => Some(pose),
+            Place::Nowhere => None,
+        }
+    }
+
+    fn is_loose(&self) -> bool {
+        matches!(self, Place::Loose(_))
+    }
+}
+
+/// A picture being drawn; the world's origin is the figure's origin.
+pub struct Picture<'a> {
+    sketch: &'a Sketch,
+    places: &'a [Place],
+    /// Length in the world of a millimetre on paper (m).
+    scale: f64,
+    /// What is drawn.
+    pub figure: Figure,
+    /// What labels must not touch.
+    pub obstacles: Obstacles,
+    labels: Vec<(labels::Label, String, &'static str)>,
+    numbers: Vec<(labels::Label, String, &'static str)>,
+}
+
+impl<'a> Picture<'a> {
+    /// The links of a sketch in their places, at a scale (m/mm).
+    #[must_use]
+    pub fn of(sketch: &'a Sketch, places: &'a [Place], scale: f64) -> Picture<'a> {
+        Picture {
+            sketch,
+            places,
+            scale,
+            figure: Figure::default(),
+            obstacles: Obstacles::default(),
+            labels: Vec::new(),
+            numbers: Vec::new(),
+        }
+    }
+
+    /// A point of a link on paper.
+    #[must_use]
+    pub fn at(&self, link: usize, local: Vec2) -> Option<Vec2> {
+        self.places[link].pose().map(|pose| pose.point(local) / self.scale)
+    }
+
+    /// Draws all marks of the sketch.
+    pub fn draw_marks(&mut self) {
+        let sketch = self.sketch;
+        let marks = sketch.in_order();
+        let is_above = |(_, mark): &&(usize, &Mark)| mark.role.look().layer > Layer::Stretched;
+        let below = marks.iter().take_while(|mark| !is_above(mark)).count();
+        for (link, mark) in &marks[..below] {
+            self.mark(*link, mark);
+        }
+        for own in &sketch.stretched {
+            let [first, second] = own.ends.map(|end| self.at(end.link, end.local));
+            let (Some(first), Some(second)) = (first, second) else { continue };
+            for mark in &own.marks {
+                let (points, closed) = mark.shape.outline();
+                let scaled = super::Stretched { width: own.width / self.scale, ..own.clone() };
+                let points: Vec<Vec2> = points.into_iter().map(|at| scaled.at(at, [first, second])).collect();
+                self.line(points, closed, mark.role, 0, false);
+            }
+        }
+        for (link, mark) in &marks[below..] {
+            self.mark(*link, mark);
+        }
+    }
+
+    fn mark(&mut self, link: usize, mark: &Mark) {
+        let is_loose = self.places[link].is_loose();
+        if let Shape::Circle { centre, radius } = mark.shape {
+            let (Some(at), radius) = (self.at(link, centre), radius / self.scale) else { return };
+            let (style, fill) = style(mark.role.look(), link, is_loose);
+            self.figure.disc(at, radius, fill.map_or("none", |fill| fill.0), style);
+            self.obstacles.discs.push((at, radius));
+            return;
+        }
+        let (points, closed) = mark.shape.outline();
+        let points: Option<Vec<Vec2>> = points.into_iter().map(|local| self.at(link, local)).collect();
+        if let Some(points) = points {
+            self.line(points, closed, mark.role, link, is_loose);
+        }
+    }
+
+    fn line(&mut self, points: Vec<Vec2>, closed: bool, role: Role, link: usize, is_loose: bool) {
+        let (style, fill) = style(role.look(), link, is_loose);
+        let is_obstacle = !matches!(role, Role::Weld | Role::MassQuarter | Role::DriveHead | Role::LoadHead);
+        if is_obstacle {
+            self.obstacles.segments.extend(points.windows(2).map(|pair| [pair[0], pair[1]]));
+            if let (true, [first, .., last]) = (closed, &points[..]) {
+                self.obstacles.segments.push([*last, *first]);
+            }
+        }
+        match points[..] {
+            [a, b] if !closed => self.figure.line([a, b], style),
+            _ => self.figure.shape(points, closed, fill, style),
+        }
+    }
+
+    /// Places on paper and texts of the labels for which `wanted` holds, for [`Picture::name`].
+    #[must_use]
+    pub fn names(&self, wanted: impl Fn(Lettering) -> bool) -> Vec<(Vec2, String)> {
+        let labels = self.sketch.labels.iter().filter(|label| wanted(label.names));
+        let one = |label: &Label| {
+            let text = match label.names {
+                Lettering::Point | Lettering::Motor | Lettering::Link => label.text.clone(),
+                Lettering::MassCentre => format!("S{}", sub(label.text.trim_start_matches('S'))),
+            };
+            Some((self.at(label.at.link, label.at.local)?, text))
+        };
+        labels.filter_map(one).collect()
+    }
+
+    /// Writes names at their places on paper. Those of one place are written together.
+    pub fn name(&mut self, names: Vec<(Vec2, String)>) {
+        let mut named: Vec<(Vec2, String)> = Vec::new();
+        for (at, text) in names {
+            match named.iter_mut().find(|(place, _)| (*place - at).norm() < ONE) {
+                Some((_, names)) => *names += &format!(", {text}"),
+                None => named.push((at, text)),
+            }
+        }
+        for (at, text) in named {
+            self.letters(at, Vec2::zeros(), CLEAR, text, BLACK);
+        }
+    }
+
+    /// Writes the numbers of all links beside them.
+    pub fn number_links(&mut self) {
+        for label in self.sketch.labels.iter().filter(|label| label.names == Lettering::Link) {
+            if let Some(at) = self.at(label.at.link, label.at.local) {
+                self.number(at, label.text.clone(), colour(label.at.link));
+            }
+        }
+    }
+
+    fn number(&mut self, anchor: Vec2, text: String, paint: &'static str) {
+        let size = Vec2::new(2.0 * NUMBER, 2.0 * NUMBER);
+        self.numbers.push((labels::Label { anchor, away: Vec2::zeros(), size, clear: 0.3 }, text, paint));
+    }
+
+    /// A text at a point on paper, in a preferred direction from it, or any.
+    pub fn letters(&mut self, anchor: Vec2, away: Vec2, clear: f64, text: String, paint: &'static str) {
+        self.labels.push((labels::Label { anchor, away, size: label_size(&text), clear }, text, paint));
+    }
+
+    /// Arrows of forces and moments, the largest force 22 mm long, and the sizes of all. They begin at the points on
+    /// which they act.
+    pub fn draw_loads(&mut self, all: &[Acting]) {
+        let largest = all.iter().map(|own| own.force.norm()).fold(0.0, f64::larger);
+        let moments = all.iter().map(|own| own.moment.abs()).fold(0.0, f64::larger);
+        for own in all {
+            let at = own.at / self.scale;
+            if own.force.norm() > NOTHING.larger(LEAST * largest) {
+                let tip = own.force * (FORCE / largest);
+                self.sign(arrow(tip, 1.0), at);
+                self.letters(at + tip, tip, 0.6, format!("{} N", short(own.force.norm())), LOAD.light);
+            }
+            if own.moment.abs() > NOTHING.larger(LEAST * moments) {
+                self.sign(turning(own.moment, MOMENT, 0.4, 1.0).to_vec(), at);
+                let beside = Vec2::new(0.0, MOMENT * own.moment.signum());
+                self.letters(at + beside, beside, 0.8, format!("{} N m", short(own.moment.abs())), LOAD.light);
+            }
+        }
+    }
+
+    /// An arrow in the direction of gravity, above on the left of all that is drawn.
+    pub fn draw_gravity(&mut self, gravity: Vec2) {
+        if !(gravity.norm() > 0.0) {
+            return;
+        }
+        let tip = gravity * (GRAVITY / gravity.norm());
+        let [low, high] = self.figure.bounds();
+        let at = Vec2::new(low.x - 4.0 - tip.x.larger(0.0), high.y - tip.y.larger(0.0));
+        self.sign(arrow(tip, 1.0), at);
+        self.letters(at + tip / 2.0, Vec2::new(-1.0, 0.0), 0.6, "g".into(), LOAD.light);
+    }
+
+    fn sign(&mut self, marks: Vec<Mark>, at: Vec2) {
+        for mark in marks {
+            let (points, closed) = mark.shape.outline();
+            self.line(points.into_iter().map(|own| own + at).collect(), closed, mark.role, 0, false);
+        }
+    }
+
+    /// The path of a point in the world (m), beneath what is drawn later.
+    pub fn draw_trace(&mut self, path: &[Vec2], link: usize) {
+        let points: Vec<Vec2> = path.iter().map(|at| at / self.scale).collect();
+        if points.len() > 1 {
+            self.figure.shape(points, false, None, Style { colour: colour(link), width: 0.35, dash: "1 0.8" });
+        }
+    }
+
+    /// The lengths of all links between their places, in mm.
+    pub fn draw_lengths(&mut self, mechanism: &Mechanism) {
+        for link in 1..mechanism.links().len() {
+            let places = super::body::corners(mechanism, link);
+            let sides = if places.len() > 2 { places.len() } else { places.len().saturating_sub(1) };
+            for (a, b) in (0..sides).map(|k| (places[k], places[(k + 1) % places.len()])) {
+                let length = (b - a).norm();
+                if let Some(at) = self.at(link, (a + b) / 2.0).filter(|_| length > 0.0) {
+                    self.letters(at, Vec2::zeros(), 0.4, millimetres(length), colour(link));
+                }
+            }
+        }
+    }
+
+    /// The part of the circle that a point can reach (world, m) in the direction `toward`, as a construction line.
+    pub fn draw_reach(&mut self, centre: Vec2, radius: f64, toward: Vec2) {
+        let from = toward.y.atan2(toward.x) - REACH;
+        let (centre, radius) = (centre / self.scale, radius / self.scale);
+        let (points, _) = Shape::Arc { centre, radius, from, sweep: 2.0 * REACH }.outline();
+        self.figure.shape(points, false, None, Style { colour: GREY, width: 0.3, dash: CONSTRUCTION });
+    }
+
+    /// A gap between two points in the world (m) that a joint should hold together, with its size.
+    pub fn draw_gap(&mut self, [from, to]: [Vec2; 2]) {
+        let ends = [from, to].map(|at| at / self.scale);
+        let style = solid(ALARM, 0.7);
+        self.figure.line(ends, style);
+        for end in ends {
+            self.figure.disc(end, 1.2, "none", style);
+            self.obstacles.discs.push((end, 1.2));
+        }
+        let text = format!("gap {}", millimetres((to - from).norm()));
+        self.letters((ends[0] + ends[1]) / 2.0, Vec2::zeros(), 1.0, text, ALARM);
+    }
+
+    /// Places all letters and returns the figure.
+    #[must_use]
+    pub fn finish(mut self) -> Figure {
+        let numbers = std::mem::take(&mut self.numbers).into_iter().map(|own| (own, true));
+        let letters = std::mem::take(&mut self.labels).into_iter().map(|own| (own, false));
+        let all: Vec<_> = numbers.chain(letters).collect();
+        let boxes: Vec<labels::Label> = all.iter().map(|((label, ..), _)| *label).collect();
+        for (((label, text, paint), is_number), at) in all.iter().zip(place(&boxes, &self.obstacles)) {
+            if *is_number {
+                self.figure.disc(at, NUMBER, "white", solid(paint, 0.4));
+                let set = Type { anchor: "middle", bold: true, colour: paint, ..words(3.2) };
+                self.figure.text(at - Vec2::new(0.0, 1.15), text.clone(), set);
+            } else {
+                letter(&mut self.figure, label, at, text, paint);
+            }
+        }
+        self.figure
+    }
+}
+
+/// A length (m) in mm, with as many digits as are seen on a drawing.
+#[must_use]
+pub fn millimetres(length: f64) -> String {
+    format!("{} mm", short(length * 1e3))
+}
+
+/// Four digits, without zeros at the end.
+fn short(value: f64) -> String {
+    let digits = significant(value);
+    match digits.contains('.') && !digits.contains('e') {
+        true => digits.trim_end_matches('0').trim_end_matches('.').to_string(),
+        false => digits,
+    }
+}
+
+/// Line and fill of a look.
+fn style(look: Look, link: usize, is_loose: bool) -> (Style, Option<(&'static str, f64)>) {
+    let paint = match look.ink {
+        Ink::Link => colour(link),
+        Ink::Text => BLACK,
+        Ink::Quiet => GREY,
+        Ink::Load => LOAD.light,
+    };
+    let fill = match look.fill {
+        Fill::None => None,
+        Fill::Paper => Some(("white", 1.0)),
+        Fill::Tint => Some((paint, TINT)),
+        Fill::Ink => Some((paint, 1.0)),
+    };
+    let dash = if is_loose && look.layer == Layer::Links { LOOSE } else { "" };
+    let dash = if look.ink == Ink::Quiet && look.layer == Layer::Ground { CONSTRUCTION } else { dash };
+    (Style { colour: paint, width: look.width, dash }, fill)
+}
+
+/// Room that letters and symbols take around a mechanism (mm), on each side.
+pub const AROUND: f64 = 3.0 * LETTER;

@@ -1,0 +1,148 @@
+//! Sheets: pictures side by side, each under its heading and above its scale.
+
+use super::paper::figure::{Figure, Type, solid, width, words};
+use super::paper::scale::round_up;
+use super::paper::style::{BLACK, GREY};
+use super::picture::{ALARM, millimetres};
+use linkage::math::{KeepNan, Vec2};
+
+/// Margin of the sheet and distance between cells (mm).
+const MARGIN: f64 = 6.0;
+const GAP: f64 = 9.0;
+/// Font sizes (mm) of title, headings and notes, and the distance of lines in font sizes.
+const TITLE: f64 = 5.2;
+const HEADING: f64 = 4.2;
+const NOTE: f64 = 3.4;
+const LINE: f64 = 1.45;
+/// Room for the scale below a picture (mm), and the longest it is.
+const SCALE: f64 = 9.0;
+const LONGEST: f64 = 40.0;
+
+/// One picture of a sheet.
+#[derive(Clone, Debug)]
+pub struct Cell {
+    /// Lines above it; the first is bold.
+    pub heading: Vec<String>,
+    /// The picture.
+    pub figure: Figure,
+    /// Corners of what it may cover (mm): the same for all frames of an animation.
+    pub bounds: [Vec2; 2],
+    /// Length in the world of a millimetre on paper (m).
+    pub scale: f64,
+    /// What is wrong, below it.
+    pub faults: Vec<String>,
+}
+
+/// Scale (m/mm), of two digits, at which what extends so far (m) has room (mm).
+#[must_use]
+pub fn fit(extent: Vec2, room: Vec2) -> f64 {
+    let least = (extent.x / room.x).larger(extent.y / room.y);
+    if !(least > 0.0 && least.is_finite()) {
+        return 1e-3;
+    }
+    let power = 10f64.powi(least.log10().floor() as i32 - 1);
+    let rounded = (least / power * (1.0 - 1e-12)).ceil() * power;
+    // Parsed from text, so that it is printed with its two digits.
+    format!("{rounded:.1e}").parse().unwrap_or(rounded)
+}
+
+/// Columns in which so many cells stand.
+#[must_use]
+pub fn columns(cells: usize) -> usize {
+    cells.clamp(1, 2)
+}
+
+/// The sheet, with its size (mm). Its upper left corner is the origin; every cell is at least `least` (mm) wide.
+#[must_use]
+pub fn sheet(title: &str, subtitle: &str, cells: &[Cell], least: f64) -> (Figure, [f64; 2]) {
+    let columns = columns(cells.len());
+    let size = |cell: &Cell| cell.bounds[1] - cell.bounds[0];
+    let wide = cells.iter().map(|cell| size(cell).x).fold(least, f64::larger);
+    let whole = wide * columns as f64 + GAP * (columns - 1) as f64;
+    let mut sheet = Figure::default();
+    let mut top = -MARGIN;
+    let mut put = |sheet: &mut Figure, text: &str, set: Type| {
+        for line in wrapped(text, set.size, whole) {
+            top -= LINE * set.size;
+            sheet.text(Vec2::new(MARGIN, top), line, set);
+        }
+    };
+    put(&mut sheet, title, Type { bold: true, ..words(TITLE) });
+    put(&mut sheet, subtitle, words(NOTE));
+    top -= 4.0;
+    for row in cells.chunks(columns) {
+        let heads: Vec<Vec<String>> = row
+            .iter()
+            .map(|cell| cell.heading.iter().flat_map(|line| wrapped(line, HEADING, wide)).collect())
+            .collect();
+        let lines = heads.iter().map(Vec::len).max().unwrap_or(0);
+        let high = row.iter().map(|cell| size(cell).y).fold(0.0, f64::larger);
+        let below = top - LINE * HEADING * lines as f64 - 3.0;
+        let mut lowest = below - high - SCALE;
+        for (column, (cell, head)) in row.iter().zip(heads).enumerate() {
+            let left = MARGIN + (wide + GAP) * column as f64;
+            for (k, line) in head.into_iter().enumerate() {
+                let set = Type { bold: k == 0, ..words(HEADING) };
+                sheet.text(Vec2::new(left, top - LINE * HEADING * (k as f64 + 0.7)), line, set);
+            }
+            let inset = (wide - size(cell).x) / 2.0;
+            let offset = Vec2::new(left + inset - cell.bounds[0].x, below - cell.bounds[1].y);
+            sheet.add(&cell.figure, offset);
+            let foot = below - high - SCALE + 3.0;
+            scale(&mut sheet, Vec2::new(left, foot), cell.scale);
+            let mut down = foot - 2.0;
+            for line in cell.faults.iter().flat_map(|fault| wrapped(fault, NOTE, wide)) {
+                down -= LINE * NOTE;
+                sheet.text(Vec2::new(left, down), line, Type { colour: ALARM, ..words(NOTE) });
+            }
+            lowest = lowest.smaller(down);
+        }
+        top = lowest - GAP;
+    }
+    (sheet, [(whole + 2.0 * MARGIN).ceil(), (MARGIN - GAP - top).ceil()])
+}
+
+/// A bar of a round length, and that length.
+fn scale(sheet: &mut Figure, at: Vec2, scale: f64) {
+    let long = round_up(LONGEST * scale / 2.0);
+    let end = at + Vec2::new(long / scale, 0.0);
+    sheet.line([at, end], solid(BLACK, 0.5));
+    for tick in [at, end] {
+        sheet.line([tick - Vec2::new(0.0, 0.8), tick + Vec2::new(0.0, 0.8)], solid(BLACK, 0.5));
+    }
+    sheet.text(end + Vec2::new(2.0, -1.1), millimetres(long), Type { colour: GREY, ..words(NOTE) });
+}
+
+/// A text broken into lines of this width (mm) at a font size (mm).
+fn wrapped(text: &str, size: f64, wide: f64) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split_whitespace() {
+        match lines.last_mut() {
+            Some(line) if width(&format!("{line} {word}"), size) <= wide => *line += &format!(" {word}"),
+            _ => lines.push(word.into()),
+        }
+    }
+    lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn scales_have_two_digits_and_leave_room() {
+        for k in 0..200 {
+            let extent = 1e-4 * 1.13f64.powi(k);
+            let found = fit(Vec2::new(extent, 0.0), Vec2::new(120.0, 80.0));
+            assert!(extent / found <= 120.0 * (1.0 + 1e-9) && extent / found > 108.0, "{extent}: {found}");
+            assert!(format!("{found:e}").split('e').next().unwrap().len() <= 3, "{found}");
+        }
+        assert_eq!(fit(Vec2::zeros(), Vec2::new(1.0, 1.0)), 1e-3);
+    }
+
+    #[test]
+    fn lines_are_as_wide_as_there_is_room() {
+        assert_eq!(wrapped("a bc  def", 1.0, 100.0), ["a bc def"]);
+        assert!(wrapped("a bc def", 1.0, 2.0).len() == 3 && wrapped("", 1.0, 2.0).is_empty());
+    }
+}

@@ -1,0 +1,149 @@
+//! A mechanism as cells of a sheet: one instant, or the frames of an animation at one scale.
+
+use super::acting::Acting;
+use super::lay::Laid;
+use super::mark::Role;
+use super::picture::{AROUND, Picture};
+use super::sheet::{Cell, fit};
+use super::sketch::{Lettering, Sketch};
+use super::travel::Travels;
+use linkage::drive::{Drives, Load};
+use linkage::math::{KeepNan, Vec2};
+use linkage::mechanism::{GROUND, Mechanism};
+
+/// What is drawn.
+#[derive(Clone, Copy, Debug)]
+pub struct Subject<'a> {
+    /// The mechanism.
+    pub mechanism: &'a Mechanism,
+    /// What moves it.
+    pub drives: &'a Drives,
+    /// What loads it.
+    pub loads: &'a [Load],
+    /// Acceleration of gravity (m/s^2).
+    pub gravity: Vec2,
+}
+
+/// What is drawn besides links, joints, springs and dampers.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Extras {
+    /// Gravity, mass centres, and the arrows of loads.
+    pub loads: bool,
+    /// Lengths of the links.
+    pub dimensions: bool,
+    /// Only the names of the ground's points, so that nothing jumps from frame to frame.
+    pub is_moving: bool,
+}
+
+/// One instant: where the links are, and what loads do.
+#[derive(Clone, Debug)]
+pub struct Shot {
+    /// Where every link is.
+    pub laid: Laid,
+    /// Forces and moments that are drawn as arrows.
+    pub acting: Vec<Acting>,
+}
+
+/// The path of a point: its link, and its places in the world (m).
+pub type Trace = (usize, Vec<Vec2>);
+
+/// The shots as figures at one scale, in a room of this size (mm), without headings.
+#[must_use]
+pub fn cells(
+    subject: &Subject,
+    shots: &[Shot],
+    travels: &Travels,
+    traces: &[Trace],
+    extras: Extras,
+    room: Vec2,
+) -> Vec<Cell> {
+    let points = extent(subject, shots, travels, traces);
+    let (low, high) = points
+        .iter()
+        .fold((Vec2::repeat(f64::INFINITY), Vec2::repeat(f64::NEG_INFINITY)), |(l, h), at| (l.inf(at), h.sup(at)));
+    let scale = fit(high - low, room - Vec2::repeat(2.0 * AROUND));
+    let sketch = Sketch::of(subject.mechanism, travels, scale)
+        .with_drives(subject.mechanism, subject.drives)
+        .with_loads(subject.mechanism, subject.loads);
+    let sketch = if extras.loads { sketch } else { sketch.without(&[Role::MassCentre, Role::MassQuarter]) };
+    let figures: Vec<_> = shots.iter().map(|shot| figure(subject, &sketch, shot, traces, extras, scale)).collect();
+    let bounds = figures.iter().map(super::paper::figure::Figure::bounds);
+    let bounds = bounds.reduce(|a, b| [a[0].inf(&b[0]), a[1].sup(&b[1])]).unwrap_or([Vec2::zeros(); 2]);
+    let cell = |figure| Cell { heading: Vec::new(), figure, bounds, scale, faults: Vec::new() };
+    figures.into_iter().map(cell).collect()
+}
+
+fn figure(
+    subject: &Subject,
+    sketch: &Sketch,
+    shot: &Shot,
+    traces: &[Trace],
+    extras: Extras,
+    scale: f64,
+) -> super::paper::figure::Figure {
+    let laid = &shot.laid;
+    let mut picture = Picture::of(sketch, &laid.places, scale);
+    for (link, path) in traces {
+        picture.draw_trace(path, *link);
+    }
+    for (index, (centre, radius)) in laid.reaches.iter().enumerate() {
+        // The other circle of the same dyad, or straight on.
+        let other = laid.reaches.get(index ^ 1).map_or(Vec2::new(1.0, 0.0), |other| other.0 - centre);
+        picture.draw_reach(*centre, *radius, other);
+    }
+    picture.draw_marks();
+    for (_, ends) in &laid.gaps {
+        picture.draw_gap(*ends);
+    }
+    if extras.loads {
+        picture.draw_loads(&shot.acting);
+    }
+    if extras.dimensions {
+        picture.draw_lengths(subject.mechanism);
+    }
+    if !extras.is_moving {
+        picture.number_links();
+    }
+    let is_fixed = |at: &Vec2| {
+        subject.mechanism.links()[GROUND].points.iter().any(|point| (point.local / scale - at).norm() < 1e-9)
+    };
+    let mut names = picture.names(|what| match what {
+        Lettering::Point | Lettering::Motor => true,
+        Lettering::MassCentre => !extras.is_moving && extras.loads,
+        Lettering::Link => false,
+    });
+    names.retain(|(at, _)| !extras.is_moving || is_fixed(at));
+    picture.name(names);
+    if extras.loads {
+        picture.draw_gravity(subject.gravity);
+    }
+    picture.finish()
+}
+
+/// All places that the picture must hold (m).
+fn extent(subject: &Subject, shots: &[Shot], travels: &Travels, traces: &[Trace]) -> Vec<Vec2> {
+    let mechanism = subject.mechanism;
+    let mut points: Vec<Vec2> = traces.iter().flat_map(|(_, path)| path.iter().copied()).collect();
+    points.extend(mechanism.links()[GROUND].points.iter().map(|point| point.local));
+    for shot in shots {
+        let pose = |link: usize| shot.laid.places[link].pose();
+        for link in 1..mechanism.links().len() {
+            let places = super::body::places(mechanism, link);
+            points.extend(pose(link).into_iter().flat_map(|pose| places.iter().map(|&local| pose.point(local))));
+        }
+        for (index, joint) in mechanism.joints().iter().enumerate() {
+            let Some([guide, _]) = mechanism.guide_and_block(joint) else { continue };
+            if let (Some(pose), Some(axis), Some(travel)) =
+                (pose(guide.link), joint.axis_on(guide.link), travels.of(index))
+            {
+                points.extend(travel.map(|way| pose.point(guide.local + axis * way)));
+            }
+        }
+    }
+    points.retain(|at| at.iter().all(|part| part.is_finite()));
+    let size = points.iter().fold(0.0, |most: f64, at| most.larger(at.norm()));
+    if size == 0.0 {
+        points.push(Vec2::repeat(mechanism.size()));
+    }
+    points
+}

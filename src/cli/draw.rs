@@ -1,0 +1,149 @@
+//! `linkproof draw`.
+
+mod media;
+mod subject;
+
+use std::path::PathBuf;
+
+use clap::builder::PossibleValuesParser;
+
+use super::load::reference_names;
+use super::{exit_code, number, output};
+use drawing::sheet::{Cell, columns, sheet};
+use drawing::view::Extras;
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::math::Vec2;
+use media::Medium;
+use subject::{Drawn, Wish};
+
+const EXAMPLES: &str = "\
+Examples:
+  linkproof draw scenarios/crank_rocker.toml -o crank_rocker.svg
+  linkproof draw scenarios/rotary_engine.toml --crank-deg 60 --loads -o engine.png
+  linkproof draw scenarios/ov7_base.toml --each-mode -o modes.svg      all configurations, with the names that `mode` takes
+  linkproof draw scenarios/class3_group.toml --traces -o moving.gif    one turn; or .webp, without loss
+  linkproof draw scenarios/scotch_yoke.toml scenarios/quick_return.toml --dimensions -o both.svg
+
+What cannot be assembled is drawn as far as it goes: dashed where a link has no certain place, with the gap of every joint
+that stays open. The picture is written then too, and the exit code is 2.";
+
+/// Room of a picture that stands alone, and of one among others (mm).
+const ALONE: [f64; 2] = [150.0, 120.0];
+const AMONG: [f64; 2] = [100.0, 96.0];
+
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct Args {
+    /// Scenario files; `-` for standard input
+    #[arg(required = true, value_name = "FILE")]
+    files: Vec<PathBuf>,
+    /// Picture to write: .svg, .png, or one turn of the crank as .gif or .webp; `-` for SVG on standard output
+    #[arg(long, short, value_name = "PICTURE", value_parser = picture)]
+    output: PathBuf,
+    /// Crank angle in degrees, as the scenario states it [default: that of the start]
+    #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = number::finite)]
+    crank_deg: Option<f64>,
+    /// Start a group in another assembly mode than the file states, as in `linkproof run`
+    #[arg(long, value_name = "LINK,LINK=MODE")]
+    mode: Vec<String>,
+    /// Number of a parameter, by its key in `[parameters]`; may be given several times
+    #[arg(long, value_name = "KEY=NUMBER", value_parser = super::load::setting)]
+    set: Vec<(String, f64)>,
+    /// Draw all configurations at this crank angle, each with the modes of its groups
+    #[arg(long)]
+    each_mode: bool,
+    /// Draw forces and moments as arrows with their sizes, and gravity
+    #[arg(long)]
+    loads: bool,
+    /// Draw the paths of the points that are no joints
+    #[arg(long)]
+    traces: bool,
+    /// Draw the path of this point; may be given several times
+    #[arg(long, value_name = "POINT")]
+    trace: Vec<String>,
+    /// Write the lengths of the links
+    #[arg(long)]
+    dimensions: bool,
+    /// Width of a bitmap in pixels
+    #[arg(long, value_name = "PIXELS", default_value = "800", value_parser = clap::value_parser!(u32).range(100..=4000))]
+    width: u32,
+    /// Frames of an animation
+    #[arg(long, value_name = "N", default_value = "48", value_parser = clap::value_parser!(u32).range(2..=720))]
+    frames: u32,
+    /// Seconds that a turn takes in an animation
+    #[arg(long, value_name = "S", default_value = "4", value_parser = number::positive)]
+    seconds: f64,
+    /// Analytic solver
+    #[arg(long, value_name = "SOLVER", default_value = "assur", value_parser = PossibleValuesParser::new(reference_names()))]
+    with: String,
+}
+
+/// Path of a picture: one whose ending says how it is written, or standard output.
+fn picture(text: &str) -> std::result::Result<PathBuf, String> {
+    let path = output::target(text)?;
+    Medium::of(&path)?;
+    Ok(path)
+}
+
+pub(super) fn draw(args: &Args) -> u8 {
+    match drawn(args) {
+        Ok(true) => exit_code::AGREE,
+        Ok(false) => exit_code::BAD_INPUT,
+        Err(error) => {
+            output::show(&error);
+            exit_code::BAD_INPUT
+        }
+    }
+}
+
+/// Draws and writes. Whether everything could be assembled; what could not is told on standard error.
+fn drawn(args: &Args) -> Result<bool> {
+    let medium = Medium::of(&args.output).map_err(|message| Error::new(ErrorKind::Input, message).key("--output"))?;
+    let frames = if medium.moves() { args.frames as usize } else { 1 };
+    if medium.moves() && args.each_mode {
+        let message = "an animation shows one configuration, but all of them are asked for";
+        return Err(Error::new(ErrorKind::Input, message).key("--each-mode").help("write an SVG or a PNG"));
+    }
+    let extras = Extras { loads: args.loads, dimensions: args.dimensions, is_moving: medium.moves() };
+    let wish = Wish {
+        crank: args.crank_deg.map(f64::to_radians),
+        modes: &args.mode,
+        set: &args.set,
+        each_mode: args.each_mode,
+        all_traces: args.traces,
+        traces: &args.trace,
+        frames,
+        solver: analytic::named(&args.with).expect("the argument parser knows all names"),
+    };
+    let all = args.files.iter().map(|file| Drawn::of(file, &wish)).collect::<Result<Vec<_>>>()?;
+    let count: usize = all.iter().map(|own| if args.each_mode { own.shots.len() } else { 1 }).sum();
+    let room = Vec2::from(if columns(count) == 1 { ALONE } else { AMONG });
+    // Per frame, the cells of all files.
+    let mut sheets: Vec<Vec<Cell>> = vec![Vec::new(); frames];
+    for own in &all {
+        let cells = own.cells(extras, room, args.files.len() == 1);
+        match args.each_mode {
+            true => sheets[0].extend(cells),
+            false => sheets.iter_mut().zip(cells).for_each(|(sheet, cell)| sheet.push(cell)),
+        }
+    }
+    let (title, subtitle) = headline(&all);
+    let pages: Vec<_> = sheets.iter().map(|cells| sheet(&title, &subtitle, cells, room.x)).collect();
+    let bytes = medium.bytes(&pages, &title, args.width, args.seconds / frames as f64)?;
+    output::write_bytes(&bytes, &args.output)?;
+    for error in all.iter().flat_map(Drawn::faults) {
+        output::show(error);
+    }
+    for note in all.iter().filter_map(|own| own.note.as_ref()) {
+        output::note(note);
+    }
+    Ok(all.iter().all(|own| own.faults().next().is_none()))
+}
+
+/// Title and subtitle of a sheet.
+fn headline(all: &[Drawn]) -> (String, String) {
+    match all {
+        [one] => (format!("{}, crank at {}", one.name, one.angle()), one.title.clone()),
+        _ => (all.iter().map(|own| own.name.clone()).collect::<Vec<_>>().join(", "), String::new()),
+    }
+}

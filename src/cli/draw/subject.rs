@@ -1,0 +1,343 @@
+//! What is drawn of a file: the mechanism in its poses, or as far as it can be laid.
+
+use std::f64::consts::TAU;
+use std::path::Path;
+
+use super::super::load;
+use crate::scenario::{Asked, Draft, Scenario};
+use drawing::lay::{Laid, all_modes, lay, lay_loose};
+use drawing::sheet::Cell;
+use drawing::view::{Extras, Shot, Subject, Trace, cells};
+use drawing::{Sketch, Travels, acting, unit};
+use linkage::case::{Case, Grid, Wanted};
+use linkage::drive::{Drive, Drives};
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::math::Vec2;
+use linkage::mechanism::{AssemblyMode, LinkPose, Mechanism, Structure};
+use linkage::solver::{Solver, State};
+use linkage::trajectory::Stage;
+use workshop::diagram::draw::significant;
+use workshop::diagram::plan::state_at;
+
+/// Instants of a turn over which travels and paths are found.
+const INSTANTS: usize = 180;
+/// Most configurations on a sheet.
+const MOST: usize = 24;
+
+/// What is asked of every file.
+pub struct Wish<'a> {
+    /// Crank angle (rad).
+    pub crank: Option<f64>,
+    pub modes: &'a [String],
+    pub set: &'a [(String, f64)],
+    pub each_mode: bool,
+    pub all_traces: bool,
+    pub traces: &'a [String],
+    pub frames: usize,
+    pub solver: &'static dyn Solver,
+}
+
+/// A file as it is drawn.
+pub struct Drawn {
+    pub name: String,
+    pub title: String,
+    /// Crank angle of the first shot (rad).
+    crank: f64,
+    mechanism: Mechanism,
+    drives: Drives,
+    loads: Vec<linkage::drive::Load>,
+    gravity: Vec2,
+    pub shots: Vec<Shot>,
+    /// Above each shot.
+    headings: Vec<Vec<String>>,
+    travels: Travels,
+    traces: Vec<Trace>,
+    /// Why the file as a whole could not be assembled.
+    fault: Option<Error>,
+    pub note: Option<String>,
+    each_mode: bool,
+}
+
+impl Drawn {
+    pub fn of(file: &Path, wish: &Wish) -> Result<Drawn> {
+        let asked = Asked { modes: wish.modes.to_vec(), set: wish.set.to_vec(), ..Asked::default() };
+        match load::as_asked(file, &asked) {
+            Ok(scenario) if wish.each_mode => {
+                let crank = wish.crank.unwrap_or(scenario.case.crank().start);
+                Drawn::each_mode(draft_of(&scenario), crank, None)
+            }
+            Ok(scenario) => Drawn::whole(scenario.nominal(), wish),
+            Err(error) => {
+                // What is wrong with the text itself is told by the reading of the draft.
+                let draft = load::draft(file, &asked)?;
+                let crank = wish.crank.unwrap_or(draft.crank);
+                if wish.each_mode && draft.structure.is_ok() {
+                    return Drawn::each_mode(draft, crank, Some(error));
+                }
+                Drawn::partial(draft, crank, error)
+            }
+        }
+    }
+
+    /// What is wrong: for the file, else for a crank angle.
+    pub fn faults(&self) -> impl Iterator<Item = &Error> {
+        self.fault.iter()
+    }
+
+    /// The crank angle in words.
+    pub fn angle(&self) -> String {
+        degrees(self.crank)
+    }
+
+    /// The cells of all shots, in a room of this size (mm).
+    pub fn cells(&self, extras: Extras, room: Vec2, is_alone: bool) -> Vec<Cell> {
+        let Drawn { mechanism, drives, loads, gravity, .. } = self;
+        let subject = Subject { mechanism, drives, loads, gravity: *gravity };
+        let mut all = cells(&subject, &self.shots, &self.travels, &self.traces, extras, room);
+        for (index, cell) in all.iter_mut().enumerate() {
+            cell.heading = self.headings.get(index).cloned().unwrap_or_default();
+            if !is_alone {
+                let of_file = format!("{}, crank at {}", self.name, self.angle());
+                cell.heading.insert(0, of_file);
+            }
+            let faults = self.shots[index].laid.faults.iter().map(|fault| fault.message().to_string());
+            cell.faults = faults.collect();
+            if let (true, Some(fault), false) = (cell.faults.is_empty(), &self.fault, self.each_mode) {
+                cell.faults.push(fault.message().to_string());
+            }
+        }
+        all
+    }
+
+    fn new(draft: Draft, crank: f64, shots: Vec<Shot>) -> Drawn {
+        let Draft { name, title, mechanism, drives, loads, gravity, .. } = draft;
+        let mut travels = Travels::none(&mechanism);
+        for shot in &shots {
+            travels.take_in(&mechanism, |link, local| shot.laid.places[link].pose().map(|pose| pose.point(local)));
+        }
+        Drawn {
+            name,
+            title,
+            crank,
+            mechanism,
+            drives,
+            loads,
+            gravity,
+            shots,
+            headings: Vec::new(),
+            travels,
+            traces: Vec::new(),
+            fault: None,
+            note: None,
+            each_mode: false,
+        }
+    }
+
+    /// A mechanism that can be assembled.
+    fn whole(scenario: Scenario, wish: &Wish) -> Result<Drawn> {
+        let case = &scenario.case;
+        let points = traced(&case.mechanism, wish)?;
+        let crank = wish.crank.unwrap_or(case.crank().start);
+        let first = match state_at(case, wish.solver, crank) {
+            Ok(state) => state,
+            Err(error) if error.kind() == ErrorKind::Input => return Err(error.key("--crank-deg")),
+            Err(error) => {
+                let error = analytic::range::explained(case, error);
+                let mut drawn = Drawn::partial(draft_of(&scenario), crank, error)?;
+                drawn.travels = motion(case, wish.solver).1;
+                return Ok(drawn);
+            }
+        };
+        let (states, travels) = motion(case, wish.solver);
+        let sketch = Sketch::of_case(case, &travels, unit(&case.mechanism));
+        let shot = |state: &State| Shot {
+            laid: Laid::whole(poses(state)),
+            acting: acting(case, &sketch, &state.motions, &state.angles),
+        };
+        let shots: Vec<Shot> = match wish.frames {
+            1 => vec![shot(&first)],
+            frames => {
+                let row = |k: usize| k * states.len() / frames;
+                (0..frames).filter_map(|k| states.get(row(k))).map(shot).collect()
+            }
+        };
+        let traces = points
+            .iter()
+            .map(|&(link, local)| (link, states.iter().map(|state| state.motions[link].point(local)).collect()));
+        let traces = traces.collect();
+        let mut drawn = Drawn::new(draft_of(&scenario), crank, shots);
+        drawn.traces = traces;
+        let own = drawn.travels.clone();
+        drawn.travels = travels;
+        // The instant asked for lies on the way, but between two instants of it.
+        if wish.frames == 1 {
+            drawn.travels.widen(&own);
+        }
+        Ok(drawn)
+    }
+
+    /// A mechanism as far as it can be laid at a crank angle (rad), with the reason.
+    fn partial(draft: Draft, crank: f64, error: Error) -> Result<Drawn> {
+        let angles = angles(&draft.drives, crank);
+        let laid = match &draft.structure {
+            Ok(structure) => lay(&draft.mechanism, structure, &angles, &draft.starts),
+            Err(fault) => {
+                let drivers: Vec<(usize, usize)> = draft.drives.iter().map(|drive| (drive.link, drive.joint)).collect();
+                lay_loose(&draft.mechanism, &drivers, &angles, fault.clone())
+            }
+        };
+        let gaps: Vec<String> = laid
+            .gaps
+            .iter()
+            .map(|(joint, [from, to])| {
+                let name = &draft.mechanism.joints()[*joint].name;
+                format!("joint {name} stays open by {} mm", significant((to - from).norm() * 1e3))
+            })
+            .collect();
+        let note = (!gaps.is_empty()).then(|| format!("{}: {}", draft.name, gaps.join(", ")));
+        let mut drawn = Drawn::new(draft, crank, vec![Shot { laid, acting: Vec::new() }]);
+        (drawn.fault, drawn.note) = (Some(error), note);
+        Ok(drawn)
+    }
+
+    /// All configurations at a crank angle (rad).
+    fn each_mode(draft: Draft, crank: f64, error: Option<Error>) -> Result<Drawn> {
+        let structure = draft.structure.clone()?;
+        let angles = angles(&draft.drives, crank);
+        let (all, is_cut) = all_modes(&draft.mechanism, &structure, &angles, &draft.starts, MOST);
+        let own = lay(&draft.mechanism, &structure, &angles, &draft.starts);
+        let headings = all.iter().map(|laid| heading(&draft.mechanism, &structure, laid, &own)).collect();
+        let note = is_cut.then(|| format!("{}: only the first {MOST} configurations are drawn", draft.name));
+        // A configuration that does not close is no fault of the file, unless none does.
+        let error = error.or_else(|| {
+            let none = !all.iter().any(Laid::is_whole);
+            all.first().filter(|_| none).and_then(|laid| laid.faults.first().cloned())
+        });
+        let shots = all.into_iter().map(|laid| Shot { laid, acting: Vec::new() }).collect();
+        let mut drawn = Drawn::new(draft, crank, shots);
+        (drawn.headings, drawn.note, drawn.fault, drawn.each_mode) = (headings, note, error, true);
+        Ok(drawn)
+    }
+}
+
+fn degrees(angle: f64) -> String {
+    format!("{}°", (angle.to_degrees() * 1e6).round() / 1e6 + 0.0)
+}
+
+/// World angles of the driving links with the crank at an angle (rad), the others at their start.
+fn angles(drives: &Drives, crank: f64) -> Vec<f64> {
+    let angle = |(index, drive): (usize, &Drive)| drive.world_angle(if index == 0 { crank } else { drive.start });
+    drives.iter().enumerate().map(angle).collect()
+}
+
+fn draft_of(scenario: &Scenario) -> Draft {
+    let case = &scenario.case;
+    let standing = |(index, group): (usize, &linkage::mechanism::Group)| {
+        let mode = case.modes[index];
+        match mode {
+            AssemblyMode::Followed => scenario.starts[index].clone(),
+            AssemblyMode::Left | AssemblyMode::Right | AssemblyMode::Ahead | AssemblyMode::Behind => {
+                linkage::mechanism::StartGroup { mode: Some(mode), ..Default::default() }
+            }
+            AssemblyMode::Only => {
+                debug_assert!(group.kind.has_one_configuration());
+                linkage::mechanism::StartGroup::default()
+            }
+        }
+    };
+    Draft {
+        name: scenario.name.clone(),
+        title: scenario.title.clone(),
+        mechanism: case.mechanism.clone(),
+        structure: Ok(case.structure.clone()),
+        drives: case.drives.clone(),
+        loads: case.loads.clone(),
+        gravity: case.gravity,
+        crank: case.crank().start,
+        starts: case.structure.groups.iter().enumerate().map(standing).collect(),
+    }
+}
+
+fn poses(state: &State) -> Vec<LinkPose> {
+    let pose = |(motion, &angle): (&linkage::math::Motion, &f64)| LinkPose { origin: motion.origin, angle };
+    state.motions.iter().zip(&state.angles).map(pose).collect()
+}
+
+/// The states of one turn from the start on, or of the grid where a turn is out of reach, and the travels in them.
+fn motion(case: &Case, solver: &dyn Solver) -> (Vec<State>, Travels) {
+    let crank = case.crank();
+    let turn: Vec<f64> =
+        (0..INSTANTS).map(|k| crank.start + crank.sense() * TAU * k as f64 / INSTANTS as f64).collect();
+    let wanted = Wanted::of(&[Stage::Positions, Stage::Velocities]);
+    let turned = case.on(Grid::of_cranks(crank, turn)).ok().and_then(|case| visited(&case.wanting(wanted), solver));
+    let states = turned.or_else(|| visited(&case.wanting(wanted), solver)).unwrap_or_default();
+    let mut travels = Travels::none(&case.mechanism);
+    for state in &states {
+        travels.take_in(&case.mechanism, |link, local| Some(state.motions[link].point(local)));
+    }
+    (states, travels)
+}
+
+/// The states of a case on its grid; `None` if there is an instant that cannot be reached.
+fn visited(case: &Case, solver: &dyn Solver) -> Option<Vec<State>> {
+    let mut states: Vec<Option<State>> = vec![None; case.grid.len()];
+    let mut visit = |row: usize, state: &State| {
+        states[row] = Some(state.clone());
+        Ok(())
+    };
+    solver.each(case, &mut visit).ok()?;
+    states.into_iter().collect()
+}
+
+/// The points whose paths are asked for.
+fn traced(mechanism: &Mechanism, wish: &Wish) -> Result<Vec<(usize, Vec2)>> {
+    let points: Vec<_> = mechanism.moving_points().collect();
+    let is_joint = |link, local| mechanism.joints().iter().any(|joint| joint.on(link) == Some(local));
+    let free = points.iter().filter(|(_, side)| wish.all_traces && !is_joint(side.link, side.local));
+    let mut found: Vec<(usize, Vec2)> = free.map(|(_, side)| (side.link, side.local)).collect();
+    for name in wish.traces {
+        let Some((_, side)) = points.iter().find(|(own, _)| own == name) else {
+            let names: Vec<&str> = points.iter().map(|(own, _)| *own).collect();
+            let message = format!("no point that moves is called \"{name}\"");
+            let error = Error::new(ErrorKind::Input, message).key("--trace");
+            return Err(error.help(format!("name one of {}", names.join(", "))));
+        };
+        found.push((side.link, side.local));
+    }
+    Ok(found)
+}
+
+/// The modes of a configuration: what the key `mode` takes, or the number where there are no names.
+fn heading(mechanism: &Mechanism, structure: &Structure, laid: &Laid, own: &Laid) -> Vec<String> {
+    let line = |&(index, mode, number): &(usize, AssemblyMode, usize)| {
+        let names = structure.groups[index].names(mechanism).replace(", ", ",");
+        match mode {
+            AssemblyMode::Left | AssemblyMode::Right | AssemblyMode::Ahead | AssemblyMode::Behind => {
+                Some(format!("{names} = {}", mode.name()))
+            }
+            AssemblyMode::Followed if number > 0 => Some(format!("{names} = {number}")),
+            AssemblyMode::Followed | AssemblyMode::Only => None,
+        }
+    };
+    let mut lines: Vec<String> = laid.modes.iter().filter_map(line).collect();
+    if lines.is_empty() {
+        lines.push("the only configuration".into());
+    }
+    let near = |(a, b): (&drawing::picture::Place, &drawing::picture::Place)| match (a.pose(), b.pose()) {
+        (Some(a), Some(b)) => {
+            let size = mechanism.size();
+            (a.origin - b.origin).norm() < 1e-6 * size && ((a.angle - b.angle) / 2.0).sin().abs() < 1e-6
+        }
+        _ => false,
+    };
+    if own.is_whole() && laid.places.iter().zip(&own.places).all(near) {
+        if let Some(last) = lines.last_mut() {
+            *last += " (as in the file)";
+        }
+    } else if !laid.is_whole()
+        && let Some(last) = lines.last_mut()
+    {
+        *last += " (does not close)";
+    }
+    lines
+}

@@ -1,0 +1,245 @@
+//! `linkproof draw`: places, partial assemblies, configurations, bitmaps, wrong input.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use analytic::AssurSolver;
+use assert_cmd::Command;
+use linkage::math::{KeepNan, Vec2};
+use linkproof::Scenario;
+use workshop::diagram::plan::state_at;
+
+use crate::common::assert_within;
+
+fn draw(arguments: &[&str]) -> (i32, Vec<u8>, String) {
+    let output = Command::cargo_bin("linkproof").unwrap().arg("draw").args(arguments).output().unwrap();
+    let told = String::from_utf8(output.stderr).unwrap();
+    (output.status.code().unwrap(), output.stdout, told)
+}
+
+fn svg(arguments: &[&str]) -> String {
+    let (code, out, told) = draw(&[arguments, &["-o", "-"]].concat());
+    assert_eq!(code, 0, "{told}");
+    String::from_utf8(out).unwrap()
+}
+
+fn file(name: &str) -> String {
+    format!("scenarios/{name}.toml")
+}
+
+/// A changed scenario in a directory of its own.
+fn changed(directory: &Path, name: &str, change: impl Fn(String) -> String) -> PathBuf {
+    let path = directory.join(format!("{name}.toml"));
+    fs::write(&path, change(fs::read_to_string(file(name)).unwrap())).unwrap();
+    path
+}
+
+/// Centres of the circles with a white inside: pins.
+fn pins(document: &roxmltree::Document) -> Vec<Vec2> {
+    let number = |node: &roxmltree::Node, key: &str| node.attribute(key).unwrap().parse::<f64>().unwrap();
+    let circles = document.descendants().filter(|node| node.has_tag_name("circle"));
+    let pins = circles.filter(|node| node.attribute("fill") == Some("white") && number(node, "r") == 1.2);
+    pins.map(|node| Vec2::new(number(&node, "cx"), -number(&node, "cy"))).collect()
+}
+
+fn texts(document: &roxmltree::Document) -> Vec<String> {
+    let words = document.descendants().filter(|node| node.has_tag_name("text"));
+    words.map(|node| node.descendants().filter_map(|n| n.is_text().then(|| n.text())?).collect::<String>()).collect()
+}
+
+/// Distances of pins on paper are those of the solution, at one scale: the smallest error over all scales is measured.
+#[test]
+fn pins_stand_where_the_solution_is() {
+    for (name, degrees) in [("crank_rocker", 30.0), ("ov7_base", -120.0), ("class3_group", 200.0)] {
+        let case = Scenario::load(file(name).as_ref()).unwrap().case;
+        let state = state_at(&case, &AssurSolver, f64::to_radians(degrees)).unwrap();
+        let text = svg(&[&file(name), "--crank-deg", &degrees.to_string()]);
+        let document = roxmltree::Document::parse(&text).unwrap();
+        let drawn = pins(&document);
+        let mut places: Vec<Vec2> = Vec::new();
+        for joint in case.mechanism.joints() {
+            let at = state.motions[joint.first.link].point(joint.first.local);
+            if !places.iter().any(|other| (other - at).norm() < 1e-9) {
+                places.push(at);
+            }
+        }
+        assert_eq!(drawn.len(), places.len(), "{name}");
+        let size = |all: &[Vec2]| all.iter().map(|a| all.iter().map(|b| (a - b).norm()).sum::<f64>()).sum::<f64>();
+        let scale = size(&places) / size(&drawn);
+        let middle = |all: &[Vec2]| all.iter().sum::<Vec2>() / all.len() as f64;
+        for at in &places {
+            let own = (at - middle(&places)) / scale;
+            let nearest = drawn.iter().map(|pin| (pin - middle(&drawn) - own).norm()).fold(f64::MAX, f64::smaller);
+            assert_within!(nearest, 0.02, "{name}: {at:?}");
+        }
+    }
+}
+
+#[test]
+fn every_scenario_can_be_drawn_and_gives_the_same_bytes_again() {
+    let mut count = 0;
+    for entry in fs::read_dir("scenarios").unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_some_and(|ending| ending == "toml") {
+            let name = path.to_str().unwrap();
+            let text = svg(&[name, "--loads", "--dimensions", "--traces"]);
+            assert!(roxmltree::Document::parse(&text).is_ok() && !text.contains("NaN"), "{name}");
+            if count % 5 == 0 {
+                assert_eq!(text, svg(&[name, "--loads", "--dimensions", "--traces"]), "{name}");
+            }
+            count += 1;
+        }
+    }
+    assert!(count > 25);
+}
+
+#[test]
+fn a_loop_that_cannot_close_is_drawn_with_its_gap() {
+    let directory = tempfile::tempdir().unwrap();
+    // Rod and rocker reach 2 a - b less than the distance of their ends.
+    let short = changed(directory.path(), "five_bar_on_a_spring", |text| {
+        text.replace("x_mm = 260", "x_mm = 100").replace("x_mm = 240", "x_mm = 90")
+    });
+    let picture = directory.path().join("open.svg");
+    let (code, _, told) = draw(&[short.to_str().unwrap(), "-o", picture.to_str().unwrap()]);
+    assert_eq!(code, 2, "{told}");
+    assert!(told.contains("apart, its links span") && told.contains("stays open by"), "{told}");
+    let text = fs::read_to_string(&picture).unwrap();
+    let document = roxmltree::Document::parse(&text).unwrap();
+    // A (60, 0), B (300, 0) + 45 at 40 deg: the gap is their distance less both rods.
+    let gap = (300.0 + 45.0 * f64::to_radians(40.0).cos() - 60.0).hypot(45.0 * f64::to_radians(40.0).sin()) - 190.0;
+    let written = texts(&document)
+        .into_iter()
+        .find_map(|text| text.trim().strip_prefix("gap ")?.strip_suffix(" mm")?.parse::<f64>().ok());
+    assert_within!(written.unwrap() - gap, 0.01);
+    assert!(text.contains("stroke-dasharray=\"2 1.4\""), "links without a place are dashed");
+}
+
+/// A crank and a rocker without the coupler between them.
+const WITHOUT_COUPLER: &str = r#"
+format = 1
+name = "open"
+title = "A crank-rocker without its coupler"
+[ground.points]
+O = { x_mm = 0, y_mm = 0 }
+C = { x_mm = 200, y_mm = 0 }
+[links.crank.points]
+O = { x_mm = 0, y_mm = 0 }
+A = { x_mm = 50, y_mm = 0 }
+[links.rocker.points]
+C = { x_mm = 0, y_mm = 0 }
+B = { x_mm = 120, y_mm = 0 }
+[[joints]]
+name = "O"
+type = "revolute"
+links = ["ground", "crank"]
+[[joints]]
+name = "C"
+type = "revolute"
+links = ["ground", "rocker"]
+[drive]
+joint = "O"
+speed_rad_s = 10
+[start]
+crank_deg = 60
+[grid]
+from_deg = 60
+to_deg = 420
+step_deg = 10
+"#;
+
+#[test]
+fn what_is_left_of_a_mechanism_is_drawn() {
+    let directory = tempfile::tempdir().unwrap();
+    let open = directory.path().join("open.toml");
+    fs::write(&open, WITHOUT_COUPLER).unwrap();
+    let (code, out, told) = draw(&[open.to_str().unwrap(), "-o", "-"]);
+    assert!(code == 2 && told.contains("mobility"), "{code} {told}");
+    let text = String::from_utf8(out).unwrap();
+    let document = roxmltree::Document::parse(&text).unwrap();
+    assert_eq!(pins(&document).len(), 2, "both pivots");
+    assert!(text.contains("stroke-dasharray=\"2 1.4\""), "the rocker has no certain place");
+    assert!(texts(&document).iter().any(|text| text.contains("mobility")), "the picture says why");
+}
+
+/// The picture has a cell for every configuration, with the names that `mode` takes, and the file's own among them.
+#[test]
+fn configurations_stand_side_by_side_with_their_names() {
+    let text = svg(&[&file("ov7_base"), "--each-mode"]);
+    let document = roxmltree::Document::parse(&text).unwrap();
+    let all = texts(&document).join("|");
+    for wanted in ["rod_23,rocker_43 = left", "rod_57,rocker_87 = right", "(as in the file)", "(does not"] {
+        assert!(all.contains(wanted), "{wanted}: {all}");
+    }
+    // Names of the picture are taken by --mode.
+    let one = svg(&[&file("ov7_base"), "--mode", "rod_57,rocker_87=left"]);
+    assert_ne!(one, svg(&[&file("ov7_base")]));
+}
+
+#[test]
+fn bitmaps_move_and_are_the_same_again() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = |name: &str| directory.path().join(name).to_str().unwrap().to_string();
+    for name in ["a.png", "a.gif", "a.webp"] {
+        let arguments = [&file("crank_rocker"), "-o", &path(name), "--width", "200", "--frames", "6", "--seconds", "3"];
+        assert_eq!(draw(&arguments).0, 0, "{name}");
+        let first = fs::read(path(name)).unwrap();
+        assert_eq!(draw(&arguments).0, 0);
+        assert_eq!(first, fs::read(path(name)).unwrap(), "{name}");
+    }
+    assert!(fs::read(path("a.png")).unwrap().starts_with(b"\x89PNG"));
+    let mut options = gif::DecodeOptions::new();
+    options.set_color_output(gif::ColorOutput::RGBA);
+    let mut decoder = options.read_info(fs::File::open(path("a.gif")).unwrap()).unwrap();
+    let mut frames = Vec::new();
+    while let Some(frame) = decoder.read_next_frame().unwrap() {
+        assert_eq!((frame.width, frame.delay), (200, 50));
+        frames.push(frame.buffer.to_vec());
+    }
+    assert_eq!(frames.len(), 6);
+    assert!(frames.windows(2).all(|pair| pair[0] != pair[1]), "every frame shows another pose");
+    // The upper left corner is paper, and something is drawn.
+    assert_eq!(frames[0][..4], [255; 4]);
+    assert!(frames[0].chunks(4).filter(|pixel| pixel[0] < 128).count() > 100);
+    let bytes = fs::read(path("a.webp")).unwrap();
+    let mut decoder = image_webp::WebPDecoder::new(std::io::Cursor::new(bytes)).unwrap();
+    assert_eq!((decoder.num_frames(), decoder.dimensions().0), (6, 200));
+    let mut pixels = vec![0; decoder.output_buffer_size().unwrap()];
+    assert_eq!(decoder.read_frame(&mut pixels).unwrap(), 500);
+    assert!(pixels.iter().any(|&part| part < 128) && pixels[..3] == [255; 3]);
+}
+
+#[test]
+fn wrong_input_is_refused_with_the_way_out() {
+    let own = file("crank_rocker");
+    for (arguments, told) in [
+        (vec![own.as_str(), "-o", "x.bmp"], ".svg, .png, .gif or .webp"),
+        (vec![own.as_str(), "-o", "picture"], ".svg, .png, .gif or .webp"),
+        (vec![own.as_str(), "-o", "/nowhere/at/all/x.svg"], "nowhere"),
+        (vec![own.as_str(), "-o", "-", "--crank-deg", "nan"], "finite"),
+        (vec![own.as_str(), "-o", "-", "--crank-deg", "1e300"], "--crank-deg"),
+        (vec![own.as_str(), "-o", "-", "--trace", "Q"], "name one of"),
+        (vec![own.as_str(), "-o", "x.png", "--width", "0"], "100..=4000"),
+        (vec![own.as_str(), "-o", "x.gif", "--each-mode"], "--each-mode"),
+        (vec![own.as_str(), "-o", "scenarios/x.toml"], "scenario file"),
+        (vec!["scenarios/none.toml", "-o", "-"], "none.toml"),
+    ] {
+        let (code, out, error) = draw(&arguments);
+        assert!(code == 2 && out.is_empty() && error.contains(told), "{arguments:?}: {code} {error}");
+    }
+}
+
+/// Rings around a pin that joins three links, a cross at a point that is no joint, a zigzag for a spring.
+#[test]
+fn marks_tell_what_they_stand_for() {
+    let rings = |name: &str| {
+        let text = svg(&[&file(name)]);
+        let document = roxmltree::Document::parse(&text).unwrap();
+        let circles = document.descendants().filter(|node| node.has_tag_name("circle"));
+        circles.filter(|node| node.attribute("r") == Some("2.1") && node.attribute("fill") == Some("none")).count()
+    };
+    assert_eq!((rings("ov7_base"), rings("class3_group")), (2, 0));
+    let (with, without) = (svg(&[&file("rotary_engine")]), svg(&[&file("crankcase")]));
+    let loads = |text: &str| text.matches("stroke=\"#c1121f\"").count();
+    assert!(loads(&with) >= 5 && loads(&without) == 0);
+}
