@@ -15,7 +15,7 @@ const EXAMPLES: &str = "\
 Examples:
   linkproof new --shipped      write the files that the examples name
   linkproof diagram scenarios/crank_rocker.toml --channel point.B.x_m
-  linkproof diagram scenarios/ov7_base.toml --channel link.rocker_87.angle_rad --divisions 24 --svg needle.svg
+  linkproof diagram scenarios/ov7_base.toml --channel link.rocker_87.angle_rad --svg needle.svg
   linkproof diagram scenarios/crank_rocker.toml --channel link.rocker.angle_rad --csv points.csv
 
 Chords of the displacement give the velocity at the middles of the divisions, chords of that the acceleration at their ends;

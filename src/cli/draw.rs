@@ -128,7 +128,7 @@ fn drawn(args: &Args) -> Result<bool> {
             false => sheets.iter_mut().zip(cells).for_each(|(sheet, cell)| sheet.push(cell)),
         }
     }
-    let (title, subtitle) = headline(&all);
+    let (title, subtitle) = headline(&all, medium.moves());
     let pages: Vec<_> = sheets.iter().map(|cells| sheet(&title, &subtitle, cells, room.x)).collect();
     let bytes = medium.bytes(&pages, &title, args.width, args.seconds / frames as f64)?;
     output::write_bytes(&bytes, &args.output)?;
@@ -142,8 +142,9 @@ fn drawn(args: &Args) -> Result<bool> {
 }
 
 /// Title and subtitle of a sheet.
-fn headline(all: &[Drawn]) -> (String, String) {
+fn headline(all: &[Drawn], moves: bool) -> (String, String) {
     match all {
+        [one] if moves => (one.name.clone(), one.title.clone()),
         [one] => (format!("{}, crank at {}", one.name, one.angle()), one.title.clone()),
         _ => (all.iter().map(|own| own.name.clone()).collect::<Vec<_>>().join(", "), String::new()),
     }

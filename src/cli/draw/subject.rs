@@ -340,10 +340,10 @@ fn heading(mechanism: &Mechanism, structure: &Structure, laid: &Laid, own: &Laid
         if let Some(last) = lines.last_mut() {
             *last += " (as in the file)";
         }
-    } else if !laid.is_whole() {
-        if let Some(last) = lines.last_mut() {
-            *last += " (does not close)";
-        }
+    } else if !laid.is_whole()
+        && let Some(last) = lines.last_mut()
+    {
+        *last += " (does not close)";
     }
     lines
 }
