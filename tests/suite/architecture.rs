@@ -24,7 +24,7 @@ const CRATES: &[(&str, &str, &str, &str)] = &[
     (
         "linkproof",
         "",
-        "analytic formula linkage precise rapier-twin simbody-twin workshop",
+        "analytic drawing formula linkage precise rapier-twin simbody-twin workshop",
         "annotate-snippets anstream anstyle chacha20 clap clap_complete clap_mangen comfy-table csv foxglove indicatif libtest-mimic mcap parquet plotters prost prost-types quick-junit serde serde_json strsim tempfile terminal_size textwrap toml toml_edit",
     ),
 ];
