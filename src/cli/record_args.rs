@@ -11,6 +11,7 @@ use crate::record::{self, Place, Recording, Show, Side};
 use crate::report::{layout, recorded};
 use crate::scenario::Scenario;
 use linkage::error::{Error, ErrorKind, Result};
+use linkage::math::KeepNan;
 
 /// Size from which on a recording is called large (bytes): viewers then take seconds to open it.
 const LARGE: u64 = 20_000_000;
@@ -135,9 +136,9 @@ fn large(bytes: u64, times: &[f64], hz: Option<f64>) -> String {
     if bytes < LARGE {
         return String::new();
     }
-    let ends = times.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &time| {
-        [if time < low { time } else { low }, if time > high { time } else { high }]
-    });
+    let ends = times
+        .iter()
+        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &time| [low.smaller(time), high.larger(time)]);
     let rate = hz.unwrap_or(times.len() as f64 / (ends[1] - ends[0]));
     // One digit is enough for a proposal.
     let fewer = rate * HANDY / bytes as f64;
