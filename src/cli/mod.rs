@@ -47,7 +47,7 @@ Examples:
   linkproof run scenarios/crank_rocker.toml             prove one, record it to recordings/
   linkproof run scenarios/*.toml --no-record --json -   prove all, as JSON
   linkproof compare scenarios/crank_rocker.toml recordings/crank_rocker.mcap --side reference   tables too
-  linkproof view recordings/crank_rocker.mcap           see it move, in Rerun or Foxglove
+  linkproof view recordings/crank_rocker.mcap --with foxglove   see it move; in Rerun without the option
   linkproof solve scenarios/ov7_base.toml --with assur --crank-deg 0:-360:-30
   linkproof tune scenarios/crank_rocker.toml --within 1e-3 --engine rapier --channel positions   the settings it takes
   linkproof mutate scenarios/crank_rocker.toml --no-sizes --kind load   does the proof see faults?
