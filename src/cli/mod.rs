@@ -29,6 +29,7 @@ mod output;
 mod panics;
 mod plan;
 mod progress;
+mod record_args;
 mod run;
 mod schema;
 mod shell;
@@ -38,6 +39,7 @@ mod stress;
 mod synthesize;
 mod terminal;
 mod tune;
+mod view;
 
 use std::process::ExitCode;
 
@@ -53,10 +55,10 @@ Examples:
   linkproof run scenarios/crank_rocker.toml             one of those files
   linkproof run scenarios/*.toml --no-record --json -   prove all, as JSON
   linkproof compare scenarios/crank_rocker.toml recordings/crank_rocker.mcap --rel 0.01   tables too
+  linkproof view recordings/crank_rocker.mcap --with foxglove   see it move; in Rerun without the option
   linkproof solve scenarios/ov7_base.toml --with assur --crank-deg 0:-360:-30
   linkproof tune scenarios/crank_rocker.toml --within 1e-3 --engine rapier --channel positions
   linkproof mutate scenarios/crank_rocker.toml --no-sizes --kind load   does the proof see faults?
-  linkproof draw scenarios/crank_rocker.toml -o crank_rocker.svg   what it looks like, before anything is proven
   linkproof inspect scenarios/ov7_base.toml             links, joints, Assur groups
 
 Exit codes: 0 all agree, 1 something disagrees, 2 bad input or usage, 3 nothing proven either way.";
@@ -110,6 +112,8 @@ enum Command {
     Synthesize(synthesize::Args),
     /// Write a mechanism for another program: MuJoCo's MJCF, or JSON
     Export(export::Args),
+    /// Show a recording: in Rerun, seen from above beside plots of both sides, or with a layout for Foxglove
+    View(view::Args),
     /// List scenarios, or the available channels and solvers
     List(list::Args),
     /// Write the completions of a shell
@@ -147,6 +151,7 @@ pub fn main() -> ExitCode {
         Command::Diagram(args) => output::exit(diagram::diagram(&args)),
         Command::Synthesize(args) => output::exit(synthesize::synthesize(&args)),
         Command::Export(args) => output::exit(export::export(&args)),
+        Command::View(args) => output::exit(view::view(&args)),
         Command::List(args) => output::exit(list::list(&args)),
         Command::Completions(args) => output::exit(shell::completions(&args, Cli::command())),
         Command::Man(args) => output::exit(shell::man(&args, Cli::command())),

@@ -15,16 +15,15 @@ use super::html::{self, Pages};
 use super::jobs::{Room, side_by_side};
 use super::load::{StartArgs, only, reference_names};
 use super::progress::Shared;
+use super::record_args::RecordArgs;
 use super::{advice, exit_code, number, output, standard_input, terminal};
 use crate::compare::Verdict;
-use crate::files;
 use crate::proof::{EngineProof, Entry, Proof, memory, prove_with};
-use crate::record::{self as recorder, Recording, Side};
 use crate::report::closing::Closing;
 use crate::report::outcomes::Outcomes;
 use crate::report::{brief, explain, json, junit, markdown, recorded, residuals, text};
 use crate::scenario::Scenario;
-use linkage::error::{Error, ErrorKind, Result};
+use linkage::error::{Error, Result};
 use linkage::work::Work;
 
 const EXAMPLES: &str = "\
@@ -41,6 +40,7 @@ Examples:
   linkproof run scenarios/fourth_class.toml --no-record --mode link_2,link_3,link_4,link_5=2   another configuration
   linkproof run scenarios/crank_rocker.toml --no-record --start-crank-deg 90 --crank-deg 90:450:2   another start and grid
   linkproof run scenarios/crank_rocker_runup.toml --no-record --times 0,0.01,0.05,0.1   only these instants
+  linkproof run scenarios/crank_rocker.toml --slow 20 --record-forces   a recording to look at, twenty times slower
   linkproof run scenarios/*.toml --no-record --json out.json   no recording, results for a script
   linkproof run scenarios/*.toml --no-record --junit out.xml --markdown out.md   for reports of tests, and a comment
   linkproof run scenarios/crank_rocker.toml --no-record --html crank_rocker.html   a page to look at, in any browser
@@ -69,15 +69,11 @@ pub(super) struct Args {
     /// every residual beside its bound
     #[arg(long, hide = true, value_name = "FACTOR", allow_hyphen_values = true, value_parser = number::not_negative)]
     tolerance_scale: Option<f64>,
-    /// Directory that the recordings (MCAP) are written to
-    #[arg(long, value_name = "DIR", default_value = "recordings")]
-    record: PathBuf,
     /// Write the settings that the proof has found to the `[engine]` section of the scenario file
     #[arg(long)]
     write: bool,
-    /// Write no recording
-    #[arg(long, conflicts_with = "record")]
-    no_record: bool,
+    #[command(flatten)]
+    record: RecordArgs,
     /// Ask for these channels only: a stage (positions), a subject (point.P, joint.B, drive), a subject's stage
     /// (point.P.positions) or a channel (joint.B.fx_N). What they do not depend on is not computed; published numbers of
     /// other channels are left out. May be given several times
@@ -112,23 +108,10 @@ pub(super) struct Args {
     markdown: Option<PathBuf>,
 }
 
-impl Args {
-    /// Tries whether recordings can be written, if there are to be any, before any work is done.
-    fn record_target(&self) -> Result<()> {
-        if self.no_record {
-            return Ok(());
-        }
-        files::may_fill(&self.record).map_err(|found| {
-            let message = format!("recordings cannot be written to {}: {found}", self.record.display());
-            Error::new(ErrorKind::Io, message).key("--record").help("name another directory, or use --no-record")
-        })
-    }
-}
-
 /// Proves every file. A bad file does not stop the others from being proven.
 pub(super) fn run(args: &Args) -> u8 {
     // The default directory need not be there if nothing is recorded.
-    if let Err(found) = args.record_target() {
+    if let Err(found) = args.record.target() {
         return output::exit(Err(found));
     }
     let pages = args.html.as_deref().map(|to| Pages::of(to, args.files.len())).transpose();
@@ -266,25 +249,14 @@ impl<'a> Session<'a> {
 
     /// Records a proof, unless recording is off. A recording of another run is left alone.
     fn record(&self, scenario: &Scenario, proof: &Proof) -> Result<Option<PathBuf>> {
-        let args = self.args;
-        if args.no_record {
-            return Ok(None);
+        let recorded = self.args.record.record(scenario, proof, metadata(self.args, proof))?;
+        if let Some(recorded) = &recorded
+            && self.reports()
+            && !self.args.quiet
+        {
+            output::print(&recorded.told())?;
         }
-        let directory = &args.record;
-        fs::create_dir_all(directory).map_err(|error| {
-            Error::new(ErrorKind::Io, format!("the directory {} cannot be made: {error}", directory.display()))
-                .help("name another directory with --record, or use --no-record")
-        })?;
-        let metadata = metadata(args, proof);
-        let recorder::Place { path, other } = recorder::place(directory, &scenario.name, &scenario.text, &metadata)?;
-        write_recording(scenario, proof, &metadata, &path)?;
-        if self.reports() && !args.quiet {
-            let why = other.map_or(String::new(), |found| {
-                format!("\n           {}.mcap is of another run and is kept: {found}", scenario.name)
-            });
-            output::print(&format!("\nrecording  {}{why}\n", path.display()))?;
-        }
-        Ok(Some(path))
+        Ok(recorded.map(|recorded| recorded.path))
     }
 
     /// Writes the page of a proof, if pages are asked for.
@@ -342,8 +314,8 @@ fn prove_file(args: &Args, file: &Path, room: &Room, index: usize, bar: &Shared)
 
 /// What the command does about the recording.
 fn recording_told(args: &Args) -> Entry {
-    let why = if args.no_record { "not asked for" } else { "written below" };
-    let work = (!args.no_record).then_some(Work::NONE);
+    let why = if args.record.is_off() { "not asked for" } else { "written below" };
+    let work = (!args.record.is_off()).then_some(Work::NONE);
     Entry { part: "recording".into(), why, work }
 }
 
@@ -372,25 +344,6 @@ fn metadata(args: &Args, proof: &Proof) -> BTreeMap<String, String> {
     metadata.extend(args.start.start_crank_deg.map(|degrees| ("start_crank_deg".into(), degrees.to_string())));
     metadata.extend(args.grid.told().map(|(name, values)| (format!("grid_{name}"), values.to_string())));
     metadata
-}
-
-fn write_recording(scenario: &Scenario, proof: &Proof, metadata: &BTreeMap<String, String>, path: &Path) -> Result<()> {
-    let mut sides = vec![Side { name: "reference", trajectory: &proof.reference_trajectory }];
-    for engine in &proof.engines {
-        let name = if proof.engines.len() == 1 { "engine" } else { engine.info.name };
-        sides.extend(engine.trajectory.as_ref().map(|trajectory| Side { name, trajectory }));
-    }
-    let log = recorded::log(proof, advice::told);
-    let recording = Recording {
-        name: &scenario.name,
-        scenario_text: &scenario.text,
-        metadata,
-        mechanism: &proof.scene.case.mechanism,
-        sides: &sides,
-        errors: proof.engine().errors.as_ref(),
-        log: &log,
-    };
-    recorder::write(&recording, path)
 }
 
 /// The exit code of a verdict.

@@ -1,9 +1,11 @@
-//! What is not ours: other programs that solve a case, and the machine that everything runs on.
+//! What is not ours: other programs that solve a case or show it, and the machine that everything runs on.
 
 mod answer;
 mod machine;
 mod peer;
 mod process;
+mod viewer;
 
 pub(crate) use machine::{machine, processor_time};
 pub(crate) use peer::{Command, Exports};
+pub(crate) use viewer::{converted, opened};

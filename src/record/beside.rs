@@ -12,7 +12,7 @@ use mcap::{McapResult, Summary};
 const MOST: usize = 1000;
 
 /// Beginnings of the keys that tell what was asked for beyond the scenario's text.
-const ASKED: [&str; 6] = ["modes", "parameters", "start_crank_deg", "grid_", "only", "reference"];
+const ASKED: [&str; 7] = ["modes", "parameters", "start_crank_deg", "grid_", "only", "reference", "record_hz"];
 /// Beginning of the keys of the engine's settings, which a proof may have found.
 const ENGINE: &str = "engine";
 
@@ -72,7 +72,7 @@ fn difference(path: &Path, text: &str, metadata: &BTreeMap<String, String>) -> O
 type Described = (Vec<u8>, BTreeMap<String, String>);
 
 /// What describes a recording; `None` if nothing does.
-fn described(bytes: &[u8]) -> McapResult<Option<Described>> {
+pub(super) fn described(bytes: &[u8]) -> McapResult<Option<Described>> {
     let Some(summary) = Summary::read(bytes)? else { return Ok(None) };
     let text = summary.attachment_indexes.iter().find(|index| index.name == "scenario.toml");
     let metadata = summary.metadata_indexes.iter().find(|index| index.name == "linkproof");

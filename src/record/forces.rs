@@ -2,7 +2,7 @@
 
 use super::placed::{Placed, column};
 use super::scene::Scene;
-use super::shapes::{pose, short, stamp};
+use super::shapes::{colour, pose, short, stamp};
 use foxglove::messages::{ArrowPrimitive, SceneEntity, SceneUpdate};
 use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::Joint;
@@ -64,7 +64,7 @@ impl<'a> Forces<'a> {
         let head = (0.3 * length).smaller(0.06 * size);
         // Arrows are round: a thinner arrow must lie higher to be visible on a broader one.
         let (broad, z) = (side.paint.broad.sqrt(), (8.0 + 4.0 * side.paint.layer) * self.scene.layer());
-        let mut color = side.paint.colour();
+        let mut color = colour(side.paint.rgba);
         // Lighter than the links below the arrows.
         color.a = 0.8;
         ArrowPrimitive {

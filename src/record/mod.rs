@@ -6,35 +6,46 @@
 //! | `/<side>/link/<name>`, `/<side>/point/<name>`, `/<side>/joint/<name>`, `/<side>/frame`, `/<side>/drive` | `linkproof.Link`, ...; `linkproof.Slider` of a prismatic joint | every sample |
 //! | `/error/link/<name>`, ... | `linkproof.LinkError`, ...: um, urad, mN | every sample |
 //! | `/mechanism/links` | `foxglove.SceneUpdate` | once |
-//! | `/tf`, `/mechanism/forces` | `foxglove.FrameTransforms`, `foxglove.SceneUpdate` | every frame |
-//! | `/mechanism/outline` | `foxglove.PointCloud`, for viewers without scenes | every frame |
+//! | `/robot_description` | `std_msgs/msg/String`: the links as URDF, for viewers without scenes | once |
+//! | `/tf` | `foxglove.FrameTransforms` | every frame |
+//! | `/mechanism/forces` | `foxglove.SceneUpdate` | every frame, if asked for |
 //! | `/log` | `foxglove.Log` | verdicts and warnings |
 //!
-//! Log times are simulated nanoseconds from the first instant of the recording. Nothing depends on a clock, so equal
+//! Log times are nanoseconds from the first instant of the recording, as many times the simulated ones as
+//! [`Show::slow`] says; the grid has the simulated times themselves. Nothing depends on a clock, so equal
 //! runs give equal files. The sequence number of a message is that of its sample in ascending order of time; it
-//! connects the topics of one side. The scenario is attached as `scenario.toml`. Versions, settings and the scale of
-//! the force arrows are in the metadata record `linkproof`.
+//! connects the topics of one side. The scenario is attached as `scenario.toml`. Versions, settings and the scales of
+//! time and of force arrows are in the metadata record `linkproof`.
 //!
 //! A recording of another program can be read too. It needs `/<side>/grid` and the topics above in protobuf, with
 //! fields named like the suffixes of [`CHANNELS`](linkage::trajectory::CHANNELS). The field numbers are looked up in
 //! the file.
 
 mod beside;
+mod extent;
+mod film;
 mod forces;
-mod guides;
+mod marks;
 mod messages;
-mod outline;
 mod output;
 mod placed;
+mod pour;
 mod read;
 mod recording;
 mod scene;
 mod schema;
 mod shapes;
+mod sink;
+mod table;
+mod thin;
+mod urdf;
+mod view;
 mod write;
 
 pub use beside::Place;
-pub use recording::{Level, LogEntry, Recording, Side};
+pub use film::{Film, Part};
+pub use recording::{Level, LogEntry, Recording, Show, Side};
+pub use view::{Line, Plot, View};
 
 use linkage::error::Result;
 use linkage::trajectory::Trajectory;
@@ -49,6 +60,20 @@ use std::path::Path;
 /// grid is not finite.
 pub fn write(recording: &Recording, path: &Path) -> Result<()> {
     write::write(recording, path)
+}
+
+/// What a viewer should show first of a recording; `None` if it has no positions.
+#[must_use]
+pub fn view(recording: &Recording) -> Option<View> {
+    view::view(recording)
+}
+
+/// Reads a recording as a moving picture.
+///
+/// # Errors
+/// Those of [`load`]; [`ErrorKind::Input`](linkage::ErrorKind::Input) if it has no picture.
+pub fn film(path: &Path) -> Result<Film> {
+    film::film(path)
 }
 
 /// Where the recording of a run goes: `NAME.mcap` in the directory, or `NAME-2.mcap`, ... if that is one of another

@@ -1,8 +1,8 @@
 //! The MCAP file itself: options, topics, messages.
 
-use super::recording::Recording;
-use super::schema;
-use foxglove::{Encode, Schema};
+use super::pour::SECOND;
+use super::recording::{Recording, Show};
+use super::sink::{Kind, Sink};
 use mcap::records::{MessageHeader, Metadata};
 use mcap::write::NoSeek;
 use mcap::{Attachment, McapError, McapResult, WriteOptions, Writer};
@@ -10,8 +10,6 @@ use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::BufWriter;
 
-/// Nanoseconds in a second.
-pub const SECOND: u64 = 1_000_000_000;
 /// Target size of a chunk before compression (bytes).
 const CHUNK: u64 = 768 * 1024;
 
@@ -45,6 +43,9 @@ impl Output {
         let mut metadata = recording.metadata.clone();
         metadata.entry("scenario".into()).or_insert_with(|| recording.name.into());
         metadata.insert("log_time_zero_s".into(), start.to_string());
+        let Show { slow, hz, forces: _ } = recording.show;
+        metadata.insert("slow".into(), slow.to_string());
+        metadata.extend(hz.map(|hz| ("record_hz".into(), hz.to_string())));
         if let Some(scale) = force_scale {
             metadata.insert("force_scale_m_per_N".into(), scale.to_string());
         }
@@ -58,21 +59,21 @@ impl Output {
         })
     }
 
-    /// A topic of our own messages.
-    pub fn topic(&mut self, name: &str, schema: &schema::Schema) -> McapResult<u16> {
-        let schema = self.writer.add_schema(&schema.name, "protobuf", &schema.descriptor)?;
-        self.writer.add_channel(schema, name, "protobuf", &BTreeMap::new())
+    /// Writes the indexes and the end of the file.
+    pub fn finish(mut self) -> McapResult<()> {
+        self.writer.finish()?;
+        let buffer = self.writer.into_inner().into_inner();
+        buffer.into_inner().map(drop).map_err(|error| McapError::Io(error.into_error()))
+    }
+}
+
+impl Sink for Output {
+    fn topic(&mut self, name: &str, kind: &Kind) -> McapResult<u16> {
+        let schema = self.writer.add_schema(&kind.schema, &kind.encoding, &kind.data)?;
+        self.writer.add_channel(schema, name, &kind.message, &BTreeMap::new())
     }
 
-    /// A topic of the viewers' messages.
-    pub fn foxglove<M: Encode>(&mut self, name: &str) -> McapResult<u16> {
-        let Schema { name: schema, encoding, data } = M::get_schema().expect("the viewers' messages have schemas");
-        let schema = self.writer.add_schema(&schema, &encoding, &data)?;
-        self.writer.add_channel(schema, name, &M::get_message_encoding(), &BTreeMap::new())
-    }
-
-    /// Writes one message at a time (ns).
-    pub fn put(&mut self, topic: u16, sequence: u32, time: u64, data: &[u8]) -> McapResult<()> {
+    fn put(&mut self, topic: u16, sequence: u32, time: u64, data: &[u8]) -> McapResult<()> {
         // A chunk per second limits the loss of a killed run. Chunks of a few samples would not compress.
         if time / SECOND > self.flushed && self.pending > CHUNK as usize / 8 {
             self.writer.flush()?;
@@ -81,12 +82,5 @@ impl Output {
         self.pending += data.len();
         let header = MessageHeader { channel_id: topic, sequence, log_time: time, publish_time: time };
         self.writer.write_to_known_channel(&header, data)
-    }
-
-    /// Writes the indexes and the end of the file.
-    pub fn finish(mut self) -> McapResult<()> {
-        self.writer.finish()?;
-        let buffer = self.writer.into_inner().into_inner();
-        buffer.into_inner().map(drop).map_err(|error| McapError::Io(error.into_error()))
     }
 }

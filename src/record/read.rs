@@ -115,7 +115,7 @@ fn collect(
         Topic::Grid(side, names) => {
             let found = sides.entry(side.clone()).or_default();
             found.first = Some(id);
-            for (tag, value) in schema::doubles(&message.data)? {
+            for (tag, value) in schema::numbers(&message.data)? {
                 if let Some(name) = names.get(&tag) {
                     found.grid.entry(name.clone()).or_default().push((message.sequence, value));
                 }
@@ -123,7 +123,7 @@ fn collect(
         }
         Topic::Values(side, channels) => {
             let found = sides.entry(side.clone()).or_default();
-            for (tag, value) in schema::doubles(&message.data)? {
+            for (tag, value) in schema::numbers(&message.data)? {
                 if let Some(channel) = channels.get(&tag) {
                     let column = found.columns.entry((id, tag)).or_insert_with(|| (channel.clone(), Vec::new()));
                     column.1.push((message.sequence, value));

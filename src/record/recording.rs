@@ -22,6 +22,26 @@ pub struct Recording<'a> {
     pub errors: Option<&'a Trajectory>,
     /// Verdicts and warnings.
     pub log: &'a [LogEntry],
+    /// How it is shown, and how much of it is kept.
+    pub show: Show,
+}
+
+/// How a recording is shown, and how much of it is kept. No value depends on it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Show {
+    /// How many times slower than the simulation viewers play it: seconds of log time per simulated second.
+    pub slow: f64,
+    /// Most samples per simulated second, beside the first and the last; all of them without.
+    pub hz: Option<f64>,
+    /// Whether reactions are drawn as arrows.
+    pub forces: bool,
+}
+
+impl Default for Show {
+    /// At the speed of the simulation, every sample, no arrows.
+    fn default() -> Self {
+        Show { slow: 1.0, hz: None, forces: false }
+    }
 }
 
 /// One trajectory of a recording.

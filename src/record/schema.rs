@@ -4,7 +4,7 @@
 
 use linkage::trajectory::{CHANNELS, ChannelKind, Subject, Unit};
 use prost::Message;
-use prost::encoding::{WireType, decode_key, double, encode_key, skip_field};
+use prost::encoding::{WireType, decode_key, double, encode_key, float, skip_field};
 use prost_types::field_descriptor_proto::{Label, Type};
 use prost_types::{
     DescriptorProto, FieldDescriptorProto, FileDescriptorProto, FileDescriptorSet, OneofDescriptorProto,
@@ -66,8 +66,8 @@ pub fn put_small(buffer: &mut Vec<u8>, tag: u32, value: f32) {
     buffer.extend(value.to_le_bytes());
 }
 
-/// The double fields of a message in the order of the wire; other fields are skipped.
-pub fn doubles(mut data: &[u8]) -> Result<Vec<(u32, f64)>, prost::DecodeError> {
+/// The numbers of a message, of double or single precision, in the order of the wire; other fields are skipped.
+pub fn numbers(mut data: &[u8]) -> Result<Vec<(u32, f64)>, prost::DecodeError> {
     let mut fields = Vec::new();
     while !data.is_empty() {
         let (tag, wire) = decode_key(&mut data)?;
@@ -75,6 +75,10 @@ pub fn doubles(mut data: &[u8]) -> Result<Vec<(u32, f64)>, prost::DecodeError> {
             let mut value = 0.0;
             double::merge(wire, &mut value, &mut data, Default::default())?;
             fields.push((tag, value));
+        } else if wire == WireType::ThirtyTwoBit {
+            let mut value = 0.0;
+            float::merge(wire, &mut value, &mut data, Default::default())?;
+            fields.push((tag, f64::from(value)));
         } else {
             skip_field(wire, tag, &mut data, Default::default())?;
         }
@@ -82,7 +86,7 @@ pub fn doubles(mut data: &[u8]) -> Result<Vec<(u32, f64)>, prost::DecodeError> {
     Ok(fields)
 }
 
-/// Names of the double fields of the message called `full_name` in a serialised descriptor set, by their numbers.
+/// Names of the number fields of the message called `full_name` in a serialised descriptor set, by their numbers.
 pub fn field_names(descriptor: &[u8], full_name: &str) -> Result<BTreeMap<u32, String>, prost::DecodeError> {
     let set = FileDescriptorSet::decode(descriptor)?;
     let mut names = BTreeMap::new();
@@ -91,8 +95,14 @@ pub fn field_names(descriptor: &[u8], full_name: &str) -> Result<BTreeMap<u32, S
         for message in &file.message_type {
             let own = if package.is_empty() { message.name().into() } else { format!("{package}.{}", message.name()) };
             if own == full_name {
-                let doubles = message.field.iter().filter(|field| field.r#type() == Type::Double);
-                names.extend(doubles.map(|field| (field.number() as u32, field.name().to_string())));
+                let is_number = |field: &&FieldDescriptorProto| matches!(field.r#type(), Type::Double | Type::Float);
+                names.extend(
+                    message
+                        .field
+                        .iter()
+                        .filter(is_number)
+                        .map(|field| (field.number() as u32, field.name().to_string())),
+                );
             }
         }
     }
@@ -158,8 +168,11 @@ mod tests {
         put(&mut buffer, 1, 0.0);
         put_small(&mut buffer, 2, 1.0);
         put(&mut buffer, 17, -0.0);
-        let read = doubles(&buffer).unwrap();
-        assert_eq!(read.iter().map(|&(tag, v)| (tag, v.to_bits())).collect::<Vec<_>>(), [(1, 0), (17, 1 << 63)]);
+        let read = numbers(&buffer).unwrap();
+        assert_eq!(
+            read.iter().map(|&(tag, v)| (tag, v.to_bits())).collect::<Vec<_>>(),
+            [(1, 0), (2, 1f64.to_bits()), (17, 1 << 63)]
+        );
     }
 
     #[test]

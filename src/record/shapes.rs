@@ -24,12 +24,12 @@ impl Paint {
         let [red, green, blue] = COLOURS[side % COLOURS.len()];
         Paint { rgba: [red, green, blue, 255], broad: 0.4f64.powi(side.min(3) as i32), layer: side as f64 }
     }
+}
 
-    /// The colour as messages need it.
-    pub fn colour(self) -> Color {
-        let [r, g, b, a] = self.rgba.map(|part| f64::from(part) / 255.0);
-        Color { r, g, b, a }
-    }
+/// A colour as messages need it.
+pub fn colour(rgba: [u8; 4]) -> Color {
+    let [r, g, b, a] = rgba.map(|part| f64::from(part) / 255.0);
+    Color { r, g, b, a }
 }
 
 /// Colour of the ground and of lettering: readable on black and on white.

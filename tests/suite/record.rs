@@ -6,7 +6,7 @@ use linkage::ErrorKind;
 use linkage::math::{Motion, Vec2, cross, turned, unit};
 use linkage::mechanism::{Joint, JointKind, Link, Mechanism, Point, Side as On};
 use linkage::trajectory::{CHANNELS, Channel, Stage, Subject, Trajectory};
-use linkproof::record::{Level, LogEntry, Recording, Side, load, write};
+use linkproof::record::{Level, LogEntry, Recording, Show, Side, load, write};
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 use std::fs;
@@ -171,6 +171,7 @@ struct Run {
     mechanism: Mechanism,
     metadata: BTreeMap<String, String>,
     log: Vec<LogEntry>,
+    show: Show,
     reference: Trajectory,
     engine: Trajectory,
     errors: Trajectory,
@@ -193,7 +194,8 @@ impl Run {
             LogEntry { time: 0.0, level: Level::Warning, text: "transmission angle below 30 deg".into() },
             LogEntry { time: 0.05, level: Level::Info, text: "agree".into() },
         ];
-        Run { mechanism, metadata, log, reference, engine, errors }
+        let show = Show { forces: true, ..Show::default() };
+        Run { mechanism, metadata, log, show, reference, engine, errors }
     }
 
     fn write(&self, path: &Path) -> linkage::Result<()> {
@@ -213,6 +215,7 @@ impl Run {
             sides,
             errors: Some(&self.errors),
             log: &self.log,
+            show: self.show,
         }
     }
 }

@@ -3,6 +3,7 @@
 usage: check.py FILE...
 """
 
+import json
 import math
 import shutil
 import subprocess
@@ -10,17 +11,19 @@ import sys
 import tempfile
 from collections import defaultdict
 from pathlib import Path
+from xml.etree import ElementTree
 
 import numpy as np
 from mcap.reader import make_reader
 from mcap_protobuf.decoder import DecoderFactory
 
+# Texts of robots' programs: four bytes of encoding, a length, the text, a zero.
+TEXT = {"/robot_description": "std_msgs/msg/String"}
 OWN = {"grid": "Grid", "link": "Link", "point": "Point", "joint": "Joint", "frame": "Frame", "drive": "Drive"}
 FOXGLOVE = {
     "/tf": "FrameTransforms",
     "/mechanism/links": "SceneUpdate",
     "/mechanism/forces": "SceneUpdate",
-    "/mechanism/outline": "PointCloud",
     "/log": "Log",
 }
 # Pictures are written in single precision.
@@ -35,6 +38,16 @@ def check(what, passed, found=""):
     print(f"  {'ok    ' if passed else 'FAILED'} {what}{f': {found}' if found else ''}")
 
 
+class Texts:
+    """Decodes the texts."""
+
+    def decoder_for(self, encoding, schema):
+        """What takes a text out of a message, if it is one."""
+        if encoding == "cdr" and schema.name == "std_msgs/msg/String":
+            return lambda data: data[8:-1].decode()
+        return None
+
+
 def values(message):
     """Numbers of a flat message that are present."""
     return {field.name: value for field, value in message.ListFields()}
@@ -42,6 +55,8 @@ def values(message):
 
 def expected_schema(topic):
     """Name of the schema that a topic must have, or None for a topic that should not be there."""
+    if topic in TEXT:
+        return TEXT[topic]
     if topic in FOXGLOVE:
         return f"foxglove.{FOXGLOVE[topic]}"
     parts = topic.split("/")
@@ -54,7 +69,7 @@ def load(path):
     """Schemas and messages (log time, sequence, decoded) by topic, and the summary's records."""
     schemas, messages = {}, defaultdict(list)
     with open(path, "rb") as stream:
-        reader = make_reader(stream, validate_crcs=True, decoder_factories=[DecoderFactory()])
+        reader = make_reader(stream, validate_crcs=True, decoder_factories=[DecoderFactory(), Texts()])
         for schema, channel, raw, message in reader.iter_decoded_messages():
             schemas[channel.topic] = schema.name
             messages[channel.topic].append((raw.log_time, raw.sequence, message))
@@ -63,8 +78,8 @@ def load(path):
     return schemas, messages, attachments, metadata
 
 
-def check_numbers(schemas, messages):
-    """The topics of every sample."""
+def check_numbers(schemas, messages, slow):
+    """The topics of every sample; log times run `slow` times slower than the simulation."""
     # A joint that slides has more fields, and a schema of its own.
     wrong = [f"{t} is {s}" for t, s in schemas.items() if s.replace("Slider", "Joint") != expected_schema(t)]
     check("every topic has the schema of its name", not wrong, ", ".join(wrong) or f"{len(schemas)} topics")
@@ -80,8 +95,9 @@ def check_numbers(schemas, messages):
         check(f"{side}: the grid has time, crank angle and row", all(set(g) == {"t_s", "crank_rad", "row"} for g in grid))
         times = np.array([g.get("t_s", math.nan) for g in grid])
         check(f"{side}: times ascend", np.all(np.diff(times) >= 0.0))
-        stamps = np.array([m[0] for m in messages[f"/{side}/grid"]]) * 1e-9
-        check(f"{side}: log times are the times", np.ptp(stamps - times) < 2e-9, f"within {np.ptp(stamps - times):.1e} s")
+        stamps = np.array([m[0] for m in messages[f"/{side}/grid"]]) * 1e-9 / slow
+        apart = np.ptp(stamps - times)
+        check(f"{side}: log times are {slow:g} times the times", apart < 2e-9, f"within {apart:.1e} s")
         check(f"{side}: every row once", sorted(g.get("row") for g in grid) == list(range(len(grid))))
         ragged = [t for t in counts if len({tuple(values(m)) for _, _, m in messages[t]}) != 1]
         check(f"{side}: every message of a topic has the same fields", not ragged, ", ".join(ragged))
@@ -98,8 +114,8 @@ def placed(transform, point):
     return np.array([transform.translation.x + c * point.x - s * point.y, transform.translation.y + s * point.x + c * point.y])
 
 
-def check_scene(schemas, messages, sides):
-    """Frames, links and outline."""
+def check_scene(path, schemas, messages, sides):
+    """Frames, links and what is beside them for other viewers."""
     if "/tf" not in messages:
         positions = [t for t in messages if "/link/" in t and "x_m" in values(messages[t][0][2])]
         check("there is no scene only where there are no positions", not positions)
@@ -135,12 +151,35 @@ def check_scene(schemas, messages, sides):
         slides = [values(m) for s in sides for j in sliding for _, _, m in messages[f"/{s}/joint/{j}"]]
         check("every sliding joint has force, slide and moment", all({"fx_N", "slide_m", "moment_N_m"} <= set(v) for v in slides))
 
-    strides = {f.name: f.offset for f in messages["/mechanism/outline"][0][2].fields}
-    check("the outline has places and colours", list(strides) == ["x", "y", "z", "red", "green", "blue", "alpha"])
-    clouds = [np.frombuffer(m.data, "<f4").reshape(-1, m.point_stride // 4)[:, :3] for _, _, m in messages["/mechanism/outline"]]
-    check("outlines are finite and of one size", len({c.shape for c in clouds}) == 1 and all(np.isfinite(c).all() for c in clouds), f"{clouds[0].shape[0]} points")
-    moving = np.abs(clouds[len(clouds) // 3] - clouds[0]).max() if len(clouds) > 3 else 1.0
-    check("the outline moves", moving > 0.0, f"{moving:.3g} m")
+    ((_, _, text),) = messages["/robot_description"]
+    robot = ElementTree.fromstring(text)
+    parts = {link.get("name"): len(link.findall("visual")) for link in robot.iter("link")}
+    check("the robot's description has every link, with parts", parts.keys() == wanted | {"world"} and all(parts.values()), parts)
+    boxes = [[float(n) for n in box.get("size").split()] for box in robot.iter("box")]
+    check("its parts have sizes", boxes and all(math.isfinite(n) and n > 0.0 for size in boxes for n in size), f"{len(boxes)} boxes")
+    check_layout(path, schemas, messages, wanted)
+
+
+def check_layout(path, schemas, messages, frames):
+    """The layout beside a recording names what is there, and shows all of it."""
+    beside = Path(path).with_suffix(".foxglove.json")
+    if not beside.exists():
+        print(f"  --     no layout: {beside.name} is not kept")
+        return
+    layout = json.loads(beside.read_text())
+    panels = layout["configById"]
+    paths = [own["value"].replace('"', "").rsplit(".", 1) for name, panel in panels.items() if name.startswith("Plot") for own in panel["paths"]]
+    lost = [f"{topic}.{field}" for topic, field in paths if field not in (values(messages[topic][0][2]) if topic in messages else {})]
+    check("every plot has its numbers", paths and not lost, ", ".join(lost) or f"{len(paths)} lines")
+    scene = panels["3D!mechanism"]
+    check("its topics are there", all(topic in schemas for topic in scene["topics"]))
+    hidden = {name.removeprefix("frame:") for name, own in scene["transforms"].items() if not own["visible"]}
+    check("frames' axes are hidden", hidden == frames | {"world"})
+    camera = scene["cameraState"]
+    centre, half = np.array(camera["targetOffset"][:2]), camera["distance"] / 2
+    places = [[t.translation.x, t.translation.y] for _, _, m in messages["/tf"] for t in m.transforms]
+    far = np.abs(np.array(places) - centre).max(axis=0) / half
+    check("all links are in view", far[1] < 1.0 and far[0] < 1.3, f"{far[0]:.2f}, {far[1]:.2f} of the half height")
 
 
 def check_forces(messages, metadata):
@@ -188,8 +227,8 @@ def check_file(path):
     check("the Python reader opens it", messages, f"{sum(map(len, messages.values()))} messages")
     check("the scenario is attached", attachments.get("scenario.toml"), f"{len(attachments.get('scenario.toml', b''))} bytes")
     check("metadata tells the scenario", metadata.get("linkproof", {}).get("scenario"), metadata.get("linkproof"))
-    sides = check_numbers(schemas, messages)
-    check_scene(schemas, messages, sides)
+    sides = check_numbers(schemas, messages, float(metadata["linkproof"].get("slow", "nan")))
+    check_scene(path, schemas, messages, sides)
     check_forces(messages, metadata)
     run("pymcap-cli doctor", "pymcap-cli", "doctor", path)
     with tempfile.TemporaryDirectory() as directory:

@@ -1,8 +1,10 @@
 #!/bin/sh
 # Opens what we write with programs that are not ours: tests/viewers/run.sh [FILE...]
 #
-# Recordings (*.mcap) go to their readers, scenarios (*.toml) to MuJoCo. Default: recordings/*.mcap, a recording made for the purpose of a mechanism with
+# Recordings (*.mcap) go to their readers and viewers, scenarios (*.toml) to MuJoCo. Default: recordings/*.mcap, a recording made for the purpose of a mechanism with
 # sliders (scenarios/compressor.toml), and all scenarios that can be exported.
+# Rerun is photographed on a virtual display (xvfb, mesa-vulkan-drivers), Foxglove Studio in headless Chromium (chromium, npm);
+# what is not installed is told. Pictures stay in target/viewers-pictures, to be looked at.
 # Python packages go into target/viewers-venv. LINKPROOF names a command that is built already.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
@@ -26,10 +28,11 @@ else
 fi
 if [ "$everything" ]; then
     fresh="$top/target/viewers-recordings"
-    "$linkproof" run --record "$fresh" "$top/scenarios/compressor.toml" >/dev/null
+    "$linkproof" run --record "$fresh" --record-forces "$top/scenarios/compressor.toml" >/dev/null
+    "$linkproof" run --record "$fresh" --record-forces --slow 20 --record-hz 400 "$top/scenarios/crank_rocker.toml" >/dev/null
     # A resistance on a link that is not hinged to the ground: no scenario has one.
     sed 's/^link = "rocker"/link = "coupler"/' "$top/scenarios/crank_rocker.toml" >"$fresh/resisted_coupler.toml"
-    set -- "$@" "$fresh/compressor.mcap"
+    set -- "$@" "$fresh/compressor.mcap" "$fresh/crank_rocker.mcap"
     for file in "$top"/scenarios/*.toml; do
         # Motions under forces have a check of their own.
         if grep -q '^motion = "free"' "$file"; then continue; fi
@@ -82,6 +85,11 @@ if [ "$scenarios" -gt 0 ]; then sorted toml "$@" || failed=1; fi
 if [ -n "${readers:-}" ]; then wait "$readers" || failed=1; fi
 if [ "$everything" ]; then
     python "$here/mujoco_check.py" "$linkproof" --singular "$top"/scenarios/variants60/*.toml || failed=1
+    # The viewers themselves.
+    pictures="$top/target/viewers-pictures"
+    python "$here/rerun_check.py" "$linkproof" "$pictures" "$top/recordings/ov7_base.mcap" "$fresh/crank_rocker.mcap" || failed=1
+    "$here/foxglove.sh" "$pictures" "$fresh/compressor.mcap" "$fresh/crank_rocker.mcap" || failed=1
+    python "$here/kills.py" "$linkproof" 20 || failed=1
     # Motions under forces, by way of peers of `linkproof bench`.
     python "$here/peers_check.py" "$linkproof" || failed=1
 fi

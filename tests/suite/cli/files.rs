@@ -31,7 +31,7 @@ fn regress_runs_to_one_path_do_not_mix() {
     for run in runs {
         assert!(run.wait_with_output().unwrap().status.success());
     }
-    assert_eq!(files(&place, "out"), ["pendulum.mcap"]);
+    assert_eq!(files(&place, "out"), ["pendulum.foxglove.json", "pendulum.mcap"]);
     let own = place.path("out/pendulum.mcap");
     place.ok(&format!("{QUICK} --record alone"));
     assert_eq!(fs::read(own).unwrap(), fs::read(place.path("alone/pendulum.mcap")).unwrap());
@@ -48,7 +48,10 @@ fn regress_no_link_in_the_way_is_followed() {
     }
     place.ok(&format!("{QUICK} --record out"));
     assert_eq!(fs::read_to_string(place.path("victim")).unwrap(), "mine");
-    assert_eq!(files(&place, "out"), [".linkproof-pendulum.partial", "pendulum.mcap", "pendulum.mcap.partial"]);
+    assert_eq!(
+        files(&place, "out"),
+        [".linkproof-pendulum.partial", "pendulum.foxglove.json", "pendulum.mcap", "pendulum.mcap.partial"]
+    );
 }
 
 /// What a killed run has left goes; what another run is writing stays.

@@ -9,7 +9,12 @@ const RUN: &str = "run scenarios/pendulum.toml --route differences --record out"
 fn recordings(place: &Place) -> Vec<String> {
     let entries = fs::read_dir(place.path("out")).unwrap();
     let mut names: Vec<String> = entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    // Each recording has its layout.
+    let layouts: Vec<String> = names.extract_if(.., |name| name.ends_with(".foxglove.json")).collect();
     names.sort();
+    for layout in layouts {
+        assert!(names.contains(&layout.replace(".foxglove.json", ".mcap")), "{layout} is of no recording");
+    }
     names
 }
 
@@ -20,7 +25,11 @@ fn other_settings_get_a_name_of_their_own() {
     let first = fs::read(place.path("out/pendulum.mcap")).unwrap();
     // The same run again takes its place, byte for byte.
     let told = place.ok(RUN);
-    assert!(told.ends_with("recording  out/pendulum.mcap\n"), "{told}");
+    let size = (first.len() as f64 / 1e3).round();
+    let line = format!(
+        "recording  out/pendulum.mcap ({size} kB)\nlayout     out/pendulum.foxglove.json (Foxglove, Lichtblick"
+    );
+    assert!(told.contains(&line), "{told}");
     assert_eq!(
         (recordings(&place), fs::read(place.path("out/pendulum.mcap")).unwrap()),
         (vec!["pendulum.mcap".into()], first.clone())
@@ -31,16 +40,19 @@ fn other_settings_get_a_name_of_their_own() {
         ("--times 0,0.1,0.2", "pendulum-3.mcap", "its grid_times_s is none, not \"0,0.1,0.2\""),
         ("--only positions", "pendulum-4.mcap", "its only is none, not \"positions\""),
         ("--reference newton", "pendulum-2.mcap", "its reference"),
+        // Fewer samples never take the place of all of them; another speed of the same samples does.
+        ("--record-hz 10", "pendulum-5.mcap", "its record_hz is none, not \"10\""),
     ] {
         let told = place.ok(&format!("{RUN} {arguments}"));
-        let line = format!("recording  out/{name}\n           pendulum.mcap is of another run and is kept: {why}");
-        assert!(told.contains(&line), "{arguments}: {told}");
+        let line = format!("\n           pendulum.mcap is of another run and is kept: {why}");
+        assert!(told.contains(&format!("recording  out/{name} (")) && told.contains(&line), "{arguments}: {told}");
     }
     // Another scenario of the same name, and one that was changed.
     place.edited("pendulum.toml", "pendulum.toml", &[("title = \"", "title = \"Another, ")]);
     let told = place.ok(RUN);
-    assert!(told.contains("out/pendulum-5.mcap") && told.contains("its scenario has another text"), "{told}");
-    let expected = ["pendulum-2.mcap", "pendulum-3.mcap", "pendulum-4.mcap", "pendulum-5.mcap", "pendulum.mcap"];
+    assert!(told.contains("out/pendulum-6.mcap") && told.contains("its scenario has another text"), "{told}");
+    let expected = [2, 3, 4, 5, 6].map(|number| format!("pendulum-{number}.mcap")).into_iter();
+    let expected: Vec<String> = expected.chain(["pendulum.mcap".into()]).collect();
     assert_eq!(recordings(&place), expected);
     assert_eq!(fs::read(place.path("out/pendulum.mcap")).unwrap(), first);
 }
@@ -62,4 +74,79 @@ fn scenarios_of_one_name_are_both_recorded() {
     place.edited("pendulum.toml", "other.toml", &[("title = \"", "title = \"Another, ")]);
     place.ok("run scenarios/pendulum.toml scenarios/other.toml --route differences --record out");
     assert_eq!(recordings(&place), ["pendulum-2.mcap", "pendulum.mcap"]);
+}
+
+/// Slowed down, thinned and with arrows: the trajectory is the same, and so are the bytes of two runs.
+#[test]
+fn a_time_scale_changes_no_number() {
+    let place = Place::new();
+    let run = |options: &str, to: &str| {
+        place.ok(&format!("run scenarios/crank_rocker.toml {options} --record {to}"));
+        let path = place.path(to).join("crank_rocker.mcap");
+        (fs::read(&path).unwrap(), linkproof::record::load(&path).unwrap())
+    };
+    let (plain, whole) = run("", "plain");
+    let (slow, same) = run("--slow 20", "slow");
+    assert!(slow == run("--slow 20", "again").0 && slow != plain);
+    let bits = |sides: &[(String, linkage::trajectory::Trajectory)]| -> Vec<Vec<u64>> {
+        let columns = sides.iter().flat_map(|(_, own)| own.iter().map(|(_, column)| column).chain([own.times()]));
+        columns.map(|column| column.iter().map(|value| value.to_bits()).collect()).collect()
+    };
+    assert!(bits(&same) == bits(&whole));
+    let last = |bytes: &[u8]| {
+        let times = mcap::MessageStream::new(bytes).unwrap().map(|message| message.unwrap().log_time);
+        times.max().unwrap() as f64 * 1e-9
+    };
+    assert!((last(&slow) / last(&plain) - 20.0).abs() < 1e-6, "{} {}", last(&slow), last(&plain));
+
+    let (thin, few) = run("--record-hz 100", "thin");
+    assert!(thin.len() < plain.len() / 4, "{} {}", thin.len(), plain.len());
+    for ((_, few), (_, whole)) in few.iter().zip(&whole) {
+        // One turn takes 0.46 s; the first and the last instant are there too.
+        assert_eq!(few.times().len(), 48);
+        let row = |time: &f64| whole.times().iter().position(|own| own == time).unwrap();
+        for ((channel, few_values), (_, values)) in few.iter().zip(whole.iter()) {
+            let same = |(value, time): (&f64, &f64)| *value == values[row(time)];
+            assert!(few_values.iter().zip(few.times()).all(same), "{channel}");
+        }
+    }
+    place.ok("compare scenarios/crank_rocker.toml slow/crank_rocker.mcap --side reference");
+    place.ok("compare scenarios/crank_rocker.toml thin/crank_rocker.mcap --side reference");
+    let topics = |bytes: &[u8]| {
+        let all = mcap::MessageStream::new(bytes).unwrap();
+        all.filter(|message| message.as_ref().unwrap().channel.topic == "/mechanism/forces").count()
+    };
+    assert!(topics(&plain) == 0 && topics(&run("--record-forces", "arrows").0) > 300);
+    for wrong in ["--slow 0", "--slow nan", "--record-hz -1"] {
+        let told = place.run(&format!("run scenarios/crank_rocker.toml {wrong} --record no"));
+        assert!(told.code == 2 && told.stderr.contains("greater than 0"), "{wrong}: {}", told.stderr);
+    }
+    place.refused("run scenarios/crank_rocker.toml --slow 1e300 --record no", &["cannot last", "time scale"]);
+}
+
+/// The layout shows all of the mechanism from above, and plots what is in the recording.
+#[test]
+fn layouts_name_what_is_recorded() {
+    let place = Place::new();
+    place.ok("run scenarios/crank_rocker.toml --record out --record-forces");
+    let text = fs::read_to_string(place.path("out/crank_rocker.foxglove.json")).unwrap();
+    let layout: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let bytes = fs::read(place.path("out/crank_rocker.mcap")).unwrap();
+    let topics: std::collections::BTreeSet<String> =
+        mcap::MessageStream::new(&bytes).unwrap().map(|message| message.unwrap().channel.topic.clone()).collect();
+    let panels = layout["configById"].as_object().unwrap();
+    let scene = &panels["3D!mechanism"];
+    assert!(scene["topics"].as_object().unwrap().keys().all(|topic| topics.contains(topic)), "{scene}");
+    assert_eq!(
+        (scene["cameraState"]["phi"].as_f64(), scene["cameraState"]["perspective"].as_bool()),
+        (Some(0.0), Some(false))
+    );
+    let mut sides = std::collections::BTreeSet::new();
+    for line in panels.values().filter_map(|panel| panel["paths"].as_array()).flatten() {
+        let topic = line["value"].as_str().unwrap().split('.').next().unwrap();
+        assert!(topics.contains(topic), "{topic}");
+        assert!(line["label"].as_str().unwrap().len() > 5);
+        sides.insert(topic.split('/').nth(1).unwrap().to_string());
+    }
+    assert_eq!(sides.into_iter().collect::<Vec<_>>(), ["engine", "error", "reference"].map(String::from));
 }

@@ -166,8 +166,10 @@ fn what_is_allowed_breaks_no_output() {
     }
     let name = if cfg!(windows) { "out\\" } else { "out/" };
     let new: BTreeSet<String> = files(&place.path("")).difference(&before).cloned().collect();
-    let expected = [format!("{name}_.mcap"), format!("{name}plain.mcap"), "_.xml".into(), "plain.xml".into()];
-    assert_eq!(new, BTreeSet::from(expected));
+    let recorded =
+        ["_", "plain"].into_iter().flat_map(|own| [".mcap", ".foxglove.json"].map(|end| format!("{name}{own}{end}")));
+    let expected = recorded.chain(["_.xml".into(), "plain.xml".into()]);
+    assert_eq!(new, expected.collect::<BTreeSet<String>>());
 }
 
 /// Paths of all files below a directory, relative to it.

@@ -1,0 +1,173 @@
+//! Options of recordings, and what is said of one that is written.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use super::{advice, number, output};
+use crate::files;
+use crate::proof::Proof;
+use crate::record::{self, Place, Recording, Show, Side};
+use crate::report::{layout, recorded};
+use crate::scenario::Scenario;
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::math::KeepNan;
+
+/// Size from which on a recording is called large (bytes): viewers then take seconds to open it.
+const LARGE: u64 = 20_000_000;
+/// Size that is proposed instead (bytes).
+const HANDY: f64 = 5e6;
+
+/// Where a recording goes, and what is in it.
+#[derive(Clone, Debug, clap::Args)]
+#[group(skip)]
+pub(super) struct RecordArgs {
+    /// Directory that the recordings (MCAP) are written to, with a layout for Foxglove and Lichtblick beside each
+    #[arg(long, value_name = "DIR", default_value = "recordings")]
+    record: PathBuf,
+    /// Write no recording
+    #[arg(long, conflicts_with_all = ["record", "slow", "record_hz", "record_forces"])]
+    no_record: bool,
+    /// Time scale of recordings: viewers play them this many times slower than the mechanism runs
+    #[arg(long, value_name = "FACTOR", default_value_t = 1.0, allow_hyphen_values = true, value_parser = number::positive)]
+    slow: f64,
+    /// Record at most this many instants per second of the mechanism's time, beside the first and the last [default: all]
+    #[arg(long, value_name = "HZ", allow_hyphen_values = true, value_parser = number::positive)]
+    record_hz: Option<f64>,
+    /// Record reactions as arrows too; their numbers are recorded anyway
+    #[arg(long)]
+    record_forces: bool,
+}
+
+/// A recording that was written.
+pub(super) struct Recorded {
+    /// Its file.
+    pub path: PathBuf,
+    layout: Option<PathBuf>,
+    bytes: u64,
+    /// Why it has not the usual name.
+    why: String,
+    /// What is said of a large one.
+    large: String,
+}
+
+impl RecordArgs {
+    /// Whether nothing is to be recorded.
+    pub(super) fn is_off(&self) -> bool {
+        self.no_record
+    }
+
+    /// Tries whether recordings can be written, if there are to be any, before any work is done.
+    pub(super) fn target(&self) -> Result<()> {
+        if self.no_record {
+            return Ok(());
+        }
+        files::may_fill(&self.record).map_err(|found| {
+            let message = format!("recordings cannot be written to {}: {found}", self.record.display());
+            Error::new(ErrorKind::Io, message).key("--record").help("name another directory, or use --no-record")
+        })
+    }
+
+    /// Records a proof, with its layout, unless recording is off. A recording of another run is left alone.
+    pub(super) fn record(
+        &self,
+        scenario: &Scenario,
+        proof: &Proof,
+        mut metadata: BTreeMap<String, String>,
+    ) -> Result<Option<Recorded>> {
+        if self.no_record {
+            return Ok(None);
+        }
+        let directory = &self.record;
+        fs::create_dir_all(directory).map_err(|error| {
+            Error::new(ErrorKind::Io, format!("the directory {} cannot be made: {error}", directory.display()))
+                .help("name another directory with --record, or use --no-record")
+        })?;
+        metadata.extend(self.record_hz.map(|hz| ("record_hz".into(), hz.to_string())));
+        let Place { path, other } = record::place(directory, &scenario.name, &scenario.text, &metadata)?;
+        let sides = sides(proof);
+        let log = recorded::log(proof, advice::told);
+        let recording = Recording {
+            name: &scenario.name,
+            scenario_text: &scenario.text,
+            metadata: &metadata,
+            mechanism: &proof.scene.case.mechanism,
+            sides: &sides,
+            errors: proof.engine().errors.as_ref(),
+            log: &log,
+            show: Show { slow: self.slow, hz: self.record_hz, forces: self.record_forces },
+        };
+        record::write(&recording, &path)?;
+        let layout = record::view(&recording).map(|view| (path.with_extension("foxglove.json"), layout::text(&view)));
+        let layout = match layout {
+            Some((to, text)) => output::write(&text, &to).map(|()| Some(to))?,
+            None => None,
+        };
+        let bytes = fs::metadata(&path).map_or(0, |found| found.len());
+        let why = other.map_or(String::new(), |found| {
+            format!("\n           {}.mcap is of another run and is kept: {found}", scenario.name)
+        });
+        let large = large(bytes, proof.reference_trajectory.times(), self.record_hz);
+        Ok(Some(Recorded { path, layout, bytes, why, large }))
+    }
+}
+
+impl Recorded {
+    /// Where it is, how large, and what opens it well.
+    pub(super) fn told(&self) -> String {
+        let layout = |path: &Path| format!("\nlayout     {} (Foxglove, Lichtblick: import it)", path.display());
+        let layout = self.layout.as_deref().map_or(String::new(), layout);
+        format!("\nrecording  {} ({}){}{}{layout}\n", self.path.display(), size(self.bytes), self.why, self.large)
+    }
+}
+
+/// The reference, then the engines.
+fn sides(proof: &Proof) -> Vec<Side<'_>> {
+    let mut sides = vec![Side { name: "reference", trajectory: &proof.reference_trajectory }];
+    for engine in &proof.engines {
+        let name = if proof.engines.len() == 1 { "engine" } else { engine.info.name };
+        sides.extend(engine.trajectory.as_ref().map(|trajectory| Side { name, trajectory }));
+    }
+    sides
+}
+
+/// What is said of a large recording of these instants (s): how many there are, and how to have fewer.
+fn large(bytes: u64, times: &[f64], hz: Option<f64>) -> String {
+    if bytes < LARGE {
+        return String::new();
+    }
+    let ends = times
+        .iter()
+        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &time| [low.smaller(time), high.larger(time)]);
+    let rate = hz.unwrap_or(times.len() as f64 / (ends[1] - ends[0]));
+    // One digit is enough for a proposal.
+    let fewer = rate * HANDY / bytes as f64;
+    let digit = 10f64.powf(fewer.log10().floor());
+    let fewer = (fewer / digit).floor() * digit;
+    format!("\n           it is large; --record-hz {fewer} would make about {} of it", size(HANDY as u64))
+}
+
+/// A size in words.
+fn size(bytes: u64) -> String {
+    match bytes {
+        0..1_000_000 => format!("{:.0} kB", bytes as f64 / 1e3),
+        _ => format!("{:.1} MB", bytes as f64 / 1e6),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_a_large_recording_is_told_what_makes_it_smaller() {
+        let times: Vec<f64> = (0..36_001).map(|k| f64::from(k) * 1e-3).collect();
+        assert_eq!(large(19_999_999, &times, None), "");
+        assert_eq!(
+            large(62_000_000, &times, None),
+            "\n           it is large; --record-hz 80 would make about 5.0 MB of it"
+        );
+        assert!(large(62_000_000, &times, Some(200.0)).contains("--record-hz 10 "));
+        assert_eq!([size(874_918), size(62_000_000)], ["875 kB", "62.0 MB"]);
+    }
+}

@@ -1,0 +1,84 @@
+//! `linkproof view`.
+
+use std::path::PathBuf;
+use std::time::Instant;
+
+use clap::ValueEnum;
+
+use super::output;
+use crate::outside;
+use crate::record;
+use crate::report::{film, layout};
+use linkage::error::{Error, ErrorKind, Result};
+
+const EXAMPLES: &str = "\
+Examples:
+  linkproof view recordings/crank_rocker.mcap                  in Rerun: writes crank_rocker.rrd beside it, and opens it
+  linkproof view recordings/crank_rocker.mcap -o turn.rrd      only write it, to send it to a colleague
+  linkproof view recordings/crank_rocker.mcap --with foxglove  write the layout again, and say how to open both
+  linkproof view turn.mcap --python ~/rerun/bin/python         the Python that has rerun-sdk
+
+docs/recording.md tells what each viewer shows.";
+
+/// Viewers that have a way of their own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Viewer {
+    /// Rerun, with a recording and blueprint of its own
+    Rerun,
+    /// Foxglove or Lichtblick, with a layout
+    Foxglove,
+}
+
+#[derive(Debug, clap::Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct Args {
+    /// Recording (MCAP) that `linkproof run` has written
+    #[arg(value_name = "FILE")]
+    file: PathBuf,
+    /// Viewer to show it in
+    #[arg(long, value_enum, default_value = "rerun")]
+    with: Viewer,
+    /// Write to this file and open no viewer: a recording of Rerun (.rrd), or a layout (.json)
+    #[arg(short, long, value_name = "FILE", value_parser = output::target)]
+    output: Option<PathBuf>,
+    /// Python that has Rerun's library (`pip install rerun-sdk`)
+    #[arg(long, value_name = "COMMAND", default_value = "python3")]
+    python: String,
+}
+
+pub(super) fn view(args: &Args) -> Result<()> {
+    let film = record::film(&args.file)?;
+    let beside = |ending: &str| args.output.clone().unwrap_or_else(|| args.file.with_extension(ending));
+    match args.with {
+        Viewer::Rerun => {
+            let to = beside("rrd");
+            let since = Instant::now();
+            let python = &args.python;
+            let made = outside::converted(&film::text(&film), python, &|| since.elapsed().as_secs_f64());
+            let made = made.map_err(|found| {
+                Error::new(ErrorKind::Io, format!("{} cannot be written by `{python}`: {found}", to.display()))
+                    .help("`python3 -m pip install rerun-sdk`, or name a Python that has it with --python")
+            })?;
+            output::stream(&to, |out| out.write_all(&made))?;
+            output::print(&format!("rerun      {}\n", to.display()))?;
+            if args.output.is_none() {
+                outside::opened(&to, python).map_err(|found| {
+                    Error::new(ErrorKind::Io, format!("Rerun's viewer has not shown {}: {found}", to.display()))
+                        .help("open the file from Rerun itself; it holds the whole picture")
+                })?;
+            }
+        }
+        Viewer::Foxglove => {
+            let to = beside("foxglove.json");
+            output::write(&layout::text(&film.view), &to)?;
+            output::print(&format!(
+                "layout     {}\n\
+                 1. Open {} in Foxglove or Lichtblick (open local file).\n\
+                 2. Layouts, import from file: the layout above. The mechanism then moves beside its plots.\n",
+                to.display(),
+                args.file.display()
+            ))?;
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,90 @@
+//! The marks of a sketch as the primitives of a scene.
+
+use super::shapes::{colour, extent, grey, point, pose};
+use drawing::{Fill, Mark, Role, Shape};
+use foxglove::messages::line_primitive::Type as LineType;
+use foxglove::messages::{CylinderPrimitive, LinePrimitive, SceneEntity, TextPrimitive, TriangleListPrimitive};
+use linkage::math::Vec2;
+
+/// Opacity of areas: what lies beneath shows through.
+const TINT: u8 = 70;
+/// Colour of the holes of pins, on light and dark backgrounds, and their size as a share of the pin's.
+const HOLE: ([u8; 4], f64) = ([40, 40, 40, 255], 0.5);
+
+/// How marks are drawn.
+#[derive(Clone, Copy)]
+pub struct Brush {
+    /// The sketch's unit (m).
+    pub unit: f64,
+    /// Red, green, blue, opacity.
+    pub rgba: [u8; 4],
+    /// Thickness relative to the first side.
+    pub broad: f64,
+    /// Height above the plane of motion (m).
+    pub z: f64,
+    /// Height between two layers of marks (m).
+    pub step: f64,
+}
+
+impl Brush {
+    /// Adds a mark to an entity. Mass centres are left out: in a moving picture they look like joints.
+    pub fn put(&self, mark: &Mark, entity: &mut SceneEntity) {
+        if matches!(mark.role, Role::MassCentre | Role::MassQuarter) {
+            return;
+        }
+        let look = mark.role.look();
+        let z = self.z + self.step * f64::from(look.layer as u8);
+        if let (Role::Pin, &Shape::Circle { centre, radius }) = (mark.role, &mark.shape) {
+            let radius = radius * self.broad.sqrt();
+            let disc = |z, radius: f64, rgba| CylinderPrimitive {
+                pose: pose(centre, z, 0.0),
+                size: extent(2.0 * radius, self.step),
+                bottom_scale: 1.0,
+                top_scale: 1.0,
+                color: Some(colour(rgba)),
+            };
+            entity.cylinders.push(disc(z, radius, self.rgba));
+            entity.cylinders.push(disc(z + self.step, HOLE.1 * radius, HOLE.0));
+            return;
+        }
+        let (outline, closed) = mark.shape.outline();
+        // An area of a later side would hide the first one, or be hidden.
+        if closed && look.fill != Fill::None && self.broad >= 1.0 {
+            let opacity = if look.fill == Fill::Ink { self.rgba[3] } else { TINT };
+            let [red, green, blue, _] = self.rgba;
+            entity.triangles.push(TriangleListPrimitive {
+                pose: pose(Vec2::zeros(), z - 0.5 * self.step, 0.0),
+                points: fan(&outline).into_iter().map(|corner| point(corner, 0.0)).collect(),
+                color: Some(colour([red, green, blue, opacity])),
+                ..Default::default()
+            });
+        }
+        entity.lines.push(LinePrimitive {
+            r#type: if closed { LineType::LineLoop } else { LineType::LineStrip } as i32,
+            pose: pose(Vec2::zeros(), z, 0.0),
+            thickness: look.width * self.unit * self.broad,
+            points: outline.into_iter().map(|corner| point(corner, 0.0)).collect(),
+            color: Some(colour(self.rgba)),
+            ..Default::default()
+        });
+    }
+}
+
+/// Triangles from the middle of a polygon to its sides: those of the sketch are seen whole from there.
+fn fan(corners: &[Vec2]) -> Vec<Vec2> {
+    let middle = corners.iter().sum::<Vec2>() / corners.len().max(1) as f64;
+    let next = corners.iter().cycle().skip(1);
+    corners.iter().zip(next).flat_map(|(&from, &to)| [middle, from, to]).collect()
+}
+
+/// A name at a place, at the height `z`, always upright and of one size on the screen.
+pub fn letter(text: &str, at: Vec2, z: f64) -> TextPrimitive {
+    TextPrimitive {
+        pose: pose(at, z, 0.0),
+        billboard: true,
+        font_size: 14.0,
+        scale_invariant: true,
+        color: Some(grey()),
+        text: text.into(),
+    }
+}

@@ -1,0 +1,101 @@
+//! A trajectory as topics: one for each subject, with one message per row.
+
+use super::schema;
+use super::sink::{Kind, Sink};
+use linkage::trajectory::{ChannelKind, Subject, Trajectory};
+use mcap::McapResult;
+
+/// A trajectory with the topics of its columns.
+pub struct Table<'a> {
+    /// Times of its rows (s).
+    pub times: &'a [f64],
+    /// Its topics.
+    pub topics: Vec<Topic<'a>>,
+}
+
+/// One message per row.
+pub struct Topic<'a> {
+    /// Number of the topic in its sink.
+    pub id: u16,
+    fields: Vec<Field<'a>>,
+}
+
+enum Field<'a> {
+    Value(u32, &'a [f64]),
+    /// Column and the number of small units in its SI unit.
+    Scaled(u32, &'a [f64], f64),
+    /// The number of the row itself.
+    Row(u32),
+}
+
+impl Topic<'_> {
+    /// Puts the message of a row into `buffer`.
+    pub fn encode(&self, row: usize, buffer: &mut Vec<u8>) {
+        buffer.clear();
+        for field in &self.fields {
+            match *field {
+                Field::Value(tag, column) => schema::put(buffer, tag, column[row]),
+                Field::Row(tag) => schema::put(buffer, tag, row as f64),
+                Field::Scaled(tag, column, factor) => {
+                    let value = (column[row] * factor).clamp(f64::from(f32::MIN), f64::from(f32::MAX));
+                    schema::put_small(buffer, tag, value as f32);
+                }
+            }
+        }
+    }
+}
+
+impl<'a> Table<'a> {
+    /// The grid and the values of a side.
+    pub fn values(sink: &mut impl Sink, side: &str, trajectory: &'a Trajectory) -> McapResult<Self> {
+        let id = sink.topic(&format!("/{side}/grid"), &Kind::own(schema::grid()))?;
+        let grid = vec![Field::Value(1, trajectory.times()), Field::Value(2, trajectory.cranks()), Field::Row(3)];
+        let mut topics = vec![Topic { id, fields: grid }];
+        for (subject, of, columns) in by_subject(trajectory) {
+            let id = sink.topic(&topic_name(side, subject, of), &Kind::own(schema::values(subject)))?;
+            let field = |(kind, column): (&ChannelKind, &'a [f64])| Field::Value(schema::tag(kind), column);
+            topics.push(Topic { id, fields: columns.into_iter().map(field).collect() });
+        }
+        Ok(Table { times: trajectory.times(), topics })
+    }
+
+    /// The errors, in small units.
+    pub fn errors(sink: &mut impl Sink, errors: &'a Trajectory) -> McapResult<Self> {
+        let mut topics = Vec::new();
+        for (subject, of, columns) in by_subject(errors) {
+            let id = sink.topic(&topic_name("error", subject, of), &Kind::own(schema::errors(subject)))?;
+            let field = |(kind, column): (&ChannelKind, &'a [f64])| {
+                Field::Scaled(schema::tag(kind), column, schema::small_unit(kind).1)
+            };
+            topics.push(Topic { id, fields: columns.into_iter().map(field).collect() });
+        }
+        Ok(Table { times: errors.times(), topics })
+    }
+}
+
+/// Topic of a subject's values on a side, or of their errors on the side "error".
+pub fn topic_name(side: &str, subject: Subject, of: &str) -> String {
+    let word = subject.word();
+    if of.is_empty() { format!("/{side}/{word}") } else { format!("/{side}/{word}/{of}") }
+}
+
+type Columns<'a> = Vec<(&'static ChannelKind, &'a [f64])>;
+
+/// The columns of each link, point, joint (all columns of a sliding joint together), of frame and drive, in the order
+/// of their first column.
+fn by_subject(trajectory: &Trajectory) -> Vec<(Subject, &str, Columns<'_>)> {
+    let mut subjects: Vec<(Subject, &str, Columns)> = Vec::new();
+    for (channel, column) in trajectory.iter() {
+        let (subject, of) = (channel.kind.subject, channel.of.as_str());
+        let same = |own: &(Subject, &str, Columns)| (own.0.word(), own.1) == (subject.word(), of);
+        let place = subjects.iter().position(same).unwrap_or_else(|| {
+            subjects.push((subject, of, Vec::new()));
+            subjects.len() - 1
+        });
+        if subject == Subject::Slider {
+            subjects[place].0 = subject;
+        }
+        subjects[place].2.push((channel.kind, column));
+    }
+    subjects
+}

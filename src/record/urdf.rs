@@ -1,0 +1,84 @@
+//! The links as a robot's description (URDF), for viewers that draw no scenes: boxes and cylinders that `/tf` moves.
+
+use super::shapes::GREY;
+use foxglove::messages::line_primitive::Type as LineType;
+use foxglove::messages::{Color, LinePrimitive, Point3, Pose, SceneEntity, SceneUpdate};
+use linkage::math::Vec2;
+use std::fmt::Write;
+
+/// Height of all parts, as a share of their thickness: seen from above, they are flat.
+const FLAT: f64 = 0.1;
+
+/// The description of the links of a scene. The ground is the root.
+pub fn text(name: &str, links: &SceneUpdate) -> String {
+    let mut text = format!("<robot name=\"{}\">", escaped(name));
+    let (ground, moving): (Vec<_>, Vec<_>) = links.entities.iter().partition(|entity| entity.frame_id == "world");
+    write_link(&mut text, "world", &ground);
+    for (number, entity) in moving.into_iter().enumerate() {
+        let frame = escaped(&entity.frame_id);
+        write_link(&mut text, &frame, &[entity]);
+        let _ = write!(
+            text,
+            "<joint name=\"joint_{number}\" type=\"floating\"><parent link=\"world\"/><child link=\"{frame}\"/></joint>"
+        );
+    }
+    text + "</robot>"
+}
+
+/// The same as a message: a text in CDR, little endian, with its length and a closing zero.
+pub fn message(text: &str) -> Vec<u8> {
+    let mut data = vec![0, 1, 0, 0];
+    data.extend((text.len() as u32 + 1).to_le_bytes());
+    data.extend(text.as_bytes());
+    data.push(0);
+    data
+}
+
+fn write_link(text: &mut String, name: &str, entities: &[&SceneEntity]) {
+    let _ = write!(text, "<link name=\"{name}\">");
+    for entity in entities {
+        for line in &entity.lines {
+            let count = line.points.len();
+            let closed = line.r#type == LineType::LineLoop as i32 && count > 2;
+            for start in 0..if closed { count } else { count.saturating_sub(1) } {
+                write_box(text, line, &line.points[start], &line.points[(start + 1) % count]);
+            }
+        }
+        for pin in &entity.cylinders {
+            let (radius, length) = pin.size.map_or((0.0, 0.0), |size| (size.x / 2.0, size.z));
+            let shape = format!("<cylinder radius=\"{radius}\" length=\"{length}\"/>");
+            write_visual(text, &at(pin.pose.as_ref()), &shape, pin.color.as_ref());
+        }
+    }
+    text.push_str("</link>");
+}
+
+fn write_box(text: &mut String, line: &LinePrimitive, from: &Point3, to: &Point3) {
+    let [from, to] = [from, to].map(|point| Vec2::new(point.x, point.y));
+    let (middle, way) = ((from + to) / 2.0, to - from);
+    let z = line.pose.as_ref().and_then(|pose| pose.position).map_or(0.0, |position| position.z);
+    let origin = format!("xyz=\"{} {} {z}\" rpy=\"0 0 {}\"", middle.x, middle.y, way.y.atan2(way.x));
+    let size = format!("{} {} {}", way.norm() + line.thickness, line.thickness, FLAT * line.thickness);
+    write_visual(text, &origin, &format!("<box size=\"{size}\"/>"), line.color.as_ref());
+}
+
+fn at(pose: Option<&Pose>) -> String {
+    let at = pose.and_then(|pose| pose.position).unwrap_or_default();
+    format!("xyz=\"{} {} {}\" rpy=\"0 0 0\"", at.x, at.y, at.z)
+}
+
+/// One part. Materials of one colour share a name, so that no two of a name differ.
+fn write_visual(text: &mut String, origin: &str, shape: &str, colour: Option<&Color>) {
+    let [r, g, b, a] =
+        colour.map_or(GREY, |Color { r, g, b, a }| [r, g, b, a].map(|part| (part * 255.0).round() as u8));
+    let rgba = [r, g, b, a].map(|part| (f64::from(part) / 255.0).to_string()).join(" ");
+    let _ = write!(
+        text,
+        "<visual><origin {origin}/><geometry>{shape}</geometry>\
+         <material name=\"{r:02x}{g:02x}{b:02x}{a:02x}\"><color rgba=\"{rgba}\"/></material></visual>"
+    );
+}
+
+fn escaped(name: &str) -> String {
+    name.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}

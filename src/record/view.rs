@@ -1,0 +1,146 @@
+//! What a viewer should show first: where the mechanism is, how fast to play it, and which numbers to plot.
+
+use super::extent::corners;
+use super::pour::lasts;
+use super::recording::{Recording, Side};
+use super::schema::small_unit;
+use super::table::topic_name;
+use super::write::as_shown;
+use linkage::math::{KeepNan, Vec2};
+use linkage::trajectory::{Channel, ChannelKind, Subject, Trajectory, Unit};
+
+/// Poses at which is looked where the mechanism is.
+const POSES: usize = 100;
+
+/// What a viewer should show first.
+#[derive(Clone, Debug, PartialEq)]
+pub struct View {
+    /// Name of the scenario.
+    pub name: String,
+    /// Lower left and upper right corner of all that is drawn, over the whole motion (m).
+    pub corners: [Vec2; 2],
+    /// Names of the links' frames.
+    pub frames: Vec<String>,
+    /// Whether reactions are recorded as arrows.
+    pub forces: bool,
+    /// How many times slower than the simulation it is played.
+    pub slow: f64,
+    /// Log time of one turn of the crank, or of the whole recording if that is less (s).
+    pub turn: f64,
+    /// Plots, the most interesting first: the values of all sides, then their errors.
+    pub plots: Vec<Plot>,
+}
+
+/// A plot over time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plot {
+    /// What is plotted, with its unit.
+    pub title: String,
+    /// Its lines.
+    pub lines: Vec<Line>,
+}
+
+/// A line of a plot.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Line {
+    /// Topic of its numbers.
+    pub topic: String,
+    /// Their field.
+    pub field: String,
+    /// What it is called.
+    pub label: String,
+    /// Number of the side, the reference being 0; `None` for errors.
+    pub side: Option<usize>,
+}
+
+/// The view of a recording; `None` if it has no positions.
+pub(super) fn view(recording: &Recording) -> Option<View> {
+    as_shown(recording, |recording, drawn| {
+        let scene = drawn.scene.as_ref()?;
+        let links = scene.links();
+        let times = scene.times(recording.show.slow);
+        let frames = || times.iter().step_by(times.len() / POSES + 1).map(|&time| scene.frames(time, 0));
+        let lasts = lasts(recording) * recording.show.slow;
+        let errors: Option<Vec<Channel>> = recording.errors.map(|errors| errors.channels().to_vec());
+        Some(View {
+            name: recording.name.into(),
+            corners: corners(&links, frames()),
+            frames: frames().next()?.transforms.into_iter().map(|frame| frame.child_frame_id).collect(),
+            forces: drawn.forces.is_some(),
+            slow: recording.show.slow,
+            turn: turn(lasts, recording.sides[0].trajectory),
+            plots: plots(recording.sides, errors.as_deref().unwrap_or_default()),
+        })
+    })
+}
+
+/// Log time of a turn, of a recording that lasts so long.
+pub(super) fn turn(lasts: f64, trajectory: &Trajectory) -> f64 {
+    let ends = trajectory
+        .cranks()
+        .iter()
+        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &angle| [low.smaller(angle), high.larger(angle)]);
+    let turns = ((ends[1] - ends[0]) / std::f64::consts::TAU).round();
+    if turns >= 1.0 { lasts / turns } else { lasts }
+}
+
+/// Plots of the two channels that tell most, and of their errors where there are some.
+pub(super) fn plots(sides: &[Side], errors: &[Channel]) -> Vec<Plot> {
+    let mut plots = Vec::new();
+    let Some(first) = sides.first() else { return plots };
+    for channel in telling(first.trajectory) {
+        let (of, kind) = (&channel.of, channel.kind);
+        let has = |side: &Side| side.trajectory.column(channel).is_some();
+        let line = |(number, side): (usize, &Side)| Line {
+            topic: topic_name(side.name, kind.subject, of),
+            field: kind.suffix.into(),
+            label: format!("{} {channel}", side.name),
+            side: Some(number),
+        };
+        let lines = sides.iter().enumerate().filter(|(_, side)| has(side)).map(line).collect();
+        plots.push(Plot { title: channel.to_string(), lines });
+        if errors.contains(channel) {
+            let field = small_unit(kind).0;
+            let title = format!("error of {}.{field}", channel.subject());
+            let topic = topic_name("error", kind.subject, of);
+            plots.push(Plot { lines: vec![Line { topic, field, label: title.clone(), side: None }], title });
+        }
+    }
+    plots
+}
+
+/// The two channels that tell most: the moment of a drive, the largest reaction, then accelerations, velocities,
+/// positions. No two are of one subject and unit.
+fn telling(trajectory: &Trajectory) -> Vec<&Channel> {
+    const UNITS: [Unit; 8] = [
+        Unit::NewtonMetre,
+        Unit::Newton,
+        Unit::RadianPerSecondSquared,
+        Unit::MetrePerSecondSquared,
+        Unit::RadianPerSecond,
+        Unit::MetrePerSecond,
+        Unit::Metre,
+        Unit::Radian,
+    ];
+    // A drive's numbers are what people look for first; what shakes the frame is a sum.
+    let rank = |kind: &ChannelKind| match kind.subject {
+        Subject::Drive | Subject::Motor => 0,
+        Subject::Joint | Subject::Slider | Subject::Link | Subject::Point => 1,
+        Subject::Frame => 2,
+    };
+    let of = |unit: Unit| {
+        let own = || trajectory.iter().filter(|(channel, column)| channel.kind.unit == unit && range(column) > 0.0);
+        let least = own().map(|(channel, _)| rank(channel.kind)).min()?;
+        let best = own().filter(|(channel, _)| rank(channel.kind) == least);
+        // Of equal ones the first, so that the choice does not depend on rounding alone.
+        best.reduce(|best, next| if range(next.1) > range(best.1) { next } else { best }).map(|(channel, _)| channel)
+    };
+    UNITS.into_iter().filter_map(of).take(2).collect()
+}
+
+fn range(column: &[f64]) -> f64 {
+    let ends = column
+        .iter()
+        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &value| [low.smaller(value), high.larger(value)]);
+    ends[1] - ends[0]
+}

@@ -1,0 +1,144 @@
+//! A layout for Foxglove and Lichtblick: the mechanism from above, beside plots of both sides and of their errors.
+
+use serde_json::{Map, Value, json};
+
+use crate::record::{Line, Plot, View};
+use linkage::math::KeepNan;
+
+/// Speeds that the players offer.
+const SPEEDS: [f64; 8] = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 0.8, 1.0];
+/// Least time in which a turn is worth looking at (s).
+const TURN: f64 = 4.0;
+/// Height of the picture over that of the mechanism.
+const ROOM: f64 = 1.25;
+/// Width over height of the panel that the picture is in.
+const WIDE: f64 = 1.1;
+
+/// The layout as JSON.
+pub(crate) fn text(view: &View) -> String {
+    let mut panels = Map::from_iter([("3D!mechanism".to_string(), picture(view))]);
+    let mut names = Vec::new();
+    for (number, plot) in view.plots.iter().enumerate() {
+        let name = format!("Plot!{number}");
+        panels.insert(name.clone(), graph(plot));
+        names.push(name);
+    }
+    let picture = Value::from("3D!mechanism");
+    let layout = match column(&names) {
+        Some(column) => json!({ "direction": "row", "first": picture, "second": column, "splitPercentage": 60 }),
+        None => picture,
+    };
+    let document = json!({
+        "configById": panels,
+        "globalVariables": {},
+        "userNodes": {},
+        "playbackConfig": { "speed": speed(view) },
+        "layout": layout,
+    });
+    format!("{document:#}\n")
+}
+
+/// Playback speed: that of a stated time scale, else the fastest that lets people follow a turn.
+pub(crate) fn speed(view: &View) -> f64 {
+    if view.slow != 1.0 {
+        return 1.0;
+    }
+    SPEEDS.into_iter().rev().find(|speed| view.turn / speed >= TURN).unwrap_or(SPEEDS[0])
+}
+
+/// Height of what is in view (m).
+pub(crate) fn height(view: &View) -> f64 {
+    let size = view.corners[1] - view.corners[0];
+    ROOM * size.y.larger(size.x / WIDE)
+}
+
+/// The panel with the mechanism: parallel rays from above, all of it in view, without frames' axes and names.
+fn picture(view: &View) -> Value {
+    let [low, high] = view.corners;
+    let (centre, height) = ((low + high) / 2.0, height(view));
+    let hidden = |frame: &String| (format!("frame:{frame}"), json!({ "visible": false }));
+    let frames: Map<String, Value> = view.frames.iter().map(hidden).chain([hidden(&"world".into())]).collect();
+    let mut topics = Map::from_iter([("/mechanism/links".to_string(), json!({ "visible": true }))]);
+    topics.insert("/robot_description".into(), json!({ "visible": false }));
+    if view.forces {
+        topics.insert("/mechanism/forces".into(), json!({ "visible": true }));
+    }
+    json!({
+        "foxglovePanelTitle": view.name,
+        "cameraState": {
+            "perspective": false,
+            "distance": height,
+            "phi": 0,
+            "thetaOffset": 0,
+            "targetOffset": [centre.x, centre.y, 0],
+            "target": [0, 0, 0],
+            "targetOrientation": [0, 0, 0, 1],
+            "fovy": 45,
+            "near": 0.01 * height,
+            "far": 100.0 * height,
+        },
+        "followMode": "follow-none",
+        "followTf": "world",
+        "scene": { "transforms": { "showLabel": false, "labelSize": 0.02 * height, "axisScale": 0.05 * height, "lineWidth": 0 } },
+        "transforms": frames,
+        "topics": topics,
+        "layers": {},
+    })
+}
+
+fn graph(plot: &Plot) -> Value {
+    json!({
+        "foxglovePanelTitle": plot.title,
+        "title": plot.title,
+        // The first one is drawn last: engines in front of the reference.
+        "paths": plot.lines.iter().rev().map(path).collect::<Vec<Value>>(),
+        "showXAxisLabels": true,
+        "showYAxisLabels": true,
+        "showLegend": plot.lines.len() > 1,
+        "legendDisplay": "floating",
+        "showPlotValuesInLegend": false,
+        "isSynced": true,
+        "xAxisVal": "timestamp",
+        "sidebarDimension": 240,
+    })
+}
+
+/// A line: the reference broad and pale, each engine thin and in front of it, as in the picture.
+fn path(line: &Line) -> Value {
+    const COLOURS: [&str; 4] = ["#56b4e9", "#e67800", "#009e73", "#cc79a7"];
+    let (colour, width) = match line.side {
+        Some(0) => (COLOURS[0], 5.0),
+        Some(side) => (COLOURS[side % COLOURS.len()], 1.5),
+        None => ("#9a9a9a", 1.5),
+    };
+    json!({
+        "value": format!("{}.{}", quoted(&line.topic), line.field),
+        "label": line.label,
+        "enabled": true,
+        "timestampMethod": "receiveTime",
+        "color": colour,
+        "lineSize": width,
+        "showLine": true,
+    })
+}
+
+/// A topic as paths of messages take it: in quotes where it has other signs than letters, digits, `_`, `-` and `/`.
+fn quoted(topic: &str) -> String {
+    let plain = |sign: char| sign.is_ascii_alphanumeric() || matches!(sign, '_' | '-' | '/');
+    match topic.chars().all(plain) {
+        true => topic.into(),
+        false => format!("\"{}\"", topic.replace('\\', "\\\\").replace('"', "\\\"")),
+    }
+}
+
+/// Panels below each other, all of one height.
+fn column(names: &[String]) -> Option<Value> {
+    let (first, rest) = names.split_first()?;
+    Some(match column(rest) {
+        None => Value::from(first.as_str()),
+        Some(below) => {
+            let share = 100.0 / names.len() as f64;
+            json!({ "direction": "column", "first": first, "second": below, "splitPercentage": share })
+        }
+    })
+}
