@@ -264,7 +264,7 @@ impl<'a> Session<'a> {
         let Some(pages) = &mut self.pages else { return Ok(()) };
         let path = pages.write(scenario, proof, &metadata(self.args, proof))?;
         if self.reports() && !self.args.quiet {
-            let gap = if self.args.no_record { "\n" } else { "" };
+            let gap = if self.args.record.is_off() { "\n" } else { "" };
             output::print(&format!("{gap}page       {}\n", path.display()))?;
         }
         Ok(())
