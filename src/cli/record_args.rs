@@ -115,7 +115,7 @@ impl RecordArgs {
 impl Recorded {
     /// Where it is, how large, and what opens it well.
     pub(super) fn told(&self) -> String {
-        let layout = |path: &Path| format!("\nlayout     {} (Foxglove, Lichtblick: import it)", path.display());
+        let layout = |path: &Path| format!("\nlayout     {}", path.display());
         let layout = self.layout.as_deref().map_or(String::new(), layout);
         format!("\nrecording  {} ({}){}{}{layout}\n", self.path.display(), size(self.bytes), self.why, self.large)
     }
