@@ -40,7 +40,7 @@ suppress_warnings = ["misc.highlighting_failure"]
 
 CONTENTS = {
     "Start": ["docs/tutorial", "docs/gallery", "docs/scenario", "docs/formulas"],
-    "Proofs": ["docs/report", "docs/compare", "docs/testing", "docs/mutate", "docs/findings", "docs/foreign", "docs/stories", "docs/skip"],
+    "Proofs": ["docs/report", "docs/recording", "docs/compare", "docs/testing", "docs/mutate", "docs/findings", "docs/foreign", "docs/stories", "docs/skip"],
     "Design": ["docs/synthesis", "docs/draw", "docs/plans", "docs/clearance", "docs/variants60"],
     "Engines": ["docs/engines", "docs/rapier", "docs/mjcf", "docs/peers", "docs/bench", "docs/stress"],
     "Reference": ["docs/notation", "ARCHITECTURE", "CHANGELOG", "CONTRIBUTING", "SECURITY"],

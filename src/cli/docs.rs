@@ -42,6 +42,7 @@ static PAGES: &[(&str, &str)] = pages![
     "peers",
     "plans",
     "rapier",
+    "recording",
     "report",
     "scenario",
     "skip",

@@ -18,7 +18,7 @@ Examples:
   linkproof view recordings/crank_rocker.mcap --with foxglove  write the layout again, and say how to open both
   linkproof view turn.mcap --python ~/rerun/bin/python         the Python that has rerun-sdk
 
-docs/recording.md tells what each viewer shows.";
+`linkproof docs recording` tells what each viewer shows.";
 
 /// Viewers that have a way of their own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
