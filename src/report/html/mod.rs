@@ -23,10 +23,11 @@ use workshop::diagram::Graphs;
 const TEMPLATE: &str = include_str!("page.html");
 const STYLE: &str = include_str!("page.css");
 /// The script, in the order in which its parts need each other.
-const SCRIPT: [&str; 6] = [
+const SCRIPT: [&str; 7] = [
     include_str!("script/read.js"),
     include_str!("script/svg.js"),
     include_str!("script/motion.js"),
+    include_str!("script/names.js"),
     include_str!("script/charts.js"),
     include_str!("script/curves.js"),
     include_str!("script/main.js"),

@@ -58,8 +58,9 @@ fn letters_can_be_read() {
         let boxes: Vec<(Vec2, Vec2)> = italic
             .map(|node| {
                 let signs = node.descendants().filter(|n| n.is_text()).filter_map(|n| n.text()).collect::<String>();
-                let wide =
-                    0.5 * 4.2 * signs.trim().chars().count() as f64 * if signs.trim().len() > 1 { 0.85 } else { 1.0 };
+                let wide = |sign: char| if matches!(sign, ',' | ' ') { 0.25 } else { 0.5 };
+                let several = if signs.trim().len() > 1 { 0.85 } else { 1.0 };
+                let wide = 4.2 * several * signs.trim().chars().map(wide).sum::<f64>();
                 let middle = node.attribute("text-anchor") == Some("middle");
                 let left = number(&node, "x") - if middle { wide / 2.0 } else { 0.0 };
                 (Vec2::new(left + wide / 2.0, number(&node, "y") - 1.2), Vec2::new(wide / 2.0, 1.3))
@@ -81,7 +82,11 @@ fn letters_can_be_read() {
                     .map(|k| a + (b - a) * (f64::from(k) / 400.0) - centre)
                     .any(|d| d.x.abs() < half.x && d.y.abs() < half.y)
             };
-            crossed += usize::from(arrows.iter().any(inside));
+            let is_crossed = arrows.iter().any(inside);
+            if is_crossed {
+                println!("{name} at {degrees}: the letters at {centre:?}");
+            }
+            crossed += usize::from(is_crossed);
         }
     }
     assert!(letters > 1000);

@@ -9,7 +9,7 @@ const AIR: f64 = 0.5;
 /// Directions tried around an anchor.
 const DIRECTIONS: usize = 32;
 /// Distances tried (mm), nearest first.
-const DISTANCES: [f64; 8] = [0.6, 1.2, 2.0, 3.0, 4.5, 6.5, 9.0, 12.0];
+const DISTANCES: [f64; 9] = [0.6, 1.2, 2.0, 3.0, 4.5, 6.5, 9.0, 12.0, 16.0];
 /// Rounds after which nothing moves any more in practice.
 const ROUNDS: usize = 6;
 /// Largest distance (mm) of points whose labels may conflict.
@@ -109,7 +109,7 @@ fn cost(index: usize, place: Vec2, labels: &[Label], places: &[Option<Vec2>], ob
     for segment in &obstacles.segments {
         let inside = length_inside(segment, place, half);
         if inside > 0.0 {
-            cost += 8.0 + 3.0 * inside;
+            cost += 12.0 + 3.0 * inside;
         }
     }
     for &(centre, radius) in &obstacles.discs {

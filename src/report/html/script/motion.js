@@ -1,10 +1,8 @@
-// The mechanism in motion: links, springs, reactions, paths, names.
+// The mechanism in motion: links, springs, reactions, paths.
 
 const picture = byId('picture');
 /** Length of the longest arrow, in units of the picture. */
 const LONGEST = 26;
-/** Least length of a link that shows its number, in units. */
-const ROOM = 24;
 const hasEngine = page.engines.some((engine) => engine.channels.some((own) => own.errors !== undefined));
 const following = [];
 
@@ -152,31 +150,6 @@ function setUpPaths() {
   };
   redrawPaths();
   return drawn.some((own) => own !== null);
-}
-
-function setUpNames() {
-  const [left, top, width, height] = motion.view;
-  const centre = [left + width / 2, top + height / 2];
-  // A link that is short in the picture has no room for its number; its colour is in the table of links.
-  const extent = (number) => {
-    const xs = motion.links[number - 1].points.map((point) => [point[1], point[2]]);
-    return Math.max(0, ...xs.flatMap((a) => xs.map((b) => Math.hypot(a[0] - b[0], a[1] - b[1])))) / motion.unit;
-  };
-  const hasRoom = (own) => own.names !== 'centre' && (own.names !== 'link' || extent(own.on[0]) > ROOM);
-  for (const label of motion.labels.filter(hasRoom)) {
-    const isMotor = label.names === 'motor';
-    const element = draw(byId('names'), 'text', { class: label.names === 'link' ? `link k${label.text}` : label.names });
-    element.textContent = label.text;
-    following.push(() => {
-      const at = worldOf(label.on, false);
-      if (at === null) return;
-      const [x, y] = toPicture(at);
-      const [a, b] = isMotor ? [0, 1.2] : [x < centre[0] ? -1.9 : 1.9, y < centre[1] ? -1.9 : 3.9];
-      element.setAttribute('text-anchor', isMotor ? 'middle' : a < 0 ? 'end' : 'start');
-      element.setAttribute('x', x + a);
-      element.setAttribute('y', y + b);
-    });
-  }
 }
 
 /** Factors by which differences between the sides can be magnified until they are seen. */

@@ -1,0 +1,132 @@
+//! What a recording costs: beside the proof it keeps, and beside the plain MCAP writer that is given the same messages
+//! ready made. Ratios only, taken in one run: `cargo bench --bench record`.
+
+use std::collections::BTreeMap;
+use std::fs::{self, File};
+use std::io::BufWriter;
+use std::path::Path;
+use std::sync::Arc;
+use std::time::Instant;
+
+use linkage::case::{Case, Grid};
+use linkage::math::KeepNan;
+use linkage::trajectory::Trajectory;
+use linkproof::record::{Recording, Show, Side, write};
+use linkproof::scenario::Scenario;
+use linkproof::{Options, prove};
+use mcap::records::MessageHeader;
+use mcap::{Channel, MessageStream, WriteOptions};
+
+/// Timings, of which the shortest counts: other activity of the machine only adds time.
+const REPEATS: usize = 9;
+/// Samples a second of the mechanism's time, and in the long recording of one turn.
+const RATE: f64 = 1000.0;
+const LONG: usize = 20_000;
+
+fn scenario(name: &str) -> Scenario {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios").join(format!("{name}.toml"));
+    Scenario::load(&path).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// One turn of a crank at constant speed.
+fn turn(case: &Case, instants: usize) -> Case {
+    let crank = case.crank();
+    let angle = |k: usize| crank.start + std::f64::consts::TAU * crank.sense() * k as f64 / (instants - 1) as f64;
+    case.on(Grid::of_cranks(crank, (0..instants).map(angle).collect())).unwrap()
+}
+
+fn shortest(mut work: impl FnMut()) -> f64 {
+    let times = (0..REPEATS).map(|_| {
+        let since = Instant::now();
+        work();
+        since.elapsed().as_secs_f64()
+    });
+    times.fold(f64::INFINITY, f64::smaller)
+}
+
+/// Records sides as a run does.
+fn record(scenario: &Scenario, sides: &[Side], errors: Option<&Trajectory>, path: &Path) {
+    let recording = Recording {
+        name: &scenario.name,
+        scenario_text: &scenario.text,
+        metadata: &BTreeMap::new(),
+        mechanism: &scenario.case.mechanism,
+        sides,
+        errors,
+        log: &[],
+        show: Show { slow: 1.0, hz: None, forces: false },
+    };
+    write(&recording, path).unwrap_or_else(|error| panic!("{error}"));
+}
+
+/// A message as it stands in a file.
+struct Ready<'a> {
+    channel: Arc<Channel<'a>>,
+    header: MessageHeader,
+    data: Vec<u8>,
+}
+
+fn messages(bytes: &[u8]) -> Vec<Ready<'_>> {
+    let mut all = Vec::new();
+    for message in MessageStream::new(bytes).unwrap() {
+        let message = message.unwrap();
+        let (log_time, publish_time, sequence) = (message.log_time, message.publish_time, message.sequence);
+        let header = MessageHeader { channel_id: 0, sequence, log_time, publish_time };
+        all.push(Ready { channel: message.channel, header, data: message.data.into_owned() });
+    }
+    all
+}
+
+/// The same messages by the writer of the MCAP library, with its own settings.
+fn plain(messages: &[Ready<'_>], path: &Path) {
+    let mut writer = WriteOptions::new().create(BufWriter::new(File::create(path).unwrap())).unwrap();
+    let mut topics: BTreeMap<&str, u16> = BTreeMap::new();
+    for Ready { channel, header, data } in messages {
+        let id = *topics.entry(&channel.topic).or_insert_with(|| writer.add_channel_from(channel));
+        writer.write_to_known_channel(&MessageHeader { channel_id: id, ..*header }, data).unwrap();
+    }
+    writer.finish().unwrap();
+}
+
+/// Adds a channel of another file.
+trait FromChannel {
+    fn add_channel_from(&mut self, channel: &Channel) -> u16;
+}
+
+impl<W: std::io::Write + std::io::Seek> FromChannel for mcap::Writer<W> {
+    fn add_channel_from(&mut self, channel: &Channel) -> u16 {
+        let schema = channel
+            .schema
+            .as_ref()
+            .map_or(0, |schema| self.add_schema(&schema.name, &schema.encoding, &schema.data).unwrap());
+        self.add_channel(schema, &channel.topic, &channel.message_encoding, &channel.metadata).unwrap()
+    }
+}
+
+fn main() {
+    let place = tempfile::tempdir().unwrap();
+    let [ours, theirs] = ["ours.mcap", "theirs.mcap"].map(|name| place.path().join(name));
+    println!("{:14} {:>26} {:>32}", "", "proof and recording", "plain writer / ours");
+    println!("{:14} {:>26} {:>32}", "", "over the proof, 1 kHz", format!("{LONG} instants, two sides"));
+    for name in ["crank_rocker", "ov7_base", "fourth_class"] {
+        let mut own = scenario(name);
+        let instants = (RATE * std::f64::consts::TAU / own.case.crank().constant_speed().unwrap().abs()).ceil();
+        let long = turn(&own.case, LONG);
+        own.case = turn(&own.case, instants as usize + 1);
+        let proof = prove(&own, &Options::default()).unwrap();
+        let proving = shortest(|| drop(prove(&own, &Options::default()).unwrap()));
+        let engine = proof.engine();
+        let reference = Side { name: "reference", trajectory: &proof.reference_trajectory };
+        let other = engine.trajectory.as_ref().map(|trajectory| Side { name: "engine", trajectory });
+        let sides: Vec<Side> = std::iter::once(reference).chain(other).collect();
+        let recording = shortest(|| record(&own, &sides, engine.errors.as_ref(), &ours));
+
+        let solved = linkproof::proof::solve(&long).unwrap();
+        let sides = ["reference", "engine"].map(|name| Side { name, trajectory: &solved });
+        let writing = shortest(|| record(&own, &sides, None, &ours));
+        let bytes = fs::read(&ours).unwrap();
+        let messages = messages(&bytes);
+        let plainly = shortest(|| plain(&messages, &theirs));
+        println!("{name:14} {:>26.2} {:>32.2}", 1.0 + recording / proving, plainly / writing);
+    }
+}

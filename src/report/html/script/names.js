@@ -1,0 +1,108 @@
+// Names in the picture: each stands where it covers least, and stays on its side as long as that is about as good.
+
+/** Height of letters, and width of one, in units of the picture. */
+const LETTER = matchMedia('(max-width: 30rem)').matches ? 5 : 3.3;
+const WIDE = 0.62 * LETTER;
+/** Least length of a link that shows its number, in units. */
+const ROOM = 24;
+/** Distance of a name's middle from its place, beside half its own size, in units. */
+const AWAY = 2;
+/** Height of a pivot below its place, in units. */
+const PIVOT = 5;
+/** What covering costs: another name, a place, a line; and what changing the side costs. */
+const COSTS = { name: 6, place: 3, line: 1, change: 1.5 };
+const SIDES = Array.from({ length: 8 }, (_, k) => [Math.cos(k * Math.PI / 4), Math.sin(k * Math.PI / 4)]);
+
+/** Names by place: those of one place stand beside each other. */
+function namesByPlace() {
+  const extent = (number) => {
+    const xs = motion.links[number - 1].points.map((point) => [point[1], point[2]]);
+    return Math.max(0, ...xs.flatMap((a) => xs.map((b) => Math.hypot(a[0] - b[0], a[1] - b[1])))) / motion.unit;
+  };
+  // A link that is short in the picture has no room for its number; its colour is in the table of links.
+  const hasRoom = (own) => own.names !== 'centre' && (own.names !== 'link' || extent(own.on[0]) > ROOM);
+  const found = [];
+  for (const label of motion.labels.filter(hasRoom)) {
+    const isLink = label.names === 'link';
+    const at = worldOf(label.on, false);
+    const near = (own) => at !== null && own.at !== null && Math.hypot(own.at[0] - at[0], own.at[1] - at[1]) < 1e-9 * motion.size;
+    const same = isLink ? undefined : found.find((own) => !own.isLink && (own.on[0] === label.on[0] || label.names === 'motor') && near(own));
+    if (same) same.text += `, ${label.text}`;
+    else found.push({ text: label.text, on: label.on, at, isLink, kind: isLink ? `link k${label.text}` : label.names, side: null });
+  }
+  // Names of points first: numbers of links find room anywhere.
+  return found.sort((a, b) => a.isLink - b.isLink);
+}
+
+/** Lines of the links in the picture, and of pivots on the ground, as pairs of places. */
+function linesNow() {
+  const lines = [];
+  for (const { on } of motion.labels.filter((label) => label.on[0] === 0)) {
+    const [x, y] = toPicture(worldOf(on, false));
+    lines.push([[x, y], [x, y + PIVOT]], [[x - PIVOT / 2, y + PIVOT], [x + PIVOT / 2, y + PIVOT]]);
+  }
+  motion.links.forEach((link, index) => {
+    const at = link.points.map(([, x, y]) => worldOf([index + 1, x, y], false));
+    if (at.includes(null)) return;
+    const places = at.map(toPicture);
+    for (let k = 1; k < places.length; k += 1) lines.push([places[k - 1], places[k]]);
+    if (places.length > 2) lines.push([places[places.length - 1], places[0]]);
+  });
+  return lines;
+}
+
+/** Whether a line meets a box, [left, top, right, bottom]: what is left of it between the sides. */
+function meets([[x, y], [u, v]], [left, top, right, bottom]) {
+  let [from, to] = [0, 1];
+  for (const [start, way, low, high] of [[x, u - x, left, right], [y, v - y, top, bottom]]) {
+    if (Math.abs(way) < 1e-12) {
+      if (start < low || start > high) return false;
+    } else {
+      const [a, b] = [(low - start) / way, (high - start) / way];
+      from = Math.max(from, Math.min(a, b));
+      to = Math.min(to, Math.max(a, b));
+    }
+  }
+  return from < to;
+}
+
+const overlap = (a, b) => a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3];
+
+/** Where a name stands on one of the eight sides of its place. */
+function boxOn([x, y], text, [u, v]) {
+  const [half, high] = [0.5 * WIDE * text.length, 0.5 * LETTER];
+  const [a, b] = [x + u * (AWAY + half), y + v * (AWAY + high)];
+  return [a - half, b - high, a + half, b + high];
+}
+
+function setUpNames() {
+  const names = namesByPlace();
+  for (const own of names) {
+    own.element = draw(byId('names'), 'text', { class: own.kind, 'text-anchor': 'middle' });
+    own.element.textContent = own.text;
+  }
+  const [left, top, width, height] = motion.view;
+  following.push(() => {
+    const lines = linesNow();
+    const places = names.map((own) => worldOf(own.on, false)).map((at) => (at === null ? null : toPicture(at)));
+    const taken = [];
+    names.forEach((own, index) => {
+      own.element.classList.toggle('hidden', places[index] === null);
+      if (places[index] === null) return;
+      const cost = (side) => {
+        const box = boxOn(places[index], own.text, SIDES[side]);
+        const isOut = box[0] < left || box[1] < top || box[2] > left + width || box[3] > top + height;
+        const covers = (place) => place !== null && overlap([place[0] - 1, place[1] - 1, place[0] + 1, place[1] + 1], box);
+        const count = (list, test) => list.reduce((sum, one) => sum + test(one), 0);
+        return COSTS.name * (count(taken, (other) => overlap(other, box)) + isOut) + COSTS.place * count(places, covers)
+          + COSTS.line * count(lines, (line) => meets(line, box)) + COSTS.change * (own.side !== null && own.side !== side);
+      };
+      const costs = SIDES.map((_, side) => cost(side));
+      own.side = costs.indexOf(Math.min(...costs));
+      const box = boxOn(places[index], own.text, SIDES[own.side]);
+      taken.push(box);
+      own.element.setAttribute('x', (box[0] + box[2]) / 2);
+      own.element.setAttribute('y', box[3] - 0.22 * LETTER);
+    });
+  });
+}
