@@ -205,7 +205,7 @@ impl<'a> Session<'a> {
         if let Err(error) = self.page(&scenario, &proof) {
             self.failed(file, &error);
         }
-        if self.reports() && !self.args.quiet && self.args.files.len() > 1 {
+        if self.tells() && self.args.files.len() > 1 {
             self.print("\n");
         }
         self.worst = graver(self.worst, exit_code_of(&proof.verdict));
@@ -239,6 +239,11 @@ impl<'a> Session<'a> {
         Ok(())
     }
 
+    /// Whether more than the verdicts goes to the terminal.
+    fn tells(&self) -> bool {
+        self.reports() && !self.args.quiet
+    }
+
     /// Prints what stands between and below the reports.
     fn print(&mut self, text: &str) {
         if let Err(error) = terminal::print(text) {
@@ -251,8 +256,7 @@ impl<'a> Session<'a> {
     fn record(&self, scenario: &Scenario, proof: &Proof) -> Result<Option<PathBuf>> {
         let recorded = self.args.record.record(scenario, proof, metadata(self.args, proof))?;
         if let Some(recorded) = &recorded
-            && self.reports()
-            && !self.args.quiet
+            && self.tells()
         {
             output::print(&recorded.told())?;
         }
@@ -263,7 +267,7 @@ impl<'a> Session<'a> {
     fn page(&mut self, scenario: &Scenario, proof: &Proof) -> Result<()> {
         let Some(pages) = &mut self.pages else { return Ok(()) };
         let path = pages.write(scenario, proof, &metadata(self.args, proof))?;
-        if self.reports() && !self.args.quiet {
+        if self.tells() {
             let gap = if self.args.record.is_off() { "\n" } else { "" };
             output::print(&format!("{gap}page       {}\n", path.display()))?;
         }
@@ -272,8 +276,7 @@ impl<'a> Session<'a> {
 
     /// The table over all files, and the results for other programs; returns the exit code.
     fn end(mut self) -> u8 {
-        if self.reports()
-            && !self.args.quiet
+        if self.tells()
             && let Some(table) = self.closing.text(terminal::columns())
         {
             self.print(&table);

@@ -6,6 +6,7 @@
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 top=$(cd "$here/../.." && pwd)
+. "$top/tests/tools.sh"
 environment="$top/target/html-venv"
 pages="$top/target/html-pages"
 
@@ -18,17 +19,8 @@ if [ -z "${CHROMIUM:-}" ]; then
     echo "no Chromium here: install it (Debian: chromium), or name one in CHROMIUM" >&2
     exit 1
 fi
-if [ -n "${LINKPROOF:-}" ]; then
-    linkproof=$(realpath "$LINKPROOF")
-else
-    cargo build --quiet --release --manifest-path "$top/Cargo.toml"
-    linkproof="${CARGO_TARGET_DIR:-$top/target}/release/linkproof"
-fi
-if ! cmp -s "$here/requirements.txt" "$environment/installed.txt"; then
-    python3 -m venv "$environment"
-    "$environment/bin/pip" install --quiet --disable-pip-version-check -r "$here/requirements.txt"
-    cp "$here/requirements.txt" "$environment/installed.txt"
-fi
+linkproof=$(linkproof)
+python_with "$environment" "$here/requirements.txt"
 mkdir -p "$pages"
 what=some
 if [ $# -eq 0 ]; then

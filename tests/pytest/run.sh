@@ -4,20 +4,12 @@
 # Packages go into target/pytest-venv. LINKPROOF names a command that is built already.
 set -eu
 top=$(cd "$(dirname "$0")/../.." && pwd)
+. "$top/tests/tools.sh"
 environment="$top/target/pytest-venv"
-if [ -n "${LINKPROOF:-}" ]; then
-    LINKPROOF=$(realpath "$LINKPROOF")
-else
-    cargo build --quiet --release --manifest-path "$top/Cargo.toml"
-    LINKPROOF="${CARGO_TARGET_DIR:-$top/target}/release/linkproof"
-fi
+LINKPROOF=$(linkproof)
 mkdir -p "$top/target"
 wanted="$top/examples/pytest/requirements.txt"
-if ! cmp -s "$wanted" "$environment/installed.txt"; then
-    python3 -m venv "$environment"
-    "$environment/bin/pip" install --quiet --disable-pip-version-check -r "$wanted"
-    cp "$wanted" "$environment/installed.txt"
-fi
+python_with "$environment" "$wanted"
 
 place=$(mktemp -d)
 trap 'rm -r "$place"' EXIT

@@ -9,6 +9,7 @@
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 top=$(cd "$here/../.." && pwd)
+. "$top/tests/tools.sh"
 environment="$top/target/viewers-venv"
 
 everything=
@@ -20,12 +21,7 @@ if [ $# -eq 0 ]; then
         exit 1
     fi
 fi
-if [ -n "${LINKPROOF:-}" ]; then
-    linkproof=$(realpath "$LINKPROOF")
-else
-    cargo build --quiet --release --manifest-path "$top/Cargo.toml"
-    linkproof="${CARGO_TARGET_DIR:-$top/target}/release/linkproof"
-fi
+linkproof=$(linkproof)
 if [ "$everything" ]; then
     fresh="$top/target/viewers-recordings"
     "$linkproof" run --record "$fresh" --record-forces "$top/scenarios/compressor.toml" >/dev/null
@@ -48,11 +44,7 @@ if [ "$everything" ]; then
     done
     set -- "$@" "$fresh/resisted_coupler.toml"
 fi
-if ! cmp -s "$here/requirements.txt" "$environment/installed.txt"; then
-    python3 -m venv "$environment"
-    "$environment/bin/pip" install --quiet --disable-pip-version-check -r "$here/requirements.txt"
-    cp "$here/requirements.txt" "$environment/installed.txt"
-fi
+python_with "$environment" "$here/requirements.txt"
 PATH="$environment/bin:$PATH"
 
 # The list is taken apart by kind, in its order.
