@@ -11,7 +11,7 @@ use std::fs::{self, File};
 use std::io;
 use std::path::Path;
 
-pub(crate) use target::{may_fill, may_write, unwritten};
+pub(crate) use target::{may_fill, may_write, size, unwritten};
 pub(crate) use text::{read_named, read_text, text, text_from, way_out};
 
 use temporary::{clear, create, directory_of};

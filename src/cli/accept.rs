@@ -97,7 +97,7 @@ fn one(args: &Args, file: &Path, document: &mut Document) -> Result<u8> {
     }
     let item = Item { proof: &proof, found: &found, comparison: comparison.as_ref(), deed, file: &place };
     document.add(&item);
-    if args.json.as_deref() != Some(Path::new("-")) {
+    if !output::is_said(&args.json) {
         output::print(&text(&item))?;
         let is_worse = comparison.as_ref().is_some_and(|comparison| comparison.proof.is_some());
         if !is_proven && (deed == Deed::Refused || deed == Deed::Checked && is_worse) {

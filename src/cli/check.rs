@@ -1,6 +1,6 @@
 //! `linkproof check`.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use super::grid::GridArgs;
 use super::load::StartArgs;
@@ -85,7 +85,7 @@ pub(super) fn check(args: &Args) -> u8 {
         if let Some(to) = &args.json {
             output::write(&report::json(&scenario, &found, advice::told), to)?;
         }
-        if args.json.as_deref() != Some(Path::new("-")) {
+        if !output::is_said(&args.json) {
             let width = terminal::columns();
             terminal::print(&match (args.quiet, args.verbose) {
                 (true, _) => format!("{}\n", report::verdict_line(&scenario, &found)),

@@ -97,7 +97,6 @@ fn answer(args: &Args, file: &Path) -> Result<(Scenario, Clearance)> {
     let found =
         find(&scenario.case, asked, &mut |part| bar.at(part)).map_err(|error| explained(&scenario.case, error))?;
     drop(bar);
-    let is_said = |to: &Option<PathBuf>| to.as_deref() == Some(Path::new("-"));
     if let Some(to) = &args.svg {
         output::write(&draw::clearance(&scenario.case, &scenario.name, asked, &found)?, to)?;
     }
@@ -105,7 +104,7 @@ fn answer(args: &Args, file: &Path) -> Result<(Scenario, Clearance)> {
         let course = course(&scenario.case, asked)?;
         output::write(&report::distances(asked, &scenario.case.grid.times, &course)?, to)?;
     }
-    if !is_said(&args.svg) && !is_said(&args.csv) && !is_said(&args.json) {
+    if ![&args.svg, &args.csv, &args.json].into_iter().any(output::is_said) {
         output::print(&report::text(&scenario, asked, &found))?;
     }
     Ok((scenario, found))

@@ -7,11 +7,12 @@ use clap::ValueEnum;
 use super::grid::GridArgs;
 use super::load::StartArgs;
 use super::number::not_negative;
-use super::run::exit_code_of;
+use super::reports::Reports;
+use super::run::{exit_code_of, graver};
 use super::{advice, exit_code, output, terminal};
 use crate::record;
 use crate::report::outcomes::Outcomes;
-use crate::report::{junit, markdown, versus as report};
+use crate::report::versus as report;
 use crate::scenario::mapping::{Allowed, Mapped, Mapping, Size};
 use crate::tables::{self, Held};
 use crate::versus::{How, Party, compare as compared};
@@ -83,16 +84,8 @@ pub(super) struct Args {
     /// Show the verdicts alone
     #[arg(long, short, conflicts_with = "verbose")]
     quiet: bool,
-    /// Write the comparison as JSON to a file, or to standard output instead of the text with `-`
-    #[arg(long, value_name = "FILE", value_parser = output::target)]
-    json: Option<PathBuf>,
-    /// Write every channel and check as a case of a JUnit report to a file, or to standard output after the report with `-`
-    #[arg(long, value_name = "FILE", value_parser = output::target)]
-    junit: Option<PathBuf>,
-    /// Write the verdicts as Markdown to a file, for a comment to a pull request; `-` for standard output after the
-    /// report
-    #[arg(long, value_name = "FILE", value_parser = output::target)]
-    markdown: Option<PathBuf>,
+    #[command(flatten)]
+    reports: Reports,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -129,6 +122,8 @@ fn size(text: &str) -> std::result::Result<Allowed, String> {
 /// Compares, reports, and says how it ended.
 pub(super) fn compare(args: &Args) -> u8 {
     let answer = || -> Result<u8> {
+        let [first, second] = [&args.first, &args.second].map(|path| Some(path.clone()));
+        args.reports.check(&[("A", &first), ("B", &second), ("--write-map", &args.write_map)])?;
         check_parties(args)?;
         let mut mapping = mapping(&args.map, "--map")?;
         mapping.allowed.extend(args.rel.iter().chain(&args.abs).cloned());
@@ -148,19 +143,12 @@ pub(super) fn compare(args: &Args) -> u8 {
         let paths = [args.first.as_path(), args.second.as_path()];
         let found = compared([first, second], paths, &how)?;
         let outcomes = Outcomes::of_comparison(paths, &found, advice::told);
-        if args.json.as_deref() != Some(Path::new("-")) {
+        if !args.reports.takes_output() {
             let how = [args.verbose, args.quiet];
             terminal::print(&report::text(paths, &found, how, advice::told, terminal::columns()))?;
         }
-        let targets: [(&Option<PathBuf>, &dyn Fn() -> String); 3] = [
-            (&args.json, &|| report::json(paths, &found, advice::told)),
-            (&args.junit, &|| junit::xml(&outcomes)),
-            (&args.markdown, &|| markdown::text(&outcomes)),
-        ];
-        for (to, text) in targets {
-            to.as_ref().map_or(Ok(()), |to| output::write(&text(), to))?;
-        }
-        Ok(exit_code_of(&found.verdict))
+        let written = args.reports.write(|| report::json(paths, &found, advice::told), &outcomes);
+        Ok(graver(exit_code_of(&found.verdict), written))
     };
     answer().unwrap_or_else(|error| {
         output::show(&error);

@@ -1,6 +1,6 @@
 //! `linkproof drive`.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use super::load::load;
 use super::motor_choice;
@@ -92,7 +92,7 @@ fn driven(args: &Args, scenario: &Scenario) -> Result<()> {
     }
     let model = Model::of(&scenario.case)?;
     let targets = [&args.run_up, &args.json, &args.svg];
-    let told_there = targets.iter().any(|to| to.as_deref() == Some(Path::new("-")));
+    let told_there = targets.into_iter().any(output::is_said);
     if let Some(to) = &args.run_up {
         let motion = run_up(args, &model)?;
         output::stream(to, |out| table_csv::run_up(&motion, out))?;
@@ -122,14 +122,7 @@ fn check(args: &Args) -> Result<()> {
     if args.points as f64 > MOST_ROWS {
         return wrong(format!("--points is {}", args.points), "give a number from 1 to 1000000");
     }
-    let targets = [("--run-up", &args.run_up), ("--svg", &args.svg), ("--json", &args.json)];
-    for (k, (one, to)) in targets.iter().enumerate() {
-        if let Some((other, _)) = targets[k + 1..].iter().find(|(_, other)| to.is_some() && to == other) {
-            let message = format!("{one} and {other} name the same file");
-            return wrong(message, "give two files, or leave one of the two out");
-        }
-    }
-    Ok(())
+    output::apart(&[("--run-up", &args.run_up), ("--svg", &args.svg), ("--json", &args.json)])
 }
 
 /// The reduced quantities every `step_deg` of the crank, the steady motion, and the flywheel for a wanted non-uniformity.

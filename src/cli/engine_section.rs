@@ -35,6 +35,6 @@ pub(super) fn write(file: &Path, scenario: &Scenario, keys: (Option<f64>, Engine
     let text = edit::with_engine(&scenario.text, keys)?;
     files::replace(file, |mut to| to.write_all(text.as_bytes())).map_err(|error: io::Error| {
         let usual = "check that the file may be written to, or copy the section by hand";
-        files::unwritten(&file.display().to_string(), &error, Some(text.len()), usual)
+        files::unwritten(&file.display().to_string(), &error, Some(text.len() as u64), usual)
     })
 }

@@ -47,6 +47,7 @@ pub(super) struct Args {
 }
 
 pub(super) fn export(args: &Args) -> Result<()> {
+    output::apart(&[("--mjcf", &args.mjcf.clone().flatten()), ("--json", &args.json.clone().flatten())])?;
     let scenario = load(&args.file, &args.mode)?;
     let (case, dt) = (&scenario.case, args.dt.or(scenario.dt).unwrap_or_else(|| usual_step(&scenario.case)));
     if let Some(to) = &args.mjcf {

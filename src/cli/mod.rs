@@ -30,6 +30,7 @@ mod panics;
 mod plan;
 mod progress;
 mod record_args;
+mod reports;
 mod run;
 mod schema;
 mod shell;

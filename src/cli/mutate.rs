@@ -62,6 +62,9 @@ pub(super) fn run(args: &Args) -> u8 {
     if args.list {
         return output::exit(output::print(&report::list()));
     }
+    if let Err(found) = output::apart(&[("--json", &args.json), ("--markdown", &args.markdown)]) {
+        return output::exit(Err(found));
+    }
     let options = args.engine.options("assur");
     if options.engines.len() > 1 {
         let error = Error::new(
@@ -95,8 +98,7 @@ pub(super) fn run(args: &Args) -> u8 {
 }
 
 fn written(args: &Args, found: &[Mutated], failures: &[(String, String)]) -> Result<()> {
-    let is_quiet = args.json.as_ref().is_some_and(|to| to.as_os_str() == "-");
-    if !is_quiet {
+    if !output::is_said(&args.json) {
         output::print(&report::text(found))?;
     }
     if let Some(to) = &args.json {

@@ -87,7 +87,7 @@ fn begin(name: &str, args: &Args) -> Result<u8> {
     let path = args.output.as_ref().unwrap_or(&own);
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     let text = template.scenario(&stem, &args.set).map_err(|error| error.key("--set"))?;
-    if path == Path::new("-") {
+    if output::is_standard(path) {
         output::print(&text)?;
         return Ok(told(&text, Path::new("standard output"), template));
     }

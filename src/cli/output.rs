@@ -1,12 +1,13 @@
 //! Writing to standard output, files and the terminal.
 
+use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use super::advice;
 use crate::files;
 use crate::report::errors;
-use linkage::error::{Error, Result};
+use linkage::error::{Error, ErrorKind, Result};
 
 /// Path that results may be written to, `-` for standard output. Scenario files are refused: in `--json
 /// scenarios/*.toml` the first of them would become the target.
@@ -20,10 +21,36 @@ pub(super) fn target(text: &str) -> std::result::Result<PathBuf, String> {
 
 /// A path that can be written to, `-` for standard output. What is in the way is found before any work is done.
 pub(super) fn writable(path: PathBuf) -> std::result::Result<PathBuf, String> {
-    if path != Path::new("-") {
+    if !is_standard(&path) {
         files::may_write(&path)?;
     }
     Ok(path)
+}
+
+/// Whether a path stands for standard output: `-`.
+pub(super) fn is_standard(path: &Path) -> bool {
+    path == Path::new("-")
+}
+
+/// Whether a result is asked for, and goes to standard output.
+pub(super) fn is_said(to: &Option<PathBuf>) -> bool {
+    to.as_deref().is_some_and(is_standard)
+}
+
+/// Refuses two options that name one file: the second result would take the place of the first.
+pub(super) fn apart(targets: &[(&str, &Option<PathBuf>)]) -> Result<()> {
+    let place = |path: &PathBuf| match path.starts_with("/dev") || is_standard(path) {
+        true => path.clone(),
+        false => fs::canonicalize(path).or_else(|_| std::path::absolute(path)).unwrap_or_else(|_| path.clone()),
+    };
+    let named: Vec<_> = targets.iter().filter_map(|(option, to)| Some((option, place(to.as_ref()?)))).collect();
+    for (k, (one, to)) in named.iter().enumerate() {
+        if let Some((other, _)) = named[k + 1..].iter().find(|(_, other)| to == other && to != Path::new("/dev/null")) {
+            let message = format!("{one} and {other} both name {}", to.display());
+            return Err(Error::new(ErrorKind::Input, message).help("give two files, or leave one of the two out"));
+        }
+    }
+    Ok(())
 }
 
 /// As [`target`], also in a directory that the command makes.
@@ -44,12 +71,12 @@ pub(super) fn directory(text: &str) -> std::result::Result<PathBuf, String> {
 
 /// Writes text to a file, or to standard output for `-`.
 pub(super) fn write(text: &str, to: &Path) -> Result<()> {
-    sized(to, Some(text.len()), |out| out.write_all(text.as_bytes()))
+    sized(to, Some(text.len() as u64), |out| out.write_all(text.as_bytes()))
 }
 
 /// Writes bytes to a file, or to standard output for `-`.
 pub(super) fn write_bytes(bytes: &[u8], to: &Path) -> Result<()> {
-    sized(to, Some(bytes.len()), |out| out.write_all(bytes))
+    sized(to, Some(bytes.len() as u64), |out| out.write_all(bytes))
 }
 
 /// Lets `fill` write piece by piece to a file, or to standard output for `-`.
@@ -57,8 +84,8 @@ pub(super) fn stream(to: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<
     sized(to, None, fill)
 }
 
-fn sized(to: &Path, needs: Option<usize>, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<()> {
-    if to == Path::new("-") {
+fn sized(to: &Path, needs: Option<u64>, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<()> {
+    if is_standard(to) {
         return printed(fill);
     }
     files::replace(to, |mut file| fill(&mut file)).map_err(|error: io::Error| {

@@ -16,12 +16,13 @@ use super::jobs::{Room, side_by_side};
 use super::load::{StartArgs, only, reference_names};
 use super::progress::Shared;
 use super::record_args::RecordArgs;
+use super::reports::Reports;
 use super::{advice, exit_code, number, output, standard_input, terminal};
 use crate::compare::Verdict;
 use crate::proof::{EngineProof, Entry, Proof, memory, prove_with};
 use crate::report::closing::Closing;
 use crate::report::outcomes::Outcomes;
-use crate::report::{brief, explain, json, junit, markdown, recorded, residuals, text};
+use crate::report::{brief, explain, json, recorded, residuals, text};
 use crate::scenario::Scenario;
 use linkage::error::{Error, Result};
 use linkage::work::Work;
@@ -91,27 +92,19 @@ pub(super) struct Args {
     /// Show what ran, how often and why, and what was skipped
     #[arg(long)]
     explain: bool,
-    /// Write the results as JSON to a file, or to standard output instead of the report with `-`
-    #[arg(long, value_name = "FILE", value_parser = output::target)]
-    json: Option<PathBuf>,
-    /// Write the results as JUnit to a file, for whatever reads reports of tests: a suite for each scenario, a case for
-    /// each channel and check
-    #[arg(long, value_name = "FILE", value_parser = output::target)]
-    junit: Option<PathBuf>,
+    #[command(flatten)]
+    reports: Reports,
     /// Write a page to look at: the mechanism moving, all channels of both sides with errors and bounds, verdict and
     /// findings. It needs nothing else, no network either. A file for one scenario; for several, or if it is there or
     /// ends with `/`, a directory with NAME.html for each
     #[arg(long, value_name = "FILE|DIR", value_parser = html::target)]
     html: Option<PathBuf>,
-    /// Write the results as Markdown to a file, for a comment to a pull request; `-` for standard output after the report
-    #[arg(long, value_name = "FILE", value_parser = output::target)]
-    markdown: Option<PathBuf>,
 }
 
 /// Proves every file. A bad file does not stop the others from being proven.
 pub(super) fn run(args: &Args) -> u8 {
     // The default directory need not be there if nothing is recorded.
-    if let Err(found) = args.record.target() {
+    if let Err(found) = args.record.target().and_then(|()| args.reports.check(&[("--html", &args.html)])) {
         return output::exit(Err(found));
     }
     let pages = args.html.as_deref().map(|to| Pages::of(to, args.files.len())).transpose();
@@ -169,7 +162,7 @@ impl<'a> Session<'a> {
 
     /// Whether standard output has the report; it is JSON otherwise.
     fn reports(&self) -> bool {
-        self.args.json.as_deref() != Some(Path::new("-"))
+        !self.args.reports.takes_output()
     }
 
     fn failed(&mut self, file: &Path, error: &Error) {
@@ -281,22 +274,8 @@ impl<'a> Session<'a> {
         {
             self.print(&table);
         }
-        type Text<'a> = &'a dyn Fn() -> String;
-        let (document, outcomes) = (&self.document, &self.outcomes);
-        let targets: [(&Option<PathBuf>, Text); 3] = [
-            (&self.args.json, &|| document.text()),
-            (&self.args.junit, &|| junit::xml(outcomes)),
-            (&self.args.markdown, &|| markdown::text(outcomes)),
-        ];
-        for (to, text) in targets {
-            if let Some(to) = to
-                && let Err(error) = output::write(&text(), to)
-            {
-                output::show(&error);
-                self.worst = exit_code::BAD_INPUT;
-            }
-        }
-        self.worst
+        let written = self.args.reports.write(|| self.document.text(), &self.outcomes);
+        graver(self.worst, written)
     }
 }
 

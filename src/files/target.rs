@@ -72,7 +72,7 @@ fn why(error: &io::Error) -> String {
 /// The error of an output that could not be written: `what` it is, and how many bytes it `needs`, if that is known.
 /// `usual` is the way out where there is room.
 #[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the standard library")]
-pub(crate) fn unwritten(what: &str, error: &io::Error, needs: Option<usize>, usual: &str) -> Error {
+pub(crate) fn unwritten(what: &str, error: &io::Error, needs: Option<u64>, usual: &str) -> Error {
     let way_out = match error.kind() {
         io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => "make room there, or write to another device",
         io::ErrorKind::FileTooLarge => "raise the limit on the size of files, or ask for fewer instants or channels",
@@ -83,10 +83,12 @@ pub(crate) fn unwritten(what: &str, error: &io::Error, needs: Option<usize>, usu
     Error::new(ErrorKind::Io, message).help(way_out)
 }
 
-fn size(bytes: usize) -> String {
+/// A size in words.
+pub(crate) fn size(bytes: u64) -> String {
     match bytes {
         0..10_000 => format!("{bytes} bytes"),
-        10_000..10_000_000 => format!("{:.0} kB", bytes as f64 / 1e3),
+        10_000..1_000_000 => format!("{:.0} kB", bytes as f64 / 1e3),
+        1_000_000..10_000_000 => format!("{:.1} MB", bytes as f64 / 1e6),
         _ => format!("{:.0} MB", bytes as f64 / 1e6),
     }
 }
@@ -117,6 +119,12 @@ mod tests {
         assert!(may_fill(&at("file")).is_err() && may_fill(&at("file/a")).is_err());
         let left: Vec<_> = fs::read_dir(own.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
         assert_eq!((left, fs::read_to_string(at("file")).unwrap().as_str()), (vec!["file".into()], "old"));
+    }
+
+    #[test]
+    fn sizes_are_told_in_few_digits() {
+        let told = [874, 874_918, 5_000_000, 62_000_000].map(size);
+        assert_eq!(told, ["874 bytes", "875 kB", "5.0 MB", "62 MB"]);
     }
 
     #[test]

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use crate::cli::output;
 use drawing::bitmap::{Bitmap, bitmap, to_gif, to_png, to_webp};
 use drawing::paper::document::document;
 use drawing::paper::figure::Figure;
@@ -22,7 +23,7 @@ impl Medium {
         let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
         match ending.as_deref() {
             Some("svg") => Ok(Medium::Svg),
-            None if path == Path::new("-") => Ok(Medium::Svg),
+            None if output::is_standard(path) => Ok(Medium::Svg),
             Some("png") => Ok(Medium::Png),
             Some("gif") => Ok(Medium::Gif),
             Some("webp") => Ok(Medium::WebP),

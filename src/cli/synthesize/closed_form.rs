@@ -44,7 +44,7 @@ impl Target {
             // An invalid name is found here, not first when the scenario is run.
             Scenario::parse(scenario, to)?;
             write_scenario(scenario, to, &[])?;
-            if to == Path::new("-") {
+            if output::is_standard(to) {
                 return Ok(());
             }
         }

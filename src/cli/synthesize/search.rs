@@ -1,6 +1,6 @@
 //! `linkproof synthesize search` and `check`.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use super::target::{scenario_target, write_scenario};
 use crate::cli::load::plain;
@@ -22,6 +22,12 @@ struct Target {
     /// Write the result as JSON to a file, or to standard output instead of the text with `-`
     #[arg(long, value_name = "FILE", value_parser = output::target)]
     json: Option<PathBuf>,
+}
+
+impl Target {
+    fn check(&self, output: &Option<PathBuf>) -> Result<()> {
+        output::apart(&[("--output", output), ("--svg", &self.svg), ("--json", &self.json)])
+    }
 }
 
 #[derive(Debug, clap::Args)]
@@ -64,6 +70,7 @@ pub(super) struct CheckArgs {
 }
 
 pub(super) fn search(args: &Args) -> Result<()> {
+    args.target.check(&args.output)?;
     let TaskFile { mut task, drawing } = TaskFile::load(&args.file)?;
     let effort = &mut task.effort;
     effort.seed = args.seed.unwrap_or(effort.seed);
@@ -82,7 +89,7 @@ pub(super) fn search(args: &Args) -> Result<()> {
     let text = redraw::redrawn(&task, &drawing.text, &values, &comment(args, &own, &achieved))?;
     if let Some(to) = &args.output {
         write_scenario(&text, to, &[&args.file, &drawing.path])?;
-        if to == Path::new("-") {
+        if output::is_standard(to) {
             return Ok(());
         }
     }
@@ -104,6 +111,7 @@ fn comment(args: &Args, task: &Task, achieved: &Achieved) -> String {
 }
 
 pub(super) fn check(args: &CheckArgs) -> Result<()> {
+    args.target.check(&None)?;
     let TaskFile { task, drawing } = TaskFile::load(&args.file)?;
     let scenario = plain(&args.scenario)?;
     let names =
@@ -120,12 +128,15 @@ pub(super) fn check(args: &CheckArgs) -> Result<()> {
 }
 
 fn tell(target: &Target, story: &Story) -> Result<()> {
-    let dash = |to: &Option<PathBuf>| to.as_deref() == Some(Path::new("-"));
     if let Some(to) = &target.svg {
         output::write(&draw::timing(&report::diagram(story), &story.task.title), to)?;
     }
     if let Some(to) = &target.json {
         output::write(&report::json(story), to)?;
     }
-    if dash(&target.svg) || dash(&target.json) { Ok(()) } else { output::print(&report::text(story)) }
+    if output::is_said(&target.svg) || output::is_said(&target.json) {
+        Ok(())
+    } else {
+        output::print(&report::text(story))
+    }
 }

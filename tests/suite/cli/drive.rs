@@ -118,9 +118,9 @@ fn mistakes_are_answered() {
         ("--run-up - --seconds 0", ["'0' for '--seconds", "greater than 0"]),
         ("--run-up - --points 0", ["'0' for '--points", "from 1"]),
         ("--run-up - --from-rpm nan", ["'nan' for '--from-rpm", "finite"]),
-        ("--run-up same --json same", ["the same file", "two files"]),
-        ("--run-up same --svg same", ["--run-up and --svg name the same file", "two files"]),
-        ("--svg - --json -", ["--svg and --json name the same file", "two files"]),
+        ("--run-up same --json same", ["--run-up and --json both name", "two files"]),
+        ("--run-up same --svg same", ["--run-up and --svg both name", "two files"]),
+        ("--svg - --json -", ["--svg and --json both name -", "two files"]),
     ] {
         let outcome = place.run(&format!("drive scenarios/crank_rocker.toml {arguments}"));
         assert_eq!(outcome.code, 2, "{arguments}");

@@ -11,7 +11,7 @@ use assert_cmd::cargo::CommandCargoExt;
 use super::tools::Place;
 
 /// Every command with an output, up to the file's name, and that of the option.
-const FILES: [(&str, &str); 23] = [
+const FILES: [(&str, &str); 28] = [
     ("run scenarios/pendulum.toml --no-record --json", "--json"),
     ("run scenarios/pendulum.toml --no-record --junit", "--junit"),
     ("run scenarios/pendulum.toml --no-record --markdown", "--markdown"),
@@ -34,6 +34,11 @@ const FILES: [(&str, &str); 23] = [
     ("diagram scenarios/crank_rocker.toml --channel point.B.x_m --csv", "--csv"),
     ("export scenarios/crank_rocker.toml --mjcf", "--mjcf"),
     ("export scenarios/crank_rocker.toml --json", "--json"),
+    ("compare scenarios/pendulum.toml scenarios/pendulum.toml --json", "--json"),
+    ("compare scenarios/pendulum.toml scenarios/pendulum.toml --junit", "--junit"),
+    ("compare scenarios/pendulum.toml scenarios/pendulum.toml --markdown", "--markdown"),
+    ("accept --check scenarios/pendulum.toml --json", "--json"),
+    ("schema -o", "--output"),
     ("synthesize slider-crank --stroke-mm 100 --rod-mm 200 --json", "--json"),
 ];
 
@@ -72,6 +77,28 @@ fn what_cannot_be_written_is_found_before_the_work() {
     }
     assert_eq!(left(&place), ["file", "taken"]);
     assert_eq!(fs::read_to_string(place.path("file")).unwrap(), "old");
+}
+
+#[test]
+fn no_result_takes_the_place_of_another_or_of_what_is_read() {
+    let place = Place::new();
+    fs::write(place.path("mine.csv"), "t_s,link.crank.angle_deg\n0,0\n").unwrap();
+    for (command, words) in [
+        ("run scenarios/pendulum.toml --no-record --json out --junit ./out", "--json and --junit both name"),
+        ("run scenarios/pendulum.toml --no-record --markdown out --html out", "--html and --markdown both name"),
+        ("run scenarios/pendulum.toml --no-record --json - --markdown -", "--json and --markdown both name -"),
+        ("compare scenarios/crank_rocker.toml mine.csv --json mine.csv", "B and --json both name"),
+        ("mutate scenarios/pendulum.toml --json out --markdown out", "--json and --markdown both name"),
+        ("export scenarios/crank_rocker.toml --json out --mjcf out", "--mjcf and --json both name"),
+        ("synthesize search synthesis/straight_line.toml --svg out --json out", "--svg and --json both name"),
+    ] {
+        let outcome = place.refused(command, &[words, "two files"]);
+        assert_eq!(outcome.stdout, "", "{command}");
+    }
+    assert_eq!(left(&place), ["mine.csv"]);
+    assert!(fs::read_to_string(place.path("mine.csv")).unwrap().starts_with("t_s"));
+    // What is thrown away may be thrown away twice.
+    place.ok("run scenarios/pendulum.toml --no-record --json /dev/null --junit /dev/null");
 }
 
 /// A proof that would take long ends at once, and touches nothing.
