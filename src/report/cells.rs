@@ -47,8 +47,17 @@ pub(super) fn flush<const N: usize>(header: [&str; N], numbers: &[usize], width:
     table
 }
 
-/// A table as text, without blanks at the ends of its lines.
+/// A table as text, without blanks at the ends of its lines. One that is too wide has columns one blank apart, not two,
+/// so that fewer texts are broken.
 pub(super) fn trimmed(table: &Table) -> String {
+    let mut table = table.clone();
+    let needed: u16 = table.column_iter().map(|column| column.padding_width()).sum::<u16>()
+        + table.column_max_content_widths().iter().sum::<u16>();
+    if table.width().is_some_and(|width| needed > width) {
+        for column in table.column_iter_mut().filter(|column| column.padding_width() == 2) {
+            column.set_padding((0, 1));
+        }
+    }
     table.lines().map(|line| line.trim_end().to_string()).collect::<Vec<_>>().join("\n")
 }
 
