@@ -5,7 +5,7 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 
-use super::cells::table;
+use super::cells::{table, trimmed};
 use super::diagnosis::{number, told_apart};
 use super::json::Failure;
 use super::pretty::pretty;
@@ -143,7 +143,7 @@ fn changes(comparison: &Comparison, text: &mut String) {
             let bounds = format!("{:.1e}", moved.bounds());
             table.add_row([moved.channel.clone(), figure(moved.figure), accepted, found, by, bound, bounds]);
         }
-        let _ = writeln!(text, "\n{table}");
+        let _ = writeln!(text, "\n{}", trimmed(&table));
     }
     if worst.len() > SHOWN {
         let _ = writeln!(text, "... and {} more channels; the JSON has all of them.", worst.len() - SHOWN);

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use serde_json::json;
 
-use super::cells::table;
+use super::cells::{table, trimmed};
 use super::pretty::pretty;
 use crate::numbers;
 use crate::scenario::Scenario;
@@ -42,7 +42,7 @@ pub(crate) fn text(journals: Journals, scenario: &Scenario, peaks: &Peaks) -> St
         table.add_row(row);
     }
     let mut text = String::new();
-    let _ = writeln!(text, "{}: {}\n\n{table}\n", scenario.name, scenario.title);
+    let _ = writeln!(text, "{}: {}\n\n{}\n", scenario.name, scenario.title, trimmed(&table));
     for (name, peak, unit) in
         [("shaking force", peaks.shaking_force, "N"), ("balancing moment", peaks.balancing_moment, "N m")]
     {

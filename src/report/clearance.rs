@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use serde_json::{Value, json};
 
-use super::cells::table;
+use super::cells::{table, trimmed};
 use super::pretty::pretty;
 use crate::numbers;
 use crate::scenario::Scenario;
@@ -83,7 +83,7 @@ pub(crate) fn text(scenario: &Scenario, asked: &Question, found: &Clearance) -> 
             let row = [millimetres(smallest.distance), degrees(smallest.crank), one, two, contact];
             table.add_row([first, second].map(String::from).into_iter().chain(row));
         }
-        let _ = writeln!(text, "{table}\n");
+        let _ = writeln!(text, "{}\n", trimmed(&table));
         let _ = writeln!(text, "no distance is smaller by more than {} mm", significant(1e3 * found.tolerance));
     }
     let swept: Vec<_> = found.swept.iter().collect();
@@ -95,7 +95,7 @@ pub(crate) fn text(scenario: &Scenario, asked: &Question, found: &Clearance) -> 
             let name = asked.bodies[*body].name.clone();
             areas.add_row([name, of(area.value), of(area.error()), of(area.least), of(area.most)]);
         }
-        let _ = writeln!(text, "{areas}\n");
+        let _ = writeln!(text, "{}\n", trimmed(&areas));
         if let Some((body, area)) = found.swept.iter().find(|(_, area)| area.error() > asked.area * area.value) {
             let (name, share) = (&asked.bodies[*body].name, area.error() / area.value);
             let _ = writeln!(

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use serde_json::{Value, json};
 
-use super::cells::table;
+use super::cells::{table, trimmed};
 use super::pretty::pretty;
 use crate::numbers::{fixed, fixed_in};
 use crate::scenario::Scenario;
@@ -97,7 +97,7 @@ fn angles(found: &Found) -> String {
             steady(|at| at.alpha),
         ]);
     }
-    table.to_string()
+    trimmed(&table)
 }
 
 /// The drive as JSON, schema 1.

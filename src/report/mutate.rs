@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use serde_json::{Value, json};
 
-use super::cells::table;
+use super::cells::{table, trimmed};
 use super::pretty::pretty;
 use crate::mutate::{Kind, Mutant, Mutated, Outcome, Party, Share, Sight, Tally, all, tally};
 use linkage::math::KeepNan;
@@ -84,7 +84,7 @@ fn scenarios(found: &[Mutated]) -> String {
             trunk.found().to_string(),
         ]);
     }
-    table.to_string()
+    trimmed(&table)
 }
 
 /// What came of one kind in all scenarios.
@@ -164,7 +164,7 @@ fn kinds(found: &[Mutated]) -> String {
             table.add_row(cells(kind, &own));
         }
     }
-    table.to_string()
+    trimmed(&table)
 }
 
 /// Faults in one party that are not found, with the reason.
@@ -199,7 +199,7 @@ pub(crate) fn list() -> String {
     for kind in all() {
         table.add_row(described(kind));
     }
-    format!("{table}\n")
+    format!("{}\n", trimmed(&table))
 }
 
 fn described(kind: &Kind) -> [String; 5] {

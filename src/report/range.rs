@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use serde_json::{Value, json};
 
-use super::cells::table;
+use super::cells::{table, trimmed};
 use crate::numbers;
 use crate::scenario::Scenario;
 use analytic::range::{At, Extent, Extreme, LinkRange, Measure, Range, Singularity};
@@ -75,7 +75,7 @@ fn singularities(scenario: &Scenario, range: &Range) -> String {
         let crank = degrees(*crank, range);
         table.add_row([kind.name().to_string(), crank, names(scenario, *group), numbers::significant(*determinant, 2)]);
     }
-    format!("{table}\n")
+    format!("{}\n", trimmed(&table))
 }
 
 fn groups(scenario: &Scenario, range: &Range) -> String {
@@ -99,7 +99,7 @@ fn groups(scenario: &Scenario, range: &Range) -> String {
             at,
         ]);
     }
-    table.to_string()
+    trimmed(&table)
 }
 
 fn links(scenario: &Scenario, range: &Range) -> String {
@@ -116,7 +116,7 @@ fn links(scenario: &Scenario, range: &Range) -> String {
             positions(&link.extremes, range),
         ]);
     }
-    table.to_string()
+    trimmed(&table)
 }
 
 fn motion(link: &LinkRange) -> String {

@@ -1,6 +1,6 @@
 //! Every residual of a proof beside its bound, for readers who examine the bounds.
 
-use super::cells::table;
+use super::cells::{table, trimmed};
 use super::own_forces;
 use crate::numbers;
 use crate::proof::Proof;
@@ -29,5 +29,5 @@ pub fn all(proof: &Proof) -> String {
     for check in proof.all_checks() {
         add(check.name(), "", [check.value, check.bound], check.unit, check.verdict.word());
     }
-    format!("\n{table}\n")
+    format!("\n{}\n", trimmed(&table))
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use serde_json::json;
 
-use super::cells::table;
+use super::cells::{table, trimmed};
 use super::pretty::pretty;
 use crate::numbers;
 use crate::scenario::Scenario;
@@ -52,8 +52,12 @@ pub(crate) fn text(scenario: &Scenario, found: &Tuning, within: f64, section: &S
     }
     let mut text = String::new();
     let _ = writeln!(text, "{}: {}\n", scenario.name, scenario.title);
-    let _ =
-        writeln!(text, "The cheapest settings within {} of every channel's scale:\n{table}\n", numbers::error(within));
+    let _ = writeln!(
+        text,
+        "The cheapest settings within {} of every channel's scale:\n{}\n",
+        numbers::error(within),
+        trimmed(&table)
+    );
     for (name, error) in &found.too_coarse {
         let _ = match error.is_finite() {
             true => writeln!(text, "{name} does not meet it: its smallest error was {}.", numbers::error(*error)),

@@ -46,6 +46,31 @@ fn short_reports_begin_with_the_verdict_and_have_lines_of_80_columns() {
 }
 
 #[test]
+fn no_line_ends_with_blanks() {
+    let place = Place::new();
+    for command in [
+        "new",
+        "list",
+        "list --solvers",
+        "list --channels scenarios/crank_rocker.toml",
+        "inspect scenarios/ov7_base.toml",
+        "inspect scenarios/tangent.toml --range",
+        "plan scenarios/quick_return.toml",
+        "drive scenarios/crank_rocker.toml --table",
+        "bearings scenarios/compressor.toml",
+        "clearance scenarios/crankcase.toml",
+        "diagram scenarios/crank_rocker.toml --channel point.B.x_m",
+        "mutate --list",
+        "check scenarios/crank_rocker.toml phi --channel link.crank.angle_rad",
+        "run scenarios/pendulum.toml --no-record --verbose --explain --tolerance-scale 0",
+    ] {
+        let text = place.ok(command);
+        let blank = text.lines().find(|line| line.ends_with(' '));
+        assert_eq!(blank, None, "{command}");
+    }
+}
+
+#[test]
 fn formulas_are_judged_in_80_columns() {
     let place = Place::new();
     let mut files: Vec<String> = fs::read_dir(place.path("scenarios/formulas"))
