@@ -57,6 +57,11 @@ pub(super) fn read(path: &Path) -> Result<Vec<(String, Trajectory)>> {
 }
 
 pub(super) fn of_bytes(bytes: &[u8], path: &Path) -> Result<Vec<(String, Trajectory)>> {
+    if !bytes.starts_with(mcap::MAGIC) {
+        let what = if bytes.is_empty() { "is empty" } else { "is no recording: it does not begin as MCAP files do" };
+        return Err(Error::new(ErrorKind::Io, format!("the file {} {what}", path.display()))
+            .help("name a recording (.mcap), which a run leaves"));
+    }
     let damaged = |error: &dyn Display| {
         Error::new(ErrorKind::Io, format!("the recording {} is cut off or damaged: {error}", path.display()))
             .help("record it again, or save what is left of it with `pymcap-cli recover`")

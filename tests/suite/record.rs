@@ -359,6 +359,17 @@ fn a_file_cut_off_opens_up_to_the_cut_but_is_not_taken_for_whole() {
 }
 
 #[test]
+fn a_file_that_is_no_recording_is_not_called_damaged() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path().join("mine.toml");
+    for (bytes, words) in [("", "mine.toml is empty"), ("name = \"mine\"\n", "mine.toml is no recording")] {
+        fs::write(&path, bytes).unwrap();
+        let error = load(&path).unwrap_err();
+        assert!(error.to_string().contains(words) && error.way_out().is_some(), "{error}");
+    }
+}
+
+#[test]
 fn a_recording_that_cannot_be_written_is_an_error_with_its_path() {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("old.mcap");
