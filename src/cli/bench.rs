@@ -29,8 +29,8 @@ Examples:
 All scenarios, beside another program, with a page:
   linkproof bench scenarios/*.toml --out bench --page bench.md --peer mine='python3 mine.py'
 
-Writes NAME.time.svg, NAME.solutions.svg, NAME.inner.svg and NAME.csv of every scenario, and bench.json, to the directory.
-Times are ratios to that of side 1 in the same command; they may differ from run to run, errors and counts do not.
+Writes NAME.time.svg, NAME.solutions.svg, NAME.inner.svg and NAME.csv of every scenario, and bench.json, to the directory. \
+Times are ratios to that of side 1 in the same command; they may differ from run to run, errors and counts do not. \
 `linkproof docs peers` tells how any other program is put on the diagrams.";
 
 /// Longest time of one call of a peer (s).

@@ -24,9 +24,9 @@ Examples:
   linkproof check mine.toml 'r*w^2*(cos(phi) + r/l*cos(2*phi))' --set r=0.05 --set l=0.2 --set w_rpm=300 \\
       --channel point.B.ax_m_s2 --error 0.4 --json -
 
-phi is the crank angle in rad as the scenario states it, t the time in s; pi, sin cos tan asin acos atan atan2(y, x)
-sqrt abs exp ln are known. The value counts in the channel's unit. -x^2 is -(x^2). --set a_mm=30 makes `a` known in
-SI (0.03) and `a_mm` as the plain number. Judged by value, and by first and second derivative where the mechanism has
+phi is the crank angle in rad as the scenario states it, t the time in s; pi, sin cos tan asin acos atan atan2(y, x) \
+sqrt abs exp ln are known. The value counts in the channel's unit. -x^2 is -(x^2). --set a_mm=30 makes `a` known in \
+SI (0.03) and `a_mm` as the plain number. Judged by value, and by first and second derivative where the mechanism has \
 channels for them, at every instant of the grid and against both analytic sides: `linkproof docs formulas`.
 
 Exit codes: 0 right, 1 wrong, 2 bad input, 3 nothing proven.";

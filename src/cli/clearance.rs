@@ -21,7 +21,7 @@ Examples:
   linkproof clearance scenarios/crankcase.toml --csv distances.csv    every distance at the instants of the grid
   linkproof clearance scenarios/crankcase.toml --json -
 
-Every distance holds for the whole range of the grid, not for its instants only: `linkproof docs clearance` says how.
+Every distance holds for the whole range of the grid, not for its instants only: `linkproof docs clearance` says how. \
 Outlines and housing are in the scenario's section [clearance].
 
 Exit codes: 0 all clear, 1 links collide or are nearer than wanted, 2 bad input or usage, 3 a part of the range is not proven.";

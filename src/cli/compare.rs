@@ -30,11 +30,11 @@ Examples:
   linkproof compare scenarios/crank_rocker.toml mine.toml --json -  two models of one mechanism
   linkproof compare scenarios/crank_rocker.toml mine.csv --junit out.xml --markdown out.md   for reports of tests
 
-Each of A and B is a scenario (.toml), which is solved by both analytic sides at the instants of the other, a recording
-(.mcap), or a table: text with separated columns, or Parquet. A column named as a channel with its unit needs no
-mapping, nor do t_s, t, time (in s), time_ms, crank_deg and crank_rad. --map reads EXPR=CHANNEL: an arithmetic over
-columns, so that sign, factor, offset and unit are written as they are; a name with other signs stands in backquotes.
-Bounds are what digits, rounding and the analytic sides leave open, plus what --rel and --abs allow. `linkproof docs compare`
+Each of A and B is a scenario (.toml), which is solved by both analytic sides at the instants of the other, a recording \
+(.mcap), or a table: text with separated columns, or Parquet. A column named as a channel with its unit needs no \
+mapping, nor do t_s, t, time (in s), time_ms, crank_deg and crank_rad. --map reads EXPR=CHANNEL: an arithmetic over \
+columns, so that sign, factor, offset and unit are written as they are; a name with other signs stands in backquotes. \
+Bounds are what digits, rounding and the analytic sides leave open, plus what --rel and --abs allow. `linkproof docs compare` \
 says more.
 
 Exit codes: 0 they agree, 1 they disagree, 2 bad input, 3 nothing proven.";

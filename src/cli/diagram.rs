@@ -18,7 +18,7 @@ Examples:
   linkproof diagram scenarios/ov7_base.toml --channel link.rocker_87.angle_rad --svg needle.svg
   linkproof diagram scenarios/crank_rocker.toml --channel link.rocker.angle_rad --csv points.csv
 
-Chords of the displacement give the velocity at the middles of the divisions, chords of that the acceleration at their ends;
+Chords of the displacement give the velocity at the middles of the divisions, chords of that the acceleration at their ends; \
 backwards, the exact velocity and acceleration at the middles are summed up.";
 
 #[derive(Debug, clap::Args)]

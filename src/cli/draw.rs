@@ -25,7 +25,7 @@ Examples:
   linkproof draw scenarios/class3_group.toml --traces -o moving.gif    one turn; or .webp, without loss
   linkproof draw scenarios/scotch_yoke.toml scenarios/quick_return.toml --dimensions -o both.svg
 
-What cannot be assembled is drawn as far as it goes: dashed where a link has no certain place, with the gap of every joint
+What cannot be assembled is drawn as far as it goes: dashed where a link has no certain place, with the gap of every joint \
 that stays open. The picture is written then too, and the exit code is 2.";
 
 /// Room of a picture that stands alone, and of one among others (mm).

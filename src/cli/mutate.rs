@@ -21,7 +21,7 @@ Examples:
   linkproof mutate scenarios/quick_return.toml --party trunk --kind gravity-sign   in what all share: who outside sees it?
   linkproof mutate scenarios/loaded_slider.toml --kind spring-twice --json -    for a script
 
-Every fault stands alone, in an otherwise correct proof at default settings.
+Every fault stands alone, in an otherwise correct proof at default settings. \
 A fault that changes no exact answer is not counted: side 1 is solved with it and without it.
 
 Exit codes: 0 no fault in one party escapes, 1 some escape, 2 bad input or usage, 3 none escapes, but some prove nothing either way.";

@@ -15,7 +15,7 @@ Examples:
   linkproof new jansen -o -                       to standard output
   linkproof new --shipped                         write scenarios/, catalogues/ and findings that help and documents name
 
-A mechanism that cannot be assembled, or does not turn, is written nevertheless: its lengths are corrected in the file.
+A mechanism that cannot be assembled, or does not turn, is written nevertheless: its lengths are corrected in the file. \
 The message says how far it goes, and the exit code is 2.";
 
 #[derive(Debug, clap::Args)]

@@ -20,7 +20,7 @@ Examples:
   linkproof plan scenarios/ov7_base.toml --only 7,9 --svg needle.svg   two points of many
   linkproof plan scenarios/ov7_base.toml --crank-deg -120 --with newton --json -
 
-Letters: a, b, ... are the points A, B, ..., s2 the mass centre of link 2, n1, n2, ... ends of normal parts; a3 is the point of
+Letters: a, b, ... are the points A, B, ..., s2 the mass centre of link 2, n1, n2, ... ends of normal parts; a3 is the point of \
 link 3 under A, which slides on it, k1, k2, ... ends of Coriolis parts; points of the ground lie in the pole (p of velocities, π of accelerations).";
 
 #[derive(Debug, clap::Args)]

@@ -18,8 +18,8 @@ Examples:
   linkproof stress step --quick --out stress --jobs 1         one point at a time, with the same bytes
   linkproof stress length_ratio --quick --out stress --page stress/page.md   a page with tables and maps besides
 
-Without a family all of them are run: half a minute with --quick, some minutes without; begun again, a run goes on where it was.
-Every family turns one dial. In the directory there is one JSON, one CSV and one SVG map for each. A point that stands in the
+Without a family all of them are run: half a minute with --quick, some minutes without; begun again, a run goes on where it was. \
+Every family turns one dial. In the directory there is one JSON, one CSV and one SVG map for each. A point that stands in the \
 JSON is run again only if the program's version or the point's inputs have changed; to have all made anew, remove the file.
 Exit codes: 0 no silent wrong number and no panic, 1 one of them, 2 bad input or usage.";
 

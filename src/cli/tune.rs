@@ -24,7 +24,7 @@ Examples:
   linkproof tune scenarios/crank_rocker.toml --within 1e-5 --engine all
   linkproof tune scenarios/compressor.toml --within 1e-4 --write      change the scenario's [engine] section
 
-The error is a share of each channel's scale, half its range over the run. Prices are times on this machine, so they, and with them a close
+The error is a share of each channel's scale, half its range over the run. Prices are times on this machine, so they, and with them a close \
 choice, may differ from run to run; the errors do not.";
 
 /// Number of timed runs. The shortest counts, because other work on the machine only adds time.
