@@ -337,6 +337,25 @@ fn nonsense_hurts_nobody_and_names_that_are_not_spoken_are_refused() {
 }
 
 #[test]
+fn more_viewers_than_may_look_on_wait_until_one_leaves() {
+    let served = Served::by(Place::new(), RUN);
+    let mut viewers: Vec<Viewer> = (0..32).map(|_| Viewer::at(&served.address, OLD)).collect();
+    viewers.iter_mut().for_each(|viewer| drop(viewer.channels()));
+    let request = || {
+        let mut request = format!("ws://{}", served.address).into_client_request().unwrap();
+        request.headers_mut().insert("sec-websocket-protocol", OLD.parse().unwrap());
+        client(request, TcpStream::connect(&served.address).unwrap())
+    };
+    assert!(request().is_err());
+    viewers.pop();
+    let waits = || std::thread::sleep(std::time::Duration::from_millis(100));
+    assert!((0..100).any(|_| request().is_ok() || {
+        waits();
+        false
+    }));
+}
+
+#[test]
 fn it_ends_with_the_exit_code_of_the_verdict_and_what_was_asked_for_is_written() {
     let also = "--no-record --tolerance-scale 1e-9 --json out.json --html out.html";
     let mut served = Served::by(Place::new(), &format!("{RUN} {also}"));
