@@ -8,8 +8,10 @@ The layout shows the mechanism from above. So every place on a link has its plac
 
 import asyncio
 import base64
+import contextlib
 import functools
 import http.server
+import io
 import json
 import math
 import re
@@ -79,11 +81,12 @@ CANVAS = """(() => {
 
 
 async def show(port, address, judge):
-    """Opens a page and photographs it until the judge is content. Returns canvas and picture."""
+    """Opens a page, or stays where it is, and photographs it until the judge is content. Returns canvas and picture."""
     with urllib.request.urlopen(f"http://127.0.0.1:{port}/json") as answer:
         page = next(own for own in json.load(answer) if own["type"] == "page")
     async with websockets.connect(page["webSocketDebuggerUrl"], max_size=None) as socket:
-        await call(socket, "Page.navigate", url=address)
+        if address:
+            await call(socket, "Page.navigate", url=address)
         until = time.monotonic() + LIMIT
         while True:
             await asyncio.sleep(3.0)
@@ -93,16 +96,20 @@ async def show(port, address, judge):
                 return canvas, png
 
 
-def places(recording):
-    """World places on the links of the last side where the player stands at first, with their colours."""
+def poses(recording):
+    """What the links look like, and all messages of their frames with their times (ns)."""
     with open(recording, "rb") as stream:
         reader = make_reader(stream, decoder_factories=[DecoderFactory()])
-        found = {}
-        for _, channel, raw, message in reader.iter_decoded_messages(topics=["/mechanism/links", "/tf"]):
-            if raw.log_time <= START:
-                found[channel.topic] = message
-    frames = {own.child_frame_id: own for own in found["/tf"].transforms}
-    links = [own for own in found["/mechanism/links"].entities if own.frame_id in frames]
+        found = {"/mechanism/links": [], "/tf": []}
+        for _, channel, raw, message in reader.iter_decoded_messages(topics=list(found)):
+            found[channel.topic].append((raw.log_time, message))
+    return found["/mechanism/links"][0][1], found["/tf"]
+
+
+def places(drawing, transforms):
+    """World places on the links of the last side, with their colours."""
+    frames = {own.child_frame_id: own for own in transforms.transforms}
+    links = [own for own in drawing.entities if own.frame_id in frames]
     last = links[-1].frame_id.split("/")[0]
     for link in (own for own in links if own.frame_id.startswith(f"{last}/")):
         frame = frames[link.frame_id]
@@ -117,12 +124,13 @@ def places(recording):
             yield link.frame_id, turn @ (a + share * (b - a)) + [frame.translation.x, frame.translation.y], color
 
 
-def seen(canvas, png, camera, wanted):
+def pixels(png):
+    """A picture as numbers."""
+    return np.asarray(Image.open(io.BytesIO(png)).convert("RGB")).astype(int)
+
+
+def seen(canvas, picture, camera, wanted):
     """Places on links whose colour is seen where the numbers say."""
-    with tempfile.NamedTemporaryFile(suffix=".png") as file:
-        file.write(png)
-        file.flush()
-        picture = np.asarray(Image.open(file.name).convert("RGB")).astype(int)
     left, top, width, height = canvas
     scale = height / camera["distance"]
     good = []
@@ -136,24 +144,20 @@ def seen(canvas, png, camera, wanted):
     return good
 
 
-def main(packages, recording, out):
-    """Shows the recording and judges the picture."""
+@contextlib.contextmanager
+def studio(packages, layout, files):
+    """Studio in a browser: the port that the browser is debugged by, and the address of the page, with files beside it."""
     chromium = shutil.which("chromium") or shutil.which("google-chrome")
-    recording = Path(recording)
-    layout = json.loads(recording.with_suffix(".foxglove.json").read_text())
-    camera = layout["configById"]["3D!mechanism"]["cameraState"]
-    wanted = list(places(recording))
-    here = Path(__file__).parent
     with tempfile.TemporaryDirectory() as own:
         root = Path(own) / "root"
         root.mkdir()
         (root / "node_modules").symlink_to((Path(packages) / "node_modules").resolve())
-        shutil.copy(here / "foxglove.html", root)
-        shutil.copy(recording, root / "own.mcap")
+        shutil.copy(Path(__file__).parent / "foxglove.html", root)
+        for name, file in files.items():
+            shutil.copy(file, root / name)
         (root / "layout.json").write_text(json.dumps(layout))
         server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(Files, directory=root))
         threading.Thread(target=server.serve_forever, daemon=True).start()
-        address = f"http://127.0.0.1:{server.server_port}/foxglove.html?recording=own.mcap&layout=layout.json"
         profile = Path(own) / "profile"
         browser = subprocess.Popen(
             [chromium, *FLAGS, f"--window-size={SIZE[0]},{SIZE[1]}", f"--user-data-dir={profile}", "about:blank"],
@@ -165,17 +169,29 @@ def main(packages, recording, out):
             while not ready.exists() and time.monotonic() < until:
                 time.sleep(0.2)
             port = ready.read_text().split()[0]
-            enough = lambda canvas, png: all(good for _, good in seen(canvas, png, camera, wanted))
-            canvas, png = asyncio.run(show(port, address, enough))
+            yield port, f"http://127.0.0.1:{server.server_port}/foxglove.html?layout=layout.json"
         finally:
             browser.terminate()
             browser.wait()
             server.shutdown()
+
+
+def main(packages, recording, out):
+    """Shows the recording and judges the picture."""
+    recording = Path(recording)
+    layout = json.loads(recording.with_suffix(".foxglove.json").read_text())
+    camera = layout["configById"]["3D!mechanism"]["cameraState"]
+    drawing, frames = poses(recording)
+    wanted = list(places(drawing, [message for at, message in frames if at <= START][-1]))
+    with studio(packages, layout, {"own.mcap": recording}) as (port, address):
+        enough = lambda canvas, png: all(good for _, good in seen(canvas, pixels(png), camera, wanted))
+        canvas, png = asyncio.run(show(port, f"{address}&recording=own.mcap", enough))
     Path(out).write_bytes(png)
-    good = seen(canvas, png, camera, wanted) if canvas else []
+    good = seen(canvas, pixels(png), camera, wanted) if canvas else []
     missed = [name for name, own in good if not own]
     print(f"{out}: {len(good) - len(missed)} of {len(wanted)} places on links are seen where the numbers say")
     sys.exit(0 if good and not missed else 1)
 
 
-main(*sys.argv[1:])
+if __name__ == "__main__":
+    main(*sys.argv[1:])
