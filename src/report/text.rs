@@ -169,11 +169,13 @@ pub(super) fn sentence(verdict: &Verdict, proof: &Proof) -> String {
         }
         Verdict::Disagree { .. } => {
             let wrong = count(proof, |verdict| matches!(verdict, Verdict::Disagree { .. }));
-            format!("{wrong} of {channels} and {checks} checks are beyond their bounds.")
+            let are = if wrong == 1 { "number is beyond its bound" } else { "numbers are beyond their bounds" };
+            format!("{wrong} {are}, of {channels} and {checks} checks.")
         }
         Verdict::Inconclusive { .. } => {
             let open = count(proof, |verdict| matches!(verdict, Verdict::Inconclusive { .. }));
-            format!("{open} of {channels} and {checks} checks prove nothing either way.")
+            let prove = if open == 1 { "number proves" } else { "numbers prove" };
+            format!("{open} {prove} nothing either way, of {channels} and {checks} checks.")
         }
     }
 }

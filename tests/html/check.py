@@ -1,7 +1,8 @@
 """Opens pages of `linkproof run --html` in headless Chromium: check.py LINKPROOF CHROMIUM DIRECTORY some|everything SCENARIO...
 
-For every page: no message on the console, no request, links where the solution has them, keyboard, printing, names of
-everything that can be seen, no width that does not fit. Screenshots at three widths, light and dark, go to DIRECTORY.
+For every page: no message on the console, no request, links where the solution has them, loads where the scenario and the
+solution have them, plans as `linkproof plan` has them, keyboard, pointer, printing, names of everything that can be seen,
+contrast, no width that does not fit. Screenshots at three widths, light and dark, go to DIRECTORY.
 """
 
 import csv
@@ -14,20 +15,17 @@ from pathlib import Path
 
 from playwright.sync_api import sync_playwright
 
+from contents import check_loads, check_plans
+from wrong import GO_TO, WITHIN, Wrong, need
+
 WIDTHS = [360, 800, 1400]
 MOST_BYTES = 3_000_000
-# Of the mechanism's size.
-WITHIN = 1e-6
-
 # Places of all mass centres and angles of a side, in metres, from what is drawn.
 READ = """
 (side) => [...document.querySelectorAll(`#picture .${side} [data-link]`)].map((part) => ({
     link: Number(part.dataset.link), matrix: part.getAttribute('transform').match(/-?[\\d.]+(?:e[-+]?\\d+)?/g).map(Number),
     hidden: part.classList.contains('hidden'),
 }))
-"""
-GO_TO = """
-(row) => { const slider = document.getElementById('slider'); slider.value = row; slider.dispatchEvent(new Event('input')); }
 """
 UNNAMED = """
 () => [...document.querySelectorAll('svg, input, select, button')].filter((own) => own.getAttribute('aria-hidden') !== 'true'
@@ -37,13 +35,34 @@ UNNAMED = """
 TOO_WIDE = "() => document.documentElement.scrollWidth - document.documentElement.clientWidth"
 
 
-class Wrong(Exception):
-    """A page that is not as it must be."""
-
-
-def need(holds, what):
-    if not holds:
-        raise Wrong(what)
+# Texts whose contrast to what is behind them is below what WCAG 2 asks for at level AA.
+PALE = """
+() => {
+    const parts = (colour) => (colour.match(/[\\d.]+/g) || []).map(Number);
+    const light = ([r, g, b]) => [r, g, b].map((own) => own / 255)
+        .map((own) => (own <= 0.04045 ? own / 12.92 : ((own + 0.055) / 1.055) ** 2.4))
+        .reduce((sum, own, k) => sum + own * [0.2126, 0.7152, 0.0722][k], 0);
+    const behind = (own) => {
+        for (let at = own; at !== null; at = at.parentElement) {
+            const found = parts(getComputedStyle(at).backgroundColor);
+            if (found.length === 3 || found[3] === 1) return found;
+        }
+        return [255, 255, 255];
+    };
+    const found = [];
+    for (const own of document.querySelectorAll('body *')) {
+        if (!own.checkVisibility() || ![...own.childNodes].some((child) => child.nodeType === 3 && child.data.trim())) continue;
+        if (own.closest('noscript, script, style, title, option')) continue;
+        const style = getComputedStyle(own);
+        const pair = [light(parts(own instanceof SVGElement ? style.fill : style.color)), light(behind(own))].sort((a, b) => b - a);
+        const ratio = (pair[0] + 0.05) / (pair[1] + 0.05);
+        const size = parseFloat(style.fontSize);
+        const least = size >= 24 || (size >= 18.66 && style.fontWeight >= 700) ? 3 : 4.5;
+        if (ratio < least) found.push(`${ratio.toFixed(2)} : 1 in "${own.textContent.trim().slice(0, 40)}"`);
+    }
+    return found.slice(0, 5);
+}
+"""
 
 
 def solution(linkproof, scenario):
@@ -112,6 +131,10 @@ def check_keys(tab, count):
         need(playing() == "false", "Space does not stop")
     if not tab.locator("#picture").count():
         return
+    if tab.locator("#show-loads").count():
+        tab.keyboard.press("f")
+        need(not tab.locator("#loads").is_visible(), "F does not hide loads")
+        tab.keyboard.press("f")
     named = "() => document.querySelector('#picture').classList.contains('no-names')"
     tab.keyboard.press("n")
     need(tab.evaluate(named), "N does not hide names")
@@ -122,7 +145,37 @@ def check_keys(tab, count):
     need(tab.evaluate("() => document.activeElement.id") == "play", "the tabulator does not reach the first button")
 
 
-def check_page(browser, path, rows, pictures):
+def check_pointer(tab, count):
+    """A click on a chart goes to its instant, and what is pointed at is read."""
+    if count < 10:
+        return
+    chart = tab.locator("#charts svg").first
+    chart.scroll_into_view_if_needed()
+    box = chart.bounding_box()
+    tab.mouse.move(box["x"] + 0.5 * box["width"], box["y"] + 0.3 * box["height"])
+    read = chart.locator("xpath=following-sibling::p").inner_text()
+    need(": " in read, f"a chart tells nothing where it is pointed at: {read}")
+    tab.mouse.click(box["x"] + 0.5 * box["width"], box["y"] + 0.3 * box["height"])
+    row = int(tab.evaluate("() => document.getElementById('slider').value"))
+    need(0.05 * count < row < 0.95 * count, f"a click on a chart goes to row {row} of {count}")
+    cursor = float(chart.locator(".cursor").get_attribute("x1")) / 340
+    need(abs(cursor - 0.5) < 0.1, "the cursor of a chart is not at the instant")
+
+
+def check_play(browser, path):
+    """Plays by itself and in a loop where nobody asked for less motion."""
+    tab = browser.new_page(reduced_motion="no-preference")
+    tab.goto(path.as_uri())
+    at = lambda: tab.evaluate("() => shown.time")
+    need(tab.locator("#play").get_attribute("aria-pressed") == "true", "it does not play by itself")
+    tab.evaluate("() => goToTime(time[last] - 1e-3 * duration)")
+    tab.wait_for_timeout(500)
+    need(at() < tab.evaluate("() => time[0] + 0.9 * duration"), "it does not begin again at the end")
+    need("1 :" in tab.locator("#speed option:checked").inner_text(), "slow motion is not told")
+    tab.close()
+
+
+def check_page(browser, linkproof, scenario, path, rows, pictures):
     size = path.stat().st_size
     need(size < MOST_BYTES, f"{size} bytes")
     need("</script><b>" not in path.read_text(), "a name is markup")
@@ -136,8 +189,12 @@ def check_page(browser, path, rows, pictures):
     tab.goto(path.as_uri())
     data = json.loads(tab.evaluate("() => document.getElementById('data').textContent"))
     worst = check_motion(tab, data, rows)
+    if rows:
+        check_loads(tab, data, scenario, rows)
+        check_plans(tab, data, linkproof, scenario)
     check_keys(tab, tab.evaluate("() => time.length"))
     need(len(data["channels"]) == tab.locator("#charts .card").count(), "a channel has no card")
+    check_pointer(tab, tab.evaluate("() => time.length"))
     tab.locator("#open-all").click()
     for step in range(60):
         tab.evaluate(f"() => window.scrollTo(0, {step} * 900)")
@@ -160,6 +217,8 @@ def check_page(browser, path, rows, pictures):
             tab.evaluate(GO_TO, max(1, len(rows or []) // 5))
             wide = tab.evaluate(TOO_WIDE)
             need(wide <= 0, f"at {width} pixels it is {wide} too wide")
+            pale = tab.evaluate(PALE) if width == WIDTHS[0] else []
+            need(not pale, f"too pale ({scheme}): {'; '.join(pale)}")
             tab.screenshot(path=path.with_name(f"{path.stem}-{width}-{scheme}.png"))
             context.close()
     need(not said, "; ".join(said[:5]))
@@ -200,7 +259,9 @@ def main():
                 made = subprocess.run([linkproof, "run", scenario, "--no-record", "--quiet", "--html", path, *options], capture_output=True, text=True)
                 need(made.returncode in (0, 1, 3), made.stderr)
                 rows = solution(linkproof, scenario) if not options else {}
-                size, worst = check_page(browser, path, rows, True)
+                size, worst = check_page(browser, linkproof, scenario, path, rows, True)
+                if name == "crank_rocker":
+                    check_play(browser, path)
                 print(f"{name:24} {size / 1e6:6.2f} MB" + (f"  links within {worst:.1e} of the size" if rows else ""), flush=True)
             except Wrong as wrong:
                 print(f"{name:24} WRONG: {wrong}", flush=True)

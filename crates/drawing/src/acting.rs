@@ -1,8 +1,9 @@
-//! What loads do at one state of a case.
+//! What loads and gravity do at one state of a case.
 
 use linkage::case::Case;
-use linkage::drive::Setting;
+use linkage::drive::Load;
 use linkage::math::{Motion, Vec2};
+use linkage::mechanism::Side;
 
 /// A load that is drawn as an arrow, at one state.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,16 +21,66 @@ pub struct Acting {
 /// Forces and moments of all loads but springs and dampers. `motions` and `angles` (rad, turns kept) are those of all links.
 #[must_use]
 pub fn acting(case: &Case, sketch: &super::Sketch, motions: &[Motion], angles: &[f64]) -> Vec<Acting> {
-    let crank = angles[case.crank().link] - case.crank().zero;
-    let setting = Setting { motions, angles, start: &case.start.0, crank };
     let one = |sign: &super::LoadSign| {
         let at = motions[sign.at.link].point(sign.at.local);
         let mut found = Acting { load: sign.load, at, force: Vec2::zeros(), moment: 0.0 };
-        case.loads[sign.load].act(&setting, &mut |action| {
+        case.each_action(sign.load, motions, angles, |action| {
             found.force += action.force;
             found.moment += action.moment;
         });
         found
     };
     sketch.loads.iter().map(one).collect()
+}
+
+/// What a spring or damper does between its two points or links, at one state.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tension {
+    /// Number of the load in its case.
+    pub load: usize,
+    /// Between points: the force (N) that pulls them together; below 0 it pushes them apart.
+    /// Between links: the moment (N m) on the first one, counter-clockwise positive.
+    pub size: f64,
+}
+
+/// Forces and moments of all springs and dampers. Arguments as in [`acting`].
+#[must_use]
+pub fn tensions(case: &Case, motions: &[Motion], angles: &[f64]) -> Vec<Tension> {
+    let of = |(load, own): (usize, &Load)| {
+        let first = match own {
+            Load::Spring { ends, .. } | Load::Damper { ends, .. } => {
+                let [start, end] = ends.map(|end| motions[end.link].point(end.local));
+                let span = end - start;
+                Some(if span.norm() > 0.0 { span.normalize() } else { Vec2::zeros() })
+            }
+            Load::TorsionSpring { .. } | Load::TorsionDamper { .. } => None,
+            Load::Resistance { .. } | Load::Moment { .. } | Load::Force { .. } | Load::ResistingForce { .. } => {
+                return None;
+            }
+        };
+        let mut size = None;
+        case.each_action(load, motions, angles, |action| {
+            size = size.or(Some(first.map_or(action.moment, |toward| action.force.dot(&toward))));
+        });
+        Some(Tension { load, size: size.unwrap_or_default() })
+    };
+    case.loads.iter().enumerate().filter_map(of).collect()
+}
+
+/// The weight of a link.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Weight {
+    /// The mass centre.
+    pub at: Side,
+    /// The force (N, world axes).
+    pub force: Vec2,
+}
+
+/// The weights of all links that have one.
+#[must_use]
+pub fn weights(case: &Case) -> Vec<Weight> {
+    let links = case.mechanism.links().iter().enumerate().skip(1);
+    let all =
+        links.map(|(link, own)| Weight { at: Side { link, local: own.mass_centre }, force: case.gravity * own.mass });
+    all.filter(|own| own.force.norm() > 0.0).collect()
 }

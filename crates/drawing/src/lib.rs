@@ -35,7 +35,7 @@ mod stretched;
 mod travel;
 pub mod view;
 
-pub use acting::{Acting, acting};
+pub use acting::{Acting, Tension, Weight, acting, tensions, weights};
 pub use mark::{Fill, Ink, Layer, Look, Mark, Role, Shape};
 pub use sign::{LoadSign, arrow, turning};
 pub use sketch::{Body, Label, Lettering, Sketch, unit};

@@ -236,14 +236,25 @@ impl Case {
     pub fn each_load(&self, motions: &[Motion], angles: &[f64], mut put: impl FnMut(Action)) {
         let setting = self.setting(motions, angles);
         for load in &self.loads {
-            match load.nature().senses {
-                Senses::Nothing => load.act(&setting, &mut put),
-                Senses::Link(link) => {
-                    put(Action::of_moment(link, load.moment_in(self.spin(motions, link), setting.crank)));
-                }
-                Senses::Point(at) if self.moves(motions, at) => load.act(&setting, &mut put),
-                Senses::Point(_) => {}
+            self.act_in(&setting, load, &mut put);
+        }
+    }
+
+    /// Calls `put` with the action of the load with this number on each of its links. Arguments as in
+    /// [`Case::each_load`].
+    pub fn each_action(&self, load: usize, motions: &[Motion], angles: &[f64], mut put: impl FnMut(Action)) {
+        self.act_in(&self.setting(motions, angles), &self.loads[load], &mut put);
+    }
+
+    #[inline]
+    fn act_in(&self, setting: &Setting, load: &Load, put: &mut impl FnMut(Action)) {
+        match load.nature().senses {
+            Senses::Nothing => load.act(setting, put),
+            Senses::Link(link) => {
+                put(Action::of_moment(link, load.moment_in(self.spin(setting.motions, link), setting.crank)));
             }
+            Senses::Point(at) if self.moves(setting.motions, at) => load.act(setting, put),
+            Senses::Point(_) => {}
         }
     }
 

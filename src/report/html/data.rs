@@ -77,7 +77,6 @@ pub(super) fn motion(proof: &Proof, sketch: &Sketch, view: [f64; 4]) -> Value {
             "name": link.name, "centre": pair(link.mass_centre),
             "at": columns("link", &link.name, &["angle_rad", "x_m", "y_m"]),
             "rates": columns("link", &link.name, &["omega_rad_s", "vx_m_s", "vy_m_s"]),
-            "alpha": columns("link", &link.name, &["alpha_rad_s2"]),
             "points": link.points.iter().map(|point| json!([point.name, point.local.x, point.local.y])).collect::<Vec<_>>(),
         })
     });
@@ -90,7 +89,7 @@ pub(super) fn motion(proof: &Proof, sketch: &Sketch, view: [f64; 4]) -> Value {
     });
     let joints = mechanism.joints().iter().map(|joint| {
         json!({
-            "name": joint.name, "on": side(joint.second), "force": columns("joint", &joint.name, &["fx_N", "fy_N"]),
+            "name": joint.name, "kind": joint.kind.name(), "on": side(joint.second), "force": columns("joint", &joint.name, &["fx_N", "fy_N"]),
             "links": [mechanism.links()[joint.first.link].name, mechanism.links()[joint.second.link].name],
         })
     });
@@ -119,11 +118,11 @@ pub(super) fn motion(proof: &Proof, sketch: &Sketch, view: [f64; 4]) -> Value {
     })
 }
 
-fn pair(at: Vec2) -> Value {
+pub(super) fn pair(at: Vec2) -> Value {
     json!([at.x, at.y])
 }
 
 /// The number of a link, and a place in its frame (m).
-fn side(side: Side) -> Value {
+pub(super) fn side(side: Side) -> Value {
     json!([side.link, side.local.x, side.local.y])
 }

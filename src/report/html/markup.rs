@@ -2,6 +2,7 @@
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
+use serde_json::{Value, json};
 
 /// Text that stands in a page as it is, between tags and in attributes.
 pub(super) fn escaped(text: &str) -> String {
@@ -46,6 +47,14 @@ pub(super) fn doubles(values: impl Iterator<Item = f64>) -> String {
 /// The same in single precision.
 pub(super) fn singles(values: impl Iterator<Item = f64>) -> String {
     STANDARD.encode(values.flat_map(|value| (value as f32).to_le_bytes()).collect::<Vec<u8>>())
+}
+
+/// A column of numbers in single precision; one number where all are the same.
+pub(super) fn column(values: &[f64]) -> Value {
+    match values.split_first() {
+        Some((first, rest)) if rest.iter().all(|value| value == first) => json!(first),
+        _ => singles(values.iter().copied()).into(),
+    }
 }
 
 #[cfg(test)]

@@ -2,10 +2,13 @@
 //! verdict and findings. Drawn by a script of its own; what is in words is there without it.
 
 mod data;
+mod findings;
 mod graphs;
+mod loads;
 mod markup;
 mod picture;
 mod placed;
+mod plans;
 mod thinned;
 mod words;
 
@@ -23,12 +26,14 @@ use workshop::diagram::Graphs;
 const TEMPLATE: &str = include_str!("page.html");
 const STYLE: &str = include_str!("page.css");
 /// The script, in the order in which its parts need each other.
-const SCRIPT: [&str; 7] = [
+const SCRIPT: [&str; 9] = [
     include_str!("script/read.js"),
     include_str!("script/svg.js"),
     include_str!("script/motion.js"),
+    include_str!("script/loads.js"),
     include_str!("script/names.js"),
     include_str!("script/charts.js"),
+    include_str!("script/plans.js"),
     include_str!("script/curves.js"),
     include_str!("script/main.js"),
 ];
@@ -48,9 +53,12 @@ pub(crate) fn page(proof: &Proof, beside: &Beside, tell: Tell) -> String {
     let Beside { given, settings, reduced } = beside;
     let case = &proof.scene.case;
     let errors = thinned::errors(proof);
-    let thinned = Thinned::of(proof, &errors);
+    let reference = &proof.reference_trajectory;
+    let placed = Placed::of(&case.mechanism, reference);
+    let beside = placed.as_ref().map_or(0, |placed| loads::width(case) + plans::width(case, placed, 0));
+    let thinned = Thinned::of(proof, &errors, beside);
     let mut data = data::of(proof, &errors, &thinned, tell);
-    let picture = match Placed::of(&case.mechanism, &proof.reference_trajectory) {
+    let picture = match placed {
         Some(placed) => {
             let room = placed.room(&thinned.rows);
             let unit = placed::unit(&case.mechanism, room);
@@ -61,6 +69,8 @@ pub(crate) fn page(proof: &Proof, beside: &Beside, tell: Tell) -> String {
             let sketch = Sketch::of_case(case, &travels, unit);
             let view = picture::view(room, unit);
             data.insert("motion".into(), data::motion(proof, &sketch, view));
+            data.insert("loads".into(), loads::of(case, &sketch, &placed, &thinned.rows, reference));
+            data.insert("plans".into(), plans::of(case, &placed, &thinned.rows));
             picture::drawn(&sketch, &placed, view, thinned.rows[0])
         }
         None => "<p>The places of all links are not among the channels asked for: nothing can be drawn.</p>".into(),
@@ -72,7 +82,7 @@ pub(crate) fn page(proof: &Proof, beside: &Beside, tell: Tell) -> String {
         }
         Err(why) => format!("<p>The mechanism is not reduced to its crank here: {}</p>", escaped(why)),
     };
-    data.insert("motor".into(), graphs::motor(case, &proof.reference_trajectory));
+    data.insert("motor".into(), graphs::motor(case, reference));
     let links = case.mechanism.links().len();
     let style = filled(
         STYLE,
@@ -90,7 +100,8 @@ pub(crate) fn page(proof: &Proof, beside: &Beside, tell: Tell) -> String {
             ("style", &style),
             ("verdict", &words::verdict(proof)),
             ("sentence", &words::sentence(proof)),
-            ("findings", &words::findings(proof, tell)),
+            ("why", &findings::why(proof, tell)),
+            ("findings", &findings::others(proof, tell)),
             ("picture", &picture),
             ("thinned", &told(&thinned)),
             ("reduced", &no_graphs),

@@ -1,8 +1,10 @@
-//! Where the links of a mechanism are, row by row, and the room that the motion takes.
+//! Where the links of a mechanism are and how they move, row by row, and the room that the motion takes.
 
 use super::thinned::ends;
-use linkage::math::{KeepNan, Vec2};
+use linkage::case::Case;
+use linkage::math::{KeepNan, Motion, Vec2, unit as direction};
 use linkage::mechanism::{GROUND, LinkPose, Mechanism};
+use linkage::solver::State;
 use linkage::trajectory::{Channel, Trajectory};
 
 /// A mechanism with the places of all its links.
@@ -10,17 +12,48 @@ pub(super) struct Placed<'a> {
     pub(super) mechanism: &'a Mechanism,
     /// Columns of each moving link: angle and coordinates of the mass centre.
     links: Vec<[&'a [f64]; 3]>,
+    /// Their rates, and the rates of these, as far as all links have them.
+    rates: Vec<Vec<[&'a [f64]; 3]>>,
 }
+
+/// Channels of a link's angle and mass centre, and of their first and second derivatives.
+const SUFFIXES: [[&str; 3]; 3] =
+    [["angle_rad", "x_m", "y_m"], ["omega_rad_s", "vx_m_s", "vy_m_s"], ["alpha_rad_s2", "ax_m_s2", "ay_m_s2"]];
 
 impl<'a> Placed<'a> {
     /// `None` if the position of a link is not among the channels, or if there is no instant.
     pub(super) fn of(mechanism: &'a Mechanism, trajectory: &'a Trajectory) -> Option<Self> {
-        let columns = |name: &str| {
-            let column = |suffix| trajectory.column(&Channel::named(&format!("link.{name}.{suffix}"))?);
-            Some([column("angle_rad")?, column("x_m")?, column("y_m")?])
+        let columns = |suffixes: [&str; 3]| -> Option<Vec<[&'a [f64]; 3]>> {
+            let of_link = |name: &str| {
+                let column = |suffix| trajectory.column(&Channel::named(&format!("link.{name}.{suffix}"))?);
+                let [angle, x, y] = suffixes.map(column);
+                Some([angle?, x?, y?])
+            };
+            mechanism.links()[1..].iter().map(|link| of_link(&link.name)).collect()
         };
-        let links = mechanism.links()[1..].iter().map(|link| columns(&link.name)).collect::<Option<_>>()?;
-        (!trajectory.times().is_empty()).then_some(Placed { mechanism, links })
+        let links = columns(SUFFIXES[0])?;
+        let rates = SUFFIXES[1..].iter().map_while(|suffixes| columns(*suffixes)).collect();
+        (!trajectory.times().is_empty()).then_some(Placed { mechanism, links, rates })
+    }
+
+    /// Whether velocities of all links are known; with accelerations, up to these.
+    pub(super) fn knows(&self, accelerations: bool) -> bool {
+        self.rates.len() > usize::from(accelerations)
+    }
+
+    /// The state in a row: places, and velocities and accelerations as far as they are known, 0 where they are not.
+    pub(super) fn state(&self, case: &Case, row: usize) -> State {
+        let mut state = State::at_rest(case);
+        for (number, link) in self.mechanism.links().iter().enumerate().skip(1) {
+            let of = |columns: &[&[f64]; 3]| columns.map(|column| column[row]);
+            let rates = |order: usize| self.rates.get(order).map_or([0.0; 3], |own| of(&own[number - 1]));
+            let [angle, x, y] = of(&self.links[number - 1]);
+            let [[omega, vx, vy], [alpha, ax, ay]] = [rates(0), rates(1)];
+            let centre = [Vec2::new(x, y), Vec2::new(vx, vy), Vec2::new(ax, ay)];
+            state.angles[number] = angle;
+            state.motions[number] = Motion::of_point(link.mass_centre, centre, direction(angle), omega, alpha);
+        }
+        state
     }
 
     /// World place (m) of a point of a link.

@@ -23,14 +23,15 @@ pub(super) struct Thinned {
 }
 
 impl Thinned {
-    /// All instants, or as many as a page holds: evenly chosen, and the extremes of values and errors.
-    pub(super) fn of(proof: &Proof, errors: &[Errors]) -> Thinned {
+    /// All instants, or as many as a page holds: evenly chosen, and the extremes of values and errors. A row has so many
+    /// numbers in single precision `beside` channels and errors.
+    pub(super) fn of(proof: &Proof, errors: &[Errors], beside: usize) -> Thinned {
         let reference = &proof.reference_trajectory;
         let times = reference.times();
         let mut rows = ascending(times);
         rows.dedup_by_key(|row| times[*row].to_bits());
         let all = rows.len();
-        let most = (BYTES / bytes_of_row(reference, errors)).max(2);
+        let most = (BYTES / bytes_of_row(reference, errors, beside)).max(2);
         if all <= most {
             return Thinned { rows, all };
         }
@@ -49,11 +50,11 @@ pub(super) fn is_wide(channel: &Channel) -> bool {
 }
 
 /// Bytes of base64 that an instant takes.
-fn bytes_of_row(reference: &Trajectory, errors: &[Errors]) -> usize {
+fn bytes_of_row(reference: &Trajectory, errors: &[Errors], beside: usize) -> usize {
     let values: usize = reference.channels().iter().map(|own| if is_wide(own) { 8 } else { 4 }).sum();
     let errors: usize = errors.iter().flatten().map(|own| if own.is_some() { 4 } else { 0 }).sum();
     // Time and crank angle are doubles; base64 takes four letters for three bytes.
-    (16 + values + errors) * 4 / 3
+    (16 + values + errors + 4 * beside) * 4 / 3
 }
 
 /// Rows with the largest error, the least or the greatest value of any channel; errors first.

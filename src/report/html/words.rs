@@ -1,4 +1,4 @@
-//! What a page says in words: verdict, findings, structure, settings.
+//! What a page says in words: verdict, structure, settings.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -7,12 +7,9 @@ use super::markup::escaped;
 use crate::compare::Verdict;
 use crate::numbers::{error_in, fixed, significant};
 use crate::proof::Proof;
-use crate::report::tell::Tell;
-use crate::report::{brief, engines, own_forces, reasons, style, text};
+use crate::report::{brief, own_forces, style, text};
 use linkage::mechanism::Mechanism;
 
-/// Reasons that are written out; the others are counted.
-const MOST: usize = 10;
 /// Longest scenario that is shown (bytes).
 const LONGEST: usize = 200_000;
 
@@ -29,41 +26,15 @@ pub(super) fn verdict(proof: &Proof) -> String {
 
 /// One sentence on how much was judged, and by what.
 pub(super) fn sentence(proof: &Proof) -> String {
+    let engine = if proof.engines.len() == 1 { "Engine" } else { "Engines" };
     let parties: Vec<&str> = proof.engines.iter().map(|engine| engine.info.name).collect();
     escaped(&format!(
-        "{} Reference: {}. Engine: {}; {}.",
+        "{} Reference: {}. {engine}: {}; {}.",
         text::sentence(&proof.verdict, proof),
         proof.reference,
         parties.join(", "),
         brief::resolution(proof)
     ))
-}
-
-/// Everything that is found besides the verdict, as paragraphs; empty where there is nothing to say.
-pub(super) fn findings(proof: &Proof, tell: Tell) -> String {
-    let mut told = String::new();
-    for engine in &proof.engines {
-        if let (Some(error), 1) = (&engine.failure, proof.engines.len()) {
-            let _ = writeln!(told, "{} failed: {}\n", engine.info.name, error.message());
-        }
-        if let Some(fault) = engine.force_fault() {
-            let _ = writeln!(told, "{}\n", own_forces::sentence(fault));
-        }
-    }
-    if proof.engines.len() > 1 {
-        let _ = writeln!(told, "{}\n", engines::disputes(proof));
-    }
-    reasons::diagnosed(proof, None, &mut told);
-    reasons::reasons(proof, tell, None, MOST, &mut told);
-    reasons::left_out(proof, None, &mut told);
-    reasons::expected(proof, None, &mut told);
-    paragraphs(&told)
-}
-
-/// Blocks between empty lines as paragraphs, their lines as lines.
-fn paragraphs(told: &str) -> String {
-    let blocks = told.split("\n\n").map(str::trim).filter(|block| !block.is_empty());
-    blocks.map(|block| format!("<p>{}</p>\n", escaped(block).replace('\n', "<br>\n"))).collect()
 }
 
 /// Checks, and forces as engines themselves exert them, as rows of a table; what uses most of its bound first.

@@ -17,7 +17,7 @@ mod vectors;
 
 pub use graphs::{Graph, Graphs, Mark};
 pub use motion::{Course, MotionDiagram};
-pub use plan::Plans;
+pub use plan::{Planner, Plans};
 pub use scheme::Scheme;
 pub use singular::SingularPoint;
 pub use timing::TimingDiagram;

@@ -16,12 +16,13 @@
 //! No vector is the difference of two others, so the closure of the polygons is a result.
 
 use super::builder::Builder;
-use super::names::places;
+use super::names::{Place, places};
 use super::scheme::Scheme;
-use super::sliding::{slides, travels};
+use super::sliding::{Slide, slides, travels};
 use super::vectors::{Plan, Quantity};
 use linkage::case::{Case, Grid, Wanted};
 use linkage::error::{Error, ErrorKind, Result};
+use linkage::mechanism::Mechanism;
 use linkage::solver::{Solver, State};
 use linkage::trajectory::Stage;
 
@@ -45,19 +46,19 @@ impl Plans {
     /// `solver` finds the travel of the sliders on the case's grid, which gives the length of the guides in the kinematic diagram.
     #[must_use]
     pub fn of(case: &Case, solver: &dyn Solver, state: &State, crank: f64) -> Self {
-        let mut all = places(&case.mechanism, &[Quantity::Velocity.pole(), Quantity::Acceleration.pole()]);
-        let slides = slides(&case.mechanism, &mut all);
-        let plan = |quantity| Builder::new(quantity, &case.mechanism, state, &all, &slides).plan();
-        let travels = travels(case, solver, state, &slides);
-        let scheme = Scheme::of(case, state, &all, &slides, &travels);
+        let planner = Planner::of(&case.mechanism);
+        let travels = travels(case, solver, state, &planner.slides);
+        let scheme = Scheme::of(case, state, &planner.places, &planner.slides, &travels);
         let links = case.mechanism.links().iter().enumerate();
         let carriers = |name: &str| {
             let carry = links.clone().filter(|(_, link)| link.points.iter().any(|point| point.name == name));
             carry.map(|(number, _)| number).collect()
         };
-        let points =
-            all.iter().map(|place| (place.name.clone(), place.letter.clone(), carriers(&place.name))).collect();
-        Plans { crank, scheme, velocity: plan(Quantity::Velocity), acceleration: plan(Quantity::Acceleration), points }
+        let places = planner.places.iter();
+        let points = places.map(|place| (place.name.clone(), place.letter.clone(), carriers(&place.name))).collect();
+        let [velocity, acceleration] =
+            [Quantity::Velocity, Quantity::Acceleration].map(|quantity| planner.plan(quantity, state));
+        Plans { crank, scheme, velocity, acceleration, points }
     }
 
     /// The plans of some points and links only: a point with its own vectors, a link with all its points and its mass
@@ -85,6 +86,35 @@ impl Plans {
         self.velocity.keep(&letters);
         self.acceleration.keep(&letters);
         Ok(self)
+    }
+}
+
+/// The plans of a mechanism at any of its states: letters and slides are found once.
+#[derive(Debug)]
+pub struct Planner<'a> {
+    mechanism: &'a Mechanism,
+    places: Vec<Place>,
+    slides: Vec<Slide>,
+}
+
+impl<'a> Planner<'a> {
+    /// The plans of this mechanism.
+    #[must_use]
+    pub fn of(mechanism: &'a Mechanism) -> Self {
+        let mut places = places(mechanism, &[Quantity::Velocity.pole(), Quantity::Acceleration.pole()]);
+        let slides = slides(mechanism, &mut places);
+        Planner { mechanism, places, slides }
+    }
+
+    /// Names of points, each with its letter.
+    pub fn letters(&self) -> impl Iterator<Item = (&str, &str)> {
+        self.places.iter().map(|place| (place.name.as_str(), place.letter.as_str()))
+    }
+
+    /// The plan of a state that contains motions up to its quantity.
+    #[must_use]
+    pub fn plan(&self, quantity: Quantity, state: &State) -> Plan {
+        Builder::new(quantity, self.mechanism, state, &self.places, &self.slides).plan()
     }
 }
 

@@ -1,6 +1,6 @@
 // Channels: both sides over time or crank angle, and the size of their difference below, with its bound.
 
-const PLOT = { width: 340, left: 52, right: 8, upper: 110, gap: 12, lower: 66, axis: 26 };
+const PLOT = { width: 340, left: 56, right: 8, upper: 110, gap: 25, lower: 66, axis: 28, head: 18 };
 /** Units that people read. */
 const READ = { rad: ['deg', 180 / Math.PI], m: ['mm', 1e3] };
 const readUnit = (unit) => READ[unit] || [nice(unit), 1];
@@ -26,9 +26,9 @@ function follow(element, move) {
 }
 followers.push(() => { for (const own of near.values()) if (own.isNear) own.move(); });
 
-/** Least and greatest with some room, never the same. */
-function roomy([low, high]) {
-  const size = Math.max(Math.abs(low), Math.abs(high)) || 1;
+/** Least and greatest with some room, never the same. What is far below `natural` is rounding, not a curve. */
+function roomy([low, high], natural = 0) {
+  const size = Math.max(Math.abs(low), Math.abs(high), natural) || 1;
   const room = Math.max(0.06 * (high - low), 1e-6 * size);
   return [low - room, high + room];
 }
@@ -79,17 +79,17 @@ function chart(card, index) {
   const reference = values(index);
   const difference = errors(shown.engine, index);
   const line = abscissa();
-  const { width, left, right, upper, gap, lower, axis } = PLOT;
-  const height = 14 + upper + axis + (difference ? gap + lower : 0);
+  const { width, left, right, upper, gap, lower, axis, head } = PLOT;
+  const height = head + upper + axis + (difference ? gap + lower : 0);
   const told = own.bound === undefined ? '' : `; largest error ${digits(own.max * factor, 3)} of ${digits(own.bound * factor, 3)} ${unit} allowed: ${own.verdict}`;
   const svg = draw(card, 'svg', { class: 'chart', viewBox: `0 0 ${width} ${height}`, role: 'img', 'aria-label': `${channel.name} over ${over === 'crank' ? 'crank angle' : 'time'}${told}` });
   const [x0, x1] = [left, width - right];
   const ends = range([line]);
   const xs = { ...scale(ends[0], ends[1] > ends[0] ? ends[1] : ends[0] + 1, x0, x1), line };
-  const [low, high] = roomy(range([reference]).map((value) => value * factor));
-  const [top, bottom] = [14, 14 + upper];
+  const [low, high] = roomy(range([reference]).map((value) => value * factor), (own.scale || 0) * factor);
+  const [top, bottom] = [head, head + upper];
   const ys = scale(low, high, bottom, top);
-  draw(svg, 'text', { x: 2, y: 9 }, unit);
+  draw(svg, 'text', { x: 2, y: 10 }, unit);
   bands(svg, own, xs, top, bottom, engine);
   axes(svg, [x0, x1, top, bottom], xs, ys, !difference);
   const x = (k) => xs.at(line[k]);
@@ -105,28 +105,47 @@ function chart(card, index) {
     const lowest = Math.max(Math.min(decade(most, Math.floor) - 2, highest - 3), highest - 12);
     const [from, to] = [bottom + gap, end];
     const log = scale(lowest, highest, to, from, (value) => `1e${Math.round(value)}`);
+    draw(svg, 'text', { x: 2, y: from - 8 }, `error, ${unit}`);
     bands(svg, own, xs, from, to, engine);
     axes(svg, [x0, x1, from, to], xs, { ...log, ...{ low: lowest, high: highest } }, true);
     const y = (value) => Math.min(log.at(value > 0 ? Math.log10(value) : lowest), to);
     draw(svg, 'path', { class: 'error', d: way(line.length, x, (k) => y(envelope(difference, k) * factor)) });
     if (bound > 0) draw(svg, 'line', { class: 'bound', x1: x0, x2: x1, y1: y(bound), y2: y(bound) });
   }
-  draw(svg, 'text', { x: x1, y: end + 23, 'text-anchor': 'end' }, abscissaUnit());
+  draw(svg, 'text', { x: x1, y: end + 25, 'text-anchor': 'end' }, abscissaUnit());
   const cursor = draw(svg, 'line', { class: 'cursor', y1: top, y2: end });
+  const pointed = draw(svg, 'line', { class: 'pointed', y1: top, y2: end, x1: -9, x2: -9 });
   const now = put(card, 'p', 'numbers');
-  svg.addEventListener('click', (event) => {
+  /** The row whose instant is nearest to the pointer. */
+  const rowUnder = (event) => {
     const box = svg.getBoundingClientRect();
     const at = ((event.clientX - box.left) / box.width * width - x0) / (x1 - x0) * (xs.high - xs.low) + xs.low;
     let best = 0;
     for (let k = 1; k <= last; k += 1) if (Math.abs(line[k] - at) < Math.abs(line[best] - at)) best = k;
-    goTo(best);
+    return best;
+  };
+  const valuesAt = (row) => {
+    const [ours, apart] = [reference[row] * factor, difference ? difference[row] * factor : NaN];
+    const engineTold = difference ? `, engine less reference ${apart < 0 ? '−' : '+'}${digits(Math.abs(apart), 3)} ${unit}` : '';
+    return `${digits(ours, 6)} ${unit}${engineTold}`;
+  };
+  svg.addEventListener('click', (event) => { setPlaying(false); goTo(rowUnder(event)); });
+  svg.addEventListener('pointermove', (event) => {
+    const row = rowUnder(event);
+    pointed.setAttribute('x1', x(row));
+    pointed.setAttribute('x2', x(row));
+    now.textContent = `${digits(line[row])} ${abscissaUnit().split(', ')[1]}: ${valuesAt(row)}`;
+  });
+  svg.addEventListener('pointerleave', () => {
+    pointed.setAttribute('x1', -9);
+    pointed.setAttribute('x2', -9);
+    now.textContent = valuesAt(shown.row);
   });
   follow(svg, () => {
     const place = xs.at(linear(line));
     cursor.setAttribute('x1', place);
     cursor.setAttribute('x2', place);
-    const [ours, apart] = [reference[shown.row] * factor, difference ? difference[shown.row] * factor : NaN];
-    now.textContent = difference ? `${digits(ours, 6)} ${unit}, engine ${apart < 0 ? '−' : '+'}${digits(Math.abs(apart), 3)}` : `${digits(ours, 6)} ${unit}`;
+    now.textContent = valuesAt(shown.row);
   });
 }
 
@@ -181,7 +200,8 @@ function setUpCharts() {
   const told = byId('worst');
   told.replaceChildren();
   if (engine && judged(worst).bound !== undefined) {
-    put(told, 'p', '', `Nearest to its bound, or farthest beyond it (${ofBound(used(judged(worst)))}):`);
+    const share = used(judged(worst));
+    put(told, 'p', '', share > 1 ? `Farthest beyond its bound (${ofBound(share)}):` : `Closest to its bound (${ofBound(share)}):`);
     card(told, worst);
   }
 }

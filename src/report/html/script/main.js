@@ -8,8 +8,7 @@ let isPlaying = false;
 function show() {
   for (const move of followers) move();
   slider.value = shown.row;
-  const angle = linear(crank) * 180 / Math.PI;
-  const told = `t = ${shown.time.toPrecision(6)} s, crank angle ${angle.toFixed(2)} deg`;
+  const told = atInstant();
   slider.setAttribute('aria-valuetext', told);
   byId('readout').textContent = `${told} (instant ${shown.row + 1} of ${last + 1})`;
 }
@@ -89,7 +88,7 @@ function toggle(id) {
 const KEYS = {
   ' ': () => setPlaying(!isPlaying), ArrowLeft: (far) => step(far ? -10 : -1), ArrowRight: (far) => step(far ? 10 : 1),
   Home: () => step(-last), End: () => step(last), '+': () => faster(1), '-': () => faster(-1),
-  l: () => toggle('loop'), r: () => toggle('show-arrows'), p: () => toggle('show-paths'), n: () => toggle('show-names'),
+  l: () => toggle('loop'), r: () => toggle('show-arrows'), f: () => toggle('show-loads'), p: () => toggle('show-paths'), n: () => toggle('show-names'),
 };
 
 document.addEventListener('keydown', (event) => {
@@ -157,7 +156,7 @@ function setUp() {
   for (const [id, isOpen] of [['open-all', true], ['close-all', false]]) {
     byId(id).addEventListener('click', () => { for (const own of byId('charts').querySelectorAll('details')) own.open = isOpen; });
   }
-  ['reference', 'engine', 'arrows', 'paths', 'names'].forEach(setUpBox);
+  ['reference', 'engine', 'arrows', 'loads', 'paths', 'names'].forEach(setUpBox);
   slider.max = last;
   slider.addEventListener('input', () => { setPlaying(false); goTo(Number(slider.value)); });
   play.addEventListener('click', () => setPlaying(!isPlaying));

@@ -1,8 +1,8 @@
 // The mechanism in motion: links, springs, reactions, paths.
 
 const picture = byId('picture');
-/** Length of the longest arrow, in units of the picture. */
-const LONGEST = 26;
+/** Length of the longest arrow, in units of the picture: shorter where the mechanism is low. */
+const LONGEST = motion === null ? 26 : Math.min(26, Math.max(0.5 * (motion.view[3] - 30), 12));
 const hasEngine = page.engines.some((engine) => engine.channels.some((own) => own.errors !== undefined));
 const following = [];
 
@@ -22,6 +22,7 @@ function setUpLinks() {
       parts.forEach((part) => part.classList.add('hidden'));
       continue;
     }
+    for (const part of parts) draw(part, 'title', {}, `${isEngine ? 'engine: ' : ''}link ${part.dataset.link}, ${part.dataset.name}`);
     following.push(() => {
       const poses = once((number) => pose(number, isEngine));
       for (const part of parts) {
@@ -29,6 +30,24 @@ function setUpLinks() {
         part.classList.toggle('hidden', at === null);
         if (at !== null) part.setAttribute('transform', matrix(at));
       }
+    });
+  }
+}
+
+/** Joints have their names where the pointer is. */
+function setUpJoints() {
+  const parent = draw(null, 'g', { id: 'joints' });
+  byId('arrows').before(parent);
+  for (const joint of motion.joints) {
+    const spot = draw(parent, 'circle', { r: 2.4 });
+    draw(spot, 'title', {}, `joint ${joint.name}, ${joint.kind}: ${joint.links[0]} and ${joint.links[1]}`);
+    following.push(() => {
+      const at = worldOf(joint.on, false);
+      spot.classList.toggle('hidden', at === null);
+      if (at === null) return;
+      const [x, y] = toPicture(at);
+      spot.setAttribute('cx', x);
+      spot.setAttribute('cy', y);
     });
   }
 }
@@ -76,12 +95,7 @@ let forceScale = 0;
 const withForces = motion === null ? [] : motion.joints.filter((joint) => joint.force !== null);
 
 function largestForce() {
-  let most = 0;
-  for (const joint of withForces) {
-    const [x, y] = joint.force.map(values);
-    for (let row = 0; row <= last; row += 1) most = Math.max(most, Math.hypot(x[row], y[row]));
-  }
-  return most;
+  return Math.max(0, ...withForces.map((joint) => largestOf(joint.force.map(values))));
 }
 
 function setUpArrows() {
@@ -126,6 +140,12 @@ function setUpScales() {
     const force = round(LONGEST / forceScale);
     bar(top + height - 8.5, force * forceScale, `${digits(force)} N`);
   }
+  if (loadScale > 0 && loadScale !== forceScale) {
+    const load = round(LONGEST / loadScale);
+    const y = top + height - 13.5;
+    draw(scales, 'rect', { x: left + 3, y: y - SHAFT, width: load * loadScale, height: 2 * SHAFT });
+    draw(scales, 'text', { x: left + 4.5 + load * loadScale, y: y + 1.1 }, `${digits(load)} N, loads`);
+  }
 }
 
 let redrawPaths = () => {};
@@ -166,15 +186,18 @@ function magnifications() {
   return [1, factor / 100, factor / 10, factor].filter((own, k) => k === 0 || (own > 1 && Number.isFinite(own)));
 }
 
-/** Whether there are reactions and paths to show. */
+/** Whether there are reactions, loads and paths to show. */
 function setUpPicture() {
-  if (motion === null) return { arrows: false, paths: false };
+  if (motion === null) return { arrows: false, loads: false, paths: false, forces: false };
   setUpLinks();
+  setUpJoints();
   setUpStretched();
   setUpArrows();
+  scaleLoads();
+  const hasLoads = setUpLoads();
   const paths = setUpPaths();
   setUpNames();
   setUpScales();
   followers.push(() => following.forEach((move) => move()));
-  return { arrows: forceScale > 0, paths };
+  return { arrows: forceScale > 0, loads: hasLoads, paths, forces: setUpForces() };
 }

@@ -81,11 +81,11 @@ function setUpNames() {
     own.element = draw(byId('names'), 'text', { class: own.kind, 'text-anchor': 'middle' });
     own.element.textContent = own.text;
   }
-  const [left, top, width, height] = motion.view;
   following.push(() => {
+    const [left, top, width, height] = motion.view;
     const lines = linesNow();
     const places = names.map((own) => worldOf(own.on, false)).map((at) => (at === null ? null : toPicture(at)));
-    const taken = [];
+    const taken = byId('loads').checkVisibility() ? [...numberRooms] : [];
     names.forEach((own, index) => {
       own.element.classList.toggle('hidden', places[index] === null);
       if (places[index] === null) return;

@@ -65,6 +65,11 @@ function linear(column) {
   return share > 0 ? column[row] + share * (column[row + 1] - column[row]) : column[row];
 }
 
+/** The instant shown in words. */
+function atInstant() {
+  return `t = ${shown.time.toPrecision(6)} s, crank angle ${(linear(crank) * 180 / Math.PI).toFixed(2)} deg`;
+}
+
 /** A place at the instant shown, smooth between rows: cubic, with the rates at both. */
 function smooth(column, rates) {
   const { row, share } = shown;

@@ -48,6 +48,13 @@ function range(columns) {
   return low <= high ? [low, high] : [0, 0];
 }
 
+/** The largest size of a vector, given its columns. */
+function largestOf(columns) {
+  let most = 0;
+  for (let row = 0; row <= last; row += 1) most = Math.max(most, Math.hypot(...columns.map((column) => column[row])) || 0);
+  return most;
+}
+
 /** About `count` round numbers from low to high. */
 function ticks(low, high, count) {
   const step = round((high - low) / count * 1.5);

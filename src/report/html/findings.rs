@@ -1,0 +1,138 @@
+//! Findings of a page in words: why the verdict is what it is, and what else was found.
+
+use std::fmt::Write;
+
+use super::markup::escaped;
+use crate::compare::Verdict;
+use crate::proof::Proof;
+use crate::report::tell::Tell;
+use crate::report::{engines, own_forces, reasons};
+use linkage::trajectory::Channel;
+
+/// Reasons at the head of the page; the others stand among the findings.
+const FIRST: usize = 3;
+/// Reasons that are written out at most; the others are in the tables of the page.
+const MOST: usize = 12;
+
+/// Why something disagrees or is open, and how many verdicts have that reason.
+struct Reason {
+    key: String,
+    told: String,
+    count: usize,
+}
+
+/// Why the verdict is no agreement, for the head of the page: the diagnosis and the first reasons. Empty if all agree.
+pub(super) fn why(proof: &Proof, tell: Tell) -> String {
+    let mut told = String::new();
+    for engine in &proof.engines {
+        if let (Some(error), 1) = (&engine.failure, proof.engines.len()) {
+            let _ = writeln!(told, "{} failed: {}\n", engine.info.name, error.message());
+        }
+        if let Some(fault) = engine.force_fault() {
+            let _ = writeln!(told, "{}\n", own_forces::sentence(fault));
+        }
+    }
+    reasons::diagnosed(proof, None, &mut told);
+    write(&grouped(proof, tell), 0..FIRST, &mut told);
+    if told.is_empty() { told } else { format!("<div id=\"why\">\n{}</div>", paragraphs(&told)) }
+}
+
+/// Everything else that is found; empty where there is nothing to say.
+pub(super) fn others(proof: &Proof, tell: Tell) -> String {
+    let mut told = String::new();
+    if proof.engines.len() > 1 {
+        let _ = writeln!(told, "Engines and reference against each other: {}\n", engines::disputes(proof));
+    }
+    let all = grouped(proof, tell);
+    write(&all, FIRST..MOST, &mut told);
+    if all.len() > MOST {
+        let _ = writeln!(told, "\nOf {} more, the channels and the table of checks below tell why.", all.len() - MOST);
+    }
+    reasons::left_out(proof, None, &mut told);
+    reasons::expected(proof, None, &mut told);
+    paragraphs(&told)
+}
+
+fn write(all: &[Reason], which: std::ops::Range<usize>, told: &mut String) {
+    for reason in all.iter().skip(which.start).take(which.len()) {
+        let more = match reason.count {
+            1 => String::new(),
+            count => format!(" (and {} more alike)", count - 1),
+        };
+        let _ = writeln!(told, "\n{}{more}", reason.told);
+    }
+}
+
+/// The reasons of all verdicts, those that say the same once; what disagrees first.
+fn grouped(proof: &Proof, tell: Tell) -> Vec<Reason> {
+    let is_told = |verdict: &Verdict| matches!(verdict, Verdict::Disagree { .. } | Verdict::Inconclusive { .. });
+    let mut told: Vec<(String, &Verdict)> = reasons::verdicts(proof).filter(|(_, verdict)| is_told(verdict)).collect();
+    told.sort_by_key(|(_, verdict)| matches!(verdict, Verdict::Inconclusive { .. }));
+    let mut all: Vec<Reason> = Vec::new();
+    for (name, verdict) in told {
+        let reason = verdict.reason(tell).unwrap_or_default();
+        let key = key(&name, verdict, &reason);
+        match all.iter_mut().find(|own| own.key == key) {
+            Some(own) => own.count += 1,
+            None => all.push(Reason { key, told: format!("{name}: {reason}"), count: 1 }),
+        }
+    }
+    all
+}
+
+/// What reasons that say the same have in common: the cause, the words without their numbers, or the name without its side.
+fn key(name: &str, verdict: &Verdict, reason: &str) -> String {
+    let bare = name.replace(" (assur)", "").replace(" (newton)", "");
+    let is_channel = || Channel::named(bare.split(" (").next().unwrap_or_default()).is_some();
+    match verdict {
+        Verdict::Inconclusive { .. } => reason.replace(|sign: char| sign.is_ascii_digit() || ".e-+".contains(sign), ""),
+        Verdict::Agree { .. } | Verdict::Expected { .. } | Verdict::Disagree { .. } => {
+            match reason.split_once("cause: ") {
+                Some((_, cause)) => cause.to_string(),
+                None if is_channel() => "channel".into(),
+                None => bare,
+            }
+        }
+    }
+}
+
+/// Blocks between empty lines as paragraphs, their lines as lines, formulas between backticks as code.
+fn paragraphs(told: &str) -> String {
+    let blocks = told.split("\n\n").map(str::trim).filter(|block| !block.is_empty());
+    blocks.map(|block| format!("<p>{}</p>\n", coded(&escaped(block)).replace('\n', "<br>\n"))).collect()
+}
+
+fn coded(told: &str) -> String {
+    let parts: Vec<&str> = told.split('`').collect();
+    if parts.len().is_multiple_of(2) {
+        return told.to_string();
+    }
+    let part = |(index, part): (usize, &&str)| match index % 2 {
+        0 => (*part).to_string(),
+        _ => format!("<code>{part}</code>"),
+    };
+    parts.iter().enumerate().map(part).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn reasons_that_say_the_same_have_the_same_key() {
+        let open = Verdict::Inconclusive { reason: String::new(), advice: Vec::new() };
+        let wrong = Verdict::Disagree { place: String::new() };
+        let keys = [("a", "may reach 2.4 %"), ("b", "may reach 46 %")].map(|(name, why)| key(name, &open, why));
+        assert_eq!(keys[0], keys[1]);
+        let sides = ["x (assur), y", "x (newton), y"].map(|name| key(name, &wrong, "1 N is beyond the bound"));
+        assert_eq!(sides[0], sides[1]);
+        assert_ne!(sides[0], key("z (assur), y", &wrong, "1 N is beyond the bound"));
+        let channels = ["link.crank.x_m", "point.B.y_m (rapier)"].map(|name| key(name, &wrong, "1e-3 is beyond 1e-6"));
+        assert_eq!(channels[0], channels[1]);
+    }
+
+    #[test]
+    fn formulas_are_code() {
+        assert_eq!(paragraphs("a `x<1` b\n\nc `d"), "<p>a <code>x&lt;1</code> b</p>\n<p>c `d</p>\n");
+    }
+}

@@ -1,0 +1,103 @@
+//! What acts on the mechanism besides the reactions, row by row: loads, springs and dampers, drives, weights.
+
+use serde_json::{Value, json};
+
+use super::data::{pair, side};
+use super::markup::column;
+use super::placed::Placed;
+use drawing::{Sketch, acting, tensions, weights};
+use linkage::case::Case;
+use linkage::drive::{Load, Senses};
+use linkage::mechanism::{GROUND, Mechanism, Side};
+use linkage::trajectory::{Channel, Trajectory};
+
+/// Numbers in single precision that a row takes.
+pub(super) fn width(case: &Case) -> usize {
+    2 * case.loads.len()
+}
+
+/// Everything that acts, for the script of a page. Loads that depend on velocities are left out where none are known.
+pub(super) fn of(case: &Case, sketch: &Sketch, placed: &Placed, rows: &[usize], reference: &Trajectory) -> Value {
+    let is_known = |load: &Load| {
+        let nature = load.nature();
+        placed.knows(false) || (nature.senses == Senses::Nothing && !nature.is_viscous)
+    };
+    let states: Vec<_> = rows.iter().map(|&row| placed.state(case, row)).collect();
+    let acting: Vec<_> = states.iter().map(|state| acting(case, sketch, &state.motions, &state.angles)).collect();
+    let tensions: Vec<_> = states.iter().map(|state| tensions(case, &state.motions, &state.angles)).collect();
+    let mechanism = &case.mechanism;
+    let arrows = sketch.loads.iter().enumerate().filter(|(_, sign)| is_known(&case.loads[sign.load]));
+    let arrows = arrows.map(|(index, sign)| {
+        let columns = [0, 1].map(|axis| column(&acting.iter().map(|own| own[index].force[axis]).collect::<Vec<_>>()));
+        let moment = column(&acting.iter().map(|own| own[index].moment).collect::<Vec<_>>());
+        let is_moment = columns.iter().all(|own| *own == 0.0);
+        json!({
+            "name": name(mechanism, &case.loads[sign.load]), "on": side(sign.at),
+            "force": if is_moment { Value::Null } else { json!(columns) },
+            "moment": if moment == 0.0 && !is_moment { Value::Null } else { moment },
+        })
+    });
+    let count = tensions.first().map_or(0, Vec::len);
+    let between = (0..count).filter(|&index| is_known(&case.loads[tensions[0][index].load])).map(|index| {
+        let load = &case.loads[tensions[0][index].load];
+        let size = column(&tensions.iter().map(|own| own[index].size).collect::<Vec<_>>());
+        let ends = sketch.stretched.iter().find(|own| own.load == tensions[0][index].load);
+        json!({ "name": name(mechanism, load), "size": size, "ends": ends.map(|own| own.ends.map(side)) })
+    });
+    let drives = case.drives.with_moment().filter_map(|(number, drive)| {
+        let joint = &mechanism.joints()[drive.joint];
+        let channel = match number {
+            0 => "drive.torque_N_m".into(),
+            _ => format!("motor.{}.torque_N_m", joint.name),
+        };
+        let channel = Channel::named(&channel)?;
+        let torque = reference.channels().iter().position(|own| *own == channel)?;
+        let what = if drive.is_free() { "moment of the motor" } else { "balancing moment" };
+        let at = Side { link: drive.link, local: joint.on(drive.link)? };
+        let name = format!("{what} on {}", mechanism.links()[drive.link].name);
+        Some(json!({ "name": name, "on": side(at), "torque": torque }))
+    });
+    let weights = weights(case).into_iter().map(|own| {
+        let name = format!("weight of {}", mechanism.links()[own.at.link].name);
+        json!({ "name": name, "on": side(own.at), "force": pair(own.force) })
+    });
+    json!({
+        "arrows": arrows.collect::<Vec<_>>(), "between": between.collect::<Vec<_>>(),
+        "drives": drives.collect::<Vec<_>>(), "weights": weights.collect::<Vec<_>>(), "gravity": pair(case.gravity),
+    })
+}
+
+/// A load in words, with its links and points.
+fn name(mechanism: &Mechanism, load: &Load) -> String {
+    let link = |link: usize| mechanism.links()[link].name.as_str();
+    let sort = load.nature().sort.name().replace('_', " ");
+    match *load {
+        Load::Resistance { link: on, .. } | Load::Moment { link: on, .. } => format!("{sort} on {}", link(on)),
+        Load::Force { at, .. } | Load::ResistingForce { at, .. } => {
+            format!(
+                "{sort}{} on {}",
+                point(mechanism, at).map_or_else(String::new, |at| format!(" at {at}")),
+                link(at.link)
+            )
+        }
+        Load::Spring { ends, .. } | Load::Damper { ends, .. } => {
+            let [start, end] = ends.map(|end| match (point(mechanism, end), end.link) {
+                (Some(point), GROUND) => point.to_string(),
+                (Some(point), on) => format!("{point} on {}", link(on)),
+                (None, on) => link(on).to_string(),
+            });
+            format!("{sort} from {start} to {end}")
+        }
+        Load::TorsionSpring { links: [first, second], .. } | Load::TorsionDamper { links: [first, second], .. } => {
+            format!("{sort} between {} and {}", link(first), link(second))
+        }
+    }
+}
+
+/// The point or joint in this place of a link.
+fn point(mechanism: &Mechanism, at: Side) -> Option<&str> {
+    let points = mechanism.links()[at.link].points.iter();
+    let named = points.filter(|own| own.local == at.local).map(|own| own.name.as_str()).next();
+    let joints = mechanism.joints().iter();
+    named.or_else(|| joints.filter(|own| own.on(at.link) == Some(at.local)).map(|own| own.name.as_str()).next())
+}
