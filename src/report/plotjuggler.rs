@@ -60,7 +60,7 @@ fn area(plot: &Plot) -> String {
 
 fn curve(line: &Line) -> String {
     const COLOURS: [&str; 4] = ["#56b4e9", "#e67800", "#009e73", "#cc79a7"];
-    let colour = line.side.map_or("#808080", |side| COLOURS[side % COLOURS.len()]);
+    let colour = line.side.map_or("#c0392b", |side| COLOURS[side % COLOURS.len()]);
     let name = escaped(&format!("{}/{}", line.topic, line.field));
     format!("       <curve name=\"{name}\" color=\"{colour}\"/>\n")
 }
