@@ -1,6 +1,6 @@
 //! `linkproof view`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use clap::ValueEnum;
@@ -8,7 +8,7 @@ use clap::ValueEnum;
 use super::output;
 use crate::outside;
 use crate::record;
-use crate::report::{film, layout};
+use crate::report::{film, layout, plotjuggler};
 use linkage::error::{Error, ErrorKind, Result};
 
 const EXAMPLES: &str = "\
@@ -16,6 +16,7 @@ Examples:
   linkproof view recordings/crank_rocker.mcap                  in Rerun: writes crank_rocker.rrd beside it, and opens it
   linkproof view recordings/crank_rocker.mcap -o turn.rrd      only write it, to send it to a colleague
   linkproof view recordings/crank_rocker.mcap --with foxglove  write the layout again, and say how to open both
+  linkproof view recordings/crank_rocker.mcap --with plotjuggler   a layout that reads the recording by itself
   linkproof view turn.mcap --python ~/rerun/bin/python         the Python that has rerun-sdk
 
 `linkproof docs recording` tells what each viewer shows.";
@@ -27,6 +28,8 @@ enum Viewer {
     Rerun,
     /// Foxglove or Lichtblick, with a layout
     Foxglove,
+    /// PlotJuggler, with a layout
+    Plotjuggler,
 }
 
 #[derive(Debug, clap::Args)]
@@ -38,7 +41,7 @@ pub(super) struct Args {
     /// Viewer to show it in
     #[arg(long, value_enum, default_value = "rerun")]
     with: Viewer,
-    /// Write to this file and open no viewer: a recording of Rerun (.rrd), or a layout (.json)
+    /// Write to this file and open no viewer: a recording of Rerun (.rrd), or a layout (.json, .xml)
     #[arg(short, long, value_name = "FILE", value_parser = output::target)]
     output: Option<PathBuf>,
     /// Python that has Rerun's library (`pip install rerun-sdk`)
@@ -47,10 +50,10 @@ pub(super) struct Args {
 }
 
 pub(super) fn view(args: &Args) -> Result<()> {
-    let film = record::film(&args.file)?;
     let beside = |ending: &str| args.output.clone().unwrap_or_else(|| args.file.with_extension(ending));
     match args.with {
         Viewer::Rerun => {
+            let film = record::film(&args.file)?;
             let to = beside("rrd");
             let since = Instant::now();
             let python = &args.python;
@@ -69,6 +72,7 @@ pub(super) fn view(args: &Args) -> Result<()> {
             }
         }
         Viewer::Foxglove => {
+            let film = record::film(&args.file)?;
             let to = beside("foxglove.json");
             output::write(&layout::text(&film.view), &to)?;
             output::print(&format!(
@@ -79,6 +83,24 @@ pub(super) fn view(args: &Args) -> Result<()> {
                 args.file.display()
             ))?;
         }
+        Viewer::Plotjuggler => {
+            let to = beside("plotjuggler.xml");
+            let numbers = record::numbers(&args.file)?;
+            output::write(&plotjuggler::text(&numbers, &seen_from(&to, &args.file)), &to)?;
+            output::print(&format!(
+                "layout     {}\n\
+                 plotjuggler -l FILE, FILE being the layout above: it reads the recording by itself.\n",
+                to.display()
+            ))?;
+        }
     }
     Ok(())
+}
+
+/// The recording as its layout names it: by its name beside it, so that both can be moved together, else absolute.
+fn seen_from(layout: &Path, recording: &Path) -> PathBuf {
+    match recording.file_name() {
+        Some(name) if layout.parent() == recording.parent() => name.into(),
+        _ => std::path::absolute(recording).unwrap_or_else(|_| recording.into()),
+    }
 }

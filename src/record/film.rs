@@ -1,15 +1,13 @@
 //! A recording as a moving picture, read back for viewers that know none of its messages.
 
 use super::extent::{corners, placed};
-use super::recording::Side;
-use super::table::topic_name;
-use super::view::{View, plots, turn};
+use super::numbers::plotted;
+use super::view::{View, turn};
 use super::{beside, messages, read, schema};
 use foxglove::messages::line_primitive::Type as LineType;
 use foxglove::messages::{Color, FrameTransforms, Point3, Pose, SceneEntity, SceneUpdate};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::unit;
-use linkage::trajectory::Channel;
 use mcap::{McapError, Message};
 use prost::Message as _;
 use std::collections::{BTreeMap, BTreeSet};
@@ -79,12 +77,7 @@ pub(super) fn film(path: &Path) -> Result<Film> {
         let message = format!("the recording {} has no picture: no positions were recorded", path.display());
         return Err(Error::new(ErrorKind::Input, message).help("record the scenario again with its positions"));
     };
-    let named: Vec<Side> = sides.iter().map(|(name, trajectory)| Side { name, trajectory }).collect();
-    let errors: Vec<Channel> = (named.first().iter().flat_map(|side| side.trajectory.channels()))
-        .filter(|channel| found.topics.contains(&topic_name("error", channel.kind.subject, &channel.of)))
-        .cloned()
-        .collect();
-    let plots = plots(&named, &errors);
+    let plots = plotted(&sides, &found.topics);
     let lasts = found.frames.last().map_or(0.0, |(last, _)| *last as f64 * 1e-9);
     let mut poses: BTreeMap<String, Vec<[f64; 3]>> = BTreeMap::new();
     for frame in found.frames.iter().flat_map(|(_, frames)| &frames.transforms) {
@@ -106,7 +99,7 @@ pub(super) fn film(path: &Path) -> Result<Film> {
         frames: poses.keys().cloned().collect(),
         forces: !arrows.is_empty(),
         slow,
-        turn: named.first().map_or(lasts, |side| turn(lasts, side.trajectory)),
+        turn: sides.first().map_or(lasts, |(_, trajectory)| turn(lasts, trajectory)),
         plots,
     };
     let values = values(&bytes, &view, &time).map_err(damaged)?;

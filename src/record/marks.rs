@@ -1,9 +1,9 @@
 //! The marks of a sketch as the primitives of a scene.
 
-use super::shapes::{colour, extent, grey, point, pose};
+use super::shapes::{colour, extent, point, pose};
 use drawing::{Fill, Mark, Role, Shape};
 use foxglove::messages::line_primitive::Type as LineType;
-use foxglove::messages::{CylinderPrimitive, LinePrimitive, SceneEntity, TextPrimitive, TriangleListPrimitive};
+use foxglove::messages::{Color, CylinderPrimitive, LinePrimitive, SceneEntity, TextPrimitive, TriangleListPrimitive};
 use linkage::math::Vec2;
 
 /// Opacity of areas: what lies beneath shows through.
@@ -82,9 +82,10 @@ pub fn letter(text: &str, at: Vec2, z: f64) -> TextPrimitive {
     TextPrimitive {
         pose: pose(at, z, 0.0),
         billboard: true,
-        font_size: 14.0,
+        font_size: 18.0,
         scale_invariant: true,
-        color: Some(grey()),
+        // Viewers lay a dark ground under light letters.
+        color: Some(Color { r: 1.0, g: 1.0, b: 1.0, a: 1.0 }),
         text: text.into(),
     }
 }

@@ -11,6 +11,9 @@
 //! | `/mechanism/forces` | `foxglove.SceneUpdate` | every frame, if asked for |
 //! | `/log` | `foxglove.Log` | verdicts and warnings |
 //!
+//! A message declares the fields that are computed, and no others. One that lacks some of its subject is named after the
+//! numbers of its fields, such as `linkproof.Point_1_2`.
+//!
 //! Log times are nanoseconds from the first instant of the recording, as many times the simulated ones as
 //! [`Show::slow`] says; the grid has the simulated times themselves. Nothing depends on a clock, so equal
 //! runs give equal files. The sequence number of a message is that of its sample in ascending order of time; it
@@ -27,6 +30,7 @@ mod film;
 mod forces;
 mod marks;
 mod messages;
+mod numbers;
 mod output;
 mod placed;
 mod pour;
@@ -46,6 +50,7 @@ mod write;
 
 pub use beside::Place;
 pub use film::{Film, Part};
+pub use numbers::Numbers;
 pub use recording::{Level, LogEntry, Recording, Show, Side};
 #[cfg(feature = "live")]
 pub use reel::{Reel, Told};
@@ -89,6 +94,14 @@ pub fn reel(recording: &Recording) -> Result<Reel> {
 /// Those of [`load`]; [`ErrorKind::Input`](linkage::ErrorKind::Input) if it has no picture.
 pub fn film(path: &Path) -> Result<Film> {
     film::film(path)
+}
+
+/// Reads which numbers a recording has.
+///
+/// # Errors
+/// Those of [`load`].
+pub fn numbers(path: &Path) -> Result<Numbers> {
+    numbers::numbers(path)
 }
 
 /// Where the recording of a run goes: `NAME.mcap` in the directory, or `NAME-2.mcap`, ... if that is one of another

@@ -1,6 +1,7 @@
 //! Our own messages: flat protobuf, one number per field, made from the table of channels.
 //!
-//! Every field has presence (proto3 `optional`): a channel that was not computed is absent, which differs from zero.
+//! Every field has presence (proto3 `optional`). A channel that was not computed is not declared either: some viewers show
+//! a field that is absent as zero.
 
 use linkage::trajectory::{CHANNELS, ChannelKind, Subject, Unit};
 use prost::Message;
@@ -24,17 +25,18 @@ pub struct Schema {
 
 /// The schema of the grid message.
 pub fn grid() -> Schema {
-    schema("Grid", GRID_FIELDS.into_iter().map(str::to_string), Type::Double)
+    schema("Grid", (1..).zip(GRID_FIELDS.map(str::to_string)), Type::Double)
 }
 
-/// The schema of a subject's values.
-pub fn values(subject: Subject) -> Schema {
-    schema(&type_name(subject), kinds(subject).map(|kind| kind.suffix.to_string()), Type::Double)
+/// The schema of a subject's values that has these channels.
+pub fn values(subject: Subject, own: &[&ChannelKind]) -> Schema {
+    of_kinds(subject, "", own, |kind| kind.suffix.to_string(), Type::Double)
 }
 
-/// The schema of a subject's errors, in small units. Single precision is enough: people read three digits.
-pub fn errors(subject: Subject) -> Schema {
-    schema(&format!("{}Error", type_name(subject)), kinds(subject).map(|kind| small_unit(kind).0), Type::Float)
+/// The schema of a subject's errors in these channels, in small units. Single precision is enough: people read three
+/// digits.
+pub fn errors(subject: Subject, own: &[&ChannelKind]) -> Schema {
+    of_kinds(subject, "Error", own, |kind| small_unit(kind).0, Type::Float)
 }
 
 /// Number of a channel's field in the message of its subject.
@@ -115,19 +117,32 @@ fn kinds(subject: Subject) -> impl Iterator<Item = &'static ChannelKind> {
     CHANNELS.iter().filter(move |kind| kind.subject == subject || joint && kind.subject == Subject::Joint)
 }
 
-fn type_name(subject: Subject) -> String {
-    // It needs its own name: two messages of one name with different fields confuse viewers.
+/// A message with the fields of these channels, named after its subject. One that lacks channels has the numbers of its
+/// fields in its name too: two messages of one name with different fields confuse viewers.
+fn of_kinds(
+    subject: Subject,
+    suffix: &str,
+    own: &[&ChannelKind],
+    field: impl Fn(&ChannelKind) -> String,
+    kind: Type,
+) -> Schema {
     let word = if subject == Subject::Slider { "slider" } else { subject.word() };
-    word[..1].to_uppercase() + &word[1..]
+    let mut name = word[..1].to_uppercase() + &word[1..] + suffix;
+    let fields: BTreeMap<u32, String> = own.iter().map(|kind| (tag(kind), field(kind))).collect();
+    if fields.len() < kinds(subject).count() {
+        name.extend(fields.keys().map(|tag| format!("_{tag}")));
+    }
+    schema(&name, fields.into_iter(), kind)
 }
 
-fn schema(name: &str, fields: impl Iterator<Item = String>, kind: Type) -> Schema {
+/// A message with these fields, by their numbers.
+fn schema(name: &str, fields: impl Iterator<Item = (u32, String)>, kind: Type) -> Schema {
     let field: Vec<FieldDescriptorProto> = fields
         .enumerate()
-        .map(|(index, field)| FieldDescriptorProto {
+        .map(|(index, (tag, field))| FieldDescriptorProto {
             json_name: Some(field.clone()),
             name: Some(field),
-            number: Some(index as i32 + 1),
+            number: Some(tag as i32),
             label: Some(Label::Optional as i32),
             r#type: Some(kind as i32),
             oneof_index: Some(index as i32),
@@ -156,9 +171,24 @@ mod tests {
     #[test]
     fn every_channel_has_a_field_of_its_own_name() {
         for kind in &CHANNELS {
-            let schema = values(kind.subject);
+            let all: Vec<&ChannelKind> = kinds(kind.subject).collect();
+            let schema = values(kind.subject, &all);
             let names = field_names(&schema.descriptor, &schema.name).unwrap();
             assert_eq!(names[&tag(kind)], kind.suffix);
+        }
+    }
+
+    /// Viewers would show what was not computed as zero, and mix up messages of one name.
+    #[test]
+    fn only_what_is_there_is_declared() {
+        let some: Vec<&ChannelKind> = kinds(Subject::Slider).filter(|kind| kind.unit == Unit::Metre).collect();
+        for schema in [values(Subject::Slider, &some), errors(Subject::Slider, &some)] {
+            let names = field_names(&schema.descriptor, &schema.name).unwrap();
+            assert_eq!(
+                names.keys().copied().collect::<Vec<_>>(),
+                some.iter().map(|kind| tag(kind)).collect::<Vec<_>>()
+            );
+            assert!(schema.name.contains(&format!("_{}", tag(some[0]))), "{}", schema.name);
         }
     }
 

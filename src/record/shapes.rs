@@ -32,13 +32,8 @@ pub fn colour(rgba: [u8; 4]) -> Color {
     Color { r, g, b, a }
 }
 
-/// Colour of the ground and of lettering: readable on black and on white.
+/// Colour of the ground: readable on black and on white.
 pub const GREY: [u8; 4] = [128, 128, 128, 255];
-
-/// A grey that is readable on black and on white.
-pub fn grey() -> Color {
-    Color { r: 0.5, g: 0.5, b: 0.5, a: 1.0 }
-}
 
 /// Log time as a time stamp of the viewers.
 pub fn stamp(nanoseconds: u64) -> Option<Timestamp> {

@@ -52,7 +52,8 @@ impl<'a> Table<'a> {
         let grid = vec![Field::Value(1, trajectory.times()), Field::Value(2, trajectory.cranks()), Field::Row(3)];
         let mut topics = vec![Topic { id, fields: grid }];
         for (subject, of, columns) in by_subject(trajectory) {
-            let id = sink.topic(&topic_name(side, subject, of), &Kind::own(schema::values(subject)))?;
+            let id =
+                sink.topic(&topic_name(side, subject, of), &Kind::own(schema::values(subject, &kinds(&columns))))?;
             let field = |(kind, column): (&ChannelKind, &'a [f64])| Field::Value(schema::tag(kind), column);
             topics.push(Topic { id, fields: columns.into_iter().map(field).collect() });
         }
@@ -63,7 +64,8 @@ impl<'a> Table<'a> {
     pub fn errors(sink: &mut impl Sink, errors: &'a Trajectory) -> McapResult<Self> {
         let mut topics = Vec::new();
         for (subject, of, columns) in by_subject(errors) {
-            let id = sink.topic(&topic_name("error", subject, of), &Kind::own(schema::errors(subject)))?;
+            let id =
+                sink.topic(&topic_name("error", subject, of), &Kind::own(schema::errors(subject, &kinds(&columns))))?;
             let field = |(kind, column): (&ChannelKind, &'a [f64])| {
                 Field::Scaled(schema::tag(kind), column, schema::small_unit(kind).1)
             };
@@ -80,6 +82,10 @@ pub fn topic_name(side: &str, subject: Subject, of: &str) -> String {
 }
 
 type Columns<'a> = Vec<(&'static ChannelKind, &'a [f64])>;
+
+fn kinds<'a>(columns: &Columns<'a>) -> Vec<&'a ChannelKind> {
+    columns.iter().map(|&(kind, _)| kind).collect()
+}
 
 /// The columns of each link, point, joint (all columns of a sliding joint together), of frame and drive, in the order
 /// of their first column.

@@ -65,6 +65,7 @@ fn picture(view: &View) -> Value {
     }
     json!({
         "foxglovePanelTitle": view.name,
+        "lichtblickPanelTitle": view.name,
         "cameraState": {
             "perspective": false,
             "distance": height,
@@ -79,7 +80,14 @@ fn picture(view: &View) -> Value {
         },
         "followMode": "follow-none",
         "followTf": "world",
-        "scene": { "transforms": { "showLabel": false, "labelSize": 0.02 * height, "axisScale": 0.05 * height, "lineWidth": 0 } },
+        "scene": { "transforms": {
+            "showLabel": false,
+            "labelSize": 0.02 * height,
+            "axisScale": 0.05 * height,
+            "lineWidth": 0,
+            // All poses at once: right ones also after a jump backwards.
+            "enablePreloading": true,
+        } },
         "transforms": frames,
         "topics": topics,
         "layers": {},
@@ -89,6 +97,7 @@ fn picture(view: &View) -> Value {
 fn graph(plot: &Plot) -> Value {
     json!({
         "foxglovePanelTitle": plot.title,
+        "lichtblickPanelTitle": plot.title,
         "title": plot.title,
         // The first one is drawn last: engines in front of the reference.
         "paths": plot.lines.iter().rev().map(path).collect::<Vec<Value>>(),
@@ -105,21 +114,25 @@ fn graph(plot: &Plot) -> Value {
 
 /// A line: the reference broad and pale, each engine thin and in front of it, as in the picture.
 fn path(line: &Line) -> Value {
-    const COLOURS: [&str; 4] = ["#56b4e9", "#e67800", "#009e73", "#cc79a7"];
-    let (colour, width) = match line.side {
-        Some(0) => (COLOURS[0], 5.0),
-        Some(side) => (COLOURS[side % COLOURS.len()], 1.5),
-        None => ("#9a9a9a", 1.5),
-    };
+    let width = if line.side == Some(0) { 5.0 } else { 1.5 };
+    // The title says what it is. A long name would cover the curve.
+    let side = line.side.and_then(|_| line.topic.split('/').nth(1));
     json!({
         "value": format!("{}.{}", quoted(&line.topic), line.field),
-        "label": line.label,
+        "label": side.unwrap_or(&line.label),
         "enabled": true,
         "timestampMethod": "receiveTime",
-        "color": colour,
+        "color": colour(line.side),
         "lineSize": width,
         "showLine": true,
     })
+}
+
+/// Colour of a side, the reference being 0, or of an error.
+fn colour(side: Option<usize>) -> &'static str {
+    // Samples are dots in a darker shade on a light background, a lighter one on a dark: these leave room for both.
+    const COLOURS: [&str; 4] = ["#56b4e9", "#ff9f40", "#5fd3ae", "#cc79a7"];
+    side.map_or("#9a9a9a", |side| COLOURS[side % COLOURS.len()])
 }
 
 /// A topic as paths of messages take it: in quotes where it has other signs than letters, digits, `_`, `-` and `/`.

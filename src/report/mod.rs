@@ -36,6 +36,7 @@ pub mod mutate;
 pub mod outcomes;
 mod own_forces;
 pub(crate) mod plan;
+pub(crate) mod plotjuggler;
 mod pretty;
 pub(crate) mod range;
 mod reasons;

@@ -4,8 +4,8 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use serde_json::{Value, json};
 
-/// Text that stands in a page as it is, between tags and in attributes.
-pub(super) fn escaped(text: &str) -> String {
+/// Text that stands in a page, or in other XML, as it is, between tags and in attributes.
+pub(in crate::report) fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for letter in text.chars() {
         match letter {

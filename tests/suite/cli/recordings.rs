@@ -1,6 +1,11 @@
 //! A recording takes the place of an older one of the same run, and of no other.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
+use std::path::Path;
+
+use prost::Message;
+use prost_types::field_descriptor_proto::Type;
 
 use super::tools::Place;
 
@@ -130,16 +135,21 @@ fn layouts_name_what_is_recorded() {
     let text = fs::read_to_string(place.path("out/crank_rocker.foxglove.json")).unwrap();
     let layout: serde_json::Value = serde_json::from_str(&text).unwrap();
     let bytes = fs::read(place.path("out/crank_rocker.mcap")).unwrap();
-    let topics: std::collections::BTreeSet<String> =
+    let topics: BTreeSet<String> =
         mcap::MessageStream::new(&bytes).unwrap().map(|message| message.unwrap().channel.topic.clone()).collect();
     let panels = layout["configById"].as_object().unwrap();
     let scene = &panels["3D!mechanism"];
+    // Each viewer has a key of its own.
+    for (name, panel) in panels {
+        let title = panel["foxglovePanelTitle"].as_str().unwrap();
+        assert_eq!(panel["lichtblickPanelTitle"].as_str(), Some(title), "{name}");
+    }
     assert!(scene["topics"].as_object().unwrap().keys().all(|topic| topics.contains(topic)), "{scene}");
     assert_eq!(
         (scene["cameraState"]["phi"].as_f64(), scene["cameraState"]["perspective"].as_bool()),
         (Some(0.0), Some(false))
     );
-    let mut sides = std::collections::BTreeSet::new();
+    let mut sides = BTreeSet::new();
     for line in panels.values().filter_map(|panel| panel["paths"].as_array()).flatten() {
         let topic = line["value"].as_str().unwrap().split('.').next().unwrap();
         assert!(topics.contains(topic), "{topic}");
@@ -147,4 +157,61 @@ fn layouts_name_what_is_recorded() {
         sides.insert(topic.split('/').nth(1).unwrap().to_string());
     }
     assert_eq!(sides.into_iter().collect::<Vec<_>>(), ["engine", "error", "reference"].map(String::from));
+}
+
+/// Fields of every topic's messages, as they are declared; and for each whether every message has it.
+fn declared(bytes: &[u8]) -> BTreeMap<String, BTreeMap<String, bool>> {
+    let mut found: BTreeMap<String, BTreeMap<String, bool>> = BTreeMap::new();
+    for message in mcap::MessageStream::new(bytes).unwrap().map(Result::unwrap) {
+        let schema = message.channel.schema.as_ref().unwrap();
+        if !schema.name.starts_with("linkproof.") {
+            continue;
+        }
+        let set = prost_types::FileDescriptorSet::decode(&*schema.data).unwrap();
+        let own = found.entry(message.channel.topic.clone()).or_default();
+        for field in &set.file[0].message_type[0].field {
+            // All numbers below 16: one byte of key before each value.
+            let (number, size) = (field.number() as u8, if field.r#type() == Type::Float { 4 } else { 8 });
+            let there = message.data.chunks(size + 1).any(|chunk| chunk[0] >> 3 == number);
+            *own.entry(field.name().into()).or_insert(true) &= there;
+        }
+    }
+    found
+}
+
+/// The layout for PlotJuggler finds its recording, and curves that are recorded; also where there is nothing to draw.
+#[test]
+fn plotjuggler_is_told_what_is_recorded() {
+    let place = Place::new();
+    for (options, name) in [("", "whole"), ("--only point.D.positions --only joint.B.fx_N", "some")] {
+        place.ok(&format!("run scenarios/crank_rocker.toml {options} --record {name}"));
+        let recording = format!("{name}/crank_rocker.mcap");
+        let fields = declared(&fs::read(place.path(&recording)).unwrap());
+        // PlotJuggler shows a declared field that is absent as zero.
+        assert!(fields.values().all(|own| !own.is_empty() && own.values().all(|&there| there)), "{name}: {fields:?}");
+
+        let told = place.ok(&format!("view {recording} --with plotjuggler"));
+        assert!(told.contains(&format!("{name}/crank_rocker.plotjuggler.xml")), "{told}");
+        let text = fs::read_to_string(place.path(name).join("crank_rocker.plotjuggler.xml")).unwrap();
+        let layout = roxmltree::Document::parse(&text).unwrap();
+        let of = |tag: &'static str| layout.descendants().filter(move |node| node.has_tag_name(tag));
+        assert_eq!(of("fileInfo").next().unwrap().attribute("filename"), Some("crank_rocker.mcap"));
+        let topics = of("parameters").next().unwrap().attribute("selected_topics").unwrap();
+        assert_eq!(topics.split(';').collect::<Vec<_>>(), fields.keys().collect::<Vec<_>>());
+        let mut sides = BTreeSet::new();
+        for curve in of("curve") {
+            let (topic, field) = curve.attribute("name").unwrap().rsplit_once('/').unwrap();
+            assert!(fields[topic].contains_key(field), "{topic} {field}");
+            sides.insert(topic.split('/').nth(1).unwrap().to_string());
+        }
+        assert_eq!(sides.into_iter().collect::<Vec<_>>(), ["engine", "error", "reference"]);
+        assert_eq!(of("DockSplitter").next().unwrap().attribute("count"), Some("4"));
+    }
+    // Elsewhere, it names the recording by its whole path.
+    place.ok("view whole/crank_rocker.mcap --with plotjuggler -o there.xml");
+    let whole = place.path("whole/crank_rocker.mcap").canonicalize().unwrap();
+    let text = fs::read_to_string(place.path("there.xml")).unwrap();
+    let layout = roxmltree::Document::parse(&text).unwrap();
+    let named = layout.descendants().find(|node| node.has_tag_name("fileInfo")).unwrap().attribute("filename").unwrap();
+    assert!(named != "crank_rocker.mcap" && Path::new(named).canonicalize().unwrap() == whole, "{named}");
 }

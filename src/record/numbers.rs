@@ -1,0 +1,53 @@
+//! The numbers of a recording, for viewers that draw curves and nothing else.
+
+use super::recording::Side;
+use super::table::topic_name;
+use super::view::{Plot, plots};
+use super::{messages, read};
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::trajectory::{Channel, Trajectory};
+use mcap::McapError;
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::Path;
+
+/// The numbers of a recording.
+#[derive(Clone, Debug)]
+pub struct Numbers {
+    /// Topics of the sides and of their errors.
+    pub topics: Vec<String>,
+    /// Plots, the most interesting first: the values of all sides, then their errors.
+    pub plots: Vec<Plot>,
+}
+
+pub(super) fn numbers(path: &Path) -> Result<Numbers> {
+    let bytes = fs::read(path).map_err(|error| {
+        Error::new(ErrorKind::Io, format!("the recording {} cannot be read: {error}", path.display()))
+            .help("check the path")
+    })?;
+    let sides = read::of_bytes(&bytes, path)?;
+    let mut topics = BTreeSet::new();
+    messages::each::<McapError>(&bytes, &mut |message| {
+        let topic = message.channel.topic.as_str();
+        let side = topic.strip_prefix('/').and_then(|rest| rest.split_once('/')).map(|(side, _)| side);
+        if side.is_some_and(|side| side == "error" || sides.iter().any(|(own, _)| own == side)) {
+            topics.insert(topic.to_string());
+        }
+        Ok(())
+    })
+    .map_err(|error| {
+        Error::new(ErrorKind::Io, format!("the recording {} is damaged: {error}", path.display()))
+            .help("record it again")
+    })?;
+    Ok(Numbers { plots: plotted(&sides, &topics), topics: topics.into_iter().collect() })
+}
+
+/// Plots of the sides, and of those errors that have a topic.
+pub(super) fn plotted(sides: &[(String, Trajectory)], topics: &BTreeSet<String>) -> Vec<Plot> {
+    let named: Vec<Side> = sides.iter().map(|(name, trajectory)| Side { name, trajectory }).collect();
+    let errors: Vec<Channel> = (named.first().iter().flat_map(|side| side.trajectory.channels()))
+        .filter(|channel| topics.contains(&topic_name("error", channel.kind.subject, &channel.of)))
+        .cloned()
+        .collect();
+    plots(&named, &errors)
+}
