@@ -68,8 +68,8 @@ impl Live {
     fn at(_: &str) -> Result<Live> {
         let message = "--live is asked for, but this build does not have it";
         Err(Error::new(ErrorKind::Unsupported, message)
-            .help("build with the cargo feature \"live\": cargo install --features live linkproof; in the sources, with --path .")
-            .or_help("record without it, and open the recording in a viewer: linkproof view FILE.mcap"))
+            .help("build with the cargo feature \"live\" (`cargo install --features live linkproof`)")
+            .or_help("leave out --live, and open the recording: linkproof view FILE.mcap"))
     }
 
     pub(super) fn show_reference(&self, _: &RecordArgs, _: &Scenario, _: Reference) {
