@@ -142,7 +142,10 @@ def check_keys(tab, count):
     # From the top, the tabulator reaches the first control.
     tab.evaluate("() => document.activeElement.blur()")
     tab.keyboard.press("Tab")
-    need(tab.evaluate("() => document.activeElement.id") == "play", "the tabulator does not reach the first button")
+    for own in ["play", "back", "on", "slider", "speed", "loop"]:
+        at = tab.evaluate("() => document.activeElement.id")
+        need(at == own, f"the tabulator reaches {at} before {own}")
+        tab.keyboard.press("Tab")
 
 
 def check_pointer(tab, count):
@@ -188,6 +191,9 @@ def check_page(browser, linkproof, scenario, path, rows, pictures):
            if request.url != path.as_uri() and not request.url.startswith("data:") else None)
     tab.goto(path.as_uri())
     data = json.loads(tab.evaluate("() => document.getElementById('data').textContent"))
+    need(tab.locator("#play").get_attribute("aria-pressed") == "false", "it plays for who asked for less motion")
+    agrees = tab.locator("#verdict .agree").count() == 1
+    need(agrees == (tab.locator("#why p").count() == 0), "the head of the page does not say why")
     worst = check_motion(tab, data, rows)
     if rows:
         check_loads(tab, data, scenario, rows)
@@ -199,7 +205,12 @@ def check_page(browser, linkproof, scenario, path, rows, pictures):
     for step in range(60):
         tab.evaluate(f"() => window.scrollTo(0, {step} * 900)")
     tab.wait_for_timeout(50)
+    tab.evaluate("() => window.scrollTo(0, 0)")
+    tab.wait_for_timeout(50)
+    tab.evaluate(GO_TO, tab.evaluate("() => time.length") // 3)
     need(tab.pdf()[:4] == b"%PDF", "it cannot be printed")
+    told = tab.evaluate("() => [...document.querySelectorAll('#plan-list .card > .numbers')].map((own) => own.textContent === atInstant())")
+    need(all(told), "plans are printed at another instant")
     drawn = tab.locator("#charts svg").count()
     need(drawn == len(data["channels"]), f"{drawn} of {len(data['channels'])} channels are drawn when printed")
     unnamed = tab.evaluate(UNNAMED)
@@ -225,6 +236,29 @@ def check_page(browser, linkproof, scenario, path, rows, pictures):
     return size, worst
 
 
+def chain(dyads):
+    """A crank and so many dyads behind each other."""
+    ends = lambda of: "\n".join(f"{name} = {{ x_mm = {x}, y_mm = {y} }}" for name, x, y in of)
+    links = {"crank": [("O", 0, 0), ("B0", 30, 0)]}
+    joints = [("O", "ground", "crank")]
+    before = "crank"
+    for k in range(1, dyads + 1):
+        links[f"rod_{k}"] = [(f"B{k - 1}", 0, 0), (f"A{k}", 125, 0)]
+        links[f"lever_{k}"] = [(f"G{k}", 0, 0), (f"A{k}", 100, 0), (f"B{k}", 90, 8)]
+        joints += [(f"B{k - 1}", before, f"rod_{k}"), (f"A{k}", f"rod_{k}", f"lever_{k}"), (f"G{k}", "ground", f"lever_{k}")]
+        before = f"lever_{k}"
+    text = 'format = 1\nname = "chain"\ntitle = "Dyads behind each other"\n[ground.points]\n'
+    text += ends([("O", 0, 0)] + [(f"G{k}", 120 * k, -60) for k in range(1, dyads + 1)])
+    for name, points in links.items():
+        text += f"\n[links.{name}]\nmass_kg = 0.5\ninertia_kg_m2 = 0.001\nmass_centre = {{ x_mm = 40, y_mm = 0 }}\n[links.{name}.points]\n{ends(points)}"
+    for name, first, second in joints:
+        text += f'\n[[joints]]\nname = "{name}"\ntype = "revolute"\nlinks = ["{first}", "{second}"]'
+    text += '\n[drive]\njoint = "O"\nspeed_rpm = 60\n[gravity]\nx_m_s2 = 0\ny_m_s2 = -9.81\n[start]\ncrank_deg = 90'
+    for k in range(1, dyads + 1):
+        text += f'\n[[start.groups]]\nlinks = ["rod_{k}", "lever_{k}"]\nmode = "left"'
+    return text + "\n[grid]\nfrom_deg = 90\nto_deg = 450\nstep_deg = 2\n"
+
+
 def special(scenarios, directory):
     """Runs whose pages differ in kind: scenario, name of the page, options."""
     at = lambda name: str(scenarios / f"{name}.toml")
@@ -232,6 +266,13 @@ def special(scenarios, directory):
     # Names of links are words; titles, names of published numbers and comments are any text.
     bad = "</script><b>&'<!-- <script>console.log(1)</script>"
     text = Path(at("pendulum")).read_text()
+    formulas = Path(at("formulas/slider_crank_centric")).read_text()
+    wrong_formula = directory / "wrong_formula.toml"
+    wrong_formula.write_text(formulas.replace('"r*cos(phi) + sqrt', '"r*cos(phi) - sqrt'))
+    wrong_number = directory / "wrong_number.toml"
+    wrong_number.write_text(Path(at("crank_rocker")).read_text().replace("value = -2879.36879", "value = -2978.36879"))
+    many_links = directory / "many_links.toml"
+    many_links.write_text(chain(11))
     hostile.write_text(f"# {bad}\n" + text.replace('title = "', f'title = "{bad}').replace('name = "Newton', f'name = "{bad}Newton'))
     return [
         (at("crank_rocker"), "disagrees", ["--tolerance-scale", "1e-3"]),
@@ -242,6 +283,9 @@ def special(scenarios, directory):
         (at("crank_rocker"), "one_instant", ["--times", "0.1"]),
         (at("crank_rocker"), "long", ["--times", "0:4.6:0.0002"]),
         (str(hostile), "hostile", []),
+        (str(wrong_formula), "wrong_formula", []),
+        (str(wrong_number), "wrong_number", []),
+        (str(many_links), "many_links", []),
     ]
 
 

@@ -83,13 +83,13 @@ fn grouped(proof: &Proof, tell: Tell) -> Vec<Reason> {
 /// What reasons that say the same have in common: the cause, the words without their numbers, or the name without its side.
 fn key(name: &str, verdict: &Verdict, reason: &str) -> String {
     let bare = name.replace(" (assur)", "").replace(" (newton)", "");
-    let is_channel = || Channel::named(bare.split(" (").next().unwrap_or_default()).is_some();
+    let channel = bare.split([' ', '(']).next().unwrap_or_default();
     match verdict {
         Verdict::Inconclusive { .. } => reason.replace(|sign: char| sign.is_ascii_digit() || ".e-+".contains(sign), ""),
         Verdict::Agree { .. } | Verdict::Expected { .. } | Verdict::Disagree { .. } => {
             match reason.split_once("cause: ") {
                 Some((_, cause)) => cause.to_string(),
-                None if is_channel() => "channel".into(),
+                None if Channel::named(channel).is_some() => bare.replacen(channel, "", 1),
                 None => bare,
             }
         }
@@ -127,8 +127,11 @@ mod tests {
         let sides = ["x (assur), y", "x (newton), y"].map(|name| key(name, &wrong, "1 N is beyond the bound"));
         assert_eq!(sides[0], sides[1]);
         assert_ne!(sides[0], key("z (assur), y", &wrong, "1 N is beyond the bound"));
-        let channels = ["link.crank.x_m", "point.B.y_m (rapier)"].map(|name| key(name, &wrong, "1e-3 is beyond 1e-6"));
-        assert_eq!(channels[0], channels[1]);
+        for suffix in ["", " (rapier)", " as the engine exerts it"] {
+            let names = ["link.crank.x_m", "point.B.y_m"].map(|name| format!("{name}{suffix}"));
+            let keys = names.map(|name| key(&name, &wrong, "1e-3 is beyond 1e-6"));
+            assert_eq!(keys[0], keys[1]);
+        }
     }
 
     #[test]

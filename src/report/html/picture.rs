@@ -49,7 +49,7 @@ pub(super) fn drawn(sketch: &Sketch, placed: &Placed, view: [f64; 4], row: usize
     };
     let _ = writeln!(out, "<g class=\"engine\">{}</g>", group(&order, sketch, placed, row, &moves));
     out.push_str(
-        "<g id=\"stretched\"></g>\n<g id=\"arrows\"></g>\n<g id=\"loads\"></g>\n<g id=\"names\"></g>\n<g id=\"scales\"></g>\n</svg>",
+        "<g id=\"stretched\"></g>\n<g id=\"arrows\"></g>\n<g id=\"loads\"></g>\n<g id=\"load-numbers\"></g>\n<g id=\"names\"></g>\n<g id=\"scales\"></g>\n</svg>",
     );
     out
 }

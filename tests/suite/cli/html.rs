@@ -157,6 +157,51 @@ fn several_scenarios_go_to_a_directory_and_what_is_in_the_way_is_found_first() {
     assert_eq!(fs::read_to_string(place.path("file")).unwrap(), "old");
 }
 
+/// A number, or the first of a column.
+fn first(column: &Value) -> f64 {
+    column.as_f64().unwrap_or_else(|| singles(column)[0])
+}
+
+#[test]
+fn a_page_has_loads_and_the_vectors_of_the_plans() {
+    let place = Place::new();
+    place.ok("run scenarios/rotary_engine.toml --no-record --budget 1e5 --html page.html");
+    let data = data(&fs::read_to_string(place.path("page.html")).unwrap());
+    let loads = &data["loads"];
+    // A gas force of 300 N that turns with the cylinder, towards its pivot; weights; springs and dampers have a size only.
+    let force = &loads["arrows"][0];
+    assert_eq!(force["name"], "force at B on piston");
+    let size = first(&force["force"][0]).hypot(first(&force["force"][1]));
+    assert!((size - 300.0).abs() < 1e-4 && force["moment"].is_null(), "{force}");
+    assert!(loads["weights"].as_array().unwrap().iter().all(|own| own["force"][0] == 0.0));
+    let between: Vec<&str> =
+        loads["between"].as_array().unwrap().iter().map(|own| own["name"].as_str().unwrap()).collect();
+    assert_eq!(between[..2], ["spring from H on cylinder to B on piston", "damper from S to B on piston"]);
+    assert_eq!(loads["drives"][0]["name"], "balancing moment on cylinder");
+    // The Coriolis part and the relative acceleration of the piston in its cylinder, as `plan` has them.
+    let start = doubles(&data["crank"])[0].to_degrees();
+    let plan: Value =
+        serde_json::from_str(&place.ok(&format!("plan scenarios/rotary_engine.toml --crank-deg {start} --json -")))
+            .unwrap();
+    let own = &data["plans"]["plans"][1];
+    let layout = match own["which"].as_array() {
+        Some(which) => which[0].as_u64().unwrap() as usize,
+        None => 0,
+    };
+    let vectors = own["layouts"][layout]["vectors"].as_array().unwrap();
+    let right = plan["acceleration"]["vectors"].as_array().unwrap();
+    assert_eq!(vectors.len(), right.len());
+    for (vector, right) in vectors.iter().zip(right) {
+        assert_eq!([&vector[0], &vector[5]], [&right["name"], &right["meaning"]]);
+        let tip = |end: usize, axis: usize| first(&own["tips"][vector[end].as_u64().unwrap() as usize][axis]);
+        for (axis, key) in [(0, "x"), (1, "y")] {
+            let apart = tip(3, axis) - tip(2, axis) - right[key].as_f64().unwrap();
+            assert!(apart.abs() < 1e-4, "{}: {apart}", right["name"]);
+        }
+    }
+    assert!(vectors.iter().any(|own| own[1] == "coriolis") && vectors.iter().any(|own| own[1] == "sliding"));
+}
+
 #[test]
 fn runs_that_disagree_prove_nothing_or_have_no_places_have_pages() {
     let place = Place::new();
@@ -167,7 +212,8 @@ fn runs_that_disagree_prove_nothing_or_have_no_places_have_pages() {
     };
     let wrong = page("--budget 1e5 --tolerance-scale 1e-4", 1);
     assert!(between(&wrong, "id=\"verdict\">", "</p>").contains("DISAGREE"));
-    assert!(between(&wrong, "<h2 id=\"findings-head\">", "</section>").contains("is beyond the scaled bound"));
+    let why = between(&wrong, "<div id=\"why\">", "</div>");
+    assert!(why.contains("is beyond the scaled bound") && why.contains("more alike"), "{why}");
     let open = page("--dt 0.02", 3);
     assert!(between(&open, "id=\"verdict\">", "</p>").contains("INCONCLUSIVE"));
     let placeless = page("--budget 1e5 --only joint.B", 0);

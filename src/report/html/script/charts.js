@@ -25,6 +25,8 @@ function follow(element, move) {
   move();
 }
 followers.push(() => { for (const own of near.values()) if (own.isNear) own.move(); });
+// Paper has no window: everything shows the same instant.
+window.addEventListener('beforeprint', () => near.forEach((own) => own.move()));
 
 /** Least and greatest with some room, never the same. What is far below `natural` is rounding, not a curve. */
 function roomy([low, high], natural = 0) {

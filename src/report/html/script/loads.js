@@ -33,12 +33,15 @@ const turning = loads === null ? [] : [
 ];
 const between = loads === null ? [] : loads.between.map((own) => ({ ...own, size: columnOf(own.size) }));
 
-/** Something with a number in the picture: its parts, and a function that places them. */
+/** Something with a number in the picture: its parts, and a function that places them. Numbers lie above all arrows. */
 function sign(name, move) {
-  const own = draw(byId('loads'), 'g', { 'data-name': name });
-  draw(own, 'title', {}, name);
-  const parts = { shape: draw(own, 'path'), number: draw(own, 'text', { class: 'number' }) };
-  following.push(() => own.classList.toggle('hidden', !move(parts)));
+  const shown = [draw(byId('loads'), 'g', { 'data-name': name }), draw(byId('load-numbers'), 'g')];
+  draw(shown[0], 'title', {}, name);
+  const parts = { shape: draw(shown[0], 'path'), number: draw(shown[1], 'text') };
+  following.push(() => {
+    const isThere = move(parts);
+    for (const own of shown) own.classList.toggle('hidden', !isThere);
+  });
 }
 
 /** Rooms of the numbers in the picture at the instant shown. */
