@@ -20,6 +20,7 @@ mod html;
 mod inspect;
 mod jobs;
 mod list;
+mod live;
 mod load;
 mod motor_choice;
 mod mutate;
@@ -76,7 +77,7 @@ enum Command {
     /// Write a mechanism to begin with: a commented scenario, with dimensions as options
     New(new::Args),
     /// Solve scenarios both ways, compare, check, record, and say whether the two sides agree
-    Run(run::Args),
+    Run(Box<run::Args>),
     /// Keep the figures of proven scenarios in files beside them, and judge later runs by these, within their bounds
     Accept(accept::Args),
     /// Judge formulas over the whole motion, by value and by derivative, against both analytic sides

@@ -12,11 +12,20 @@ use crate::report::{layout, recorded};
 use crate::scenario::Scenario;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::KeepNan;
+#[cfg(feature = "live")]
+use {
+    crate::record::{Level, LogEntry, Reel},
+    linkage::case::Case,
+    linkage::trajectory::Trajectory,
+};
 
 /// Size from which on a recording is called large (bytes): viewers then take seconds to open it.
 const LARGE: u64 = 20_000_000;
 /// Size that is proposed instead (bytes).
 const HANDY: f64 = 5e6;
+
+/// Name of the reference's side.
+const REFERENCE: &str = "reference";
 
 /// Where a recording goes, and what is in it.
 #[derive(Clone, Debug, clap::Args)]
@@ -26,11 +35,12 @@ pub(super) struct RecordArgs {
     #[arg(long, value_name = "DIR", default_value = "recordings")]
     record: PathBuf,
     /// Write no recording
-    #[arg(long, conflicts_with_all = ["record", "slow", "record_hz", "record_forces"])]
+    #[arg(long, conflicts_with = "record")]
     no_record: bool,
-    /// Time scale of recordings: viewers play them this many times slower than the mechanism runs
-    #[arg(long, value_name = "FACTOR", default_value_t = 1.0, allow_hyphen_values = true, value_parser = number::positive)]
-    slow: f64,
+    /// Time scale of recordings and of `--live`: viewers play them this many times slower than the mechanism runs
+    /// [default: 1; without it, layouts and `--live` show a turn in some four seconds]
+    #[arg(long, value_name = "FACTOR", allow_hyphen_values = true, value_parser = number::positive)]
+    slow: Option<f64>,
     /// Record at most this many instants per second of the mechanism's time, beside the first and the last [default: all]
     #[arg(long, value_name = "HZ", allow_hyphen_values = true, value_parser = number::positive)]
     record_hz: Option<f64>,
@@ -58,9 +68,22 @@ impl RecordArgs {
     }
 
     /// Tries whether recordings can be written, if there are to be any, before any work is done.
-    pub(super) fn target(&self) -> Result<()> {
+    ///
+    /// # Errors
+    /// What is in the way; an option that nothing would follow, because nothing is recorded and nobody looks on `live`.
+    pub(super) fn target(&self, is_live: bool) -> Result<()> {
         if self.no_record {
-            return Ok(());
+            let given = [
+                ("--slow", self.slow.is_some()),
+                ("--record-hz", self.record_hz.is_some()),
+                ("--record-forces", self.record_forces),
+            ];
+            let idle = given.into_iter().find(|&(_, is_given)| is_given && !is_live);
+            return idle.map_or(Ok(()), |(option, _)| {
+                let message =
+                    format!("{option} cannot be used with --no-record: it shapes what is recorded or shown live");
+                Err(Error::new(ErrorKind::Input, message).help("leave out one of the two, or add --live"))
+            });
         }
         files::may_fill(&self.record).map_err(|found| {
             let message = format!("recordings cannot be written to {}: {found}", self.record.display());
@@ -85,20 +108,10 @@ impl RecordArgs {
         })?;
         metadata.extend(self.record_hz.map(|hz| ("record_hz".into(), hz.to_string())));
         let Place { path, other } = record::place(directory, &scenario.name, &scenario.text, &metadata)?;
-        let sides = sides(proof);
-        let log = recorded::log(proof, advice::told);
-        let recording = Recording {
-            name: &scenario.name,
-            scenario_text: &scenario.text,
-            metadata: &metadata,
-            mechanism: &proof.scene.case.mechanism,
-            sides: &sides,
-            errors: proof.engine().errors.as_ref(),
-            log: &log,
-            show: Show { slow: self.slow, hz: self.record_hz, forces: self.record_forces },
-        };
-        record::write(&recording, &path)?;
-        let layout = record::view(&recording).map(|view| (path.with_extension("foxglove.json"), layout::text(&view)));
+        let view = self.as_recorded(scenario, proof, &metadata, |recording| {
+            record::write(recording, &path).map(|()| record::view(recording))
+        })?;
+        let layout = view.map(|view| (path.with_extension("foxglove.json"), layout::text(&view)));
         let layout = match layout {
             Some((to, text)) => output::write(&text, &to).map(|()| Some(to))?,
             None => None,
@@ -110,9 +123,63 @@ impl RecordArgs {
         let large = large(bytes, proof.reference_trajectory.times(), self.record_hz);
         Ok(Some(Recorded { path, layout, bytes, why, large }))
     }
+
+    /// What a recording of a proof holds, for viewers that look on.
+    #[cfg(feature = "live")]
+    pub(super) fn reel(&self, scenario: &Scenario, proof: &Proof) -> Result<Reel> {
+        self.as_recorded(scenario, proof, &BTreeMap::new(), record::reel)
+    }
+
+    /// The same before there is a proof: the reference alone.
+    #[cfg(feature = "live")]
+    pub(super) fn first_reel(&self, scenario: &Scenario, case: &Case, reference: &Trajectory) -> Result<Reel> {
+        let text = "the engine is at work; its side appears as soon as the proof is done";
+        let time = reference.times().iter().copied().fold(f64::INFINITY, f64::smaller);
+        record::reel(&Recording {
+            name: &scenario.name,
+            scenario_text: &scenario.text,
+            metadata: &BTreeMap::new(),
+            mechanism: &case.mechanism,
+            sides: &[Side { name: REFERENCE, trajectory: reference }],
+            errors: None,
+            log: &[LogEntry { time, level: Level::Info, text: text.into() }],
+            show: self.show(),
+        })
+    }
+
+    /// Calls `visit` with what is recorded of a proof.
+    fn as_recorded<T>(
+        &self,
+        scenario: &Scenario,
+        proof: &Proof,
+        metadata: &BTreeMap<String, String>,
+        visit: impl FnOnce(&Recording) -> T,
+    ) -> T {
+        let sides = sides(proof);
+        let log = recorded::log(proof, advice::told);
+        visit(&Recording {
+            name: &scenario.name,
+            scenario_text: &scenario.text,
+            metadata,
+            mechanism: &proof.scene.case.mechanism,
+            sides: &sides,
+            errors: proof.engine().errors.as_ref(),
+            log: &log,
+            show: self.show(),
+        })
+    }
+
+    fn show(&self) -> Show {
+        Show { slow: self.slow.unwrap_or(1.0), hz: self.record_hz, forces: self.record_forces }
+    }
 }
 
 impl Recorded {
+    /// Its layout.
+    pub(super) fn layout(&self) -> Option<&Path> {
+        self.layout.as_deref()
+    }
+
     /// Where it is, how large, and what opens it well.
     pub(super) fn told(&self) -> String {
         let layout = |path: &Path| format!("\nlayout     {}", path.display());
@@ -123,7 +190,7 @@ impl Recorded {
 
 /// The reference, then the engines.
 fn sides(proof: &Proof) -> Vec<Side<'_>> {
-    let mut sides = vec![Side { name: "reference", trajectory: &proof.reference_trajectory }];
+    let mut sides = vec![Side { name: REFERENCE, trajectory: &proof.reference_trajectory }];
     for engine in &proof.engines {
         let name = if proof.engines.len() == 1 { "engine" } else { engine.info.name };
         sides.extend(engine.trajectory.as_ref().map(|trajectory| Side { name, trajectory }));

@@ -13,9 +13,10 @@ use super::engine_section::{self, keys};
 use super::grid::GridArgs;
 use super::html::{self, Pages};
 use super::jobs::{Room, side_by_side};
+use super::live::{Live, LiveArgs};
 use super::load::{StartArgs, only, reference_names};
 use super::progress::Shared;
-use super::record_args::RecordArgs;
+use super::record_args::{RecordArgs, Recorded};
 use super::{advice, exit_code, number, output, standard_input, terminal};
 use crate::compare::Verdict;
 use crate::proof::{EngineProof, Entry, Proof, memory, prove_with};
@@ -41,6 +42,7 @@ Examples:
   linkproof run scenarios/crank_rocker.toml --no-record --start-crank-deg 90 --crank-deg 90:450:2   another start and grid
   linkproof run scenarios/crank_rocker_runup.toml --no-record --times 0,0.01,0.05,0.1   only these instants
   linkproof run scenarios/crank_rocker.toml --slow 20 --record-forces   a recording to look at, twenty times slower
+  linkproof run scenarios/crank_rocker.toml --live             move it in Foxglove or Lichtblick until Ctrl-C
   linkproof run scenarios/*.toml --no-record --json out.json   no recording, results for a script
   linkproof run scenarios/*.toml --no-record --junit out.xml --markdown out.md   for reports of tests, and a comment
   linkproof run scenarios/crank_rocker.toml --no-record --html crank_rocker.html   a page to look at, in any browser
@@ -74,6 +76,8 @@ pub(super) struct Args {
     write: bool,
     #[command(flatten)]
     record: RecordArgs,
+    #[command(flatten)]
+    live: LiveArgs,
     /// Ask for these channels only: a stage (positions), a subject (point.P, joint.B, drive), a subject's stage
     /// (point.P.positions) or a channel (joint.B.fx_N). What they do not depend on is not computed; published numbers of
     /// other channels are left out. May be given several times
@@ -111,22 +115,26 @@ pub(super) struct Args {
 /// Proves every file. A bad file does not stop the others from being proven.
 pub(super) fn run(args: &Args) -> u8 {
     // The default directory need not be there if nothing is recorded.
-    if let Err(found) = args.record.target() {
+    if let Err(found) = args.record.target(args.live.is_on()) {
         return output::exit(Err(found));
     }
+    let live = match args.live.start(&args.files) {
+        Ok(live) => live,
+        Err(found) => return output::exit(Err(found)),
+    };
     let pages = args.html.as_deref().map(|to| Pages::of(to, args.files.len())).transpose();
     let pages = match pages {
         Ok(pages) => pages,
         Err(found) => return output::exit(Err(found)),
     };
-    let mut session = Session::of(args, pages);
+    let mut session = Session::of(args, pages, live.as_ref());
     let what = match args.files.as_slice() {
         [only] => only.file_stem().map_or(String::new(), |stem| stem.to_string_lossy().into_owned()),
         several => format!("{} scenarios", several.len()),
     };
     let bar = Shared::new(&what, args.files.len());
     let most = args.engine.memory.bytes();
-    let work = |index: usize, file: &PathBuf, room: &Room| prove_file(args, file, room, index, &bar);
+    let work = |index: usize, file: &PathBuf, room: &Room| prove_file(args, live.as_ref(), file, room, index, &bar);
     side_by_side(&args.files, threads(args), most, work, |index, file, proven| {
         bar.at(index, 1.0);
         bar.hidden(|| session.take(file, proven));
@@ -149,6 +157,9 @@ fn threads(args: &Args) -> usize {
 struct Session<'a> {
     args: &'a Args,
     pages: Option<Pages>,
+    live: Option<&'a Live>,
+    /// What is said of the live server once all is written; `None` if there is no proof to show.
+    live_told: Option<String>,
     document: json::Document,
     outcomes: Outcomes,
     closing: Closing,
@@ -156,10 +167,12 @@ struct Session<'a> {
 }
 
 impl<'a> Session<'a> {
-    fn of(args: &'a Args, pages: Option<Pages>) -> Self {
+    fn of(args: &'a Args, pages: Option<Pages>, live: Option<&'a Live>) -> Self {
         Session {
             args,
             pages,
+            live,
+            live_told: None,
             document: json::Document::told_by(advice::told),
             outcomes: Outcomes::told_by(advice::told),
             closing: Closing::default(),
@@ -205,6 +218,10 @@ impl<'a> Session<'a> {
         if let Err(error) = self.page(&scenario, &proof) {
             self.failed(file, &error);
         }
+        let layout = recording.as_ref().and_then(Recorded::layout);
+        if let Err(error) = self.show_live(&scenario, &proof, layout) {
+            self.failed(file, &error);
+        }
         if self.tells() && self.args.files.len() > 1 {
             self.print("\n");
         }
@@ -216,7 +233,7 @@ impl<'a> Session<'a> {
         }
         self.closing.add(&proof);
         self.outcomes.add(&proof);
-        self.document.add(&proof, recording.map(|path| path.display().to_string()));
+        self.document.add(&proof, recording.map(|recorded| recorded.path.display().to_string()));
     }
 
     /// The report of one proof: a line, what is needed to act, or everything.
@@ -253,14 +270,22 @@ impl<'a> Session<'a> {
     }
 
     /// Records a proof, unless recording is off. A recording of another run is left alone.
-    fn record(&self, scenario: &Scenario, proof: &Proof) -> Result<Option<PathBuf>> {
+    fn record(&self, scenario: &Scenario, proof: &Proof) -> Result<Option<Recorded>> {
         let recorded = self.args.record.record(scenario, proof, metadata(self.args, proof))?;
         if let Some(recorded) = &recorded
             && self.tells()
         {
             output::print(&recorded.told())?;
         }
-        Ok(recorded.map(|recorded| recorded.path))
+        Ok(recorded)
+    }
+
+    /// Shows a proof to viewers, if they are served.
+    fn show_live(&mut self, scenario: &Scenario, proof: &Proof, layout: Option<&Path>) -> Result<()> {
+        let Some(live) = self.live else { return Ok(()) };
+        live.show_proof(&self.args.record, scenario, proof)?;
+        self.live_told = Some(live.told(layout));
+        Ok(())
     }
 
     /// Writes the page of a proof, if pages are asked for.
@@ -274,7 +299,8 @@ impl<'a> Session<'a> {
         Ok(())
     }
 
-    /// The table over all files, and the results for other programs; returns the exit code.
+    /// The table over all files, and the results for other programs; then viewers are served, if they are. Returns the
+    /// exit code.
     fn end(mut self) -> u8 {
         if self.tells()
             && let Some(table) = self.closing.text(terminal::columns())
@@ -296,17 +322,38 @@ impl<'a> Session<'a> {
                 self.worst = exit_code::BAD_INPUT;
             }
         }
+        if let (Some(live), Some(told)) = (self.live, self.live_told.take()) {
+            let tell = || match self.reports() {
+                true => self.print(&told),
+                false => output::note(told.trim()),
+            };
+            if let Err(error) = live.serve(tell) {
+                output::show(&error);
+                self.worst = exit_code::BAD_INPUT;
+            }
+        }
         self.worst
     }
 }
 
 /// Proves a file when there is room for it.
-fn prove_file(args: &Args, file: &Path, room: &Room, index: usize, bar: &Shared) -> Result<(Scenario, Proof)> {
+fn prove_file(
+    args: &Args,
+    live: Option<&Live>,
+    file: &Path,
+    room: &Room,
+    index: usize,
+    bar: &Shared,
+) -> Result<(Scenario, Proof)> {
     standard_input::refuse_writing(file, args.write)?;
     let scenario = only(args.start.load(file, &args.grid)?, &args.only)?;
     let options = args.engine.options(&args.reference);
     let needed = memory::of_proof(&scenario.case, options.engines.len().max(1));
     room.take(index, needed, || bar.hidden(|| args.engine.memory.tell(&scenario.case, needed)));
+    if let Some(live) = live {
+        bar.hidden(|| output::note(&format!("viewers can listen at {} from now on", live.address())));
+        live.show_reference(&args.record, &scenario, options.reference);
+    }
     let proof = prove_with(&scenario, &options, &mut |part| bar.at(index, part))?;
     let proof = match args.tolerance_scale {
         Some(dial) if dial > 0.0 => proof.with_bounds_scaled(dial),

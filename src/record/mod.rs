@@ -36,6 +36,8 @@ mod placed;
 mod pour;
 mod read;
 mod recording;
+#[cfg(feature = "live")]
+mod reel;
 mod scene;
 mod schema;
 mod shapes;
@@ -50,6 +52,10 @@ pub use beside::Place;
 pub use film::{Film, Part};
 pub use numbers::Numbers;
 pub use recording::{Level, LogEntry, Recording, Show, Side};
+#[cfg(feature = "live")]
+pub use reel::{Reel, Told};
+#[cfg(feature = "live")]
+pub use sink::Kind;
 pub use view::{Line, Plot, View};
 
 use linkage::error::Result;
@@ -71,6 +77,15 @@ pub fn write(recording: &Recording, path: &Path) -> Result<()> {
 #[must_use]
 pub fn view(recording: &Recording) -> Option<View> {
     view::view(recording)
+}
+
+/// Everything that the recording's file would hold for viewers, in memory, to be played to them.
+///
+/// # Errors
+/// Those of [`write()`], except that no file is written.
+#[cfg(feature = "live")]
+pub fn reel(recording: &Recording) -> Result<Reel> {
+    reel::reel(recording)
 }
 
 /// Reads a recording as a moving picture.

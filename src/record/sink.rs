@@ -14,6 +14,7 @@ pub trait Sink {
 }
 
 /// What the messages of a topic are.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Kind {
     /// Name of their schema.
     pub schema: String,

@@ -29,7 +29,7 @@ pub(super) fn write(recording: &Recording, path: &Path) -> Result<()> {
     })
 }
 
-fn check(recording: &Recording) -> Result<()> {
+pub(super) fn check(recording: &Recording) -> Result<()> {
     for (index, side) in recording.sides.iter().enumerate() {
         let taken = recording.sides[..index].iter().any(|other| other.name == side.name);
         if taken || side.name.is_empty() || side.name.contains('/') || ["error", "mechanism"].contains(&side.name) {

@@ -18,7 +18,7 @@ pub(crate) fn text(film: &Film) -> String {
         "name": view.name,
         "centre": [centre.x, centre.y],
         "height": height(view),
-        "speed": speed(view) / view.slow,
+        "speed": speed(view.slow, view.turn) / view.slow,
         "times": film.times,
         "poses": film.poses.iter().map(|(name, poses)| (name.clone(), json!(poses))).collect::<Map<_, _>>(),
         "parts": film.parts.iter().map(part).collect::<Vec<Value>>(),

@@ -8,7 +8,7 @@ use linkage::math::KeepNan;
 /// Speeds that the players offer.
 const SPEEDS: [f64; 8] = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 0.8, 1.0];
 /// Least time in which a turn is worth looking at (s).
-const TURN: f64 = 4.0;
+pub(super) const TURN: f64 = 4.0;
 /// Height of the picture over that of the mechanism.
 const ROOM: f64 = 1.25;
 /// Width over height of the panel that the picture is in.
@@ -32,18 +32,18 @@ pub(crate) fn text(view: &View) -> String {
         "configById": panels,
         "globalVariables": {},
         "userNodes": {},
-        "playbackConfig": { "speed": speed(view) },
+        "playbackConfig": { "speed": speed(view.slow, view.turn) },
         "layout": layout,
     });
     format!("{document:#}\n")
 }
 
-/// Playback speed: that of a stated time scale, else the fastest that lets people follow a turn.
-pub(crate) fn speed(view: &View) -> f64 {
-    if view.slow != 1.0 {
+/// Playback speed: that of a stated time scale, else the fastest that lets people follow a turn of that log time (s).
+pub(crate) fn speed(slow: f64, turn: f64) -> f64 {
+    if slow != 1.0 {
         return 1.0;
     }
-    SPEEDS.into_iter().rev().find(|speed| view.turn / speed >= TURN).unwrap_or(SPEEDS[0])
+    SPEEDS.into_iter().rev().find(|speed| turn / speed >= TURN).unwrap_or(SPEEDS[0])
 }
 
 /// Height of what is in view (m).

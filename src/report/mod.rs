@@ -27,6 +27,8 @@ pub mod json;
 pub mod junit;
 pub(crate) mod layout;
 pub(crate) mod lists;
+#[cfg(feature = "live")]
+pub(crate) mod live;
 pub mod markdown;
 pub(crate) mod modes;
 pub(crate) mod motor_choice;

@@ -25,7 +25,7 @@ const CRATES: &[(&str, &str, &str, &str)] = &[
         "linkproof",
         "",
         "analytic drawing formula linkage precise rapier-twin simbody-twin workshop",
-        "annotate-snippets anstream anstyle base64 chacha20 clap clap_complete clap_mangen comfy-table csv foxglove include_dir indicatif libtest-mimic mcap parquet plotters prost prost-types quick-junit serde serde_json strsim tempfile terminal_size textwrap toml toml_edit",
+        "annotate-snippets anstream anstyle base64 chacha20 clap clap_complete clap_mangen comfy-table csv ctrlc foxglove include_dir indicatif libtest-mimic mcap parquet plotters prost prost-types quick-junit serde serde_json strsim tempfile terminal_size textwrap toml toml_edit tungstenite",
     ),
 ];
 
@@ -152,6 +152,11 @@ const HOMES: &[(&str, &str)] = &[
     ("terminal_size", "linkproof::cli"),
     ("textwrap", "linkproof::report"),
     ("indicatif", "linkproof::cli"),
+    // The network is the command line's, as the clock is.
+    ("ctrlc", "linkproof::cli"),
+    ("tungstenite", "linkproof::cli"),
+    ("TcpListener", "linkproof::cli"),
+    ("TcpStream", "linkproof::cli"),
     ("libtest_mimic", "linkproof::testing"),
     ("annotate_snippets", "linkproof::report"),
     ("Instant", "linkproof::cli"),

@@ -29,6 +29,8 @@ mod invariants;
 mod key_tables;
 mod laws;
 mod library_texts;
+#[cfg(feature = "live")]
+mod live;
 mod loads;
 mod own_forces;
 mod peaks;

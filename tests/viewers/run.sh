@@ -81,6 +81,7 @@ if [ "$everything" ]; then
     pictures="$top/target/viewers-pictures"
     python "$here/rerun_check.py" "$linkproof" "$pictures" "$top/recordings/ov7_base.mcap" "$fresh/crank_rocker.mcap" || failed=1
     "$here/foxglove.sh" "$pictures" "$fresh/compressor.mcap" "$fresh/crank_rocker.mcap" || failed=1
+    python "$here/live_check.py" "$linkproof" "$pictures" "$top/target/foxglove" || failed=1
     python "$here/kills.py" "$linkproof" 20 || failed=1
     # Motions under forces, by way of peers of `linkproof bench`.
     python "$here/peers_check.py" "$linkproof" || failed=1

@@ -182,6 +182,11 @@ fn what_cannot_be_written_is_named_with_a_way_out() {
     }
     assert_eq!(fs::read_to_string(place.path("plain")).unwrap(), "a file, not a directory");
     place.refused(&format!("run {scenario} --no-record --record there"), &["cannot be used with"]);
+    for option in ["--slow 20", "--record-hz 10", "--record-forces"] {
+        place.refused(&format!("run {scenario} --no-record {option}"), &["cannot be used with --no-record", "--live"]);
+    }
+    #[cfg(not(feature = "live"))]
+    place.refused(&format!("run {scenario} --live"), &["does not have it", "cargo install --features live"]);
     place.refused(&format!("run {scenario} --engine magic"), &["magic", "rapier"]);
     place.refused(&format!("run {scenario} --reference rapier"), &["rapier", "assur, newton"]);
 }

@@ -1,0 +1,94 @@
+//! `--live`: what a proof has found, moving in viewers that listen to Foxglove's WebSocket.
+
+#[cfg(feature = "live")]
+mod player;
+#[cfg(feature = "live")]
+mod server;
+#[cfg(feature = "live")]
+mod show;
+#[cfg(feature = "live")]
+mod stage;
+#[cfg(feature = "live")]
+mod viewer;
+
+use std::path::PathBuf;
+
+#[cfg(feature = "live")]
+pub(super) use server::Live;
+
+use linkage::error::{Error, ErrorKind, Result};
+#[cfg(not(feature = "live"))]
+use {
+    super::record_args::RecordArgs,
+    crate::proof::{Proof, Reference},
+    crate::scenario::Scenario,
+    std::path::Path,
+};
+
+/// Where viewers listen unless another address is given, as Foxglove proposes it.
+const USUAL: &str = "127.0.0.1:8765";
+
+/// Whether viewers are served, and where.
+#[derive(Clone, Debug, clap::Args)]
+#[group(skip)]
+pub(super) struct LiveArgs {
+    /// Show the mechanism to Foxglove and Lichtblick while and after it is proven, in a slow loop until Ctrl-C [default
+    /// address: 127.0.0.1:8765; port 0 takes a free one]. Needs the cargo feature `live`
+    #[arg(long, value_name = "[HOST:]PORT", num_args = 0..=1, require_equals = true, default_missing_value = USUAL)]
+    live: Option<String>,
+}
+
+impl LiveArgs {
+    /// Whether viewers are served.
+    pub(super) fn is_on(&self) -> bool {
+        self.live.is_some()
+    }
+
+    /// Listens for viewers of a scenario, if they are to be served.
+    ///
+    /// # Errors
+    /// If this build cannot; if there are several scenarios; if the address cannot be listened at.
+    pub(super) fn start(&self, files: &[PathBuf]) -> Result<Option<Live>> {
+        let Some(address) = &self.live else { return Ok(None) };
+        if let [_, _, ..] = files {
+            let message = format!("--live shows one scenario, but {} are given", files.len());
+            return Err(Error::new(ErrorKind::Input, message).help("name one file"));
+        }
+        let on_this_machine = |port| format!("127.0.0.1:{port}");
+        Live::at(&address.parse::<u16>().map_or(address.clone(), on_this_machine)).map(Some)
+    }
+}
+
+/// What stands in for the server where a build has none.
+#[cfg(not(feature = "live"))]
+pub(super) enum Live {}
+
+#[cfg(not(feature = "live"))]
+impl Live {
+    fn at(_: &str) -> Result<Live> {
+        let message = "--live is asked for, but this build does not have it";
+        Err(Error::new(ErrorKind::Unsupported, message)
+            .help("build with the cargo feature \"live\": cargo install --features live linkproof; in the sources, with --path .")
+            .or_help("record without it, and open the recording in a viewer: linkproof view FILE.mcap"))
+    }
+
+    pub(super) fn show_reference(&self, _: &RecordArgs, _: &Scenario, _: Reference) {
+        match *self {}
+    }
+
+    pub(super) fn show_proof(&self, _: &RecordArgs, _: &Scenario, _: &Proof) -> Result<()> {
+        match *self {}
+    }
+
+    pub(super) fn address(&self) -> String {
+        match *self {}
+    }
+
+    pub(super) fn told(&self, _: Option<&Path>) -> String {
+        match *self {}
+    }
+
+    pub(super) fn serve(&self, _: impl FnOnce()) -> Result<()> {
+        match *self {}
+    }
+}

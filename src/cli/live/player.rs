@@ -1,0 +1,67 @@
+//! Where a viewer is in a reel.
+
+use std::ops::Range;
+
+use crate::record::Reel;
+use crate::report::live::State;
+use linkage::math::KeepNan;
+
+/// Where a viewer is in a reel, and how it goes on.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Player {
+    /// Log time (ns).
+    position: f64,
+    /// Number of messages that have been told.
+    pub told: usize,
+    /// Whether it moves.
+    pub plays: bool,
+    /// Log time per second of the clock.
+    pub speed: f64,
+}
+
+/// What is to be told now.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Due {
+    /// Whether it begins anew.
+    pub again: bool,
+    /// Numbers of the messages.
+    pub messages: Range<usize>,
+}
+
+impl Player {
+    /// At the start of a reel.
+    pub(super) fn new(speed: f64) -> Player {
+        Player { position: 0.0, told: 0, plays: true, speed }
+    }
+
+    /// Log time (ns).
+    pub(super) fn time(&self) -> u64 {
+        self.position as u64
+    }
+
+    /// Goes on by seconds of the clock. What is due at the end of a reel is due before the next turn begins, and a reel
+    /// of one instant has no next turn.
+    pub(super) fn pass(&mut self, seconds: f64, reel: &Reel) -> Due {
+        let again = self.plays && self.told == reel.len() && reel.lasts() > 0;
+        if again {
+            (self.position, self.told) = (0.0, 0);
+        } else if self.plays {
+            self.position = (self.position + seconds * 1e9 * self.speed).smaller(reel.lasts() as f64);
+        }
+        let until = reel.until(self.time()).max(self.told);
+        let messages = self.told..until;
+        self.told = until;
+        Due { again, messages }
+    }
+
+    /// Goes to a log time (ns), or to the end.
+    pub(super) fn seek(&mut self, time: u64, reel: &Reel) {
+        let time = time.min(reel.lasts());
+        (self.position, self.told) = (time as f64, reel.until(time));
+    }
+
+    /// What viewers are told of it.
+    pub(super) fn state(&self, jumped: bool) -> State {
+        State { plays: self.plays, time: self.time(), speed: self.speed as f32, jumped }
+    }
+}

@@ -1,0 +1,243 @@
+//! One viewer: what it asks for, and where it is. Each has a clock of its own, so that one that pauses, seeks or is slow
+//! disturbs no other, and one that comes late misses nothing.
+
+use std::io::ErrorKind;
+use std::net::TcpStream;
+use std::time::{Duration, Instant};
+
+use tungstenite::handshake::server::{ErrorResponse, Request as Asking, Response};
+use tungstenite::http::{HeaderValue, StatusCode};
+use tungstenite::protocol::WebSocketConfig;
+use tungstenite::{Error, Message, WebSocket, accept_hdr_with_config};
+
+use super::player::Player;
+use super::stage::{Shown, Stage};
+use crate::record::Reel;
+use crate::report::live::{self, Control, Dialect, Request};
+
+/// What is waited for a request between two looks at the clock.
+const TICK: Duration = Duration::from_millis(10);
+/// What a viewer may take to introduce itself.
+const GREETING: Duration = Duration::from_secs(5);
+/// What a viewer may take to receive anything.
+const PATIENCE: Duration = Duration::from_secs(20);
+/// Most that passes between two looks at the clock: a viewer that is slower is not told all it has missed at once.
+const MOST: Duration = Duration::from_millis(100);
+/// Largest request (bytes).
+const LARGEST: usize = 1 << 20;
+/// Most requests between two looks at the clock.
+const REQUESTS: usize = 64;
+/// Numbers of channels of what is shown begin at this multiple of the number of changes: none is used twice.
+const CHANNELS: u64 = 1 << 16;
+
+/// One viewer.
+pub(super) struct Viewer<'a> {
+    socket: WebSocket<TcpStream>,
+    dialect: Dialect,
+    stage: &'a Stage,
+    shown: Shown,
+    player: Player,
+    /// What it has asked for: its own number, and the topic's.
+    wants: Vec<(u32, u16)>,
+}
+
+type Spoken = tungstenite::Result<()>;
+
+impl<'a> Viewer<'a> {
+    /// Agrees on a protocol with whoever calls; `None` with whoever knows none of ours.
+    pub(super) fn greeted(stream: TcpStream, stage: &'a Stage) -> Option<Viewer<'a>> {
+        stream.set_nodelay(true).ok()?;
+        stream.set_read_timeout(Some(GREETING)).ok()?;
+        stream.set_write_timeout(Some(PATIENCE)).ok()?;
+        let mut dialect = None;
+        let config = WebSocketConfig::default().max_message_size(Some(LARGEST)).max_frame_size(Some(LARGEST));
+        #[expect(clippy::result_large_err, reason = "a type of the library")]
+        let answer = |asking: &Asking, response: Response| agreed(asking, response, &mut dialect);
+        let socket = accept_hdr_with_config(stream, answer, Some(config)).ok()?;
+        socket.get_ref().set_read_timeout(Some(TICK)).ok()?;
+        let player = Player::new(1.0);
+        Some(Viewer { socket, dialect: dialect?, stage, shown: Shown::default(), player, wants: Vec::new() })
+    }
+
+    /// Attends to the viewer until it leaves.
+    pub(super) fn attend(mut self) {
+        // Whoever leaves without a word is gone all the same.
+        let _ = self.converse();
+    }
+
+    fn converse(&mut self) -> Spoken {
+        self.introduce()?;
+        let mut since = Instant::now();
+        loop {
+            self.listen()?;
+            self.look_at_the_stage()?;
+            let now = Instant::now();
+            let passed = (now - since).min(MOST);
+            since = now;
+            self.play(passed.as_secs_f64())?;
+            self.socket.flush()?;
+        }
+    }
+
+    /// Says who serves, and what there is.
+    fn introduce(&mut self) -> Spoken {
+        let session = format!("{}-{}", std::process::id(), self.shown.changes);
+        let reel = self.shown.reel.clone();
+        let topics = reel.as_ref().map_or(&[][..], |reel| &reel.topics);
+        self.say(live::server_info(&self.stage.name, &session, self.dialect, reel.as_deref()))?;
+        self.say(live::advertised(topics, self.first_channel()))?;
+        self.tell_state(reel.is_some(), "")
+    }
+
+    /// Takes notice of what is shown now instead.
+    fn look_at_the_stage(&mut self) -> Spoken {
+        let shown = self.stage.shown();
+        if shown.changes == self.shown.changes {
+            return Ok(());
+        }
+        if let Some(old) = &self.shown.reel {
+            self.say(live::unadvertised(self.first_channel(), old.topics.len()))?;
+        }
+        self.player = Player::new(shown.reel.as_deref().map_or(1.0, live::pace));
+        self.shown = shown;
+        self.wants.clear();
+        self.introduce()
+    }
+
+    /// Tells what is due.
+    fn play(&mut self, seconds: f64) -> Spoken {
+        let Some(reel) = self.shown.reel.clone() else { return Ok(()) };
+        let due = self.player.pass(seconds, &reel);
+        if due.again {
+            self.tell_state(true, "")?;
+        }
+        let mut clock = None;
+        for told in due.messages.map(|index| reel.message(index)) {
+            // Viewers date messages by the clock, not by their own times.
+            if clock != Some(told.time) {
+                self.send(live::time(told.time))?;
+                clock = Some(told.time);
+            }
+            for index in 0..self.wants.len() {
+                let (number, topic) = self.wants[index];
+                if topic == told.topic {
+                    self.send(live::message(number, &told))?;
+                }
+            }
+        }
+        if self.player.plays || due.again {
+            self.send(live::time(self.player.time()))?;
+        }
+        Ok(())
+    }
+
+    /// Hears what is asked for, as long as there is something.
+    fn listen(&mut self) -> Spoken {
+        for _ in 0..REQUESTS {
+            let heard = match self.socket.read() {
+                Ok(heard) => heard,
+                Err(Error::Io(nothing)) if matches!(nothing.kind(), ErrorKind::WouldBlock | ErrorKind::TimedOut) => {
+                    return Ok(());
+                }
+                Err(gone) => return Err(gone),
+            };
+            let request = if let Message::Text(text) = &heard {
+                live::asked(text)
+            } else if let Message::Binary(bytes) = &heard {
+                live::asked_in_bytes(bytes)
+            } else {
+                None
+            };
+            if let (Some(request), Some(reel)) = (request, self.shown.reel.clone()) {
+                self.answer(request, &reel)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn answer(&mut self, request: Request, reel: &Reel) -> Spoken {
+        match request {
+            Request::Subscribe(pairs) => {
+                for (number, channel) in pairs {
+                    let topic = channel.checked_sub(self.first_channel()).and_then(|own| u16::try_from(own).ok());
+                    let topic = topic.filter(|&own| usize::from(own) < reel.topics.len());
+                    let is_taken = self.wants.iter().any(|&(taken, _)| taken == number);
+                    if let (Some(topic), false) = (topic, is_taken) {
+                        self.wants.push((number, topic));
+                        self.tell_latest(number, topic, reel)?;
+                    }
+                }
+                Ok(())
+            }
+            Request::Unsubscribe(numbers) => {
+                self.wants.retain(|(number, _)| !numbers.contains(number));
+                Ok(())
+            }
+            Request::Control(control) => self.control(&control, reel),
+        }
+    }
+
+    fn control(&mut self, control: &Control, reel: &Reel) -> Spoken {
+        (self.player.plays, self.player.speed) = (control.plays, f64::from(control.speed));
+        if let Some(time) = control.seek {
+            self.player.seek(time, reel);
+        }
+        self.tell_state(control.seek.is_some(), &control.id)?;
+        if control.seek.is_some() {
+            self.send(live::time(self.player.time()))?;
+            for index in 0..self.wants.len() {
+                let (number, topic) = self.wants[index];
+                self.tell_latest(number, topic, reel)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// What the topic has said last, so that nobody waits for what is said once.
+    fn tell_latest(&mut self, number: u32, topic: u16, reel: &Reel) -> Spoken {
+        match reel.latest(topic, self.player.told) {
+            Some(told) => self.send(live::message(number, &told)),
+            None => Ok(()),
+        }
+    }
+
+    /// How it is played, to viewers that know of that.
+    fn tell_state(&mut self, jumped: bool, id: &str) -> Spoken {
+        match (self.dialect, &self.shown.reel) {
+            (Dialect::Sdk, Some(_)) => self.send(live::state(&self.player.state(jumped), id)),
+            (Dialect::Sdk, None) | (Dialect::WebSocket, _) => Ok(()),
+        }
+    }
+
+    fn first_channel(&self) -> u64 {
+        1 + self.shown.changes * CHANNELS
+    }
+
+    fn say(&mut self, text: String) -> Spoken {
+        self.socket.write(Message::Text(text.into()))
+    }
+
+    fn send(&mut self, bytes: Vec<u8>) -> Spoken {
+        self.socket.write(Message::Binary(bytes.into()))
+    }
+}
+
+/// Answers a call: with the protocol taken, or with those that there are.
+#[expect(clippy::result_large_err, reason = "a type of the library")]
+fn agreed(
+    asking: &Asking,
+    mut response: Response,
+    dialect: &mut Option<Dialect>,
+) -> std::result::Result<Response, ErrorResponse> {
+    const HEADER: &str = "sec-websocket-protocol";
+    let offered: Vec<&str> = asking.headers().get_all(HEADER).iter().filter_map(|own| own.to_str().ok()).collect();
+    let Some(found) = Dialect::of(&offered.join(",")) else {
+        let known = [Dialect::Sdk, Dialect::WebSocket].map(Dialect::name).join(" and ");
+        let mut refusal = ErrorResponse::new(Some(format!("linkproof speaks {known}\n")));
+        *refusal.status_mut() = StatusCode::BAD_REQUEST;
+        return Err(refusal);
+    };
+    response.headers_mut().insert(HEADER, HeaderValue::from_static(found.name()));
+    *dialect = Some(found);
+    Ok(response)
+}

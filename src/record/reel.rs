@@ -1,0 +1,110 @@
+//! A recording in memory, to be played: its topics, and its messages in the order of time.
+
+use super::pour::{lasts, pour};
+use super::recording::Recording;
+use super::sink::{Kind, Sink};
+use super::view::turn;
+use super::write::{as_shown, check};
+use linkage::error::{Error, ErrorKind, Result};
+use mcap::{McapError, McapResult};
+
+/// A recording in memory.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Reel {
+    /// Names of the topics, and what their messages are.
+    pub topics: Vec<(String, Kind)>,
+    /// How many times slower than the simulation its log times run.
+    pub slow: f64,
+    /// Log time of one turn of the crank, or of the whole recording if that is less (s).
+    pub turn: f64,
+    entries: Vec<Entry>,
+    data: Vec<u8>,
+}
+
+/// A message of a reel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Told<'a> {
+    /// Log time (ns).
+    pub time: u64,
+    /// Number of its topic.
+    pub topic: u16,
+    /// What it says.
+    pub data: &'a [u8],
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Entry {
+    time: u64,
+    topic: u16,
+    /// Where its bytes end.
+    end: usize,
+}
+
+pub(super) fn reel(recording: &Recording) -> Result<Reel> {
+    check(recording)?;
+    let poured = as_shown(recording, |recording, drawn| {
+        let slow = recording.show.slow;
+        let lasts = lasts(recording) * slow;
+        let turn = recording.sides.first().map_or(lasts, |side| turn(lasts, side.trajectory));
+        let mut reel = Reel { topics: Vec::new(), slow, turn, entries: Vec::new(), data: Vec::new() };
+        pour(recording, drawn, &mut reel).map(|()| reel)
+    });
+    poured.map_err(|error| Error::new(ErrorKind::Unsupported, format!("the recording cannot be played: {error}")))
+}
+
+impl Reel {
+    /// Number of messages.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.entries.len()
+    }
+
+    /// Whether there are no messages.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.entries.is_empty()
+    }
+
+    /// Log time of the last message (ns).
+    #[must_use]
+    pub fn lasts(&self) -> u64 {
+        self.entries.last().map_or(0, |last| last.time)
+    }
+
+    /// Number of messages up to a log time (ns), those at that time included.
+    #[must_use]
+    pub fn until(&self, time: u64) -> usize {
+        self.entries.partition_point(|entry| entry.time <= time)
+    }
+
+    /// The message of this number.
+    ///
+    /// # Panics
+    /// If there are not so many.
+    #[must_use]
+    pub fn message(&self, index: usize) -> Told<'_> {
+        let Entry { time, topic, end } = self.entries[index];
+        let start = if index == 0 { 0 } else { self.entries[index - 1].end };
+        Told { time, topic, data: &self.data[start..end] }
+    }
+
+    /// The last message of a topic among the first `count` messages.
+    #[must_use]
+    pub fn latest(&self, topic: u16, count: usize) -> Option<Told<'_>> {
+        (0..count).rev().find(|&index| self.entries[index].topic == topic).map(|index| self.message(index))
+    }
+}
+
+impl Sink for Reel {
+    fn topic(&mut self, name: &str, kind: &Kind) -> McapResult<u16> {
+        let number = u16::try_from(self.topics.len()).map_err(|_| McapError::TooManyChannels)?;
+        self.topics.push((name.into(), kind.clone()));
+        Ok(number)
+    }
+
+    fn put(&mut self, topic: u16, _: u32, time: u64, data: &[u8]) -> McapResult<()> {
+        self.data.extend_from_slice(data);
+        self.entries.push(Entry { time, topic, end: self.data.len() });
+        Ok(())
+    }
+}

@@ -1,0 +1,244 @@
+//! What the live server and a viewer say to each other: Foxglove's WebSocket protocol, as JSON and as bytes.
+//!
+//! Its name has changed, the messages used here have not. Playback control came with the new name.
+//! Numbers are little-endian; a message of bytes begins with the number of its kind.
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use serde_json::{Value, json};
+
+use super::layout::{TURN, speed};
+use crate::numbers::significant;
+use crate::record::{Kind, Reel, Told};
+use linkage::math::KeepNan;
+
+/// A name of the protocol. Viewers offer the names that they know.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Dialect {
+    /// Current Foxglove.
+    Sdk,
+    /// Lichtblick, and the open-source Foxglove Studio.
+    WebSocket,
+}
+
+impl Dialect {
+    /// The name in the handshake.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Dialect::Sdk => "foxglove.sdk.v1",
+            Dialect::WebSocket => "foxglove.websocket.v1",
+        }
+    }
+
+    /// The best of the names that a viewer offers, separated by commas.
+    pub(crate) fn of(offered: &str) -> Option<Dialect> {
+        let is_offered = |own: &Dialect| offered.split(',').any(|name| name.trim() == own.name());
+        [Dialect::Sdk, Dialect::WebSocket].into_iter().find(is_offered)
+    }
+}
+
+/// What a viewer asks for.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Request {
+    /// Channels, each by a number that the viewer chooses.
+    Subscribe(Vec<(u32, u64)>),
+    /// No longer the channels asked for by these numbers.
+    Unsubscribe(Vec<u32>),
+    /// Another way of playing.
+    Control(Control),
+}
+
+/// How a viewer wants it played.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Control {
+    /// Whether it moves.
+    pub plays: bool,
+    /// Log time per second of the clock.
+    pub speed: f32,
+    /// Log time (ns) to go to.
+    pub seek: Option<u64>,
+    /// Number of the request, as the viewer writes it.
+    pub id: String,
+}
+
+/// How it is played.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct State {
+    /// Whether it moves.
+    pub plays: bool,
+    /// Log time (ns).
+    pub time: u64,
+    /// Log time per second of the clock.
+    pub speed: f32,
+    /// Whether it has jumped there.
+    pub jumped: bool,
+}
+
+/// Log time per second of the clock: as the layout plays a recording, but no turn takes less than it should.
+pub(crate) fn pace(reel: &Reel) -> f64 {
+    let usual = speed(reel.slow, reel.turn);
+    if reel.slow == 1.0 && reel.turn > 0.0 { usual.smaller(reel.turn / TURN) } else { usual }
+}
+
+/// The same in words, for people.
+pub(crate) fn pace_told(reel: &Reel) -> String {
+    let [slow, lasts] = [reel.slow, reel.lasts() as f64 * 1e-9].map(|own| significant(own / pace(reel), 3));
+    match reel.lasts() {
+        0 => "one instant, at rest".into(),
+        _ if slow == "1" => format!("as fast as the mechanism, anew every {lasts} s"),
+        _ => format!("{slow} times slower than the mechanism, anew every {lasts} s"),
+    }
+}
+
+/// Who serves, and what the viewer may do. A new `session` makes viewers forget what they have shown.
+pub(crate) fn server_info(name: &str, session: &str, dialect: Dialect, reel: Option<&Reel>) -> String {
+    let mut info = json!({ "op": "serverInfo", "name": name, "capabilities": ["time"], "sessionId": session });
+    if let (Dialect::Sdk, Some(reel)) = (dialect, reel) {
+        info["capabilities"] = json!(["time", "playbackControl"]);
+        info["dataStartTime"] = stamp(0);
+        info["dataEndTime"] = stamp(reel.lasts());
+    }
+    info.to_string()
+}
+
+fn stamp(nanoseconds: u64) -> Value {
+    json!({ "sec": nanoseconds / 1_000_000_000, "nsec": nanoseconds % 1_000_000_000 })
+}
+
+/// The channels of topics; the first one has the number `first`.
+pub(crate) fn advertised(topics: &[(String, Kind)], first: u64) -> String {
+    let channels = topics.iter().zip(first..).map(|((topic, kind), id)| {
+        // Schemas of bytes are written as base64, those of text as they are.
+        let schema = match kind.encoding.as_str() {
+            "protobuf" => STANDARD.encode(&kind.data),
+            _ => String::from_utf8_lossy(&kind.data).into_owned(),
+        };
+        json!({
+            "id": id,
+            "topic": topic,
+            "encoding": kind.message,
+            "schemaName": kind.schema,
+            "schemaEncoding": kind.encoding,
+            "schema": schema,
+        })
+    });
+    json!({ "op": "advertise", "channels": channels.collect::<Vec<Value>>() }).to_string()
+}
+
+/// So many channels from the number `first` on are gone.
+pub(crate) fn unadvertised(first: u64, count: usize) -> String {
+    let ids: Vec<u64> = (first..).take(count).collect();
+    json!({ "op": "unadvertise", "channelIds": ids }).to_string()
+}
+
+/// A message of a channel, to whoever asked for it by that number.
+pub(crate) fn message(subscription: u32, told: &Told) -> Vec<u8> {
+    let mut bytes = vec![1];
+    bytes.extend(subscription.to_le_bytes());
+    bytes.extend(told.time.to_le_bytes());
+    bytes.extend(told.data);
+    bytes
+}
+
+/// The server's log time (ns).
+pub(crate) fn time(time: u64) -> Vec<u8> {
+    let mut bytes = vec![2];
+    bytes.extend(time.to_le_bytes());
+    bytes
+}
+
+/// How it is played; `id` is the request's that this answers, or empty.
+pub(crate) fn state(state: &State, id: &str) -> Vec<u8> {
+    let mut bytes = vec![5, if state.plays { 0 } else { 1 }];
+    bytes.extend(state.time.to_le_bytes());
+    bytes.extend(state.speed.to_le_bytes());
+    bytes.push(u8::from(state.jumped));
+    bytes.extend((id.len() as u32).to_le_bytes());
+    bytes.extend(id.as_bytes());
+    bytes
+}
+
+/// What a viewer asks for in a text; `None` if that is nothing that is served.
+pub(crate) fn asked(text: &str) -> Option<Request> {
+    let value: Value = serde_json::from_str(text).ok()?;
+    let list = |key: &str| value.get(key)?.as_array();
+    let number = |of: &Value| u32::try_from(of.as_u64()?).ok();
+    match value.get("op")?.as_str()? {
+        "subscribe" => {
+            let pair = |own: &Value| Some((number(own.get("id")?)?, own.get("channelId")?.as_u64()?));
+            Some(Request::Subscribe(list("subscriptions")?.iter().filter_map(pair).collect()))
+        }
+        "unsubscribe" => Some(Request::Unsubscribe(list("subscriptionIds")?.iter().filter_map(number).collect())),
+        _ => None,
+    }
+}
+
+/// What a viewer asks for in bytes; `None` if that is nothing that is served.
+pub(crate) fn asked_in_bytes(bytes: &[u8]) -> Option<Request> {
+    let (&[kind, command], rest) = bytes.split_first_chunk()?;
+    let (&speed, rest) = rest.split_first_chunk()?;
+    let (&[seeks], rest) = rest.split_first_chunk()?;
+    let (&seek, rest) = rest.split_first_chunk()?;
+    let (&length, rest) = rest.split_first_chunk()?;
+    let id = rest.get(..u32::from_le_bytes(length) as usize)?;
+    let speed = f32::from_le_bytes(speed);
+    let is_control = kind == 3 && command <= 1 && speed.is_finite() && speed >= 0.0;
+    is_control.then(|| {
+        Request::Control(Control {
+            plays: command == 0,
+            speed,
+            seek: (seeks != 0).then_some(u64::from_le_bytes(seek)),
+            id: String::from_utf8_lossy(id).into_owned(),
+        })
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_new_name_is_taken_where_both_are_offered_and_no_other() {
+        for (offered, dialect) in [
+            ("foxglove.websocket.v1", Some(Dialect::WebSocket)),
+            ("foxglove.websocket.v1, foxglove.sdk.v1", Some(Dialect::Sdk)),
+            ("foxglove.sdk.v1.1,foxglove.sdk.v1", Some(Dialect::Sdk)),
+            ("foxglove.sdk.v1.1", None),
+            ("", None),
+        ] {
+            assert_eq!(Dialect::of(offered), dialect, "{offered}");
+        }
+    }
+
+    #[test]
+    fn messages_have_the_bytes_of_the_protocol() {
+        let told = Told { time: 0x0102, topic: 7, data: b"ab" };
+        assert_eq!(message(3, &told), [1, 3, 0, 0, 0, 2, 1, 0, 0, 0, 0, 0, 0, b'a', b'b']);
+        assert_eq!(time(5), [2, 5, 0, 0, 0, 0, 0, 0, 0]);
+        let state_of = State { plays: false, time: 1, speed: 1.0, jumped: true };
+        assert_eq!(state(&state_of, "x"), [5, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 128, 63, 1, 1, 0, 0, 0, b'x']);
+    }
+
+    #[test]
+    fn requests_are_read_and_whatever_is_none_is_passed_over() {
+        let subscribe = r#"{"op":"subscribe","subscriptions":[{"id":0,"channelId":9},{"id":-1,"channelId":1},{}]}"#;
+        assert_eq!(asked(subscribe), Some(Request::Subscribe(vec![(0, 9)])));
+        let unsubscribe = r#"{"op":"unsubscribe","subscriptionIds":[0,"a",4294967296,2]}"#;
+        assert_eq!(asked(unsubscribe), Some(Request::Unsubscribe(vec![0, 2])));
+        for text in ["", "[]", "{}", r#"{"op":1}"#, r#"{"op":"subscribe"}"#, r#"{"op":"getParameters"}"#] {
+            assert_eq!(asked(text), None, "{text}");
+        }
+        let control: Vec<u8> =
+            [&[3, 1][..], &0.5f32.to_le_bytes(), &[1], &8u64.to_le_bytes(), &[2, 0, 0, 0], b"id"].concat();
+        let read = Control { plays: false, speed: 0.5, seek: Some(8), id: "id".into() };
+        assert_eq!(asked_in_bytes(&control), Some(Request::Control(read)));
+        for length in 0..control.len() {
+            assert_eq!(asked_in_bytes(&control[..length]), None, "{length} bytes");
+        }
+        for (place, byte) in [(0, 1), (1, 2), (5, 0x7f), (5, 0xbf)] {
+            let mut wrong = control.clone();
+            (wrong[4], wrong[place]) = (0x80, byte);
+            assert_eq!(asked_in_bytes(&wrong), None, "byte {place}");
+        }
+    }
+}

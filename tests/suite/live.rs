@@ -1,0 +1,381 @@
+//! `run --live`: what arrives at viewers, what they may ask for, and how it ends.
+
+use std::collections::BTreeSet;
+use std::io::{BufRead, BufReader, Write};
+use std::net::TcpStream;
+use std::process::{Child, Command, Stdio};
+
+use mcap::MessageStream;
+use serde_json::{Value, json};
+use tungstenite::client::{IntoClientRequest, client};
+use tungstenite::{Message, WebSocket};
+
+use crate::cli::tools::Place;
+
+const OLD: &str = "foxglove.websocket.v1";
+const NEW: &str = "foxglove.sdk.v1";
+/// A turn in half a second; the budget is small, because the proof is not what is looked at.
+const RUN: &str = "run scenarios/pendulum.toml --budget 1e5 --live=0 --slow 0.1";
+
+/// A server in a directory of its own.
+struct Served {
+    place: Place,
+    child: Child,
+    address: String,
+}
+
+impl Served {
+    fn by(place: Place, arguments: &str) -> Served {
+        let mut command = Command::new(assert_cmd::cargo::cargo_bin("linkproof"));
+        command.current_dir(place.path("")).args(arguments.split_whitespace());
+        let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        let mut note = String::new();
+        BufReader::new(child.stderr.as_mut().unwrap()).read_line(&mut note).unwrap();
+        let address = note.split("ws://").nth(1).unwrap_or_else(|| panic!("no address: {note}"));
+        let address = address.split_whitespace().next().unwrap().to_string();
+        Served { place, child, address }
+    }
+
+    /// Ends it as Ctrl-C does, as soon as it says so; returns the exit code.
+    fn end(&mut self) -> i32 {
+        let mut lines = BufReader::new(self.child.stdout.as_mut().unwrap()).lines();
+        assert!(lines.any(|line| line.unwrap().contains("Ctrl-C")), "it ends by itself");
+        let ended = Command::new("kill").args(["-INT", &self.child.id().to_string()]).status().unwrap();
+        assert!(ended.success());
+        self.child.wait().unwrap().code().expect("an exit code")
+    }
+}
+
+impl Drop for Served {
+    fn drop(&mut self) {
+        // It has ended already, unless a test fails.
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+/// What a server says.
+#[derive(Debug)]
+enum Said {
+    Text(Value),
+    Message { number: u32, time: u64, data: Vec<u8> },
+    Clock(u64),
+    State { plays: bool, time: u64, jumped: bool, id: String },
+}
+
+struct Viewer(WebSocket<TcpStream>);
+
+impl Viewer {
+    fn at(address: &str, name: &str) -> Viewer {
+        let mut request = format!("ws://{address}").into_client_request().unwrap();
+        request.headers_mut().insert("sec-websocket-protocol", name.parse().unwrap());
+        let stream = TcpStream::connect(address).unwrap();
+        stream.set_read_timeout(Some(std::time::Duration::from_secs(60))).unwrap();
+        Viewer(client(request, stream).unwrap().0)
+    }
+
+    fn say(&mut self, text: &Value) {
+        self.0.send(Message::Text(text.to_string().into())).unwrap();
+    }
+
+    fn subscribe(&mut self, pairs: &[(u32, u64)]) {
+        let pairs: Vec<Value> = pairs.iter().map(|(id, channel)| json!({ "id": id, "channelId": channel })).collect();
+        self.say(&json!({ "op": "subscribe", "subscriptions": pairs }));
+    }
+
+    fn control(&mut self, plays: bool, speed: f32, seek: Option<u64>, id: &str) {
+        let mut bytes = vec![3, u8::from(!plays)];
+        bytes.extend(speed.to_le_bytes());
+        bytes.push(u8::from(seek.is_some()));
+        bytes.extend(seek.unwrap_or(0).to_le_bytes());
+        bytes.extend((id.len() as u32).to_le_bytes());
+        bytes.extend(id.as_bytes());
+        self.0.send(Message::Binary(bytes.into())).unwrap();
+    }
+
+    fn hear(&mut self) -> Said {
+        let long = |bytes: &[u8]| u64::from_le_bytes(bytes.try_into().unwrap());
+        let short = |bytes: &[u8]| u32::from_le_bytes(bytes.try_into().unwrap());
+        match self.0.read().unwrap() {
+            Message::Text(text) => Said::Text(serde_json::from_str(&text).unwrap()),
+            Message::Binary(bytes) => match bytes[0] {
+                1 => {
+                    Said::Message { number: short(&bytes[1..5]), time: long(&bytes[5..13]), data: bytes[13..].to_vec() }
+                }
+                2 => Said::Clock(long(&bytes[1..])),
+                5 => Said::State {
+                    plays: bytes[1] == 0,
+                    time: long(&bytes[2..10]),
+                    jumped: bytes[14] == 1,
+                    id: String::from_utf8(bytes[19..].to_vec()).unwrap(),
+                },
+                other => panic!("a message of kind {other}"),
+            },
+            other => panic!("{other:?}"),
+        }
+    }
+
+    /// Channels with both sides: topics and their numbers.
+    fn channels(&mut self) -> Vec<(String, u64)> {
+        loop {
+            if let Said::Text(text) = self.hear()
+                && text["op"] == "advertise"
+            {
+                let channels = text["channels"].as_array().unwrap().iter();
+                let channels: Vec<(String, u64)> = channels
+                    .map(|own| (own["topic"].as_str().unwrap().to_string(), own["id"].as_u64().unwrap()))
+                    .collect();
+                if channels.iter().any(|(topic, _)| topic.starts_with("/engine/")) {
+                    return channels;
+                }
+            }
+        }
+    }
+}
+
+/// Number of the channel of a topic.
+fn channel(channels: &[(String, u64)], topic: &str) -> u64 {
+    channels.iter().find(|(own, _)| own == topic).unwrap_or_else(|| panic!("no {topic}")).1
+}
+
+/// Topics, log times and messages of a recording, in their order.
+fn recorded(place: &Place) -> Vec<(String, u64, Vec<u8>)> {
+    let bytes = std::fs::read(place.path("recordings/pendulum.mcap")).unwrap();
+    let messages = MessageStream::new(&bytes).unwrap().map(|own| own.unwrap());
+    messages.map(|own| (own.channel.topic.clone(), own.log_time, own.data.to_vec())).collect()
+}
+
+#[test]
+fn a_turn_is_what_is_recorded_and_the_next_one_is_the_same() {
+    let mut served = Served::by(Place::new(), &format!("{RUN} --record-hz 50 --record-forces"));
+    for name in [OLD, NEW] {
+        let mut viewer = Viewer::at(&served.address, name);
+        let channels = viewer.channels();
+        let pairs: Vec<(u32, u64)> = (0..).zip(channels.iter().map(|(_, id)| *id)).collect();
+        viewer.subscribe(&pairs);
+        let (mut turns, mut now) = (vec![Vec::new()], 0);
+        while turns.len() < 4 {
+            match viewer.hear() {
+                Said::Clock(time) => {
+                    if time < now {
+                        turns.push(Vec::new());
+                    }
+                    now = time;
+                }
+                Said::Message { number, time, data } => {
+                    if turns.len() > 1 {
+                        assert_eq!(time, now, "viewers date messages by the clock");
+                    }
+                    turns.last_mut().unwrap().push((channels[number as usize].0.clone(), time, data));
+                }
+                Said::State { .. } => assert_eq!(name, NEW, "older viewers stumble over it"),
+                Said::Text(text) => panic!("{text}"),
+            }
+        }
+        let expected = recorded(&served.place);
+        assert!(expected.iter().any(|(topic, ..)| topic == "/mechanism/forces") && expected.len() > 500);
+        assert_eq!((&turns[1], &turns[2]), (&expected, &expected), "{name}");
+    }
+    assert_eq!(served.end(), 0);
+}
+
+#[test]
+fn whoever_comes_late_is_told_what_is_said_once_and_whoever_leaves_a_topic_hears_no_more_of_it() {
+    let served = Served::by(Place::new(), RUN);
+    let mut viewer = Viewer::at(&served.address, OLD);
+    let channels = viewer.channels();
+    while !matches!(viewer.hear(), Said::Clock(time) if time > 0) {}
+    let links = channel(&channels, "/mechanism/links");
+    viewer.subscribe(&[(7, links), (7, channel(&channels, "/tf")), (8, 0), (9, u64::MAX)]);
+    let first = loop {
+        match viewer.hear() {
+            Said::Message { number, time, data } => break (number, time, data),
+            Said::Clock(time) => assert!(time > 0, "it is told at once, not in the next turn"),
+            other => panic!("{other:?}"),
+        }
+    };
+    let expected = recorded(&served.place).into_iter().find(|(topic, ..)| topic == "/mechanism/links").unwrap();
+    assert_eq!(first, (7, 0, expected.2));
+    viewer.say(&json!({ "op": "unsubscribe", "subscriptionIds": [7] }));
+    let (mut turns, mut now) = (0, 0);
+    while turns < 2 {
+        match viewer.hear() {
+            Said::Clock(time) => {
+                turns += usize::from(time < now);
+                now = time;
+            }
+            Said::Message { .. } => assert_eq!(turns, 0, "one that was under way may still come"),
+            other => panic!("{other:?}"),
+        }
+    }
+}
+
+#[test]
+fn the_reference_is_shown_first_and_no_number_of_a_channel_comes_twice() {
+    let served = Served::by(Place::new(), RUN);
+    let mut viewer = Viewer::at(&served.address, NEW);
+    let (mut here, mut ever, mut sessions) = (BTreeSet::new(), BTreeSet::new(), BTreeSet::new());
+    loop {
+        let Said::Text(text) = viewer.hear() else { continue };
+        match text["op"].as_str().unwrap() {
+            "serverInfo" => assert!(sessions.insert(text["sessionId"].to_string()), "{text}"),
+            "unadvertise" => {
+                for id in text["channelIds"].as_array().unwrap() {
+                    assert!(here.remove(&id.as_u64().unwrap()), "{id} was not there");
+                }
+            }
+            "advertise" => {
+                assert!(here.is_empty(), "{here:?} are still there");
+                let channels = text["channels"].as_array().unwrap();
+                for own in channels {
+                    let id = own["id"].as_u64().unwrap();
+                    assert!(here.insert(id) && ever.insert(id), "{id} comes twice");
+                }
+                let of = |side: &str| channels.iter().any(|own| own["topic"].as_str().unwrap().starts_with(side));
+                assert!(channels.is_empty() || of("/reference/"));
+                if of("/engine/") {
+                    break;
+                }
+            }
+            other => panic!("{other}"),
+        }
+    }
+}
+
+#[test]
+fn a_viewer_pauses_and_seeks_and_no_other_feels_it() {
+    let served = Served::by(Place::new(), RUN);
+    let [mut viewer, mut other] = [Viewer::at(&served.address, NEW), Viewer::at(&served.address, NEW)];
+    let channels = viewer.channels();
+    other.channels();
+    viewer.control(false, 1.0, None, "stop");
+    let stopped = loop {
+        if let Said::State { plays, time, jumped, id } = viewer.hear()
+            && id == "stop"
+        {
+            assert!(!plays && !jumped);
+            break time;
+        }
+    };
+    let last = recorded(&served.place).last().unwrap().1;
+    let wanted = if stopped > last / 2 { last / 4 } else { last / 4 * 3 };
+    viewer.subscribe(&[(1, channel(&channels, "/tf"))]);
+    viewer.control(false, 1.0, Some(wanted), "there");
+    let (mut clock, mut shown) = (None, None);
+    while clock != Some(wanted) || shown.is_none() {
+        match viewer.hear() {
+            Said::State { plays, time, jumped, id } => {
+                assert_eq!((plays, time, jumped, id.as_str()), (false, wanted, true, "there"));
+            }
+            Said::Clock(time) => clock = Some(time),
+            Said::Message { data, .. } => shown = (clock == Some(wanted)).then_some(data),
+            Said::Text(text) => panic!("{text}"),
+        }
+    }
+    let mut frames = recorded(&served.place).into_iter();
+    let (.., frame) = frames.rfind(|(topic, time, _)| topic == "/tf" && *time <= wanted).unwrap();
+    assert_eq!(shown.unwrap(), frame, "the pose of that time");
+    // The other one plays on, into the next turn.
+    let mut now = 0;
+    loop {
+        if let Said::Clock(time) = other.hear() {
+            if time < now {
+                break;
+            }
+            now = time;
+        }
+    }
+    // The first one is told nothing until it plays on.
+    viewer.control(true, 1.0, None, "on");
+    assert!(matches!(viewer.hear(), Said::State { plays: true, time, .. } if time == wanted));
+}
+
+#[test]
+fn one_instant_stands_still() {
+    let served = Served::by(Place::new(), "run scenarios/crank_rocker.toml --budget 1e5 --live=0 --times 0");
+    let mut viewer = Viewer::at(&served.address, OLD);
+    let channels = viewer.channels();
+    let wanted = ["/tf", "/mechanism/links", "/engine/link/rocker"].map(|topic| channel(&channels, topic));
+    viewer.subscribe(&[(0, wanted[0]), (1, wanted[1]), (2, wanted[2])]);
+    let mut seen = [0; 3];
+    for _ in 0..50 {
+        match viewer.hear() {
+            Said::Clock(time) => assert_eq!(time, 0),
+            Said::Message { number, .. } => seen[number as usize] += 1,
+            other => panic!("{other:?}"),
+        }
+    }
+    assert_eq!(seen, [1; 3]);
+}
+
+#[test]
+fn nonsense_hurts_nobody_and_names_that_are_not_spoken_are_refused() {
+    let mut served = Served::by(Place::new(), RUN);
+    for text in ["GET / HTTP/1.0\r\n\r\n", "\0\0\0\0", ""] {
+        TcpStream::connect(&served.address).unwrap().write_all(text.as_bytes()).unwrap();
+    }
+    let mut request = format!("ws://{}", served.address).into_client_request().unwrap();
+    request.headers_mut().insert("sec-websocket-protocol", "foxglove.sdk.v9".parse().unwrap());
+    let refused = client(request, TcpStream::connect(&served.address).unwrap()).err().unwrap().to_string();
+    assert!(refused.contains("400"), "{refused}");
+    let mut viewer = Viewer::at(&served.address, NEW);
+    viewer.channels();
+    for text in
+        ["", "{", "[1]", r#"{"op":"subscribe","subscriptions":[{"id":"a"},7,null]}"#, r#"{"op":"getParameters"}"#]
+    {
+        viewer.0.send(Message::Text(text.into())).unwrap();
+    }
+    for bytes in [vec![], vec![3], vec![3; 19], vec![255; 1000]] {
+        viewer.0.send(Message::Binary(bytes.into())).unwrap();
+    }
+    for _ in 0..20 {
+        assert!(matches!(viewer.hear(), Said::Clock(_) | Said::State { .. }));
+    }
+    drop(viewer);
+    Viewer::at(&served.address, OLD).channels();
+    assert_eq!(served.end(), 0);
+}
+
+#[test]
+fn more_viewers_than_may_look_on_wait_until_one_leaves() {
+    let served = Served::by(Place::new(), RUN);
+    let mut viewers: Vec<Viewer> = (0..32).map(|_| Viewer::at(&served.address, OLD)).collect();
+    viewers.iter_mut().for_each(|viewer| drop(viewer.channels()));
+    let request = || {
+        let mut request = format!("ws://{}", served.address).into_client_request().unwrap();
+        request.headers_mut().insert("sec-websocket-protocol", OLD.parse().unwrap());
+        client(request, TcpStream::connect(&served.address).unwrap())
+    };
+    assert!(request().is_err());
+    viewers.pop();
+    let waits = || std::thread::sleep(std::time::Duration::from_millis(100));
+    assert!((0..100).any(|_| request().is_ok() || {
+        waits();
+        false
+    }));
+}
+
+#[test]
+fn it_ends_with_the_exit_code_of_the_verdict_and_what_was_asked_for_is_written() {
+    let also = "--no-record --tolerance-scale 1e-9 --json out.json --html out.html";
+    let mut served = Served::by(Place::new(), &format!("{RUN} {also}"));
+    let mut viewer = Viewer::at(&served.address, OLD);
+    viewer.channels();
+    while !matches!(viewer.hear(), Said::Clock(time) if time > 0) {}
+    assert_eq!(served.end(), 1);
+    let there = ["out.json", "out.html", "recordings"].map(|name| served.place.path(name).exists());
+    assert_eq!(there, [true, true, false]);
+}
+
+#[test]
+fn what_cannot_be_served_is_told_before_any_work() {
+    let place = Place::new();
+    let taken = std::net::TcpListener::bind("127.0.0.1:0").unwrap();
+    let address = taken.local_addr().unwrap();
+    let file = "scenarios/pendulum.toml";
+    place.refused(&format!("run {file} --live={address}"), &["--live", &address.to_string(), "in use"]);
+    place.refused(&format!("run {file} --live={}", address.port()), &["--live", &address.to_string()]);
+    place.refused(&format!("run {file} --live=nonsense"), &["--live", "nonsense"]);
+    place.refused(&format!("run {file} scenarios/crank_rocker.toml --live"), &["one scenario", "2 are given"]);
+    assert!(!place.path("recordings").exists());
+}
