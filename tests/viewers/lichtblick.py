@@ -1,34 +1,40 @@
-"""Opens a recording with its layout in Lichtblick.
+"""Opens a recording with its layout in Lichtblick, as foxglove.py does in Foxglove Studio.
 
 usage: lichtblick.py WEB RECORDING.mcap OUT.png    (with RECORDING.foxglove.json beside it)
 
-WEB is the directory with Lichtblick's web page, ready made.
+WEB is the directory of Lichtblick's web page, ready made.
 """
 
+import functools
 import json
 import sys
 from pathlib import Path
 
-from studio import shown
+from foxglove import shown
 
 # What Lichtblick's own container puts a layout in place of.
 PLACE = "/*LICHTBLICK_SUITE_DEFAULT_LAYOUT_PLACEHOLDER*/"
 
 
-def main(web, recording, out):
-    """Shows the recording."""
+def page(web, layout):
+    """What puts Lichtblick with a layout into a directory, and returns the page's name there."""
 
-    def make(root, layout):
+    def put(root):
         for file in Path(web).resolve().iterdir():
             if file.name != "index.html":
                 (root / file.name).symlink_to(file)
-        page = (Path(web) / "index.html").read_text()
-        if PLACE not in page:
+        text = (Path(web) / "index.html").read_text()
+        if PLACE not in text:
             sys.exit(f"{web}/index.html is no page of Lichtblick: it has no place for a layout")
-        (root / "index.html").write_text(page.replace(PLACE, json.dumps(layout)))
-        return "index.html?ds=remote-file&ds.url={origin}/own.mcap"
+        (root / "index.html").write_text(text.replace(PLACE, json.dumps(layout)))
+        return "index.html"
 
-    shown(recording, out, make)
+    return put
+
+
+def main(web, recording, out):
+    """Shows the recording."""
+    shown(functools.partial(page, web), "?ds=remote-file&ds.url={origin}/own.mcap", recording, out)
 
 
 main(*sys.argv[1:])

@@ -27,7 +27,6 @@ from google.protobuf import descriptor_pb2, descriptor_pool, message_factory
 from mcap.reader import make_reader
 
 import foxglove
-import studio
 
 TOP = Path(__file__).resolve().parents[2]
 SCENARIO = TOP / "scenarios" / "crank_rocker.toml"
@@ -152,7 +151,7 @@ async def two_pictures(port, page, judge):
     for address in (page, None):
         before = shown[0][1] if shown else set()
         enough = lambda canvas, png: (found := judge(canvas, png)) and not found & before
-        canvas, png = await studio.show(port, address, enough)
+        canvas, png = await foxglove.show(port, address, enough)
         shown.append((png, judge(canvas, png) if canvas else set()))
     return shown
 
@@ -161,15 +160,15 @@ def in_studio(address, recording, packages, pictures):
     """Whether Studio shows a pose of the recording, and later another."""
     layout = json.loads(recording.with_suffix(".foxglove.json").read_text())
     camera = layout["configById"]["3D!mechanism"]["cameraState"]
-    drawing, frames = studio.poses(recording)
-    wanted = [(at, list(studio.places(drawing, message))) for at, message in frames]
+    drawing, frames = foxglove.poses(recording)
+    wanted = [(at, list(foxglove.places(drawing, message))) for at, message in frames]
 
     def poses(canvas, png):
-        picture = studio.pixels(png)
-        return {at for at, places in wanted if all(good for _, good in studio.seen(canvas, picture, camera, places))}
+        picture = foxglove.pixels(png)
+        return {at for at, places in wanted if all(good for _, good in foxglove.seen(canvas, picture, camera, places))}
 
-    with studio.opened(foxglove.page(packages, f"live={quote(address)}"), layout) as (port, page):
-        shown = asyncio.run(two_pictures(port, page, poses))
+    with foxglove.studio(foxglove.page(packages, layout), {}) as (port, page):
+        shown = asyncio.run(two_pictures(port, f"{page}&live={quote(address)}", poses))
     Path(pictures).mkdir(parents=True, exist_ok=True)
     for number, (png, found) in enumerate(shown, 1):
         out = Path(pictures) / f"live_{number}.foxglove.png"
