@@ -125,7 +125,11 @@ fn drawn(args: &Args) -> Result<bool> {
         let cells = own.cells(extras, room, args.files.len() == 1);
         match args.each_mode {
             true => sheets[0].extend(cells),
-            false => sheets.iter_mut().zip(cells).for_each(|(sheet, cell)| sheet.push(cell)),
+            // What cannot move stands still in every frame.
+            false => {
+                let last = cells.last().cloned().into_iter().cycle();
+                sheets.iter_mut().zip(cells.into_iter().chain(last)).for_each(|(sheet, cell)| sheet.push(cell));
+            }
         }
     }
     let (title, subtitle) = headline(&all, medium.moves());

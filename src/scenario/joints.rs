@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::links::NAME_HELP;
+use super::links::{NAME_HELP, is_somewhere};
 use super::reader::{Faults, Sign, Table};
 use super::unit::ANGLE;
 use super::words::suggestion;
@@ -10,12 +10,13 @@ use linkage::error::{ErrorKind, Result};
 use linkage::math::{Vec2, unit};
 use linkage::mechanism::{Joint, JointKind, Link, Side, is_sound_name};
 
-/// The joints, in the order of the file, but those with mistakes.
+/// The joints, in the order of the file, but those with mistakes and those at points that are nowhere.
 pub fn read(tables: Vec<Table>, links: &[Link], faults: &mut Faults) -> Vec<Joint> {
     let mut joints: Vec<Joint> = Vec::new();
     let count = tables.len();
     for mut table in tables {
-        joints.extend(faults.read(&mut table, |table| joint(table, links, &joints)));
+        let read = faults.read(&mut table, |table| joint(table, links, &joints));
+        joints.extend(read.filter(|joint| [joint.first, joint.second].iter().all(|side| is_somewhere(side.local))));
     }
     // A joint that is left out is missed by drives and by the mechanism.
     faults.whole &= joints.len() == count;

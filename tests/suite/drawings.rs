@@ -1,5 +1,7 @@
 //! `linkproof draw`: places, partial assemblies, configurations, bitmaps, wrong input.
 
+mod unfinished;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -233,7 +235,6 @@ fn wrong_input_is_refused_with_the_way_out() {
         (vec![own.as_str(), "-o", "/nowhere/at/all/x.svg"], "nowhere"),
         (vec![own.as_str(), "-o", "-", "--crank-deg", "nan"], "finite"),
         (vec![own.as_str(), "-o", "-", "--crank-deg", "1e300"], "--crank-deg"),
-        (vec![own.as_str(), "-o", "-", "--trace", "Q"], "name one of"),
         (vec![own.as_str(), "-o", "x.png", "--width", "0"], "100..=4000"),
         (vec![own.as_str(), "-o", "x.gif", "--each-mode"], "--each-mode"),
         (vec![own.as_str(), "-o", "scenarios/x.toml"], "scenario file"),

@@ -7,7 +7,7 @@ use super::picture::{AROUND, Picture};
 use super::sheet::{Cell, fit};
 use super::sketch::{Lettering, Sketch};
 use super::travel::Travels;
-use linkage::drive::{Drives, Load};
+use linkage::drive::{Drive, Load};
 use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::{GROUND, Mechanism};
 
@@ -17,7 +17,7 @@ pub struct Subject<'a> {
     /// The mechanism.
     pub mechanism: &'a Mechanism,
     /// What moves it.
-    pub drives: &'a Drives,
+    pub drives: &'a [Drive],
     /// What loads it.
     pub loads: &'a [Load],
     /// Acceleration of gravity (m/s^2).

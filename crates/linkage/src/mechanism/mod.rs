@@ -264,8 +264,8 @@ impl Mechanism {
         Ok(mechanism)
     }
 
-    /// Links and joints as they are, sound or not: for looking up names while a file with mistakes is read, and for
-    /// nothing else.
+    /// Links and joints as they are, sound or not: for looking up names in a file with mistakes, and for a picture of what
+    /// is there. Nothing else may rest on it.
     #[must_use]
     pub fn unchecked(links: Vec<Link>, joints: Vec<Joint>) -> Self {
         let size = links.iter().map(Link::extent).fold(0.0, f64::larger);
