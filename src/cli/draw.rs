@@ -26,7 +26,8 @@ Examples:
   linkproof draw scenarios/scotch_yoke.toml scenarios/quick_return.toml --dimensions -o both.svg
 
 What cannot be assembled is drawn as far as it goes: dashed where a link has no certain place, with the gap of every joint
-that stays open. The picture is written then too, and the exit code is 2.";
+that stays open. A file with mistakes is drawn without what they concern; all of them are told. The picture is written then
+too, and the exit code is 2.";
 
 /// Room of a picture that stands alone, and of one among others (mm).
 const ALONE: [f64; 2] = [150.0, 120.0];

@@ -259,3 +259,64 @@ fn marks_tell_what_they_stand_for() {
     let loads = |text: &str| text.matches("stroke=\"#c1121f\"").count();
     assert!(loads(&with) >= 5 && loads(&without) == 0);
 }
+
+/// The key `drawn` of a prismatic pair goes before names and places.
+#[test]
+fn a_prismatic_pair_is_drawn_as_the_file_says() {
+    let directory = tempfile::tempdir().unwrap();
+    let as_said = |name: &str, said: &str| {
+        let path = changed(directory.path(), name, |text| {
+            text.replace("type = \"prismatic\"", &format!("type = \"prismatic\"\n{said}"))
+        });
+        draw(&[path.to_str().unwrap(), "-o", "-"])
+    };
+    let picture = |name: &str, said: &str| {
+        let (code, out, told) = as_said(name, said);
+        assert_eq!(code, 0, "{told}");
+        String::from_utf8(out).unwrap()
+    };
+    // A ram on rails, pistons in cylinders, a block in a swinging slot.
+    for (name, own, other) in [
+        ("loaded_slider", "block", "cylinder"),
+        ("compressor", "cylinder", "block"),
+        ("quick_return", "block", "cylinder"),
+        ("rotary_engine", "cylinder", "block"),
+    ] {
+        let plain = picture(name, "");
+        assert_eq!(plain, picture(name, &format!("drawn = \"{own}\"")), "{name}");
+        assert_ne!(plain, picture(name, &format!("drawn = \"{other}\"")), "{name}");
+    }
+    let (code, out, told) = as_said("compressor", "drawn = \"cylindre\"");
+    assert!(code == 2 && told.contains(".drawn`"), "{told}");
+    assert!(told.contains("did you mean \"cylinder\"?") && !out.is_empty(), "{told}");
+}
+
+/// In an animation, the numbers of links stand on the links; names of points that move would jump.
+#[test]
+fn numbers_ride_on_links_in_an_animation() {
+    let case = Scenario::load(file("crank_rocker").as_ref()).unwrap().case;
+    let places = |degrees: f64| {
+        let state = state_at(&case, &AssurSolver, f64::to_radians(degrees)).unwrap();
+        let pose = |motion: &linkage::math::Motion| {
+            let angle = motion.direction.y.atan2(motion.direction.x);
+            linkage::mechanism::LinkPose { origin: motion.origin, angle }
+        };
+        drawing::lay::Laid::whole(state.motions.iter().map(pose))
+    };
+    let shots = [20.0, 60.0].map(|degrees| drawing::view::Shot { laid: places(degrees), acting: Vec::new() });
+    let subject = drawing::view::Subject {
+        mechanism: &case.mechanism,
+        drives: &case.drives,
+        loads: &case.loads,
+        gravity: case.gravity,
+    };
+    let extras = drawing::view::Extras { is_moving: true, ..Default::default() };
+    let travels = drawing::Travels::none(&case.mechanism);
+    let cells = drawing::view::cells(&subject, &shots, &travels, &[], extras, Vec2::new(150.0, 120.0));
+    for cell in cells {
+        let text = drawing::paper::document::document(&cell.figure, [200.0, 200.0], "frame");
+        let words = texts(&roxmltree::Document::parse(&text).unwrap());
+        assert!(words.contains(&"2".into()) && words.contains(&"3".into()), "{words:?}");
+        assert!(!words.contains(&"B".into()), "{words:?}");
+    }
+}
