@@ -26,7 +26,8 @@ Examples:
   linkproof draw scenarios/scotch_yoke.toml scenarios/quick_return.toml --dimensions -o both.svg
 
 What cannot be assembled is drawn as far as it goes: dashed where a link has no certain place, with the gap of every joint \
-that stays open. The picture is written then too, and the exit code is 2.";
+that stays open. A file with mistakes is drawn without what they concern; all of them are told. The picture is written then \
+too, and the exit code is 2.";
 
 /// Room of a picture that stands alone, and of one among others (mm).
 const ALONE: [f64; 2] = [150.0, 120.0];
@@ -65,15 +66,15 @@ pub(super) struct Args {
     /// Write the lengths of the links
     #[arg(long)]
     dimensions: bool,
-    /// Width of a bitmap in pixels
-    #[arg(long, value_name = "PIXELS", default_value = "800", value_parser = clap::value_parser!(u32).range(100..=4000))]
-    width: u32,
-    /// Frames of an animation
-    #[arg(long, value_name = "N", default_value = "48", value_parser = clap::value_parser!(u32).range(2..=720))]
-    frames: u32,
-    /// Seconds that a turn takes in an animation
-    #[arg(long, value_name = "S", default_value = "4", value_parser = number::positive)]
-    seconds: f64,
+    /// Width of a bitmap in pixels [default: 800]
+    #[arg(long, value_name = "PIXELS", value_parser = clap::value_parser!(u32).range(100..=4000))]
+    width: Option<u32>,
+    /// Frames of an animation [default: 48]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=720))]
+    frames: Option<u32>,
+    /// Seconds that a turn takes in an animation [default: 4]
+    #[arg(long, value_name = "S", value_parser = number::positive)]
+    seconds: Option<f64>,
     /// Analytic solver
     #[arg(long, value_name = "SOLVER", default_value = "assur", value_parser = PossibleValuesParser::new(reference_names()))]
     with: String,
@@ -97,14 +98,32 @@ pub(super) fn draw(args: &Args) -> u8 {
     }
 }
 
+/// Refuses options that mean nothing for the medium.
+fn fits(args: &Args, medium: Medium) -> Result<()> {
+    let refused = |option: &str, message: &str, help: &str| {
+        Err(Error::new(ErrorKind::Input, message).key(option).help(help.to_string()))
+    };
+    let still = [("--frames", args.frames.is_some()), ("--seconds", args.seconds.is_some())];
+    match still.iter().find(|(_, is_given)| *is_given) {
+        Some((option, _)) if !medium.moves() => {
+            refused(option, "the picture does not move", "leave it out, or write a .gif or a .webp")
+        }
+        _ if args.each_mode && medium.moves() => {
+            let message = "an animation shows one configuration, but all of them are asked for";
+            refused("--each-mode", message, "write an SVG or a PNG")
+        }
+        _ if args.width.is_some() && medium == Medium::Svg => {
+            refused("--width", "an SVG has no pixels", "leave it out, or write a .png, .gif or .webp")
+        }
+        _ => Ok(()),
+    }
+}
+
 /// Draws and writes. Whether everything could be assembled; what could not is told on standard error.
 fn drawn(args: &Args) -> Result<bool> {
     let medium = Medium::of(&args.output).map_err(|message| Error::new(ErrorKind::Input, message).key("--output"))?;
-    let frames = if medium.moves() { args.frames as usize } else { 1 };
-    if medium.moves() && args.each_mode {
-        let message = "an animation shows one configuration, but all of them are asked for";
-        return Err(Error::new(ErrorKind::Input, message).key("--each-mode").help("write an SVG or a PNG"));
-    }
+    fits(args, medium)?;
+    let frames = if medium.moves() { args.frames.map_or(48, |count| count as usize) } else { 1 };
     let extras = Extras { loads: args.loads, dimensions: args.dimensions, is_moving: medium.moves() };
     let wish = Wish {
         crank: args.crank_deg.map(f64::to_radians),
@@ -125,12 +144,16 @@ fn drawn(args: &Args) -> Result<bool> {
         let cells = own.cells(extras, room, args.files.len() == 1);
         match args.each_mode {
             true => sheets[0].extend(cells),
-            false => sheets.iter_mut().zip(cells).for_each(|(sheet, cell)| sheet.push(cell)),
+            // What cannot move stands still in every frame.
+            false => {
+                let last = cells.last().cloned().into_iter().cycle();
+                sheets.iter_mut().zip(cells.into_iter().chain(last)).for_each(|(sheet, cell)| sheet.push(cell));
+            }
         }
     }
     let (title, subtitle) = headline(&all, medium.moves());
     let pages: Vec<_> = sheets.iter().map(|cells| sheet(&title, &subtitle, cells, room.x)).collect();
-    let bytes = medium.bytes(&pages, &title, args.width, args.seconds / frames as f64)?;
+    let bytes = medium.bytes(&pages, &title, args.width.unwrap_or(800), args.seconds.unwrap_or(4.0) / frames as f64)?;
     output::write_bytes(&bytes, &args.output)?;
     for error in all.iter().flat_map(Drawn::faults) {
         output::show(error);

@@ -1,30 +1,34 @@
-//! What a file states of a mechanism that cannot be assembled, for a picture of it.
+//! What a file states of a mechanism that cannot be assembled, or that is not right yet, for a picture of it.
 
 use std::path::Path;
 
 use super::asked::Asked;
+use super::links::is_somewhere;
 use super::reader::Table;
 use super::source::{Source, text_of};
 use super::stated::Stated;
 use super::{parameter_table, start};
-use linkage::drive::{Drives, Load};
-use linkage::error::Result;
+use linkage::drive::{Drive, Load, MotionLaw};
+use linkage::error::{Error, Result};
 use linkage::math::Vec2;
-use linkage::mechanism::{Mechanism, StartGroup, Structure};
+use linkage::mechanism::{GROUND, Mechanism, StartGroup, Structure};
 
-/// The mechanism of a scenario file, whether or not it can be assembled.
+/// The mechanism of a scenario file, whether or not it can be assembled, without what has a mistake.
 #[derive(Clone, Debug)]
 pub struct Draft {
-    /// Short name.
+    /// Short name; that of the file if it states none.
     pub name: String,
     /// One line for people.
     pub title: String,
-    /// Links and joints.
+    /// Links and joints; not sound after mistakes.
     pub mechanism: Mechanism,
     /// Its groups, or why it has none.
     pub structure: Result<Structure>,
     /// What moves it.
-    pub drives: Drives,
+    pub drives: Vec<Drive>,
+    /// Whether the file states no drive that could be read: a link that is hinged to the ground then stands for the
+    /// crank, if one of them makes a mechanism that can be laid.
+    pub is_driven_by_guess: bool,
     /// What loads it.
     pub loads: Vec<Load>,
     /// Acceleration of gravity (m/s^2).
@@ -33,14 +37,15 @@ pub struct Draft {
     pub crank: f64,
     /// The start of each group, as far as the file gives it and it is sound; in the order of the structure.
     pub starts: Vec<StartGroup>,
+    /// The mistakes of the file, if there are any.
+    pub mistakes: Option<Error>,
 }
 
 impl Draft {
     /// Reads the file at `path`.
     ///
     /// # Errors
-    /// Those of [`Scenario::load_as`](super::Scenario::load_as), but for the structure, the first pose, and what rests on
-    /// it.
+    /// That the file cannot be read, that it is no TOML or of another version, and what is wrong with the question.
     pub fn load(path: &Path, asked: &Asked) -> Result<Draft> {
         Draft::parse(&text_of(path)?, path, asked)
     }
@@ -52,30 +57,75 @@ impl Draft {
     pub fn parse(text: &str, path: &Path, asked: &Asked) -> Result<Draft> {
         let plain = Source::new(path, text);
         let tree = plain.tree()?;
-        let table = Table::root(&plain, &tree).optional_table("parameters")?;
-        let parameters = parameter_table::read(table, &asked.set, asked.adds_parameters)?;
+        let table = Table::root(&plain, &tree).optional_table("parameters").unwrap_or_default();
+        let (parameters, fault) = parameter_table::read(table, &asked.set, asked.adds_parameters)?;
         let source = plain.with(parameters);
-        let found = Table::root(&source, &tree).read(|root| read(root, asked));
-        found.map_err(|error| source.located(tree.get_ref(), error))
+        let found = Table::root(&source, &tree).read_on(|root| read(root, asked));
+        let (draft, mistakes) = found.map_err(|error| source.located(tree.get_ref(), error))?;
+        // A parameter may be the cause of all others.
+        Ok(Draft { mistakes: fault.or(mistakes), ..draft })
     }
 }
 
 fn read(root: &mut Table, asked: &Asked) -> Result<Draft> {
-    let Stated { name, title, mechanism, drives, crank, loads, gravity, start, groups, .. } =
-        Stated::read(root, asked)?;
-    let structure = Structure::of(&mechanism, &drives.joints());
+    let stated = Stated::read(root, asked)?;
+    let Stated { title, crank, gravity, start, groups, .. } = stated;
+    let mechanism = with_places(&stated.mechanism);
+    let is_driven_by_guess = stated.drives.is_none();
+    let drives: Vec<Drive> = match &stated.drives {
+        Some(drives) => drives.to_vec(),
+        None => guessed(&mechanism, crank).into_iter().collect(),
+    };
+    let driven: Vec<usize> = drives.iter().map(|drive| drive.joint).collect();
+    let structure = Structure::of(&mechanism, &driven);
     let starts = structure.as_ref().map_or_else(
         |_| Vec::new(),
         |structure| {
             let wanted = asked.groups(&mechanism, structure).unwrap_or_default();
             let none = vec![StartGroup::default(); structure.groups.len()];
-            let mut starts = start::groups(&start, groups, &mechanism, structure, &wanted).unwrap_or(none);
+            let given = start.and_then(|start| start::groups(&start, groups, &mechanism, structure, &wanted).ok());
+            let mut starts = given.unwrap_or(none);
             for (index, group) in wanted {
                 starts[index] = group;
             }
             starts
         },
     );
+    let name = match stated.name.is_empty() {
+        true => root.source().path.file_stem().unwrap_or_default().to_string_lossy().into_owned(),
+        false => stated.name,
+    };
     let crank = asked.crank.unwrap_or(crank);
-    Ok(Draft { name, title, mechanism, structure, drives, loads, gravity, crank, starts })
+    let loads =
+        stated.loads.into_iter().filter(|load| load.points().iter().all(|end| is_somewhere(end.local))).collect();
+    Ok(Draft {
+        name,
+        title,
+        mechanism,
+        structure,
+        drives,
+        is_driven_by_guess,
+        loads,
+        gravity,
+        crank,
+        starts,
+        mistakes: None,
+    })
+}
+
+/// A drive of the first link on the ground whose motion would be that of all.
+fn guessed(mechanism: &Mechanism, crank: f64) -> Option<Drive> {
+    let joints = mechanism.joints();
+    let is_hinge = |&index: &usize| joints[index].is_pin() && joints[index].on(GROUND).is_some();
+    let index = (0..joints.len()).filter(is_hinge).find(|&index| Structure::of(mechanism, &[index]).is_ok())?;
+    Some(Drive::prescribed(index, joints[index].other(GROUND).link, 0.0, crank, MotionLaw::ConstantSpeed(1.0)))
+}
+
+/// The mechanism without the points that are nowhere; no joint lies at one.
+fn with_places(mechanism: &Mechanism) -> Mechanism {
+    let mut links = mechanism.links().to_vec();
+    for link in &mut links {
+        link.points.retain(|point| is_somewhere(point.local));
+    }
+    Mechanism::unchecked(links, mechanism.joints().to_vec())
 }

@@ -2,20 +2,21 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::links::NAME_HELP;
+use super::links::{NAME_HELP, is_somewhere};
 use super::reader::{Faults, Sign, Table};
 use super::unit::ANGLE;
 use super::words::suggestion;
 use linkage::error::{ErrorKind, Result};
 use linkage::math::{Vec2, unit};
-use linkage::mechanism::{Joint, JointKind, Link, Side, is_sound_name};
+use linkage::mechanism::{Guise, Joint, JointKind, Link, Side, is_sound_name};
 
-/// The joints, in the order of the file, but those with mistakes.
+/// The joints, in the order of the file, but those with mistakes and those at points that are nowhere.
 pub fn read(tables: Vec<Table>, links: &[Link], faults: &mut Faults) -> Vec<Joint> {
     let mut joints: Vec<Joint> = Vec::new();
     let count = tables.len();
     for mut table in tables {
-        joints.extend(faults.read(&mut table, |table| joint(table, links, &joints)));
+        let read = faults.read(&mut table, |table| joint(table, links, &joints));
+        joints.extend(read.filter(|joint| [joint.first, joint.second].iter().all(|side| is_somewhere(side.local))));
     }
     // A joint that is left out is missed by drives and by the mechanism.
     faults.whole &= joints.len() == count;
@@ -34,7 +35,7 @@ fn joint(table: &mut Table, links: &[Link], before: &[Joint]) -> Result<Joint> {
             .wrong(ErrorKind::Input, "name", message)
             .help("give every joint its own name; two joints on one pin share the point instead: `point = \"...\"`"));
     }
-    let kind = kind(table)?;
+    let (kind, drawn) = kind(table)?;
     let pair = table.strings("links")?;
     let places = places(table, kind, &name)?;
     table.finish()?;
@@ -67,7 +68,7 @@ fn joint(table: &mut Table, links: &[Link], before: &[Joint]) -> Result<Joint> {
         Ok(Side { link, local })
     };
     let [first, second] = [side(first, &places.names[0])?, side(second, &places.names[1])?];
-    Ok(Joint { name, kind, first, second })
+    Ok(Joint { name, kind, first, second, drawn })
 }
 
 /// Names of the points that a joint lies at, on its first and its second link.
@@ -105,18 +106,28 @@ fn guided(table: &mut Table) -> Result<Places> {
     Ok(Places { names: [first.clone(), second.clone()], key: "points", rule })
 }
 
-fn kind(table: &mut Table) -> Result<JointKind> {
+/// The kind of a joint, and what it is drawn as if the file says so.
+fn kind(table: &mut Table) -> Result<(JointKind, Option<Guise>)> {
     match table.string("type")?.as_str() {
-        "revolute" => Ok(JointKind::Revolute),
+        "revolute" => Ok((JointKind::Revolute, None)),
         "prismatic" => {
             let first = table.quantity("axis", &ANGLE, Sign::Any)?;
             let second = table.optional_quantity("second_axis", &ANGLE, Sign::Any)?.unwrap_or(0.0);
-            Ok(JointKind::Prismatic { axes: [first, second].map(direction) })
+            Ok((JointKind::Prismatic { axes: [first, second].map(direction) }, drawn(table)?))
         }
         other => Err(table
             .wrong(ErrorKind::Input, "type", format!("\"{other}\" is no type of joint"))
             .help(suggestion(other, ["revolute", "prismatic"], "\""))),
     }
+}
+
+fn drawn(table: &mut Table) -> Result<Option<Guise>> {
+    let Some(name) = table.optional_string("drawn")? else { return Ok(None) };
+    if let Some(guise) = Guise::ALL.into_iter().find(|guise| guise.name() == name) {
+        return Ok(Some(guise));
+    }
+    let error = table.wrong(ErrorKind::Input, "drawn", format!("a prismatic pair is not drawn as \"{name}\""));
+    table.instead(None, error.help(suggestion(&name, Guise::ALL.map(Guise::name), "\"")))
 }
 
 /// Unit vector at `angle` (rad). Along the axes of the frame it has no rounding of pi, so that a vertical guide is

@@ -7,21 +7,34 @@ use linkage::error::{ErrorKind, Result};
 use linkage::math::{Vec2, unit};
 use linkage::mechanism::{Link, Point, is_sound_name};
 
-/// The ground and all links, in the order of the file. Those with mistakes keep their names and those of their points.
-pub fn read(mut ground: Table, mut links: Table, faults: &mut Faults) -> Vec<Link> {
+/// The place of a point that has none because of a mistake.
+const NOWHERE: Vec2 = Vec2::new(f64::NAN, f64::NAN);
+
+/// Whether a place could be read.
+pub fn is_somewhere(place: Vec2) -> bool {
+    place.iter().all(|part| part.is_finite())
+}
+
+/// The ground and all links, in the order of the file. Those with mistakes keep their names and those of their points;
+/// points whose places could not be read are nowhere.
+pub fn read(ground: Option<Table>, links: Option<Table>, faults: &mut Faults) -> Vec<Link> {
     let mut points = Vec::new();
-    faults.read(&mut ground, |ground| {
-        points = named_points(ground)?;
-        ground.finish()
-    });
+    if let Some(mut ground) = ground {
+        faults.read(&mut ground, |ground| {
+            points = named_points(ground)?;
+            ground.finish()
+        });
+    }
     let frame = Link { name: "ground".into(), points, mass: 0.0, mass_centre: Vec2::zeros(), inertia: 0.0 };
     let mut all = vec![frame];
-    let tables = faults.read(&mut links, |links| {
-        let tables = links.all_tables()?;
-        match tables.is_empty() {
-            true => Err(links.fault("there is no link").help("add a section `[links.NAME]` for each moving link")),
-            false => Ok(tables),
-        }
+    let tables = links.and_then(|mut links| {
+        faults.read(&mut links, |links| {
+            let tables = links.all_tables()?;
+            match tables.is_empty() {
+                true => Err(links.fault("there is no link").help("add a section `[links.NAME]` for each moving link")),
+                false => Ok(tables),
+            }
+        })
     });
     for mut table in tables.into_iter().flatten() {
         let mut link = Link { name: table.name().to_string(), ..all[0].clone() };
@@ -30,13 +43,14 @@ pub fn read(mut ground: Table, mut links: Table, faults: &mut Faults) -> Vec<Lin
         all.push(link);
     }
     // A link or a point that is left out is missed by others.
-    faults.names = all.len() > 1 && all.iter().all(|link| !link.points.is_empty());
+    faults.names &= all.len() > 1 && all.iter().all(|link| !link.points.is_empty());
     faults.whole &= faults.names;
     all
 }
 
 fn fill(table: &mut Table, link: &mut Link) -> Result<()> {
-    check_name(table, "link")?;
+    let named = check_name(table, "link");
+    table.part(named);
     link.points = named_points(table)?;
     let points = &link.points;
     let mass = table.optional_quantity("mass", &MASS, Sign::NotNegative)?;
@@ -73,7 +87,7 @@ fn named_points(link: &mut Table) -> Result<Vec<Point>> {
         for point in table.all_tables()? {
             table.part(check_name(&point, "point"));
             let name = point.name().to_string();
-            let local = table.part(place(point, &points));
+            let local = place(point, &points).or_else(|error| table.instead(NOWHERE, error))?;
             points.push(Point { name, local });
         }
         match points.is_empty() {
@@ -82,8 +96,10 @@ fn named_points(link: &mut Table) -> Result<Vec<Point>> {
         }
     });
     link.part(read);
-    // Nobody can say what a link lacks whose points could not all be read.
-    Ok(if points.len() == table.keys().len() { points } else { Vec::new() })
+    let missing: Vec<String> =
+        table.keys().into_iter().filter(|key| points.iter().all(|own| own.name != *key)).collect();
+    points.extend(missing.into_iter().map(|name| Point { name, local: NOWHERE }));
+    Ok(points)
 }
 
 /// A place: coordinates, or a distance and an angle from one of the points read before.

@@ -251,11 +251,14 @@ impl Scenario {
 fn parse(text: &str, path: &Path, asked: &Asked, lists: bool) -> Found {
     let plain = Source::new(path, text);
     let tree = plain.tree()?;
-    let parameters = parameter_table::read(
+    let (parameters, fault) = parameter_table::read(
         Table::root(&plain, &tree).optional_table("parameters")?,
         &asked.set,
         asked.adds_parameters,
     )?;
+    if let Some(fault) = fault {
+        return Err(fault);
+    }
     let source = plain.with(parameters);
     let found = Table::root(&source, &tree).read(|root| read(root, asked, lists));
     found.map_err(|error| source.located(tree.get_ref(), error))?
@@ -267,7 +270,11 @@ type Found = std::result::Result<(Scenario, Vec<Undecided>), Error>;
 
 fn read(root: &mut Table, asked: &Asked, lists: bool) -> Result<Found> {
     let stated = Stated::read(root, asked)?;
-    let Stated { mechanism, drives, crank: own_crank, .. } = stated;
+    root.sound_so_far()?;
+    let Stated { mechanism, crank: own_crank, .. } = stated;
+    let (Some(drives), Some(start)) = (stated.drives, stated.start) else {
+        unreachable!("what is missing has ended the reading");
+    };
     let crank = asked.crank.unwrap_or(own_crank);
     masses::check(&mechanism, &drives)?;
     let structure = Structure::of(&mechanism, &drives.joints())?;
@@ -275,7 +282,7 @@ fn read(root: &mut Table, asked: &Asked, lists: bool) -> Result<Found> {
         Ok(groups) => groups,
         Err(error) => return Ok(Err(error)),
     };
-    let starts = start::groups(&stated.start, stated.groups, &mechanism, &structure, &groups_asked)?;
+    let starts = start::groups(&start, stated.groups, &mechanism, &structure, &groups_asked)?;
     let placing = asked::Start {
         mechanism: &mechanism,
         structure: &structure,

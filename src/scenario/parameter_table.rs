@@ -6,21 +6,28 @@ use super::words::suggestion;
 use linkage::error::{Error, ErrorKind, Result};
 
 /// Reads the section, with the numbers that are `set` instead of the file's own. Keys that the file does not have are
-/// added where the caller allows it.
-pub(super) fn read(table: Option<Table>, set: &[(String, f64)], may_add: bool) -> Result<Vec<Parameter>> {
+/// added where the caller allows it. A parameter with a mistake is left out; the first such mistake comes with the
+/// others, because it may be the cause of the next.
+///
+/// # Errors
+/// Those of `set`.
+pub(super) fn read(
+    table: Option<Table>,
+    set: &[(String, f64)],
+    may_add: bool,
+) -> Result<(Vec<Parameter>, Option<Error>)> {
     let mut parameters: Vec<Parameter> = Vec::new();
+    let mut first = None;
     if let Some(mut table) = table {
         for key in table.keys() {
-            let value = table.number_with(&key, &parameters)?;
-            let fault = |(message, help): (String, &str)| table.wrong(ErrorKind::Input, &key, message).help(help);
-            let parameter = Parameter::new(&key, value);
-            let faulty = parameter.names().find_map(|(name, _)| fault_of_name(name));
-            if let Some(found) = faulty.or_else(|| twice(&parameters, &parameter)) {
-                return Err(fault(found));
+            match own(&mut table, &key, &parameters) {
+                Ok(parameter) => parameters.push(parameter),
+                Err(error) => first = first.or(Some(error)),
             }
-            parameters.push(parameter);
         }
-        table.finish()?;
+        if let (Err(error), None) = (table.finish(), &first) {
+            first = Some(error);
+        }
     }
     for (key, value) in set {
         let wrong = |message: String| Error::new(ErrorKind::Input, message).key("parameters");
@@ -30,7 +37,7 @@ pub(super) fn read(table: Option<Table>, set: &[(String, f64)], may_add: bool) -
         }
         if let Some(own) = parameters.iter_mut().find(|own| own.key == *key) {
             own.given = *value;
-        } else if !may_add {
+        } else if !may_add && first.is_none() {
             let keys = parameters.iter().map(|own| own.key.as_str());
             return Err(wrong(format!("the scenario has no parameter `{key}`")).help(suggestion(key, keys, "`")));
         } else if let Some((message, _)) = twice(&parameters, &parameter) {
@@ -39,7 +46,17 @@ pub(super) fn read(table: Option<Table>, set: &[(String, f64)], may_add: bool) -
             parameters.push(parameter);
         }
     }
-    Ok(parameters)
+    Ok((parameters, first))
+}
+
+/// The parameter of a key; `before` are those read already.
+fn own(table: &mut Table, key: &str, before: &[Parameter]) -> Result<Parameter> {
+    let parameter = Parameter::new(key, table.number_with(key, before)?);
+    let faulty = parameter.names().find_map(|(name, _)| fault_of_name(name));
+    match faulty.or_else(|| twice(before, &parameter)) {
+        Some((message, help)) => Err(table.wrong(ErrorKind::Input, key, message).help(help)),
+        None => Ok(parameter),
+    }
 }
 
 /// A name of a parameter that another has too.

@@ -12,18 +12,22 @@ use linkage::math::Vec2;
 use linkage::mechanism::{Joint, Link, Mechanism};
 use workshop::clearance::Question;
 
-/// The sections of a file. Those that need the whole case are still tables.
+/// The sections of a file. Those that need the whole case are still tables. What has a mistake is left out, or stands
+/// for itself as nothing does.
 pub struct Stated<'a> {
     pub name: String,
     pub title: String,
     pub source: Option<String>,
+    /// Links and joints; after a mistake good for looking at only.
     pub mechanism: Mechanism,
-    pub drives: Drives,
+    /// What moves it; `None` after a mistake.
+    pub drives: Option<Drives>,
     /// Crank angle at t = 0 (rad).
     pub crank: f64,
     pub loads: Vec<Load>,
     pub gravity: Vec2,
-    pub start: Table<'a>,
+    /// The section `[start]`; `None` if it is missing.
+    pub start: Option<Table<'a>>,
     pub groups: Vec<start::Stated<'a>>,
     pub grid: Grid,
     /// The section `[channels]` with its words.
@@ -36,7 +40,10 @@ pub struct Stated<'a> {
 }
 
 impl<'a> Stated<'a> {
-    /// Reads every section, and tells the mistakes of all of them.
+    /// Reads every section. The mistakes of all of them are noted in `root`.
+    ///
+    /// # Errors
+    /// What this version cannot read at all.
     pub fn read(root: &mut Table<'a>, asked: &Asked) -> Result<Stated<'a>> {
         check_format(root)?;
         let (name, title, source) = (name(root), root.string("title"), root.optional_string("source"));
@@ -50,69 +57,73 @@ impl<'a> Stated<'a> {
         let formulas = root.tables("formula")?;
         // It was read before all others, which may use it.
         root.optional_table("parameters")?;
-        let misspells_section = root.has_unknown_table();
-        let finished = root.finish();
-        if misspells_section {
-            finished?;
-        }
-        let (ground, links, drives, mut start, mut grid) = (ground?, links?, drives?, start?, grid?);
-
         let mut faults = Faults::none();
-        let engine_rel = tolerances.map(|mut table| faults.read(&mut table, settings::engine_rel));
-        let gravity = gravity.map(|mut table| faults.read(&mut table, motion::gravity));
-        let channels = channels.map(|mut table| Some((faults.read(&mut table, settings::wanted)?, table)));
-        let links = links::read(ground, links, &mut faults);
+        let has_all = ground.is_ok() && links.is_ok() && drives.is_ok() && start.is_ok();
+        faults.whole = has_all && !root.has_unknown_table();
+        faults.names = ground.is_ok() && links.is_ok();
+        // Its errors are noted.
+        let _ = root.finish();
+
+        let engine_rel = tolerances.and_then(|mut table| faults.read(&mut table, settings::engine_rel));
+        let gravity = gravity.and_then(|mut table| faults.read(&mut table, motion::gravity));
+        let channels = channels.and_then(|mut table| Some((faults.read(&mut table, settings::wanted)?, table)));
+        let links = links::read(ground.ok(), links.ok(), &mut faults);
         let joints = joints::read(joints, &links, &mut faults);
         let mechanism = mechanism(links, joints, &mut faults);
-        let mut groups = Vec::new();
-        let crank = faults.read(&mut start, |start| {
-            groups = start.tables("groups")?;
-            let crank = start.quantity("crank", &unit::ANGLE, Sign::Any)?;
-            start.finish()?;
-            Ok(crank)
-        });
-        let crank = crank.unwrap_or_default();
+        let (mut start, mut groups, mut crank) = (start.ok(), Vec::new(), 0.0);
+        if let Some(start) = &mut start {
+            let own = |start: &mut Table<'a>| {
+                groups = start.tables("groups")?;
+                let crank = start.quantity("crank", &unit::ANGLE, Sign::Any)?;
+                start.finish()?;
+                Ok(crank)
+            };
+            crank = faults.read(start, own).unwrap_or_default();
+        }
         let groups = start::stated(groups, &mechanism, &mut faults);
         let loads = loads::read(loads, &mechanism, &mut faults);
-        let drives = motion::drives(drives, motor, &mechanism, asked.crank.unwrap_or(crank), &mut faults);
+        let drives = drives
+            .ok()
+            .and_then(|drives| motion::drives(drives, motor, &mechanism, asked.crank.unwrap_or(crank), &mut faults));
         // What follows depends on numbers of the mechanism and of the drive.
         faults.whole &= faults.is_empty();
-        let clearance = clearance.map(|mut table| faults.read(&mut table, |table| clearance::read(table, &mechanism)));
+        let clearance =
+            clearance.and_then(|mut table| faults.read(&mut table, |table| clearance::read(table, &mechanism)));
         let crank_drive = match &drives {
             Some(drives) => drives.crank().clone(),
             None => Drive::prescribed(0, 1, 0.0, 0.0, MotionLaw::ConstantSpeed(1.0)),
         };
-        let grid = faults.read(&mut grid, |grid| grid::read(grid, &crank_drive, asked.without_grid));
-        let engine = engine.map(|mut table| faults.read(&mut table, |table| settings::engine(table, &crank_drive)));
-
+        let grid = grid
+            .ok()
+            .and_then(|mut grid| faults.read(&mut grid, |grid| grid::read(grid, &crank_drive, asked.without_grid)));
+        let engine =
+            engine.and_then(|mut table| faults.read(&mut table, |table| settings::engine(table, &crank_drive)));
         root.part(faults.end());
-        root.sound_so_far()?;
-        const READ: &str = "what could not be read has ended the reading";
         Ok(Stated {
-            name: name?,
-            title: title?,
-            source: source?,
+            name: name.unwrap_or_default(),
+            title: title.unwrap_or_default(),
+            source: source.unwrap_or_default(),
             mechanism,
-            drives: drives.expect(READ),
+            drives,
             crank,
             loads,
-            gravity: gravity.map_or_else(Vec2::zeros, |gravity| gravity.expect(READ)),
+            gravity: gravity.unwrap_or_else(Vec2::zeros),
             start,
             groups,
-            grid: grid.expect(READ),
-            channels: channels.map(|channels| channels.expect(READ)).map(|(words, table)| (table, words)),
-            engine: engine.map_or_else(Default::default, |engine| engine.expect(READ)),
-            engine_rel: engine_rel.map_or(ENGINE_REL, |share| share.expect(READ)),
+            grid: grid.unwrap_or_default(),
+            channels: channels.map(|(words, table)| (table, words)),
+            engine: engine.unwrap_or_default(),
+            engine_rel: engine_rel.unwrap_or(ENGINE_REL),
             oracles,
             formulas,
-            clearance: clearance.map(|clearance| clearance.expect(READ)),
+            clearance,
         })
     }
 }
 
 /// The mechanism; after a mistake one that is good for its names only.
 fn mechanism(links: Vec<Link>, joints: Vec<Joint>, faults: &mut Faults) -> Mechanism {
-    if !faults.is_empty() {
+    if !(faults.is_empty() && faults.whole) {
         return Mechanism::unchecked(links, joints);
     }
     match faults.kept(Mechanism::new(links.clone(), joints.clone())) {

@@ -1,5 +1,7 @@
 //! `linkproof draw`: places, partial assemblies, configurations, bitmaps, wrong input.
 
+mod unfinished;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -233,9 +235,11 @@ fn wrong_input_is_refused_with_the_way_out() {
         (vec![own.as_str(), "-o", "/nowhere/at/all/x.svg"], "nowhere"),
         (vec![own.as_str(), "-o", "-", "--crank-deg", "nan"], "finite"),
         (vec![own.as_str(), "-o", "-", "--crank-deg", "1e300"], "--crank-deg"),
-        (vec![own.as_str(), "-o", "-", "--trace", "Q"], "name one of"),
         (vec![own.as_str(), "-o", "x.png", "--width", "0"], "100..=4000"),
         (vec![own.as_str(), "-o", "x.gif", "--each-mode"], "--each-mode"),
+        (vec![own.as_str(), "-o", "x.svg", "--width", "300"], "`--width`: an SVG has no pixels"),
+        (vec![own.as_str(), "-o", "x.png", "--frames", "3"], "`--frames`: the picture does not move"),
+        (vec![own.as_str(), "-o", "-", "--seconds", "3"], "`--seconds`: the picture does not move"),
         (vec![own.as_str(), "-o", "scenarios/x.toml"], "scenario file"),
         (vec!["scenarios/none.toml", "-o", "-"], "none.toml"),
     ] {
@@ -257,4 +261,65 @@ fn marks_tell_what_they_stand_for() {
     let (with, without) = (svg(&[&file("rotary_engine")]), svg(&[&file("crankcase")]));
     let loads = |text: &str| text.matches("stroke=\"#c1121f\"").count();
     assert!(loads(&with) >= 5 && loads(&without) == 0);
+}
+
+/// The key `drawn` of a prismatic pair goes before names and places.
+#[test]
+fn a_prismatic_pair_is_drawn_as_the_file_says() {
+    let directory = tempfile::tempdir().unwrap();
+    let as_said = |name: &str, said: &str| {
+        let path = changed(directory.path(), name, |text| {
+            text.replace("type = \"prismatic\"", &format!("type = \"prismatic\"\n{said}"))
+        });
+        draw(&[path.to_str().unwrap(), "-o", "-"])
+    };
+    let picture = |name: &str, said: &str| {
+        let (code, out, told) = as_said(name, said);
+        assert_eq!(code, 0, "{told}");
+        String::from_utf8(out).unwrap()
+    };
+    // A ram on rails, pistons in cylinders, a block in a swinging slot.
+    for (name, own, other) in [
+        ("loaded_slider", "block", "cylinder"),
+        ("compressor", "cylinder", "block"),
+        ("quick_return", "block", "cylinder"),
+        ("rotary_engine", "cylinder", "block"),
+    ] {
+        let plain = picture(name, "");
+        assert_eq!(plain, picture(name, &format!("drawn = \"{own}\"")), "{name}");
+        assert_ne!(plain, picture(name, &format!("drawn = \"{other}\"")), "{name}");
+    }
+    let (code, out, told) = as_said("compressor", "drawn = \"cylindre\"");
+    assert!(code == 2 && told.contains(".drawn`"), "{told}");
+    assert!(told.contains("did you mean \"cylinder\"?") && !out.is_empty(), "{told}");
+}
+
+/// In an animation, the numbers of links stand on the links; names of points that move would jump.
+#[test]
+fn numbers_ride_on_links_in_an_animation() {
+    let case = Scenario::load(file("crank_rocker").as_ref()).unwrap().case;
+    let places = |degrees: f64| {
+        let state = state_at(&case, &AssurSolver, f64::to_radians(degrees)).unwrap();
+        let pose = |motion: &linkage::math::Motion| {
+            let angle = motion.direction.y.atan2(motion.direction.x);
+            linkage::mechanism::LinkPose { origin: motion.origin, angle }
+        };
+        drawing::lay::Laid::whole(state.motions.iter().map(pose))
+    };
+    let shots = [20.0, 60.0].map(|degrees| drawing::view::Shot { laid: places(degrees), acting: Vec::new() });
+    let subject = drawing::view::Subject {
+        mechanism: &case.mechanism,
+        drives: &case.drives,
+        loads: &case.loads,
+        gravity: case.gravity,
+    };
+    let extras = drawing::view::Extras { is_moving: true, ..Default::default() };
+    let travels = drawing::Travels::none(&case.mechanism);
+    let cells = drawing::view::cells(&subject, &shots, &travels, &[], extras, Vec2::new(150.0, 120.0));
+    for cell in cells {
+        let text = drawing::paper::document::document(&cell.figure, [200.0, 200.0], "frame");
+        let words = texts(&roxmltree::Document::parse(&text).unwrap());
+        assert!(words.contains(&"2".into()) && words.contains(&"3".into()), "{words:?}");
+        assert!(!words.contains(&"B".into()), "{words:?}");
+    }
 }

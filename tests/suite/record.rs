@@ -38,6 +38,7 @@ fn four_bar() -> Mechanism {
         kind: JointKind::Revolute,
         first: side(name, first),
         second: side(name, second),
+        drawn: None,
     });
     Mechanism::new(links, joints.to_vec()).unwrap()
 }

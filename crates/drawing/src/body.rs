@@ -28,6 +28,19 @@ pub fn corners(mechanism: &Mechanism, link: usize) -> Vec<Vec2> {
     hull(places(mechanism, link))
 }
 
+/// A place of a link on which a sign hides no joint: the middle of a plate, or of the longest piece of a bar. `None` if
+/// that is shorter than `least` (m).
+pub fn free(mechanism: &Mechanism, link: usize, least: f64) -> Option<Vec2> {
+    let (mut places, corners) = (places(mechanism, link), corners(mechanism, link));
+    if let [first, _] = corners[..] {
+        places.sort_by(|a, b| (a - first).norm().total_cmp(&(b - first).norm()));
+        let pieces = places.windows(2).map(|pair| ((pair[1] - pair[0]).norm(), (pair[0] + pair[1]) / 2.0));
+        return pieces.max_by(|a, b| a.0.total_cmp(&b.0)).filter(|piece| piece.0 >= least).map(|piece| piece.1);
+    }
+    let middle = corners.iter().sum::<Vec2>() / corners.len().max(1) as f64;
+    (corners.len() > 2 && size(mechanism, link) >= least).then_some(middle)
+}
+
 /// The bar or plate of a moving link, its mass centre and its traced points.
 pub fn marks(mechanism: &Mechanism, link: usize, unit: f64) -> Vec<Mark> {
     let corners = corners(mechanism, link);

@@ -5,7 +5,7 @@ use super::mark::{Mark, Role};
 use super::pins::pivots;
 use super::travel::Travels;
 use linkage::math::{KeepNan, Vec2, cross, turned};
-use linkage::mechanism::{GROUND, Joint, Mechanism, Side};
+use linkage::mechanism::{GROUND, Guise, Joint, Mechanism, Side};
 
 /// Half length and half width of a block in a fixed guide, and on a moving one. They differ so that both are visible if
 /// they sit on the same joint.
@@ -67,9 +67,12 @@ pub fn marks(mechanism: &Mechanism, travels: &Travels, unit: f64) -> Vec<(usize,
     marks
 }
 
-/// Whether a prismatic pair is a piston in a cylinder: its names say so, or the rod is pinned farther along the axis and
-/// guide and block both move.
+/// Whether a prismatic pair is a piston in a cylinder: the joint says so, or its names do, or the rod is pinned farther
+/// along the axis and guide and block both move.
 fn is_cylinder(mechanism: &Mechanism, joint: &Joint, guide: Side, block: Side, axis: Vec2) -> bool {
+    if let Some(guise) = joint.drawn {
+        return guise == Guise::Cylinder;
+    }
     let links = [guide, block].map(|side| mechanism.links()[side.link].name.as_str());
     let has_word = |name: &str| CYLINDERS.iter().any(|word| name.to_lowercase().contains(word));
     let rod: Vec<Vec2> = places(mechanism, block.link).iter().map(|at| at - block.local).collect();

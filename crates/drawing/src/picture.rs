@@ -138,7 +138,7 @@ impl<'a> Picture<'a> {
 
     fn line(&mut self, points: Vec<Vec2>, closed: bool, role: Role, link: usize, is_loose: bool) {
         let (style, fill) = style(role.look(), link, is_loose);
-        let is_obstacle = !matches!(role, Role::Weld | Role::MassQuarter | Role::DriveHead | Role::LoadHead);
+        let is_obstacle = !matches!(role, Role::Weld | Role::MassQuarter | Role::LoadHead);
         if is_obstacle {
             self.obstacles.segments.extend(points.windows(2).map(|pair| [pair[0], pair[1]]));
             if let (true, [first, .., last]) = (closed, &points[..]) {
@@ -185,6 +185,13 @@ impl<'a> Picture<'a> {
             if let Some(at) = self.at(label.at.link, label.at.local) {
                 self.number(at, label.text.clone(), colour(label.at.link));
             }
+        }
+    }
+
+    /// Writes the number of a link on it, at this place of its frame (m): there it stays while the link moves.
+    pub fn number_on(&mut self, link: usize, local: Vec2) {
+        if let Some(at) = self.at(link, local) {
+            draw_number(&mut self.figure, at, link.to_string(), colour(link));
         }
     }
 
@@ -289,15 +296,19 @@ impl<'a> Picture<'a> {
         let boxes: Vec<labels::Label> = all.iter().map(|((label, ..), _)| *label).collect();
         for (((label, text, paint), is_number), at) in all.iter().zip(place(&boxes, &self.obstacles)) {
             if *is_number {
-                self.figure.disc(at, NUMBER, "white", solid(paint, 0.4));
-                let set = Type { anchor: "middle", bold: true, colour: paint, ..words(3.2) };
-                self.figure.text(at - Vec2::new(0.0, 1.15), text.clone(), set);
+                draw_number(&mut self.figure, at, text.clone(), paint);
             } else {
                 letter(&mut self.figure, label, at, text, paint);
             }
         }
         self.figure
     }
+}
+
+fn draw_number(figure: &mut Figure, at: Vec2, text: String, paint: &'static str) {
+    figure.disc(at, NUMBER, "white", solid(paint, 0.4));
+    let set = Type { anchor: "middle", bold: true, colour: paint, ..words(3.2) };
+    figure.text(at - Vec2::new(0.0, 1.15), text, set);
 }
 
 /// A length (m) in mm, with as many digits as are seen on a drawing.

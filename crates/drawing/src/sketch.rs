@@ -6,7 +6,7 @@ use super::stretched::Stretched;
 use super::travel::Travels;
 use super::{body, guide, pins, sign, stretched};
 use linkage::case::CaseParts;
-use linkage::drive::{Drives, Load};
+use linkage::drive::{Drive, Load};
 use linkage::math::{Vec2, turned};
 use linkage::mechanism::{GROUND, Mechanism, Side};
 
@@ -98,7 +98,7 @@ impl Sketch {
 
     /// The same with the senses of drives, and with motors.
     #[must_use]
-    pub fn with_drives(mut self, mechanism: &Mechanism, drives: &Drives) -> Sketch {
+    pub fn with_drives(mut self, mechanism: &Mechanism, drives: &[Drive]) -> Sketch {
         for drive in drives {
             self.bodies[drive.link].marks.extend(sign::of_drive(mechanism, drive, self.unit));
             if let (Some(_), Some(local)) = (drive.motor(), mechanism.joints()[drive.joint].on(drive.link)) {
@@ -177,7 +177,11 @@ fn labels(mechanism: &Mechanism) -> Vec<Label> {
     let mut labels: Vec<Label> = fixed.chain(mechanism.moving_points()).map(point).collect();
     for (link, body) in mechanism.links().iter().enumerate().skip(1) {
         let places = body::places(mechanism, link);
-        let middle = places.iter().sum::<Vec2>() / (places.len().max(1) as f64);
+        // Nothing is seen of a link without places.
+        if places.is_empty() {
+            continue;
+        }
+        let middle = places.iter().sum::<Vec2>() / places.len() as f64;
         labels.push(Label { text: link.to_string(), names: Lettering::Link, at: Side { link, local: middle } });
         if body.mass > 0.0 {
             let at = Side { link, local: body.mass_centre };

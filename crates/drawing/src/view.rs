@@ -7,9 +7,12 @@ use super::picture::{AROUND, Picture};
 use super::sheet::{Cell, fit};
 use super::sketch::{Lettering, Sketch};
 use super::travel::Travels;
-use linkage::drive::{Drives, Load};
+use linkage::drive::{Drive, Load};
 use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::{GROUND, Mechanism};
+
+/// Least length of a link between two joints on which its number has room (mm).
+const FREE: f64 = 11.0;
 
 /// What is drawn.
 #[derive(Clone, Copy, Debug)]
@@ -17,7 +20,7 @@ pub struct Subject<'a> {
     /// The mechanism.
     pub mechanism: &'a Mechanism,
     /// What moves it.
-    pub drives: &'a Drives,
+    pub drives: &'a [Drive],
     /// What loads it.
     pub loads: &'a [Load],
     /// Acceleration of gravity (m/s^2).
@@ -31,7 +34,7 @@ pub struct Extras {
     pub loads: bool,
     /// Lengths of the links.
     pub dimensions: bool,
-    /// Only the names of the ground's points, so that nothing jumps from frame to frame.
+    /// Only the names of the ground's points, and numbers on the links that have room: nothing jumps from frame to frame.
     pub is_moving: bool,
 }
 
@@ -101,7 +104,13 @@ fn figure(
     if extras.dimensions {
         picture.draw_lengths(subject.mechanism);
     }
-    if !extras.is_moving {
+    if extras.is_moving {
+        for link in 1..subject.mechanism.links().len() {
+            if let Some(local) = super::body::free(subject.mechanism, link, FREE * scale) {
+                picture.number_on(link, local);
+            }
+        }
+    } else {
         picture.number_links();
     }
     let is_fixed = |at: &Vec2| {

@@ -26,7 +26,7 @@ pub fn pin(links: &[Link], name: &str, point: &str, first: &str, second: &str) -
         let local = links[index].points.iter().find(|p| p.name == point).unwrap().local;
         Side { link: index, local }
     };
-    Joint { name: name.into(), kind: JointKind::Revolute, first: side(first), second: side(second) }
+    Joint { name: name.into(), kind: JointKind::Revolute, first: side(first), second: side(second), drawn: None }
 }
 
 /// Mechanism from links and pins given as (joint name, point, first link, second link).

@@ -10,7 +10,7 @@ use drawing::sheet::Cell;
 use drawing::view::{Extras, Shot, Subject, Trace, cells};
 use drawing::{Sketch, Travels, acting, unit};
 use linkage::case::{Case, Grid, Wanted};
-use linkage::drive::{Drive, Drives};
+use linkage::drive::Drive;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::Vec2;
 use linkage::mechanism::{AssemblyMode, LinkPose, Mechanism, Structure};
@@ -21,8 +21,9 @@ use workshop::diagram::plan::state_at;
 
 /// Instants of a turn over which travels and paths are found.
 const INSTANTS: usize = 180;
-/// Most configurations on a sheet.
+/// Most configurations on a sheet, and most mistakes below one.
 const MOST: usize = 24;
+const SHOWN: usize = 3;
 
 /// What is asked of every file.
 pub struct Wish<'a> {
@@ -44,7 +45,7 @@ pub struct Drawn {
     /// Crank angle of the first shot (rad).
     crank: f64,
     mechanism: Mechanism,
-    drives: Drives,
+    drives: Vec<Drive>,
     loads: Vec<linkage::drive::Load>,
     gravity: Vec2,
     pub shots: Vec<Shot>,
@@ -52,14 +53,24 @@ pub struct Drawn {
     headings: Vec<Vec<String>>,
     travels: Travels,
     traces: Vec<Trace>,
-    /// Why the file as a whole could not be assembled.
+    /// What is wrong with the file or with the question.
     fault: Option<Error>,
+    /// Whether the file has mistakes, which are then told below the picture.
+    has_mistakes: bool,
     pub note: Option<String>,
     each_mode: bool,
 }
 
 impl Drawn {
     pub fn of(file: &Path, wish: &Wish) -> Result<Drawn> {
+        let mut drawn = Drawn::as_it_stands(file, wish)?;
+        let (_, unknown) = traced(&drawn.mechanism, wish);
+        drawn.fault = Error::all(drawn.fault.take().into_iter().chain(unknown));
+        Ok(drawn)
+    }
+
+    /// The file, whatever the paths that are asked for.
+    fn as_it_stands(file: &Path, wish: &Wish) -> Result<Drawn> {
         let asked = Asked { modes: wish.modes.to_vec(), set: wish.set.to_vec(), ..Asked::default() };
         match load::as_asked(file, &asked) {
             Ok(scenario) if wish.each_mode => {
@@ -101,7 +112,10 @@ impl Drawn {
                 cell.heading.insert(0, of_file);
             }
             let faults = self.shots[index].laid.faults.iter().map(|fault| fault.message().to_string());
-            cell.faults = faults.collect();
+            cell.faults = match &self.fault {
+                Some(fault) if self.has_mistakes => mistakes(fault),
+                _ => faults.collect(),
+            };
             if let (true, Some(fault), false) = (cell.faults.is_empty(), &self.fault, self.each_mode) {
                 cell.faults.push(fault.message().to_string());
             }
@@ -110,7 +124,9 @@ impl Drawn {
     }
 
     fn new(draft: Draft, crank: f64, shots: Vec<Shot>) -> Drawn {
-        let Draft { name, title, mechanism, drives, loads, gravity, .. } = draft;
+        let has_mistakes = draft.mistakes.is_some();
+        let drives = if draft.is_driven_by_guess { Vec::new() } else { draft.drives };
+        let Draft { name, title, mechanism, loads, gravity, .. } = draft;
         let mut travels = Travels::none(&mechanism);
         for shot in &shots {
             travels.take_in(&mechanism, |link, local| shot.laid.places[link].pose().map(|pose| pose.point(local)));
@@ -128,6 +144,7 @@ impl Drawn {
             travels,
             traces: Vec::new(),
             fault: None,
+            has_mistakes,
             note: None,
             each_mode: false,
         }
@@ -136,7 +153,7 @@ impl Drawn {
     /// A mechanism that can be assembled.
     fn whole(scenario: Scenario, wish: &Wish) -> Result<Drawn> {
         let case = &scenario.case;
-        let points = traced(&case.mechanism, wish)?;
+        let (points, _) = traced(&case.mechanism, wish);
         let crank = wish.crank.unwrap_or(case.crank().start);
         let first = match state_at(case, wish.solver, crank) {
             Ok(state) => state,
@@ -195,6 +212,7 @@ impl Drawn {
             })
             .collect();
         let note = match (&gaps[..], &draft.structure) {
+            _ if draft.mistakes.is_some() => of_guess(&draft),
             ([], Ok(_)) => Some(format!("{}: --each-mode draws all configurations, with their names", draft.name)),
             ([], Err(_)) => None,
             (gaps, _) => Some(format!("{}: {}", draft.name, gaps.join(", "))),
@@ -212,7 +230,7 @@ impl Drawn {
         let own = lay(&draft.mechanism, &structure, &angles, &draft.starts);
         let headings = all.iter().map(|laid| heading(&draft.mechanism, &structure, laid, &own)).collect();
         // A file that leaves its mode open is answered by the list, and a configuration that does not close is no fault.
-        let is_answered = all.iter().any(Laid::is_whole);
+        let is_answered = draft.mistakes.is_none() && all.iter().any(Laid::is_whole);
         let cut = is_cut.then(|| format!("only the first {MOST} configurations are drawn"));
         let open = error.as_ref().filter(|_| is_answered).map(|error| error.message().to_string());
         let told: Vec<String> = open.into_iter().chain(cut).collect();
@@ -226,12 +244,32 @@ impl Drawn {
     }
 }
 
+/// Mistakes in short: the first of them with their lines, and how many there are beyond.
+fn mistakes(fault: &Error) -> Vec<String> {
+    let short = |own: &Error| {
+        let line = own.place().map_or_else(String::new, |place| format!("line {}: ", place.line()));
+        let key = own.scenario_key().map_or_else(String::new, |key| format!("{key}: "));
+        format!("{line}{key}{}", own.message())
+    };
+    let mut lines: Vec<String> = fault.each().take(SHOWN).map(short).collect();
+    let more = fault.each().count().saturating_sub(SHOWN) + fault.left_out();
+    lines.extend((more > 0).then(|| format!("and {more} more")));
+    lines
+}
+
+/// What turns where no drive could be read.
+fn of_guess(draft: &Draft) -> Option<String> {
+    let drive = draft.drives.first().filter(|_| draft.is_driven_by_guess)?;
+    let link = &draft.mechanism.links()[drive.link].name;
+    Some(format!("{}: no drive could be read; drawn as if \"{link}\" were driven", draft.name))
+}
+
 fn degrees(angle: f64) -> String {
     format!("{}°", (angle.to_degrees() * 1e6).round() / 1e6 + 0.0)
 }
 
 /// World angles of the driving links with the crank at an angle (rad), the others at their start.
-fn angles(drives: &Drives, crank: f64) -> Vec<f64> {
+fn angles(drives: &[Drive], crank: f64) -> Vec<f64> {
     let angle = |(index, drive): (usize, &Drive)| drive.world_angle(if index == 0 { crank } else { drive.start });
     drives.iter().enumerate().map(angle).collect()
 }
@@ -256,11 +294,13 @@ fn draft_of(scenario: &Scenario) -> Draft {
         title: scenario.title.clone(),
         mechanism: case.mechanism.clone(),
         structure: Ok(case.structure.clone()),
-        drives: case.drives.clone(),
+        drives: case.drives.to_vec(),
+        is_driven_by_guess: false,
         loads: case.loads.clone(),
         gravity: case.gravity,
         crank: case.crank().start,
         starts: case.structure.groups.iter().enumerate().map(standing).collect(),
+        mistakes: None,
     }
 }
 
@@ -295,22 +335,25 @@ fn visited(case: &Case, solver: &dyn Solver) -> Option<Vec<State>> {
     states.into_iter().collect()
 }
 
-/// The points whose paths are asked for.
-fn traced(mechanism: &Mechanism, wish: &Wish) -> Result<Vec<(usize, Vec2)>> {
+/// The points whose paths are asked for, each with its link, and an error for each that there is not.
+fn traced(mechanism: &Mechanism, wish: &Wish) -> (Vec<(usize, Vec2)>, Vec<Error>) {
     let points: Vec<_> = mechanism.moving_points().collect();
     let is_joint = |link, local| mechanism.joints().iter().any(|joint| joint.on(link) == Some(local));
     let free = points.iter().filter(|(_, side)| wish.all_traces && !is_joint(side.link, side.local));
     let mut found: Vec<(usize, Vec2)> = free.map(|(_, side)| (side.link, side.local)).collect();
+    let mut unknown = Vec::new();
     for name in wish.traces {
-        let Some((_, side)) = points.iter().find(|(own, _)| own == name) else {
-            let names: Vec<&str> = points.iter().map(|(own, _)| *own).collect();
-            let message = format!("no point that moves is called \"{name}\"");
-            let error = Error::new(ErrorKind::Input, message).key("--trace");
-            return Err(error.help(format!("name one of {}", names.join(", "))));
-        };
-        found.push((side.link, side.local));
+        match points.iter().find(|(own, _)| own == name) {
+            Some((_, side)) => found.push((side.link, side.local)),
+            None => {
+                let names: Vec<&str> = points.iter().map(|(own, _)| *own).collect();
+                let message = format!("no point that moves is called \"{name}\"");
+                let error = Error::new(ErrorKind::Input, message).key("--trace");
+                unknown.push(error.help(format!("name one of {}", names.join(", "))));
+            }
+        }
     }
-    Ok(found)
+    (found, unknown)
 }
 
 /// The modes of a configuration: what the key `mode` takes, or the number where there are no names.

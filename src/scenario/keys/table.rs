@@ -171,6 +171,12 @@ pub static SECTIONS: &[Section] = &[
                 "prismatic: the same direction in the frame of the second link; it fixes the angle of the second link to the first",
                 "0: along its x axis",
             ),
+            optional(
+                "drawn",
+                Choice(&["cylinder", "block"]),
+                "prismatic: what pictures show, a piston in a cylinder, or a block on rails or in a slot; nothing is calculated from it",
+                "guessed from names and places: docs/draw.md",
+            ),
         ],
     ),
     section(

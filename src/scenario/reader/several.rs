@@ -63,6 +63,21 @@ impl<'a> Table<'a> {
         }
     }
 
+    /// What `read` makes of the table in spite of the mistakes that it notes, and these.
+    ///
+    /// # Errors
+    /// What ends the reading, with the mistakes noted before.
+    pub fn read_on<T>(&mut self, read: impl FnOnce(&mut Self) -> Result<T>) -> Result<(T, Option<Error>)> {
+        self.goes_on = true;
+        let found = read(self);
+        self.pair_missing();
+        let noted = Error::all(std::mem::take(&mut self.faults));
+        match found {
+            Ok(value) => Ok((value, noted)),
+            Err(error) => Err(noted.unwrap_or(error)),
+        }
+    }
+
     /// The value, or else what `read` says beyond mistakes of keys and values; and these. Unknown names are among them
     /// if all `names` could be read.
     fn tried<T>(

@@ -20,6 +20,10 @@ fn the_crankcase_is_clear_and_says_so() {
     let titles: Vec<&str> =
         drawing.descendants().filter(|node| node.has_tag_name("title")).filter_map(|n| n.text()).collect();
     assert!(titles.contains(&"swept by rod") && titles.contains(&"head"), "{titles:?}");
+    // The marks are those of all drawings: pins, numbers of links, the drive's arrow, a scale.
+    let with = |key: &str, value: &str| drawing.descendants().filter(|node| node.attribute(key) == Some(value)).count();
+    assert_eq!((with("r", "1.2"), with("r", "2.3")), (3, 3), "pins O, A, B and the numbers of three links");
+    assert!(svg.contains("smallest distance 0.5000 mm: piston and cylinder_left") && svg.contains(">50 mm<"), "{svg}");
     let table = place.ok("clearance scenarios/crankcase.toml --csv -");
     assert!(table.starts_with("t_s,crank_rad,crank.piston.distance_m,"), "{table}");
     assert_eq!(table.lines().count(), 182);

@@ -146,7 +146,13 @@ fn mechanism(from: &mut Unstructured) -> Result<std::result::Result<Drawn, Error
                 true => JointKind::Prismatic { axes: [0.0, 1.0].map(unit) },
                 false => JointKind::Revolute,
             };
-            Ok(Joint { name: format!("J{index}"), kind, first: side(from, first)?, second: side(from, second)? })
+            Ok(Joint {
+                name: format!("J{index}"),
+                kind,
+                first: side(from, first)?,
+                second: side(from, second)?,
+                drawn: None,
+            })
         })
         .collect::<Result<Vec<Joint>>>()?;
     let drives = (0..drives).map(|_| from.choose_index(joints.len().max(1))).collect::<Result<Vec<usize>>>()?;

@@ -45,7 +45,7 @@ fn link(name: &str, points: &[(&str, Vec2)], [mass, x, y, inertia]: [f64; 4]) ->
 
 fn joint(name: &str, kind: JointKind, first: (usize, Vec2), second: (usize, Vec2)) -> Joint {
     let [first, second] = [first, second].map(|(link, local)| Side { link, local });
-    Joint { name: name.into(), kind, first, second }
+    Joint { name: name.into(), kind, first, second, drawn: None }
 }
 
 fn along(first: f64, second: f64) -> JointKind {

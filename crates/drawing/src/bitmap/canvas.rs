@@ -1,6 +1,8 @@
 //! Paints a figure into pixels.
 
-use tiny_skia::{Color, FillRule, LineCap, LineJoin, Paint, PathBuilder, Pixmap, Stroke, StrokeDash, Transform};
+use tiny_skia::{
+    Color, FillRule, LineCap, LineJoin, Paint, PathBuilder, Pixmap, PixmapPaint, Stroke, StrokeDash, Transform,
+};
 
 use super::glyphs::Glyphs;
 use crate::paper::figure::{Figure, Ink, Style, head};
@@ -71,6 +73,14 @@ impl Canvas {
                     let style = Style { colour: set.colour, width: strength, dash: "" };
                     self.paint(&path, Some((set.colour, 1.0)), &style);
                 }
+            }
+            Ink::Group { ink, opacity, .. } => {
+                let Some(layer) = Pixmap::new(self.pixmap.width(), self.pixmap.height()) else { return };
+                let below = std::mem::replace(&mut self.pixmap, layer);
+                ink.iter().for_each(|own| self.draw(own));
+                let layer = std::mem::replace(&mut self.pixmap, below);
+                let paint = PixmapPaint { opacity: *opacity as f32, ..PixmapPaint::default() };
+                self.pixmap.draw_pixmap(0, 0, layer.as_ref(), &paint, Transform::identity(), None);
             }
         }
     }

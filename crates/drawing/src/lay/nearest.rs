@@ -5,16 +5,23 @@ use linkage::mechanism::{Joint, LinkPose, Mechanism, Pose, Side};
 
 /// Weight of joints with links that have their place: what is missing shows between the others.
 const HELD: f64 = 1000.0;
-/// Directions of the links from which it is tried, and steps from each.
+/// Directions of the links from which it is tried, and steps from each. Many links are tried from fewer, so that no
+/// mechanism takes long; of more than `MOST`, none is placed.
 const STARTS: usize = 12;
 const STEPS: usize = 60;
+const FEW: usize = 12;
+const MOST: usize = 60;
 /// Step of the difference quotients, in radians and in sizes of the mechanism.
 const TINY: f64 = 1e-7;
 
 /// Places of the links `missing`, beside all others at `pose`.
 pub fn nearest(mechanism: &Mechanism, pose: &Pose, missing: &[usize]) -> Vec<(usize, LinkPose)> {
     let problem = Problem { mechanism, pose, missing, size: mechanism.size() };
-    let best = (0..STARTS).map(|start| problem.solved(start)).min_by(|a, b| a.1.total_cmp(&b.1));
+    if missing.len() > MOST {
+        return Vec::new();
+    }
+    let starts = (STARTS * FEW / missing.len().max(FEW)).max(1);
+    let best = (0..starts).map(|start| problem.solved(start)).min_by(|a, b| a.1.total_cmp(&b.1));
     let Some((found, _)) = best else { return Vec::new() };
     missing.iter().enumerate().map(|(k, &link)| (link, problem.pose_of(&found, k))).collect()
 }
@@ -50,7 +57,12 @@ impl Problem<'_> {
                 let Side { link: base, local } = joint.other(link);
                 Some(LinkPose::through(joint.on(link)?, self.pose.0[base].point(local), angle).origin)
             });
-            let at = at.unwrap_or_else(Vec2::zeros) / self.size;
+            // What hangs on nothing lies beside the others.
+            let alone = || match self.mechanism.joints_on(link).is_empty() {
+                true => Vec2::new(k as f64, -1.0) * self.size,
+                false => Vec2::zeros(),
+            };
+            let at = at.unwrap_or_else(alone) / self.size;
             (unknowns[3 * k], unknowns[3 * k + 1], unknowns[3 * k + 2]) = (at.x, at.y, angle);
         }
         unknowns

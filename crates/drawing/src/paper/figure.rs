@@ -114,6 +114,7 @@ pub(crate) enum Ink {
     Shape { corners: Vec<Vec2>, closed: bool, fill: Option<(&'static str, f64)>, style: Style },
     Disc { centre: Vec2, radius: f64, fill: &'static str, style: Style },
     Text { at: Vec2, text: String, set: Type },
+    Group { ink: Vec<Ink>, opacity: f64, name: String },
 }
 
 /// A figure, or a part of one.
@@ -159,6 +160,15 @@ impl Figure {
         self.ink.push(Ink::Text { at, text, set });
     }
 
+    /// All of another figure as one element of this opacity, with a name that appears when the mouse points at it. What
+    /// overlaps in it is no darker.
+    pub fn group(&mut self, other: Figure, opacity: f64, name: String) {
+        if let Some(bounds) = other.low {
+            bounds.iter().for_each(|corner| self.reach(*corner));
+        }
+        self.ink.push(Ink::Group { ink: other.ink, opacity, name });
+    }
+
     /// Lower left and upper right corner of all elements.
     #[must_use]
     pub fn bounds(&self) -> [Vec2; 2] {
@@ -192,6 +202,7 @@ impl Ink {
             Ink::Shape { corners, .. } => corners.iter_mut().for_each(|corner| *corner += by),
             Ink::Disc { centre, .. } => *centre += by,
             Ink::Text { at, .. } => *at += by,
+            Ink::Group { ink, .. } => ink.iter_mut().for_each(|own| *own = own.moved(by)),
         }
         ink
     }
@@ -222,6 +233,10 @@ impl Ink {
                     .set("stroke-width", mm(style.width)),
             ),
             Ink::Text { at, text, set } => Box::new(Blob::new(text_element(*at, text, set))),
+            Ink::Group { ink, opacity, name } => {
+                let group = Group::new().set("opacity", *opacity).add(Title::new(clean(name)));
+                Box::new(ink.iter().fold(group, |group, own| group.add(own.node())))
+            }
         }
     }
 }

@@ -253,7 +253,13 @@ impl CaseBuilder {
             None => JointKind::Revolute,
             Some(angles) => JointKind::Prismatic { axes: angles.map(unit) },
         };
-        Ok(Joint { name: wish.name.clone(), kind, first: side(&wish.sides[0])?, second: side(&wish.sides[1])? })
+        Ok(Joint {
+            name: wish.name.clone(),
+            kind,
+            first: side(&wish.sides[0])?,
+            second: side(&wish.sides[1])?,
+            drawn: None,
+        })
     }
 
     /// The instants: the times given, or equal parts of a turn.

@@ -277,6 +277,17 @@ impl Load {
         }
     }
 
+    /// The points that it acts on; none of a moment.
+    #[must_use]
+    pub fn points(&self) -> Vec<Side> {
+        match self {
+            Load::Force { at, .. } | Load::ResistingForce { at, .. } => vec![*at],
+            Load::Spring { ends, .. } | Load::Damper { ends, .. } => ends.to_vec(),
+            Load::Resistance { .. } | Load::Moment { .. } => Vec::new(),
+            Load::TorsionSpring { .. } | Load::TorsionDamper { .. } => Vec::new(),
+        }
+    }
+
     /// The link on whose sense of rotation the load depends. The load jumps where that link reverses.
     #[inline]
     #[must_use]

@@ -151,6 +151,29 @@ impl JointKind {
     }
 }
 
+/// What a prismatic pair looks like in pictures. Nothing is calculated from it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Guise {
+    /// A piston in a cylinder.
+    Cylinder,
+    /// A block: on rails of the ground, or in a slot of a moving link.
+    Block,
+}
+
+impl Guise {
+    /// All of them.
+    pub const ALL: [Guise; 2] = [Guise::Cylinder, Guise::Block];
+
+    /// Name, as in scenario files.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Guise::Cylinder => "cylinder",
+            Guise::Block => "block",
+        }
+    }
+}
+
 /// One side of a joint: a point of a link.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Side {
@@ -172,6 +195,8 @@ pub struct Joint {
     pub first: Side,
     /// Second link and the joint's place on it.
     pub second: Side,
+    /// What it is drawn as, if that is said; of prismatic pairs only.
+    pub drawn: Option<Guise>,
 }
 
 impl Joint {
@@ -264,8 +289,8 @@ impl Mechanism {
         Ok(mechanism)
     }
 
-    /// Links and joints as they are, sound or not: for looking up names while a file with mistakes is read, and for
-    /// nothing else.
+    /// Links and joints as they are, sound or not: for looking up names in a file with mistakes, and for a picture of what
+    /// is there. Nothing else may rest on it.
     #[must_use]
     pub fn unchecked(links: Vec<Link>, joints: Vec<Joint>) -> Self {
         let size = links.iter().map(Link::extent).fold(0.0, f64::larger);

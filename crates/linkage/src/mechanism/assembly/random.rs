@@ -30,7 +30,13 @@ impl Random {
         let side = |link, local| Side { link, local };
         let axes = [self.number(-3.1, 3.1), self.number(-3.1, 3.1)].map(unit);
         let kind = if slides { JointKind::Prismatic { axes } } else { JointKind::Revolute };
-        Joint { name: name.into(), kind, first: side(first, self.place()), second: side(second, self.place()) }
+        Joint {
+            name: name.into(),
+            kind,
+            first: side(first, self.place()),
+            second: side(second, self.place()),
+            drawn: None,
+        }
     }
 
     /// Moves the second side of a joint so that the joint is closed in `pose`: the place of a revolute one, place and
