@@ -4,6 +4,8 @@ use std::collections::BTreeSet;
 use std::io::{BufRead, BufReader, Write};
 use std::net::TcpStream;
 use std::process::{Child, Command, Stdio};
+use std::thread::sleep;
+use std::time::Duration;
 
 use mcap::MessageStream;
 use serde_json::{Value, json};
@@ -67,11 +69,16 @@ struct Viewer(WebSocket<TcpStream>);
 
 impl Viewer {
     fn at(address: &str, name: &str) -> Viewer {
+        Viewer::let_in(address, name).unwrap()
+    }
+
+    /// The viewer, or why it is not let in.
+    fn let_in(address: &str, name: &str) -> Result<Viewer, String> {
         let mut request = format!("ws://{address}").into_client_request().unwrap();
         request.headers_mut().insert("sec-websocket-protocol", name.parse().unwrap());
         let stream = TcpStream::connect(address).unwrap();
-        stream.set_read_timeout(Some(std::time::Duration::from_secs(60))).unwrap();
-        Viewer(client(request, stream).unwrap().0)
+        stream.set_read_timeout(Some(Duration::from_secs(60))).unwrap();
+        client(request, stream).map(|(socket, _)| Viewer(socket)).map_err(|why| why.to_string())
     }
 
     fn say(&mut self, text: &Value) {
@@ -314,9 +321,7 @@ fn nonsense_hurts_nobody_and_names_that_are_not_spoken_are_refused() {
     for text in ["GET / HTTP/1.0\r\n\r\n", "\0\0\0\0", ""] {
         TcpStream::connect(&served.address).unwrap().write_all(text.as_bytes()).unwrap();
     }
-    let mut request = format!("ws://{}", served.address).into_client_request().unwrap();
-    request.headers_mut().insert("sec-websocket-protocol", "foxglove.sdk.v9".parse().unwrap());
-    let refused = client(request, TcpStream::connect(&served.address).unwrap()).err().unwrap().to_string();
+    let refused = Viewer::let_in(&served.address, "foxglove.sdk.v9").err().unwrap();
     assert!(refused.contains("400"), "{refused}");
     let mut viewer = Viewer::at(&served.address, NEW);
     viewer.channels();
@@ -341,18 +346,13 @@ fn more_viewers_than_may_look_on_wait_until_one_leaves() {
     let served = Served::by(Place::new(), RUN);
     let mut viewers: Vec<Viewer> = (0..32).map(|_| Viewer::at(&served.address, OLD)).collect();
     viewers.iter_mut().for_each(|viewer| drop(viewer.channels()));
-    let request = || {
-        let mut request = format!("ws://{}", served.address).into_client_request().unwrap();
-        request.headers_mut().insert("sec-websocket-protocol", OLD.parse().unwrap());
-        client(request, TcpStream::connect(&served.address).unwrap())
-    };
-    assert!(request().is_err());
+    assert!(Viewer::let_in(&served.address, OLD).is_err());
     viewers.pop();
-    let waits = || std::thread::sleep(std::time::Duration::from_millis(100));
-    assert!((0..100).any(|_| request().is_ok() || {
-        waits();
+    let waits = || {
+        sleep(Duration::from_millis(100));
         false
-    }));
+    };
+    assert!((0..100).any(|_| Viewer::let_in(&served.address, OLD).is_ok() || waits()));
 }
 
 #[test]
