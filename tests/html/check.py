@@ -13,7 +13,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from playwright.sync_api import sync_playwright
+from playwright.sync_api import Error, sync_playwright
 
 from contents import check_loads, check_plans
 from wrong import GO_TO, WITHIN, Wrong, need
@@ -152,6 +152,8 @@ def check_pointer(tab, count):
     """A click on a chart goes to its instant, and what is pointed at is read."""
     if count < 10:
         return
+    # Charts are drawn when they come near the window.
+    tab.locator("#charts .card").first.scroll_into_view_if_needed()
     chart = tab.locator("#charts svg").first
     chart.scroll_into_view_if_needed()
     box = chart.bounding_box()
@@ -307,7 +309,7 @@ def main():
                 if name == "crank_rocker":
                     check_play(browser, path)
                 print(f"{name:24} {size / 1e6:6.2f} MB" + (f"  links within {worst:.1e} of the size" if rows else ""), flush=True)
-            except Wrong as wrong:
+            except (Wrong, Error) as wrong:
                 print(f"{name:24} WRONG: {wrong}", flush=True)
                 failed += 1
         browser.close()

@@ -23,18 +23,14 @@ struct Reason {
 
 /// Why the verdict is no agreement, for the head of the page: the diagnosis and the first reasons. Empty if all agree.
 pub(super) fn why(proof: &Proof, tell: Tell) -> String {
-    let mut told = String::new();
-    for engine in &proof.engines {
-        if let (Some(error), 1) = (&engine.failure, proof.engines.len()) {
-            let _ = writeln!(told, "{} failed: {}\n", engine.info.name, error.message());
-        }
-        if let Some(fault) = engine.force_fault() {
-            let _ = writeln!(told, "{}\n", own_forces::sentence(fault));
-        }
+    if agrees(proof) {
+        return String::new();
     }
+    let mut told = String::new();
+    faults(proof, &mut told);
     reasons::diagnosed(proof, None, &mut told);
     write(&grouped(proof, tell), 0..FIRST, &mut told);
-    if told.is_empty() { told } else { format!("<div id=\"why\">\n{}</div>", paragraphs(&told)) }
+    format!("<div id=\"why\">\n{}</div>", paragraphs(&told))
 }
 
 /// Everything else that is found; empty where there is nothing to say.
@@ -43,14 +39,37 @@ pub(super) fn others(proof: &Proof, tell: Tell) -> String {
     if proof.engines.len() > 1 {
         let _ = writeln!(told, "Engines and reference against each other: {}\n", engines::disputes(proof));
     }
+    // What does not decide the verdict may be open beside an agreement.
+    if agrees(proof) {
+        faults(proof, &mut told);
+    }
     let all = grouped(proof, tell);
-    write(&all, FIRST..MOST, &mut told);
+    write(&all, if agrees(proof) { 0 } else { FIRST }..MOST, &mut told);
     if all.len() > MOST {
         let _ = writeln!(told, "\nOf {} more, the channels and the table of checks below tell why.", all.len() - MOST);
     }
     reasons::left_out(proof, None, &mut told);
     reasons::expected(proof, None, &mut told);
     paragraphs(&told)
+}
+
+fn agrees(proof: &Proof) -> bool {
+    match proof.verdict {
+        Verdict::Agree { .. } | Verdict::Expected { .. } => true,
+        Verdict::Disagree { .. } | Verdict::Inconclusive { .. } => false,
+    }
+}
+
+/// What became of an engine that failed, or whose own forces are wrong.
+fn faults(proof: &Proof, told: &mut String) {
+    for engine in &proof.engines {
+        if let (Some(error), 1) = (&engine.failure, proof.engines.len()) {
+            let _ = writeln!(told, "{} failed: {}\n", engine.info.name, error.message());
+        }
+        if let Some(fault) = engine.force_fault() {
+            let _ = writeln!(told, "{}\n", own_forces::sentence(fault));
+        }
+    }
 }
 
 fn write(all: &[Reason], which: std::ops::Range<usize>, told: &mut String) {

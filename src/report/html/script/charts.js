@@ -132,22 +132,20 @@ function chart(card, index) {
     return `${digits(ours, 6)} ${unit}${engineTold}`;
   };
   svg.addEventListener('click', (event) => { setPlaying(false); goTo(rowUnder(event)); });
-  svg.addEventListener('pointermove', (event) => {
-    const row = rowUnder(event);
-    pointed.setAttribute('x1', x(row));
-    pointed.setAttribute('x2', x(row));
-    now.textContent = `${digits(line[row])} ${abscissaUnit().split(', ')[1]}: ${valuesAt(row)}`;
-  });
-  svg.addEventListener('pointerleave', () => {
-    pointed.setAttribute('x1', -9);
-    pointed.setAttribute('x2', -9);
-    now.textContent = valuesAt(shown.row);
-  });
+  let under = null;
+  const tellValues = () => {
+    const place = under === null ? -9 : x(under);
+    pointed.setAttribute('x1', place);
+    pointed.setAttribute('x2', place);
+    now.textContent = under === null ? valuesAt(shown.row) : `${digits(line[under])} ${abscissaUnit().split(', ')[1]}: ${valuesAt(under)}`;
+  };
+  svg.addEventListener('pointermove', (event) => { under = rowUnder(event); tellValues(); });
+  svg.addEventListener('pointerleave', () => { under = null; tellValues(); });
   follow(svg, () => {
     const place = xs.at(linear(line));
     cursor.setAttribute('x1', place);
     cursor.setAttribute('x2', place);
-    now.textContent = valuesAt(shown.row);
+    tellValues();
   });
 }
 
