@@ -20,7 +20,7 @@ const CRATES: &[(&str, &str, &str, &str)] = &[
     ("rapier_twin", "crates/rapier-twin", "linkage", "parry2d parry2d-f64 rapier2d rapier2d-f64"),
     ("linkproof_simbody", "crates/simbody", "", ""),
     ("simbody_twin", "crates/simbody-twin", "linkage simbody", ""),
-    ("workshop", "crates/workshop", "analytic drawing linkage", "chacha20 cobyla parry2d-f64 quick-xml rand rayon svg"),
+    ("workshop", "crates/workshop", "analytic drawing linkage", "chacha20 cobyla parry2d-f64 quick-xml rand rayon"),
     (
         "linkproof",
         "",
@@ -185,7 +185,7 @@ const HOMES: &[(&str, &str)] = &[
     ("qd", "precise::long"),
     ("rayon", "workshop::synthesis"),
     ("parry2d_f64", "rapier_twin::double workshop::clearance"),
-    ("svg", "drawing::paper workshop::diagram"),
+    ("svg", "drawing::paper"),
     ("tiny_skia", "drawing::bitmap"),
     ("ttf_parser", "drawing::bitmap"),
     ("gif", "drawing::bitmap"),

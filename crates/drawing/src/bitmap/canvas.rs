@@ -125,3 +125,26 @@ fn paint(colour: &str, opacity: f64) -> Paint<'static> {
     paint.set_color_rgba8(red, green, blue, (opacity * 255.0).round() as u8);
     paint
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::paper::figure::solid;
+
+    #[test]
+    fn what_overlaps_in_a_group_is_no_darker() {
+        let square = |from: f64| {
+            [(0.0, 0.0), (4.0, 0.0), (4.0, -4.0), (0.0, -4.0)].map(|(x, y)| Vec2::new(x + from, y - 3.0)).to_vec()
+        };
+        let (mut group, mut figure) = (Figure::default(), Figure::default());
+        for from in [1.0, 3.0] {
+            group.shape(square(from), true, Some(("#000000", 1.0)), solid("#000000", 0.0));
+        }
+        figure.group(group, 0.5, "two squares".into());
+        let bitmap = bitmap(&figure, [10.0, 10.0], 100).unwrap();
+        let grey = |x: usize| bitmap.rgba[4 * (50 * 100 + x)];
+        // Beside them, in the first, in both.
+        assert_eq!(grey(5), 255);
+        assert!(grey(20).abs_diff(128) <= 1 && grey(20) == grey(40), "{} {}", grey(20), grey(40));
+    }
+}
