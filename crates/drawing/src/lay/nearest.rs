@@ -10,7 +10,7 @@ const HELD: f64 = 1000.0;
 const STARTS: usize = 12;
 const STEPS: usize = 60;
 const FEW: usize = 12;
-const MOST: usize = 60;
+const MOST: usize = 30;
 /// Step of the difference quotients, in radians and in sizes of the mechanism.
 const TINY: f64 = 1e-7;
 
