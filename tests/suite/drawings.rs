@@ -198,7 +198,11 @@ fn bitmaps_move_and_are_the_same_again() {
     let directory = tempfile::tempdir().unwrap();
     let path = |name: &str| directory.path().join(name).to_str().unwrap().to_string();
     for name in ["a.png", "a.gif", "a.webp"] {
-        let arguments = [&file("crank_rocker"), "-o", &path(name), "--width", "200", "--frames", "6", "--seconds", "3"];
+        let (own, to) = (file("crank_rocker"), path(name));
+        let mut arguments = vec![own.as_str(), "-o", &to, "--width", "200"];
+        if !name.ends_with("png") {
+            arguments.extend(["--frames", "6", "--seconds", "3"]);
+        }
         assert_eq!(draw(&arguments).0, 0, "{name}");
         let first = fs::read(path(name)).unwrap();
         assert_eq!(draw(&arguments).0, 0);
