@@ -1,6 +1,7 @@
 //! `linkproof draw`.
 
 mod media;
+mod motion;
 mod subject;
 
 use std::path::PathBuf;

@@ -230,6 +230,31 @@ fn bitmaps_move_and_are_the_same_again() {
     assert!(pixels.iter().any(|&part| part < 128) && pixels[..3] == [255; 3]);
 }
 
+/// A pendulum let go swings: its path is the arc to the other side, no circle; that of a double pendulum is no circle either.
+#[test]
+fn paths_of_what_swings_are_those_that_it_takes() {
+    let path = |name: &str| {
+        let text = svg(&[&file(name), "--traces"]);
+        let document = roxmltree::Document::parse(&text).unwrap();
+        let mut lines = document.descendants().filter_map(|node| node.attribute("d")).collect::<Vec<_>>();
+        lines.sort_by_key(|own| own.len());
+        let numbers = lines.last().unwrap().split(|sign: char| !matches!(sign, '0'..='9' | '.' | '-'));
+        let numbers: Vec<f64> = numbers.filter(|own| !own.is_empty()).map(|own| own.parse().unwrap()).collect();
+        assert!(numbers.len() > 200 && numbers.len().is_multiple_of(2), "{name}: {} numbers", numbers.len());
+        numbers
+    };
+    let extent = |own: &[f64], axis: usize| {
+        let all = || own.iter().skip(axis).step_by(2).copied();
+        all().fold(f64::NEG_INFINITY, f64::larger) - all().fold(f64::INFINITY, f64::smaller)
+    };
+    // Let go at 20 deg: as wide as 2 sin 20 deg, as high as 1 - cos 20 deg.
+    let arc = path("formulas/simple_pendulum");
+    let ratio = (1.0 - 20f64.to_radians().cos()) / (2.0 * 20f64.to_radians().sin());
+    approx::assert_relative_eq!(extent(&arc, 1) / extent(&arc, 0), ratio, max_relative = 2e-2);
+    let free = path("double_pendulum");
+    assert!(extent(&free, 1) < 0.7 * extent(&free, 0), "{} by {}", extent(&free, 0), extent(&free, 1));
+}
+
 #[test]
 fn wrong_input_is_refused_with_the_way_out() {
     let own = file("crank_rocker");

@@ -1,26 +1,22 @@
 //! What is drawn of a file: the mechanism in its poses, or as far as it can be laid.
 
-use std::f64::consts::TAU;
 use std::path::Path;
 
 use super::super::load;
+use super::motion::{swung, turned, with_travels};
 use crate::scenario::{Asked, Draft, Scenario};
 use drawing::lay::{Laid, all_modes, lay, lay_loose};
 use drawing::sheet::Cell;
 use drawing::view::{Extras, Shot, Subject, Trace, cells};
 use drawing::{Sketch, Travels, acting, unit};
-use linkage::case::{Case, Grid, Wanted};
 use linkage::drive::Drive;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::Vec2;
 use linkage::mechanism::{AssemblyMode, LinkPose, Mechanism, Structure};
 use linkage::solver::{Solver, State};
-use linkage::trajectory::Stage;
 use workshop::diagram::draw::significant;
 use workshop::diagram::plan::state_at;
 
-/// Instants of a turn over which travels and paths are found.
-const INSTANTS: usize = 180;
 /// Most configurations on a sheet, and most mistakes below one.
 const MOST: usize = 24;
 const SHOWN: usize = 3;
@@ -77,7 +73,7 @@ impl Drawn {
                 let crank = wish.crank.unwrap_or(scenario.case.crank().start);
                 Drawn::each_mode(draft_of(&scenario), crank, None)
             }
-            Ok(scenario) => Drawn::whole(scenario.nominal(), wish),
+            Ok(scenario) => Drawn::whole(scenario, wish),
             Err(error) => {
                 // What is wrong with the text itself is told by the reading of the draft.
                 let draft = load::draft(file, &asked)?;
@@ -152,8 +148,11 @@ impl Drawn {
 
     /// A mechanism that can be assembled.
     fn whole(scenario: Scenario, wish: &Wish) -> Result<Drawn> {
+        let (points, _) = traced(&scenario.case.mechanism, wish);
+        let is_motion_seen = wish.frames > 1 || !points.is_empty();
+        let own = if is_motion_seen { swung(&scenario.case, wish.solver) } else { None };
+        let scenario = scenario.nominal();
         let case = &scenario.case;
-        let (points, _) = traced(&case.mechanism, wish);
         let crank = wish.crank.unwrap_or(case.crank().start);
         let first = match state_at(case, wish.solver, crank) {
             Ok(state) => state,
@@ -161,11 +160,11 @@ impl Drawn {
             Err(error) => {
                 let error = analytic::range::explained(case, error);
                 let mut drawn = Drawn::partial(draft_of(&scenario), crank, error)?;
-                drawn.travels = motion(case, wish.solver).1;
+                drawn.travels = turned(case, wish.solver).1;
                 return Ok(drawn);
             }
         };
-        let (states, travels) = motion(case, wish.solver);
+        let (states, travels) = own.map_or_else(|| turned(case, wish.solver), |states| with_travels(case, states));
         let sketch = Sketch::of_case(case, &travels, unit(&case.mechanism));
         let shot = |state: &State| Shot {
             laid: Laid::whole(poses(state)),
@@ -307,32 +306,6 @@ fn draft_of(scenario: &Scenario) -> Draft {
 fn poses(state: &State) -> Vec<LinkPose> {
     let pose = |(motion, &angle): (&linkage::math::Motion, &f64)| LinkPose { origin: motion.origin, angle };
     state.motions.iter().zip(&state.angles).map(pose).collect()
-}
-
-/// The states of one turn from the start on, or of the grid where a turn is out of reach, and the travels in them.
-fn motion(case: &Case, solver: &dyn Solver) -> (Vec<State>, Travels) {
-    let crank = case.crank();
-    let turn: Vec<f64> =
-        (0..INSTANTS).map(|k| crank.start + crank.sense() * TAU * k as f64 / INSTANTS as f64).collect();
-    let wanted = Wanted::of(&[Stage::Positions, Stage::Velocities]);
-    let turned = case.on(Grid::of_cranks(crank, turn)).ok().and_then(|case| visited(&case.wanting(wanted), solver));
-    let states = turned.or_else(|| visited(&case.wanting(wanted), solver)).unwrap_or_default();
-    let mut travels = Travels::none(&case.mechanism);
-    for state in &states {
-        travels.take_in(&case.mechanism, |link, local| Some(state.motions[link].point(local)));
-    }
-    (states, travels)
-}
-
-/// The states of a case on its grid; `None` if there is an instant that cannot be reached.
-fn visited(case: &Case, solver: &dyn Solver) -> Option<Vec<State>> {
-    let mut states: Vec<Option<State>> = vec![None; case.grid.len()];
-    let mut visit = |row: usize, state: &State| {
-        states[row] = Some(state.clone());
-        Ok(())
-    };
-    solver.each(case, &mut visit).ok()?;
-    states.into_iter().collect()
 }
 
 /// The points whose paths are asked for, each with its link, and an error for each that there is not.

@@ -1,0 +1,61 @@
+//! The motion that a drawing shows: paths, travels, frames.
+
+use std::f64::consts::TAU;
+
+use drawing::Travels;
+use linkage::case::{Case, Grid, Wanted};
+use linkage::math::KeepNan;
+use linkage::solver::{Solver, State};
+use linkage::trajectory::Stage;
+
+/// Instants of a turn over which travels and paths are found.
+const INSTANTS: usize = 180;
+
+/// The states of the grid of a motion under forces that is no turn of the crank: a pendulum does not turn because its
+/// crank could.
+pub(super) fn swung(case: &Case, solver: &dyn Solver) -> Option<Vec<State>> {
+    let states = case.is_free().then(|| visited(&case.wanting(seen()), solver))??;
+    (case.drives.len() > 1 || !turns(&states, case.crank().link)).then_some(states)
+}
+
+/// What is solved of a motion to be drawn.
+fn seen() -> Wanted {
+    Wanted::of(&[Stage::Positions, Stage::Velocities])
+}
+
+/// The states of one turn from the start on, or of the grid where a turn is out of reach, and the travels in them.
+pub(super) fn turned(case: &Case, solver: &dyn Solver) -> (Vec<State>, Travels) {
+    let crank = case.crank();
+    let turn: Vec<f64> =
+        (0..INSTANTS).map(|k| crank.start + crank.sense() * TAU * k as f64 / INSTANTS as f64).collect();
+    let whole = case.on(Grid::of_cranks(crank, turn)).ok().and_then(|case| visited(&case.wanting(seen()), solver));
+    let states = whole.or_else(|| visited(&case.wanting(seen()), solver)).unwrap_or_default();
+    with_travels(case, states)
+}
+
+/// States with what every link does in them.
+pub(super) fn with_travels(case: &Case, states: Vec<State>) -> (Vec<State>, Travels) {
+    let mut travels = Travels::none(&case.mechanism);
+    for state in &states {
+        travels.take_in(&case.mechanism, |link, local| Some(state.motions[link].point(local)));
+    }
+    (states, travels)
+}
+
+/// Whether a link turns fully in these states.
+fn turns(states: &[State], link: usize) -> bool {
+    let angles = || states.iter().map(|state| state.angles[link]);
+    let [least, most] = [angles().fold(f64::INFINITY, f64::smaller), angles().fold(f64::NEG_INFINITY, f64::larger)];
+    most - least >= TAU
+}
+
+/// The states of a case on its grid; `None` if there is an instant that cannot be reached.
+fn visited(case: &Case, solver: &dyn Solver) -> Option<Vec<State>> {
+    let mut states: Vec<Option<State>> = vec![None; case.grid.len()];
+    let mut visit = |row: usize, state: &State| {
+        states[row] = Some(state.clone());
+        Ok(())
+    };
+    solver.each(case, &mut visit).ok()?;
+    states.into_iter().collect()
+}
