@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use super::engine_args::EngineArgs;
+use super::exit_code::graver;
 use super::progress::Bar;
-use super::run::{exit_code_of, graver};
 use super::{advice, exit_code, output, terminal};
 use crate::accept::{compared, figures, renewed};
 use crate::proof::{Proof, Reference, memory, prove_with};
@@ -79,7 +79,7 @@ fn one(args: &Args, file: &Path, document: &mut Document) -> Result<u8> {
     let proof = proven(args, &scenario)?;
     let found = figures(&proof);
     let comparison = kept.as_ref().map(|kept| compared(kept, &found));
-    let is_proven = exit_code_of(&proof.verdict) == exit_code::AGREE;
+    let is_proven = exit_code::of(&proof.verdict) == exit_code::AGREE;
     let deed = match &comparison {
         Some(_) if args.check => Deed::Checked,
         _ if !is_proven && !args.unproven => Deed::Refused,
@@ -105,8 +105,8 @@ fn one(args: &Args, file: &Path, document: &mut Document) -> Result<u8> {
         }
     }
     Ok(match (deed, &comparison) {
-        (Deed::Checked, Some(comparison)) => exit_code_of(&comparison.verdict),
-        (Deed::Refused, _) => exit_code_of(&proof.verdict),
+        (Deed::Checked, Some(comparison)) => exit_code::of(&comparison.verdict),
+        (Deed::Refused, _) => exit_code::of(&proof.verdict),
         (Deed::Written | Deed::Renewed | Deed::Kept | Deed::Checked, _) => exit_code::AGREE,
     })
 }

@@ -4,7 +4,6 @@ use std::path::PathBuf;
 
 use super::grid::GridArgs;
 use super::load::StartArgs;
-use super::run::exit_code_of;
 use super::{advice, exit_code, number, output, terminal};
 use crate::proof::claimed;
 use crate::report::check as report;
@@ -93,7 +92,7 @@ pub(super) fn check(args: &Args) -> u8 {
                 _ => report::brief(&scenario, &found, advice::told, width),
             })?;
         }
-        Ok(exit_code_of(&found.verdict))
+        Ok(exit_code::of(&found.verdict))
     };
     answer().unwrap_or_else(|error| {
         output::show(&error);

@@ -2,9 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
+use super::exit_code::graver;
 use super::load::plain;
 use super::progress::Bar;
-use super::run::graver;
 use super::{exit_code, output, standard_input};
 use crate::report::clearance::{self as report, Standing};
 use crate::scenario::Scenario;

@@ -4,11 +4,11 @@ use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
 
+use super::exit_code::graver;
 use super::grid::GridArgs;
 use super::load::StartArgs;
 use super::number::not_negative;
 use super::reports::Reports;
-use super::run::{exit_code_of, graver};
 use super::{advice, exit_code, output, terminal};
 use crate::record;
 use crate::report::outcomes::Outcomes;
@@ -148,7 +148,7 @@ pub(super) fn compare(args: &Args) -> u8 {
             terminal::print(&report::text(paths, &found, how, advice::told, terminal::columns()))?;
         }
         let written = args.reports.write(|| report::json(paths, &found, advice::told), &outcomes);
-        Ok(graver(exit_code_of(&found.verdict), written))
+        Ok(graver(exit_code::of(&found.verdict), written))
     };
     answer().unwrap_or_else(|error| {
         output::show(&error);

@@ -1,5 +1,7 @@
 //! Exit codes.
 
+use crate::compare::Verdict;
+
 /// Exit code when everything agrees.
 pub const AGREE: u8 = 0;
 
@@ -11,3 +13,35 @@ pub const BAD_INPUT: u8 = 2;
 
 /// Exit code when nothing is proven either way.
 pub const INCONCLUSIVE: u8 = 3;
+
+/// The exit code of a verdict.
+pub fn of(verdict: &Verdict) -> u8 {
+    match verdict {
+        Verdict::Agree { .. } | Verdict::Expected { .. } => AGREE,
+        Verdict::Disagree { .. } => DISAGREE,
+        Verdict::Inconclusive { .. } => INCONCLUSIVE,
+    }
+}
+
+/// The graver of two exit codes. Bad input is graver than disagreement, and disagreement graver than no proof.
+pub fn graver(a: u8, b: u8) -> u8 {
+    let rank = |code: u8| match code {
+        BAD_INPUT => 3,
+        DISAGREE => 2,
+        INCONCLUSIVE => 1,
+        _ => 0,
+    };
+    if rank(b) > rank(a) { b } else { a }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_gravest_outcome_decides_the_exit_code() {
+        assert_eq!([0, 3, 1].into_iter().fold(0, graver), 1);
+        assert_eq!([2, 1, 0].into_iter().fold(0, graver), 2);
+        assert_eq!([0, 3, 0].into_iter().fold(0, graver), 3);
+    }
+}

@@ -1,0 +1,222 @@
+//! What `linkproof run` shows and writes.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use super::args::Args;
+use crate::cli::engine_section::{self, keys};
+use crate::cli::exit_code::{self, graver};
+use crate::cli::html::Pages;
+use crate::cli::live::Live;
+use crate::cli::record_args::Recorded;
+use crate::cli::{advice, output, standard_input, terminal};
+use crate::proof::{EngineProof, Entry, Proof};
+use crate::report::closing::Closing;
+use crate::report::outcomes::Outcomes;
+use crate::report::{brief, explain, json, recorded, residuals, text};
+use crate::scenario::Scenario;
+use linkage::error::{Error, Result};
+use linkage::work::Work;
+
+/// What the command has shown and written so far. It takes the proofs in the order of the files.
+pub(super) struct Session<'a> {
+    args: &'a Args,
+    pages: Option<Pages>,
+    live: Option<&'a Live>,
+    /// What is said of the live server once all is written; `None` if there is no proof to show.
+    live_told: Option<String>,
+    document: json::Document,
+    outcomes: Outcomes,
+    closing: Closing,
+    worst: u8,
+}
+
+impl<'a> Session<'a> {
+    pub(super) fn of(args: &'a Args, pages: Option<Pages>, live: Option<&'a Live>) -> Self {
+        Session {
+            args,
+            pages,
+            live,
+            live_told: None,
+            document: json::Document::told_by(advice::told),
+            outcomes: Outcomes::told_by(advice::told),
+            closing: Closing::default(),
+            worst: exit_code::AGREE,
+        }
+    }
+
+    /// Whether standard output has the report; it is JSON otherwise.
+    fn reports(&self) -> bool {
+        !self.args.reports.takes_output()
+    }
+
+    fn failed(&mut self, file: &Path, error: &Error) {
+        output::show(error);
+        let named = standard_input::named(file).display().to_string();
+        self.document.add_failure(&named, error);
+        self.outcomes.add_failure(&named, error);
+        self.worst = exit_code::BAD_INPUT;
+    }
+
+    /// Shows a proof, writes its settings and its recording.
+    pub(super) fn take(&mut self, file: &Path, proven: Result<(Scenario, Proof)>) {
+        let shown = proven.and_then(|(scenario, proof)| {
+            if self.args.write {
+                write_settings(file, &scenario, &proof)?;
+            }
+            self.show(&proof)?;
+            Ok((scenario, proof))
+        });
+        let (scenario, proof) = match shown {
+            Ok(shown) => shown,
+            Err(error) => {
+                self.failed(file, &error);
+                self.closing.add_failure(&standard_input::named(file).display().to_string());
+                return;
+            }
+        };
+        // A proof is valid whether or not it can be recorded.
+        let recording = self.record(&scenario, &proof).unwrap_or_else(|error| {
+            self.failed(file, &error);
+            None
+        });
+        if let Err(error) = self.page(&scenario, &proof) {
+            self.failed(file, &error);
+        }
+        let layout = recording.as_ref().and_then(Recorded::layout);
+        if let Err(error) = self.show_live(&scenario, &proof, layout) {
+            self.failed(file, &error);
+        }
+        if self.tells() && self.args.files.len() > 1 {
+            self.print("\n");
+        }
+        self.worst = graver(self.worst, exit_code::of(&proof.verdict));
+        // With several engines, the report states the failure of one. With a single engine, its failure is the outcome.
+        if let [EngineProof { failure: Some(error), .. }] = proof.engines.as_slice() {
+            output::show(error);
+            self.worst = exit_code::BAD_INPUT;
+        }
+        self.closing.add(&proof);
+        self.outcomes.add(&proof);
+        self.document.add(&proof, recording.map(|recorded| recorded.path.display().to_string()));
+    }
+
+    /// The report of one proof: a line, what is needed to act, or everything.
+    fn show(&self, proof: &Proof) -> Result<()> {
+        let args = self.args;
+        if !self.reports() {
+            return Ok(());
+        }
+        terminal::print(&match (args.quiet, args.verbose) {
+            (true, _) => format!("{}\n", brief::verdict_line(proof)),
+            (_, true) => text::proof(proof, advice::told, terminal::width()),
+            _ => brief::proof(proof, advice::told, terminal::columns()),
+        })?;
+        if args.explain {
+            output::print(&format!("\n{}", explain::text(proof, &[recording_told(args)])))?;
+        }
+        if args.tolerance_scale == Some(0.0) {
+            output::print(&residuals::all(proof))?;
+        }
+        Ok(())
+    }
+
+    /// Whether more than the verdicts goes to the terminal.
+    fn tells(&self) -> bool {
+        self.reports() && !self.args.quiet
+    }
+
+    /// Prints what stands between and below the reports.
+    fn print(&mut self, text: &str) {
+        if let Err(error) = terminal::print(text) {
+            output::show(&error);
+            self.worst = exit_code::BAD_INPUT;
+        }
+    }
+
+    /// Records a proof, unless recording is off. A recording of another run is left alone.
+    fn record(&self, scenario: &Scenario, proof: &Proof) -> Result<Option<Recorded>> {
+        let recorded = self.args.record.record(scenario, proof, metadata(self.args, proof))?;
+        if let Some(recorded) = &recorded
+            && self.tells()
+        {
+            output::print(&recorded.told())?;
+        }
+        Ok(recorded)
+    }
+
+    /// Shows a proof to viewers, if they are served.
+    fn show_live(&mut self, scenario: &Scenario, proof: &Proof, layout: Option<&Path>) -> Result<()> {
+        let Some(live) = self.live else { return Ok(()) };
+        live.show_proof(&self.args.record, scenario, proof)?;
+        self.live_told = Some(live.told(layout));
+        Ok(())
+    }
+
+    /// Writes the page of a proof, if pages are asked for.
+    fn page(&mut self, scenario: &Scenario, proof: &Proof) -> Result<()> {
+        let Some(pages) = &mut self.pages else { return Ok(()) };
+        let path = pages.write(scenario, proof, &metadata(self.args, proof))?;
+        if self.tells() {
+            let gap = if self.args.record.is_off() { "\n" } else { "" };
+            output::print(&format!("{gap}page       {}\n", path.display()))?;
+        }
+        Ok(())
+    }
+
+    /// The table over all files, and the results for other programs; then viewers are served, if they are. Returns the
+    /// exit code.
+    pub(super) fn end(mut self) -> u8 {
+        if self.tells()
+            && let Some(table) = self.closing.text(terminal::columns())
+        {
+            self.print(&table);
+        }
+        let written = self.args.reports.write(|| self.document.text(), &self.outcomes);
+        if let (Some(live), Some(told)) = (self.live, self.live_told.take()) {
+            let tell = || match self.reports() {
+                true => self.print(&told),
+                false => output::note(told.trim()),
+            };
+            if let Err(error) = live.serve(tell) {
+                output::show(&error);
+                self.worst = exit_code::BAD_INPUT;
+            }
+        }
+        graver(self.worst, written)
+    }
+}
+
+/// What the command does about the recording.
+fn recording_told(args: &Args) -> Entry {
+    let why = if args.record.is_off() { "not asked for" } else { "written below" };
+    let work = (!args.record.is_off()).then_some(Work::NONE);
+    Entry { part: "recording".into(), why, work }
+}
+
+/// Writes the settings of the first engine to the scenario file, if the proof has found them.
+fn write_settings(file: &Path, scenario: &Scenario, proof: &Proof) -> Result<()> {
+    let engine = proof.engine();
+    match engine.search {
+        None => Ok(()),
+        Some(_) => engine_section::write(file, scenario, keys(scenario, engine.info.name, engine.info.settings)),
+    }
+}
+
+/// Versions, settings and verdict, and what the command asks for beyond the scenario's text.
+fn metadata(args: &Args, proof: &Proof) -> BTreeMap<String, String> {
+    let mut metadata = recorded::metadata(proof);
+    if !args.start.mode.is_empty() {
+        metadata.insert("modes".into(), args.start.mode.join(" "));
+    }
+    if !args.start.set.is_empty() {
+        let set: Vec<String> = args.start.set.iter().map(|(key, value)| format!("{key}={value}")).collect();
+        metadata.insert("parameters".into(), set.join(" "));
+    }
+    if !args.only.is_empty() {
+        metadata.insert("only".into(), args.only.join(" "));
+    }
+    metadata.extend(args.start.start_crank_deg.map(|degrees| ("start_crank_deg".into(), degrees.to_string())));
+    metadata.extend(args.grid.told().map(|(name, values)| (format!("grid_{name}"), values.to_string())));
+    metadata
+}
