@@ -59,7 +59,10 @@ impl Verdict {
     pub fn reason(&self, tell: impl Fn(&Advice) -> String) -> Option<String> {
         match self {
             Verdict::Agree { .. } => None,
-            Verdict::Expected { finding, .. } => Some(format!("expected, see docs/findings.md#{finding}")),
+            Verdict::Expected { finding, .. } => {
+                let place = tell(&Advice::Text(format!("docs/findings.md#{finding}")));
+                Some(format!("expected, see {place}"))
+            }
             Verdict::Disagree { place } => Some(place.clone()),
             Verdict::Inconclusive { reason, advice } => Some(match Advice::sentence(advice, tell) {
                 Some(way_out) => format!("{reason}; {way_out}"),

@@ -86,7 +86,7 @@ pub fn proof(proof: &Proof, tell: Tell, width: usize) -> String {
     reasons::reasons(proof, tell, width, most, &mut text);
     reasons::diagnosed(proof, width, &mut text);
     reasons::left_out(proof, width, &mut text);
-    reasons::expected(proof, width, &mut text);
+    reasons::expected(proof, tell, &mut text);
     text
 }
 

@@ -62,7 +62,7 @@ pub(super) fn diagnosed(proof: &Proof, width: Option<usize>, text: &mut String) 
 }
 
 /// The published numbers that are wrong as expected, by finding.
-pub(super) fn expected(proof: &Proof, width: Option<usize>, text: &mut String) {
+pub(super) fn expected(proof: &Proof, tell: Tell, text: &mut String) {
     let mut findings: Vec<(&str, usize)> = Vec::new();
     for check in proof.all_checks() {
         if let Verdict::Expected { finding, .. } = &check.verdict {
@@ -76,9 +76,10 @@ pub(super) fn expected(proof: &Proof, width: Option<usize>, text: &mut String) {
         return;
     }
     let count: usize = findings.iter().map(|(_, count)| count).sum();
-    let told: Vec<String> = findings.iter().map(|(finding, _)| format!("docs/findings.md#{finding}")).collect();
-    let told = format!("{count} checks disagree as expected, see {}", told.join(", "));
-    let _ = writeln!(text, "\n{}", wrapped(&told, width, 2));
+    let place = |finding: &str| tell(&Advice::Text(format!("docs/findings.md#{finding}")));
+    let told: Vec<String> = findings.iter().map(|(finding, _)| place(finding)).collect();
+    // One a line: a command that is broken cannot be copied.
+    let _ = writeln!(text, "\n{count} checks disagree as expected, see\n  {}", told.join(",\n  "));
 }
 
 /// How many instants are not judged, and of what.

@@ -62,7 +62,7 @@ pub fn proof(proof: &Proof, tell: Tell, width: Option<usize>) -> String {
     reasons::left_out(proof, width, &mut text);
     let all: Vec<&Check> = proof.all_checks().collect();
     let _ = writeln!(text, "\nChecks:\n{}", trimmed(&checks(&all, width)));
-    reasons::expected(proof, width, &mut text);
+    reasons::expected(proof, tell, &mut text);
     reasons::reasons(proof, tell, width, REASONS, &mut text);
     reasons::diagnosed(proof, width, &mut text);
     text

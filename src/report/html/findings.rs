@@ -49,7 +49,7 @@ pub(super) fn others(proof: &Proof, tell: Tell) -> String {
         let _ = writeln!(told, "\nOf {} more, the channels and the table of checks below tell why.", all.len() - MOST);
     }
     reasons::left_out(proof, None, &mut told);
-    reasons::expected(proof, None, &mut told);
+    reasons::expected(proof, tell, &mut told);
     paragraphs(&told)
 }
 
