@@ -121,7 +121,9 @@ impl Verdict {
     ) -> Self {
         let bound = parts.sum();
         if scale == 0.0 && value > 0.0 {
-            let reason = "the grid has no extent that an error could be measured by; give it more than one instant";
+            // One instant at rest, or no mass and no load at all.
+            let reason = "the reference is zero throughout, without a scale that an error could be measured by; \
+                          masses, loads or more instants would give one";
             return Verdict::open(reason);
         }
         if parts.iteration.is_infinite() {
