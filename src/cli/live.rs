@@ -68,7 +68,7 @@ impl Live {
     fn at(_: &str) -> Result<Live> {
         let message = "--live is asked for, but this build does not have it";
         Err(Error::new(ErrorKind::Unsupported, message)
-            .help("build with the cargo feature \"live\" (`cargo install --features live linkproof`)")
+            .help("build with the cargo feature \"live\": in the repository, `cargo install --path . --features live`")
             .or_help("leave out --live, and open the recording: linkproof view FILE.mcap"))
     }
 

@@ -25,7 +25,7 @@ use linkage::error::Advice;
 ///
 /// ```toml
 /// [dev-dependencies]
-/// linkproof = { version = "0.1", features = ["testing"] }
+/// linkproof = { path = "../linkproof", features = ["testing"] }
 ///
 /// [[test]]
 /// name = "scenarios"

@@ -225,11 +225,11 @@ fn val_crank_rocker_steady_speed() {
         assert_within!((speed(mean) - 14.33204).abs(), 0.5e-5, "{mean}");
         assert_within!((ratio * speed(mean) - 302.6266).abs(), 0.5e-4, "{mean}");
     }
-    // As printed: the ratio is rounded to 21.14 there, and the motor's speed follows from the rounded crank speed.
-    let printed = 21.14;
-    let twice = (a - 17.76 / (printed * printed)) / (b * printed);
-    assert_within!((twice - 14.85).abs(), 0.005, "{twice}");
-    assert_within!((14.85 * ratio - 313.6).abs(), 0.05, "{twice}");
+    // As printed: by the law before its coefficients were rounded.
+    let (a, b) = (22.50986, 0.071_651_1);
+    let twice = (a - 17.76 / (ratio * ratio)) / b;
+    assert_within!((twice - 313.6).abs(), 0.05, "{twice}");
+    assert_within!((twice / ratio - 14.85).abs(), 0.005, "{twice}");
 }
 
 /// The headings of the findings as anchors.

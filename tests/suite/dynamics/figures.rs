@@ -39,6 +39,38 @@ fn val_crank_rocker_reduced_means_and_maximum() {
     assert_within!((inertia.least.1 - own.least.1).abs(), 1e-13);
 }
 
+/// The authors' means are sums over the number of values: 361, with 0 deg and 360 deg both counted. Their sum of the
+/// inertia leaves the crank's out.
+#[test]
+fn val_crank_rocker_printed_means_count_one_position_twice() {
+    let case = shipped("crank_rocker.toml").case;
+    let crank = &case.mechanism.links()[1];
+    let about_pivot = crank.inertia + crank.mass * crank.mass_centre.norm_squared();
+    for solver in analytic::all() {
+        let (mut inertia, mut resistance, mut count) = (0.0, 0.0, 0.0);
+        let mut add = |_: usize, state: &linkage::solver::State| {
+            inertia += means::moment_of_inertia(&case, &state.motions) - about_pivot;
+            resistance += means::moment_of_resistance(&case, state);
+            count += 1.0;
+            Ok(())
+        };
+        solver.each(&case, &mut add).unwrap();
+        assert_eq!(count, 361.0);
+        assert_within!((inertia / count - 0.1645).abs(), 0.5e-4, "{}: {}", solver.name(), inertia / count);
+        assert_within!((resistance / count - 17.76).abs(), 0.5e-2, "{}: {}", solver.name(), resistance / count);
+    }
+}
+
+/// Of the ways to find the greatest reduced resistance, all weights with g = 9.8 m/s^2 round to the printed 36.98 N m.
+#[test]
+fn val_crank_rocker_printed_greatest_resistance_has_g_of_9_8() {
+    let case = shipped("crank_rocker.toml").case;
+    let greatest = |case: &linkage::case::Case| Model::of(case).unwrap().extremes().unwrap()[1].greatest.1;
+    assert_within!((greatest(&case) - 36.990_825).abs(), 0.5e-6);
+    let lighter = case.with(|parts| parts.gravity = Vec2::new(0.0, -9.8)).unwrap();
+    assert_within!((greatest(&lighter) - 36.98).abs(), 0.5e-2);
+}
+
 #[test]
 fn val_crank_rocker_steady_motion() {
     let case = shipped("crank_rocker.toml").case;

@@ -13,6 +13,7 @@ use linkage::trajectory::{Channel, Stage, Trajectory, Unit};
 use linkproof::compare::{Verdict, residuals};
 use linkproof::engines::EngineName;
 use linkproof::proof::{Options, prove};
+use linkproof::scenario::Scenario;
 
 use crate::common::{assert_within, shipped};
 
@@ -34,7 +35,10 @@ pub(super) fn column<'a>(trajectory: &'a Trajectory, name: &str) -> &'a [f64] {
 const RUN_UPS: [&str; 6] =
     ["crank_rocker_runup", "ov7_new_runup", "compressor_runup", "pendulum", "double_pendulum", "five_bar_on_a_spring"];
 
-/// Side 1 (reduced equation of motion, or transfer functions group by group) against side 2 (embedding with the
+/// Motions through change points.
+const CHAINS: [&str; 2] = ["n_four_bar_1", "n_four_bar_2"];
+
+/// The README's figures. Side 1 (reduced equation of motion, or transfer functions group by group) against side 2 (embedding with the
 /// Jacobian of the whole mechanism), from positions to reactions.
 #[test]
 fn both_sides_agree_in_every_channel() {
@@ -43,6 +47,24 @@ fn both_sides_agree_in_every_channel() {
         let found = worst(&solve(&AssurSolver, &case), &solve(&NewtonSolver, &case), |_| true);
         println!("{name}: {found:.1e}");
         assert_within!(found, 1e-10, "{name}: {found:e}");
+    }
+    for name in CHAINS {
+        let case = shipped(&format!("{name}.toml")).case;
+        let found = worst(&solve(&AssurSolver, &case), &solve(&NewtonSolver, &case), |_| true);
+        println!("{name}: {found:.1e}");
+        assert_within!(found, 1e-8, "{name}: {found:e}");
+    }
+}
+
+/// Every other shipped free motion is a chain of four-bars.
+#[test]
+fn every_shipped_free_motion_is_compared() {
+    let directory = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios");
+    let files = std::fs::read_dir(directory).unwrap().map(|entry| entry.unwrap().path());
+    let scenarios = files.filter(|path| path.extension().is_some_and(|end| end == "toml"));
+    for scenario in scenarios.map(|path| Scenario::load(&path).unwrap()).filter(|s| s.case.crank().is_free()) {
+        let listed = RUN_UPS.iter().chain(&CHAINS).any(|name| *name == scenario.name);
+        assert!(listed, "{} is a free motion, and no test compares its two sides", scenario.name);
     }
 }
 
