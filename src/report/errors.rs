@@ -11,7 +11,7 @@ const LONGEST: usize = 2000;
 
 /// A text with every letter that is not seen written out, so that no name from a file forges a line or commands a
 /// terminal, and of bounded length. Help may have several lines, such as a section to add.
-fn visible(text: &str, has_lines: bool) -> String {
+pub(crate) fn visible(text: &str, has_lines: bool) -> String {
     let mut shown = String::new();
     for letter in text.chars().take(LONGEST) {
         match is_unseen(letter) && !(has_lines && letter == '\n') {

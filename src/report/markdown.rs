@@ -72,6 +72,20 @@ fn line(text: &str) -> String {
     one.join(" ").replace('<', "&lt;").replace('*', "\\*")
 }
 
+/// Text of strangers in one line: it names no link, is no code and no markup.
+pub(super) fn foreign(text: &str) -> String {
+    let one: Vec<&str> = text.split_whitespace().collect();
+    let letters = one.join(" ");
+    let mut shown = String::new();
+    for letter in letters.chars() {
+        if "\\`*[]<>|#&~!$".contains(letter) {
+            shown.push('\\');
+        }
+        shown.push(letter);
+    }
+    shown
+}
+
 fn cell(text: &str) -> String {
     line(text).replace('|', "\\|")
 }

@@ -4,5 +4,7 @@ mod bad;
 mod entry_points;
 mod memory;
 mod names;
+mod overwriting;
+mod recordings;
 mod scales;
 mod turns;
