@@ -78,10 +78,12 @@ pub(super) fn foreign(text: &str) -> String {
     let letters = one.join(" ");
     let mut shown = String::new();
     for letter in letters.chars() {
-        if "\\`*[]<>|#&~!$".contains(letter) {
-            shown.push('\\');
+        match letter {
+            '<' => shown.push_str("&lt;"),
+            '&' => shown.push_str("&amp;"),
+            '\\' | '`' | '*' | '[' | ']' | '>' | '|' | '#' | '~' | '!' | '$' => shown.extend(['\\', letter]),
+            _ => shown.push(letter),
         }
-        shown.push(letter);
     }
     shown
 }
