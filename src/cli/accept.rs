@@ -93,7 +93,8 @@ fn one(args: &Args, file: &Path, document: &mut Document) -> Result<u8> {
         _ => None,
     };
     if let Some(figures) = written {
-        output::write(&accepted::text(&figures), &place)?;
+        // What is there has been read as figures of this scenario.
+        output::make_by(accepted::text(&figures).as_bytes(), &place, &|_| kept.is_some())?;
     }
     let item = Item { proof: &proof, found: &found, comparison: comparison.as_ref(), deed, file: &place };
     document.add(&item);

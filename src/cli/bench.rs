@@ -33,6 +33,8 @@ Writes NAME.time.svg, NAME.solutions.svg, NAME.inner.svg and NAME.csv of every s
 Times are ratios to that of side 1 in the same command; they may differ from run to run, errors and counts do not. \
 `linkproof docs peers` tells how any other program is put on the diagrams.";
 
+/// Name of the file with the numbers of all scenarios.
+const TOTAL: &str = "bench.json";
 /// Longest time of one call of a peer (s).
 const LIMIT: f64 = 60.0;
 
@@ -105,6 +107,9 @@ pub(super) fn run(args: &Args) -> Result<()> {
             .key("--out")
             .help("give a directory that may be made or written to")
     })?;
+    let endings = || Axis::ALL.map(|axis| format!("{}.svg", axis.name())).into_iter().chain(["csv".into()]);
+    let places = scenarios.iter().flat_map(|own| endings().map(|ending| place(args, &own.name, &ending)));
+    output::may_make(&places.chain([args.out.join(TOTAL)]).collect::<Vec<_>>())?;
     let since = Instant::now();
     let wall = move || since.elapsed().as_secs_f64();
     let used = move || used(since);
@@ -115,7 +120,7 @@ pub(super) fn run(args: &Args) -> Result<()> {
         put(args, &found, &machine)?;
         benches.push(found);
     }
-    output::write(&report::json(&benches, &machine), &args.out.join("bench.json"))?;
+    output::make(&report::json(&benches, &machine), &args.out.join(TOTAL))?;
     match &args.page {
         Some(page) => {
             let text = bench_page::page(&benches, &machine, &command(args), &seen_from(page, &args.out));
@@ -159,14 +164,19 @@ fn one(args: &Args, scenario: &Scenario, options: &Options, [used, wall]: [Clock
     bench(scenario, options, &peers, used, &mut |part| bar.at(part))
 }
 
+/// A file of a scenario in the directory.
+fn place(args: &Args, name: &str, ending: &str) -> PathBuf {
+    args.out.join(format!("{name}.{ending}"))
+}
+
 /// Diagrams and numbers of one scenario.
 fn put(args: &Args, found: &Bench, machine: &report::Machine) -> Result<()> {
-    let place = |end: &str| args.out.join(format!("{}.{end}", found.scenario[0]));
-    output::write(&report::rows(found, machine)?, &place("csv"))?;
+    let place = |end: &str| place(args, &found.scenario[0], end);
+    output::make(&report::rows(found, machine)?, &place("csv"))?;
     for axis in Axis::ALL {
         let drawn = bench_plot::drawing(found, axis).map_err(|message| Error::new(ErrorKind::Numeric, message))?;
         if let Some(text) = drawn {
-            output::write(&text, &place(&format!("{}.svg", axis.name())))?;
+            output::make(&text, &place(&format!("{}.svg", axis.name())))?;
         }
     }
     Ok(())

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use crate::engines::named;
-use crate::files;
+use crate::files::{self, Target};
 use crate::scenario::{EngineKeys, Scenario, edit};
 use linkage::engine::Settings;
 use linkage::error::Result;
@@ -33,7 +33,7 @@ pub(super) fn keys(scenario: &Scenario, name: &str, settings: Settings) -> (Opti
 /// [`ErrorKind::Io`] if the file cannot be written, and those of [`edit::with_engine`].
 pub(super) fn write(file: &Path, scenario: &Scenario, keys: (Option<f64>, EngineKeys)) -> Result<()> {
     let text = edit::with_engine(&scenario.text, keys)?;
-    files::replace(file, |mut to| to.write_all(text.as_bytes())).map_err(|error: io::Error| {
+    files::replace(&Target::Named(file), |mut to| to.write_all(text.as_bytes())).map_err(|error: io::Error| {
         let usual = "check that the file may be written to, or copy the section by hand";
         files::unwritten(&file.display().to_string(), &error, Some(text.len() as u64), usual)
     })

@@ -66,7 +66,7 @@ fn put(text: &str, to: Option<&Path>, name: &str) -> Result<()> {
         Some(to) => output::write(text, to),
         None => {
             // The user did not choose this name, so it is printed.
-            output::write(text, Path::new(name))?;
+            output::make(text, Path::new(name))?;
             output::print(&format!("{name}\n"))
         }
     }

@@ -60,7 +60,10 @@ impl Pages {
         let beside = Beside { given: &scenario.text, settings, reduced: reduced(scenario) };
         let page = html::page(proof, &beside, advice::told);
         let path = self.place(&scenario.name)?;
-        output::write(&page, &path)?;
+        match self.is_directory {
+            true => output::make(&page, &path)?,
+            false => output::write(&page, &path)?,
+        }
         Ok(path)
     }
 

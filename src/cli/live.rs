@@ -10,6 +10,8 @@ mod show;
 mod stage;
 #[cfg(feature = "live")]
 mod viewer;
+#[cfg(feature = "live")]
+mod wants;
 
 use std::path::PathBuf;
 

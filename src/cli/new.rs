@@ -74,7 +74,7 @@ fn begun(template: &Template, file: &str) -> String {
 
 /// Refuses what would replace a file.
 fn free(path: &Path, force: bool, other: &str) -> Result<()> {
-    if force || !path.exists() {
+    if force || path.symlink_metadata().is_err() {
         return Ok(());
     }
     Err(Error::new(ErrorKind::Input, format!("{} is there already", path.display()))
@@ -92,7 +92,10 @@ fn begin(name: &str, args: &Args) -> Result<u8> {
         return Ok(told(&text, Path::new("standard output"), template));
     }
     free(path, args.force, "give another name with --output")?;
-    output::write(&text, path)?;
+    match args.output {
+        Some(_) => output::write(&text, path)?,
+        None => output::make_by(text.as_bytes(), path, &|_| args.force)?,
+    }
     let code = told(&text, path, template);
     if code == exit_code::AGREE {
         output::print(&begun(template, &path.display().to_string()))?;
@@ -127,7 +130,7 @@ fn ship(directory: &Path, force: bool) -> Result<()> {
             Error::new(ErrorKind::Io, format!("cannot make the directory of {}: {error}", path.display()))
                 .help("check that this directory may be written to")
         })?;
-        output::stream(&path, |out| out.write_all(bytes))?;
+        output::make_by(bytes, &path, &|_| force)?;
     }
     output::print(&format!("{} files in {}\n", files.len(), directory.display()))
 }

@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use super::advice;
-use crate::files;
+use crate::files::{self, Target};
 use crate::report::errors;
 use linkage::error::{Error, ErrorKind, Result};
 
@@ -69,26 +69,57 @@ pub(super) fn directory(text: &str) -> std::result::Result<PathBuf, String> {
     Ok(path)
 }
 
-/// Writes text to a file, or to standard output for `-`.
+/// Writes text to a file that the caller named, or to standard output for `-`.
 pub(super) fn write(text: &str, to: &Path) -> Result<()> {
-    sized(to, Some(text.len() as u64), |out| out.write_all(text.as_bytes()))
+    write_bytes(text.as_bytes(), to)
 }
 
-/// Writes bytes to a file, or to standard output for `-`.
+/// Writes bytes to a file that the caller named, or to standard output for `-`.
 pub(super) fn write_bytes(bytes: &[u8], to: &Path) -> Result<()> {
-    sized(to, Some(bytes.len() as u64), |out| out.write_all(bytes))
-}
-
-/// Lets `fill` write piece by piece to a file, or to standard output for `-`.
-pub(super) fn stream(to: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<()> {
-    sized(to, None, fill)
-}
-
-fn sized(to: &Path, needs: Option<u64>, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<()> {
-    if is_standard(to) {
-        return printed(fill);
+    match is_standard(to) {
+        true => printed(|out| out.write_all(bytes)),
+        false => put(&Target::Named(to), to, Some(bytes.len() as u64), |out| out.write_all(bytes)),
     }
-    files::replace(to, |mut file| fill(&mut file)).map_err(|error: io::Error| {
+}
+
+/// Lets `fill` write piece by piece to a file that the caller named, or to standard output for `-`.
+pub(super) fn stream(to: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<()> {
+    match is_standard(to) {
+        true => printed(fill),
+        false => put(&Target::Named(to), to, None, fill),
+    }
+}
+
+/// Writes text with its seal to a file whose name the program made up. What is there is replaced if its seal is
+/// unbroken, else it is an error.
+pub(super) fn make(text: &str, to: &Path) -> Result<()> {
+    make_by(files::sealed(text, to).as_bytes(), to, &files::is_sealed)
+}
+
+/// Writes bytes to a file whose name the program made up. What is there is replaced if `is_ours` says so, else it is an
+/// error.
+pub(super) fn make_by(bytes: &[u8], to: &Path, is_ours: &dyn Fn(&[u8]) -> bool) -> Result<()> {
+    put(&Target::Made(to, is_ours), to, Some(bytes.len() as u64), |out| out.write_all(bytes))
+}
+
+/// Why [`make`] would be refused at one of these places: what is there may not be replaced.
+pub(super) fn may_make(places: &[PathBuf]) -> Result<()> {
+    for to in places {
+        if let Some(why) = Target::Made(to, &files::is_sealed).in_the_way() {
+            let error = io::Error::new(io::ErrorKind::AlreadyExists, why);
+            return Err(files::unwritten(&to.display().to_string(), &error, None, ""));
+        }
+    }
+    Ok(())
+}
+
+fn put(
+    target: &Target,
+    to: &Path,
+    needs: Option<u64>,
+    fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> Result<()> {
+    files::replace(target, |mut file| fill(&mut file)).map_err(|error: io::Error| {
         let usual = "check that the directory exists, may be written to and has room";
         files::unwritten(&to.display().to_string(), &error, needs, usual)
     })

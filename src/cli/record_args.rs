@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::{advice, number, output};
-use crate::files;
+use crate::files::{self, Target};
 use crate::proof::Proof;
 use crate::record::{self, Place, Recording, Show, Side};
 use crate::report::{layout, recorded};
@@ -53,7 +53,8 @@ pub(super) struct RecordArgs {
 pub(super) struct Recorded {
     /// Its file.
     pub path: PathBuf,
-    layout: Option<PathBuf>,
+    /// Its layout, and why it is an older one.
+    layout: Option<(PathBuf, String)>,
     bytes: u64,
     /// Why it has not the usual name.
     why: String,
@@ -112,10 +113,19 @@ impl RecordArgs {
             record::write(recording, &path).map(|()| record::view(recording))
         })?;
         let layout = view.map(|view| (path.with_extension("foxglove.json"), layout::text(&view)));
-        let layout = match layout {
-            Some((to, text)) => output::write(&text, &to).map(|()| Some(to))?,
-            None => None,
-        };
+        let layout = layout.map(|(to, text)| -> Result<(PathBuf, String)> {
+            let kept = Target::Made(&to, &files::is_sealed).in_the_way();
+            let told = match kept {
+                Some(why) => format!(
+                    "\n           {why}: it is kept;\n           \
+                     linkproof view {} --with foxglove -o OTHER.json writes a new one",
+                    path.display()
+                ),
+                None => output::make(&text, &to).map(|()| String::new())?,
+            };
+            Ok((to, told))
+        });
+        let layout = layout.transpose()?;
         let bytes = fs::metadata(&path).map_or(0, |found| found.len());
         let why = other.map_or(String::new(), |found| {
             format!("\n           {}.mcap is of another run and is kept: {found}", scenario.name)
@@ -177,13 +187,13 @@ impl RecordArgs {
 impl Recorded {
     /// Its layout.
     pub(super) fn layout(&self) -> Option<&Path> {
-        self.layout.as_deref()
+        self.layout.as_ref().map(|(path, _)| path.as_path())
     }
 
     /// Where it is, how large, and what opens it well.
     pub(super) fn told(&self) -> String {
-        let layout = |path: &Path| format!("\nlayout     {}", path.display());
-        let layout = self.layout.as_deref().map_or(String::new(), layout);
+        let layout = |(path, kept): &(PathBuf, String)| format!("\nlayout     {}{kept}", path.display());
+        let layout = self.layout.as_ref().map_or(String::new(), layout);
         format!(
             "\nrecording  {} ({}){}{}{layout}\n",
             self.path.display(),

@@ -1,6 +1,7 @@
 //! `linkproof completions` and `linkproof man`: what a shell and a manual know of the command line, from the same
 //! arguments.
 
+use std::ffi::OsString;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -58,8 +59,20 @@ pub(super) fn man(args: &ManArgs, command: Command) -> Result<()> {
         Man::new(command).render(&mut page).map_err(|error| failed(Path::new("-"), &error))?;
         return output::print(&String::from_utf8_lossy(&page));
     };
-    let written = fs::create_dir_all(directory).and_then(|()| clap_mangen::generate_to(command, directory));
-    written.map_err(|error| failed(directory, &error))
+    let pages = || -> io::Result<Vec<(OsString, String)>> {
+        fs::create_dir_all(directory)?;
+        let own = tempfile::tempdir()?;
+        clap_mangen::generate_to(command, own.path())?;
+        let read = |entry: io::Result<fs::DirEntry>| {
+            let entry = entry?;
+            Ok((entry.file_name(), fs::read_to_string(entry.path())?))
+        };
+        fs::read_dir(own.path())?.map(read).collect()
+    };
+    for (name, text) in pages().map_err(|error| failed(directory, &error))? {
+        output::make(&text, &directory.join(name))?;
+    }
+    Ok(())
 }
 
 fn failed(to: &Path, error: &io::Error) -> Error {

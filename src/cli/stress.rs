@@ -76,6 +76,8 @@ fn stress(args: &Args) -> Result<u8> {
         all.extend(jobs(family, args.quick, args.seed, &kept.map_or_else(Vec::new, |text| report::outcomes(&text))));
     }
     // What cannot be written is found before minutes are spent.
+    let pictures = families.iter().map(|family| args.out.join(format!("{}.svg", family.name)));
+    output::may_make(&pictures.chain([args.out.join("report.txt")]).collect::<Vec<_>>())?;
     for &family in &families {
         write_json(args, family, &all)?;
     }
@@ -93,14 +95,15 @@ fn stress(args: &Args) -> Result<u8> {
         families.iter().map(|&family| (family, of(family, &all).collect())).collect();
     for (family, outcomes) in &found {
         let place = |extension: &str| args.out.join(format!("{}.{extension}", family.name));
-        output::write(&report::rows(family, outcomes.iter().copied())?, &place("csv"))?;
-        output::write(&report::map(family, outcomes)?, &place("svg"))?;
+        let rows = report::rows(family, outcomes.iter().copied())?;
+        output::make_by(rows.as_bytes(), &place("csv"), &|old| first_line(old) == first_line(rows.as_bytes()))?;
+        output::make(&report::map(family, outcomes)?, &place("svg"))?;
     }
     if let Some(to) = &args.page {
         write_page(args, to, &found)?;
     }
     let text = report::text(&found);
-    output::write(&text, &args.out.join("report.txt"))?;
+    output::make(&text, &args.out.join("report.txt"))?;
     output::print(&format!(
         "{text}Seed {}. {open} of {total} points were run, the others were in {} already.\n",
         args.seed,
@@ -108,6 +111,11 @@ fn stress(args: &Args) -> Result<u8> {
     ))?;
     let tally = report::Tally::of(found.iter().flat_map(|(_, all)| all.iter().copied()));
     Ok(if tally.silent == 0 && tally.panics == 0 { exit_code::AGREE } else { exit_code::DISAGREE })
+}
+
+/// The header of a table: no other program has the same.
+fn first_line(bytes: &[u8]) -> Option<&[u8]> {
+    bytes.split(|&byte| byte == b'\n').next().map(<[u8]>::trim_ascii_end)
 }
 
 fn json_of(out: &Path, family: &Family) -> PathBuf {
@@ -120,7 +128,8 @@ fn of<'a>(family: &'static Family, jobs: &'a [Job]) -> impl Iterator<Item = &'a 
 
 /// Writes what is finished of a family.
 fn write_json(args: &Args, family: &'static Family, jobs: &[Job]) -> Result<()> {
-    output::write(&report::json(family, args.seed, of(family, jobs)), &json_of(&args.out, family))
+    let text = report::json(family, args.seed, of(family, jobs));
+    output::make_by(text.as_bytes(), &json_of(&args.out, family), &|old| report::is_kept(old, family))
 }
 
 /// The page, and the maps in a directory of its name.
@@ -133,7 +142,7 @@ fn write_page(args: &Args, to: &Path, found: &[(&Family, Vec<&Outcome>)]) -> Res
             .help("name a file in a directory that may be written to")
     })?;
     for (family, outcomes) in found {
-        output::write(&report::map(family, outcomes)?, &maps.join(format!("{}.svg", family.name)))?;
+        output::make(&report::map(family, outcomes)?, &maps.join(format!("{}.svg", family.name)))?;
     }
     let quick = if args.quick { " --quick" } else { "" };
     let command = format!("linkproof stress{quick} --out DIR --page {}", to.display());

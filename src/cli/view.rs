@@ -62,7 +62,10 @@ pub(super) fn view(args: &Args) -> Result<()> {
                 Error::new(ErrorKind::Io, format!("{} cannot be written by `{python}`: {found}", to.display()))
                     .help("`python3 -m pip install rerun-sdk`, or name a Python that has it with --python")
             })?;
-            output::stream(&to, |out| out.write_all(&made))?;
+            match args.output {
+                Some(_) => output::write_bytes(&made, &to)?,
+                None => output::make_by(&made, &to, &is_film)?,
+            }
             output::print(&format!("rerun      {}\n", to.display()))?;
             if args.output.is_none() {
                 outside::opened(&to, python).map_err(|found| {
@@ -74,7 +77,7 @@ pub(super) fn view(args: &Args) -> Result<()> {
         Viewer::Foxglove => {
             let film = record::film(&args.file)?;
             let to = beside("foxglove.json");
-            output::write(&layout::text(&film.view), &to)?;
+            put(args, &layout::text(&film.view), &to)?;
             output::print(&format!(
                 "layout     {}\n\
                  1. Open {} in Foxglove or Lichtblick (open local file).\n\
@@ -86,7 +89,7 @@ pub(super) fn view(args: &Args) -> Result<()> {
         Viewer::Plotjuggler => {
             let to = beside("plotjuggler.xml");
             let numbers = record::numbers(&args.file)?;
-            output::write(&plotjuggler::text(&numbers, &seen_from(&to, &args.file)), &to)?;
+            put(args, &plotjuggler::text(&numbers, &seen_from(&to, &args.file)), &to)?;
             output::print(&format!(
                 "layout     {}\n\
                  plotjuggler -l FILE, FILE being the layout above: it reads the recording by itself.\n",
@@ -95,6 +98,20 @@ pub(super) fn view(args: &Args) -> Result<()> {
         }
     }
     Ok(())
+}
+
+/// Writes a layout, over no other one that nobody named.
+fn put(args: &Args, text: &str, to: &Path) -> Result<()> {
+    match args.output {
+        Some(_) => output::write(text, to),
+        None => output::make(text, to),
+    }
+}
+
+/// Whether a file is a recording of Rerun that this program made: its application, near the beginning, is called so.
+fn is_film(bytes: &[u8]) -> bool {
+    let head = &bytes[..bytes.len().min(4096)];
+    head.starts_with(b"RRF") && head.windows(9).any(|part| part == b"linkproof")
 }
 
 /// The recording as its layout names it: by its name beside it, so that both can be moved together, else absolute.

@@ -1,27 +1,113 @@
-//! Whether a file can be written, and what is said if not.
+//! Where files may be written, what they may replace, and what is said if not.
 
-use std::fs;
-use std::io;
+use std::fs::{self, File};
+use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 use super::temporary::{create, directory_of};
 use linkage::error::{Error, ErrorKind};
 
-/// Tries whether a file can be written at `path`, before any work is done. Nothing is left there, and nothing that is
-/// there is touched.
+/// Most symbolic links from a name to its file.
+const LINKS: usize = 40;
+/// Most of an older file that is looked into (bytes).
+const SEEN: u64 = 64 << 20;
+
+/// A file to be written, and what may be replaced there. This is the one place for the rule: a file is replaced only if
+/// the caller named it or this program wrote it, and a symbolic link is followed only where the caller named it.
+pub(crate) enum Target<'a> {
+    /// The caller named this very file.
+    Named(&'a Path),
+    /// The program made the name up, or a part of it; an older file is replaced if `is_ours` says so of its beginning.
+    Made(&'a Path, &'a dyn Fn(&[u8]) -> bool),
+}
+
+/// Where the content of a target goes.
+pub(super) enum Place {
+    /// To what is open already, or is no regular file.
+    Open(PathBuf),
+    /// In place of this file, of which this is known if it is there.
+    File(PathBuf, Option<fs::Metadata>),
+}
+
+impl Target<'_> {
+    /// Where the content goes.
+    ///
+    /// # Errors
+    /// [`io::ErrorKind::AlreadyExists`] for what may not be replaced, and those of the file system.
+    pub(super) fn place(&self) -> io::Result<Place> {
+        match *self {
+            Target::Named(path) => {
+                let old = fs::metadata(path).ok();
+                if is_open_already(path) || old.as_ref().is_some_and(|old| !old.is_file()) {
+                    return Ok(Place::Open(path.to_path_buf()));
+                }
+                Ok(Place::File(followed(path)?, old))
+            }
+            Target::Made(path, is_ours) => {
+                let in_the_way = |what: &str| Err(io::Error::new(io::ErrorKind::AlreadyExists, what));
+                let old = match fs::symlink_metadata(path) {
+                    Err(error) if error.kind() == io::ErrorKind::NotFound => None,
+                    other => Some(other?),
+                };
+                match &old {
+                    None => {}
+                    Some(old) if old.is_symlink() => return in_the_way("a symbolic link that nobody named is there"),
+                    Some(old) if !old.is_file() => return in_the_way("something else than a file is there"),
+                    Some(_) => {
+                        let mut bytes = Vec::new();
+                        File::open(path)?.take(SEEN).read_to_end(&mut bytes)?;
+                        if !is_ours(&bytes) {
+                            return in_the_way(
+                                "a file is there that linkproof did not write, or that was changed since",
+                            );
+                        }
+                    }
+                }
+                Ok(Place::File(path.to_path_buf(), old))
+            }
+        }
+    }
+
+    /// Why this may not be written, if what is there may not be replaced.
+    pub(crate) fn in_the_way(&self) -> Option<String> {
+        self.place().err().filter(|error| error.kind() == io::ErrorKind::AlreadyExists).map(|error| error.to_string())
+    }
+}
+
+/// Whether a path is another word for something that this process, or the system, has open.
+fn is_open_already(path: &Path) -> bool {
+    let open = ["/dev/stdout", "/dev/stderr", "/dev/stdin"].map(Path::new);
+    open.contains(&path) || path.starts_with("/dev/fd") || path.starts_with("/proc/self/fd")
+}
+
+/// The file that a path names at the end of all symbolic links, whether or not it is there.
+fn followed(path: &Path) -> io::Result<PathBuf> {
+    let mut place = path.to_path_buf();
+    for _ in 0..LINKS {
+        match fs::read_link(&place) {
+            Ok(next) => place = directory_of(&place).join(next),
+            // What is no link is the end.
+            Err(_) => return Ok(place),
+        }
+    }
+    Err(io::Error::other(format!("more than {LINKS} symbolic links lead on from there")))
+}
+
+/// Tries whether a file can be written at `path`, which the caller named, before any work is done. Nothing is left
+/// there, and nothing that is there is touched.
 ///
 /// # Errors
 /// What is in the way.
 pub(crate) fn may_write(path: &Path) -> Result<(), String> {
-    let old = fs::metadata(path).ok();
-    if old.as_ref().is_some_and(fs::Metadata::is_dir) || path.as_os_str().to_string_lossy().ends_with('/') {
+    if fs::metadata(path).is_ok_and(|old| old.is_dir()) || path.as_os_str().to_string_lossy().ends_with('/') {
         return Err("this is a directory; expected a file".into());
     }
-    // A pipe or a device is opened when there is something to write.
-    if path.starts_with("/dev") || old.as_ref().is_some_and(|old| !old.is_file()) {
-        return Ok(());
-    }
-    let place = fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf());
+    let place = match Target::Named(path).place() {
+        // A pipe or a device is opened when there is something to write.
+        Ok(Place::Open(_)) => return Ok(()),
+        Ok(Place::File(place, _)) => place,
+        Err(error) => return Err(format!("{error}; expected a file")),
+    };
     let directory = directory_of(&place);
     match fs::metadata(directory) {
         Ok(found) if found.is_dir() => try_directory(directory),
@@ -75,10 +161,12 @@ fn why(error: &io::Error) -> String {
 pub(crate) fn unwritten(what: &str, error: &io::Error, needs: Option<u64>, usual: &str) -> Error {
     let way_out = match error.kind() {
         io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => "make room there, or write to another device",
+        io::ErrorKind::AlreadyExists => "rename or remove what is there, or name another place",
         io::ErrorKind::FileTooLarge => "raise the limit on the size of files, or ask for fewer instants or channels",
         _ => usual,
     };
-    let needs = needs.filter(|_| way_out != usual).map(|bytes| format!("; {} are needed", size(bytes)));
+    let is_room = error.kind() != io::ErrorKind::AlreadyExists && way_out != usual;
+    let needs = needs.filter(|_| is_room).map(|bytes| format!("; {} are needed", size(bytes)));
     let message = format!("{what} cannot be written: {}{}", why(error), needs.unwrap_or_default());
     Error::new(ErrorKind::Io, message).help(way_out)
 }

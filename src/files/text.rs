@@ -40,12 +40,12 @@ pub(crate) fn read_named(path: &Path) -> io::Result<String> {
     }
 }
 
-/// The text of a file; `None` if there is no such file.
+/// The text of a file whose name the program made up; `None` if there is no such file.
 ///
 /// # Errors
-/// Those of [`read_text`].
+/// Those of [`read_named`].
 pub(crate) fn text(path: &Path) -> io::Result<Option<String>> {
-    match read_text(path) {
+    match read_named(path) {
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
         other => other.map(Some),
     }

@@ -1,11 +1,20 @@
 //! What a peer says: its ways and its answer as JSON, its solution as CSV.
 
+use std::ops::RangeInclusive;
+
 use serde_json::{Map, Value};
 
 use crate::bench::{Answer, Effort, Way};
+use crate::report::errors::visible;
 
 /// Most ways that a peer may have.
 const MOST: usize = 200;
+/// Most things that a peer may count.
+const COUNTED: usize = 50;
+/// Most columns of its table.
+const COLUMNS: usize = 100_000;
+/// Times that a run can take (s): no clock tells shorter ones, and nobody waits for longer ones.
+const TIMES: RangeInclusive<f64> = 1e-12..=1e9;
 
 /// The last line of a program's output, as JSON: libraries print what they like before it.
 fn last(output: &str) -> Result<Value, String> {
@@ -15,7 +24,7 @@ fn last(output: &str) -> Result<Value, String> {
 }
 
 fn word(object: &Map<String, Value>, key: &str) -> Option<String> {
-    object.get(key).and_then(Value::as_str).map(|text| text.chars().filter(|c| !c.is_control()).collect())
+    object.get(key).and_then(Value::as_str).map(|text| visible(text, false))
 }
 
 /// The refusal in a peer's words, if it is one.
@@ -54,39 +63,57 @@ pub(super) fn answer(output: &str, table: impl FnOnce() -> Result<String, String
     }
     let object = value.as_object().ok_or("its answer is no JSON object")?;
     let seconds = match object.get("seconds") {
-        Some(Value::Array(times)) => times.iter().filter_map(Value::as_f64).collect(),
-        Some(one) => one.as_f64().into_iter().collect(),
+        Some(Value::Array(times)) => times.iter().map(seconds).collect::<Result<_, _>>()?,
+        Some(one) => vec![seconds(one)?],
         None => return Err("its answer has no \"seconds\"".into()),
     };
-    let counts = object.get("work").and_then(Value::as_object);
-    let counts = counts.into_iter().flatten().filter_map(|(name, times)| Some((name.clone(), times.as_u64()?)));
-    Ok(Answer {
-        version: word(object, "version").unwrap_or_default(),
-        columns: columns(&table()?)?,
-        seconds,
-        effort: Effort(counts.collect()),
+    let effort = Effort(counts(object.get("work"))?);
+    Ok(Answer { version: word(object, "version").unwrap_or_default(), columns: columns(&table()?)?, seconds, effort })
+}
+
+/// A time that a program can have measured (s).
+fn seconds(value: &Value) -> Result<f64, String> {
+    // A coarse clock says zero; such a time is left out.
+    let found = value.as_f64().filter(|seconds| TIMES.contains(seconds) || *seconds == 0.0);
+    found.ok_or_else(|| {
+        let [least, most] = [TIMES.start(), TIMES.end()];
+        format!("its time is {value}, and {least:e} s to {most:e} s can be measured")
     })
+}
+
+/// What a program has counted; nothing if it says nothing of it.
+fn counts(work: Option<&Value>) -> Result<Vec<(String, u64)>, String> {
+    let Some(work) = work.filter(|work| !work.is_null()) else { return Ok(Vec::new()) };
+    let all = work.as_object().ok_or("its \"work\" is no JSON object")?;
+    if all.len() > COUNTED {
+        return Err(format!("it counts {} things, and at most {COUNTED} are shown", all.len()));
+    }
+    let count = |(name, times): (&String, &Value)| match times.as_u64() {
+        Some(count) => Ok((visible(name, false), count)),
+        None => Err(format!("its count of {name} is {times}, which is no whole number")),
+    };
+    all.iter().map(count).collect()
 }
 
 /// The columns of a table.
 fn columns(table: &str) -> Result<Vec<(String, Vec<f64>)>, String> {
     let mut reader = csv::Reader::from_reader(table.as_bytes());
     let header = reader.headers().map_err(|error| format!("its table cannot be read: {error}"))?.clone();
+    if header.len() > COLUMNS {
+        return Err(format!("its table has {} columns, and at most {COLUMNS} are read", header.len()));
+    }
     let mut columns: Vec<(String, Vec<f64>)> =
         header.iter().map(|name| (name.trim().to_string(), Vec::new())).collect();
     for (row, record) in reader.records().enumerate() {
         let record = record.map_err(|error| format!("row {} of its table: {error}", row + 1))?;
         for ((name, values), text) in columns.iter_mut().zip(&record) {
-            let value =
-                text.trim().parse().map_err(|_| format!("row {} of {name} is \"{}\"", row + 1, excerpt(text)))?;
+            let value = text.trim().parse().map_err(|_| {
+                format!("row {} of {name} is \"{}\"", row + 1, text.chars().take(20).collect::<String>())
+            })?;
             values.push(value);
         }
     }
     Ok(columns)
-}
-
-fn excerpt(text: &str) -> String {
-    text.chars().take(20).filter(|c| !c.is_control()).collect()
 }
 
 #[cfg(test)]

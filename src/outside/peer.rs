@@ -10,6 +10,7 @@ use tempfile::TempDir;
 use super::answer;
 use super::process;
 use crate::bench::{Answer, Clock, Peer, Way};
+use crate::report::errors::visible;
 
 /// Version of the protocol.
 const PROTOCOL: u32 = 1;
@@ -58,9 +59,11 @@ impl<'a> Command<'a> {
         }
         let directory = place.as_ref().expect("it was made").path();
         let table = directory.join("answer.csv");
-        // A table of an earlier run is no answer.
-        let _ = fs::remove_file(&table);
         let request = directory.join("request.json");
+        // A table of an earlier run is no answer, and a link in the place of the request is not followed.
+        for old in [&table, &request] {
+            let _ = fs::remove_file(old);
+        }
         let way = way.map_or(Value::Null, |way| serde_json::from_str(&way.told).unwrap_or(Value::Null));
         let mjcf = self.exports.mjcf.as_ref();
         let value = json!({
@@ -70,8 +73,9 @@ impl<'a> Command<'a> {
         });
         fs::write(&request, value.to_string()).map_err(|error| format!("the request cannot be written: {error}"))?;
         let request = request.to_string_lossy();
-        let output = process::run(&self.command, &[what, &request], directory, self.limit, self.clock)?;
-        read(&output, directory)
+        let output = process::run(&self.command, &[what, &request], directory, self.limit, self.clock);
+        // Whatever it says of its failure is shown to people.
+        output.and_then(|output| read(&output, directory)).map_err(|reason| visible(&reason, false))
     }
 
     fn furnished(&self) -> std::io::Result<TempDir> {

@@ -1,8 +1,9 @@
 //! A program with a time limit. What it writes goes to files, so that it can neither block nor fill the memory.
 
 use std::fs::{self, File};
+use std::io::Read;
 use std::path::Path;
-use std::process::{Child, Command, ExitStatus};
+use std::process::{Child, Command, ExitStatus, Stdio};
 use std::time::Duration;
 
 use crate::bench::Clock;
@@ -10,7 +11,7 @@ use crate::bench::Clock;
 /// Pauses between two looks at a program that runs: short at first, so that a quick one is not kept waiting.
 const PAUSES: [Duration; 2] = [Duration::from_millis(2), Duration::from_millis(20)];
 /// Most bytes that are taken from a program.
-const MOST: u64 = 256 << 20;
+const MOST: u64 = 64 << 20;
 /// Characters of standard error that are told.
 const TOLD: usize = 200;
 
@@ -26,15 +27,21 @@ pub(super) fn run(
     clock: Clock,
 ) -> Result<String, String> {
     let [out, err] = ["stdout", "stderr"].map(|name| directory.join(name));
-    let file = |path: &Path| File::create(path).map_err(|error| format!("{}: {error}", path.display()));
+    let file = |path: &Path| {
+        // What an earlier call has put there is not followed.
+        let _ = fs::remove_file(path);
+        File::create_new(path).map_err(|error| format!("{}: {error}", path.display()))
+    };
     let mut shell = Command::new("sh");
     // The first word after the script is its name; arguments are never read as a script.
     shell.arg("-c").arg(format!("exec {command} \"$@\"")).arg("peer").args(arguments);
-    shell.stdin(std::process::Stdio::null()).stdout(file(&out)?).stderr(file(&err)?);
+    shell.stdin(Stdio::null()).stdout(file(&out)?).stderr(file(&err)?);
     #[cfg(unix)]
     std::os::unix::process::CommandExt::process_group(&mut shell, 0);
     let mut child = shell.spawn().map_err(|error| format!("it cannot be started: {error}"))?;
     let status = wait(&mut child, &[&out, &err], limit, clock)?;
+    // What it has left running can no longer change its answer while that is read.
+    end_group(&child);
     let written = text(&out)?;
     if status.success() {
         return Ok(written);
@@ -67,24 +74,42 @@ fn wait(child: &mut Child, files: &[&Path], limit: f64, clock: Clock) -> Result<
     }
 }
 
+/// Ends those that a program has started: it leads a process group of its own.
+fn end_group(child: &Child) {
+    if cfg!(unix) {
+        let group = format!("-{}", child.id());
+        // That there is nobody left is no failure, and not worth a word.
+        let _ = Command::new("kill").args(["-KILL", "--", &group]).stderr(Stdio::null()).status();
+    }
+}
+
 /// Ends a program and those that it has started.
 fn stop(child: &mut Child) {
-    #[cfg(unix)]
-    // It leads a process group of its own.
-    let _ = Command::new("kill").args(["-KILL", "--", &format!("-{}", child.id())]).status();
+    end_group(child);
     // What has ended meanwhile need not be ended.
     let _ = child.kill();
     let _ = child.wait();
 }
 
-/// Text of a file; bytes that are no text are replaced.
+/// Text of a file that a program was to write; bytes that are no text are replaced. A pipe, a device or a link might
+/// never end, or lead elsewhere.
 pub(super) fn text(path: &Path) -> Result<String, String> {
-    let size = fs::metadata(path).map_err(|error| format!("{} is not there: {error}", name(path)))?.len();
-    if size > MOST {
-        return Err(format!("{} has more than {MOST} bytes", name(path)));
+    let found = fs::symlink_metadata(path).map_err(|error| format!("{} is not there: {error}", name(path)))?;
+    if !found.is_file() {
+        return Err(format!("{} is no regular file", name(path)));
     }
-    let bytes = fs::read(path).map_err(|error| format!("{} cannot be read: {error}", name(path)))?;
-    Ok(String::from_utf8_lossy(&bytes).into_owned())
+    let file = File::open(path).map_err(|error| format!("{} cannot be read: {error}", name(path)))?;
+    taken(file).map_err(|error| format!("{} {error}", name(path)))
+}
+
+/// Text of what is open, of bounded length.
+fn taken(file: File) -> Result<String, String> {
+    let mut bytes = Vec::new();
+    file.take(MOST + 1).read_to_end(&mut bytes).map_err(|error| format!("cannot be read: {error}"))?;
+    if bytes.len() as u64 > MOST {
+        return Err(format!("has more than {MOST} bytes"));
+    }
+    Ok(String::from_utf8(bytes).unwrap_or_else(|error| String::from_utf8_lossy(error.as_bytes()).into_owned()))
 }
 
 fn name(path: &Path) -> String {

@@ -5,8 +5,12 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use super::raw;
 use linkage::error::{Error, ErrorKind, Result};
-use mcap::{McapResult, Summary};
+use mcap::records::op;
+
+/// Beginning of the library's name in the header of a recording.
+pub(super) const LIBRARY: &str = "linkproof ";
 
 /// Most recordings of one name in a directory.
 const MOST: usize = 1000;
@@ -48,12 +52,15 @@ pub(super) fn place(directory: &Path, name: &str, text: &str, metadata: &BTreeMa
 
 /// How the recording at `path` differs from that of a run; `None` if it does not, or if there is none.
 fn difference(path: &Path, text: &str, metadata: &BTreeMap<String, String>) -> Option<String> {
-    let bytes = match fs::read(path) {
-        Ok(bytes) => bytes,
+    match fs::symlink_metadata(path) {
         Err(error) if error.kind() == io::ErrorKind::NotFound => return None,
-        Err(_) => return Some("it cannot be read".into()),
-    };
-    let Ok(Some((old_text, old))) = described(&bytes) else { return Some("it is no recording of a run".into()) };
+        Ok(found) if found.is_file() => {}
+        Ok(found) if found.is_symlink() => return Some("it is a symbolic link".into()),
+        Ok(_) | Err(_) => return Some("it is no file".into()),
+    }
+    let Ok(bytes) = fs::read(path) else { return Some("it cannot be read".into()) };
+    let found = described(&bytes).filter(|_| is_ours(&bytes));
+    let Some((old_text, old)) = found else { return Some("it is no recording of a run".into()) };
     let changed = |start: &str| {
         let mut keys =
             old.keys().chain(metadata.keys()).filter(|key| key.starts_with(start) && !key.ends_with("_verdict"));
@@ -68,15 +75,27 @@ fn difference(path: &Path, text: &str, metadata: &BTreeMap<String, String>) -> O
     Some(format!("its {key} is {}, not {}", told(&old), told(metadata)))
 }
 
+/// Whether a file is a recording that this program wrote: its header names the library.
+pub(super) fn is_ours(bytes: &[u8]) -> bool {
+    raw::is_by(bytes, LIBRARY)
+}
+
 /// Text of the scenario, and metadata.
 type Described = (Vec<u8>, BTreeMap<String, String>);
 
 /// What describes a recording; `None` if nothing does.
-pub(super) fn described(bytes: &[u8]) -> McapResult<Option<Described>> {
-    let Some(summary) = Summary::read(bytes)? else { return Ok(None) };
-    let text = summary.attachment_indexes.iter().find(|index| index.name == "scenario.toml");
-    let metadata = summary.metadata_indexes.iter().find(|index| index.name == "linkproof");
-    let (Some(text), Some(metadata)) = (text, metadata) else { return Ok(None) };
-    let text = mcap::read::attachment(bytes, text)?.data.into_owned();
-    Ok(Some((text, mcap::read::metadata(bytes, metadata)?.metadata)))
+pub(super) fn described(bytes: &[u8]) -> Option<Described> {
+    let (mut text, mut metadata) = (None, None);
+    for (code, content) in raw::records(bytes) {
+        match code {
+            op::ATTACHMENT => text = text.or_else(|| raw::attachment(content, "scenario.toml")),
+            op::METADATA => {
+                metadata = metadata.or_else(|| raw::metadata(content).filter(|own| own.name == "linkproof"))
+            }
+            // Both stand at the beginning.
+            op::CHUNK | op::DATA_END => break,
+            _ => {}
+        }
+    }
+    Some((text?.to_vec(), metadata?.metadata))
 }

@@ -11,8 +11,12 @@ use linkage::math::unit;
 use mcap::{McapError, Message};
 use prost::Message as _;
 use std::collections::{BTreeMap, BTreeSet};
-use std::fs;
 use std::path::Path;
+
+/// Longest message of a picture (bytes), and most parts of all of them, that are looked into: far more than a viewer can
+/// show. Parts take up to a hundred times their bytes in memory.
+const LONGEST: usize = 1 << 22;
+const PARTS: usize = 2_000_000;
 
 /// A recording as a moving picture. Times are simulated ones (s).
 #[derive(Clone, Debug)]
@@ -53,16 +57,18 @@ struct Found {
     links: Option<SceneUpdate>,
     frames: Vec<(u64, FrameTransforms)>,
     arrows: Vec<(u64, SceneUpdate)>,
+    /// Number of all frames and arrows.
+    parts: usize,
 }
 
 pub(super) fn film(path: &Path) -> Result<Film> {
-    let sides = read::read(path)?;
-    let bytes = fs::read(path).map_err(|error| Error::new(ErrorKind::Io, format!("{}: {error}", path.display())))?;
+    let bytes = read::bytes(path)?;
+    let sides = read::of_bytes(&bytes, path)?;
     let damaged = |error: McapError| {
         Error::new(ErrorKind::Io, format!("the recording {} is damaged: {error}", path.display()))
             .help("record it again")
     };
-    let metadata = beside::described(&bytes).map_err(damaged)?.map(|(_, metadata)| metadata).unwrap_or_default();
+    let metadata = beside::described(&bytes).map(|(_, metadata)| metadata).unwrap_or_default();
     let number = |key: &str, usual: f64| metadata.get(key).and_then(|text| text.parse().ok()).unwrap_or(usual);
     let (slow, zero) = (number("slow", 1.0), number("log_time_zero_s", 0.0));
     let time = |nanoseconds: u64| zero + nanoseconds as f64 * 1e-9 / slow;
@@ -115,12 +121,17 @@ impl Found {
         }
         // What cannot be read is not shown.
         match topic {
+            _ if message.data.len() > LONGEST || self.parts > PARTS => {}
             "/mechanism/links" => self.links = SceneUpdate::decode(&*message.data).ok(),
             "/tf" => {
-                self.frames.extend(FrameTransforms::decode(&*message.data).ok().map(|own| (message.log_time, own)))
+                let own = FrameTransforms::decode(&*message.data).ok();
+                self.parts += own.as_ref().map_or(0, |own| own.transforms.len());
+                self.frames.extend(own.map(|own| (message.log_time, own)));
             }
             "/mechanism/forces" => {
-                self.arrows.extend(SceneUpdate::decode(&*message.data).ok().map(|own| (message.log_time, own)));
+                let own = SceneUpdate::decode(&*message.data).ok();
+                self.parts += own.iter().flat_map(|own| &own.entities).map(|own| 1 + own.arrows.len()).sum::<usize>();
+                self.arrows.extend(own.map(|own| (message.log_time, own)));
             }
             _ => {}
         }
@@ -129,6 +140,7 @@ impl Found {
 
 /// Times and values of every line of every plot.
 fn values(bytes: &[u8], view: &View, time: &dyn Fn(u64) -> f64) -> mcap::McapResult<Vec<Vec<Vec<[f64; 2]>>>> {
+    let mut known = schema::Names::default();
     let mut values: Vec<Vec<Vec<[f64; 2]>>> =
         view.plots.iter().map(|plot| vec![Vec::new(); plot.lines.len()]).collect();
     messages::each::<McapError>(bytes, &mut |message| {
@@ -138,7 +150,7 @@ fn values(bytes: &[u8], view: &View, time: &dyn Fn(u64) -> f64) -> mcap::McapRes
                     continue;
                 }
                 let Some(schema) = &message.channel.schema else { continue };
-                let names = schema::field_names(&schema.data, &schema.name).unwrap_or_default();
+                let Ok(names) = known.of(schema) else { continue };
                 let fields = schema::numbers(&message.data).unwrap_or_default();
                 let own = fields.iter().find(|(tag, _)| names.get(tag) == Some(&line.field));
                 values.extend(own.map(|&(_, value)| [time(message.log_time), value]));

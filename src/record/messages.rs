@@ -6,6 +6,7 @@
 
 use std::borrow::Cow;
 
+use super::raw;
 use mcap::read::ChannelAccumulator;
 use mcap::records::{Record, op};
 use mcap::sans_io::{LinearReadEvent, LinearReader, LinearReaderOptions};
@@ -23,6 +24,7 @@ pub(super) fn each<E: From<McapError>>(
     visit: &mut dyn FnMut(&Message) -> std::result::Result<(), E>,
 ) -> std::result::Result<(), E> {
     let longest = bytes.len().max(SMALL);
+    let ([told, _], mut seen) = (raw::expanded(bytes), 0);
     let options = LinearReaderOptions::default().with_validate_chunk_crcs(true).with_record_length_limit(longest);
     let mut reader = LinearReader::new_with_options(options);
     let mut known = ChannelAccumulator::default();
@@ -38,6 +40,11 @@ pub(super) fn each<E: From<McapError>>(
             // The summary says once more what was said.
             LinearReadEvent::Record { opcode: op::DATA_END, .. } => is_data = false,
             LinearReadEvent::Record { opcode, data } => {
+                // No file has more records than it says it has bytes for.
+                seen += 9 + data.len() as u64;
+                if seen > told {
+                    return Err(McapError::ChunkTooLarge(seen).into());
+                }
                 if is_data && let Some(message) = message(opcode, data, &mut known)? {
                     visit(&message)?;
                 }

@@ -34,6 +34,7 @@ mod numbers;
 mod output;
 mod placed;
 mod pour;
+mod raw;
 mod read;
 mod recording;
 #[cfg(feature = "live")]

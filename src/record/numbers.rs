@@ -8,7 +8,6 @@ use linkage::error::{Error, ErrorKind, Result};
 use linkage::trajectory::{Channel, Trajectory};
 use mcap::McapError;
 use std::collections::BTreeSet;
-use std::fs;
 use std::path::Path;
 
 /// The numbers of a recording.
@@ -21,10 +20,7 @@ pub struct Numbers {
 }
 
 pub(super) fn numbers(path: &Path) -> Result<Numbers> {
-    let bytes = fs::read(path).map_err(|error| {
-        Error::new(ErrorKind::Io, format!("the recording {} cannot be read: {error}", path.display()))
-            .help("check the path")
-    })?;
+    let bytes = read::bytes(path)?;
     let sides = read::of_bytes(&bytes, path)?;
     let mut topics = BTreeSet::new();
     messages::each::<McapError>(&bytes, &mut |message| {

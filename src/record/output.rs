@@ -1,5 +1,6 @@
 //! The MCAP file itself: options, topics, messages.
 
+use super::beside::LIBRARY;
 use super::pour::SECOND;
 use super::recording::{Recording, Show};
 use super::sink::{Kind, Sink};
@@ -27,7 +28,7 @@ impl Output {
     pub fn create(file: File) -> McapResult<Self> {
         let writer = WriteOptions::new()
             .profile("")
-            .library(concat!("linkproof ", env!("CARGO_PKG_VERSION")))
+            .library([LIBRARY, env!("CARGO_PKG_VERSION")].concat())
             .chunk_size(Some(CHUNK))
             // Several threads would cut chunks depending on the number of cores.
             .compression_threads(0)

@@ -1,12 +1,14 @@
 //! From an MCAP file back to trajectories.
 
-use super::{messages, schema};
+use super::{messages, raw, schema};
+use crate::files;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::trajectory::{Channel, Trajectory};
 use mcap::{McapError, Message};
 use std::collections::{BTreeMap, HashMap};
 use std::fmt::Display;
 use std::fs;
+use std::io;
 use std::path::Path;
 
 /// Values with the sequence numbers of their samples.
@@ -49,11 +51,35 @@ impl From<prost::DecodeError> for Damage {
 }
 
 pub(super) fn read(path: &Path) -> Result<Vec<(String, Trajectory)>> {
-    let bytes = fs::read(path).map_err(|error| {
+    of_bytes(&bytes(path)?, path)
+}
+
+/// The bytes of a recording.
+pub(super) fn bytes(path: &Path) -> Result<Vec<u8>> {
+    let read = || match fs::metadata(path)?.is_file() {
+        true => fs::read(path),
+        // It might never end.
+        false => Err(io::Error::other("it is no regular file")),
+    };
+    read().map_err(|error| {
         Error::new(ErrorKind::Io, format!("the recording {} cannot be read: {error}", path.display()))
             .help("check the path")
-    })?;
-    of_bytes(&bytes, path)
+    })
+}
+
+/// Refuses a file whose chunks hold far more than any recording of its size, before they are decompressed.
+fn bounded(bytes: &[u8], path: &Path) -> Result<()> {
+    let [told, most] = raw::expanded(bytes);
+    if told <= most {
+        return Ok(());
+    }
+    let [length, told, most] = [bytes.len() as u64, told, most].map(files::size);
+    let message = format!(
+        "the recording {} has {length} and says that it holds {told}; of such a file at most {most} are read",
+        path.display()
+    );
+    Err(Error::new(ErrorKind::Io, message)
+        .help("record it again: recordings of this program hold some three times their size"))
 }
 
 pub(super) fn of_bytes(bytes: &[u8], path: &Path) -> Result<Vec<(String, Trajectory)>> {
@@ -62,16 +88,18 @@ pub(super) fn of_bytes(bytes: &[u8], path: &Path) -> Result<Vec<(String, Traject
         return Err(Error::new(ErrorKind::Io, format!("the file {} {what}", path.display()))
             .help("name a recording (.mcap), which a run leaves"));
     }
+    bounded(bytes, path)?;
     let damaged = |error: &dyn Display| {
         Error::new(ErrorKind::Io, format!("the recording {} is cut off or damaged: {error}", path.display()))
             .help("record it again, or save what is left of it with `pymcap-cli recover`")
     };
     let mut topics: HashMap<u16, Topic> = HashMap::new();
+    let mut names = schema::Names::default();
     let mut sides: BTreeMap<String, Found> = BTreeMap::new();
     let mut take = |message: &Message| -> std::result::Result<(), Damage> {
         let id = message.channel.id;
         if let std::collections::hash_map::Entry::Vacant(entry) = topics.entry(id) {
-            entry.insert(topic(message)?);
+            entry.insert(topic(message, &mut names)?);
         }
         collect(message, &topics[&id], &mut sides)?;
         Ok(())
@@ -90,23 +118,21 @@ pub(super) fn of_bytes(bytes: &[u8], path: &Path) -> Result<Vec<(String, Traject
 }
 
 /// Content of a message's topic, from its name and from the descriptor in the file.
-fn topic(message: &Message) -> std::result::Result<Topic, prost::DecodeError> {
+fn topic(message: &Message, names: &mut schema::Names) -> std::result::Result<Topic, prost::DecodeError> {
     let channel = &message.channel;
     let parts = channel.topic.strip_prefix('/').and_then(|rest| rest.split_once('/'));
     let (Some((side, subject)), Some(schema)) = (parts, &channel.schema) else { return Ok(Topic::Other) };
     if channel.message_encoding != "protobuf" || schema.encoding != "protobuf" || side == "error" {
         return Ok(Topic::Other);
     }
-    let names = schema::field_names(&schema.data, &schema.name)?;
+    let names = names.of(schema)?;
     if subject == "grid" {
-        return Ok(Topic::Grid(side.into(), names));
+        return Ok(Topic::Grid(side.into(), names.clone()));
     }
     // `link/crank` and the field `x_m` are the channel `link.crank.x_m`.
     let subject = subject.replacen('/', ".", 1);
-    let channels: BTreeMap<u32, Channel> = names
-        .into_iter()
-        .filter_map(|(tag, field)| Some((tag, Channel::named(&format!("{subject}.{field}"))?)))
-        .collect();
+    let channels: BTreeMap<u32, Channel> =
+        names.iter().filter_map(|(&tag, field)| Some((tag, Channel::named(&format!("{subject}.{field}"))?))).collect();
     Ok(if channels.is_empty() { Topic::Other } else { Topic::Values(side.into(), channels) })
 }
 

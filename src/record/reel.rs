@@ -18,6 +18,8 @@ pub struct Reel {
     /// Log time of one turn of the crank, or of the whole recording if that is less (s).
     pub turn: f64,
     entries: Vec<Entry>,
+    /// Numbers of the messages of every topic, in ascending order.
+    own: Vec<Vec<usize>>,
     data: Vec<u8>,
 }
 
@@ -46,7 +48,7 @@ pub(super) fn reel(recording: &Recording) -> Result<Reel> {
         let slow = recording.show.slow;
         let lasts = lasts(recording) * slow;
         let turn = recording.sides.first().map_or(lasts, |side| turn(lasts, side.trajectory));
-        let mut reel = Reel { topics: Vec::new(), slow, turn, entries: Vec::new(), data: Vec::new() };
+        let mut reel = Reel { topics: Vec::new(), slow, turn, entries: Vec::new(), own: Vec::new(), data: Vec::new() };
         pour(recording, drawn, &mut reel).map(|()| reel)
     });
     poured.map_err(|error| Error::new(ErrorKind::Unsupported, format!("the recording cannot be played: {error}")))
@@ -91,7 +93,9 @@ impl Reel {
     /// The last message of a topic among the first `count` messages.
     #[must_use]
     pub fn latest(&self, topic: u16, count: usize) -> Option<Told<'_>> {
-        (0..count).rev().find(|&index| self.entries[index].topic == topic).map(|index| self.message(index))
+        let own = self.own.get(usize::from(topic))?;
+        let before = own.partition_point(|&index| index < count).checked_sub(1)?;
+        Some(self.message(own[before]))
     }
 }
 
@@ -99,11 +103,13 @@ impl Sink for Reel {
     fn topic(&mut self, name: &str, kind: &Kind) -> McapResult<u16> {
         let number = u16::try_from(self.topics.len()).map_err(|_| McapError::TooManyChannels)?;
         self.topics.push((name.into(), kind.clone()));
+        self.own.push(Vec::new());
         Ok(number)
     }
 
     fn put(&mut self, topic: u16, _: u32, time: u64, data: &[u8]) -> McapResult<()> {
         self.data.extend_from_slice(data);
+        self.own[usize::from(topic)].push(self.entries.len());
         self.entries.push(Entry { time, topic, end: self.data.len() });
         Ok(())
     }

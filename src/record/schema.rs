@@ -10,7 +10,8 @@ use prost_types::field_descriptor_proto::{Label, Type};
 use prost_types::{
     DescriptorProto, FieldDescriptorProto, FileDescriptorProto, FileDescriptorSet, OneofDescriptorProto,
 };
-use std::collections::BTreeMap;
+use std::collections::hash_map::Entry;
+use std::collections::{BTreeMap, HashMap};
 
 /// Fields of the grid message: time (s), crank angle (rad), number of the row in the solver's order.
 pub const GRID_FIELDS: [&str; 3] = ["t_s", "crank_rad", "row"];
@@ -86,6 +87,27 @@ pub fn numbers(mut data: &[u8]) -> Result<Vec<(u32, f64)>, prost::DecodeError> {
         }
     }
     Ok(fields)
+}
+
+/// Longest description of a message that is looked into (bytes), hundreds of times what ours have. Parts of one take up
+/// to a hundred times their bytes in memory.
+const LONGEST: usize = 1 << 20;
+
+/// Names of the number fields of schemas, each looked into once.
+#[derive(Default)]
+pub struct Names(HashMap<u16, BTreeMap<u32, String>>);
+
+impl Names {
+    /// Those of a schema, by their numbers.
+    pub fn of(&mut self, schema: &mcap::Schema) -> Result<&BTreeMap<u32, String>, prost::DecodeError> {
+        match self.0.entry(schema.id) {
+            Entry::Occupied(known) => Ok(known.into_mut()),
+            Entry::Vacant(new) => {
+                let data = if schema.data.len() > LONGEST { &[][..] } else { &schema.data };
+                Ok(new.insert(field_names(data, &schema.name)?))
+            }
+        }
+    }
 }
 
 /// Names of the number fields of the message called `full_name` in a serialised descriptor set, by their numbers.

@@ -1,12 +1,13 @@
 //! A recording as an MCAP file.
 
+use super::beside::is_ours;
 use super::forces::Forces;
 use super::output::Output;
 use super::pour::{Drawn, lasts, pour, start};
 use super::recording::{Recording, Show, Side};
 use super::scene::Scene;
 use super::thin::thinned;
-use crate::files;
+use crate::files::{self, Target};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::trajectory::Trajectory;
 use mcap::{McapError, McapResult};
@@ -19,7 +20,7 @@ const LONGEST: f64 = 3e9;
 #[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the MCAP library")]
 pub(super) fn write(recording: &Recording, path: &Path) -> Result<()> {
     check(recording)?;
-    files::replace(path, |file| fill(recording, file.try_clone()?)).map_err(|error| {
+    files::replace(&Target::Made(path, &is_ours), |file| fill(recording, file.try_clone()?)).map_err(|error| {
         let what = format!("the recording {}", path.display());
         let usual = "check that the directory exists, may be written to and has room, or record elsewhere";
         match error {

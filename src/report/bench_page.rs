@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use super::bench::{Machine, error, fastest, ratio, short};
 use super::bench_plot::reasons;
+use super::markdown::foreign;
 use crate::bench::{Axis, Bench, CLEAR, Party, Point, front};
 use linkage::trajectory::Stage;
 
@@ -34,7 +35,7 @@ pub(crate) fn page(benches: &[Bench], machine: &Machine, command: &str, pictures
     );
     let mut versions: Vec<String> = Vec::new();
     for (name, version) in benches.iter().flat_map(|bench| &bench.versions) {
-        let told = format!("{name}: {version}");
+        let told = format!("{name}: {}", foreign(version));
         if !versions.contains(&told) {
             versions.push(told);
         }
@@ -50,7 +51,7 @@ pub(crate) fn page(benches: &[Bench], machine: &Machine, command: &str, pictures
 fn scenario(text: &mut String, bench: &Bench, pictures: &str) {
     let [name, title] = &bench.scenario;
     let failed = bench.points.iter().filter(|point| point.run().is_none()).count();
-    let _ = writeln!(text, "## {name}\n\n{title}.\n");
+    let _ = writeln!(text, "## {name}\n\n{}.\n", foreign(title));
     let _ = writeln!(
         text,
         "{} settings on {} instants, {failed} failed. [Diagram]({pictures}{name}.time.svg), [numbers]({pictures}{name}.csv).\n",
@@ -79,7 +80,7 @@ fn scenario(text: &mut String, bench: &Bench, pictures: &str) {
         let _ = writeln!(text, "  Of engines and peers: {}.", if of_others.is_empty() { "none" } else { &of_others });
     }
     for (reason, times) in reasons(bench).into_iter().take(REASONS) {
-        let _ = writeln!(text, "- Failed {times} times: {reason}");
+        let _ = writeln!(text, "- Failed {times} times: {}", foreign(&reason));
     }
     if bench.left_out > 0 {
         let _ = writeln!(text, "- {} finer settings were not run: the work allowed was done.", bench.left_out);
@@ -99,7 +100,7 @@ fn told(bench: &Bench, stage: Stage, of: &dyn Fn(&Point) -> bool) -> String {
 }
 
 fn named(point: &Point) -> String {
-    let told = point.told();
+    let told = foreign(&point.told());
     if told.is_empty() { point.program.clone() } else { format!("{} {told}", point.program) }
 }
 

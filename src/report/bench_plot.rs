@@ -1,5 +1,7 @@
 //! Diagrams of error against cost, one panel for each stage of channels, as SVG.
 
+use std::ops::RangeInclusive;
+
 use plotters::coord::Shift;
 use plotters::prelude::{
     ChartBuilder, Circle, Color, Cross, DrawingArea, EmptyElement, IntoDrawingArea, IntoLogRange, LineSeries,
@@ -34,6 +36,8 @@ const OTHERS: [RGBColor; 5] = [
 const GREY: RGBColor = RGBColor(110, 110, 110);
 const PALE: RGBColor = RGBColor(236, 236, 236);
 const ROSE: RGBColor = RGBColor(252, 240, 240);
+/// Costs that are drawn: an axis of logarithms counts its decades, and begins with none at zero.
+const DRAWN: RangeInclusive<f64> = 1e-20..=1e20;
 /// Characters in a line of the legend, and the height of a small one (pixels).
 const WIDTH: usize = 72;
 const LINE: i32 = 14;
@@ -46,7 +50,7 @@ type Drawn = Result<(), String>;
 /// # Errors
 /// What the library cannot draw.
 pub(crate) fn drawing(bench: &Bench, axis: Axis) -> Result<Option<String>, String> {
-    if bench.points.iter().all(|point| axis.of(point).is_none()) {
+    if bench.points.iter().all(|point| cost(bench, axis, point).is_none()) {
         return Ok(None);
     }
     let panels = bench.stages.len() + 1;
@@ -92,7 +96,7 @@ fn cost(bench: &Bench, axis: Axis, point: &Point) -> Option<f64> {
         Axis::Time => bench.unit,
         Axis::Solutions | Axis::Inner => 1.0,
     };
-    Some(own / unit).filter(|cost| cost.is_finite() && *cost > 0.0)
+    Some(own / unit).filter(|cost| DRAWN.contains(cost))
 }
 
 /// Least and greatest cost of all points, with room beside them.

@@ -1,5 +1,7 @@
 //! Errors: the line of the file concerned, what was found there, and the way out.
 
+use std::borrow::Cow;
+
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 
 use super::tell::Tell;
@@ -11,7 +13,7 @@ const LONGEST: usize = 2000;
 
 /// A text with every letter that is not seen written out, so that no name from a file forges a line or commands a
 /// terminal, and of bounded length. Help may have several lines, such as a section to add.
-fn visible(text: &str, has_lines: bool) -> String {
+pub(crate) fn visible(text: &str, has_lines: bool) -> String {
     let mut shown = String::new();
     for letter in text.chars().take(LONGEST) {
         match is_unseen(letter) && !(has_lines && letter == '\n') {
@@ -23,6 +25,22 @@ fn visible(text: &str, has_lines: bool) -> String {
         shown.push_str(" ...");
     }
     shown
+}
+
+/// A text for a snippet, whose places are counted in bytes: every letter that is not seen gives way to a sign of as many
+/// bytes. Those of ASCII the renderer replaces itself.
+fn of_same_length(text: &str) -> Cow<'_, str> {
+    let is_hidden = |letter: char| !letter.is_ascii() && is_unseen(letter);
+    if !text.contains(is_hidden) {
+        return Cow::Borrowed(text);
+    }
+    let shown = |letter: char| match (is_hidden(letter), letter.len_utf8()) {
+        (false, _) => letter.to_string(),
+        (true, 2) => "\u{bf}".into(),
+        (true, 3) => "\u{fffd}".into(),
+        (true, _) => "\u{fffd}?".into(),
+    };
+    Cow::Owned(text.chars().map(shown).collect())
 }
 
 /// An error, and those that were found with it, as text without a newline at its end; advice is worded by `tell`.
@@ -45,7 +63,8 @@ fn one(error: &Error, tell: Tell) -> String {
     };
     let path = visible(&place.file.display().to_string(), false);
     let annotation = AnnotationKind::Primary.span(place.span.clone());
-    let snippet = Snippet::source(&*place.text).path(path.as_str()).annotation(annotation);
+    let source = of_same_length(&place.text);
+    let snippet = Snippet::source(&*source).path(path.as_str()).annotation(annotation);
     let mut group = Group::with_title(Level::ERROR.primary_title(title.as_str())).element(snippet);
     if let Some(help) = help {
         group = group.element(Level::HELP.message(help));

@@ -72,6 +72,22 @@ fn line(text: &str) -> String {
     one.join(" ").replace('<', "&lt;").replace('*', "\\*")
 }
 
+/// Text of strangers in one line: it names no link, is no code and no markup.
+pub(super) fn foreign(text: &str) -> String {
+    let one: Vec<&str> = text.split_whitespace().collect();
+    let letters = one.join(" ");
+    let mut shown = String::new();
+    for letter in letters.chars() {
+        match letter {
+            '<' => shown.push_str("&lt;"),
+            '&' => shown.push_str("&amp;"),
+            '\\' | '`' | '*' | '[' | ']' | '>' | '|' | '#' | '~' | '!' | '$' => shown.extend(['\\', letter]),
+            _ => shown.push(letter),
+        }
+    }
+    shown
+}
+
 fn cell(text: &str) -> String {
     line(text).replace('|', "\\|")
 }

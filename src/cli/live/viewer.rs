@@ -12,6 +12,7 @@ use tungstenite::{Error, Message, WebSocket, accept_hdr_with_config};
 
 use super::player::Player;
 use super::stage::{Shown, Stage};
+use super::wants::Wants;
 use crate::record::Reel;
 use crate::report::live::{self, Control, Dialect, Request};
 
@@ -37,8 +38,7 @@ pub(super) struct Viewer<'a> {
     stage: &'a Stage,
     shown: Shown,
     player: Player,
-    /// What it has asked for: its own number, and the topic's.
-    wants: Vec<(u32, u16)>,
+    wants: Wants,
 }
 
 type Spoken = tungstenite::Result<()>;
@@ -56,7 +56,7 @@ impl<'a> Viewer<'a> {
         let socket = accept_hdr_with_config(stream, answer, Some(config)).ok()?;
         socket.get_ref().set_read_timeout(Some(TICK)).ok()?;
         let player = Player::new(1.0);
-        Some(Viewer { socket, dialect: dialect?, stage, shown: Shown::default(), player, wants: Vec::new() })
+        Some(Viewer { socket, dialect: dialect?, stage, shown: Shown::default(), player, wants: Wants::default() })
     }
 
     /// Attends to the viewer until it leaves.
@@ -118,11 +118,8 @@ impl<'a> Viewer<'a> {
                 self.send(live::time(told.time))?;
                 clock = Some(told.time);
             }
-            for index in 0..self.wants.len() {
-                let (number, topic) = self.wants[index];
-                if topic == told.topic {
-                    self.send(live::message(number, &told))?;
-                }
+            for number in self.wants.of(told.topic) {
+                self.send(live::message(number, &told))?;
             }
         }
         if self.player.plays || due.again {
@@ -161,16 +158,16 @@ impl<'a> Viewer<'a> {
                 for (number, channel) in pairs {
                     let topic = channel.checked_sub(self.first_channel()).and_then(|own| u16::try_from(own).ok());
                     let topic = topic.filter(|&own| usize::from(own) < reel.topics.len());
-                    let is_taken = self.wants.iter().any(|&(taken, _)| taken == number);
-                    if let (Some(topic), false) = (topic, is_taken) {
-                        self.wants.push((number, topic));
+                    if let Some(topic) = topic
+                        && self.wants.add(number, topic)
+                    {
                         self.tell_latest(number, topic, reel)?;
                     }
                 }
                 Ok(())
             }
             Request::Unsubscribe(numbers) => {
-                self.wants.retain(|(number, _)| !numbers.contains(number));
+                self.wants.remove(&numbers);
                 Ok(())
             }
             Request::Control(control) => self.control(&control, reel),
@@ -185,8 +182,7 @@ impl<'a> Viewer<'a> {
         self.tell_state(control.seek.is_some(), &control.id)?;
         if control.seek.is_some() {
             self.send(live::time(self.player.time()))?;
-            for index in 0..self.wants.len() {
-                let (number, topic) = self.wants[index];
+            for (number, topic) in self.wants.all() {
                 self.tell_latest(number, topic, reel)?;
             }
         }

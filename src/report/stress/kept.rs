@@ -94,6 +94,11 @@ pub(crate) fn outcomes(text: &str) -> Vec<Outcome> {
     document.points.into_iter().map(point).collect()
 }
 
+/// Whether a file holds results of this family.
+pub(crate) fn is_kept(bytes: &[u8], family: &Family) -> bool {
+    serde_json::from_slice::<Document>(bytes).is_ok_and(|own| own.family == family.name)
+}
+
 fn finite(value: f64) -> Option<f64> {
     value.is_finite().then_some(value)
 }

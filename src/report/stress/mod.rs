@@ -6,7 +6,7 @@ mod page;
 mod summary;
 mod table;
 
-pub(crate) use kept::{json, outcomes};
+pub(crate) use kept::{is_kept, json, outcomes};
 pub(crate) use map::map;
 pub(crate) use page::page;
 pub(crate) use summary::{Tally, text};

@@ -3,6 +3,7 @@
 use std::fs;
 use std::os::unix::fs::PermissionsExt;
 
+use linkage::mechanism::is_unseen;
 use serde_json::Value;
 
 use super::tools::Place;
@@ -81,6 +82,59 @@ fn peers_are_points_and_never_a_crash() {
     assert!(absent.len() == 1 && absent[0]["peer"] == "absent", "{absent:?}");
     let drawn = fs::read_to_string(place.path("out/five_bar.time.svg")).unwrap();
     assert!(drawn.contains("hangs: it was stopped after 1 s") && drawn.contains("more reasons"), "failures are on it");
+}
+
+/// Symptoms: a time of 5e-324 s drew an axis without end; a pipe or a device in the place of an answer was read beyond
+/// the time limit; a peer's words commanded the terminal and were markup on the page.
+#[test]
+fn a_peer_s_numbers_are_checked_and_its_words_are_shown_as_words() {
+    let place = Place::new();
+    place.ok("solve scenarios/five_bar.toml --with newton --only positions --csv good.csv");
+    let copy = format!("cp {} \"$csv\"", place.path("good.csv").display());
+    let answers = |rest: &str| format!("{copy}; echo '{{{rest}}}'");
+    let reasons = [
+        ("tiny", answers(r#""seconds": [5e-324]"#), "5e-324"),
+        ("huge", answers(r#""seconds": [0.1, 1e300]"#), "1e+300"),
+        ("negative", answers(r#""seconds": -1"#), "can be measured"),
+        ("word", answers(r#""seconds": ["soon"]"#), "can be measured"),
+        ("half", answers(r#""seconds": 1, "work": {"steps": 1.5}"#), "no whole number"),
+        ("list", answers(r#""seconds": 1, "work": [7]"#), "no JSON object"),
+        ("pipe", format!("mkfifo \"$csv\"; {TIME}"), "answer.csv is no regular file"),
+        ("device", format!("ln -s /dev/zero \"$csv\"; {TIME}"), "answer.csv is no regular file"),
+        (
+            "output",
+            format!("{copy}; cd $(dirname \"$csv\"); rm stdout; ln -s /dev/zero stdout"),
+            "stdout is no regular file",
+        ),
+        ("red", r"printf '\033[31mred\033]0;x\007\342\200\256' >&2; exit 1".into(), r"\u{1b}[31mred"),
+    ];
+    for (name, solve, _) in &reasons {
+        peer(&place, name, solve);
+    }
+    let version = r#""version": "<img src=x onerror=y> | [a](b) `c` \\u001b[2J\\u202e""#;
+    peer(&place, "words", &answers(&format!(r#""seconds": 0.5, {version}, "work": {{"st\\u001beps": 1}}"#)));
+    let names: Vec<&str> = reasons.iter().map(|(name, ..)| *name).chain(["words"]).collect();
+    let peers: Vec<String> = names.iter().map(|name| format!("--peer {name}=./{name}")).collect();
+    let told = place.ok(&format!(
+        "bench scenarios/five_bar.toml --out out {QUICK} --peer-limit 20 --page page.md {}",
+        peers.join(" ")
+    ));
+    let found: Value = serde_json::from_str(&fs::read_to_string(place.path("out/bench.json")).unwrap()).unwrap();
+    let points = found["scenarios"][0]["points"].as_array().unwrap();
+    for (name, _, reason) in &reasons {
+        let point = points.iter().find(|point| point["program"] == *name).unwrap();
+        let told = point["errors"]["positions"]["failed"].as_str().unwrap_or_default();
+        assert!(told.contains(reason), "{name}: {told}");
+    }
+    let page = fs::read_to_string(place.path("page.md")).unwrap();
+    assert!(!page.contains("<img") && page.contains(r"&lt;img src=x onerror=y\> \| \[a\](b) \`c\`"), "{page}");
+    let mut shown = vec![told, page];
+    for name in ["five_bar.csv", "five_bar.time.svg", "bench.json"] {
+        shown.push(fs::read_to_string(place.path("out").join(name)).unwrap());
+    }
+    for text in shown {
+        assert!(!text.replace('\n', "").contains(is_unseen), "{text:?}");
+    }
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Files that commands write: whole or not at all, whoever writes beside them.
 #![cfg(unix)]
 
-use std::fs::{self, File};
+use std::fs;
 use std::os::unix::fs::{PermissionsExt, symlink};
 use std::process::Command;
 
@@ -52,17 +52,6 @@ fn regress_no_link_in_the_way_is_followed() {
         files(&place, "out"),
         [".linkproof-pendulum.partial", "pendulum.foxglove.json", "pendulum.mcap", "pendulum.mcap.partial"]
     );
-}
-
-/// What a killed run has left goes; what another run is writing stays.
-#[test]
-fn stale_files_are_cleared() {
-    let place = Place::new();
-    fs::write(place.path(".linkproof-stale.partial"), "half a recording").unwrap();
-    let busy = File::create(place.path(".linkproof-busy.partial")).unwrap();
-    busy.lock().unwrap();
-    place.ok(&format!("{QUICK} --no-record --json out.json"));
-    assert_eq!(files(&place, ""), [".linkproof-busy.partial", "out.json"]);
 }
 
 /// A link that the user gives as the target is the user's way to name a file. The file keeps its permissions.

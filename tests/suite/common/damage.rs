@@ -16,7 +16,7 @@ pub struct Damaged {
 }
 
 /// All scenario files of the repository, in the order of their paths.
-static SHIPPED: LazyLock<Vec<(PathBuf, String)>> = LazyLock::new(|| {
+pub static SHIPPED: LazyLock<Vec<(PathBuf, String)>> = LazyLock::new(|| {
     let mut open = vec![Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios")];
     let mut found = Vec::new();
     while let Some(directory) = open.pop() {
@@ -55,7 +55,7 @@ pub fn damaged(seed: u64, index: u64) -> Damaged {
 }
 
 /// Words that are not what a number should be, or numbers that no mechanism has.
-const NUMBERS: [&str; 36] = [
+pub const NUMBERS: [&str; 36] = [
     "0",
     "-0.0",
     "1e308",

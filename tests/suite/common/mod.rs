@@ -7,6 +7,8 @@ pub mod disc;
 pub mod entries;
 pub mod four_link;
 pub mod higher;
+#[cfg(target_os = "linux")]
+pub mod hostile;
 pub mod loads;
 pub mod random;
 pub mod sliders;

@@ -1,0 +1,70 @@
+//! What a viewer has asked for.
+
+use std::collections::BTreeMap;
+
+/// Most subscriptions of one viewer to one topic: a viewer needs one, and every one more is sent again.
+const EACH: usize = 4;
+
+/// What a viewer has asked for, found by its own number and by the topic's.
+#[derive(Default)]
+pub(super) struct Wants {
+    topics: BTreeMap<u32, u16>,
+    numbers: BTreeMap<u16, Vec<u32>>,
+}
+
+impl Wants {
+    /// Adds a topic under a number of the viewer's; whether that is new. One more than [`EACH`] is not.
+    pub(super) fn add(&mut self, number: u32, topic: u16) -> bool {
+        let numbers = self.numbers.entry(topic).or_default();
+        let is_new = numbers.len() < EACH && !self.topics.contains_key(&number);
+        if is_new {
+            numbers.push(number);
+            self.topics.insert(number, topic);
+        }
+        is_new
+    }
+
+    /// Forgets these numbers.
+    pub(super) fn remove(&mut self, numbers: &[u32]) {
+        for number in numbers {
+            let topic = self.topics.remove(number);
+            if let Some(own) = topic.and_then(|topic| self.numbers.get_mut(&topic)) {
+                own.retain(|other| other != number);
+            }
+        }
+    }
+
+    /// Forgets everything.
+    pub(super) fn clear(&mut self) {
+        *self = Wants::default();
+    }
+
+    /// The viewer's numbers of a topic.
+    pub(super) fn of(&self, topic: u16) -> Vec<u32> {
+        self.numbers.get(&topic).cloned().unwrap_or_default()
+    }
+
+    /// All numbers with their topics.
+    pub(super) fn all(&self) -> Vec<(u32, u16)> {
+        self.topics.iter().map(|(&number, &topic)| (number, topic)).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_viewer_has_as_many_subscriptions_as_there_are_topics_times_four_and_no_more() {
+        let mut wants = Wants::default();
+        let added = (0..100_000).filter(|&number| wants.add(number, (number % 3) as u16)).count();
+        assert_eq!((added, wants.all().len()), (3 * EACH, 3 * EACH));
+        assert_eq!(wants.of(1), [1, 4, 7, 10]);
+        assert!(!wants.add(1, 2), "a number is taken once");
+        wants.remove(&[4, 4, 99_999]);
+        assert_eq!(wants.of(1), [1, 7, 10]);
+        assert!(wants.add(4, 1) && wants.of(1) == [1, 7, 10, 4]);
+        wants.clear();
+        assert!(wants.all().is_empty() && wants.of(1).is_empty());
+    }
+}

@@ -1,0 +1,262 @@
+//! Files that are replaced: those that the caller named, and those that this program wrote. Every command that makes a
+//! name up stands here, against what a user may have at that place.
+#![cfg(unix)]
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::os::unix::fs::{PermissionsExt, symlink};
+use std::path::Path;
+use std::process::Command;
+
+use crate::cli::tools::{Outcome, Place};
+
+/// What a command does about a file that is not its own.
+#[derive(Clone, Copy, PartialEq)]
+enum Then {
+    /// It writes nothing there, and says so with exit code 2.
+    Refuses,
+    /// It keeps the file, goes on, and says so.
+    Keeps,
+}
+
+/// A command, a file whose name it makes up, and what it does about another one there. `SEALED` files are told from
+/// edited ones too.
+type Writer = (&'static str, &'static str, Then, bool);
+
+const BENCH: &str = "bench scenarios/five_bar.toml --out out --quick --engine rapier --only positions --budget 1e4";
+const STRESS: &str = "stress turns --quick --out out --page page.md";
+const RUN: &str = "run scenarios/pendulum.toml --route differences";
+
+const WRITERS: [Writer; 22] = [
+    ("run scenarios/pendulum.toml --route differences", "recordings/pendulum.mcap", Then::Keeps, false),
+    ("run scenarios/pendulum.toml --route differences", "recordings/pendulum.foxglove.json", Then::Keeps, true),
+    (
+        "run scenarios/pendulum.toml --route differences --no-record --html out/",
+        "out/pendulum.html",
+        Then::Refuses,
+        true,
+    ),
+    ("export scenarios/pendulum.toml --mjcf", "pendulum.xml", Then::Refuses, true),
+    ("export scenarios/pendulum.toml --json", "pendulum.json", Then::Refuses, true),
+    (BENCH, "out/bench.json", Then::Refuses, true),
+    (BENCH, "out/five_bar.csv", Then::Refuses, true),
+    (BENCH, "out/five_bar.time.svg", Then::Refuses, true),
+    (BENCH, "out/five_bar.solutions.svg", Then::Refuses, true),
+    (BENCH, "out/five_bar.inner.svg", Then::Refuses, true),
+    (STRESS, "out/turns.json", Then::Refuses, false),
+    (STRESS, "out/turns.csv", Then::Refuses, false),
+    (STRESS, "out/turns.svg", Then::Refuses, true),
+    (STRESS, "out/report.txt", Then::Refuses, true),
+    (STRESS, "page/turns.svg", Then::Refuses, true),
+    ("view seen/pendulum.mcap --with foxglove", "seen/pendulum.foxglove.json", Then::Refuses, true),
+    ("view seen/pendulum.mcap --with plotjuggler", "seen/pendulum.plotjuggler.xml", Then::Refuses, true),
+    ("view seen/pendulum.mcap --python ./rerun", "seen/pendulum.rrd", Then::Refuses, false),
+    ("accept scenarios/pendulum.toml --route differences", "scenarios/pendulum.accepted", Then::Refuses, false),
+    ("new four-bar", "four_bar.toml", Then::Refuses, false),
+    ("new --shipped out", "out/catalogues/motors.toml", Then::Refuses, false),
+    ("man -o out", "out/linkproof-run.1", Then::Refuses, true),
+];
+
+/// Commands that write nothing, or only to files that the caller names.
+const NAMED: [&str; 18] = [
+    "bearings",
+    "check",
+    "clearance",
+    "compare",
+    "completions",
+    "diagram",
+    "docs",
+    "draw",
+    "drive",
+    "help",
+    "inspect",
+    "list",
+    "mutate",
+    "plan",
+    "schema",
+    "solve",
+    "synthesize",
+    "tune",
+];
+
+/// A place in which all of these commands can be run.
+fn place() -> Place {
+    let place = Place::new();
+    place.ok(&format!("{RUN} --record seen"));
+    fs::remove_file(place.path("seen/pendulum.foxglove.json")).unwrap();
+    // Rerun's library and viewer, as far as this program sees them.
+    let script = "#!/bin/sh\nif [ \"$1\" = -m ]; then exit 0; fi\nprintf 'RRF2 linkproof pendulum' > \"$3\"\n";
+    fs::write(place.path("rerun"), script).unwrap();
+    fs::set_permissions(place.path("rerun"), fs::Permissions::from_mode(0o755)).unwrap();
+    place
+}
+
+/// Runs a command with something in the way, and asserts that it is told, and what the exit code is.
+fn meets(place: &Place, (command, file, then, _): Writer, what: &str) -> Outcome {
+    let outcome = place.run(command);
+    let told = format!("{}{}", outcome.stdout, outcome.stderr);
+    let name = Path::new(file).file_name().unwrap().to_str().unwrap();
+    assert!(told.contains(name), "{command}: {what} at {file} is not told: {told}");
+    match then {
+        Then::Refuses => assert_eq!(outcome.code, 2, "{command}: {what} at {file}: {told}"),
+        Then::Keeps => assert!(outcome.code == 0 && told.contains("kept"), "{command}: {what} at {file}: {told}"),
+    }
+    outcome
+}
+
+#[test]
+fn nothing_is_replaced_that_is_not_ours_and_that_nobody_named() {
+    let mut seen = BTreeSet::new();
+    for writer @ (command, file, _, is_sealed) in WRITERS {
+        let place = place();
+        let at = place.path(file);
+        let remove = || fs::remove_file(&at).unwrap();
+        let no_more = |what: &str| {
+            let left: Vec<_> =
+                fs::read_dir(at.parent().unwrap()).unwrap().map(|own| own.unwrap().file_name()).collect();
+            let partial = left.iter().find(|name| name.to_string_lossy().ends_with(".partial"));
+            assert!(partial.is_none(), "{command}: {what} leaves {partial:?}");
+        };
+        fs::create_dir_all(at.parent().unwrap()).unwrap();
+        // A file of the user's.
+        fs::write(&at, "mine").unwrap();
+        meets(&place, writer, "a file of the user's");
+        assert_eq!(fs::read_to_string(&at).unwrap(), "mine", "{command}: {file}");
+        remove();
+        // A link to a file of the user's.
+        fs::write(place.path("precious"), "mine").unwrap();
+        symlink(place.path("precious"), &at).unwrap();
+        meets(&place, writer, "a link");
+        assert_eq!(fs::read_to_string(place.path("precious")).unwrap(), "mine", "{command}: {file}");
+        assert!(fs::symlink_metadata(&at).unwrap().is_symlink(), "{command}: {file}");
+        remove();
+        // A link to nothing.
+        symlink(place.path("elsewhere"), &at).unwrap();
+        meets(&place, writer, "a link to nothing");
+        assert!(!place.path("elsewhere").exists(), "{command}: {file}");
+        assert!(fs::symlink_metadata(&at).unwrap().is_symlink(), "{command}: {file}");
+        remove();
+        // A pipe, which nobody reads.
+        assert!(Command::new("mkfifo").arg(&at).status().unwrap().success());
+        meets(&place, writer, "a pipe");
+        remove();
+        no_more("what was refused");
+        // Nothing, and then its output.
+        let first = place.run(command);
+        assert_eq!(first.code, 0, "{command}: {}", first.stderr);
+        let own = fs::read(&at).unwrap();
+        match command.starts_with("new") {
+            // These do not replace their output either.
+            true => drop(meets(&place, writer, "its output")),
+            false => assert_eq!(place.run(command).code, 0, "{command}: {file}"),
+        }
+        if is_sealed {
+            // Its output, edited.
+            let edited = [&own[..], b" "].concat();
+            fs::write(&at, &edited).unwrap();
+            meets(&place, writer, "an edited file");
+            assert_eq!(fs::read(&at).unwrap(), edited, "{command}: {file}");
+        }
+        no_more("a run");
+        seen.insert(command.split(' ').next().unwrap());
+    }
+    // No command is forgotten.
+    let help = Place::empty().ok("--help");
+    let listed =
+        help.lines().skip_while(|line| !line.ends_with("Commands:")).skip(1).take_while(|line| !line.is_empty());
+    // What goes on in a second line stands further to the right.
+    let names = listed.filter_map(|line| line.strip_prefix("  ").filter(|own| !own.starts_with(' ')));
+    for command in names.filter_map(|line| line.split_whitespace().next()) {
+        assert!(seen.contains(command) || NAMED.contains(&command), "what may {command} replace?");
+    }
+}
+
+/// Output of an earlier run gives way, though the present one differs.
+#[test]
+fn an_older_output_gives_way_to_a_new_one() {
+    let place = place();
+    let (page, film) = (format!("{RUN} --no-record --html out/"), format!("{RUN} --record seen"));
+    for command in [&page, &film] {
+        place.ok(command);
+    }
+    let files = ["out/pendulum.html", "seen/pendulum.mcap", "seen/pendulum.foxglove.json"];
+    let old = files.map(|file| fs::read(place.path(file)).unwrap());
+    place.ok(&format!("{page} --only positions"));
+    place.ok(&format!("{film} --record-forces --slow 3"));
+    for (file, old) in files.iter().zip(old) {
+        assert_ne!(fs::read(place.path(file)).unwrap(), old, "{file}");
+    }
+}
+
+/// Symptom: a link to nothing was replaced, and a file was made where nobody wanted it. Whoever names a link names its
+/// file, as with other programs.
+#[test]
+fn a_link_that_is_named_is_followed_also_to_what_is_not_there_yet() {
+    for (command, file) in [
+        ("run scenarios/pendulum.toml --route differences --no-record --json FILE", "own.json"),
+        ("run scenarios/pendulum.toml --route differences --no-record --html FILE", "own.html"),
+        ("solve scenarios/pendulum.toml --with assur --csv FILE", "own.csv"),
+        ("draw scenarios/pendulum.toml -o FILE", "own.svg"),
+        ("export scenarios/pendulum.toml --mjcf FILE", "own.xml"),
+        ("view seen/pendulum.mcap --with foxglove -o FILE", "own.json"),
+        ("schema -o FILE", "own.json"),
+    ] {
+        let place = place();
+        let command = command.replace("FILE", file);
+        fs::create_dir(place.path("there")).unwrap();
+        symlink("second", place.path(file)).unwrap();
+        symlink("there/real", place.path("second")).unwrap();
+        for old in [None, Some("an older file")] {
+            if let Some(old) = old {
+                fs::write(place.path("there/real"), old).unwrap();
+            }
+            place.ok(&command);
+            let written = fs::read_to_string(place.path("there/real")).unwrap();
+            assert!(!written.is_empty() && written != "an older file", "{command}");
+            assert!(fs::symlink_metadata(place.path(file)).unwrap().is_symlink(), "{command}");
+        }
+        // Links that lead in a circle.
+        fs::remove_file(place.path("second")).unwrap();
+        symlink(file, place.path("second")).unwrap();
+        place.refused(&command, &["links"]);
+    }
+}
+
+/// Symptom: a user's file called `.linkproof-notes.partial` was deleted, as if a killed run had left it.
+#[test]
+fn what_a_user_calls_like_a_temporary_file_stays() {
+    let place = place();
+    for name in [".linkproof-notes.partial", ".linkproof-0123456789abcdef-01234567.partial"] {
+        fs::write(place.path(name), "mine").unwrap();
+    }
+    place.ok(&format!("{RUN} --no-record --json out.json"));
+    for name in [".linkproof-notes.partial", ".linkproof-0123456789abcdef-01234567.partial"] {
+        assert_eq!(fs::read_to_string(place.path(name)).unwrap(), "mine");
+    }
+}
+
+/// Whatever else writes a file would not know the rule: there is one way to write, and what peers are given.
+#[test]
+fn nothing_writes_past_the_one_place_for_the_rule() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut open = vec![root.clone()];
+    let mut found = BTreeSet::new();
+    while let Some(directory) = open.pop() {
+        for entry in fs::read_dir(directory).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                open.push(path);
+                continue;
+            }
+            let text = fs::read_to_string(&path).unwrap();
+            let code = text.split("#[cfg(test)]").next().unwrap();
+            let writes = ["fs::write(", "File::create", "OpenOptions", "File::options", "fs::copy(", "fs::rename("];
+            if writes.iter().any(|call| code.contains(call)) && !path.ends_with("tests.rs") {
+                found.insert(path.strip_prefix(&root).unwrap().to_string_lossy().replace('\\', "/"));
+            }
+        }
+    }
+    // What peers and viewers are given lies in directories that were made for them.
+    let known = ["files.rs", "outside/peer.rs", "outside/process.rs", "outside/viewer.rs"].map(String::from);
+    assert_eq!(found, known.into());
+}

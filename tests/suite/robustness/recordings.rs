@@ -1,0 +1,106 @@
+//! Recordings that nobody vouches for: what they say of their sizes, and where they point.
+
+use std::fs;
+use std::io::Cursor;
+use std::path::Path;
+
+use mcap::records::MessageHeader;
+
+use crate::cli::tools::Place;
+use linkproof::record::read_bytes;
+
+/// Where the content of the first record of a code begins.
+fn content(file: &[u8], code: u8) -> usize {
+    let mut at = mcap::MAGIC.len();
+    while file[at] != code {
+        at += 9 + u64::from_le_bytes(file[at + 1..at + 9].try_into().unwrap()) as usize;
+    }
+    at + 9
+}
+
+/// A file with one compressed chunk of so many messages of a mebibyte of zeros.
+fn zeros(messages: u32) -> Vec<u8> {
+    let options = mcap::WriteOptions::new().chunk_size(None).calculate_chunk_crcs(false);
+    let mut file = options.create(Cursor::new(Vec::new())).unwrap();
+    let schema = file.add_schema("linkproof.Any", "protobuf", &[]).unwrap();
+    let channel_id = file.add_channel(schema, "/other", "protobuf", &Default::default()).unwrap();
+    for sequence in 0..messages {
+        let header = MessageHeader { channel_id, sequence, log_time: 0, publish_time: 0 };
+        file.write_to_known_channel(&header, &vec![0; (1 << 20) - 100]).unwrap();
+    }
+    file.finish().unwrap();
+    file.into_inner().into_inner()
+}
+
+fn refusal(file: &[u8]) -> String {
+    read_bytes(file, Path::new("zeros.mcap")).unwrap_err().to_string()
+}
+
+/// Symptom: a chunk of zeros in 31 kB was decompressed to a gigabyte, for 12 s.
+#[test]
+fn a_small_file_that_says_it_is_large_is_not_decompressed() {
+    let file = zeros(300);
+    assert!(file.len() < 100_000, "{} bytes", file.len());
+    let told = refusal(&file);
+    assert!(
+        told.contains("zeros.mcap has") && told.contains("says that it holds 31") && told.contains("134 MB"),
+        "{told}"
+    );
+    // Within the limit, the same is read to its end.
+    assert!(refusal(&zeros(20)).contains("holds no trajectory"));
+}
+
+/// What it says of its size is believed only so far.
+#[test]
+fn a_file_that_says_it_is_small_is_read_no_further_than_that() {
+    let mut file = zeros(300);
+    let size = content(&file, mcap::records::op::CHUNK) + 16;
+    file[size..size + 8].copy_from_slice(&1000u64.to_le_bytes());
+    assert!(refusal(&file).contains("damaged"), "{}", refusal(&file));
+    // Twice as much as there is.
+    let mut file = zeros(20);
+    file[size..size + 8].copy_from_slice(&(41u64 << 20).to_le_bytes());
+    assert!(refusal(&file).contains("damaged"), "{}", refusal(&file));
+    file[size..size + 8].copy_from_slice(&u64::MAX.to_le_bytes());
+    assert!(refusal(&file).contains("says that it holds"), "{}", refusal(&file));
+}
+
+/// Symptom: the index of an older recording pointed before its beginning, and the run that looked at it panicked.
+#[test]
+fn an_older_recording_that_points_anywhere_is_left_alone() {
+    let place = Place::new();
+    place.ok("run scenarios/pendulum.toml --route differences --record out");
+    let path = place.path("out/pendulum.mcap");
+    let whole = fs::read(&path).unwrap();
+    for code in [mcap::records::op::ATTACHMENT_INDEX, mcap::records::op::METADATA_INDEX] {
+        let mut file = whole.clone();
+        let at = content(&file, code);
+        file[at..at + 8].copy_from_slice(&u64::MAX.to_le_bytes());
+        file[at + 8..at + 16].copy_from_slice(&5u64.to_le_bytes());
+        fs::write(&path, &file).unwrap();
+        let told = place.ok("run scenarios/pendulum.toml --route differences --record out");
+        assert!(told.contains("out/pendulum.mcap"), "{told}");
+        assert_eq!(fs::read(&path).unwrap(), whole, "it is the same run, and ours");
+    }
+    // Cut off anywhere in what describes it, it is somebody's file.
+    for cut in [9, 30, content(&whole, mcap::records::op::METADATA) + 20] {
+        fs::write(&path, &whole[..cut]).unwrap();
+        let told = place.ok("run scenarios/pendulum.toml --route differences --record out");
+        assert!(told.contains("out/pendulum-2.mcap") && told.contains("no recording of a run"), "{told}");
+        assert_eq!(fs::read(&path).unwrap(), whole[..cut]);
+    }
+}
+
+/// What never ends, and what is no file, is not read.
+#[cfg(unix)]
+#[test]
+fn a_recording_is_a_regular_file() {
+    let place = Place::new();
+    assert!(std::process::Command::new("mkfifo").arg(place.path("pipe.mcap")).status().unwrap().success());
+    std::os::unix::fs::symlink("/dev/zero", place.path("zero.mcap")).unwrap();
+    for name in ["pipe.mcap", "zero.mcap"] {
+        place.refused(&format!("view {name} --with foxglove"), &[name, "no regular file"]);
+        place.refused(&format!("view {name} --with plotjuggler"), &[name, "no regular file"]);
+        place.refused(&format!("compare scenarios/pendulum.toml {name}"), &[name, "no regular file"]);
+    }
+}
