@@ -15,7 +15,8 @@ const INSTANTS: usize = 5;
 /// Part of a bound that the rounding of a written number takes.
 const WRITTEN: f64 = 0.05;
 
-/// Growth of a bound from which agreement proves nothing: what was known before is not known any more.
+/// Ratio of the bounds, accepted and found, from which agreement proves nothing: what was known before is not known any
+/// more, or what is accepted is not what was known.
 const WIDER: f64 = 100.0;
 
 /// Difference of two times that are the same instant, over the larger of both.
@@ -96,7 +97,7 @@ impl Moved {
     }
 }
 
-/// A channel whose bound has grown so far that its agreement proves nothing.
+/// A channel with a bound so wide, accepted or found, that its agreement proves nothing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Wider {
     /// Name of the channel.
@@ -116,15 +117,18 @@ pub struct Comparison {
     pub moved: Vec<Moved>,
     /// Channels that are known much worse than before.
     pub wider: Vec<Wider>,
+    /// Channels that were accepted within a bound much wider than that of now: anything near would be as accepted.
+    pub looser: Vec<Wider>,
     /// Channels that were not accepted yet.
     pub new: Vec<String>,
     /// Channels that were accepted and are not found.
     pub gone: Vec<String>,
     /// Whether the instants are others: values are then not compared.
     pub is_other_grid: bool,
-    /// Words of the verdicts on the proof, accepted and found, if they differ.
+    /// Words of the verdicts on the proof, accepted and found, unless both agree.
     pub proof: Option<[String; 2]>,
-    /// The verdict: disagree if anything but a bound has moved, inconclusive if only bounds have.
+    /// The verdict: disagree if anything but a bound has moved or the proof disagrees, inconclusive if only bounds have
+    /// or one of the proofs proves nothing.
     pub verdict: Verdict,
 }
 
@@ -132,7 +136,10 @@ impl Comparison {
     /// Whether nothing has changed that a file of accepted figures says.
     #[must_use]
     pub fn is_same(&self) -> bool {
-        matches!(self.verdict, Verdict::Agree { .. }) && self.proof.is_none()
+        let is_other_proof = self.proof.as_ref().is_some_and(|[accepted, found]| accepted != found);
+        let figures = [&self.new, &self.gone].into_iter().all(Vec::is_empty) && self.moved.is_empty();
+        let bounds = self.wider.is_empty() && self.looser.is_empty();
+        figures && bounds && !self.is_other_grid && !is_other_proof
     }
 
     /// Names of the channels of which a figure has moved, each once.
@@ -149,15 +156,18 @@ impl Comparison {
 pub fn compared(accepted: &Accepted, found: &Accepted) -> Comparison {
     let is_other_grid = !is_same_grid(accepted, found);
     let known = by_name(accepted);
-    let (mut moved, mut wider, mut new) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut moved, mut wider, mut looser, mut new) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     let mut least_margin = f64::INFINITY;
     for own in &found.channels {
         let Some(kept) = counterpart(&known, own) else {
             new.push(own.name.clone());
             continue;
         };
+        let both = || Wider { channel: own.name.clone(), accepted: kept.bound, found: own.bound };
         if own.bound > WIDER * kept.bound {
-            wider.push(Wider { channel: own.name.clone(), accepted: kept.bound, found: own.bound });
+            wider.push(both());
+        } else if kept.bound > WIDER * own.bound {
+            looser.push(both());
         }
         if is_other_grid {
             continue;
@@ -172,17 +182,19 @@ pub fn compared(accepted: &Accepted, found: &Accepted) -> Comparison {
     let left = by_name(found);
     let gone = accepted.channels.iter().filter(|kept| !left.contains_key(kept.name.as_str()));
     let gone: Vec<String> = gone.map(|kept| kept.name.clone()).collect();
-    let proof = (accepted.verdict != found.verdict).then(|| [accepted.verdict.clone(), found.verdict.clone()]);
-    let worse = proof.as_ref().map_or("", |[_, found]| found);
-    let is_other = is_other_grid || !moved.is_empty() || !new.is_empty() || !gone.is_empty() || worse == "disagree";
-    let is_open = !wider.is_empty() || worse == "inconclusive";
+    let verdicts = [accepted.verdict.clone(), found.verdict.clone()];
+    let proof = verdicts.iter().any(|word| word != "agree").then_some(verdicts);
+    let is_other =
+        is_other_grid || !moved.is_empty() || !new.is_empty() || !gone.is_empty() || found.verdict == "disagree";
+    // Where there is no figure, none has moved, which proves nothing.
+    let is_open = !wider.is_empty() || !looser.is_empty() || proof.is_some() || found.channels.is_empty();
     let parts = [
         Verdict::Agree { margin: least_margin },
         if is_other { Verdict::Disagree { place: "not as accepted".into() } } else { AGREE },
-        if is_open { Verdict::open("less is known than before") } else { AGREE },
+        if is_open { Verdict::open("too little is known, now or when it was accepted") } else { AGREE },
     ];
     let verdict = overall(&parts);
-    Comparison { channels: found.channels.len(), moved, wider, new, gone, is_other_grid, proof, verdict }
+    Comparison { channels: found.channels.len(), moved, wider, looser, new, gone, is_other_grid, proof, verdict }
 }
 
 /// Channels by their names.
@@ -232,7 +244,8 @@ pub fn renewed(accepted: &Accepted, found: Accepted, comparison: &Comparison) ->
         return found;
     }
     let moved = comparison.moved.iter().map(|moved| moved.channel.as_str());
-    let others: BTreeSet<&str> = moved.chain(comparison.wider.iter().map(|wider| wider.channel.as_str())).collect();
+    let bounds = comparison.wider.iter().chain(&comparison.looser).map(|own| own.channel.as_str());
+    let others: BTreeSet<&str> = moved.chain(bounds).collect();
     let known = by_name(accepted);
     let kept = |own: Kept| match counterpart(&known, &own) {
         Some(kept) if !others.contains(own.name.as_str()) => kept.clone(),

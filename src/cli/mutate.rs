@@ -8,7 +8,7 @@ use super::engine_args::EngineArgs;
 use super::load::plain;
 use super::progress::Bar;
 use super::{advice, exit_code, output, standard_input};
-use crate::mutate::{Asked, Mutated, Party, all, mutate, named, tally};
+use crate::mutate::{Asked, End, Mutated, Party, all, mutate, named, tally};
 use crate::report::{errors, mutate as report};
 use linkage::error::{Error, ErrorKind, Result};
 
@@ -24,7 +24,7 @@ Examples:
 Every fault stands alone, in an otherwise correct proof at default settings. \
 A fault that changes no exact answer is not counted: side 1 is solved with it and without it.
 
-Exit codes: 0 no fault in one party escapes, 1 some escape, 2 bad input or usage, 3 none escapes, but some prove nothing either way.";
+Exit codes: 0 no fault in one party escapes, 1 some escape, 2 bad input or usage, 3 none escapes, but some prove nothing either way, or none was planted.";
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
@@ -108,11 +108,10 @@ fn written(args: &Args, found: &[Mutated], failures: &[(String, String)]) -> Res
 }
 
 fn exit(found: &[Mutated]) -> u8 {
-    let planted = tally(found).planted;
-    match (planted.escaped, planted.inconclusive) {
-        (0, 0) => exit_code::AGREE,
-        (0, _) => exit_code::INCONCLUSIVE,
-        (_, _) => exit_code::DISAGREE,
+    match tally(found).end() {
+        End::AllFound => exit_code::AGREE,
+        End::NoneEscapes | End::TrunkOpen | End::Nothing => exit_code::INCONCLUSIVE,
+        End::SomeEscape => exit_code::DISAGREE,
     }
 }
 

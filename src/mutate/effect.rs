@@ -34,11 +34,10 @@ pub(super) enum Effect {
     Unsolved,
 }
 
-/// What a fault changes in the exact answers of side 1, whose right ones are `right`, and known to `integration` where
-/// forces decide the motion (channel by channel, in their units).
-pub(super) fn effect(case: &Case, right: &Trajectory, integration: &[f64], fault: Fault) -> Result<Effect> {
-    let is_planted = match fault.kind.plant {
-        Plant::Case(change) => change(case, fault.size).is_some(),
+/// Whether a case has a part that a fault is in.
+pub(super) fn has_part(case: &Case, fault: Fault) -> Result<bool> {
+    match fault.kind.plant {
+        Plant::Case(change) => Ok(change(case, fault.size).is_some()),
         Plant::Answer(change) => {
             let mut any = false;
             let mut look = |row: usize, state: &State| {
@@ -46,10 +45,15 @@ pub(super) fn effect(case: &Case, right: &Trajectory, integration: &[f64], fault
                 Ok(())
             };
             AssurSolver.each(case, &mut look)?;
-            any
+            Ok(any)
         }
-    };
-    if !is_planted {
+    }
+}
+
+/// What a fault changes in the exact answers of side 1, whose right ones are `right`, and known to `integration` where
+/// forces decide the motion (channel by channel, in their units).
+pub(super) fn effect(case: &Case, right: &Trajectory, integration: &[f64], fault: Fault) -> Result<Effect> {
+    if !has_part(case, fault)? {
         return Ok(Effect::None);
     }
     let Ok(wrong) = Planted { fault, inner: Box::new(AssurSolver) }.solve(case) else { return Ok(Effect::Unsolved) };

@@ -22,4 +22,4 @@ pub use kinds::{At, Family, Kind, Plant, all, named};
 pub use mutant::{Mutant, Mutated, Party};
 pub use plan::{Asked, mutate};
 pub use seen::{Outcome, Sight};
-pub use tally::{Share, Tally, tally};
+pub use tally::{End, Share, Tally, tally};

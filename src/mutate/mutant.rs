@@ -60,4 +60,6 @@ pub struct Mutated {
     pub mutants: Vec<Mutant>,
     /// Kinds that the scenario has no part for.
     pub without: Vec<&'static str>,
+    /// Where no fault was planted that changes anything: the families of kinds that the scenario has parts for.
+    pub instead: Vec<&'static str>,
 }

@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc;
 
 use super::effect::Effect;
-use super::kinds::{self, Kind};
+use super::kinds::{self, Family, Kind};
 use super::lost::smallest;
 use super::mutant::{Mutant, Mutated, Party};
 use super::planted::Fault;
@@ -12,7 +12,7 @@ use super::seen::Outcome;
 use super::stage::Stage;
 use crate::proof::Options;
 use crate::scenario::Scenario;
-use linkage::error::Result;
+use linkage::error::{Error, ErrorKind, Result};
 
 /// What is asked for.
 #[derive(Clone, Debug, Default)]
@@ -41,9 +41,14 @@ impl Asked {
 /// Plants all faults that are asked for in a scenario. The result does not depend on the number of threads.
 ///
 /// # Errors
-/// Those of the proof without a fault.
+/// Those of the proof without a fault; [`ErrorKind::Input`] if it disagrees.
 pub fn mutate(scenario: &Scenario, asked: &Asked, progress: &mut dyn FnMut(f64)) -> Result<Mutated> {
     let stage = Stage::new(scenario, &asked.options)?;
+    if stage.verdict == "disagree" {
+        let message = format!("{} disagrees without a fault, so that every fault would count as found", scenario.name);
+        let help = "`linkproof run` tells what disagrees: mend it first";
+        return Err(Error::new(ErrorKind::Input, message).help(help));
+    }
     let kinds = asked.kinds();
     let next = AtomicUsize::new(0);
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
@@ -73,8 +78,29 @@ pub fn mutate(scenario: &Scenario, asked: &Asked, progress: &mut dyn FnMut(f64))
             Planting::Done(own) => mutants.extend(own),
         }
     }
+    let is_real = |mutant: &Mutant| !matches!(mutant.outcome, Outcome::Equivalent(_));
+    let instead = if mutants.iter().any(is_real) { Vec::new() } else { families(&stage)? };
     let Stage { verdict, engine, .. } = stage;
-    Ok(Mutated { scenario: scenario.name.clone(), verdict, engine, mutants, without })
+    Ok(Mutated { scenario: scenario.name.clone(), verdict, engine, mutants, without, instead })
+}
+
+/// Names of the families of which a kind changes something in a scenario.
+fn families(stage: &Stage) -> Result<Vec<&'static str>> {
+    let mut names = Vec::new();
+    for family in Family::ALL {
+        for kind in kinds::all().filter(|kind| kind.family == family) {
+            if matches!(stage.effect(fault(kind))?, Effect::Changes(_)) {
+                names.push(family.name());
+                break;
+            }
+        }
+    }
+    Ok(names)
+}
+
+/// A kind at the size that is tried first.
+fn fault(kind: &'static Kind) -> Fault {
+    Fault { kind, size: kind.size.unwrap_or(1.0) }
 }
 
 /// What came of one kind.
@@ -84,7 +110,7 @@ enum Planting {
 }
 
 fn of_kind(stage: &Stage, kind: &'static Kind, asked: &Asked) -> Result<Planting> {
-    let fault = Fault { kind, size: kind.size.unwrap_or(1.0) };
+    let fault = fault(kind);
     let effect = stage.effect(fault)?;
     let change = match effect {
         Effect::None => return Ok(Planting::Nowhere),

@@ -59,11 +59,33 @@ pub struct Tally {
     pub kinds: Vec<&'static str>,
 }
 
+/// What planted faults come to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum End {
+    /// Every fault that changes something is found.
+    AllFound,
+    /// None escapes, but some prove nothing either way.
+    NoneEscapes,
+    /// Some escape.
+    SomeEscape,
+    /// Faults in what all share only, some of which nothing from outside finds.
+    TrunkOpen,
+    /// No fault was planted that changes something: nothing is proven.
+    Nothing,
+}
+
 impl Tally {
-    /// Whether a fault in one party was not found.
+    /// What all faults come to. Those in what all share count where no others were planted.
     #[must_use]
-    pub fn has_escapes(&self) -> bool {
-        self.planted.found() < self.planted.real()
+    pub fn end(&self) -> End {
+        let Tally { planted, trunk_kinds, trunk_found, .. } = self;
+        match (planted.real(), planted.escaped, planted.inconclusive) {
+            (0, _, _) if trunk_kinds.is_empty() => End::Nothing,
+            (0, _, _) if trunk_found.len() < trunk_kinds.len() => End::TrunkOpen,
+            (_, 0, 0) => End::AllFound,
+            (_, 0, _) => End::NoneEscapes,
+            (_, _, _) => End::SomeEscape,
+        }
     }
 }
 

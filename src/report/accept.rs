@@ -10,7 +10,7 @@ use super::diagnosis::{number, told_apart};
 use super::json::Failure;
 use super::pretty::pretty;
 use super::tell::Tell;
-use crate::accept::{Comparison, Figure, Moved};
+use crate::accept::{Comparison, Figure, Moved, Wider};
 use crate::compare::Verdict;
 use crate::proof::Proof;
 use crate::scenario::accepted::Accepted;
@@ -92,7 +92,7 @@ fn headline(item: &Item) -> String {
                 format!("DISAGREE: {name} is not as accepted in {file}: {}.", counts(comparison))
             }
             Verdict::Inconclusive { .. } => {
-                format!("INCONCLUSIVE: {name} is known worse than accepted in {file}: {}.", counts(comparison))
+                format!("INCONCLUSIVE: {name} is not proven to be as accepted in {file}: {}.", counts(comparison))
             }
         },
         (Deed::Renewed, Some(comparison)) => format!("{name}: accepted anew in {file}: {}.", counts(comparison)),
@@ -108,18 +108,27 @@ fn channels(count: usize) -> String {
 
 /// What has changed, in numbers.
 fn counts(comparison: &Comparison) -> String {
-    let Comparison { wider, new, gone, is_other_grid, proof, .. } = comparison;
+    let Comparison { wider, looser, new, gone, is_other_grid, proof, .. } = comparison;
     let moved = comparison.moved_channels().len();
     let mut parts = Vec::new();
     if let Some([accepted, found]) = proof {
-        parts.push(format!("the proof was accepted as {accepted} and is {found}"));
+        let now = if accepted == found { "still is" } else { &format!("is {found}") };
+        parts.push(format!("the proof was accepted as {accepted} and {now}"));
     }
     if *is_other_grid {
         parts.push("its instants are others, values are not compared".into());
     }
     let all = comparison.channels;
-    let counted =
-        [(moved, "moved"), (wider.len(), "known 100 times worse or more"), (new.len(), "new"), (gone.len(), "gone")];
+    if all == 0 {
+        parts.push("there is no figure".into());
+    }
+    let counted = [
+        (moved, "moved"),
+        (wider.len(), "known 100 times worse or more"),
+        (looser.len(), "accepted within 100 times the bound of now or more"),
+        (new.len(), "new"),
+        (gone.len(), "gone"),
+    ];
     let counted = counted.into_iter().filter(|(count, _)| *count > 0);
     parts.extend(counted.map(|(count, word)| match word {
         "gone" => format!("{count} gone"),
@@ -153,9 +162,9 @@ fn changes(comparison: &Comparison, text: &mut String) {
             let _ = writeln!(text, "\n{word}: {}", listed(names));
         }
     }
-    for wider in comparison.wider.iter().take(SHOWN) {
-        let (channel, unit) = (&wider.channel, unit(&wider.channel));
-        let _ = writeln!(text, "\n{channel}: its bound was {:.1e} {unit}, now {:.1e}", wider.accepted, wider.found);
+    for other in comparison.wider.iter().take(SHOWN).chain(comparison.looser.iter().take(SHOWN)) {
+        let (channel, unit) = (&other.channel, unit(&other.channel));
+        let _ = writeln!(text, "\n{channel}: its bound was {:.1e} {unit}, now {:.1e}", other.accepted, other.found);
     }
 }
 
@@ -208,12 +217,8 @@ impl Document {
                 "verdict": comparison.verdict.word(),
                 "other_grid": comparison.is_other_grid,
                 "moved": comparison.moved.iter().map(row).collect::<Vec<_>>(),
-                "wider": comparison.wider.iter().map(|wider| json!({
-                    "channel": wider.channel,
-                    "unit": unit(&wider.channel),
-                    "accepted_bound": wider.accepted,
-                    "found_bound": wider.found,
-                })).collect::<Vec<_>>(),
+                "wider": comparison.wider.iter().map(bounds).collect::<Vec<_>>(),
+                "looser": comparison.looser.iter().map(bounds).collect::<Vec<_>>(),
                 "new": comparison.new,
                 "gone": comparison.gone,
                 "accepted_proof": comparison.proof.as_ref().map(|[accepted, _]| accepted),
@@ -240,6 +245,15 @@ impl Document {
     pub(crate) fn text(&self) -> String {
         pretty(&json!({ "schema": 1, "files": self.files, "errors": self.errors }))
     }
+}
+
+fn bounds(own: &Wider) -> Value {
+    json!({
+        "channel": own.channel,
+        "unit": unit(&own.channel),
+        "accepted_bound": own.accepted,
+        "found_bound": own.found,
+    })
 }
 
 fn row(moved: &Moved) -> Value {

@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 
 use super::cells::{table, trimmed};
 use super::pretty::pretty;
-use crate::mutate::{Kind, Mutant, Mutated, Outcome, Party, Share, Sight, Tally, all, tally};
+use crate::mutate::{End, Kind, Mutant, Mutated, Outcome, Party, Share, Sight, Tally, all, tally};
 use linkage::math::KeepNan;
 
 /// The result as text, the verdict first.
@@ -14,6 +14,10 @@ pub(crate) fn text(found: &[Mutated]) -> String {
     let tally = tally(found);
     let mut text = String::new();
     let _ = writeln!(text, "{}\n", headline(&tally));
+    for one in found.iter().filter(|one| !one.instead.is_empty()) {
+        let (name, instead) = (&one.scenario, one.instead.join(", "));
+        let _ = writeln!(text, "{name}: no fault of the kinds asked for changes anything; it has parts for --kind {instead}\n");
+    }
     let _ = writeln!(text, "{}\n", scenarios(found));
     let _ = writeln!(text, "{}\n", kinds(found));
     let _ = writeln!(text, "{LEGEND}\n");
@@ -36,10 +40,15 @@ found down to: sizes above this are found in every scenario, to a factor of two;
 /// One sentence with the figures.
 fn headline(tally: &Tally) -> String {
     let Tally { planted, trunk_kinds, trunk_found, kinds, .. } = tally;
-    let word = match (planted.escaped, planted.inconclusive) {
-        (0, 0) => "ALL FOUND",
-        (0, _) => "NONE ESCAPES",
-        (_, _) => "SOME ESCAPE",
+    if tally.end() == End::Nothing {
+        return "NOTHING PLANTED  no fault of the kinds asked for changes anything: nothing is shown".into();
+    }
+    let word = match tally.end() {
+        End::AllFound => "ALL FOUND",
+        End::NoneEscapes => "NONE ESCAPES",
+        End::SomeEscape => "SOME ESCAPE",
+        End::TrunkOpen => "OPEN IN THE TRUNK",
+        End::Nothing => "NOTHING PLANTED",
     };
     let mut line = format!(
         "{word}  {} kinds; {} of {} faults in one party found ({}), {} inconclusive, {} escaped; {} change nothing",
@@ -262,6 +271,7 @@ pub(crate) fn json(found: &[Mutated], failures: &[(String, String)]) -> String {
             json!({
                 "scenario": one.scenario, "verdict_without": one.verdict, "engine": one.engine,
                 "faults": one.mutants.iter().map(mutant).collect::<Vec<_>>(), "without_part": one.without,
+                "kinds_instead": one.instead,
             })
         })
         .collect();

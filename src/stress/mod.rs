@@ -14,5 +14,6 @@ mod work;
 pub use families::{FAMILIES, named};
 pub use family::{Engines, Family, Setup, WORK};
 pub use outcome::{Group, Outcome, Party, Reached};
+pub(crate) use point::fnv;
 pub use point::run;
 pub use work::{Job, jobs, run_all};

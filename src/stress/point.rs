@@ -44,6 +44,11 @@ fn key(family: &Family, setup: Option<&Setup>, seed: u64) -> String {
     let engines: Vec<String> =
         built().map(|name| name.with_step(1.0).map_or_else(|_| String::new(), |own| own.version())).collect();
     let text = format!("{} {} {seed} {engines:?} {setup:?}", env!("CARGO_PKG_VERSION"), family.name);
+    fnv(&text)
+}
+
+/// FNV-1a of a text, in hexadecimal digits.
+pub(crate) fn fnv(text: &str) -> String {
     let hash = |hash: u64, byte: u8| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
     format!("{:016x}", text.bytes().fold(0xcbf2_9ce4_8422_2325, hash))
 }

@@ -27,6 +27,19 @@ pub enum Family {
 }
 
 impl Family {
+    /// All families.
+    pub const ALL: [Family; 9] = [
+        Family::Geometry,
+        Family::Drive,
+        Family::Mass,
+        Family::Load,
+        Family::Motor,
+        Family::Position,
+        Family::Rate,
+        Family::Acceleration,
+        Family::Force,
+    ];
+
     /// Name in tables.
     #[must_use]
     pub fn name(self) -> &'static str {

@@ -1,9 +1,10 @@
 //! What a family has come to, as JSON, schema 1, and back. Numbers have four digits; those that are not finite are
-//! `null` and are read back as infinite.
+//! `null` and are read back as infinite. A point is taken back only as it was written: it has a digest of its text.
 
 use serde::{Deserialize, Serialize};
 
-use crate::stress::{Family, Group, Outcome, Party, Reached};
+use super::summary::WORDS;
+use crate::stress::{Family, Group, Outcome, Party, Reached, fnv};
 
 const SCHEMA: u32 = 1;
 
@@ -25,6 +26,17 @@ struct Point {
     #[serde(default, skip_serializing_if = "String::is_empty")]
     refused: String,
     parties: Vec<Row>,
+    #[serde(default)]
+    digest: String,
+}
+
+impl Point {
+    /// FNV-1a of what the point says, its digest left out.
+    fn sealed(self) -> Point {
+        let bare = Point { digest: String::new(), ..self };
+        let text = serde_json::to_string(&bare).expect("texts and numbers can be written");
+        Point { digest: fnv(&text), ..bare }
+    }
 }
 
 #[derive(Serialize, Deserialize)]
@@ -66,6 +78,7 @@ pub(crate) fn json<'a>(family: &Family, seed: u64, outcomes: impl Iterator<Item 
         key: own.key.clone(),
         refused: own.refused.clone(),
         parties: own.parties.iter().map(row).collect(),
+        digest: String::new(),
     };
     let document = Document {
         schema: SCHEMA,
@@ -73,25 +86,26 @@ pub(crate) fn json<'a>(family: &Family, seed: u64, outcomes: impl Iterator<Item 
         dial: family.dial.into(),
         title: family.title.into(),
         seed,
-        points: outcomes.map(point).collect(),
+        points: outcomes.map(|own| point(own).sealed()).collect(),
     };
     serde_json::to_string_pretty(&document).expect("texts and numbers can be written") + "\n"
 }
 
-/// The results that a text holds. A text of another schema, or none of ours, holds none: everything is made anew.
+/// The results that a text holds. A text of another schema, or none of ours, holds none: everything is made anew. So is
+/// a point that was changed since it was written, or that has a verdict which is none of [`WORDS`].
 pub(crate) fn outcomes(text: &str) -> Vec<Outcome> {
     let Ok(document) = serde_json::from_str::<Document>(text) else { return Vec::new() };
     if document.schema != SCHEMA {
         return Vec::new();
     }
-    let point = |own: Point| Outcome {
-        dial: own.dial,
-        sample: own.sample,
-        key: own.key,
-        refused: own.refused,
-        parties: own.parties.into_iter().filter_map(party).collect(),
+    let point = |own: Point| -> Option<Outcome> {
+        let digest = own.digest.clone();
+        let own = own.sealed();
+        (own.digest == digest).then_some(())?;
+        let parties = own.parties.into_iter().map(party).collect::<Option<_>>()?;
+        Some(Outcome { dial: own.dial, sample: own.sample, key: own.key, refused: own.refused, parties })
     };
-    document.points.into_iter().map(point).collect()
+    document.points.into_iter().filter_map(point).collect()
 }
 
 /// Whether a file holds results of this family.
@@ -131,6 +145,7 @@ fn row(own: &Party) -> Row {
 }
 
 fn party(own: Row) -> Option<Party> {
+    WORDS.contains(&own.verdict.as_str()).then_some(())?;
     let number = |value: Option<f64>| value.unwrap_or(f64::INFINITY);
     let cell = |own: Cell| -> Option<Reached> {
         let (error, bound, used) = (number(own.error), number(own.bound), number(own.used));

@@ -148,7 +148,7 @@ fn a_bound_that_has_grown_a_hundred_times_proves_nothing() {
     let outcome = check(&place);
     assert_eq!(outcome.code, 3, "{}", outcome.stdout);
     assert!(
-        outcome.stdout.starts_with("INCONCLUSIVE: crank_rocker is known worse than accepted"),
+        outcome.stdout.starts_with("INCONCLUSIVE: crank_rocker is not proven to be as accepted"),
         "{}",
         outcome.stdout
     );
@@ -157,6 +157,35 @@ fn a_bound_that_has_grown_a_hundred_times_proves_nothing() {
         "{}",
         outcome.stdout
     );
+}
+
+/// Symptom: with every kept bound at 1e300, or with a kept verdict `disagree`, whatever a run found was as accepted.
+#[test]
+fn regress_figures_kept_within_any_bound_or_of_no_proof_prove_nothing() {
+    let place = accepted();
+    let whole = fs::read_to_string(place.path(FILE)).unwrap();
+    let mut lines: Vec<String> = whole.lines().map(String::from).collect();
+    for line in lines.iter_mut().filter(|line| line.starts_with("bound = ")) {
+        *line = "bound = 1e300".into();
+    }
+    fs::write(place.path(FILE), lines.join("\n")).unwrap();
+    let outcome = check(&place);
+    assert_eq!(outcome.code, 3, "{}", outcome.stdout);
+    let told = "57 of 57 channels accepted within 100 times the bound of now or more";
+    assert!(outcome.unbroken().contains(told), "{}", outcome.stdout);
+    let json = place.run(&format!("accept --check {SCENARIO} --json -")).json();
+    assert_eq!(json["files"][0]["comparison"]["looser"].as_array().unwrap().len(), 57);
+    // They are accepted anew, and the file is as it was.
+    place.ok(&format!("accept {SCENARIO}"));
+    assert_eq!(fs::read_to_string(place.path(FILE)).unwrap(), whole);
+    for word in ["disagree", "inconclusive"] {
+        fs::write(place.path(FILE), whole.replace("verdict = \"agree\"", &format!("verdict = \"{word}\""))).unwrap();
+        let outcome = check(&place);
+        assert_eq!(outcome.code, 3, "{}", outcome.stdout);
+        assert!(outcome.unbroken().contains(&format!("the proof was accepted as {word} and is agree")), "{}", outcome.stdout);
+        place.ok(&format!("accept {SCENARIO}"));
+        assert_eq!(fs::read_to_string(place.path(FILE)).unwrap(), whole);
+    }
 }
 
 #[test]
@@ -179,9 +208,13 @@ fn what_is_not_proven_is_accepted_only_if_asked() {
     assert_eq!(check(&place).code, 1);
     let told = place.ok(&format!("accept {SCENARIO} --unproven"));
     assert!(told.contains("the proof was accepted as agree and is disagree"), "{told}");
-    // It is as it was accepted, but no worse.
-    assert_eq!(check(&place).code, 0);
+    let outcome = check(&place);
+    assert_eq!(outcome.code, 1);
+    assert!(outcome.stdout.contains("the proof was accepted as disagree and still is"), "{}", outcome.stdout);
+    // Proven again, but the figures kept are not of a proof.
     fs::write(place.path(SCENARIO), text).unwrap();
+    assert_eq!(check(&place).code, 3);
+    place.ok(&format!("accept {SCENARIO}"));
     assert_eq!(check(&place).code, 0);
     place.refused(&format!("accept {SCENARIO} --unproven --check"), &["cannot be used with"]);
 }

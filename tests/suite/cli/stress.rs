@@ -44,6 +44,22 @@ fn a_run_is_the_same_from_any_number_of_threads_and_goes_on_where_it_was() {
     let told = place.ok("stress length_ratio redundant --quick --out one");
     assert!(run_of(&told).contains("4 of 5 points were run"), "{told}");
     assert!(whole == files(&place, "one"), "other bytes after a run that was broken off");
+
+    // Nobody's hand decides a verdict, and what is no verdict is none.
+    let kept = fs::read_to_string(&path).unwrap();
+    for (old, new) in [
+        ("\"verdict\": \"agree\"", "\"verdict\": \"disagree\""),
+        ("\"verdict\": \"agree\"", "\"verdict\": \"fine\""),
+        ("\"silent\": 0", "\"silent\": 1"),
+        ("\"group\": \"positions\"", "\"group\": \"places\""),
+    ] {
+        let changed = kept.replacen(old, new, 1);
+        assert_ne!(changed, kept, "{old} is not in what is kept");
+        fs::write(&path, changed).unwrap();
+        let told = place.ok("stress length_ratio redundant --quick --out one");
+        assert!(run_of(&told).contains("1 of 5 points were run"), "{new}: {told}");
+        assert!(whole == files(&place, "one"), "{new}: other bytes after what was kept was changed");
+    }
 }
 
 #[test]
