@@ -52,7 +52,9 @@ pub(super) fn effect(case: &Case, right: &Trajectory, integration: &[f64], fault
     if !is_planted {
         return Ok(Effect::None);
     }
-    let Ok(wrong) = Planted { fault, inner: Box::new(AssurSolver) }.solve(case) else { return Ok(Effect::Unsolved) };
+    let Ok(wrong) = Planted { hook: fault, inner: Box::new(AssurSolver) }.solve(case) else {
+        return Ok(Effect::Unsolved);
+    };
     let sizes = magnitudes(right);
     let (mut largest, mut beyond) = (0.0f64, false);
     let known = sizes.iter().zip(integration);
