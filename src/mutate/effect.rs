@@ -56,7 +56,9 @@ pub(super) fn effect(case: &Case, right: &Trajectory, integration: &[f64], fault
     if !has_part(case, fault)? {
         return Ok(Effect::None);
     }
-    let Ok(wrong) = Planted { fault, inner: Box::new(AssurSolver) }.solve(case) else { return Ok(Effect::Unsolved) };
+    let Ok(wrong) = Planted { hook: fault, inner: Box::new(AssurSolver) }.solve(case) else {
+        return Ok(Effect::Unsolved);
+    };
     let sizes = magnitudes(right);
     let (mut largest, mut beyond) = (0.0f64, false);
     let known = sizes.iter().zip(integration);

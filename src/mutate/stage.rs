@@ -101,9 +101,9 @@ impl<'a> Stage<'a> {
         let runs = OnceLock::new();
         let around = |own: Box<dyn Engine>| -> Box<dyn Engine> {
             match fault.kind.plant {
-                Plant::Case(_) => kept_in(&runs, Box::new(Planted { fault, inner: own })),
+                Plant::Case(_) => kept_in(&runs, Box::new(Planted { hook: fault, inner: own })),
                 // Its runs are right; what it says of them is wrong.
-                Plant::Answer(_) => Box::new(Planted { fault, inner: self.kept(own) }),
+                Plant::Answer(_) => Box::new(Planted { hook: fault, inner: self.kept(own) }),
             }
         };
         self.judged(&self.sides, &around)
@@ -169,7 +169,7 @@ fn kept_in(runs: &OnceLock<Kept>, engine: Box<dyn Engine>) -> Box<dyn Engine> {
 
 /// Side 1 and side 2 with a fault, each as it is and with a tighter tolerance.
 fn planted_sides(fault: Fault) -> [[Planted<dyn Solver>; 2]; 2] {
-    let planted = |inner: Box<dyn Solver>| Planted { fault, inner };
+    let planted = |inner: Box<dyn Solver>| Planted { hook: fault, inner };
     [
         [planted(Box::new(AssurSolver)), planted(Box::new(TIGHT_ASSUR))],
         [planted(Box::new(NewtonSolver)), planted(Box::new(TIGHT_NEWTON))],

@@ -2,9 +2,9 @@
 //!
 //! Where a drive reverses, or its acceleration jumps, differences over a few steps to either side are not those of the
 //! motion: rates, accelerations and forces are not judged there.
-//! Where a link reverses whose load depends on the sense of its motion, the load jumps: forces are not judged there,
+//! Where a link reverses whose load depends on the sense of its motion, the load may jump: forces are not judged there,
 //! nor accelerations if forces decide the motion. Impulses that are combined from several runs are not judged close to
-//! it.
+//! it. A load that vanishes there does not jump, and nothing is left out.
 
 use linkage::case::Case;
 use linkage::drive::DriveMotion;
@@ -60,7 +60,11 @@ impl Doubt {
                 // In the very instant no step helps.
                 doubt.by_step[row] = !drive_turns(case, t, 0.0);
             }
-            let against = |run: &Senses| senses.of(row).iter().zip(run.of(row)).any(|(a, b)| against(*a, *b));
+            let against = |run: &Senses| {
+                let jumping =
+                    senses.of(row).iter().zip(run.of(row)).zip(senses.jumps(row)).filter(|(_, jumps)| **jumps);
+                jumping.into_iter().any(|((a, b), _)| against(*a, *b))
+            };
             if runs.resolutions.iter().any(|run| against(&run.senses)) {
                 doubt.forces[row] = true;
             }
@@ -118,16 +122,19 @@ fn drive_turns(case: &Case, t: f64, reach: f64) -> bool {
     })
 }
 
-/// Times at which something that a load senses reverses, by straight lines between the instants.
+/// Times at which a load jumps because what it senses reverses, by straight lines between the instants.
 fn reversals(times: &[f64], senses: &Senses) -> Vec<f64> {
     let mut rows: Vec<usize> = (0..times.len()).collect();
     rows.sort_by(|&a, &b| times[a].total_cmp(&times[b]));
     let mut found = Vec::new();
     for pair in rows.windows(2) {
         let [from, to] = [pair[0], pair[1]];
-        for (a, b) in senses.of(from).iter().zip(senses.of(to)).filter(|(a, b)| against(**a, **b)) {
-            let (before, after) = (a.norm(), b.norm());
-            found.push(times[from] + (times[to] - times[from]) * (before / (before + after)));
+        let jumps = senses.jumps(from).iter().zip(senses.jumps(to)).map(|(before, after)| *before || *after);
+        for ((a, b), jumps) in senses.of(from).iter().zip(senses.of(to)).zip(jumps) {
+            if jumps && against(*a, *b) {
+                let (before, after) = (a.norm(), b.norm());
+                found.push(times[from] + (times[to] - times[from]) * (before / (before + after)));
+            }
         }
     }
     found

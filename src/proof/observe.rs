@@ -53,16 +53,23 @@ pub(super) struct Observed {
 pub(super) struct Senses {
     each: usize,
     values: Vec<Vec2>,
+    /// Whether the load would jump if what it senses reversed there.
+    jumps: Vec<bool>,
 }
 
 impl Senses {
     fn new(each: usize, rows: usize) -> Self {
-        Senses { each, values: vec![Vec2::zeros(); each * rows] }
+        Senses { each, values: vec![Vec2::zeros(); each * rows], jumps: vec![false; each * rows] }
     }
 
     /// The values of one row of the grid.
     pub(super) fn of(&self, row: usize) -> &[Vec2] {
         &self.values[row * self.each..][..self.each]
+    }
+
+    /// Whether the loads jump if what they sense reverses there, load by load.
+    pub(super) fn jumps(&self, row: usize) -> &[bool] {
+        &self.jumps[row * self.each..][..self.each]
     }
 }
 
@@ -125,15 +132,18 @@ pub(super) fn observe(
     let mut unbalance = Unbalance::default();
     let mut passing: f64 = 1.0;
     let mut visit = |row: usize, state: &State| {
+        let crank = state.angles[case.crank().link] - case.crank().zero;
         let sensed = case.loads.iter().filter_map(|load| {
             let of_link = |link: usize| Vec2::new(case.spin(&state.motions, link), 0.0);
             let of_point = |at: Side| match case.moves(&state.motions, at) {
                 true => state.motions[at.link].point_velocity(at.local),
                 false => Vec2::zeros(),
             };
-            load.sensed_link().map(of_link).or_else(|| load.sensed_point().map(of_point))
+            let sensed = load.sensed_link().map(of_link).or_else(|| load.sensed_point().map(of_point))?;
+            Some((sensed, load.jump(crank) > 0.0))
         });
-        senses.values[row * senses.each..].iter_mut().zip(sensed).for_each(|(own, sensed)| *own = sensed);
+        let own = senses.values.iter_mut().zip(&mut senses.jumps).skip(row * senses.each);
+        own.zip(sensed).for_each(|((value, jumps), now)| (*value, *jumps) = now);
         if let Some(opening) = opening.get_mut(row) {
             let [own, far] = state.opening(case, size);
             (*opening, reach) = (own, reach.larger(far));

@@ -16,11 +16,10 @@ use crate::scenario::Scenario;
 use analytic::witness::triad::Triad;
 use analytic::{AssurSolver, NewtonSolver};
 use linkage::case::{Case, Grid, Wanted};
-use linkage::engine::{Engine, Route, Settings};
-use linkage::error::Result;
+use linkage::engine::{Engine, Hook, Settings, Wrapped};
 use linkage::mechanism::GROUND;
-use linkage::solver::{Progress, Provision, Solver, State, Visit};
-use linkage::trajectory::{Channel, ChannelKind};
+use linkage::solver::{Solver, State};
+use linkage::trajectory::Channel;
 use rapier_twin::Rapier;
 
 /// Step of the engines (s).
@@ -41,71 +40,23 @@ fn parsed(name: &str, text: &str) -> Scenario {
     Scenario::parse(text, &path(name)).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// A solver, or an engine, whose states all have the same fault.
-struct Planted<S: ?Sized> {
+/// A fault of the same size in all states.
+#[derive(Clone, Copy)]
+struct Everywhere {
     fault: Fault,
     size: f64,
     /// Whether its size goes with an engine's step.
     grows: bool,
-    inner: Box<S>,
 }
 
-impl<S: Solver + ?Sized> Solver for Planted<S> {
-    fn name(&self) -> &'static str {
-        self.inner.name()
+impl Hook for Everywhere {
+    fn answer(&self, _: &Case, _: usize, state: &mut State) {
+        (self.fault)(state, self.size);
     }
 
-    fn provides(&self, channel: &Channel) -> Provision {
-        self.inner.provides(channel)
-    }
-
-    fn sweep(&self, case: &Case, visit: Visit, progress: Progress) -> Result<()> {
-        let mut wrong = |row: usize, state: &State| {
-            let mut state = state.clone();
-            (self.fault)(&mut state, self.size);
-            visit(row, &state)
-        };
-        self.inner.sweep(case, &mut wrong, progress)
-    }
-}
-
-impl Engine for Planted<dyn Engine> {
-    fn version(&self) -> String {
-        self.inner.version()
-    }
-
-    fn settings(&self) -> Settings {
-        self.inner.settings()
-    }
-
-    fn with(&self, settings: Settings) -> Box<dyn Engine> {
-        let longer = settings.resolution / self.inner.settings().resolution;
-        let size = if self.grows { self.size * longer } else { self.size };
-        Box::new(Planted { fault: self.fault, size, grows: self.grows, inner: self.inner.with(settings) })
-    }
-
-    fn routes(&self) -> &'static [Route] {
-        self.inner.routes()
-    }
-
-    fn sweeps(&self, case: &Case) -> Option<[usize; 2]> {
-        self.inner.sweeps(case)
-    }
-
-    fn formal_order(&self, case: &Case, channel: &ChannelKind) -> f64 {
-        self.inner.formal_order(case, channel)
-    }
-
-    fn noise(&self, case: &Case, channel: &ChannelKind) -> f64 {
-        self.inner.noise(case, channel)
-    }
-
-    fn is_noise_measured(&self) -> bool {
-        self.inner.is_noise_measured()
-    }
-
-    fn told(&self) -> Vec<(&'static str, String)> {
-        self.inner.told()
+    fn with(&self, from: Settings, to: Settings) -> Self {
+        let longer = if self.grows { to.resolution / from.resolution } else { 1.0 };
+        Everywhere { size: self.size * longer, ..*self }
     }
 }
 
@@ -113,8 +64,8 @@ fn seen(case: &Case, solver: &dyn Solver) -> Observed {
     observe(case, solver, Watch::Side, &mut |_| {}).unwrap_or_else(|stopped| panic!("{}", stopped.error))
 }
 
-fn assur(fault: Fault, size: f64) -> Planted<dyn Solver> {
-    Planted { fault, size, grows: false, inner: Box::new(AssurSolver) }
+fn assur(fault: Fault, size: f64) -> Wrapped<Everywhere, dyn Solver> {
+    Wrapped { hook: Everywhere { fault, size, grows: false }, inner: Box::new(AssurSolver) }
 }
 
 fn knowing(case: &Case) -> Known {
@@ -277,7 +228,7 @@ fn engine_proven(scenario: &Scenario, fault: Fault, size: f64, grows: bool, free
     let reference = seen(&scenario.case, &AssurSolver);
     let rapier = Rapier::all(STEP).into_iter().next().unwrap();
     let inner = Box::new(rapier) as Box<dyn Engine>;
-    let engine: Box<dyn Engine> = Box::new(Planted { fault, size, grows, inner });
+    let engine: Box<dyn Engine> = Box::new(Wrapped { hook: Everywhere { fault, size, grows }, inner });
     let chosen = Chosen { engine, free, own_forces: None, budget: settle::BUDGET };
     let known = knowing(&scenario.case);
     engines::prove(scenario, &scenario.case, &chosen, &reference, &known, (&mut Ledger::default(), &mut |_| {}))

@@ -12,96 +12,32 @@ use crate::engines::coarse_step;
 use crate::scenario::Scenario;
 use analytic::{AssurSolver, NewtonSolver};
 use linkage::case::Case;
-use linkage::engine::{Engine, Route, Settings, Statics};
-use linkage::error::Result;
+use linkage::engine::{Engine, Hook, Route, Settings, Wrapped};
 use linkage::math::rotated;
-use linkage::solver::{Progress, Provision, Solver, State, Visit};
-use linkage::trajectory::{Channel, ChannelKind};
+use linkage::solver::{Solver, State};
 use rapier_twin::{Build, Precision, Rapier};
 
 /// Effect of a fault on every state.
 type Fault = fn(&mut State);
 
-/// An engine whose states have a fault by some routes.
-struct Planted {
+/// A fault in the states of an engine by some routes.
+#[derive(Clone, Copy)]
+struct ByRoute {
     fault: Fault,
     by: &'static [Route],
-    inner: Box<dyn Engine>,
+    /// The route of the engine.
+    route: Route,
 }
 
-impl Planted {
-    fn fault(&self) -> Fault {
-        if self.by.contains(&self.inner.settings().route) { self.fault } else { |_| () }
-    }
-}
-
-impl Solver for Planted {
-    fn name(&self) -> &'static str {
-        self.inner.name()
+impl Hook for ByRoute {
+    fn answer(&self, _: &Case, _: usize, state: &mut State) {
+        if self.by.contains(&self.route) {
+            (self.fault)(state);
+        }
     }
 
-    fn provides(&self, channel: &Channel) -> Provision {
-        self.inner.provides(channel)
-    }
-
-    fn sweep(&self, case: &Case, visit: Visit, progress: Progress) -> Result<()> {
-        let mut wrong = |row: usize, state: &State| {
-            let mut state = state.clone();
-            self.fault()(&mut state);
-            visit(row, &state)
-        };
-        self.inner.sweep(case, &mut wrong, progress)
-    }
-}
-
-impl Engine for Planted {
-    fn version(&self) -> String {
-        self.inner.version()
-    }
-
-    fn settings(&self) -> Settings {
-        self.inner.settings()
-    }
-
-    fn with(&self, settings: Settings) -> Box<dyn Engine> {
-        Box::new(Planted { fault: self.fault, by: self.by, inner: self.inner.with(settings) })
-    }
-
-    fn routes(&self) -> &'static [Route] {
-        self.inner.routes()
-    }
-
-    fn own_routes(&self, case: &Case) -> &'static [Route] {
-        self.inner.own_routes(case)
-    }
-
-    fn sweeps(&self, case: &Case) -> Option<[usize; 2]> {
-        self.inner.sweeps(case)
-    }
-
-    fn statics(&self, case: &Case) -> Option<Statics> {
-        let (mut inner, fault) = (self.inner.statics(case)?, self.fault());
-        Some(Box::new(move |case, state, t| {
-            inner(case, state, t)?;
-            fault(state);
-            Ok(())
-        }))
-    }
-
-    fn formal_order(&self, case: &Case, channel: &ChannelKind) -> f64 {
-        self.inner.formal_order(case, channel)
-    }
-
-    fn noise(&self, case: &Case, channel: &ChannelKind) -> f64 {
-        self.inner.noise(case, channel)
-    }
-
-    fn is_noise_measured(&self) -> bool {
-        self.inner.is_noise_measured()
-    }
-
-    fn told(&self) -> Vec<(&'static str, String)> {
-        self.inner.told()
+    fn with(&self, _: Settings, to: Settings) -> Self {
+        ByRoute { route: to.route, ..*self }
     }
 }
 
@@ -116,9 +52,10 @@ fn proven(name: &str, by: &'static [Route], fault: Fault) -> EngineProof {
     let sensitivity = sensitivity::of(case, &AssurSolver, &sides[0].trajectory).unwrap();
     let both = [("assur", &sides[0].trajectory), ("newton", &sides[1].trajectory)];
     let known = Known::of(case, both, &sensitivity).unwrap();
-    let inner = Box::new(Rapier::new(Build::Multibody, Precision::Double, coarse_step(case)));
+    let inner: Box<dyn Engine> = Box::new(Rapier::new(Build::Multibody, Precision::Double, coarse_step(case)));
     let free = Free { step: true, sweeps: true, extrapolated: true };
-    let engine = Box::new(Planted { fault, by, inner });
+    let hook = ByRoute { fault, by, route: inner.settings().route };
+    let engine = Box::new(Wrapped { hook, inner });
     let chosen = Chosen { engine, free, own_forces: Some(free), budget: settle::BUDGET };
     engines::prove(&scenario, case, &chosen, &sides[0], &known, (&mut Ledger::default(), &mut |_| {})).unwrap()
 }

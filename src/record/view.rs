@@ -112,16 +112,19 @@ pub(super) fn plots(sides: &[Side], errors: &[Channel]) -> Vec<Plot> {
 /// The two channels that tell most: the moment of a drive, the largest reaction, then accelerations, velocities,
 /// positions. No two are of one subject and unit.
 fn telling(trajectory: &Trajectory) -> Vec<&Channel> {
-    const UNITS: [Unit; 8] = [
-        Unit::NewtonMetre,
-        Unit::Newton,
-        Unit::RadianPerSecondSquared,
-        Unit::MetrePerSecondSquared,
-        Unit::RadianPerSecond,
-        Unit::MetrePerSecond,
-        Unit::Metre,
-        Unit::Radian,
-    ];
+    let place = |unit: Unit| match unit {
+        Unit::NewtonMetre => 0,
+        Unit::Newton => 1,
+        Unit::RadianPerSecondSquared => 2,
+        Unit::MetrePerSecondSquared => 3,
+        Unit::RadianPerSecond => 4,
+        Unit::MetrePerSecond => 5,
+        Unit::Metre => 6,
+        Unit::Radian => 7,
+    };
+    let mut units: Vec<Unit> = trajectory.channels().iter().map(|channel| channel.kind.unit).collect();
+    units.sort_by_key(|&unit| place(unit));
+    units.dedup();
     // A drive's numbers are what people look for first; what shakes the frame is a sum.
     let rank = |kind: &ChannelKind| match kind.subject {
         Subject::Drive | Subject::Motor => 0,
@@ -135,7 +138,7 @@ fn telling(trajectory: &Trajectory) -> Vec<&Channel> {
         // Of equal ones the first, so that the choice does not depend on rounding alone.
         best.reduce(|best, next| if range(next.1) > range(best.1) { next } else { best }).map(|(channel, _)| channel)
     };
-    UNITS.into_iter().filter_map(of).take(2).collect()
+    units.into_iter().filter_map(of).take(2).collect()
 }
 
 fn range(column: &[f64]) -> f64 {

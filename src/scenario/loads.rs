@@ -37,7 +37,7 @@ fn load(table: &mut Table, mechanism: &Mechanism) -> Result<Load> {
     let kind = table.string("type")?;
     let Some(sort) = LoadSort::named(&kind) else {
         let error = table.wrong(ErrorKind::Input, "type", format!("\"{kind}\" is no type of load"));
-        return Err(error.help(suggestion(&kind, LoadSort::ALL.map(LoadSort::name), "\"")));
+        return Err(error.help(suggestion(&kind, LoadSort::ALL.iter().map(|sort| sort.name()), "\"")));
     };
     let load = reader(sort)(table, mechanism)?;
     table.finish()?;

@@ -4,12 +4,14 @@
 mod accuracy;
 mod chains;
 mod grids;
+mod hanging;
 mod limits;
 mod native;
 mod pendulum;
 mod point_masses;
 mod prismatic;
 mod substeps;
+mod wrapped;
 
 use crate::common::spec::four_bar;
 use crate::common::{assert_within, shipped};

@@ -2,5 +2,6 @@
 
 mod closed_form;
 mod engines;
+mod jumps;
 mod random;
 mod reduced;

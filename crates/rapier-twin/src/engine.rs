@@ -35,14 +35,17 @@ impl Engine for Rapier {
         }
     }
 
+    fn controls_error(&self) -> bool {
+        false
+    }
+
     fn routes(&self) -> &'static [Route] {
         &Route::ALL
     }
 
-    fn own_routes(&self, case: &Case) -> &'static [Route] {
+    fn own_routes(&self, _: &Case) -> &'static [Route] {
         // Probes cost more, need many more sweeps at coarse steps, and their tiny steps leave an error that no run
         // shows.
-        let _ = case;
         &[Route::Native]
     }
 
@@ -61,7 +64,7 @@ impl Engine for Rapier {
             return None;
         }
         let mut equations = NewtonEuler::new(case);
-        Some(Box::new(move |case, state, t| equations.solve(case, state, t)))
+        Some(Box::new(move |case, row, state| equations.solve(case, state, case.grid.times[row])))
     }
 
     fn overrun(&self) -> f64 {

@@ -23,7 +23,11 @@ pub(super) fn steered(
     }
     let links = [joint.first.link, joint.second.link];
     let arm = |link: usize| -> Option<(f64, Vec2)> {
-        let branch = tree.branches.iter().find(|branch| branch.link == link)?;
+        let Some(branch) = tree.branches.iter().find(|branch| branch.link == link) else {
+            // A link that floats turns about its mass centre.
+            let arm = joint.on(link)? - mechanism.links()[link].mass_centre;
+            return (arm.norm() > 0.0).then(|| (arm.norm_squared() / masses[link][1], arm.normalize()));
+        };
         let own = &mechanism.joints()[branch.joint];
         let [mass, inertia] = masses[link];
         match own.kind {

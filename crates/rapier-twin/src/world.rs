@@ -104,7 +104,8 @@ fn own_angle(direction: Vec2) -> f64 {
 }
 
 /// The Rapier world of a case.
-/// Links in its tree form one multibody, and the others are separate bodies.
+/// All links form one multibody: those in its tree hang on each other, the others float. Without branches every link is
+/// a separate body.
 /// Joints that the tree cuts are impulse joints.
 /// Every drive has its own motor so that its impulse can be read.
 /// All numbers are f64, SI, world axes.
@@ -163,7 +164,7 @@ pub trait World {
     /// For a prismatic joint it is the speed of the child along the parent's axis (m/s).
     fn relative_speed(&self, index: usize) -> f64;
 
-    /// Velocity of the mass centre (m/s) and angular velocity (rad/s) of a link that is a separate body.
+    /// Velocity of the mass centre (m/s) and angular velocity (rad/s) of a link outside the tree.
     /// They too are one step late. `None` for links of the tree.
     fn velocity(&self, link: usize) -> Option<(Vec2, f64)>;
 

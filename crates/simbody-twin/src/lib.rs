@@ -14,7 +14,7 @@ use linkproof_simbody::{Failure, Run};
 
 use linkage::case::Case;
 use linkage::drive::{Load, Wrench};
-use linkage::engine::{Engine, Route, Settings};
+use linkage::engine::{Engine, Route, Settings, Statics};
 use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::math::{KeepNan, unit};
 use linkage::solver::{Progress, Provision, Solver, State, Visit, check_instants};
@@ -104,6 +104,19 @@ impl Engine for Simbody {
 
     fn routes(&self) -> &'static [Route] {
         &[Route::Native]
+    }
+
+    fn own_routes(&self, _: &Case) -> &'static [Route] {
+        // What it exerts is what it reports by its only route.
+        &[]
+    }
+
+    fn statics(&self, _: &Case) -> Option<Statics> {
+        None
+    }
+
+    fn overrun(&self) -> f64 {
+        0.0
     }
 
     fn sweeps(&self, _: &Case) -> Option<[usize; 2]> {

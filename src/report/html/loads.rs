@@ -9,7 +9,7 @@ use drawing::{Sketch, acting, tensions, weights};
 use linkage::case::Case;
 use linkage::drive::{Load, Senses};
 use linkage::mechanism::{GROUND, Mechanism, Side};
-use linkage::trajectory::{Channel, Trajectory};
+use linkage::trajectory::{Channel, Subject, Trajectory};
 
 /// Numbers in single precision that a row takes.
 pub(super) fn width(case: &Case) -> usize {
@@ -46,14 +46,15 @@ pub(super) fn of(case: &Case, sketch: &Sketch, placed: &Placed, rows: &[usize], 
     });
     let drives = case.drives.with_moment().filter_map(|(number, drive)| {
         let joint = &mechanism.joints()[drive.joint];
-        let channel = match number {
-            0 => "drive.torque_N_m".into(),
-            _ => format!("motor.{}.torque_N_m", joint.name),
+        let is_its_moment = |channel: &Channel| match channel.kind.subject {
+            Subject::Drive => number == 0,
+            Subject::Motor => number > 0 && channel.of == joint.name,
+            Subject::Link | Subject::Point | Subject::Joint | Subject::Slider | Subject::Frame => false,
         };
-        let channel = Channel::named(&channel)?;
-        let torque = reference.channels().iter().position(|own| *own == channel)?;
+        // A scenario may want no moments.
+        let torque = reference.channels().iter().position(is_its_moment)?;
         let what = if drive.is_free() { "moment of the motor" } else { "balancing moment" };
-        let at = Side { link: drive.link, local: joint.on(drive.link)? };
+        let at = Side { link: drive.link, local: joint.on(drive.link).expect("a drive's joint is on its link") };
         let name = format!("{what} on {}", mechanism.links()[drive.link].name);
         Some(json!({ "name": name, "on": side(at), "torque": torque }))
     });

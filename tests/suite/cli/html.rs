@@ -157,6 +157,28 @@ fn several_scenarios_go_to_a_directory_and_what_is_in_the_way_is_found_first() {
     assert_eq!(fs::read_to_string(place.path("file")).unwrap(), "old");
 }
 
+#[test]
+fn every_drive_with_a_moment_is_on_the_page_with_its_channel() {
+    let place = Place::new();
+    for (file, moments) in [("crank_rocker", &["O"][..]), ("five_bar", &["O1", "O2"]), ("double_pendulum", &[])] {
+        place.ok(&format!("run scenarios/{file}.toml --no-record --budget 1e5 --html {file}.html"));
+        let data = data(&fs::read_to_string(place.path(&format!("{file}.html"))).unwrap());
+        let drives = data["loads"]["drives"].as_array().unwrap();
+        let named: Vec<&Value> =
+            drives.iter().map(|own| &data["channels"][own["torque"].as_u64().unwrap() as usize]["name"]).collect();
+        let expected: Vec<String> = moments
+            .iter()
+            .enumerate()
+            .map(
+                |(number, joint)| {
+                    if number == 0 { "drive.torque_N_m".into() } else { format!("drive.{joint}.torque_N_m") }
+                },
+            )
+            .collect();
+        assert_eq!(named, expected.iter().collect::<Vec<_>>(), "{file}");
+    }
+}
+
 /// A number, or the first of a column.
 fn first(column: &Value) -> f64 {
     column.as_f64().unwrap_or_else(|| singles(column)[0])

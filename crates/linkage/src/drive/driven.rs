@@ -30,8 +30,7 @@ pub enum DriveMotion {
 pub struct Drive {
     /// Driven joint.
     pub joint: usize,
-    /// World direction from which the crank angle is measured: the angle of the link's x axis at crank angle zero
-    /// (rad).
+    /// The link that the drive turns.
     pub link: usize,
     /// World direction from which the crank angle is measured: the angle of the link's x axis at crank angle zero
     /// (rad).

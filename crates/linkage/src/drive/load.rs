@@ -96,7 +96,8 @@ pub enum Load {
     },
 }
 
-/// The motion whose sense a load depends on. The load jumps where that motion reverses.
+/// The motion whose sense a load depends on. Its law changes where that motion reverses, so that nobody integrates over
+/// such an instant. It need not jump there: see [`Load::jump`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Senses {
     /// The load does not depend on a sense of motion.
@@ -246,7 +247,7 @@ impl Load {
     }
 
     /// The sort of the load and the quantities it depends on.
-    /// Code that must know a load's variant uses this: it is the only match on variants besides [`Load::act`].
+    /// Code that must know a load's variant asks this where it can.
     #[inline]
     #[must_use]
     pub fn nature(&self) -> Nature<'_> {
@@ -288,7 +289,7 @@ impl Load {
         }
     }
 
-    /// The link on whose sense of rotation the load depends. The load jumps where that link reverses.
+    /// The link on whose sense of rotation the load depends.
     #[inline]
     #[must_use]
     pub fn sensed_link(&self) -> Option<usize> {
@@ -298,7 +299,7 @@ impl Load {
         }
     }
 
-    /// The point on whose sense of motion the load depends. The load jumps where that point reverses.
+    /// The point on whose sense of motion the load depends.
     #[must_use]
     pub fn sensed_point(&self) -> Option<Side> {
         match self.nature().senses {
@@ -336,6 +337,24 @@ impl Load {
             Load::Resistance { .. } | Load::Moment { .. } | Load::Force { .. } => Vec2::zeros(),
             Load::Spring { .. } | Load::Damper { .. } => Vec2::zeros(),
             Load::TorsionSpring { .. } | Load::TorsionDamper { .. } => Vec2::zeros(),
+        }
+    }
+
+    /// By how much the load jumps where the motion that it senses reverses, at the crank angle `crank` (rad): N m, or N
+    /// for a force; not negative. Zero where it senses none, and where it vanishes with the speed or at that crank angle:
+    /// there it has a kink at most.
+    #[must_use]
+    pub fn jump(&self, crank: f64) -> f64 {
+        match self.nature().senses {
+            Senses::Nothing => 0.0,
+            Senses::Link(_) => {
+                let [ahead, back] = [1.0, -1.0].map(|sense| self.moment_in(sense * f64::MIN_POSITIVE, crank));
+                (ahead - back).abs()
+            }
+            Senses::Point(_) => {
+                let [ahead, back] = [1.0, -1.0].map(|sense| self.force_in(Vec2::new(sense, 0.0)));
+                (ahead - back).norm()
+            }
         }
     }
 

@@ -141,7 +141,7 @@ impl Solver for Extrapolated {
             let all: Vec<&State> = states.iter().chain([state]).collect();
             weights.combine(case, &all, &mut combined);
             if let Some(statics) = &mut statics {
-                statics(case, &mut combined, case.grid.times[row])?;
+                statics(case, row, &mut combined)?;
             }
             visit(row, &combined)
         };
@@ -161,6 +161,10 @@ impl Engine for Extrapolated {
 
     fn with(&self, settings: Settings) -> Box<dyn Engine> {
         self.coarsest().with(settings)
+    }
+
+    fn controls_error(&self) -> bool {
+        self.coarsest().controls_error()
     }
 
     fn routes(&self) -> &'static [Route] {
@@ -268,8 +272,20 @@ mod tests {
                 times => Box::new(Extrapolated::new(Box::new(plain), times)),
             }
         }
+        fn controls_error(&self) -> bool {
+            false
+        }
         fn routes(&self) -> &'static [Route] {
             &[Route::Native]
+        }
+        fn own_routes(&self, _: &Case) -> &'static [Route] {
+            &[]
+        }
+        fn statics(&self, _: &Case) -> Option<Statics> {
+            None
+        }
+        fn overrun(&self) -> f64 {
+            0.0
         }
         fn sweeps(&self, _: &Case) -> Option<[usize; 2]> {
             None

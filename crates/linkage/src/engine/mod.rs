@@ -5,11 +5,13 @@ mod extrapolated;
 mod kept;
 mod rows;
 mod settings;
+mod wrapped;
 
 pub use extrapolated::Extrapolated;
 pub use kept::{Kept, plain_runs};
 pub use rows::Rows;
 pub use settings::{Route, Settings};
+pub use wrapped::{Hook, Wrapped};
 
 use std::sync::Arc;
 
@@ -18,10 +20,13 @@ use crate::error::Result;
 use crate::solver::{Progress, Solver, State};
 use crate::trajectory::ChannelKind;
 
-/// Writes the forces that belong to the motion of a state at a time (s) into that state.
-pub type Statics = Box<dyn FnMut(&Case, &mut State, f64) -> Result<()>>;
+/// Writes the forces that belong to the motion of a state, at a row of the grid, into that state.
+pub type Statics = Box<dyn FnMut(&Case, usize, &mut State) -> Result<()>>;
 
 /// An engine: a solver that integrates numerically, with settings that decide its accuracy.
+///
+/// Only what follows from other methods has a default: whoever stands for another engine is asked by the compiler for
+/// everything else. To change what an engine answers, take [`Wrapped`].
 pub trait Engine: Solver {
     /// Name and version of the software behind it.
     fn version(&self) -> String;
@@ -39,19 +44,14 @@ pub trait Engine: Solver {
 
     /// Whether [`Settings::resolution`] is an accuracy that the engine keeps by choosing its own steps, instead of a
     /// time step.
-    fn controls_error(&self) -> bool {
-        false
-    }
+    fn controls_error(&self) -> bool;
 
     /// Available routes to reactions and balancing moment, the cheapest first.
     fn routes(&self) -> &'static [Route];
 
     /// Routes by which the engine itself says what it exerts on a case, the cheapest first. Empty for an engine whose
     /// usual route is such a one.
-    fn own_routes(&self, case: &Case) -> &'static [Route] {
-        let _ = case;
-        &[]
-    }
+    fn own_routes(&self, case: &Case) -> &'static [Route];
 
     /// The fewest and the most sweeps worth trying for a case; `None` for an engine that does not iterate.
     /// Both are 1 where the iteration has nothing to converge to.
@@ -59,10 +59,7 @@ pub trait Engine: Solver {
 
     /// Reactions and balancing moments of a motion by the engine's route, if they follow from the motion alone; `None`
     /// if they come from the engine itself. An extrapolated motion then has the forces that belong to it.
-    fn statics(&self, case: &Case) -> Option<Statics> {
-        let _ = case;
-        None
-    }
+    fn statics(&self, case: &Case) -> Option<Statics>;
 
     /// The states of a whole run. An engine that keeps its runs hands out the one that it has.
     ///
@@ -74,9 +71,7 @@ pub trait Engine: Solver {
     }
 
     /// Steps that a run of a prescribed motion takes beyond either end of its grid.
-    fn overrun(&self) -> f64 {
-        0.0
-    }
+    fn overrun(&self) -> f64;
 
     /// Order of convergence expected of a channel of a case, with the present route and extrapolation.
     fn formal_order(&self, case: &Case, channel: &ChannelKind) -> f64;

@@ -19,14 +19,25 @@ pub(super) fn vector(of: Vec2) -> Vector {
     Vector::new(real(of.x), real(of.y))
 }
 
+/// A joint that locks the given axes.
+fn locking(axes: JointAxesMask) -> GenericJointBuilder {
+    GenericJointBuilder::new(axes).contacts_enabled(false).softness(SpringCoefficients::new(real(JOINT_FREQUENCY), 1.0))
+}
+
+/// A joint that locks nothing.
+pub(super) fn free() -> GenericJointBuilder {
+    locking(JointAxesMask::empty())
+}
+
+/// The joint by which a link floats in a multibody: its coordinates are the place of its mass centre and its angle.
+pub(super) fn floating(link: &Link) -> GenericJoint {
+    free().local_anchor2(vector(link.mass_centre)).build()
+}
+
 /// A joint between the joint's points on `links` that locks the given axes.
-pub(super) fn holding(axes: JointAxesMask, joint: &Joint, links: [usize; 2]) -> GenericJointBuilder {
+fn holding(axes: JointAxesMask, joint: &Joint, links: [usize; 2]) -> GenericJointBuilder {
     let [first, second] = links.map(|link| vector(joint.on(link).expect("the joint is on the link")));
-    GenericJointBuilder::new(axes)
-        .local_anchor1(first)
-        .local_anchor2(second)
-        .contacts_enabled(false)
-        .softness(SpringCoefficients::new(real(JOINT_FREQUENCY), 1.0))
+    locking(axes).local_anchor1(first).local_anchor2(second)
 }
 
 /// The joint between `links`, which Rapier calls first and second.

@@ -9,8 +9,7 @@ mod reading;
 use super::{Real, parry, rapier, real, wide};
 
 use rapier::prelude::{
-    ImpulseJointHandle, JointAxesMask, JointAxis, MotorModel, MultibodyJointHandle, PhysicsWorld, RigidBodyBuilder,
-    RigidBodyHandle,
+    ImpulseJointHandle, JointAxis, MotorModel, MultibodyJointHandle, PhysicsWorld, RigidBodyBuilder, RigidBodyHandle,
 };
 
 use crate::steer::steered;
@@ -31,8 +30,6 @@ struct Cut {
     joint: Joint,
     index: usize,
     handle: ImpulseJointHandle,
-    /// Whether neither body is a link of the multibody. Rapier then makes the joint's rows orthogonal to each other.
-    plain: bool,
     /// The link that Rapier calls first, and the direction of the first row in that link's frame, where they are not
     /// those of the joint itself.
     steered: Option<(usize, Vec2)>,
@@ -40,14 +37,13 @@ struct Cut {
     start: frame::Frame,
 }
 
-/// The motor of a drive.
+/// The motor of a drive. It stands on the ground, also where its link hangs on a moving one: it gives the link its speed
+/// in the world.
 #[derive(Clone, Debug)]
 struct Motor {
     handle: ImpulseJointHandle,
-    /// +1 if the driving link is the second link of the driven joint, as the motor counts it, else -1.
+    /// +1 if the driving link is what the motor counts as second, else -1.
     sense: f64,
-    /// Whether the driving link is a separate body.
-    plain: bool,
 }
 
 /// The Rapier world of a case.
@@ -56,15 +52,17 @@ pub(crate) struct Twin {
     tree: Tree,
     joints: Vec<Joint>,
     bodies: Vec<RigidBodyHandle>,
-    /// The multibody, given by one of its links; `None` if all links are separate bodies.
+    /// The multibody of all links, given by one of them; `None` if all links are separate bodies.
     any_link: Option<MultibodyJointHandle>,
-    /// Links that are separate bodies.
-    plain: Vec<usize>,
+    /// Links outside the tree. They are separate bodies, or float in the multibody.
+    outside: Vec<usize>,
     /// Generalised coordinate of every branch's joint: its index in the multibody.
     /// Its sense is that of the child relative to its parent.
     dofs: Vec<usize>,
     /// Number of every branch's link in the multibody.
     ids: Vec<usize>,
+    /// The first of the three coordinates of every link that floats in the multibody, and its number there.
+    floating: Vec<[usize; 2]>,
     cuts: Vec<Cut>,
     /// One for each drive, in the case's order.
     motors: Vec<Motor>,
@@ -95,13 +93,8 @@ impl Twin {
         for (link, &masses) in mechanism.links().iter().zip(&masses).skip(1) {
             bodies.push(world.bodies.insert(joints::body(link, masses)));
         }
-        let plain = |link: usize| tree.branches.iter().all(|branch| branch.link != link);
-        // Rapier never turns a separate body that is joined to a link of the multibody.
-        // Such bodies are therefore joined to a separate ground.
-        let own_ground = world.bodies.insert(RigidBodyBuilder::fixed());
-        let hold = |link: usize, other: usize| {
-            if link == GROUND && plain(other) { own_ground } else { bodies[link] }
-        };
+        let is_outside = |&link: &usize| tree.branches.iter().all(|branch| branch.link != link);
+        let outside: Vec<usize> = (1..mechanism.links().len()).filter(is_outside).collect();
         let mut any_link = None;
         for branch in &tree.branches {
             let found = &mechanism.joints()[branch.joint];
@@ -112,6 +105,14 @@ impl Twin {
                 return Err(Error::new(ErrorKind::Unsupported, format!("Rapier refuses the tree joint \"{name}\"")));
             }
         }
+        if any_link.is_some() {
+            // Rapier never turns a separate body that is joined to a link of the multibody. Links outside the tree
+            // are links of the multibody too, with all three freedoms.
+            for &link in &outside {
+                let joint = joints::floating(&mechanism.links()[link]);
+                any_link = world.multibody_joints.insert(bodies[GROUND], bodies[link], joint, true);
+            }
+        }
         let cuts = tree.cut.iter().map(|&index| {
             let joint = mechanism.joints()[index].clone();
             let links = [joint.first.link, joint.second.link];
@@ -120,23 +121,21 @@ impl Twin {
                 None => (links, joints::between(&joint, links)),
                 Some((order, axis)) => (order, joints::steered(&joint, order, axis)),
             };
-            let (first, second) = (hold(order[0], order[1]), hold(order[1], order[0]));
-            let handle = world.impulse_joints.insert(first, second, between, true);
-            let plain = links.into_iter().filter(|&link| link != GROUND).all(plain);
+            let handle = world.impulse_joints.insert(bodies[order[0]], bodies[order[1]], between, true);
             let steered = steered.map(|(order, axis)| (order[0], axis));
-            Cut { joint, index, handle, plain, steered, start: frame::Frame::default() }
+            Cut { joint, index, handle, steered, start: frame::Frame::default() }
         });
         let cuts = cuts.collect();
         let motors = case.drives.iter().map(|drive| {
             let joint = &mechanism.joints()[drive.joint];
-            let links = [joint.first.link, joint.second.link];
-            let data = joints::holding(JointAxesMask::empty(), joint, links)
+            let data = joints::free()
                 .motor_model(JointAxis::AngX, MotorModel::ForceBased)
                 .motor_velocity(JointAxis::AngX, 0.0, real(RIGID_MOTOR))
                 .build();
-            let (first, second) = (hold(links[0], links[1]), hold(links[1], links[0]));
-            let sense = if links[1] == drive.link { 1.0 } else { -1.0 };
-            Motor { handle: world.impulse_joints.insert(first, second, data, true), sense, plain: plain(drive.link) }
+            let is_second = joint.second.link != GROUND;
+            let links = if is_second { [GROUND, drive.link] } else { [drive.link, GROUND] };
+            let handle = world.impulse_joints.insert(bodies[links[0]], bodies[links[1]], data, true);
+            Motor { handle, sense: if is_second { 1.0 } else { -1.0 } }
         });
         let motors = motors.collect();
         let twists = tree.branches.iter().map(|branch| {
@@ -144,21 +143,22 @@ impl Twin {
             mechanism.joints()[branch.joint].keeps_angle().then(|| angle(branch.link) - angle(branch.parent))
         });
         let frames = (0..mechanism.links().len()).map(|link| {
-            let angle = if link == GROUND || !plain(link) { LinkAngle::Whole(0.0) } else { LinkAngle::Turns(0.0) };
+            let angle = if outside.contains(&link) { LinkAngle::Turns(0.0) } else { LinkAngle::Whole(0.0) };
             LinkFrame { angle, ..LinkFrame::GROUND }
         });
         let mut twin = Twin {
             twists: twists.collect(),
             joints: mechanism.joints().to_vec(),
-            plain: (1..mechanism.links().len()).filter(|&link| plain(link)).collect(),
+            frames: frames.collect(),
+            outside,
             any_link,
             dofs: Vec::new(),
             ids: Vec::new(),
+            floating: Vec::new(),
             cuts,
             motors,
             centres: mechanism.links().iter().map(|link| link.mass_centre).collect(),
             inverse: masses.iter().map(|of| of.map(|of| if of > 0.0 { of.recip() } else { 0.0 })).collect(),
-            frames: frames.collect(),
             read,
             world,
             bodies,
@@ -176,16 +176,19 @@ impl Twin {
         }
         let PhysicsWorld { multibody_joints, bodies, .. } = &mut self.world;
         let root = multibody_joints.rigid_body_link(self.bodies[GROUND]).expect("the ground is in it").multibody;
-        let ids = self.tree.branches.iter().map(|branch| {
-            multibody_joints.rigid_body_link(self.bodies[branch.link]).expect("every link is in the multibody").id
-        });
-        let ids: Vec<usize> = ids.collect();
+        let id = |link: usize| {
+            multibody_joints.rigid_body_link(self.bodies[link]).expect("every link is in the multibody").id
+        };
+        let ids: Vec<usize> = self.tree.branches.iter().map(|branch| id(branch.link)).collect();
+        let floating: Vec<usize> = self.outside.iter().map(|&link| id(link)).collect();
         let multibody = multibody_joints.get_multibody_mut(root).expect("the multibody exists");
         // Removes the degrees of freedom of the fixed root; the indices below are wrong before this call.
         multibody.forward_kinematics(bodies, true);
         // Rapier gives every revolute joint a damping of 0.1 N m s/rad by default.
         multibody.damping_mut().fill(0.0);
-        self.dofs = ids.iter().map(|&id| multibody.link(id).expect("the link exists").assembly_id()).collect();
+        let first = |id: usize| multibody.link(id).expect("the link exists").assembly_id();
+        self.dofs = ids.iter().map(|&id| first(id)).collect();
+        self.floating = floating.into_iter().map(|id| [first(id), id]).collect();
         self.ids = ids;
     }
 

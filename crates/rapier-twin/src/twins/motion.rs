@@ -29,13 +29,22 @@ impl Twin {
             };
             displacements[dof] = real(coordinate(joint, branch, poses)) - now;
         }
+        for (&link, &[dof, id]) in self.outside.iter().zip(&self.floating) {
+            let coords = multibody.link(id).expect("known link").joint().coords();
+            let centre = poses[link].point(self.centres[link]);
+            for (k, wanted) in [centre.x, centre.y, poses[link].angle].into_iter().enumerate() {
+                displacements[dof + k] = real(wanted) - coords[k];
+            }
+        }
         multibody.apply_displacements(&displacements);
         multibody.forward_kinematics(bodies, false);
         multibody.update_rigid_bodies(bodies, true);
     }
 
+    /// Moves separate bodies into the given poses.
     pub(super) fn put_bodies(&mut self, poses: &[LinkPose]) {
-        for &link in &self.plain {
+        let separate = if self.any_link.is_none() { self.outside.as_slice() } else { &[] };
+        for &link in separate {
             let pose = Pose::from_parts(joints::vector(poses[link].origin), Rotation::new(real(poses[link].angle)));
             self.world.bodies[self.bodies[link]].set_position(pose, true);
         }
@@ -113,7 +122,7 @@ impl World for Twin {
         let turn = omega * self.substep();
         // A separate body turns by atan(omega dt) per substep, so its target speed is raised accordingly.
         // Beyond a radian no speed would be held anyway.
-        let omega = if motor.plain && turn.abs() < 1.0 { turn.tan() / self.substep() } else { omega };
+        let omega = if self.any_link.is_none() && turn.abs() < 1.0 { turn.tan() / self.substep() } else { omega };
         let joint = self.world.impulse_joints.get_mut(motor.handle, true).expect("the motor exists");
         joint.data.set_motor_velocity(JointAxis::AngX, real(omega * motor.sense), real(RIGID_MOTOR));
     }

@@ -45,16 +45,18 @@ impl Twin {
         let turning =
             |of: [f64; 2], other: [f64; 2]| of[0] * other[0] * inverse[0][1] + of[1] * other[1] * inverse[1][1];
         let lever = |along: Vec2| arms.map(|arm| cross(arm, along));
+        // Only between separate bodies Rapier makes a joint's rows orthogonal to each other.
+        let is_orthogonal = self.any_link.is_none();
         let (force, moment) = match cut.joint.kind {
             JointKind::Prismatic { .. } => {
-                if cut.plain {
+                if is_orthogonal {
                     // Rapier made the row across the axis orthogonal to the row that keeps the angle.
                     rows[2] -= rows[1] * turning(lever(across), [1.0; 2]) / turning([1.0; 2], [1.0; 2]);
                 }
                 (across * rows[1], rows[2])
             }
             JointKind::Revolute => {
-                if cut.plain {
+                if is_orthogonal {
                     // Rapier made the second row orthogonal to the first.
                     let mass = inverse[0][0] + inverse[1][0] + turning(lever(axis), lever(axis));
                     rows[0] -= rows[1] * turning(lever(axis), lever(across)) / mass;

@@ -1,57 +1,52 @@
 //! The sorts of loads.
 
-/// Sort of a load: see the variants of [`Load`](super::Load).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum LoadSort {
+/// The sorts with their names and meanings in one table: what is not in it is no sort, so that no list can lack one.
+macro_rules! sorts {
+    ($($(#[$meaning:meta])* $sort:ident = $name:literal,)*) => {
+        /// Sort of a load: see the variants of [`Load`](super::Load).
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum LoadSort {
+            $($(#[$meaning])* $sort,)*
+        }
+
+        impl LoadSort {
+            /// All sorts, in the order of the documentation.
+            pub const ALL: &[LoadSort] = &[$(LoadSort::$sort),*];
+
+            /// Name in scenario files.
+            #[must_use]
+            pub fn name(self) -> &'static str {
+                match self {
+                    $(LoadSort::$sort => $name,)*
+                }
+            }
+        }
+    };
+}
+
+sorts! {
     /// A moment against the rotation of a link.
-    Resistance,
+    Resistance = "resistance",
     /// A moment that does not depend on the speed.
-    Moment,
+    Moment = "moment",
     /// A force on a point.
-    Force,
+    Force = "force",
     /// A force against the motion of a point.
-    ResistingForce,
+    ResistingForce = "resisting_force",
     /// A spring between two points.
-    Spring,
+    Spring = "spring",
     /// A damper between two points.
-    Damper,
+    Damper = "damper",
     /// A spring between the angles of two links.
-    TorsionSpring,
+    TorsionSpring = "torsion_spring",
     /// A damper between the angular velocities of two links.
-    TorsionDamper,
+    TorsionDamper = "torsion_damper",
 }
 
 impl LoadSort {
-    /// All sorts, in the order of the documentation.
-    pub const ALL: [LoadSort; 8] = [
-        LoadSort::Resistance,
-        LoadSort::Moment,
-        LoadSort::Force,
-        LoadSort::ResistingForce,
-        LoadSort::Spring,
-        LoadSort::Damper,
-        LoadSort::TorsionSpring,
-        LoadSort::TorsionDamper,
-    ];
-
-    /// Name in scenario files.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            LoadSort::Resistance => "resistance",
-            LoadSort::Moment => "moment",
-            LoadSort::Force => "force",
-            LoadSort::ResistingForce => "resisting_force",
-            LoadSort::Spring => "spring",
-            LoadSort::Damper => "damper",
-            LoadSort::TorsionSpring => "torsion_spring",
-            LoadSort::TorsionDamper => "torsion_damper",
-        }
-    }
-
     /// The sort called `name` in scenario files.
     #[must_use]
     pub fn named(name: &str) -> Option<LoadSort> {
-        LoadSort::ALL.into_iter().find(|sort| sort.name() == name)
+        LoadSort::ALL.iter().copied().find(|sort| sort.name() == name)
     }
 }

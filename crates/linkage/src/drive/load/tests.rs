@@ -170,3 +170,23 @@ fn loads_of_another_amount_act_in_proportion() {
         approx::assert_relative_eq!(on_second(&doubled[0]), 2.0 * on_second(&load), epsilon = 1e-12);
     }
 }
+
+/// A load that vanishes where its link reverses has a kink there at most, and so has one without a size.
+#[test]
+fn a_load_jumps_by_what_it_is_for_either_sense() {
+    let one_way = |moment, acts| Load::Moment { link: 1, moment, acts };
+    let table = || Course::table(&[(0.0, 0.0), (1.0, 4.0)], 1, false);
+    let loads = [
+        (Load::Resistance { link: 1, moment: 100.0 }, 200.0),
+        (Load::Resistance { link: 1, moment: 0.0 }, 0.0),
+        (Load::ResistingForce { at: side(1, 0.2, 0.0), force: 3.0 }, 6.0),
+        (one_way(Course::Constant(-7.0), Acts::CounterClockwise), 7.0),
+        (one_way(table(), Acts::Clockwise), 2.0),
+        (one_way(table(), Acts::Always), 0.0),
+        (Load::TorsionDamper { links: [0, 1], damping: 2.0 }, 0.0),
+    ];
+    for (load, jump) in loads {
+        assert_eq!(load.jump(0.5), jump, "{load:?}");
+    }
+    assert_eq!(one_way(table(), Acts::Clockwise).jump(0.0), 0.0);
+}

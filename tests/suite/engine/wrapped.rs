@@ -1,0 +1,111 @@
+//! What stands for an engine is that engine, but for what it says that it changes.
+
+use std::path::Path;
+
+use super::solve;
+use crate::common::shipped;
+use linkage::case::Case;
+use linkage::engine::{Engine, Hook, Kept, Route, Settings, Wrapped};
+use linkage::solver::State;
+use linkage::trajectory::Subject;
+use linkproof::engines::EngineName;
+use syn::{Item, TraitItem};
+
+/// Changes nothing.
+#[derive(Clone)]
+struct Idle;
+
+impl Hook for Idle {
+    fn answer(&self, _: &Case, _: usize, _: &mut State) {}
+}
+
+/// Adds to the first force.
+#[derive(Clone)]
+struct More(f64);
+
+impl Hook for More {
+    fn answer(&self, _: &Case, _: usize, state: &mut State) {
+        state.forces[0].x += self.0;
+    }
+}
+
+/// Everything that an engine says of itself on a case.
+fn answers(engine: &dyn Engine, case: &Case) -> String {
+    let facts = (engine.name(), engine.version(), engine.settings(), engine.controls_error(), engine.told());
+    let routes = (engine.routes(), engine.own_routes(case), engine.sweeps(case), engine.overrun());
+    let forces = (engine.statics(case).is_some(), engine.is_noise_measured());
+    let of = case.channels().into_iter().map(|channel| {
+        (engine.formal_order(case, channel.kind), engine.noise(case, channel.kind), engine.provides(&channel))
+    });
+    format!("{facts:?} {routes:?} {forces:?} {:?}", of.collect::<Vec<_>>())
+}
+
+#[test]
+fn an_engine_in_a_wrapper_that_changes_nothing_is_that_engine() {
+    for name in ["crank_rocker.toml", "double_pendulum.toml"] {
+        let case = shipped(name).case;
+        for engine in EngineName::ALL.into_iter().filter(|engine| engine.is_built()) {
+            let engine = engine.with_step(2e-3).unwrap();
+            let settings = engine.settings();
+            let other = Settings { resolution: 0.5 * settings.resolution, sweeps: 64, ..settings };
+            let ways = [
+                settings,
+                other,
+                Settings { route: Route::Native, ..other },
+                Settings { extrapolated: if engine.controls_error() { 0 } else { 2 }, ..other },
+            ];
+            for way in ways {
+                let bare = engine.with(way);
+                let wrapped = Wrapped { hook: Idle, inner: engine.with(settings) }.with(way);
+                let kept = Kept::new(wrapped.as_ref()).with(way);
+                let expected = answers(bare.as_ref(), &case);
+                assert_eq!(answers(wrapped.as_ref(), &case), expected, "{name}");
+                assert_eq!(answers(kept.as_ref(), &case), expected, "{name}, kept");
+            }
+            let wrapped = Wrapped { hook: Idle, inner: engine.with(other) };
+            let [own, theirs] = [solve(&wrapped, &case), solve(engine.with(other).as_ref(), &case)];
+            assert!(own.iter().eq(theirs.iter()), "{name}, {}", engine.name());
+        }
+    }
+}
+
+/// Forces that belong to an extrapolated motion are changed too.
+#[test]
+fn what_a_hook_changes_is_changed_once_in_every_way() {
+    let case = shipped("crank_rocker.toml").case;
+    let engine = EngineName::Rapier.with_step(2e-3).unwrap();
+    for extrapolated in [0, 2] {
+        let way = Settings { extrapolated, sweeps: 64, ..engine.settings() };
+        let kept = |engine: &dyn Engine| solve(Kept::new(engine).with(way).as_ref(), &case);
+        let right = kept(engine.as_ref());
+        let wrong = kept(&Wrapped { hook: More(5.0), inner: engine.with(engine.settings()) });
+        for ((channel, right), (_, wrong)) in right.iter().zip(wrong.iter()) {
+            // What acts on the frame is a sum.
+            if channel.kind.subject != Subject::Frame {
+                let more = if channel.to_string() == "joint.O.fx_N" { 5.0 } else { 0.0 };
+                let is_once = right.iter().zip(wrong).all(|(right, wrong)| (wrong - right - more).abs() <= 1e-9);
+                assert!(is_once, "{channel}, extrapolated {extrapolated}");
+            }
+        }
+    }
+}
+
+/// Only what follows from other methods has a default, so that a wrapper that forgets a method does not compile.
+#[test]
+fn engines_and_solvers_have_no_defaults_but_what_follows_from_their_other_methods() {
+    let defaults = |file: &str, name: &str| -> Vec<String> {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("crates/linkage/src").join(file);
+        let items = syn::parse_file(&std::fs::read_to_string(path).unwrap()).unwrap().items;
+        let found = items.into_iter().find_map(|item| match item {
+            Item::Trait(found) if found.ident == name => Some(found.items),
+            _ => None,
+        });
+        let methods = found.expect("the trait is there").into_iter().filter_map(|item| match item {
+            TraitItem::Fn(method) => method.default.map(|_| method.sig.ident.to_string()),
+            _ => None,
+        });
+        methods.collect()
+    };
+    assert_eq!(defaults("engine/mod.rs", "Engine"), ["at", "rows"]);
+    assert_eq!(defaults("solver.rs", "Solver"), ["each", "solve", "solve_with"]);
+}
