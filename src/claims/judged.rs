@@ -116,7 +116,9 @@ impl Judged {
         for Pair { place: [time, crank], formula: found, mechanism } in course.filter(has_number) {
             let difference = found.value - mechanism.value;
             let difference = turn.map_or(difference, |turn| difference - turn * (difference / turn).round());
-            let bound = formula.error.unwrap_or(0.0) + found.error + mechanism.error;
+            // What has no value has no rounding either.
+            let rounding = if found.is_undefined() { 0.0 } else { found.error };
+            let bound = formula.error.unwrap_or(0.0) + rounding + mechanism.error;
             let at = At { time, crank, formula: found.value, mechanism: mechanism.value, difference, bound };
             // What the mechanism itself is hardly known better is not the formula's loss.
             let has_lost = !(found.error <= TELLING * scale) && !(found.error <= NO_WORSE * mechanism.error);

@@ -12,6 +12,7 @@ mod missing;
 mod slips;
 mod terms;
 mod trial;
+mod undefined;
 mod values;
 
 pub use cause::{Cause, cause};
@@ -21,6 +22,7 @@ pub use judged::{At, Judged, Outcome};
 pub use missing::Missing;
 pub use slips::{Kind, Slip};
 pub use terms::{Term, Wrong, missing_in_numbers};
+pub use undefined::{Undefined, undefined};
 
 /// Which derivative with respect to time.
 pub const WORDS: [&str; 3] = ["", "first derivative", "second derivative"];

@@ -158,15 +158,20 @@ impl Sides {
             Ok((self.observed[side].0, self.on_course(case, side, |course| claims::judge(formulas, course))?))
         };
         let sides = [of(0)?, of(1)?];
-        let mut causes = Vec::new();
+        let (mut causes, mut undefined) = (Vec::new(), Vec::new());
         for name in wrong(&sides) {
             // The side that it contradicts, or both: the first of them.
             let is_wrong = |judged: &Judged| judged.name == name && judged.outcome() == Outcome::Wrong;
             let side = usize::from(!sides[0].1.iter().flatten().any(is_wrong));
-            let cause = self.on_course(case, side, |course| claims::cause(formulas, &name, course))?;
+            let without = self.on_course(case, side, |course| claims::undefined(formulas, &name, course))?;
+            let cause = match without.as_ref().is_some_and(|own| own.is_all) {
+                true => None,
+                false => self.on_course(case, side, |course| claims::cause(formulas, &name, course))?,
+            };
+            undefined.extend(without.map(|without| (name.clone(), without)));
             causes.push((name, cause));
         }
-        Ok(Judgement { sides, causes })
+        Ok(Judgement { sides, causes, undefined })
     }
 
     /// What one side found on a case, with how well it knows it.

@@ -1,6 +1,6 @@
 //! Formulas as checks of a proof.
 
-use crate::claims::{At, Cause, Judged, Outcome, WORDS};
+use crate::claims::{At, Cause, Judged, Outcome, Undefined, WORDS};
 use crate::compare::{Check, Verdict};
 use crate::numbers::{fixed, significant};
 use crate::tolerance::{Basis, Tolerance};
@@ -12,6 +12,16 @@ pub struct Judgement {
     pub sides: [(&'static str, Vec<Vec<Judged>>); 2],
     /// The formulas that are wrong by name, each with the cause if it is a simple one.
     pub causes: Vec<(String, Option<Cause>)>,
+    /// Those of them that somewhere have no value by name, each with the operation that has none.
+    pub undefined: Vec<(String, Undefined)>,
+}
+
+impl Judgement {
+    /// The operation that leaves a formula without a value, if there is one.
+    #[must_use]
+    pub fn undefined(&self, name: &str) -> Option<&Undefined> {
+        self.undefined.iter().find(|(own, _)| own == name).map(|(_, undefined)| undefined)
+    }
 }
 
 /// Names of the formulas that a side contradicts, in the order of the scenario.
@@ -38,7 +48,10 @@ fn check(side: &str, judged: &Judged, judgement: &Judgement) -> Check {
     }
     let cause = judgement.causes.iter().find(|(name, _)| *name == judged.name).and_then(|(_, cause)| cause.as_ref());
     check.located(|| {
-        let place = judged.since.map_or_else(String::new, |since| place(&since));
+        let mut place = judged.since.map_or_else(String::new, |since| place(&since));
+        if let Some(undefined) = judgement.undefined(&judged.name).filter(|_| judged.order == 0) {
+            place += &format!("; {undefined}");
+        }
         cause.map_or(place.clone(), |cause| format!("{place}; cause: {cause}"))
     })
 }

@@ -88,6 +88,7 @@ pub fn brief(scenario: &Scenario, claimed: &Claimed, tell: Tell, width: usize) -
     for line in worst.into_iter().take(WORST) {
         let Some(at) = line.judged.worst else { continue };
         let [found, right] = beside([at.formula, at.mechanism], at.bound);
+        let found = if at.formula.is_nan() { "no value".into() } else { found };
         table.add_row([
             format!("{}{}", of(line.judged.order), line.judged.name),
             fixed(at.crank.to_degrees(), 1),
@@ -142,9 +143,14 @@ fn reasons(lines: &[Line], claimed: &Claimed, tell: Tell, width: usize, text: &m
         if line.judged.order > 0 {
             continue;
         }
+        let undefined = claimed.judgement.undefined(&line.judged.name);
+        if let Some(undefined) = undefined {
+            let _ = writeln!(text, "{}", wrapped(&format!("  but    {undefined}."), Some(width), INDENT));
+        }
         let told = match cause(claimed, &line.judged.name) {
             Some(Some(found @ (Cause::Leaves { .. } | Cause::Mostly { .. }))) => format!("  cause  {found}."),
             Some(Some(found)) => format!("  cause  {found}.\n         With that, nothing is left over."),
+            Some(None) if undefined.is_some() => continue,
             Some(None) => "  cause  none that is simple: no single slip, offset, factor or term explains it.".into(),
             None => continue,
         };
@@ -272,6 +278,11 @@ pub fn json(scenario: &Scenario, claimed: &Claimed, tell: Tell) -> String {
                     Outcome::Wrong => "disagree",
                 },
                 "cause": cause(claimed, &judged.name).flatten().map(cause_json),
+                "no_value": claimed.judgement.undefined(&judged.name).map(|undefined| json!({
+                    "in": undefined.formula, "written": undefined.written, "from": undefined.fault.at.start,
+                    "to": undefined.fault.at.end, "crank_deg": undefined.crank.to_degrees(),
+                    "words": undefined.to_string(),
+                })),
                 "judged": judged.judged, "lost": judged.lost, "undefined": judged.undefined,
                 "scale": judged.scale,
                 "first": judged.since.as_ref().map(at), "worst": judged.worst.as_ref().map(at),

@@ -4,7 +4,7 @@ use super::figure::Figure;
 use super::printed::PrintedChannel;
 use super::reduced::QUANTITIES;
 use super::words::nearest;
-use formula::{Fault, Operator, Shape, Tree};
+use formula::{Fault, Graph, Operator, Shape, Tree};
 use linkage::case::Case;
 use linkage::trajectory::Channel;
 
@@ -84,6 +84,8 @@ impl Claim {
             let help = "name a channel, such as link.rocker.angle_deg".to_string();
             return Err(Fault { message: "the claim names no channel".into(), at: 0..text.len(), help });
         }
+        let names = written.names().into_iter().map(|(name, _)| name).collect::<Vec<&str>>();
+        Graph::new(&names, 0).add_defined(&written)?;
         Ok(claim)
     }
 

@@ -6,6 +6,9 @@ use super::reader::{Faults, Sign, Table};
 use super::unit;
 use super::words::suggestion;
 use formula::{Fault, Graph, Id, Rounded, Tree};
+use std::collections::BTreeMap;
+use std::ops::Range;
+
 use linkage::case::Case;
 use linkage::error::{Error, ErrorKind, Place, Result};
 use linkage::math::KeepNan;
@@ -77,7 +80,10 @@ impl Formulas {
     /// What is wrong, with its place in the text.
     pub fn add(&mut self, name: &str, text: &str) -> std::result::Result<&mut Formula, Fault> {
         let tree = Tree::parse(text)?;
-        let id = self.graph.add(&tree).map_err(|fault| self.named_better(&text[fault.at.clone()], fault))?;
+        if let Some((name, at)) = tree.names().into_iter().find(|(name, _)| !self.graph.knows(name)) {
+            return Err(self.unknown(name, at));
+        }
+        let id = self.graph.add(&tree)?;
         self.graph.name(name, id);
         let (name, text) = (name.to_string(), text.to_string());
         let formula = Formula { name, text, tree, id, claim: None, source: None, valid: [None; 2], error: None };
@@ -100,14 +106,41 @@ impl Formulas {
         Ok(())
     }
 
-    /// A fault about a name that is not known, with the nearest that is.
-    fn named_better(&self, name: &str, fault: Fault) -> Fault {
+    /// The fault of a name that is not known, with the nearest that is.
+    fn unknown(&self, name: &str, at: Range<usize>) -> Fault {
         let units = self.parameters.iter().find(|own| own.short() == Some(name));
         let help = match units {
             Some(own) => format!("write `{name}` or `{}`", own.key),
             None => suggestion(name, self.graph.names(), "`"),
         };
-        Fault { help, ..fault }
+        Fault { message: format!("there is no `{name}`"), at, help }
+    }
+
+    /// The first operation outside its domain where the formula `of` has no value, with the index of the formula in
+    /// which it stands: that one, or one that it uses. `inputs` are the crank angle (rad) and the time (s).
+    #[must_use]
+    pub fn undefined(&self, of: usize, inputs: [Rounded; 2]) -> Option<(usize, Fault)> {
+        let places: BTreeMap<&str, usize> =
+            self.list[..=of].iter().enumerate().map(|(index, formula)| (formula.name.as_str(), index)).collect();
+        let mut is_used = vec![false; of + 1];
+        is_used[of] = true;
+        for index in (0..=of).rev() {
+            if is_used[index] {
+                let names = self.list[index].tree.names();
+                names.iter().filter_map(|(name, _)| places.get(name)).for_each(|&used| is_used[used] = true);
+            }
+        }
+        let mut known: BTreeMap<&str, Rounded> = INPUTS.into_iter().zip(inputs).collect();
+        known.extend(self.parameters.iter().flat_map(Parameter::names));
+        known.insert("pi", Rounded::nearly(std::f64::consts::PI));
+        for index in (0..=of).filter(|&index| is_used[index]) {
+            let Formula { name, tree, .. } = &self.list[index];
+            match tree.evaluated(&|name| known.get(name).copied().unwrap_or(Rounded::UNDEFINED)) {
+                Ok(value) => known.insert(name, value),
+                Err(fault) => return Some((index, fault)),
+            };
+        }
+        None
     }
 
     /// What `then` makes of the formula `of` with other trees in the formulas `changed`, each with its index: formulas

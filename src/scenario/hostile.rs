@@ -15,8 +15,29 @@ use linkage::mechanism::{LONGEST_NAME, is_unseen};
 /// Longest text (characters).
 const LONGEST_TEXT: usize = 10_000;
 
+/// Most signs that begin a value or a table, dots of decimals included. A value takes some 200 bytes once it is read,
+/// whatever its length in the file: the memory is told before it is taken.
+const MOST_VALUES: usize = 2_000_000;
+
 /// Gives the place of a range of bytes in the file.
 type Places<'a> = &'a dyn Fn(Range<usize>) -> Place;
+
+/// Checks that a text can be read without taking up the memory: how many values it may have at most.
+///
+/// # Errors
+/// [`ErrorKind::Input`] with the place of the first value too many.
+pub fn check_size(source: Places, text: &str) -> Result<()> {
+    let mut signs = text.bytes().enumerate().filter(|(_, byte)| matches!(byte, b',' | b'=' | b'[' | b'{' | b'.'));
+    match signs.nth(MOST_VALUES) {
+        None => Ok(()),
+        Some((at, _)) => {
+            let message = format!("the file has more than {MOST_VALUES} values (signs `,` `=` `[` `{{` `.`)");
+            Err(Error::new(ErrorKind::Input, message).at(source(at..at + 1)).help(
+                "divide it, or take a coarser grid; long columns of published numbers belong in a table (`file`)",
+            ))
+        }
+    }
+}
 
 /// Checks all keys and texts of a file.
 ///

@@ -1,5 +1,7 @@
 //! `[ground]` and `[links]`: points and masses.
 
+use std::collections::BTreeSet;
+
 use super::reader::{Faults, Sign, Table};
 use super::unit::{ANGLE, INERTIA, LENGTH, MASS};
 use super::words::suggestion;
@@ -96,8 +98,8 @@ fn named_points(link: &mut Table) -> Result<Vec<Point>> {
         }
     });
     link.part(read);
-    let missing: Vec<String> =
-        table.keys().into_iter().filter(|key| points.iter().all(|own| own.name != *key)).collect();
+    let known: BTreeSet<&str> = points.iter().map(|own| own.name.as_str()).collect();
+    let missing: Vec<String> = table.keys().into_iter().filter(|key| !known.contains(key.as_str())).collect();
     points.extend(missing.into_iter().map(|name| Point { name, local: NOWHERE }));
     Ok(points)
 }

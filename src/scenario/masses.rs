@@ -13,6 +13,30 @@ const FARTHEST: f64 = 1e3;
 /// Largest moment of inertia of a link, its mass at the mechanism's size included, over those of all others together.
 const HEAVIEST: f64 = 1e12;
 
+/// Speed of light (m/s).
+const LIGHT: f64 = 299_792_458.0;
+
+/// Checks that no crank has a point that is faster than light by its law of motion, or at the start.
+///
+/// # Errors
+/// [`ErrorKind::Input`] for such a speed.
+pub fn check_speeds(mechanism: &Mechanism, drives: &Drives) -> Result<()> {
+    for drive in drives.iter() {
+        let speed = drive.top_speed().abs().larger(drive.initial_speed().abs());
+        let link = &mechanism.links()[drive.link];
+        if !(speed * link.size() <= LIGHT) {
+            let message = format!(
+                "at {speed:.3e} rad/s, link \"{}\" of {:.3e} m has points that are faster than light",
+                link.name,
+                link.size()
+            );
+            let help = "check the units of its speed and of its length";
+            return Err(Error::new(ErrorKind::Input, message).key("drive").of_link(&link.name).help(help));
+        }
+    }
+    Ok(())
+}
+
 /// Checks the places of mass centres, and the masses against each other.
 ///
 /// # Errors

@@ -277,6 +277,7 @@ fn read(root: &mut Table, asked: &Asked, lists: bool) -> Result<Found> {
     };
     let crank = asked.crank.unwrap_or(own_crank);
     masses::check(&mechanism, &drives)?;
+    masses::check_speeds(&mechanism, &drives)?;
     let structure = Structure::of(&mechanism, &drives.joints())?;
     let groups_asked = match asked.groups(&mechanism, &structure) {
         Ok(groups) => groups,
@@ -312,7 +313,8 @@ fn read(root: &mut Table, asked: &Asked, lists: bool) -> Result<Found> {
     };
     let mut faults = Faults::none();
     let mut oracles = oracle::read(stated.oracles, &case, &mut faults);
-    let mut formulas = self::formula::read(root.source().parameters.clone(), stated.formulas, &case, &mut faults);
+    let mut formulas =
+        self::formula::read(root.source().parameters.list().to_vec(), stated.formulas, &case, &mut faults);
     faults.end()?;
     if !asked.set.is_empty() {
         // Published numbers belong to the file's own parameters.

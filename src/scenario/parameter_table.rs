@@ -1,6 +1,6 @@
 //! `[parameters]`: parameters as a file gives them.
 
-use super::parameters::{Parameter, fault_of_name};
+use super::parameters::{Parameter, Parameters, fault_of_name};
 use super::reader::Table;
 use super::words::suggestion;
 use linkage::error::{Error, ErrorKind, Result};
@@ -11,12 +11,8 @@ use linkage::error::{Error, ErrorKind, Result};
 ///
 /// # Errors
 /// Those of `set`.
-pub(super) fn read(
-    table: Option<Table>,
-    set: &[(String, f64)],
-    may_add: bool,
-) -> Result<(Vec<Parameter>, Option<Error>)> {
-    let mut parameters: Vec<Parameter> = Vec::new();
+pub(super) fn read(table: Option<Table>, set: &[(String, f64)], may_add: bool) -> Result<(Parameters, Option<Error>)> {
+    let mut parameters = Parameters::default();
     let mut first = None;
     if let Some(mut table) = table {
         for key in table.keys() {
@@ -35,10 +31,11 @@ pub(super) fn read(
         if let Some((message, help)) = parameter.names().find_map(|(name, _)| fault_of_name(name)) {
             return Err(wrong(message).help(help));
         }
-        if let Some(own) = parameters.iter_mut().find(|own| own.key == *key) {
-            own.given = *value;
-        } else if !may_add && first.is_none() {
-            let keys = parameters.iter().map(|own| own.key.as_str());
+        if parameters.set(key, *value) {
+            continue;
+        }
+        if !may_add && first.is_none() {
+            let keys = parameters.list().iter().map(|own| own.key.as_str());
             return Err(wrong(format!("the scenario has no parameter `{key}`")).help(suggestion(key, keys, "`")));
         } else if let Some((message, _)) = twice(&parameters, &parameter) {
             return Err(wrong(message).help("set the parameter with the unit that the file gives it"));
@@ -50,7 +47,7 @@ pub(super) fn read(
 }
 
 /// The parameter of a key; `before` are those read already.
-fn own(table: &mut Table, key: &str, before: &[Parameter]) -> Result<Parameter> {
+fn own(table: &mut Table, key: &str, before: &Parameters) -> Result<Parameter> {
     let parameter = Parameter::new(key, table.number_with(key, before)?);
     let faulty = parameter.names().find_map(|(name, _)| fault_of_name(name));
     match faulty.or_else(|| twice(before, &parameter)) {
@@ -60,9 +57,8 @@ fn own(table: &mut Table, key: &str, before: &[Parameter]) -> Result<Parameter> 
 }
 
 /// A name of a parameter that another has too.
-fn twice(others: &[Parameter], parameter: &Parameter) -> Option<(String, &'static str)> {
-    let is_other = |name: &str| others.iter().find(|other| other.names().any(|(own, _)| own == name));
-    let (name, other) = parameter.names().find_map(|(name, _)| Some((name, is_other(name)?)))?;
+fn twice(others: &Parameters, parameter: &Parameter) -> Option<(String, &'static str)> {
+    let (name, other) = parameter.names().find_map(|(name, _)| Some((name, others.called(name)?)))?;
     let message = format!("`{name}` would stand for `{}` and for `{}`", other.key, parameter.key);
     Some((message, "keep one of the two, or call one otherwise"))
 }

@@ -2,7 +2,8 @@
 
 use super::unit::{self, Unit};
 use super::words::suggestion;
-use formula::{Fault, Function, Graph, Program, Rounded, Tree};
+use formula::{Fault, Function, Rounded, Tree};
+use std::collections::BTreeMap;
 
 /// A number with a name.
 #[derive(Clone, Debug, PartialEq)]
@@ -54,43 +55,75 @@ impl Parameter {
     }
 }
 
+/// Parameters, found by any of their names.
+#[derive(Clone, Debug, Default)]
+pub struct Parameters {
+    list: Vec<Parameter>,
+    places: BTreeMap<String, usize>,
+}
+
+impl Parameters {
+    /// All of them, in the order of the file.
+    #[must_use]
+    pub fn list(&self) -> &[Parameter] {
+        &self.list
+    }
+
+    /// The one that a name stands for.
+    #[must_use]
+    pub fn called(&self, name: &str) -> Option<&Parameter> {
+        self.places.get(name).map(|&place| &self.list[place])
+    }
+
+    /// Adds one, of whose names none is taken.
+    pub(super) fn push(&mut self, parameter: Parameter) {
+        for (name, _) in parameter.names() {
+            self.places.insert(name.into(), self.list.len());
+        }
+        self.list.push(parameter);
+    }
+
+    /// Gives the parameter of a key another number; `false` if there is none.
+    pub(super) fn set(&mut self, key: &str, given: f64) -> bool {
+        let place = self.places.get(key).copied().filter(|&place| self.list[place].key == key);
+        place.map(|place| self.list[place].given = given).is_some()
+    }
+}
+
 /// The number that `text` gives for a key: an arithmetic of numbers and parameters. Short names of parameters count in
 /// the key's unit where they measure the same quantity (`length_mm = "2 * a"`), else in SI.
 ///
 /// # Errors
 /// What is wrong with the text, with its place.
-pub(super) fn arithmetic(text: &str, key: &str, parameters: &[Parameter]) -> std::result::Result<f64, Fault> {
+pub(super) fn arithmetic(text: &str, key: &str, parameters: &Parameters) -> std::result::Result<f64, Fault> {
     let tree = Tree::parse(text)?;
-    let mut graph = Graph::new(&[], 0);
     let wanted = unit::ending(key).map(|(_, unit)| unit);
-    for own in parameters {
-        for (name, number) in own.names() {
-            let is_short = own.short() == Some(name);
-            let of_key = wanted.filter(|wanted| is_short && own.unit.is_some_and(|unit| unit::alike(unit, wanted)));
-            // The number itself, where it is given in the key's unit.
-            let value = match of_key {
-                Some(unit) if Some(unit) == own.unit => own.given,
-                Some(unit) => number.value / unit.to_si(1.0),
-                None => number.value,
-            };
-            let id = graph.constant(Rounded::exact(value));
-            graph.name(name, id);
-        }
-    }
-    let id = graph.add(&tree).map_err(|fault| {
-        let name = &text[fault.at.clone()];
-        let help = match parameters.is_empty() {
+    let of = |name: &str| {
+        let own = parameters.called(name)?;
+        let (_, number) = own.names().find(|(own, _)| *own == name)?;
+        let is_short = own.short() == Some(name);
+        let of_key = wanted.filter(|wanted| is_short && own.unit.is_some_and(|unit| unit::alike(unit, wanted)));
+        // The number itself, where it is given in the key's unit.
+        Some(Rounded::exact(match of_key {
+            Some(unit) if Some(unit) == own.unit => own.given,
+            Some(unit) => number.value / unit.to_si(1.0),
+            None => number.value,
+        }))
+    };
+    let of = |name: &str| if name == "pi" { Some(Rounded::nearly(std::f64::consts::PI)) } else { of(name) };
+    if let Some((name, at)) = tree.names().into_iter().find(|(name, _)| of(name).is_none()) {
+        let help = match parameters.list.is_empty() {
             true => "write a number, or give it a name in a section [parameters]".into(),
-            false => suggestion(name, graph.names(), "`"),
+            false => suggestion(name, parameters.places.keys().map(String::as_str).chain(["pi"]), "`"),
         };
-        Fault { help, ..fault }
-    })?;
-    let value = Program::of(&graph, &[id]).run(&[])[0].value;
-    if value.is_finite() {
-        return Ok(value);
+        return Err(Fault { message: format!("there is no `{name}`"), at, help });
     }
-    let help = "check the arguments of sqrt, ln, asin and acos, and what is divided by".to_string();
-    Err(Fault { message: format!("it gives {value}, which is no finite number"), at: 0..text.len(), help })
+    let found = tree.evaluated(&|name| of(name).unwrap_or(Rounded::UNDEFINED))?;
+    if found.error.is_finite() {
+        return Ok(found.value);
+    }
+    let help = "check its units, and whether a divisor is zero but for rounding".to_string();
+    Err(Fault { message: "nothing is known of its value".into(), at: 0..text.len(), help })
 }
 
 /// Names that stand for something else in every formula.

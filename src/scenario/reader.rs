@@ -11,12 +11,13 @@ mod several;
 pub use quantity::Sign;
 pub use several::Faults;
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::parameters::{Parameter, arithmetic};
+use super::parameters::{Parameters, arithmetic};
 use super::source::Source;
 use formula::Fault;
 use linkage::error::{Error, ErrorKind, Result};
@@ -34,7 +35,9 @@ pub struct Table<'a> {
     path: String,
     span: Range<usize>,
     entries: Vec<Entry<'a>>,
-    used: Vec<&'a str>,
+    /// The place of each key among them.
+    places: BTreeMap<&'a str, usize>,
+    used: BTreeSet<&'a str>,
     asked: Vec<String>,
     /// Whether reading goes on after a mistake.
     goes_on: bool,
@@ -63,13 +66,15 @@ impl<'a> Table<'a> {
             .collect();
         // The parser moves a table if its header comes after one of its children.
         entries.sort_by_key(|entry| entry.key_span.start);
+        let places = entries.iter().enumerate().map(|(place, entry)| (entry.key, place)).collect();
         Table {
             source,
             name,
             path,
             span,
             entries,
-            used: Vec::new(),
+            places,
+            used: BTreeSet::new(),
             asked: Vec::new(),
             goes_on: false,
             faults: Vec::new(),
@@ -93,7 +98,7 @@ impl<'a> Table<'a> {
 
     /// Whether `key` is there, with exactly this spelling.
     pub fn has(&self, key: &str) -> bool {
-        self.entries.iter().any(|entry| entry.key == key)
+        self.places.contains_key(key)
     }
 
     /// The keys, in the order of the file.
@@ -127,15 +132,14 @@ impl<'a> Table<'a> {
         let with_unit = |entry: &&Entry| {
             self.used.contains(&entry.key) && entry.key.strip_prefix(key).is_some_and(|rest| rest.starts_with('_'))
         };
-        let exact = self.entries.iter().find(|entry| entry.key == key);
-        let entry = exact.or_else(|| self.entries.iter().find(with_unit));
+        let entry = self.entry(key).or_else(|| self.entries.iter().find(with_unit));
         let (key, span) = entry.map_or((key, self.span.clone()), |entry| (entry.key, entry.value.span()));
         Error::new(kind, message).key(self.path_of(key)).at(self.source.place(span))
     }
 
     /// An error about a part of the text of `key`.
     pub fn fault_in(&self, key: &str, fault: &Fault) -> Error {
-        match self.entries.iter().find(|entry| entry.key == key) {
+        match self.entry(key) {
             Some(entry) => self.fault_at(key, entry.value, fault),
             None => self.wrong(ErrorKind::Input, key, fault.message.clone()).help(fault.help.clone()),
         }
@@ -180,12 +184,16 @@ impl<'a> Table<'a> {
         }
     }
 
+    fn entry(&self, key: &str) -> Option<&Entry<'a>> {
+        self.places.get(key).map(|&place| &self.entries[place])
+    }
+
     /// Value of `key`, which is recorded as asked for.
     fn take(&mut self, key: &str) -> Option<&'a Spanned<DeValue<'a>>> {
         self.asked.push(key.to_string());
-        let entry = self.entries.iter().find(|entry| entry.key == key)?;
-        self.used.push(entry.key);
-        Some(entry.value)
+        let &place = self.places.get(key)?;
+        self.used.insert(self.entries[place].key);
+        Some(self.entries[place].value)
     }
 
     fn required<T>(&mut self, key: &str, value: Option<T>) -> Result<T> {
@@ -226,7 +234,7 @@ impl<'a> Table<'a> {
 
     /// Whether a key is there with `true` or `false`.
     pub fn is_boolean(&self, key: &str) -> bool {
-        self.entries.iter().any(|entry| entry.key == key && entry.value.get_ref().as_bool().is_some())
+        self.entry(key).is_some_and(|entry| entry.value.get_ref().as_bool().is_some())
     }
 
     /// `true` or `false`, if the key is there.
@@ -245,7 +253,7 @@ impl<'a> Table<'a> {
     }
 
     /// Finite number, or an arithmetic of these parameters.
-    pub fn number_with(&mut self, key: &str, parameters: &[Parameter]) -> Result<f64> {
+    pub fn number_with(&mut self, key: &str, parameters: &Parameters) -> Result<f64> {
         let value = self.take(key);
         let value = self.required(key, value)?;
         self.finite_with(key, value, parameters).or_else(|error| self.instead(1.0, error))
@@ -318,7 +326,7 @@ impl<'a> Table<'a> {
 
     /// A table or an array of tables; empty if the key is missing.
     pub fn table_or_tables(&mut self, key: &str) -> Result<Vec<Table<'a>>> {
-        match self.entries.iter().find(|entry| entry.key == key).map(|entry| entry.value.get_ref()) {
+        match self.entry(key).map(|entry| entry.value.get_ref()) {
             Some(DeValue::Array(_)) => self.tables(key),
             _ => Ok(self.optional_table(key)?.into_iter().collect()),
         }
@@ -356,7 +364,7 @@ impl<'a> Table<'a> {
     }
 
     #[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the TOML parser")]
-    fn finite_with(&self, key: &str, value: &Spanned<DeValue>, parameters: &[Parameter]) -> Result<f64> {
+    fn finite_with(&self, key: &str, value: &Spanned<DeValue>, parameters: &Parameters) -> Result<f64> {
         let number = match value.get_ref() {
             DeValue::Float(float) => float.as_str().parse().ok(),
             DeValue::Integer(integer) => {

@@ -26,8 +26,13 @@ pub fn round_values(task: &Task, values: &[f64]) -> Vec<f64> {
     values.iter().zip(&task.variables).map(round).collect()
 }
 
+/// Sections of a drawing that hold for its own dimensions only: published numbers, with the tables that they name, what
+/// formulas claim, and where the dimensions come from.
+const OWN: [&str; 3] = ["oracle", "formula", "source"];
+
 /// The text of the drawing `text` with the dimensions that `values` (SI) give the task, under the task's name, with
-/// `comment` at the top. If the task states the mass of bars, every link gets the masses of slender bars from its first
+/// `comment` at the top. What holds for the drawing's own dimensions only is left out, and the comment says so. If the
+/// task states the mass of bars, every link gets the masses of slender bars from its first
 /// point to each of the others.
 ///
 /// # Errors
@@ -36,6 +41,7 @@ pub fn round_values(task: &Task, values: &[f64]) -> Vec<f64> {
 pub fn redrawn(task: &Task, text: &str, values: &[f64], comment: &str) -> Result<String> {
     let mut document: DocumentMut =
         text.parse().map_err(|error| Error::new(ErrorKind::Input, format!("the file is not valid TOML: {error}")))?;
+    let left_out: Vec<&str> = OWN.into_iter().filter(|key| document.remove(key).is_some()).collect();
     let mut mechanism = task.case.mechanism.clone();
     document["name"] = value(task.name.as_str());
     document["title"] = value(task.title.as_str());
@@ -73,6 +79,16 @@ pub fn redrawn(task: &Task, text: &str, values: &[f64], comment: &str) -> Result
             weigh(link_table(&mut document, index, &body.name)?, body, bar);
         }
     }
+    let left_out = match &left_out[..] {
+        [] => String::new(),
+        keys => {
+            format!(
+                "\nLeft out of the drawing, because it holds for its own dimensions only: {}.\nComments below are those of the drawing.",
+                keys.join(", ")
+            )
+        }
+    };
+    let comment = comment.to_string() + &left_out;
     let comment: String = comment.lines().map(|line| format!("# {line}").trim_end().to_string() + "\n").collect();
     Ok(format!("{comment}\n{document}"))
 }

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::parameters::Parameter;
+use super::parameters::Parameters;
 use super::{hostile, malformed};
 use crate::files;
 use linkage::error::{Error, ErrorKind, Place, Result};
@@ -28,7 +28,7 @@ pub struct Source<'a> {
     /// Whole text.
     pub text: &'a str,
     /// Parameters that its numbers may use.
-    pub parameters: Vec<Parameter>,
+    pub parameters: Parameters,
     /// The text once more, for places.
     shared: Arc<str>,
 }
@@ -36,11 +36,11 @@ pub struct Source<'a> {
 impl<'a> Source<'a> {
     /// A file without parameters.
     pub fn new(path: &'a Path, text: &'a str) -> Self {
-        Source { path, text, parameters: Vec::new(), shared: text.into() }
+        Source { path, text, parameters: Parameters::default(), shared: text.into() }
     }
 
     /// The same file with parameters.
-    pub fn with(self, parameters: Vec<Parameter>) -> Self {
+    pub fn with(self, parameters: Parameters) -> Self {
         Source { parameters, ..self }
     }
 
@@ -50,7 +50,11 @@ impl<'a> Source<'a> {
     }
 
     /// The spanned tree of the file.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Input`] with the place, for what is no TOML, and for what no text of a file may hold.
     pub fn tree(&self) -> Result<Spanned<DeTable<'a>>> {
+        hostile::check_size(&|span| self.place(span), self.text)?;
         let tree = DeTable::parse(self.text)
             .map_err(|error| malformed::no_toml(self.text, &|span| self.place(span), &error))?;
         hostile::check(&|span| self.place(span), tree.get_ref())?;

@@ -31,6 +31,9 @@ pub struct Family {
     pub noun: &'static str,
     /// Units, the SI unit first.
     pub units: &'static [Unit],
+    /// Largest size in SI. It is far beyond anything that is built, and products with others are numbers that both sides
+    /// and the engines can still tell apart; a larger one is a slip of the unit.
+    pub most: f64,
 }
 
 impl Family {
@@ -53,37 +56,39 @@ const fn si(suffix: &'static str) -> Unit {
 }
 
 /// Lengths and coordinates.
-pub static LENGTH: Family = Family { noun: "a length", units: &[si("m"), Unit::new("mm", 1.0, 1e3)] };
+pub static LENGTH: Family = Family { noun: "a length", units: &[si("m"), Unit::new("mm", 1.0, 1e3)], most: 1e9 };
 /// Angles.
-pub static ANGLE: Family = Family { noun: "an angle", units: &[si("rad"), Unit::new("deg", PI / 180.0, 1.0)] };
+pub static ANGLE: Family =
+    Family { noun: "an angle", units: &[si("rad"), Unit::new("deg", PI / 180.0, 1.0)], most: 1e9 };
 /// Angular velocities; rpm are turns per minute.
 pub static ANGULAR_SPEED: Family =
-    Family { noun: "an angular velocity", units: &[si("rad_s"), Unit::new("rpm", TAU, 60.0)] };
+    Family { noun: "an angular velocity", units: &[si("rad_s"), Unit::new("rpm", TAU, 60.0)], most: 1e9 };
 /// Times.
-pub static TIME: Family = Family { noun: "a time", units: &[si("s"), Unit::new("ms", 1.0, 1e3)] };
+pub static TIME: Family = Family { noun: "a time", units: &[si("s"), Unit::new("ms", 1.0, 1e3)], most: 1e12 };
 /// Masses.
-pub static MASS: Family = Family { noun: "a mass", units: &[si("kg"), Unit::new("g", 1.0, 1e3)] };
+pub static MASS: Family = Family { noun: "a mass", units: &[si("kg"), Unit::new("g", 1.0, 1e3)], most: 1e30 };
 /// Moments of inertia.
-pub static INERTIA: Family = Family { noun: "a moment of inertia", units: &[si("kg_m2")] };
+pub static INERTIA: Family = Family { noun: "a moment of inertia", units: &[si("kg_m2")], most: 1e30 };
 /// Accelerations.
-pub static ACCELERATION: Family = Family { noun: "an acceleration", units: &[si("m_s2")] };
+pub static ACCELERATION: Family = Family { noun: "an acceleration", units: &[si("m_s2")], most: 1e12 };
 /// Moments of forces.
-pub static MOMENT: Family = Family { noun: "a moment", units: &[si("N_m")] };
+pub static MOMENT: Family = Family { noun: "a moment", units: &[si("N_m")], most: 1e20 };
 /// Moments per angular velocity.
 pub static MOMENT_PER_SPEED: Family =
-    Family { noun: "a change of a moment with an angular velocity", units: &[si("N_m_s")] };
+    Family { noun: "a change of a moment with an angular velocity", units: &[si("N_m_s")], most: 1e20 };
 /// Forces.
-pub static FORCE: Family = Family { noun: "a force", units: &[si("N"), Unit::new("kN", 1e3, 1.0)] };
+pub static FORCE: Family = Family { noun: "a force", units: &[si("N"), Unit::new("kN", 1e3, 1.0)], most: 1e20 };
 /// Forces per length.
-pub static STIFFNESS: Family = Family { noun: "a stiffness", units: &[si("N_m"), Unit::new("N_mm", 1e3, 1.0)] };
+pub static STIFFNESS: Family =
+    Family { noun: "a stiffness", units: &[si("N_m"), Unit::new("N_mm", 1e3, 1.0)], most: 1e20 };
 /// Forces per velocity.
-pub static DAMPING: Family = Family { noun: "a damping", units: &[si("N_s_m")] };
+pub static DAMPING: Family = Family { noun: "a damping", units: &[si("N_s_m")], most: 1e20 };
 /// Moments per angle.
-pub static TORSIONAL_STIFFNESS: Family = Family { noun: "a torsional stiffness", units: &[si("N_m_rad")] };
+pub static TORSIONAL_STIFFNESS: Family = Family { noun: "a torsional stiffness", units: &[si("N_m_rad")], most: 1e20 };
 /// Masses of bars per length.
-pub static MASS_PER_LENGTH: Family = Family { noun: "a mass per length", units: &[si("kg_per_m")] };
+pub static MASS_PER_LENGTH: Family = Family { noun: "a mass per length", units: &[si("kg_per_m")], most: 1e20 };
 /// Powers.
-pub static POWER: Family = Family { noun: "a power", units: &[si("W"), Unit::new("kW", 1e3, 1.0)] };
+pub static POWER: Family = Family { noun: "a power", units: &[si("W"), Unit::new("kW", 1e3, 1.0)], most: 1e20 };
 
 /// All families.
 pub static ALL: [&Family; 15] = [

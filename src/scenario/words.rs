@@ -4,6 +4,8 @@ use strsim::osa_distance;
 
 /// Longest word that may be misspelt (letters): the comparison takes the product of both lengths.
 const LONGEST: usize = 100;
+/// Most candidates among which the nearest is sought, and told: every wrong word is compared with each.
+const MOST: usize = 1000;
 
 /// The candidate nearest to `word`, if one is near enough.
 #[must_use]
@@ -37,7 +39,10 @@ pub fn choice<'a>(words: impl IntoIterator<Item = &'a str>, quote: &str) -> Stri
 /// "did you mean" with the nearest candidate, or else the list of all candidates.
 #[must_use]
 pub fn suggestion<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>, quote: &str) -> String {
-    let candidates: Vec<&str> = candidates.into_iter().collect();
+    let candidates: Vec<&str> = candidates.into_iter().take(MOST + 1).collect();
+    if candidates.len() > MOST {
+        return format!("it is none of more than {MOST} names that are allowed here");
+    }
     match nearest(word, candidates.iter().copied()) {
         Some(near) => format!("did you mean {quote}{near}{quote}?"),
         None if candidates.is_empty() => "there is none that could be named here".into(),

@@ -9,6 +9,7 @@ use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::KeepNan;
 use linkage::math::statistics::ascending;
 use linkage::trajectory::{Channel, Trajectory};
+use std::ops::Range;
 
 /// Where the rows of a party hold; one of the two is always there.
 #[derive(Clone, Debug, Default)]
@@ -99,7 +100,7 @@ impl Held {
             let (factor, is_crank) =
                 mapped.instant().ok_or_else(|| mapped.wrong("this is no instant", "map a time"))?;
             let values: Vec<Rounded> = reader.column(mapped)?.into_iter().map(|own| scaled(own, factor)).collect();
-            if let Some(row) = values.iter().position(|own| !own.value.is_finite()) {
+            if let Some(row) = values.iter().position(|own| !(own.value + own.error).is_finite()) {
                 let message = format!("row {} of the table holds at no instant", row + 1);
                 return Err(mapped.wrong(&message, "take the row out, or complete it"));
             }
@@ -256,27 +257,42 @@ impl<'a> Reader<'a> {
             false => Tree::parse(text),
         };
         let tree = tree.map_err(|fault| mapped.refused(&fault))?;
-        let node = self.graph.add(&tree).map_err(|fault| mapped.refused(&self.named_better(text, fault)))?;
-        self.used.extend(tree.names().iter().map(|(name, _)| (*name).to_string()));
+        let names = tree.names();
+        let column = |name: &str| self.raw.names.iter().position(|own| own == name);
+        if let Some((name, at)) = names.iter().find(|(name, _)| !self.graph.knows(name)) {
+            return Err(mapped.refused(&self.unknown(name, at.clone())));
+        }
+        let node = self.graph.add_defined(&tree).map_err(|fault| mapped.refused(&fault))?;
+        let own: Vec<usize> = names.iter().filter_map(|(name, _)| column(name)).collect();
+        self.used.extend(own.iter().map(|&column| self.raw.names[column].clone()));
         let mut program = Program::of(&self.graph, &[node]);
         let mut inputs = vec![Rounded::exact(0.0); self.raw.columns.len()];
         let mut row = |row: usize| {
             for (input, column) in inputs.iter_mut().zip(&self.raw.columns) {
                 *input = column[row];
             }
-            program.run(&inputs)[0]
+            let found = program.run(&inputs)[0];
+            // A cell without a number is missing; numbers without a result are a mistake.
+            if found.is_undefined() && own.iter().all(|&column| !inputs[column].is_undefined()) {
+                let of = |name: &str| column(name).map_or(Rounded::nearly(std::f64::consts::PI), |own| inputs[own]);
+                if let Err(fault) = tree.evaluated(&of) {
+                    let help = format!("{}; else leave the row out, or its cell empty", fault.help);
+                    let message = format!("in row {} of the table {}", row + 1, fault.message);
+                    return Err(mapped.refused(&Fault { message, help, ..fault }));
+                }
+            }
+            Ok(found)
         };
-        Ok((0..self.raw.len()).map(&mut row).collect())
+        (0..self.raw.len()).map(&mut row).collect()
     }
 
-    /// A fault about a name that is not known, with the columns that are.
-    fn named_better(&self, text: &str, fault: Fault) -> Fault {
-        let name = text[fault.at.clone()].trim_matches('`');
+    /// The fault of a name that is not known, with the columns that are.
+    fn unknown(&self, name: &str, at: Range<usize>) -> Fault {
         let message = format!("the table has no column `{name}`");
         let help = match nearest(name, self.raw.names.iter().map(String::as_str)) {
             Some(near) => format!("did you mean `{near}`?"),
             None => format!("its columns are {}; backquotes hold a name with blanks or signs", some(&self.raw.names)),
         };
-        Fault { message, help, ..fault }
+        Fault { message, at, help }
     }
 }

@@ -5,6 +5,7 @@ mod library;
 mod parameters;
 mod planted;
 mod reduced;
+mod undefined;
 mod wrong_input;
 
 use std::path::{Path, PathBuf};

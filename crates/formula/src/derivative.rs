@@ -131,12 +131,19 @@ impl Graph {
                 self.pair(Over, a, twice)
             }
             Function::Abs => {
-                let sign = self.call(Function::Sign, x, x);
-                self.pair(Times, sign, a)
+                let (sign, smooth) = (self.call(Function::Sign, x, x), self.but_at_zero(x));
+                let slope = self.put(Node::Pair(Plus, sign, smooth));
+                self.pair(Times, slope, a)
             }
             Function::Exp => self.pair(Times, id, a),
             Function::Ln => self.pair(Over, a, x),
-            Function::Sign => self.whole(0.0),
+            Function::Sign => self.but_at_zero(x),
         }
+    }
+
+    /// Zero, and undefined where `x` is zero: a kink or a jump has no derivative.
+    fn but_at_zero(&mut self, x: Id) -> Id {
+        let zero = self.whole(0.0);
+        self.put(Node::Pair(Over, zero, x))
     }
 }

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use crate::domain::undefined;
 use crate::fault::Fault;
 use crate::function::Function;
 use crate::rounded::Rounded;
@@ -38,6 +39,8 @@ fn key(node: Node) -> Key {
 #[derive(Clone, Debug)]
 pub struct Graph {
     pub(crate) nodes: Vec<Node>,
+    /// The values of nodes that no input enters.
+    pub(crate) constants: Vec<Option<Rounded>>,
     known: BTreeMap<Key, Id>,
     names: BTreeMap<String, Id>,
     pub(crate) derivatives: BTreeMap<(Id, usize), Id>,
@@ -50,6 +53,7 @@ impl Graph {
     pub fn new(inputs: &[&str], unnamed: usize) -> Self {
         let mut graph = Graph {
             nodes: Vec::new(),
+            constants: Vec::new(),
             known: BTreeMap::new(),
             names: BTreeMap::new(),
             derivatives: BTreeMap::new(),
@@ -107,23 +111,69 @@ impl Graph {
     /// # Errors
     /// A name that is not known, with its place.
     pub fn add(&mut self, tree: &Tree) -> Result<Id, Fault> {
-        Ok(match &tree.shape {
-            Shape::Number(number) => self.put(Node::Number(Rounded::decimal(*number))),
-            Shape::Name(name) => self.named(name, tree)?,
-            Shape::Negative(part) => {
-                let part = self.add(part)?;
-                self.negative(part)
+        self.added(tree, false)
+    }
+
+    /// The same for a formula that must have a value.
+    ///
+    /// # Errors
+    /// Those of [`Graph::add`], and an operation of constants outside its domain, with its place.
+    pub fn add_defined(&mut self, tree: &Tree) -> Result<Id, Fault> {
+        self.added(tree, true)
+    }
+
+    fn added(&mut self, tree: &Tree, must_be_defined: bool) -> Result<Id, Fault> {
+        let mut lower: Option<Id> = None;
+        for tree in tree.left_parts().into_iter().rev() {
+            let parts = match lower {
+                Some(left) => [Some(left), Some(self.added(&tree.parts()[1], must_be_defined)?)],
+                None => self.parts(tree, must_be_defined)?,
+            };
+            let id = self.operation(tree, parts)?;
+            if must_be_defined && self.constant_of(id).is_some_and(Rounded::is_undefined) {
+                let arguments = parts.map(|part| part.and_then(|part| self.constant_of(part)));
+                return Err(undefined(tree, &arguments.map(|number| number.unwrap_or(Rounded::UNDEFINED))));
             }
-            Shape::Pair(operator, parts) => {
-                let (left, right) = (self.add(&parts[0])?, self.add(&parts[1])?);
-                self.pair(*operator, left, right)
+            lower = Some(id);
+        }
+        Ok(lower.expect("a tree is one of its parts"))
+    }
+
+    /// The nodes of the parts of what is no pair.
+    fn parts(&mut self, tree: &Tree, must_be_defined: bool) -> Result<[Option<Id>; 2], Fault> {
+        let mut part = |index: usize| tree.parts().get(index).map(|part| self.added(part, must_be_defined)).transpose();
+        let first = part(0)?;
+        Ok([first, part(1)?.or(first)])
+    }
+
+    /// The node of an operation on its parts.
+    fn operation(&mut self, tree: &Tree, parts: [Option<Id>; 2]) -> Result<Id, Fault> {
+        Ok(match (&tree.shape, parts) {
+            (Shape::Number(number), _) => self.put(Node::Number(Rounded::decimal(*number))),
+            (Shape::Negative(_), [Some(part), _]) => self.negative(part),
+            (Shape::Pair(operator, _), [Some(left), Some(right)]) => {
+                match (operator, self.exact(left), self.exact(right)) {
+                    // What is less itself is zero, however well it is known, if it is anything.
+                    (Operator::Minus, ..) if left == right => {
+                        let zero = self.whole(0.0);
+                        self.put(Node::Pair(Operator::Times, zero, left))
+                    }
+                    // Whatever it is multiplied by, the other part may be outside a domain.
+                    (Operator::Times | Operator::Over, Some(0.0), _)
+                    | (Operator::Times | Operator::Power, _, Some(0.0)) => self.put(Node::Pair(*operator, left, right)),
+                    _ => self.pair(*operator, left, right),
+                }
             }
-            Shape::Call(function, parts) => {
-                let first = self.add(&parts[0])?;
-                let second = parts.get(1).map_or(Ok(first), |part| self.add(part))?;
-                self.call(*function, first, second)
-            }
+            (Shape::Call(function, _), [Some(first), Some(second)]) => self.call(*function, first, second),
+            (Shape::Name(name), _) => self.named(name, tree)?,
+            (Shape::Negative(_) | Shape::Pair(..) | Shape::Call(..), _) => unreachable!("they have parts"),
         })
+    }
+
+    /// The value of a node that no input enters.
+    #[must_use]
+    pub fn constant_of(&self, id: Id) -> Option<Rounded> {
+        self.constants[id.0 as usize]
     }
 
     fn named(&self, name: &str, tree: &Tree) -> Result<Id, Fault> {
@@ -165,19 +215,32 @@ impl Graph {
         for node in self.nodes.drain(nodes..) {
             self.known.remove(&key(node));
         }
+        self.constants.truncate(nodes);
         self.names = names;
         let is_kept = |id: &Id| (id.0 as usize) < nodes;
         self.derivatives.retain(|(of, _), id| is_kept(of) && is_kept(id));
         result
     }
 
-    fn put(&mut self, node: Node) -> Id {
+    pub(crate) fn put(&mut self, node: Node) -> Id {
         let next = Id(u32::try_from(self.nodes.len()).expect("formulas are bounded in length"));
         let id = *self.known.entry(key(node)).or_insert(next);
         if id == next {
             self.nodes.push(node);
+            self.constants.push(self.folded(node));
         }
         id
+    }
+
+    fn folded(&self, node: Node) -> Option<Rounded> {
+        let of = |id: Id| self.constant_of(id);
+        match node {
+            Node::Input(_) => None,
+            Node::Number(number) => Some(number),
+            Node::Negative(part) => of(part).map(Rounded::negative),
+            Node::Pair(operator, left, right) => Some(Rounded::pair(operator, of(left)?, of(right)?)),
+            Node::Call(function, first, second) => Some(Rounded::call(function, [of(first)?, of(second)?])),
+        }
     }
 
     fn exact(&self, id: Id) -> Option<f64> {
@@ -199,7 +262,8 @@ impl Graph {
         }
     }
 
-    /// A pair, without the zeros and ones that derivatives leave.
+    /// A pair, without the zeros and ones that derivatives leave: what they are multiplied by was there before, and is
+    /// judged there.
     pub(crate) fn pair(&mut self, operator: Operator, left: Id, right: Id) -> Id {
         let (a, b) = (self.exact(left), self.exact(right));
         match (operator, a, b) {
@@ -212,7 +276,7 @@ impl Graph {
             (Operator::Power, _, Some(0.0)) => self.whole(1.0),
             (_, Some(a), Some(b)) => {
                 let both = Rounded::pair(operator, Rounded::exact(a), Rounded::exact(b));
-                if both.value.fract() == 0.0 && both.value.abs() < 9e15 {
+                if both.value.fract() == 0.0 && both.value.abs() < 9e15 && both.error.is_finite() {
                     self.whole(both.value)
                 } else {
                     self.put(Node::Pair(operator, left, right))

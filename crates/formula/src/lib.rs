@@ -18,6 +18,7 @@
 //! ```
 
 mod derivative;
+mod domain;
 mod fault;
 mod function;
 mod graph;

@@ -21,31 +21,21 @@ impl Program {
     pub fn of(graph: &Graph, nodes: &[Id]) -> Self {
         let needed = graph.needed(nodes);
         let mut place = vec![Id(0); graph.nodes.len()];
-        let (mut steps, mut values, mut varies) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut steps, mut values) = (Vec::new(), Vec::new());
         for (index, &node) in graph.nodes.iter().enumerate().filter(|(index, _)| needed[*index]) {
             let at = |id: Id| place[id.0 as usize];
-            let (node, is_varied) = match node {
-                Node::Input(_) => (node, true),
-                Node::Number(_) => (node, false),
-                Node::Negative(part) => (Node::Negative(at(part)), varies[at(part).0 as usize]),
-                Node::Pair(operator, left, right) => {
-                    let (left, right) = (at(left), at(right));
-                    (Node::Pair(operator, left, right), varies[left.0 as usize] || varies[right.0 as usize])
-                }
-                Node::Call(function, first, second) => {
-                    let (first, second) = (at(first), at(second));
-                    (Node::Call(function, first, second), varies[first.0 as usize] || varies[second.0 as usize])
-                }
+            let node = match node {
+                Node::Input(_) | Node::Number(_) => node,
+                Node::Negative(part) => Node::Negative(at(part)),
+                Node::Pair(operator, left, right) => Node::Pair(operator, at(left), at(right)),
+                Node::Call(function, first, second) => Node::Call(function, at(first), at(second)),
             };
             place[index] = Id(values.len() as u32);
-            match is_varied {
-                true => {
-                    steps.push((values.len(), node));
-                    values.push(Rounded::exact(f64::NAN));
-                }
-                false => values.push(value(node, &values, &[])),
+            let constant = graph.constants[index];
+            if constant.is_none() {
+                steps.push((values.len(), node));
             }
-            varies.push(is_varied);
+            values.push(constant.unwrap_or(Rounded::UNDEFINED));
         }
         let results = nodes.iter().map(|id| place[id.0 as usize].0 as usize).collect();
         Program { steps, results, values, answers: vec![Rounded::exact(0.0); nodes.len()] }
@@ -79,7 +69,7 @@ impl Program {
 fn value(node: Node, values: &[Rounded], inputs: &[Rounded]) -> Rounded {
     let at = |id: Id| values[id.0 as usize];
     match node {
-        Node::Input(input) => inputs.get(input).copied().unwrap_or(Rounded::exact(f64::NAN)),
+        Node::Input(input) => inputs.get(input).copied().unwrap_or(Rounded::UNDEFINED),
         Node::Number(number) => number,
         Node::Negative(part) => at(part).negative(),
         Node::Pair(operator, left, right) => Rounded::pair(operator, at(left), at(right)),

@@ -4,9 +4,13 @@ use crate::function::Function;
 use crate::tree::Operator;
 
 /// A number with a bound on its error. Every operation passes the errors of its arguments on and adds its own rounding.
+///
+/// An operation outside its domain, and every operation that takes its result, gives [`Rounded::UNDEFINED`]: unlike in
+/// IEEE 754, `1/(1/0)`, `(0/0)^0` and `atan(1/0)` have no value. An argument that is outside the domain by less than its
+/// error is taken to the domain's end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rounded {
-    /// The number.
+    /// The number; NaN if there is none.
     pub value: f64,
     /// How far the exact number may be from it. Infinite where nothing is known.
     pub error: f64,
@@ -18,6 +22,11 @@ const HALF: f64 = f64::EPSILON / 2.0;
 const WHOLE: f64 = 2.0 * f64::EPSILON;
 
 impl Rounded {
+    /// What an operation outside its domain gives.
+    pub const UNDEFINED: Self = Rounded { value: f64::NAN, error: f64::INFINITY };
+    /// A number of which nothing is known: too large for a double, or divided by what may be zero.
+    pub const UNKNOWN: Self = Rounded { value: 0.0, error: f64::INFINITY };
+
     /// A number that is exact.
     #[must_use]
     pub const fn exact(value: f64) -> Self {
@@ -38,7 +47,31 @@ impl Rounded {
     }
 
     fn of(value: f64, error: f64, rounding: f64) -> Self {
-        Rounded { value, error: error + rounding * value.abs() }
+        if !value.is_finite() {
+            return Rounded::UNKNOWN;
+        }
+        let error = error + rounding * value.abs();
+        // Zero times nothing known.
+        Rounded { value, error: if error.is_nan() { f64::INFINITY } else { error } }
+    }
+
+    /// The same, where a result that a double cannot tell from zero is zero only if it `is_zero` exactly.
+    fn or_tiny(self, is_zero: bool) -> Self {
+        match self.value.abs() < f64::MIN_POSITIVE && !is_zero {
+            true => Rounded { error: self.error + f64::MIN_POSITIVE, ..self },
+            false => self,
+        }
+    }
+
+    /// Whether the operation that gave it, or one before, was outside its domain.
+    #[must_use]
+    pub fn is_undefined(self) -> bool {
+        self.value.is_nan()
+    }
+
+    /// Whether it is zero, and nothing else.
+    fn is_zero(self) -> bool {
+        self.value == 0.0 && self.error == 0.0
     }
 
     /// The negative.
@@ -50,13 +83,17 @@ impl Rounded {
     /// What an operator makes of two numbers.
     #[must_use]
     pub fn pair(operator: Operator, a: Self, b: Self) -> Self {
+        if !a.value.is_finite() || !b.value.is_finite() {
+            return Rounded::UNDEFINED;
+        }
         match operator {
             Operator::Plus => Rounded::of(a.value + b.value, a.error + b.error, HALF),
             Operator::Minus => Rounded::of(a.value - b.value, a.error + b.error, HALF),
             Operator::Times => {
                 let error = a.value.abs() * b.error + b.value.abs() * a.error + a.error * b.error;
-                Rounded::of(a.value * b.value, error, HALF)
+                Rounded::of(a.value * b.value, error, HALF).or_tiny(a.value == 0.0 || b.value == 0.0)
             }
+            Operator::Over if b.is_zero() => Rounded::UNDEFINED,
             Operator::Over => {
                 let value = a.value / b.value;
                 let least = b.value.abs() - b.error;
@@ -64,7 +101,7 @@ impl Rounded {
                     true => (a.error + value.abs() * b.error) / least,
                     false => f64::INFINITY,
                 };
-                Rounded::of(value, error, HALF)
+                Rounded::of(value, error, HALF).or_tiny(a.value == 0.0)
             }
             Operator::Power => power(a, b),
         }
@@ -74,6 +111,9 @@ impl Rounded {
     #[must_use]
     pub fn call(function: Function, arguments: [Self; 2]) -> Self {
         let [x, other] = arguments;
+        if !x.value.is_finite() || !other.value.is_finite() {
+            return Rounded::UNDEFINED;
+        }
         match function {
             Function::Sin => {
                 let (sine, cosine) = x.value.sin_cos();
@@ -91,6 +131,7 @@ impl Rounded {
                 let error = if is_near { f64::INFINITY } else { x.error * (1.0 + steepest * steepest) };
                 Rounded::of(value, error, WHOLE)
             }
+            Function::Asin | Function::Acos if x.value.abs() - x.error > 1.0 => Rounded::UNDEFINED,
             Function::Asin | Function::Acos => {
                 let of = |value: f64| if function == Function::Asin { value.asin() } else { value.acos() };
                 let end = x.value.abs() + x.error;
@@ -108,12 +149,14 @@ impl Rounded {
                 let root = x.value.sqrt();
                 Rounded::of(root, x.error / (root + (x.value - x.error).sqrt()), HALF)
             }
+            Function::Sqrt if x.value + x.error < 0.0 => Rounded::UNDEFINED,
             Function::Sqrt => growing(f64::sqrt, x, [0.0, f64::INFINITY]),
             Function::Exp => {
                 let value = x.value.exp();
-                Rounded::of(value, value * x.error.exp_m1(), WHOLE)
+                Rounded::of(value, value * x.error.exp_m1(), WHOLE).or_tiny(false)
             }
             Function::Ln if x.value > x.error => Rounded::of(x.value.ln(), x.error / (x.value - x.error), WHOLE),
+            Function::Ln if x.value + x.error <= 0.0 => Rounded::UNDEFINED,
             Function::Ln => growing(f64::ln, x, [0.0, f64::INFINITY]),
             Function::Abs => Rounded { value: x.value.abs(), error: x.error },
             Function::Sign => {
@@ -121,6 +164,7 @@ impl Rounded {
                 let value = if x.value == 0.0 { 0.0 } else { x.value.signum() };
                 Rounded { value, error }
             }
+            Function::Atan2 if x.is_zero() && other.is_zero() => Rounded::UNDEFINED,
             Function::Atan2 => {
                 let (y, x) = (x, other);
                 let nearest = y.value.hypot(x.value) - y.error.hypot(x.error);
@@ -128,7 +172,7 @@ impl Rounded {
                     true => (x.value.abs() * y.error + y.value.abs() * x.error + y.error * x.error) / nearest.powi(2),
                     false => std::f64::consts::PI,
                 };
-                Rounded::of(y.value.atan2(x.value), error, WHOLE)
+                Rounded::of(y.value.atan2(x.value), error, WHOLE).or_tiny(y.value == 0.0)
             }
         }
     }
@@ -145,52 +189,71 @@ fn not_below_zero(number: f64) -> f64 {
     if number < 0.0 { 0.0 } else { number }
 }
 
+/// The larger of two sizes; infinite if one is not known.
+fn larger(one: f64, other: f64) -> f64 {
+    match one.is_nan() || other.is_nan() {
+        true => f64::INFINITY,
+        false if one >= other => one,
+        false => other,
+    }
+}
+
 /// A function that grows, or falls, everywhere from `domain[0]` to `domain[1]`: its largest change is at one end of
 /// what is known of its argument. An argument beyond the domain by less than its error is taken to its end.
 fn growing(function: impl Fn(f64) -> f64, x: Rounded, domain: [f64; 2]) -> Rounded {
     let at = |value: f64| function(value.clamp(domain[0], domain[1]));
-    let is_near = x.value + x.error >= domain[0] && x.value - x.error <= domain[1];
-    let value = if is_near { at(x.value) } else { function(x.value) };
+    let value = at(x.value);
     if x.error == 0.0 {
         return Rounded::of(value, 0.0, WHOLE);
     }
-    // A NaN stays one: larger() would lose it.
     let [below, above] = [at(x.value - x.error) - value, at(x.value + x.error) - value].map(f64::abs);
-    let error = if below >= above { below } else { above };
-    Rounded::of(value, error, WHOLE)
+    Rounded::of(value, larger(below, above), WHOLE)
 }
 
+/// Largest exponent up to which a power is a product (its rounding grows with every factor).
+const FACTORS: f64 = 1024.0;
+
 fn power(a: Rounded, b: Rounded) -> Rounded {
-    let is_whole = b.error == 0.0 && b.value.fract() == 0.0 && b.value.abs() <= 64.0;
-    if is_whole {
+    let is_whole = b.error == 0.0 && b.value.fract() == 0.0;
+    if is_whole && a.is_zero() && b.value < 0.0 {
+        return Rounded::UNDEFINED;
+    }
+    if is_whole && b.value.abs() <= FACTORS {
         let power = b.value as i32;
         // Products of many factors round at every one.
         let rounding = WHOLE * (1.0 + b.value.abs());
         // The steepest slope is where the base is largest, or for a negative power where it is smallest.
         let end = if power >= 0 { a.value.abs() + a.error } else { a.value.abs() - a.error };
         let slope = if power < 0 && !(end > 0.0) { f64::INFINITY } else { b.value.abs() * end.powi(power - 1) };
-        return match power {
+        let found = match power {
             2 => Rounded::of(a.value * a.value, a.error * (2.0 * a.value.abs() + a.error), HALF),
             _ if a.error == 0.0 || power == 0 => Rounded::of(a.value.powi(power), 0.0, rounding),
             _ => Rounded::of(a.value.powi(power), slope * a.error, rounding),
         };
+        return found.or_tiny(a.value == 0.0);
+    }
+    let has_whole = is_whole || (b.value + b.error).floor() >= (b.value - b.error).ceil();
+    match () {
+        () if a.value + a.error < 0.0 && !has_whole => return Rounded::UNDEFINED,
+        () if a.value + a.error < 0.0 && !is_whole => return Rounded::UNKNOWN,
+        () if a.is_zero() && b.value + b.error < 0.0 => return Rounded::UNDEFINED,
+        () if a.is_zero() && b.value - b.error <= 0.0 => return Rounded::UNKNOWN,
+        () => {}
     }
     // A base below zero by less than its error stands for zero.
     let base = if a.value < 0.0 && a.value + a.error >= 0.0 { 0.0 } else { a.value };
     let value = base.powf(b.value);
     if a.error == 0.0 && b.error == 0.0 {
-        return Rounded::of(value, 0.0, 4.0 * WHOLE);
+        return Rounded::of(value, 0.0, 4.0 * WHOLE).or_tiny(base == 0.0);
     }
-    // It grows or falls with the base, and with the exponent: the largest change is at a corner.
+    // Its size grows or falls with that of the base, and with the exponent: the largest change is at a corner.
+    let sign = if value < 0.0 { -1.0 } else { 1.0 };
     let mut error = 0.0;
     for base in [a.value - a.error, a.value + a.error] {
         for exponent in [b.value - b.error, b.value + b.error] {
-            let corner = (not_below_zero(base).powf(exponent) - value).abs();
-            // A NaN stays one.
-            if !(corner <= error) {
-                error = corner;
-            }
+            let base = if is_whole { base.abs() } else { not_below_zero(base) };
+            error = larger(error, (sign * base.powf(exponent) - value).abs());
         }
     }
-    Rounded::of(value, error, 4.0 * WHOLE)
+    Rounded::of(value, error, 4.0 * WHOLE).or_tiny(base == 0.0)
 }

@@ -148,11 +148,23 @@ impl Tree {
 
     /// The names in it, each with its place, from left to right.
     pub fn names(&self) -> Vec<(&str, Range<usize>)> {
-        let own = match &self.shape {
-            Shape::Name(name) => vec![(name.as_str(), self.at.clone())],
-            Shape::Number(_) | Shape::Negative(_) | Shape::Pair(..) | Shape::Call(..) => Vec::new(),
-        };
-        own.into_iter().chain(self.parts().iter().flat_map(Tree::names)).collect()
+        let (mut names, mut open) = (Vec::new(), vec![self]);
+        while let Some(part) = open.pop() {
+            if let Shape::Name(name) = &part.shape {
+                names.push((name.as_str(), part.at.clone()));
+            }
+            open.extend(part.parts().iter().rev());
+        }
+        names
+    }
+
+    /// The tree, its left part, the left part of that, and so on. Long sums are deep there, and nowhere else.
+    pub(crate) fn left_parts(&self) -> Vec<&Tree> {
+        std::iter::successors(Some(self), |tree| match &tree.shape {
+            Shape::Pair(_, parts) => Some(&parts[0]),
+            Shape::Number(_) | Shape::Name(_) | Shape::Negative(_) | Shape::Call(..) => None,
+        })
+        .collect()
     }
 
     fn rank(&self) -> u8 {

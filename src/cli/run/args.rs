@@ -57,8 +57,9 @@ pub(in crate::cli) struct Args {
     /// every residual beside its bound
     #[arg(long, hide = true, value_name = "FACTOR", allow_hyphen_values = true, value_parser = number::not_negative)]
     pub tolerance_scale: Option<f64>,
-    /// Write the settings that the proof has found to the `[engine]` section of the scenario file
-    #[arg(long)]
+    /// Write the settings that the proof has found to the `[engine]` section of the scenario file. They are those of the
+    /// file's own mechanism, so that none of its numbers and modes may be given otherwise
+    #[arg(long, conflicts_with_all = ["set", "mode", "start_crank_deg"])]
     pub write: bool,
     #[command(flatten)]
     pub record: RecordArgs,

@@ -6,11 +6,10 @@ use toml::de::DeValue;
 use super::{Entry, Table, found};
 use crate::scenario::unit::{Family, Unit};
 use crate::scenario::words::choice;
-use linkage::error::{Error, Result};
+use linkage::error::{Error, ErrorKind, Result};
 
-/// Sizes of quantities in SI between which products of mass, length and speeds, and their squares, are numbers.
+/// Smallest size of a quantity in SI whose products with others, and their squares, are numbers.
 const SMALLEST: f64 = 1e-100;
-const LARGEST: f64 = 1e30;
 
 /// The values that a quantity may have.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -74,7 +73,7 @@ impl<'a> Table<'a> {
             Err(error) if families.len() > 1 => return Err(self.noted(error)),
             Err(error) => return self.instead(Some((0, sign.stand_in())), error),
         };
-        self.used.push(self.entries[at].key);
+        self.used.insert(self.entries[at].key);
         match self.allowed(at, unit, families[index], sign) {
             Ok(value) => Ok(Some((index, value))),
             Err(error) => self.instead(Some((index, sign.stand_in())), error),
@@ -90,7 +89,7 @@ impl<'a> Table<'a> {
             let message = format!("found {found}, but {} {rule} here", family.noun);
             return Err(self.wrong_entry(entry, message).help(way_out));
         }
-        self.in_range(entry.key, entry.value, unit.to_si(number))
+        self.in_range(entry.key, entry.value, unit.to_si(number), family)
     }
 
     /// Array of quantities under one of the spellings of `base` in `family`, in SI; `None` if there is none.
@@ -101,42 +100,48 @@ impl<'a> Table<'a> {
             Err(error) => return self.instead(Some(vec![0.0]), error),
         };
         let (key, value) = (self.entries[at].key, self.entries[at].value);
-        self.used.push(key);
+        self.used.insert(key);
         let Some(array) = value.get_ref().as_array() else {
             return self.instead(Some(vec![0.0]), self.mistyped(key, value, "an array of numbers"));
         };
         let si = |(index, element): (usize, &Spanned<DeValue>)| {
-            let number = self.finite(key, element).and_then(|number| self.in_range(key, element, unit.to_si(number)));
+            let number =
+                self.finite(key, element).and_then(|number| self.in_range(key, element, unit.to_si(number), family));
             // No two stand-ins are the same.
             number.or_else(|error| self.instead(index as f64, error))
         };
         array.iter().enumerate().map(si).collect::<Result<_>>().map(Some)
     }
 
-    /// A number in SI whose products with others of its kind stay numbers: zero, or of a size from 1e-100 to 1e30.
-    fn in_range(&self, key: &str, value: &Spanned<DeValue>, si: f64) -> Result<f64> {
-        match si == 0.0 || (SMALLEST..=LARGEST).contains(&si.abs()) {
-            true => Ok(si),
-            false => {
-                let range = "a number that is zero or of a size from 1e-100 to 1e30 in SI units";
-                Err(self.mistyped(key, value, range))
-            }
+    /// A number in SI that a mechanism may have: zero, or of a size between those of its family.
+    fn in_range(&self, key: &str, value: &Spanned<DeValue>, si: f64, family: &Family) -> Result<f64> {
+        if si == 0.0 || (SMALLEST..=family.most).contains(&si.abs()) {
+            return Ok(si);
         }
+        let Family { noun, units, most } = family;
+        let message = format!(
+            "found {}, but {noun} is zero or of a size from {SMALLEST:e} to {most:e} {}",
+            found(self.source, value),
+            units[0].suffix
+        );
+        let error = Error::new(ErrorKind::Input, message).key(self.path_of(key)).at(self.source.place(value.span()));
+        Err(error.help("check the unit and the exponent"))
     }
 
     /// The one entry that spells `base` in a unit of the families: index of its family, its own index, and the unit.
     /// All spellings are recorded as asked for.
     fn spelled(&mut self, base: &str, families: &[&'static Family]) -> Result<Option<(usize, usize, &'static Unit)>> {
         let spellings: Vec<String> = families.iter().flat_map(|family| family.keys(base)).collect();
-        let is_spelling = |entry: &Entry| spellings.iter().any(|spelling| spelling == entry.key);
-        let mut present = (0..self.entries.len()).filter(|&at| is_spelling(&self.entries[at]));
-        let (first, second) = (present.next(), present.next());
+        let mut present: Vec<usize> =
+            spellings.iter().filter_map(|spelling| self.places.get(spelling.as_str()).copied()).collect();
+        present.sort_unstable();
+        let (first, second) = (present.first().copied(), present.get(1).copied());
         let Some(at) = first else {
             let wrong = self.misspelt_unit(base, families[0], &spellings);
             self.asked.extend_from_slice(&spellings);
             let Some((key, error)) = wrong else { return Ok(None) };
             self.settled.extend_from_slice(&spellings);
-            self.used.push(key);
+            self.used.insert(key);
             return Err(error);
         };
         let key = self.entries[at].key;
@@ -159,7 +164,7 @@ impl<'a> Table<'a> {
         let help = format!("write {}", choice(spellings.iter().map(String::as_str), "`"));
         let is_number =
             |entry: &&Entry| !matches!(entry.value.get_ref(), DeValue::Table(_)) && !self.used.contains(&entry.key);
-        if let Some(entry) = self.entries.iter().filter(is_number).find(|entry| entry.key == base) {
+        if let Some(entry) = self.entry(base).filter(is_number) {
             return Some((entry.key, self.wrong_entry(entry, format!("`{base}` carries no unit")).help(help)));
         }
         let prefixed = |entry: &&Entry| entry.key.strip_prefix(base).is_some_and(|rest| rest.starts_with('_'));

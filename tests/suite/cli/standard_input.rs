@@ -71,6 +71,23 @@ fn settings_are_not_written_to_standard_input() {
     assert!(!place.path("-").exists());
 }
 
+/// Settings belong to the mechanism that they were found for: the file's own, not one with other numbers.
+#[test]
+fn settings_found_for_other_numbers_are_not_written() {
+    let place = Place::new();
+    let before = fs::read(place.path("scenarios/pendulum.toml")).unwrap();
+    for other in ["--set a_mm=30", "--mode coupler,rocker=left", "--start-crank-deg 30"] {
+        let outcome = place.run(&format!("run scenarios/pendulum.toml --no-record --write {other}"));
+        assert_eq!(outcome.code, 2, "{other}: {}", outcome.stdout);
+        assert!(
+            outcome.stderr.contains("--write") && outcome.stderr.contains("cannot be used with"),
+            "{}",
+            outcome.stderr
+        );
+    }
+    assert_eq!(fs::read(place.path("scenarios/pendulum.toml")).unwrap(), before);
+}
+
 #[test]
 fn a_scenario_has_its_channels_listed() {
     let place = Place::new();

@@ -1,0 +1,97 @@
+//! Operations outside their domain, in words.
+
+use std::fmt::Write;
+
+use crate::fault::Fault;
+use crate::function::Function;
+use crate::rounded::Rounded;
+use crate::tree::{Operator, Shape, Tree};
+
+impl Tree {
+    /// Its value, where `of` gives the values of names.
+    ///
+    /// # Errors
+    /// The first operation that is outside its domain there, with its place.
+    pub fn evaluated(&self, of: &dyn Fn(&str) -> Rounded) -> Result<Rounded, Fault> {
+        let mut lower: Option<Rounded> = None;
+        for tree in self.left_parts().into_iter().rev() {
+            let others = &tree.parts()[usize::from(lower.is_some())..];
+            let others: Vec<Rounded> = others.iter().map(|part| part.evaluated(of)).collect::<Result<_, _>>()?;
+            let parts: Vec<Rounded> = lower.into_iter().chain(others).collect();
+            let value = match &tree.shape {
+                Shape::Number(number) => Rounded::decimal(*number),
+                Shape::Name(name) => of(name),
+                Shape::Negative(_) => parts[0].negative(),
+                Shape::Pair(Operator::Minus, own)
+                    if parts[0] == parts[1] && own[0].to_string() == own[1].to_string() =>
+                {
+                    Rounded::pair(Operator::Times, Rounded::exact(0.0), parts[0])
+                }
+                Shape::Pair(operator, _) => Rounded::pair(*operator, parts[0], parts[1]),
+                Shape::Call(function, _) => Rounded::call(*function, [parts[0], *parts.last().unwrap_or(&parts[0])]),
+            };
+            if value.is_undefined() {
+                return Err(undefined(tree, &parts));
+            }
+            lower = Some(value);
+        }
+        Ok(lower.expect("a tree is one of its parts"))
+    }
+}
+
+/// The fault of an operation that is undefined for these arguments.
+pub(crate) fn undefined(tree: &Tree, arguments: &[Rounded]) -> Fault {
+    let of = |index: usize| arguments.get(index).map_or_else(|| "?".into(), |number| short(number.value));
+    let (what, rule) = match &tree.shape {
+        Shape::Pair(operator, _) => {
+            let base = if of(0).starts_with('-') { format!("({})", of(0)) } else { of(0) };
+            (format!("{base}{}{}", operator.sign(), of(1)), rule_of_operator(*operator))
+        }
+        Shape::Call(function, parts) => {
+            let mut call = format!("{}({}", function.name(), of(0));
+            if parts.len() > 1 {
+                let _ = write!(call, ", {}", of(1));
+            }
+            (call + ")", rule_of_function(*function))
+        }
+        Shape::Name(name) => (format!("`{name}`"), "what it stands for has no value"),
+        Shape::Number(_) | Shape::Negative(_) => (tree.to_string(), EVERYWHERE),
+    };
+    Fault::new(format!("{what} is undefined"), tree.at.clone(), rule)
+}
+
+/// What is defined for every number.
+const EVERYWHERE: &str = "its parts must have values";
+
+fn rule_of_operator(operator: Operator) -> &'static str {
+    match operator {
+        Operator::Over => "a divisor must not be zero",
+        Operator::Power => "a negative base takes a whole exponent, and zero none below zero",
+        Operator::Plus | Operator::Minus | Operator::Times => EVERYWHERE,
+    }
+}
+
+fn rule_of_function(function: Function) -> &'static str {
+    match function {
+        Function::Ln => "ln takes a positive number",
+        Function::Sqrt => "sqrt takes zero or a positive number",
+        Function::Asin | Function::Acos => "asin and acos take a number from -1 to 1",
+        Function::Atan2 => "atan2 takes two numbers of which one is not zero",
+        Function::Sin
+        | Function::Cos
+        | Function::Tan
+        | Function::Atan
+        | Function::Abs
+        | Function::Exp
+        | Function::Sign => EVERYWHERE,
+    }
+}
+
+/// A number in six digits.
+fn short(value: f64) -> String {
+    let rounded: f64 = format!("{value:.5e}").parse().unwrap_or(value);
+    match rounded == 0.0 || (1e-4..1e7).contains(&rounded.abs()) {
+        true => format!("{rounded}"),
+        false => format!("{rounded:e}"),
+    }
+}

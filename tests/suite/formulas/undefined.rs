@@ -1,0 +1,110 @@
+//! What is undefined is neither right nor read over, at whatever door it comes in.
+
+use linkproof::claims::Outcome;
+use linkproof::scenario::Scenario;
+
+use crate::cli::tools::Place;
+use crate::common::shipped;
+
+/// Operations of constants outside their domains, and what the message says.
+const OUTSIDE: [(&str, &str); 8] = [
+    ("0*ln(-1)", "ln(-1) is undefined"),
+    ("0*(1/0)", "1/0 is undefined"),
+    ("ln(-1)^0 - 1", "ln(-1) is undefined"),
+    ("0/sqrt(-4)", "sqrt(-4) is undefined"),
+    ("0*asin(2)", "asin(2) is undefined"),
+    ("atan2(0, 0)", "atan2(0, 0) is undefined"),
+    ("1/(1/0)", "1/0 is undefined"),
+    ("0*(-8)^(1/3)", "(-8)^0.333333 is undefined"),
+];
+
+/// Symptom: `phi*180/pi + 0*ln(-1)` was right. Cause: 0*x, 0/x and x^0 were simplified when a formula was read, as the
+/// derivatives need it; and IEEE 754 gives 1/(1/0) a value.
+#[test]
+fn regress_undefined_constants_are_refused_at_every_door() {
+    let place = Place::new();
+    let own = std::fs::read_to_string(place.path("scenarios/crank_rocker.toml")).unwrap();
+    std::fs::write(place.path("table.csv"), "time_s,a\n0,0\n0.1,1\n").unwrap();
+    for (operation, says) in OUTSIDE {
+        let operation = operation.replace(' ', "");
+        let check = "check scenarios/crank_rocker.toml";
+        for door in [
+            format!("{check} phi --channel link.crank.angle_rad+{operation}"),
+            format!("compare scenarios/crank_rocker.toml table.csv --rel 1 --map a+{operation}=link.crank.angle_deg"),
+        ] {
+            place.refused(&door, &[says, "^", "help: "]);
+        }
+        // A formula may be wrong: it is judged, and the diagnosis of its slip is worth more than a refusal.
+        for formula in [format!("phi*180/pi+{operation}"), format!("u+phi*180/pi --let u={operation}")] {
+            let outcome = place.run(&format!("{check} {formula} --channel link.crank.angle_deg"));
+            assert_eq!(outcome.code, 1, "{formula}: {}", outcome.stdout);
+            let told = outcome.unbroken();
+            assert!(told.contains(&format!("but {says} at crank angle 0.000 deg")), "{formula}: {told}");
+        }
+        for section in [
+            format!("[parameters]\nq = \"{operation}\"\n"),
+            format!("[tolerances]\nengine_rel = \"0.01 + {operation}\"\n"),
+        ] {
+            let error = Scenario::parse(&format!("{own}\n{section}"), "own.toml".as_ref()).expect_err(&section);
+            assert!(error.to_string().contains(says), "{section}: {error}");
+            let at = error.place().unwrap().span.start;
+            assert!(at > own.len(), "{section}: {error}");
+        }
+    }
+}
+
+/// With inputs it is a disagreement at the first instant without a value, with the operation and its place, also where
+/// that stands in a step of the derivation.
+#[test]
+fn operations_that_leave_their_domain_on_the_way_disagree_with_their_place() {
+    let scenario = shipped("crank_rocker.toml");
+    let right = "phi*180/pi";
+    for (steps, text, of, written, crank) in [
+        (vec![], "phi*180/pi + 0*sqrt(1 - phi)", "formula", "sqrt(1 - phi)", 58.0),
+        (vec![], "phi*180/pi + 0*ln(phi)", "formula", "ln(phi)", 0.0),
+        (vec![("u", "acos(1 + t)")], "phi*180/pi + 0*u^2", "u", "acos(1 + t)", 1.0),
+        (vec![("u", "2 - phi"), ("v", "u^0.5")], "v^0*phi*180/pi", "v", "u^0.5", 115.0),
+        (vec![], "phi*180/pi*(1/(phi - phi))^0", "formula", "(1/(phi - phi))", 0.0),
+        (vec![], "phi*180/pi + exp(-1/(t - t))", "formula", "-1/(t - t)", 0.0),
+    ] {
+        let mut scenario = scenario.clone();
+        for (name, text) in steps {
+            scenario.formulas.add(name, text).unwrap();
+        }
+        let claim = linkproof::scenario::Claim::parse("link.crank.angle_deg", &scenario.case).unwrap();
+        for (name, text) in [("formula", text), ("right", right)] {
+            scenario.formulas.add(name, text).unwrap().claim = Some(claim.clone());
+        }
+        let found = super::judged(&scenario);
+        for side in &found.judgement.sides {
+            let outcomes: Vec<Outcome> = side.1.iter().map(|orders| orders[0].outcome()).collect();
+            assert_eq!(outcomes, [Outcome::Wrong, Outcome::Right], "{text}");
+        }
+        let undefined = found.judgement.undefined("formula").unwrap();
+        let (formula, operation, at) = (&undefined.formula, &undefined.written, undefined.crank);
+        assert_eq!((formula.as_str(), operation.as_str(), at.to_degrees().round()), (of, written, crank), "{text}");
+    }
+}
+
+/// A number that a double cannot hold is not undefined: nothing is proven by it, and nothing disproven.
+#[test]
+fn overflow_proves_nothing() {
+    let mut scenario = shipped("crank_rocker.toml");
+    let claim = linkproof::scenario::Claim::parse("link.crank.angle_deg", &scenario.case).unwrap();
+    let formula = scenario.formulas.add("formula", "phi*180/pi + 0*exp(1000*phi)").unwrap();
+    formula.claim = Some(claim);
+    let found = super::judged(&scenario);
+    let outcome = found.judgement.sides[0].1[0][0].outcome();
+    assert!(matches!(outcome, Outcome::Open { .. }), "{outcome:?}");
+}
+
+/// A cell without a number is missing; numbers without a result are a mistake, with the row.
+#[test]
+fn a_mapping_that_has_no_value_in_a_row_is_refused() {
+    let place = Place::new();
+    std::fs::write(place.path("table.csv"), "time_s,a\n0,1.0\n0.1,-1.0\n0.2,\n").unwrap();
+    let compare = "compare scenarios/crank_rocker.toml table.csv --rel 1 --map";
+    let words = ["in row 2 of the table sqrt(-1) is undefined", "zero or a positive number", "leave the row out"];
+    place.refused(&format!("{compare} a+0*sqrt(a)=link.crank.angle_deg"), &words);
+    assert_ne!(place.run(&format!("{compare} a+0*sqrt(a+2)=link.crank.angle_deg")).code, 2);
+}
