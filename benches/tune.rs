@@ -2,7 +2,7 @@
 //! Both are timed in turns.
 //! The search covers engines, routes, extrapolation, substeps, sweeps and steps.
 //! `cargo bench --bench tune [-- SCENARIO...]`.
-//! With `-- prices` it measures what the price model of `tests/suite/tune/prices.rs` needs.
+//! With `-- prices` it measures what the price model of `src/tune/price.rs` needs.
 //! With `-- whole` it searches the whole space of the price model for three required accuracies.
 //! That fails where `tune` misses its promise.
 
@@ -23,8 +23,6 @@ use linkproof::tune::{Wish, tune};
 mod exhaustive;
 #[path = "../tests/suite/tune/near.rs"]
 mod near;
-#[path = "../tests/suite/tune/prices.rs"]
-mod prices;
 
 use exhaustive::{Met, REFERENCES, Space, cheaper, error_of, thinned, truth};
 use near::near_the_cheapest;

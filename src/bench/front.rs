@@ -70,8 +70,13 @@ mod tests {
 
     fn point(seconds: f64, error: f64) -> Point {
         let errors = Errors { max: error, rms: error, is_limited: false };
-        let run =
-            Run { errors: [Some(errors); 5], lacking: Vec::new(), seconds: vec![seconds], effort: Effort::default() };
+        let run = Run {
+            errors: [Some(errors); 5],
+            failed: Vec::new(),
+            without: Vec::new(),
+            seconds: vec![seconds],
+            effort: Effort::default(),
+        };
         Point {
             program: "p".into(),
             party: Party::Peer,

@@ -129,7 +129,7 @@ impl Desk<'_> {
         let apart = apart(self.reference, &found)?;
         let errors = Stage::ALL
             .map(|stage| self.case.wanted.has(stage).then(|| self.floor.judged(stage, apart[stage as usize])));
-        Ok(Run { errors, lacking: Vec::new(), seconds: vec![seconds], effort })
+        Ok(Run { errors, failed: Vec::new(), without: Vec::new(), seconds: vec![seconds], effort })
     }
 
     /// A peer's answer as a run; everything that is wrong with it is a reason.
@@ -153,18 +153,16 @@ impl Desk<'_> {
         if seconds.is_empty() {
             return Err("the answer has no time above 0 s".into());
         }
-        let (mut errors, mut lacking) = ([None; Stage::ALL.len()], Vec::new());
+        let (mut errors, mut failed, mut without) = ([None; Stage::ALL.len()], Vec::new(), Vec::new());
         for stage in Stage::ALL.into_iter().filter(|&stage| self.case.wanted.has(stage)) {
-            let own: Vec<&Channel> = self.reference.channels().iter().filter(|one| one.kind.stage == stage).collect();
-            let missing: Vec<String> =
-                own.iter().map(ToString::to_string).filter(|name| column(name).is_none()).collect();
-            if missing.len() == own.len() {
+            let all = self.reference.channels().iter().filter(|one| one.kind.stage == stage);
+            let (own, missing): (Vec<&Channel>, Vec<&Channel>) =
+                all.partition(|one| column(&one.to_string()).is_some());
+            if own.is_empty() {
                 continue;
             }
             if let Some(first) = missing.first() {
-                let more = missing.len() - 1;
-                lacking.push((stage, format!("the answer lacks {first}{}", and_more(more))));
-                continue;
+                without.push((stage, format!("{first}{}", and_more(missing.len() - 1))));
             }
             let columns = own.iter().map(|one| column(&one.to_string()).cloned().unwrap_or_default()).collect();
             let channels = own.into_iter().cloned().collect();
@@ -173,12 +171,12 @@ impl Desk<'_> {
                     let apart = apart(self.reference, &found).map_err(|error| error.to_string())?;
                     errors[stage as usize] = Some(self.floor.judged(stage, apart[stage as usize]));
                 }
-                Err(error) => lacking.push((stage, error.to_string())),
+                Err(error) => failed.push((stage, error.to_string())),
             }
         }
         // A run without any channel is no run.
-        match (errors.iter().any(Option::is_some), lacking.first()) {
-            (true, _) => Ok(Run { errors, lacking, seconds, effort: answer.effort }),
+        match (errors.iter().any(Option::is_some), failed.first()) {
+            (true, _) => Ok(Run { errors, failed, without, seconds, effort: answer.effort }),
             (false, Some((_, reason))) => Err(reason.clone()),
             (false, None) => Err("the answer has none of the wanted channels".into()),
         }

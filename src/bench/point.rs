@@ -44,8 +44,11 @@ pub struct Errors {
 pub struct Run {
     /// Errors by stage, in the order of [`Stage::ALL`]; `None` where nothing was wanted, or a peer has no such channel.
     pub errors: [Option<Errors>; Stage::ALL.len()],
-    /// Stages of which a peer delivers only a part, with what it lacks: they count as failures.
-    pub lacking: Vec<(Stage, String)>,
+    /// Stages in which a peer's numbers are wrong, with what is wrong: they count as failures.
+    pub failed: Vec<(Stage, String)>,
+    /// Stages that are judged without some of their channels, with those that the peer does not give: one of an older
+    /// version does not know the newest.
+    pub without: Vec<(Stage, String)>,
     /// Times of all rounds (s).
     pub seconds: Vec<f64>,
     /// What was done.
@@ -108,8 +111,14 @@ impl Point {
     pub fn failure(&self, stage: Stage) -> Option<&str> {
         match &self.outcome {
             Outcome::Failed(reason) => Some(reason),
-            Outcome::Answered(run) => run.lacking.iter().find(|(own, _)| *own == stage).map(|(_, what)| what.as_str()),
+            Outcome::Answered(run) => run.failed.iter().find(|(own, _)| *own == stage).map(|(_, what)| what.as_str()),
         }
+    }
+
+    /// The channels of a stage without which it is judged, in words, because the peer does not give them.
+    #[must_use]
+    pub fn without(&self, stage: Stage) -> Option<&str> {
+        self.run()?.without.iter().find(|(own, _)| *own == stage).map(|(_, what)| what.as_str())
     }
 
     /// Way and resolution in words.

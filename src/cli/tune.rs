@@ -1,8 +1,6 @@
 //! `linkproof tune`.
 
-use linkage::math::KeepNan;
 use std::path::PathBuf;
-use std::time::Instant;
 
 use super::engine_args::EngineArgs;
 use super::engine_section::{self, keys};
@@ -11,7 +9,7 @@ use super::progress::Bar;
 use super::{number, output, standard_input};
 use crate::report::tune as report;
 use crate::scenario::{EngineKeys, Scenario, edit};
-use crate::tune::{Candidate, Wish, tune};
+use crate::tune::{Candidate, Wish, by_work, tune};
 use linkage::engine::Engine;
 use linkage::error::{Advice, Error, Result};
 
@@ -24,13 +22,8 @@ Examples:
   linkproof tune scenarios/crank_rocker.toml --within 1e-5 --engine all
   linkproof tune scenarios/compressor.toml --within 1e-4 --write      change the scenario's [engine] section
 
-The error is a share of each channel's scale, half its range over the run. Prices are times on this machine, so they, and with them a close \
-choice, may differ from run to run; the errors do not.";
-
-/// Number of timed runs. The shortest counts, because other work on the machine only adds time.
-const REPEATS: usize = 2;
-/// A run longer than this (s) is timed once.
-const LONG: f64 = 0.1;
+The error is a share of each channel's scale, half its range over the run. Prices are work: steps, sweeps, readings and worlds with their \
+costs as once measured on crank_rocker. They do not depend on the machine, and the same input gives the same settings.";
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
@@ -63,18 +56,7 @@ pub(super) fn run(args: &Args) -> Result<()> {
         options = options.every_engine();
     }
     let mut bar = Bar::new(&scenario.name);
-    let mut price = |_: &dyn Engine, run: &mut dyn FnMut() -> Result<()>| {
-        let mut shortest = f64::INFINITY;
-        for _ in 0..REPEATS {
-            let since = Instant::now();
-            run()?;
-            shortest = shortest.smaller(since.elapsed().as_secs_f64());
-            if shortest > LONG {
-                break;
-            }
-        }
-        Ok(shortest)
-    };
+    let mut price = |engine: &dyn Engine, run: &mut dyn FnMut() -> Result<()>| by_work(&scenario.case, engine, run);
     let found = tune(&scenario, &wish, &options, &mut price, &mut |part| bar.at(part)).map_err(of_argument)?;
     drop(bar);
     if args.write {

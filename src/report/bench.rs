@@ -92,6 +92,9 @@ pub(crate) fn text(bench: &Bench) -> String {
     for (reason, times) in super::bench_plot::reasons(bench) {
         let _ = writeln!(text, "\nfailed {times} times: {reason}");
     }
+    for (gap, times) in super::bench_plot::gaps(bench) {
+        let _ = writeln!(text, "\njudged in part {times} times: {gap}");
+    }
     if bench.left_out > 0 {
         let _ = writeln!(text, "\n{} finer settings were not run: the work that was allowed is done.", bench.left_out);
     }
@@ -122,7 +125,7 @@ pub(crate) fn rows(bench: &Bench, machine: &Machine) -> Result<String> {
         header.extend(["max", "rms", "limited", "front"].map(|what| format!("{}_{what}", stage.name())));
     }
     header.extend(counts.iter().cloned());
-    header.extend(["seconds", "all_seconds", "failure"].map(String::from));
+    header.extend(["seconds", "all_seconds", "failure", "without"].map(String::from));
     let mut writer = csv::Writer::from_writer(Vec::new());
     writer.write_record(&header).map_err(failed)?;
     let fronts = fronts(bench);
@@ -152,9 +155,10 @@ pub(crate) fn rows(bench: &Bench, machine: &Machine) -> Result<String> {
         row.push(point.seconds().map_or_else(String::new, |seconds| format!("{seconds:.6e}")));
         let all = run.map_or(&[][..], |run| &run.seconds);
         row.push(all.iter().map(|seconds| format!("{seconds:.6e}")).collect::<Vec<_>>().join(" "));
-        row.push(match &point.outcome {
-            Outcome::Failed(reason) => reason.clone(),
-            Outcome::Answered(run) => run.lacking.iter().map(|(_, what)| what.clone()).collect::<Vec<_>>().join("; "),
+        let joined = |all: &[(Stage, String)]| all.iter().map(|(_, what)| what.as_str()).collect::<Vec<_>>().join("; ");
+        row.extend(match &point.outcome {
+            Outcome::Failed(reason) => [reason.clone(), String::new()],
+            Outcome::Answered(run) => [&run.failed, &run.without].map(|all| joined(all)),
         });
         writer.write_record(&row).map_err(failed)?;
     }
@@ -197,7 +201,9 @@ fn scenario(bench: &Bench) -> Value {
     let points = bench.points.iter().map(|point| {
         let run = point.run();
         let errors = by_stage(&|stage| match point.error(stage) {
-            Some(errors) => json!({ "max": errors.max, "rms": errors.rms, "limited": errors.is_limited }),
+            Some(errors) => json!({
+                "max": errors.max, "rms": errors.rms, "limited": errors.is_limited, "without": point.without(stage),
+            }),
             None => json!(point.failure(stage).map(|reason| json!({ "failed": reason }))),
         });
         let counts = run.map(|run| {

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use super::bench::{Machine, error, fastest, ratio, short};
-use super::bench_plot::reasons;
+use super::bench_plot::{gaps, reasons};
 use super::markdown::foreign;
 use crate::bench::{Axis, Bench, CLEAR, Party, Point, front};
 use linkage::trajectory::Stage;
@@ -81,6 +81,9 @@ fn scenario(text: &mut String, bench: &Bench, pictures: &str) {
     }
     for (reason, times) in reasons(bench).into_iter().take(REASONS) {
         let _ = writeln!(text, "- Failed {times} times: {}", foreign(&reason));
+    }
+    for (gap, times) in gaps(bench).into_iter().take(REASONS) {
+        let _ = writeln!(text, "- Judged in part {times} times: {}", foreign(&gap));
     }
     if bench.left_out > 0 {
         let _ = writeln!(text, "- {} finer settings were not run: the work allowed was done.", bench.left_out);

@@ -271,9 +271,11 @@ fn legend(area: &Area, bench: &Bench) -> Drawn {
         }
     }
     y += 8;
-    let (reasons, mut shown) = (reasons(bench), 0);
-    for (text, times) in &reasons {
-        let lines = wrapped(&format!("x {times}: {}", cut(text, 2 * WIDTH)), WIDTH);
+    let failed = reasons(bench).into_iter().map(|(text, times)| format!("x {times}: {text}"));
+    let gaps = gaps(bench).into_iter().map(|(text, times)| format!("in part {times}: {text}"));
+    let (reasons, mut shown) = (failed.chain(gaps).collect::<Vec<String>>(), 0);
+    for text in &reasons {
+        let lines = wrapped(&cut(text, 2 * WIDTH), WIDTH);
         if y + LINE * (lines.len() as i32 + 1) > PANEL.1 as i32 {
             break;
         }
@@ -284,22 +286,35 @@ fn legend(area: &Area, bench: &Bench) -> Drawn {
         shown += 1;
     }
     if shown < reasons.len() {
-        write(&format!("x and {} more reasons: see the table", reasons.len() - shown), 18, y, 11)?;
+        write(&format!("and {} more reasons: see the table", reasons.len() - shown), 18, y, 11)?;
     }
     Ok(())
 }
 
 /// Reasons of failures with the number of settings that they stopped, the most frequent first.
 pub(crate) fn reasons(bench: &Bench) -> Vec<(String, usize)> {
-    let mut found: Vec<(String, usize)> = Vec::new();
     let failed = bench.points.iter().flat_map(|point| {
         let of = |stage: &Stage| point.failure(*stage).map(|reason| format!("{}: {reason}", point.program));
         let mut own: Vec<String> = bench.stages.iter().filter_map(of).collect();
         own.dedup();
         own
     });
-    let absent = bench.absent.iter().map(|(name, reason)| format!("{name}: {reason}"));
-    for reason in failed.chain(absent) {
+    counted(failed.chain(bench.absent.iter().map(|(name, reason)| format!("{name}: {reason}"))))
+}
+
+/// Channels that peers do not give, stage by stage, with the number of settings that are judged without them.
+pub(crate) fn gaps(bench: &Bench) -> Vec<(String, usize)> {
+    let of = |point: &Point, stage: Stage| {
+        let what = point.without(stage)?;
+        Some(format!("{}: {} without {what}", point.program, stage.name().replace('_', " ")))
+    };
+    counted(bench.points.iter().flat_map(|point| bench.stages.iter().filter_map(move |&stage| of(point, stage))))
+}
+
+/// Texts with the number of times that they occur, the most frequent first.
+fn counted(all: impl Iterator<Item = String>) -> Vec<(String, usize)> {
+    let mut found: Vec<(String, usize)> = Vec::new();
+    for reason in all {
         // The same failure at another instant is the same reason.
         let same = |text: &str| text.chars().filter(|c| !c.is_ascii_digit()).collect::<String>();
         match found.iter_mut().find(|(own, _)| same(own) == same(&reason)) {

@@ -16,19 +16,21 @@ use linkage::trajectory::{Channel, Trajectory, Unit};
 /// Channels that are shown with their values.
 const WORST: usize = 3;
 
-/// The verdict in one line: scenario, verdict, how much was judged, at which step.
+/// The verdict in one line: scenario, verdict, how much was judged, at which step. Channels are those of the scenario,
+/// whatever the number of engines, and forces that are judged twice count once; numbers are all that were judged.
 #[must_use]
 pub fn verdict_line(proof: &Proof) -> String {
     let checks = proof.all_checks().count();
     let own = |engine: &EngineProof| engine.own_forces.as_ref().map_or(0, |own| own.channels.len());
-    let channels: usize = proof.engines.iter().map(|engine| engine.channels.len() + own(engine)).sum();
+    let judged: usize = proof.engines.iter().map(|engine| engine.channels.len() + own(engine)).sum();
+    let channels = proof.reference_trajectory.channels().len();
     let failed: Vec<&str> =
         proof.engines.iter().filter(|engine| engine.failure.is_some()).map(|engine| engine.info.name).collect();
-    let judged = match &proof.verdict {
+    let what = match &proof.verdict {
         Verdict::Agree { .. } | Verdict::Expected { .. } => format!("{channels} channels and {checks} checks"),
         Verdict::Disagree { .. } => {
             let wrong = count(proof, |verdict| matches!(verdict, Verdict::Disagree { .. }));
-            format!("{wrong} of {} numbers differ", channels + checks)
+            format!("{wrong} of {} numbers differ", judged + checks)
         }
         Verdict::Inconclusive { .. } if !failed.is_empty() => format!("{} failed", failed.join(", ")),
         Verdict::Inconclusive { .. } if proof.engines.iter().all(|engine| engine.channels.is_empty()) => {
@@ -36,10 +38,10 @@ pub fn verdict_line(proof: &Proof) -> String {
         }
         Verdict::Inconclusive { .. } => {
             let open = count(proof, |verdict| matches!(verdict, Verdict::Inconclusive { .. }));
-            format!("{open} of {} numbers are open", channels + checks)
+            format!("{open} of {} numbers are open", judged + checks)
         }
     };
-    format!("{}: {}: {judged}; {}", proof.scenario, style::verdict(&proof.verdict), resolution(proof))
+    format!("{}: {}: {what}; {}", proof.scenario, style::verdict(&proof.verdict), resolution(proof))
 }
 
 /// The step or accuracy of the engine, or how many engines there are.

@@ -148,7 +148,7 @@ pub(super) fn sentence(verdict: &Verdict, proof: &Proof) -> String {
         proof.engines.iter().flat_map(|engine| &engine.own_forces).flat_map(|own| &own.channels).collect();
     let closed = own.iter().filter(|own| !matches!(own.verdict, Verdict::Inconclusive { .. })).count();
     let own = own.len();
-    let channels = proof.engines.iter().map(|engine| engine.channels.len()).sum::<usize>();
+    let channels = proof.reference_trajectory.channels().len();
     let channels = match own {
         0 => format!("{channels} channels"),
         _ if closed < own && matches!(verdict, Verdict::Agree { .. }) => {

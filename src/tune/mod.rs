@@ -9,10 +9,12 @@
 mod bench;
 mod candidate;
 mod confirm;
+mod price;
 mod search;
 mod ways;
 
 pub use candidate::{Candidate, Price};
+pub use price::{by_work, price_of};
 
 use crate::numbers::significant;
 use crate::proof::{Options, memory};

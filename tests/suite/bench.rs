@@ -160,10 +160,31 @@ fn answers_that_are_none_are_failures_with_a_reason() {
     assert!(nan.error(Stage::Positions).is_some() && nan.error(Stage::Reactions).is_none());
     let short = with(of("joint.B.fx_N", |values| values.truncate(1)));
     assert!(short.failure(Stage::Reactions).is_some() && short.error(Stage::Positions).is_some());
-    let lacking = with(Box::new(|answer| answer.columns.retain(|(name, _)| !name.starts_with("joint.B."))));
-    let told = lacking.failure(Stage::Reactions).unwrap();
-    assert!(told.contains("lacks joint.B.fx_N and 1 more"), "{told}");
     // A stage that a peer does not have at all is none of its failures.
     let silent = with(Box::new(|answer| answer.columns.retain(|(name, _)| !name.starts_with("joint."))));
     assert!(silent.error(Stage::Reactions).is_none() && silent.failure(Stage::Reactions).is_none());
+}
+
+/// A peer of an older version does not know the newest channels: what it gives is judged, and what it lacks is told.
+#[test]
+fn a_peer_without_some_channels_is_judged_in_the_others_and_told() {
+    let scenario = few("crank_rocker.toml");
+    let exact = NewtonSolver.solve(&scenario.case).unwrap();
+    let with = |more: f64| {
+        let change = move |answer: &mut Answer| {
+            answer.columns.retain(|(name, _)| !name.starts_with("joint.B."));
+            let (_, values) = answer.columns.iter_mut().find(|(name, _)| name == "joint.C.fx_N").unwrap();
+            values.iter_mut().for_each(|value| *value *= 1.0 + more);
+        };
+        let found = measured(&scenario, &[&Planted(exact.clone(), Box::new(change))]);
+        found.points.into_iter().find(|point| point.party == Party::Peer).unwrap()
+    };
+    let right = with(0.0);
+    assert_eq!(
+        (right.without(Stage::Reactions), right.failure(Stage::Reactions)),
+        (Some("joint.B.fx_N and 1 more"), None)
+    );
+    assert!(right.error(Stage::Reactions).unwrap().max < 1e-9 && right.without(Stage::Positions).is_none());
+    // What it gives is still judged.
+    assert!(with(1e-3).error(Stage::Reactions).unwrap().max > 1e-4);
 }

@@ -2,7 +2,6 @@
 
 mod exhaustive;
 mod near;
-mod prices;
 
 use linkage::engine::{Engine, Settings};
 use linkproof::engines::EngineName;

@@ -19,6 +19,7 @@ use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::math::{KeepNan, unit};
 use linkage::solver::{Progress, Provision, Solver, State, Visit, check_instants};
 use linkage::trajectory::{Channel, ChannelKind, Stage};
+use linkage::work::{Count, Tally};
 use model::Linkage;
 use stopped::stopped;
 
@@ -170,6 +171,7 @@ impl Solver for Simbody {
         // Resistances are forces inside Simbody; the other loads are set wherever reactions are read.
         let others = case.with(|parts| parts.loads = other_loads(case))?;
         let mut wrenches = vec![Wrench::ZERO; case.mechanism.links().len()];
+        let mut tally = Tally::default();
         for (sense, rows, end) in [(-1.0, backwards.as_slice(), ends[0]), (1.0, after, ends[1])] {
             if rows.is_empty() {
                 continue;
@@ -177,7 +179,10 @@ impl Solver for Simbody {
             let (linkage, mut run) = self.start(case, sense)?;
             for &row in rows {
                 let t = case.grid.times[row];
-                run.advance(t.abs()).map_err(|failure| stopped(case, &linkage, sense, &failure))?;
+                let before = run.steps();
+                let advanced = run.advance(t.abs());
+                tally.many(Count::Steps, run.steps() - before);
+                advanced.map_err(|failure| stopped(case, &linkage, sense, &failure))?;
                 if reactions && !others.loads.is_empty() {
                     let found = run.read(false).map_err(|failure| stopped(case, &linkage, sense, &failure))?;
                     linkage.motion(&found.bodies, &mut state);

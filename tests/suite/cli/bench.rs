@@ -60,7 +60,8 @@ fn peers_are_points_and_never_a_crash() {
     let names = ["good", "hangs", "garbage", "fails", "silent", "nan", "refuses", "half", "absent"];
     let peers: Vec<String> = names.iter().map(|name| format!("--peer {name}=./{name}")).collect();
     let line = format!("bench scenarios/five_bar.toml --out out {QUICK} --peer-limit 1 {}", peers.join(" "));
-    place.ok(&line);
+    let told = place.ok(&line);
+    assert!(told.contains("half: positions without "), "{told}");
     let found: Value = serde_json::from_str(&fs::read_to_string(place.path("out/bench.json")).unwrap()).unwrap();
     let points = found["scenarios"][0]["points"].as_array().unwrap();
     let of = |name: &str| &points.iter().find(|point| point["program"] == name).unwrap()["errors"]["positions"];
@@ -73,11 +74,13 @@ fn peers_are_points_and_never_a_crash() {
         ("silent", "answer.csv is not there"),
         ("nan", "NaN"),
         ("refuses", "five bars are too many"),
-        ("half", "lacks"),
     ] {
         let told = of(name)["failed"].as_str().unwrap_or_default();
         assert!(told.contains(reason), "{name}: {told}");
     }
+    // What it gives is right; what it does not give is told.
+    let half = of("half");
+    assert!(half["max"].as_f64().unwrap() < 1e-9 && half["without"].as_str().unwrap().contains("more"), "{half}");
     let absent = found["scenarios"][0]["absent"].as_array().unwrap();
     assert!(absent.len() == 1 && absent[0]["peer"] == "absent", "{absent:?}");
     let drawn = fs::read_to_string(place.path("out/five_bar.time.svg")).unwrap();

@@ -85,6 +85,9 @@ fn tune_writes_settings_that_keep_the_promise() {
         let [max, scale] = ["max", "scale"].map(|key| channel[key].as_f64().unwrap());
         assert_within!(max, 1e-3 * scale, "{channel}");
     }
+    // No clock decides: the same command gives the same bytes, counts of runs among them.
+    let all = "tune scenarios/pendulum.toml --within 1e-3 --channel positions --json -";
+    assert_eq!(place.ok(all), place.ok(all));
     let found = place.run(&format!("{command} --json -")).json();
     assert!(found["best"]["dt_s"].as_f64().unwrap() > 0.0, "{found}");
     assert_within!(found["best"]["error"].as_f64().unwrap(), 1e-3, "{found}");

@@ -5,10 +5,9 @@ use linkage::engine::Engine;
 use linkproof::engines::EngineName;
 use linkproof::proof::Options;
 use linkproof::scenario::Scenario;
-use linkproof::tune::{Tuning, Wish, tune};
+use linkproof::tune::{Tuning, Wish, price_of, tune};
 
 use super::exhaustive::{Space, cheaper, error_of, truth};
-use super::prices::price_of;
 
 /// Allowed factor from the cheapest price.
 pub const FACTOR: f64 = 1.5;
