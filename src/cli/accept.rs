@@ -100,7 +100,9 @@ fn one(args: &Args, file: &Path, document: &mut Document) -> Result<u8> {
     document.add(&item);
     if !output::is_said(&args.json) {
         output::print(&text(&item))?;
-        let is_worse = comparison.as_ref().is_some_and(|comparison| comparison.proof.as_ref().is_some_and(|[_, found]| found != "agree"));
+        let is_worse = comparison
+            .as_ref()
+            .is_some_and(|comparison| comparison.proof.as_ref().is_some_and(|[_, found]| found != "agree"));
         if !is_proven && (deed == Deed::Refused || deed == Deed::Checked && is_worse) {
             terminal::print(&format!("\n{}", brief::proof(&proof, advice::told, terminal::columns())))?;
         }

@@ -7,6 +7,8 @@
 //! runs do not depend on what they are compared with.
 
 mod effect;
+#[cfg(test)]
+mod judging;
 mod kinds;
 mod lost;
 mod mutant;

@@ -46,7 +46,7 @@ pub fn mutate(scenario: &Scenario, asked: &Asked, progress: &mut dyn FnMut(f64))
     let stage = Stage::new(scenario, &asked.options)?;
     if stage.verdict == "disagree" {
         let message = format!("{} disagrees without a fault, so that every fault would count as found", scenario.name);
-        let help = "`linkproof run` tells what disagrees: mend it first";
+        let help = "prove it without a fault, and mend what disagrees";
         return Err(Error::new(ErrorKind::Input, message).help(help));
     }
     let kinds = asked.kinds();

@@ -109,6 +109,12 @@ impl<'a> Stage<'a> {
         self.judged(&self.sides, &around)
     }
 
+    /// The engine's own part of a proof in which what it answers has a fault.
+    #[cfg(test)]
+    pub(super) fn engine_proof(&self, fault: Fault) -> Result<EngineProof> {
+        self.engine(&self.sides, &|own| Box::new(Planted { fault, inner: self.kept(own) }), false)
+    }
+
     /// The engine against these sides. Its own forces are asked where its motion and their forces agree: no verdict on
     /// them takes a disagreement back.
     fn judged(&self, sides: &Sides, around: Around) -> Result<Outcome> {

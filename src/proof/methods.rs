@@ -208,3 +208,31 @@ fn crank_of(case: &Case, row: usize, state: &State) -> DriveState {
     let motion = &state.motions[drive.link];
     DriveState { angle: state.angles[drive.link] - drive.zero, omega: motion.omega, alpha: motion.alpha }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// At whichever instant: a NaN is taken in and kept, and no number of the method is right then.
+    #[test]
+    fn a_method_without_a_number_at_one_instant_disagrees() {
+        for values in [[f64::NAN, 0.0, 1e-13], [0.0, f64::NAN, 1e-13], [1e-13, 0.0, f64::NAN], [-f64::NAN, 0.0, 0.0]] {
+            let mut worst = Worst::default();
+            for (row, value) in values.into_iter().enumerate() {
+                worst.put(Quantity::Force, value, row as f64);
+                worst.put(Quantity::Angle, 1e-14, row as f64);
+            }
+            let check = worst.check("a method", "", [1.0; 4]);
+            assert_eq!(check.verdict.word(), "disagree", "{values:?}");
+        }
+        let mut worst = Worst::default();
+        worst.put(Quantity::Force, 1e-13, 0.0);
+        assert_eq!(worst.check("a method", "", [1.0; 4]).verdict.word(), "agree");
+        // Fixed sizes: 1e-9 of the largest force is wrong, at whichever quantity.
+        for quantity in [Quantity::Angle, Quantity::Omega, Quantity::Alpha, Quantity::Force] {
+            let mut worst = Worst::default();
+            worst.put(quantity, 1e-9, 0.0);
+            assert_eq!(worst.check("a method", "", [1.0; 4]).verdict.word(), "disagree");
+        }
+    }
+}

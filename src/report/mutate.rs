@@ -16,7 +16,8 @@ pub(crate) fn text(found: &[Mutated]) -> String {
     let _ = writeln!(text, "{}\n", headline(&tally));
     for one in found.iter().filter(|one| !one.instead.is_empty()) {
         let (name, instead) = (&one.scenario, one.instead.join(", "));
-        let _ = writeln!(text, "{name}: no fault of the kinds asked for changes anything; it has parts for --kind {instead}\n");
+        let _ =
+            writeln!(text, "{name}: no fault of the kinds asked for changes anything; kinds that would: {instead}\n");
     }
     let _ = writeln!(text, "{}\n", scenarios(found));
     let _ = writeln!(text, "{}\n", kinds(found));

@@ -24,6 +24,11 @@ def motor(m, quantity, speed):
         torque = q("torque")
     elif law == "linear":
         torque = q("torque_at_rest") + q("slope") * own
+    elif law == "table":
+        points = [(float(quantity(row, "speed")), float(quantity(row, "torque"))) for row in motor["points"]]
+        inner = [i for i in range(1, len(points) - 1) if points[i][0] <= own]
+        (x0, y0), (x1, y1) = points[(inner or [0])[-1]:][:2]
+        torque = y0 + (y1 - y0) * (own - x0) / (x1 - x0)
     else:
         assert law == "kloss", law
         full = q("synchronous_speed")

@@ -2,7 +2,8 @@
 
     python3 tests/outside/newton_euler.py BINARY scenarios/NAME.toml INSTANT [INSTANT ...]
 
-An instant is a crank angle in degrees (70), or a time in seconds with its unit (0.35s).
+An instant is a crank angle in degrees (70), or a time in seconds with its unit (0.35s). With --all there are numbers of
+points, sliders and the frame too.
 
 It reads the scenario file by itself (tomllib), with units of its own. It closes all joints by Newton's method, follows
 the motion from the start in small steps, differentiates the closed poses by differences in 40 digits, and solves the
@@ -82,6 +83,12 @@ class Mechanism:
         law = drive.get("law", "constant")
         if law == "constant":
             return zero + start + quantity(drive, "speed") * t
+        if law == "ramp":
+            speed, time = quantity(drive, "speed"), quantity(drive, "time")
+            return zero + start + (speed * t * t / time / 2 if t < time else speed * (t - time / 2))
+        if law == "table":
+            points = [(quantity(row, "time"), quantity(row, "angle")) for row in drive["points"]]
+            return zero + clamped(points, t)
         assert law == "cycloidal", law
         share = t / quantity(drive, "time")
         return zero + start + (quantity(drive, "to") - start) * (share - mp.sin(2 * mp.pi * share) / (2 * mp.pi))
@@ -186,6 +193,26 @@ def check_modes(m, q):
             a, b = spot(pin, link), spot(inner, own[0])
         ahead = mp.cos(along) * (b[0] - a[0]) + mp.sin(along) * (b[1] - a[1])
         assert (ahead > 0) == (mode == "ahead"), group
+
+
+def clamped(points, x):
+    """Cubic spline with horizontal ends, by its slopes at the points."""
+    n = len(points)
+    xs, ys = [p[0] for p in points], [p[1] for p in points]
+    a, r = mp.matrix(n, n), mp.matrix(n, 1)
+    a[0, 0] = a[n - 1, n - 1] = mpf(1)
+    for i in range(1, n - 1):
+        before, after = xs[i] - xs[i - 1], xs[i + 1] - xs[i]
+        a[i, i - 1], a[i, i], a[i, i + 1] = 1 / before, 2 / before + 2 / after, 1 / after
+        r[i] = 3 * (ys[i] - ys[i - 1]) / before**2 + 3 * (ys[i + 1] - ys[i]) / after**2
+    slopes = mp.lu_solve(a, r)
+    i = max(k for k in range(n - 1) if k == 0 or xs[k] <= x)
+    h = xs[i + 1] - xs[i]
+    u = (x - xs[i]) / h
+    return (
+        (1 + 2 * u) * (1 - u) ** 2 * ys[i] + u * (1 - u) ** 2 * h * slopes[i]
+        + u * u * (3 - 2 * u) * ys[i + 1] + u * u * (u - 1) * h * slopes[i + 1]
+    )
 
 
 def spline(points, period, x):
@@ -322,7 +349,9 @@ def forces(m, q, v, a, loads):
 
 
 def main():
-    binary, path, *instants = sys.argv[1:]
+    global ALL
+    ALL = "--all" in sys.argv
+    binary, path, *instants = (own for own in sys.argv[1:] if own != "--all")
     text = open(path).read()
     m = Mechanism(text)
     start = m.closed(first_guess(binary, path, m), mpf(0))
@@ -358,9 +387,11 @@ def main():
         loads = list(actions(m, q, v, twists, crank))
         f = forces(m, q, v, a, loads)
         where, key = (f"{instant[:-1]} s", f"time_s = {instant[:-1]}") if is_time else (f"{instant} deg", f"crank_deg = {instant}")
-        print_oracle(m, where, key, SOURCE + ", 40 digits", q, v, a, f, want)
+        print_oracle(m, where, key, SOURCE + ", 40 digits", q, v, a, f, loads, want)
 
 
+# Points, sliders and frame besides links, joints and drives: for tests/outside/scenarios.
+ALL = False
 SOURCE = "tests/outside/newton_euler.py: a reader, a closure and equations of its own"
 
 
@@ -377,7 +408,8 @@ def print_timed(m, start, twists, instant, want):
         raise ValueError("the integration does not converge")
     q, v, a = ([mpf(float(x)) for x in own] for own in (q, v, a))
     crank = m.angle(q, m.driven(m.drives[0])) - quantity(m.drives[0], "zero", mpf(0))
-    f = forces(m, q, v, a, list(actions(m, q, v, twists, crank, lambda number, _: signs[number])))
+    loads = list(actions(m, q, v, twists, crank, lambda number, _: signs[number]))
+    f = forces(m, q, v, a, loads)
     # What moves a free link is known: its forces, taken in other coordinates, must come to that.
     largest = max(abs(value) for value in f)
     for d, drive in enumerate(m.drives):
@@ -387,7 +419,7 @@ def print_timed(m, start, twists, instant, want):
             off = abs(f[3 * len(m.joints) + d] - (torque - inertia * a[k])) / largest
             print(f"# moment of {drive['joint']}: off by {mp.nstr(off, 3)} of the largest force", file=sys.stderr)
             assert off < 1e-11, off
-    print_oracle(m, f"{instant[:-1]} s", f"time_s = {instant[:-1]}", source, q, v, a, f, want)
+    print_oracle(m, f"{instant[:-1]} s", f"time_s = {instant[:-1]}", source, q, v, a, f, loads, want)
 
 
 def print_start(m, q):
@@ -407,29 +439,84 @@ def print_start(m, q):
     print(f'figures = [{{ figure = "distance_m", points = ["{end}", "{other}"], value = {distance}, digits = 9 }}]')
 
 
-def print_oracle(m, where, key, source, q, v, a, f, want):
+def place_of(m, q, v, a, link, local):
+    """Place, velocity and acceleration of a place on a link."""
+    x, y = m.at(q, link, local)
+    if link == "ground":
+        return (x, y), (mpf(0), mpf(0)), (mpf(0), mpf(0))
+    k = 3 * (m.links.index(link) - 1)
+    r, omega, alpha = (x - q[k], y - q[k + 1]), v[k + 2], a[k + 2]
+    return (
+        (x, y),
+        (v[k] - omega * r[1], v[k + 1] + omega * r[0]),
+        (a[k] - alpha * r[1] - omega**2 * r[0], a[k + 1] + alpha * r[0] - omega**2 * r[1]),
+    )
+
+
+def shaking(m, q, f, loads):
+    """What joints, drives and loads exert on the frame: force, and moment about the origin."""
+    x, y, moment = mpf(0), mpf(0), -sum(f[3 * len(m.joints) + d] for d in range(len(m.drives)))
+    for j, joint in enumerate(m.joints):
+        if "ground" in joint["links"]:
+            sign = -1 if joint["links"][0] == "ground" else 1
+            second, local = m.sides(joint)[1]
+            at = m.at(q, second, local)
+            x, y = x + sign * f[3 * j], y + sign * f[3 * j + 1]
+            moment += sign * (at[0] * f[3 * j + 1] - at[1] * f[3 * j] + f[3 * j + 2])
+    for target, force, at, own in loads:
+        if target == "ground":
+            x, y = x + force[0], y + force[1]
+            moment += own + at[0] * force[1] - at[1] * force[0]
+    return x, y, moment
+
+
+def print_oracle(m, where, key, source, q, v, a, f, loads, want):
     values = []
     def add(stage, channel, quantity_, value):
         if stage in want:
             values.append((channel, quantity_, value))
     for link in m.links[1:]:
         k = 3 * (m.links.index(link) - 1)
-        s = m.at(q, link, m.body[link][1])
-        r = (s[0] - q[k], s[1] - q[k + 1])
+        s, velocity, acceleration = place_of(m, q, v, a, link, m.body[link][1])
         add("positions", f"link.{link}.angle_deg", "angle", q[k + 2] * 180 / mp.pi)
         add("velocities", f"link.{link}.omega_rad_s", "omega", v[k + 2])
         add("accelerations", f"link.{link}.alpha_rad_s2", "alpha", a[k + 2])
         add("positions", f"link.{link}.x_m", "place", s[0])
         add("positions", f"link.{link}.y_m", "place", s[1])
-        add("velocities", f"link.{link}.vx_m_s", "velocity", v[k] - v[k + 2] * r[1])
-        add("velocities", f"link.{link}.vy_m_s", "velocity", v[k + 1] + v[k + 2] * r[0])
-        add("accelerations", f"link.{link}.ax_m_s2", "acceleration", a[k] - a[k + 2] * r[1] - v[k + 2] ** 2 * r[0])
-        add("accelerations", f"link.{link}.ay_m_s2", "acceleration", a[k + 1] + a[k + 2] * r[0] - v[k + 2] ** 2 * r[1])
+        add("velocities", f"link.{link}.vx_m_s", "velocity", velocity[0])
+        add("velocities", f"link.{link}.vy_m_s", "velocity", velocity[1])
+        add("accelerations", f"link.{link}.ax_m_s2", "acceleration", acceleration[0])
+        add("accelerations", f"link.{link}.ay_m_s2", "acceleration", acceleration[1])
+    seen = set(m.points["ground"])
+    for link in m.links[1:]:
+        for point, local in m.points[link].items():
+            if point in seen or not ALL:
+                continue
+            seen.add(point)
+            own = zip((("positions", "{}_m", "place"), ("velocities", "v{}_m_s", "velocity"), ("accelerations", "a{}_m_s2", "acceleration")),
+                      place_of(m, q, v, a, link, local))
+            for (stage, suffix, kind), values_ in own:
+                for axis, value in zip("xy", values_):
+                    add(stage, f"point.{point}." + suffix.format(axis), kind, value)
+    for joint in m.joints:
+        if joint["type"] != "prismatic" or not ALL:
+            continue
+        (first, local), (second, other) = m.sides(joint)
+        begin, end = place_of(m, q, v, a, first, local), place_of(m, q, v, a, second, other)
+        along = m.angle(q, first) + quantity(joint, "axis")
+        spin = mpf(0) if first == "ground" else v[3 * (m.links.index(first) - 1) + 2]
+        slide, speed, second_rate = ((e[0] - b[0]) * mp.cos(along) + (e[1] - b[1]) * mp.sin(along) for b, e in zip(begin, end))
+        add("positions", f"joint.{joint['name']}.slide_m", "place", slide)
+        add("velocities", f"joint.{joint['name']}.slide_speed_m_s", "velocity", speed)
+        add("accelerations", f"joint.{joint['name']}.slide_acceleration_m_s2", "acceleration", second_rate + spin**2 * slide)
     for j, joint in enumerate(m.joints):
         add("reactions", f"joint.{joint['name']}.fx_N", "force", f[3 * j])
         add("reactions", f"joint.{joint['name']}.fy_N", "force", f[3 * j + 1])
         if joint["type"] == "prismatic":
             add("reactions", f"joint.{joint['name']}.moment_N_m", "moment", f[3 * j + 2])
+    if ALL:
+        for name, kind, value in zip(("fx_N", "fy_N", "moment_N_m"), ("force", "force", "moment"), shaking(m, q, f, loads)):
+            add("balancing_moment", f"frame.{name}", kind, value)
     for d, drive in enumerate(m.drives):
         if drive.get("motion") == "free" and (d > 0 or "motor" not in m.file):
             continue

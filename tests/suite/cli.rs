@@ -9,6 +9,7 @@ mod engines;
 mod export;
 mod files;
 mod html;
+mod json;
 mod messages;
 mod modes;
 mod mutate;

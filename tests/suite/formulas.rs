@@ -1,6 +1,7 @@
 //! Formulas: the library of textbook results is right, spoiled ones are found and explained, and a user is understood.
 
 mod diagnosis;
+mod fixed;
 mod library;
 mod parameters;
 mod planted;

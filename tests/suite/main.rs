@@ -11,6 +11,7 @@ mod architecture;
 mod bad_scenarios;
 mod batch;
 mod bench;
+mod bounds;
 mod change_points;
 mod clearance;
 mod cli;
@@ -32,6 +33,7 @@ mod library_texts;
 #[cfg(feature = "live")]
 mod live;
 mod loads;
+mod outside;
 mod own_forces;
 mod peaks;
 mod plans;

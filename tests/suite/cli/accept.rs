@@ -182,7 +182,11 @@ fn regress_figures_kept_within_any_bound_or_of_no_proof_prove_nothing() {
         fs::write(place.path(FILE), whole.replace("verdict = \"agree\"", &format!("verdict = \"{word}\""))).unwrap();
         let outcome = check(&place);
         assert_eq!(outcome.code, 3, "{}", outcome.stdout);
-        assert!(outcome.unbroken().contains(&format!("the proof was accepted as {word} and is agree")), "{}", outcome.stdout);
+        assert!(
+            outcome.unbroken().contains(&format!("the proof was accepted as {word} and is agree")),
+            "{}",
+            outcome.stdout
+        );
         place.ok(&format!("accept {SCENARIO}"));
         assert_eq!(fs::read_to_string(place.path(FILE)).unwrap(), whole);
     }

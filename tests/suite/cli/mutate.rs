@@ -39,7 +39,7 @@ fn regress_where_nothing_is_planted_nothing_is_shown() {
         let outcome = place.run(&format!("mutate scenarios/pendulum.toml --kind {kind} --no-sizes"));
         assert_eq!(outcome.code, 3, "{kind}: {}", outcome.stdout);
         assert!(outcome.stdout.starts_with("NOTHING PLANTED"), "{kind}: {}", outcome.stdout);
-        let has = "it has parts for --kind drive, mass, position, rate, acceleration, force";
+        let has = "kinds that would: drive, mass, position, rate, acceleration, force";
         assert!(outcome.unbroken().contains(has), "{kind}: {}", outcome.stdout);
         let json = place.run(&format!("mutate scenarios/pendulum.toml --kind {kind} --no-sizes --json -")).json();
         assert_eq!(json["scenarios"][0]["kinds_instead"][1], "mass");
@@ -63,7 +63,7 @@ fn regress_a_proof_that_disagrees_without_a_fault_is_refused() {
     let wrong = "\n[[formula]]\nname = \"w\"\nexpression = \"phi\"\nchannel = \"link.crank.omega_rad_s\"\n";
     let bare = &text[..text.find("[[oracle]]").unwrap()];
     fs::write(place.path("wrong.toml"), format!("{bare}{wrong}")).unwrap();
-    let words = ["crank_rocker disagrees without a fault", "linkproof run"];
+    let words = ["crank_rocker disagrees without a fault", "mend what disagrees"];
     place.refused("mutate wrong.toml --kind gravity-missing --no-sizes", &words);
 }
 

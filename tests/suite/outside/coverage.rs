@@ -1,0 +1,97 @@
+//! Whatever a scenario may say of a mechanism, and whatever a trajectory may hold, has a number from outside: the lists
+//! are the program's own tables, so that a new key, word or channel without one fails.
+
+use std::collections::BTreeSet;
+use std::path::PathBuf;
+
+use linkage::trajectory::CHANNELS;
+use linkproof::scenario::keys::{Kind, section};
+use toml_edit::{Item, TableLike, Value};
+
+use super::{SOURCE, files, loaded};
+
+/// Sections of what a mechanism is and what moves and loads it.
+const SECTIONS: [&str; 11] = [
+    "links.*",
+    "links.*.points.*",
+    "links.*.mass_centre",
+    "joints",
+    "drive",
+    "drive.points",
+    "motor",
+    "motor.points",
+    "gravity",
+    "loads",
+    "loads.table",
+];
+/// What pictures show, and no number has.
+const DRAWN: &str = "drawn";
+
+/// Files with numbers from outside.
+fn with_numbers() -> Vec<PathBuf> {
+    let all = files("scenarios").into_iter().chain(files("tests/outside/scenarios"));
+    all.filter(|path| loaded(path).oracles.iter().any(|own| own.source.starts_with(SOURCE))).collect()
+}
+
+/// Keys at `path` with their words, where they are texts.
+fn collect(table: &dyn TableLike, path: &[&str], found: &mut BTreeSet<(String, String)>) {
+    let Some((first, rest)) = path.split_first() else {
+        for (key, item) in table.iter() {
+            found.insert((key.into(), item.as_str().unwrap_or_default().into()));
+        }
+        return;
+    };
+    for (_, item) in table.iter().filter(|(key, _)| *first == "*" || key == first) {
+        below(item, rest, found);
+    }
+}
+
+fn below(item: &Item, path: &[&str], found: &mut BTreeSet<(String, String)>) {
+    if let Some(table) = item.as_table_like() {
+        collect(table, path, found);
+    } else if let Some(tables) = item.as_array_of_tables() {
+        tables.iter().for_each(|table| collect(table, path, found));
+    } else if let Some(values) = item.as_array() {
+        values.iter().filter_map(Value::as_inline_table).for_each(|table| collect(table, path, found));
+    }
+}
+
+#[test]
+fn every_key_unit_and_word_of_a_mechanism_its_drives_motor_and_loads_has_numbers_from_outside() {
+    let texts: Vec<toml_edit::DocumentMut> =
+        with_numbers().iter().map(|path| std::fs::read_to_string(path).unwrap().parse().unwrap()).collect();
+    let mut missing = Vec::new();
+    for path in SECTIONS {
+        let own = section(path).unwrap_or_else(|| panic!("there is no section {path}"));
+        let parts: Vec<&str> = path.split('.').collect();
+        let mut found = BTreeSet::new();
+        texts.iter().for_each(|text| collect(text.as_table(), &parts, &mut found));
+        let keys: BTreeSet<&str> = found.iter().map(|(key, _)| key.as_str()).collect();
+        for key in own.keys.iter().filter(|key| key.name != DRAWN) {
+            let spelled = key.spellings().into_iter().filter(|spelling| !keys.contains(spelling.as_str()));
+            missing.extend(spelled.map(|spelling| format!("{path}: {spelling}")));
+            if let Kind::Choice(words) = key.kind {
+                let has = |word: &&&str| found.contains(&(key.name.into(), (**word).into()));
+                // A default need not be written.
+                let said = words.iter().filter(|word| !has(word) && !key.default.contains(&format!("\"{word}\"")));
+                missing.extend(said.map(|word| format!("{path}: {} = {word:?}", key.name)));
+            }
+        }
+    }
+    assert!(missing.is_empty(), "no number from outside rests on these: {missing:#?}");
+}
+
+#[test]
+fn every_channel_has_a_number_from_outside() {
+    let scenarios: Vec<_> = with_numbers().iter().map(|path| loaded(path)).collect();
+    let oracles = scenarios.iter().flat_map(|scenario| &scenario.oracles).filter(|own| own.source.starts_with(SOURCE));
+    let series: Vec<_> = oracles.flat_map(|own| &own.series).collect();
+    for kind in &CHANNELS {
+        // A number that is zero would be so at any scale.
+        let says = |value: f64, bound: f64| value.abs() > 1e3 * bound;
+        let has = series.iter().any(|own| {
+            std::ptr::eq(own.channel.kind, kind) && own.points.iter().any(|point| says(point.value, point.bound))
+        });
+        assert!(has, "{:?} {} has no number from outside", kind.subject, kind.suffix);
+    }
+}
