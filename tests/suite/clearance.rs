@@ -250,6 +250,41 @@ fn planted_thin_crossings_are_found() {
     assert!(missed * 10 >= planted * 8, "{missed} of {planted}");
 }
 
+/// Three turns go through the poses of one: distances and areas are the same, to what was asked for.
+#[test]
+fn a_grid_longer_than_a_turn_has_the_distances_and_areas_of_one_turn() {
+    let scenario = shipped("crankcase.toml");
+    let asked = scenario.clearance.as_ref().unwrap();
+    let over = |turns: f64| {
+        let ends = [0.3, 0.3 + turns * std::f64::consts::TAU];
+        let case = scenario.case.on(Grid::of_cranks(scenario.case.crank(), ends.to_vec())).unwrap();
+        find(&case, asked, &mut |_| ()).unwrap()
+    };
+    let [one, three] = [over(1.0), over(2.75)];
+    for (own, more) in one.pairs.iter().zip(&three.pairs) {
+        assert_eq!(own.bodies, more.bodies);
+        assert_within!((own.smallest.distance - more.smallest.distance).abs(), 1e-9, "{:?}", own.bodies);
+    }
+    for ((body, own), (_, more)) in one.swept.iter().zip(&three.swept) {
+        let overlap = own.most.smaller(more.most) - own.least.larger(more.least);
+        assert!(overlap >= 0.0, "{body}: {own:?} {more:?}");
+    }
+}
+
+/// What is left out at the border would show. The bound is as narrow as the work that is allowed makes it.
+#[test]
+fn a_swept_area_is_its_closed_form_to_a_ten_thousandth() {
+    let scenario = shipped("crankcase.toml");
+    let asked = Question { area: 1e-4, pairs: Vec::new(), ..scenario.clearance.clone().unwrap() };
+    let found = find(&scenario.case, &asked, &mut |_| ()).unwrap();
+    // The piston's outline over its stroke: see below.
+    let expected = (70.0 * 130.0 - 44.0 * 32.0) * 1e-6;
+    let area = found.swept[2].1;
+    assert!((area.least..=area.most).contains(&expected), "{area:?} {expected}");
+    assert_within!(area.error(), 4e-3 * expected, "{area:?}");
+    assert_within!((area.value - expected).abs(), 1e-4 * expected, "{area:?}");
+}
+
 /// The shipped housing: brute force, and the areas of a raster.
 #[test]
 fn the_crankcase_is_clear() {

@@ -24,11 +24,13 @@ pub enum Family {
     Acceleration,
     /// Reactions and moments.
     Force,
+    /// What only one comparison sees.
+    Judgement,
 }
 
 impl Family {
     /// All families.
-    pub const ALL: [Family; 9] = [
+    pub const ALL: [Family; 10] = [
         Family::Geometry,
         Family::Drive,
         Family::Mass,
@@ -38,6 +40,7 @@ impl Family {
         Family::Rate,
         Family::Acceleration,
         Family::Force,
+        Family::Judgement,
     ];
 
     /// Name in tables.
@@ -53,6 +56,7 @@ impl Family {
             Family::Rate => "rate",
             Family::Acceleration => "acceleration",
             Family::Force => "force",
+            Family::Judgement => "judgement",
         }
     }
 }

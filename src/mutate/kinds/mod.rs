@@ -4,6 +4,7 @@ mod accelerations;
 mod drives;
 mod forces;
 mod geometry;
+mod judgement;
 mod kind;
 mod loads;
 mod masses;
@@ -16,7 +17,7 @@ pub use kind::{At, Family, Kind, Plant};
 
 /// All kinds, family by family.
 pub fn all() -> impl Iterator<Item = &'static Kind> {
-    let tables: [&'static [Kind]; 9] = [
+    let tables: [&'static [Kind]; 10] = [
         geometry::KINDS,
         drives::KINDS,
         masses::KINDS,
@@ -26,6 +27,7 @@ pub fn all() -> impl Iterator<Item = &'static Kind> {
         rates::KINDS,
         accelerations::KINDS,
         forces::KINDS,
+        judgement::KINDS,
     ];
     tables.into_iter().flatten()
 }

@@ -23,6 +23,30 @@ fn recordings(place: &Place) -> Vec<String> {
     names
 }
 
+/// A viewer shows what is logged at a time as what was then: log times are those of the instants, from the first one
+/// on, as many times longer as is asked for.
+#[test]
+fn log_times_are_the_instants_times() {
+    let place = Place::new();
+    for (slow, options) in [(1, ""), (10, " --slow 10")] {
+        place.ok(&format!("run scenarios/crank_rocker.toml --times 0.1,0.15,0.3 --record out{slow}{options}"));
+        let bytes = fs::read(place.path(&format!("out{slow}/crank_rocker.mcap"))).unwrap();
+        let mut topics: BTreeMap<String, Vec<u64>> = BTreeMap::new();
+        for message in mcap::MessageStream::new(&bytes).unwrap() {
+            let message = message.unwrap();
+            assert_eq!(message.log_time, message.publish_time);
+            topics.entry(message.channel.topic.clone()).or_default().push(message.log_time);
+        }
+        // 0, 50 and 200 ms after the first; frames of the picture lie between them, too.
+        let instants = [0, 50_000_000, 200_000_000].map(|time| slow * time);
+        let of_instants = topics.values().filter(|times| times.as_slice() == instants).count();
+        assert!(of_instants >= 5, "{topics:?}");
+        for (topic, times) in &topics {
+            assert!(times.is_sorted() && times.iter().all(|time| *time <= instants[2]), "{topic}: {times:?}");
+        }
+    }
+}
+
 #[test]
 fn other_settings_get_a_name_of_their_own() {
     let place = Place::new();
