@@ -3,6 +3,7 @@
 use serde_json::{Map, Value};
 
 use crate::bench::{Answer, Effort, Way};
+use columns::Twice;
 
 /// Most ways that a peer may have.
 const MOST: usize = 200;
@@ -72,6 +73,9 @@ pub(super) fn answer(output: &str, table: impl FnOnce() -> Result<String, String
 fn columns(table: &str) -> Result<Vec<(String, Vec<f64>)>, String> {
     let mut reader = csv::Reader::from_reader(table.as_bytes());
     let header = reader.headers().map_err(|error| format!("its table cannot be read: {error}"))?.clone();
+    if let Some(twice) = Twice::of(&header) {
+        return Err(format!("its table: {twice}"));
+    }
     let mut columns: Vec<(String, Vec<f64>)> =
         header.iter().map(|name| (name.trim().to_string(), Vec::new())).collect();
     for (row, record) in reader.records().enumerate() {
@@ -119,7 +123,7 @@ mod tests {
             let found = answer(output, table).unwrap_err();
             assert!(found.contains(reason), "{output}: {found}");
         }
-        for bad in ["t_s\nx\n", "t_s,a\n0\n"] {
+        for bad in ["t_s\nx\n", "t_s,a\n0\n", "t_s,a,a\n0,1,2\n"] {
             assert!(answer("{\"seconds\": 1}", || Ok(bad.into())).is_err(), "{bad}");
         }
         for (output, reason) in
