@@ -4,6 +4,7 @@ use crate::scenario::{Claim, Figure, Formula, PrintedChannel};
 use formula::{Function, Operator, Rounded};
 use linkage::case::Case;
 use linkage::error::{Error, ErrorKind, Result};
+use linkage::math::KeepNan;
 use linkage::trajectory::{Channel, OfJoint, OfLink, OfPoint, Reading, Trajectory};
 
 /// A side's trajectory, and how far every number of it is known (by column and row, in its SI unit).
@@ -17,6 +18,8 @@ pub struct Course<'a> {
     angle: Option<usize>,
     /// Figures of the whole mechanism, in SI.
     figures: &'a [(Figure, Rounded)],
+    /// How well every channel is known at best, in its SI unit; empty for no such limit.
+    least: &'a [f64],
 }
 
 /// One column in the unit of a claim.
@@ -98,6 +101,7 @@ impl<'a> Course<'a> {
             crank: ["omega_rad_s", "alpha_rad_s2"].map(of),
             angle,
             figures: &[],
+            least: &[],
         }
     }
 
@@ -105,6 +109,12 @@ impl<'a> Course<'a> {
     #[must_use]
     pub fn with_figures(self, figures: &'a [(Figure, Rounded)]) -> Self {
         Course { figures, ..self }
+    }
+
+    /// The same with limits to how well channels are known, in their SI units.
+    #[must_use]
+    pub fn known_at_least(&'a self, least: &'a [f64]) -> Self {
+        Course { least, ..*self }
     }
 
     pub(super) fn len(&self) -> usize {
@@ -158,9 +168,15 @@ impl<'a> Course<'a> {
             Some(Rounded { value, error: (self.error)(column, row) })
         };
         let [omega, alpha] = self.crank.map(|column| of(column).unwrap_or(Rounded::exact(f64::NAN)));
+        [self.crank(row), Rounded::nearly(self.times()[row]), omega, alpha]
+    }
+
+    /// The crank angle at an instant (rad, as the scenario states it).
+    #[must_use]
+    pub fn crank(&self, row: usize) -> Rounded {
         let mut phi = Rounded::nearly(self.cranks()[row]);
         phi.error += self.angle.map_or(0.0, |column| (self.error)(column, row));
-        [phi, Rounded::nearly(self.times()[row]), omega, alpha]
+        phi
     }
 
     /// Number of derivatives of a claim that the side has channels for. Figures are numbers and have none.
@@ -210,8 +226,13 @@ impl<'a> Course<'a> {
             Some(other) => Some(Box::new(self.column(&other, &PrintedChannel::plain(other.clone()))?)),
             None => None,
         };
-        let error = self.error;
-        Ok(Column { values, error: Box::new(move |row| error(index, row)), across, factor: printed.to_si(1.0) })
+        let (error, least) = (self.error, self.least.get(index).copied().unwrap_or(0.0));
+        Ok(Column {
+            values,
+            error: Box::new(move |row| error(index, row).larger(least)),
+            across,
+            factor: printed.to_si(1.0),
+        })
     }
 }
 

@@ -24,6 +24,7 @@ Examples:
   linkproof compare scenarios/crank_rocker.toml mine.csv            a table whose columns are named as channels
   linkproof compare scenarios/crank_rocker.toml mine.csv --map 't=time_s' --map 'phi3*180/pi=link.rocker.angle_deg'
   linkproof compare scenarios/crank_rocker.toml mine.csv --map mine.map.toml --rel 1e-3 --abs point.B.x_mm=0.01
+  linkproof compare scenarios/crank_rocker.toml mine.csv --rel-value 0.05 --abs drive.torque_N_m=0.1   5 % of each value
   linkproof compare scenarios/crank_rocker.toml recordings/crank_rocker.mcap --side reference
   linkproof compare old.mcap new.mcap --rel 1e-9                    two recordings, side by side
   linkproof compare one.csv other.parquet --interpolate --rel 1e-4  two tables at the instants of the second
@@ -34,8 +35,9 @@ Each of A and B is a scenario (.toml), which is solved by both analytic sides at
 (.mcap), or a table: text with separated columns, or Parquet. A column named as a channel with its unit needs no \
 mapping, nor do t_s, t, time (in s), time_ms, crank_deg and crank_rad. --map reads EXPR=CHANNEL: an arithmetic over \
 columns, so that sign, factor, offset and unit are written as they are; a name with other signs stands in backquotes. \
-Bounds are what digits, rounding and the analytic sides leave open, plus what --rel and --abs allow. `linkproof docs compare` \
-says more.
+Bounds are what digits, rounding and the analytic sides leave open, plus what --rel, --rel-value and --abs allow, of \
+these the largest. Empty cells, -, NA, null and none are left out and counted; nan and inf are no agreement. \
+`linkproof docs compare` says more.
 
 Exit codes: 0 they agree, 1 they disagree, 2 bad input, 3 nothing proven.";
 
@@ -55,12 +57,16 @@ pub(super) struct Args {
     /// Columns of A, if both are tables
     #[arg(long, value_name = "EXPR=CHANNEL|FILE", allow_hyphen_values = true)]
     map_a: Vec<String>,
-    /// Write what --map, --rel and --abs say to a mapping file
+    /// Write what --map, --rel, --rel-value and --abs say to a mapping file
     #[arg(long, value_name = "FILE", value_parser = mapping_target)]
     write_map: Option<PathBuf>,
-    /// Allow differences of this share of a channel's scale: for all channels, or for one channel, subject or stage
+    /// Allow differences of this share of a channel's scale, half its range over the scenario's run: for all channels,
+    /// or for one channel, subject or stage
     #[arg(long, value_name = "[CHANNEL=]SHARE", value_parser = share)]
     rel: Vec<Allowed>,
+    /// Allow differences of this share of each value: 0.05 for 5 %; near zero only what --abs allows
+    #[arg(long, value_name = "[CHANNEL=]SHARE", value_parser = share_of_value)]
+    rel_value: Vec<Allowed>,
     /// Allow differences of this size, in the unit of the channel
     #[arg(long, value_name = "CHANNEL=SIZE", value_parser = size)]
     abs: Vec<Allowed>,
@@ -108,8 +114,19 @@ fn mapping_target(text: &str) -> std::result::Result<PathBuf, String> {
 
 /// Reads `[CHANNEL=]SHARE`.
 fn share(text: &str) -> std::result::Result<Allowed, String> {
+    let (of, share) = of_and_share(text)?;
+    Ok(Allowed { of, size: Size::Relative(share) })
+}
+
+/// Reads `[CHANNEL=]SHARE` of each value.
+fn share_of_value(text: &str) -> std::result::Result<Allowed, String> {
+    let (of, share) = of_and_share(text)?;
+    Ok(Allowed { of, size: Size::OfValue(share) })
+}
+
+fn of_and_share(text: &str) -> std::result::Result<(Option<String>, f64), String> {
     let (of, number) = text.rsplit_once('=').map_or((None, text), |(of, number)| (Some(of.trim().to_string()), number));
-    Ok(Allowed { of, size: Size::Relative(not_negative(number)?) })
+    Ok((of, not_negative(number)?))
 }
 
 /// Reads `CHANNEL=SIZE`.
@@ -126,7 +143,7 @@ pub(super) fn compare(args: &Args) -> u8 {
         args.reports.check(&[("A", &first), ("B", &second), ("--write-map", &args.write_map)])?;
         check_parties(args)?;
         let mut mapping = mapping(&args.map, "--map")?;
-        mapping.allowed.extend(args.rel.iter().chain(&args.abs).cloned());
+        mapping.allowed.extend(args.rel.iter().chain(&args.rel_value).chain(&args.abs).cloned());
         let first_mapping = mapping_of_first(args, &mapping)?;
         let second = party(args, &args.second, &mapping)?;
         let first = party(args, &args.first, &first_mapping)?;

@@ -112,7 +112,7 @@ impl<'a> Stage<'a> {
     /// The engine's own part of a proof in which what it answers has a fault.
     #[cfg(test)]
     pub(super) fn engine_proof(&self, fault: Fault) -> Result<EngineProof> {
-        self.engine(&self.sides, &|own| Box::new(Planted { fault, inner: self.kept(own) }), false)
+        self.engine(&self.sides, &|own| Box::new(Planted { hook: fault, inner: self.kept(own) }), false)
     }
 
     /// The engine against these sides. Its own forces are asked where its motion and their forces agree: no verdict on

@@ -6,6 +6,7 @@ use serde_json::{Map, Value};
 
 use crate::bench::{Answer, Effort, Way};
 use crate::report::errors::visible;
+use columns::Twice;
 
 /// Most ways that a peer may have.
 const MOST: usize = 200;
@@ -102,6 +103,9 @@ fn columns(table: &str) -> Result<Vec<(String, Vec<f64>)>, String> {
     if header.len() > COLUMNS {
         return Err(format!("its table has {} columns, and at most {COLUMNS} are read", header.len()));
     }
+    if let Some(twice) = Twice::of(&header) {
+        return Err(format!("its table: {twice}"));
+    }
     let mut columns: Vec<(String, Vec<f64>)> =
         header.iter().map(|name| (name.trim().to_string(), Vec::new())).collect();
     for (row, record) in reader.records().enumerate() {
@@ -146,7 +150,7 @@ mod tests {
             let found = answer(output, table).unwrap_err();
             assert!(found.contains(reason), "{output}: {found}");
         }
-        for bad in ["t_s\nx\n", "t_s,a\n0\n"] {
+        for bad in ["t_s\nx\n", "t_s,a\n0\n", "t_s,a,a\n0,1,2\n"] {
             assert!(answer("{\"seconds\": 1}", || Ok(bad.into())).is_err(), "{bad}");
         }
         for (output, reason) in

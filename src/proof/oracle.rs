@@ -9,6 +9,7 @@ use linkage::drive::Drive;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::KeepNan;
 use linkage::math::angle::wrapped;
+use linkage::math::statistics::share;
 use linkage::solver::Solver;
 use linkage::trajectory::{Channel, Stage, Trajectory};
 
@@ -76,32 +77,49 @@ impl<'a> Answers<'a> {
         Ok(Answers { solvers, nominal, timed: solved(case, When::time, Grid::of_times)?, integration })
     }
 
-    /// The trajectories with an instant, and its row in them.
-    fn at(&self, instant: When) -> (&Solved, usize) {
-        let (solved, instants, own) = match (instant, &self.nominal, &self.timed) {
-            (When::Crank(crank), Some(solved), _) => (solved, solved.0[0].0.cranks(), crank),
-            (When::Time(time), _, Some(solved)) => (solved, solved.0[0].0.times(), time),
+    /// What a side answers for a series.
+    fn of_series<'b>(&'b self, oracle: &Oracle, series: &OracleSeries, side: usize) -> Result<Answer<'b>> {
+        let told = |solved: &'b Option<Solved>, integration: f64| -> Result<Option<Told<'b>>> {
+            let Some(Solved(solved)) = solved else { return Ok(None) };
+            let [own, other] = [side, 1 - side].map(|side| Components::of(oracle, series, &solved[side].0));
+            let (own, other) = (own?, other?);
+            let (trajectory, sizes) = &solved[side];
+            let size = trajectory.channels().iter().zip(sizes).find(|(own, _)| **own == series.channel);
+            let known = ULPS * f64::EPSILON * size.map_or(0.0, |(_, size)| *size) + integration;
+            Ok(Some(Told { trajectory: &solved[0].0, own, other, known }))
+        };
+        let of = |channel: &Channel| (self.integration)(side, channel);
+        let integration = of(&series.channel) + series.y().map_or(0.0, |y| of(&y));
+        Ok(Answer { nominal: told(&self.nominal, 0.0)?, timed: told(&self.timed, integration)? })
+    }
+}
+
+/// What a side answers for a series, at crank angles and at times.
+struct Answer<'a> {
+    nominal: Option<Told<'a>>,
+    timed: Option<Told<'a>>,
+}
+
+/// A series as both sides have solved it, and how far the number of one is known besides their difference.
+struct Told<'a> {
+    trajectory: &'a Trajectory,
+    own: Components<'a>,
+    other: Components<'a>,
+    known: f64,
+}
+
+impl Answer<'_> {
+    /// The value at an instant, and how far it is known.
+    fn at(&self, instant: When) -> (f64, f64) {
+        let (told, instants, at) = match (instant, &self.nominal, &self.timed) {
+            (When::Crank(crank), Some(told), _) => (told, told.trajectory.cranks(), crank),
+            (When::Time(time), _, Some(told)) => (told, told.trajectory.times(), time),
             (When::Crank(_), None, _) | (When::Time(_), _, None) => unreachable!("solved at every instant"),
         };
-        (solved, instants.binary_search_by(|other| other.total_cmp(&own)).expect("solved at this instant"))
-    }
-
-    /// A side's value at an instant, and how far it is known.
-    fn value(&self, (oracle, series): (&Oracle, &OracleSeries), side: usize, instant: When) -> Result<(f64, f64)> {
-        let (Solved(solved), row) = self.at(instant);
-        let [value, other] = [side, 1 - side].map(|side| value(oracle, series, &solved[side].0, row));
-        let (value, other) = (value?, other?);
-        let (own, sizes) = &solved[side];
-        let size = own.channels().iter().zip(sizes).find(|(own, _)| **own == series.channel);
-        let rounding = ULPS * f64::EPSILON * size.map_or(0.0, |(_, size)| *size);
-        let integration = instant.time().map_or(0.0, |_| self.integrated(series, side));
+        let row = instants.binary_search_by(|other| other.total_cmp(&at)).expect("solved at this instant");
+        let [value, other] = [told.own.at(row), told.other.at(row)];
         // No number is known better than both sides agree on it.
-        Ok((value, rounding + integration + 2.0 * (value - other).abs()))
-    }
-
-    fn integrated(&self, series: &OracleSeries, side: usize) -> f64 {
-        let of = |channel: &Channel| (self.integration)(side, channel);
-        of(&series.channel) + series.y().map_or(0.0, |y| of(&y))
+        (value, told.known + 2.0 * (value - other).abs())
     }
 }
 
@@ -125,34 +143,48 @@ fn of_series(
 /// The checks of one series: one for all correct values together, and one for each value that is known to be wrong. If
 /// all values are known to be wrong, they have one check together.
 fn of_one(oracle: &Oracle, series: &OracleSeries, answers: &Answers, side: usize) -> Result<Vec<Check>> {
-    let against = |family: &str, point: &OraclePoint, origin: Origin| -> Result<Check> {
-        let (value, known) = answers.value((oracle, series), side, point.at)?;
+    let answer = answers.of_series(oracle, series, side)?;
+    let deviation = |point: &OraclePoint| -> [f64; 2] {
+        let (value, known) = answer.at(point.at);
         let difference = value - point.value;
         let deviation = if series.channel.kind.periodic { wrapped(difference) } else { difference }.abs();
-        let bound = match point.at {
-            When::Crank(_) => point.bound.larger(known),
+        match point.at {
+            When::Crank(_) => [deviation, point.bound.larger(known)],
             // The error of an integration is no rounding: it adds to that of the printed number.
-            When::Time(_) => point.bound + known,
-        };
+            When::Time(_) => [deviation, point.bound + known],
+        }
+    };
+    let against = |family: &str, point: &OraclePoint, origin: Origin| -> Check {
+        let [deviation, bound] = deviation(point);
         let tolerance = tolerance(oracle, origin, bound, point.digits);
         let check = Check::new(family, deviation, tolerance, series.channel.kind.unit.symbol());
-        Ok(check.located(|| format!("at {}", point.at)))
+        check.located(|| format!("at {}", point.at))
     };
     let [family, wrong] = [false, true].map(|wrong| family(oracle, wrong, answers.solvers[side].name()));
-    let corrected = |cell: &ExpectedCell| -> Result<Check> {
-        let printed = against(&wrong, &cell.point, origin(oracle))?;
-        Ok(against(&wrong, &cell.right, Origin::Recomputed)?.expected(&cell.finding, &printed))
+    let corrected = |cell: &ExpectedCell| -> Check {
+        let printed = against(&wrong, &cell.point, origin(oracle));
+        against(&wrong, &cell.right, Origin::Recomputed).expected(&cell.finding, &printed)
     };
-    // Each cell has its own bound: the worst cell is the one that uses the largest share of it.
-    let all = series.points.iter().map(|point| Ok(against(&family, point, origin(oracle))?.of(&series.name)));
-    let all: Vec<Check> = all.collect::<Result<_>>()?;
-    let mut checks: Vec<Check> = all.into_iter().max_by(|a, b| a.used().total_cmp(&b.used())).into_iter().collect();
+    // Each cell has its own bound: the worst cell is the one that uses the largest share of it. NaN is the worst.
+    let used = |point: &OraclePoint| {
+        let [deviation, bound] = deviation(point);
+        let used = share(deviation, bound);
+        if used.is_nan() { f64::INFINITY } else { used }
+    };
+    let mut worst: Option<(f64, &OraclePoint)> = None;
+    for point in &series.points {
+        let used = used(point);
+        if worst.is_none_or(|(most, _)| used >= most) {
+            worst = Some((used, point));
+        }
+    }
+    let worst = worst.map(|(_, point)| against(&family, point, origin(oracle)).of(&series.name));
+    let mut checks: Vec<Check> = worst.into_iter().collect();
     for cell in &series.expected {
-        checks.push(corrected(cell)?.of(format!("{} at {}", series.name, shortly(cell.point.at))));
+        checks.push(corrected(cell).of(format!("{} at {}", series.name, shortly(cell.point.at))));
     }
     if let Some((_, cells)) = &series.wrong {
-        let column: Vec<Check> = cells.iter().map(corrected).collect::<Result<_>>()?;
-        checks.extend(worst_of(column.into_iter()).map(|check| check.of(&series.name)));
+        checks.extend(worst_of(cells.iter().map(corrected)).map(|check| check.of(&series.name)));
     }
     Ok(checks)
 }
@@ -189,19 +221,26 @@ fn origin(oracle: &Oracle) -> Origin {
     }
 }
 
-/// Value of a series' channel in a row, or the magnitude of its vector.
-fn value(oracle: &Oracle, series: &OracleSeries, solved: &Trajectory, row: usize) -> Result<f64> {
-    let named = |channel: &Channel| {
-        solved.column(channel).map(|column| column[row]).ok_or_else(|| {
-            Error::new(ErrorKind::Input, format!("oracle {}: there is no channel {channel}", oracle.name))
-                .help("name a link, point or joint of this scenario")
-        })
-    };
-    let x = named(&series.channel)?;
-    Ok(match series.y() {
-        None => x,
-        Some(y) => x.hypot(named(&y)?),
-    })
+/// The channel of a series, or both components of the vector whose magnitude it is.
+struct Components<'a> {
+    x: &'a [f64],
+    y: Option<&'a [f64]>,
+}
+
+impl<'a> Components<'a> {
+    fn of(oracle: &Oracle, series: &OracleSeries, solved: &'a Trajectory) -> Result<Self> {
+        let named = |channel: &Channel| {
+            solved.column(channel).ok_or_else(|| {
+                Error::new(ErrorKind::Input, format!("oracle {}: there is no channel {channel}", oracle.name))
+                    .help("name a link, point or joint of this scenario")
+            })
+        };
+        Ok(Components { x: named(&series.channel)?, y: series.y().map(|y| named(&y)).transpose()? })
+    }
+
+    fn at(&self, row: usize) -> f64 {
+        self.y.map_or(self.x[row], |y| self.x[row].hypot(y[row]))
+    }
 }
 
 fn of_figures(scenario: &Scenario, solvers: [&dyn Solver; 2]) -> Result<Vec<Check>> {

@@ -18,6 +18,8 @@ use linkage::math::KeepNan;
 
 /// Channels of agreeing pairs that a short report shows.
 const SHOWN: usize = 3;
+/// Share of the other number below which one is nothing.
+const NOTHING: f64 = 1e-4;
 /// Names that are listed; the others are counted.
 const NAMED: usize = 3;
 
@@ -80,8 +82,11 @@ fn of_pair(pair: &Pair, all: bool, tell: Tell, width: usize) -> String {
 fn row(own: &Compared, by_crank: bool) -> [String; 7] {
     let [at, first, second, difference, bound] = own.worst.map_or_else(Default::default, |at| {
         let when = if by_crank { numbers::fixed(at.crank.to_degrees(), 2) } else { numbers::fixed(at.time, 6) };
-        // An angle may differ by whole turns, which nobody counts as a difference.
-        let [first, second] = numbers::beside([at.values[0], at.values[0] + at.difference], at.bound);
+        // An angle may differ by whole turns, which nobody counts as a difference. What is allowed hides no digits: only
+        // what is known to be rounding, and is nothing beside the other, is zero.
+        let values = [at.values[0], if at.difference.is_nan() { at.values[1] } else { at.values[0] + at.difference }];
+        let largest = values[0].abs().larger_number(values[1].abs());
+        let [first, second] = numbers::beside(values, at.known.smaller_number(NOTHING * largest));
         [when, first, second, numbers::error(at.difference), numbers::error(at.bound)]
     });
     [own.claim.text.clone(), at, first, second, difference, bound, word(&own.verdict).into()]
@@ -110,15 +115,24 @@ fn sentence(paths: [&Path; 2], pair: &Pair) -> String {
     let count = |word: &str| pair.channels.iter().filter(|own| own.verdict.word() == word).count();
     let [agree, disagree, open] = ["agree", "disagree", "inconclusive"].map(count);
     let word = style::verdict(&pair.verdict());
-    let verdict = match (disagree, open) {
-        (0, 0) => format!("{word}: all {agree} channels"),
-        (0, open) => format!("{word}: {open} of {} channels", pair.channels.len()),
-        (disagree, _) => format!("{word}: {disagree} of {} channels", pair.channels.len()),
+    let all = pair.channels.len();
+    let verdict = match (disagree, open, pair.crank_is_off()) {
+        (0, 0, false) => format!("{word}: all {agree} channels"),
+        (0, 0, true) => format!("{word}: the crank angle, and none of {all} channels"),
+        (0, open, false) => format!("{word}: {open} of {all} channels"),
+        (disagree, _, is_off) => {
+            format!("{word}: {}{disagree} of {all} channels", if is_off { "the crank angle, and " } else { "" })
+        }
     };
     let by = if pair.by_crank { "crank angle" } else { "time" };
     let count = pair.instants - pair.unshared;
     let several = if count == 1 { "" } else { "s" };
-    format!("{verdict} at {count} {by}{several}: {}", who(paths, pair))
+    let values = match pair.values() {
+        [1, 1] => "1 value".to_string(),
+        [judged, of] if judged == of => format!("{judged} values"),
+        [judged, of] => format!("{judged} of {of} values"),
+    };
+    format!("{verdict} at {count} {by}{several}, {values}: {}", who(paths, pair))
 }
 
 fn rank(own: &Compared) -> f64 {
@@ -147,7 +161,8 @@ fn notes(pair: &Pair) -> String {
     }
     let missing: usize = pair.channels.iter().map(|own| own.missing).max().unwrap_or(0);
     if missing > pair.unshared {
-        let _ = write!(text, "\nleft out: up to {} instants of a channel without a number", missing - pair.unshared);
+        let count = missing - pair.unshared;
+        let _ = write!(text, "\nleft out: up to {count} instants of a channel at which nothing was measured");
     }
     if let Some((row, [from, to])) = pair.turns_back {
         let (what, factor, unit) = if pair.by_crank { ("angle", 1f64.to_degrees(), "deg") } else { ("time", 1.0, "s") };
@@ -210,7 +225,7 @@ pub fn json(paths: [&Path; 2], comparison: &Comparison, tell: Tell) -> String {
         let time = if at.time.is_nan() { Value::Null } else { at.time.into() };
         json!({
             "t_s": time, "crank_deg": crank, "first": at.values[0], "second": at.values[1],
-            "difference": at.difference, "bound": at.bound,
+            "difference": at.difference, "bound": at.bound, "known": at.known,
         })
     };
     let channel = |own: &Compared| {
@@ -241,6 +256,7 @@ pub fn json(paths: [&Path; 2], comparison: &Comparison, tell: Tell) -> String {
             "by": if pair.by_crank { "crank angle" } else { "time" },
             "instants": pair.instants,
             "unshared": pair.unshared,
+            "values": pair.values()[0],
             "jumps_back_in_row": pair.turns_back.map(|(row, _)| row + 1),
             "only_in_first": pair.alone[0],
             "only_in_second": pair.alone[1],

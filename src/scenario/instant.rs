@@ -18,7 +18,8 @@ pub fn read(table: &mut Table, case: &Case) -> Result<When> {
     match (crank, time) {
         (Some(crank), None) => Ok(When::Crank(crank)),
         (None, Some(time)) => {
-            checked(case, time).map_err(|message| table.wrong(ErrorKind::Input, "time", message).help(TIME_HELP))?;
+            checked(case, end(case), time)
+                .map_err(|message| table.wrong(ErrorKind::Input, "time", message).help(TIME_HELP))?;
             Ok(When::Time(time))
         }
         (Some(_), Some(_)) => {
@@ -67,15 +68,15 @@ impl Rows {
         }
     }
 
-    /// The instant of a row.
+    /// The instant of a row, in a motion with this [`end`].
     ///
     /// # Errors
     /// A message for a time that the motion does not have.
-    pub fn instant(&self, case: &Case, printed: f64) -> std::result::Result<When, String> {
+    pub fn instant(&self, case: &Case, end: Option<f64>, printed: f64) -> std::result::Result<When, String> {
         let value = self.unit.to_si(printed);
         match self.is_time {
             false => Ok(When::Crank(value)),
-            true => checked(case, value).map(|()| When::Time(value)),
+            true => checked(case, end, value).map(|()| When::Time(value)),
         }
     }
 }
@@ -86,14 +87,16 @@ const COLUMN_HELP: &str =
 /// The way out for a time that the motion does not have.
 pub const TIME_HELP: &str = "give a time within the run, or let the grid go further";
 
-/// Whether the case's own motion is solved at this time (s): within its run, and where its law is defined.
-fn checked(case: &Case, time: f64) -> std::result::Result<(), String> {
+/// The last instant (s) of a motion that forces decide; `None` of another, or where another grid replaces its grid.
+pub fn end(case: &Case) -> Option<f64> {
+    let is_solved = case.is_free() && !case.grid.is_empty();
+    is_solved.then(|| case.grid.ascending().last().map_or(0.0, |&row| case.grid.times[row]))
+}
+
+/// Whether the case's own motion is solved at this time (s): within its run, to `end`, and where its law is defined.
+fn checked(case: &Case, end: Option<f64>, time: f64) -> std::result::Result<(), String> {
     Grid::of_times(case.crank(), vec![time]).check(case.crank())?;
-    // A grid that another one replaces is not read.
-    if !case.is_free() || case.grid.is_empty() {
-        return Ok(());
-    }
-    let end = case.grid.ascending().last().map_or(0.0, |&row| case.grid.times[row]);
+    let Some(end) = end else { return Ok(()) };
     match (0.0..=end * (1.0 + ROUNDING)).contains(&time) {
         true => Ok(()),
         false => Err(format!("{time} s is not in the run, which goes from 0 to {end} s")),

@@ -47,6 +47,8 @@ pub enum Size {
     Absolute(f64),
     /// As a share of the channel's scale.
     Relative(f64),
+    /// As a share of each value.
+    OfValue(f64),
 }
 
 /// Names of what rows hold at, each with its factor to SI, and whether it is a crank angle.
@@ -160,6 +162,7 @@ impl Mapping {
             let (key, number) = match *size {
                 Size::Absolute(number) => ("abs", number),
                 Size::Relative(number) => ("rel", number),
+                Size::OfValue(number) => ("rel_value", number),
             };
             let entry = tolerances.entry(of.as_deref().unwrap_or(ALL)).or_insert_with(|| {
                 toml_edit::Item::Value(toml_edit::Value::InlineTable(toml_edit::InlineTable::new()))
@@ -204,7 +207,9 @@ fn read(root: &mut Table) -> Result<Mapping> {
         for mut entry in tolerances.all_tables()? {
             let name = entry.name().to_string();
             let of = (name != ALL).then_some(name);
-            for (key, size) in [("abs", Size::Absolute as fn(f64) -> Size), ("rel", Size::Relative)] {
+            for (key, size) in
+                [("abs", Size::Absolute as fn(f64) -> Size), ("rel", Size::Relative), ("rel_value", Size::OfValue)]
+            {
                 let Some(number) = entry.optional_number(key)? else { continue };
                 if number < 0.0 {
                     let error = entry.wrong(ErrorKind::Input, key, format!("found {number}"));

@@ -1,6 +1,7 @@
 //! Printed numbers: their value, and how far the true value may be from it.
 
 use super::unit::{ANGLE, Family, LENGTH, Unit};
+use columns::Decimal;
 use linkage::trajectory::{self, CHANNELS, Channel, ChannelKind};
 
 /// A number as printed: its value and its count of decimals.
@@ -16,19 +17,9 @@ impl Printed {
     /// Reads a decimal number with an optional exponent; any other text is refused.
     #[must_use]
     pub fn parse(text: &str) -> Option<Printed> {
-        let (mantissa, exponent) = match text.split_once(['e', 'E']) {
-            Some((mantissa, exponent)) => (mantissa, exponent.parse::<i32>().ok()?),
-            None => (text, 0),
-        };
-        let digits = mantissa.strip_prefix(['+', '-']).unwrap_or(mantissa);
-        let (whole, decimals) = digits.split_once('.').unwrap_or((digits, ""));
-        let sound = |part: &str| part.bytes().all(|byte| byte.is_ascii_digit());
-        if whole.is_empty() || !sound(whole) || !sound(decimals) {
-            return None;
-        }
-        let value: f64 = text.parse().ok()?;
-        let digits = i32::try_from(decimals.len()).ok()?.checked_sub(exponent)?;
-        (value.is_finite() && digits.abs() <= MOST_DIGITS).then_some(Printed { value, digits })
+        let begins = text.strip_prefix(['+', '-']).unwrap_or(text);
+        let Decimal { value, decimals: digits, .. } = Decimal::parse(text).filter(|_| !begins.starts_with('.'))?;
+        (digits.abs() <= MOST_DIGITS).then_some(Printed { value, digits })
     }
 
     /// The same number with this count of decimals, of which zeros at the end were not printed.

@@ -12,8 +12,9 @@ use super::series::{ExpectedCell, Known, OraclePoint, OracleSeries, When};
 use super::source::Source;
 use super::words::suggestion;
 use crate::files;
+use columns::{Records, Twice};
 use linkage::case::Case;
-use linkage::error::{Error, ErrorKind, Result};
+use linkage::error::{Error, ErrorKind, Place, Result};
 use linkage::mechanism::is_unseen;
 
 /// Crank angles (rad), or times (s), that differ by less than this belong to the same row.
@@ -32,9 +33,10 @@ pub fn read(oracle: &mut Table, known: &Known, case: &Case) -> Result<(String, V
     let rows = Rows::read(&source).map_err(|error| error.key(oracle.path_of("file")))?;
 
     let from = instant::Rows::read(oracle)?;
+    let end = instant::end(case);
     let instants: Vec<When> = rows
         .column(&from.column)
-        .and_then(|column| rows.cells(column).map(|cell| cell.instant(&from, case)).collect::<Result<_>>())
+        .and_then(|column| rows.cells(column).map(|cell| cell.instant(&from, case, end)).collect::<Result<_>>())
         .map_err(|error| error.key(oracle.path_of(from.key)))?;
 
     let digits = if oracle.has("digits") { Some(digits(oracle)?) } else { None };
@@ -180,88 +182,82 @@ fn offset(table: &mut Table, channel: &PrintedChannel) -> Result<f64> {
 /// A CSV file in memory.
 struct Rows<'a> {
     source: &'a Source<'a>,
-    header: csv::StringRecord,
-    records: Vec<csv::StringRecord>,
+    records: Records<'a>,
 }
 
 /// One cell with its place.
 struct Cell<'a> {
-    source: &'a Source<'a>,
-    text: &'a str,
-    span: Range<usize>,
+    rows: &'a Rows<'a>,
+    row: usize,
+    column: usize,
 }
 
 impl<'a> Rows<'a> {
-    #[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the CSV reader")]
     fn read(source: &'a Source<'a>) -> Result<Self> {
-        let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(source.text.as_bytes());
-        let wrong = |error: &csv::Error| {
-            let start = error.position().map_or(0, |position| position.byte() as usize);
-            let message = match error.kind() {
-                csv::ErrorKind::UnequalLengths { expected_len, len, .. } => {
-                    let commas = if len == &(2 * expected_len) { ": its decimals seem to have commas" } else { "" };
-                    format!("the row has {len} cells, but the header has {expected_len}{commas}")
-                }
-                _ => format!("the table is not valid CSV: {error}"),
-            };
-            Error::new(ErrorKind::Input, message).at(source.place(line_from(source.text, start))).help(
-                "separate cells with commas and give every row as many cells as the header; decimals take a point",
-            )
-        };
-        let header = reader.headers().map_err(|error| wrong(&error))?.clone();
-        if let [whole] = header.iter().collect::<Vec<_>>()[..]
-            && let Some(other) = [';', '\t'].into_iter().find(|other| whole.contains(*other))
+        let wrong = |at: Range<usize>, message: String| Error::new(ErrorKind::Input, message).at(source.place(at));
+        let header = line_from(source.text, 0);
+        let whole = source.text.get(header.clone()).unwrap_or("");
+        if let (false, Some(other)) =
+            (whole.contains(','), [';', '\t'].into_iter().find(|other| whole.contains(*other)))
         {
             let message = format!("the header has one cell, because its columns are separated by {other:?}");
-            let error = Error::new(ErrorKind::Input, message).at(source.place(line_from(source.text, 0)));
-            return Err(error.help("separate cells with commas, and write decimals with a point"));
+            return Err(wrong(header, message).help("separate cells with commas, and write decimals with a point"));
         }
-        if header.iter().any(|column| column.contains(is_unseen)) {
-            let error = Error::new(ErrorKind::Input, "the header holds a letter that is not seen");
-            return Err(error.at(source.place(0..0)).help("take out line breaks and control characters"));
+        let records = Records::of(source.text).map_err(|(at, count)| {
+            let expected = whole.split(',').count();
+            let commas = if count == 2 * expected { ": its decimals seem to have commas" } else { "" };
+            wrong(at, format!("the row has {count} cells, but the header has {expected}{commas}")).help(
+                "separate cells with commas and give every row as many cells as the header; decimals take a point",
+            )
+        })?;
+        if records.header.iter().any(|column| column.contains(is_unseen)) {
+            let error = wrong(0..0, "the header holds a letter that is not seen".into());
+            return Err(error.help("take out line breaks and control characters"));
         }
-        let records: Vec<_> = reader.records().collect::<std::result::Result<_, _>>().map_err(|error| wrong(&error))?;
+        if let Some(twice) = Twice::of(&records.header) {
+            return Err(wrong(header, twice.to_string()).help(Twice::HELP));
+        }
         if records.is_empty() {
-            let error = Error::new(ErrorKind::Input, "the table has no rows").at(source.place(0..0));
+            let error = wrong(0..0, "the table has no rows".into());
             return Err(error.help("give a header and at least one row"));
         }
-        Ok(Rows { source, header, records })
+        Ok(Rows { source, records })
     }
 
     fn column(&self, name: &str) -> Result<usize> {
-        self.header.iter().position(|column| column == name).ok_or_else(|| {
+        let header = &self.records.header;
+        header.iter().position(|column| column == name).ok_or_else(|| {
             Error::new(ErrorKind::Input, format!("the table has no column \"{name}\""))
                 .at(self.source.place(line_from(self.source.text, 0)))
-                .help(suggestion(name, &self.header, "\""))
+                .help(suggestion(name, header.iter().map(String::as_str), "\""))
         })
     }
 
     fn cells(&self, column: usize) -> impl Iterator<Item = Cell<'_>> {
-        self.records.iter().map(move |record| {
-            let start = record.position().map_or(0, |position| position.byte() as usize);
-            let line = line_from(self.source.text, start);
-            let text = &record[column];
-            Cell { source: self.source, text, span: within(self.source.text, line, record.len(), column) }
-        })
+        (0..self.records.len()).map(move |row| Cell { rows: self, row, column })
     }
 }
 
 impl Cell<'_> {
     /// Where the row of this cell holds.
-    fn instant(&self, rows: &instant::Rows, case: &Case) -> Result<When> {
-        rows.instant(case, self.printed()?.value).map_err(|message| {
-            let error = Error::new(ErrorKind::Input, message).at(self.source.place(self.span.clone()));
-            error.help(instant::TIME_HELP)
-        })
+    fn instant(&self, rows: &instant::Rows, case: &Case, end: Option<f64>) -> Result<When> {
+        rows.instant(case, end, self.printed()?.value)
+            .map_err(|message| Error::new(ErrorKind::Input, message).at(self.place()).help(instant::TIME_HELP))
     }
 
     fn printed(&self) -> Result<Printed> {
-        Printed::parse(self.text).ok_or_else(|| {
-            let comma = if has_decimal_comma(self.text) { ", and decimals take a point" } else { "" };
-            Error::new(ErrorKind::Input, format!("found \"{}\", but a decimal number is needed{comma}", self.text))
-                .at(self.source.place(self.span.clone()))
+        let text = self.rows.records.cell(self.row, self.column);
+        Printed::parse(&text).ok_or_else(|| {
+            let comma = if has_decimal_comma(&text) { ", and decimals take a point" } else { "" };
+            Error::new(ErrorKind::Input, format!("found \"{text}\", but a decimal number is needed{comma}"))
+                .at(self.place())
                 .help("write it as printed, with a decimal point; a cell known to be wrong is named under `expect`, with its finding")
         })
+    }
+
+    fn place(&self) -> Place {
+        let Rows { source, records } = self.rows;
+        source.place(within(source.text, records.line(self.row), records.header.len(), self.column))
     }
 }
 

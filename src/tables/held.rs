@@ -1,12 +1,14 @@
 //! What a table says of a mechanism: claims of channels, at instants.
 
-use super::raw::Raw;
+use std::borrow::Cow;
+
+use super::Raw;
 use crate::scenario::mapping::{INSTANTS, Mapped, Mapping};
 use crate::scenario::words::{choice, nearest};
 use crate::scenario::{Claim, PrintedChannel};
+use columns::{MISSING, UNDEFINED, is_missing};
 use formula::{Fault, Graph, Program, Rounded, Shape, Tree};
 use linkage::error::{Error, ErrorKind, Result};
-use linkage::math::KeepNan;
 use linkage::math::statistics::ascending;
 use linkage::trajectory::{Channel, Trajectory};
 use std::ops::Range;
@@ -45,18 +47,6 @@ impl At {
         let row = (1..self.values.len()).find(|&row| step(row) * way < 0.0)?;
         Some((row, [self.values[row - 1].value, self.values[row].value]))
     }
-
-    /// Exact where steps are equal: such instants were chosen, and only others have lost digits.
-    fn settled(values: Vec<Rounded>) -> Vec<Rounded> {
-        let steps = values.windows(2).map(|pair| pair[1].value - pair[0].value);
-        let first = values.get(1).map_or(0.0, |second| second.value - values[0].value);
-        let size = values.iter().map(|at| at.value.abs()).fold(0.0, f64::larger);
-        let slack = 8.0 * f64::EPSILON * size + 1e-9 * first.abs();
-        match steps.into_iter().all(|step| (step - first).abs() <= slack) {
-            true => values.into_iter().map(|at| Rounded::exact(at.value)).collect(),
-            false => values,
-        }
-    }
 }
 
 /// What a party says of a channel, or of an arithmetic of channels.
@@ -64,8 +54,12 @@ impl At {
 pub struct Column {
     /// The channel in its unit.
     pub claim: Claim,
-    /// Its numbers by rows, in the unit of the claim; NaN where there is none.
+    /// Its numbers by rows, in the unit of the claim. [`MISSING`] where nothing was measured; another NaN where no
+    /// number came out.
     pub values: Vec<Rounded>,
+    /// Scale of the channel in the unit of the claim, as a complete trajectory gives it; `None` where only this column
+    /// is known.
+    pub scale: Option<f64>,
     /// The line of the mapping that says so; `None` where the table's own header does.
     pub mapped: Option<Mapped>,
 }
@@ -99,12 +93,15 @@ impl Held {
         for mapped in mapping.at.iter().chain(&own) {
             let (factor, is_crank) =
                 mapped.instant().ok_or_else(|| mapped.wrong("this is no instant", "map a time"))?;
-            let values: Vec<Rounded> = reader.column(mapped)?.into_iter().map(|own| scaled(own, factor)).collect();
+            let printed = reader.column(mapped)?;
+            let is_chosen = columns::chosen(&printed, mapped.name == "crank_deg");
+            let exact = |own: Rounded| if is_chosen { Rounded::exact(own.value) } else { own };
+            let values: Vec<Rounded> = printed.into_iter().map(|own| exact(scaled(own, factor))).collect();
             if let Some(row) = values.iter().position(|own| !(own.value + own.error).is_finite()) {
                 let message = format!("row {} of the table holds at no instant", row + 1);
                 return Err(mapped.wrong(&message, "take the row out, or complete it"));
             }
-            *(if is_crank { &mut at.cranks } else { &mut at.times }) = Some(At::settled(values));
+            *(if is_crank { &mut at.cranks } else { &mut at.times }) = Some(values);
         }
         if at.times.is_none() && at.cranks.is_none() {
             let message =
@@ -118,11 +115,11 @@ impl Held {
         let mut columns = Vec::new();
         for mapped in &mapping.channels {
             let claim = claim_of(&mapped.name).map_err(|fault| mapped.wrong(&fault.message, &fault.help))?;
-            columns.push(Column { claim, values: reader.column(mapped)?, mapped: Some(mapped.clone()) });
+            columns.push(Column { claim, values: reader.column(mapped)?, scale: None, mapped: Some(mapped.clone()) });
         }
         for mapped in &own {
             let claim = claim_of(&mapped.name).map_err(|fault| mapped.wrong(&fault.message, &fault.help))?;
-            columns.push(Column { claim, values: reader.column(mapped)?, mapped: None });
+            columns.push(Column { claim, values: reader.column(mapped)?, scale: None, mapped: None });
         }
         if columns.is_empty() {
             let message = format!("no column of the table is a channel; they are {}", some(&raw.names));
@@ -139,11 +136,11 @@ impl Held {
     pub fn of_trajectory(trajectory: &Trajectory, is_analytic: bool) -> Held {
         let exact = |values: &[f64]| -> Vec<Rounded> { values.iter().map(|&value| Rounded::nearly(value)).collect() };
         let times = Some(trajectory.times().iter().map(|&time| Rounded::exact(time)).collect());
-        let cranks = Some(trajectory.cranks().iter().map(|&crank| Rounded::exact(crank)).collect());
+        let cranks = Some(exact(trajectory.cranks()));
         let column = |(channel, values): (&Channel, &[f64])| {
             let name = channel.to_string();
             let claim = Claim::of_channels(&name, std::slice::from_ref(channel)).ok()?;
-            Some(Column { claim, values: exact(values), mapped: None })
+            Some(Column { claim, values: exact(values), scale: None, mapped: None })
         };
         let columns = trajectory.iter().filter_map(column).collect();
         Held { at: Instants { times, cranks }, columns, is_analytic, unused: Vec::new() }
@@ -179,16 +176,30 @@ impl Held {
 
     /// Its numbers for a claim, in the claim's unit: under the same text, or the same channel in another unit.
     #[must_use]
-    pub fn values_of(&self, claim: &Claim) -> Option<Vec<Rounded>> {
+    pub fn values_of(&self, claim: &Claim) -> Option<Cow<'_, [Rounded]>> {
+        match self.column_of(claim)? {
+            (column, 1.0) => Some(Cow::Borrowed(&column.values)),
+            (column, factor) => Some(column.values.iter().map(|&value| scaled(value, factor)).collect()),
+        }
+    }
+
+    /// The scale of a claim, in its unit, where it is that of a complete trajectory.
+    #[must_use]
+    pub fn scale_of(&self, claim: &Claim) -> Option<f64> {
+        let (column, factor) = self.column_of(claim)?;
+        Some(column.scale? * factor)
+    }
+
+    /// The column of a claim, and its unit over that of the claim.
+    fn column_of(&self, claim: &Claim) -> Option<(&Column, f64)> {
         if let Some(own) = self.columns.iter().find(|own| own.claim.text == claim.text) {
-            return Some(own.values.clone());
+            return Some((own, 1.0));
         }
         let wanted = single(claim)?;
         let is_same = |own: &PrintedChannel| own.channel == wanted.channel && own.magnitude == wanted.magnitude;
-        let (own, column) =
-            self.columns.iter().find_map(|own| Some((single(&own.claim).filter(|own| is_same(own))?, own)))?;
-        let factor = own.to_si(1.0) / wanted.to_si(1.0);
-        Some(column.values.iter().map(|&value| scaled(value, factor)).collect())
+        let found = |column: &'_ Column| single(&column.claim).filter(|own| is_same(own)).map(|own| own.to_si(1.0));
+        let (column, unit) = self.columns.iter().find_map(|column| Some((column, found(column)?)))?;
+        Some((column, unit / wanted.to_si(1.0)))
     }
 }
 
@@ -250,30 +261,36 @@ impl<'a> Reader<'a> {
     }
 
     fn column(&mut self, mapped: &Mapped) -> Result<Vec<Rounded>> {
-        let text = mapped.text.as_str();
-        let is_whole = self.raw.names.iter().any(|name| name == text);
+        let (text, names) = (mapped.text.as_str(), &self.raw.names);
+        let is_whole = names.iter().any(|name| name == text);
         let tree = match is_whole {
             true => Ok(Tree { shape: Shape::Name(text.into()), at: 0..text.len() }),
             false => Tree::parse(text),
         };
         let tree = tree.map_err(|fault| mapped.refused(&fault))?;
-        let names = tree.names();
-        let column = |name: &str| self.raw.names.iter().position(|own| own == name);
-        if let Some((name, at)) = names.iter().find(|(name, _)| !self.graph.knows(name)) {
+        let named = tree.names();
+        let column = |name: &str| names.iter().position(|own| own == name);
+        if let Some((name, at)) = named.iter().find(|(name, _)| !self.graph.knows(name)) {
             return Err(mapped.refused(&self.unknown(name, at.clone())));
         }
         let node = self.graph.add_defined(&tree).map_err(|fault| mapped.refused(&fault))?;
-        let own: Vec<usize> = names.iter().filter_map(|(name, _)| column(name)).collect();
-        self.used.extend(own.iter().map(|&column| self.raw.names[column].clone()));
+        let used: Vec<usize> = named.iter().filter_map(|(name, _)| column(name)).collect();
+        self.used.extend(used.iter().map(|&column| names[column].clone()));
+        if is_whole && let [index] = used[..] {
+            return Ok(self.raw.columns[index].clone());
+        }
         let mut program = Program::of(&self.graph, &[node]);
         let mut inputs = vec![Rounded::exact(0.0); self.raw.columns.len()];
         let mut row = |row: usize| {
-            for (input, column) in inputs.iter_mut().zip(&self.raw.columns) {
-                *input = column[row];
+            for &index in &used {
+                inputs[index] = self.raw.columns[index][row];
+            }
+            // What nobody measured gives no number; what was measured gives one, or the mapping is a mistake.
+            if used.iter().any(|&index| is_missing(&inputs[index])) {
+                return Ok(MISSING);
             }
             let found = program.run(&inputs)[0];
-            // A cell without a number is missing; numbers without a result are a mistake.
-            if found.is_undefined() && own.iter().all(|&column| !inputs[column].is_undefined()) {
+            if found.is_undefined() && used.iter().all(|&index| !inputs[index].is_undefined()) {
                 let of = |name: &str| column(name).map_or(Rounded::nearly(std::f64::consts::PI), |own| inputs[own]);
                 if let Err(fault) = tree.evaluated(&of) {
                     let help = format!("{}; else leave the row out, or its cell empty", fault.help);
@@ -281,7 +298,7 @@ impl<'a> Reader<'a> {
                     return Err(mapped.refused(&Fault { message, help, ..fault }));
                 }
             }
-            Ok(found)
+            Ok(if found.value.is_finite() { found } else { UNDEFINED })
         };
         (0..self.raw.len()).map(&mut row).collect()
     }

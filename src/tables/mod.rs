@@ -1,13 +1,11 @@
 //! Tables of other programs: CSV and Parquet files, and which of their columns are which channels.
 
 mod csv_file;
-mod digits;
 mod held;
 mod parquet_file;
-mod raw;
 
+pub use columns::Table as Raw;
 pub use held::{At, Column, Held, Instants};
-pub use raw::Raw;
 
 use std::path::Path;
 
@@ -22,12 +20,6 @@ pub fn load(path: &Path) -> Result<Raw> {
         true => parquet_file::read(path)?,
         false => csv_file::read(path)?,
     };
-    let mut names: Vec<&String> = raw.names.iter().collect();
-    names.sort_unstable();
-    if let Some(twice) = names.windows(2).find(|pair| pair[0] == pair[1]) {
-        let message = format!("{} has two columns \"{}\"", path.display(), twice[0]);
-        return Err(Error::new(ErrorKind::Input, message).help("give every column a name of its own"));
-    }
     if raw.is_empty() {
         let message = format!("{} has no rows of numbers", path.display());
         return Err(Error::new(ErrorKind::Input, message).help("give a table with a header and one row per instant"));

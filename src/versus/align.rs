@@ -1,11 +1,15 @@
 //! Two tables side by side: rows of the same instants, or the first interpolated at those of the second.
 
+use std::f64::consts::TAU;
+
 use super::allowed::How;
+use super::crank;
 use super::interpolate::Course;
 use super::judge::Both;
 use super::pair::{Pair, Side};
 use crate::scenario::Claim;
 use crate::tables::{At, Column, Held, Instants};
+use columns::MISSING;
 use formula::Rounded;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::KeepNan;
@@ -36,17 +40,22 @@ pub(super) fn beside(one: &Side, other: &Side, how: &How) -> Result<Pair> {
     }
     let places = places(&from, &to, how.interpolates);
     let unshared = places.iter().filter(|place| matches!(place, Place::Nowhere)).count();
-    if unshared == to.values.len() {
+    let shared = to.values.len() - unshared;
+    // One alone proves nothing: of times in other units, zero is the same.
+    if shared == 0 || shared == 1 && unshared > 0 {
         let what = if from.is_crank { "crank angle" } else { "time" };
-        let message = format!("no {what} of the second party is one of the first");
+        let which = if shared == 0 { "no" } else { "only one" };
+        let message = format!("{which} {what} of the second party is one of the first");
         return Err(Error::new(ErrorKind::Input, message)
             .help("allow interpolation, or give both the same instants; check the units of both"));
     }
     let column = |claim: &Claim| {
         let values = at_places(&one.1.values_of(claim)?, &from, &places, claim.turn());
-        Some(Column { claim: claim.clone(), values, mapped: None })
+        Some(Column { claim: claim.clone(), values, scale: one.1.scale_of(claim), mapped: None })
     };
-    let columns = claims.iter().filter_map(column).collect();
+    let columns: Vec<Column> = claims.iter().filter_map(column).collect();
+    let drift = drift(&from, &to, &places);
+    let of_claims = columns.iter().map(|own| drift(&own.values, own.claim.turn())).collect();
     let first = Held { at: Instants::default(), columns, is_analytic: one.1.is_analytic, unused: Vec::new() };
     let known = |of: &Option<Vec<Rounded>>| match of {
         Some(values) => values.iter().map(|at| at.value).collect(),
@@ -56,13 +65,34 @@ pub(super) fn beside(one: &Side, other: &Side, how: &How) -> Result<Pair> {
         parties: [&first, &other.1],
         at: &to,
         places: [known(&other.1.at.times), known(&other.1.at.cranks)],
+        drift: of_claims,
         how,
     };
-    let channels = both.judged(&claims)?;
+    let channels = both.judged(&claims);
     let names = [one.0.clone(), other.0.clone()];
     let (instants, by_crank, turns_back) = (to.values.len(), to.is_crank, to.turns_back());
-    let (checks, causes) = (Vec::new(), Vec::new());
+    let mut checks = Vec::new();
+    if let ([Some(ours), Some(theirs)], false) = ([&one.1.at.cranks, &other.1.at.cranks], to.is_crank) {
+        let ours = at_places(ours, &from, &places, Some(TAU));
+        let measure =
+            (usize::from(!one.1.is_analytic && other.1.is_analytic), one.1.is_analytic || other.1.is_analytic);
+        checks.extend(crank::check([&ours, theirs], &both.places, &drift(&ours, Some(TAU)), measure, how));
+    }
+    let causes = Vec::new();
     Ok(Pair { names, channels, checks, instants, unshared, alone, turns_back, by_crank, causes })
+}
+
+/// What the digits of the instants of both leave open in a column of the first at the rows of the second.
+fn drift(from: &At, to: &At, places: &[Place]) -> impl Fn(&[Rounded], Option<f64>) -> Vec<f64> + use<> {
+    let widest = from.values.iter().map(|at| at.error).fold(0.0, f64::larger);
+    let of = |(place, own): (&Place, &Rounded)| match place {
+        Place::At(row) => own.error + from.values[*row].error,
+        Place::Between(_) => own.error + widest,
+        Place::Nowhere => 0.0,
+    };
+    let slack: Vec<f64> = places.iter().zip(&to.values).map(of).collect();
+    let (at, order) = (to.values.iter().map(|at| at.value).collect::<Vec<f64>>(), to.ascending());
+    move |values, turn| columns::drift(values, &at, &slack, &order, turn)
 }
 
 /// Where an instant of the second party lies among the rows of the first.
@@ -109,7 +139,7 @@ fn at_places(values: &[Rounded], from: &At, places: &[Place], turn: Option<f64>)
     let of = |place: &Place| match place {
         Place::At(row) => values[*row],
         Place::Between(wanted) => course.value(*wanted),
-        Place::Nowhere => Rounded::exact(f64::NAN),
+        Place::Nowhere => MISSING,
     };
     places.iter().map(of).collect()
 }

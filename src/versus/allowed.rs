@@ -5,6 +5,8 @@ use crate::scenario::{Claim, PrintedChannel};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::KeepNan;
 
+use columns::Allowance;
+
 /// How two parties are compared.
 #[derive(Clone, Debug, Default)]
 pub struct How {
@@ -23,19 +25,36 @@ pub struct How {
 impl How {
     /// What is allowed of a channel with this scale, in its unit; `None` if nothing is said of it.
     #[must_use]
-    pub fn allows(&self, claim: &Claim, scale: f64) -> Option<f64> {
-        let own = self.allowed.iter().filter(|allowed| allowed.of.as_ref().is_none_or(|word| is_called(claim, word)));
-        let mut sizes = [None; 2];
+    pub fn allows(&self, claim: &Claim, scale: f64) -> Option<Allowance> {
+        self.of(|word| is_called(claim, word), scale, 1.0)
+    }
+
+    /// What is allowed of the crank angle (rad) with this scale: what is allowed of all, and of the word `crank`, with
+    /// sizes in degrees.
+    #[must_use]
+    pub fn allows_crank(&self, scale: f64) -> Option<Allowance> {
+        self.of(|word| word == CRANK, scale, 1f64.to_radians())
+    }
+
+    /// Whether the crank angle is asked for.
+    #[must_use]
+    pub fn asks_for_crank(&self) -> bool {
+        self.only.is_empty() || self.only.iter().any(|word| word == CRANK)
+    }
+
+    fn of(&self, is_meant: impl Fn(&str) -> bool, scale: f64, unit: f64) -> Option<Allowance> {
+        let own = self.allowed.iter().filter(|allowed| allowed.of.as_deref().is_none_or(&is_meant));
+        let mut sizes: [Option<f64>; 3] = [None; 3];
         for allowed in own {
             match allowed.size {
-                Size::Absolute(size) => sizes[0] = Some(size),
+                Size::Absolute(size) => sizes[0] = Some(unit * size),
                 Size::Relative(share) => sizes[1] = Some(share * scale),
+                Size::OfValue(share) => sizes[2] = Some(share),
             }
         }
-        match sizes {
-            [None, None] => None,
-            [absolute, relative] => Some(absolute.unwrap_or(0.0).larger(relative.unwrap_or(0.0))),
-        }
+        let [absolute, relative, of_value] = sizes.map(Option::unwrap_or_default);
+        let is_allowed = sizes.iter().any(Option::is_some);
+        is_allowed.then_some(Allowance { fixed: absolute.larger(relative), of_value })
     }
 
     /// Whether a channel is asked for.
@@ -50,7 +69,8 @@ impl How {
     /// [`ErrorKind::Input`] with the word.
     pub(super) fn check_used<'a>(&self, compared: impl Iterator<Item = &'a Claim> + Clone) -> Result<()> {
         let mut words = self.allowed.iter().filter_map(|allowed| allowed.of.as_ref());
-        match words.find(|word| !compared.clone().any(|claim| is_called(claim, word))) {
+        let is_meant = |word: &str| word == CRANK || compared.clone().any(|claim| is_called(claim, word));
+        match words.find(|word| !is_meant(word)) {
             None => Ok(()),
             Some(word) => {
                 let all: Vec<&str> = compared.map(|claim| claim.text.as_str()).take(5).collect();
@@ -61,6 +81,9 @@ impl How {
         }
     }
 }
+
+/// The word for the crank angle of rows.
+const CRANK: &str = "crank";
 
 /// Whether a word means a claim: its text, its channel in any unit, the channel's subject, stage, or both.
 fn is_called(claim: &Claim, word: &str) -> bool {

@@ -2,8 +2,11 @@
 
 use super::allowed::How;
 use super::cause;
+use super::crank;
+use super::instants;
 use super::judge::Both;
 use super::pair::{Pair, Side};
+use super::scale::Scales;
 use crate::proof::solved::Solved;
 use crate::scenario::{Claim, Scenario};
 use crate::tables::{At, Column, Held};
@@ -26,7 +29,7 @@ fn columns(solved: &Solved, claims: &[Claim], of: &dyn Fn(usize) -> usize, rows:
     let column = |claim: &Claim| {
         let values = solved.on_course(|course| course.values(claim))?;
         let values = (0..rows).map(|row| values[of(row)]).collect();
-        Ok(Column { claim: claim.clone(), values, mapped: None })
+        Ok(Column { claim: claim.clone(), values, scale: None, mapped: None })
     };
     claims.iter().map(column).collect()
 }
@@ -36,8 +39,11 @@ pub(super) fn beside(scenario: &Scenario, (name, held): Side, is_first: bool, ho
     let at = held.at(how.by_crank)?;
     let (claims, alone) = claims(scenario, &held, how)?;
     let (grid, rows) = grid(scenario, &at)?;
-    let solved = Solved::of(scenario, grid, &claims)?;
-    let columns = columns(&solved, &claims, &|row| rows[row], at.values.len())?;
+    let scales = Scales::of(scenario, &grid);
+    let solved = Solved::of(scenario, grid, &claims)?.known_at_least(&|channel| scales.known(channel));
+    let mut columns = columns(&solved, &claims, &|row| rows[row], at.values.len())?;
+    columns.iter_mut().for_each(|column| column.scale = scales.of_claim(&column.claim));
+    let drift = instants::drift(&solved, &claims, &at, &rows, &columns);
     let own = Held { at: held.at.clone(), columns, is_analytic: true, unused: Vec::new() };
     let other = if held.is_analytic { as_well_known(held, &own) } else { held };
     let place = |of: &[f64]| rows.iter().map(|&row| of[row]).collect::<Vec<f64>>();
@@ -46,16 +52,22 @@ pub(super) fn beside(scenario: &Scenario, (name, held): Side, is_first: bool, ho
         parties: if is_first { [&own, &other] } else { [&other, &own] },
         at: &at,
         places: [place(trajectory.times()), place(trajectory.cranks())],
+        drift: drift.claims,
         how,
     };
-    let channels = both.judged(&claims)?;
+    let channels = both.judged(&claims);
     let causes = cause::explained(scenario, &both, &channels, is_first)?;
+    let mut checks = solved.checks().to_vec();
+    if let (false, Some(theirs)) = (at.is_crank, &other.at.cranks) {
+        let ours = solved.on_course(|course| Ok(rows.iter().map(|&row| course.crank(row)).collect::<Vec<_>>()))?;
+        let cranks: [&[Rounded]; 2] = if is_first { [&ours, theirs] } else { [theirs, &ours] };
+        checks.extend(crank::check(cranks, &both.places, &drift.crank, (usize::from(!is_first), true), how));
+    }
     let (names, alone) = match is_first {
         true => ([String::new(), name], [Vec::new(), alone]),
         false => ([name, String::new()], [alone, Vec::new()]),
     };
     let (instants, by_crank, turns_back) = (at.values.len(), at.is_crank, at.turns_back());
-    let checks = solved.checks().to_vec();
     Ok(Pair { names, channels, checks, instants, unshared: 0, alone, turns_back, by_crank, causes })
 }
 
@@ -84,16 +96,19 @@ fn claims(scenario: &Scenario, held: &Held, how: &How) -> Result<(Vec<Claim>, Ve
 /// The grid of some instants, every one once, and for every row its place in it.
 fn grid(scenario: &Scenario, at: &At) -> Result<(Grid, Vec<usize>)> {
     let mut rows = vec![0; at.values.len()];
-    let mut instants: Vec<f64> = Vec::with_capacity(rows.len());
+    let mut all: Vec<f64> = Vec::with_capacity(rows.len());
     for row in at.ascending() {
-        let value = at.values[row].value;
-        if instants.last() != Some(&value) {
-            instants.push(value);
+        let Rounded { value, error } = at.values[row];
+        // A rounded instant may lie a little beyond the motion.
+        let within = if at.is_crank { value } else { instants::within(scenario.case.crank(), value) };
+        let value = if (within - value).abs() <= error { within } else { value };
+        if all.last() != Some(&value) {
+            all.push(value);
         }
-        rows[row] = instants.len() - 1;
+        rows[row] = all.len() - 1;
     }
     let crank = scenario.case.crank();
-    let grid = if at.is_crank { Grid::of_cranks(crank, instants) } else { Grid::of_times(crank, instants) };
+    let grid = if at.is_crank { Grid::of_cranks(crank, all) } else { Grid::of_times(crank, all) };
     grid.check(crank).map_err(|message| {
         let help = match at.is_crank && crank.is_free() {
             true => "give the table a column of times",
@@ -109,7 +124,7 @@ fn as_well_known(held: Held, own: &Held) -> Held {
     let column = |column: Column| {
         let Some(found) = own.values_of(&column.claim) else { return column };
         let more = |(value, found): (Rounded, Rounded)| Rounded { error: value.error + found.error, ..value };
-        let values = column.values.iter().copied().zip(found).map(more).collect();
+        let values = column.values.iter().copied().zip(found.iter().copied()).map(more).collect();
         Column { values, ..column }
     };
     Held { columns: held.columns.into_iter().map(column).collect(), ..held }

@@ -1,5 +1,8 @@
 //! Why a table is off, where that is simple.
 
+use std::borrow::Cow;
+use std::collections::BTreeSet;
+
 use super::judge::{Both, Compared, Row};
 use crate::claims::{Course, Term, Wrong, missing_in_numbers};
 use crate::diagnosis::{Diagnosis, Judged, Party, Question, diagnose};
@@ -35,6 +38,9 @@ const TRIED: usize = 12;
 /// Number of instants that terms are tried on at first.
 const FEW: usize = 24;
 
+/// Number of instants that causes are sought on, besides those that tell most.
+const MOST: usize = 2000;
+
 /// Share of a channel's scale from which on a difference is a mistake, and not the error of a method.
 pub const GROSS: f64 = 0.02;
 
@@ -46,7 +52,7 @@ pub(super) fn explained(
     channels: &[Compared],
     is_first: bool,
 ) -> Result<Vec<Explained>> {
-    let is_wrong = |own: &&Compared| own.since.is_some() && matches!(own.claim.tree.shape, Shape::Name(_));
+    let is_wrong = |own: &&Compared| own.since.is_some() && own.is_plain();
     let wrong: Vec<&Compared> = channels.iter().filter(is_wrong).collect();
     let Some(stage) = Stage::of(scenario, both, channels, is_first)? else { return Ok(Vec::new()) };
     if let Some(all) = stage.examined(&wrong, &LEFT[..1]).filter(|all| all.of.len() == wrong.len()) {
@@ -75,6 +81,11 @@ pub(super) fn explained(
 }
 
 impl Compared {
+    /// Whether it is a channel with numbers on both sides.
+    fn is_plain(&self) -> bool {
+        matches!(self.claim.tree.shape, Shape::Name(_)) && self.largest.is_some()
+    }
+
     /// Whether it is off by so much that no method's error explains it.
     #[must_use]
     pub fn is_gross(&self) -> bool {
@@ -94,14 +105,21 @@ struct Stage {
 impl Stage {
     fn of(scenario: &Scenario, both: &Both, channels: &[Compared], is_first: bool) -> Result<Option<Stage>> {
         let other = both.parties[usize::from(is_first)];
-        let plain = channels.iter().filter(|own| matches!(own.claim.tree.shape, Shape::Name(_)) && own.judged > 0);
-        let plain: Vec<(&Compared, Vec<formula::Rounded>)> = plain
+        let plain = channels.iter().filter(|own| own.is_plain());
+        let plain: Vec<(&Compared, Cow<[formula::Rounded]>)> = plain
             .filter(|own| !own.claim.channels[0].1.magnitude)
             .filter_map(|own| Some((own, other.values_of(&own.claim)?)))
             .collect();
         let has_all = |row: &usize| plain.iter().all(|(_, values)| values[*row].value.is_finite());
         let mut rows: Vec<usize> = both.at.ascending().into_iter().filter(has_all).collect();
         rows.dedup_by(|a, b| both.places[0][*a] == both.places[0][*b]);
+        let telling = |own: &Compared| [own.since, own.worst, own.largest].map(|at| at.map(|at| at.row));
+        let kept: BTreeSet<usize> = channels.iter().flat_map(telling).flatten().collect();
+        let (mut place, step) = (0, rows.len().div_ceil(MOST));
+        rows.retain(|row| {
+            place += 1;
+            place % step == 0 || kept.contains(row)
+        });
         if rows.len() < 4 || plain.is_empty() {
             return Ok(None);
         }

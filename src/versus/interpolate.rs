@@ -1,5 +1,6 @@
 //! Values between the rows of a table, with what interpolating them may be wrong by.
 
+use columns::MISSING;
 use formula::Rounded;
 use linkage::math::KeepNan;
 
@@ -42,7 +43,7 @@ impl Course {
     pub(super) fn value(&self, wanted: f64) -> Rounded {
         let next = self.at.partition_point(|&at| at < wanted);
         if next == 0 || next == self.at.len() || self.at.len() < FEWEST {
-            return Rounded::exact(f64::NAN);
+            return MISSING;
         }
         let first = next.saturating_sub(2).min(self.at.len() - 4);
         let rows = first..first + 4;

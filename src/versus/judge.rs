@@ -1,31 +1,17 @@
 //! Channel by channel: differences, bounds, verdicts.
 
 use super::allowed::How;
-use crate::compare::{Verdict, scales};
+use crate::compare::Verdict;
 use crate::scenario::Claim;
 use crate::tables::{At, Held};
+use columns::{Beside, Judged, judge};
 use formula::{Rounded, Shape};
-use linkage::error::{Advice, Result};
+use linkage::error::Advice;
 use linkage::math::statistics::half_range;
 use linkage::math::{KeepNan, largest_size};
-use linkage::trajectory::Trajectory;
+use linkage::trajectory::Unit;
 
-/// One row of a channel.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Row {
-    /// Its number in the party that gives the instants.
-    pub row: usize,
-    /// Time (s); NaN where none is known.
-    pub time: f64,
-    /// Crank angle (rad, as the scenario states it); NaN where none is known.
-    pub crank: f64,
-    /// What the first and the second party say, in the unit of the claim.
-    pub values: [f64; 2],
-    /// Second less first; for angles without whole turns.
-    pub difference: f64,
-    /// How far they may be apart.
-    pub bound: f64,
-}
+pub use columns::Row;
 
 /// A channel, or an arithmetic of channels, of both parties.
 #[derive(Clone, Debug)]
@@ -34,9 +20,10 @@ pub struct Compared {
     pub claim: Claim,
     /// Number of instants compared.
     pub judged: usize,
-    /// Number of instants at which one of the two has no number.
+    /// Number of instants at which nothing was measured, or nothing is defined.
     pub missing: usize,
-    /// Half the range over the run, at least a thousandth of what is natural for its quantity; in the claim's unit.
+    /// Half the range over the whole run of the scenario, at least a thousandth of what is natural for its quantity; in
+    /// the claim's unit. The same whatever else is compared.
     pub scale: f64,
     /// Root of the mean square of the differences.
     pub rms: f64,
@@ -52,12 +39,11 @@ pub struct Compared {
     pub verdict: Verdict,
 }
 
-impl Row {
-    /// Share of the bound that is used.
+impl Compared {
+    /// Whether it is off because a number is expected and none stands there.
     #[must_use]
-    pub fn used(&self) -> f64 {
-        let used = if self.difference == 0.0 { 0.0 } else { self.difference.abs() / self.bound };
-        if used.is_nan() { f64::INFINITY } else { used }
+    pub fn has_no_number(&self) -> bool {
+        self.since.is_some_and(|at| at.difference.is_nan())
     }
 }
 
@@ -67,96 +53,68 @@ pub(super) struct Both<'a> {
     pub at: &'a At,
     /// Times and crank angles of rows as far as somebody knows them.
     pub places: [Vec<f64>; 2],
+    /// What the digits of the instants leave open, claim by claim and row by row; an empty column for nothing.
+    pub drift: Vec<Vec<f64>>,
     pub how: &'a How,
 }
 
-/// Share of its scale beyond which what interpolation and instants leave open proves nothing.
+/// Share of its scale beyond which what digits, interpolation and instants leave open proves nothing.
 const TELLING: f64 = 1e-2;
 
 impl Both<'_> {
     /// All claims that both parties have.
-    pub(super) fn judged(&self, claims: &[Claim]) -> Result<Vec<Compared>> {
-        let known: Vec<(&Claim, [Vec<Rounded>; 2])> = claims
-            .iter()
-            .filter_map(|claim| {
-                let [one, other] = self.parties;
-                Some((claim, [one.values_of(claim)?, other.values_of(claim)?]))
-            })
-            .collect();
-        let scales = self.scales(&known)?;
-        Ok(known.into_iter().zip(scales).map(|((claim, values), scale)| self.channel(claim, &values, scale)).collect())
+    pub(super) fn judged(&self, claims: &[Claim]) -> Vec<Compared> {
+        let [one, other] = self.parties;
+        let of = |(index, claim): (usize, &Claim)| {
+            let values = [one.values_of(claim)?, other.values_of(claim)?];
+            Some(self.channel(claim, index, [&values[0], &values[1]]))
+        };
+        claims.iter().enumerate().filter_map(of).collect()
     }
 
-    /// The scale of every channel as in a proof; that of an arithmetic is half its range, or a tenth of its size.
-    fn scales(&self, known: &[(&Claim, [Vec<Rounded>; 2])]) -> Result<Vec<f64>> {
-        let party = usize::from(!self.parties[0].is_analytic && self.parties[1].is_analytic);
-        let rows: Vec<usize> = (0..self.at.values.len())
-            .filter(|&row| known.iter().all(|(_, own)| own[party][row].value.is_finite()))
-            .collect();
-        let numbers = |values: &[Rounded]| -> Vec<f64> { rows.iter().map(|&row| values[row].value).collect() };
-        let own = |values: &[f64]| half_range(values).larger(0.1 * largest_size(values));
-        let (mut channels, mut columns) = (Vec::new(), Vec::new());
-        for (claim, values) in known {
-            if matches!(claim.tree.shape, Shape::Name(_)) {
-                let channel = &claim.channels[0].1;
-                channels.push(channel.channel.clone());
-                columns.push(numbers(&values[party]).iter().map(|&value| channel.to_si(value)).collect::<Vec<f64>>());
-            }
-        }
-        let place = |of: usize| -> Vec<f64> {
-            rows.iter().map(|&row| self.places[of][row]).map(|at| if at.is_finite() { at } else { 0.0 }).collect()
-        };
-        let mut of_channels = scales(&Trajectory::new(place(0), place(1), channels, columns)?).into_iter();
-        let of = |(claim, values): &(&Claim, [Vec<Rounded>; 2])| match &claim.tree.shape {
-            Shape::Name(_) => of_channels.next().unwrap_or(0.0) / claim.channels[0].1.to_si(1.0),
-            Shape::Number(_) | Shape::Negative(_) | Shape::Pair(..) | Shape::Call(..) => own(&numbers(&values[party])),
-        };
-        Ok(known.iter().map(of).collect())
+    /// The party that is measured by, and whether it is analytic.
+    fn measure(&self) -> (usize, bool) {
+        let [one, other] = self.parties.map(|party| party.is_analytic);
+        (usize::from(!one && other), one || other)
     }
 
-    fn channel(&self, claim: &Claim, values: &[Vec<Rounded>; 2], scale: f64) -> Compared {
-        let turn = claim.turn();
+    /// The scale of a channel: as a complete trajectory gives it, whatever else is compared. Of tables, and of an
+    /// arithmetic, by the numbers of its own alone: half their range, and at least a tenth of the largest, or of a
+    /// coordinate a thousandth.
+    fn scale(&self, claim: &Claim, values: &[Rounded]) -> f64 {
+        let measure = self.measure().0;
+        let complete = [measure, 1 - measure].into_iter().find_map(|party| self.parties[party].scale_of(claim));
+        complete.unwrap_or_else(|| {
+            let numbers: Vec<f64> = values.iter().map(|own| own.value).filter(|value| value.is_finite()).collect();
+            let is_coordinate = matches!(claim.tree.shape, Shape::Name(_))
+                && matches!(claim.channels[0].1.channel.kind.unit, Unit::Radian | Unit::Metre);
+            let share = match (numbers.len(), is_coordinate) {
+                // One instant has no range.
+                (1, _) => 1.0,
+                (_, true) => 1e-3,
+                (_, false) => 0.1,
+            };
+            half_range(&numbers).larger(share * largest_size(&numbers))
+        })
+    }
+
+    fn channel(&self, claim: &Claim, index: usize, values: [&[Rounded]; 2]) -> Compared {
+        let measure = self.measure();
+        let scale = self.scale(claim, values[measure.0]);
         let allowed = self.how.allows(claim, scale);
-        let drift = self.drift(&values[0], turn);
-        let mut own = Compared {
-            claim: claim.clone(),
-            judged: 0,
-            missing: 0,
-            scale,
-            rms: 0.0,
-            largest: None,
-            worst: None,
-            since: None,
-            is_derived: allowed.is_none(),
-            verdict: Verdict::open("nothing was compared"),
-        };
-        let (mut squares, mut widest) = (0.0, 0.0f64);
-        for (row, (&one, &other)) in values[0].iter().zip(&values[1]).enumerate() {
-            if one.value.is_nan() || other.value.is_nan() {
-                own.missing += 1;
-                continue;
-            }
-            let gap = other.value - one.value;
-            let difference = turn.map_or(gap, |turn| gap - turn * (gap / turn).round());
-            let known = one.error + other.error + drift[row];
-            widest = widest.larger(known);
-            let bound = known + allowed.unwrap_or(0.0);
-            let [time, crank] = [0, 1].map(|of: usize| self.places[of][row]);
-            let at = Row { row, time, crank, values: [one.value, other.value], difference, bound };
-            own.judged += 1;
-            squares += difference * difference;
-            if own.largest.is_none_or(|largest| difference.abs() > largest.difference.abs()) {
-                own.largest = Some(at);
-            }
-            if own.worst.is_none_or(|worst| at.used() > worst.used()) {
-                own.worst = Some(at);
-            }
-            let is_earlier = |since: Row| if time.is_nan() { crank < since.crank } else { time < since.time };
-            if !(at.used() <= 1.0) && own.since.is_none_or(is_earlier) {
-                own.since = Some(at);
-            }
-        }
-        own.rms = (squares / own.judged.max(1) as f64).sqrt();
+        let found = judge(&Beside {
+            values,
+            places: [&self.places[0], &self.places[1]],
+            drift: self.drift.get(index).map_or(&[], Vec::as_slice),
+            turn: claim.turn(),
+            allowance: allowed.unwrap_or_default(),
+            measure,
+        });
+        let Judged { judged, missing, rms, widest, largest, worst, since } = found;
+        let is_derived = allowed.is_none();
+        let verdict = Verdict::open("nothing was compared");
+        let mut own =
+            Compared { claim: claim.clone(), judged, missing, scale, rms, largest, worst, since, is_derived, verdict };
         own.verdict = self.verdict(&own, widest);
         own
     }
@@ -165,20 +123,20 @@ impl Both<'_> {
         let Some(worst) = own.worst else {
             return Verdict::open("at no instant do both have a number");
         };
-        let is_known = self.parties.iter().any(|party| party.is_analytic);
+        let is_known = self.measure().1;
         let open = |reason: String, advice: &str| Verdict::Inconclusive {
             reason,
             advice: vec![Advice::Text(advice.to_string())],
         };
+        let largest = own.largest.map_or(0.0, |largest| largest.difference.abs());
         match own.since {
-            Some(_) if own.is_derived && !is_known => open(
-                format!("they differ by up to {:.3e}, and neither is analytic, so that no bound is known", {
-                    own.largest.map_or(0.0, |largest| largest.difference.abs())
-                }),
+            Some(_) if own.is_derived && !is_known && !own.has_no_number() => open(
+                format!("they differ by up to {largest:.3e}, and neither is analytic, so that no bound is known"),
                 "say what difference is allowed",
             ),
             Some(since) => Verdict::Disagree { place: place(&since) },
-            None if widest > TELLING * own.scale && own.is_derived => open(
+            // Numbers that are as near as that prove it, whatever their digits leave open.
+            None if own.is_derived && widest > TELLING * own.scale && largest > TELLING * own.scale => open(
                 format!(
                     "the numbers are known to {:.1e} of their scale only: digits, instants or interpolation",
                     widest / own.scale
@@ -188,34 +146,20 @@ impl Both<'_> {
             None => Verdict::Agree { margin: 1.0 / worst.used() },
         }
     }
-
-    /// What the digits of the instants leave open: as much as the values change meanwhile.
-    fn drift(&self, values: &[Rounded], turn: Option<f64>) -> Vec<f64> {
-        let at = &self.at.values;
-        let mut drift = vec![0.0; values.len()];
-        if at.iter().all(|at| at.error == 0.0) {
-            return drift;
-        }
-        for pair in self.at.ascending().windows(2) {
-            let gap = values[pair[1]].value - values[pair[0]].value;
-            let gap = turn.map_or(gap, |turn| gap - turn * (gap / turn).round());
-            let span = at[pair[1]].value - at[pair[0]].value;
-            let slope = if span > 0.0 { (gap / span).abs() } else { 0.0 };
-            for &row in pair {
-                drift[row] = drift[row].larger(slope * at[row].error);
-            }
-        }
-        drift
-    }
 }
 
 /// Where, and what stands there.
-fn place(at: &Row) -> String {
+pub(super) fn place(at: &Row) -> String {
     let Row { time, crank, values: [one, other], .. } = at;
     let when = match (time.is_nan(), crank.is_nan()) {
         (false, false) => format!("t = {time:.6} s, crank angle {:.3} deg", crank.to_degrees()),
         (false, true) => format!("t = {time:.6} s"),
         (true, _) => format!("crank angle {:.3} deg", crank.to_degrees()),
     };
-    format!("first at {when}: {one:.9e} against {other:.9e}")
+    let told = |value: &f64| if value.is_nan() { "no number".into() } else { format!("{value:.9e}") };
+    let way_out = match at.difference.is_nan() {
+        true => "; leave a cell empty where nothing was measured",
+        false => "",
+    };
+    format!("first at {when}: {} against {}{way_out}", told(one), told(other))
 }

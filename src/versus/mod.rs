@@ -7,9 +7,12 @@ mod align;
 mod allowed;
 mod analytic_party;
 mod cause;
+mod crank;
+mod instants;
 mod interpolate;
 mod judge;
 mod pair;
+mod scale;
 
 pub use allowed::How;
 pub use cause::Explained;
@@ -19,8 +22,8 @@ pub use pair::Pair;
 use std::path::Path;
 
 use self::pair::Side;
+use self::scale::Scales;
 use crate::compare::{Verdict, overall};
-use crate::proof::solved::known_at_least;
 use crate::scenario::Scenario;
 use crate::scenario::words::choice;
 use crate::tables::Held;
@@ -94,8 +97,11 @@ fn asked(all: Vec<(String, Trajectory)>, how: &How) -> Result<Vec<Side>> {
     let is_asked = |name: &str| how.side.as_deref().is_none_or(|side| side == name);
     let held = |(name, own): (String, Trajectory)| {
         let mut held = Held::of_trajectory(&own, name == REFERENCE);
+        let scales = Scales::of_trajectory(&own);
+        held.columns.iter_mut().for_each(|column| column.scale = scales.of_claim(&column.claim));
         if held.is_analytic {
-            for (column, known) in held.columns.iter_mut().zip(known_at_least(&own)) {
+            for column in &mut held.columns {
+                let known = scales.known(&column.claim.channels[0].1.channel);
                 column.values.iter_mut().for_each(|value| value.error += known);
             }
         }

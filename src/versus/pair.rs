@@ -1,6 +1,7 @@
 //! What is known of two sides after they were compared.
 
 use super::cause::Explained;
+use super::crank;
 use super::judge::Compared;
 use crate::compare::{Check, Verdict, overall};
 use crate::tables::Held;
@@ -14,7 +15,7 @@ pub struct Pair {
     pub names: [String; 2],
     /// Channel by channel, in the order of the second party.
     pub channels: Vec<Compared>,
-    /// Checks of the analytic sides on each other, where a scenario was solved.
+    /// Checks of the analytic sides on each other, where a scenario was solved, and of the crank angle, where both have it.
     pub checks: Vec<Check>,
     /// Number of instants of the party that gives them.
     pub instants: usize,
@@ -31,6 +32,20 @@ pub struct Pair {
 }
 
 impl Pair {
+    /// Number of values compared, and of those that there would be if none was missing.
+    #[must_use]
+    pub fn values(&self) -> [usize; 2] {
+        let judged = self.channels.iter().map(|own| own.judged).sum();
+        [judged, self.channels.len() * (self.instants - self.unshared)]
+    }
+
+    /// Whether the crank angles that both carry disagree.
+    #[must_use]
+    pub fn crank_is_off(&self) -> bool {
+        let is_off = |check: &Check| check.family == crank::NAME && matches!(check.verdict, Verdict::Disagree { .. });
+        self.checks.iter().any(is_off)
+    }
+
     /// The verdict on all channels, and on the analytic sides that solved them.
     #[must_use]
     pub fn verdict(&self) -> Verdict {

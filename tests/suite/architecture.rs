@@ -14,6 +14,7 @@ use graph::Graph;
 const CRATES: &[(&str, &str, &str, &str)] = &[
     ("linkage", "crates/linkage", "", "nalgebra petgraph"),
     ("analytic", "crates/analytic", "linkage", "differential-equations num-integer pulp wide"),
+    ("columns", "crates/columns", "formula linkage", ""),
     ("drawing", "crates/drawing", "linkage", "gif image-webp svg tiny-skia ttf-parser"),
     ("formula", "crates/formula", "", "winnow"),
     ("precise", "crates/precise", "linkage", "qd"),
@@ -24,7 +25,7 @@ const CRATES: &[(&str, &str, &str, &str)] = &[
     (
         "linkproof",
         "",
-        "analytic drawing formula linkage precise rapier-twin simbody-twin workshop",
+        "analytic columns drawing formula linkage precise rapier-twin simbody-twin workshop",
         "annotate-snippets anstream anstyle base64 chacha20 clap clap_complete clap_mangen comfy-table csv ctrlc foxglove include_dir indicatif libtest-mimic mcap parquet plotters prost prost-types quick-junit serde serde_json strsim tempfile terminal_size textwrap toml toml_edit tungstenite",
     ),
 ];
@@ -84,7 +85,7 @@ const ROOMS: &[(&str, &str)] = &[
     ("linkproof::testing", "compare proof report scenario"),
     ("linkproof::tolerance", ""),
     ("linkproof::tune", "compare numbers proof scenario"),
-    ("linkproof::versus", "claims compare diagnosis proof scenario tables"),
+    ("linkproof::versus", "claims compare diagnosis proof scenario tables tolerance"),
 ];
 
 /// Parts of other crates that rooms of the harness must not name, even where Cargo would allow it.

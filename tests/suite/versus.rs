@@ -1,5 +1,6 @@
 //! Tables, recordings and scenarios held against each other: what is right agrees, what is wrong is found and named.
 
+mod digits;
 mod files;
 mod foreign;
 mod mistakes;

@@ -49,7 +49,7 @@ fn two_recordings_are_compared_side_by_side() {
 fn parquet_files_of_pandas_and_polars_are_read() {
     let place = place();
     let told = place.ok("compare scenarios/crank_rocker.toml pandas.parquet -v");
-    assert!(told.starts_with("AGREE: all 3 channels at 31 times") && told.contains("without a number"), "{told}");
+    assert!(told.starts_with("AGREE: all 3 channels at 31 times") && told.contains("nothing was measured"), "{told}");
     // Single precision is known by its digits.
     place.ok("compare scenarios/crank_rocker.toml polars_f32.parquet");
     place.ok("compare pandas.parquet polars_f32.parquet --rel 1e-6");
@@ -107,6 +107,103 @@ fn the_command_says_what_is_wrong() {
     place.refused(&of("some.csv --map-a phi3=link.rocker.angle_rad"), &["--map-a", "no table"]);
     place.refused("compare scenarios/crank_rocker.toml scenarios/pendulum.toml --map a=b", &["neither", "--map"]);
     place.refused("compare scenarios/crank_rocker_runup.toml some.csv --map t=crank_rad --map phi3=link.rocker.angle_rad --by crank", &["free"]);
+}
+
+/// Each as other programs had printed it: nine digits, or times of fifteen beside numbers of nine.
+#[test]
+fn rounded_instants_and_the_digits_of_each_column_are_in_the_bound() {
+    let place = place();
+    let maps = "--map y=link.piston.y_m --map v=link.piston.vy_m_s --map a=link.piston.ay_m_s2";
+    for table in ["piston_9_digits.csv", "piston_times_of_15_digits.csv"] {
+        let told = place.ok(&format!("compare engine.toml {table} {maps}"));
+        assert!(told.starts_with("AGREE: all 3 channels at 73 times, 219 values"), "{told}");
+    }
+}
+
+/// A simulation that has blown up writes NaN: that is no agreement. What nobody measured is left out, and counted.
+#[test]
+fn what_is_no_number_does_not_agree_and_what_is_missing_is_counted() {
+    let place = place();
+    let outcome = place.run("compare scenarios/crank_rocker.toml nan_after_3_rows.csv --rel 1e-6");
+    assert_eq!(outcome.code, 1, "{}", outcome.stdout);
+    let json = place.run("compare scenarios/crank_rocker.toml nan_after_3_rows.csv --json -").json();
+    let since = &json["pairs"][0]["channels"][0];
+    assert!(since["since"]["second"].is_null() && since["reason"].as_str().unwrap().contains("no number"), "{since}");
+    let text = fs::read_to_string(place.path("nan_after_3_rows.csv")).unwrap();
+    for marker in ["", "-", "NULL", "None", "N/A"] {
+        fs::write(place.path("missing.csv"), text.replace("nan", marker).replace("NaN", marker)).unwrap();
+        let told = place.ok("compare scenarios/crank_rocker.toml missing.csv");
+        assert!(told.starts_with("AGREE: all 15 channels at 41 times, 45 of 615 values"), "{marker}: {told}");
+        assert!(told.contains("left out: up to 38 instants"), "{marker}: {told}");
+    }
+    // A mapping computes with what is there only.
+    fs::write(place.path("some.csv"), "t_s,a,b\n0,0,\n0.01,1,60\n").unwrap();
+    let line = "compare scenarios/crank_rocker.toml some.csv --map ln(a-2)+b=link.rocker.angle_deg --rel 100";
+    assert_eq!(place.run(line).code, 1);
+    let told = place.ok("compare scenarios/crank_rocker.toml some.csv --map a+b=link.rocker.angle_deg --rel 100");
+    assert!(told.starts_with("AGREE: all 1 channels at 2 times, 1 of 2 values"), "{told}");
+}
+
+/// Two columns of one name: nobody knows which of them is meant.
+#[test]
+fn a_table_with_two_columns_of_one_name_is_refused_wherever_tables_are_read() {
+    let place = place();
+    let words = ["two_columns_r.csv:1", "columns 2 and 3", "\"r\"", "a name of its own"];
+    place.refused(
+        "compare scenarios/crank_rocker.toml two_columns_r.csv --map phi_deg=crank_deg --map r=point.B.x_m",
+        &words,
+    );
+    let text = fs::read_to_string(place.path("scenarios/crank_rocker.toml")).unwrap();
+    let oracle = "\n[[oracle]]\nsource = \"s\"\nfile = \"../two_columns_r.csv\"\ncrank = \"phi_deg\"\n\
+                  columns = { r = { channel = \"link.rocker.angle_deg\" } }\n";
+    fs::write(place.path("scenarios/twice.toml"), text + oracle).unwrap();
+    place.refused("run scenarios/twice.toml --no-record", &words);
+}
+
+/// The crank angle of a recording, or of a table with both, is compared beside the times.
+#[test]
+fn the_crank_angle_is_compared_where_both_carry_it() {
+    let place = place();
+    place.run("run scenarios/crank_rocker.toml --budget 1e4");
+    place.ok("compare scenarios/crank_rocker.toml recordings/crank_rocker.mcap --side reference");
+    let right = "t_s,crank_deg,link.rocker.angle_rad\n";
+    let table = place.ok("solve scenarios/crank_rocker.toml --with assur");
+    let rows = super::super::cli::tools::Table::of(&table);
+    let [times, angles] = ["t_s", "link.rocker.angle_rad"].map(|name| rows.column(name));
+    let crank = |row: usize| row as f64;
+    let write = |of: &dyn Fn(usize) -> f64| {
+        let line = |row: usize| format!("{},{},{}\n", times[row], of(row), angles[row]);
+        let lines: String = (1..times.len() - 1).map(line).collect();
+        fs::write(place.path("both.csv"), format!("{right}{lines}")).unwrap();
+        place.run("compare scenarios/crank_rocker.toml both.csv")
+    };
+    assert_eq!(write(&crank).code, 0);
+    // A table may count within a turn.
+    assert_eq!(write(&|row| crank(row) - 360.0).code, 0);
+    for wrong in [&(|row| -crank(row)) as &dyn Fn(usize) -> f64, &|row| crank(row + 1), &|row| crank(row - 1)] {
+        let outcome = write(wrong);
+        assert_eq!(outcome.code, 1, "{}", outcome.stdout);
+        let told = outcome.unbroken();
+        assert!(told.starts_with("DISAGREE: the crank angle, and none of 1 channels"), "{told}");
+        assert!(told.contains("crank angle: first at t = "), "{told}");
+        fs::copy(place.path("both.csv"), place.path("wrong.csv")).unwrap();
+        assert_eq!(write(&crank).code, 0);
+        let outcome = place.run("compare both.csv wrong.csv --abs crank=0.5");
+        assert!(outcome.code == 1 && outcome.stdout.contains("the crank angle"), "{}", outcome.stdout);
+        place.ok("compare both.csv wrong.csv --abs crank=0.5 --only link.rocker.angle_rad");
+    }
+}
+
+/// What is compressed otherwise is called by its name, and gzip is read.
+#[test]
+fn compressed_parquet_files_are_read_or_named() {
+    let place = place();
+    for (file, name) in [("brotli.parquet", "Brotli"), ("lz4.parquet", "LZ4")] {
+        if !place.path(file).exists() {
+            continue;
+        }
+        place.refused(&format!("compare scenarios/crank_rocker.toml {file}"), &[file, name, "zstd"]);
+    }
 }
 
 #[test]

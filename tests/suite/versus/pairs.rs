@@ -145,6 +145,65 @@ fn interpolation_has_its_error_in_the_bound() {
     assert_eq!(compared([held(&every(3)), held(&spoiled)], &how).unwrap().verdict.word(), "disagree");
 }
 
+/// The verdict on a number is the same whatever columns stand beside it.
+#[test]
+fn a_number_is_judged_by_its_own_channel_alone() {
+    let scenario = scenario("fourth_class");
+    let alpha = ["link.link_4.alpha_rad_s2", "link.link_2.alpha_rad_s2", "link.link_2.omega_rad_s", "point.B.x_m"];
+    let known: Vec<&str> = alpha.into_iter().filter(|name| solved(&scenario).named(name).is_some()).collect();
+    assert!(known.len() >= 3, "{known:?}");
+    for size in [Size::Relative(0.05), Size::OfValue(0.05)] {
+        let how = How { allowed: vec![Allowed { of: None, size }], ..How::default() };
+        let judged = |names: &[&str]| {
+            let mut columns = vec![("crank_deg", vec![70.0])];
+            columns.extend(names.iter().map(|name| (*name, vec![if *name == alpha[0] { -80.0 } else { 3.0 }])));
+            let found = against(&scenario, &table(&columns), &how);
+            let own = found.pairs[0].channels[0].clone();
+            (own.scale, own.worst.unwrap().bound, own.verdict.word())
+        };
+        let alone = judged(&known[..1]);
+        for count in 2..=known.len() {
+            assert_eq!(judged(&known[..count]), alone, "{:?}", &known[..count]);
+        }
+        // -48.44 is off by more than 5 % of itself, and by less than 5 % of what the link goes through.
+        assert_eq!(alone.2, if size == Size::OfValue(0.05) { "disagree" } else { "agree" });
+    }
+}
+
+/// What a side knows of a channel that is zero but for rounding is known from the others, also where it is alone.
+#[test]
+fn a_zero_that_is_rounding_agrees_alone_as_beside_the_others() {
+    let scenario = scenario("compressor");
+    let right = solved(&scenario);
+    let name = "point.B.ax_m_s2";
+    let rounded: Vec<f64> = right.named(name).unwrap().iter().map(|value| 2.0 * value + 1e-15).collect();
+    assert!(rounded.iter().all(|value| value.abs() < 1e-12));
+    for columns in [vec![], vec![("point.B.ay_m_s2", right.named("point.B.ay_m_s2").unwrap().to_vec())]] {
+        let mut all = vec![("t", right.times().to_vec()), (name, rounded.clone())];
+        all.extend(columns);
+        assert_eq!(against(&scenario, &table(&all), &How::default()).verdict.word(), "agree");
+    }
+}
+
+/// One table in m and one in mm: the same, unless a number is meant otherwise.
+#[test]
+fn two_tables_in_different_units_are_compared_in_one() {
+    let right = solved(&scenario("crank_rocker"));
+    let x = |factor: f64| right.named("point.B.x_m").unwrap().iter().map(|value| factor * value).collect::<Vec<f64>>();
+    let of = |name: &'static str, factor: f64| held(&table(&[("t", right.times().to_vec()), (name, x(factor))]));
+    let verdict = |one, other| compared([one, other], &rel(1e-9)).unwrap().verdict.word();
+    assert_eq!(verdict(of("point.B.x_m", 1.0), of("point.B.x_mm", 1e3)), "agree");
+    assert_eq!(verdict(of("point.B.x_mm", 1e3), of("point.B.x_m", 1.0)), "agree");
+    assert_eq!(verdict(of("point.B.x_m", 1.0), of("point.B.x_mm", 1.0)), "disagree");
+    assert_eq!(verdict(of("point.B.x_m", 1e3), of("point.B.x_mm", 1e3)), "disagree");
+    // Times too.
+    let ms = right.times().iter().map(|time| 1e3 * time).collect::<Vec<f64>>();
+    let late = |name| held(&table(&[(name, ms.clone()), ("point.B.x_m", x(1.0))]));
+    assert_eq!(verdict(of("point.B.x_m", 1.0), late("time_ms")), "agree");
+    let both = [of("point.B.x_m", 1.0), late("time_s")];
+    assert!(compared(both, &rel(1e-9)).map_or(true, |found| found.verdict.word() != "agree"));
+}
+
 #[test]
 fn two_models_of_one_mechanism_are_compared() {
     let one = scenario("crank_rocker");

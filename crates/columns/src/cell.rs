@@ -1,0 +1,232 @@
+//! What the digits of a column say: how far its numbers may be from those that were printed.
+
+use crate::instants::chosen;
+use formula::Rounded;
+use linkage::math::KeepNan;
+
+/// A cell as it was read.
+#[derive(Clone, Copy, Debug)]
+pub struct Cell {
+    /// The number; NaN where there is none.
+    value: f64,
+    /// Decimals printed, less the exponent.
+    decimals: i32,
+    /// Digits from the first that is not zero.
+    significant: u16,
+    /// Those of a whole number without the zeros at its end, which may stand for digits that were rounded off.
+    telling: u16,
+    is_missing: bool,
+}
+
+/// A decimal number as it is printed.
+#[derive(Clone, Copy, Debug)]
+pub struct Decimal {
+    /// The number.
+    pub value: f64,
+    /// Decimals printed, less the exponent.
+    pub decimals: i32,
+    significant: u16,
+    telling: u16,
+}
+
+impl Decimal {
+    /// Reads a number with a point and an exponent, or without; any other text is refused.
+    #[must_use]
+    pub fn parse(text: &str) -> Option<Decimal> {
+        let (mut decimals, mut significant, mut telling, mut point, mut exponent) = (0i32, 0u16, 0u16, false, 0i32);
+        for (at, byte) in text.bytes().enumerate() {
+            match byte {
+                b'0'..=b'9' => {
+                    significant = significant.saturating_add(u16::from(significant > 0 || byte != b'0'));
+                    decimals = decimals.saturating_add(i32::from(point));
+                    telling = if byte != b'0' || point { significant } else { telling };
+                }
+                b'.' if !point => point = true,
+                b'+' | b'-' if at == 0 => {}
+                b'e' | b'E' => {
+                    exponent = text[at + 1..].parse().ok()?;
+                    telling = significant;
+                    break;
+                }
+                _ => return None,
+            }
+        }
+        let value: f64 = text.parse().ok().filter(|value: &f64| value.is_finite())?;
+        Some(Decimal { value, decimals: decimals.checked_sub(exponent)?, significant, telling })
+    }
+}
+
+/// No number stands in a cell, and none is claimed: nothing was measured.
+pub const MISSING: Rounded = Rounded::exact(f64::NAN);
+
+/// A program wrote that its number is none.
+pub const UNDEFINED: Rounded = Rounded { value: f64::NAN, error: f64::INFINITY };
+
+/// Words for a cell in which nothing stands.
+const EMPTY: [&str; 6] = ["-", "na", "n/a", "<na>", "null", "none"];
+
+/// Words for a number that is none, after the sign.
+const NO_NUMBER: [&str; 6] = ["nan", "nan(ind)", "inf", "infinity", "1.#ind", "1.#qnan"];
+
+/// Whether nothing was measured there. A NaN that a program computed is no such cell.
+#[must_use]
+pub fn is_missing(number: &Rounded) -> bool {
+    number.value.is_nan() && number.error == 0.0
+}
+
+impl Cell {
+    /// Reads a cell; `None` if it is neither a number nor a word for a missing one.
+    #[must_use]
+    pub fn parse(text: &str) -> Option<Cell> {
+        let Some(decimal) = Decimal::parse(text) else { return Cell::word(text) };
+        // Python ends whole numbers with a point and a zero, whatever digits they have.
+        Some(Cell::of(text.strip_suffix(".0").and_then(Decimal::parse).unwrap_or(decimal)))
+    }
+
+    fn of(Decimal { value, decimals, significant, telling }: Decimal) -> Cell {
+        Cell { value, decimals, significant, telling, is_missing: false }
+    }
+
+    fn word(text: &str) -> Option<Cell> {
+        let is = |words: &[&str], text: &str| words.iter().any(|word| text.eq_ignore_ascii_case(word));
+        let no_number =
+            |is_missing| Some(Cell { value: f64::NAN, decimals: 0, significant: 0, telling: 0, is_missing });
+        if text.is_empty() || is(&EMPTY, text) {
+            return no_number(true);
+        }
+        let size = text.strip_prefix(['+', '-']).unwrap_or(text);
+        if is(&NO_NUMBER, size) { no_number(false) } else { None }
+    }
+
+    /// Power of ten of its first digit that is not zero.
+    fn first_place(&self) -> i32 {
+        i32::from(self.significant) - 1 - self.decimals
+    }
+}
+
+/// The numbers of a column, each with what its digits leave open.
+///
+/// A column is printed with so many decimals or with so many significant digits, and programs leave out zeros at the
+/// end. Its longest cell shows how many there are. Both are tried, and the larger half unit counts: it is that of the
+/// format in which the column was printed, because with decimals the largest number has most significant digits, and
+/// with significant digits the smallest has most decimals. Where several whole numbers have more digits than any other
+/// cell only by zeros at their end, these stand for what was rounded off, unless all numbers are steps that were chosen.
+/// Numbers in single precision, which are printed with up to nine digits, hold less than these.
+#[must_use]
+pub fn numbers(cells: &[Cell]) -> Vec<Rounded> {
+    let shown = || cells.iter().filter(|cell| !cell.value.is_nan());
+    let decimals = shown().map(|cell| cell.decimals).max().unwrap_or(0);
+    let [all, telling] = [|cell: &Cell| cell.significant, |cell: &Cell| cell.telling]
+        .map(|of| i32::from(shown().map(of).max().unwrap_or(0)));
+    let binary = if are_single(cells) { 0.5 * f64::from(f32::EPSILON) } else { f64::EPSILON };
+    let with = |significant: i32| -> Vec<Rounded> {
+        let of = |cell: &Cell| {
+            if cell.value.is_nan() {
+                return if cell.is_missing { MISSING } else { UNDEFINED };
+            }
+            let place = match cell.significant {
+                0 => -decimals,
+                _ => (-decimals).max(cell.first_place() + 1 - significant),
+            };
+            // The decimal is rounded once more to binary; the excess covers only that rounding.
+            let half = 0.5 * 10f64.powi(place) * (1.0 + 1e-9);
+            Rounded { value: cell.value, error: half.larger(binary * cell.value.abs()) }
+        };
+        cells.iter().map(of).collect()
+    };
+    let found = with(all);
+    let are_rounded = shown().filter(|cell| i32::from(cell.significant) > telling).count() >= FEW;
+    if are_rounded && !chosen(&found, false) { with(telling) } else { found }
+}
+
+/// Whole numbers that end with zeros by chance: one of ten does, and so many do hardly ever.
+const FEW: usize = 2;
+
+/// Cells with so many digits that single precision may be behind them, and of which each must be the shortest text of
+/// a number in single precision: one of some eight decimals with eight digits is, by chance.
+const TELLING: usize = 8;
+
+/// Whether a column holds numbers in single precision, each with as many digits as tell it from its neighbours.
+fn are_single(cells: &[Cell]) -> bool {
+    let shown = || cells.iter().filter(|cell| !cell.value.is_nan());
+    if shown().any(|cell| cell.significant > 9) || shown().filter(|cell| cell.significant >= 8).count() < TELLING {
+        return false;
+    }
+    shown().all(|cell| {
+        let single = cell.value as f32;
+        single.to_string().parse::<f64>() == Ok(cell.value)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn errors(cells: &[&str]) -> Vec<f64> {
+        let cells: Vec<Cell> = cells.iter().map(|text| Cell::parse(text).unwrap()).collect();
+        numbers(&cells).iter().map(|number| number.error).collect()
+    }
+
+    #[test]
+    fn a_number_has_the_digits_of_its_column() {
+        for (cells, halves) in [
+            (["1", "1.25"], [0.005, 0.005]),
+            ([".5", "2."], [0.05, 0.05]),
+            // With %g and an exponent: so many significant digits.
+            (["1e3", "1.25e3"], [5.0, 5.0]),
+            (["0.000277777778", "0.0155555556"], [5e-13, 5e-11]),
+            (["1.00001e-05", "123"], [5e-11, 5e-4]),
+            // With %.3f.
+            (["1000.123", "0.001"], [5e-4, 5e-4]),
+            (["0.0", "1"], [0.5, 0.5]),
+            (["0.00", "1"], [0.005, 0.005]),
+        ] {
+            for (error, half) in errors(&cells).iter().zip(halves) {
+                approx::assert_relative_eq!(*error, half, max_relative = 1e-6);
+            }
+        }
+        // With three digits, as Python prints what it has rounded, and as others do.
+        for cells in [["-2450.0", "1260.0", "301.0", "0.354"], ["2450", "1260", "301", "0.354"]] {
+            for (error, half) in errors(&cells).iter().zip([5.0, 5.0, 0.5, 0.0005]) {
+                approx::assert_relative_eq!(*error, half, max_relative = 1e-6);
+            }
+        }
+        // As many digits as a double has.
+        assert_eq!(errors(&["7.958865576007463e-300"]), [7.958865576007463e-300 * f64::EPSILON]);
+        assert_eq!(errors(&["", "-"]), [0.0, 0.0]);
+    }
+
+    #[test]
+    fn what_is_no_number_is_none() {
+        for wrong in ["1,5", "x", "1.2.3", "0x10", "12 mm", "--1", "1e", ".", "+", "nano", "1e1.5"] {
+            assert!(Cell::parse(wrong).is_none(), "{wrong}");
+        }
+        let of = |text: &str| numbers(&[Cell::parse(text).unwrap()])[0];
+        for missing in ["", "-", "NULL", "None", "NA", "n/a", "<NA>"] {
+            assert!(is_missing(&of(missing)), "{missing}");
+        }
+        for none in ["nan", "-NaN", "inf", "-Infinity", "-1.#IND", "1e999"] {
+            let Some(found) = Cell::parse(none) else {
+                assert_eq!(none, "1e999");
+                continue;
+            };
+            let found = numbers(&[found])[0];
+            assert!(found.value.is_nan() && !is_missing(&found), "{none}");
+        }
+    }
+
+    #[test]
+    fn single_precision_has_fewer_digits_than_it_is_printed_with() {
+        let printed: Vec<String> = (1..40).map(|row| (0.1f32 + (row as f32).sqrt()).to_string()).collect();
+        let texts: Vec<&str> = printed.iter().map(String::as_str).collect();
+        for (row, error) in errors(&texts).into_iter().enumerate() {
+            let exact = 0.1 + ((row + 1) as f64).sqrt();
+            let value: f64 = texts[row].parse().unwrap();
+            assert!(error > 5.9e-8 * value && (value - exact).abs() < 3.0 * error, "{row}: {value} {error}");
+        }
+        // Doubles with eight digits are none.
+        let printed: Vec<String> = (1..40).map(|row| format!("{:.7}", f64::from(row).sqrt())).collect();
+        let texts: Vec<&str> = printed.iter().map(String::as_str).collect();
+        assert!(errors(&texts).iter().all(|error| *error < 6e-8));
+    }
+}

@@ -1,0 +1,95 @@
+//! What rounded instants leave open.
+
+use formula::Rounded;
+use linkage::math::KeepNan;
+
+/// A step that was not chosen shows as the same over n steps in two of n cases, and with so many zeros behind its last
+/// digit in one of ten for each. Instants are taken as exact where such a chance is one of so many or less.
+const EVIDENCE: f64 = 50.0;
+
+/// Whether instants were chosen as they are printed, and not rounded: whole multiples of one step, which are so many,
+/// or of a step so round, that no other step would look like that. Whole degrees at equal steps always are.
+#[must_use]
+pub fn chosen(values: &[Rounded], are_degrees: bool) -> bool {
+    let Some(first) = values.first() else { return false };
+    let size = values.iter().map(|at| at.value.abs()).fold(0.0, f64::larger);
+    let step = values.get(1).map_or(first.value, |second| second.value - first.value);
+    let is_multiple = |value: f64, of: f64| (value / of - (value / of).round()).abs() <= 1e-6 * (value / of).abs();
+    let is_step = |pair: &[Rounded]| (pair[1].value - pair[0].value - step).abs() <= 8.0 * f64::EPSILON * size;
+    let is_first_one = first.value == 0.0 || is_multiple(first.value, step);
+    if !is_first_one || !values.windows(2).all(is_step) {
+        return false;
+    }
+    if are_degrees && values.iter().all(|at| at.value.fract() == 0.0) {
+        return true;
+    }
+    let unit = 2.0 * values.iter().map(|at| at.error).fold(0.0, f64::larger);
+    let mut round = (step / unit).abs().round();
+    if !is_multiple(step, unit) || !(round < 1e15) {
+        return false;
+    }
+    let mut evidence = (values.len() - 1) as f64;
+    if evidence < 1.0 {
+        evidence = 1.0;
+    }
+    for prime in [2.0, 5.0] {
+        while evidence < EVIDENCE && round % prime == 0.0 {
+            (evidence, round) = (evidence * prime, round / prime);
+        }
+    }
+    evidence >= EVIDENCE
+}
+
+/// Near an inflection a course is steeper than both secants: with eight rows in a period by a ninth.
+const STEEPER: f64 = 1.2;
+
+/// What the digits of instants leave open in a column, by its own course: the steeper of both secants at a row, times
+/// `slack`, how far its instant may be off. `order` are the rows in ascending order of the instants `at`; angles may
+/// jump by a `turn`.
+#[must_use]
+pub fn drift(values: &[Rounded], at: &[f64], slack: &[f64], order: &[usize], turn: Option<f64>) -> Vec<f64> {
+    let mut drift = vec![0.0; values.len()];
+    for pair in order.windows(2) {
+        let gap = values[pair[1]].value - values[pair[0]].value;
+        let gap = turn.map_or(gap, |turn| gap - turn * (gap / turn).round());
+        let span = at[pair[1]] - at[pair[0]];
+        let slope = if span > 0.0 && gap.is_finite() { (gap / span).abs() } else { 0.0 };
+        for &row in pair {
+            drift[row] = drift[row].larger(STEEPER * slope * slack[row]);
+        }
+    }
+    drift
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cell::{Cell, numbers};
+
+    fn of(texts: &[String]) -> Vec<Rounded> {
+        numbers(&texts.iter().map(|text| Cell::parse(text).unwrap()).collect::<Vec<_>>())
+    }
+
+    #[test]
+    fn a_step_is_chosen_where_no_other_would_look_like_it() {
+        let list = |count: u32, of: &dyn Fn(f64) -> String| (0..count).map(|row| of(row.into())).collect::<Vec<_>>();
+        for (count, print, expected) in [
+            (361, &(|row: f64| format!("{}", (row * 10.0).round() / 1e3)) as &dyn Fn(f64) -> String, true),
+            (4, &|row| format!("{:.6}", 0.01 * row), true),
+            (100, &|row| format!("{row}"), true),
+            // 2.777... ms: three steps look alike.
+            (3, &|row| format!("{:.0}", 2.7777 * row), false),
+            (9, &|row| format!("{:.6}", row / 780.0), false),
+            (73, &|row| format!("{:.6}", row / 780.0), false),
+            // The step is round, the first instant is not.
+            (9, &|row| format!("{:.5}", 1.0 / 12.0 + 0.1 * row), false),
+            (1, &|_| "0.0417".into(), false),
+            (1, &|_| "0".into(), true),
+        ] {
+            let texts = list(count, print);
+            assert_eq!(chosen(&of(&texts), false), expected, "{texts:?}");
+        }
+        assert!(chosen(&of(&["70".into()]), true) && chosen(&of(&list(4, &|row| format!("{}", 15.0 * row))), true));
+        assert!(!chosen(&of(&["0".into(), "2".into(), "3".into(), "5".into()]), true));
+    }
+}

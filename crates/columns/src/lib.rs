@@ -1,0 +1,29 @@
+//! Columns of numbers as other programs write them: read with their digits, and held side by side.
+//!
+//! Loops over rows stand here, because this crate is compiled with optimisation.
+//!
+//! - [`read`]: a text with separated columns as a [`Table`].
+//! - [`Records`]: the rows of a table whose cells are not all numbers.
+//! - [`Cell`] and [`numbers`]: what the digits of a column leave open.
+//! - [`chosen`]: whether instants were chosen as they are printed, or rounded.
+//! - [`judge`]: two columns against each other.
+//!
+//! ```
+//! let table = columns::read("t_s,x\n0,1.25\n0.1,1.5\n").unwrap();
+//! assert_eq!(table.names, ["t_s", "x"]);
+//! assert!((table.columns[1][1].error - 0.005).abs() < 1e-9);
+//! ```
+
+mod cell;
+mod instants;
+mod judge;
+mod names;
+mod records;
+mod text;
+
+pub use cell::{Cell, Decimal, MISSING, UNDEFINED, is_missing, numbers};
+pub use instants::{chosen, drift};
+pub use judge::{Allowance, Beside, Judged, Row, judge};
+pub use names::Twice;
+pub use records::Records;
+pub use text::{Fault, Table, read};

@@ -1,0 +1,207 @@
+//! Text with separated columns, as programs write it: with commas, semicolons, tabs or blanks, with or without a
+//! header, with lines of comment.
+
+use std::borrow::Cow;
+use std::ops::Range;
+
+use super::cell::{Cell, numbers};
+use super::names::Twice;
+use formula::Rounded;
+
+/// Signs that begin a line of comment.
+const COMMENTS: [char; 3] = ['#', '%', ';'];
+
+/// A table as it stands in a file, whatever its columns mean. All have the same length.
+#[derive(Clone, Debug, Default)]
+pub struct Table {
+    /// Names of the columns; `c1`, `c2`, ... where the text has none.
+    pub names: Vec<String>,
+    /// Their numbers, each with what its digits leave open.
+    pub columns: Vec<Vec<Rounded>>,
+}
+
+impl Table {
+    /// Number of rows.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.columns.first().map_or(0, Vec::len)
+    }
+
+    /// Whether there is no row.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+}
+
+/// Why a text is no table.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fault {
+    /// Bytes of the line.
+    pub at: Range<usize>,
+    /// What was found.
+    pub message: String,
+    /// The way out.
+    pub help: String,
+}
+
+/// Reads a table. The last line shows which sign separates the columns.
+///
+/// # Errors
+/// A line with another number of cells than the header, a cell that is no number, two columns of one name, no line.
+pub fn read(text: &str) -> Result<Table, Fault> {
+    let wrong = |start: usize, message: String, help: &str| {
+        let length = text[start..].find(['\r', '\n']).unwrap_or(text.len() - start);
+        Fault { at: start..start + length, message, help: help.into() }
+    };
+    let separator =
+        lines(text).last().and_then(|(_, line)| ['\t', ';', ','].into_iter().find(|sign| line.trim().contains(*sign)));
+    let mut rows = lines(text).peekable();
+    let Some(&(header_at, first)) = rows.peek() else {
+        return Err(wrong(0, "the table is empty".into(), "give a table with a header and one row per instant"));
+    };
+    let mut first_cells = Vec::new();
+    divide(first, separator, &mut |cell| first_cells.push(cell.trim().to_string()));
+    let names = match first_cells.iter().all(|cell| number(cell).is_some()) {
+        true => (1..=first_cells.len()).map(|column| format!("c{column}")).collect(),
+        false => {
+            rows.next();
+            first_cells
+        }
+    };
+    if let Some(twice) = Twice::of(&names) {
+        return Err(wrong(header_at, twice.to_string(), Twice::HELP));
+    }
+    let mut columns: Vec<Vec<Cell>> = vec![Vec::new(); names.len()];
+    for (start, line) in rows {
+        let (mut count, mut fault) = (0, None);
+        divide(line, separator, &mut |cell| {
+            match (number(cell), columns.get_mut(count)) {
+                (Some(found), Some(column)) => column.push(found),
+                (None, Some(_)) if fault.is_none() => fault = Some((count, cell.to_string())),
+                _ => {}
+            }
+            count += 1;
+        });
+        if count != names.len() {
+            let message = format!("the row has {count} cells, but the first line has {}", names.len());
+            return Err(wrong(start, message, "give every row as many cells as the header"));
+        }
+        if let Some((column, cell)) = fault {
+            let message = format!("in the column \"{}\" stands \"{cell}\", which is no number", names[column]);
+            let help = "write decimals with a point; leave a cell empty where nothing was measured";
+            return Err(wrong(start, message, help));
+        }
+    }
+    Ok(Table { names, columns: columns.into_iter().map(|cells| numbers(&cells)).collect() })
+}
+
+/// A cell; decimal commas are taken where cells are not separated by commas.
+fn number(cell: &str) -> Option<Cell> {
+    Cell::parse(cell).or_else(|| (cell.matches(',').count() == 1).then(|| Cell::parse(&cell.replace(',', ".")))?)
+}
+
+/// The lines that are no comments, each with its first byte. Tabs at an end may separate empty cells.
+fn lines(text: &str) -> impl DoubleEndedIterator<Item = (usize, &str)> {
+    let begin = text.as_ptr() as usize;
+    let all = text.strip_prefix('\u{feff}').unwrap_or(text).split('\n');
+    all.map(move |line| (line.as_ptr() as usize - begin, line.trim_matches([' ', '\r'])))
+        .filter(|(_, line)| !line.trim().is_empty() && !line.trim_start().starts_with(COMMENTS))
+}
+
+/// Gives the cells of a line, without the blanks around them and without quotes.
+pub(crate) fn divide(line: &str, separator: Option<char>, give: &mut dyn FnMut(&str)) {
+    let Some(separator) = separator else { return line.split_whitespace().for_each(give) };
+    if !line.contains('"') {
+        return line.split(separator).for_each(|cell| give(cell.trim()));
+    }
+    let mut rest = line;
+    loop {
+        let (cell, next) = cell(rest, separator);
+        give(cell.trim());
+        match next {
+            Some(next) => rest = next,
+            None => break,
+        }
+    }
+}
+
+/// The first cell of a line, and what comes behind its separator. Quotes hold separators; two of them are a sign.
+fn cell(line: &str, separator: char) -> (Cow<'_, str>, Option<&str>) {
+    let own = line.trim_start();
+    let Some(quoted) = own.strip_prefix('"') else {
+        return match line.split_once(separator) {
+            Some((cell, next)) => (Cow::Borrowed(cell), Some(next)),
+            None => (Cow::Borrowed(line), None),
+        };
+    };
+    let mut text = String::new();
+    let mut rest = quoted;
+    while let Some((part, next)) = rest.split_once('"') {
+        text.push_str(part);
+        rest = next;
+        match next.strip_prefix('"') {
+            Some(next) => {
+                text.push('"');
+                rest = next;
+            }
+            None => break,
+        }
+    }
+    match rest.split_once(separator) {
+        Some((behind, next)) => (Cow::Owned(text + behind.trim()), Some(next)),
+        None => (Cow::Owned(text + rest.trim()), None),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn separators_comments_and_headers_are_found() {
+        for text in [
+            "t,x\n0,1.5\n1,2.5\n",
+            "\u{feff}t;x\r\n0;1,5\r\n1;2,5\r\n",
+            "# made by hand\nt\tx\n0\t1.5\n\n1\t2.5",
+            "  t   x\n  0  1.5\n  1  2.5\n",
+            "t,\"x\"\n0, 1.5\n1, \"2.5\"",
+            "t\tx\n0\t\n1\t2.5\n",
+        ] {
+            let table = read(text).unwrap();
+            assert_eq!((table.names, table.columns[1][1].value), (vec!["t".into(), "x".into()], 2.5), "{text}");
+        }
+        assert_eq!(read("#only\n0,1.5\n1,2.5\n").unwrap().names, ["c1", "c2"]);
+        assert_eq!(read("t,\"a, \"\"b\"\"\"\n0,1\n").unwrap().names, ["t", "a, \"b\""]);
+        assert!(read("t,x\n0,\n1,2\n").unwrap().columns[1][0].value.is_nan());
+    }
+
+    #[test]
+    fn what_is_wrong_is_told_with_its_line() {
+        for (text, line, part) in [
+            ("t,x\n0,1\n1,2,3\n", 3, "3 cells"),
+            ("t,x\n0,1\n1,much\n", 3, "\"much\""),
+            ("# nothing\n", 1, "empty"),
+            ("# first\nt,r,r\n0,1,2\n", 2, "columns 2 and 3"),
+        ] {
+            let fault = read(text).unwrap_err();
+            assert!(fault.message.contains(part), "{}", fault.message);
+            assert_eq!(text[..fault.at.start].matches('\n').count() + 1, line, "{text}");
+        }
+    }
+
+    proptest::proptest! {
+        /// Whatever a text holds: columns of equal length, or a fault with its place.
+        #[test]
+        fn any_text_is_a_table_or_a_fault(text in "([-+0-9.,;eE \t\r\n#\"a-z\u{fc}\u{20ac}]{0,12}\n){0,8}") {
+            match read(&text) {
+                Ok(table) => {
+                    let rows = table.columns[0].len();
+                    proptest::prop_assert!(table.columns.iter().all(|column| column.len() == rows));
+                    proptest::prop_assert_eq!(table.names.len(), table.columns.len());
+                }
+                Err(fault) => proptest::prop_assert!(text.get(fault.at).is_some() && !fault.help.is_empty()),
+            }
+        }
+    }
+}
