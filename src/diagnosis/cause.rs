@@ -185,6 +185,8 @@ pub enum Part {
     MassCentreAlong(String, Axis),
     /// A load: its number in the file, from 1, and its sort.
     Load(usize, LoadSort),
+    /// Length of a spring without force, or its twist without moment: the load's number in the file, from 1.
+    Free(usize),
     /// Configuration of a group of links.
     Configuration(String),
     /// Speed of the drive at a joint.

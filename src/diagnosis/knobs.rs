@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use super::cause::{Axis, How, Part};
 use super::configurations::reassembled;
 use linkage::case::{Case, CaseParts, Grid};
-use linkage::drive::{Drive, DriveMotion, MotionLaw, Motor, ShaftInertia};
+use linkage::drive::{Drive, DriveMotion, Load, MotionLaw, Motor, ShaftInertia};
 use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::{Joint, Link, Mechanism};
 
@@ -114,6 +114,7 @@ pub(super) fn all(case: &Case) -> Vec<Knob> {
         knobs.push(Knob::amount(Part::Gravity, gravity.norm(), "m/s^2", turn));
     }
     knobs.extend((0..case.loads.len()).map(|index| load(case, index)));
+    knobs.extend((0..case.loads.len()).filter_map(|index| free(case, index)));
     knobs.extend(motor(case));
     let moving = || case.mechanism.links().iter().enumerate().skip(1);
     // Of a single link all is the same as this one.
@@ -178,6 +179,29 @@ fn load(case: &Case, index: usize) -> Knob {
         ]
     });
     Knob::amount(Part::Load(index + 1, sort), 1.0, "", turn).also(by_ratio)
+}
+
+/// The length or twist of a spring at which it exerts nothing.
+fn free(case: &Case, index: usize) -> Option<Knob> {
+    let (given, unit) = match &case.loads[index] {
+        Load::Spring { free_length, .. } => (*free_length, "m"),
+        Load::TorsionSpring { free_angle, .. } => (*free_angle, "rad"),
+        Load::Resistance { .. } | Load::Moment { .. } | Load::Force { .. } | Load::ResistingForce { .. } => {
+            return None;
+        }
+        Load::Damper { .. } | Load::TorsionDamper { .. } => return None,
+    };
+    let turn: Turn = Box::new(move |parts, value| {
+        if let Load::Spring { free_length: own, .. } | Load::TorsionSpring { free_angle: own, .. } =
+            &mut parts.loads[index]
+        {
+            *own = value;
+        }
+        Some(())
+    });
+    let natural = if unit == "m" { case.mechanism.size() } else { 1.0 };
+    let knob = Knob::place(Part::Free(index + 1), given, natural, unit, turn);
+    Some(Knob { moves_nothing: true, ..knob }.also([(0.0, How::Missing)]))
 }
 
 fn inertia(case: &Case, index: usize, link: &Link) -> Knob {

@@ -8,13 +8,16 @@ use std::path::Path;
 
 use super::versus::{against, table};
 use linkage::case::{Case, CaseParts, Grid};
+use linkage::math::KeepNan;
 use linkage::mechanism::{Link, Mechanism};
 use linkage::solver::Solver;
 use linkage::trajectory::Trajectory;
 use linkproof::report::diagnosis::{cause, nature};
 use linkproof::report::versus::why;
 use linkproof::scenario::Scenario;
-use linkproof::versus::{Comparison, How};
+use linkproof::scenario::mapping::{Allowed, Mapped, Mapping, Size};
+use linkproof::tables::{Held, load};
+use linkproof::versus::{Comparison, Explained, How, Party, compare};
 
 /// How a table comes to be wrong.
 enum Make {
@@ -83,6 +86,11 @@ fn solved(case: &Case, times: &[f64]) -> Trajectory {
 
 impl Wrong {
     fn compared(&self) -> Comparison {
+        self.compared_by(&How::default(), |_| ())
+    }
+
+    /// The comparison of the table, printed in another way.
+    fn compared_by(&self, how: &How, printed: impl Fn(&mut Sheet)) -> Comparison {
         let (right, path) = text(self.scenario);
         let scenario = Scenario::parse(&right, &path).unwrap();
         let times = &scenario.case.grid.times;
@@ -90,7 +98,7 @@ impl Wrong {
             self.columns.iter().map(|name| ((*name).to_string(), of.named(name).unwrap().to_vec())).collect()
         };
         let sheet = |all: Trajectory| Sheet { times: times.clone(), columns: columns(&all), all };
-        let sheet = match &self.make {
+        let mut sheet = match &self.make {
             Make::Text(places) => {
                 let mut text = right.clone();
                 for (from, to) in *places {
@@ -108,9 +116,10 @@ impl Wrong {
                 sheet
             }
         };
+        printed(&mut sheet);
         let mut columns = vec![("t_s", sheet.times.clone())];
         columns.extend(sheet.columns.iter().map(|(name, values)| (name.as_str(), values.clone())));
-        against(&scenario, &table(&columns), &How::default())
+        against(&scenario, &table(&columns), how)
     }
 
     fn is_meant(&self, words: &str) -> bool {
@@ -182,4 +191,85 @@ fn wrong_tables_that_the_diagnosis_had_not_seen_are_named() {
     let tally = Tally::of(second_half::TABLES);
     assert!(tally.all >= 30);
     tally.holds();
+}
+
+/// A table of another program against a scenario: the cause, those that come to the same, and a row that is off besides.
+fn told(scenario: &str, table: &str, lines: &[&str]) -> Vec<(Vec<String>, Option<f64>)> {
+    let (right, path) = text(scenario);
+    let mut mapping = Mapping::default();
+    lines.iter().for_each(|line| mapping.push(Mapped::parse(line, "a test").unwrap()));
+    let file = Path::new("tests/suite/wrong_tables/tables").join(table);
+    let held = Held::of_table(&load(&file).unwrap(), &mapping).unwrap();
+    let scenario = Party::Scenario(Box::new(Scenario::parse(&right, &path).unwrap()));
+    let found = compare([scenario, Party::Table(Box::new(held))], [&path, &file], &How::default()).unwrap();
+    assert_eq!(found.verdict.word(), "disagree");
+    words(&found)
+}
+
+fn words(found: &Comparison) -> Vec<(Vec<String>, Option<f64>)> {
+    let causes = found.pairs.iter().flat_map(|pair| &pair.causes);
+    let all = |one: &Explained| why(one).into_iter().chain(one.diagnosis.also.iter().map(cause)).collect();
+    causes.map(|one| (all(one), one.but)).collect()
+}
+
+#[test]
+fn a_moment_without_a_link_s_mass_and_inertia_is_called_so() {
+    let found = told("engine", "t_mr.csv", &["t=time_s", "T=drive.torque_N_m"]);
+    assert_eq!(found, [(vec!["mass and inertia of rod: missing".to_string()], None)]);
+}
+
+/// At constant speed rows that are late and a crank that is turned are the same: both are told.
+#[test]
+fn rows_that_are_late_and_a_drive_that_is_turned_are_told_together() {
+    let map = ["t=time_s", "px=point.P.x_m", "py=point.P.y_m"];
+    let [(found, but)] = &told("norton", "late2.csv", &map)[..] else { panic!() };
+    let expected =
+        ["angle of the drive at O2 at t = 0: -0.249996 deg instead of 0 deg", "all channels are 0.41666 ms too late"];
+    assert_eq!((&found[..], *but), (&expected.map(String::from)[..], None));
+}
+
+/// MuJoCo prints what a step began with, but for the first row. The step's own error stays over.
+#[test]
+fn a_first_row_that_is_right_hides_no_cause() {
+    let found = told("norton", "mj.csv", &["time=time_s", "px=point.P.x_m", "py=point.P.y_m"]);
+    let [(found, Some(0.0))] = &found[..] else { panic!("{found:?}") };
+    assert!(found.iter().any(|words| words == "angle of the drive at O2 at t = 0: -0.25 deg instead of 0 deg"));
+    assert!(found.iter().any(|words| words.starts_with("all channels are 0.41")), "{found:?}");
+}
+
+/// Many programs print angles within one turn. That is right, and hides nothing that is wrong besides.
+#[test]
+fn angles_within_one_turn_hide_no_cause() {
+    let wrong = Wrong {
+        scenario: "crank_rocker",
+        columns: &["link.crank.angle_rad", "joint.A.fx_N", "joint.B.fy_N", "drive.torque_N_m"],
+        what: "gravity upwards, angles within a turn",
+        make: Make::Text(&[("y_m_s2 = -9.81", "y_m_s2 = 9.81")]),
+        named: &[],
+    };
+    let turned = |sheet: &mut Sheet| sheet.each("link.crank.angle_rad", |_, value| value.sin().atan2(value.cos()));
+    let found = wrong.compared_by(&How::default(), turned);
+    assert_eq!(words(&found), [(vec!["gravity: of the opposite sign".to_string()], None)]);
+}
+
+/// Forces that drift by twice what they are trusted to: no mass is a hundred-thousandth too large.
+#[test]
+fn a_drift_is_no_number_of_the_case() {
+    let wrong = Wrong {
+        scenario: "crank_rocker",
+        columns: &["joint.A.fx_N", "joint.B.fy_N", "drive.torque_N_m"],
+        what: "forces that drift",
+        make: Make::Values(|sheet| {
+            let (times, names) = (sheet.times.clone(), ["joint.A.fx_N", "joint.B.fy_N", "drive.torque_N_m"]);
+            for name in names {
+                let size = sheet.of(name).iter().fold(0.0, |most: f64, value| most.larger(value.abs()));
+                sheet.each(name, |row, value| value + 2e-5 * size * (times[row] / times[times.len() - 1]).powi(2));
+            }
+        }),
+        named: &[],
+    };
+    let how = How { allowed: vec![Allowed { of: None, size: Size::Relative(1e-5) }], ..How::default() };
+    let found = wrong.compared_by(&how, |_| ());
+    let told = "the error grows with time, about with its power of 2: integration, or the step of it";
+    assert_eq!(words(&found), [(vec![told.to_string()], None)]);
 }

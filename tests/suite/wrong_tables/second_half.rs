@@ -78,7 +78,7 @@ pub(super) const TABLES: &[Wrong] = &[
         columns: PRESS,
         what: "free length of the spring in cm",
         make: Make::Text(&[("free_length_mm = 60", "free_length_mm = 6")]),
-        named: &["load 2, spring"],
+        named: &["free length of load 2, spring: 0.006 m instead of 0.06 m"],
     },
     Wrong {
         scenario: "crank_rocker",
