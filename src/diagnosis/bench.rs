@@ -109,6 +109,11 @@ impl<'a> Bench<'a> {
         self.columns.iter().any(|column| column.disagrees && column.channel.kind.stage < Stage::Reactions)
     }
 
+    /// Whether positions or rates are there at all.
+    pub(super) fn shows_motion(&self) -> bool {
+        self.columns.iter().any(|column| column.channel.kind.stage < Stage::Reactions)
+    }
+
     /// What the reference itself leaves.
     pub(super) fn start(&self) -> Misfit {
         self.misfit(|column| Some(column.right.clone())).expect("the reference has its own columns")

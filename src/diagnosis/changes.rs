@@ -4,41 +4,55 @@ use std::cell::Cell;
 use std::rc::Rc;
 
 use super::bench::{Bench, early, thinned};
-use super::cause::{Cause, Change};
+use super::cause::{Cause, Change, Part, Slip};
+use super::knobs;
 use super::late::late;
-use super::numbers::{confirmed, numbers};
-use super::question::{Found, Question};
-use super::tries::Tries;
+use super::numbers::{confirmed, is_sure, numbers};
+use super::question::{Found, Question, Rank};
+use super::tries::{Candidate, Tries};
 use super::whole::whole_changes;
 
-/// Most changed cases that are solved on thinned grids.
+/// Most changed cases that are solved on thinned grids for numbers and other instants, and as many for what needs no
+/// number; of a motion that is prescribed, which costs little, so many times as many.
 const MOST: usize = 120;
+const CHEAP: usize = 3;
+/// Links of a mechanism whose cases cost as much as those of the smallest.
+const LINKS: usize = 16;
 /// Most causes that are confirmed on the whole grid.
 const CONFIRMED: usize = 6;
+/// Parts of a bound that a claim is counted in: what is below is rounding.
+const CLAIMED: f64 = 1e3;
 /// Cases that are solved for it on the whole grid: a value may have to be corrected.
 const WHOLE: usize = 4 * CONFIRMED;
 
 /// Every change that explains disagreeing channels, and the number of cases that were solved.
 pub(super) fn found(question: &Question) -> (Vec<Found>, usize) {
-    let left = Rc::new(Cell::new(MOST));
+    let links = question.case.mechanism.links().len();
+    let most = if question.case.is_free() || links > LINKS { MOST } else { CHEAP * MOST };
+    let left = Rc::new(Cell::new(most));
     let whole: Vec<usize> = (0..question.case.grid.len()).collect();
     let is_free = question.case.is_free();
     let thin = Bench::new(question, &thinned(question), left.clone());
     let soon = Bench::new(question, &if is_free { early(question) } else { thinned(question) }, left.clone());
-    let first = Bench::new(question, &[0], Rc::new(Cell::new(MOST)));
+    let first = Bench::new(question, &[0], Rc::new(Cell::new(2 * most)));
     let (Some(thin), Some(soon), Some(first)) = (thin, soon, first) else { return (Vec::new(), 0) };
     let tries = Tries { first, starts: [soon.start(), thin.start()], soon, thin, is_free };
     // Differences of rounding size are explained by no change.
     if tries.starts[1].fits() || !tries.starts[1].worst().is_finite() {
         return (Vec::new(), 0);
     }
-    let mut candidates = whole_changes(&tries);
-    candidates.extend(numbers(&tries));
-    candidates.extend(late(question, &tries.thin, &tries.starts[1]));
-    let solved = MOST - left.get();
+    let without_number = whole_changes(&tries);
+    let spent = most - left.replace(most);
+    // Of changes that come to the same, the one of a single number is the simpler.
+    let mut candidates = numbers(&tries);
+    candidates.extend(without_number);
+    let late = late(question, &tries.thin, &tries.starts[1]);
+    candidates.extend(turned(&tries, &candidates, &late));
+    candidates.extend(late);
+    let solved = spent + most - left.get();
     candidates.sort_by(|a, b| {
         let most = b.explained.len().cmp(&a.explained.len());
-        most.then(a.rank.cmp(&b.rank)).then(a.claim.total_cmp(&b.claim))
+        most.then(a.rank.cmp(&b.rank)).then((a.claim * CLAIMED).round().total_cmp(&(b.claim * CLAIMED).round()))
     });
     let mut found = Vec::new();
     let confirming = Rc::new(Cell::new(WHOLE));
@@ -54,9 +68,30 @@ pub(super) fn found(question: &Question) -> (Vec<Found>, usize) {
             cause = Cause::Case(Change { part: knob.part.clone(), how: knob.told(value) });
             explained = full.explained(&begin, &better);
         }
-        if !explained.is_empty() {
+        let is_sure = match &cause {
+            Cause::Case(change) => is_sure(change, begin.worst()),
+            Cause::Values { .. } => true,
+        };
+        if !explained.is_empty() && is_sure {
             found.push(Found { cause, rank: candidate.rank, explained });
         }
     }
     (found, solved)
+}
+
+/// The drive that is turned by as much as values are late: at constant speed that is the same.
+fn turned(tries: &Tries, known: &[Candidate], late: &[Candidate]) -> Option<Candidate> {
+    let case = &tries.thin.case;
+    let by = late.iter().find_map(|one| match one.cause {
+        Cause::Values { slip: Slip::Late { by, stage: None, .. }, .. } => Some(by),
+        Cause::Values { .. } | Cause::Case(_) => None,
+    })?;
+    let speed = case.crank().constant_speed().filter(|_| case.is_steady() && case.drives.further().is_empty())?;
+    let is_turn = |part: &Part| matches!(part, Part::StartAngle(_));
+    let is_known = known.iter().any(|one| matches!(&one.cause, Cause::Case(change) if is_turn(&change.part)));
+    let knob = knobs::all(case).into_iter().find(|knob| is_turn(&knob.part)).filter(|_| !is_known)?;
+    let value = knob.given - speed * by;
+    let misfit = tries.of(&|case| knob.at(case, value))?;
+    let cause = Cause::Case(Change { part: knob.part.clone(), how: knob.told(value) });
+    tries.candidate(&misfit, Rank::Number, cause, Box::new(move |case| knob.at(case, value)))
 }

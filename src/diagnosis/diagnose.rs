@@ -1,10 +1,11 @@
 //! The diagnosis as a whole.
 
 use super::alone::{Party, Standing, standing};
-use super::cause::Cause;
-use super::question::Question;
+use super::cause::{Cause, Change, How};
+use super::nature::{Nature, nature};
+use super::question::{Found, Question, Rank};
 use super::since::{Since, since};
-use super::{changes, others, slips};
+use super::{changes, derived, others, slips};
 use linkage::trajectory::Channel;
 
 /// What can be said about a disagreement.
@@ -26,6 +27,8 @@ pub struct Diagnosis {
     pub also: Vec<Cause>,
     /// Disagreeing channels that the cause leaves unexplained; all of them if there is no cause.
     pub left_over: Vec<Channel>,
+    /// What the differences look like, where no cause explains all of them.
+    pub nature: Option<Nature>,
     /// Number of changed cases that were solved.
     pub solved: usize,
 }
@@ -61,7 +64,10 @@ pub fn diagnose(question: &Question, parties: &[Party]) -> Option<Diagnosis> {
     let (of_case, solved) = changes::found(question);
     let mut found = slips::found(question);
     found.extend(others::found(question));
+    found.extend(derived::found(question));
     found.extend(of_case);
+    // A number is found for a part of the channels more easily than for all: that is no evidence.
+    found.retain(|one| one.explained.len() == wrong.len() || !has_number(&one.cause));
     // The sort is stable: of equally simple causes the one that was tried first.
     found.sort_by_key(|one| (wrong.len() - one.explained.len(), one.rank));
     let best = found.first().map_or(0, |one| one.explained.len());
@@ -69,11 +75,12 @@ pub fn diagnose(question: &Question, parties: &[Party]) -> Option<Diagnosis> {
     let first = named.next();
     let explained = first.as_ref().map_or(&[][..], |one| &one.explained[..]);
     let left_over: Vec<Channel> = wrong.iter().filter(|channel| !explained.contains(channel)).cloned().collect();
-    // Partial explanations beside each other would only confuse.
-    let also = match left_over.is_empty() {
-        true => named.map(|one| one.cause).take(MENTIONED).collect(),
-        false => Vec::new(),
-    };
+    // A number that was fitted says no more than a slip that needs none. Partial explanations beside each other would
+    // only confuse, unless they are of the same part.
+    let says_more = |one: &Found| one.rank != Rank::Fitted || first.as_ref().is_some_and(|own| own.rank != Rank::Slip);
+    let also = named.filter(|one| one.explained == explained && says_more(one)).map(|one| one.cause);
+    let also = also.take(MENTIONED).collect();
+    let nature = if left_over.is_empty() { None } else { nature(question) };
     Some(Diagnosis {
         suspect: question.suspect.to_string(),
         alone: standing(parties),
@@ -82,8 +89,14 @@ pub fn diagnose(question: &Question, parties: &[Party]) -> Option<Diagnosis> {
         cause: first.map(|one| one.cause),
         also,
         left_over,
+        nature,
         solved,
     })
+}
+
+/// Whether a case has another number, which was fitted.
+fn has_number(cause: &Cause) -> bool {
+    matches!(cause, Cause::Case(Change { how: How::Instead { .. }, .. }))
 }
 
 /// Number of causes that are mentioned besides the one that is named.

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use super::cause::{Axis, How, Part};
 use super::configurations::reassembled;
 use linkage::case::{Case, CaseParts, Grid};
-use linkage::drive::{Drive, DriveMotion, MotionLaw, Motor, ShaftInertia};
+use linkage::drive::{Drive, DriveMotion, Load, MotionLaw, Motor, ShaftInertia};
 use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::{Joint, Link, Mechanism};
 
@@ -24,6 +24,8 @@ pub(super) struct Knob {
     pub(super) nudge: f64,
     /// Whether reactions and moments are all that it changes where the motion is prescribed.
     pub(super) moves_nothing: bool,
+    /// Whether it may show in places of mass centres only.
+    pub(super) is_centre: bool,
     /// Whether a first approximation tells nothing about values far away.
     pub(super) is_far: bool,
     turn: Turn,
@@ -60,13 +62,33 @@ impl Knob {
             (1e3 * given, How::Times(1e3, "as g for kg, or m for mm")),
             (1e-3 * given, How::Times(1e-3, "as kg for g, or mm for m")),
         ];
-        Knob { part, given, unit, plain, nudge: 1e-3 * given, moves_nothing: true, is_far: false, turn }
+        Knob {
+            part,
+            given,
+            unit,
+            plain,
+            nudge: 1e-3 * given,
+            moves_nothing: true,
+            is_centre: false,
+            is_far: false,
+            turn,
+        }
     }
 
     /// A place or an angle, whose size has no meaning; `natural` is what it is measured by.
     fn place(part: Part, given: f64, natural: f64, unit: &'static str, turn: Turn) -> Knob {
         let plain = if given == 0.0 { Vec::new() } else { vec![(-given, How::Reversed)] };
-        Knob { part, given, unit, plain, nudge: 1e-4 * natural, moves_nothing: false, is_far: false, turn }
+        Knob {
+            part,
+            given,
+            unit,
+            plain,
+            nudge: 1e-4 * natural,
+            moves_nothing: false,
+            is_centre: false,
+            is_far: false,
+            turn,
+        }
     }
 
     fn also(mut self, plain: impl IntoIterator<Item = (f64, How)>) -> Knob {
@@ -92,6 +114,7 @@ pub(super) fn all(case: &Case) -> Vec<Knob> {
         knobs.push(Knob::amount(Part::Gravity, gravity.norm(), "m/s^2", turn));
     }
     knobs.extend((0..case.loads.len()).map(|index| load(case, index)));
+    knobs.extend((0..case.loads.len()).filter_map(|index| free(case, index)));
     knobs.extend(motor(case));
     let moving = || case.mechanism.links().iter().enumerate().skip(1);
     // Of a single link all is the same as this one.
@@ -117,6 +140,7 @@ pub(super) fn all(case: &Case) -> Vec<Knob> {
     for (joint, link) in places(case) {
         knobs.extend([Axis::X, Axis::Y].map(|axis| place(case, joint, link, axis)));
     }
+    knobs.extend(lengths(case));
     knobs
 }
 
@@ -157,6 +181,29 @@ fn load(case: &Case, index: usize) -> Knob {
     Knob::amount(Part::Load(index + 1, sort), 1.0, "", turn).also(by_ratio)
 }
 
+/// The length or twist of a spring at which it exerts nothing.
+fn free(case: &Case, index: usize) -> Option<Knob> {
+    let (given, unit) = match &case.loads[index] {
+        Load::Spring { free_length, .. } => (*free_length, "m"),
+        Load::TorsionSpring { free_angle, .. } => (*free_angle, "rad"),
+        Load::Resistance { .. } | Load::Moment { .. } | Load::Force { .. } | Load::ResistingForce { .. } => {
+            return None;
+        }
+        Load::Damper { .. } | Load::TorsionDamper { .. } => return None,
+    };
+    let turn: Turn = Box::new(move |parts, value| {
+        if let Load::Spring { free_length: own, .. } | Load::TorsionSpring { free_angle: own, .. } =
+            &mut parts.loads[index]
+        {
+            *own = value;
+        }
+        Some(())
+    });
+    let natural = if unit == "m" { case.mechanism.size() } else { 1.0 };
+    let knob = Knob::place(Part::Free(index + 1), given, natural, unit, turn);
+    Some(Knob { moves_nothing: true, ..knob }.also([(0.0, How::Missing)]))
+}
+
 fn inertia(case: &Case, index: usize, link: &Link) -> Knob {
     let turn: Turn = Box::new(move |parts, inertia| changed(parts, |links, _| links[index].inertia = inertia));
     let about = case.mechanism.joints().iter().filter_map(|joint| {
@@ -171,7 +218,8 @@ fn mass_centre(index: usize, link: &Link, axis: Axis) -> Knob {
     let turn: Turn = Box::new(move |parts, value| {
         changed(parts, |links, _| *along_mut(&mut links[index].mass_centre, axis) = value)
     });
-    Knob::place(Part::MassCentreAlong(link.name.clone(), axis), given, link.extent(), "m", turn)
+    let part = Part::MassCentreAlong(link.name.clone(), axis);
+    Knob { is_centre: true, ..Knob::place(part, given, link.extent(), "m", turn) }
 }
 
 /// Places of joints on links, each once.
@@ -196,16 +244,43 @@ fn place(case: &Case, joint: usize, link: usize, axis: Axis) -> Knob {
     let turn: Turn = Box::new(move |parts, value| {
         let mut new = old;
         *along_mut(&mut new, axis) = value;
-        changed(parts, |links, joints| {
-            let points = links[link].points.iter_mut().map(|point| &mut point.local);
-            let on_link = joints.iter_mut().flat_map(|joint| [&mut joint.first, &mut joint.second]);
-            let sides = on_link.filter(|side| side.link == link).map(|side| &mut side.local);
-            points.chain(sides).filter(|local| **local == old).for_each(|local| *local = new);
-        })?;
-        reassembled(parts)
+        moved(parts, link, old, new)
     });
     let part = Part::Place(own.name.clone(), case.mechanism.links()[link].name.clone(), axis);
     Knob::place(part, along(old, axis), case.mechanism.size(), "m", turn)
+}
+
+/// Moves a place of a link, with every joint and point that is there.
+fn moved(parts: &mut CaseParts, link: usize, old: Vec2, new: Vec2) -> Option<()> {
+    changed(parts, |links, joints| {
+        let points = links[link].points.iter_mut().map(|point| &mut point.local);
+        let on_link = joints.iter_mut().flat_map(|joint| [&mut joint.first, &mut joint.second]);
+        let sides = on_link.filter(|side| side.link == link).map(|side| &mut side.local);
+        points.chain(sides).filter(|local| **local == old).for_each(|local| *local = new);
+    })?;
+    reassembled(parts)
+}
+
+/// Distances of two joints on a link that are along neither axis of its frame: along one, a place is the distance.
+fn lengths(case: &Case) -> Vec<Knob> {
+    let places = places(case);
+    let at = |&(joint, link): &(usize, usize)| case.mechanism.joints()[joint].on(link);
+    let mut knobs = Vec::new();
+    for one in &places {
+        for other in places.iter().filter(|other| other.1 == one.1 && other.0 != one.0) {
+            let (Some(old), Some(from)) = (at(one), at(other)) else { continue };
+            let (arm, link) = (old - from, one.1);
+            if !(arm.x.abs().smaller(arm.y.abs()) > 1e-9 * arm.norm()) {
+                continue;
+            }
+            let turn: Turn = Box::new(move |parts, length| moved(parts, link, old, from + arm * (length / arm.norm())));
+            let name = |place: &(usize, usize)| case.mechanism.joints()[place.0].name.clone();
+            let part = Part::Length(name(one), name(other), case.mechanism.links()[link].name.clone());
+            let knob = Knob::place(part, arm.norm(), case.mechanism.size(), "m", turn);
+            knobs.push(Knob { plain: Vec::new(), ..knob });
+        }
+    }
+    knobs
 }
 
 /// What is driven, by a law or by its speed at the start.

@@ -1,91 +1,219 @@
-//! Values of another instant.
+//! Values of other instants: late or early, or by a clock that runs too fast.
 
-use super::bench::{Bench, Misfit};
+use std::ops::RangeInclusive;
+
+use super::bench::{Bench, Column, Misfit};
 use super::cause::{Cause, Slip};
+use super::knobs::significant;
 use super::question::{Question, Rank};
 use super::tries::{Candidate, Make};
 use linkage::case::{Case, Grid};
 use linkage::math::KeepNan;
 use linkage::trajectory::Stage;
 
-/// Steps of the search for the time.
+/// Steps of the search for a number.
 const STEPS: usize = 6;
+/// Share of the differences below which a number is nearly found.
+const NEAR: f64 = 1e-2;
+/// Plain parts of a step by which values may be late.
+const PARTS: [f64; 7] = [0.25, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0];
+/// Factors on the time of a row, with their meaning.
+const CLOCKS: [(f64, &str); 4] = [
+    (1e-3, "milliseconds taken for seconds"),
+    (1e3, "seconds taken for milliseconds"),
+    (1.0 / 60.0, "seconds taken for minutes"),
+    (60.0, "minutes taken for seconds"),
+];
 
-/// Values of another instant: of all channels, or of those of one stage.
+/// Values of another instant: of all channels, or of those of one stage; or of a clock that runs too fast.
 pub(super) fn late(question: &Question, bench: &Bench, start: &Misfit) -> Vec<Candidate> {
     let mut stages: Vec<Option<Stage>> = vec![None];
+    let stage = |column: &Column| Some(column.channel.kind.stage);
     for column in bench.columns.iter().filter(|column| column.disagrees) {
-        let stage = Some(column.channel.kind.stage);
-        if !stages.contains(&stage) {
+        let is_all = bench.columns.iter().all(|other| stage(other) == stage(column));
+        let stage = stage(column);
+        if !is_all && !stages.contains(&stage) {
             stages.push(stage);
         }
     }
-    stages.into_iter().filter_map(|stage| late_in(question, bench, start, stage)).collect()
-}
-
-fn late_in(question: &Question, bench: &Bench, start: &Misfit, stage: Option<Stage>) -> Option<Candidate> {
-    let times = &bench.case.grid.times;
-    let span = times.iter().fold(0.0, |most: f64, t| most.larger(t.abs()));
-    let step = question.step;
-    let of = |by: f64| bench.tried_in(&shifted(&bench.case, by)?, stage);
-    let nudge = step.unwrap_or(1e-5 * span) * 0.25;
-    let mut effect = of(nudge)?.plus(-1.0, start).times(1.0 / nudge);
-    let (mut old, mut before) = (0.0, start.clone());
-    for _ in 0..STEPS {
-        let square = effect.dot(&effect);
-        if !(square > 0.0 && square.is_finite()) {
-            return None;
-        }
-        let by = old - effect.dot(&before) / square;
-        // A whole or plain part of a step, where it is as good.
-        let parts = [0.25, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0].into_iter().flat_map(|part| [part, -part]);
-        let near =
-            step.and_then(|step| parts.map(|part| (part * step, part)).find(|(t, _)| (t - by).abs() < 0.05 * step));
-        if let Some((at, part)) = near
-            && let Some(misfit) = of(at)
-            && let Some(found) = late_candidate(bench, start, &misfit, at, Some(part), stage)
-        {
-            return Some(found);
-        }
-        let misfit = of(by)?;
-        if misfit.fits() || stage.is_some() {
-            let found = late_candidate(bench, start, &misfit, by, None, stage);
-            if found.is_some() {
-                return found;
-            }
-        }
-        if by == old || misfit.dot(&misfit) > before.dot(&before) {
-            return None;
-        }
-        effect = misfit.plus(-1.0, &before).times(1.0 / (by - old));
-        (old, before) = (by, misfit);
+    let search = Search { question, bench, start };
+    let mut found: Vec<Candidate> = stages.into_iter().filter_map(|stage| search.late_in(stage)).collect();
+    if found.iter().all(|one| one.stage.is_some()) {
+        // Forces that jump lead a search astray; by what one stage is late, all may be.
+        let all = found.iter().find_map(|one| search.late_by(one.cause.clone()));
+        found.extend(all);
     }
-    None
+    found.extend(search.clock());
+    found
 }
 
-fn late_candidate(
-    bench: &Bench,
-    start: &Misfit,
-    misfit: &Misfit,
-    by: f64,
-    steps: Option<f64>,
-    stage: Option<Stage>,
-) -> Option<Candidate> {
-    let explained = bench.explained(start, misfit);
-    let cause = Cause::Values { slip: Slip::Late { by, steps, stage }, channels: explained.clone() };
-    let rank = match (steps, stage) {
-        (Some(_), _) => Rank::Change,
-        (None, None) => Rank::Number,
-        (None, Some(_)) => Rank::Fitted,
-    };
-    let make: Make = Box::new(move |case| shifted(case, by));
-    let claim = bench.claim(start, misfit);
-    (!explained.is_empty()).then_some(Candidate { rank, cause, make, stage, explained, claim, number: None })
+struct Search<'a, 'b> {
+    question: &'a Question<'b>,
+    bench: &'a Bench<'b>,
+    start: &'a Misfit,
+}
+
+impl Search<'_, '_> {
+    fn late_in(&self, stage: Option<Stage>) -> Option<Candidate> {
+        let bench = self.bench;
+        let span = bench.case.grid.times.iter().fold(0.0, |most: f64, t| most.larger(t.abs()));
+        let of = |by: f64| bench.tried_in(&shifted(&bench.case, by)?, stage);
+        let step = self.question.step;
+        let (nudge, parts) = match step {
+            Some((size, _)) => (size, &PARTS[..]),
+            None => (1e-5 * span, &[][..]),
+        };
+        // Whole or plain parts of a step, where they do as well.
+        let plain = |by: f64| {
+            let (size, told) = step?;
+            let part =
+                parts.iter().flat_map(|part| [*part, -part]).find(|part| (part * size - by).abs() < 0.05 * size)?;
+            let misfit = of(part * size)?;
+            self.late_candidate(&misfit, part * size, Some((part, told)), stage)
+        };
+        let rows = parts.iter().filter(|part| part.fract() == 0.0).flat_map(|part| [*part, -part]);
+        let named = rows.filter_map(|part| plain(part * step?.0)).next();
+        if named.is_some() {
+            return named;
+        }
+        let is_enough = |misfit: &Misfit| misfit.fits() || stage.is_some() && self.explains(misfit);
+        let mut named = None;
+        let found = self.secant(0.0, 0.25 * nudge, &of, &mut |by, misfit| {
+            named = plain(by).or_else(|| {
+                let (by, misfit) = self.short(by, misfit, 3..=5, &of, &is_enough)?;
+                self.late_candidate(&misfit, by, None, stage)
+            });
+            named.is_some() || is_enough(misfit)
+        });
+        named.or_else(|| found.and_then(|(by, misfit)| self.late_candidate(&misfit, by, None, stage)))
+    }
+
+    /// All channels, by what those of one stage are late.
+    fn late_by(&self, cause: Cause) -> Option<Candidate> {
+        let Cause::Values { slip: Slip::Late { by, steps, .. }, .. } = cause else { return None };
+        let misfit = self.bench.tried(&shifted(&self.bench.case, by)?)?;
+        self.late_candidate(&misfit, by, steps, None)
+    }
+
+    /// A number near to one that was found which has few digits and does as well. The search itself ends at rounding.
+    fn short(
+        &self,
+        value: f64,
+        misfit: &Misfit,
+        mut digits: RangeInclusive<usize>,
+        of: &dyn Fn(f64) -> Option<Misfit>,
+        is_enough: &dyn Fn(&Misfit) -> bool,
+    ) -> Option<(f64, Misfit)> {
+        if misfit.worst() > NEAR * self.start.worst() {
+            return None;
+        }
+        digits.find_map(|digits| {
+            let value = significant(value, digits);
+            of(value).filter(is_enough).map(|misfit| (value, misfit))
+        })
+    }
+
+    /// A clock that runs too fast, or in another unit.
+    fn clock(&self) -> Option<Candidate> {
+        let bench = self.bench;
+        let of = |factor: f64| bench.tried(&on_clock(&bench.case, factor)?);
+        // A free motion that is followed longer costs more than it may.
+        let mut clocks = CLOCKS.iter().filter(|(factor, _)| *factor < 1.0 || !bench.case.is_free());
+        let plain = clocks.find_map(|&(factor, told)| {
+            let misfit = of(factor)?;
+            self.clock_candidate(&misfit, factor, Some(told))
+        });
+        if plain.is_some() {
+            return plain;
+        }
+        let mut named = None;
+        let found = self.secant(1.0, 1e-6, &of, &mut |factor, misfit| {
+            // Of a clock that is fast by a part in a thousand, or one that is slow by it.
+            let slow = |value: f64| of(1.0 / value);
+            named = self.short(factor, misfit, 2..=6, &of, &Misfit::fits).or_else(|| {
+                let (inverse, misfit) = self.short(1.0 / factor, misfit, 2..=6, &slow, &Misfit::fits)?;
+                Some((1.0 / inverse, misfit))
+            });
+            named.is_some() || misfit.fits()
+        });
+        let (factor, misfit) = named.or(found)?;
+        self.clock_candidate(&misfit, factor, None)
+    }
+
+    /// The number at which `is_found`, by secants from the one that changes nothing.
+    fn secant(
+        &self,
+        origin: f64,
+        nudge: f64,
+        of: &dyn Fn(f64) -> Option<Misfit>,
+        is_found: &mut dyn FnMut(f64, &Misfit) -> bool,
+    ) -> Option<(f64, Misfit)> {
+        let mut effect = of(origin + nudge)?.plus(-1.0, self.start).times(1.0 / nudge);
+        let (mut old, mut before) = (origin, self.start.clone());
+        for _ in 0..STEPS {
+            let square = effect.dot(&effect);
+            if !(square > 0.0 && square.is_finite()) {
+                return None;
+            }
+            let next = old - effect.dot(&before) / square;
+            let misfit = of(next)?;
+            if is_found(next, &misfit) {
+                return Some((next, misfit));
+            }
+            if next == old || misfit.dot(&misfit) > before.dot(&before) {
+                return None;
+            }
+            effect = misfit.plus(-1.0, &before).times(1.0 / (next - old));
+            (old, before) = (next, misfit);
+        }
+        None
+    }
+
+    fn explains(&self, misfit: &Misfit) -> bool {
+        !self.bench.explained(self.start, misfit).is_empty()
+    }
+
+    fn late_candidate(
+        &self,
+        misfit: &Misfit,
+        by: f64,
+        steps: Option<(f64, &'static str)>,
+        stage: Option<Stage>,
+    ) -> Option<Candidate> {
+        let rank = match (steps, stage) {
+            (Some(_), _) => Rank::Change,
+            (None, None) => Rank::Number,
+            (None, Some(_)) => Rank::Fitted,
+        };
+        self.candidate(misfit, rank, Slip::Late { by, steps, stage }, Box::new(move |case| shifted(case, by)))
+    }
+
+    fn clock_candidate(&self, misfit: &Misfit, factor: f64, told: Option<&'static str>) -> Option<Candidate> {
+        let rank = if told.is_some() { Rank::Scale } else { Rank::Number };
+        self.candidate(misfit, rank, Slip::Clock { factor, told }, Box::new(move |case| on_clock(case, factor)))
+    }
+
+    fn candidate(&self, misfit: &Misfit, rank: Rank, slip: Slip, make: Make) -> Option<Candidate> {
+        let explained = self.bench.explained(self.start, misfit);
+        let stage = if let Slip::Late { stage, .. } = slip { stage } else { None };
+        let cause = Cause::Values { slip, channels: explained.clone() };
+        let claim = self.bench.claim(self.start, misfit);
+        (!explained.is_empty()).then_some(Candidate { rank, cause, make, stage, explained, claim, number: None })
+    }
 }
 
 /// The same case asked at instants that are earlier by `by` (s). A free motion has none before it begins.
 fn shifted(case: &Case, by: f64) -> Option<Case> {
     let earliest = if case.is_free() { 0.0 } else { f64::NEG_INFINITY };
-    let times = case.grid.times.iter().map(|t| (t - by).larger(earliest)).collect();
+    at_times(case, |t| (t - by).larger(earliest))
+}
+
+/// The same case asked at its instants times a factor.
+fn on_clock(case: &Case, factor: f64) -> Option<Case> {
+    at_times(case, |t| factor * t)
+}
+
+fn at_times(case: &Case, of: impl Fn(f64) -> f64) -> Option<Case> {
+    let times = case.grid.times.iter().map(|t| of(*t)).collect();
     case.on(Grid::of_times(case.crank(), times)).ok()
 }

@@ -22,16 +22,19 @@ struct Guess {
     value: f64,
     /// Sum of squares that the guess leaves, in a first approximation.
     rest: f64,
+    /// Its place among all knobs, the simplest of which come first.
+    place: usize,
 }
 
 /// The knobs that have an effect, with first guesses; those that explain most first.
 fn guesses(tries: &Tries) -> Vec<Guess> {
     let (bench, start) = (&tries.soon, &tries.starts[0]);
-    let moved = bench.is_moved();
+    let (moved, shows) = (bench.is_moved(), bench.shows_motion());
     let mut found = Vec::new();
-    for knob in knobs::all(&bench.case) {
+    for (place, knob) in knobs::all(&bench.case).into_iter().enumerate() {
         // Where the motion is prescribed, what moves nothing explains no motion, and what moves something shows in it.
-        if !tries.is_free && knob.moves_nothing == moved {
+        let is_idle = if moved { knob.moves_nothing } else { !knob.moves_nothing && shows && !knob.is_centre };
+        if !tries.is_free && is_idle {
             continue;
         }
         let nudged = knob.at(&bench.case, knob.given + knob.nudge).and_then(|case| bench.tried(&case));
@@ -40,7 +43,7 @@ fn guesses(tries: &Tries) -> Vec<Guess> {
         if square > 0.0 && square.is_finite() {
             let by = -effect.dot(start) / square;
             let left = start.plus(by, &effect);
-            found.push(Guess { value: knob.given + by, knob: Rc::new(knob), rest: left.dot(&left) });
+            found.push(Guess { value: knob.given + by, knob: Rc::new(knob), rest: left.dot(&left), place });
         }
     }
     // The sort is stable: of equals the simpler knob is first.
@@ -72,7 +75,9 @@ pub(super) fn numbers(tries: &Tries) -> Vec<Candidate> {
         guess.rest = tried.map_or(f64::INFINITY, |misfit| misfit.dot(&misfit));
     }
     open.sort_by(|a, b| a.rest.total_cmp(&b.rest));
-    for guess in open.into_iter().take(SEARCHED) {
+    open.truncate(SEARCHED);
+    open.sort_by_key(|guess| guess.place);
+    for guess in open {
         let knob = &guess.knob;
         let Some([mut value, mut middle]) = search(knob, guess.value, &tries.soon, Some(&tries.starts[0])) else {
             continue;
@@ -120,6 +125,7 @@ fn is_plain(how: &How) -> bool {
     match how {
         How::Missing | How::Reversed => true,
         How::Twice | How::Half | How::Times(..) | How::AtJoint(_) | How::AboutJoint(_) => false,
+        How::AtPoint(_) | How::FromJoint(_) | How::Across(_) | How::Middle(_) | How::Turned(_) => false,
         How::Swapped | How::Other(_) | How::Instead { .. } => false,
     }
 }
@@ -179,6 +185,24 @@ fn within(knob: &Knob, [low, high]: [f64; 2]) -> Vec<f64> {
     let fewest = (1..=9).map(|digits| knob.significant(middle, digits)).find(is_inside);
     fewest.into_iter().chain([middle]).collect()
 }
+
+/// Whether a number that was found is one that may be meant: it differs by more than a trifle, or has few digits, or is
+/// known to a small part of its change, because the differences are `excess` times their bounds. Any smooth error is a
+/// tiny change of some number.
+pub(super) fn is_sure(change: &Change, excess: f64) -> bool {
+    let How::Instead { found, given, unit } = change.how else { return true };
+    let told = if unit == "rad" { found.to_degrees() } else { found };
+    // Degrees are rounded on the way.
+    let has_few_digits = (knobs::significant(told, FEW_DIGITS) - told).abs() <= 1e-9 * told.abs();
+    (found - given).abs() >= TRIFLE * found.abs().larger(given.abs()) || has_few_digits || excess >= TELLING
+}
+
+/// Digits of a number that may be meant.
+const FEW_DIGITS: usize = 4;
+/// Share of a number by which nobody changes it on purpose.
+const TRIFLE: f64 = 1e-3;
+/// Times its bound that a difference must be for a tiny change of more digits: it is then known to a hundredth.
+const TELLING: f64 = 100.0;
 
 /// A value near the one found on the thinned grid that explains everything on the whole grid too.
 pub(super) fn confirmed(

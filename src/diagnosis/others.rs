@@ -31,14 +31,21 @@ pub(super) fn found(question: &Question) -> Vec<Found> {
             put(Slip::Instead(channel.clone()), Rank::Change, own);
             continue;
         }
-        if one.channel.kind.unit == Unit::Radian || one.channel.kind.unit == Unit::RadianPerSecond {
-            let pairs = question.reference.iter().filter(|(channel, _)| channel.kind == one.channel.kind);
-            // A link that does not turn is no other link to count from.
-            let all: Vec<(&Channel, &[f64])> = pairs.filter(|(_, values)| one.varies(values)).collect();
-            if let Some(slip) = between(one, &all) {
-                let is_plain = matches!(slip, Slip::Between { offset: 0.0, .. });
-                put(slip, if is_plain { Rank::Change } else { Rank::Fitted }, own);
-            }
+        let opposite = |values: &[f64]| one.has_values_of(&values.iter().map(|value| -value).collect::<Vec<f64>>());
+        if let Some((channel, _)) = others().find(|(_, values)| opposite(values)) {
+            put(Slip::Opposite(channel.clone()), Rank::Change, own);
+            continue;
+        }
+        if let Some(both) = magnitude(question, one) {
+            put(Slip::Magnitude(both), Rank::Change, own);
+            continue;
+        }
+        let pairs = question.reference.iter().filter(|(channel, _)| channel.kind.suffix == one.channel.kind.suffix);
+        // What does not move is no other place to count from.
+        let all: Vec<(&Channel, &[f64])> = pairs.filter(|(_, values)| one.varies(values)).collect();
+        if let Some(slip) = between(one, &all) {
+            let is_plain = matches!(slip, Slip::Between { offset: 0.0, .. });
+            put(slip, if is_plain { Rank::Change } else { Rank::Fitted }, own);
         }
     }
     causes
@@ -51,7 +58,21 @@ fn alike(one: &Channel, other: &Channel) -> bool {
     one != other && (one.kind.unit == other.kind.unit && one.kind.stage == other.kind.stage || is_neighbour)
 }
 
-/// The difference of two links' angles, up to where it is counted from; or of their angular velocities.
+/// The two components of a vector, where its magnitude stands in the place of one.
+fn magnitude(question: &Question, one: &Wrong) -> Option<[Channel; 2]> {
+    let suffix = one.channel.kind.suffix;
+    let other = match suffix.contains('y') {
+        true => suffix.replacen('y', "x", 1),
+        false => suffix.replacen('x', "y", 1),
+    };
+    let other = Channel::named(&format!("{}.{other}", one.channel.subject()))?;
+    let across = question.reference.column(&other)?;
+    let sizes: Vec<f64> = one.right.iter().zip(across).map(|(a, b)| a.hypot(*b)).collect();
+    one.has_values_of(&sizes).then(|| [one.channel.clone(), other])
+}
+
+/// The difference of two channels of one kind, as relative to another link or point; of angles up to where it is counted
+/// from.
 fn between(one: &Wrong, all: &[(&Channel, &[f64])]) -> Option<Slip> {
     if !one.varies(one.found) {
         return None;
@@ -74,12 +95,12 @@ fn between(one: &Wrong, all: &[(&Channel, &[f64])]) -> Option<Slip> {
 
 impl Wrong<'_> {
     /// Whether its values are those, which say something by their course.
-    fn has_values_of(&self, others: &[f64]) -> bool {
+    pub(super) fn has_values_of(&self, others: &[f64]) -> bool {
         self.varies(others)
             && differences(others, self.found, self.channel.kind.periodic).iter().all(|gap| gap.abs() <= self.bound)
     }
 
-    fn varies(&self, values: &[f64]) -> bool {
+    pub(super) fn varies(&self, values: &[f64]) -> bool {
         half_range(values) > TELLING * self.bound
     }
 }

@@ -30,8 +30,8 @@ pub struct Question<'a> {
     pub case: &'a Case,
     /// Solver that tries changed cases; accurate to far below the bounds.
     pub solver: &'a dyn Solver,
-    /// Time step of the suspect (s), if it has one.
-    pub step: Option<f64>,
+    /// Time step of the suspect (s), or the distance of its rows, if it has one, and the word for it.
+    pub step: Option<(f64, &'static str)>,
 }
 
 /// A cause, and what it explains.

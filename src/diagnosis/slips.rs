@@ -2,37 +2,90 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::cause::{Cause, Slip};
+use super::cause::{Cause, Plain, Slip};
 use super::knobs::significant;
 use super::question::{Found, Judged, Question, Rank};
 use crate::compare::{differences, magnitudes};
+use linkage::math::angle::wrapped;
 use linkage::math::{KeepNan, largest_size};
 use linkage::trajectory::{Channel, Stage, Unit};
 
 /// The part of a bound below which the reference itself is not known, as a share of the size of its numbers.
 pub(super) const KNOWN: f64 = 1e-10;
 
-const ANGULAR: &[Unit] = &[Unit::Radian, Unit::RadianPerSecond, Unit::RadianPerSecondSquared];
-const LENGTHS: &[Unit] = &[Unit::Metre, Unit::MetrePerSecond, Unit::MetrePerSecondSquared];
-const FORCES: &[Unit] = &[Unit::Newton, Unit::NewtonMetre];
+/// A factor on the values of a channel, and the unit that is meant by it.
+type Mistaken = (f64, &'static str);
 
-/// Units that are taken for each other: the units of the channels, the factor on their values, what is meant.
-const UNITS: &[(&[Unit], f64, &str)] = &[
-    (ANGULAR, 180.0 / PI, "degrees instead of radians"),
-    (ANGULAR, PI / 180.0, "radians taken for degrees and converted once more"),
-    (&[Unit::RadianPerSecond], 30.0 / PI, "revolutions per minute instead of rad/s"),
-    (&[Unit::RadianPerSecond], PI / 30.0, "rad/s taken for revolutions per minute"),
-    (ANGULAR, 1.0 / TAU, "turns instead of radians"),
-    (LENGTHS, 1e3, "millimetres instead of metres"),
-    (LENGTHS, 1e-3, "metres taken for millimetres"),
-    (LENGTHS, 1e2, "centimetres instead of metres"),
-    (LENGTHS, 1e-2, "metres taken for centimetres"),
-    (LENGTHS, 1.0 / 0.0254, "inches instead of metres"),
-    (FORCES, 1e3, "a thousandfold, as g for kg or mN for N"),
-    (FORCES, 1e-3, "a thousandth, as kg for g or kN for N"),
-    (FORCES, 1.0 / 9.806_65, "kiloponds instead of newtons"),
-    (FORCES, 9.806_65, "newtons taken for kiloponds"),
-];
+const DEGREES: Mistaken = (180.0 / PI, "degrees instead of radians");
+const TWICE_CONVERTED: Mistaken = (PI / 180.0, "radians taken for degrees and converted once more");
+const TURNS: Mistaken = (1.0 / TAU, "turns instead of radians");
+const MILLIMETRES: Mistaken = (1e3, "millimetres instead of metres");
+const FROM_MILLIMETRES: Mistaken = (1e-3, "metres taken for millimetres");
+const CENTIMETRES: Mistaken = (1e2, "centimetres instead of metres");
+const FROM_CENTIMETRES: Mistaken = (1e-2, "metres taken for centimetres");
+const INCHES: Mistaken = (1.0 / 0.0254, "inches instead of metres");
+const FEET: Mistaken = (1.0 / 0.3048, "feet instead of metres");
+const PER_MINUTE: Mistaken = (60.0, "per minute instead of per second");
+const FROM_MINUTE: Mistaken = (1.0 / 60.0, "per second taken for per minute");
+const THOUSANDFOLD: Mistaken = (1e3, "a thousandfold, as g for kg or mN for N");
+const THOUSANDTH: Mistaken = (1e-3, "a thousandth, as kg for g or kN for N");
+const KILOPONDS: Mistaken = (1.0 / G, "kiloponds instead of newtons");
+const FROM_KILOPONDS: Mistaken = (G, "newtons taken for kiloponds");
+/// Standard gravity (m/s^2).
+const G: f64 = 9.806_65;
+/// A pound-force (N).
+const POUND: f64 = 4.448_221_615_260_5;
+
+/// Units that are taken for the unit of a channel, the likeliest first.
+fn mistaken(unit: Unit) -> &'static [Mistaken] {
+    match unit {
+        Unit::Radian => &[DEGREES, TWICE_CONVERTED, TURNS],
+        Unit::RadianPerSecond => &[
+            DEGREES,
+            TWICE_CONVERTED,
+            (30.0 / PI, "revolutions per minute instead of rad/s"),
+            (PI / 30.0, "rad/s taken for revolutions per minute"),
+            TURNS,
+            PER_MINUTE,
+            FROM_MINUTE,
+        ],
+        Unit::RadianPerSecondSquared => &[DEGREES, TWICE_CONVERTED, TURNS],
+        Unit::Metre => &[MILLIMETRES, FROM_MILLIMETRES, CENTIMETRES, FROM_CENTIMETRES, INCHES, FEET],
+        Unit::MetrePerSecond => &[
+            MILLIMETRES,
+            FROM_MILLIMETRES,
+            CENTIMETRES,
+            FROM_CENTIMETRES,
+            INCHES,
+            FEET,
+            PER_MINUTE,
+            FROM_MINUTE,
+            (3.6, "km/h instead of m/s"),
+        ],
+        Unit::MetrePerSecondSquared => &[
+            MILLIMETRES,
+            FROM_MILLIMETRES,
+            CENTIMETRES,
+            FROM_CENTIMETRES,
+            INCHES,
+            FEET,
+            (1.0 / G, "multiples of standard gravity instead of m/s^2"),
+        ],
+        Unit::Newton => {
+            &[THOUSANDFOLD, THOUSANDTH, KILOPONDS, FROM_KILOPONDS, (1.0 / POUND, "pounds-force instead of newtons")]
+        }
+        Unit::NewtonMetre => &[
+            THOUSANDFOLD,
+            THOUSANDTH,
+            KILOPONDS,
+            FROM_KILOPONDS,
+            (1e2, "N cm instead of N m"),
+            (1e-2, "N m taken for N cm"),
+            (1.0 / (POUND * 0.3048), "pound-feet instead of N m"),
+            (1.0 / (POUND * 0.0254), "pound-inches instead of N m"),
+        ],
+    }
+}
 
 /// A disagreeing channel with its values.
 pub(super) struct Wrong<'a> {
@@ -40,6 +93,7 @@ pub(super) struct Wrong<'a> {
     pub(super) right: &'a [f64],
     pub(super) found: &'a [f64],
     pub(super) bound: f64,
+    pub(super) times: &'a [f64],
     /// Constant speed of the crank (rad/s), if it has one.
     speed: Option<f64>,
 }
@@ -49,7 +103,7 @@ pub(super) struct Wrong<'a> {
 pub(super) fn found(question: &Question) -> Vec<Found> {
     let wrong = wrong(question);
     let mut causes = Vec::new();
-    for slip in plain() {
+    for slip in plain(&wrong) {
         let explained: Vec<Channel> =
             wrong.iter().filter(|wrong| wrong.is_explained_by(&slip)).map(|wrong| wrong.channel.clone()).collect();
         if !explained.is_empty() {
@@ -78,16 +132,36 @@ pub(super) fn wrong<'a>(question: &'a Question) -> Vec<Wrong<'a>> {
         let channel = &judged.channel;
         let place = question.reference.channels().iter().position(|own| own == channel)?;
         let (right, found) = (question.reference.column(channel)?, question.suspicious.column(channel)?);
-        Some(Wrong { channel, right, found, bound: judged.bound.larger(KNOWN * sizes[place]), speed })
+        let (bound, times) = (judged.bound.larger(KNOWN * sizes[place]), question.reference.times());
+        Some(Wrong { channel, right, found, bound, times, speed })
     };
     question.judged.iter().filter(|judged| judged.disagrees).filter_map(of).collect()
 }
 
 /// Slips without a free number, the simplest first.
-fn plain() -> impl Iterator<Item = Slip> {
-    let units = UNITS.iter().map(|&(_, factor, told)| Slip::Unit { factor, told });
-    [Slip::Sign, Slip::Turns, Slip::Twice, Slip::Half, Slip::Zero].into_iter().chain(units).chain([Slip::PerRadian])
+fn plain(wrong: &[Wrong]) -> Vec<Slip> {
+    let mut slips: Vec<Slip> = Plain::ALL.iter().map(|&plain| Slip::Plain(plain)).collect();
+    for &(factor, told) in wrong.iter().flat_map(|wrong| mistaken(wrong.channel.kind.unit)) {
+        let slip = Slip::Unit { factor, told };
+        if !slips.contains(&slip) {
+            slips.push(slip);
+        }
+    }
+    slips.extend(lonely(wrong).map(Slip::Outlier));
+    slips
 }
+
+/// The time of the one row that is off, where all channels are right elsewhere.
+fn lonely(wrong: &[Wrong]) -> Option<f64> {
+    let times = wrong.first()?.times;
+    let is_off = |row: usize| wrong.iter().any(|own| !(own.gap(row).abs() <= own.bound));
+    let mut off = (0..times.len()).filter(|&row| is_off(row));
+    let row = off.next().filter(|_| times.len() >= MANY)?;
+    off.next().is_none().then_some(times[row])
+}
+
+/// Fewest instants of which one may be off by itself.
+const MANY: usize = 8;
 
 /// Slips whose number comes from the channel that is farthest beyond its bound.
 fn fitted(wrong: &[Wrong]) -> Vec<Slip> {
@@ -120,9 +194,10 @@ fn with_digits(slip: &Slip, digits: usize, angle: bool) -> Slip {
         Slip::Factor(factor) => Slip::Factor(significant(*factor, digits)),
         Slip::Offset(by) => Slip::Offset(shortened(*by, digits, angle)),
         Slip::Mirrored(by) => Slip::Mirrored(shortened(*by, digits, angle)),
-        Slip::Instead(_) | Slip::Exchanged(_) | Slip::Between { .. } => slip.clone(),
-        Slip::Sign | Slip::Turns | Slip::Twice | Slip::Half | Slip::Zero => slip.clone(),
-        Slip::Unit { .. } | Slip::PerRadian | Slip::Late { .. } => slip.clone(),
+        Slip::Instead(_) | Slip::Opposite(_) | Slip::Exchanged(_) | Slip::Between { .. } => slip.clone(),
+        Slip::Magnitude(_) | Slip::Differences { .. } | Slip::NoCoriolis(_) | Slip::About(_) => slip.clone(),
+        Slip::Plain(_) | Slip::Unit { .. } | Slip::Outlier(_) => slip.clone(),
+        Slip::Late { .. } | Slip::Clock { .. } => slip.clone(),
     }
 }
 
@@ -144,31 +219,56 @@ impl Wrong<'_> {
     fn is_explained_by(&self, slip: &Slip) -> bool {
         let unit = self.channel.kind.unit;
         match *slip {
-            Slip::Sign => self.meets(|value| -value),
-            Slip::Twice => self.meets(|value| 2.0 * value),
-            Slip::Half => self.meets(|value| value / 2.0),
-            Slip::Zero => self.meets(|_| 0.0),
+            Slip::Plain(plain) => self.is_plainly(plain),
             Slip::Factor(factor) => self.meets(|value| factor * value),
             Slip::Offset(by) => self.meets(|value| value + by),
             Slip::Mirrored(by) => self.meets(|value| by - value),
             Slip::Unit { factor, told } => {
-                UNITS.iter().any(|(units, _, own)| *own == told && units.contains(&unit))
-                    && self.meets(|value| factor * value)
+                mistaken(unit).iter().any(|(_, own)| *own == told) && self.meets(|value| factor * value)
             }
-            Slip::PerRadian => match (self.speed, self.channel.kind.stage) {
+            Slip::Outlier(time) => {
+                (0..self.times.len()).all(|row| self.times[row] == time || self.gap(row).abs() <= self.bound)
+            }
+            // Need the solution at other instants, or of other channels: see `late`, `others` and `derived`.
+            Slip::Late { .. } | Slip::Clock { .. } | Slip::Instead(_) | Slip::Opposite(_) => false,
+            Slip::Exchanged(_) | Slip::Between { .. } | Slip::Magnitude(_) => false,
+            Slip::Differences { .. } | Slip::NoCoriolis(_) | Slip::About(_) => false,
+        }
+    }
+
+    fn is_plainly(&self, plain: Plain) -> bool {
+        let is_angle = self.channel.kind.periodic;
+        let parts_of = |turn: f64| {
+            let gaps = differences(self.right, self.found, is_angle).into_iter().map(|gap| gap / turn);
+            gaps.map(|gap| (gap.round(), turn * (gap - gap.round()).abs())).collect::<Vec<_>>()
+        };
+        match plain {
+            Plain::Sign => self.meets(|value| -value),
+            Plain::Twice => self.meets(|value| 2.0 * value),
+            Plain::Half => self.meets(|value| value / 2.0),
+            Plain::Zero => self.meets(|_| 0.0),
+            Plain::Size => self.meets(|value| if is_angle { wrapped(value).abs() } else { value.abs() }),
+            Plain::ArcSine => is_angle && self.meets(|value| value.sin().asin()),
+            Plain::PerRadian => match (self.speed, self.channel.kind.stage) {
                 (Some(speed), Stage::Velocities) => self.meets(|value| value / speed),
                 (Some(speed), Stage::Accelerations) => self.meets(|value| value / (speed * speed)),
                 (_, Stage::Positions | Stage::Velocities | Stage::Accelerations) => false,
                 (_, Stage::Reactions | Stage::BalancingMoment) => false,
             },
-            Slip::Turns => {
-                let gaps = differences(self.right, self.found, true);
-                self.channel.kind.periodic
-                    && gaps.iter().all(|gap| (gap - TAU * (gap / TAU).round()).abs() <= self.bound)
+            Plain::Turns => is_angle && parts_of(TAU).iter().all(|(_, over)| *over <= self.bound),
+            // The same half turn everywhere is an offset.
+            Plain::HalfTurns => {
+                let parts = parts_of(PI);
+                let is_odd = |(halves, _): &(f64, f64)| halves.rem_euclid(2.0) == 1.0;
+                let changes = parts.iter().any(is_odd) && !parts.iter().all(is_odd);
+                is_angle && changes && parts.iter().all(|(_, over)| *over <= self.bound)
             }
-            // Need the solution at other instants, or of other channels: see `late` and `others`.
-            Slip::Late { .. } | Slip::Instead(_) | Slip::Exchanged(_) | Slip::Between { .. } => false,
         }
+    }
+
+    /// How far its value is off at a row.
+    fn gap(&self, row: usize) -> f64 {
+        differences(&self.right[row..=row], &self.found[row..=row], self.channel.kind.periodic)[0]
     }
 
     fn meets(&self, done: impl Fn(f64) -> f64) -> bool {

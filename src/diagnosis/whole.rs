@@ -1,5 +1,7 @@
 //! Changes of the case without a number.
 
+use std::f64::consts::FRAC_PI_2;
+
 use super::cause::{Cause, Change, How, Part};
 use super::configurations::others;
 use super::knobs::changed;
@@ -8,10 +10,10 @@ use super::tries::{Candidate, Make, Tries};
 use linkage::case::Case;
 use linkage::drive::{Course, Load};
 use linkage::math::Vec2;
-use linkage::mechanism::Side;
+use linkage::mechanism::{Link, Side};
 
-/// Changes without a number: another configuration, gravity along another axis, mass centres at joints, no inertia
-/// forces.
+/// Changes without a number: another configuration, gravity along another axis, mass centres elsewhere, no weights or
+/// inertia forces, loads at other points.
 pub(super) fn whole_changes(tries: &Tries) -> Vec<Candidate> {
     let case = &tries.thin.case;
     let mut all: Vec<(Change, Make)> = Vec::new();
@@ -25,17 +27,29 @@ pub(super) fn whole_changes(tries: &Tries) -> Vec<Candidate> {
     }
     let gravity = case.gravity;
     if gravity.norm() > 0.0 {
-        let swapped = Vec2::new(gravity.y, gravity.x);
-        let make: Make = Box::new(move |case| case.with(|parts| parts.gravity = swapped).ok());
-        all.push((Change { part: Part::Gravity, how: How::Swapped }, make));
+        let turned = [
+            (How::Swapped, Vec2::new(gravity.y, gravity.x)),
+            (How::Turned(FRAC_PI_2), Vec2::new(-gravity.y, gravity.x)),
+            (How::Turned(-FRAC_PI_2), Vec2::new(gravity.y, -gravity.x)),
+        ];
+        for (how, other) in turned {
+            let make: Make = Box::new(move |case| case.with(|parts| parts.gravity = other).ok());
+            all.push((Change { part: Part::Gravity, how }, make));
+        }
     }
     let kinematic = tries.thin.is_moved();
     if !kinematic && !tries.is_free {
-        all.push((Change { part: Part::InertiaForces, how: How::Missing }, Box::new(without_inertia_forces)));
+        let links: Vec<usize> = (1..case.mechanism.links().len()).collect();
+        all.push((
+            Change { part: Part::InertiaForces, how: How::Missing },
+            Box::new(move |case| without_inertia_forces(case, &links)),
+        ));
     }
-    if kinematic || tries.is_free {
-        all.extend(mass_centres(case));
+    if !kinematic || tries.is_free {
+        all.extend(masses(case));
+        all.extend(loads(case));
     }
+    all.extend(mass_centres(case));
     let tried = all.into_iter().filter_map(|(change, make)| {
         let misfit = tries.of(&make)?;
         tries.candidate(&misfit, Rank::Change, Cause::Case(change), make)
@@ -43,35 +57,116 @@ pub(super) fn whole_changes(tries: &Tries) -> Vec<Candidate> {
     tried.collect()
 }
 
-/// The mass centre of every link at each of its joints.
+/// The mass centre of every link at each of its joints, in the middle of two, measured from the other one, or on the
+/// other side of their line.
 fn mass_centres(case: &Case) -> Vec<(Change, Make)> {
     let mut found: Vec<(Change, Make)> = Vec::new();
     for (index, link) in case.mechanism.links().iter().enumerate().skip(1).filter(|(_, link)| link.mass > 0.0) {
-        for joint in case.mechanism.joints() {
-            let Some(at) = joint.on(index).filter(|at| (at - link.mass_centre).norm() > 0.0) else { continue };
-            let change = Change { part: Part::MassCentre(link.name.clone()), how: How::AtJoint(joint.name.clone()) };
+        let joints = case.mechanism.joints().iter().filter_map(|joint| Some((joint.name.clone(), joint.on(index)?)));
+        let joints: Vec<(String, Vec2)> = joints.collect();
+        let own = link.mass_centre;
+        let mut places: Vec<(How, Vec2)> = joints.iter().map(|(name, at)| (How::AtJoint(name.clone()), *at)).collect();
+        for (number, (one, from)) in joints.iter().enumerate() {
+            for (other, to) in &joints[number + 1..] {
+                let names = [one.clone(), other.clone()];
+                let along = to - from;
+                if !(along.norm() > 0.0) {
+                    continue;
+                }
+                let across = own - from - along * ((own - from).dot(&along) / along.norm_squared());
+                places.push((How::FromJoint(names.clone()), from + to - own));
+                places.push((How::Across(names.clone()), own - 2.0 * across));
+                places.push((How::Middle(names), 0.5 * (from + to)));
+            }
+        }
+        let mut seen = vec![own];
+        for (how, at) in places {
+            if seen.iter().any(|known| (known - at).norm() <= 1e-9 * link.extent()) {
+                continue;
+            }
+            seen.push(at);
             let make: Make = Box::new(move |case| {
                 let mut parts = case.clone().into_parts();
                 changed(&mut parts, |links, _| links[index].mass_centre = at)?;
                 Case::new(parts).ok()
             });
-            found.push((change, make));
+            found.push((Change { part: Part::MassCentre(link.name.clone()), how }, make));
         }
     }
     found
 }
 
-/// The case with weights, but without resistance to acceleration.
-fn without_inertia_forces(case: &Case) -> Option<Case> {
+/// Every link without mass and inertia, without its weight, and without its resistance to acceleration.
+fn masses(case: &Case) -> Vec<(Change, Make)> {
+    let mut found: Vec<(Change, Make)> = Vec::new();
+    let mut put = |part: Part, make: Make| found.push((Change { part, how: How::Missing }, make));
+    let heavy = |(_, link): &(usize, &Link)| link.mass > 0.0;
+    let all: Vec<(usize, &Link)> = case.mechanism.links().iter().enumerate().skip(1).filter(heavy).collect();
+    // Of a single link all is the same as this one.
+    for &(index, link) in all.iter().filter(|_| all.len() > 1) {
+        if link.inertia > 0.0 && case.mechanism.can_turn(index) {
+            put(Part::Body(link.name.clone()), Box::new(move |case| without_masses(case, &[index])));
+        }
+        // Without weight, inertia forces are all that a mass does.
+        if case.gravity.norm() > 0.0 {
+            let lifted = move |case: &Case| case.with(|parts| parts.loads.push(weight(case, index, -1.0))).ok();
+            put(Part::Weight(link.name.clone()), Box::new(lifted));
+            put(Part::Inert(link.name.clone()), Box::new(move |case| without_inertia_forces(case, &[index])));
+        }
+    }
+    found
+}
+
+/// Every load that acts at a point, at the other points of its link.
+fn loads(case: &Case) -> Vec<(Change, Make)> {
+    let mut found: Vec<(Change, Make)> = Vec::new();
+    for (number, load) in case.loads.iter().enumerate() {
+        for (end, side) in places_of(&mut load.clone()).into_iter().enumerate() {
+            let link = &case.mechanism.links()[side.link];
+            for point in link.points.iter().filter(|point| point.local != side.local) {
+                let at = point.local;
+                let make: Make = Box::new(move |case| {
+                    case.with(|parts| {
+                        if let Some(side) = places_of(&mut parts.loads[number]).into_iter().nth(end) {
+                            side.local = at;
+                        }
+                    })
+                    .ok()
+                });
+                let part = Part::Load(number + 1, load.nature().sort);
+                found.push((Change { part, how: How::AtPoint(point.name.clone()) }, make));
+            }
+        }
+    }
+    found
+}
+
+/// The places at which a load acts.
+fn places_of(load: &mut Load) -> Vec<&mut Side> {
+    match load {
+        Load::Force { at, .. } | Load::ResistingForce { at, .. } => vec![at],
+        Load::Spring { ends, .. } | Load::Damper { ends, .. } => ends.iter_mut().collect(),
+        Load::Resistance { .. } | Load::Moment { .. } => Vec::new(),
+        Load::TorsionSpring { .. } | Load::TorsionDamper { .. } => Vec::new(),
+    }
+}
+
+/// A link's weight times a factor, as a load.
+fn weight(case: &Case, link: usize, factor: f64) -> Load {
+    let body = &case.mechanism.links()[link];
+    let [x, y] = [case.gravity.x, case.gravity.y].map(|own| Course::Constant(factor * body.mass * own));
+    Load::Force { at: Side { link, local: body.mass_centre }, force: [x, y], follows: false }
+}
+
+/// The case with weights, but without some links' resistance to acceleration.
+fn without_inertia_forces(case: &Case, of: &[usize]) -> Option<Case> {
+    let heavy = case.with(|parts| parts.loads.extend(of.iter().map(|&link| weight(case, link, 1.0)))).ok()?;
+    without_masses(&heavy, of)
+}
+
+/// The case without some links' masses and moments of inertia.
+fn without_masses(case: &Case, of: &[usize]) -> Option<Case> {
     let mut parts = case.clone().into_parts();
-    let gravity = parts.gravity;
-    let weight = |(link, body): (usize, &linkage::mechanism::Link)| Load::Force {
-        at: Side { link, local: body.mass_centre },
-        force: [Course::Constant(body.mass * gravity.x), Course::Constant(body.mass * gravity.y)],
-        follows: false,
-    };
-    let weights: Vec<Load> = case.mechanism.links().iter().enumerate().skip(1).map(weight).collect();
-    parts.loads.extend(weights);
-    changed(&mut parts, |links, _| links.iter_mut().for_each(|link| (link.mass, link.inertia) = (0.0, 0.0)))?;
+    changed(&mut parts, |links, _| of.iter().for_each(|&link| (links[link].mass, links[link].inertia) = (0.0, 0.0)))?;
     Case::new(parts).ok()
 }

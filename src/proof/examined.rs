@@ -67,7 +67,7 @@ pub(super) fn of(
                 judged: &judged(engine),
                 case,
                 solver: main,
-                step: (!engine.info.controls_error).then_some(engine.info.settings.resolution),
+                step: (!engine.info.controls_error).then_some((engine.info.settings.resolution, "step")),
             };
             diagnose(&question, &parties)
         }
@@ -103,7 +103,7 @@ mod tests {
     use std::path::Path;
 
     use super::*;
-    use crate::diagnosis::{Cause, Slip};
+    use crate::diagnosis::{Cause, Plain, Slip};
     use crate::proof::observe::{Watch, observe};
     use crate::proof::{Options, prove};
     use crate::scenario::Scenario;
@@ -143,7 +143,11 @@ mod tests {
             let known = Known::of(case, sides.each_ref().map(|(name, side)| (*name, &side.trajectory)), &[]).unwrap();
             let found = of(case, &AssurSolver, &sides, &known, &right.engines).expect("the sides disagree");
             assert_eq!((found.suspect.as_str(), &found.alone), (wrong, &Standing::Alone(wrong.into())));
-            assert!(matches!(found.cause, Some(Cause::Values { slip: Slip::Sign, .. })), "{:?}", found.cause);
+            assert!(
+                matches!(found.cause, Some(Cause::Values { slip: Slip::Plain(Plain::Sign), .. })),
+                "{:?}",
+                found.cause
+            );
             assert!(found.is_explained());
         }
     }

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use serde::Serialize;
 
-use crate::diagnosis::{Axis, Cause, Change, Diagnosis, How, Part, Since, Slip, Standing};
+use crate::diagnosis::{Arm, Axis, Cause, Change, Diagnosis, How, Nature, Over, Part, Plain, Since, Slip, Standing};
 use crate::numbers::{fixed, significant};
 use linkage::trajectory::{Channel, Stage};
 
@@ -42,6 +42,9 @@ pub fn text(diagnosis: &Diagnosis) -> String {
             line("cause", format!("no single one; a part is explained by this: {}", cause(found)));
             line("left over", format!("{} of {}: {}", left, counted(wrong, "channel"), names(&diagnosis.left_over)));
         }
+    }
+    if let Some(own) = diagnosis.nature {
+        line("error", nature(own));
     }
     for one in &diagnosis.also {
         line("or", format!("{}, which explains as much", cause(one)));
@@ -104,18 +107,36 @@ fn slip(slip: &Slip, channels: &[Channel]) -> String {
     let of = names(channels);
     let unit = channels.first().map_or("", |channel| channel.kind.unit.symbol());
     match slip {
-        Slip::Sign => format!("the opposite sign of {of}"),
-        Slip::Turns => format!("whole turns too much or too little in {of}"),
-        Slip::Twice => format!("twice the values of {of}"),
-        Slip::Half => format!("half the values of {of}"),
-        Slip::Zero => format!("zero instead of {of}"),
+        Slip::Plain(own) => plain(*own, &of),
         Slip::Unit { factor: _, told } => format!("another unit, {told}, in {of}"),
-        Slip::PerRadian => format!("rates per radian of the crank instead of per second in {of}"),
         Slip::Offset(by) => format!("{} added at every instant to {of}", amount(*by, unit)),
         Slip::Mirrored(by) => {
             format!("{of} counted the other way round, from another axis: {} less the right value", amount(*by, unit))
         }
         Slip::Instead(other) => format!("the values of {other} in place of {of}"),
+        Slip::Opposite(other) => format!("the values of {other} with the opposite sign in place of {of}"),
+        Slip::Magnitude([one, other]) => format!("the magnitude of {one} and {other} in place of {of}"),
+        Slip::Differences { of: other, order, over } => {
+            let (order, over) = (if *order == 1 { "" } else { "second " }, rows_of(*over));
+            format!(
+                "{order}differences of {other} over {over}, or such of its like, in place of {of}: take closer rows"
+            )
+        }
+        Slip::NoCoriolis(joint) => format!("the Coriolis acceleration of the block at {joint} is missing in {of}"),
+        Slip::About(Arm::Constant([x, y])) => {
+            format!("{of} about another point, by ({}, {}) m away", number(*x), number(*y))
+        }
+        Slip::About(Arm::Between(None, to)) => format!("{of} about {to} instead of the origin"),
+        Slip::About(Arm::Between(Some(from), to)) => format!("{of} about {to} instead of {from}"),
+        Slip::Outlier(time) => format!("one row alone, at t = {} s, in {of}: an outlier", number(*time)),
+        Slip::Clock { factor, told: Some(told) } => {
+            format!("another unit of time: {told}, {} times the time of a row", number(*factor))
+        }
+        Slip::Clock { factor, told: None } => {
+            let how = if *factor < 1.0 { "fast" } else { "slow" };
+            let by = told_apart(factor.recip(), 1.0);
+            format!("the clock of all rows is too {how}: the time of a row is {by} times that of its values")
+        }
         Slip::Exchanged([one, other]) => format!("{one} and {other} exchanged"),
         Slip::Between { of: [first, second], offset: 0.0 } => {
             format!("{first} less {second} in place of {of}: counted from another link")
@@ -128,10 +149,62 @@ fn slip(slip: &Slip, channels: &[Channel]) -> String {
         Slip::Late { by, steps, stage } => {
             let what = stage.map_or("all channels".to_string(), |stage| stage.name().replace('_', " "));
             let how = if *by >= 0.0 { "late" } else { "early" };
-            let size = number(by.abs());
-            let steps = steps.map_or(String::new(), |steps| format!(", {} steps", number(steps.abs())));
+            let size = duration(by.abs());
+            let steps = steps.map_or(String::new(), |(steps, told)| {
+                let several = if steps.abs() > 1.0 { "s" } else { "" };
+                format!(", {} {told}{several}", number(steps.abs()))
+            });
             let are = if *stage == Some(Stage::BalancingMoment) { "is" } else { "are" };
-            format!("{what} {are} {size} s{steps} too {how}")
+            format!("{what} {are} {size}{steps} too {how}")
+        }
+    }
+}
+
+fn plain(slip: Plain, of: &str) -> String {
+    match slip {
+        Plain::Sign => format!("the opposite sign of {of}"),
+        Plain::Turns => format!("whole turns too much or too little in {of}"),
+        Plain::HalfTurns => format!("half turns too much or too little in {of}, as an arc tangent of a quotient gives"),
+        Plain::Twice => format!("twice the values of {of}"),
+        Plain::Half => format!("half the values of {of}"),
+        Plain::Zero => format!("zero instead of {of}"),
+        Plain::Size => format!("the sign of {of} is lost"),
+        Plain::ArcSine => format!("{of} from its sine: beyond a quarter turn it is folded back"),
+        Plain::PerRadian => format!("rates per radian of the crank instead of per second in {of}"),
+    }
+}
+
+fn rows_of(over: Over) -> String {
+    match over {
+        Over::Either(1) => "the row before and the one behind".into(),
+        Over::Either(rows) => format!("{rows} rows before and behind"),
+        Over::Before => "the row and the one before".into(),
+        Over::Behind => "the row and the one behind".into(),
+    }
+}
+
+/// A short time in ms, a longer one in s.
+fn duration(seconds: f64) -> String {
+    if seconds < 0.1 { format!("{} ms", number(1e3 * seconds)) } else { format!("{} s", number(seconds)) }
+}
+
+/// What an error without a simple cause looks like.
+#[must_use]
+pub fn nature(nature: Nature) -> String {
+    let percent = crate::numbers::percent;
+    match nature {
+        Nature::Growing(power) => {
+            let how = power.map_or(String::new(), |power| match power {
+                1 => ", about in proportion to it".into(),
+                power => format!(", about with its power of {power}"),
+            });
+            format!("the error grows with time{how}: integration, or the step of it")
+        }
+        Nature::Smooth(share) => {
+            format!("the error is smooth, at most {} of the scale: integration or step", percent(share))
+        }
+        Nature::Noise(share) => {
+            format!("the error has no order, at most {} of the scale: noise, or few digits on the way", percent(share))
         }
     }
 }
@@ -155,6 +228,13 @@ pub fn change(change: &Change) -> String {
         How::Half => format!("{part}: counted half"),
         How::Times(factor, told) => format!("{part}: {} times as large, {told}", number(*factor)),
         How::AtJoint(joint) => format!("{part}: at joint {joint}"),
+        How::AtPoint(point) => format!("{part}: at point {point}"),
+        How::FromJoint([one, other]) => {
+            format!("{part}: measured from the wrong end, {one} and {other} exchanged")
+        }
+        How::Across([one, other]) => format!("{part}: mirrored at the line of {one} and {other}"),
+        How::Middle([one, other]) => format!("{part}: in the middle of {one} and {other}"),
+        How::Turned(by) => format!("{part}: turned by {} deg", number(by.to_degrees())),
         How::AboutJoint(joint) => format!("{part}: taken about joint {joint} instead of the mass centre"),
         How::Swapped => format!("{part}: x and y exchanged"),
         How::Other(mode) => format!("{part}: {mode}"),
@@ -183,9 +263,14 @@ fn part(part: &Part) -> String {
         Part::Masses => "masses of all links".into(),
         Part::Inertia(link) => format!("moment of inertia of {link}"),
         Part::Mass(link) => format!("mass of {link}"),
+        Part::Body(link) => format!("mass and inertia of {link}"),
+        Part::Weight(link) => format!("weight of {link}"),
+        Part::Inert(link) => format!("inertia forces of {link}"),
+        Part::Length(one, other, link) => format!("distance of {one} and {other} on {link}"),
         Part::MassCentre(link) => format!("mass centre of {link}"),
         Part::MassCentreAlong(link, along) => format!("mass centre of {link}, {}", axis(along)),
         Part::Load(number, sort) => format!("load {number}, {}", sort.name().replace('_', " ")),
+        Part::Free(number) => format!("free length of load {number}, spring"),
         Part::Configuration(group) => format!("another configuration of {group}"),
         Part::Speed(joint) => format!("speed of the drive at {joint}"),
         Part::StartAngle(joint) => format!("angle of the drive at {joint} at t = 0"),
@@ -218,6 +303,8 @@ pub struct Row {
     since: Vec<SinceRow>,
     /// The cause in words; `null` where nothing simple explains any of it.
     cause: Option<String>,
+    /// What the error looks like, where no cause explains all of it.
+    error: Option<String>,
     /// Whether it explains all channels.
     explained: bool,
     /// Causes that explain as much.
@@ -256,6 +343,7 @@ pub fn row(diagnosis: &Diagnosis) -> Row {
         standing: standing(&diagnosis.alone),
         since: diagnosis.since.iter().map(since).collect(),
         cause: diagnosis.cause.as_ref().map(cause),
+        error: diagnosis.nature.map(nature),
         explained: diagnosis.is_explained(),
         also: diagnosis.also.iter().map(cause).collect(),
         left_over: diagnosis.left_over.iter().map(ToString::to_string).collect(),

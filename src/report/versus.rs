@@ -196,25 +196,41 @@ fn cause(explained: &Explained, width: usize) -> String {
         let [time, crank] = [numbers::fixed(since.time, 6), numbers::fixed(since.crank.to_degrees(), 3)];
         line("since", &format!("t = {time} s, crank angle {crank} deg"));
     }
-    let named = why(explained);
-    line("cause", named.as_deref().unwrap_or("nothing simple"));
-    if named.is_some() {
-        line(
-            "left",
-            &match *left {
-                0.0 => "nothing beyond the bounds".to_string(),
-                left => format!("at most {} of the difference", numbers::percent(left)),
-            },
-        );
+    let Some(cause) = cause_of(explained) else {
+        line("cause", "nothing simple");
+        if let Some(own) = found.nature {
+            line("error", &diagnosis::nature(own));
+        }
+        return text;
+    };
+    let most = if *left > 0.0 { "for the most part, " } else { "" };
+    line("cause", &format!("{most}{cause}"));
+    for one in found.also.iter().filter(|_| explained.terms.is_empty()) {
+        line("or", &format!("{}, which explains as much", diagnosis::cause(one)));
     }
+    let but = explained.but.map_or(String::new(), |time| {
+        format!(", but for the row at t = {} s, which is off by itself", numbers::fixed(time, 6))
+    });
+    line(
+        "left",
+        &match *left {
+            0.0 => format!("nothing beyond the bounds{but}"),
+            left => format!("at most {} of the difference{but}", numbers::percent(left)),
+        },
+    );
     text
 }
 
 /// The cause in words, if one was found.
-#[must_use]
-pub fn why(explained: &Explained) -> Option<String> {
+fn cause_of(explained: &Explained) -> Option<String> {
     let terms = (!explained.terms.is_empty()).then(|| Cause::Terms(explained.terms.clone()).to_string());
     terms.or_else(|| explained.diagnosis.cause.as_ref().map(diagnosis::cause))
+}
+
+/// The cause in words, or what the error looks like, where that can be told.
+#[must_use]
+pub fn why(explained: &Explained) -> Option<String> {
+    cause_of(explained).or_else(|| explained.diagnosis.nature.map(diagnosis::nature))
 }
 
 /// The comparison as JSON, schema 1.
@@ -246,7 +262,7 @@ pub fn json(paths: [&Path; 2], comparison: &Comparison, tell: Tell) -> String {
     };
     let cause = |own: &Explained| {
         json!({
-            "channels": own.of, "cause": why(own), "left_over_share": own.left, "diagnosis": diagnosis::row(&own.diagnosis),
+            "channels": own.of, "cause": cause_of(own), "left_over_share": own.left, "but_for_t_s": own.but, "diagnosis": diagnosis::row(&own.diagnosis),
         })
     };
     let pair = |pair: &Pair| {

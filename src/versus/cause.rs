@@ -2,16 +2,19 @@
 
 use std::borrow::Cow;
 use std::collections::BTreeSet;
+use std::f64::consts::{PI, TAU};
 
 use super::judge::{Both, Compared, Row};
 use crate::claims::{Course, Term, Wrong, missing_in_numbers};
-use crate::diagnosis::{Diagnosis, Judged, Party, Question, diagnose};
+use crate::compare::largest_difference;
+use crate::diagnosis::{Cause, Change, Diagnosis, How, Judged, Part, Party, Question, Slip, diagnose, even};
 use crate::scenario::Scenario;
 use analytic::AssurSolver;
 use formula::Shape;
 use linkage::case::Grid;
 use linkage::error::Result;
 use linkage::math::KeepNan;
+use linkage::math::statistics::half_range;
 use linkage::solver::Solver;
 use linkage::trajectory::{Channel, Trajectory};
 
@@ -26,6 +29,8 @@ pub struct Explained {
     pub terms: Vec<Term>,
     /// Share of the largest difference that may stay over when the cause is granted; zero for what the bounds allow.
     pub left: f64,
+    /// The time (s) of a single row that is off besides, which no cause explains.
+    pub but: Option<f64>,
 }
 
 /// Shares of the largest difference that a cause may leave over: nothing but the bounds, then little, as the error of a
@@ -44,8 +49,10 @@ const MOST: usize = 2000;
 /// Share of a channel's scale from which on a difference is a mistake, and not the error of a method.
 pub const GROSS: f64 = 0.02;
 
-/// Examines the channels of the party beside a scenario that disagree: all together, then those that are grossly off,
-/// together and one by one. What is off by little and without a common cause is the error of a method.
+/// Examines the channels of the party beside a scenario that disagree. What explains them to within their bounds is
+/// granted first, of all together, then of what it leaves; a single row that is off besides hides no cause.
+/// Then those that are grossly off are examined together and one by one, for causes that leave little. What is off by
+/// little and without a common cause is the error of a method.
 pub(super) fn explained(
     scenario: &Scenario,
     both: &Both,
@@ -53,30 +60,42 @@ pub(super) fn explained(
     is_first: bool,
 ) -> Result<Vec<Explained>> {
     let is_wrong = |own: &&Compared| own.since.is_some() && own.is_plain();
-    let wrong: Vec<&Compared> = channels.iter().filter(is_wrong).collect();
+    let mut open: Vec<&Compared> = channels.iter().filter(is_wrong).collect();
     let Some(stage) = Stage::of(scenario, both, channels, is_first)? else { return Ok(Vec::new()) };
-    if let Some(all) = stage.examined(&wrong, &LEFT[..1]).filter(|all| all.of.len() == wrong.len()) {
-        return Ok(vec![all]);
-    }
     let mut found = Vec::new();
-    let (mut open, little): (Vec<&Compared>, Vec<&Compared>) = wrong.into_iter().partition(|own| own.is_gross());
-    while !open.is_empty() {
-        // All of them at once, unless that explains none.
-        let mut next = stage.examined(&open, &LEFT);
-        if next.is_none() && open.len() > 1 {
-            next = open.iter().find_map(|one| stage.examined(&[*one], &LEFT));
-        }
-        next = next.or_else(|| open.iter().find_map(|one| stage.lacking(one)));
-        let Some(explained) = next else {
-            found.extend(stage.unexplained(&open));
-            break;
-        };
+    let mut grant = |open: &mut Vec<&Compared>, explained: Explained| {
         open.retain(|own| !explained.of.contains(&own.claim.text));
         found.push(explained);
+    };
+    while let Some(exact) = stage.examined(&open, LEFT[0]).or_else(|| stage.examined_but_one(&open, LEFT[0])) {
+        grant(&mut open, exact);
+    }
+    // A simulation is wrong by its step besides.
+    let most = stage.examined(&open, LEFT[1]).filter(|most| most.of.len() == open.len());
+    if let Some(most) = most.or_else(|| stage.examined_but_one(&open, LEFT[1])) {
+        grant(&mut open, most);
+    }
+    let (mut open, mut little): (Vec<&Compared>, Vec<&Compared>) = open.into_iter().partition(|own| own.is_gross());
+    while !open.is_empty() {
+        // All of them at once, unless that explains none.
+        let together = || LEFT[1..].iter().find_map(|&left| stage.examined(&open, left));
+        let alone = || open.iter().find_map(|one| LEFT.iter().find_map(|&left| stage.examined(&[*one], left)));
+        let next = together().or_else(|| if open.len() > 1 { alone() } else { None });
+        let Some(explained) = next.or_else(|| open.iter().find_map(|one| stage.lacking(one))) else { break };
+        grant(&mut open, explained);
+    }
+    if !open.is_empty() {
+        found.extend(stage.unexplained(&open));
     }
     // What is off by little may be a method's error, unless a term explains all of it.
-    let lacking = little.into_iter().take(TRIED).filter_map(|one| stage.lacking(one));
-    found.extend(lacking.filter(|explained| explained.left == 0.0));
+    for one in little.clone().into_iter().take(TRIED) {
+        if let Some(explained) = stage.lacking(one) {
+            little.retain(|own| !explained.of.contains(&own.claim.text));
+            found.push(explained);
+        }
+    }
+    let seen = stage.unexplained(&little).filter(|own| own.diagnosis.nature.is_some());
+    found.extend(seen);
     Ok(found)
 }
 
@@ -92,6 +111,42 @@ impl Compared {
         self.since.is_some() && self.largest.is_some_and(|at: Row| at.difference.abs() > GROSS * self.scale)
     }
 }
+
+/// Whether a cause may be named that leaves something over. A number that was fitted may stand for anything then, and
+/// differences resemble values that are late by half a row. A drive that is turned is at constant speed the same as
+/// rows that are late.
+fn may_leave(cause: &Cause) -> bool {
+    match cause {
+        Cause::Case(Change { part, how: How::Instead { .. } }) => matches!(part, Part::StartAngle(_)),
+        // A simulation that bursts ends in rows beside which all others are small.
+        Cause::Values { slip: Slip::Differences { .. } | Slip::Outlier(_), .. } => false,
+        Cause::Case(_) | Cause::Values { .. } => true,
+    }
+}
+
+/// Whole turns are compared by nobody, and many programs print none: adds them, so that a right angle is near the right
+/// one, and a wrong one that is wrapped goes on where it was.
+fn unwrap(values: &mut [f64], right: &[f64], is_right: bool) {
+    let is_wrapped = |own: &[f64]| half_range(own) <= PI * (1.0 + 1e-9);
+    if !is_right && !is_wrapped(values) {
+        return;
+    }
+    let mut turns = 0.0;
+    let mut before: Option<f64> = None;
+    for (value, right) in values.iter_mut().zip(right) {
+        let gap = *value - right;
+        let near = if is_right { 0.0 } else { before.unwrap_or(gap) };
+        // The first row says from which turn a wrong angle counts.
+        if is_right || before.is_some() {
+            turns = -((gap - near) / TAU).round();
+        }
+        *value += TAU * turns;
+        before = Some(*value - right);
+    }
+}
+
+/// Fewest instants of which one may be left out.
+const FEWEST: usize = 8;
 
 /// What the channels are examined on: the rows at which all of them have numbers.
 struct Stage {
@@ -132,7 +187,7 @@ impl Stage {
                 continue;
             }
             names.push(printed.channel.clone());
-            columns.push(rows.iter().map(|&row| printed.to_si(values[row].value)).collect());
+            columns.push(rows.iter().map(|&row| printed.to_si(values[row].value)).collect::<Vec<f64>>());
             let bound = printed.to_si(own.worst.map_or(0.0, |worst| worst.bound));
             bounds.push((own.claim.text.clone(), bound, own.since.is_none()));
         }
@@ -140,27 +195,76 @@ impl Stage {
         let case = scenario.case.on(Grid { times: times.clone(), cranks: cranks.clone() })?.wanting_only(&all);
         // What is compared was solved at these instants; channels beside it may not be.
         let Ok(right) = AssurSolver.solve(&case) else { return Ok(None) };
+        for ((channel, column), (.., agrees)) in names.iter().zip(&mut columns).zip(&bounds) {
+            if let Some(right) = right.column(channel).filter(|_| channel.kind.periodic) {
+                unwrap(column, right, *agrees);
+            }
+        }
         let found = Trajectory::new(times, cranks, names, columns)?;
         Ok(Some(Stage { case, right, found, bounds }))
     }
 
-    /// A cause that explains some of the channels.
-    fn examined(&self, of: &[&Compared], shares: &[f64]) -> Option<Explained> {
-        shares.iter().find_map(|&left| {
-            let diagnosis = self.diagnosis(of, left)?;
-            diagnosis.cause.as_ref()?;
-            let is_left = |text: &str| diagnosis.left_over.iter().any(|channel| self.text(channel) == Some(text));
-            let explained: Vec<String> =
-                of.iter().map(|own| own.claim.text.clone()).filter(|text| !is_left(text)).collect();
-            (!explained.is_empty()).then_some(Explained { of: explained, diagnosis, terms: Vec::new(), left })
+    /// A cause that explains some of the channels, but for what it leaves over.
+    fn examined(&self, of: &[&Compared], left: f64) -> Option<Explained> {
+        let mut diagnosis = self.diagnosis(of, left)?;
+        let causes = diagnosis.cause.take().into_iter().chain(std::mem::take(&mut diagnosis.also));
+        let mut causes = causes.filter(|cause| left == 0.0 || may_leave(cause));
+        (diagnosis.cause, diagnosis.also) = (Some(causes.next()?), causes.collect());
+        let is_left = |text: &str| diagnosis.left_over.iter().any(|channel| self.text(channel) == Some(text));
+        let explained: Vec<String> =
+            of.iter().map(|own| own.claim.text.clone()).filter(|text| !is_left(text)).collect();
+        (!explained.is_empty()).then_some(Explained { of: explained, diagnosis, terms: Vec::new(), left, but: None })
+    }
+
+    /// A cause that explains all of the channels but for a single row: the first, the last, or the one that stands out.
+    fn examined_but_one(&self, of: &[&Compared], left: f64) -> Option<Explained> {
+        let count = self.right.times().len();
+        if count <= FEWEST || of.is_empty() {
+            return None;
+        }
+        let mut rows = vec![0, count - 1];
+        rows.extend(self.stands_out());
+        rows.into_iter().find_map(|row| {
+            let (stage, time) = (self.without(row)?, self.right.times()[row]);
+            let found = stage.examined(of, left).filter(|found| found.of.len() == of.len())?;
+            Some(Explained { but: Some(time), ..found })
         })
     }
 
-    /// What can be said where no cause is simple: since when.
+    /// The row whose difference is farthest from those of its neighbours.
+    fn stands_out(&self) -> Option<usize> {
+        let bend = |row: usize| {
+            let columns = self.found.iter().zip(&self.bounds).filter(|(_, (.., agrees))| !agrees);
+            columns.fold(0.0, |most: f64, ((channel, values), (_, bound, _))| {
+                let Some(right) = self.right.column(channel) else { return most };
+                let gap = |row: usize| values[row] - right[row];
+                most.larger((gap(row + 1) - 2.0 * gap(row) + gap(row - 1)).abs() / bound)
+            })
+        };
+        (1..self.right.times().len() - 1).max_by(|&a, &b| bend(a).total_cmp(&bend(b)))
+    }
+
+    /// The same without a row.
+    fn without(&self, row: usize) -> Option<Stage> {
+        let keep: Vec<bool> = (0..self.right.times().len()).map(|own| own != row).collect();
+        let [right, found] = [&self.right, &self.found].map(|own| own.at_rows(&keep));
+        let (times, cranks) = (right.times().to_vec(), right.cranks().to_vec());
+        let case = self.case.on(Grid { times, cranks }).ok()?;
+        let bounds = self.bounds.iter().zip(found.iter()).map(|((text, bound, agrees), (channel, values))| {
+            let gap = right.column(channel).map(|right| largest_difference(right, values, channel.kind.periodic));
+            (text.clone(), *bound, *agrees || gap.is_some_and(|gap| gap <= *bound))
+        });
+        let bounds = bounds.collect();
+        Some(Stage { case, right, found, bounds })
+    }
+
+    /// What can be said where no cause is simple: since when, and what the error looks like.
     fn unexplained(&self, of: &[&Compared]) -> Option<Explained> {
-        let diagnosis = self.diagnosis(of, 0.0)?;
+        let mut diagnosis = self.diagnosis(of, 0.0)?;
+        diagnosis.cause = None;
+        diagnosis.also.clear();
         let of = of.iter().map(|own| own.claim.text.clone()).collect();
-        Some(Explained { of, diagnosis, terms: Vec::new(), left: 0.0 })
+        Some(Explained { of, diagnosis, terms: Vec::new(), left: 0.0, but: None })
     }
 
     /// What a channel lacks that the mechanism has, in the unit that it is printed in.
@@ -184,9 +288,11 @@ impl Stage {
             few: &few,
         };
         let (terms, left) = missing_in_numbers(&Course::new(&self.case, &self.right, &|_, _| 0.0), &wrong)?;
-        let is_little = left <= LEFT[1];
-        is_little.then_some(())?;
-        Some(Explained { of: vec![own.claim.text.clone()], diagnosis: self.diagnosis(&[own], 0.0)?, terms, left })
+        // Some term resembles any smooth difference, and what goes with time is no term of a mechanism.
+        let drifts = terms.iter().any(|term| term.of == "t" || term.of == "phi");
+        (left == 0.0 && !drifts).then_some(())?;
+        let diagnosis = self.diagnosis(&[own], 0.0)?;
+        Some(Explained { of: vec![own.claim.text.clone()], diagnosis, terms, left, but: None })
     }
 
     fn text(&self, channel: &Channel) -> Option<&str> {
@@ -223,7 +329,7 @@ impl Stage {
             judged: &judged,
             case: &self.case,
             solver: &AssurSolver,
-            step: None,
+            step: even(self.right.times()).map(|step| (step, "row")),
         };
         diagnose(&question, &parties)
     }

@@ -108,7 +108,7 @@ fn examined(case: &Case, suspect: &Trajectory, step: Option<f64>) -> Option<Diag
         judged: &judged,
         case,
         solver: &analytic::AssurSolver,
-        step,
+        step: step.map(|step| (step, "step")),
     };
     diagnose(&question, &[])
 }

@@ -67,3 +67,4 @@ mod tune;
 mod tutorial;
 mod variants60;
 mod versus;
+mod wrong_tables;

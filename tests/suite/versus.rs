@@ -27,7 +27,7 @@ fn solved(scenario: &Scenario) -> Trajectory {
 }
 
 /// A table of some columns by names, each number a whole double.
-fn table(columns: &[(&str, Vec<f64>)]) -> Raw {
+pub(crate) fn table(columns: &[(&str, Vec<f64>)]) -> Raw {
     let doubles = |values: &[f64]| values.iter().map(|&value| Rounded::nearly(value)).collect();
     Raw {
         names: columns.iter().map(|(name, _)| (*name).to_string()).collect(),
@@ -46,7 +46,7 @@ fn held(raw: &Raw) -> Party {
     Party::Table(Box::new(Held::of_table(raw, &Mapping::default()).unwrap()))
 }
 
-fn against(scenario: &Scenario, raw: &Raw, how: &How) -> Comparison {
+pub(crate) fn against(scenario: &Scenario, raw: &Raw, how: &How) -> Comparison {
     let parties = [Party::Scenario(Box::new(scenario.clone())), held(raw)];
     compare(parties, [Path::new("a"), Path::new("b")], how).unwrap()
 }

@@ -75,6 +75,9 @@ fn slips_of_values_are_named() {
             &changed(&case, own, |row, value| if row > 90 { value + 2.0 * PI } else { value }),
             "whole turns",
         );
+        let every = |_: &str, _: Stage| true;
+        let alone = changed(&case, every, |row, value| if row == 40 { value + 0.1 } else { value });
+        add("an outlier", &alone, "one row alone, at t = ");
         add("factor", &changed(&case, one, |_, value| 1.25 * value), "1.25 times the values of joint.B.fx_N");
     }
     tally.told("slips of values");
@@ -89,16 +92,16 @@ fn values_of_another_instant_are_named() {
         let mut add = |what: &str, suspect: &Trajectory, expected: &str| {
             tally.add(&format!("{name}, {what}"), examined(&case, suspect, Some(1e-3)).as_ref(), expected);
         };
-        add("a step late", &late(&case, 1e-3, |_| true), "all channels are 0.001 s, 1 steps too late");
+        add("a step late", &late(&case, 1e-3, |_| true), "all channels are 1 ms, 1 step too late");
         add(
             "half a step late",
             &late(&case, 5e-4, |stage| stage == Stage::Velocities),
-            "velocities are 5e-4 s, 0.5 steps too late",
+            "velocities are 0.5 ms, 0.5 step too late",
         );
         add(
             "a quarter early",
             &late(&case, -2.5e-4, |stage| stage == Stage::Accelerations),
-            "accelerations are 2.5e-4 s, 0.25 steps too early",
+            "accelerations are 0.25 ms, 0.25 step too early",
         );
     }
     tally.told("other instants");
@@ -121,7 +124,7 @@ fn what_is_nothing_simple_is_called_so() {
             ("noise in everything", changed(case, every, |row, value| value * (1.0 + 0.01 * hash(row)))),
             ("positive parts only", changed(case, one, |_, value| if value > 0.0 { value } else { 0.0 })),
             ("a drift", changed(case, forces, |row, value| value * (1.0 + 1e-3 * row as f64))),
-            ("an outlier", changed(case, every, |row, value| if row == 40 { value + 0.1 } else { value })),
+            ("two outliers", changed(case, every, |row, value| if row % 40 == 7 { value + 0.1 } else { value })),
             ("a square", changed(case, one, |_, value| value * value.abs() / 100.0)),
         ];
         for (what, suspect) in suspects {

@@ -63,8 +63,8 @@ fn three_programs_agree_within_what_they_are_trusted_to() {
 /// Tables that were made wrong: the map, and words of the cause; none where no single cause is simple.
 const WRONG: [(&str, &str, &str); 11] = [
     ("wrong_mujoco_soft.csv", "mujoco_crank_rocker", ""),
-    ("wrong_mujoco_late.csv", "mujoco_crank_rocker", "s too late"),
-    ("wrong_mujoco_start.csv", "mujoco_crank_rocker", ""),
+    ("wrong_mujoco_late.csv", "mujoco_crank_rocker", "1 ms, 0.25 row too late"),
+    ("wrong_mujoco_start.csv", "mujoco_crank_rocker", "one row alone, at t = 0 s"),
     ("wrong_mujoco_lag.csv", "mujoco_crank_rocker", ""),
     ("wrong_mujoco_reset.csv", "mujoco_crank_rocker", ""),
     ("wrong_exudyn_inertia.csv", "exudyn_crank_rocker", "moment of inertia of coupler: taken about joint A"),

@@ -1,0 +1,84 @@
+//! What an error without a simple cause looks like: one that grows with time, a smooth and small one, noise.
+
+use super::question::Question;
+use super::slips::{Wrong, wrong};
+use crate::compare::{differences, scales};
+use linkage::math::statistics::{ascending, rms};
+use linkage::math::{KeepNan, largest_size};
+
+/// What errors of numerical methods look like.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Nature {
+    /// It grows with time, about with this power where that can be told.
+    Growing(Option<u32>),
+    /// It changes smoothly with time, and is at most this share of a channel's scale.
+    Smooth(f64),
+    /// It has no order in time, and is at most this share of a channel's scale.
+    Noise(f64),
+}
+
+/// Parts of the run whose errors are compared.
+const PARTS: usize = 6;
+/// Times the error of the first part that the last one must be.
+const GROWS: f64 = 4.0;
+/// Share of a scale above which an error is no method's.
+const SMALL: f64 = 0.02;
+/// Mean second difference over that of numbers without order: below the first it is smooth, above the second it is not.
+const ORDER: [f64; 2] = [0.15, 0.5];
+
+/// What the differences of all disagreeing channels look like, if that is the same.
+pub(super) fn nature(question: &Question) -> Option<Nature> {
+    let rows = ascending(question.reference.times());
+    if rows.len() < 2 * PARTS {
+        return None;
+    }
+    let scales = scales(question.reference);
+    let scale = |one: &Wrong| {
+        let place = question.reference.channels().iter().position(|own| own == one.channel);
+        place.map_or(0.0, |place| scales[place])
+    };
+    let all: Vec<(Vec<f64>, f64)> = wrong(question)
+        .iter()
+        .map(|one| {
+            let gaps = differences(one.right, one.found, one.channel.kind.periodic);
+            (rows.iter().map(|&row| gaps[row]).collect(), scale(one))
+        })
+        .collect();
+    let times: Vec<f64> = rows.iter().map(|&row| question.reference.times()[row]).collect();
+    let powers: Option<Vec<Option<u32>>> = all.iter().map(|(gaps, _)| growth(&times, gaps)).collect();
+    if let Some(powers) = powers.filter(|powers| !powers.is_empty()) {
+        let first = powers[0];
+        return Some(Nature::Growing(first.filter(|_| powers.iter().all(|own| *own == first))));
+    }
+    let share = all.iter().fold(0.0, |most: f64, (gaps, scale)| most.larger(largest_size(gaps) / scale));
+    if !(share <= SMALL) {
+        return None;
+    }
+    let orders: Vec<f64> = all.iter().map(|(gaps, _)| disorder(gaps)).collect();
+    if orders.iter().all(|own| *own <= ORDER[0]) {
+        Some(Nature::Smooth(share))
+    } else {
+        orders.iter().all(|own| *own >= ORDER[1]).then_some(Nature::Noise(share))
+    }
+}
+
+/// The power of time that an error grows with, where it grows at all.
+fn growth(times: &[f64], gaps: &[f64]) -> Option<Option<u32>> {
+    let size = gaps.len() / PARTS;
+    let parts: Vec<f64> = (0..PARTS).map(|part| rms(&gaps[part * size..(part + 1) * size])).collect();
+    let grows = parts.windows(2).all(|pair| pair[1] > pair[0]) && parts[PARTS - 1] >= GROWS * parts[0];
+    if !grows {
+        return None;
+    }
+    // From the halves of the run: the middle of each part is known best late.
+    let middle = |part: usize| times[part * size + size / 2] - times[0];
+    let power = (parts[PARTS - 1] / parts[PARTS / 2]).ln() / (middle(PARTS - 1) / middle(PARTS / 2)).ln();
+    let whole = power.round();
+    Some(((power - whole).abs() <= 0.2 && (1.0..=4.0).contains(&whole)).then_some(whole as u32))
+}
+
+/// Size of the second differences over that which numbers without order have.
+fn disorder(gaps: &[f64]) -> f64 {
+    let second: Vec<f64> = gaps.windows(3).map(|three| three[2] - 2.0 * three[1] + three[0]).collect();
+    rms(&second) / (6f64.sqrt() * rms(gaps))
+}

@@ -1,0 +1,275 @@
+//! Wrong tables of kinds that the diagnosis was not built on, as engineers and students make them: all are found, no
+//! cause is made up, and most are called by their name.
+
+mod first_half;
+mod second_half;
+
+use std::path::Path;
+
+use super::versus::{against, table};
+use linkage::case::{Case, CaseParts, Grid};
+use linkage::math::KeepNan;
+use linkage::mechanism::{Link, Mechanism};
+use linkage::solver::Solver;
+use linkage::trajectory::Trajectory;
+use linkproof::report::diagnosis::{cause, nature};
+use linkproof::report::versus::why;
+use linkproof::scenario::Scenario;
+use linkproof::scenario::mapping::{Allowed, Mapped, Mapping, Size};
+use linkproof::tables::{Held, load};
+use linkproof::versus::{Comparison, Explained, How, Party, compare};
+
+/// How a table comes to be wrong.
+enum Make {
+    /// Places of the scenario's text, and what stands there instead.
+    Text(&'static [(&'static str, &'static str)]),
+    /// Another case.
+    Case(fn(&mut CaseParts)),
+    /// Columns that were spoiled.
+    Values(fn(&mut Sheet)),
+}
+
+/// A wrong table: its scenario, its columns, what is wrong, how it is made, and words of the cause that it may be called
+/// by: the true one, or one that comes to the same.
+struct Wrong {
+    scenario: &'static str,
+    columns: &'static [&'static str],
+    what: &'static str,
+    make: Make,
+    named: &'static [&'static str],
+}
+
+/// The right columns of a table.
+struct Sheet {
+    times: Vec<f64>,
+    columns: Vec<(String, Vec<f64>)>,
+    /// All channels, to take wrong ones from.
+    all: Trajectory,
+}
+
+impl Sheet {
+    fn of(&mut self, name: &str) -> &mut Vec<f64> {
+        let own = self.columns.iter_mut().find(|(own, _)| own == name);
+        &mut own.unwrap_or_else(|| panic!("no column {name}")).1
+    }
+
+    fn right(&self, name: &str) -> Vec<f64> {
+        self.all.named(name).unwrap_or_else(|| panic!("no channel {name}")).to_vec()
+    }
+
+    /// Every value of a column from itself and its row.
+    fn each(&mut self, name: &str, change: impl Fn(usize, f64) -> f64) {
+        self.of(name).iter_mut().enumerate().for_each(|(row, value)| *value = change(row, *value));
+    }
+}
+
+/// Changes the link of a name.
+fn link(parts: &mut CaseParts, name: &str, change: impl Fn(&mut Link)) {
+    let mut links = parts.mechanism.links().to_vec();
+    links.iter_mut().filter(|link| link.name == name).for_each(change);
+    parts.mechanism = Mechanism::new(links, parts.mechanism.joints().to_vec()).unwrap();
+}
+
+fn text(name: &str) -> (String, std::path::PathBuf) {
+    let own = Path::new("tests/suite/wrong_tables/tables").join(format!("{name}.toml"));
+    let shipped = Path::new("scenarios").join(format!("{name}.toml"));
+    let path = if own.exists() { own } else { shipped };
+    (std::fs::read_to_string(&path).unwrap(), path)
+}
+
+/// All channels of a case at the instants of another.
+fn solved(case: &Case, times: &[f64]) -> Trajectory {
+    let case = case.on(Grid::of_times(case.crank(), times.to_vec())).unwrap();
+    let all = case.all_channels();
+    analytic::AssurSolver.solve(&case.wanting_only(&all)).unwrap()
+}
+
+impl Wrong {
+    fn compared(&self) -> Comparison {
+        self.compared_by(&How::default(), |_| ())
+    }
+
+    /// The comparison of the table, printed in another way.
+    fn compared_by(&self, how: &How, printed: impl Fn(&mut Sheet)) -> Comparison {
+        let (right, path) = text(self.scenario);
+        let scenario = Scenario::parse(&right, &path).unwrap();
+        let times = &scenario.case.grid.times;
+        let columns = |of: &Trajectory| -> Vec<(String, Vec<f64>)> {
+            self.columns.iter().map(|name| ((*name).to_string(), of.named(name).unwrap().to_vec())).collect()
+        };
+        let sheet = |all: Trajectory| Sheet { times: times.clone(), columns: columns(&all), all };
+        let mut sheet = match &self.make {
+            Make::Text(places) => {
+                let mut text = right.clone();
+                for (from, to) in *places {
+                    assert!(text.contains(from), "{}: `{from}`", self.scenario);
+                    text = text.replacen(from, to, 1);
+                }
+                sheet(solved(&Scenario::parse(&text, &path).unwrap().case, times))
+            }
+            Make::Case(change) => sheet(solved(&scenario.case.with(change).unwrap(), times)),
+            Make::Values(spoil) => {
+                let mut sheet = sheet(solved(&scenario.case, times));
+                let before = (sheet.times.clone(), sheet.columns.clone());
+                spoil(&mut sheet);
+                assert!(before != (sheet.times.clone(), sheet.columns.clone()), "{}", self.what);
+                sheet
+            }
+        };
+        printed(&mut sheet);
+        let mut columns = vec![("t_s", sheet.times.clone())];
+        columns.extend(sheet.columns.iter().map(|(name, values)| (name.as_str(), values.clone())));
+        against(&scenario, &table(&columns), how)
+    }
+
+    fn is_meant(&self, words: &str) -> bool {
+        self.named.iter().any(|named| words.contains(named))
+    }
+}
+
+/// Counts of tables, and one line about each.
+#[derive(Default)]
+struct Tally {
+    all: usize,
+    found: usize,
+    named: usize,
+    made_up: Vec<String>,
+}
+
+impl Tally {
+    fn of(tables: &[Wrong]) -> Self {
+        let mut tally = Tally::default();
+        for own in tables {
+            let compared = own.compared();
+            let causes = || compared.pairs.iter().flat_map(|pair| &pair.causes);
+            // What is told of a part of the channels: the cause and those that come to the same.
+            let told: Vec<Vec<String>> = causes()
+                .map(|one| why(one).into_iter().chain(one.diagnosis.also.iter().map(cause)).collect())
+                .collect();
+            let is_named = told.iter().flatten().any(|words| own.is_meant(words));
+            let is_cause = |words: &Vec<String>| {
+                let natures: Vec<String> = causes().filter_map(|one| one.diagnosis.nature.map(nature)).collect();
+                words.first().is_some_and(|first| !natures.contains(first))
+            };
+            let made_up = told.iter().any(|words| is_cause(words) && !words.iter().any(|words| own.is_meant(words)));
+            tally.all += 1;
+            tally.found += usize::from(compared.verdict.word() == "disagree");
+            tally.named += usize::from(is_named && !made_up);
+            let outcome = if made_up {
+                "MADE UP"
+            } else if is_named {
+                "named"
+            } else {
+                "not named"
+            };
+            let line = format!("{outcome:<9} {:<18} {:<58} {told:?}", own.scenario, own.what);
+            println!("{line}");
+            if made_up {
+                tally.made_up.push(line);
+            }
+        }
+        println!("{} of {} found, {} named, {} made up", tally.found, tally.all, tally.named, tally.made_up.len());
+        tally
+    }
+
+    fn holds(&self) {
+        assert_eq!(self.found, self.all, "every wrong table is found");
+        assert!(self.made_up.is_empty(), "\n{}", self.made_up.join("\n"));
+        assert!(4 * self.named >= 3 * self.all, "{} of {} named", self.named, self.all);
+    }
+}
+
+#[test]
+fn wrong_tables_that_the_diagnosis_was_mended_by_are_named() {
+    let tally = Tally::of(first_half::TABLES);
+    assert!(tally.all >= 30);
+    tally.holds();
+}
+
+#[test]
+fn wrong_tables_that_the_diagnosis_had_not_seen_are_named() {
+    let tally = Tally::of(second_half::TABLES);
+    assert!(tally.all >= 30);
+    tally.holds();
+}
+
+/// A table of another program against a scenario: the cause, those that come to the same, and a row that is off besides.
+fn told(scenario: &str, table: &str, lines: &[&str]) -> Vec<(Vec<String>, Option<f64>)> {
+    let (right, path) = text(scenario);
+    let mut mapping = Mapping::default();
+    lines.iter().for_each(|line| mapping.push(Mapped::parse(line, "a test").unwrap()));
+    let file = Path::new("tests/suite/wrong_tables/tables").join(table);
+    let held = Held::of_table(&load(&file).unwrap(), &mapping).unwrap();
+    let scenario = Party::Scenario(Box::new(Scenario::parse(&right, &path).unwrap()));
+    let found = compare([scenario, Party::Table(Box::new(held))], [&path, &file], &How::default()).unwrap();
+    assert_eq!(found.verdict.word(), "disagree");
+    words(&found)
+}
+
+fn words(found: &Comparison) -> Vec<(Vec<String>, Option<f64>)> {
+    let causes = found.pairs.iter().flat_map(|pair| &pair.causes);
+    let all = |one: &Explained| why(one).into_iter().chain(one.diagnosis.also.iter().map(cause)).collect();
+    causes.map(|one| (all(one), one.but)).collect()
+}
+
+#[test]
+fn a_moment_without_a_link_s_mass_and_inertia_is_called_so() {
+    let found = told("engine", "t_mr.csv", &["t=time_s", "T=drive.torque_N_m"]);
+    assert_eq!(found, [(vec!["mass and inertia of rod: missing".to_string()], None)]);
+}
+
+/// At constant speed rows that are late and a crank that is turned are the same: both are told.
+#[test]
+fn rows_that_are_late_and_a_drive_that_is_turned_are_told_together() {
+    let map = ["t=time_s", "px=point.P.x_m", "py=point.P.y_m"];
+    let [(found, but)] = &told("norton", "late2.csv", &map)[..] else { panic!() };
+    let expected =
+        ["angle of the drive at O2 at t = 0: -0.249996 deg instead of 0 deg", "all channels are 0.41666 ms too late"];
+    assert_eq!((&found[..], *but), (&expected.map(String::from)[..], None));
+}
+
+/// MuJoCo prints what a step began with, but for the first row. The step's own error stays over.
+#[test]
+fn a_first_row_that_is_right_hides_no_cause() {
+    let found = told("norton", "mj.csv", &["time=time_s", "px=point.P.x_m", "py=point.P.y_m"]);
+    let [(found, Some(0.0))] = &found[..] else { panic!("{found:?}") };
+    assert!(found.iter().any(|words| words == "angle of the drive at O2 at t = 0: -0.25 deg instead of 0 deg"));
+    assert!(found.iter().any(|words| words.starts_with("all channels are 0.41")), "{found:?}");
+}
+
+/// Many programs print angles within one turn. That is right, and hides nothing that is wrong besides.
+#[test]
+fn angles_within_one_turn_hide_no_cause() {
+    let wrong = Wrong {
+        scenario: "crank_rocker",
+        columns: &["link.crank.angle_rad", "joint.A.fx_N", "joint.B.fy_N", "drive.torque_N_m"],
+        what: "gravity upwards, angles within a turn",
+        make: Make::Text(&[("y_m_s2 = -9.81", "y_m_s2 = 9.81")]),
+        named: &[],
+    };
+    let turned = |sheet: &mut Sheet| sheet.each("link.crank.angle_rad", |_, value| value.sin().atan2(value.cos()));
+    let found = wrong.compared_by(&How::default(), turned);
+    assert_eq!(words(&found), [(vec!["gravity: of the opposite sign".to_string()], None)]);
+}
+
+/// Forces that drift by twice what they are trusted to: no mass is a hundred-thousandth too large.
+#[test]
+fn a_drift_is_no_number_of_the_case() {
+    let wrong = Wrong {
+        scenario: "crank_rocker",
+        columns: &["joint.A.fx_N", "joint.B.fy_N", "drive.torque_N_m"],
+        what: "forces that drift",
+        make: Make::Values(|sheet| {
+            let (times, names) = (sheet.times.clone(), ["joint.A.fx_N", "joint.B.fy_N", "drive.torque_N_m"]);
+            for name in names {
+                let size = sheet.of(name).iter().fold(0.0, |most: f64, value| most.larger(value.abs()));
+                sheet.each(name, |row, value| value + 2e-5 * size * (times[row] / times[times.len() - 1]).powi(2));
+            }
+        }),
+        named: &[],
+    };
+    let how = How { allowed: vec![Allowed { of: None, size: Size::Relative(1e-5) }], ..How::default() };
+    let found = wrong.compared_by(&how, |_| ());
+    let told = "the error grows with time, about with its power of 2: integration, or the step of it";
+    assert_eq!(words(&found), [(vec![told.to_string()], None)]);
+}
