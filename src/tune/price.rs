@@ -6,8 +6,8 @@ use linkage::case::Case;
 use linkage::engine::{Engine, Route};
 use linkage::error::Result;
 use linkage::math::KeepNan;
+use linkage::mechanism::Tree;
 use linkage::work::{Count, counted};
-use rapier_twin::tree::Tree;
 
 /// Steps of a run besides those between the first and the last instant: a few backwards, the same number forwards, and
 /// some beyond the end.

@@ -2,6 +2,7 @@
 //! a circle, that the two analytic sides share only their common base, and a few rules for every file.
 
 mod graph;
+mod matches;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -84,7 +85,7 @@ const ROOMS: &[(&str, &str)] = &[
     ("linkproof::tables", "files scenario"),
     ("linkproof::testing", "compare proof report scenario"),
     ("linkproof::tolerance", ""),
-    ("linkproof::tune", "compare numbers proof scenario"),
+    ("linkproof::tune", "compare engines numbers proof scenario"),
     ("linkproof::versus", "claims compare diagnosis proof scenario tables tolerance"),
 ];
 

@@ -72,26 +72,22 @@ pub(super) fn of(case: &Case, sketch: &Sketch, placed: &Placed, rows: &[usize], 
 fn name(mechanism: &Mechanism, load: &Load) -> String {
     let link = |link: usize| mechanism.links()[link].name.as_str();
     let sort = load.nature().sort.name().replace('_', " ");
-    match *load {
-        Load::Resistance { link: on, .. } | Load::Moment { link: on, .. } => format!("{sort} on {}", link(on)),
-        Load::Force { at, .. } | Load::ResistingForce { at, .. } => {
-            format!(
-                "{sort}{} on {}",
-                point(mechanism, at).map_or_else(String::new, |at| format!(" at {at}")),
-                link(at.link)
-            )
-        }
-        Load::Spring { ends, .. } | Load::Damper { ends, .. } => {
-            let [start, end] = ends.map(|end| match (point(mechanism, end), end.link) {
+    let (points, links) = (load.points(), load.links());
+    match (points.as_slice(), links.as_slice()) {
+        ([at], _) => match point(mechanism, *at) {
+            Some(point) => format!("{sort} at {point} on {}", link(at.link)),
+            None => format!("{sort} on {}", link(at.link)),
+        },
+        (&[start, end], _) => {
+            let [start, end] = [start, end].map(|end| match (point(mechanism, end), end.link) {
                 (Some(point), GROUND) => point.to_string(),
                 (Some(point), on) => format!("{point} on {}", link(on)),
                 (None, on) => link(on).to_string(),
             });
             format!("{sort} from {start} to {end}")
         }
-        Load::TorsionSpring { links: [first, second], .. } | Load::TorsionDamper { links: [first, second], .. } => {
-            format!("{sort} between {} and {}", link(first), link(second))
-        }
+        (_, &[first, second]) => format!("{sort} between {} and {}", link(first), link(second)),
+        (_, on) => format!("{sort} on {}", link(on[0])),
     }
 }
 
