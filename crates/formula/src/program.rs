@@ -20,10 +20,11 @@ impl Program {
     #[must_use]
     pub fn of(graph: &Graph, nodes: &[Id]) -> Self {
         let needed = graph.needed(nodes);
-        let mut place = vec![Id(0); graph.nodes.len()];
+        let place_of = |id: Id| Id(needed.binary_search(&id).expect("arguments are needed too") as u32);
         let (mut steps, mut values, mut varies) = (Vec::new(), Vec::new(), Vec::new());
-        for (index, &node) in graph.nodes.iter().enumerate().filter(|(index, _)| needed[*index]) {
-            let at = |id: Id| place[id.0 as usize];
+        for &id in &needed {
+            let node = graph.node(id);
+            let at = place_of;
             let (node, is_varied) = match node {
                 Node::Input(_) => (node, true),
                 Node::Number(_) => (node, false),
@@ -37,7 +38,6 @@ impl Program {
                     (Node::Call(function, first, second), varies[first.0 as usize] || varies[second.0 as usize])
                 }
             };
-            place[index] = Id(values.len() as u32);
             match is_varied {
                 true => {
                     steps.push((values.len(), node));
@@ -47,7 +47,7 @@ impl Program {
             }
             varies.push(is_varied);
         }
-        let results = nodes.iter().map(|id| place[id.0 as usize].0 as usize).collect();
+        let results = nodes.iter().map(|id| place_of(*id).0 as usize).collect();
         Program { steps, results, values, answers: vec![Rounded::exact(0.0); nodes.len()] }
     }
 

@@ -148,11 +148,15 @@ impl Tree {
 
     /// The names in it, each with its place, from left to right.
     pub fn names(&self) -> Vec<(&str, Range<usize>)> {
-        let own = match &self.shape {
-            Shape::Name(name) => vec![(name.as_str(), self.at.clone())],
-            Shape::Number(_) | Shape::Negative(_) | Shape::Pair(..) | Shape::Call(..) => Vec::new(),
-        };
-        own.into_iter().chain(self.parts().iter().flat_map(Tree::names)).collect()
+        fn put<'a>(tree: &'a Tree, names: &mut Vec<(&'a str, Range<usize>)>) {
+            if let Shape::Name(name) = &tree.shape {
+                names.push((name.as_str(), tree.at.clone()));
+            }
+            tree.parts().iter().for_each(|part| put(part, names));
+        }
+        let mut names = Vec::new();
+        put(self, &mut names);
+        names
     }
 
     fn rank(&self) -> u8 {
