@@ -1,15 +1,16 @@
 //! Why a formula is wrong.
 
+use std::collections::BTreeSet;
 use std::fmt;
 
 use super::Course;
 use super::dimension::Dimensions;
 use super::missing::{Missing, missing};
-use super::slips::{Slip, mended};
+use super::slips::{self, Kind, Mended, Slip};
 use super::terms::{self, Term};
-use super::trial::Trial;
+use super::trial::{MOST_LEFT, Trial};
 use crate::numbers::{fixed, significant};
-use crate::scenario::Formulas;
+use crate::scenario::{Claim, Formulas};
 use linkage::error::Result;
 use linkage::math::KeepNan;
 
@@ -32,6 +33,24 @@ pub enum Cause {
         after: f64,
         /// The first at which it is not.
         before: f64,
+    },
+    /// Several slips explain it equally well, and more that are not told.
+    Several {
+        /// The simplest.
+        causes: Vec<Cause>,
+        /// Number of those that are not told.
+        more: usize,
+    },
+    /// It is another channel of the mechanism, by name.
+    Other(String),
+    /// It is a constant, and what it claims is not.
+    Constant,
+    /// Nothing simple explains it, and it is nearly right.
+    Near {
+        /// Its largest error, in the unit of the claim.
+        error: f64,
+        /// The same over the mechanism's largest number.
+        share: f64,
     },
     /// Nothing simple explains all of it; this explains most.
     Mostly {
@@ -73,6 +92,20 @@ impl fmt::Display for Cause {
                      atan2 in place of acos, asin or atan follows it"
                 )
             }
+            Cause::Several { causes, more } => {
+                let told: Vec<String> = causes.iter().map(Cause::to_string).collect();
+                write!(f, "one of several that fit equally: {}", told.join("; or "))?;
+                if *more > 0 { write!(f, "; or {more} more") } else { Ok(()) }
+            }
+            Cause::Other(channel) => write!(f, "another quantity is claimed: it is {channel}"),
+            Cause::Constant => write!(f, "it is a constant, and what it claims changes with the crank"),
+            Cause::Near { error, share } => write!(
+                f,
+                "no single slip or term; it is right to {} % of the largest number, as an approximation or a rounded \
+                 number is: `error = {}` claims it as one",
+                significant(100.0 * share, 2),
+                significant(1.06 * error, 2)
+            ),
             Cause::Mostly { cause, left } => {
                 write!(f, "for the most part {cause}; with that, {:.2} % of the difference stays over", 100.0 * left)
             }
@@ -95,62 +128,144 @@ impl Cause {
     /// Whether nothing is left over when it is granted.
     #[must_use]
     pub fn is_whole(&self) -> bool {
-        !matches!(self, Cause::Mostly { .. })
+        !matches!(self, Cause::Mostly { .. } | Cause::Near { .. } | Cause::Constant)
     }
 }
 
-/// Share of the difference that an explanation may leave and still be told.
-const MOST_LEFT: f64 = 0.1;
+/// What a search for a cause came to.
+#[derive(Clone, Debug, Default)]
+pub struct Search {
+    /// The cause, if there is a simple one.
+    pub cause: Option<Cause>,
+    /// Whether the search ended because its work was used up, before all was tried.
+    pub is_cut: bool,
+    /// Operations that it took: evaluations of a part of a formula at an instant, and what costs as much.
+    pub work: u64,
+}
 
-/// Why the formula called `name` is wrong on a course; `None` if it claims nothing, or nothing simple explains it.
+/// Why a search has found no cause, where it is cut.
+pub const CUT: &str = "the search ended at its limit of work, before all slips and terms were tried";
+
+/// Most operations of the search for the cause of one formula.
+pub const MOST_WORK: u64 = 20_000_000;
+/// Most explanations that are told where several fit equally.
+const TOLD: usize = 3;
+/// Share of the largest number of the mechanism that an approximation is off by at most.
+const NEAR: f64 = 0.02;
+
+/// Why the formula called `name` is wrong on a course, sought with no more operations than `limit`. There is no cause
+/// if it claims nothing, or nothing simple explains it.
 ///
 /// # Errors
 /// If the course lacks a channel of the claim.
-pub fn cause(formulas: &Formulas, name: &str, course: &Course) -> Result<Option<Cause>> {
-    let Some(index) = formulas.list.iter().position(|own| own.name == name) else { return Ok(None) };
-    let Some(claim) = &formulas.list[index].claim else { return Ok(None) };
-    let mut trial = Trial::of(formulas, index, claim, course)?;
+pub fn cause(formulas: &Formulas, name: &str, course: &Course, limit: u64) -> Result<Search> {
+    let Some(index) = formulas.list.iter().position(|own| own.name == name) else { return Ok(Search::default()) };
+    let Some(claim) = &formulas.list[index].claim else { return Ok(Search::default()) };
+    if limit == 0 {
+        return Ok(Search { is_cut: true, ..Search::default() });
+    }
+    let mut trial = Trial::of(formulas, index, claim, course, limit)?;
+    let found = sought(&mut trial, claim, course);
+    Ok(Search {
+        is_cut: trial.is_spent() && !found.as_ref().is_some_and(Cause::is_whole),
+        cause: found,
+        work: trial.sheet.operations(),
+    })
+}
+
+fn sought(trial: &mut Trial, claim: &Claim, course: &Course) -> Option<Cause> {
     let rows = trial.rows();
     let number = of_numbers(&rows);
-    let dimensions = Dimensions::of(formulas, index, claim);
-    let mut nearest: Option<(f64, Slip)> = None;
-    let mut has_sought = false;
-    for tried in mended(formulas, index, &dimensions) {
-        // What is missing comes before slips whose units do not fit together.
-        if !tried.is_sound && !has_sought {
-            has_sought = true;
-            if let Some(found) = missing(&mut trial, &dimensions, number.is_some()) {
-                return Ok(Some(Cause::Missing(found)));
+    trial.is_number = number.is_some();
+    let formulas = trial.formulas.clone();
+    let dimensions = Dimensions::of(&formulas, trial.index, claim);
+    let tried = slips::tried(trial, &dimensions);
+    let is_sound = |own: &&Mended| !own.rank.0;
+    let is_simple = |own: &&Mended| own.slip.kind != Kind::Value || !own.rank.1;
+    let mut sound: Vec<&Mended> = tried.right.iter().filter(is_sound).filter(is_simple).collect();
+    // Where nothing changes, or the formula is wrong by a factor, a number is all that a slip has to meet.
+    let is_weak = trial.is_constant() || trial.is_number;
+    if let Some(first) = sound.first().copied() {
+        // A sign, a unit, and units that fit together only with it, say more than the number does.
+        let own = formulas.list[trial.index].tree.clone();
+        let is_natural = match first.slip.kind {
+            Kind::Sign | Kind::Branch | Kind::PerRadian | Kind::PerSecond => true,
+            Kind::Unit => !trial.is_constant(),
+            Kind::Function
+            | Kind::Power
+            | Kind::Name
+            | Kind::Exchanged
+            | Kind::Term
+            | Kind::Reference
+            | Kind::Factor
+            | Kind::Operator
+            | Kind::Parentheses
+            | Kind::Value => !dimensions.are_sound(&[(trial.index, own)]),
+        };
+        let mut kinds = BTreeSet::new();
+        sound.retain(|own| match is_weak && !is_natural {
+            true => {
+                let is_same = own.rank != first.rank && first.slip.written.contains(&own.slip.written);
+                let is_near = own.rank.2 == first.rank.2 || trial.is_constant();
+                own.rank.1 == first.rank.1 && is_near && !is_same && kinds.insert((own.slip.kind, own.rank.2))
             }
-        }
-        match trial.left(&tried.changed, 0.0) {
-            Some(0.0) => return Ok(Some(Cause::Slip(tried.slip))),
-            // A simpler one that leaves hardly more is nearer.
-            Some(left) if nearest.as_ref().is_none_or(|(least, _)| left < 0.8 * least) => {
-                nearest = Some((left, tried.slip));
-            }
-            Some(_) | None => {}
-        }
+            false => own.rank == first.rank && own.slip.written == first.slip.written,
+        });
+        return one_of(sound.into_iter().map(|own| Cause::Slip(own.slip.clone())).collect());
     }
-    if !has_sought && let Some(found) = missing(&mut trial, &dimensions, number.is_some()) {
-        return Ok(Some(Cause::Missing(found)));
+    // What is missing comes before slips whose units do not fit together.
+    let found: Vec<Cause> = missing(trial, &dimensions).into_iter().map(Cause::Missing).collect();
+    if !found.is_empty() {
+        return one_of(found);
+    }
+    if let Some(first) = tried.right.first() {
+        return Some(Cause::Slip(first.slip.clone()));
     }
     if number.is_some() {
-        return Ok(number);
+        return number;
     }
-    let terms = terms::of(&trial, course, &dimensions);
-    if let Some(found) = terms.as_ref().filter(|found| found.left == 0.0) {
-        return Ok(Some(Cause::Terms(found.terms.clone())));
+    if !trial.is_spent()
+        && let Some(found) = terms::of(trial, course, &dimensions)
+    {
+        return Some(Cause::Terms(found));
     }
-    if let Some(found) = leaves(&rows, formulas.list[index].error.is_none()) {
-        return Ok(Some(found));
+    if let Some(found) = terms::is_other(trial, claim, course) {
+        return Some(Cause::Other(found));
     }
-    let by_slip = nearest.map(|(left, slip)| (left, Cause::Slip(slip)));
-    let by_terms = terms.map(|found| (found.left, Cause::Terms(found.terms)));
-    let most = [by_slip, by_terms].into_iter().flatten().filter(|(left, _)| *left <= MOST_LEFT);
-    let most = most.min_by(|one, other| one.0.total_cmp(&other.0));
-    Ok(most.map(|(left, cause)| Cause::Mostly { cause: Box::new(cause), left }))
+    if trial.gives_one_number() && !trial.is_constant() {
+        return Some(Cause::Constant);
+    }
+    if let Some(found) = leaves(&rows, trial.formula.error.is_none()) {
+        return Some(found);
+    }
+    // Of as many that are as simple, one leaves as little at two independent instants by chance.
+    let by_chance = |own: &Mended| (CHANCE / own.among as f64).sqrt().smaller(MOST_LEFT);
+    let nearest = tried.nearest.filter(|own| !own.rank.0 && !is_weak && own.left <= by_chance(own));
+    let mostly = |own: Mended| Cause::Mostly { cause: Box::new(Cause::Slip(own.slip)), left: own.left };
+    nearest.map(mostly).or_else(|| near(&rows, trial.formula.error.is_none()))
 }
+
+/// Chance that a slip leaves little of the difference though it is not the cause.
+const CHANCE: f64 = 0.05;
+
+/// One cause, or several that fit equally well.
+fn one_of(mut causes: Vec<Cause>) -> Option<Cause> {
+    causes.dedup();
+    let more = causes.len().saturating_sub(TOLD);
+    causes.truncate(TOLD);
+    if causes.len() > 1 { Some(Cause::Several { causes, more }) } else { causes.pop() }
+}
+
+/// Whether it is right to within a small share of its largest number, as a series or a formula for small angles is.
+fn near(rows: &[Row], is_exact: bool) -> Option<Cause> {
+    let largest = |of: &dyn Fn(&Row) -> f64| rows.iter().map(|row| of(row).abs()).fold(0.0, f64::larger);
+    let (error, scale) = (largest(&|row| row[2] - row[3]), largest(&|row| row[3]));
+    let is_near = is_exact && rows.len() >= FEWEST && error <= NEAR * scale;
+    is_near.then_some(Cause::Near { error, share: error / scale })
+}
+
+/// Fewest instants that an approximation is recognised by.
+const FEWEST: usize = 8;
 
 /// Formula and mechanism at an instant: time, crank, formula without whole turns, mechanism, bound.
 pub(super) type Row = [f64; 5];

@@ -70,10 +70,13 @@ pub fn needed(claim: &Claim, case: &Case) -> Vec<Channel> {
 }
 
 /// The channels that a diagnosis may find a missing term among: angles, velocities and accelerations of all links and
-/// points.
+/// points; and what has the unit of a claim, which may be meant.
 #[must_use]
-pub fn telling(case: &Case) -> Vec<Channel> {
-    let of = |channel: &Channel| matches!(channel.kind.reading, Reading::Link(_) | Reading::Point(_));
+pub fn telling<'a>(case: &Case, claims: impl Iterator<Item = &'a Claim>) -> Vec<Channel> {
+    let claimed: Vec<_> =
+        claims.flat_map(|claim| claim.channels.iter().map(|(_, channel)| channel.channel.kind.unit)).collect();
+    let is_motion = |channel: &Channel| matches!(channel.kind.reading, Reading::Link(_) | Reading::Point(_));
+    let of = |channel: &Channel| is_motion(channel) || claimed.contains(&channel.kind.unit);
     case.all_channels().into_iter().filter(of).collect()
 }
 
@@ -150,14 +153,18 @@ impl<'a> Course<'a> {
         })
     }
 
+    /// All channels with their columns.
+    pub(super) fn columns(&self) -> impl Iterator<Item = (&Channel, &[f64])> {
+        let all = self.trajectory.channels().iter().enumerate();
+        all.filter_map(|(index, own)| Some((own, self.trajectory.column_near(own, index)?)))
+    }
+
     /// Channels and columns of velocities and accelerations of points and mass centres.
     pub(super) fn points(&self) -> impl Iterator<Item = (&Channel, &[f64])> {
-        let all = self.trajectory.channels().iter().enumerate();
-        let moving = all.filter(|(_, channel)| {
+        self.columns().filter(|(channel, _)| {
             let (Reading::Point(of) | Reading::Link(OfLink::Centre(of))) = channel.kind.reading else { return false };
             !matches!(of, OfPoint::X | OfPoint::Y)
-        });
-        moving.filter_map(|(index, own)| Some((own, self.trajectory.column_near(own, index)?)))
+        })
     }
 
     /// The inputs of formulas at an instant.

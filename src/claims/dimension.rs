@@ -5,10 +5,10 @@ use crate::scenario::{Claim, Formulas};
 use formula::{Function, Operator, Shape, Tree};
 
 /// Powers of kilogram, metre and second.
-type Dimension = [f64; 3];
+pub(super) type Dimension = [f64; 3];
 
 /// A dimension; `None` where it is not known.
-type Known = Option<Dimension>;
+pub(super) type Known = Option<Dimension>;
 
 /// Parts that cannot be added, or are no argument of a function.
 struct Unsound;
@@ -50,6 +50,23 @@ impl<'a> Dimensions<'a> {
             }
         }
         same(known[self.of], self.claimed).is_ok()
+    }
+
+    /// Whether a formula with other trees may be what was meant: `Some(true)` if nothing contradicts the units,
+    /// `Some(false)` if they do not fit together, and no worse than before, because in the formula `index` a part with
+    /// the same dimension was `replaced` by another; `None` if not.
+    pub(super) fn standing(&self, changed: &[(usize, Tree)], index: usize, replaced: [&Tree; 2]) -> Option<bool> {
+        if self.are_sound(changed) {
+            return Some(true);
+        }
+        let known = &self.written[..index.min(self.written.len())];
+        let [written, right] = replaced.map(|tree| self.dimension(tree, known).ok());
+        (written.is_some() && written == right).then_some(false)
+    }
+
+    /// Dimension of a tree of parameters and numbers; `None` if it is not known, or its parts do not fit together.
+    pub(super) fn of_constant(&self, tree: &Tree) -> Known {
+        self.dimension(tree, &self.written).ok().flatten()
     }
 
     /// Whether a factor of a quantity with this unit makes what the formula claims.

@@ -15,7 +15,7 @@ mod trial;
 mod undefined;
 mod values;
 
-pub use cause::{Cause, cause};
+pub use cause::{CUT, Cause, MOST_WORK, Search, cause};
 pub use course::{Course, needed, telling};
 pub use judge::{Judge, judge};
 pub use judged::{At, Judged, Outcome};

@@ -48,11 +48,17 @@ pub fn judge(scenario: &Scenario) -> Result<Claimed> {
             .help("add `channel` to a [[formula]], or give a formula as an argument; docs/formulas.md has examples"));
     }
     let mut sides = solved(scenario, &asked)?;
-    let is_open = |(_, cause): &(String, Option<Cause>)| !cause.as_ref().is_some_and(Cause::is_whole);
-    if let Some(own) = sides.judgement.as_mut().filter(|own| own.causes.iter().any(is_open)) {
+    let is_open = |own: &Judgement| {
+        own.causes
+            .iter()
+            .any(|(name, cause)| !cause.as_ref().is_some_and(Cause::is_whole) && !own.unsought.contains(name))
+    };
+    if let Some(own) = sides.judgement.as_mut().filter(|own| is_open(own)) {
         // What is wrong may be a term that the mechanism has and nobody asked for.
-        asked.extend(telling(&scenario.case));
-        own.causes = solved(scenario, &asked)?.judgement.map_or_else(Vec::new, |judgement| judgement.causes);
+        asked.extend(telling(&scenario.case, scenario.formulas.claims().map(|(_, claim)| claim)));
+        if let Some(again) = solved(scenario, &asked)?.judgement {
+            (own.causes, own.unsought, own.work) = (again.causes, again.unsought, own.work + again.work);
+        }
     }
     let verdict = sides.verdict();
     let judgement = sides.judgement.ok_or_else(|| {

@@ -1,5 +1,7 @@
 //! Who takes part in a proof, and the two halves of a proof: the analytic sides, and the engines against one of them.
 
+use std::collections::BTreeSet;
+
 use super::checks::{self, Beyond};
 use super::engines::{self, EngineProof};
 use super::formulas::{Judgement, wrong};
@@ -21,6 +23,9 @@ use linkage::trajectory::{Channel, Trajectory};
 
 /// Share of the progress that the analytic sides are given.
 const SIDES: f64 = 0.1;
+
+/// Most operations of the search for the causes of all wrong formulas of a file.
+const MOST_WORK: u64 = 100_000_000;
 
 /// An analytic side: its solver, and the same with a tighter tolerance where it integrates.
 #[derive(Clone, Copy)]
@@ -159,19 +164,27 @@ impl Sides {
         };
         let sides = [of(0)?, of(1)?];
         let (mut causes, mut undefined) = (Vec::new(), Vec::new());
+        let (mut unsought, mut work) = (BTreeSet::new(), 0);
         for name in wrong(&sides) {
             // The side that it contradicts, or both: the first of them.
             let is_wrong = |judged: &Judged| judged.name == name && judged.outcome() == Outcome::Wrong;
             let side = usize::from(!sides[0].1.iter().flatten().any(is_wrong));
             let without = self.on_course(case, side, |course| claims::undefined(formulas, &name, course))?;
-            let cause = match without.as_ref().is_some_and(|own| own.is_all) {
-                true => None,
-                false => self.on_course(case, side, |course| claims::cause(formulas, &name, course))?,
-            };
+            let is_lost = without.as_ref().is_some_and(|own| own.is_all);
             undefined.extend(without.map(|without| (name.clone(), without)));
-            causes.push((name, cause));
+            if is_lost {
+                causes.push((name, None));
+                continue;
+            }
+            let limit = claims::MOST_WORK.min(MOST_WORK.saturating_sub(work));
+            let found = self.on_course(case, side, |course| claims::cause(formulas, &name, course, limit))?;
+            work += found.work;
+            if found.is_cut {
+                unsought.insert(name.clone());
+            }
+            causes.push((name, found.cause));
         }
-        Ok(Judgement { sides, causes, undefined })
+        Ok(Judgement { sides, causes, undefined, unsought, work })
     }
 
     /// What one side found on a case, with how well it knows it.

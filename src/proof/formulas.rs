@@ -1,6 +1,8 @@
 //! Formulas as checks of a proof.
 
-use crate::claims::{At, Cause, Judged, Outcome, Undefined, WORDS};
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::claims::{At, CUT, Cause, Judged, Outcome, Undefined, WORDS};
 use crate::compare::{Check, Verdict};
 use crate::numbers::{fixed, significant};
 use crate::tolerance::{Basis, Tolerance};
@@ -14,6 +16,10 @@ pub struct Judgement {
     pub causes: Vec<(String, Option<Cause>)>,
     /// Those of them that somewhere have no value by name, each with the operation that has none.
     pub undefined: Vec<(String, Undefined)>,
+    /// Names of those whose search for a cause ended because its work was used up.
+    pub unsought: BTreeSet<String>,
+    /// Operations that all searches took.
+    pub work: u64,
 }
 
 impl Judgement {
@@ -33,26 +39,37 @@ pub(super) fn wrong(sides: &[(&'static str, Vec<Vec<Judged>>); 2]) -> Vec<String
 
 /// A check for every claim, and for every derivative that could be judged, of both sides.
 pub(super) fn checks(judgement: &Judgement) -> Vec<Check> {
+    let causes: BTreeMap<&str, String> = judgement
+        .causes
+        .iter()
+        .filter_map(|(name, cause)| {
+            let words = match cause {
+                Some(cause) => format!("cause: {cause}"),
+                None if judgement.unsought.contains(name) => format!("cause not found: {CUT}"),
+                None => return None,
+            };
+            Some((name.as_str(), words))
+        })
+        .collect();
     let of_side = |(side, all): &(&'static str, Vec<Vec<Judged>>)| -> Vec<Check> {
-        all.iter().flatten().map(|judged| check(side, judged, judgement)).collect()
+        all.iter().flatten().map(|judged| check(side, judged, causes.get(judged.name.as_str()))).collect()
     };
     judgement.sides.iter().flat_map(of_side).collect()
 }
 
-fn check(side: &str, judged: &Judged, judgement: &Judgement) -> Check {
+fn check(side: &str, judged: &Judged, cause: Option<&String>) -> Check {
     let (value, bound) = judged.worst.map_or((0.0, 0.0), |worst| (worst.difference.abs(), worst.bound));
     let tolerance = Tolerance { bound, basis: Basis::Formula { claimed: judged.claimed } };
     let mut check = Check::new(format!("formulas ({side})"), value, tolerance, judged.unit).of(name(judged));
     if let Outcome::Open { reason, advice } = judged.outcome() {
         check.verdict = Verdict::Inconclusive { reason, advice };
     }
-    let cause = judgement.causes.iter().find(|(name, _)| *name == judged.name).and_then(|(_, cause)| cause.as_ref());
     check.located(|| {
         let mut place = judged.since.map_or_else(String::new, |since| place(&since));
         if let Some(undefined) = judgement.undefined(&judged.name).filter(|_| judged.order == 0) {
             place += &format!("; {undefined}");
         }
-        cause.map_or(place.clone(), |cause| format!("{place}; cause: {cause}"))
+        cause.map_or(place.clone(), |cause| format!("{place}; {cause}"))
     })
 }
 

@@ -1,6 +1,7 @@
 //! Judgements of formulas as text and JSON.
 
 use std::cmp::Ordering;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
 use serde_json::{Value, json};
@@ -9,7 +10,7 @@ use super::cells::{flush, trimmed};
 use super::pretty::pretty;
 use super::style::{self, wrapped};
 use super::tell::Tell;
-use crate::claims::{At, Cause, Judged, Missing, Outcome, Term, WORDS};
+use crate::claims::{At, CUT, Cause, Judged, Missing, Outcome, Term, WORDS};
 use crate::compare::Verdict;
 use crate::numbers::{beside, error, fixed, fixed_in, with_unit};
 use crate::proof::claimed::Claimed;
@@ -56,9 +57,10 @@ impl Line<'_> {
 fn lines<'a>(scenario: &'a Scenario, claimed: &'a Claimed) -> Vec<Line<'a>> {
     let [first, second] = &claimed.judgement.sides;
     let mut lines = Vec::new();
+    let formulas: BTreeMap<&str, &Formula> =
+        scenario.formulas.list.iter().map(|formula| (formula.name.as_str(), formula)).collect();
     for (own, other) in first.1.iter().zip(&second.1) {
-        let formula = scenario.formulas.list.iter().find(|formula| formula.name == own[0].name);
-        let formula = formula.expect("only the scenario's formulas are judged");
+        let formula = formulas.get(own[0].name.as_str()).expect("only the scenario's formulas are judged");
         for (own, other) in own.iter().zip(other) {
             let [own, other] = [(first.0, own), (second.0, other)].map(|(side, judged)| Line { side, formula, judged });
             let worse = other.rank().0 > own.rank().0;
@@ -80,7 +82,8 @@ pub fn verdict_line(scenario: &Scenario, claimed: &Claimed) -> String {
 #[must_use]
 pub fn brief(scenario: &Scenario, claimed: &Claimed, tell: Tell, width: usize) -> String {
     let lines = lines(scenario, claimed);
-    let is_told = |line: &&Line| line.judged.worst.is_some() && !is_consequence(&lines, line);
+    let wrong = wrong_values(&lines);
+    let is_told = |line: &&Line| line.judged.worst.is_some() && !is_consequence(&wrong, line);
     let mut worst: Vec<&Line> = lines.iter().filter(is_told).collect();
     worst.sort_by(|a, b| (b.rank().0, b.rank().1).partial_cmp(&(a.rank().0, a.rank().1)).unwrap_or(Ordering::Equal));
     let header = ["worst formula", "at deg", "formula", "mechanism", "error", "bound", "unit"];
@@ -128,16 +131,22 @@ pub fn text(scenario: &Scenario, claimed: &Claimed, tell: Tell, width: usize) ->
     text
 }
 
+/// Names of the formulas that are wrong by value.
+fn wrong_values<'a>(lines: &[Line<'a>]) -> BTreeSet<&'a str> {
+    let is_wrong_value = |line: &&Line| line.judged.order == 0 && line.rank().0 == 2;
+    lines.iter().filter(is_wrong_value).map(|line| line.judged.name.as_str()).collect()
+}
+
 /// Whether it is the derivative of a wrong value, which says nothing more.
-fn is_consequence(lines: &[Line], of: &Line) -> bool {
-    let is_wrong_value =
-        |line: &Line| line.judged.order == 0 && line.judged.name == of.judged.name && line.rank().0 == 2;
-    of.judged.order > 0 && lines.iter().any(is_wrong_value)
+fn is_consequence(wrong: &BTreeSet<&str>, of: &Line) -> bool {
+    of.judged.order > 0 && wrong.contains(of.judged.name.as_str())
 }
 
 /// What is wrong or open, and why.
 fn reasons(lines: &[Line], claimed: &Claimed, tell: Tell, width: usize, text: &mut String) {
-    let told = |line: &&Line| line.rank().0 > 0 && !is_consequence(lines, line);
+    let wrong = wrong_values(lines);
+    let told = |line: &&Line| line.rank().0 > 0 && !is_consequence(&wrong, line);
+    let causes = causes(claimed);
     for line in lines.iter().filter(told) {
         let _ = writeln!(text, "\n{}", wrapped(&reason(line, tell), Some(width), INDENT));
         if line.judged.order > 0 {
@@ -147,9 +156,16 @@ fn reasons(lines: &[Line], claimed: &Claimed, tell: Tell, width: usize, text: &m
         if let Some(undefined) = undefined {
             let _ = writeln!(text, "{}", wrapped(&format!("  but    {undefined}."), Some(width), INDENT));
         }
-        let told = match cause(claimed, &line.judged.name) {
-            Some(Some(found @ (Cause::Leaves { .. } | Cause::Mostly { .. }))) => format!("  cause  {found}."),
+        let told = match causes.get(line.judged.name.as_str()) {
+            Some(Some(
+                found @ (Cause::Leaves { .. } | Cause::Mostly { .. } | Cause::Near { .. } | Cause::Constant),
+            )) => {
+                format!("  cause  {found}.")
+            }
             Some(Some(found)) => format!("  cause  {found}.\n         With that, nothing is left over."),
+            Some(None) if claimed.judgement.unsought.contains(&line.judged.name) => {
+                format!("  cause  not found: {CUT}.")
+            }
             Some(None) if undefined.is_some() => continue,
             Some(None) => "  cause  none that is simple: no single slip, offset, factor or term explains it.".into(),
             None => continue,
@@ -163,9 +179,9 @@ fn reasons(lines: &[Line], claimed: &Claimed, tell: Tell, width: usize, text: &m
     }
 }
 
-/// The cause of a wrong formula, if it is wrong, and if there is a simple one.
-fn cause<'a>(claimed: &'a Claimed, name: &str) -> Option<Option<&'a Cause>> {
-    claimed.judgement.causes.iter().find(|(own, _)| own == name).map(|(_, cause)| cause.as_ref())
+/// The causes of wrong formulas by name, if there are simple ones.
+fn causes(claimed: &Claimed) -> BTreeMap<&str, Option<&Cause>> {
+    claimed.judgement.causes.iter().map(|(name, cause)| (name.as_str(), cause.as_ref())).collect()
 }
 
 fn sentence(lines: &[Line], claimed: &Claimed) -> String {
@@ -246,6 +262,15 @@ fn cause_json(cause: &Cause) -> Value {
             let term = |term: &Term| json!({ "coefficient": term.coefficient, "factor": term.factor, "of": term.of });
             json!({ "kind": "missing terms", "terms": terms.iter().map(term).collect::<Vec<_>>(), "words": words })
         }
+        Cause::Several { causes, more } => {
+            let all: Vec<Value> = causes.iter().map(cause_json).collect();
+            json!({ "kind": "several", "causes": all, "more": more, "words": words })
+        }
+        Cause::Other(channel) => json!({ "kind": "another channel", "channel": channel, "words": words }),
+        Cause::Constant => json!({ "kind": "a constant", "words": words }),
+        Cause::Near { error, share } => {
+            json!({ "kind": "nearly right", "error": error, "share": share, "words": words })
+        }
         Cause::Mostly { cause, left } => {
             json!({ "kind": "for the most part", "cause": cause_json(cause), "left": left, "words": words })
         }
@@ -264,10 +289,13 @@ pub fn json(scenario: &Scenario, claimed: &Claimed, tell: Tell) -> String {
             "difference": at.difference, "bound": at.bound,
         })
     };
+    let causes = causes(claimed);
+    let formulas: BTreeMap<&str, &Formula> =
+        scenario.formulas.list.iter().map(|formula| (formula.name.as_str(), formula)).collect();
     let of = |(side, all): &(&'static str, Vec<Vec<Judged>>)| -> Vec<Value> {
         let judged = all.iter().flatten();
         let row = |judged: &Judged| {
-            let formula = scenario.formulas.list.iter().find(|formula| formula.name == judged.name);
+            let formula = formulas.get(judged.name.as_str());
             json!({
                 "side": side, "formula": judged.name, "expression": formula.map(|formula| formula.text.as_str()),
                 "source": formula.and_then(|formula| formula.source.as_deref()), "claim": judged.claim,
@@ -277,7 +305,7 @@ pub fn json(scenario: &Scenario, claimed: &Claimed, tell: Tell) -> String {
                     Outcome::Open { .. } => "inconclusive",
                     Outcome::Wrong => "disagree",
                 },
-                "cause": cause(claimed, &judged.name).flatten().map(cause_json),
+                "cause": causes.get(judged.name.as_str()).copied().flatten().map(cause_json),
                 "no_value": claimed.judgement.undefined(&judged.name).map(|undefined| json!({
                     "in": undefined.formula, "written": undefined.written, "from": undefined.fault.at.start,
                     "to": undefined.fault.at.end, "crank_deg": undefined.crank.to_degrees(),

@@ -1,5 +1,7 @@
 //! `[[formula]]`: formulas as they were derived, and the channels that they claim.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use super::claim::Claim;
 use super::parameters::{INPUTS, Parameter, fault_of_name};
 use super::reader::{Faults, Sign, Table};
@@ -16,9 +18,6 @@ use linkage::math::KeepNan;
 /// The crank's angular velocity, as a diagnosis names it.
 pub const OMEGA: &str = "omega_crank";
 
-/// A number that a diagnosis looks for, which no formula can name.
-pub const UNKNOWN: &str = "?";
-
 /// The formulas of a scenario over their parameters, the crank angle and time.
 #[derive(Clone, Debug)]
 pub struct Formulas {
@@ -27,7 +26,7 @@ pub struct Formulas {
     /// The formulas, in the order of the file: each may use those before it.
     pub list: Vec<Formula>,
     /// All of them, over the crank angle (rad, as the scenario states it), the time (s), and without names the crank's
-    /// angular velocity (rad/s) and angular acceleration (rad/s^2), and a number that a diagnosis looks for.
+    /// angular velocity (rad/s) and angular acceleration (rad/s^2).
     pub graph: Graph,
 }
 
@@ -66,7 +65,7 @@ impl Formulas {
     /// Formulas over some parameters: none yet.
     #[must_use]
     pub fn over(parameters: Vec<Parameter>) -> Self {
-        let mut graph = Graph::new(&INPUTS, 3);
+        let mut graph = Graph::new(&INPUTS, 2);
         for (name, number) in parameters.iter().flat_map(Parameter::names) {
             let id = graph.constant(number);
             graph.name(name, id);
@@ -144,7 +143,7 @@ impl Formulas {
     }
 
     /// What `then` makes of the formula `of` with other trees in the formulas `changed`, each with its index: formulas
-    /// that use them follow. [`OMEGA`] and [`UNKNOWN`] are known there. Afterwards everything is as before. `None` if
+    /// that use them follow. [`OMEGA`] is known there. Afterwards everything is as before. `None` if
     /// a name is not known.
     pub fn with_trees<T>(
         &mut self,
@@ -158,7 +157,6 @@ impl Formulas {
             if !graph.knows(OMEGA) {
                 graph.name(OMEGA, graph.input(2));
             }
-            graph.name(UNKNOWN, graph.input(4));
             // A name stands for the formula before it, as when the file was read.
             let mut last = None;
             for (own, formula) in list.iter().enumerate().take(of + 1).skip(first) {
@@ -171,11 +169,46 @@ impl Formulas {
         })
     }
 
+    /// The formula `of` with all that it uses, `beside` steps before it with what these use, and as many parameters
+    /// that nothing uses: what a search for its mistake knows, however long the file is. Also its index there.
+    #[must_use]
+    pub fn derivation(&self, of: usize, beside: usize) -> (Formulas, usize) {
+        let places: BTreeMap<&str, usize> =
+            self.list[..=of].iter().enumerate().map(|(index, own)| (own.name.as_str(), index)).collect();
+        let mut kept: BTreeSet<usize> = (of.saturating_sub(beside)..=of).collect();
+        let mut used: BTreeSet<&str> = BTreeSet::new();
+        let mut next: Vec<usize> = kept.iter().copied().collect();
+        while let Some(index) = next.pop() {
+            for (name, _) in self.list[index].tree.names() {
+                used.insert(name);
+                if let Some(&step) = places.get(name).filter(|step| **step < index)
+                    && kept.insert(step)
+                {
+                    next.push(step);
+                }
+            }
+        }
+        let mut free = beside;
+        let is_kept = |own: &&Parameter| {
+            let is_used = own.names().any(|(name, _)| used.contains(name));
+            free -= usize::from(!is_used && free > 0);
+            is_used || free > 0
+        };
+        let mut formulas = Formulas::over(self.parameters.iter().filter(is_kept).cloned().collect());
+        for index in &kept {
+            let mut own = self.list[*index].clone();
+            own.id = formulas.graph.add(&own.tree).expect("a formula knows what stands before it");
+            formulas.graph.name(&own.name, own.id);
+            formulas.list.push(own);
+        }
+        (formulas, kept.len() - 1)
+    }
+
     /// A node's rate of change with time, in the graph.
     pub fn rate(&mut self, of: Id) -> Id {
         let one = self.graph.constant(Rounded::exact(1.0));
         let [omega, alpha] = [2, 3].map(|input| self.graph.input(input));
-        self.graph.rate(of, &[Some(omega), Some(one), Some(alpha), None])
+        self.graph.rate(of, &[Some(omega), Some(one), Some(alpha)])
     }
 
     /// Those that claim something.

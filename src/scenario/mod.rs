@@ -51,7 +51,7 @@ pub use asked::{Asked, Undecided};
 pub use draft::Draft;
 pub use figure::{Figure, FigureValue, OracleFigure};
 pub use oracle::{Oracle, OracleBasis};
-pub use parameters::Parameter;
+pub use parameters::{INPUTS, Parameter};
 pub use printed::{Printed, PrintedChannel};
 pub use series::{ExpectedCell, OraclePoint, OracleSeries, When};
 pub use settings::EngineKeys;

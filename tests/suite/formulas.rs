@@ -1,6 +1,7 @@
 //! Formulas: the library of textbook results is right, spoiled ones are found and explained, and a user is understood.
 
 mod diagnosis;
+mod errors;
 mod fixed;
 mod library;
 mod parameters;
@@ -46,4 +47,9 @@ fn judged(scenario: &Scenario) -> Claimed {
 fn is_wrong(claimed: &Claimed, name: &str) -> bool {
     let all = claimed.judgement.sides.iter().flat_map(|(_, all)| all.iter().flatten());
     all.filter(|judged| judged.name == name && judged.order == 0).any(|judged| judged.outcome() == Outcome::Wrong)
+}
+
+/// Whether words have all words of one of the alternatives, `a & b | c`.
+fn is_named(said: &str, alternatives: &str) -> bool {
+    alternatives.split(" | ").any(|words| words.split(" & ").all(|word| said.contains(word.trim())))
 }

@@ -8,9 +8,7 @@ impl Graph {
     /// The derivative of a node with respect to an input.
     pub fn derivative(&mut self, of: Id, input: usize) -> Id {
         // Arguments stand before what they are arguments of: when it comes to a node, its parts are done.
-        let needed = self.needed(&[of]);
-        for index in (0..=of.0).filter(|index| needed[*index as usize]) {
-            let id = Id(index);
+        for id in self.needed(&[of]) {
             if !self.derivatives.contains_key(&(id, input)) {
                 let found = self.rule(id, input);
                 self.derivatives.insert((id, input), found);

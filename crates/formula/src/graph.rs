@@ -1,6 +1,6 @@
 //! Formulas as a graph: what two of them share stands in it once.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::domain::undefined;
 use crate::fault::Fault;
@@ -45,6 +45,9 @@ pub struct Graph {
     names: BTreeMap<String, Id>,
     pub(crate) derivatives: BTreeMap<(Id, usize), Id>,
     inputs: usize,
+    /// Names that were given meanwhile, with what they stood for before.
+    renamed: Vec<(String, Option<Id>)>,
+    is_meanwhile: bool,
 }
 
 impl Graph {
@@ -58,6 +61,8 @@ impl Graph {
             names: BTreeMap::new(),
             derivatives: BTreeMap::new(),
             inputs: inputs.len() + unnamed,
+            renamed: Vec::new(),
+            is_meanwhile: false,
         };
         for (index, name) in inputs.iter().enumerate() {
             let id = graph.put(Node::Input(index));
@@ -84,7 +89,10 @@ impl Graph {
 
     /// Gives a node a name, which formulas after it may use.
     pub fn name(&mut self, name: &str, id: Id) {
-        self.names.insert(name.into(), id);
+        let before = self.names.insert(name.into(), id);
+        if self.is_meanwhile {
+            self.renamed.push((name.into(), before));
+        }
     }
 
     /// A number that does not change, with its error.
@@ -187,38 +195,42 @@ impl Graph {
         self.nodes[id.0 as usize]
     }
 
-    /// Which nodes these need, themselves included.
-    pub(crate) fn needed(&self, nodes: &[Id]) -> Vec<bool> {
-        let mut needed = vec![false; self.nodes.len()];
-        for id in nodes {
-            needed[id.0 as usize] = true;
+    /// The nodes that these need, themselves included, arguments first. A graph of many formulas is not walked through.
+    pub(crate) fn needed(&self, nodes: &[Id]) -> Vec<Id> {
+        let mut needed: BTreeSet<Id> = nodes.iter().copied().collect();
+        let mut next: Vec<Id> = needed.iter().copied().collect();
+        while let Some(id) = next.pop() {
+            let parts = match self.node(id) {
+                Node::Input(_) | Node::Number(_) => continue,
+                Node::Negative(part) => [part, part],
+                Node::Pair(_, left, right) | Node::Call(_, left, right) => [left, right],
+            };
+            next.extend(parts.into_iter().filter(|part| needed.insert(*part)));
         }
         // Arguments stand before what they are arguments of.
-        for index in (0..self.nodes.len()).rev() {
-            match self.nodes[index] {
-                _ if !needed[index] => {}
-                Node::Input(_) | Node::Number(_) => {}
-                Node::Negative(part) => needed[part.0 as usize] = true,
-                Node::Pair(_, left, right) | Node::Call(_, left, right) => {
-                    needed[left.0 as usize] = true;
-                    needed[right.0 as usize] = true;
-                }
-            }
-        }
-        needed
+        needed.into_iter().collect()
     }
 
     /// Lets `then` add to the graph, and forgets afterwards what was added, names included.
     pub fn meanwhile<T>(&mut self, then: impl FnOnce(&mut Graph) -> T) -> T {
-        let (nodes, names) = (self.nodes.len(), self.names.clone());
+        let (nodes, derivatives) = (self.nodes.len(), self.derivatives.len());
+        self.is_meanwhile = true;
         let result = then(self);
         for node in self.nodes.drain(nodes..) {
             self.known.remove(&key(node));
         }
         self.constants.truncate(nodes);
-        self.names = names;
-        let is_kept = |id: &Id| (id.0 as usize) < nodes;
-        self.derivatives.retain(|(of, _), id| is_kept(of) && is_kept(id));
+        for (name, id) in self.renamed.drain(..).rev() {
+            match id {
+                Some(id) => self.names.insert(name, id),
+                None => self.names.remove(&name),
+            };
+        }
+        self.is_meanwhile = false;
+        if self.derivatives.len() > derivatives {
+            let is_kept = |id: &Id| (id.0 as usize) < nodes;
+            self.derivatives.retain(|(of, _), id| is_kept(of) && is_kept(id));
+        }
         result
     }
 

@@ -4,6 +4,7 @@
 //! - [`Graph`]: many formulas at once; what two of them share stands in it once. Derivatives are taken here.
 //! - [`Program`]: the part of a graph that some of its nodes need, to be run for many inputs.
 //! - [`Rounded`]: a number, and how far it may be from the exact one.
+//! - [`Sheet`]: a derivation part by part, for the search of what is wrong in it; [`Products`]: numbers as products.
 //!
 //! ```
 //! use formula::{Graph, Program, Rounded, Tree};
@@ -23,8 +24,10 @@ mod fault;
 mod function;
 mod graph;
 mod parse;
+mod products;
 mod program;
 mod rounded;
+mod sheet;
 #[cfg(test)]
 mod tests;
 mod tree;
@@ -32,6 +35,8 @@ mod tree;
 pub use fault::Fault;
 pub use function::Function;
 pub use graph::{Graph, Id};
+pub use products::{Product, Products, information};
 pub use program::Program;
 pub use rounded::Rounded;
+pub use sheet::{Sheet, Target};
 pub use tree::{Operator, Shape, Tree};

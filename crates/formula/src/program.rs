@@ -20,24 +20,22 @@ impl Program {
     #[must_use]
     pub fn of(graph: &Graph, nodes: &[Id]) -> Self {
         let needed = graph.needed(nodes);
-        let mut place = vec![Id(0); graph.nodes.len()];
+        let place_of = |id: Id| Id(needed.binary_search(&id).expect("arguments are needed too") as u32);
         let (mut steps, mut values) = (Vec::new(), Vec::new());
-        for (index, &node) in graph.nodes.iter().enumerate().filter(|(index, _)| needed[*index]) {
-            let at = |id: Id| place[id.0 as usize];
-            let node = match node {
-                Node::Input(_) | Node::Number(_) => node,
-                Node::Negative(part) => Node::Negative(at(part)),
-                Node::Pair(operator, left, right) => Node::Pair(operator, at(left), at(right)),
-                Node::Call(function, first, second) => Node::Call(function, at(first), at(second)),
+        for &id in &needed {
+            let node = match graph.node(id) {
+                node @ (Node::Input(_) | Node::Number(_)) => node,
+                Node::Negative(part) => Node::Negative(place_of(part)),
+                Node::Pair(operator, left, right) => Node::Pair(operator, place_of(left), place_of(right)),
+                Node::Call(function, first, second) => Node::Call(function, place_of(first), place_of(second)),
             };
-            place[index] = Id(values.len() as u32);
-            let constant = graph.constants[index];
+            let constant = graph.constants[id.0 as usize];
             if constant.is_none() {
                 steps.push((values.len(), node));
             }
             values.push(constant.unwrap_or(Rounded::UNDEFINED));
         }
-        let results = nodes.iter().map(|id| place[id.0 as usize].0 as usize).collect();
+        let results = nodes.iter().map(|id| place_of(*id).0 as usize).collect();
         Program { steps, results, values, answers: vec![Rounded::exact(0.0); nodes.len()] }
     }
 

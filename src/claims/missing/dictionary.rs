@@ -4,6 +4,9 @@ use crate::claims::trial::Trial;
 use formula::{Function, Operator, Program, Shape, Tree};
 use linkage::math::KeepNan;
 
+/// Most angles that functions are taken of.
+const ANGLES: usize = 10;
+
 /// An expression that changes with the crank.
 #[derive(Clone, Debug)]
 pub(super) struct Entry {
@@ -104,17 +107,20 @@ impl Dictionary {
 fn angles(trial: &Trial) -> Vec<(Tree, usize)> {
     let mut names: Vec<Tree> = vec![Tree::name("phi")];
     let known = &trial.formulas.list[..trial.index];
-    for own in &trial.formulas.list {
+    let mut put = |name: &str| {
+        let is_new = names.iter().all(|own| own.to_string() != name);
+        if is_new && names.len() < ANGLES && known.iter().any(|step| step.name == name) {
+            names.push(Tree::name(name));
+        }
+    };
+    for own in trial.formulas.list.iter().rev() {
         crate::claims::slips::at_every_place(&own.tree, &mut |_, part| {
             let Shape::Call(Function::Sin | Function::Cos | Function::Tan, arguments) = &part.shape else { return };
-            for (name, _) in arguments[0].names() {
-                let is_new = names.iter().all(|own| own.to_string() != name);
-                if is_new && known.iter().any(|step| step.name == name) {
-                    names.push(Tree::name(name));
-                }
-            }
+            arguments[0].names().iter().for_each(|(name, _)| put(name));
         });
     }
+    // Steps that are angles, though nothing takes a function of them.
+    known.iter().rev().filter(|own| is_angle(&own.tree)).for_each(|own| put(&own.name));
     let multiple = |factor: f64| Tree::pair(Operator::Times, Tree::number(factor), Tree::name("phi"));
     let pairs = (0..names.len()).flat_map(|first| (first + 1..names.len()).map(move |second| (first, second)));
     let minus =
@@ -122,6 +128,16 @@ fn angles(trial: &Trial) -> Vec<(Tree, usize)> {
     let differences: Vec<(Tree, usize)> = pairs.map(minus).collect();
     let single = names.into_iter().map(|name| (name, 2));
     single.chain([2.0, 3.0].map(|factor| (multiple(factor), 3))).chain(differences).collect()
+}
+
+/// Whether a formula is an angle by its form.
+fn is_angle(tree: &Tree) -> bool {
+    match &tree.shape {
+        Shape::Call(Function::Asin | Function::Acos | Function::Atan | Function::Atan2, _) => true,
+        Shape::Negative(part) => is_angle(part),
+        Shape::Pair(_, parts) => parts.iter().any(is_angle),
+        Shape::Number(_) | Shape::Name(_) | Shape::Call(..) => false,
+    }
 }
 
 /// Expressions with their values at the trial's few instants.
@@ -132,7 +148,7 @@ fn valued(trial: &Trial, all: impl Iterator<Item = (Tree, usize)>) -> Vec<Entry>
     let mut program = Program::of(&graph, &ids);
     let mut values = vec![Vec::with_capacity(trial.few.len()); all.len()];
     for &place in &trial.few {
-        let found = program.run(&trial.inputs(place, f64::NAN));
+        let found = program.run(&trial.inputs(place));
         values.iter_mut().zip(found).for_each(|(values, found)| values.push(found.value));
     }
     let after = |tree: &Tree| {

@@ -6,12 +6,13 @@
 mod dictionary;
 mod monomials;
 
+use std::collections::BTreeMap;
+
 use super::dimension::Dimensions;
-use super::slips::{at_every_place, part_at, used_by};
+use super::slips::{at_every_place, numbered, replaced, used_by};
 use super::trial::Trial;
-use crate::scenario::formula::UNKNOWN;
 use dictionary::{Dictionary, Entry};
-use formula::{Operator, Program, Shape, Tree};
+use formula::{Operator, Shape, Tree};
 pub(in crate::claims) use monomials::Monomials;
 
 /// A term or a factor that is missing.
@@ -27,8 +28,6 @@ pub struct Missing {
     pub is_factor: bool,
 }
 
-/// Newton steps to the amount that is missing at an instant.
-const STEPS: usize = 30;
 /// Fewest instants that a function of the crank angle is recognised by.
 const FEWEST: usize = 4;
 /// Relative accuracy to which a constant amount is recognised as a product of known quantities.
@@ -37,35 +36,115 @@ const ACCURACY: f64 = 1e-9;
 /// What is missing at a place by instants, and how well it is known; `None` where that cannot be told.
 type Needed = Vec<Option<[f64; 2]>>;
 
-/// What is missing, if one term or factor at one place makes the formula right.
-/// `is_number` says that a factor or an offset makes it right.
-pub(super) fn missing(trial: &mut Trial, dimensions: &Dimensions, is_number: bool) -> Option<Missing> {
+/// Number of products that chance finds up to which one is believed: where only a number tells what is missing, it must
+/// be one that the parameters do not make anyway.
+const CHANCE: f64 = 0.5;
+/// Number of ways in which a product of several quantities may be missing where a formula is wrong by a number only.
+const LONG: f64 = 100.0;
+
+/// What is missing, if one term or factor at one place makes the formula right and its units fit together; several if
+/// parameters make the same number.
+pub(super) fn missing(trial: &mut Trial, dimensions: &Dimensions) -> Vec<Missing> {
     let dictionary = Dictionary::of(trial);
-    let monomials = Monomials::of(&trial.formulas, trial.index, &dictionary.constants);
+    let monomials = Monomials::of(&trial.formulas, trial.index, &dictionary.constants, dimensions);
+    trial.sheet.count((dictionary.entries.len() * trial.few.len() + monomials.len()) as u64);
+    // Units that do not fit together as it is written, and do with what is missing, are evidence too.
+    let own = trial.formulas.list[trial.index].tree.clone();
+    let units = if dimensions.are_sound(&[(trial.index, own)]) { 1.0 } else { 0.05 };
+    let is_weak = trial.is_number || trial.is_constant();
+    let mut ratios = Ratios::default();
     let mut found = Vec::new();
     for index in used_by(&trial.formulas, trial.index) {
-        for place in places(&trial.formulas.list[index].tree) {
+        let all = places(&trial.formulas.list[index].tree);
+        for &(depth, number) in &all {
             for operator in [Operator::Plus, Operator::Times] {
-                let Some(needed) = needed(trial, index, &place, operator) else { continue };
-                let known = dictionary.entries.iter().filter(|entry| entry.after <= index);
-                for (entry, needed) in known.flat_map(|entry| needed.iter().map(move |needed| (entry, needed))) {
-                    // What is right everywhere but for a number lacks nothing that changes.
-                    let Some(coefficient) = coefficient(entry, needed).filter(|_| !is_number || entry.is_one()) else {
-                        continue;
-                    };
-                    for (what, weight) in written(&monomials, coefficient, entry, operator) {
-                        let Some(own) = Candidate::of(trial, (index, &place), operator, &what) else { continue };
-                        // What is missing in the formula itself, and made of what stands there, is simpler.
-                        let outside = usize::from(index != trial.index) + place.len() + own.strangers;
-                        let weight = weight + 2 * outside;
-                        found.push((!dimensions.are_sound(&own.changed), weight, own));
+                if trial.is_spent() {
+                    break;
+                }
+                for needed in needed(trial, trial.sheet.places(index)[number], operator) {
+                    let alike = ratios.alike(&dictionary.entries, &needed);
+                    for entry in alike.into_iter().map(|own| &dictionary.entries[own]) {
+                        // What is right everywhere but for a number lacks nothing that changes.
+                        if entry.after > index || trial.is_number && !entry.is_one() {
+                            continue;
+                        }
+                        let Some(coefficient) = coefficient(entry, &needed) else { continue };
+                        for (what, weight) in written(&monomials, coefficient, entry, operator) {
+                            let Some(own) = Candidate::of(trial, [index, number], operator, &what) else { continue };
+                            if !dimensions.are_sound(&own.changed) {
+                                continue;
+                            }
+                            if entry.is_one()
+                                && !is_believed(
+                                    &monomials,
+                                    dimensions,
+                                    coefficient,
+                                    (&what, weight),
+                                    units,
+                                    is_weak.then(|| before(&all, depth)),
+                                )
+                            {
+                                continue;
+                            }
+                            // What is missing in the formula itself, and made of what stands there, is simpler.
+                            let outside = usize::from(index != trial.index) + depth + own.strangers;
+                            found.push((weight + 2 * outside, own));
+                        }
                     }
                 }
             }
         }
     }
-    found.sort_by_key(|(is_unsound, weight, _)| (*is_unsound, *weight));
-    found.into_iter().find(|(_, _, own)| trial.fits(&own.changed, 0.0)).map(|(_, _, own)| own.missing)
+    found.sort_by_key(|(weight, _)| *weight);
+    found.dedup_by(|one, other| one.1.changed == other.1.changed);
+    let mut right: Vec<(usize, Candidate)> = Vec::new();
+    for (weight, own) in found {
+        // As simple, and at the same place.
+        let is_equal = right.first().is_none_or(|(least, first)| weight <= least + 1 && own.is_beside(first));
+        if is_equal && right.len() < MOST && trial.fits(&own.changed, 0.0) {
+            right.push((weight, own));
+        }
+    }
+    right.into_iter().map(|(_, own)| own.missing).collect()
+}
+
+/// Most products that are told where several fit equally.
+const MOST: usize = 3;
+
+/// Entries of a dictionary by the ratio of their values at two instants: those that an amount goes with are found
+/// without looking at all of them.
+#[derive(Default)]
+struct Ratios {
+    sorted: BTreeMap<[usize; 2], Vec<(f64, usize)>>,
+}
+
+impl Ratios {
+    /// Indices of the entries that may go with what is needed, in their order, and of the one for constants.
+    fn alike(&mut self, entries: &[Entry], needed: &Needed) -> Vec<usize> {
+        let mut known: Vec<(usize, [f64; 2])> =
+            needed.iter().enumerate().filter_map(|(instant, own)| Some((instant, (*own)?))).collect();
+        // Those instants that say most.
+        let sharpness = |(_, [amount, known]): &(usize, [f64; 2])| (amount / known).abs();
+        known.sort_by(|one, other| sharpness(other).total_cmp(&sharpness(one)));
+        let [(one, [first, first_known]), (other, [second, second_known])] = match known.as_slice() {
+            [one, other, ..] => [*one, *other],
+            _ => return entries.iter().position(Entry::is_one).into_iter().collect(),
+        };
+        let sorted = self.sorted.entry([one, other]).or_insert_with(|| {
+            let ratio = |(index, own): (usize, &Entry)| (own.values[one] / own.values[other], index);
+            let mut all: Vec<(f64, usize)> =
+                entries.iter().enumerate().map(ratio).filter(|(ratio, _)| ratio.is_finite()).collect();
+            all.sort_by(|one, other| one.0.total_cmp(&other.0));
+            all
+        });
+        let ratio = first / second;
+        let slack = 2.0 * ratio.abs() * ((first_known / first).abs() + (second_known / second).abs() + 1e-12);
+        let begin = sorted.partition_point(|(own, _)| *own < ratio - slack);
+        let near = sorted[begin..].iter().take_while(|(own, _)| *own <= ratio + slack);
+        let mut found: Vec<usize> = near.map(|(_, index)| *index).collect();
+        found.sort_unstable();
+        found
+    }
 }
 
 /// Something that may be missing, and the formula with it.
@@ -77,18 +156,22 @@ struct Candidate {
 }
 
 impl Candidate {
+    fn is_beside(&self, other: &Candidate) -> bool {
+        let of = |own: &Candidate| (own.missing.formula.clone(), own.missing.beside.clone(), own.missing.is_factor);
+        of(self) == of(other)
+    }
+
     /// `None` if it would have to know a formula that comes later.
-    fn of(trial: &Trial, (index, place): (usize, &[usize]), operator: Operator, what: &Tree) -> Option<Self> {
+    fn of(trial: &Trial, [index, number]: [usize; 2], operator: Operator, what: &Tree) -> Option<Self> {
         let later = &trial.formulas.list[index..];
         if what.names().iter().any(|(name, _)| later.iter().any(|own| own.name == *name)) {
             return None;
         }
 
         let own = &trial.formulas.list[index];
-        let mut tree = own.tree.clone();
-        let part = part_at(&mut tree, place);
-        let beside = (!place.is_empty()).then(|| part.to_string());
-        *part = with(operator, part.clone(), what.clone());
+        let part = numbered(&own.tree, number);
+        let beside = (number > 0).then(|| part.to_string());
+        let tree = replaced(&own.tree, number, &with(operator, part.clone(), what.clone()));
         let names = own.tree.names();
         let is_stranger = |name: &str| name != "pi" && names.iter().all(|(own, _)| *own != name);
         let strangers = what.names().iter().filter(|(name, _)| is_stranger(name)).count();
@@ -98,16 +181,45 @@ impl Candidate {
     }
 }
 
-/// Every place of a tree at which something may be missing.
-fn places(tree: &Tree) -> Vec<Vec<usize>> {
-    let mut places = Vec::new();
+/// Whether a number alone tells that a product is missing. The number must have more digits than chance explains, as
+/// many products as there are with its unit. `places` is the number of places at which it may be missing, where the
+/// formula is wrong by a number only: then they all fit.
+fn is_believed(
+    monomials: &Monomials,
+    dimensions: &Dimensions,
+    coefficient: f64,
+    (what, weight): (&Tree, usize),
+    units: f64,
+    places: Option<usize>,
+) -> bool {
+    let dimension = dimensions.of_constant(what);
+    let (products, one) = monomials.by_chance(coefficient, ACCURACY, weight, dimension);
+    // The only quantity with the unit that is missing.
+    if weight <= 2 && products <= 1 && dimension.is_some() {
+        return true;
+    }
+    match places {
+        None => one * units <= CHANCE,
+        Some(_) if weight > 3 && units == 1.0 => one * LONG <= CHANCE,
+        Some(places) => one * 2.0 * places as f64 * units <= CHANCE,
+    }
+}
+
+/// Number of places that are no deeper.
+fn before(places: &[(usize, usize)], depth: usize) -> usize {
+    places.partition_point(|(own, _)| *own <= depth)
+}
+
+/// Depths and numbers of all places of a tree at which something may be missing, the whole before its parts.
+fn places(tree: &Tree) -> Vec<(usize, usize)> {
+    let (mut places, mut number) = (Vec::new(), 0);
     at_every_place(tree, &mut |place, part| {
         if !matches!(part.shape, Shape::Number(_)) {
-            places.push(place.to_vec());
+            places.push((place.len(), number));
         }
+        number += 1;
     });
-    // The whole before its parts.
-    places.sort_by_key(Vec::len);
+    places.sort_by_key(|(depth, _)| *depth);
     places
 }
 
@@ -165,50 +277,36 @@ fn product(factor: &Tree, entry: &Tree) -> Tree {
     }
 }
 
-/// What is missing at a place at each of the few instants, by Newton's method: begun with nothing at each of them, or
-/// with what is missing at its neighbour on either side, because squares have two answers.
-fn needed(trial: &mut Trial, index: usize, place: &[usize], operator: Operator) -> Option<[Needed; 3]> {
-    let mut tree = trial.formulas.list[index].tree.clone();
-    let part = part_at(&mut tree, place);
-    *part = Tree::pair(operator, part.clone(), Tree::name(UNKNOWN));
-    let of = trial.index;
-    let mut program = trial.formulas.with_trees(&[(index, tree)], of, |graph, id| {
-        let slope = graph.derivative(id, 4);
-        Program::of(graph, &[id, slope])
-    })?;
+/// What is missing at a place at each of the few instants: begun with nothing at each of them, or with what is missing
+/// at its neighbour on either side, because squares have two answers.
+fn needed(trial: &mut Trial, place: usize, operator: Operator) -> Vec<Needed> {
+    let depending = trial.sheet.depending(&[place]);
     let neutral = if operator == Operator::Plus { 0.0 } else { 1.0 };
-    let mut at = |place: usize, from: f64| -> Option<[f64; 2]> {
-        let mut amount = from;
-        for _ in 0..STEPS {
-            let values = program.run(&trial.inputs(place, amount));
-            let (value, slope) = (values[0].value, values[1].value);
-            let change = trial.difference(value, place) / slope;
-            if slope == 0.0 || !change.is_finite() {
-                return None;
-            }
-            amount -= change;
-            let bound = (trial.bound(place) / slope).abs();
-            if change.abs() <= 1e-13 * amount.abs() + bound {
-                return Some([amount, 4.0 * bound + 1e-11 * amount.abs()]);
-            }
-        }
-        None
-    };
-    let few = &trial.few;
-    let afresh: Needed = few.iter().map(|&place| at(place, neutral)).collect();
-    let mut followed = |places: &mut dyn Iterator<Item = &usize>| -> Needed {
+    let Trial { sheet, targets, .. } = trial;
+    let mut at = |instant: usize, from: f64| sheet.amount(operator, &depending, instant, from, &targets[instant]);
+    let count = targets.len();
+    let afresh: Needed = (0..count).map(|instant| at(instant, neutral)).collect();
+    let mut followed = |instants: &mut dyn Iterator<Item = usize>| -> Needed {
         let mut last = neutral;
-        let mut next = |place: &usize| {
-            let found = at(*place, last);
+        let mut next = |instant: usize| {
+            let found = at(instant, last);
             last = found.map_or(last, |[amount, _]| amount);
             found
         };
-        places.map(&mut next).collect()
+        instants.map(&mut next).collect()
     };
-    let forwards = followed(&mut few.iter());
-    let mut backwards = followed(&mut few.iter().rev());
+    let forwards = followed(&mut (0..count));
+    let mut backwards = followed(&mut (0..count).rev());
     backwards.reverse();
-    Some([afresh, forwards, backwards])
+    // What does not depend on where it is begun has one answer.
+    let is_same = |other: &Needed| {
+        afresh.iter().zip(other).all(|pair| match pair {
+            (Some([one, known]), Some([other, well])) => (one - other).abs() <= known + well,
+            (one, other) => one.is_none() && other.is_none(),
+        })
+    };
+    let others: Vec<Needed> = [forwards, backwards].into_iter().filter(|own| !is_same(own)).collect();
+    [vec![afresh], others].concat()
 }
 
 /// The number of times that an entry is missing, if the amount goes with it.

@@ -1,38 +1,28 @@
-//! Products of powers of known quantities, to be recognised by their value.
+//! Products of powers of known quantities, as they may be written.
 
+use crate::claims::dimension::{Dimensions, Known};
 use crate::scenario::Formulas;
-use formula::{Function, Operator, Program, Rounded, Shape, Tree};
+use formula::{Function, Operator, Product, Products, Program, Rounded, Shape, Tree, information};
 
 /// Most quantities that products are made of.
 const MOST: usize = 14;
-/// Numbers that derivations have as factors, with what they add to the complexity.
-const NUMBERS: [(f64, usize); 9] =
-    [(1.0, 0), (2.0, 1), (0.5, 1), (4.0, 4), (0.25, 4), (1.5, 4), (3.0, 5), (1.0 / 3.0, 5), (0.125, 5)];
-
 /// Most products of one value that are told apart.
 const SIMPLEST: usize = 100;
-
-/// A product of powers of quantities, times a number.
-#[derive(Clone, Debug)]
-struct Product {
-    /// Its size.
-    value: f64,
-    is_negative: bool,
-    weight: usize,
-    number: f64,
-    /// Indices of quantities with their exponents.
-    powers: Vec<(u8, i8)>,
-}
 
 /// All products, by their value.
 pub(in crate::claims) struct Monomials {
     quantities: Vec<(Tree, f64)>,
-    products: Vec<Product>,
+    products: Products,
 }
 
 impl Monomials {
     /// Of the parameters, of steps before `formula` that do not change, and of sine and cosine of constant angles.
-    pub(in crate::claims) fn of(formulas: &Formulas, formula: usize, steps: &[(String, f64)]) -> Self {
+    pub(in crate::claims) fn of(
+        formulas: &Formulas,
+        formula: usize,
+        steps: &[(String, f64)],
+        dimensions: &Dimensions,
+    ) -> Self {
         let known = |own: &crate::scenario::Parameter| {
             let (_, number) = own.names().find(|(name, _)| *name == own.quantity())?;
             Some((Tree::name(own.quantity()), number.value))
@@ -43,22 +33,33 @@ impl Monomials {
         quantities.extend(calls(formulas, formula));
         quantities.retain(|(_, value)| *value != 0.0);
         quantities.truncate(MOST);
-        let mut products = Vec::new();
-        put(&quantities, 0, &mut Vec::new(), &mut products);
-        products.sort_by(|one, other| one.value.total_cmp(&other.value));
-        Monomials { quantities, products }
+        let valued: Vec<(f64, Known)> =
+            quantities.iter().map(|(tree, value)| (*value, dimensions.of_constant(tree))).collect();
+        Monomials { products: Products::of(&valued), quantities }
+    }
+
+    /// Number of products: the work of making them.
+    pub(in crate::claims) fn len(&self) -> usize {
+        self.products.len()
     }
 
     /// Products with this value, to this relative accuracy, with their complexity; the simplest first, and not too many.
     pub(in crate::claims) fn with_value(&self, value: f64, accuracy: f64) -> Vec<(Tree, usize)> {
-        let size = value.abs();
-        let [low, high] = [size * (1.0 - accuracy), size * (1.0 + accuracy)];
-        let first = self.products.partition_point(|own| own.value < low);
-        let near = self.products[first..].iter().take_while(|own| own.value <= high);
-        let mut near: Vec<&Product> = near.collect();
-        near.sort_by_key(|own| own.weight);
-        near.truncate(SIMPLEST);
-        near.into_iter().map(|own| (self.tree(own, own.is_negative != (value < 0.0)), own.weight)).collect()
+        let near = self.products.near(value.abs(), accuracy).into_iter().take(SIMPLEST);
+        near.map(|own| (self.tree(own, own.is_negative != (value < 0.0)), own.weight)).collect()
+    }
+
+    /// How many products of this dimension are no more complicated, and how many of them have by chance a number that
+    /// says as little.
+    pub(in crate::claims) fn by_chance(
+        &self,
+        value: f64,
+        accuracy: f64,
+        weight: usize,
+        dimension: Known,
+    ) -> (usize, f64) {
+        let alike = self.products.alike(weight, dimension);
+        (alike, alike as f64 * (-information(value, accuracy)).exp2())
     }
 
     fn tree(&self, product: &Product, is_negative: bool) -> Tree {
@@ -88,20 +89,24 @@ impl Monomials {
 
 /// Sine and cosine of names that do not change, as formulas up to this one have them.
 fn calls(formulas: &Formulas, formula: usize) -> Vec<(Tree, f64)> {
-    let mut found: Vec<Tree> = Vec::new();
+    let mut found: std::collections::BTreeMap<String, Tree> = std::collections::BTreeMap::new();
+    let mut put = |part: &Tree| {
+        found.entry(part.to_string()).or_insert_with(|| part.clone());
+    };
     for own in &formulas.list[..=formula] {
         crate::claims::slips::at_every_place(&own.tree, &mut |_, part| {
-            if let Shape::Call(Function::Sin | Function::Cos, _) = &part.shape
-                && !found.iter().any(|own| own.to_string() == part.to_string())
+            // A long argument is no angle of a drawing.
+            if let Shape::Call(Function::Sin | Function::Cos, arguments) = &part.shape
+                && matches!(arguments[0].shape, Shape::Name(_))
             {
-                found.push(part.clone());
+                put(part);
             }
         });
     }
     // Angles of the file, not only those that formulas take the cosine of.
     for own in formulas.parameters.iter().filter(|own| own.is_angle()) {
-        found.push(Tree::call(Function::Cos, vec![Tree::name(own.quantity())]));
-        found.push(Tree::call(Function::Sin, vec![Tree::name(own.quantity())]));
+        put(&Tree::call(Function::Cos, vec![Tree::name(own.quantity())]));
+        put(&Tree::call(Function::Sin, vec![Tree::name(own.quantity())]));
     }
     let mut graph = formulas.graph.clone();
     let constant = |tree: Tree| {
@@ -109,26 +114,5 @@ fn calls(formulas: &Formulas, formula: usize) -> Vec<(Tree, f64)> {
         let value = Program::of(&graph, &[id]).run(&[Rounded::exact(f64::NAN); 2])[0].value;
         value.is_finite().then_some((tree, value))
     };
-    found.into_iter().filter_map(constant).collect()
-}
-
-/// Adds all products of up to three of the quantities from `next` on to those chosen.
-fn put(quantities: &[(Tree, f64)], next: usize, chosen: &mut Vec<(u8, i8)>, products: &mut Vec<Product>) {
-    let value: f64 = chosen.iter().map(|&(index, power)| quantities[usize::from(index)].1.powi(power.into())).product();
-    // The square of one quantity is simpler than a product of two.
-    let weight: usize = chosen.iter().map(|(_, power)| 1 + usize::from(power.unsigned_abs())).sum();
-    for (number, more) in NUMBERS {
-        let (size, is_negative) = (number * value.abs(), value < 0.0);
-        products.push(Product { value: size, is_negative, weight: weight + more, number, powers: chosen.clone() });
-    }
-    if chosen.len() == 3 {
-        return;
-    }
-    for index in next..quantities.len() {
-        for power in [1, -1, 2, -2] {
-            chosen.push((index as u8, power));
-            put(quantities, index + 1, chosen, products);
-            chosen.pop();
-        }
-    }
+    found.into_values().filter_map(constant).collect()
 }

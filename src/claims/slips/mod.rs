@@ -9,42 +9,139 @@ mod functions;
 mod places;
 mod regrouped;
 mod slip;
+mod values;
 
 use super::dimension::Dimensions;
-use crate::scenario::Formulas;
+use super::trial::Trial;
+use formula::{Shape, Sheet, Tree};
 use places::quantities;
-pub(super) use places::{at_every_place, part_at, used_by};
-pub(super) use slip::Mended;
+pub(super) use places::{at_every_place, numbered, replaced, used_by};
 pub use slip::{Kind, Slip};
 
-/// Most slips that are tried, so that a formula of many pages has an answer too.
-const MOST: usize = 30_000;
+/// A slip mended: the formulas that it changes by their indices, as they would be right, and the slip in words.
+pub(super) struct Mended {
+    pub(super) changed: Vec<(usize, Tree)>,
+    pub(super) slip: Slip,
+    /// The simplest has the least: whether units contradict it, whether it is made in many places, whether it is in
+    /// a step, and its kind.
+    pub(super) rank: (bool, bool, bool, Kind),
+    /// Share of the largest difference that it leaves; zero if the formula is right with it.
+    pub(super) left: f64,
+    /// Number of slips that had been tried by then: those that are as simple.
+    pub(super) among: usize,
+}
 
-/// Every formula with one slip mended, in a formula or in a step that it uses. Those whose units fit together come
-/// first; of them those in the formula itself, the simplest first.
-pub(super) fn mended(formulas: &Formulas, formula: usize, dimensions: &Dimensions) -> Vec<Mended> {
-    let names = quantities(formulas, formula);
-    let known: Vec<&str> = names.iter().map(String::as_str).collect();
-    let used = used_by(formulas, formula);
-    let mut all = Vec::new();
-    for &index in &used {
-        let own = &formulas.list[index];
-        at_every_place(&own.tree, &mut |place, part| {
-            for (kind, right) in edits::of(part, &known, &formulas.parameters) {
-                let (written, right_text) = (part.to_string(), right.to_string());
-                let slip = Slip { formula: own.name.clone(), kind, written, right: right_text, everywhere: false };
-                let mut tree = own.tree.clone();
-                *part_at(&mut tree, place) = right;
-                all.push(Mended { changed: vec![(index, tree)], slip, is_sound: false });
+/// Slips that were tried.
+#[derive(Default)]
+pub(super) struct Tried {
+    /// Those with which the formula is right, the simplest first.
+    pub(super) right: Vec<Mended>,
+    /// Of all others, the one that leaves least, if it leaves little.
+    pub(super) nearest: Option<Mended>,
+    /// How many were tried.
+    pub(super) count: usize,
+}
+
+impl Tried {
+    fn put(&mut self, trial: &mut Trial, mended: Mended) {
+        match trial.left(&mended.changed, 0.0) {
+            Some(0.0) => self.right.push(Mended { left: 0.0, ..mended }),
+            // A simpler one that leaves hardly more is nearer.
+            Some(left) if self.nearest.as_ref().is_none_or(|nearest| left < 0.8 * nearest.left) => {
+                self.nearest = Some(Mended { left, among: self.count, ..mended });
             }
-        });
+            Some(_) | None => {}
+        }
     }
-    all.sort_by_key(|own| (own.changed[0].0 != formula, own.slip.kind));
-    all.truncate(MOST);
-    all.extend(everywhere::mended(formulas, &used, &known));
-    for own in &mut all {
-        own.is_sound = dimensions.are_sound(&own.changed);
+}
+
+/// Tries every slip, the simplest kinds first, until the trial's work is used up.
+pub(super) fn tried(trial: &mut Trial, dimensions: &Dimensions) -> Tried {
+    let formulas = trial.formulas.clone();
+    let names = quantities(&formulas, trial.index);
+    let known: Vec<&str> = names.iter().map(String::as_str).collect();
+    let used = used_by(&formulas, trial.index);
+    let mut tried = Tried::default();
+    for kind in Kind::ALL {
+        for &index in &used {
+            let own = &formulas.list[index];
+            let mut next = 0;
+            at_every_place(&own.tree, &mut |_, part| {
+                let (number, place) = (next, trial.sheet.places(index)[next]);
+                next += 1;
+                if trial.is_spent() {
+                    return;
+                }
+                let is_whole = matches!(kind, Kind::Exchanged | Kind::Parentheses);
+                let edited = if is_whole { part.clone() } else { hollow(part, place, &trial.sheet, 2) };
+                let edits = edits::of(&edited, kind, &known, &formulas.parameters);
+                if edits.is_empty() {
+                    return;
+                }
+                let depending = trial.sheet.depending(&[place]);
+                for right in edits {
+                    tried.count += 1;
+                    let change = [(place, right)];
+                    if !trial.is_promising(&change, &depending) {
+                        continue;
+                    }
+                    let [(_, right)] = change;
+                    let right = filled(&right, &own.tree, trial.sheet.places(index));
+                    let changed = vec![(index, replaced(&own.tree, number, &right))];
+                    let Some(is_sound) = dimensions.standing(&changed, index, [part, &right]) else { continue };
+                    let (written, right) = (part.to_string(), right.to_string());
+                    let slip = Slip { formula: own.name.clone(), kind, written, right, everywhere: false };
+                    let rank = (!is_sound, false, index != trial.index, kind);
+                    tried.put(trial, Mended { changed, slip, rank, left: f64::INFINITY, among: 0 });
+                }
+            });
+        }
     }
-    all.sort_by_key(|own| !own.is_sound);
-    all
+    everywhere::tried(trial, &used, &known, dimensions, &mut tried);
+    values::tried(trial, &used, &mut tried);
+    tried.right.sort_by_key(|own| own.rank);
+    tried
+}
+
+/// A part down to some levels, with placeholders for what stands deeper: it need not be copied.
+fn hollow(part: &Tree, place: usize, sheet: &Sheet, levels: usize) -> Tree {
+    if part.parts().is_empty() {
+        return part.clone();
+    }
+    if levels == 0 {
+        return Sheet::placeholder(place);
+    }
+    let shape = match &part.shape {
+        Shape::Number(_) | Shape::Name(_) => part.shape.clone(),
+        Shape::Negative(inner) => {
+            Shape::Negative(Box::new(hollow(inner, sheet.arguments(place)[0], sheet, levels - 1)))
+        }
+        Shape::Pair(operator, parts) => {
+            let arguments = sheet.arguments(place);
+            let of = |index: usize| hollow(&parts[index], arguments[index], sheet, levels - 1);
+            Shape::Pair(*operator, Box::new([of(0), of(1)]))
+        }
+        Shape::Call(function, parts) => {
+            let arguments = sheet.arguments(place);
+            let of = |(part, place): (&Tree, usize)| hollow(part, place, sheet, levels - 1);
+            Shape::Call(*function, parts.iter().zip(arguments).map(of).collect())
+        }
+    };
+    Tree { shape, at: part.at.clone() }
+}
+
+/// A tree with the parts of a formula in place of their placeholders.
+fn filled(tree: &Tree, formula: &Tree, places: &[usize]) -> Tree {
+    let number = match &tree.shape {
+        Shape::Name(name) => Sheet::placed(name).and_then(|own| places.iter().position(|place| *place == own)),
+        Shape::Number(_) | Shape::Negative(_) | Shape::Pair(..) | Shape::Call(..) => None,
+    };
+    if let Some(number) = number {
+        return numbered(formula, number).clone();
+    }
+    let mut own = tree.clone();
+    for part in own.parts_mut() {
+        *part = filled(part, formula, places);
+    }
+    own
 }

@@ -1,5 +1,7 @@
 //! Places in formulas, and the names and steps that they use.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use crate::scenario::Formulas;
 use formula::Tree;
 
@@ -13,12 +15,13 @@ pub(in crate::claims) fn quantities(formulas: &Formulas, formula: usize) -> Vec<
 
 /// Indices of a formula and of those that it uses, itself first.
 pub(in crate::claims) fn used_by(formulas: &Formulas, formula: usize) -> Vec<usize> {
-    let index_of = |name: &str| formulas.list.iter().position(|own| own.name == name);
-    let mut found = vec![formula];
+    let names: BTreeMap<&str, usize> =
+        formulas.list[..formula].iter().enumerate().map(|(index, own)| (own.name.as_str(), index)).collect();
+    let (mut found, mut known) = (vec![formula], BTreeSet::from([formula]));
     let mut next = 0;
     while next < found.len() {
         for (name, _) in formulas.list[found[next]].tree.names() {
-            if let Some(index) = index_of(name).filter(|index| !found.contains(index)) {
+            if let Some(&index) = names.get(name).filter(|index| known.insert(**index)) {
                 found.push(index);
             }
         }
@@ -40,7 +43,28 @@ pub(in crate::claims) fn at_every_place<'a>(tree: &'a Tree, visit: &mut dyn FnMu
     go(tree, &mut Vec::new(), visit);
 }
 
-/// The part at a place.
-pub(in crate::claims) fn part_at<'a>(tree: &'a mut Tree, place: &[usize]) -> &'a mut Tree {
-    place.iter().fold(tree, |tree, &index| &mut tree.parts_mut()[index])
+/// The part with a number, as [`at_every_place`] visits them.
+pub(in crate::claims) fn numbered(tree: &Tree, number: usize) -> &Tree {
+    let (mut found, mut next) = (tree, 0);
+    at_every_place(tree, &mut |_, part| {
+        if next == number {
+            found = part;
+        }
+        next += 1;
+    });
+    found
+}
+
+/// A tree with another part in place of the one with a number.
+pub(in crate::claims) fn replaced(tree: &Tree, number: usize, other: &Tree) -> Tree {
+    let (mut at, mut next) = (Vec::new(), 0);
+    at_every_place(tree, &mut |place, _| {
+        if next == number {
+            at = place.to_vec();
+        }
+        next += 1;
+    });
+    let mut changed = tree.clone();
+    *at.iter().fold(&mut changed, |tree, &index| &mut tree.parts_mut()[index]) = other.clone();
+    changed
 }

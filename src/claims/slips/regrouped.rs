@@ -1,15 +1,10 @@
 //! Parentheses that are missing or stand in another place.
 
-use super::slip::Kind;
 use formula::Operator::{self, Minus, Over, Plus, Power, Times};
 use formula::{Shape, Tree};
 
 /// The same signs in the same order, grouped otherwise.
-pub(super) fn of(part: &Tree) -> Vec<(Kind, Tree)> {
-    trees(part).into_iter().map(|tree| (Kind::Parentheses, tree)).collect()
-}
-
-fn trees(part: &Tree) -> Vec<Tree> {
+pub(super) fn of(part: &Tree) -> Vec<Tree> {
     let mut found = Vec::new();
     match &part.shape {
         Shape::Pair(operator @ (Plus | Minus), parts) => {

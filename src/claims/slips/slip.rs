@@ -1,6 +1,4 @@
-//! A slip of the pen, its kinds, and formulas with one mended.
-
-use formula::Tree;
+//! A slip of the pen, and its kinds.
 
 /// A slip of the pen.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,6 +22,8 @@ pub enum Kind {
     Sign,
     /// Another branch of a square root or of an inverse function.
     Branch,
+    /// Degrees for radians, turns a minute, millimetres, and the like.
+    Unit,
     /// Sine for cosine, and the like.
     Function,
     /// A square, a root, or their absence.
@@ -38,19 +38,38 @@ pub enum Kind {
     Exchanged,
     /// A term too many.
     Term,
-    /// Degrees for radians, and the like.
-    Unit,
     /// A reference angle that is a quarter or half a turn off.
     Reference,
     /// A factor or divisor that is a small number.
     Factor,
-    /// A product for a quotient.
+    /// A product for a quotient, or for a power.
     Operator,
     /// Parentheses that are missing, or in another place.
     Parentheses,
+    /// A number, or the value of a parameter.
+    Value,
 }
 
 impl Kind {
+    /// All kinds, the simplest first.
+    pub const ALL: [Kind; 15] = [
+        Kind::Sign,
+        Kind::Branch,
+        Kind::Unit,
+        Kind::Function,
+        Kind::Power,
+        Kind::PerRadian,
+        Kind::PerSecond,
+        Kind::Name,
+        Kind::Exchanged,
+        Kind::Term,
+        Kind::Reference,
+        Kind::Factor,
+        Kind::Operator,
+        Kind::Parentheses,
+        Kind::Value,
+    ];
+
     /// The kind in words.
     #[must_use]
     pub fn words(self) -> &'static str {
@@ -67,16 +86,9 @@ impl Kind {
             Kind::Exchanged => "two quantities exchanged",
             Kind::Operator => "a product for a quotient",
             Kind::Parentheses => "parentheses",
+            Kind::Value => "a value",
             Kind::PerRadian => "per radian of the crank in place of per second",
             Kind::PerSecond => "per second in place of per radian of the crank",
         }
     }
-}
-
-/// One slip mended: the formulas that it changes by their indices, as they would be right, and the slip in words.
-pub(in crate::claims) struct Mended {
-    pub(in crate::claims) changed: Vec<(usize, Tree)>,
-    pub(in crate::claims) slip: Slip,
-    /// Whether the units of the mended formula fit together.
-    pub(in crate::claims) is_sound: bool,
 }

@@ -27,6 +27,13 @@ pub struct Basis {
     values: Vec<f64>,
 }
 
+impl Basis {
+    /// Its largest value over the instants.
+    pub fn largest(&self) -> f64 {
+        self.values.iter().fold(0.0, |largest: f64, value| largest.larger(value.abs()))
+    }
+}
+
 /// A quantity with its coefficient.
 pub struct Part<'a> {
     /// The quantity.

@@ -1,4 +1,4 @@
-use super::{files, is_wrong, judged, load};
+use super::{files, is_named, is_wrong, judged, load};
 use crate::cli::tools::Place;
 use linkproof::scenario::{Formulas, Scenario};
 
@@ -22,11 +22,6 @@ fn said(scenario: &Scenario, claim: &str) -> String {
     assert!(is_wrong(&found, claim), "{}: {claim} is not found", scenario.name);
     let cause = found.judgement.causes.iter().find(|(name, _)| name == claim).and_then(|(_, cause)| cause.clone());
     cause.map_or("nothing".into(), |cause| cause.to_string())
-}
-
-/// Whether it has all words of one of the alternatives, `a & b | c`.
-fn is_named(said: &str, alternatives: &str) -> bool {
-    alternatives.split(" | ").any(|words| words.split(" & ").all(|word| said.contains(word.trim())))
 }
 
 /// Mistakes as people make them, written down before anything was tried, with what a teacher would call them.

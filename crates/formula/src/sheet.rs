@@ -1,0 +1,324 @@
+//! A derivation in which every part has a place of its own, evaluated at some instants: what a change of one part makes
+//! of the whole costs no more than what depends on that part.
+
+use std::collections::BTreeMap;
+
+use crate::function::Function;
+use crate::rounded::Rounded;
+use crate::tree::{Operator, Shape, Tree};
+
+/// What stands at a place. Arguments have smaller indices.
+#[derive(Clone, Copy, Debug)]
+enum Part {
+    Input(usize),
+    Number(Rounded),
+    /// A name, by the place of what it stands for.
+    Named(usize),
+    Negative(usize),
+    Pair(Operator, usize, usize),
+    Call(Function, usize, usize),
+}
+
+/// Formulas of a derivation, part by part, and their values at some instants.
+#[derive(Clone, Debug)]
+pub struct Sheet {
+    parts: Vec<Part>,
+    /// The parts of every formula, each before its arguments.
+    formulas: Vec<Vec<usize>>,
+    names: BTreeMap<String, usize>,
+    /// Inputs, by instant.
+    inputs: Vec<Vec<Rounded>>,
+    /// Values of all parts, by instant.
+    values: Vec<Vec<Rounded>>,
+    /// Values under a change, and for which change they were calculated.
+    changed: Vec<(u32, Rounded)>,
+    change: u32,
+    operations: u64,
+}
+
+/// Begins a name that stands for the part at a place, in trees that are made for a change.
+const PLACE: char = '#';
+/// Most steps to the amount that is missing at an instant.
+const STEPS: usize = 30;
+/// Change of an amount, over its size, by which a slope is measured.
+const DIFFERENCE: f64 = 1e-6;
+
+/// What a formula ought to be at an instant.
+#[derive(Clone, Copy, Debug)]
+pub struct Target {
+    /// The right value.
+    pub value: f64,
+    /// How far a value may be from it.
+    pub bound: f64,
+    /// A whole turn, if it is an angle.
+    pub turn: Option<f64>,
+}
+
+impl Target {
+    /// A value less the right one, for angles without whole turns.
+    #[must_use]
+    pub fn difference(&self, value: f64) -> f64 {
+        let difference = value - self.value;
+        self.turn.map_or(difference, |turn| difference - turn * (difference / turn).round())
+    }
+}
+
+impl Sheet {
+    /// A sheet without formulas: names of inputs, and their numbers by instant.
+    #[must_use]
+    pub fn new(names: &[&str], inputs: Vec<Vec<Rounded>>) -> Self {
+        let values = vec![Vec::new(); inputs.len()];
+        let mut own = Sheet {
+            parts: Vec::new(),
+            formulas: Vec::new(),
+            names: BTreeMap::new(),
+            inputs,
+            values,
+            changed: Vec::new(),
+            change: 0,
+            operations: 0,
+        };
+        for (index, name) in names.iter().enumerate() {
+            own.put_named(name, Part::Input(index));
+        }
+        own.constant("pi", Rounded::nearly(std::f64::consts::PI));
+        own
+    }
+
+    /// Gives a number a name.
+    pub fn constant(&mut self, name: &str, number: Rounded) {
+        self.put_named(name, Part::Number(number));
+    }
+
+    /// Adds a formula, which those after it may use by its name. `None` if it uses a name that is not known.
+    pub fn add(&mut self, name: &str, tree: &Tree) -> Option<()> {
+        let mut order = Vec::new();
+        let place = self.read(tree, &mut order)?;
+        self.names.insert(name.into(), place);
+        self.formulas.push(order);
+        Some(())
+    }
+
+    fn put_named(&mut self, name: &str, part: Part) {
+        let place = self.put(part);
+        self.names.insert(name.into(), place);
+    }
+
+    fn read(&mut self, tree: &Tree, order: &mut Vec<usize>) -> Option<usize> {
+        let own = order.len();
+        order.push(0);
+        let part = match &tree.shape {
+            Shape::Number(value) => Part::Number(Rounded::decimal(*value)),
+            Shape::Name(name) => Part::Named(*self.names.get(name)?),
+            Shape::Negative(inner) => Part::Negative(self.read(inner, order)?),
+            Shape::Pair(operator, parts) => {
+                let left = self.read(&parts[0], order)?;
+                Part::Pair(*operator, left, self.read(&parts[1], order)?)
+            }
+            Shape::Call(function, parts) => {
+                let first = self.read(&parts[0], order)?;
+                let second = match parts.get(1) {
+                    Some(second) => self.read(second, order)?,
+                    None => first,
+                };
+                Part::Call(*function, first, second)
+            }
+        };
+        let place = self.put(part);
+        order[own] = place;
+        Some(place)
+    }
+
+    fn put(&mut self, part: Part) -> usize {
+        self.operations += self.inputs.len() as u64;
+        for instant in 0..self.inputs.len() {
+            let value = self.evaluated(part, instant, |place| self.values[instant][place]);
+            self.values[instant].push(value);
+        }
+        self.parts.push(part);
+        self.changed.push((0, Rounded::exact(f64::NAN)));
+        self.parts.len() - 1
+    }
+
+    #[inline]
+    fn evaluated(&self, part: Part, instant: usize, at: impl Fn(usize) -> Rounded) -> Rounded {
+        match part {
+            Part::Input(input) => self.inputs[instant].get(input).copied().unwrap_or(Rounded::exact(f64::NAN)),
+            Part::Number(number) => number,
+            Part::Named(place) => at(place),
+            Part::Negative(place) => at(place).negative(),
+            Part::Pair(operator, left, right) => Rounded::pair(operator, at(left), at(right)),
+            Part::Call(function, first, second) => Rounded::call(function, [at(first), at(second)]),
+        }
+    }
+
+    /// Places of the parts of a formula, counted from the first that was added: each before its arguments, as
+    /// [`Tree::parts`] are visited.
+    #[must_use]
+    pub fn places(&self, formula: usize) -> &[usize] {
+        &self.formulas[formula]
+    }
+
+    /// The place of what a name stands for.
+    #[must_use]
+    pub fn named(&self, name: &str) -> Option<usize> {
+        self.names.get(name).copied()
+    }
+
+    /// Places of the arguments of a part; none for names and numbers.
+    #[must_use]
+    pub fn arguments(&self, place: usize) -> Vec<usize> {
+        match self.parts[place] {
+            Part::Input(_) | Part::Number(_) | Part::Named(_) => Vec::new(),
+            Part::Negative(part) => vec![part],
+            Part::Pair(_, left, right) => vec![left, right],
+            Part::Call(_, first, second) if first == second => vec![first],
+            Part::Call(_, first, second) => vec![first, second],
+        }
+    }
+
+    /// A tree that stands for the part at a place, as it is written.
+    #[must_use]
+    pub fn placeholder(place: usize) -> Tree {
+        Tree::name(format!("{PLACE}{place}"))
+    }
+
+    /// The place that a name made by [`Sheet::placeholder`] stands for.
+    #[must_use]
+    pub fn placed(name: &str) -> Option<usize> {
+        name.strip_prefix(PLACE)?.parse().ok()
+    }
+
+    /// The value of a part at an instant, as it is written.
+    #[must_use]
+    pub fn value(&self, place: usize, instant: usize) -> Rounded {
+        self.values[instant][place]
+    }
+
+    /// Number of evaluations of a part at an instant so far.
+    #[must_use]
+    pub fn operations(&self) -> u64 {
+        self.operations
+    }
+
+    /// Counts work that was done beside it, in the same unit.
+    pub fn count(&mut self, operations: u64) {
+        self.operations += operations;
+    }
+
+    /// These places and all that depend on them, in the order in which they are evaluated, up to the last formula.
+    pub fn depending(&mut self, places: &[usize]) -> Vec<usize> {
+        let Some(&first) = places.iter().min() else { return Vec::new() };
+        // Nothing is evaluated here: a look at a part is a small share of an operation.
+        self.operations += (self.parts.len() - first) as u64 / 16;
+        self.change += 1;
+        let mut found = Vec::new();
+        for place in first..self.parts.len() {
+            let is_marked = |part: usize| part >= first && self.changed[part].0 == self.change;
+            let depends = places.contains(&place)
+                || match self.parts[place] {
+                    Part::Input(_) | Part::Number(_) => false,
+                    Part::Named(part) | Part::Negative(part) => is_marked(part),
+                    Part::Pair(_, left, right) | Part::Call(_, left, right) => is_marked(left) || is_marked(right),
+                };
+            if depends {
+                self.changed[place].0 = self.change;
+                found.push(place);
+            }
+        }
+        found
+    }
+
+    /// The value of the last formula at an instant with other trees at some places; `depending` is what
+    /// [`Sheet::depending`] says of these. Names that are not known before a place are NaN.
+    pub fn changed(&mut self, changes: &[(usize, Tree)], depending: &[usize], instant: usize) -> Rounded {
+        self.change += 1;
+        for &place in depending {
+            let value = match changes.iter().find(|(own, _)| *own == place) {
+                Some((_, tree)) => self.small(tree, place, instant),
+                None => self.again(place, instant),
+            };
+            self.changed[place] = (self.change, value);
+        }
+        self.operations += depending.len() as u64 + 2;
+        self.current(self.parts.len() - 1, instant)
+    }
+
+    /// The same with a number at one place.
+    fn with_number(&mut self, number: Rounded, depending: &[usize], instant: usize) -> Rounded {
+        self.change += 1;
+        let Some((&first, rest)) = depending.split_first() else { return Rounded::exact(f64::NAN) };
+        self.changed[first] = (self.change, number);
+        for &place in rest {
+            let value = self.again(place, instant);
+            self.changed[place] = (self.change, value);
+        }
+        self.operations += rest.len() as u64 + 1;
+        self.current(self.parts.len() - 1, instant)
+    }
+
+    fn again(&self, place: usize, instant: usize) -> Rounded {
+        self.evaluated(self.parts[place], instant, |part| self.current(part, instant))
+    }
+
+    #[inline]
+    fn current(&self, place: usize, instant: usize) -> Rounded {
+        let (change, value) = self.changed[place];
+        if change == self.change { value } else { self.values[instant][place] }
+    }
+
+    fn small(&mut self, tree: &Tree, place: usize, instant: usize) -> Rounded {
+        self.operations += 1;
+        match &tree.shape {
+            Shape::Number(value) => Rounded::decimal(*value),
+            Shape::Name(name) => match Sheet::placed(name).or_else(|| self.names.get(name).copied()) {
+                Some(own) if own <= place => self.current(own, instant),
+                Some(_) | None => Rounded::exact(f64::NAN),
+            },
+            Shape::Negative(part) => self.small(part, place, instant).negative(),
+            Shape::Pair(operator, parts) => {
+                let left = self.small(&parts[0], place, instant);
+                Rounded::pair(*operator, left, self.small(&parts[1], place, instant))
+            }
+            Shape::Call(function, parts) => {
+                let first = self.small(&parts[0], place, instant);
+                let second = parts.get(1).map_or(first, |part| self.small(part, place, instant));
+                Rounded::call(*function, [first, second])
+            }
+        }
+    }
+
+    /// The amount by which the part at a place has to grow (`Plus`), or the factor that it lacks (`Times`), so that
+    /// the last formula is right at an instant, and how far that is known. Sought by Newton's method from an amount.
+    /// `None` if there is none. `depending` is what [`Sheet::depending`] says of the place.
+    pub fn amount(
+        &mut self,
+        operator: Operator,
+        depending: &[usize],
+        instant: usize,
+        from: f64,
+        target: &Target,
+    ) -> Option<[f64; 2]> {
+        let part = self.value(*depending.first()?, instant);
+        let with = |amount: f64| Rounded::pair(operator, part, Rounded::exact(amount));
+        let size = if operator == Operator::Plus { part.value.abs() } else { 1.0 };
+        let mut amount = from;
+        for _ in 0..STEPS {
+            let least = if size > 0.0 { size } else { 1e-3 };
+            let step = DIFFERENCE * if amount.abs() > least { amount.abs() } else { least };
+            let here = self.with_number(with(amount), depending, instant).value;
+            let beside = self.with_number(with(amount + step), depending, instant).value;
+            let slope = (beside - here) / step;
+            let change = target.difference(here) / slope;
+            if slope == 0.0 || !change.is_finite() {
+                return None;
+            }
+            amount -= change;
+            let bound = (target.bound / slope).abs();
+            if change.abs() <= 1e-13 * amount.abs() + bound {
+                return Some([amount, 4.0 * bound + 1e-11 * amount.abs()]);
+            }
+        }
+        None
+    }
+}

@@ -1,0 +1,98 @@
+//! Wrong formulas of kinds that the search was not built on: every mistake is found, most are called by their cause,
+//! and no cause is made up.
+
+use linkproof::claims::Cause;
+use linkproof::proof::claimed::Claimed;
+use linkproof::scenario::{Claim, Formulas, Scenario};
+
+use super::{files, is_named, is_wrong, judged, load};
+
+/// A wrong formula.
+struct Error<'a> {
+    step: &'a str,
+    claim: &'a str,
+    expression: &'a str,
+    /// What else is wrong: a parameter, `r_mm=4`; another channel, `channel=NAME`; or `exact`, for an approximation
+    /// that does not claim its error.
+    change: &'a str,
+}
+
+/// The scenario with a wrong formula, and only the claim that it belongs to.
+fn with_error(scenario: &Scenario, error: &Error) -> Scenario {
+    let mut parameters = scenario.formulas.parameters.clone();
+    let (key, value) = error.change.split_once('=').unwrap_or((error.change, ""));
+    for own in parameters.iter_mut().filter(|own| own.key == key) {
+        own.given = value.parse().unwrap();
+    }
+    let mut formulas = Formulas::over(parameters);
+    for own in &scenario.formulas.list {
+        let text = if own.name == error.step { error.expression } else { &own.text };
+        let formula = formulas.add(&own.name, text).unwrap_or_else(|fault| panic!("{text}: {fault}"));
+        formula.claim = own.claim.clone().filter(|_| own.name == error.claim);
+        if key == "channel" && own.name == error.claim {
+            formula.claim = Some(Claim::parse(value, &scenario.case).unwrap());
+        }
+        (formula.source, formula.valid) = (own.source.clone(), own.valid);
+        formula.error = own.error.filter(|_| key != "exact");
+    }
+    let mut changed = scenario.clone();
+    changed.formulas = formulas;
+    changed
+}
+
+fn cause<'a>(found: &'a Claimed, claim: &str) -> Option<&'a Cause> {
+    found.judgement.causes.iter().find(|(name, _)| name == claim).and_then(|(_, cause)| cause.as_ref())
+}
+
+/// What a list of wrong formulas comes to: all, called by their cause, without one, and called by another.
+fn shares(list: &[u8]) -> [usize; 4] {
+    let scenarios: Vec<(String, Scenario)> =
+        files().iter().map(|path| (path.file_stem().unwrap().to_str().unwrap().to_string(), load(path))).collect();
+    let mut counts = [0; 4];
+    let mut most = 0;
+    for row in csv::Reader::from_reader(list).records().map(Result::unwrap) {
+        let [file, step, claim, expression, change, mistake, named] = [0, 1, 2, 3, 4, 5, 6].map(|column| &row[column]);
+        let scenario = &scenarios.iter().find(|(name, _)| name == file).unwrap().1;
+        let found = judged(&with_error(scenario, &Error { step, claim, expression, change }));
+        assert!(is_wrong(&found, claim), "{file}: {step} = {expression} ({mistake}) is not found");
+        most = most.max(found.judgement.work);
+        let cause = cause(&found, claim);
+        let said = cause.map_or("nothing".into(), Cause::to_string);
+        // That it is nearly right, a constant, or wrong by a factor, says no more than the numbers do.
+        let is_fact =
+            |cause: &Cause| matches!(cause, Cause::Near { .. } | Cause::Constant | Cause::Factor(_) | Cause::Offset(_));
+        let is_silent = cause.is_none_or(is_fact);
+        let word = match (is_named(&said, named), is_silent) {
+            (true, _) => 1,
+            (false, true) => 2,
+            (false, false) => 3,
+        };
+        counts[0] += 1;
+        counts[word] += 1;
+        println!(
+            "{} {file} {step} = {expression} {change} ({mistake}), {} operations: {said}",
+            ["", "named ", "open  ", "OTHER "][word]
+        );
+    }
+    let [all, named, open, other] = counts;
+    println!(
+        "{named} of {all} called by their cause, {open} without one, {other} by another; at most {most} operations"
+    );
+    // Far from the limit that ends a search.
+    assert!(most < 20_000_000, "{most}");
+    counts
+}
+
+/// The half that the search was developed on.
+#[test]
+fn wrong_formulas_are_called_by_their_cause() {
+    let [all, named, _, other] = shares(include_bytes!("errors.csv"));
+    assert!(all >= 80 && 100 * named >= 75 * all && other == 0, "{named} of {all}, {other} by another");
+}
+
+/// The half that was looked at once, when the search was done.
+#[test]
+fn wrong_formulas_that_nobody_looked_at_before_are_called_by_their_cause() {
+    let [all, named, _, other] = shares(include_bytes!("errors_unseen.csv"));
+    assert!(all >= 80 && 100 * named >= 75 * all && other == 0, "{named} of {all}, {other} by another");
+}
