@@ -164,10 +164,12 @@ impl Sides {
         };
         let sides = [of(0)?, of(1)?];
         let (mut causes, mut unsought, mut work) = (Vec::new(), BTreeSet::new(), 0);
+        let is_wrong = |judged: &&Judged| judged.outcome() == Outcome::Wrong;
+        let of_first: BTreeSet<String> =
+            sides[0].1.iter().flatten().filter(is_wrong).map(|judged| judged.name.clone()).collect();
         for name in wrong(&sides) {
             // The side that it contradicts, or both: the first of them.
-            let is_wrong = |judged: &Judged| judged.name == name && judged.outcome() == Outcome::Wrong;
-            let side = usize::from(!sides[0].1.iter().flatten().any(is_wrong));
+            let side = usize::from(!of_first.contains(&name));
             let limit = claims::MOST_WORK.min(MOST_WORK.saturating_sub(work));
             let found = self.on_course(case, side, |course| claims::cause(formulas, &name, course, limit))?;
             work += found.work;

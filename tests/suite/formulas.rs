@@ -3,6 +3,7 @@
 mod diagnosis;
 mod errors;
 mod library;
+mod limits;
 mod parameters;
 mod planted;
 mod reduced;
