@@ -147,7 +147,7 @@ pub struct Search {
 pub const CUT: &str = "the search ended at its limit of work, before all slips and terms were tried";
 
 /// Most operations of the search for the cause of one formula.
-pub const MOST_WORK: u64 = 20_000_000;
+pub const MOST_WORK: u64 = 60_000_000;
 /// Most explanations that are told where several fit equally.
 const TOLD: usize = 3;
 /// Share of the largest number of the mechanism that an approximation is off by at most.
@@ -159,11 +159,11 @@ const NEAR: f64 = 0.02;
 /// # Errors
 /// If the course lacks a channel of the claim.
 pub fn cause(formulas: &Formulas, name: &str, course: &Course, limit: u64) -> Result<Search> {
-    let Some(index) = formulas.list.iter().position(|own| own.name == name) else { return Ok(Search::default()) };
-    let Some(claim) = &formulas.list[index].claim else { return Ok(Search::default()) };
     if limit == 0 {
         return Ok(Search { is_cut: true, ..Search::default() });
     }
+    let Some(index) = formulas.list.iter().position(|own| own.name == name) else { return Ok(Search::default()) };
+    let Some(claim) = &formulas.list[index].claim else { return Ok(Search::default()) };
     let mut trial = Trial::of(formulas, index, claim, course, limit)?;
     let found = sought(&mut trial, claim, course);
     Ok(Search {
@@ -203,13 +203,19 @@ fn sought(trial: &mut Trial, claim: &Claim, course: &Course) -> Option<Cause> {
             | Kind::Value => !dimensions.are_sound(&[(trial.index, own)]),
         };
         let mut kinds = BTreeSet::new();
-        sound.retain(|own| match is_weak && !is_natural {
-            true => {
-                let is_same = own.rank != first.rank && first.slip.written.contains(&own.slip.written);
-                let is_near = own.rank.2 == first.rank.2 || trial.is_constant();
-                own.rank.1 == first.rank.1 && is_near && !is_same && kinds.insert((own.slip.kind, own.rank.2))
+        let (rank, written) = (first.rank, first.slip.written.clone());
+        sound.retain(|own| {
+            let is_same = own.rank != rank && written.contains(&own.slip.written);
+            if is_weak && !is_natural {
+                let is_near = own.rank.2 == rank.2 || trial.is_constant();
+                return own.rank.1 == rank.1 && is_near && !is_same && kinds.insert((own.slip.kind, own.rank.2));
             }
-            false => own.rank == first.rank && own.slip.written == first.slip.written,
+            // By the numbers of a mechanism, one length may be twice another, or a ratio twice its inverse.
+            let is_number = |kind: Kind| kind == Kind::Factor;
+            let is_other = own.rank.1 == rank.1
+                && (matches!(rank.3, Kind::Name | Kind::Exchanged) && is_number(own.slip.kind)
+                    || is_number(rank.3) && own.rank.2 && own.rank.3 < rank.3);
+            own.rank == rank && own.slip.written == written || is_other && kinds.insert((own.slip.kind, own.rank.2))
         });
         return one_of(sound.into_iter().map(|own| Cause::Slip(own.slip.clone())).collect());
     }

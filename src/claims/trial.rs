@@ -12,7 +12,11 @@ use linkage::math::KeepNan;
 /// Instants at which every change is tried first, besides the one at which the formula is worst.
 const FIRST: usize = 9;
 /// Steps before a formula, and parameters, that it does not use and may have forgotten.
-const BESIDE: usize = 40;
+const BESIDE: usize = 20;
+/// What making a change as a tree, and judging it, costs beside its evaluations, in operations.
+const TREE: u64 = 2000;
+/// What making a change of one part costs beside its evaluations, in operations.
+const EDIT: u64 = 40;
 /// Share of the difference that a change may leave, at some instant, to be looked at more closely.
 pub(super) const MOST_LEFT: f64 = 0.1;
 
@@ -65,7 +69,7 @@ impl<'a> Trial<'a> {
         let mut keep = kept.iter();
         inputs.retain(|_| *keep.next().unwrap_or(&true));
         pairs.retain(has_number);
-        let (formulas, index) = formulas.derivation(index, BESIDE);
+        let (index_of_file, (formulas, index)) = (index, formulas.derivation(index, BESIDE));
         let step = pairs.len().div_ceil(FIRST).max(1);
         let mut own = Trial {
             sheet: Sheet::new(&[], Vec::new()),
@@ -110,8 +114,8 @@ impl<'a> Trial<'a> {
         for step in &own.formulas.list {
             own.sheet.add(&step.name, &step.tree).expect("a formula knows what stands before it");
         }
-        // Making the trial is work too.
-        let made = 4 * own.pairs.len() as u64 + own.sheet.operations();
+        // Making the trial is work too: judging, and looking through the file.
+        let made = (16 * own.pairs.len() + 8 * index_of_file) as u64 + 8 * own.sheet.operations();
         own.sheet.count(made);
         Ok(own)
     }
@@ -152,6 +156,7 @@ impl<'a> Trial<'a> {
     /// the difference there. `depending` is what depends on the places.
     pub(super) fn is_promising(&mut self, changes: &[(usize, Tree)], depending: &[usize]) -> bool {
         let claimed = self.formula.error.unwrap_or(0.0);
+        self.sheet.count(EDIT);
         (0..self.order.len()).all(|next| {
             let (instant, place) = (self.order[next], self.few[self.order[next]]);
             let found = self.sheet.changed(changes, depending, instant);
@@ -185,7 +190,7 @@ impl<'a> Trial<'a> {
         // Where digits cancel, the few instants alone decide nothing.
         let is_right = first.since.is_none() && judged(&mut (0..inputs.len())).outcome() == Outcome::Right;
         let rows = if first.since.is_none() { inputs.len() } else { few.len() };
-        let work = (program.len() * rows) as u64;
+        let work = (program.len() * rows) as u64 + TREE;
         self.sheet.count(work);
         if is_right {
             return Some(0.0);

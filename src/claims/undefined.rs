@@ -40,12 +40,17 @@ impl fmt::Display for Undefined {
 pub fn undefined(formulas: &Formulas, name: &str, course: &Course) -> Result<Option<Undefined>> {
     let Some(index) = formulas.list.iter().position(|own| own.name == name) else { return Ok(None) };
     let Some(claim) = &formulas.list[index].claim else { return Ok(None) };
-    let trial = Trial::of(formulas, index, claim, course)?;
+    let formula = &formulas.list[index];
+    let values = Judge::of_values(formulas, formula, claim).pairs(course, &course.rows(formula))?;
+    if !values.iter().any(|pair| pair.formula.is_undefined()) {
+        return Ok(None);
+    }
+    let trial = Trial::of(formulas, index, claim, course, 0)?;
     let pairs = trial.pairs.iter().enumerate();
     let (without, with): (Vec<_>, Vec<_>) = pairs.partition(|(_, pair)| pair.formula.is_undefined());
     let first = without.into_iter().min_by(|one, other| one.1.place[0].total_cmp(&other.1.place[0]));
     let Some((place, pair)) = first else { return Ok(None) };
-    let [phi, t, ..] = trial.inputs(place, f64::NAN);
+    let [phi, t, ..] = trial.inputs(place);
     let Some((of, fault)) = formulas.undefined(index, [phi, t]) else { return Ok(None) };
     let is_right = |place: usize| trial.difference(trial.pairs[place].formula.value, place).abs() <= trial.bound(place);
     let is_all = !with.is_empty() && with.iter().all(|&(place, _)| is_right(place));

@@ -165,10 +165,12 @@ impl Sides {
         let sides = [of(0)?, of(1)?];
         let (mut causes, mut undefined) = (Vec::new(), Vec::new());
         let (mut unsought, mut work) = (BTreeSet::new(), 0);
+        let is_wrong = |judged: &&Judged| judged.outcome() == Outcome::Wrong;
+        let of_first: BTreeSet<String> =
+            sides[0].1.iter().flatten().filter(is_wrong).map(|judged| judged.name.clone()).collect();
         for name in wrong(&sides) {
             // The side that it contradicts, or both: the first of them.
-            let is_wrong = |judged: &Judged| judged.name == name && judged.outcome() == Outcome::Wrong;
-            let side = usize::from(!sides[0].1.iter().flatten().any(is_wrong));
+            let side = usize::from(!of_first.contains(&name));
             let without = self.on_course(case, side, |course| claims::undefined(formulas, &name, course))?;
             let is_lost = without.as_ref().is_some_and(|own| own.is_all);
             undefined.extend(without.map(|without| (name.clone(), without)));

@@ -52,12 +52,18 @@ pub(super) fn checks(judgement: &Judgement) -> Vec<Check> {
         })
         .collect();
     let of_side = |(side, all): &(&'static str, Vec<Vec<Judged>>)| -> Vec<Check> {
-        all.iter().flatten().map(|judged| check(side, judged, causes.get(judged.name.as_str()))).collect()
+        let words = |judged: &Judged| {
+            let undefined = judgement.undefined(&judged.name).filter(|_| judged.order == 0).map(ToString::to_string);
+            let all: Vec<String> = undefined.into_iter().chain(causes.get(judged.name.as_str()).cloned()).collect();
+            all.join("; ")
+        };
+        all.iter().flatten().map(|judged| check(side, judged, &words(judged))).collect()
     };
     judgement.sides.iter().flat_map(of_side).collect()
 }
 
-fn check(side: &str, judged: &Judged, cause: Option<&String>) -> Check {
+/// The check of a judged formula; `why` says why it is wrong, where that is known.
+fn check(side: &str, judged: &Judged, why: &str) -> Check {
     let (value, bound) = judged.worst.map_or((0.0, 0.0), |worst| (worst.difference.abs(), worst.bound));
     let tolerance = Tolerance { bound, basis: Basis::Formula { claimed: judged.claimed } };
     let mut check = Check::new(format!("formulas ({side})"), value, tolerance, judged.unit).of(name(judged));
@@ -65,11 +71,8 @@ fn check(side: &str, judged: &Judged, cause: Option<&String>) -> Check {
         check.verdict = Verdict::Inconclusive { reason, advice };
     }
     check.located(|| {
-        let mut place = judged.since.map_or_else(String::new, |since| place(&since));
-        if let Some(undefined) = judgement.undefined(&judged.name).filter(|_| judged.order == 0) {
-            place += &format!("; {undefined}");
-        }
-        cause.map_or(place.clone(), |cause| format!("{place}; {cause}"))
+        let place = judged.since.map_or_else(String::new, |since| place(&since));
+        if why.is_empty() { place } else { format!("{place}; {why}") }
     })
 }
 

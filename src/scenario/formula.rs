@@ -8,7 +8,6 @@ use super::reader::{Faults, Sign, Table};
 use super::unit;
 use super::words::suggestion;
 use formula::{Fault, Graph, Id, Rounded, Tree};
-use std::collections::BTreeMap;
 use std::ops::Range;
 
 use linkage::case::Case;

@@ -4,6 +4,7 @@ mod diagnosis;
 mod errors;
 mod fixed;
 mod library;
+mod limits;
 mod parameters;
 mod planted;
 mod reduced;

@@ -47,7 +47,7 @@ const LONG: f64 = 100.0;
 pub(super) fn missing(trial: &mut Trial, dimensions: &Dimensions) -> Vec<Missing> {
     let dictionary = Dictionary::of(trial);
     let monomials = Monomials::of(&trial.formulas, trial.index, &dictionary.constants, dimensions);
-    trial.sheet.count((dictionary.entries.len() * trial.few.len() + monomials.len()) as u64);
+    trial.sheet.count((30 * dictionary.entries.len() * trial.few.len() + monomials.len()) as u64);
     // Units that do not fit together as it is written, and do with what is missing, are evidence too.
     let own = trial.formulas.list[trial.index].tree.clone();
     let units = if dimensions.are_sound(&[(trial.index, own)]) { 1.0 } else { 0.05 };

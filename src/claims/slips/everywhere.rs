@@ -1,7 +1,9 @@
 //! Slips that are made wherever a quantity or a function stands.
 
+use super::edits;
+use super::places::at_every_place;
 use super::slip::{Kind, Slip};
-use super::{Mended, Tried, at_every_place, edits};
+use super::tried::{Mended, Tried};
 use crate::claims::dimension::Dimensions;
 use crate::claims::trial::Trial;
 use crate::scenario::Formulas;
@@ -10,6 +12,7 @@ use formula::{Function, Operator, Shape, Tree};
 /// Tries every quantity and every function mended wherever it stands: in the first of the formulas `used`, then in all
 /// of them. What stands at one place only is no slip of this kind.
 pub(super) fn tried(trial: &mut Trial, used: &[usize], names: &[&str], dimensions: &Dimensions, tried: &mut Tried) {
+    use Function::{Cos, Sin, Tan};
     let formulas = trial.formulas.clone();
     for scope in [&used[..1], used] {
         let trees = || scope.iter().map(|&index| &formulas.list[index].tree);
@@ -31,7 +34,6 @@ pub(super) fn tried(trial: &mut Trial, used: &[usize], names: &[&str], dimension
                 put(trial, scope, kind, [&written, &right], &change, dimensions, tried);
             }
         }
-        use Function::{Cos, Sin, Tan};
         for swaps in [&[(Sin, Cos)][..], &[(Cos, Sin)], &[(Tan, Sin)], &[(Sin, Cos), (Cos, Sin)]] {
             let other = |own: Function| swaps.iter().find(|(from, _)| *from == own).map_or(own, |(_, other)| *other);
             let is_meant = |part: &Tree| matches!(&part.shape, Shape::Call(own, _) if other(*own) != *own);

@@ -9,6 +9,7 @@ mod functions;
 mod places;
 mod regrouped;
 mod slip;
+mod tried;
 mod values;
 
 use super::dimension::Dimensions;
@@ -17,43 +18,7 @@ use formula::{Shape, Sheet, Tree};
 use places::quantities;
 pub(super) use places::{at_every_place, numbered, replaced, used_by};
 pub use slip::{Kind, Slip};
-
-/// A slip mended: the formulas that it changes by their indices, as they would be right, and the slip in words.
-pub(super) struct Mended {
-    pub(super) changed: Vec<(usize, Tree)>,
-    pub(super) slip: Slip,
-    /// The simplest has the least: whether units contradict it, whether it is made in many places, whether it is in
-    /// a step, and its kind.
-    pub(super) rank: (bool, bool, bool, Kind),
-    /// Share of the largest difference that it leaves; zero if the formula is right with it.
-    pub(super) left: f64,
-    /// Number of slips that had been tried by then: those that are as simple.
-    pub(super) among: usize,
-}
-
-/// Slips that were tried.
-#[derive(Default)]
-pub(super) struct Tried {
-    /// Those with which the formula is right, the simplest first.
-    pub(super) right: Vec<Mended>,
-    /// Of all others, the one that leaves least, if it leaves little.
-    pub(super) nearest: Option<Mended>,
-    /// How many were tried.
-    pub(super) count: usize,
-}
-
-impl Tried {
-    fn put(&mut self, trial: &mut Trial, mended: Mended) {
-        match trial.left(&mended.changed, 0.0) {
-            Some(0.0) => self.right.push(Mended { left: 0.0, ..mended }),
-            // A simpler one that leaves hardly more is nearer.
-            Some(left) if self.nearest.as_ref().is_none_or(|nearest| left < 0.8 * nearest.left) => {
-                self.nearest = Some(Mended { left, among: self.count, ..mended });
-            }
-            Some(_) | None => {}
-        }
-    }
-}
+pub(super) use tried::{Mended, Tried};
 
 /// Tries every slip, the simplest kinds first, until the trial's work is used up.
 pub(super) fn tried(trial: &mut Trial, dimensions: &Dimensions) -> Tried {

@@ -4,8 +4,10 @@
 //! people write. Where any number of the formula could be to blame, because the formula is wrong by a factor or is a
 //! constant itself, only one whose digits were confused is named.
 
+use super::edits;
+use super::places::{at_every_place, numbered, replaced};
 use super::slip::{Kind, Slip};
-use super::{Mended, Tried, at_every_place, edits, numbered, replaced};
+use super::tried::{Mended, Tried};
 use crate::claims::trial::Trial;
 use formula::{Operator, Shape, Tree, information};
 use linkage::math::KeepNan;
@@ -124,15 +126,19 @@ fn is_confused(wrong: f64, right: f64) -> bool {
     let is_simple = information(right / wrong, KNOWN) < SIMPLE;
     let is_lost = |long: &[u8], short: &[u8]| {
         long.len() == short.len() + 1
-            && short.len() >= 2
+            && short.len() >= 3
             && (0..long.len()).any(|at| [&long[..at], &long[at + 1..]].concat() == short)
     };
-    let is_exchanged = one.len() == other.len()
-        && (1..one.len()).any(|at| {
-            let mut turned = one.clone();
-            turned.swap(at - 1, at);
-            turned == other && one != other
-        });
+    // Noughts at the end are digits here: 106 for 160.
+    let length = one.len().max(other.len());
+    let padded =
+        |digits: &[u8]| -> Vec<u8> { digits.iter().copied().chain(std::iter::repeat(b'0')).take(length).collect() };
+    let [written, meant] = [padded(&one), padded(&other)];
+    let is_exchanged = (1..length).any(|at| {
+        let mut turned = written.clone();
+        turned.swap(at - 1, at);
+        turned == meant && written != meant
+    });
     !is_simple && (is_exchanged || is_lost(&one, &other) || is_lost(&other, &one))
 }
 
@@ -142,10 +148,12 @@ mod tests {
 
     #[test]
     fn digits_that_were_confused_are_told_from_simple_factors() {
-        for (wrong, right) in [(0.0352, 0.0325), (164.0, 146.0), (10.0, 9.81), (12.5, 125.5), (0.105, 0.1055)] {
+        for (wrong, right) in
+            [(0.0352, 0.0325), (164.0, 146.0), (106.0, 160.0), (105.0, 150.0), (10.0, 9.81), (0.105, 0.1055)]
+        {
             assert!(is_confused(wrong, right), "{wrong} for {right}");
         }
-        for (wrong, right) in [(40.0, 80.0), (4.0, 40.0), (0.5, 0.25), (3.0, 7.0)] {
+        for (wrong, right) in [(40.0, 80.0), (4.0, 40.0), (0.5, 0.25), (3.0, 7.0), (160.0, 176.0)] {
             assert!(!is_confused(wrong, right), "{wrong} for {right}");
         }
     }

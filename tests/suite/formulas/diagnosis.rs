@@ -74,7 +74,14 @@ fn every_kind_of_cause_is_said() {
             "-r*cos(phi) + sqrt(l^2 - r^2*sin(phi)^2) + 0.0003*sin(7*phi)*exp(sin(phi))",
             "for the most part a sign",
         ),
-        ("slider_crank_centric", "x", "l + r*cos(phi) - r*lambda/4*(1 - cos(2*phi))", "nothing"),
+        ("slider_crank_centric", "x", "l + r*cos(phi) - r*lambda/4*(1 - cos(2*phi))", "right to 0.04 %"),
+        ("yoke_drive", "T", "12", "it is a constant"),
+        (
+            "slider_crank_centric",
+            "v",
+            "-r*w^2*(cos(phi + beta)/cos(beta) + lambda*cos(phi)^2/cos(beta)^3)",
+            "it is point.B.ax_m_s2",
+        ),
         ("yoke_drive", "x", "exp(sin(phi))*r*abs(sin(5*phi))", "nothing"),
     ] {
         let scenario = load(&files()[0].with_file_name(format!("{file}.toml")));
@@ -91,10 +98,13 @@ fn half_a_reaction_on_the_crank_is_called_so() {
     let whole = with_mistake(&scenario, "T", "-r*(P*sin(phi) - rod_y*cos(phi))", "T");
     assert_eq!(judged(&whole).verdict.word(), "agree");
     let half = with_mistake(&scenario, "T", "-r*P*sin(phi)", "T");
-    assert_eq!(said(&half, "T"), "a missing term, in T: `+ r*rod_y*cos(phi)`");
+    // The thrust of the guide is as large, and told too.
+    let found = said(&half, "T");
+    assert!(found.contains("a missing term, in T: `+ r*rod_y*cos(phi)`"), "{found}");
     // The component along the stroke is the other half.
     let half = with_mistake(&scenario, "T", "r*rod_y*cos(phi)", "T");
-    assert_eq!(said(&half, "T"), "a missing term, in T: `- r*P*sin(phi)`");
+    let found = said(&half, "T");
+    assert!(found.contains("a missing term, in T: `- r*P*sin(phi)`"), "{found}");
 }
 
 /// A published steady speed divides the mean resistance by the ratio of the reducer twice: docs/findings.md.

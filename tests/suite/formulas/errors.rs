@@ -71,7 +71,8 @@ fn shares(list: &[u8]) -> [usize; 4] {
         counts[word] += 1;
         println!(
             "{} {file} {step} = {expression} {change} ({mistake}), {} operations: {said}",
-            ["", "named ", "open  ", "OTHER "][word]
+            ["", "named ", "open  ", "OTHER "][word],
+            found.judgement.work
         );
     }
     let [all, named, open, other] = counts;
