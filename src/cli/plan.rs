@@ -8,7 +8,7 @@ use super::load::{plain, reference_names};
 use super::{advice, number, output};
 use crate::report::plan as report;
 use analytic::range::explained;
-use linkage::error::Result;
+use linkage::error::{Error, ErrorKind, Result};
 use workshop::diagram::plan::state_at;
 use workshop::diagram::{Plans, SingularPoint, draw};
 
@@ -47,11 +47,21 @@ pub(super) struct Args {
     json: Option<PathBuf>,
 }
 
+/// Most points of a link: their relative vectors grow with the square of their number.
+const POINTS: usize = 100;
+
 pub(super) fn plan(args: &Args) -> Result<()> {
     let scenario = plain(&args.file)?;
     let is_free = scenario.case.is_free();
     let scenario = scenario.nominal();
     let case = &scenario.case;
+    if let Some(link) = case.mechanism.links().iter().find(|link| link.points.len() > POINTS) {
+        let (name, count) = (&link.name, link.points.len());
+        let message =
+            format!("{name} has {count} points, and a plan has a vector for every two of them: at most {POINTS}");
+        return Err(Error::new(ErrorKind::Input, message)
+            .help("leave out points that the plan does not need; `linkproof solve` has the numbers of all"));
+    }
     let crank = args.crank_deg.map_or(case.crank().start, f64::to_radians);
     let solver = analytic::named(&args.with).expect("the argument parser knows all names");
     let state = state_at(case, solver, crank).map_err(|error| explained(case, error))?;

@@ -1,7 +1,6 @@
 //! `linkproof completions` and `linkproof man`: what a shell and a manual know of the command line, from the same
 //! arguments.
 
-use std::ffi::OsString;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -59,19 +58,21 @@ pub(super) fn man(args: &ManArgs, command: Command) -> Result<()> {
         Man::new(command).render(&mut page).map_err(|error| failed(Path::new("-"), &error))?;
         return output::print(&String::from_utf8_lossy(&page));
     };
-    let pages = || -> io::Result<Vec<(OsString, String)>> {
-        fs::create_dir_all(directory)?;
-        let own = tempfile::tempdir()?;
-        clap_mangen::generate_to(command, own.path())?;
-        let read = |entry: io::Result<fs::DirEntry>| {
-            let entry = entry?;
-            Ok((entry.file_name(), fs::read_to_string(entry.path())?))
-        };
-        fs::read_dir(own.path())?.map(read).collect()
-    };
-    for (name, text) in pages().map_err(|error| failed(directory, &error))? {
-        output::make(&text, &directory.join(name))?;
-    }
+    let mut command = command.disable_help_subcommand(true);
+    command.build();
+    let mut all = Vec::new();
+    let made = fs::create_dir_all(directory).and_then(|()| pages(&command, &mut all));
+    made.map_err(|error| failed(directory, &error))?;
+    all.iter().try_for_each(|(name, text)| output::make(text, &directory.join(name)))
+}
+
+/// Adds the pages of all commands below one, and its page: names and texts.
+fn pages(command: &Command, all: &mut Vec<(String, String)>) -> io::Result<()> {
+    command.get_subcommands().filter(|own| !own.is_hide_set()).try_for_each(|own| pages(own, all))?;
+    let page = Man::new(command.clone());
+    let mut text = Vec::new();
+    page.render(&mut text)?;
+    all.push((page.get_filename(), String::from_utf8_lossy(&text).into_owned()));
     Ok(())
 }
 

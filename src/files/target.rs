@@ -58,7 +58,7 @@ impl Target<'_> {
                         File::open(path)?.take(SEEN).read_to_end(&mut bytes)?;
                         if !is_ours(&bytes) {
                             return in_the_way(
-                                "a file is there that linkproof did not write, or that was changed since",
+                                "a file is there that this program did not write, or that was changed since",
                             );
                         }
                     }

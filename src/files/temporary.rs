@@ -14,7 +14,7 @@ const TEMPORARY: [&str; 2] = [".linkproof-", ".partial"];
 
 /// A name that no other run has.
 fn name() -> String {
-    let random = format!("{:016x}", RandomState::new().hash_one(std::process::id()));
+    let random = format!("{:016x}", RandomState::new().hash_one(0));
     format!("{}{random}-{}{}", TEMPORARY[0], check(&random), TEMPORARY[1])
 }
 

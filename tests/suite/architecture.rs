@@ -72,7 +72,7 @@ const ROOMS: &[(&str, &str)] = &[
     ("linkproof::files", ""),
     ("linkproof::mutate", "compare diagnosis proof scenario"),
     ("linkproof::numbers", ""),
-    ("linkproof::outside", "bench"),
+    ("linkproof::outside", "bench report"),
     ("linkproof::proof", "claims compare diagnosis engines numbers scenario tolerance"),
     ("linkproof::record", "files"),
     (

@@ -341,6 +341,52 @@ fn nonsense_hurts_nobody_and_names_that_are_not_spoken_are_refused() {
     assert_eq!(served.end(), 0);
 }
 
+/// Symptom: a viewer could ask for a topic as often as it liked, and was looked up among all it had asked for.
+#[test]
+fn a_viewer_hears_a_topic_four_times_at_most() {
+    let mut served = Served::by(Place::new(), RUN);
+    let mut viewer = Viewer::at(&served.address, OLD);
+    let channels = viewer.channels();
+    let grid = channel(&channels, "/reference/grid");
+    let pairs: Vec<(u32, u64)> = (0..20_000).map(|number| (number, grid)).collect();
+    viewer.subscribe(&pairs);
+    let mut numbers = BTreeSet::new();
+    let mut heard = 0;
+    while heard < 400 {
+        if let Said::Message { number, .. } = viewer.hear() {
+            numbers.insert(number);
+            heard += 1;
+        }
+    }
+    assert_eq!(numbers.into_iter().collect::<Vec<_>>(), [0, 1, 2, 3]);
+    // One that is given up makes room for another.
+    viewer.say(&json!({ "op": "unsubscribe", "subscriptionIds": [1] }));
+    viewer.subscribe(&[(9, grid)]);
+    let mut is_ninth = || matches!(viewer.hear(), Said::Message { number: 9, .. });
+    assert!((0..20_000).any(|_| is_ninth()));
+    drop(viewer);
+    assert_eq!(served.end(), 0);
+}
+
+/// What the system says of the socket; the address that is told would be the same for any.
+#[cfg(target_os = "linux")]
+#[test]
+fn it_listens_on_this_machine_unless_told_otherwise() {
+    let listens = |arguments: &str| {
+        let served = Served::by(Place::new(), arguments);
+        let port: u16 = served.address.rsplit(':').next().unwrap().parse().unwrap();
+        let sockets = std::fs::read_to_string("/proc/net/tcp").unwrap();
+        let listening = sockets.lines().filter_map(|line| {
+            let words: Vec<&str> = line.split_whitespace().collect();
+            (words.get(3) == Some(&"0A")).then(|| words[1].to_string())
+        });
+        listening.filter(|own| own.ends_with(&format!(":{port:04X}"))).collect::<Vec<_>>()
+    };
+    let [own, any] = [RUN.to_string(), RUN.replace("--live=0", "--live=0.0.0.0:0")].map(|run| listens(&run));
+    assert!(own.len() == 1 && own[0].starts_with("0100007F:"), "{own:?}");
+    assert!(any.len() == 1 && any[0].starts_with("00000000:"), "{any:?}");
+}
+
 #[test]
 fn more_viewers_than_may_look_on_wait_until_one_leaves() {
     let served = Served::by(Place::new(), RUN);

@@ -46,6 +46,7 @@ mod robustness;
 mod scenario_docs;
 mod scenes;
 mod schema;
+mod security;
 mod setting_off;
 mod settling;
 #[cfg(feature = "simbody")]

@@ -48,3 +48,18 @@ fn wrong_questions_are_refused() {
     place.refused(&format!("{of} point.B.vx_m_s"), &["derivative", "point.B.x_m"]);
     place.refused(&format!("{of} point.B.x_m --divisions 2"), &["2 parts", "4 to 1000"]);
 }
+
+/// Symptom: the plan of a link with 10 000 points asked for 2.3 GB, and that of 500 took 79 s.
+#[test]
+fn a_link_with_more_points_than_a_plan_can_show_is_refused() {
+    let place = Place::new();
+    let text = fs::read_to_string(place.path("scenarios/crank_rocker.toml")).unwrap();
+    let with = |count: usize| {
+        let points = (0..count).map(|k| format!("[links.coupler.points.P{k}]\nx_mm = {k}\ny_mm = 1\n"));
+        format!("{}\n{}", text.split("[[oracle]]").next().unwrap(), points.collect::<String>())
+    };
+    fs::write(place.path("many.toml"), with(99)).unwrap();
+    place.refused("plan many.toml", &["coupler has 101 points", "at most 100"]);
+    fs::write(place.path("some.toml"), with(20)).unwrap();
+    assert!(place.ok("plan some.toml").contains("v_P19"));
+}
