@@ -3,6 +3,7 @@
 use std::fmt;
 
 use super::Course;
+use super::judge::Judge;
 use super::trial::Trial;
 use crate::numbers::fixed;
 use crate::scenario::Formulas;
