@@ -11,9 +11,6 @@ use std::path::Path;
 
 use linkage::error::{Error, ErrorKind, Result};
 
-/// Says whether so much memory may be taken for the numbers of a table (bytes).
-pub type MayTake<'a> = &'a dyn Fn(f64) -> Result<()>;
-
 /// Reads a file: Parquet by its first bytes, else text with separated columns.
 ///
 /// # Errors
@@ -22,11 +19,11 @@ pub fn load(path: &Path) -> Result<Raw> {
     load_within(path, &|_| Ok(()))
 }
 
-/// The same where memory is asked for before it is taken.
+/// The same where memory is asked for before it is taken: `may_take` says whether so many bytes may be.
 ///
 /// # Errors
 /// Those of [`load`], and what `may_take` says.
-pub fn load_within(path: &Path, may_take: MayTake) -> Result<Raw> {
+pub fn load_within(path: &Path, may_take: &dyn Fn(f64) -> Result<()>) -> Result<Raw> {
     let raw = match parquet_file::is_one(path) {
         true => parquet_file::read(path, may_take)?,
         false => csv_file::read(path, may_take)?,

@@ -11,7 +11,6 @@ use parquet::errors::ParquetError;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
 
-use super::MayTake;
 use columns::{MISSING, Table, Twice, UNDEFINED};
 use formula::Rounded;
 use linkage::error::{Error, ErrorKind, Result};
@@ -27,7 +26,7 @@ pub(super) fn is_one(path: &Path) -> bool {
     File::open(path).and_then(|mut file| file.read_exact(&mut first)).is_ok() && &first == MAGIC
 }
 
-pub(super) fn read(path: &Path, may_take: MayTake) -> Result<Table> {
+pub(super) fn read(path: &Path, may_take: &dyn Fn(f64) -> Result<()>) -> Result<Table> {
     let damaged = |error: &dyn Display| {
         Error::new(ErrorKind::Io, format!("the table {} is cut off or damaged: {error}", path.display()))
             .help("write it again, as Parquet or as CSV")
@@ -41,7 +40,7 @@ pub(super) fn read(path: &Path, may_take: MayTake) -> Result<Table> {
 }
 
 /// The columns that hold numbers; others, such as names, are passed over.
-fn of_file(path: &Path, may_take: MayTake) -> std::result::Result<Result<Table>, ParquetError> {
+fn of_file(path: &Path, may_take: &dyn Fn(f64) -> Result<()>) -> std::result::Result<Result<Table>, ParquetError> {
     let reader = SerializedFileReader::new(File::open(path)?)?;
     let described = reader.metadata().file_metadata();
     let names: Vec<String> = described.schema().get_fields().iter().map(|field| field.name().to_string()).collect();
