@@ -4,12 +4,14 @@ use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
 
+use super::engine_args::MemoryArgs;
 use super::exit_code::graver;
 use super::grid::GridArgs;
 use super::load::StartArgs;
 use super::number::not_negative;
 use super::reports::Reports;
 use super::{advice, exit_code, output, terminal};
+use crate::proof::memory;
 use crate::record;
 use crate::report::outcomes::Outcomes;
 use crate::report::versus as report;
@@ -82,6 +84,8 @@ pub(super) struct Args {
     /// Side of the recordings that is compared, such as reference or engine [default: all]
     #[arg(long, value_name = "NAME")]
     side: Option<String>,
+    #[command(flatten)]
+    memory: MemoryArgs,
     #[command(flatten)]
     start: StartArgs,
     /// Show every channel, not only those that use most of their bounds
@@ -156,6 +160,7 @@ pub(super) fn compare(args: &Args) -> u8 {
             interpolates: args.interpolate,
             side: args.side.clone(),
             only: args.only.clone(),
+            memory: Some(args.memory.bytes()),
         };
         let paths = [args.first.as_path(), args.second.as_path()];
         let found = compared([first, second], paths, &how)?;
@@ -226,6 +231,10 @@ fn party(args: &Args, path: &Path, mapping: &Mapping) -> Result<Party> {
     Ok(match ending {
         Some("toml") => Party::Scenario(Box::new(args.start.load(path, &GridArgs::default())?)),
         Some("mcap") => Party::Recording(record::load(path)?),
-        Some(_) | None => Party::Table(Box::new(Held::of_table(&tables::load(path)?, mapping)?)),
+        Some(_) | None => {
+            let what = format!("the table {}", path.display());
+            let may_take = |needed: f64| memory::check_input(&what, needed, Some(args.memory.bytes()));
+            Party::Table(Box::new(Held::of_table(&tables::load_within(path, &may_take)?, mapping)?))
+        }
     })
 }

@@ -75,7 +75,7 @@ fn prove_file(
     standard_input::refuse_writing(file, args.write)?;
     let scenario = only(args.start.load(file, &args.grid)?, &args.only)?;
     let options = args.engine.options(&args.reference);
-    let needed = memory::of_proof(&scenario.case, options.engines.len().max(1));
+    let needed = memory::of_proof(&scenario.case, options.engines.len().max(1)) + memory::of_oracles(&scenario.oracles);
     room.take(index, needed, || bar.hidden(|| args.engine.memory.tell(&scenario.case, needed)));
     if let Some(live) = live {
         bar.hidden(|| output::note(&format!("viewers can listen at {} from now on", live.address())));

@@ -3,6 +3,7 @@
 //! A run holds whole trajectories: 8 bytes for every value. Which runs an engine needs is not known beforehand; the
 //! estimate takes what most searches need. Measured peaks lie between half of it and twice.
 
+use crate::scenario::Oracle;
 use linkage::case::Case;
 use linkage::engine::Rows;
 use linkage::error::{Advice, Error, ErrorKind, Result};
@@ -26,6 +27,41 @@ pub fn of_proof(case: &Case, engines: usize) -> f64 {
     let trajectories = TRAJECTORIES + engines.saturating_sub(1) as f64;
     let row = trajectories * trajectory(case) + RUNS * Rows::bytes_of_row(case) as f64;
     ELSE + case.grid.len() as f64 * row
+}
+
+/// Memory of a number of a table: as it was read, with its digits, and as what it is held against (bytes).
+const OF_NUMBER: f64 = 88.0;
+/// Memory of a row of a table besides its numbers (bytes).
+const OF_ROW: f64 = 50.0;
+
+/// Estimated memory (bytes) of comparing a table of some rows by `claims` with both sides, solved in `channels`.
+#[must_use]
+pub fn of_comparison(rows: usize, claims: usize, channels: usize) -> f64 {
+    let solved = (2 * (channels + BESIDE) * size_of::<f64>()) as f64;
+    ELSE + rows as f64 * (solved + claims as f64 * OF_NUMBER + OF_ROW)
+}
+
+/// Estimated memory (bytes) of what both sides answer to the numbers of other sources.
+#[must_use]
+pub fn of_oracles(oracles: &[Oracle]) -> f64 {
+    let series: Vec<usize> = oracles.iter().flat_map(|own| &own.series).map(|own| own.instants().count()).collect();
+    let (rows, numbers) = (series.iter().copied().max().unwrap_or(0), series.iter().sum::<usize>());
+    let solved = (2 * (2 * series.len() + BESIDE) * size_of::<f64>()) as f64;
+    rows as f64 * (solved + OF_ROW) + numbers as f64 * OF_NUMBER
+}
+
+/// Checks that what an input needs (bytes) is allowed before it is taken; `what` it is.
+///
+/// # Errors
+/// [`ErrorKind::Unsupported`] with the ways out.
+pub(crate) fn check_input(what: &str, needed: f64, most: Option<f64>) -> Result<()> {
+    let most = most.unwrap_or(MOST);
+    if needed <= most {
+        return Ok(());
+    }
+    let message = format!("{what} needs about {} of memory; {} are allowed", gigabytes(needed), gigabytes(most));
+    let fewer = Advice::Text("give fewer rows, or fewer columns".into());
+    Err(Error::new(ErrorKind::Unsupported, message).help(fewer).or_help(Advice::MoreMemory { to: needed }))
 }
 
 /// Estimated memory (bytes) of one solution of a case by a solver that combines `runs` runs.

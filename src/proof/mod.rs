@@ -176,6 +176,7 @@ fn joined(scenario: &Scenario, engine_case: &Case, options: &Options, progress: 
     let main = options.reference.solver();
     let engines = options.chosen(scenario)?;
     memory::check(case, memory::of_proof(case, engines.len()), options.memory)?;
+    memory::check_input("what [[oracle]] says", memory::of_oracles(&scenario.oracles), options.memory)?;
     let mut ledger = Ledger::default();
     let sides = Sides::of([scenario, whole], TRUE_SIDES, options.reference, &mut ledger)?;
     let engine_case = match &whole.case.only {

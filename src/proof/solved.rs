@@ -29,15 +29,19 @@ pub fn known_of_complete(case: &Case, trajectory: &Trajectory) -> Vec<f64> {
     sizes.into_iter().zip(trajectory.channels()).map(|(size, channel)| usual(channel.kind.stage) * size).collect()
 }
 
-/// The other channels of what a claim is about: a component that is zero but for rounding is known as well as they are.
-fn beside(claim: &Claim, case: &Case) -> Vec<Channel> {
+/// The channels that are solved for a claim: what judging it needs, and the other channels of what it is about. A
+/// component that is zero but for rounding is known as well as these.
+#[must_use]
+pub fn asked(claim: &Claim, case: &Case) -> Vec<Channel> {
     let is_beside = |channel: &Channel| {
         claim.channels.iter().any(|(_, own)| {
             let own = &own.channel;
             own.of == channel.of && own.kind.subject == channel.kind.subject && own.kind.stage >= channel.kind.stage
         })
     };
-    case.all_channels().into_iter().filter(is_beside).collect()
+    let mut asked = needed(claim, case);
+    asked.extend(case.all_channels().into_iter().filter(is_beside));
+    asked
 }
 
 /// What both sides find, and how well they know it.
@@ -55,11 +59,7 @@ impl Solved {
     /// # Errors
     /// Those of the sides, with the crank angle, and of a grid to which the drive does not come.
     pub fn of<'a>(scenario: &Scenario, grid: Grid, claims: impl IntoIterator<Item = &'a Claim>) -> Result<Self> {
-        let mut asked: Vec<Channel> = Vec::new();
-        for claim in claims {
-            asked.extend(needed(claim, &scenario.case));
-            asked.extend(beside(claim, &scenario.case));
-        }
+        let asked: Vec<Channel> = claims.into_iter().flat_map(|claim| asked(claim, &scenario.case)).collect();
         let case = scenario.case.on(grid)?.wanting_only(&asked).scene()?.case;
         let formulas = Formulas::over(Vec::new());
         let scene = Scenario { case, oracles: Vec::new(), formulas, ..scenario.clone() };

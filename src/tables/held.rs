@@ -95,7 +95,8 @@ impl Held {
                 mapped.instant().ok_or_else(|| mapped.wrong("this is no instant", "map a time"))?;
             let printed = reader.column(mapped)?;
             let is_chosen = columns::chosen(&printed, mapped.name == "crank_deg");
-            let exact = |own: Rounded| if is_chosen { Rounded::exact(own.value) } else { own };
+            // A factor to SI rounds.
+            let exact = |own: Rounded| if is_chosen { Rounded::nearly(own.value) } else { own };
             let values: Vec<Rounded> = printed.into_iter().map(|own| exact(scaled(own, factor))).collect();
             if let Some(row) = values.iter().position(|own| !(own.value + own.error).is_finite()) {
                 let message = format!("row {} of the table holds at no instant", row + 1);

@@ -16,9 +16,17 @@ use linkage::error::{Error, ErrorKind, Result};
 /// # Errors
 /// [`ErrorKind::Io`] if it cannot be read, [`ErrorKind::Input`] if it is no table of numbers, with the place.
 pub fn load(path: &Path) -> Result<Raw> {
+    load_within(path, &|_| Ok(()))
+}
+
+/// The same where memory is asked for before it is taken: `may_take` says whether so many bytes may be.
+///
+/// # Errors
+/// Those of [`load`], and what `may_take` says.
+pub fn load_within(path: &Path, may_take: &dyn Fn(f64) -> Result<()>) -> Result<Raw> {
     let raw = match parquet_file::is_one(path) {
-        true => parquet_file::read(path)?,
-        false => csv_file::read(path)?,
+        true => parquet_file::read(path, may_take)?,
+        false => csv_file::read(path, may_take)?,
     };
     if raw.is_empty() {
         let message = format!("{} has no rows of numbers", path.display());

@@ -26,13 +26,13 @@ pub(super) fn is_one(path: &Path) -> bool {
     File::open(path).and_then(|mut file| file.read_exact(&mut first)).is_ok() && &first == MAGIC
 }
 
-pub(super) fn read(path: &Path) -> Result<Table> {
+pub(super) fn read(path: &Path, may_take: &dyn Fn(f64) -> Result<()>) -> Result<Table> {
     let damaged = |error: &dyn Display| {
         Error::new(ErrorKind::Io, format!("the table {} is cut off or damaged: {error}", path.display()))
             .help("write it again, as Parquet or as CSV")
     };
     // The reader is given whatever a file claims to be.
-    match catch_unwind(AssertUnwindSafe(|| of_file(path))) {
+    match catch_unwind(AssertUnwindSafe(|| of_file(path, may_take))) {
         Ok(Ok(read)) => read,
         Ok(Err(error)) => Err(damaged(&error)),
         Err(_) => Err(damaged(&"its parts contradict each other")),
@@ -40,7 +40,7 @@ pub(super) fn read(path: &Path) -> Result<Table> {
 }
 
 /// The columns that hold numbers; others, such as names, are passed over.
-fn of_file(path: &Path) -> std::result::Result<Result<Table>, ParquetError> {
+fn of_file(path: &Path, may_take: &dyn Fn(f64) -> Result<()>) -> std::result::Result<Result<Table>, ParquetError> {
     let reader = SerializedFileReader::new(File::open(path)?)?;
     let described = reader.metadata().file_metadata();
     let names: Vec<String> = described.schema().get_fields().iter().map(|field| field.name().to_string()).collect();
@@ -60,6 +60,9 @@ fn of_file(path: &Path) -> std::result::Result<Result<Table>, ParquetError> {
     let values = described.num_rows().saturating_mul(names.len() as i64);
     if !(0..=MOST).contains(&values) {
         return refused(format!("it has {values} values, more than {MOST}"), "give fewer rows, or fewer columns");
+    }
+    if let Err(error) = may_take(values as f64 * size_of::<Rounded>() as f64) {
+        return Ok(Err(error));
     }
     let mut columns: Vec<Vec<Rounded>> = vec![Vec::new(); names.len()];
     let mut are_numbers = vec![true; names.len()];

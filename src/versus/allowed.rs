@@ -20,6 +20,8 @@ pub struct How {
     pub side: Option<String>,
     /// Words for channels that are compared; empty for all.
     pub only: Vec<String>,
+    /// Memory allowed (bytes); `None` for what a proof is allowed.
+    pub memory: Option<f64>,
 }
 
 impl How {

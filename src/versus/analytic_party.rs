@@ -1,5 +1,7 @@
 //! A scenario beside another party: solved at its instants.
 
+use std::collections::BTreeSet;
+
 use super::allowed::How;
 use super::cause;
 use super::crank;
@@ -7,7 +9,8 @@ use super::instants;
 use super::judge::Both;
 use super::pair::{Pair, Side};
 use super::scale::Scales;
-use crate::proof::solved::Solved;
+use crate::proof::memory;
+use crate::proof::solved::{Solved, asked};
 use crate::scenario::{Claim, Scenario};
 use crate::tables::{At, Column, Held};
 use formula::Rounded;
@@ -38,6 +41,10 @@ fn columns(solved: &Solved, claims: &[Claim], of: &dyn Fn(usize) -> usize, rows:
 pub(super) fn beside(scenario: &Scenario, (name, held): Side, is_first: bool, how: &How) -> Result<Pair> {
     let at = held.at(how.by_crank)?;
     let (claims, alone) = claims(scenario, &held, how)?;
+    let asked = claims.iter().flat_map(|claim| asked(claim, &scenario.case));
+    let channels: BTreeSet<String> = asked.map(|channel| channel.to_string()).collect();
+    let needed = memory::of_comparison(at.values.len(), claims.len(), channels.len());
+    memory::check_input(&format!("comparing {} rows", at.values.len()), needed, how.memory)?;
     let (grid, rows) = grid(scenario, &at)?;
     let scales = Scales::of(scenario, &grid);
     let solved = Solved::of(scenario, grid, &claims)?.known_at_least(&|channel| scales.known(channel));

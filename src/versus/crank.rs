@@ -25,7 +25,9 @@ pub(super) fn check(
 ) -> Option<Check> {
     let values: Vec<f64> = cranks[measure.0].iter().map(|own| own.value).filter(|value| value.is_finite()).collect();
     let allowed = how.allows_crank(half_range(&values));
-    let allowance = allowed.unwrap_or_default();
+    let mut allowance = allowed.unwrap_or_default();
+    // Taking off whole turns rounds.
+    allowance.fixed += 4.0 * f64::EPSILON * TAU;
     let places = [&places[0][..], &places[1]];
     let found = judge(&Beside { values: cranks, places, drift, turn: Some(TAU), allowance, measure });
     let worst = found.worst.filter(|_| how.asks_for_crank())?;

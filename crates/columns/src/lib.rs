@@ -26,4 +26,4 @@ pub use instants::{chosen, drift};
 pub use judge::{Allowance, Beside, Judged, Row, judge};
 pub use names::Twice;
 pub use records::Records;
-pub use text::{Fault, Table, read};
+pub use text::{Fault, Table, bytes, read};

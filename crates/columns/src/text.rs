@@ -45,6 +45,13 @@ pub struct Fault {
     pub help: String,
 }
 
+/// Memory (bytes) that the numbers of a text take, at most.
+#[must_use]
+pub fn bytes(text: &str) -> f64 {
+    let cells = text.bytes().filter(|byte| matches!(byte, b',' | b';' | b'\t' | b' ' | b'\n')).count() + 1;
+    (cells * (size_of::<Cell>() + size_of::<Rounded>())) as f64
+}
+
 /// Reads a table. The last line shows which sign separates the columns.
 ///
 /// # Errors
