@@ -3,6 +3,7 @@
 
 use std::f64::consts::{PI, TAU};
 
+use super::passing::way_through;
 use super::system::System;
 use linkage::case::{Case, Grid};
 use linkage::drive::{Drive, Wrench};
@@ -200,7 +201,8 @@ impl System<'_> {
     pub(super) fn check_singular(&self) -> Result<()> {
         // Written so that NaN is refused too.
         if !(self.jacobian.smallest_share() > SINGULAR) {
-            return Err(self.lost("the pose is singular there (dead point or change point)"));
+            let error = self.lost("the pose is singular there (dead point or change point)");
+            return Err(error.or_help(way_through(self.case)));
         }
         Ok(())
     }
@@ -229,7 +231,8 @@ impl System<'_> {
         for (index, rate) in self.rate.iter().enumerate() {
             let jump = rate - (self.rate_before[index] + 0.5 * dt * (self.second_before[index] + self.second[index]));
             if !(jump.abs() <= VELOCITY_JUMP * largest * unit(index)) {
-                return Err(self.lost("velocities jump there (change point)"));
+                let error = self.lost("velocities jump there (change point)");
+                return Err(error.or_help(way_through(self.case)));
             }
         }
         Ok(())
