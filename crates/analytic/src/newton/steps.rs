@@ -3,7 +3,6 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::passing::way_through;
 use super::system::System;
 use linkage::case::{Case, Grid};
 use linkage::drive::{Drive, Wrench};
@@ -261,5 +260,14 @@ impl System<'_> {
         }
         let message = format!("crank angle {degrees:.4} deg, t = {t:.6} s: {why}");
         Error::new(ErrorKind::Numeric, message).at_time(t).at_crank(crank).help(Advice::ShortenGrid)
+    }
+}
+
+/// The way through a pose that may be a change point.
+fn way_through(case: &Case) -> &'static str {
+    match case.crank().passes() || !case.drives.further().is_empty() {
+        // It is passed already, or there are several drives, with which none is passed.
+        true => "let the grid end before it",
+        false => "pass it with `through = \"smooth\"` in [drive], if two branches meet there",
     }
 }

@@ -14,7 +14,6 @@ mod window;
 
 use super::steps::{HALVINGS, TRACKING_STEP};
 use super::system::System;
-use linkage::case::Case;
 use linkage::error::Result;
 use linkage::math::KeepNan;
 use spot::{Spot, place, walked};
@@ -172,12 +171,3 @@ impl Passing {
 const WITHOUT_POLE: &str = "leave this very instant out by another step or start of the grid, or leave out \
                                        the reactions: want = [\"positions\", \"velocities\", \"accelerations\"] in \
                                        [channels]";
-
-/// The way through a pose that may be a change point.
-pub(super) fn way_through(case: &Case) -> &'static str {
-    match case.crank().passes() || !case.drives.further().is_empty() {
-        // It is passed already, or there are several drives, with which none is passed.
-        true => "let the grid end before it",
-        false => "pass it with `through = \"smooth\"` in [drive], if two branches meet there",
-    }
-}
