@@ -5,6 +5,8 @@
 //! Where a link reverses whose load depends on the sense of its motion, the load may jump: forces are not judged there,
 //! nor accelerations if forces decide the motion. Impulses that are combined from several runs are not judged close to
 //! it. A load that vanishes there does not jump, and nothing is left out.
+//! At a change point itself an engine's equations have many solutions, of which it takes one: its rates there say nothing
+//! about the branch that it is on, and the instants after it say all.
 
 use linkage::case::Case;
 use linkage::drive::DriveMotion;
@@ -41,8 +43,9 @@ pub(super) struct Doubt {
 }
 
 impl Doubt {
-    /// `senses` are what loads sense in the reference, by row; `settings` are those of the run that is judged.
-    pub(super) fn of(case: &Case, senses: &Senses, runs: &Runs, settings: Settings) -> Self {
+    /// What loads sense in the reference, and whether its pose is singular, by row; `settings` are those of the run that
+    /// is judged.
+    pub(super) fn of(case: &Case, (senses, singular): (&Senses, &[bool]), runs: &Runs, settings: Settings) -> Self {
         let Settings { resolution, route, extrapolated, .. } = settings;
         let times = &case.grid.times;
         let reach = STEPS * 2.0 * resolution;
@@ -53,12 +56,13 @@ impl Doubt {
             by_step: vec![false; times.len()],
         };
         for (row, &t) in times.iter().enumerate() {
-            if drive_turns(case, t, reach) {
+            let (turns, is_singular) = (drive_turns(case, t, reach), singular.get(row) == Some(&true));
+            if turns || is_singular {
                 for list in [&mut doubt.rates, &mut doubt.accelerations, &mut doubt.forces] {
                     list[row] = true;
                 }
                 // In the very instant no step helps.
-                doubt.by_step[row] = !drive_turns(case, t, 0.0);
+                doubt.by_step[row] = turns && !drive_turns(case, t, 0.0);
             }
             let against = |run: &Senses| {
                 let jumping =

@@ -105,6 +105,8 @@ pub(super) struct Judge<'a> {
     scales: Vec<f64>,
     /// What loads sense in it, instant by instant.
     senses: &'a Senses,
+    /// Where its pose is singular, instant by instant.
+    singular: &'a [bool],
     /// How well it is known.
     known: &'a Known,
     /// Settings asked for; the search begins with them.
@@ -183,8 +185,8 @@ impl Stand<'_> {
 impl<'a> Judge<'a> {
     pub(super) fn new(scenario: &'a Scenario, reference: &'a Observed, known: &'a Known, asked: Settings) -> Self {
         let scales = scales(&reference.trajectory);
-        let (reference, senses) = (&reference.trajectory, &reference.senses);
-        Judge { scenario, reference, scales, senses, known, asked, asks: Asks::All }
+        let Observed { trajectory: reference, senses, singular, .. } = reference;
+        Judge { scenario, reference, scales, senses, singular, known, asked, asks: Asks::All }
     }
 
     /// The same for a search that begins with other settings.
@@ -205,7 +207,7 @@ impl<'a> Judge<'a> {
     /// Judges an engine by its runs.
     pub(super) fn judge(&self, engine: &dyn Engine, mut runs: Runs) -> Result<Judged> {
         runs.other_sweeps.growth = self.growth(&runs);
-        let doubt = Doubt::of(&self.scenario.case, self.senses, &runs, engine.settings());
+        let doubt = Doubt::of(&self.scenario.case, (self.senses, self.singular), &runs, engine.settings());
         let late = self.after_the_beginning(engine)?;
         let channels = self.channels(engine, &runs, &doubt, late.as_ref())?;
         let checks = match self.asks {

@@ -7,13 +7,13 @@
 //! No bound on anything else is less than this.
 
 use super::dependence::Dependence;
+use super::observe::pose_of;
 use crate::compare::{largest_difference, magnitudes_by};
 use analytic::range::conditions;
 use linkage::case::Case;
 use linkage::error::Result;
+use linkage::math::KeepNan;
 use linkage::math::statistics::share;
-use linkage::math::{KeepNan, Motion};
-use linkage::mechanism::{LinkPose, Pose};
 use linkage::solver::{Solver, State};
 use linkage::trajectory::{Channel, Stage, Trajectory, Unit};
 
@@ -135,11 +135,7 @@ impl Known {
         let mut worst = vec![1.0; sets.len()];
         let mut all = vec![Vec::new(); case.grid.len()];
         let mut visit = |row: usize, state: &State| {
-            let frame = |motion: &Motion| LinkPose {
-                origin: motion.origin,
-                angle: motion.direction.y.atan2(motion.direction.x),
-            };
-            let pose = Pose(state.motions.iter().map(frame).collect());
+            let pose = pose_of(state);
             let own = conditions(&case.mechanism, &case.structure.groups, &pose);
             for (set, worst) in sets.iter().zip(&mut worst) {
                 let own: f64 = match state.passing.filter(|_| !set.is_empty()) {

@@ -1,11 +1,12 @@
 //! One solver over one case, with the quantities that are observed during the run.
 
+use analytic::range::is_singular;
 use analytic::witness::{momentum, power};
 use linkage::case::Case;
 use linkage::error::Error;
 use linkage::math::statistics::share;
-use linkage::math::{KeepNan, Vec2, largest_size};
-use linkage::mechanism::Side;
+use linkage::math::{KeepNan, Motion, Vec2, largest_size};
+use linkage::mechanism::{LinkPose, Pose, Side};
 use linkage::solver::{Sampler, Solver, State};
 use linkage::trajectory::{Stage, Trajectory};
 
@@ -46,6 +47,8 @@ pub(super) struct Observed {
     pub(super) moment: f64,
     /// Largest condition number by which a side passes a change point; 1 if it passes none.
     pub(super) passing: f64,
+    /// Where a side passes a change point at which the pose itself is singular, by row; empty if it passes none.
+    pub(super) singular: Vec<bool>,
 }
 
 /// Several values at every instant, in one list.
@@ -131,6 +134,7 @@ pub(super) fn observe(
     let (mut reach, mut moment, mut fastest): (f64, f64, f64) = (0.0, 0.0, 0.0);
     let mut unbalance = Unbalance::default();
     let mut passing: f64 = 1.0;
+    let mut singular = if case.crank().passes() { vec![false; case.grid.len()] } else { Vec::new() };
     let mut visit = |row: usize, state: &State| {
         let crank = state.angles[case.crank().link] - case.crank().zero;
         let sensed = case.loads.iter().filter_map(|load| {
@@ -164,6 +168,11 @@ pub(super) fn observe(
             }
         }
         passing = passing.larger(state.passing.unwrap_or(1.0));
+        if let Some(singular) = singular.get_mut(row).filter(|_| state.passing.is_some()) {
+            let pose = pose_of(state);
+            let groups = &case.structure.groups;
+            *singular = groups.iter().any(|group| is_singular(&case.mechanism, group, &pose));
+        }
         sampler.put(case, row, state);
         Ok(())
     };
@@ -187,7 +196,15 @@ pub(super) fn observe(
         unbalance: (with_power && watch == Watch::Side).then(|| unbalance.share()),
         moment,
         passing,
+        singular,
     })
+}
+
+/// Places and directions of all links.
+pub(super) fn pose_of(state: &State) -> Pose {
+    let frame =
+        |motion: &Motion| LinkPose { origin: motion.origin, angle: motion.direction.y.atan2(motion.direction.x) };
+    Pose(state.motions.iter().map(frame).collect())
 }
 
 /// Power of all drives on their links (W).

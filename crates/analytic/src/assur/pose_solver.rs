@@ -4,7 +4,7 @@ use std::slice;
 
 use super::forces::Kinetostatics;
 use super::gauges::Gauges;
-use super::passing::{self, Passing};
+use super::passing::{self, Passing, way_through};
 use super::turns::{CLOSED_FORM_STEP, FOLLOWED_STEP, Turns};
 use super::watch::Watch;
 use crate::assur::groups::{Misfit, OutOfReach, Plan};
@@ -357,18 +357,20 @@ impl<'a> PoseSolver<'a> {
                 .at_crank(crank)
                 .of_group(group)
                 .help(Advice::ShortenGrid)
-                .or_help("change a length by a little");
+                .or_help("change a length by a little")
+                .or_help(way_through(self.case));
             }
             Misfit::Lost => format!(
                 "the group ({group}) cannot be followed beyond crank angle {degrees:.4} deg: it has a dead point there"
             ),
         };
-        Error::new(ErrorKind::Geometry, message)
+        let error = Error::new(ErrorKind::Geometry, message)
             .at_crank(crank)
             .of_group(group)
             .out_of_reach()
             .help(Advice::ShortenGrid)
-            .or_help("check the lengths")
+            .or_help("check the lengths");
+        if matches!(reach.why, Misfit::Singular) { error.or_help(way_through(self.case)) } else { error }
     }
 }
 

@@ -200,7 +200,8 @@ impl System<'_> {
     pub(super) fn check_singular(&self) -> Result<()> {
         // Written so that NaN is refused too.
         if !(self.jacobian.smallest_share() > SINGULAR) {
-            return Err(self.lost("the pose is singular there (dead point or change point)"));
+            let error = self.lost("the pose is singular there (dead point or change point)");
+            return Err(error.or_help(way_through(self.case)));
         }
         Ok(())
     }
@@ -229,7 +230,8 @@ impl System<'_> {
         for (index, rate) in self.rate.iter().enumerate() {
             let jump = rate - (self.rate_before[index] + 0.5 * dt * (self.second_before[index] + self.second[index]));
             if !(jump.abs() <= VELOCITY_JUMP * largest * unit(index)) {
-                return Err(self.lost("velocities jump there (change point)"));
+                let error = self.lost("velocities jump there (change point)");
+                return Err(error.or_help(way_through(self.case)));
             }
         }
         Ok(())
@@ -258,5 +260,14 @@ impl System<'_> {
         }
         let message = format!("crank angle {degrees:.4} deg, t = {t:.6} s: {why}");
         Error::new(ErrorKind::Numeric, message).at_time(t).at_crank(crank).help(Advice::ShortenGrid)
+    }
+}
+
+/// The way through a pose that may be a change point.
+fn way_through(case: &Case) -> &'static str {
+    match case.crank().passes() || !case.drives.further().is_empty() {
+        // It is passed already, or there are several drives, with which none is passed.
+        true => "let the grid end before it",
+        false => "pass it with `through = \"smooth\"` in [drive], if two branches meet there",
     }
 }

@@ -12,6 +12,7 @@ mod search;
 mod window;
 
 use crate::assur::groups::{Clearance, OutOfReach, Plan};
+use linkage::case::Case;
 use linkage::error::{Error, ErrorKind};
 use linkage::math::{KeepNan, Motion};
 use window::Window;
@@ -190,5 +191,19 @@ pub(super) fn unbounded(crank: f64) -> Error {
          they must do what the links no longer can"
     );
     let error = Error::new(ErrorKind::Numeric, message).at_crank(crank);
-    error.help("leave this very instant out, or ask for positions, velocities and accelerations only")
+    error.help(WITHOUT_POLE)
+}
+
+/// The way out where reactions have a pole.
+const WITHOUT_POLE: &str = "leave this very instant out by another step or start of the grid, or leave out \
+                                       the reactions: want = [\"positions\", \"velocities\", \"accelerations\"] in \
+                                       [channels]";
+
+/// The way through a pose that may be a change point.
+pub(super) fn way_through(case: &Case) -> &'static str {
+    match case.crank().passes() || !case.drives.further().is_empty() {
+        // It is passed already, or there are several drives, with which none is passed.
+        true => "let the grid end before it",
+        false => "pass it with `through = \"smooth\"` in [drive], if two branches meet there",
+    }
 }

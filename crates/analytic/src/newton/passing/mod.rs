@@ -166,3 +166,8 @@ impl Passing {
         Ok(())
     }
 }
+
+/// The way out where reactions have a pole.
+const WITHOUT_POLE: &str = "leave this very instant out by another step or start of the grid, or leave out \
+                                       the reactions: want = [\"positions\", \"velocities\", \"accelerations\"] in \
+                                       [channels]";

@@ -3,6 +3,7 @@
 //! The Jacobian is singular there, and multipliers generally grow with the inverse of the distance: that which does
 //! work along the other branch has nothing to hold it. Multiplier times distance is smooth in any case.
 
+use super::WITHOUT_POLE;
 use super::window::{Window, neville};
 use crate::newton::system::System;
 use linkage::drive::Wrench;
@@ -71,8 +72,7 @@ impl Window {
                 "crank angle {:.4} deg: this is a change point, and towards it reactions grow without bound",
                 crank.to_degrees()
             );
-            let help = "leave this very instant out, or ask for positions, velocities and accelerations only";
-            return Err(Error::new(ErrorKind::Numeric, message).at_crank(crank).help(help));
+            return Err(Error::new(ErrorKind::Numeric, message).at_crank(crank).help(WITHOUT_POLE));
         };
         system.lambda = found;
         Ok(())
