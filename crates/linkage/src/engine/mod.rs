@@ -9,7 +9,7 @@ mod settings;
 pub use extrapolated::Extrapolated;
 pub use kept::{Kept, plain_runs};
 pub use rows::Rows;
-pub use settings::{Route, Settings};
+pub use settings::{Route, Settings, size_of_step};
 
 use std::sync::Arc;
 
