@@ -4,7 +4,7 @@ use std::path::Path;
 
 use linkage::work::{Count, Work, counted};
 use linkproof::parts::Advice;
-use linkproof::proof::{End, Options, Proof, prove, prove_against};
+use linkproof::proof::{End, Options, Proof, prove};
 use linkproof::scenario::Scenario;
 use linkproof::stress::named;
 
@@ -46,19 +46,6 @@ fn regress_a_step_of_a_large_mechanism_is_more_work() {
     let (proof, work) = proven(&scenario("n_four_bar_10.toml"), &Options::default().budget(1e6));
     assert_eq!(proof.verdict.word(), "inconclusive");
     assert!(work.of(Count::Sweeps) < 3_000_000, "{work:?}");
-}
-
-/// A fault whose cause is searched with a hundredth of the usual work: the search ends, and says so.
-#[test]
-fn regress_a_diagnosis_has_its_share_of_the_work() {
-    let scenario = shipped("double_pendulum.toml");
-    let wrong = scenario.text.replace("y_m_s2 = -9.81", "y_m_s2 = -9.7");
-    let wrong = Scenario::parse(&wrong, Path::new("wrong.toml")).unwrap();
-    let of = |budget: f64| prove_against(&scenario, &wrong.case, &Options::default().budget(budget)).unwrap();
-    let (few, many) = (of(4e4), of(2e7));
-    let rest = |proof: &Proof| proof.work.iter().any(|entry| entry.part == "rest of the diagnosis");
-    assert_eq!((rest(&few), rest(&many)), (true, false));
-    assert!(many.diagnosis.is_some_and(|found| found.cause.is_some()));
 }
 
 /// Chains that swing through their change points: impulses there do not converge, and four rounds show it. Before, they
