@@ -59,6 +59,15 @@ const VANISHING: f64 = 1e-9;
 /// the extent of all coordinates of lengths.
 #[must_use]
 pub fn scales(trajectory: &Trajectory) -> Vec<f64> {
+    scales_beyond(&vec![0.0; trajectory.channels().len()], trajectory)
+}
+
+/// The same for a trajectory that is known to `errors` (in the units of its channels). A rate, a force or a moment that
+/// is zero as far as is known, throughout, has no size: its values are rounding, whatever makes it vanish (a constant
+/// speed, a link that only translates, a joint that guides nothing, a parallelogram). As a constant one is measured by a
+/// tenth of its value, it is measured by a tenth of what is natural for its quantity.
+#[must_use]
+pub(crate) fn scales_beyond(errors: &[f64], trajectory: &Trajectory) -> Vec<f64> {
     let is_instant = trajectory.times().len() == 1;
     let coordinates = || trajectory.iter().filter(|(channel, _)| channel.kind.unit == Unit::Metre);
     let extent = half_range(&coordinates().flat_map(|(_, values)| values.iter().copied()).collect::<Vec<f64>>());
@@ -67,14 +76,9 @@ pub fn scales(trajectory: &Trajectory) -> Vec<f64> {
         false => half_range(values),
     };
     let halves: Vec<f64> = trajectory.iter().map(half).collect();
-    let largest = trajectory.iter().map(|(channel, values)| match channel.kind.unit {
-        Unit::Radian | Unit::Metre => 0.0,
-        Unit::RadianPerSecond
-        | Unit::RadianPerSecondSquared
-        | Unit::MetrePerSecond
-        | Unit::MetrePerSecondSquared
-        | Unit::Newton
-        | Unit::NewtonMetre => largest_size(values),
+    let largest = trajectory.iter().map(|(channel, values)| match is_coordinate(channel) {
+        true => 0.0,
+        false => largest_size(values),
     });
     let own: Vec<[f64; 2]> = halves.iter().copied().zip(largest).map(|(half, largest)| [half, largest]).collect();
     let sizes: Vec<f64> = own.iter().map(|[half, largest]| half.larger(*largest)).collect();
@@ -83,10 +87,26 @@ pub fn scales(trajectory: &Trajectory) -> Vec<f64> {
         false => (half_range(trajectory.cranks()), SMALLEST_SHARE),
     };
     let natural = natural(trajectory, &sizes, turn);
-    let of = |([half, largest], natural): (&[f64; 2], f64)| {
-        half.larger(SMALLEST_OWN_SHARE * largest).larger(share * natural)
-    };
-    own.iter().zip(natural).map(of).collect()
+    let of =
+        |(((channel, values), [half, largest]), (natural, error)): (((&Channel, &[f64]), &[f64; 2]), (f64, &f64))| {
+            let vanishes = !is_coordinate(channel) && largest_size(values) <= *error;
+            let share = if vanishes { share.larger(SMALLEST_OWN_SHARE) } else { share };
+            half.larger(SMALLEST_OWN_SHARE * largest).larger(share * natural)
+        };
+    trajectory.iter().zip(&own).zip(natural.into_iter().zip(errors)).map(of).collect()
+}
+
+/// Whether a channel's values are counted from somewhere, so that their size says nothing.
+fn is_coordinate(channel: &Channel) -> bool {
+    match channel.kind.unit {
+        Unit::Radian | Unit::Metre => true,
+        Unit::RadianPerSecond
+        | Unit::RadianPerSecondSquared
+        | Unit::MetrePerSecond
+        | Unit::MetrePerSecondSquared
+        | Unit::Newton
+        | Unit::NewtonMetre => false,
+    }
 }
 
 /// Size of the numbers in every channel, which its rounding is proportional to. It is the largest absolute value among

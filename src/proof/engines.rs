@@ -10,8 +10,8 @@ use super::observe::{Observed, Stopped, Watch};
 use super::options::Chosen;
 use super::order;
 use super::own_forces::{ForceFault, OwnForces};
-use super::runs::{Bank, FEWER, other_sweeps};
-use super::settle::{End, FIRST, Free, Search, Settling};
+use super::runs::{Bank, FEWER, other_sweeps, rungs};
+use super::settle::{BUDGET, End, FIRST, Free, Search, Settling, too_much};
 use crate::compare::{Check, Verdict, difference, overall};
 use crate::engines::coarse_step;
 use crate::numbers::error;
@@ -85,7 +85,7 @@ pub(super) fn prove(
             let search = Settling::new(&judge, &mut bank, engine, chosen.free, chosen.budget);
             search.run(progress).map(|(judged, search)| (judged, Some(search)))
         }
-        false => at_given(&judge, &mut bank, engine, progress).map(|judged| (judged, None)),
+        false => at_given(&judge, &mut bank, engine, (chosen.budget, progress)).map(|judged| (judged, None)),
     });
     let (judged, search) = match found {
         Ok(found) => found,
@@ -93,9 +93,15 @@ pub(super) fn prove(
             // Without work for finer steps nobody knows whether the engine fails or only its coarse steps.
             let (verdict, failure) = match spent {
                 None => (Verdict::open(error.message()), Some(error)),
-                Some(budget) => {
-                    let reason = format!("the work that was allowed is done, and no run stands: {}", error.message());
-                    let advice = vec![Advice::MoreWork { to: FIRST.larger(10.0 * budget) }];
+                Some(work) => {
+                    let reason = match error.kind() {
+                        ErrorKind::Unsupported => error.message().to_string(),
+                        ErrorKind::Numeric | ErrorKind::Geometry | ErrorKind::Input | ErrorKind::Io => {
+                            format!("the work that was allowed is done, and no run stands: {}", error.message())
+                        }
+                    };
+                    let most = 10f64.powf(work.log10().ceil());
+                    let advice = vec![Advice::MoreWork { to: FIRST.larger(most) }];
                     (Verdict::Inconclusive { reason, advice }, None)
                 }
             };
@@ -144,11 +150,11 @@ pub(super) fn prove(
     // Its runs are dropped before others are made.
     drop(bank);
     let trajectory = Arc::unwrap_or_clone(run).trajectory;
-    let sweeps = proof.info.settings.sweeps;
+    let motion = (proof.info.settings.sweeps, proof.search.as_ref().map_or(0.0, |search| search.effort));
     let part = format!("{}, own forces", engine.name());
     match OwnForces::are_asked(&judge, chosen) {
         true => {
-            let own = || OwnForces::judged(&judge, case, chosen, sweeps, &mut |part| progress(0.7 + 0.3 * part));
+            let own = || OwnForces::judged(&judge, case, chosen, motion, &mut |part| progress(0.7 + 0.3 * part));
             proof.own_forces = ledger.done(part, "what it exerts itself, beside what follows from its motion", own);
         }
         false => ledger.skipped(part, "no force is wanted, or its forces are read by its own route"),
@@ -164,8 +170,18 @@ pub(super) fn prove(
 /// An engine judged, or why it stopped.
 type Outcome = std::result::Result<Judged, Stopped>;
 
-/// The engine at its own settings, none of which is free.
-fn at_given(judge: &Judge, bank: &mut Bank, engine: &dyn Engine, progress: &mut dyn FnMut(f64)) -> Outcome {
+/// The engine at its own settings, none of which is free. They are kept to within the usual work, whatever is allowed
+/// for a search.
+fn at_given(
+    judge: &Judge,
+    bank: &mut Bank,
+    engine: &dyn Engine,
+    (budget, progress): (f64, &mut dyn FnMut(f64)),
+) -> Outcome {
+    if !engine.controls_error() {
+        let budget = budget.larger(BUDGET);
+        too_much(bank.missing(&rungs(judge.asked, &[])), budget, budget)?;
+    }
     let others = other_sweeps(bank.case, engine, judge.asked.sweeps, FEWER);
     let mut with = |others: &[usize]| -> Outcome {
         let runs = bank.runs(judge.asked, others, progress)?;
@@ -201,7 +217,7 @@ fn tried(judge: &Judge, bank: &mut Bank, chosen: &Chosen) -> Advice {
     let Ok((judged, search)) = found else { return Advice::FreeSettings };
     let Settings { resolution, sweeps, extrapolated, .. } = judged.info.settings;
     let outcome = match (&judged.verdict, search.end) {
-        (Verdict::Inconclusive { .. }, End::Budget) => "the work allowed is not enough there either".into(),
+        (Verdict::Inconclusive { .. }, End::Budget | End::Pace) => "the work allowed is not enough there either".into(),
         (Verdict::Inconclusive { .. }, _) => "nothing is proven there either".into(),
         (verdict, _) => format!("the verdict there is {}", verdict.word()),
     };

@@ -1,6 +1,7 @@
 //! Judgement of one engine at some settings, by its runs: the estimate of their error, and the verdict channel by
 //! channel.
 
+use std::collections::HashSet;
 use std::sync::Arc;
 
 use super::checks;
@@ -9,7 +10,7 @@ use super::known::Known;
 use super::observe::{Observed, Senses};
 use super::runs::Runs;
 use crate::compare::{
-    Check, Convergence, Ladder, Residual, Verdict, largest_difference, overall, residuals_on, scales,
+    Check, Convergence, Ladder, Residual, Verdict, largest_difference, overall, residuals_on, scales_beyond,
 };
 use crate::scenario::Scenario;
 use crate::tolerance::{Basis, Parts};
@@ -71,6 +72,8 @@ const MOST_ROUNDING: f64 = 0.1;
 
 /// Values of one run that are copied for a comparison at a time.
 const COPIED: usize = 1_000_000;
+/// Channels that are compared at a time: each is looked for among them.
+const AT_A_TIME: usize = 256;
 
 /// Share of the widest conclusive bound from which a difference between sweeps counts.
 const COUNTS: f64 = 0.01;
@@ -184,7 +187,9 @@ impl Stand<'_> {
 
 impl<'a> Judge<'a> {
     pub(super) fn new(scenario: &'a Scenario, reference: &'a Observed, known: &'a Known, asked: Settings) -> Self {
-        let scales = scales(&reference.trajectory);
+        let channels = reference.trajectory.channels().iter().enumerate();
+        let errors: Vec<f64> = channels.map(|(index, channel)| known.error(channel.kind.stage, index)).collect();
+        let scales = scales_beyond(&errors, &reference.trajectory);
         let Observed { trajectory: reference, senses, singular, .. } = reference;
         Judge { scenario, reference, scales, senses, singular, known, asked, asks: Asks::All }
     }
@@ -280,8 +285,11 @@ impl<'a> Judge<'a> {
             let keep = self.kept(doubt, stage, case);
             let left_out = keep.iter().filter(|&&kept| !kept).count();
             // The copies of many instants are made and dropped by few channels at a time.
-            for indices in indices.chunks((COPIED / keep.len().max(1)).max(1)) {
-                let is_asked = |channel: &Channel| indices.iter().any(|&index| channels[index] == *channel);
+            for indices in indices.chunks((COPIED / keep.len().max(1)).clamp(1, AT_A_TIME)) {
+                let name = |channel: &'a Channel| (channel.of.as_str(), std::ptr::from_ref(channel.kind));
+                let asked: HashSet<_> = indices.iter().map(|&index| name(&channels[index])).collect();
+                let is_asked =
+                    |channel: &Channel| asked.contains(&(channel.of.as_str(), std::ptr::from_ref(channel.kind)));
                 let thin = |trajectory: &Trajectory| trajectory.part(&keep, &is_asked);
                 let ladder = runs.ladder();
                 let resolutions = ladder.resolutions.map(thin);

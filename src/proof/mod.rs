@@ -22,6 +22,7 @@ mod options;
 mod oracle;
 mod order;
 mod own_forces;
+mod pace;
 mod parties;
 #[cfg(test)]
 mod planted;
@@ -51,7 +52,14 @@ use crate::scenario::Scenario;
 use analytic::range::explained;
 use linkage::case::{Case, Scene};
 use linkage::error::Result;
+use linkage::math::KeepNan;
 use linkage::trajectory::Trajectory;
+use linkage::work::limited;
+
+/// Work of the analytic sides that is done whatever is allowed, a second or two: without them nothing can be told.
+const SIDES: f64 = 1e6;
+/// Share of the work allowed that a diagnosis may do once more.
+const DIAGNOSIS: f64 = 0.1;
 
 /// All results of one proof.
 ///
@@ -178,7 +186,10 @@ fn joined(scenario: &Scenario, engine_case: &Case, options: &Options, progress: 
     memory::check(case, memory::of_proof(case, engines.len()), options.memory)?;
     memory::check_input("what [[oracle]] says", memory::of_oracles(&scenario.oracles), options.memory)?;
     let mut ledger = Ledger::default();
-    let sides = Sides::of([scenario, whole], TRUE_SIDES, options.reference, &mut ledger)?;
+    let budget = options.budget.unwrap_or(settle::BUDGET);
+    let (sides, _) =
+        limited(budget.larger(SIDES), || Sides::of([scenario, whole], TRUE_SIDES, options.reference, &mut ledger));
+    let sides = sides?;
     let engine_case = match &whole.case.only {
         Some(only) => engine_case.wanting_only(only).scene()?.case,
         None => engine_case.clone(),
@@ -194,7 +205,12 @@ fn joined(scenario: &Scenario, engine_case: &Case, options: &Options, progress: 
     let diagnosis = match verdict {
         Verdict::Disagree { .. } => {
             let examined = || examined::of(case, main, &sides.observed, &sides.known, &proofs);
-            ledger.done("diagnosis", "something disagrees", examined)
+            let (found, is_cut) =
+                limited(DIAGNOSIS * budget, || ledger.done("diagnosis", "something disagrees", examined));
+            if is_cut {
+                ledger.skipped("rest of the diagnosis", "its share of the work allowed (--budget) is done");
+            }
+            found
         }
         Verdict::Agree { .. } | Verdict::Expected { .. } | Verdict::Inconclusive { .. } => {
             ledger.skipped("diagnosis", "nothing disagrees");

@@ -42,9 +42,21 @@ impl Need {
     }
 }
 
-/// The largest bound of a channel or check over what is wanted, `wanted` of its scale, and the part that is to blame.
+/// Part of a bound up to which the sweeps share the blame for it.
+const SHARED: f64 = 0.8;
+
+/// What is to blame for the largest bound.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Blame {
+    /// Its largest part.
+    pub(super) part: Part,
+    /// Whether that is the sweeps, but the step leaves a good part too: half the step makes both smaller.
+    pub(super) is_shared: bool,
+}
+
+/// The largest bound of a channel or check over what is wanted, `wanted` of its scale, and what is to blame.
 /// Those whose runs show no order come first.
-pub(super) fn need(judged: &Judged, wanted: f64) -> (Need, Part) {
+pub(super) fn need(judged: &Judged, wanted: f64) -> (Need, Blame) {
     let channels = judged.channels.iter().map(|own| (own.parts, own.residual.scale, &own.convergence, &own.verdict));
     let checks = judged.checks.iter().filter_map(|check| {
         let (parts, convergence) = check.estimate.as_ref()?;
@@ -52,7 +64,8 @@ pub(super) fn need(judged: &Judged, wanted: f64) -> (Need, Part) {
     });
     // A step that leaves out many instants proves nothing about them.
     let least = if judged.too_coarse > MOST_LEFT_OUT { LEFT_OUT } else { 0.0 };
-    let mut worst = (Need { is_vague: false, share: least }, Part::Discretisation);
+    let none = Blame { part: Part::Discretisation, is_shared: false };
+    let mut worst = (Need { is_vague: false, share: least }, none);
     for (parts, scale, convergence, verdict) in channels.chain(checks) {
         let share = share(parts.sum(), wanted * scale);
         let is_open = matches!(verdict, Verdict::Inconclusive { .. });
@@ -63,7 +76,9 @@ pub(super) fn need(judged: &Judged, wanted: f64) -> (Need, Part) {
         if own > worst.0 {
             // Where no order is seen, the sweeps are to blame as soon as they leave a part that counts.
             let sweeps = is_vague && 10.0 * parts.iteration > parts.discretisation;
-            worst = (own, if sweeps { Part::Iteration } else { parts.largest() });
+            let part = if sweeps { Part::Iteration } else { parts.largest() };
+            worst =
+                (own, Blame { part, is_shared: part == Part::Iteration && parts.iteration <= SHARED * parts.sum() });
         }
     }
     worst

@@ -7,15 +7,16 @@
 use std::sync::Arc;
 
 use super::judge::{ChannelProof, EngineInfo, Judge, Judged, describe};
-use super::observe::Watch;
+use super::observe::{Stopped, Watch};
 use super::options::Chosen;
 use super::runs::Bank;
 use super::settle::{Free, Search, Settling};
 use crate::compare::Verdict;
 use crate::engines::coarse_step;
+use crate::numbers::error;
 use linkage::case::Case;
-use linkage::engine::{Route, Settings};
-use linkage::error::Error;
+use linkage::engine::{Engine, Route, Settings};
+use linkage::error::{Advice, Error, ErrorKind};
 use linkage::trajectory::{Stage, Trajectory};
 
 /// Sweeps to begin with at the most, if the motion has needed as many.
@@ -47,16 +48,27 @@ impl OwnForces {
         chosen.own_forces.is_some() && judge.asking(judge.asked).of_own_forces().has_channels()
     }
 
-    /// Judges the forces that the engine exerts, whose motion has needed `sweeps`; `None` if they are not
+    /// Judges the forces that the engine exerts, whose motion has needed `sweeps` and this work; `None` if they are not
     /// [asked](OwnForces::are_asked). The first route that is conclusive counts.
     pub(super) fn judged(
         judge: &Judge,
         case: &Case,
         chosen: &Chosen,
-        sweeps: usize,
+        (sweeps, effort): (usize, f64),
         progress: &mut dyn FnMut(f64),
     ) -> Option<OwnForces> {
         let free = chosen.own_forces?;
+        // Impulses are of a lower order than the motion, and need as many sweeps with the true masses.
+        if effort > SHARE * chosen.budget {
+            let told = format!(
+                "the motion has taken the work of {} steps, and the forces that the engine exerts need no less; {} are \
+                 allowed for them",
+                error(effort),
+                error(SHARE * chosen.budget)
+            );
+            let failure = Error::new(ErrorKind::Unsupported, told);
+            return Some(OwnForces::failed(chosen.engine.as_ref(), failure, Some(effort)));
+        }
         // Nothing else of these runs is looked at.
         let mut forces = case.channels();
         forces.retain(|channel| channel.kind.stage >= Stage::Reactions);
@@ -90,6 +102,21 @@ pub enum ForceFault {
 }
 
 impl OwnForces {
+    /// No comparison. Where nothing but work was missing, `work` that was not enough says how much would be.
+    fn failed(engine: &dyn Engine, failure: Error, work: Option<f64>) -> OwnForces {
+        // A round number that is surely enough for the next round.
+        let advice = work.map(|work| Advice::MoreWork { to: 10f64.powf((work / SHARE).log10().ceil()) });
+        let reason = failure.message().to_string();
+        OwnForces {
+            info: describe(engine),
+            search: None,
+            channels: Vec::new(),
+            verdict: Verdict::Inconclusive { reason, advice: advice.into_iter().collect() },
+            trajectory: None,
+            failure: Some(failure),
+        }
+    }
+
     /// What they add to the engine's verdict. Where they stay open, they are told and take nothing back: the motion and
     /// its forces are judged all the same, and impulses are of a lower order and need the true masses, with many
     /// sweeps.
@@ -152,14 +179,7 @@ fn by_route(
                 failure: None,
             }
         }
-        Err(stopped) => OwnForces {
-            info: describe(engine.as_ref()),
-            search: None,
-            channels: Vec::new(),
-            verdict: Verdict::open(stopped.error.message()),
-            trajectory: None,
-            failure: Some(stopped.error),
-        },
+        Err(Stopped { error, spent, .. }) => OwnForces::failed(engine.as_ref(), error, spent),
     }
 }
 

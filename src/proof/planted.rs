@@ -350,3 +350,28 @@ fn the_error_of_an_integration_adds_to_the_bound_of_numbers_at_times() {
         assert!((wide - own - more).abs() < 1e-15, "{own:e}, {wide:e}");
     }
 }
+
+/// A channel that is zero throughout is measured by a tenth of its quantity. What an engine may be wrong by there is still
+/// what its runs say: a millionth of the quantity is found in the acceleration of a crank at constant speed, and some
+/// ten thousandths in that of a rocker that turns with it through change points.
+#[test]
+fn a_fault_of_fixed_size_is_found_where_the_reference_is_zero() {
+    let everything = Free { step: true, sweeps: true, extrapolated: true };
+    let cranks = include_str!("../../tests/suite/exact_zeros/parallel_cranks.toml");
+    let zeros: [(&str, &str, &str, Fault, f64); 2] = [
+        ("crank_rocker", &text("crank_rocker"), "crank", |state, size| state.motions[1].alpha += size, 1e-6),
+        ("parallel_cranks", cranks, "rocker", |state, size| state.motions[3].alpha += size, 3e-4),
+    ];
+    for (name, text, link, fault, share) in zeros {
+        let scenario = parsed(name, text);
+        let own = format!("link.{link}.alpha_rad_s2");
+        let truth = seen(&scenario.case, &AssurSolver).trajectory;
+        let place = truth.channels().iter().position(|channel| channel.to_string() == own).unwrap();
+        let natural = magnitudes(&truth)[place];
+        for (size, word) in [(share * natural, "disagree"), (0.0, "agree")] {
+            let proof = engine_proven(&scenario, fault, size, false, everything);
+            let found = proof.channels.iter().find(|channel| channel.residual.channel.to_string() == own).unwrap();
+            assert_eq!(found.verdict.word(), word, "{own} at {size:e}: {found:?}");
+        }
+    }
+}

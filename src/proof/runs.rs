@@ -6,7 +6,7 @@ use super::observe::{Observed, Stopped, Watch, observe};
 use crate::compare::{Ladder, OtherSweeps};
 use crate::numbers::significant;
 use linkage::case::Case;
-use linkage::engine::{Engine, Kept, Settings, plain_runs};
+use linkage::engine::{Engine, Kept, Settings, plain_runs, size_of_step};
 use linkage::error::Advice;
 use linkage::math::KeepNan;
 
@@ -89,7 +89,7 @@ impl<'a> Bank<'a> {
     fn work(&self, runs: &[Settings]) -> f64 {
         let times = &self.case.grid.times;
         let [first, last] = times.iter().fold([0.0f64; 2], |[first, last], &t| [first.smaller(t), last.larger(t)]);
-        runs.iter().map(|run| (last - first) * run.work()).sum()
+        size_of_step(self.case) * runs.iter().map(|run| (last - first) * run.work()).sum::<f64>()
     }
 
     /// Forgets all runs with other numbers of sweeps.

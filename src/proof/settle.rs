@@ -12,9 +12,10 @@ use linkage::error::{Advice, Error, ErrorKind};
 use linkage::math::KeepNan;
 
 use super::judge::{Judge, Judged};
-use super::need::{MOST_LEFT_OUT, Need, need};
+use super::need::{Blame, MOST_LEFT_OUT, Need, need};
 use super::observe::Stopped;
 use super::order;
+use super::pace::Pace;
 use super::room::room;
 use super::runs::{Bank, FEWER, other_sweeps, rungs};
 use super::stall::{Next, Stall};
@@ -62,6 +63,8 @@ pub enum End {
     Rounding,
     /// The work that was allowed is done.
     Budget,
+    /// At the pace of its rounds the work that was allowed would not be enough.
+    Pace,
     /// The settings that are left to choose have no better value.
     Nothing,
 }
@@ -77,12 +80,17 @@ const AIM: f64 = 0.01;
 const MOST_TIMES: usize = 4;
 /// Coarsest step that is tried against rounding, in units of the first one.
 const COARSEST: f64 = 16.0;
-/// Work of the first runs that is done whatever is allowed: without them nothing can be told.
-pub(super) const FIRST: f64 = 2e5;
+/// Work of the first runs that is done whatever is allowed, some hundredths of a second: without them nothing can be
+/// told.
+pub(super) const FIRST: f64 = 1e4;
 /// Failed runs after which more sweeps are tried instead of a smaller step.
 const FAILURES: usize = 6;
+/// Share of the room beside a dead point that the steps of a run may take.
+const ROOM: f64 = 0.98;
 /// Rounds of a search that is not long.
 const QUICK: i32 = 3;
+/// What is to blame where runs with fewer sweeps fail.
+const SWEEPS: Blame = Blame { part: Part::Iteration, is_shared: false };
 /// Factors between numbers of sweeps: far from the end of a search, and near to it.
 const MORE_SWEEPS: [usize; 2] = [4, 2];
 /// Largest bound, over what is wanted, that is near.
@@ -100,6 +108,10 @@ impl End {
             End::Decided | End::Nothing => return,
             End::Rounding => ("a finer step adds more rounding than it takes away", vec![Advice::OtherEngine]),
             End::Budget => ("the work that was allowed is done", vec![Advice::MoreWork { to: 10.0 * budget }]),
+            End::Pace => (
+                "at the pace of its rounds the work that was allowed would not be enough",
+                vec![Advice::MoreWork { to: 10.0 * budget }],
+            ),
         };
         reason.push_str("; ");
         reason.push_str(why);
@@ -107,11 +119,26 @@ impl End {
     }
 }
 
+/// An error if the first runs of an engine, of this work, are more than is allowed: `most` of the `budget` asked for.
+pub(super) fn too_much(first: f64, most: f64, budget: f64) -> Result<(), Stopped> {
+    // Written so that NaN is too much.
+    if first <= most {
+        return Ok(());
+    }
+    let message = format!(
+        "the first runs of the engine, with all their substeps, take the work of {} steps of a four-bar, {} are allowed",
+        error(first),
+        error(budget)
+    );
+    let error = Error::new(ErrorKind::Unsupported, message);
+    Err(Stopped { error, kept: None, spent: Some(first) })
+}
+
 /// One way to combine the runs made so far, judged.
 struct Trial {
     judged: Judged,
     need: Need,
-    blame: Part,
+    blame: Blame,
 }
 
 /// The state of a search.
@@ -200,17 +227,11 @@ impl<'a, 'b> Settling<'a, 'b> {
         let mut best: Option<Trial> = None;
         let mut failure = None;
         let (mut round, mut failed) = (0, 0);
-        let mut stall = Stall::default();
+        let (mut stall, mut pace) = (Stall::default(), Pace::default());
         // What disagrees in the last round, and what did so in two rounds running.
         let (mut against, mut borne_out): (Vec<String>, Vec<String>) = (Vec::new(), Vec::new());
         let first = self.bank.missing(&self.rungs());
-        // A step that is given is refused by the engine itself where it is too fine.
-        if self.free.step && first > self.budget.larger(FIRST) {
-            let message =
-                format!("the first runs of the engine take {} steps, {} are allowed", error(first), error(self.budget));
-            let error = Error::new(ErrorKind::Unsupported, message).help("shorten the grid");
-            return Err(error.or_help(Advice::MoreWork { to: 10.0 * first }).into());
-        }
+        too_much(first, self.budget.larger(FIRST), self.budget)?;
         let end = loop {
             let left = 0.5f64.powi(round);
             let mut part = |part: f64| progress(1.0 - left + 0.5 * left * part);
@@ -232,9 +253,13 @@ impl<'a, 'b> Settling<'a, 'b> {
                     against = now;
                     let disagrees = !against.is_empty();
                     let (decided, sharp) = (trial.need.is_within(1.0), trial.need.is_within(self.aim));
-                    self.near = trial.need.is_within(NEAR);
+                    // Sweeps that leave only a part of the bound are multiplied with care: half the step does the rest.
+                    let is_careful = round > QUICK && !trial.need.is_vague && trial.blame.is_shared;
+                    self.near = trial.need.is_within(NEAR) || is_careful;
+                    let is_slow = self.conclusive && pace.is_too_slow(self.bank.effort, trial.need, self.budget);
                     let thrift = self.bank.effort > THRIFT * self.budget;
-                    let blame = match stall.look_closer(trial.need, trial.blame, self.now.sweeps, self.free.sweeps) {
+                    let blame = match stall.look_closer(trial.need, trial.blame.part, self.now.sweeps, self.free.sweeps)
+                    {
                         Next::Blames(part) => part,
                         Next::Returns(fewer) => {
                             self.now.sweeps = fewer;
@@ -256,6 +281,9 @@ impl<'a, 'b> Settling<'a, 'b> {
                     if decided && (sharp || thrift) && (!disagrees || !borne_out.is_empty()) {
                         break End::Decided;
                     }
+                    if is_slow {
+                        break End::Pace;
+                    }
                     blame
                 }
                 Err(stopped) if stopped.error.kind() == ErrorKind::Numeric => {
@@ -275,13 +303,14 @@ impl<'a, 'b> Settling<'a, 'b> {
         match (best, failure) {
             (Some(mut best), _) => {
                 // At a given step there is no finer run: its own estimate counts.
-                let is_cut = self.free.sweeps && end == End::Budget;
+                let is_over = matches!(end, End::Budget | End::Pace);
+                let is_cut = self.free.sweeps && is_over;
                 if (!self.is_finest() || is_cut) && borne_out.is_empty() {
                     best.judged.doubt("no finer run bears it out", &Advice::SmallerStep { to: None });
                 }
                 // Impulses are of first order, and sweeps leave more in them than in the motion: where the search is
                 // cut off before all are conclusive, none is disproven.
-                if self.conclusive && end == End::Budget {
+                if self.conclusive && is_over {
                     best.judged.doubt("the others are not conclusive", &Advice::MoreWork { to: 10.0 * self.budget });
                 }
                 Ok((best.judged, search))
@@ -310,7 +339,10 @@ impl<'a, 'b> Settling<'a, 'b> {
         let most = *self.room.get_or_insert_with(|| room(case, engine.as_ref()));
         let is_cramped = 4.0 * self.now.resolution > most && !self.is_finest();
         if is_cramped {
-            // The next round halves the step once more.
+            // The next round halves the step once more. Rounding asks for the largest step that there is room for.
+            if self.finest == 0.0 {
+                self.now.resolution = self.now.resolution.smaller(ROOM * 0.5 * most);
+            }
             while 2.0 * self.now.resolution > most && !self.is_finest() {
                 self.now.resolution *= 0.5;
             }
@@ -413,20 +445,20 @@ impl<'a, 'b> Settling<'a, 'b> {
         let found = match self.trial(settings, &others[..1], &mut |part| progress(0.7 + 0.2 * part)) {
             // Sweeps so few that the run fails say that those of the other run are hardly enough.
             Err(stopped) if stopped.error.kind() == ErrorKind::Numeric => {
-                return Ok(Trial { need: Need { is_vague: true, ..best.need }, blame: Part::Iteration, ..best });
+                return Ok(Trial { need: Need { is_vague: true, ..best.need }, blame: SWEEPS, ..best });
             }
             found => found?,
         };
         // A third run tells how fast the sweeps converge, before they are multiplied; and whether they do, before
         // anything is disproven: sweeps that have hardly begun to converge differ little.
-        let is_asked = found.blame == Part::Iteration && !found.need.is_within(self.aim) && self.free.sweeps;
+        let is_asked = found.blame.part == Part::Iteration && !found.need.is_within(self.aim) && self.free.sweeps;
         if others.len() < 2 || (!is_asked && found.judged.against().is_empty()) {
             return Ok(found);
         }
         match self.trial(settings, &others, &mut |part| progress(0.9 + 0.1 * part)) {
             // What fails with fewer sweeps has hardly enough of them.
             Err(stopped) if stopped.error.kind() == ErrorKind::Numeric && !found.judged.against().is_empty() => {
-                Ok(Trial { need: Need { is_vague: true, ..found.need }, blame: Part::Iteration, ..found })
+                Ok(Trial { need: Need { is_vague: true, ..found.need }, blame: SWEEPS, ..found })
             }
             Err(stopped) if stopped.error.kind() == ErrorKind::Numeric => Ok(found),
             better => better,

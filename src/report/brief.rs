@@ -73,7 +73,7 @@ pub fn proof(proof: &Proof, tell: Tell, width: usize) -> String {
         if let Some(own) = &engine.own_forces
             && let Some(error) = &own.failure
         {
-            let told = format!("Forces as {} itself exerts them failed: {}", engine.info.name, error.message());
+            let told = format!("Forces as {} itself exerts them are not judged: {}", engine.info.name, error.message());
             let _ = writeln!(text, "\n{}", style::wrapped(&told, width, 2));
         }
         if let Some(fault) = engine.force_fault() {

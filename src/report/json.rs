@@ -325,6 +325,7 @@ fn search(search: &Search, extrapolated_times: usize) -> SearchRow {
         End::Decided => "decided",
         End::Rounding => "rounding",
         End::Budget => "budget",
+        End::Pace => "pace",
         End::Nothing => "nothing left to choose",
     };
     let &Search { runs, effort: effort_steps, budget: budget_steps, .. } = search;

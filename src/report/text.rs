@@ -86,7 +86,7 @@ fn own_section(engine: &EngineProof, several: bool, width: Option<usize>, text: 
     match &own.failure {
         Some(error) => {
             let (name, why) = (engine.info.name, error.message());
-            let told = format!("Forces as {name} itself exerts them (route {route}) failed: {why}");
+            let told = format!("Forces as {name} itself exerts them (route {route}) are not judged: {why}");
             let _ = writeln!(text, "\n{}", wrapped(&told, width, 2));
         }
         None if several => {
@@ -128,6 +128,7 @@ fn found(info: &EngineInfo, search: &Search) -> String {
         End::Nothing => "; no other setting was left to choose",
         End::Rounding => "; finer steps would add rounding",
         End::Budget => "; the work that was allowed is done",
+        End::Pace => "; at this pace the work that was allowed would not be enough",
     };
     let (sweeps, runs, effort) = (info.settings.sweeps, search.runs, search.effort);
     let plural = if sweeps == 1 { "sweep" } else { "sweeps" };

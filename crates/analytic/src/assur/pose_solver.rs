@@ -14,6 +14,7 @@ use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::math::Motion;
 use linkage::solver::State;
 use linkage::trajectory::Stage;
+use linkage::work;
 
 /// Turn of the crank (rad) after which a link that starts at its own dead centre shows its sense.
 const NUDGE: f64 = 1e-7;
@@ -300,6 +301,7 @@ impl<'a> PoseSolver<'a> {
 
     /// One step. Where a group cannot be followed over it, two steps of half the size.
     fn step_to(&mut self, target: f64, halvings: u32) -> Result<()> {
+        work::spend(work::PLACED * self.case.structure.groups.len() as f64)?;
         match self.place(target) {
             Ok(()) => Ok(()),
             Err(OutOfReach { why: Misfit::Lost, .. }) if halvings > 0 => {

@@ -19,6 +19,7 @@ use linkage::math::{KeepNan, Motion, Vec2};
 use linkage::mechanism::{self, GROUND};
 use linkage::solver::State;
 use linkage::trajectory::Stage;
+use linkage::work;
 
 /// The equations of motion of a case by its Assur groups.
 pub(crate) struct TransferSide<'a> {
@@ -151,6 +152,7 @@ impl<'a> TransferSide<'a> {
     /// Goes on from one share of a way to another. Where a group cannot be followed over the step, two steps of half
     /// the size.
     fn step_to(&mut self, way: [&[f64]; 2], [before, share]: [f64; 2], halvings: u32) -> Result<()> {
+        work::spend(work::PLACED * self.case.structure.groups.len() as f64)?;
         for ((target, &from), &to) in self.target.iter_mut().zip(way[0]).zip(way[1]) {
             *target = if share < 1.0 { from + (to - from) * share } else { to };
         }

@@ -16,7 +16,7 @@ use super::inside::{Course, Remembering, Targets, parts};
 use super::step::{Flow, Method, Step, a_step, checked, lost, rate};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::root;
-use linkage::work::{Count, Tally};
+use linkage::work::{self, Count, Tally};
 
 /// Relative and absolute error allowed in each step, with the states inside it.
 /// The run-up of `crank_rocker` is then exact to 5e-12 rad, and to 1e-14 at its end.
@@ -101,6 +101,7 @@ pub(crate) fn march<const N: usize, F: Flow<N>>(
     let mut tally = Tally::default();
     loop {
         steps += 1;
+        work::spend(1.0)?;
         let way = place.x - begun_at;
         // Written so that NaN is refused.
         if steps % PREDICTED == 0 && !((last - begun_at) / way * steps as f64 <= MOST_STEPS as f64) {

@@ -11,7 +11,7 @@ use linkage::math::{KeepNan, Motion};
 use linkage::mechanism::EQUATIONS;
 use linkage::solver::State;
 use linkage::trajectory::Stage;
-use linkage::work::Count;
+use linkage::work::{self, Count};
 
 /// Largest turn of the crank between two poses (rad). A prediction over this step stays on the branch.
 pub(super) const TRACKING_STEP: f64 = PI / 90.0;
@@ -76,6 +76,7 @@ impl System<'_> {
 
     /// One step from a prediction. Where the branch cannot be followed over it, two steps of half the size.
     pub(super) fn step_to(&mut self, t: f64, halvings: u32) -> Result<()> {
+        work::spend(work::PLACED * self.case.mechanism.links().len() as f64)?;
         let (from, dt) = (self.time, t - self.time);
         self.before.copy_from_slice(&self.q);
         self.rate_before.copy_from_slice(&self.rate);

@@ -10,7 +10,7 @@ mod wrapped;
 pub use extrapolated::Extrapolated;
 pub use kept::{Kept, plain_runs};
 pub use rows::Rows;
-pub use settings::{Route, Settings};
+pub use settings::{Route, Settings, size_of_step};
 pub use wrapped::{Hook, Wrapped};
 
 use std::sync::Arc;

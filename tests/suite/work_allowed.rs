@@ -1,0 +1,73 @@
+//! Work that is allowed: whatever costs time counts, and a search that cannot decide is given up early.
+
+use std::path::Path;
+
+use linkage::work::{Count, Work, counted};
+use linkproof::parts::Advice;
+use linkproof::proof::{End, Options, Proof, prove};
+use linkproof::scenario::Scenario;
+use linkproof::stress::named;
+
+use crate::common::shipped;
+
+fn scenario(name: &str) -> Scenario {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/suite/work_allowed").join(name);
+    Scenario::load(&path).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn proven(scenario: &Scenario, options: &Options) -> (Proof, Work) {
+    counted(|| prove(scenario, options).unwrap_or_else(|error| panic!("{error}")))
+}
+
+/// Nothing of an engine was run, and the verdict says what would have to be allowed.
+fn assert_refused((proof, work): &(Proof, Work)) {
+    let reason = proof.verdict.reason(Advice::to_string).unwrap_or_default();
+    assert_eq!((proof.verdict.word(), work.of(Count::Steps)), ("inconclusive", 0), "{reason}");
+    assert!(reason.contains("the first runs of the engine") && reason.contains("allow more work"), "{reason}");
+}
+
+#[test]
+fn regress_substeps_are_work() {
+    assert_refused(&proven(&scenario("substeps.toml"), &Options::default()));
+    let many = Options::default().substeps(100_000).budget(1e4);
+    assert_refused(&proven(&shipped("crank_rocker.toml"), &many));
+    // Also where nothing is left to find.
+    let given = Options::default().step(1e-3).sweeps(64).extrapolated(0).substeps(usize::MAX >> 12);
+    assert_refused(&proven(&shipped("crank_rocker.toml"), &given));
+}
+
+#[test]
+fn regress_a_step_of_a_large_mechanism_is_more_work() {
+    let chain = named("chain").expect("there are chains");
+    let case = (chain.setup)(100.0, 0, 0).unwrap().case;
+    let large = Scenario::of_case("chain", case).unwrap();
+    assert_refused(&proven(&large, &Options::default().budget(1e4)));
+    // What a run allows is kept to, whatever the mechanism: here some 21 moving links.
+    let (proof, work) = proven(&scenario("n_four_bar_10.toml"), &Options::default().budget(1e6));
+    assert_eq!(proof.verdict.word(), "inconclusive");
+    assert!(work.of(Count::Sweeps) < 3_000_000, "{work:?}");
+}
+
+/// Chains that swing through their change points: impulses there do not converge, and four rounds show it. Before, they
+/// took 48 of 51 million sweeps.
+#[test]
+fn regress_forces_that_no_step_makes_better_are_given_up_in_their_first_rounds() {
+    let (proof, work) = proven(&shipped("n_four_bar_1.toml"), &Options::default());
+    assert_eq!(proof.verdict.word(), "agree");
+    let own = proof.engine().own_forces.as_ref().unwrap();
+    assert_eq!(own.search.as_ref().map(|search| search.end), Some(End::Pace));
+    assert!(own.verdict.reason(Advice::to_string).unwrap().contains("at the pace of its rounds"), "{:?}", own.verdict);
+    assert!(work.of(Count::Sweeps) < 5_000_000, "{work:?}");
+}
+
+/// Where the motion alone has taken more than the forces that the engine exerts may take, these are not begun. Before,
+/// this four-bar took 118 million sweeps.
+#[test]
+fn regress_forces_are_not_searched_where_their_motion_took_more_than_they_may() {
+    let (proof, work) = proven(&scenario("transmission_1_deg.toml"), &Options::default());
+    assert_eq!(proof.verdict.word(), "agree");
+    let own = proof.engine().own_forces.as_ref().unwrap();
+    let reason = own.verdict.reason(Advice::to_string).unwrap();
+    assert!(own.channels.is_empty() && reason.contains("the motion has taken the work of"), "{reason}");
+    assert!(work.of(Count::Sweeps) < 40_000_000, "{work:?}");
+}
