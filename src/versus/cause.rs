@@ -148,6 +148,9 @@ fn unwrap(values: &mut [f64], right: &[f64], is_right: bool) {
 /// Fewest instants of which one may be left out.
 const FEWEST: usize = 8;
 
+/// Rows from which on one that is off is not looked for: that costs as much as all else several times.
+const MOST_ROWS: usize = 20_000;
+
 /// What the channels are examined on: the rows at which all of them have numbers.
 struct Stage {
     case: linkage::case::Case,
@@ -219,7 +222,7 @@ impl Stage {
     /// A cause that explains all of the channels but for a single row: the first, the last, or the one that stands out.
     fn examined_but_one(&self, of: &[&Compared], left: f64) -> Option<Explained> {
         let count = self.right.times().len();
-        if count <= FEWEST || of.is_empty() {
+        if !(FEWEST..MOST_ROWS).contains(&count) || of.is_empty() {
             return None;
         }
         let mut rows = vec![0, count - 1];
