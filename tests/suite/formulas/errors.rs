@@ -1,7 +1,7 @@
 //! Wrong formulas of kinds that the search was not built on: every mistake is found, most are called by their cause,
 //! and no cause is made up.
 
-use linkproof::claims::Cause;
+use linkproof::claims::{Cause, MOST_WORK};
 use linkproof::proof::claimed::Claimed;
 use linkproof::scenario::{Claim, Formulas, Scenario};
 
@@ -80,7 +80,7 @@ fn shares(list: &[u8]) -> [usize; 4] {
         "{named} of {all} called by their cause, {open} without one, {other} by another; at most {most} operations"
     );
     // Far from the limit that ends a search.
-    assert!(most < 20_000_000, "{most}");
+    assert!(most < MOST_WORK / 2, "{most}");
     counts
 }
 
