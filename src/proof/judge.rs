@@ -1,7 +1,7 @@
 //! Judgement of one engine at some settings, by its runs: the estimate of their error, and the verdict channel by
 //! channel.
 
-use std::collections::HashSet;
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use super::checks;
@@ -287,7 +287,7 @@ impl<'a> Judge<'a> {
             // The copies of many instants are made and dropped by few channels at a time.
             for indices in indices.chunks((COPIED / keep.len().max(1)).clamp(1, AT_A_TIME)) {
                 let name = |channel: &'a Channel| (channel.of.as_str(), std::ptr::from_ref(channel.kind));
-                let asked: HashSet<_> = indices.iter().map(|&index| name(&channels[index])).collect();
+                let asked: BTreeSet<_> = indices.iter().map(|&index| name(&channels[index])).collect();
                 let is_asked =
                     |channel: &Channel| asked.contains(&(channel.of.as_str(), std::ptr::from_ref(channel.kind)));
                 let thin = |trajectory: &Trajectory| trajectory.part(&keep, &is_asked);

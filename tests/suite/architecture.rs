@@ -41,7 +41,7 @@ const ROOMS: &[(&str, &str)] = &[
     ("linkage::mechanism", "error math"),
     ("linkage::solver", "case error math mechanism trajectory"),
     ("linkage::trajectory", "error"),
-    ("linkage::work", ""),
+    ("linkage::work", "error"),
     ("analytic::assur", "motion"),
     ("analytic::assur_solver", "assur motion reduced"),
     ("analytic::modes", "assur range"),
