@@ -20,6 +20,7 @@ use linkage::case::Case;
 use linkage::engine::{Engine, Settings};
 use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::math::KeepNan;
+use linkage::math::statistics::half_range;
 use linkage::trajectory::Trajectory;
 
 /// One engine's part of a proof.
@@ -178,7 +179,9 @@ fn at_given(
     engine: &dyn Engine,
     (budget, progress): (f64, &mut dyn FnMut(f64)),
 ) -> Outcome {
-    if !engine.controls_error() {
+    // An engine itself refuses a step that is a mistake: one that no budget would be enough for.
+    let steps = 2.0 * half_range(&bank.case.grid.times) / judge.asked.resolution;
+    if !engine.controls_error() && steps <= BUDGET {
         let budget = budget.larger(BUDGET);
         too_much(bank.missing(&rungs(judge.asked, &[])), budget, budget)?;
     }

@@ -59,7 +59,7 @@ use linkage::work::limited;
 /// Work of the analytic sides that is done whatever is allowed, a second or two: without them nothing can be told.
 const SIDES: f64 = 1e6;
 /// Share of the work allowed that a diagnosis may do once more.
-const DIAGNOSIS: f64 = 0.1;
+const DIAGNOSIS: f64 = 0.25;
 
 /// All results of one proof.
 ///
@@ -208,7 +208,7 @@ fn joined(scenario: &Scenario, engine_case: &Case, options: &Options, progress: 
             let (found, is_cut) =
                 limited(DIAGNOSIS * budget, || ledger.done("diagnosis", "something disagrees", examined));
             if is_cut {
-                ledger.skipped("rest of the diagnosis", "its share of the work allowed (--budget) is done");
+                ledger.skipped("rest of the diagnosis", "its share of the work that was allowed is done");
             }
             found
         }

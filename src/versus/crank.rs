@@ -37,7 +37,7 @@ pub(super) fn check(
     let mut check = Check::new(NAME, worst.difference.abs(), tolerance, "rad");
     check.verdict = match found.since {
         Some(_) if !measure.1 && allowed.is_none() => Verdict::open(
-            "the crank angles differ, and neither party is analytic: say what is allowed, such as --abs crank=0.1",
+            "the crank angles differ, and neither party is analytic: say by how much the channel crank may differ",
         ),
         Some(at) => Verdict::Disagree { place: place(&in_degrees(at)) },
         None => Verdict::Agree { margin: 1.0 / worst.used() },
