@@ -87,13 +87,13 @@ pub(crate) fn scales_beyond(errors: &[f64], trajectory: &Trajectory) -> Vec<f64>
         false => (half_range(trajectory.cranks()), SMALLEST_SHARE),
     };
     let natural = natural(trajectory, &sizes, turn);
-    let of =
-        |(((channel, values), [half, largest]), (natural, error)): (((&Channel, &[f64]), &[f64; 2]), (f64, &f64))| {
-            let vanishes = !is_coordinate(channel) && largest_size(values) <= *error;
-            let share = if vanishes { share.larger(SMALLEST_OWN_SHARE) } else { share };
-            half.larger(SMALLEST_OWN_SHARE * largest).larger(share * natural)
-        };
-    trajectory.iter().zip(&own).zip(natural.into_iter().zip(errors)).map(of).collect()
+    let of = |(index, channel): (usize, &Channel)| {
+        let [half, largest] = own[index];
+        let vanishes = !is_coordinate(channel) && largest <= errors[index];
+        let share = if vanishes { share.larger(SMALLEST_OWN_SHARE) } else { share };
+        half.larger(SMALLEST_OWN_SHARE * largest).larger(share * natural[index])
+    };
+    trajectory.channels().iter().enumerate().map(of).collect()
 }
 
 /// Whether a channel's values are counted from somewhere, so that their size says nothing.

@@ -20,7 +20,6 @@ use linkage::case::Case;
 use linkage::engine::{Engine, Settings};
 use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::math::KeepNan;
-use linkage::math::statistics::half_range;
 use linkage::trajectory::Trajectory;
 
 /// One engine's part of a proof.
@@ -179,11 +178,9 @@ fn at_given(
     engine: &dyn Engine,
     (budget, progress): (f64, &mut dyn FnMut(f64)),
 ) -> Outcome {
-    // An engine itself refuses a step that is a mistake: one that no budget would be enough for.
-    let steps = 2.0 * half_range(&bank.case.grid.times) / judge.asked.resolution;
-    if !engine.controls_error() && steps <= BUDGET {
+    if !engine.controls_error() {
         let budget = budget.larger(BUDGET);
-        too_much(bank.missing(&rungs(judge.asked, &[])), budget, budget)?;
+        too_much(bank, judge.asked, &rungs(judge.asked, &[]), [budget; 2])?;
     }
     let others = other_sweeps(bank.case, engine, judge.asked.sweeps, FEWER);
     let mut with = |others: &[usize]| -> Outcome {

@@ -58,8 +58,9 @@ use linkage::work::limited;
 
 /// Work of the analytic sides that is done whatever is allowed, a second or two: without them nothing can be told.
 const SIDES: f64 = 1e6;
-/// Share of the work allowed that a diagnosis may do once more.
-const DIAGNOSIS: f64 = 0.25;
+/// Work that a diagnosis may do once more, over that of the proof. With half of it, a free motion of two freedoms had none
+/// left to confirm what it had found.
+const DIAGNOSIS: f64 = 1.0;
 
 /// All results of one proof.
 ///

@@ -10,6 +10,7 @@ use crate::numbers::error;
 use linkage::engine::{Engine, Settings};
 use linkage::error::{Advice, Error, ErrorKind};
 use linkage::math::KeepNan;
+use linkage::math::statistics::half_range;
 
 use super::judge::{Judge, Judged};
 use super::need::{Blame, MOST_LEFT_OUT, Need, need};
@@ -119,10 +120,18 @@ impl End {
     }
 }
 
-/// An error if the first runs of an engine, of this work, are more than is allowed: `most` of the `budget` asked for.
-pub(super) fn too_much(first: f64, most: f64, budget: f64) -> Result<(), Stopped> {
+/// An error if the first runs of an engine, those of `rungs`, are more work than is allowed: `most` of the `budget` asked
+/// for. A step so small that no budget would be enough is a mistake, which the engine itself refuses.
+pub(super) fn too_much(
+    bank: &Bank,
+    settings: Settings,
+    rungs: &[Settings],
+    [most, budget]: [f64; 2],
+) -> Result<(), Stopped> {
+    let first = bank.missing(rungs);
+    let is_mistake = 2.0 * half_range(&bank.case.grid.times) / settings.resolution > BUDGET;
     // Written so that NaN is too much.
-    if first <= most {
+    if first <= most || is_mistake {
         return Ok(());
     }
     let message = format!(
@@ -230,8 +239,7 @@ impl<'a, 'b> Settling<'a, 'b> {
         let (mut stall, mut pace) = (Stall::default(), Pace::default());
         // What disagrees in the last round, and what did so in two rounds running.
         let (mut against, mut borne_out): (Vec<String>, Vec<String>) = (Vec::new(), Vec::new());
-        let first = self.bank.missing(&self.rungs());
-        too_much(first, self.budget.larger(FIRST), self.budget)?;
+        too_much(self.bank, self.now, &self.rungs(), [self.budget.larger(FIRST), self.budget])?;
         let end = loop {
             let left = 0.5f64.powi(round);
             let mut part = |part: f64| progress(1.0 - left + 0.5 * left * part);

@@ -81,8 +81,8 @@ pub(super) fn of(part: &Tree, kind: Kind, names: &[&str], parameters: &[Paramete
         },
         Kind::Unit => match &part.shape {
             Shape::Number(value) => of_number(*value, part),
-            _ if is_constant => Vec::new(),
-            _ => {
+            Shape::Name(_) | Shape::Negative(_) | Shape::Pair(..) | Shape::Call(..) if is_constant => Vec::new(),
+            Shape::Name(_) | Shape::Negative(_) | Shape::Pair(..) | Shape::Call(..) => {
                 let mut edits: Vec<Tree> = quantity(part, parameters).map(Tree::name).into_iter().collect();
                 if is_turning(part) {
                     return both(&units()[..1]);
@@ -111,8 +111,10 @@ pub(super) fn of(part: &Tree, kind: Kind, names: &[&str], parameters: &[Paramete
                 let others = [1.0, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0].into_iter().filter(|other| other != value);
                 others.map(Tree::number).collect()
             }
-            _ if is_constant => Vec::new(),
-            _ => both(&[2.0, 3.0, 4.0].map(Tree::number)),
+            Shape::Name(_) | Shape::Negative(_) | Shape::Pair(..) | Shape::Call(..) if is_constant => Vec::new(),
+            Shape::Name(_) | Shape::Negative(_) | Shape::Pair(..) | Shape::Call(..) => {
+                both(&[2.0, 3.0, 4.0].map(Tree::number))
+            }
         },
         Kind::Operator => match pair {
             Some((Times, left, right)) => match right.shape {

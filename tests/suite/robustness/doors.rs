@@ -19,7 +19,7 @@ use crate::common::hostile::{Attack, DOORS, Good, attack};
 /// Seed of all attacks.
 const SEED: u64 = 1;
 /// Attacks of an ordinary run, as many at each door; by night 10 000 in all.
-const FEW: u64 = 63;
+const FEW: u64 = 189;
 const MANY: u64 = 10_000;
 /// Memory (kB) and processor time (s) that a command may take. Two threads take the time twice as fast.
 const MEMORY: u64 = 2_000_000;
