@@ -93,7 +93,7 @@ pub(super) const TABLES: &[Wrong] = &[
         what: "tangential acceleration only",
         make: Make::Values(|sheet| {
             let (angle, omega) = (sheet.right("link.rocker.angle_rad"), sheet.right("link.rocker.omega_rad_s"));
-            let arm = 0.333_333_333_333_333_33;
+            let arm = 1.0 / 3.0;
             sheet.each("point.D.ax_m_s2", |row, value| value + arm * omega[row].powi(2) * angle[row].cos());
         }),
         named: &["omega(rocker)^2*cos(rocker)"],
