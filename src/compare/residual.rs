@@ -339,7 +339,7 @@ mod tests {
             ("link.a.x_m", vec![-2.0, 2.0, 0.0]),
             ("drive.torque_N_m", vec![0.0, 0.0, 0.0]),
         ]);
-        assert_eq!(scales(&a), [1e-3, 500.0, 2.0, 1.0]);
+        assert_eq!(scales(&a), [0.1, 500.0, 2.0, 100.0]);
         assert_eq!(magnitudes(&a), [1.0, 500.0, 2.0, 1000.0]);
     }
 
@@ -362,7 +362,10 @@ mod tests {
         .unwrap();
         let (turn, speed, length, force) = (3.0, 1.5, 3.0, 500.0);
         let natural = [turn, speed * turn, speed * speed * turn, speed * length, speed * speed * length];
-        let wanted = natural.iter().map(|size| 1e-3 * size).chain([length, force, 1e-3 * force * length]);
+        // An angle has no value of its size, only a range.
+        let shares = [1e-3, 0.1, 0.1, 0.1, 0.1];
+        let wanted = natural.iter().zip(shares).map(|(size, share)| share * size);
+        let wanted = wanted.chain([length, force, 0.1 * force * length]);
         for (own, wanted) in scales(&all).iter().zip(wanted) {
             approx::assert_relative_eq!(*own, wanted, max_relative = 1e-14);
         }
