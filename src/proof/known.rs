@@ -198,3 +198,29 @@ impl Known {
         rounding * self.magnitudes[channel] + self.integration[0][channel]
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenario::Scenario;
+    use analytic::{AssurSolver, NewtonSolver};
+
+    /// What a motion under forces has lost once, it does not get back; a prescribed one is as well known as its pose.
+    #[test]
+    fn the_worst_condition_so_far_counts_under_forces() {
+        let falls = |name: &str| {
+            let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios").join(name);
+            let case = Scenario::load(&path).unwrap().case;
+            let sides: [&dyn Solver; 2] = [&AssurSolver, &NewtonSolver];
+            let [own, other] = sides.map(|side| side.solve(&case).unwrap());
+            let sensitivity = vec![0.0; own.channels().len()];
+            let mut known = Known::of(&case, [("assur", &own), ("newton", &other)], &sensitivity).unwrap();
+            known.measure(&case, &AssurSolver).unwrap();
+            let worst = |row: &Vec<f64>| row.iter().copied().fold(1.0, f64::larger);
+            let all: Vec<f64> = known.conditions.iter().map(worst).collect();
+            all.windows(2).any(|pair| pair[1] < pair[0])
+        };
+        assert!(falls("crank_rocker.toml"));
+        assert!(!falls("crank_rocker_runup.toml"));
+    }
+}

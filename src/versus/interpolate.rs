@@ -95,6 +95,15 @@ mod tests {
     }
 
     #[test]
+    fn errors_of_rows_are_passed_on_by_their_weights() {
+        let at: Vec<f64> = (0..20).map(f64::from).collect();
+        let values: Vec<Rounded> = at.iter().map(|&at| Rounded { value: at, error: 1e-6 }).collect();
+        // In the middle of two rows the weights are -1/16, 9/16, 9/16 and -1/16: their sizes add up to 5/4.
+        let found = Course::new(&at, &values, None).value(9.5);
+        assert!((found.error - 1.25e-6).abs() < 1e-12, "{found:?}");
+    }
+
+    #[test]
     fn an_angle_that_jumps_by_a_turn_is_smooth() {
         let at: Vec<f64> = (0..20).map(f64::from).collect();
         let values: Vec<Rounded> = at.iter().map(|at| Rounded::exact((100.0 * at).rem_euclid(360.0))).collect();

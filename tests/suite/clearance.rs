@@ -10,7 +10,7 @@ use linkage::math::{KeepNan, Vec2, cross};
 use linkage::mechanism::GROUND;
 use linkage::solver::{Solver, State};
 use linkproof::scenario::Scenario;
-use workshop::clearance::question::pairs;
+use workshop::clearance::question::{are_joined, pairs};
 use workshop::clearance::{Body, Clearance, Outline, Question, course, find};
 
 use crate::common::sketch::Random;
@@ -347,4 +347,19 @@ fn a_run_does_not_depend_on_it() {
     let without = Scenario::parse(text, Path::new("crankcase.toml")).unwrap();
     assert!(without.clearance.is_none() && with.clearance.is_some());
     assert_eq!(with.case, without.case);
+}
+
+/// Three links on one pin: two of them have no joint with each other, and touch there all the same.
+#[test]
+fn links_on_one_pin_are_joined_without_a_common_joint() {
+    let case = shipped("ov7_base.toml").case;
+    let mechanism = &case.mechanism;
+    let has_joint = |a: usize, b: usize| mechanism.joints().iter().any(|j| j.on(a).is_some() && j.on(b).is_some());
+    let links = mechanism.links().len();
+    let pairs = (1..links).flat_map(|a| (a + 1..links).map(move |b| (a, b)));
+    let by_pin: Vec<(usize, usize)> =
+        pairs.filter(|&(a, b)| !has_joint(a, b) && are_joined(mechanism, [a, b])).collect();
+    assert!(!by_pin.is_empty());
+    // None of them is joined to all others.
+    assert!(by_pin.len() < links * (links - 1) / 2 - mechanism.joints().len());
 }

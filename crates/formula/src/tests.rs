@@ -15,6 +15,15 @@ fn value(text: &str) -> f64 {
     at(text, Rounded::exact(0.3), Rounded::exact(-1.7)).value
 }
 
+/// Where both parts may be zero, the direction may be any.
+#[test]
+fn the_direction_of_what_may_be_nothing_is_known_to_half_a_turn() {
+    let near = Rounded { value: 1e-12, error: 1e-9 };
+    assert!(at("atan2(x, y)", near, near).error >= std::f64::consts::PI);
+    // Apart from zero it is known.
+    assert!(at("atan2(x, y)", Rounded { value: 1.0, error: 1e-9 }, near).error < 2e-9);
+}
+
 #[test]
 fn formulas_are_read_as_they_are_written_down() {
     let (x, y) = (0.3f64, -1.7f64);

@@ -35,6 +35,15 @@ fn junit_has_a_suite_for_each_scenario_and_a_case_for_each_channel_and_check() {
     assert_eq!(failures(0), Vec::<&str>::new());
     assert!(failures(1).iter().any(|name| name.contains("w as link.crank.omega_rad_s")), "{:?}", failures(1));
     assert_eq!(failures(2), ["proof"]);
+    // What disagrees is a failure, what cannot be proven an error: runners tell them apart.
+    let kinds = |index: usize| -> Vec<String> {
+        let cases = suites[index].children().flat_map(|case| case.children().filter(roxmltree::Node::is_element));
+        let names = cases.map(|node| node.tag_name().name().to_string());
+        let mut kinds: Vec<String> = names.filter(|name| name != "system-out").collect();
+        kinds.dedup();
+        kinds
+    };
+    assert_eq!((kinds(1), kinds(2)), (vec!["failure".to_string()], vec!["error".to_string()]));
     // As many cases as the JSON has channels and checks.
     let json: serde_json::Value = serde_json::from_str(&fs::read_to_string(place.path("out.json")).unwrap()).unwrap();
     let run = &json["runs"][0];

@@ -36,6 +36,20 @@ fn a_formula_that_is_a_billionth_too_large_is_wrong() {
     }
 }
 
+/// The same in degrees, to the tenth part: the factor of a unit is known to its last digit.
+#[test]
+fn a_formula_in_degrees_is_judged_as_sharply() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/crank_rocker.toml");
+    let claimed = |text: &str| {
+        let more =
+            format!("\n[[formula]]\nname = \"turned\"\nexpression = \"{text}\"\nchannel = \"link.crank.angle_deg\"\n");
+        let whole = std::fs::read_to_string(&path).unwrap() + &more;
+        outcomes(&Scenario::parse(&whole, &path).unwrap(), "turned")
+    };
+    assert!(claimed("phi*180/pi").iter().all(|own| *own == Outcome::Right));
+    assert!(claimed("phi*180/pi*(1 + 1e-10)").iter().all(|own| *own == Outcome::Wrong));
+}
+
 /// Digits that cancel: at more and more instants less than six are left. A few do no harm, nine of ten prove nothing.
 #[test]
 fn a_formula_that_loses_its_digits_at_most_instants_proves_nothing() {

@@ -17,7 +17,7 @@ const NEIGHBOURS: f64 = 12.0;
 
 /// Comparisons of a label with what is around it, in all, after which labels take their first position: a drawing of
 /// hundreds of links has no room for their names anyway.
-const MOST_COMPARED: usize = 2_000_000_000;
+const MOST_COMPARED: usize = 200_000_000;
 
 /// A label to be placed; paper coordinates (mm), y upwards.
 #[derive(Clone, Copy, Debug)]

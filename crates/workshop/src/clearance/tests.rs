@@ -122,6 +122,8 @@ fn the_first_meeting_is_where_the_distance_falls_to_nothing() {
     // The post is 0.014 m from the crank's line at sin(90 deg - a) = 0.014 / 0.09.
     let expected = (0.014_f64 / 0.09).acos();
     assert!((meeting.cranks[1] - expected).abs() < 1e-7, "{} {expected}", meeting.cranks[1]);
+    // Up to a crank angle just before, no contact is proven.
+    assert!(meeting.cranks[0] <= expected && expected - meeting.cranks[0] < 1e-5, "{meeting:?}");
     assert_eq!(crank.smallest.distance, 0.0);
     assert_eq!(found.first_collision().unwrap().0.bodies[1], crank.bodies[1]);
 }
