@@ -186,6 +186,17 @@ mod tests {
     }
 
     #[test]
+    fn an_order_below_a_half_is_not_believed_and_extrapolation_asks_for_more() {
+        // Differences of 1.1 and 1: the order of 0.14 alone would make the error ten times the difference.
+        let slow = Convergence::of(&[2.1], &[1.0], &[0.0], false, 2.0, 0.0);
+        assert!((slow.observed - 1.1f64.log2()).abs() < 1e-12 && !slow.is_trusted());
+        assert!((slow.error - 1.1 / (1.0 - 0.5f64.sqrt())).abs() < 1e-12, "{slow:?}");
+        let [double, single, half] = runs(2, 7.0);
+        let found = Convergence::of(&double, &single, &half, false, 2.0, 0.0);
+        assert_eq!([0, 1, 2, 3].map(|times| found.extrapolated(times).safety), [1.25, 3.0, 10.0, 10.0]);
+    }
+
+    #[test]
     fn a_difference_that_vanishes_by_chance_is_not_taken_for_the_error() {
         // The errors 3 h^2 - 2.3 h^4: those of the single and of the half step, 0.70 and 0.61, are nearly alike.
         let [double, single, half] = [2.0f64, 1.0, 0.5].map(|h| [3.0 * h.powi(2) - 2.3 * h.powi(4)]);

@@ -372,6 +372,14 @@ mod tests {
     }
 
     #[test]
+    fn an_error_beside_nothing_proves_nothing() {
+        let nothing = Residual { scale: 0.0, ..residual(1e-9) };
+        let parts = Parts { discretisation: 1.0, ..Parts::default() };
+        let verdict = Verdict::of_engine(&nothing, &converging(2.0), parts, 1e-2);
+        assert!(verdict.reason(Advice::to_string).unwrap().contains("zero throughout"), "{verdict:?}");
+    }
+
+    #[test]
     fn a_bound_on_a_check_must_be_borne_out_and_small_like_one_on_a_channel() {
         let check = |value: f64, observed: f64, discretisation: f64| {
             let parts = Parts { discretisation, ..Parts::default() };
@@ -414,6 +422,8 @@ mod tests {
         let open = Verdict::open("why");
         let no = Verdict::Disagree { place: "there".into() };
         assert_eq!(overall([&agree, &agree]).word(), "agree");
+        let closer = Verdict::Agree { margin: 1.5 };
+        assert_eq!(overall([&agree, &closer, &agree]), closer);
         assert_eq!(overall([&agree, &open]).word(), "inconclusive");
         assert_eq!(overall([&open, &no]).word(), "disagree");
     }
