@@ -108,6 +108,16 @@ fn a_figure_within_its_bound_has_not_moved() {
     assert_eq!(check(&place).code, 0);
 }
 
+/// The root mean square alone: a motion may keep its ends and its few kept instants.
+#[test]
+fn a_root_mean_square_that_has_moved_is_told() {
+    let place = accepted();
+    edit(&place, FILE, "rms = 13.61356816556\n", "rms = 13.62356816556\n");
+    let outcome = check(&place);
+    assert_eq!(outcome.code, 1, "{}", outcome.stdout);
+    assert!(outcome.stdout.contains("1 of 57 channels moved."), "{}", outcome.stdout);
+}
+
 #[test]
 fn what_is_new_or_gone_is_told() {
     let place = accepted();
