@@ -1,7 +1,7 @@
 //! Values that a wrong rule makes of right ones: differences for rates, accelerations without the Coriolis term, moments
 //! about another point.
 
-use super::cause::{Arm, Cause, Over, Slip};
+use super::cause::{Arm, Over, Slip};
 use super::question::{Found, Question, Rank};
 use super::slips::{Wrong, wrong};
 use linkage::math::{KeepNan, largest_size};
@@ -16,10 +16,8 @@ const WIDEST: usize = 3;
 pub(super) fn found(question: &Question) -> Vec<Found> {
     let wrong = wrong(question);
     let mut causes = Vec::new();
-    let mut put = |slip: Slip, rank: Rank, explained: Vec<Channel>| {
-        let cause = Cause::Values { slip, channels: explained.clone() };
-        causes.push(Found { cause, rank, explained });
-    };
+    let mut put =
+        |slip: Slip, rank: Rank, explained: Vec<Channel>| causes.push(Found::of_values(slip, rank, explained));
     let either = (1..=WIDEST).map(Over::Either);
     for over in either.chain([Over::Before, Over::Behind]) {
         let ruled: Vec<(&Wrong, (Channel, usize))> =

@@ -1,6 +1,6 @@
 //! Values of other channels: exchanged columns, a neighbour's values, the difference of two angles.
 
-use super::cause::{Cause, Slip};
+use super::cause::Slip;
 use super::question::{Found, Question, Rank};
 use super::slips::{Wrong, settled, wrong};
 use crate::compare::differences;
@@ -17,10 +17,8 @@ const FEW: usize = 16;
 pub(super) fn found(question: &Question) -> Vec<Found> {
     let wrong = wrong(question);
     let mut causes = Vec::new();
-    let mut put = |slip: Slip, rank: Rank, explained: Vec<Channel>| {
-        let cause = Cause::Values { slip, channels: explained.clone() };
-        causes.push(Found { cause, rank, explained });
-    };
+    let mut put =
+        |slip: Slip, rank: Rank, explained: Vec<Channel>| causes.push(Found::of_values(slip, rank, explained));
     for (index, one) in wrong.iter().enumerate() {
         let is_exchanged = |other: &&Wrong| one.has_values_of(other.right) && other.has_values_of(one.right);
         if let Some(other) = wrong[index + 1..].iter().find(is_exchanged) {

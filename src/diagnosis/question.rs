@@ -1,6 +1,6 @@
 //! What a diagnosis is asked, and the candidates that answer it.
 
-use super::cause::Cause;
+use super::cause::{Cause, Slip};
 use linkage::case::Case;
 use linkage::solver::Solver;
 use linkage::trajectory::{Channel, Trajectory};
@@ -42,6 +42,13 @@ pub(super) struct Found {
     pub(super) rank: Rank,
     /// The disagreeing channels that it explains to within their bounds.
     pub(super) explained: Vec<Channel>,
+}
+
+impl Found {
+    /// A slip in the values of the channels that it explains.
+    pub(super) fn of_values(slip: Slip, rank: Rank, explained: Vec<Channel>) -> Found {
+        Found { cause: Cause::Values { slip, channels: explained.clone() }, rank, explained }
+    }
 }
 
 /// How simple a cause is, the simplest first.

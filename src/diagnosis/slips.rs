@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::cause::{Cause, Plain, Slip};
+use super::cause::{Plain, Slip};
 use super::knobs::significant;
 use super::question::{Found, Judged, Question, Rank};
 use crate::compare::{differences, magnitudes};
@@ -107,8 +107,7 @@ pub(super) fn found(question: &Question) -> Vec<Found> {
         let explained: Vec<Channel> =
             wrong.iter().filter(|wrong| wrong.is_explained_by(&slip)).map(|wrong| wrong.channel.clone()).collect();
         if !explained.is_empty() {
-            let cause = Cause::Values { slip, channels: explained.clone() };
-            causes.push(Found { cause, rank: Rank::Slip, explained });
+            causes.push(Found::of_values(slip, Rank::Slip, explained));
         }
     }
     let angle = wrong.iter().all(|wrong| wrong.channel.kind.unit == Unit::Radian);
@@ -117,8 +116,7 @@ pub(super) fn found(question: &Question) -> Vec<Found> {
         if explains_all(&slip) {
             let slip = (2..=9).map(|digits| with_digits(&slip, digits, angle)).find(explains_all).unwrap_or(slip);
             let explained: Vec<Channel> = wrong.iter().map(|wrong| wrong.channel.clone()).collect();
-            let cause = Cause::Values { slip, channels: explained.clone() };
-            causes.push(Found { cause, rank: Rank::Fitted, explained });
+            causes.push(Found::of_values(slip, Rank::Fitted, explained));
         }
     }
     causes
