@@ -186,7 +186,7 @@ fn what_cannot_be_written_is_named_with_a_way_out() {
         place.refused(&format!("run {scenario} --no-record {option}"), &["cannot be used with --no-record", "--live"]);
     }
     #[cfg(not(feature = "live"))]
-    place.refused(&format!("run {scenario} --live"), &["does not have it", "cargo install --features live"]);
+    place.refused(&format!("run {scenario} --live"), &["does not have it", "cargo install --path . --features live"]);
     place.refused(&format!("run {scenario} --engine magic"), &["magic", "rapier"]);
     place.refused(&format!("run {scenario} --reference rapier"), &["rapier", "assur, newton"]);
 }
