@@ -204,6 +204,7 @@ mod tests {
     use super::*;
     use crate::scenario::Scenario;
     use analytic::{AssurSolver, NewtonSolver};
+    use linkage::case::{Grid, Wanted};
 
     /// What a motion under forces has lost once, it does not get back; a prescribed one is as well known as its pose.
     #[test]
@@ -222,5 +223,33 @@ mod tests {
         };
         assert!(falls("crank_rocker.toml"));
         assert!(!falls("crank_rocker_runup.toml"));
+    }
+
+    /// Each derivative, and each solution for forces, is divided by the determinant of the pose once more.
+    #[test]
+    fn rounding_grows_with_a_power_of_the_condition() {
+        let grown = Stage::ALL.map(|stage| of_condition(stage, 2e3) / of_condition(stage, 1e3));
+        assert_eq!(grown, [2.0, 4.0, 8.0, 8.0, 8.0]);
+    }
+
+    /// At a change point the condition of the pose has no bound, but that of the way through it has: an error of a
+    /// millionth is found there.
+    #[test]
+    fn numbers_at_a_change_point_are_known_to_a_millionth() {
+        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+        let path = path.join("tests/outside/scenarios/parallel_cranks_passing.toml");
+        let case = Scenario::load(&path).unwrap().case;
+        let cranks = [80.0, 120.0, 180.0, 240.0].map(f64::to_radians).to_vec();
+        let motion = Wanted::of(&[Stage::Positions, Stage::Velocities, Stage::Accelerations]);
+        let case = case.on(Grid::of_cranks(case.crank(), cranks)).unwrap().wanting(motion);
+        let sides: [&dyn Solver; 2] = [&AssurSolver, &NewtonSolver];
+        let [own, other] = sides.map(|side| side.solve(&case).unwrap());
+        let mut known = Known::of(&case, [("assur", &own), ("newton", &other)], &[]).unwrap();
+        known.measure(&case, &AssurSolver).unwrap();
+        for (index, channel) in own.channels().iter().enumerate() {
+            let apart = known.apart(channel.kind.stage, index, 2);
+            assert!(apart < 1e-6, "{channel}: {apart:e}");
+        }
+        assert!(known.conditions[2].iter().any(|condition| *condition > 1.0), "{:?}", known.conditions);
     }
 }

@@ -17,6 +17,7 @@ use analytic::witness::triad::Triad;
 use analytic::{AssurSolver, NewtonSolver};
 use linkage::case::{Case, Grid, Wanted};
 use linkage::engine::{Engine, Hook, Settings, Wrapped};
+use linkage::math::turned;
 use linkage::mechanism::GROUND;
 use linkage::solver::{Solver, State};
 use linkage::trajectory::Channel;
@@ -70,7 +71,8 @@ fn assur(fault: Fault, size: f64) -> Wrapped<Everywhere, dyn Solver> {
 
 fn knowing(case: &Case) -> Known {
     let [first, second] = [seen(case, &AssurSolver), seen(case, &NewtonSolver)];
-    Known::of(case, [("assur", &first.trajectory), ("newton", &second.trajectory)], &[]).unwrap()
+    let sensitivity = vec![0.0; first.trajectory.channels().len()];
+    Known::of(case, [("assur", &first.trajectory), ("newton", &second.trajectory)], &sensitivity).unwrap()
 }
 
 /// The check whose name begins with `name`.
@@ -197,13 +199,19 @@ fn every_class_three_method_finds_a_wrong_group_and_stands_in_the_proof() {
     let right = methods::checks(case, &AssurSolver).unwrap();
     assert_eq!(right.len(), all.len());
     assert!(right.iter().all(|check| check.verdict.word() == "agree"), "{right:?}");
-    // Rates and forces of one link, or joint, of the group are changed by 1e-9 of themselves: ten times the largest
-    // bound.
+    // Angles, rates and forces of the group's links and joints are changed by 1e-9 of themselves: ten times the largest
+    // bound. The method of class change alone finds directions of its own.
     let [first, ..] = Triad::all(case)[0].links();
     assert_ne!(first, GROUND);
     let rates: Fault = |state, size| state.motions.iter_mut().skip(2).for_each(|motion| motion.omega *= 1.0 + size);
     let forces: Fault = |state, size| state.forces.iter_mut().for_each(|force| *force *= 1.0 + size);
-    for (fault, wrong) in [(rates, &all[..2]), (forces, &all[2..])] {
+    let rates_of_rates: Fault =
+        |state, size| state.motions.iter_mut().skip(2).for_each(|motion| motion.alpha *= 1.0 + size);
+    let angles: Fault = |state, size| {
+        state.motions.iter_mut().skip(2).for_each(|motion| motion.direction += size * turned(motion.direction));
+    };
+    let planted = [(rates, &all[..2]), (rates_of_rates, &all[..2]), (angles, &all[1..2]), (forces, &all[2..])];
+    for (fault, wrong) in planted {
         for (size, word) in [(1e-9, "disagree"), (1e-12, "agree")] {
             let found = methods::checks(case, &assur(fault, size)).unwrap();
             for name in wrong {
@@ -246,6 +254,10 @@ fn the_engine_s_own_checks_find_what_does_not_vanish_with_the_step() {
         ["closure of all joints", "driving moment"].map(|name| named(&true_one.checks, name).clone());
     // The engine's own runs bound the opening at a quarter more than its value.
     assert!(closure.bound <= 1.3 * closure.value && closure.bound < 2e-5, "{closure:?}");
+    // An opening is rounded as the places are that it lies between.
+    let place = true_one.channels.iter().find(|own| own.residual.channel.to_string() == "point.A.x_m").unwrap();
+    let rounding = closure.estimate.unwrap().0.rounding * scenario.case.mechanism.size();
+    assert!((rounding / place.parts.rounding - 1.0).abs() < 1e-12, "{rounding:e} {:?}", place.parts);
     assert!(powers.bound < 1e-9, "{powers:?}");
     let moved: Fault = |state, size| state.motions[3].origin.x += size;
     let torque: Fault = |state, size| state.torques[0] += size;
