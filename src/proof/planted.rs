@@ -3,6 +3,7 @@
 
 use std::path::Path;
 
+use super::figures::Measured;
 use super::judge::ChannelProof;
 use super::known::Known;
 use super::ledger::Ledger;
@@ -12,7 +13,7 @@ use super::settle::{self, Free};
 use super::{checks, engines, methods, oracle};
 use crate::compare::{Check, Verdict, magnitudes};
 use crate::proof::{EngineProof, Options, prove};
-use crate::scenario::Scenario;
+use crate::scenario::{Figure, Scenario};
 use analytic::witness::triad::Triad;
 use analytic::{AssurSolver, NewtonSolver};
 use linkage::case::{Case, Grid, Wanted};
@@ -305,6 +306,21 @@ fn regress_what_is_read_too_late_converges_at_another_order_and_disagrees() {
         }
         let right = engine_proven(&scenario, nothing, 0.0, true, free);
         assert_eq!(right.verdict.word(), "agree", "{name}");
+    }
+}
+
+/// A resistance opposes either sense, and weights are lifted as far as they fall.
+#[test]
+fn a_reversed_drive_has_the_reversed_steady_speed() {
+    let speeds = |rpm: &str| {
+        let text = text("crank_rocker").replace("speed_rpm = 130", rpm);
+        let scenario = parsed("crank_rocker", &text[..text.find("[[oracle]]").unwrap()]);
+        let mut measured = Measured::of(&scenario, &AssurSolver);
+        [Figure::SteadyCrankSpeed, Figure::SteadyMotorSpeed].map(|figure| measured.value(figure).unwrap())
+    };
+    let [forwards, backwards] = [speeds("speed_rpm = 130"), speeds("speed_rpm = -130")];
+    for (one, other) in forwards.into_iter().zip(backwards) {
+        assert!(one > 1.0 && (one + other).abs() < 1e-9 * one, "{one} {other}");
     }
 }
 
