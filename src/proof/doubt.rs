@@ -174,6 +174,12 @@ mod tests {
         ([out(Stage::Velocities), out(Stage::Positions)], doubt.too_coarse() * count)
     }
 
+    /// From rest to rest: the instants of rest, which no smaller step brings back.
+    #[test]
+    fn rates_at_the_ends_of_a_law_of_motion_are_left_out() {
+        assert_eq!(left_out("scenarios/cycloidal_start.toml"), ([2, 0], 0.0));
+    }
+
     /// A ramp of 0.25 s, every 20 ms: the rest it begins with, and the instants to either side of its jump.
     #[test]
     fn rates_beside_a_jump_of_the_acceleration_are_left_out() {

@@ -232,6 +232,19 @@ mod tests {
         assert_eq!(grown, [2.0, 4.0, 8.0, 8.0, 8.0]);
     }
 
+    /// Side 2 counts from mass centres: places on a link are as uncertain as the last digit of that distance.
+    #[test]
+    fn a_mass_centre_far_from_its_joints_is_a_lever_of_rounding() {
+        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/crank_rocker.toml");
+        let text = std::fs::read_to_string(&path).unwrap();
+        let of = |text: &str| lever(&Scenario::parse(text, &path).unwrap().case, &[0]);
+        let far = text[..text.find("[[oracle]]").unwrap()]
+            .replace("x_mm = 250, y_mm = 0 } # S3", "x_mm = 2500, y_mm = 0 } # S3");
+        assert_eq!(of(&text), 1.0);
+        // 2.5 m over the 0.347 m of the coupler.
+        assert!((7.0..7.5).contains(&of(&far)), "{}", of(&far));
+    }
+
     /// At a change point the condition of the pose has no bound, but that of the way through it has: an error of a
     /// millionth is found there.
     #[test]

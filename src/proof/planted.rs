@@ -3,12 +3,13 @@
 
 use std::path::Path;
 
+use super::entrants::{Sides, TRUE_SIDES};
 use super::figures::Measured;
 use super::judge::ChannelProof;
 use super::known::Known;
 use super::ledger::Ledger;
 use super::observe::{Observed, Watch, observe};
-use super::options::Chosen;
+use super::options::{Chosen, Reference};
 use super::settle::{self, Free};
 use super::{checks, engines, methods, oracle};
 use crate::compare::{Check, Verdict, magnitudes};
@@ -17,7 +18,7 @@ use crate::scenario::{Figure, Scenario};
 use analytic::witness::triad::Triad;
 use analytic::{AssurSolver, NewtonSolver};
 use linkage::case::{Case, Grid, Wanted};
-use linkage::engine::{Engine, Hook, Settings, Wrapped};
+use linkage::engine::{Engine, Hook, Route, Settings, Wrapped};
 use linkage::math::turned;
 use linkage::mechanism::GROUND;
 use linkage::solver::{Solver, State};
@@ -309,6 +310,38 @@ fn regress_what_is_read_too_late_converges_at_another_order_and_disagrees() {
     }
 }
 
+/// What integration leaves is each side's own, whichever is the reference.
+#[test]
+fn a_side_is_known_by_its_own_integration() {
+    let plain = text("crank_rocker_runup");
+    let short = format!("{}[grid]\nfrom_s = 0\nto_s = 0.1\nstep_s = 0.05\n", &plain[..plain.find("[grid]").unwrap()]);
+    let scenario = parsed("crank_rocker_runup", &short);
+    let known = |reference: Reference| {
+        let sides = Sides::of([&scenario; 2], TRUE_SIDES, reference, &mut Ledger::default()).unwrap();
+        [0, 1].map(|side| sides.on_course(&scenario.case, side, |course| Ok(course.crank(2).error)).unwrap())
+    };
+    let [by_first, by_second] = [known(Reference::Assur), known(Reference::Newton)];
+    assert!((by_first[0] / by_first[1] - 1.0).abs() > 1e-3, "{by_first:?}");
+    for side in 0..2 {
+        assert!((by_first[side] / by_second[side] - 1.0).abs() < 1e-4, "{by_first:?} {by_second:?}");
+    }
+}
+
+/// Where the sides differ, it is said since when, and by how many times what is allowed.
+#[test]
+fn what_the_sides_differ_by_is_told_in_times_of_what_is_allowed() {
+    let case = parsed("crank_rocker", &text("crank_rocker")).case;
+    let truth = seen(&case, &AssurSolver);
+    let place = truth.trajectory.channels().iter().position(|own| own.to_string() == "joint.O.fx_N").unwrap();
+    let largest = magnitudes(&truth.trajectory)[place];
+    let force: Fault = |state, size| state.forces[0].x += size;
+    let sides = [("assur", seen(&case, &assur(force, 3e-10 * largest))), ("newton", seen(&case, &NewtonSolver))];
+    let beyond = checks::beyond(&sides, &knowing(&case));
+    let own = beyond.iter().find(|own| own.channel.to_string() == "joint.O.fx_N").unwrap();
+    assert!((2.0..3.5).contains(&own.margin) && own.since.0 == case.grid.times[0], "{own:?}");
+    assert!(beyond.iter().all(|own| own.channel.kind.subject != linkage::trajectory::Subject::Point), "{beyond:?}");
+}
+
 /// A resistance opposes either sense, and weights are lifted as far as they fall.
 #[test]
 fn a_reversed_drive_has_the_reversed_steady_speed() {
@@ -321,6 +354,21 @@ fn a_reversed_drive_has_the_reversed_steady_speed() {
     let [forwards, backwards] = [speeds("speed_rpm = 130"), speeds("speed_rpm = -130")];
     for (one, other) in forwards.into_iter().zip(backwards) {
         assert!(one > 1.0 && (one + other).abs() < 1e-9 * one, "{one} {other}");
+    }
+}
+
+/// Channels and checks of extrapolated runs are bounded alike: see `Convergence::extrapolated`.
+#[test]
+fn every_bound_of_extrapolated_runs_has_the_wider_factor() {
+    let scenario = parsed("crank_rocker", &text("crank_rocker"));
+    for (extrapolated, least) in [(1, 3.0), (2, 10.0)] {
+        let options = Options::default().step(2e-3).sweeps(16).extrapolated(extrapolated).route(Route::Differences);
+        let proof = prove(&scenario, &options).unwrap();
+        let engine = &proof.engines[0];
+        let channels = engine.channels.iter().map(|own| own.convergence.safety);
+        let checks = engine.checks.iter().filter_map(|check| Some(check.estimate.as_ref()?.1.safety));
+        let all: Vec<f64> = channels.chain(checks).collect();
+        assert!(all.len() > 50 && all.iter().all(|safety| *safety >= least), "{extrapolated}: {all:?}");
     }
 }
 

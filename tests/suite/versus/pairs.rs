@@ -145,6 +145,20 @@ fn interpolation_has_its_error_in_the_bound() {
     assert_eq!(compared([held(&every(3)), held(&spoiled)], &how).unwrap().verdict.word(), "disagree");
 }
 
+/// Both count the crank angle alike, to its last digits.
+#[test]
+fn a_crank_angle_that_is_off_by_a_millionth_is_found() {
+    let scenario = scenario("crank_rocker");
+    let right = solved(&scenario);
+    let verdict = |more: f64| {
+        let cranks = right.cranks().iter().map(|crank| crank + more).collect();
+        let angle = right.named("link.rocker.angle_rad").unwrap().to_vec();
+        let raw = table(&[("t", right.times().to_vec()), ("crank_rad", cranks), ("link.rocker.angle_rad", angle)]);
+        against(&scenario, &raw, &How::default()).verdict.word()
+    };
+    assert_eq!([verdict(0.0), verdict(1e-6)], ["agree", "disagree"]);
+}
+
 /// A course of slope 2 drifts by twice what the instants of both tables leave open, at rows and between them.
 #[test]
 fn what_both_tables_leave_open_of_their_instants_is_in_the_bound() {
