@@ -212,6 +212,13 @@ mod tests {
     }
 
     #[test]
+    fn a_bound_is_the_sum_of_all_its_parts() {
+        let parts = Parts { discretisation: 1.0, iteration: 2.0, rounding: 4.0, reference: 8.0 };
+        assert_eq!((parts.sum(), parts.largest()), (15.0, Part::Reference));
+        assert_eq!(Parts { reference: 7.0, ..parts }.largest(), Part::Rounding);
+    }
+
+    #[test]
     fn every_basis_begins_with_its_origin() {
         let digits = Basis::Digits { origin: Origin::Recomputed, digits: 3, source: "a table".into() };
         let noted = Basis::Noted(Box::new(Basis::Wanted("so much")), "a note");

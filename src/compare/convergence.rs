@@ -197,6 +197,36 @@ mod tests {
     }
 
     #[test]
+    fn an_order_that_is_only_nearly_right_gets_the_larger_factor() {
+        let runs = [2.0f64, 1.0, 0.5].map(|h| [7.0 + 2e-3 * h.powf(1.9)]);
+        let found = Convergence::of(&runs[0], &runs[1], &runs[2], false, 2.0, 0.0);
+        assert!((found.observed - 1.9).abs() < 1e-9 && found.safety == 3.0, "{found:?}");
+        assert!((found.error - 2e-3).abs() < 1e-12, "{found:?}");
+    }
+
+    #[test]
+    fn where_the_finer_difference_is_rounding_the_coarser_one_tells() {
+        // A quarter of it is due at half the step, and a third of that besides.
+        let found = Convergence::of(&[3e-6], &[0.0], &[0.0], false, 2.0, 1e-12);
+        assert!(found.observed.is_nan() && (found.error - 1e-6).abs() < 1e-18, "{found:?}");
+    }
+
+    #[test]
+    fn whole_turns_of_any_run_are_no_difference() {
+        let [double, single, half] = runs(2, 1.0);
+        let plain = Convergence::of(&double, &single, &half, true, 2.0, 0.0);
+        for run in 0..3 {
+            let mut turned = [double.clone(), single.clone(), half.clone()];
+            turned[run].iter_mut().for_each(|angle| *angle += std::f64::consts::TAU);
+            let found = Convergence::of(&turned[0], &turned[1], &turned[2], true, 2.0, 0.0);
+            assert!(
+                (found.error - plain.error).abs() < 1e-12 && (found.observed - 2.0).abs() < 1e-9,
+                "{run}: {found:?}"
+            );
+        }
+    }
+
+    #[test]
     fn a_difference_that_vanishes_by_chance_is_not_taken_for_the_error() {
         // The errors 3 h^2 - 2.3 h^4: those of the single and of the half step, 0.70 and 0.61, are nearly alike.
         let [double, single, half] = [2.0f64, 1.0, 0.5].map(|h| [3.0 * h.powi(2) - 2.3 * h.powi(4)]);

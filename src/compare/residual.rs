@@ -311,6 +311,9 @@ mod tests {
         let all = trajectory(&[("joint.A.fx_N", vec![2e9, -1e9]), ("frame.fx_N", vec![3.0, 4.0])]);
         assert_eq!(magnitudes(&all), [2e9, 2e9]);
         assert_eq!(magnitudes_by(&all, &[0, 0], &|_, _| true), [2e9, 2e9]);
+        // Numbers of another set are no part of it, unless it feeds on them.
+        assert_eq!(magnitudes_by(&all, &[0, 1], &|from, to| from == to), [2e9, 4.0]);
+        assert_eq!(magnitudes_by(&all, &[0, 1], &|from, to| from <= to), [2e9, 2e9]);
         // What an error is measured by, however, is the channel's own range.
         assert_eq!(scales(&all), [1.5e9, 0.5]);
         // Unless that is rounding: the shaking force of a balanced mechanism.
@@ -379,6 +382,20 @@ mod tests {
         assert_eq!(found.len(), 1);
         assert_eq!((found[0].max, found[0].q75, found[0].scale), (0.5, 0.375, 1.0));
         assert_eq!(found[0].share(), 0.5);
+    }
+
+    #[test]
+    fn a_residual_has_its_place_and_its_means() {
+        let own = |values: [f64; 5]| {
+            let channels = vec![Channel::named("joint.A.fx_N").unwrap()];
+            let (times, cranks) = (vec![0.0, 0.1, 0.2, 0.3, 0.4], vec![5.0, 6.0, 7.0, 8.0, 9.0]);
+            Trajectory::new(times, cranks, channels, vec![values.to_vec()]).unwrap()
+        };
+        let found = &residuals(&own([0.0; 5]), &own([1.0, -7.0, 2.0, 3.0, 5.0])).unwrap()[0];
+        assert_eq!((found.max, found.worst_time, found.worst_crank), (7.0, 0.1, 6.0));
+        // Between the fourth and the fifth of 1, 2, 3, 5 and 7; 1 + 49 + 4 + 9 + 25 over five.
+        assert_eq!((found.q75, found.rms), (5.0, 17.6f64.sqrt()));
+        assert!((found.q99 - 6.92).abs() < 1e-12, "{}", found.q99);
     }
 
     #[test]

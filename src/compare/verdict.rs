@@ -344,6 +344,19 @@ mod tests {
         let (reason, advice) = told(Parts { discretisation: 0.1, iteration: 0.1, rounding: 0.5, reference: 0.0 });
         assert!(reason.ends_with("most of it is rounding"), "{reason}");
         assert_eq!(advice, [Advice::LargerStep { to: None }, Advice::DoublePrecision]);
+        let (reason, advice) = told(Parts { discretisation: 0.1, iteration: 0.2, rounding: 0.3, reference: 0.7 });
+        assert!(reason.ends_with("the reference's own") && advice == [Advice::ShortenGrid], "{reason}");
+        let (reason, _) = told(Parts { iteration: f64::INFINITY, ..Parts::default() });
+        assert!(reason.starts_with("the sweeps have hardly begun to converge"), "{reason}");
+    }
+
+    #[test]
+    fn a_check_without_a_number_uses_more_of_its_bound_than_any_other() {
+        let used = |value: f64, bound: f64| {
+            Check::new("f", value, Tolerance { bound, basis: Basis::Wanted("test") }, "").used()
+        };
+        assert_eq!([used(1.0, 4.0), used(0.0, 0.0), used(3.0, 0.0)], [0.25, 0.0, f64::INFINITY]);
+        assert_eq!([used(f64::NAN, 1.0), used(1.0, f64::NAN)], [f64::INFINITY; 2]);
     }
 
     #[test]

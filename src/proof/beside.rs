@@ -171,3 +171,31 @@ fn deviations(truth: &Trajectory, own: &Trajectory, known: &Known) -> Result<Vec
     };
     Ok(errors.iter().enumerate().map(of).collect())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenario::Scenario;
+    use analytic::AssurSolver;
+    use linkage::case::Grid;
+
+    /// At one instant between others, in every channel.
+    #[test]
+    fn numbers_from_outside_that_are_off_at_one_instant_are_seen() {
+        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/crank_rocker.toml");
+        let case = Scenario::load(&path).unwrap().case;
+        let cranks = [0.0, 1.0, 2.0, 3.0].to_vec();
+        let case = case.on(Grid::of_cranks(case.crank(), cranks)).unwrap();
+        let right = AssurSolver.solve(&case).unwrap();
+        let moved = |(_, values): (&Channel, &[f64])| [values[0], values[1], values[2] + 1e-3, values[3]].to_vec();
+        let (times, cranks) = (right.times().to_vec(), right.cranks().to_vec());
+        let truth =
+            Trajectory::new(times, cranks, right.channels().to_vec(), right.iter().map(moved).collect()).unwrap();
+        let found = sides(&case, Some(&truth)).unwrap();
+        assert_eq!(found.silent, 2 * truth.channels().len());
+        for (own, scale) in found.sides.iter().flat_map(|side| side.deviations.iter().zip(scales(&truth))) {
+            assert!((own.error * scale / 1e-3 - 1.0).abs() < 1e-6, "{own:?}");
+            assert!((own.used * own.bound / own.error - 1.0).abs() < 1e-6 && own.used > 1e3, "{own:?}");
+        }
+    }
+}

@@ -143,3 +143,46 @@ fn reversals(times: &[f64], senses: &Senses) -> Vec<f64> {
     }
     found
 }
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::compare::OtherSweeps;
+    use crate::proof::observe::{Watch, observe};
+    use crate::scenario::Scenario;
+    use analytic::AssurSolver;
+
+    /// What is left out of velocities and of positions, and what a smaller step would bring back, at steps of 1.1 ms: they
+    /// reach 17.6 ms far.
+    fn left_out(file: &str) -> ([usize; 2], f64) {
+        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join(file);
+        let case = Scenario::load(&path).unwrap().case;
+        let own = Arc::new(observe(&case, &AssurSolver, Watch::Side, &mut |_| {}).unwrap_or_else(|stopped| {
+            panic!("{}", stopped.error);
+        }));
+        let runs = Runs {
+            resolutions: [0; 3].map(|_| Arc::clone(&own)),
+            other_sweeps: OtherSweeps { runs: [None, None], factor: 1.0, growth: 0.0 },
+        };
+        let settings =
+            Settings { resolution: 1.1e-3, sweeps: 16, substeps: 1, route: Route::Differences, extrapolated: 0 };
+        let doubt = Doubt::of(&case, (&own.senses, &own.singular), &runs, settings);
+        let out = |stage: Stage| doubt.keeps(stage).iter().filter(|kept| !**kept).count();
+        let count = case.grid.times.len() as f64;
+        ([out(Stage::Velocities), out(Stage::Positions)], doubt.too_coarse() * count)
+    }
+
+    /// From rest to rest: the instants of rest, which no smaller step brings back.
+    #[test]
+    fn rates_at_the_ends_of_a_law_of_motion_are_left_out() {
+        assert_eq!(left_out("scenarios/cycloidal_start.toml"), ([2, 0], 0.0));
+    }
+
+    /// A ramp of 0.25 s, every 20 ms: the rest it begins with, and the instants to either side of its jump.
+    #[test]
+    fn rates_beside_a_jump_of_the_acceleration_are_left_out() {
+        assert_eq!(left_out("tests/outside/scenarios/ramped_arm.toml"), ([3, 0], 0.0));
+    }
+}

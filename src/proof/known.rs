@@ -204,6 +204,7 @@ mod tests {
     use super::*;
     use crate::scenario::Scenario;
     use analytic::{AssurSolver, NewtonSolver};
+    use linkage::case::{Grid, Wanted};
 
     /// What a motion under forces has lost once, it does not get back; a prescribed one is as well known as its pose.
     #[test]
@@ -222,5 +223,46 @@ mod tests {
         };
         assert!(falls("crank_rocker.toml"));
         assert!(!falls("crank_rocker_runup.toml"));
+    }
+
+    /// Each derivative, and each solution for forces, is divided by the determinant of the pose once more.
+    #[test]
+    fn rounding_grows_with_a_power_of_the_condition() {
+        let grown = Stage::ALL.map(|stage| of_condition(stage, 2e3) / of_condition(stage, 1e3));
+        assert_eq!(grown, [2.0, 4.0, 8.0, 8.0, 8.0]);
+    }
+
+    /// Side 2 counts from mass centres: places on a link are as uncertain as the last digit of that distance.
+    #[test]
+    fn a_mass_centre_far_from_its_joints_is_a_lever_of_rounding() {
+        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/crank_rocker.toml");
+        let text = std::fs::read_to_string(&path).unwrap();
+        let of = |text: &str| lever(&Scenario::parse(text, &path).unwrap().case, &[0]);
+        let far = text[..text.find("[[oracle]]").unwrap()]
+            .replace("x_mm = 250, y_mm = 0 } # S3", "x_mm = 2500, y_mm = 0 } # S3");
+        assert_eq!(of(&text), 1.0);
+        // 2.5 m over the 0.347 m of the coupler.
+        assert!((7.0..7.5).contains(&of(&far)), "{}", of(&far));
+    }
+
+    /// At a change point the condition of the pose has no bound, but that of the way through it has: an error of a
+    /// millionth is found there.
+    #[test]
+    fn numbers_at_a_change_point_are_known_to_a_millionth() {
+        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+        let path = path.join("tests/outside/scenarios/parallel_cranks_passing.toml");
+        let case = Scenario::load(&path).unwrap().case;
+        let cranks = [80.0, 120.0, 180.0, 240.0].map(f64::to_radians).to_vec();
+        let motion = Wanted::of(&[Stage::Positions, Stage::Velocities, Stage::Accelerations]);
+        let case = case.on(Grid::of_cranks(case.crank(), cranks)).unwrap().wanting(motion);
+        let sides: [&dyn Solver; 2] = [&AssurSolver, &NewtonSolver];
+        let [own, other] = sides.map(|side| side.solve(&case).unwrap());
+        let mut known = Known::of(&case, [("assur", &own), ("newton", &other)], &[]).unwrap();
+        known.measure(&case, &AssurSolver).unwrap();
+        for (index, channel) in own.channels().iter().enumerate() {
+            let apart = known.apart(channel.kind.stage, index, 2);
+            assert!(apart < 1e-6, "{channel}: {apart:e}");
+        }
+        assert!(known.conditions[2].iter().any(|condition| *condition > 1.0), "{:?}", known.conditions);
     }
 }

@@ -287,3 +287,22 @@ fn family(oracle: &Oracle, wrong: bool, side: &str) -> String {
     let known = if wrong { ", known to be wrong" } else { "" };
     format!("{} {}{known} ({side})", origin(oracle).word(), oracle.name)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_not_as_expected_comes_before_what_uses_most() {
+        let check = |value: f64, verdict: Verdict| {
+            let tolerance = Tolerance { bound: 1.0, basis: Basis::Wanted("test") };
+            Check { verdict, ..Check::new("f", value, tolerance, "") }
+        };
+        let expected = |value: f64| check(value, Verdict::Expected { finding: "why".into(), off: 1.0 });
+        let wrong = check(0.1, Verdict::Disagree { place: String::new() });
+        let worst = |all: Vec<Check>| worst_of(all.into_iter()).map(|check| check.value);
+        assert_eq!(worst(vec![expected(0.9), wrong, expected(0.95)]), Some(0.1));
+        assert_eq!(worst(vec![expected(0.5), expected(0.9), expected(0.7)]), Some(0.9));
+        assert_eq!(worst(Vec::new()), None);
+    }
+}

@@ -3,20 +3,23 @@
 
 use std::path::Path;
 
+use super::entrants::{Sides, TRUE_SIDES};
+use super::figures::Measured;
 use super::judge::ChannelProof;
 use super::known::Known;
 use super::ledger::Ledger;
 use super::observe::{Observed, Watch, observe};
-use super::options::Chosen;
+use super::options::{Chosen, Reference};
 use super::settle::{self, Free};
 use super::{checks, engines, methods, oracle};
 use crate::compare::{Check, Verdict, magnitudes};
 use crate::proof::{EngineProof, Options, prove};
-use crate::scenario::Scenario;
+use crate::scenario::{Figure, Scenario};
 use analytic::witness::triad::Triad;
 use analytic::{AssurSolver, NewtonSolver};
 use linkage::case::{Case, Grid, Wanted};
-use linkage::engine::{Engine, Hook, Settings, Wrapped};
+use linkage::engine::{Engine, Hook, Route, Settings, Wrapped};
+use linkage::math::turned;
 use linkage::mechanism::GROUND;
 use linkage::solver::{Solver, State};
 use linkage::trajectory::Channel;
@@ -70,7 +73,8 @@ fn assur(fault: Fault, size: f64) -> Wrapped<Everywhere, dyn Solver> {
 
 fn knowing(case: &Case) -> Known {
     let [first, second] = [seen(case, &AssurSolver), seen(case, &NewtonSolver)];
-    Known::of(case, [("assur", &first.trajectory), ("newton", &second.trajectory)], &[]).unwrap()
+    let sensitivity = vec![0.0; first.trajectory.channels().len()];
+    Known::of(case, [("assur", &first.trajectory), ("newton", &second.trajectory)], &sensitivity).unwrap()
 }
 
 /// The check whose name begins with `name`.
@@ -197,13 +201,19 @@ fn every_class_three_method_finds_a_wrong_group_and_stands_in_the_proof() {
     let right = methods::checks(case, &AssurSolver).unwrap();
     assert_eq!(right.len(), all.len());
     assert!(right.iter().all(|check| check.verdict.word() == "agree"), "{right:?}");
-    // Rates and forces of one link, or joint, of the group are changed by 1e-9 of themselves: ten times the largest
-    // bound.
+    // Angles, rates and forces of the group's links and joints are changed by 1e-9 of themselves: ten times the largest
+    // bound. The method of class change alone finds directions of its own.
     let [first, ..] = Triad::all(case)[0].links();
     assert_ne!(first, GROUND);
     let rates: Fault = |state, size| state.motions.iter_mut().skip(2).for_each(|motion| motion.omega *= 1.0 + size);
     let forces: Fault = |state, size| state.forces.iter_mut().for_each(|force| *force *= 1.0 + size);
-    for (fault, wrong) in [(rates, &all[..2]), (forces, &all[2..])] {
+    let rates_of_rates: Fault =
+        |state, size| state.motions.iter_mut().skip(2).for_each(|motion| motion.alpha *= 1.0 + size);
+    let angles: Fault = |state, size| {
+        state.motions.iter_mut().skip(2).for_each(|motion| motion.direction += size * turned(motion.direction));
+    };
+    let planted = [(rates, &all[..2]), (rates_of_rates, &all[..2]), (angles, &all[1..2]), (forces, &all[2..])];
+    for (fault, wrong) in planted {
         for (size, word) in [(1e-9, "disagree"), (1e-12, "agree")] {
             let found = methods::checks(case, &assur(fault, size)).unwrap();
             for name in wrong {
@@ -246,6 +256,10 @@ fn the_engine_s_own_checks_find_what_does_not_vanish_with_the_step() {
         ["closure of all joints", "driving moment"].map(|name| named(&true_one.checks, name).clone());
     // The engine's own runs bound the opening at a quarter more than its value.
     assert!(closure.bound <= 1.3 * closure.value && closure.bound < 2e-5, "{closure:?}");
+    // An opening is rounded as the places are that it lies between.
+    let place = true_one.channels.iter().find(|own| own.residual.channel.to_string() == "point.A.x_m").unwrap();
+    let rounding = closure.estimate.unwrap().0.rounding * scenario.case.mechanism.size();
+    assert!((rounding / place.parts.rounding - 1.0).abs() < 1e-12, "{rounding:e} {:?}", place.parts);
     assert!(powers.bound < 1e-9, "{powers:?}");
     let moved: Fault = |state, size| state.motions[3].origin.x += size;
     let torque: Fault = |state, size| state.torques[0] += size;
@@ -293,6 +307,68 @@ fn regress_what_is_read_too_late_converges_at_another_order_and_disagrees() {
         }
         let right = engine_proven(&scenario, nothing, 0.0, true, free);
         assert_eq!(right.verdict.word(), "agree", "{name}");
+    }
+}
+
+/// What integration leaves is each side's own, whichever is the reference.
+#[test]
+fn a_side_is_known_by_its_own_integration() {
+    let plain = text("crank_rocker_runup");
+    let short = format!("{}[grid]\nfrom_s = 0\nto_s = 0.1\nstep_s = 0.05\n", &plain[..plain.find("[grid]").unwrap()]);
+    let scenario = parsed("crank_rocker_runup", &short);
+    let known = |reference: Reference| {
+        let sides = Sides::of([&scenario; 2], TRUE_SIDES, reference, &mut Ledger::default()).unwrap();
+        [0, 1].map(|side| sides.on_course(&scenario.case, side, |course| Ok(course.crank(2).error)).unwrap())
+    };
+    let [by_first, by_second] = [known(Reference::Assur), known(Reference::Newton)];
+    assert!((by_first[0] / by_first[1] - 1.0).abs() > 1e-3, "{by_first:?}");
+    for side in 0..2 {
+        assert!((by_first[side] / by_second[side] - 1.0).abs() < 1e-4, "{by_first:?} {by_second:?}");
+    }
+}
+
+/// Where the sides differ, it is said since when, and by how many times what is allowed.
+#[test]
+fn what_the_sides_differ_by_is_told_in_times_of_what_is_allowed() {
+    let case = parsed("crank_rocker", &text("crank_rocker")).case;
+    let truth = seen(&case, &AssurSolver);
+    let place = truth.trajectory.channels().iter().position(|own| own.to_string() == "joint.O.fx_N").unwrap();
+    let largest = magnitudes(&truth.trajectory)[place];
+    let force: Fault = |state, size| state.forces[0].x += size;
+    let sides = [("assur", seen(&case, &assur(force, 3e-10 * largest))), ("newton", seen(&case, &NewtonSolver))];
+    let beyond = checks::beyond(&sides, &knowing(&case));
+    let own = beyond.iter().find(|own| own.channel.to_string() == "joint.O.fx_N").unwrap();
+    assert!((2.0..3.5).contains(&own.margin) && own.since.0 == case.grid.times[0], "{own:?}");
+    assert!(beyond.iter().all(|own| own.channel.kind.subject != linkage::trajectory::Subject::Point), "{beyond:?}");
+}
+
+/// A resistance opposes either sense, and weights are lifted as far as they fall.
+#[test]
+fn a_reversed_drive_has_the_reversed_steady_speed() {
+    let speeds = |rpm: &str| {
+        let text = text("crank_rocker").replace("speed_rpm = 130", rpm);
+        let scenario = parsed("crank_rocker", &text[..text.find("[[oracle]]").unwrap()]);
+        let mut measured = Measured::of(&scenario, &AssurSolver);
+        [Figure::SteadyCrankSpeed, Figure::SteadyMotorSpeed].map(|figure| measured.value(figure).unwrap())
+    };
+    let [forwards, backwards] = [speeds("speed_rpm = 130"), speeds("speed_rpm = -130")];
+    for (one, other) in forwards.into_iter().zip(backwards) {
+        assert!(one > 1.0 && (one + other).abs() < 1e-9 * one, "{one} {other}");
+    }
+}
+
+/// Channels and checks of extrapolated runs are bounded alike: see `Convergence::extrapolated`.
+#[test]
+fn every_bound_of_extrapolated_runs_has_the_wider_factor() {
+    let scenario = parsed("crank_rocker", &text("crank_rocker"));
+    for (extrapolated, least) in [(1, 3.0), (2, 10.0)] {
+        let options = Options::default().step(2e-3).sweeps(16).extrapolated(extrapolated).route(Route::Differences);
+        let proof = prove(&scenario, &options).unwrap();
+        let engine = &proof.engines[0];
+        let channels = engine.channels.iter().map(|own| own.convergence.safety);
+        let checks = engine.checks.iter().filter_map(|check| Some(check.estimate.as_ref()?.1.safety));
+        let all: Vec<f64> = channels.chain(checks).collect();
+        assert!(all.len() > 50 && all.iter().all(|safety| *safety >= least), "{extrapolated}: {all:?}");
     }
 }
 

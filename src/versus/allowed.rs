@@ -101,3 +101,41 @@ fn is_called(claim: &Claim, word: &str) -> bool {
     };
     claim.text == word || claim.channels.iter().all(|(_, own)| of(own))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use linkage::trajectory::Channel;
+
+    fn how(allowed: &[(Option<&str>, Size)]) -> How {
+        let of = |(of, size): &(Option<&str>, Size)| Allowed { of: of.map(Into::into), size: *size };
+        How { allowed: allowed.iter().map(of).collect(), ..How::default() }
+    }
+
+    /// Of a channel with a scale of 4, in its unit; of several allowances for one the last of each kind counts.
+    #[test]
+    fn what_is_allowed_is_the_larger_of_what_is_said() {
+        let channel = Channel::named("point.B.x_m").unwrap();
+        let claim = Claim::of_channels("point.B.x_mm", &[channel]).unwrap();
+        let (absolute, relative, of_value) = (Size::Absolute, Size::Relative, Size::OfValue);
+        let allows = |fixed: f64, of_value: f64| Some(Allowance { fixed, of_value });
+        for (said, allowed) in [
+            (vec![(None, absolute(3.0))], allows(3.0, 0.0)),
+            (vec![(None, relative(0.5))], allows(2.0, 0.0)),
+            (vec![(None, of_value(0.125))], allows(0.0, 0.125)),
+            (vec![(None, absolute(3.0)), (Some("point.B"), relative(0.5))], allows(3.0, 0.0)),
+            (vec![(Some("positions"), absolute(1.0)), (None, relative(0.5))], allows(2.0, 0.0)),
+            (vec![(None, absolute(9.0)), (Some("point.B.x_m"), absolute(1.0))], allows(1.0, 0.0)),
+            (vec![(Some("point.B.positions"), of_value(0.25)), (None, absolute(1.0))], allows(1.0, 0.25)),
+            (vec![(Some("point.A"), absolute(3.0)), (Some("velocities"), relative(0.5))], None),
+            (vec![], None),
+        ] {
+            assert_eq!(how(&said).allows(&claim, 4.0), allowed, "{said:?}");
+        }
+        // Of the crank in degrees, of its range, and of nothing that is said of a channel alone.
+        let crank = |said: &[(Option<&str>, Size)]| how(said).allows_crank(4.0).map(|own| own.fixed);
+        assert_eq!(crank(&[(Some("crank"), absolute(180.0))]), Some(std::f64::consts::PI));
+        assert_eq!(crank(&[(None, relative(0.5))]), Some(2.0));
+        assert_eq!(crank(&[(Some("point.B"), absolute(1.0))]), None);
+    }
+}

@@ -87,6 +87,37 @@ fn several_engines_have_their_own_forces_each() {
     }
 }
 
+/// Impulses of the first five steps at double the step still hold what sweeps have not found; all later ones count.
+#[test]
+fn only_the_beginning_of_a_free_motion_is_left_out_of_the_forces_exerted() {
+    let scenario = shipped("double_pendulum.toml");
+    let proof = proven(&scenario, &Options::default());
+    let own = own(&proof);
+    let begin = 10.0 * own.info.settings.resolution;
+    let early = scenario.case.grid.times.iter().filter(|time| **time <= begin).count();
+    assert!(early > 0 && early < scenario.case.grid.times.len() / 2, "{early}");
+    let left_out: Vec<usize> = own.channels.iter().map(|channel| channel.left_out).collect();
+    assert_eq!(left_out, vec![early; own.channels.len()]);
+}
+
+/// In single precision second differences over the first steps are rounding. Later accelerations are judged, and in
+/// double precision all of them.
+#[cfg(feature = "f32")]
+#[test]
+fn only_the_beginning_of_a_free_motion_is_left_out_of_rounded_accelerations() {
+    let scenario = shipped("double_pendulum.toml");
+    let left_out = |engine: EngineName| -> Vec<usize> {
+        let proof = proven(&scenario, &Options::default().engine(engine).step(2e-3).sweeps(1).extrapolated(0));
+        let channels = proof.engine().channels.iter();
+        let own = channels.filter(|own| own.residual.channel.kind.stage == Stage::Accelerations);
+        let mut all: Vec<usize> = own.map(|own| own.left_out).collect();
+        all.dedup();
+        all
+    };
+    let early = scenario.case.grid.times.iter().filter(|time| **time <= 10.0 * 2e-3).count();
+    assert_eq!([left_out(EngineName::Rapier), left_out(EngineName::RapierF32)], [vec![0], vec![early]]);
+}
+
 /// Largest error of the native reactions and of the moment on the crank at the given times, over the largest force and
 /// moment.
 fn native_errors(name: &str, build: Build, step: f64, times: &[f64]) -> [f64; 2] {

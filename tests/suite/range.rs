@@ -8,7 +8,7 @@ use crate::common::random;
 use crate::common::shipped;
 use crate::common::spec::{Dyad, Pin, Spec, four_bar};
 use crate::common::{assert_within, four_link};
-use analytic::range::{Extent, FourBarType, Kind, Range, Singularity, explained};
+use analytic::range::{Extent, FourBar, FourBarType, Kind, Range, Singularity, explained};
 use analytic::{AssurSolver, NewtonSolver, PoseSolver, all, modes};
 use linkage::ErrorKind;
 use linkage::case::{Case, Grid};
@@ -412,4 +412,12 @@ fn loss_of_digits_near_a_dead_point_is_that_of_the_condition_number() {
         worst = [0, 1, 2].map(|stage| worst[stage].larger(of_angle[stage]));
     }
     worst.iter().for_each(|&factor| assert_within!(factor, 13.0, "{worst:?}"));
+}
+
+/// Sums that differ by a millionth are no change point: the shortest link, the frame, is turned round by all others.
+#[test]
+fn nearly_equal_sums_of_lengths_are_told_from_equal_ones() {
+    let of = |more: f64| FourBar::of_lengths([1.0, 2.0, 3.0, 2.0 + more]).of_type;
+    let wanted = [FourBarType::ChangePoint, FourBarType::DoubleCrank, FourBarType::TripleRocker];
+    assert_eq!([of(0.0), of(1e-6), of(-1e-6)], wanted);
 }

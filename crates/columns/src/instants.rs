@@ -91,5 +91,24 @@ mod tests {
         }
         assert!(chosen(&of(&["70".into()]), true) && chosen(&of(&list(4, &|row| format!("{}", 15.0 * row))), true));
         assert!(!chosen(&of(&["0".into(), "2".into(), "3".into(), "5".into()]), true));
+        // Parts of degrees say no more than parts of seconds.
+        assert!(!chosen(&of(&["0".into(), "2.7".into(), "5.4".into()]), true));
+    }
+
+    /// Rows in descending order; an angle goes on by 0.2 where it jumps by a turn.
+    #[test]
+    fn a_column_drifts_by_its_own_slope() {
+        let values: Vec<Rounded> = [0.5, 0.3, 6.3, 6.1].map(Rounded::exact).to_vec();
+        let (at, slack, order) = ([3.0, 2.0, 1.0, 0.0], [0.01, 0.02, 0.0, 0.03], [3, 2, 1, 0]);
+        let of = |turn: Option<f64>| drift(&values, &at, &slack, &order, turn);
+        let near = |own: &[f64], slopes: [f64; 4]| {
+            own.iter()
+                .zip(slopes)
+                .zip(slack)
+                .all(|((own, slope), slack)| (slope * slack * (1.0 - 1e-9)..=1.5 * slope * slack).contains(own))
+        };
+        assert!(near(&of(Some(6.2)), [0.2; 4]), "{:?}", of(Some(6.2)));
+        // Without a turn the jump is a slope.
+        assert!(near(&of(None), [0.2, 6.0, 6.0, 0.2]), "{:?}", of(None));
     }
 }

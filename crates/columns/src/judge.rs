@@ -132,6 +132,36 @@ mod tests {
         judge(&Beside { values: [first, second], places, drift: &[], turn: None, allowance, measure })
     }
 
+    /// Rows in descending order of their instants: by time where there is one, else by crank angle.
+    #[test]
+    fn every_number_of_a_judgement_is_that_of_its_row() {
+        let of = |value: f64, error: f64| Rounded { value, error };
+        let first = [of(10.0, 0.1), of(20.0, 0.0), of(30.0, 0.0), MISSING, of(40.0, 0.0)];
+        let second = [of(10.0, 0.2), of(21.0, 0.0), of(26.0, 0.0), of(7.0, 0.0), UNDEFINED];
+        let (at, nowhere, drift) = ([5.0, 4.0, 3.0, 2.0, 1.0], [f64::NAN; 5], [0.5, 0.0, 0.0, 0.0, 0.0]);
+        for places in [[&at[..], &nowhere], [&nowhere, &at]] {
+            let allowance = Allowance { fixed: 0.25, of_value: 0.1 };
+            let both =
+                Beside { values: [&first, &second], places, drift: &drift, turn: None, allowance, measure: (0, true) };
+            let found = judge(&both);
+            // Differences 0, 1, -4 and none; bounds 0.8 + 1, 2, 3 and 4.
+            assert_eq!((found.judged, found.missing, found.widest), (4, 1, 0.1 + 0.2 + 0.5));
+            assert_eq!(found.rms, (17.0f64 / 3.0).sqrt());
+            let largest = found.largest.unwrap();
+            assert_eq!((largest.row, largest.difference, largest.bound), (2, -4.0, 3.0));
+            // What is no number uses most, and is beyond its bound at the earliest instant.
+            assert_eq!([found.worst, found.since].map(|own| own.unwrap().row), [4, 4]);
+            // By the second party, whose numbers are other ones.
+            let by_other = judge(&Beside { measure: (1, false), ..both });
+            assert_eq!(by_other.largest.unwrap().bound, 0.1 * 26.0);
+            // An angle of 4 turned by 5 is one of -1.
+            let turned = judge(&Beside { turn: Some(5.0), ..both });
+            assert_eq!((turned.largest.unwrap().row, turned.largest.unwrap().difference.abs()), (1, 1.0));
+        }
+        let worst = judged(&[of(1.0, 1.0), of(1.0, 0.5), of(1.0, 1.0)], &[Rounded::exact(1.4); 3], (0, true));
+        assert_eq!((worst.worst.unwrap().row, worst.since), (1, None));
+    }
+
     #[test]
     fn what_was_computed_and_is_no_number_differs_and_what_is_missing_is_counted() {
         let right = [Rounded::exact(1.0); 4];

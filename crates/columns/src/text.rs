@@ -187,6 +187,7 @@ mod tests {
     fn what_is_wrong_is_told_with_its_line() {
         for (text, line, part) in [
             ("t,x\n0,1\n1,2,3\n", 3, "3 cells"),
+            ("t,x\n0,1\n1\n2,3\n", 3, "1 cells"),
             ("t,x\n0,1\n1,much\n", 3, "\"much\""),
             ("# nothing\n", 1, "empty"),
             ("# first\nt,r,r\n0,1,2\n", 2, "columns 2 and 3"),

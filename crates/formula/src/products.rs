@@ -156,6 +156,10 @@ mod tests {
             (found[0].powers.as_slice(), found[0].dimension),
             ([(0, 1), (1, 2)].as_slice(), Some([1.0, 2.0, 0.0]))
         );
+        for size in [0.0045 * (1.0 + 0.9e-6), 0.0045 * (1.0 - 0.9e-6)] {
+            assert_eq!(products.near(size, 1e-6)[0].powers, [(0, 1), (1, 2)], "{size}");
+            assert!(products.near(size, 1e-7).is_empty(), "{size}");
+        }
         // m, 1/m, l, 1/l and so on, with the numbers before them: of the first power of a mass alone there are few.
         assert_eq!(products.alike(2, Some([1.0, 0.0, 0.0])), 1);
         assert_eq!(products.alike(3, Some([1.0, 0.0, 0.0])), 3);

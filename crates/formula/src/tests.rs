@@ -277,6 +277,43 @@ fn cancellation_is_told() {
     assert!(at("sqrt(x)", Rounded { value: -1.0, error: 1e-15 }, x).value.is_nan());
 }
 
+/// Errors that are no small ones: the bound holds both ends of what is known of the arguments, whatever bends between.
+#[test]
+fn a_bound_holds_the_ends_of_wide_arguments() {
+    let wide: [(&str, [f64; 2], [f64; 2], fn(f64, f64) -> f64); 8] = [
+        ("ln(x)", [1.0, 0.5], [0.0, 0.0], |x, _| x.ln()),
+        ("sqrt(x)", [1.0, 0.9], [0.0, 0.0], |x, _| x.sqrt()),
+        ("exp(x)", [1.0, 2.0], [0.0, 0.0], |x, _| x.exp()),
+        ("x*y", [1.0, 0.5], [1.0, 0.5], |x, y| x * y),
+        ("x/y", [1.0, 0.5], [1.0, 0.5], |x, y| x / y),
+        ("x - y", [1.0, 0.5], [3.0, 0.5], |x, y| x - y),
+        ("x^(-2)", [2.0, 1.0], [0.0, 0.0], |x, _| x.powi(-2)),
+        ("x^y", [2.0, 0.5], [0.5, 0.25], f64::powf),
+    ];
+    for (text, [x, dx], [y, dy], f) in wide {
+        let bound = at(text, Rounded { value: x, error: dx }, Rounded { value: y, error: dy }).error;
+        for (x_end, y_end) in [(x - dx, y - dy), (x - dx, y + dy), (x + dx, y - dy), (x + dx, y + dy)] {
+            let change = (f(x_end, y_end) - f(x, y)).abs();
+            assert!(change <= bound * (1.0 + 1e-12), "{text}: {change} beyond {bound}");
+        }
+    }
+}
+
+/// Powers with any exponent are known to a few units in the last place, and pass an error on by their slope.
+#[test]
+fn a_power_is_known_as_well_as_its_base_and_exponent() {
+    let known = |x: Rounded, y: Rounded| at("x^y", x, y);
+    let exact = Rounded::exact;
+    for (x, y) in [(2.0, 0.5), (1.0001, 2000.0), (0.3, -1.7), (-1.001, 1025.0)] {
+        let found = known(exact(x), exact(y));
+        assert!(found.error <= 1e-14 * found.value.abs(), "{x} {y}: {found:?}");
+    }
+    for (x, y) in [(2.0, 0.5), (-1.001, 1025.0)] {
+        let found = known(Rounded { value: x, error: 1e-6 }, exact(y));
+        assert_relative_eq!(found.error, (found.value * y / x).abs() * 1e-6, max_relative = 2e-3);
+    }
+}
+
 /// What two formulas share is evaluated once.
 #[test]
 fn common_parts_are_evaluated_once() {
@@ -396,6 +433,8 @@ fn a_kink_has_no_derivative() {
         let [value, slope, _] = with_derivatives(&Tree::parse(text).unwrap(), 0.0, 1.0);
         assert_eq!((value.value, slope.is_undefined()), (0.0, true), "{text}");
     }
+    // Nor has a number that is undefined, though nothing changes in it.
+    assert!(with_derivatives(&Tree::parse("1/0").unwrap(), 0.5, 1.0).iter().all(|own| own.is_undefined()));
     let slope = with_derivatives(&Tree::parse("abs(x)").unwrap(), -0.5, 1.0)[1];
     assert!(slope.value == -1.0 && slope.error < 1e-15, "{slope:?}");
 }

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use linkproof::claims::Outcome;
 use linkproof::scenario::Scenario;
+use linkproof::{Options, prove};
 
 use super::{judged, load, rewritten};
 
@@ -65,4 +66,40 @@ fn a_formula_that_loses_its_digits_at_most_instants_proves_nothing() {
         assert!(matches!(&own, Outcome::Open { reason, .. } if reason.contains("less than six digits")), "{own:?}");
     }
     assert!(with(340.0).iter().all(|own| *own == Outcome::Right), "{:?}", with(340.0));
+}
+
+/// A wave that vanishes at every instant of the grid hides in the value. Its rate shows it; where a formula is claimed
+/// for one instant only, its rate says nothing.
+#[test]
+fn what_is_right_at_the_instants_alone_is_found_by_its_rate() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/formulas/slider_crank_centric.toml");
+    let scenario = load(&path);
+    let orders = |scenario: &Scenario| -> Vec<Vec<(usize, bool)>> {
+        let sides = judged(scenario).judgement.sides;
+        let of = |all: &Vec<Vec<linkproof::claims::Judged>>| {
+            all.iter().flatten().map(|own| (own.order, own.outcome() == Outcome::Right)).collect()
+        };
+        sides.iter().map(|(_, all)| of(all)).collect()
+    };
+    // The grid has steps of 4 deg, where this wave and its curvature are zero.
+    let wave = rewritten(&scenario, "x", "r*cos(phi) + sqrt(l^2 - r^2*sin(phi)^2) + 1e-3*sin(45*phi)");
+    assert_eq!(orders(&wave), vec![vec![(0, true), (1, false), (2, true)]; 2]);
+    let mut instant = rewritten(&scenario, "x", "r*cos(pi/3) + sqrt(l^2 - r^2*sin(pi/3)^2)");
+    for own in instant.formulas.list.iter_mut().filter(|own| own.name == "x") {
+        own.valid = [Some(60f64.to_radians()); 2];
+    }
+    assert_eq!(orders(&instant), vec![vec![(0, true)]; 2]);
+}
+
+/// The check of a wrong formula disagrees, and its number is the largest difference itself.
+#[test]
+fn the_check_of_a_formula_has_its_difference() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/formulas/slider_crank_centric.toml");
+    let scenario = rewritten(&load(&path), "x", "r*cos(phi) + sqrt(l^2 - r^2*sin(phi)^2) + 1e-6");
+    assert_eq!(judged(&scenario).verdict.word(), "disagree");
+    let proof = prove(&scenario, &Options::default().step(1e-3).sweeps(16).extrapolated(0)).unwrap();
+    let own =
+        proof.all_checks().filter(|check| check.family.starts_with("formulas") && check.detail.starts_with("x as"));
+    let own: Vec<_> = own.map(|check| (check.verdict.word(), (check.value * 1e9).round())).collect();
+    assert_eq!(own, [("disagree", 1000.0); 2]);
 }

@@ -1,6 +1,8 @@
 //! A load whose law changes where a motion reverses jumps there, or has a kink only.
 
-use linkproof::proof::{Options, prove};
+use linkage::engine::Route;
+use linkage::trajectory::Stage;
+use linkproof::proof::{Options, Proof, prove};
 use linkproof::scenario::Scenario;
 
 use crate::common::{from_outside, shipped};
@@ -31,4 +33,40 @@ fn instants_are_left_out_where_a_load_jumps_and_nowhere_else() {
     for jumping in [table(0.5), "type = \"resistance\"\nlink = \"rod\"\nmoment_N_m = 0.5".into()] {
         assert!(left_out(&jumping) > none, "{jumping}");
     }
+}
+
+/// The crank-rocker, whose rocker has a resistance and reverses at the given crank angles (its own oracles), at some
+/// crank angles.
+fn rocker(grid: &str, options: &Options) -> Proof {
+    let path = shipped("crank_rocker.toml").path;
+    let text = std::fs::read_to_string(&path).unwrap();
+    let text = &text[..text.find("[[oracle]]").unwrap()];
+    let text = text.replace("from_deg = 0\nto_deg = 360\nstep_deg = 1\n", grid);
+    prove(&Scenario::parse(&text, &path).unwrap(), options).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// Instants left out of the channels of a stage, at most.
+fn left_out_in(proof: &Proof, stage: Stage) -> usize {
+    let own = proof.engine().channels.iter().filter(|own| own.residual.channel.kind.stage == stage);
+    own.map(|own| own.left_out).max().unwrap()
+}
+
+/// In the very instant of a reversal the sense is rounding: the sides and the runs have different ones, and the forces
+/// of a resistance jump by twice its size. Nothing else is left out, and what is judged agrees.
+#[test]
+fn forces_are_not_judged_where_the_runs_reverse_at_another_instant() {
+    let grid = "angles_deg = [0, 20, 33.6108197898815586, 50, 90, 120, 150, 180, 210, 240, 270, 300, 330]\n";
+    let proof = rocker(grid, &Options::default().step(2e-3).sweeps(16).extrapolated(0));
+    assert_eq!(proof.verdict.word(), "agree", "{:?}", proof.verdict);
+    assert_eq!([Stage::Accelerations, Stage::Reactions].map(|stage| left_out_in(&proof, stage)), [0, 1]);
+}
+
+/// Under a prescribed motion a resistance jumps, and no acceleration does.
+#[test]
+fn a_prescribed_acceleration_is_judged_where_a_load_jumps() {
+    // Two of them within a quarter of a step at which the impulses of several runs are combined.
+    let grid = "angles_deg = [0, 30, 33.3, 33.9, 60, 120, 180, 240, 300]\n";
+    let proof = rocker(grid, &Options::default().step(2e-3).sweeps(16).extrapolated(1).route(Route::Probe));
+    let [accelerations, forces] = [Stage::Accelerations, Stage::Reactions].map(|stage| left_out_in(&proof, stage));
+    assert_eq!([accelerations, forces], [0, 2]);
 }

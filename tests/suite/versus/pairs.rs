@@ -145,6 +145,41 @@ fn interpolation_has_its_error_in_the_bound() {
     assert_eq!(compared([held(&every(3)), held(&spoiled)], &how).unwrap().verdict.word(), "disagree");
 }
 
+/// Both count the crank angle alike, to its last digits.
+#[test]
+fn a_crank_angle_that_is_off_by_a_millionth_is_found() {
+    let scenario = scenario("crank_rocker");
+    let right = solved(&scenario);
+    let verdict = |more: f64| {
+        let cranks = right.cranks().iter().map(|crank| crank + more).collect();
+        let angle = right.named("link.rocker.angle_rad").unwrap().to_vec();
+        let raw = table(&[("t", right.times().to_vec()), ("crank_rad", cranks), ("link.rocker.angle_rad", angle)]);
+        against(&scenario, &raw, &How::default()).verdict.word()
+    };
+    assert_eq!([verdict(0.0), verdict(1e-6)], ["agree", "disagree"]);
+}
+
+/// A course of slope 2 drifts by twice what the instants of both tables leave open, at rows and between them.
+#[test]
+fn what_both_tables_leave_open_of_their_instants_is_in_the_bound() {
+    let uneven: Vec<f64> = (0..20).map(|row| 0.0131 * f64::from(row) + 0.0007 * f64::from(row % 3)).collect();
+    let between: Vec<f64> = uneven.windows(2).map(|pair| f64::midpoint(pair[0], pair[1])).collect();
+    let of = |times: &[f64], error: f64| {
+        let mut raw =
+            table(&[("t", times.to_vec()), ("link.rocker.angle_rad", times.iter().map(|time| 2.0 * time).collect())]);
+        raw.columns[0].iter_mut().for_each(|time| time.error = error);
+        held(&raw)
+    };
+    for (first, second) in [(1e-4, 1e-9), (1e-9, 1e-4), (1e-4, 1e-4)] {
+        for (times, interpolates) in [(&uneven, false), (&between, true)] {
+            let how = How { interpolates, ..rel(0.0) };
+            let found = compared([of(&uneven, first), of(times, second)], &how).unwrap();
+            let bound = found.pairs[0].channels[0].largest.unwrap().bound / (2.0 * (first + second));
+            assert!((1.0..1.5).contains(&bound), "{first:e} {second:e} {interpolates}: {bound}");
+        }
+    }
+}
+
 /// The verdict on a number is the same whatever columns stand beside it.
 #[test]
 fn a_number_is_judged_by_its_own_channel_alone() {
