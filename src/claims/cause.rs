@@ -220,7 +220,8 @@ fn sought(trial: &mut Trial, claim: &Claim, course: &Course) -> Option<Cause> {
         return one_of(sound.into_iter().map(|own| Cause::Slip(own.slip.clone())).collect());
     }
     // What is missing comes before slips whose units do not fit together.
-    let found: Vec<Cause> = missing(trial, &dimensions).into_iter().map(Cause::Missing).collect();
+    let lacks = if trial.is_spent() { Vec::new() } else { missing(trial, &dimensions) };
+    let found: Vec<Cause> = lacks.into_iter().map(Cause::Missing).collect();
     if !found.is_empty() {
         return one_of(found);
     }

@@ -1,7 +1,10 @@
 //! Dimensions of formulas, as far as the units of their parameters tell: a mended formula that adds metres to kilograms
 //! is no explanation while another one is.
 
-use crate::scenario::{Claim, Formulas};
+use std::cell::Cell;
+use std::collections::BTreeMap;
+
+use crate::scenario::{Claim, Formulas, Parameter};
 use formula::{Function, Operator, Shape, Tree};
 
 /// Powers of kilogram, metre and second.
@@ -14,6 +17,8 @@ pub(super) type Known = Option<Dimension>;
 struct Unsound;
 
 const NONE: Dimension = [0.0; 3];
+/// What a look at a formula or a name costs, in evaluations of a part.
+const LOOK: u64 = 4;
 
 /// Dimensions of the formulas of a derivation.
 pub(super) struct Dimensions<'a> {
@@ -22,12 +27,21 @@ pub(super) struct Dimensions<'a> {
     claimed: Known,
     /// Dimensions of the formulas as they are written, up to the first that is unsound.
     written: Vec<Known>,
+    /// Formulas by their names.
+    steps: BTreeMap<&'a str, usize>,
+    parameters: BTreeMap<&'a str, &'a Parameter>,
+    /// Names that were looked up since that was asked last.
+    looked: Cell<u64>,
 }
 
 impl<'a> Dimensions<'a> {
     /// Of the formula `of`, which makes a claim, and of all before it.
     pub(super) fn of(formulas: &'a Formulas, of: usize, claim: &Claim) -> Self {
-        let mut own = Dimensions { formulas, of, claimed: claimed(claim), written: Vec::new() };
+        let steps = formulas.list.iter().enumerate().map(|(index, own)| (own.name.as_str(), index)).collect();
+        let named = |own: &'a Parameter| own.names().map(move |(name, _)| (name, own));
+        let parameters = formulas.parameters.iter().flat_map(named).collect();
+        let (claimed, written, looked) = (claimed(claim), Vec::new(), Cell::new(0));
+        let mut own = Dimensions { formulas, of, claimed, written, steps, parameters, looked };
         for formula in &formulas.list[..of] {
             match own.dimension(&formula.tree, &own.written) {
                 Ok(known) => own.written.push(known),
@@ -35,6 +49,11 @@ impl<'a> Dimensions<'a> {
             }
         }
         own
+    }
+
+    /// Operations since this was asked last.
+    pub(super) fn work(&self) -> u64 {
+        LOOK * self.looked.take()
     }
 
     /// Whether nothing contradicts the units with other trees in some of the formulas.
@@ -77,9 +96,13 @@ impl<'a> Dimensions<'a> {
     }
 
     fn dimension(&self, tree: &Tree, known: &[Known]) -> Result<Known, Unsound> {
-        of_tree(tree, &|name| match self.formulas.list[..known.len()].iter().position(|own| own.name == name) {
-            Some(step) => known[step],
-            None => self.of_parameter(name),
+        self.looked.update(|looked| looked + 1);
+        of_tree(tree, &|name| {
+            self.looked.update(|looked| looked + 1);
+            match self.steps.get(name).and_then(|&step| known.get(step)) {
+                Some(step) => *step,
+                None => self.of_parameter(name),
+            }
         })
     }
 
@@ -88,10 +111,7 @@ impl<'a> Dimensions<'a> {
             "phi" | "pi" => Some(NONE),
             "t" => Some([0.0, 0.0, 1.0]),
             crate::scenario::formula::OMEGA => Some([0.0, 0.0, -1.0]),
-            _ => {
-                let has_name = |own: &&crate::scenario::Parameter| own.names().any(|(own, _)| own == name);
-                of_unit(self.formulas.parameters.iter().find(has_name)?.unit()?)
-            }
+            _ => of_unit(self.parameters.get(name)?.unit()?),
         }
     }
 }

@@ -74,6 +74,8 @@ pub struct Judged {
     pub lost: usize,
     /// Number of instants at which the claim itself has no number, as what is reduced to a crank that rests.
     pub undefined: usize,
+    /// Number of instants at which the formula has no value, though the claim has.
+    pub without: usize,
     /// First instant beyond its bound.
     pub since: Option<At>,
     /// The instant that uses most of its bound.
@@ -89,18 +91,15 @@ const NO_WORSE: f64 = 1e3;
 /// Share of instants without a telling bound beyond which nothing is proven.
 const MOST_LOST: f64 = 0.03;
 
+/// Whether a number of the claim is one.
+fn has_number(mechanism: Rounded) -> bool {
+    mechanism.value.is_finite() && mechanism.error.is_finite()
+}
+
 impl Judged {
-    /// Judges the courses of a formula and of its claim, or of a derivative of both. For angles, values a `turn` apart
-    /// mean the same.
-    pub(super) fn of(
-        (formula, claim): (&Formula, &Claim),
-        order: usize,
-        turn: Option<f64>,
-        course: impl Iterator<Item = Pair> + Clone,
-    ) -> Self {
-        let has_number = |pair: &Pair| pair.mechanism.value.is_finite() && pair.mechanism.error.is_finite();
-        let scale = course.clone().filter(has_number).map(|pair| pair.mechanism.value.abs()).fold(0.0, f64::larger);
-        let mut own = Judged {
+    /// A formula with its claim, or a derivative of both, before it is judged.
+    pub(super) fn new((formula, claim): (&Formula, &Claim), order: usize) -> Self {
+        Judged {
             name: formula.name.clone(),
             claim: claim.text.clone(),
             unit: if order == 0 { claim.unit() } else { "" },
@@ -108,35 +107,62 @@ impl Judged {
             claimed: formula.error.is_some(),
             judged: 0,
             lost: 0,
-            undefined: course.clone().filter(|pair| !has_number(pair)).count(),
+            undefined: 0,
+            without: 0,
             since: None,
             worst: None,
-            scale,
-        };
-        for Pair { place: [time, crank], formula: found, mechanism } in course.filter(has_number) {
-            let difference = found.value - mechanism.value;
-            let difference = turn.map_or(difference, |turn| difference - turn * (difference / turn).round());
-            // What has no value has no rounding either.
-            let rounding = if found.is_undefined() { 0.0 } else { found.error };
-            let bound = formula.error.unwrap_or(0.0) + rounding + mechanism.error;
-            let at = At { time, crank, formula: found.value, mechanism: mechanism.value, difference, bound };
-            // What the mechanism itself is hardly known better is not the formula's loss.
-            let has_lost = !(found.error <= TELLING * scale) && !(found.error <= NO_WORSE * mechanism.error);
-            // Where a function ends, as acos at 1, its derivative has no number though the value is right.
-            let is_end = order > 0 && !found.value.is_finite();
-            if is_end || has_lost && at.used() <= 1.0 {
-                own.lost += 1;
-                continue;
-            }
-            own.judged += 1;
-            if !(at.used() <= 1.0) && own.since.is_none_or(|since| time < since.time) {
-                own.since = Some(at);
-            }
-            if own.worst.is_none_or(|worst| at.used() > worst.used()) {
-                own.worst = Some(at);
-            }
+            scale: 0.0,
         }
+    }
+
+    /// Judges the courses of a formula and of its claim by value. For angles, values a `turn` apart mean the same.
+    pub(super) fn of(
+        (formula, claim): (&Formula, &Claim),
+        turn: Option<f64>,
+        course: impl Iterator<Item = Pair> + Clone,
+    ) -> Self {
+        let mut own = Judged::new((formula, claim), 0);
+        course.clone().for_each(|pair| own.seen(pair.mechanism));
+        course.for_each(|pair| own.put(formula, turn, pair));
         own
+    }
+
+    /// Takes in how large a number of the claim is. All of them come before the first that is judged.
+    pub(super) fn seen(&mut self, mechanism: Rounded) {
+        match has_number(mechanism) {
+            true => self.scale = self.scale.larger(mechanism.value.abs()),
+            false => self.undefined += 1,
+        }
+    }
+
+    /// Judges one instant.
+    pub(super) fn put(&mut self, formula: &Formula, turn: Option<f64>, pair: Pair) {
+        let Pair { place: [time, crank], formula: found, mechanism } = pair;
+        if !has_number(mechanism) {
+            return;
+        }
+        self.without += usize::from(found.is_undefined());
+        let difference = found.value - mechanism.value;
+        let difference = turn.map_or(difference, |turn| difference - turn * (difference / turn).round());
+        // What has no value has no rounding either.
+        let rounding = if found.is_undefined() { 0.0 } else { found.error };
+        let bound = formula.error.unwrap_or(0.0) + rounding + mechanism.error;
+        let at = At { time, crank, formula: found.value, mechanism: mechanism.value, difference, bound };
+        // What the mechanism itself is hardly known better is not the formula's loss.
+        let has_lost = !(found.error <= TELLING * self.scale) && !(found.error <= NO_WORSE * mechanism.error);
+        // Where a function ends, as acos at 1, its derivative has no number though the value is right.
+        let is_end = self.order > 0 && !found.value.is_finite();
+        if is_end || has_lost && at.used() <= 1.0 {
+            self.lost += 1;
+            return;
+        }
+        self.judged += 1;
+        if !(at.used() <= 1.0) && self.since.is_none_or(|since| time < since.time) {
+            self.since = Some(at);
+        }
+        if self.worst.is_none_or(|worst| at.used() > worst.used()) {
+            self.worst = Some(at);
+        }
     }
 
     /// What it comes to.

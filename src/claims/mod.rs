@@ -17,10 +17,10 @@ mod values;
 
 pub use cause::{CUT, Cause, MOST_WORK, Search, cause};
 pub use course::{Course, needed, telling};
-pub use judge::{Judge, judge};
+pub use judge::judge;
 pub use judged::{At, Judged, Outcome};
 pub use missing::Missing;
-pub use slips::{Kind, Slip};
+pub use slips::{Kind, Slip, planted};
 pub use terms::{Term, Wrong, missing_in_numbers};
 pub use undefined::{Undefined, undefined};
 

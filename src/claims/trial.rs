@@ -1,6 +1,6 @@
 //! A wrong formula, and what a change of it would make of it.
 
-use super::judge::Judge;
+use super::judge;
 use super::judged::{Judged, Pair};
 use super::{Course, Outcome};
 use crate::scenario::formula::OMEGA;
@@ -15,6 +15,8 @@ const FIRST: usize = 9;
 const BESIDE: usize = 20;
 /// What making a change as a tree, and judging it, costs beside its evaluations, in operations.
 const TREE: u64 = 2000;
+/// What adding a formula, or a part of one, to a graph costs, in operations.
+const ADDED: usize = 16;
 /// What making a change of one part costs beside its evaluations, in operations.
 const EDIT: u64 = 40;
 /// Share of the difference that a change may leave, at some instant, to be looked at more closely.
@@ -61,7 +63,7 @@ impl<'a> Trial<'a> {
     ) -> Result<Self> {
         let formula = &formulas.list[index];
         let rows = course.rows(formula);
-        let mut pairs = Judge::of_values(formulas, formula, claim).pairs(course, &rows)?;
+        let mut pairs = judge::pairs(formulas, (formula, claim), course, &rows)?;
         let mut inputs: Vec<[Rounded; 4]> = rows.iter().map(|&row| course.inputs(row)).collect();
         // Where the claim has no number, as what is reduced to a crank that rests, nothing can be tried.
         let has_number = |pair: &Pair| pair.mechanism.value.is_finite() && pair.mechanism.error.is_finite();
@@ -176,6 +178,7 @@ impl<'a> Trial<'a> {
     /// difference at some of them over the largest that there was. `None` if it has no value.
     pub(super) fn left(&mut self, changed: &[(usize, Tree)], slack: f64) -> Option<f64> {
         let Trial { formulas, index, formula, claim, inputs, pairs, few, .. } = self;
+        let after = *index - changed.iter().map(|(own, _)| *own).min().unwrap_or(*index);
         let mut program = formulas.with_trees(changed, *index, |graph, id| Program::of(graph, &[id]))?;
         let mut judged = |places: &mut dyn Iterator<Item = usize>| {
             let mut at = |place: usize| {
@@ -184,13 +187,13 @@ impl<'a> Trial<'a> {
                 pair
             };
             let pairs: Vec<Pair> = places.map(&mut at).collect();
-            Judged::of((formula, claim), 0, claim.turn(), pairs.into_iter())
+            Judged::of((formula, claim), claim.turn(), pairs.into_iter())
         };
         let first = judged(&mut few.iter().copied());
         // Where digits cancel, the few instants alone decide nothing.
         let is_right = first.since.is_none() && judged(&mut (0..inputs.len())).outcome() == Outcome::Right;
         let rows = if first.since.is_none() { inputs.len() } else { few.len() };
-        let work = (program.len() * rows) as u64 + TREE;
+        let work = (program.len() * (rows + ADDED) + after * ADDED) as u64 + TREE;
         self.sheet.count(work);
         if is_right {
             return Some(0.0);

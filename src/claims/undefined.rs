@@ -3,7 +3,6 @@
 use std::fmt;
 
 use super::Course;
-use super::judge::Judge;
 use super::trial::Trial;
 use crate::numbers::fixed;
 use crate::scenario::Formulas;
@@ -34,28 +33,25 @@ impl fmt::Display for Undefined {
     }
 }
 
-/// Where the formula called `name` has no value on a course; `None` if it has one everywhere, or claims nothing.
+/// Where the formula called `name` has no value on a course, and the operations that it took to see it; `None` if it
+/// has one everywhere, or claims nothing.
 ///
 /// # Errors
 /// If the course lacks a channel of the claim.
-pub fn undefined(formulas: &Formulas, name: &str, course: &Course) -> Result<Option<Undefined>> {
-    let Some(index) = formulas.list.iter().position(|own| own.name == name) else { return Ok(None) };
-    let Some(claim) = &formulas.list[index].claim else { return Ok(None) };
-    let formula = &formulas.list[index];
-    let values = Judge::of_values(formulas, formula, claim).pairs(course, &course.rows(formula))?;
-    if !values.iter().any(|pair| pair.formula.is_undefined()) {
-        return Ok(None);
-    }
+pub fn undefined(formulas: &Formulas, name: &str, course: &Course) -> Result<(Option<Undefined>, u64)> {
+    let Some(index) = formulas.list.iter().position(|own| own.name == name) else { return Ok((None, 0)) };
+    let Some(claim) = &formulas.list[index].claim else { return Ok((None, 0)) };
     let trial = Trial::of(formulas, index, claim, course, 0)?;
     let pairs = trial.pairs.iter().enumerate();
     let (without, with): (Vec<_>, Vec<_>) = pairs.partition(|(_, pair)| pair.formula.is_undefined());
     let first = without.into_iter().min_by(|one, other| one.1.place[0].total_cmp(&other.1.place[0]));
-    let Some((place, pair)) = first else { return Ok(None) };
+    let work = trial.sheet.operations();
+    let Some((place, pair)) = first else { return Ok((None, work)) };
     let [phi, t, ..] = trial.inputs(place);
-    let Some((of, fault)) = formulas.undefined(index, [phi, t]) else { return Ok(None) };
+    let Some((of, fault)) = formulas.undefined(index, [phi, t]) else { return Ok((None, work)) };
     let is_right = |place: usize| trial.difference(trial.pairs[place].formula.value, place).abs() <= trial.bound(place);
     let is_all = !with.is_empty() && with.iter().all(|&(place, _)| is_right(place));
     let own = &formulas.list[of];
     let written = own.text.get(fault.at.clone()).unwrap_or_default().to_string();
-    Ok(Some(Undefined { formula: own.name.clone(), fault, written, crank: pair.place[1], is_all }))
+    Ok((Some(Undefined { formula: own.name.clone(), fault, written, crank: pair.place[1], is_all }), work))
 }

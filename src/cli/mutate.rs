@@ -19,12 +19,13 @@ Examples:
   linkproof mutate scenarios/crank_rocker.toml --kind mass-heaviest --no-sizes  one kind, in every party
   linkproof mutate scenarios/quick_return.toml --kind force --party assur       one family, in side 1 only
   linkproof mutate scenarios/quick_return.toml --party trunk --kind gravity-sign   in what all share: who outside sees it?
+  linkproof mutate scenarios/formulas/yoke_drive.toml --party formulas          mistakes in the formulas of a file
   linkproof mutate scenarios/loaded_slider.toml --kind spring-twice --json -    for a script
 
-Every fault stands alone, in an otherwise correct proof at default settings. \
+Every fault stands alone, in an otherwise correct proof at default settings; one of each kind in every exact formula. \
 A fault that changes no exact answer is not counted: side 1 is solved with it and without it.
 
-Exit codes: 0 no fault in one party escapes, 1 some escape, 2 bad input or usage, 3 none escapes, but some prove nothing either way, or none was planted.";
+Exit codes: 0 no fault in one party or formula escapes, 1 some escape, 2 bad input or usage, 3 none escapes, but some prove nothing either way, or none was planted.";
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]

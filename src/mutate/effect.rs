@@ -13,7 +13,7 @@ use linkage::trajectory::{Stage, Trajectory};
 
 /// Change, relative to the largest number of a quantity, that is rounding: of a case solved once more with other
 /// numbers, which follow from each other. It is a tenth and less of what the two sides are allowed to differ by.
-fn rounding(stage: Stage) -> f64 {
+pub(super) fn rounding(stage: Stage) -> f64 {
     match stage {
         Stage::Positions => 1e-13,
         Stage::Velocities | Stage::Accelerations => 1e-12,
@@ -47,6 +47,8 @@ pub(super) fn has_part(case: &Case, fault: Fault) -> Result<bool> {
             AssurSolver.each(case, &mut look)?;
             Ok(any)
         }
+        // No case has formulas.
+        Plant::Formula(_) => Ok(false),
     }
 }
 

@@ -1,8 +1,5 @@
 //! The size at which a fault is lost.
 
-use super::mutant::Party;
-use super::planted::Fault;
-use super::stage::Stage;
 use linkage::math::KeepNan;
 
 /// Smallest size over the first one that is tried: nothing that small is above rounding.
@@ -14,13 +11,12 @@ const FACTOR: f64 = 2.0;
 /// Proofs that are made for it at most.
 const MOST: usize = 24;
 
-/// The smallest size that is still found, to a factor of two; `fault` itself is found with `margin`.
-pub(super) fn smallest(stage: &Stage, fault: Fault, party: Party, margin: f64) -> f64 {
-    let whole = fault.size;
+/// The smallest size that `is_found`, to a factor of two; the `whole` one is found with `margin`.
+pub(super) fn smallest(whole: f64, margin: f64, is_found: &dyn Fn(f64) -> bool) -> f64 {
     let mut left = MOST;
     let mut is_found = |size: f64| {
         left = left.saturating_sub(1);
-        left > 0 && stage.proven(Fault { size, ..fault }, party).is_found()
+        left > 0 && is_found(size)
     };
     // Most effects are proportional to the size, so that the margin says where it is lost.
     let guess = if margin.is_finite() && margin > 1.0 { whole / margin } else { whole / STEP };

@@ -5,8 +5,11 @@
 //! A fault in an analytic side that the other side contradicts needs no engine for its verdict. Other proofs with the
 //! engine unchanged take its runs from the first of them; their verdicts are those of new runs, because an engine's
 //! runs do not depend on what they are compared with.
+//!
+//! Formulas are a party too: a mistake in one of them is judged by both sides, whose motion is right.
 
 mod effect;
+mod formulas;
 #[cfg(test)]
 mod judging;
 mod kinds;
@@ -20,8 +23,8 @@ mod tally;
 #[cfg(test)]
 mod tests;
 
-pub use kinds::{At, Family, Kind, Plant, all, named};
-pub use mutant::{Mutant, Mutated, Party};
+pub use kinds::{At, Family, Kind, Mistake, Plant, all, named};
+pub use mutant::{Mutant, Mutated, Party, Spoiled};
 pub use plan::{Asked, mutate};
 pub use seen::{Outcome, Sight};
 pub use tally::{End, Share, Tally, tally};

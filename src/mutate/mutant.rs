@@ -1,6 +1,6 @@
 //! Planted faults and what came of them.
 
-use super::kinds::Kind;
+use super::kinds::{Kind, Plant};
 use super::seen::Outcome;
 
 /// Who gets a fault.
@@ -14,11 +14,13 @@ pub enum Party {
     Engine,
     /// All of them alike: what they share is wrong.
     All,
+    /// The formulas that are judged.
+    Formulas,
 }
 
 impl Party {
     /// All parties.
-    pub const ALL: [Party; 4] = [Party::Assur, Party::Newton, Party::Engine, Party::All];
+    pub const ALL: [Party; 5] = [Party::Assur, Party::Newton, Party::Engine, Party::All, Party::Formulas];
 
     /// Name, as on the command line.
     #[must_use]
@@ -28,8 +30,26 @@ impl Party {
             Party::Newton => "newton",
             Party::Engine => "engine",
             Party::All => "trunk",
+            Party::Formulas => "formulas",
         }
     }
+
+    /// Whether it can have a fault of a kind.
+    #[must_use]
+    pub fn takes(self, kind: &Kind) -> bool {
+        matches!(kind.plant, Plant::Formula(_)) == (self == Party::Formulas)
+    }
+}
+
+/// A mistake in one formula of a scenario.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Spoiled {
+    /// Name of the formula.
+    pub formula: String,
+    /// The formula, or what it claims, as it is in the file.
+    pub right: String,
+    /// With the mistake.
+    pub wrong: String,
 }
 
 /// One fault, planted in one party of one scenario's proof, and what came of it.
@@ -39,6 +59,8 @@ pub struct Mutant {
     pub kind: &'static Kind,
     /// Where it is planted.
     pub party: Party,
+    /// Of a mistake in a formula: which one, and how it reads.
+    pub formula: Option<Spoiled>,
     /// What came of it.
     pub outcome: Outcome,
     /// Largest change of exact answers, relative to the largest number of a quantity; `None` where there is no answer.
@@ -58,6 +80,8 @@ pub struct Mutated {
     pub engine: &'static str,
     /// The faults, kind by kind.
     pub mutants: Vec<Mutant>,
+    /// Number of formulas that mistakes are planted in, steps of derivations among them.
+    pub formulas: usize,
     /// Kinds that the scenario has no part for.
     pub without: Vec<&'static str>,
     /// Where no fault was planted that changes anything: the families of kinds that the scenario has parts for.

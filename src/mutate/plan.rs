@@ -4,15 +4,16 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc;
 
 use super::effect::Effect;
-use super::kinds::{self, Family, Kind};
+use super::formulas;
+use super::kinds::{self, Family, Kind, Mistake, Plant};
 use super::lost::smallest;
 use super::mutant::{Mutant, Mutated, Party};
 use super::planted::Fault;
 use super::seen::Outcome;
 use super::stage::Stage;
-use crate::proof::Options;
+use crate::proof::{BUDGET, Options};
 use crate::scenario::Scenario;
-use linkage::error::{Error, ErrorKind, Result};
+use linkage::error::{Advice, Error, ErrorKind, Result};
 
 /// What is asked for.
 #[derive(Clone, Debug, Default)]
@@ -34,7 +35,12 @@ impl Asked {
         let is_asked = |kind: &&Kind| {
             self.kinds.is_empty() || self.kinds.iter().any(|own| own == kind.name || own == kind.family.name())
         };
-        kinds::all().filter(is_asked).collect()
+        let takes = |kind: &&Kind| self.parties().iter().any(|party| party.takes(kind));
+        kinds::all().filter(is_asked).filter(takes).collect()
+    }
+
+    fn parties(&self) -> Vec<Party> {
+        if self.parties.is_empty() { Party::ALL.to_vec() } else { self.parties.clone() }
     }
 }
 
@@ -50,6 +56,7 @@ pub fn mutate(scenario: &Scenario, asked: &Asked, progress: &mut dyn FnMut(f64))
         return Err(Error::new(ErrorKind::Input, message).help(help));
     }
     let kinds = asked.kinds();
+    allowed(&stage, &kinds, asked)?;
     let next = AtomicUsize::new(0);
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let threads = if asked.jobs == 0 { cores } else { asked.jobs };
@@ -80,8 +87,47 @@ pub fn mutate(scenario: &Scenario, asked: &Asked, progress: &mut dyn FnMut(f64))
     }
     let is_real = |mutant: &Mutant| !matches!(mutant.outcome, Outcome::Equivalent(_));
     let instead = if mutants.iter().any(is_real) { Vec::new() } else { families(&stage)? };
+    let formulas = stage.formulas().len();
     let Stage { verdict, engine, .. } = stage;
-    Ok(Mutated { scenario: scenario.name.clone(), verdict, engine, mutants, without, instead })
+    Ok(Mutated { scenario: scenario.name.clone(), verdict, engine, mutants, formulas, without, instead })
+}
+
+/// Work that all faults of a file may take, over what one proof may: shipped mechanisms take less than that of five.
+const PROOFS: f64 = 10.0;
+/// Proofs that a size takes in which the fault is lost.
+const SIZES: f64 = 8.0;
+
+/// Whether all faults that are asked for can be planted with the work that is allowed.
+///
+/// # Errors
+/// [`ErrorKind::Unsupported`] if not, with what it would take.
+fn allowed(stage: &Stage, kinds: &[&'static Kind], asked: &Asked) -> Result<()> {
+    let [sides, engine] = stage.work;
+    let formulas = stage.formulas().len() as f64 * stage.work_of_formulas();
+    let (mut faults, mut work) = (0usize, 0.0);
+    for kind in kinds {
+        for party in asked.parties().into_iter().filter(|party| party.takes(kind)) {
+            let once = match party {
+                Party::Assur | Party::Newton | Party::All => sides,
+                Party::Engine => engine,
+                Party::Formulas => formulas,
+            };
+            let is_sized = asked.with_sizes && kind.size.is_some() && party != Party::All;
+            faults += if party == Party::Formulas { stage.formulas().len() } else { 1 };
+            work += once * if is_sized { 1.0 + SIZES } else { 1.0 };
+        }
+    }
+    let budget = asked.options.budget.unwrap_or(BUDGET);
+    if work <= PROOFS * budget {
+        return Ok(());
+    }
+    let message = format!(
+        "{}: planting {faults} faults takes the work of about {work:.1e} steps of a four-bar, {:.1e} are allowed",
+        stage.scenario.name,
+        PROOFS * budget
+    );
+    let help = "plant fewer of them with --kind, --party and --no-sizes";
+    Err(Error::new(ErrorKind::Unsupported, message).help(help).or_help(Advice::MoreWork { to: work / PROOFS }))
 }
 
 /// Names of the families of which a kind changes something in a scenario.
@@ -89,7 +135,11 @@ fn families(stage: &Stage) -> Result<Vec<&'static str>> {
     let mut names = Vec::new();
     for family in Family::ALL {
         for kind in kinds::all().filter(|kind| kind.family == family) {
-            if matches!(stage.effect(fault(kind))?, Effect::Changes(_)) {
+            let changes = match kind.plant {
+                Plant::Formula(mistake) => !spoiled(stage, kind, mistake, true)?.is_empty(),
+                Plant::Case(_) | Plant::Answer(_) => matches!(stage.effect(fault(kind))?, Effect::Changes(_)),
+            };
+            if changes {
                 names.push(family.name());
                 break;
             }
@@ -109,7 +159,51 @@ enum Planting {
     Done(Vec<Mutant>),
 }
 
+/// A mistake in every formula that has a place for it, with what it changes; if `only_real`, the first that changes
+/// something.
+fn spoiled(
+    stage: &Stage,
+    kind: &'static Kind,
+    mistake: Mistake,
+    only_real: bool,
+) -> Result<Vec<(usize, formulas::Planting, Effect)>> {
+    let mut all = Vec::new();
+    for index in stage.formulas() {
+        let Some(own) = stage.planting(kind, mistake, index, fault(kind).size) else { continue };
+        let effect = stage.formula_effect(&own)?;
+        let is_real = !matches!(effect, Effect::Equivalent(_) | Effect::None);
+        if is_real || !only_real {
+            all.push((index, own, effect));
+        }
+        if is_real && only_real {
+            break;
+        }
+    }
+    Ok(all)
+}
+
+fn in_formulas(stage: &Stage, kind: &'static Kind, mistake: Mistake, asked: &Asked) -> Result<Planting> {
+    let found = |index: usize, size: f64| {
+        stage.planting(kind, mistake, index, size).is_some_and(|own| stage.formula_outcome(&own).is_found())
+    };
+    let mut mutants = Vec::new();
+    for (index, own, effect) in spoiled(stage, kind, mistake, false)? {
+        let (outcome, effect) = match effect {
+            Effect::Equivalent(change) => (Outcome::Equivalent(change), Some(change)),
+            Effect::Changes(change) => (stage.formula_outcome(&own), Some(change)),
+            Effect::None | Effect::Unsolved => (stage.formula_outcome(&own), None),
+        };
+        let sized = kind.size.filter(|_| asked.with_sizes).zip(outcome.margin());
+        let smallest = sized.map(|(size, margin)| smallest(size, margin, &|size| found(index, size)));
+        mutants.push(Mutant { kind, party: Party::Formulas, formula: Some(own.what), outcome, effect, smallest });
+    }
+    Ok(if mutants.is_empty() { Planting::Nowhere } else { Planting::Done(mutants) })
+}
+
 fn of_kind(stage: &Stage, kind: &'static Kind, asked: &Asked) -> Result<Planting> {
+    if let Plant::Formula(mistake) = kind.plant {
+        return in_formulas(stage, kind, mistake, asked);
+    }
     let fault = fault(kind);
     let effect = stage.effect(fault)?;
     let change = match effect {
@@ -117,15 +211,16 @@ fn of_kind(stage: &Stage, kind: &'static Kind, asked: &Asked) -> Result<Planting
         Effect::Unsolved => None,
         Effect::Equivalent(change) | Effect::Changes(change) => Some(change),
     };
-    let parties = if asked.parties.is_empty() { Party::ALL.to_vec() } else { asked.parties.clone() };
+    let parties = asked.parties().into_iter().filter(|party| party.takes(kind));
     let one = |party: Party| {
         let outcome = match effect {
             Effect::Equivalent(change) => Outcome::Equivalent(change),
             Effect::None | Effect::Unsolved | Effect::Changes(_) => stage.proven(fault, party),
         };
         let sized = asked.with_sizes && kind.size.is_some() && party != Party::All;
-        let smallest = outcome.margin().filter(|_| sized).map(|margin| smallest(stage, fault, party, margin));
-        Mutant { kind, party, outcome, effect: change, smallest }
+        let is_found = |size: f64| stage.proven(Fault { size, ..fault }, party).is_found();
+        let smallest = outcome.margin().filter(|_| sized).map(|margin| smallest(fault.size, margin, &is_found));
+        Mutant { kind, party, formula: None, outcome, effect: change, smallest }
     };
-    Ok(Planting::Done(parties.into_iter().map(one).collect()))
+    Ok(Planting::Done(parties.map(one).collect()))
 }

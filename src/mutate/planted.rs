@@ -23,13 +23,13 @@ impl Hook for Fault {
                 let message = || format!("the case with the fault {} cannot be put together", self.kind.name);
                 change(case, self.size).map(Some).ok_or_else(|| Error::new(ErrorKind::Geometry, message()))
             }
-            Plant::Answer(_) => Ok(None),
+            Plant::Answer(_) | Plant::Formula(_) => Ok(None),
         }
     }
 
     fn answer(&self, case: &Case, row: usize, state: &mut State) {
         match self.kind.plant {
-            Plant::Case(_) => {}
+            Plant::Case(_) | Plant::Formula(_) => {}
             Plant::Answer(change) => {
                 // What has no such part stays as it is.
                 let _ = change(At { case, row }, state, self.size);

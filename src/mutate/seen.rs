@@ -1,7 +1,7 @@
 //! Who sees a fault: channels and checks beyond their bounds, since when, by how much.
 
 use crate::compare::{Check, Verdict, differences, overall};
-use crate::proof::{ChannelProof, EngineProof, Sides};
+use crate::proof::{ChannelProof, EngineProof, Judgement, Sides};
 use linkage::math::statistics::ascending;
 use linkage::trajectory::Trajectory;
 
@@ -117,6 +117,19 @@ impl Eyes {
         }
         self.checks(proof.checks.iter());
         self.verdicts.push(proof.verdict.clone());
+        self
+    }
+
+    /// What the judgement of formulas sees; its `checks` are in its order.
+    pub(super) fn formulas(mut self, judgement: &Judgement, checks: &[Check]) -> Self {
+        let judged = judgement.sides.iter().flat_map(|(_, all)| all.iter().flatten());
+        for (check, judged) in checks.iter().zip(judged) {
+            let before = self.sights.len();
+            self.checks(std::iter::once(check));
+            for sight in &mut self.sights[before..] {
+                sight.since = judged.since.map(|at| (at.time, at.crank));
+            }
+        }
         self
     }
 

@@ -7,15 +7,19 @@ use super::kinds::Plant;
 use super::mutant::Party;
 use super::planted::{Fault, Planted};
 use super::seen::{Eyes, Outcome};
+use crate::claims::{Course, Judged};
 use crate::compare::overall;
-use crate::proof::{EngineProof, Engines, Entrant, Ledger, Options, Sides, TRUE_SIDES};
-use crate::scenario::Scenario;
+use crate::proof::{BUDGET, EngineProof, Engines, Entrant, Ledger, Options, SIDES, Sides, TRUE_SIDES};
+use crate::scenario::{Formulas, Scenario};
 use analytic::{AssurSolver, NewtonSolver, TIGHT_ASSUR, TIGHT_NEWTON};
 use linkage::case::Case;
 use linkage::engine::{Engine, Kept};
 use linkage::error::Result;
+use linkage::math::KeepNan;
 use linkage::solver::Solver;
-use linkage::trajectory::Trajectory;
+use linkage::trajectory::{Channel, Trajectory};
+use linkage::work::{Count, PLACED, counted, limited};
+use std::collections::BTreeSet;
 
 /// What stands around an engine.
 type Around<'a> = &'a dyn Fn(Box<dyn Engine>) -> Box<dyn Engine>;
@@ -33,6 +37,8 @@ pub(super) struct Stage<'a> {
     integration: Vec<f64>,
     /// The engine's runs without a fault.
     runs: OnceLock<Kept>,
+    /// Work of both sides, and of the engine, without a fault (in steps of an engine's four-bar).
+    pub(super) work: [f64; 2],
     /// Verdict of the proof without a fault, and the engine.
     pub(super) verdict: &'static str,
     pub(super) engine: &'static str,
@@ -45,12 +51,20 @@ impl<'a> Stage<'a> {
     /// Those of the proof.
     pub(super) fn new(scenario: &'a Scenario, options: &'a Options) -> Result<Self> {
         let (whole, scenario) = (scenario, Scenario { case: scenario.case.scene()?.case, ..scenario.clone() });
-        let sides = Sides::of([&scenario, whole], TRUE_SIDES, options.reference, &mut Ledger::default())?;
+        let allowed = options.budget.unwrap_or(BUDGET).larger(SIDES);
+        let of_sides = || Sides::of([&scenario, whole], TRUE_SIDES, options.reference, &mut Ledger::default());
+        let (sides, done) = counted(|| limited(allowed, of_sides).0);
+        let sides = sides?;
+        // Side 2 counts no groups; it places as many links.
+        let placed = PLACED * 2.0 * done.of(Count::Groups) as f64 + done.of(Count::Intervals) as f64;
         let right = AssurSolver.solve(&scenario.case)?;
         let integration = sides.integration();
         let runs = OnceLock::new();
-        let mut stage = Stage { scenario, whole, options, sides, right, integration, runs, verdict: "", engine: "" };
+        let (work, verdict, engine) = ([placed, 0.0], "", "");
+        let mut stage = Stage { scenario, whole, options, sides, right, integration, runs, work, verdict, engine };
         let proof = stage.engine(&stage.sides, &|own| stage.kept(own), true)?;
+        let own_forces = proof.own_forces.as_ref().and_then(|own| own.search.as_ref());
+        stage.work[1] = proof.search.iter().chain(own_forces).map(|own| own.effort).sum();
         let verdict = stage.sides.verdict();
         (stage.verdict, stage.engine) = (overall([&verdict, &proof.verdict]).word(), proof.info.name);
         Ok(stage)
@@ -69,6 +83,32 @@ impl<'a> Stage<'a> {
         kept_in(&self.runs, engine)
     }
 
+    /// Names of the formulas that both sides judge.
+    pub(super) fn judged_formulas(&self) -> BTreeSet<&str> {
+        let judged = self.sides.judgement().into_iter().flat_map(|own| &own.sides[0].1);
+        judged.filter_map(|all| Some(all.first()?.name.as_str())).collect()
+    }
+
+    /// The channels that the sides have solved.
+    pub(super) fn channels(&self) -> &[Channel] {
+        self.right.channels()
+    }
+
+    /// Crank angles of all instants (rad).
+    pub(super) fn cranks(&self) -> &[f64] {
+        self.right.cranks()
+    }
+
+    /// What side 1 has found, as formulas are judged by it.
+    pub(super) fn on_course<T>(&self, then: &dyn Fn(&Course) -> Result<T>) -> Result<T> {
+        self.sides.on_course(&self.scenario.case, 0, then)
+    }
+
+    /// What both sides say of formulas.
+    pub(super) fn claimed(&self, formulas: &Formulas) -> Result<[(&'static str, Vec<Vec<Judged>>); 2]> {
+        self.sides.claimed(&self.scenario.case, formulas)
+    }
+
     /// What a fault changes in exact answers.
     pub(super) fn effect(&self, fault: Fault) -> Result<Effect> {
         effect(&self.scenario.case, &self.right, &self.integration, fault)
@@ -80,6 +120,7 @@ impl<'a> Stage<'a> {
             Party::Assur | Party::Newton => self.in_side(fault, party),
             Party::Engine => self.in_engine(fault),
             Party::All => self.in_all(fault),
+            Party::Formulas => Ok(Outcome::Refused("formulas have mistakes of their own".into())),
         };
         outcome.unwrap_or_else(|error| Outcome::Refused(error.message().into()))
     }
@@ -103,7 +144,7 @@ impl<'a> Stage<'a> {
             match fault.kind.plant {
                 Plant::Case(_) => kept_in(&runs, Box::new(Planted { hook: fault, inner: own })),
                 // Its runs are right; what it says of them is wrong.
-                Plant::Answer(_) => Box::new(Planted { hook: fault, inner: self.kept(own) }),
+                Plant::Answer(_) | Plant::Formula(_) => Box::new(Planted { hook: fault, inner: self.kept(own) }),
             }
         };
         self.judged(&self.sides, &around)
@@ -151,7 +192,7 @@ impl<'a> Stage<'a> {
                 Some(case) if self.is_late(&case) => None,
                 Some(case) => Some(case),
             },
-            Plant::Answer(_) => None,
+            Plant::Answer(_) | Plant::Formula(_) => None,
         };
         let sides = match case {
             Some(case) => {

@@ -50,6 +50,8 @@ pub struct Tally {
     pub planted: Share,
     /// Faults in the trunk.
     pub trunk: Share,
+    /// Mistakes in formulas.
+    pub formulas: Share,
     /// Kinds that were planted in the trunk and change something there, and those that something outside finds in a
     /// scenario at least.
     pub trunk_kinds: Vec<&'static str>,
@@ -62,7 +64,7 @@ pub struct Tally {
 /// What planted faults come to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum End {
-    /// Every fault that changes something is found.
+    /// Every fault that changes something is found, in parties and in formulas.
     AllFound,
     /// None escapes, but some prove nothing either way.
     NoneEscapes,
@@ -78,8 +80,9 @@ impl Tally {
     /// What all faults come to. Those in what all share count where no others were planted.
     #[must_use]
     pub fn end(&self) -> End {
-        let Tally { planted, trunk_kinds, trunk_found, .. } = self;
-        match (planted.real(), planted.escaped, planted.inconclusive) {
+        let Tally { planted, formulas, trunk_kinds, trunk_found, .. } = self;
+        let of = |count: fn(&Share) -> usize| count(planted) + count(formulas);
+        match (of(Share::real), of(|own| own.escaped), of(|own| own.inconclusive)) {
             (0, _, _) if trunk_kinds.is_empty() => End::Nothing,
             (0, _, _) if trunk_found.len() < trunk_kinds.len() => End::TrunkOpen,
             (_, 0, 0) => End::AllFound,
@@ -102,6 +105,7 @@ pub fn tally(all: &[Mutated]) -> Tally {
         put(&mut tally.kinds, mutant.kind.name);
         match mutant.party {
             Party::Assur | Party::Newton | Party::Engine => tally.planted.add(&mutant.outcome),
+            Party::Formulas => tally.formulas.add(&mutant.outcome),
             Party::All => {
                 tally.trunk.add(&mutant.outcome);
                 if !matches!(mutant.outcome, Outcome::Equivalent(_)) {

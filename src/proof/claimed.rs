@@ -4,13 +4,16 @@ use super::entrants::{Sides, TRUE_SIDES};
 use super::formulas::Judgement;
 use super::ledger::Ledger;
 use super::options::Reference;
-use crate::claims::{Cause, needed, telling};
+use crate::claims::{Cause, MOST_WORK, needed, telling};
 use crate::compare::{Check, Verdict};
 use crate::scenario::Scenario;
 use crate::tolerance::Basis;
 use analytic::range::explained;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::trajectory::Channel;
+
+/// Most operations of a search for causes after which all of it is done once more, with more channels.
+const AGAIN: u64 = MOST_WORK;
 
 /// What formulas come to on both sides.
 #[derive(Clone, Debug)]
@@ -49,9 +52,9 @@ pub fn judge(scenario: &Scenario) -> Result<Claimed> {
     }
     let mut sides = solved(scenario, &asked)?;
     let is_open = |own: &Judgement| {
-        own.causes
-            .iter()
-            .any(|(name, cause)| !cause.as_ref().is_some_and(Cause::is_whole) && !own.unsought.contains(name))
+        let mut causes = own.causes.iter();
+        own.work <= AGAIN
+            && causes.any(|(name, cause)| !cause.as_ref().is_some_and(Cause::is_whole) && !own.unsought.contains(name))
     };
     if let Some(own) = sides.judgement.as_mut().filter(|own| is_open(own)) {
         // What is wrong may be a term that the mechanism has and nobody asked for.

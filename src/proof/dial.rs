@@ -38,6 +38,7 @@ impl Proof {
         self.verdict = overall([&analytic].into_iter().chain(self.engines.iter().map(|engine| &engine.verdict)));
         // A diagnosis belongs to the bounds that it was made with.
         self.diagnosis = self.diagnosis.filter(|_| dial == 1.0);
+        self.diagnosis_is_cut &= dial == 1.0;
         self
     }
 }

@@ -1,10 +1,10 @@
 //! Who takes part in a proof, and the two halves of a proof: the analytic sides, and the engines against one of them.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::checks::{self, Beyond};
 use super::engines::{self, EngineProof};
-use super::formulas::{Judgement, wrong};
+use super::formulas::Judgement;
 use super::known::Known;
 use super::ledger::Ledger;
 use super::observe::{Observed, Watch, observe};
@@ -159,38 +159,49 @@ impl Sides {
     /// # Errors
     /// Those of [`claims::judge`].
     pub(crate) fn judged(&self, case: &Case, formulas: &Formulas) -> Result<Judgement> {
-        let of = |side: usize| -> Result<_> {
-            Ok((self.observed[side].0, self.on_course(case, side, |course| claims::judge(formulas, course))?))
-        };
-        let sides = [of(0)?, of(1)?];
-        let (mut causes, mut undefined) = (Vec::new(), Vec::new());
+        let sides = self.claimed(case, formulas)?;
+        let (mut causes, mut undefined) = (Vec::new(), BTreeMap::new());
         let (mut unsought, mut work) = (BTreeSet::new(), 0);
-        let is_wrong = |judged: &&Judged| judged.outcome() == Outcome::Wrong;
-        let of_first: BTreeSet<String> =
-            sides[0].1.iter().flatten().filter(is_wrong).map(|judged| judged.name.clone()).collect();
-        for name in wrong(&sides) {
+        let is_wrong = |all: &&Vec<Judged>| all.iter().any(|judged| judged.outcome() == Outcome::Wrong);
+        for (own, other) in sides[0].1.iter().zip(&sides[1].1) {
             // The side that it contradicts, or both: the first of them.
-            let side = usize::from(!of_first.contains(&name));
-            let without = self.on_course(case, side, |course| claims::undefined(formulas, &name, course))?;
-            let is_lost = without.as_ref().is_some_and(|own| own.is_all);
-            undefined.extend(without.map(|without| (name.clone(), without)));
-            if is_lost {
-                causes.push((name, None));
-                continue;
-            }
+            let all = [own, other];
+            let Some(side) = all.iter().position(is_wrong) else { continue };
+            let name = &all[side][0].name;
             let limit = claims::MOST_WORK.min(MOST_WORK.saturating_sub(work));
-            let found = self.on_course(case, side, |course| claims::cause(formulas, &name, course, limit))?;
+            if all[side][0].without > 0 && limit > 0 {
+                let (found, took) = self.on_course(case, side, |course| claims::undefined(formulas, name, course))?;
+                work += took;
+                let is_lost = found.as_ref().is_some_and(|own| own.is_all);
+                undefined.extend(found.map(|own| (name.clone(), own)));
+                if is_lost {
+                    causes.push((name.clone(), None));
+                    continue;
+                }
+            }
+            let found = self.on_course(case, side, |course| claims::cause(formulas, name, course, limit))?;
             work += found.work;
             if found.is_cut {
                 unsought.insert(name.clone());
             }
-            causes.push((name, found.cause));
+            causes.push((name.clone(), found.cause));
         }
-        Ok(Judgement { sides, causes, undefined, unsought, work })
+        Ok(Judgement { causes, undefined, unsought, work, ..Judgement::of(sides) })
+    }
+
+    /// What both sides say of every claim that they have the channels for; why one is wrong is not sought.
+    ///
+    /// # Errors
+    /// Those of [`claims::judge`].
+    pub(crate) fn claimed(&self, case: &Case, formulas: &Formulas) -> Result<[(&'static str, Vec<Vec<Judged>>); 2]> {
+        let of = |side: usize| -> Result<_> {
+            Ok((self.observed[side].0, self.on_course(case, side, |course| claims::judge(formulas, course))?))
+        };
+        Ok([of(0)?, of(1)?])
     }
 
     /// What one side found on a case, with how well it knows it.
-    pub(super) fn on_course<T>(&self, case: &Case, side: usize, then: impl FnOnce(&Course) -> Result<T>) -> Result<T> {
+    pub(crate) fn on_course<T>(&self, case: &Case, side: usize, then: impl FnOnce(&Course) -> Result<T>) -> Result<T> {
         let place = usize::from(self.order[0] != side);
         let trajectory = &self.observed[side].1.trajectory;
         let error = |column: usize, row: usize| {
@@ -198,6 +209,11 @@ impl Sides {
             self.known.at(place, trajectory.channels()[column].kind.stage, column, row)
         };
         then(&Course::new(case, trajectory, &error).with_figures(&self.figures[side]))
+    }
+
+    /// What formulas come to, if any claims something.
+    pub(crate) fn judgement(&self) -> Option<&Judgement> {
+        self.judgement.as_ref()
     }
 
     /// What was observed of the reference.

@@ -15,7 +15,7 @@ pub struct Judgement {
     /// The formulas that are wrong by name, each with the cause if it is a simple one.
     pub causes: Vec<(String, Option<Cause>)>,
     /// Those of them that somewhere have no value by name, each with the operation that has none.
-    pub undefined: Vec<(String, Undefined)>,
+    pub undefined: BTreeMap<String, Undefined>,
     /// Names of those whose search for a cause ended because its work was used up.
     pub unsought: BTreeSet<String>,
     /// Operations that all searches took.
@@ -23,27 +23,28 @@ pub struct Judgement {
 }
 
 impl Judgement {
+    /// What both sides say; why a formula is wrong is not sought.
+    pub(crate) fn of(sides: [(&'static str, Vec<Vec<Judged>>); 2]) -> Self {
+        Judgement { sides, causes: Vec::new(), undefined: BTreeMap::new(), unsought: BTreeSet::new(), work: 0 }
+    }
+
     /// The operation that leaves a formula without a value, if there is one.
     #[must_use]
     pub fn undefined(&self, name: &str) -> Option<&Undefined> {
-        self.undefined.iter().find(|(own, _)| own == name).map(|(_, undefined)| undefined)
+        self.undefined.get(name)
     }
 }
 
-/// Names of the formulas that a side contradicts, in the order of the scenario.
-pub(super) fn wrong(sides: &[(&'static str, Vec<Vec<Judged>>); 2]) -> Vec<String> {
-    let is_wrong = |all: &[Judged]| all.iter().any(|judged| judged.outcome() == Outcome::Wrong);
-    let both = sides[0].1.iter().zip(&sides[1].1);
-    both.filter(|(own, other)| is_wrong(own) || is_wrong(other)).map(|(own, _)| own[0].name.clone()).collect()
-}
-
 /// A check for every claim, and for every derivative that could be judged, of both sides.
-pub(super) fn checks(judgement: &Judgement) -> Vec<Check> {
+pub(crate) fn checks(judgement: &Judgement) -> Vec<Check> {
     let causes: BTreeMap<&str, String> = judgement
         .causes
         .iter()
         .filter_map(|(name, cause)| {
             let words = match cause {
+                Some(cause) if judgement.unsought.contains(name) => {
+                    format!("cause: {cause}; perhaps another: {CUT}")
+                }
                 Some(cause) => format!("cause: {cause}"),
                 None if judgement.unsought.contains(name) => format!("cause not found: {CUT}"),
                 None => return None,

@@ -38,12 +38,14 @@ mod stall;
 pub use engines::EngineProof;
 pub(crate) use entrants::{Engines, Entrant, Sides, TRUE_SIDES};
 pub use formulas::Judgement;
+pub(crate) use formulas::checks as formula_checks;
 pub use judge::{ChannelProof, EngineInfo};
 pub use ledger::Entry;
 pub(crate) use ledger::Ledger;
 pub use options::{Options, Reference};
 pub use own_forces::{ForceFault, OwnForces};
 pub use parties::Dispute;
+pub(crate) use settle::BUDGET;
 pub use settle::{End, Search};
 
 use crate::compare::{Check, Verdict, overall};
@@ -57,7 +59,7 @@ use linkage::trajectory::Trajectory;
 use linkage::work::limited;
 
 /// Work of the analytic sides that is done whatever is allowed, a second or two: without them nothing can be told.
-const SIDES: f64 = 1e6;
+pub(crate) const SIDES: f64 = 1e6;
 /// Work that a diagnosis may do once more, over that of the proof. With half of it, a free motion of two freedoms had none
 /// left to confirm what it had found.
 const DIAGNOSIS: f64 = 1.0;
@@ -96,6 +98,8 @@ pub struct Proof {
     pub disputes: Vec<Dispute>,
     /// Which party stands alone, since when, and why, if a channel disagrees.
     pub diagnosis: Option<Diagnosis>,
+    /// Whether the search for the diagnosis ended at its limit of work, before all causes were tried.
+    pub diagnosis_is_cut: bool,
     /// Verdict on the whole.
     pub verdict: Verdict,
     /// The reference's trajectory.
@@ -203,7 +207,7 @@ fn joined(scenario: &Scenario, engine_case: &Case, options: &Options, progress: 
     };
     let analytic = sides.verdict();
     let verdict = overall([&analytic].into_iter().chain(proofs.iter().map(|proof| &proof.verdict)));
-    let diagnosis = match verdict {
+    let (diagnosis, diagnosis_is_cut) = match verdict {
         Verdict::Disagree { .. } => {
             let examined = || examined::of(case, main, &sides.observed, &sides.known, &proofs);
             let (found, is_cut) =
@@ -211,11 +215,11 @@ fn joined(scenario: &Scenario, engine_case: &Case, options: &Options, progress: 
             if is_cut {
                 ledger.skipped("rest of the diagnosis", "its share of the work that was allowed is done");
             }
-            found
+            (found, is_cut)
         }
         Verdict::Agree { .. } | Verdict::Expected { .. } | Verdict::Inconclusive { .. } => {
             ledger.skipped("diagnosis", "nothing disagrees");
-            None
+            (None, false)
         }
     };
     Ok(Proof {
@@ -224,6 +228,7 @@ fn joined(scenario: &Scenario, engine_case: &Case, options: &Options, progress: 
         formula: case.structure.formula(&case.mechanism),
         reference: main.name(),
         diagnosis,
+        diagnosis_is_cut,
         reference_trajectory: own.trajectory.clone(),
         reference_bounds: sides.bounds(),
         checks: sides.checks,

@@ -157,6 +157,9 @@ fn reasons(lines: &[Line], claimed: &Claimed, tell: Tell, width: usize, text: &m
             let _ = writeln!(text, "{}", wrapped(&format!("  but    {undefined}."), Some(width), INDENT));
         }
         let told = match causes.get(line.judged.name.as_str()) {
+            Some(Some(found)) if claimed.judgement.unsought.contains(&line.judged.name) => {
+                format!("  cause  {found}.\n         Perhaps another: {CUT}.")
+            }
             Some(Some(
                 found @ (Cause::Leaves { .. } | Cause::Mostly { .. } | Cause::Near { .. } | Cause::Constant),
             )) => {
@@ -306,6 +309,7 @@ pub fn json(scenario: &Scenario, claimed: &Claimed, tell: Tell) -> String {
                     Outcome::Wrong => "disagree",
                 },
                 "cause": causes.get(judged.name.as_str()).copied().flatten().map(cause_json),
+                "search_cut": claimed.judgement.unsought.contains(&judged.name),
                 "no_value": claimed.judgement.undefined(&judged.name).map(|undefined| json!({
                     "in": undefined.formula, "written": undefined.written, "from": undefined.fault.at.start,
                     "to": undefined.fault.at.end, "crank_deg": undefined.crank.to_degrees(),

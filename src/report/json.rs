@@ -38,6 +38,9 @@ struct Run {
     disputes: Vec<DisputeRow>,
     #[serde(skip_serializing_if = "Option::is_none")]
     diagnosis: Option<diagnosis::Row>,
+    /// Whether the search for it ended at its limit of work.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    diagnosis_cut: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
     recording: Option<String>,
     /// What nothing wanted depends on.
@@ -260,6 +263,7 @@ fn run(proof: &Proof, recording: Option<String>, tell: Tell) -> Run {
             .as_ref()
             .filter(|_| matches!(proof.verdict, Verdict::Disagree { .. }))
             .map(diagnosis::row),
+        diagnosis_cut: proof.diagnosis_is_cut,
         recording,
         left_out: Left {
             links: left.links.clone(),

@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 
 use super::cells::{table, trimmed};
 use super::pretty::pretty;
-use crate::mutate::{End, Kind, Mutant, Mutated, Outcome, Party, Share, Sight, Tally, all, tally};
+use crate::mutate::{End, Kind, Mutant, Mutated, Outcome, Party, Share, Sight, Spoiled, Tally, all, tally};
 use linkage::math::KeepNan;
 
 /// The result as text, the verdict first.
@@ -16,8 +16,11 @@ pub(crate) fn text(found: &[Mutated]) -> String {
     let _ = writeln!(text, "{}\n", headline(&tally));
     for one in found.iter().filter(|one| !one.instead.is_empty()) {
         let (name, instead) = (&one.scenario, one.instead.join(", "));
-        let _ =
-            writeln!(text, "{name}: no fault of the kinds asked for changes anything; kinds that would: {instead}\n");
+        let formulas = if one.formulas == 0 { "; no formula of it claims an exact value" } else { "" };
+        let _ = writeln!(
+            text,
+            "{name}: no fault of the kinds asked for changes anything; kinds that would: {instead}{formulas}\n"
+        );
     }
     let _ = writeln!(text, "{}\n", scenarios(found));
     let _ = writeln!(text, "{}\n", kinds(found));
@@ -40,7 +43,7 @@ found down to: sizes above this are found in every scenario, to a factor of two;
 
 /// One sentence with the figures.
 fn headline(tally: &Tally) -> String {
-    let Tally { planted, trunk_kinds, trunk_found, kinds, .. } = tally;
+    let Tally { planted, formulas, trunk_kinds, trunk_found, kinds, .. } = tally;
     if tally.end() == End::Nothing {
         return "NOTHING PLANTED  no fault of the kinds asked for changes anything: nothing is shown".into();
     }
@@ -51,16 +54,19 @@ fn headline(tally: &Tally) -> String {
         End::TrunkOpen => "OPEN IN THE TRUNK",
         End::Nothing => "NOTHING PLANTED",
     };
-    let mut line = format!(
-        "{word}  {} kinds; {} of {} faults in one party found ({}), {} inconclusive, {} escaped; {} change nothing",
-        kinds.len(),
-        planted.found(),
-        planted.real(),
-        percent(planted.found(), planted.real()),
-        planted.inconclusive,
-        planted.escaped,
-        planted.equivalent,
-    );
+    let mut line = format!("{word}  {} kinds", kinds.len());
+    if *planted != Share::default() || *formulas == Share::default() {
+        let _ = write!(
+            line,
+            "; {} of {} faults in one party found ({}), {} inconclusive, {} escaped; {} change nothing",
+            planted.found(),
+            planted.real(),
+            percent(planted.found(), planted.real()),
+            planted.inconclusive,
+            planted.escaped,
+            planted.equivalent,
+        );
+    }
     if !trunk_kinds.is_empty() {
         let _ = write!(
             line,
@@ -68,6 +74,18 @@ fn headline(tally: &Tally) -> String {
             trunk_found.len(),
             trunk_kinds.len(),
             percent(trunk_found.len(), trunk_kinds.len())
+        );
+    }
+    if *formulas != Share::default() {
+        let _ = write!(
+            line,
+            "\nformulas: {} of {} mistakes found ({}), {} inconclusive, {} escaped; {} change nothing",
+            formulas.found(),
+            formulas.real(),
+            percent(formulas.found(), formulas.real()),
+            formulas.inconclusive,
+            formulas.escaped,
+            formulas.equivalent,
         );
     }
     line
@@ -78,10 +96,22 @@ fn percent(part: usize, whole: usize) -> String {
 }
 
 fn scenarios(found: &[Mutated]) -> String {
-    let header = ["scenario", "without", "faults", "found", "open", "escaped", "no change", "trunk", "found outside"];
-    let mut table = table(header, &[2, 3, 4, 5, 6, 7, 8]);
+    let header = [
+        "scenario",
+        "without",
+        "faults",
+        "found",
+        "open",
+        "escaped",
+        "no change",
+        "trunk",
+        "found outside",
+        "in formulas",
+        "found by judging",
+    ];
+    let mut table = table(header, &[2, 3, 4, 5, 6, 7, 8, 9, 10]);
     for one in found {
-        let Tally { planted, trunk, .. } = tally(std::slice::from_ref(one));
+        let Tally { planted, trunk, formulas, .. } = tally(std::slice::from_ref(one));
         table.add_row([
             one.scenario.clone(),
             one.verdict.to_string(),
@@ -92,6 +122,8 @@ fn scenarios(found: &[Mutated]) -> String {
             planted.equivalent.to_string(),
             trunk.real().to_string(),
             trunk.found().to_string(),
+            formulas.real().to_string(),
+            formulas.found().to_string(),
         ]);
     }
     trimmed(&table)
@@ -102,8 +134,9 @@ struct OfKind {
     sides: Share,
     engine: Share,
     trunk: Share,
+    formulas: Share,
     margin: f64,
-    /// Sizes found in every scenario: sides and engine.
+    /// Sizes found in every scenario: sides or formulas, and engine.
     size: [Option<f64>; 2],
 }
 
@@ -117,6 +150,7 @@ fn of_kind(found: &[Mutated], kind: &Kind) -> Option<OfKind> {
         sides: Share::default(),
         engine: Share::default(),
         trunk: Share::default(),
+        formulas: Share::default(),
         margin: f64::INFINITY,
         size: [None; 2],
     };
@@ -125,6 +159,7 @@ fn of_kind(found: &[Mutated], kind: &Kind) -> Option<OfKind> {
             Party::Assur | Party::Newton => (&mut all.sides, Some(&mut all.size[0])),
             Party::Engine => (&mut all.engine, Some(&mut all.size[1])),
             Party::All => (&mut all.trunk, None),
+            Party::Formulas => (&mut all.formulas, Some(&mut all.size[0])),
         };
         share.add(&mutant.outcome);
         if let (Some(size), Some(smallest)) = (size, mutant.smallest) {
@@ -137,7 +172,7 @@ fn of_kind(found: &[Mutated], kind: &Kind) -> Option<OfKind> {
     Some(all)
 }
 
-fn cells(kind: &Kind, own: &OfKind) -> [String; 8] {
+fn cells(kind: &Kind, own: &OfKind) -> [String; 9] {
     let of = |share: &Share| match share.real() {
         0 => "-".into(),
         real => format!("{} of {real}", share.found()),
@@ -153,10 +188,11 @@ fn cells(kind: &Kind, own: &OfKind) -> [String; 8] {
         size(own.size[0]),
         size(own.size[1]),
         of(&own.trunk),
+        of(&own.formulas),
     ]
 }
 
-const KIND_HEADER: [&str; 8] = [
+const KIND_HEADER: [&str; 9] = [
     "kind",
     "family",
     "in a side",
@@ -165,10 +201,11 @@ const KIND_HEADER: [&str; 8] = [
     "side, found down to",
     "engine, found down to",
     "in the trunk",
+    "in formulas",
 ];
 
 fn kinds(found: &[Mutated]) -> String {
-    let mut table = table(KIND_HEADER, &[2, 3, 4, 5, 6, 7]);
+    let mut table = table(KIND_HEADER, &[2, 3, 4, 5, 6, 7, 8]);
     for kind in all() {
         if let Some(own) = of_kind(found, kind) {
             table.add_row(cells(kind, &own));
@@ -189,7 +226,13 @@ fn not_found(found: &[Mutated]) -> Vec<String> {
             };
             if mutant.party != Party::All {
                 let change = mutant.effect.map_or(String::new(), |change| format!(" (changes {change:.1e})"));
-                let (scenario, kind, party) = (&one.scenario, mutant.kind.name, mutant.party.name());
+                let (scenario, kind) = (&one.scenario, mutant.kind.name);
+                let party = match &mutant.formula {
+                    Some(Spoiled { formula, right, wrong }) => {
+                        format!("the formula {formula}, `{wrong}` for `{right}`")
+                    }
+                    None => mutant.party.name().into(),
+                };
                 lines.push(format!("{scenario}: {kind} in {party}{change}: {why}"));
             }
         }
@@ -226,6 +269,7 @@ fn place(kind: &Kind) -> &'static str {
     match kind.plant {
         crate::mutate::Plant::Case(_) => "case",
         crate::mutate::Plant::Answer(_) => "answer",
+        crate::mutate::Plant::Formula(_) => "formula",
     }
 }
 
@@ -242,7 +286,7 @@ pub fn kinds_markdown() -> String {
 /// What came of all kinds as a table in Markdown, with the figures above it and what was not found below.
 pub(crate) fn markdown(found: &[Mutated]) -> String {
     let tally = tally(found);
-    let mut text = format!("{}.\n\n| {} |\n|{}\n", headline(&tally), KIND_HEADER.join(" | "), "---|".repeat(8));
+    let mut text = format!("{}.\n\n| {} |\n|{}\n", headline(&tally), KIND_HEADER.join(" | "), "---|".repeat(9));
     for (kind, own) in all().filter_map(|kind| Some((kind, of_kind(found, kind)?))) {
         let _ = writeln!(text, "| {} |", cells(kind, &own).join(" | "));
     }
@@ -272,7 +316,7 @@ pub(crate) fn json(found: &[Mutated], failures: &[(String, String)]) -> String {
             json!({
                 "scenario": one.scenario, "verdict_without": one.verdict, "engine": one.engine,
                 "faults": one.mutants.iter().map(mutant).collect::<Vec<_>>(), "without_part": one.without,
-                "kinds_instead": one.instead,
+                "kinds_instead": one.instead, "formulas": one.formulas,
             })
         })
         .collect();
@@ -280,6 +324,7 @@ pub(crate) fn json(found: &[Mutated], failures: &[(String, String)]) -> String {
         "schema": 1,
         "figures": {
             "kinds": tally.kinds.len(), "planted": share(&tally.planted), "trunk": share(&tally.trunk),
+            "formulas": share(&tally.formulas),
             "trunk_kinds": tally.trunk_kinds.len(), "trunk_kinds_found": tally.trunk_found.len(),
             "trunk_kinds_open": tally.trunk_kinds.iter().filter(|name| !tally.trunk_found.contains(name)).collect::<Vec<_>>(),
         },
@@ -304,6 +349,9 @@ fn mutant(mutant: &Mutant) -> Value {
         "change": mutant.effect, "smallest": mutant.smallest,
     });
     let map = value.as_object_mut().expect("this is an object");
+    if let Some(Spoiled { formula, right, wrong }) = &mutant.formula {
+        map.insert("formula".into(), json!({ "name": formula, "right": right, "wrong": wrong }));
+    }
     match &mutant.outcome {
         Outcome::Detected { first, clearest, channels, checks } => {
             map.insert("first".into(), sight(first));

@@ -59,6 +59,9 @@ pub(super) fn diagnosed(proof: &Proof, width: Option<usize>, text: &mut String) 
     if let (Some(found), Verdict::Disagree { .. }) = (&proof.diagnosis, &proof.verdict) {
         let _ = writeln!(text, "\n{}", wrapped(&diagnosis::text(found), width, diagnosis::INDENT));
     }
+    if proof.diagnosis_is_cut {
+        let _ = writeln!(text, "\n{}", wrapped(diagnosis::CUT, width, diagnosis::INDENT));
+    }
 }
 
 /// The published numbers that are wrong as expected, by finding.

@@ -203,6 +203,27 @@ impl Formulas {
         (formulas, kept.len() - 1)
     }
 
+    /// The same with another tree in the formula `of`: formulas that use it follow. [`OMEGA`] is known there. `None` if
+    /// the tree uses a name that is not.
+    #[must_use]
+    pub fn with_tree(&self, of: usize, tree: Tree) -> Option<Formulas> {
+        let mut formulas = Formulas::over(self.parameters.clone());
+        if !formulas.graph.knows(OMEGA) {
+            let omega = formulas.graph.input(2);
+            formulas.graph.name(OMEGA, omega);
+        }
+        for (index, formula) in self.list.iter().enumerate() {
+            let mut own = formula.clone();
+            if index == of {
+                (own.text, own.tree) = (tree.to_string(), tree.clone());
+            }
+            own.id = formulas.graph.add(&own.tree).ok()?;
+            formulas.graph.name(&own.name, own.id);
+            formulas.list.push(own);
+        }
+        Some(formulas)
+    }
+
     /// A node's rate of change with time, in the graph.
     pub fn rate(&mut self, of: Id) -> Id {
         let one = self.graph.constant(Rounded::exact(1.0));

@@ -70,7 +70,7 @@ const ROOMS: &[(&str, &str)] = &[
     ("linkproof::diagnosis", "compare"),
     ("linkproof::engines", ""),
     ("linkproof::files", ""),
-    ("linkproof::mutate", "compare diagnosis proof scenario"),
+    ("linkproof::mutate", "claims compare diagnosis proof scenario"),
     ("linkproof::numbers", ""),
     ("linkproof::outside", "bench report"),
     ("linkproof::proof", "claims compare diagnosis engines numbers scenario tolerance"),

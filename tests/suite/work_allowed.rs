@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use linkage::work::{Count, Work, counted};
+use linkproof::mutate::{Asked, Party, mutate};
 use linkproof::parts::Advice;
 use linkproof::proof::{End, Options, Proof, prove};
 use linkproof::scenario::Scenario;
@@ -46,6 +47,22 @@ fn regress_a_step_of_a_large_mechanism_is_more_work() {
     let (proof, work) = proven(&scenario("n_four_bar_10.toml"), &Options::default().budget(1e6));
     assert_eq!(proof.verdict.word(), "inconclusive");
     assert!(work.of(Count::Sweeps) < 3_000_000, "{work:?}");
+}
+
+/// Hundreds of faults, each of them a proof of a large mechanism, went on for hours.
+#[test]
+fn regress_faults_are_planted_within_the_work_that_is_allowed() {
+    let chain = named("chain").expect("there are chains");
+    let large = Scenario::of_case("chain", (chain.setup)(100.0, 0, 0).unwrap().case).unwrap();
+    let asked = Asked { options: Options::default().budget(1e4), ..Asked::default() };
+    let (found, work) = counted(|| mutate(&large, &asked, &mut |_| {}));
+    let error = found.err().expect("600 faults in 100 four-bars are too many");
+    assert!(error.message().contains("planting") && error.message().contains("1.0e5 are allowed"), "{error}");
+    assert!(error.advice().iter().any(|own| own.to_string().contains("--kind")), "{error}");
+    // Both sides without a fault, and once more their exact answers; no step of an engine.
+    assert!(work.of(Count::Groups) < 1_000_000 && work.of(Count::Steps) == 0, "{work:?}");
+    let few = Asked { kinds: vec!["gravity-sign".into()], parties: vec![Party::Assur], ..asked };
+    assert_eq!(mutate(&large, &few, &mut |_| {}).unwrap().mutants.len(), 1);
 }
 
 /// Chains that swing through their change points: impulses there do not converge, and four rounds show it. Before, they

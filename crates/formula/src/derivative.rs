@@ -8,11 +8,9 @@ impl Graph {
     /// The derivative of a node with respect to an input.
     pub fn derivative(&mut self, of: Id, input: usize) -> Id {
         // Arguments stand before what they are arguments of: when it comes to a node, its parts are done.
-        for id in self.needed(&[of]) {
-            if !self.derivatives.contains_key(&(id, input)) {
-                let found = self.rule(id, input);
-                self.derivatives.insert((id, input), found);
-            }
+        for id in self.needed_but(&[of], &|id| self.derivatives.contains_key(&(id, input))) {
+            let found = self.rule(id, input);
+            self.derivatives.insert((id, input), found);
         }
         self.derivatives[&(of, input)]
     }

@@ -197,7 +197,13 @@ impl Graph {
 
     /// The nodes that these need, themselves included, arguments first. A graph of many formulas is not walked through.
     pub(crate) fn needed(&self, nodes: &[Id]) -> Vec<Id> {
-        let mut needed: BTreeSet<Id> = nodes.iter().copied().collect();
+        self.needed_but(nodes, &|_| false)
+    }
+
+    /// The same without those that are done, and without what only these need: what formulas share is walked through
+    /// once.
+    pub(crate) fn needed_but(&self, nodes: &[Id], is_done: &dyn Fn(Id) -> bool) -> Vec<Id> {
+        let mut needed: BTreeSet<Id> = nodes.iter().copied().filter(|id| !is_done(*id)).collect();
         let mut next: Vec<Id> = needed.iter().copied().collect();
         while let Some(id) = next.pop() {
             let parts = match self.node(id) {
@@ -205,7 +211,7 @@ impl Graph {
                 Node::Negative(part) => [part, part],
                 Node::Pair(_, left, right) | Node::Call(_, left, right) => [left, right],
             };
-            next.extend(parts.into_iter().filter(|part| needed.insert(*part)));
+            next.extend(parts.into_iter().filter(|part| !is_done(*part) && needed.insert(*part)));
         }
         // Arguments stand before what they are arguments of.
         needed.into_iter().collect()

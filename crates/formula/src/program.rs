@@ -50,6 +50,12 @@ impl Program {
         &self.answers
     }
 
+    /// The values of the last run.
+    #[must_use]
+    pub fn answers(&self) -> &[Rounded] {
+        &self.answers
+    }
+
     /// Number of operations of a run.
     #[must_use]
     pub fn len(&self) -> usize {

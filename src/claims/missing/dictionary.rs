@@ -6,6 +6,8 @@ use linkage::math::KeepNan;
 
 /// Most angles that functions are taken of.
 const ANGLES: usize = 10;
+/// Most steps that are tried, those right before the formula: products of two of them are their square in number.
+const STEPS: usize = 60;
 
 /// An expression that changes with the crank.
 #[derive(Clone, Debug)]
@@ -51,8 +53,8 @@ fn power(of: &Tree, exponent: f64) -> Tree {
 impl Dictionary {
     /// What may be missing in the formula of a trial, made of all that stands before it.
     pub(super) fn of(trial: &Trial) -> Self {
-        let steps: Vec<Tree> =
-            trial.formulas.list[..trial.index].iter().map(|own| Tree::name(own.name.as_str())).collect();
+        let before = trial.index.saturating_sub(STEPS)..trial.index;
+        let steps: Vec<Tree> = trial.formulas.list[before].iter().map(|own| Tree::name(own.name.as_str())).collect();
         let steps = valued(trial, steps.into_iter().map(|tree| (tree, 1)));
         let is_constant = |entry: &Entry| {
             let size = entry.values.iter().fold(0.0, |size: f64, value| size.larger(value.abs()));

@@ -64,6 +64,9 @@ pub(super) fn missing(trial: &mut Trial, dimensions: &Dimensions) -> Vec<Missing
                 for needed in needed(trial, trial.sheet.places(index)[number], operator) {
                     let alike = ratios.alike(&dictionary.entries, &needed);
                     for entry in alike.into_iter().map(|own| &dictionary.entries[own]) {
+                        if trial.is_spent() {
+                            break;
+                        }
                         // What is right everywhere but for a number lacks nothing that changes.
                         if entry.after > index || trial.is_number && !entry.is_one() {
                             continue;
@@ -71,7 +74,9 @@ pub(super) fn missing(trial: &mut Trial, dimensions: &Dimensions) -> Vec<Missing
                         let Some(coefficient) = coefficient(entry, &needed) else { continue };
                         for (what, weight) in written(&monomials, coefficient, entry, operator) {
                             let Some(own) = Candidate::of(trial, [index, number], operator, &what) else { continue };
-                            if !dimensions.are_sound(&own.changed) {
+                            let is_sound = dimensions.are_sound(&own.changed);
+                            trial.sheet.count(dimensions.work());
+                            if !is_sound {
                                 continue;
                             }
                             if entry.is_one()

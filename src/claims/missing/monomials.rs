@@ -2,7 +2,7 @@
 
 use crate::claims::dimension::{Dimensions, Known};
 use crate::scenario::Formulas;
-use formula::{Function, Operator, Product, Products, Program, Rounded, Shape, Tree, information};
+use formula::{Function, Operator, Product, Products, Shape, Tree, information};
 
 /// Most quantities that products are made of.
 const MOST: usize = 14;
@@ -111,7 +111,7 @@ fn calls(formulas: &Formulas, formula: usize) -> Vec<(Tree, f64)> {
     let mut graph = formulas.graph.clone();
     let constant = |tree: Tree| {
         let id = graph.add(&tree).ok()?;
-        let value = Program::of(&graph, &[id]).run(&[Rounded::exact(f64::NAN); 2])[0].value;
+        let value = graph.constant_of(id)?.value;
         value.is_finite().then_some((tree, value))
     };
     found.into_values().filter_map(constant).collect()

@@ -21,12 +21,18 @@ pub(super) fn tried(trial: &mut Trial, used: &[usize], names: &[&str], dimension
         let several: Vec<&str> =
             found.chunk_by(|one, other| one == other).filter(|own| own.len() > 1).map(|own| own[0]).collect();
         for name in several.into_iter().filter(|name| *name != "pi") {
+            if trial.is_spent() {
+                return;
+            }
             let places = places(trial, &formulas, scope, &|part| part.shape == Shape::Name(name.into()));
             let depending = trial.sheet.depending(&places);
             for (kind, right) in of_name(name, names, &formulas) {
+                if trial.is_spent() {
+                    return;
+                }
                 tried.count += 1;
                 let changes: Vec<(usize, Tree)> = places.iter().map(|place| (*place, right.clone())).collect();
-                if trial.is_spent() || !trial.is_promising(&changes, &depending) {
+                if !trial.is_promising(&changes, &depending) {
                     continue;
                 }
                 let change = |tree: &Tree| tree.with_name(name, &right);
@@ -76,7 +82,9 @@ fn put(
 ) {
     let changed: Vec<(usize, Tree)> =
         scope.iter().map(|&index| (index, change(&trial.formulas.list[index].tree))).collect();
-    let Some(is_sound) = dimensions.standing(&changed, trial.index, [written, right]) else { return };
+    let standing = dimensions.standing(&changed, trial.index, [written, right]);
+    trial.sheet.count(dimensions.work());
+    let Some(is_sound) = standing else { return };
     let formula = trial.formulas.list[trial.index].name.clone();
     let text = |tree: &Tree| tree.to_string().trim_matches('`').to_string();
     let slip = Slip { formula, kind, written: text(written), right: text(right), everywhere: true };
@@ -85,7 +93,7 @@ fn put(
 }
 
 /// Places of the parts of some formulas that are meant.
-fn places(trial: &Trial, formulas: &Formulas, scope: &[usize], is_meant: &dyn Fn(&Tree) -> bool) -> Vec<usize> {
+fn places(trial: &mut Trial, formulas: &Formulas, scope: &[usize], is_meant: &dyn Fn(&Tree) -> bool) -> Vec<usize> {
     let mut found = Vec::new();
     for &index in scope {
         let mut number = 0;
@@ -95,6 +103,7 @@ fn places(trial: &Trial, formulas: &Formulas, scope: &[usize], is_meant: &dyn Fn
             }
             number += 1;
         });
+        trial.sheet.count(number as u64);
     }
     found
 }

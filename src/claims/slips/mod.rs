@@ -7,6 +7,7 @@ mod edits;
 mod everywhere;
 mod functions;
 mod places;
+mod planted;
 mod regrouped;
 mod slip;
 mod tried;
@@ -17,6 +18,7 @@ use super::trial::Trial;
 use formula::{Shape, Sheet, Tree};
 use places::quantities;
 pub(super) use places::{at_every_place, numbered, replaced, used_by};
+pub use planted::planted;
 pub use slip::{Kind, Slip};
 pub(super) use tried::{Mended, Tried};
 
@@ -45,6 +47,9 @@ pub(super) fn tried(trial: &mut Trial, dimensions: &Dimensions) -> Tried {
                 }
                 let depending = trial.sheet.depending(&[place]);
                 for right in edits {
+                    if trial.is_spent() {
+                        return;
+                    }
                     tried.count += 1;
                     let change = [(place, right)];
                     if !trial.is_promising(&change, &depending) {
@@ -53,7 +58,9 @@ pub(super) fn tried(trial: &mut Trial, dimensions: &Dimensions) -> Tried {
                     let [(_, right)] = change;
                     let right = filled(&right, &own.tree, trial.sheet.places(index));
                     let changed = vec![(index, replaced(&own.tree, number, &right))];
-                    let Some(is_sound) = dimensions.standing(&changed, index, [part, &right]) else { continue };
+                    let standing = dimensions.standing(&changed, index, [part, &right]);
+                    trial.sheet.count(dimensions.work());
+                    let Some(is_sound) = standing else { continue };
                     let (written, right) = (part.to_string(), right.to_string());
                     let slip = Slip { formula: own.name.clone(), kind, written, right, everywhere: false };
                     let rank = (!is_sound, false, index != trial.index, kind);

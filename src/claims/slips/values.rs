@@ -4,6 +4,8 @@
 //! people write. Where any number of the formula could be to blame, because the formula is wrong by a factor or is a
 //! constant itself, only one whose digits were confused is named.
 
+use std::collections::BTreeSet;
+
 use super::edits;
 use super::places::{at_every_place, numbered, replaced};
 use super::slip::{Kind, Slip};
@@ -22,13 +24,12 @@ const SIMPLE: f64 = 2.0;
 /// Tries every number of the formulas `used`, and every parameter in them.
 pub(super) fn tried(trial: &mut Trial, used: &[usize], tried: &mut Tried) {
     let formulas = trial.formulas.clone();
+    let known: BTreeSet<&str> =
+        used.iter().flat_map(|&index| formulas.list[index].tree.names()).map(|(name, _)| name).collect();
     for own in &formulas.parameters {
         let names: Vec<(String, f64)> = own.names().map(|(name, number)| (name.to_string(), number.value)).collect();
-        let is_used = |name: &str| {
-            used.iter().any(|&index| formulas.list[index].tree.names().iter().any(|(other, _)| *other == name))
-        };
         // With both names the two numbers would have to change together.
-        let names: Vec<&(String, f64)> = names.iter().filter(|(name, _)| is_used(name)).collect();
+        let names: Vec<&(String, f64)> = names.iter().filter(|(name, _)| known.contains(name.as_str())).collect();
         let &[(name, number)] = names.as_slice() else { continue };
         let Some(place) = trial.sheet.named(name) else { continue };
         tried.count += 1;

@@ -1,5 +1,6 @@
 //! What a kind of fault is.
 
+use crate::claims::Kind as Slip;
 use linkage::case::Case;
 use linkage::solver::State;
 
@@ -26,11 +27,13 @@ pub enum Family {
     Force,
     /// What only one comparison sees.
     Judgement,
+    /// Formulas of the scenario, and what they claim.
+    Formula,
 }
 
 impl Family {
     /// All families.
-    pub const ALL: [Family; 10] = [
+    pub const ALL: [Family; 11] = [
         Family::Geometry,
         Family::Drive,
         Family::Mass,
@@ -41,6 +44,7 @@ impl Family {
         Family::Acceleration,
         Family::Force,
         Family::Judgement,
+        Family::Formula,
     ];
 
     /// Name in tables.
@@ -57,6 +61,7 @@ impl Family {
             Family::Acceleration => "acceleration",
             Family::Force => "force",
             Family::Judgement => "judgement",
+            Family::Formula => "formula",
         }
     }
 }
@@ -77,6 +82,21 @@ pub enum Plant {
     Case(fn(&Case, f64) -> Option<Case>),
     /// In every state that a party answers. `None` where the state has no such part.
     Answer(fn(At, &mut State, f64) -> Option<()>),
+    /// In a formula of the scenario.
+    Formula(Mistake),
+}
+
+/// A mistake in a formula that claims an exact value, or in a step that it uses.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mistake {
+    /// One slip of the pen.
+    Slip(Slip),
+    /// The whole formula is larger by a share.
+    Larger,
+    /// The same quantity of another link, point or joint is claimed.
+    Subject,
+    /// Another quantity with the same unit is claimed.
+    Quantity,
 }
 
 /// A kind of fault.

@@ -3,6 +3,7 @@
 mod accelerations;
 mod drives;
 mod forces;
+mod formulas;
 mod geometry;
 mod judgement;
 mod kind;
@@ -13,11 +14,11 @@ mod positions;
 mod rates;
 mod touch;
 
-pub use kind::{At, Family, Kind, Plant};
+pub use kind::{At, Family, Kind, Mistake, Plant};
 
 /// All kinds, family by family.
 pub fn all() -> impl Iterator<Item = &'static Kind> {
-    let tables: [&'static [Kind]; 10] = [
+    let tables: [&'static [Kind]; 11] = [
         geometry::KINDS,
         drives::KINDS,
         masses::KINDS,
@@ -28,6 +29,7 @@ pub fn all() -> impl Iterator<Item = &'static Kind> {
         accelerations::KINDS,
         forces::KINDS,
         judgement::KINDS,
+        formulas::KINDS,
     ];
     tables.into_iter().flatten()
 }

@@ -86,3 +86,58 @@ fn the_page_has_all_kinds() {
     let page = std::fs::read_to_string(path).unwrap();
     assert!(page.contains(&kinds_markdown()), "replace the table in docs/mutate.md by:\n{}", kinds_markdown());
 }
+
+/// Formulas are a party: a mistake in one of them is judged as `check` and `run` judge it.
+#[test]
+fn mistakes_in_formulas_are_found_and_have_a_line_of_their_own() {
+    let place = Place::new();
+    let file = "scenarios/formulas/slider_crank_centric.toml";
+    let text = place.ok(&format!("mutate {file} --party formulas --no-sizes"));
+    assert!(text.starts_with("ALL FOUND  17 kinds\nformulas: "), "{text}");
+    let json = place.run(&format!("mutate {file} --party formulas --no-sizes --json -")).json();
+    let share = &json["figures"]["formulas"];
+    assert!(share["real"].as_u64().unwrap() > 100 && share["found"] == share["real"], "{share}");
+    assert_eq!((&json["figures"]["planted"]["real"], &json["figures"]["trunk"]["real"]), (&0.into(), &0.into()));
+    let faults = json["scenarios"][0]["faults"].as_array().unwrap();
+    for fault in faults {
+        let formula = &fault["formula"];
+        assert!(fault["party"] == "formulas" && formula["right"] != formula["wrong"], "{fault}");
+        if fault["outcome"] == "detected" {
+            // What sees it is the judgement of formulas, and nothing else.
+            let checks = fault["checks"].to_string();
+            assert!(checks.contains("formulas (assur)") && !checks.contains("closure"), "{fault}");
+            assert!(fault["first"]["time_s"].is_number(), "{fault}");
+        }
+    }
+    // The approximation of the file stays right within the error that it claims; no mistake is planted in it.
+    assert!(faults.iter().all(|fault| fault["formula"]["name"] != "x_series"), "{json}");
+    // What was planted is wrong for `check` as well.
+    let fault = faults.iter().find(|own| own["formula"]["name"] == "x" && own["kind"] == "formula-sign").unwrap();
+    let own = fs::read_to_string(place.path(file)).unwrap();
+    let [right, wrong] = ["right", "wrong"].map(|key| fault["formula"][key].as_str().unwrap());
+    assert!(own.contains(right), "{right}");
+    fs::write(place.path("wrong.toml"), own.replacen(right, wrong, 1)).unwrap();
+    assert_eq!(place.run("check wrong.toml").code, 1, "{wrong}");
+}
+
+/// What a formula is not judged to is lost: of the size of a mistake, the part that is still found is told.
+#[test]
+fn the_size_at_which_a_mistake_in_a_formula_is_lost_is_found() {
+    let place = Place::new();
+    let json = place.run("mutate scenarios/formulas/slider_crank_centric.toml --kind formula-factor --json -").json();
+    let sizes = json["scenarios"][0]["faults"].as_array().unwrap();
+    let sizes = sizes.iter().filter(|own| own["outcome"] == "detected").map(|own| own["smallest"].as_f64().unwrap());
+    let largest = sizes.fold(0.0, |most: f64, own| if own > most { own } else { most });
+    assert!(largest > 1e-14 && largest < 1e-8, "{largest}");
+}
+
+#[test]
+fn a_file_without_formulas_says_that_nothing_is_planted() {
+    let place = Place::new();
+    let outcome = place.run("mutate scenarios/pendulum.toml --party formulas --no-sizes");
+    assert_eq!(outcome.code, 3, "{}", outcome.stdout);
+    assert!(outcome.stdout.starts_with("NOTHING PLANTED"), "{}", outcome.stdout);
+    assert!(outcome.unbroken().contains("no formula of it claims an exact value"), "{}", outcome.stdout);
+    // Where others are asked for, it is no matter.
+    place.ok("mutate scenarios/pendulum.toml --kind gravity-sign --kind formula --party assur --no-sizes");
+}

@@ -2,6 +2,7 @@
 
 use super::{edited, parsed, text};
 use linkage::error::Advice;
+use linkage::work::{Count, PLACED};
 use linkproof::proof::{Options, Proof, prove_against};
 use linkproof::report::json::Document;
 use linkproof::report::text::proof as told;
@@ -58,4 +59,39 @@ fn two_faults_at_once_have_no_single_cause() {
     let report = told(&proof, Advice::to_string, None);
     println!("{}", &report[report.find("Diagnosis").unwrap()..]);
     assert!(report.contains("\n  cause     no"));
+}
+
+/// The search for a cause has a limit of its own, as much work as the proof is allowed: it is used and kept to, and who
+/// reads the report or the JSON learns that it was cut.
+#[test]
+fn a_search_for_a_cause_that_is_cut_has_done_what_it_may_and_says_so() {
+    let right = text("double_pendulum");
+    let once = edited(&right, "y_m_s2 = -9.80665", "y_m_s2 = -9");
+    let twice = edited(&once, "start_deg = 40", "start_deg = 44");
+    let mut whole = parsed("double_pendulum", &right);
+    whole.oracles.clear();
+    let wrong = parsed("double_pendulum", &twice).case;
+    // Every changed case is integrated anew; the engine's steps are given, and few.
+    let of = |budget: f64| {
+        let options = Options::default().step(5e-3).sweeps(1).extrapolated(0).budget(budget);
+        let proof = prove_against(&whole, &wrong, &options).unwrap();
+        assert_eq!(proof.verdict.word(), "disagree");
+        let entry = proof.work.iter().find(|own| own.part == "diagnosis").unwrap();
+        let work = entry.work.as_ref().unwrap();
+        let work = work.of(Count::Intervals) as f64 + PLACED * work.of(Count::Groups) as f64;
+        let report = told(&proof, Advice::to_string, None);
+        let mut document = Document::new();
+        document.add(&proof, None);
+        let json: serde_json::Value = serde_json::from_str(&document.text()).unwrap();
+        let words = report.split_whitespace().collect::<Vec<_>>().join(" ");
+        let is_told = words.contains("The search for a cause ended at its limit of work");
+        assert_eq!(is_told, proof.diagnosis_is_cut, "{report}");
+        assert_eq!(json["runs"][0]["diagnosis_cut"] == true, proof.diagnosis_is_cut);
+        (proof.diagnosis_is_cut, work)
+    };
+    let (is_cut, all) = of(1e7);
+    assert!(!is_cut && all < 1e7, "{all}");
+    let budget = all / 2.0;
+    let (is_cut, work) = of(budget);
+    assert!(is_cut && work > 0.5 * budget && work < 1.1 * budget, "{work} of {budget}");
 }

@@ -89,3 +89,61 @@ fn a_letter_changed_in_a_shipped_file_is_found_with_little_work() {
     assert!(cause(&found, "side").is_some_and(Cause::is_whole), "{:?}", cause(&found, "side"));
     assert!(found.judgement.work < 5_000_000, "{}", found.judgement.work);
 }
+
+/// Thousands of formulas, each of the one before, took minutes: all that a formula rests on was evaluated for each of
+/// them, and derived, and looked through for what has no value.
+#[test]
+fn regress_chained_claims_are_judged_once_each() {
+    let of = |count: usize, text: &dyn Fn(usize) -> String| {
+        let mut scenario = with_formulas((0..count).map(|index| (format!("s{index}"), text(index))));
+        let claim = Claim::parse("link.crank.angle_rad", &scenario.case).unwrap();
+        scenario.formulas.list.iter_mut().for_each(|own| own.claim = Some(claim.clone()));
+        judged(&scenario)
+    };
+    let after = |index: usize, first: &str, next: &str| match index {
+        0 => first.to_string(),
+        _ => next.replace('s', &format!("s{}", index - 1)),
+    };
+    let right = of(3000, &|index| after(index, "phi", "2*phi - s"));
+    assert_eq!(right.verdict.word(), "agree");
+    assert!(right.judgement.sides.iter().all(|(_, all)| all.len() == 3000 && all[2999].len() == 3));
+    // Wrong ones share the work of a search. The first that has no value is told with its place.
+    for (first, next) in
+        [("phi + 1e-3", "2*phi - s"), ("phi + 0*ln(phi - 1)", "2*phi - s"), ("phi", "s + 0.1*exp(-phi)")]
+    {
+        let wrong = of(3000, &|index| after(index, first, next)).judgement;
+        assert!(wrong.work < 4 * MOST_WORK, "{first}: {}", wrong.work);
+        assert!(wrong.causes.len() > 2000 && wrong.unsought.contains("s2999"), "{first}: {}", wrong.causes.len());
+        assert_eq!(wrong.undefined("s0").is_some(), first.contains("ln"), "{first}");
+    }
+}
+
+/// A dictionary of what a formula may lack grew with the square of the steps before it, and was not counted.
+#[test]
+fn regress_a_wrong_formula_after_thousands_of_steps_is_sought_with_bounded_work() {
+    let step = |index: usize| {
+        let text = if index == 0 { "sin(phi)".to_string() } else { format!("s{}*cos(phi)", index - 1) };
+        (format!("s{index}"), text)
+    };
+    let last = ("f".to_string(), "s2999 + 1e-3*s2998".to_string());
+    let found = judged(&with_formulas((0..3000).map(step).chain([last])));
+    assert!(found.judgement.work < 4 * MOST_WORK, "{}", found.judgement.work);
+    assert_eq!(found.verdict.word(), "disagree");
+}
+
+/// A search that was cut says so to a script as well as to a reader.
+#[test]
+fn a_search_that_was_cut_is_told_in_the_json_of_check() {
+    let place = Place::new();
+    let own = std::fs::read_to_string(place.path("scenarios/formulas/slider_crank_centric.toml")).unwrap();
+    let own = &own[..own.find("[[formula]]").unwrap()];
+    for (text, is_cut) in [(vec!["sin(phi)*cos(phi)"; 550].join("+"), true), ("r*sin(phi)".to_string(), false)] {
+        let formula = format!("[[formula]]\nname = \"f\"\nexpression = \"{text}\"\nchannel = \"point.B.x_m\"\n");
+        std::fs::write(place.path("own.toml"), format!("{own}{formula}")).unwrap();
+        let json = place.run("check own.toml --json -").json();
+        assert_eq!((&json["formulas"][0]["search_cut"], json["verdict"].as_str()), (&is_cut.into(), Some("disagree")));
+        let json = place.run("run own.toml --no-record --json -").json();
+        let checks = json["runs"][0]["checks"].to_string();
+        assert_eq!(checks.contains(CUT), is_cut, "{checks}");
+    }
+}

@@ -7,7 +7,7 @@ use crate::cli::tools::Place;
 use crate::common::shipped;
 
 /// Operations of constants outside their domains, and what the message says.
-const OUTSIDE: [(&str, &str); 8] = [
+const OUTSIDE: [(&str, &str); 14] = [
     ("0*ln(-1)", "ln(-1) is undefined"),
     ("0*(1/0)", "1/0 is undefined"),
     ("ln(-1)^0 - 1", "ln(-1) is undefined"),
@@ -16,6 +16,12 @@ const OUTSIDE: [(&str, &str); 8] = [
     ("atan2(0, 0)", "atan2(0, 0) is undefined"),
     ("1/(1/0)", "1/0 is undefined"),
     ("0*(-8)^(1/3)", "(-8)^0.333333 is undefined"),
+    ("(1/0)^0 - 1", "1/0 is undefined"),
+    ("0*acos(-1.5)", "acos(-1.5) is undefined"),
+    ("0*0^(-1)", "0^-1 is undefined"),
+    ("sign(ln(-1))*0", "ln(-1) is undefined"),
+    ("0*abs(sqrt(-1))", "sqrt(-1) is undefined"),
+    ("0*exp(-1/0)", "(-1)/0 is undefined"),
 ];
 
 /// Symptom: `phi*180/pi + 0*ln(-1)` was right. Cause: 0*x, 0/x and x^0 were simplified when a formula was read, as the
@@ -66,6 +72,11 @@ fn operations_that_leave_their_domain_on_the_way_disagree_with_their_place() {
         (vec![("u", "2 - phi"), ("v", "u^0.5")], "v^0*phi*180/pi", "v", "u^0.5", 115.0),
         (vec![], "phi*180/pi*(1/(phi - phi))^0", "formula", "(1/(phi - phi))", 0.0),
         (vec![], "phi*180/pi + exp(-1/(t - t))", "formula", "-1/(t - t)", 0.0),
+        (vec![], "phi*180/pi + 0*asin(phi/3)", "formula", "asin(phi/3)", 172.0),
+        (vec![], "phi*180/pi + 0*atan2(sin(phi)*0, cos(phi)*0)", "formula", "atan2(sin(phi)*0, cos(phi)*0)", 0.0),
+        (vec![("u", "ln(3 - phi)")], "phi*180/pi*u^0", "u", "ln(3 - phi)", 172.0),
+        (vec![], "phi*180/pi + 0*sign(acos(phi))", "formula", "acos(phi)", 58.0),
+        (vec![], "phi*180/pi + 0*abs(phi - 1)^(-1/(phi - phi))", "formula", "(-1/(phi - phi))", 0.0),
     ] {
         let mut scenario = scenario.clone();
         for (name, text) in steps {
@@ -84,6 +95,31 @@ fn operations_that_leave_their_domain_on_the_way_disagree_with_their_place() {
         let (formula, operation, at) = (&undefined.formula, &undefined.written, undefined.crank);
         assert_eq!((formula.as_str(), operation.as_str(), at.to_degrees().round()), (of, written, crank), "{text}");
     }
+}
+
+/// A pole that no instant hits is no operation outside its domain: what is right at every instant is right, and what
+/// passes near the pole is known less well. A pole at an instant, that only rounding hides, proves nothing.
+#[test]
+fn poles_between_instants_and_poles_that_rounding_hides() {
+    let scenario = shipped("crank_rocker.toml");
+    let claim = linkproof::scenario::Claim::parse("link.crank.angle_deg", &scenario.case).unwrap();
+    let outcome = |text: &str| {
+        let mut scenario = scenario.clone();
+        scenario.formulas.add("formula", text).unwrap().claim = Some(claim.clone());
+        let found = super::judged(&scenario);
+        assert!(found.judgement.undefined("formula").is_none(), "{text}");
+        found.judgement.sides[0].1[0][0].clone()
+    };
+    // Instants stand at whole degrees; this divisor crosses zero between 57 and 58.
+    let crossing = outcome("phi*180/pi*(phi - 1)/(phi - 1)");
+    assert_eq!((crossing.outcome(), crossing.lost), (Outcome::Right, 0));
+    // At 90 and 270 deg nothing is known of a tangent, and whatever it is multiplied by.
+    for text in ["phi*180/pi + 0*tan(phi)", "phi*180/pi + 0/cos(phi)"] {
+        let pole = outcome(text);
+        assert_eq!((pole.outcome(), pole.lost), (Outcome::Right, 2), "{text}");
+    }
+    let wrong = outcome("phi*180/pi + 1e-3*tan(phi)");
+    assert_eq!(wrong.outcome(), Outcome::Wrong);
 }
 
 /// A number that a double cannot hold is not undefined: nothing is proven by it, and nothing disproven.
