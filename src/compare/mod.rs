@@ -8,6 +8,6 @@ pub mod verdict;
 pub use convergence::{Convergence, Ladder};
 pub use linkage::math::statistics::{differences, largest_difference};
 pub use other_sweeps::OtherSweeps;
+pub(crate) use residual::{Built, magnitudes_by, scales_beyond};
 pub use residual::{Residual, difference, magnitudes, residuals, residuals_on, scales};
-pub(crate) use residual::{magnitudes_by, scales_beyond};
 pub use verdict::{Check, Verdict, overall};

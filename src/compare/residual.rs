@@ -44,7 +44,8 @@ impl Residual {
     }
 }
 
-/// Share of the largest force below which forces are rounding: the sides know them to a tenth of it.
+/// Share of the largest force below which forces are rounding: the sides know them to a tenth of it. So is any quantity
+/// below this share of what the mechanism is built for.
 const VANISHING: f64 = 1e-9;
 
 /// Scale of every channel: half the range of its values over the run. It is at least a thousandth of the natural size
@@ -59,15 +60,18 @@ const VANISHING: f64 = 1e-9;
 /// the extent of all coordinates of lengths.
 #[must_use]
 pub fn scales(trajectory: &Trajectory) -> Vec<f64> {
-    scales_beyond(&vec![0.0; trajectory.channels().len()], trajectory)
+    scales_beyond(&vec![0.0; trajectory.channels().len()], trajectory, &Built::default())
 }
 
 /// The same for a trajectory that is known to `errors` (in the units of its channels). A rate, a force or a moment that
 /// is zero as far as is known, throughout, has no size: its values are rounding, whatever makes it vanish (a constant
 /// speed, a link that only translates, a joint that guides nothing, a parallelogram). As a constant one is measured by a
 /// tenth of its value, it is measured by a tenth of what is natural for its quantity.
+///
+/// Where nothing of the trajectory has a size (a balanced rotor without gravity, a mechanism in equilibrium), what is
+/// natural is what the case is `built` for.
 #[must_use]
-pub(crate) fn scales_beyond(errors: &[f64], trajectory: &Trajectory) -> Vec<f64> {
+pub(crate) fn scales_beyond(errors: &[f64], trajectory: &Trajectory, built: &Built) -> Vec<f64> {
     let is_instant = trajectory.times().len() == 1;
     let coordinates = || trajectory.iter().filter(|(channel, _)| channel.kind.unit == Unit::Metre);
     let extent = half_range(&coordinates().flat_map(|(_, values)| values.iter().copied()).collect::<Vec<f64>>());
@@ -86,7 +90,11 @@ pub(crate) fn scales_beyond(errors: &[f64], trajectory: &Trajectory) -> Vec<f64>
         true => (1.0, 1.0),
         false => (half_range(trajectory.cranks()), SMALLEST_SHARE),
     };
-    let natural = natural(trajectory, &sizes, turn);
+    let natural: Vec<f64> = natural(trajectory, &sizes, turn)
+        .into_iter()
+        .zip(trajectory.channels())
+        .map(|(natural, channel)| built.unless(natural, channel.kind.unit))
+        .collect();
     let of = |(index, channel): (usize, &Channel)| {
         let [half, largest] = own[index];
         let vanishes = !is_coordinate(channel) && largest <= errors[index];
@@ -94,6 +102,35 @@ pub(crate) fn scales_beyond(errors: &[f64], trajectory: &Trajectory) -> Vec<f64>
         half.larger(SMALLEST_OWN_SHARE * largest).larger(share * natural[index])
     };
     trajectory.channels().iter().enumerate().map(of).collect()
+}
+
+/// Sizes that a case is built for, whatever moves in it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Built {
+    /// Size of the mechanism (m).
+    pub(crate) length: f64,
+    /// Fastest speed of a drive, the nominal one of a free link (rad/s).
+    pub(crate) speed: f64,
+    /// Weight of all links, or what accelerates them at that speed and size, if that is larger (N).
+    pub(crate) force: f64,
+}
+
+impl Built {
+    /// A size, or that of its unit here if the other is its rounding.
+    pub(crate) fn unless(&self, size: f64, unit: Unit) -> f64 {
+        let Built { length, speed, force } = *self;
+        let own = match unit {
+            Unit::Radian => 1.0,
+            Unit::RadianPerSecond => speed,
+            Unit::RadianPerSecondSquared => speed * speed,
+            Unit::Metre => length,
+            Unit::MetrePerSecond => speed * length,
+            Unit::MetrePerSecondSquared => speed * speed * length,
+            Unit::Newton => force,
+            Unit::NewtonMetre => force * length,
+        };
+        if size <= VANISHING * own { own } else { size }
+    }
 }
 
 /// Whether a channel's values are counted from somewhere, so that their size says nothing.
@@ -344,6 +381,24 @@ mod tests {
         ]);
         assert_eq!(scales(&a), [0.1, 500.0, 2.0, 100.0]);
         assert_eq!(magnitudes(&a), [1.0, 500.0, 2.0, 1000.0]);
+    }
+
+    #[test]
+    fn where_nothing_has_a_size_it_is_what_the_case_is_built_for() {
+        let still = Trajectory::new(
+            vec![0.0, 1.0],
+            vec![2.0; 2],
+            ["link.a.angle_rad", "link.a.omega_rad_s", "point.P.ax_m_s2", "joint.A.fx_N", "drive.torque_N_m"]
+                .map(|name| Channel::named(name).unwrap())
+                .to_vec(),
+            [1.0, 0.0, 1e-12, 0.0, 0.0].map(|value| vec![value; 2]).to_vec(),
+        )
+        .unwrap();
+        let built = Built { length: 0.5, speed: 4.0, force: 30.0 };
+        let found = scales_beyond(&[1e-10; 5], &still, &built);
+        assert_eq!(found, [1e-3, 0.1 * 4.0, 0.1 * 16.0 * 0.5, 0.1 * 30.0, 0.1 * 15.0]);
+        // A size of its own, however small, stays: only rounding of what the case is built for is none.
+        assert_eq!([3e-9, 4e-8, 1.0].map(|own| built.unless(own, Unit::Newton)), [30.0, 4e-8, 1.0]);
     }
 
     /// Each quantity that vanishes has the size that follows from the crank: here 6 rad in 4 s, 3 m and 500 N.

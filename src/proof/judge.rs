@@ -4,6 +4,7 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
+use super::built::built;
 use super::checks;
 use super::doubt::Doubt;
 use super::known::Known;
@@ -189,7 +190,7 @@ impl<'a> Judge<'a> {
     pub(super) fn new(scenario: &'a Scenario, reference: &'a Observed, known: &'a Known, asked: Settings) -> Self {
         let channels = reference.trajectory.channels().iter().enumerate();
         let errors: Vec<f64> = channels.map(|(index, channel)| known.error(channel.kind.stage, index)).collect();
-        let scales = scales_beyond(&errors, &reference.trajectory);
+        let scales = scales_beyond(&errors, &reference.trajectory, &built(&scenario.case));
         let Observed { trajectory: reference, senses, singular, .. } = reference;
         Judge { scenario, reference, scales, senses, singular, known, asked, asks: Asks::All }
     }

@@ -1,6 +1,7 @@
 //! The proof: a scenario solved by both analytic sides and by engines, compared, checked, and judged.
 
 pub mod beside;
+mod built;
 mod checks;
 pub mod claimed;
 mod dependence;

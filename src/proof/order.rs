@@ -43,20 +43,31 @@ pub(super) fn look(judge: &Judge, bank: &mut Bank, judged: &mut Judged) -> Resul
     }
     let found = judged.info.settings;
     let finest = found.resolution * 0.5f64.powi(found.extrapolated as i32);
-    let mut rungs = Vec::new();
-    for step in [4.0, 2.0, 1.0].map(|times| times * finest) {
-        let plain = Settings { resolution: step, extrapolated: 0, ..found };
+    let mut rung = |times: f64, asks_sweeps: bool| {
+        let plain = Settings { resolution: times * finest, extrapolated: 0, ..found };
         let own = bank.engine(plain);
-        let others = other_sweeps(bank.case, own.as_ref(), plain.sweeps, FEWER);
-        let others = if step > finest { &[] } else { &others[..others.len().min(1)] };
-        match bank.runs(plain, others, &mut |_| {}).and_then(|runs| Ok(judge.judge(own.as_ref(), runs)?)) {
-            Ok(own) => rungs.push(own),
+        let mut others = other_sweeps(bank.case, own.as_ref(), plain.sweeps, FEWER);
+        others.truncate(usize::from(asks_sweeps));
+        match bank.runs(plain, &others, &mut |_| {}).and_then(|runs| Ok(judge.judge(own.as_ref(), runs)?)) {
+            Ok(own) => Ok(Some(own)),
             // Too coarse a run shows nothing.
-            Err(stopped) if stopped.error.kind() == ErrorKind::Numeric => return Ok(false),
-            Err(stopped) => return Err(stopped),
+            Err(stopped) if stopped.error.kind() == ErrorKind::Numeric => Ok(None),
+            Err(stopped) => Err(stopped),
         }
+    };
+    let mut rungs = Vec::new();
+    for times in [4.0, 2.0, 1.0] {
+        let Some(own) = rung(times, false)? else { return Ok(false) };
+        rungs.push(own);
     }
-    let [coarse, middle, fine] = &rungs[..] else { return Ok(false) };
+    // What the sweeps leave takes one more run, as long as half of the longest. Few orders are so steady that it is asked.
+    let may_be =
+        |index: usize| is_low(&judged.channels[index]) && is_steady([0, 1, 2].map(|k| &rungs[k].channels[index]));
+    if !(0..judged.channels.len()).any(may_be) {
+        return Ok(false);
+    }
+    let Some(fine) = rung(1.0, true)? else { return Ok(false) };
+    let [coarse, middle, fine] = [&rungs[0], &rungs[1], &fine];
     let mut is_found = false;
     for index in 0..judged.channels.len() {
         if is_low(&judged.channels[index]) {
@@ -79,13 +90,17 @@ pub(super) fn look(judge: &Judge, bank: &mut Bank, judged: &mut Judged) -> Resul
     Ok(is_found)
 }
 
-/// The order of three estimates, if it is the same low whole number each time and not that of rounding or of the
-/// sweeps.
+/// Whether three estimates, the finest last, have the same low whole number as their order.
+fn is_steady(rungs: [&ChannelProof; 3]) -> bool {
+    let Convergence { observed, formal, .. } = rungs[2].convergence;
+    let whole = observed.round();
+    let is_same = rungs.iter().all(|own| (own.convergence.observed - whole).abs() <= STEADY);
+    is_same && whole >= 1.0 && whole <= LOW * formal
+}
+
+/// The order of three estimates, if it is steady and not that of rounding or of the sweeps.
 fn steady(coarse: &ChannelProof, middle: &ChannelProof, fine: &ChannelProof) -> Option<f64> {
-    let orders = [coarse, middle, fine].map(|own| own.convergence.observed);
-    let whole = fine.convergence.observed.round();
-    let is_steady = orders.iter().all(|order| (order - whole).abs() <= STEADY);
     let other = fine.parts.iteration.larger(fine.parts.rounding).larger(fine.parts.reference);
     let is_clear = fine.convergence.error > CLEAR * other;
-    (is_steady && whole >= 1.0 && whole <= LOW * fine.convergence.formal && is_clear).then_some(orders[2])
+    (is_steady([coarse, middle, fine]) && is_clear).then_some(fine.convergence.observed)
 }

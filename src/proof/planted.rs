@@ -15,11 +15,12 @@ use super::{checks, engines, methods, oracle};
 use crate::compare::{Check, Verdict, magnitudes};
 use crate::proof::{EngineProof, Options, prove};
 use crate::scenario::{Figure, Scenario};
+use crate::specimens::spec::four_bar;
 use analytic::witness::triad::Triad;
 use analytic::{AssurSolver, NewtonSolver};
 use linkage::case::{Case, Grid, Wanted};
 use linkage::engine::{Engine, Hook, Route, Settings, Wrapped};
-use linkage::math::turned;
+use linkage::math::{Vec2, turned};
 use linkage::mechanism::GROUND;
 use linkage::solver::{Solver, State};
 use linkage::trajectory::Channel;
@@ -448,6 +449,32 @@ fn a_fault_of_fixed_size_is_found_where_the_reference_is_zero() {
             let proof = engine_proven(&scenario, fault, size, false, everything);
             let found = proof.channels.iter().find(|channel| channel.residual.channel.to_string() == own).unwrap();
             assert_eq!(found.verdict.word(), word, "{own} at {size:e}: {found:?}");
+        }
+    }
+}
+
+/// Where no force of the mechanism has a size, what its mass and speed could exert is the size: a millionth of a newton is
+/// found in a balanced rotor.
+#[test]
+fn a_fault_of_fixed_size_is_found_where_nothing_has_a_size() {
+    let everything = Free { step: true, sweeps: true, extrapolated: true };
+    let mut rotor = four_bar([1.0, 0.3, 1.0, 1.0], true);
+    rotor.links.truncate(1);
+    rotor.pins.truncate(1);
+    rotor.dyads.clear();
+    rotor.links[0].mass = Some((3.0, Vec2::zeros(), 0.1));
+    (rotor.gravity, rotor.dt) = (Vec2::zeros(), None);
+    let rotor = rotor.scenario().unwrap();
+    let zeros: [(&str, Fault); 2] = [
+        ("joint.O.fx_N", |state, size| state.forces[0].x += size),
+        ("drive.torque_N_m", |state, size| state.torques[0] += size),
+    ];
+    for (own, fault) in zeros {
+        for (size, word) in [(1e-6, "disagree"), (0.0, "agree")] {
+            let proof = engine_proven(&rotor, fault, size, false, everything);
+            let found = proof.channels.iter().find(|channel| channel.residual.channel.to_string() == own).unwrap();
+            assert_eq!(found.verdict.word(), word, "{own} at {size:e}: {found:?}");
+            assert_eq!(proof.verdict.word(), word, "{own} at {size:e}");
         }
     }
 }

@@ -401,90 +401,43 @@ fn several_driving_links_do_not_pass() {
     assert!(error.message().contains("one drive only"), "{error}");
 }
 
-/// Parallel cranks of two to five, with a load on the coupler; `edits` in their text.
-fn parallel_cranks(edits: &[(&str, &str)]) -> linkage::Result<Scenario> {
-    const TEXT: &str = r#"
-format = 1
-name = "parallel"
-title = "Parallel cranks with a load at the coupler"
-[ground.points]
-O = { x_mm = 0, y_mm = 0 }
-C = { x_mm = 127, y_mm = 0 }
-[links.crank]
-mass_kg = 0.5
-inertia_kg_m2 = 0.0003
-mass_centre = { x_mm = 25, y_mm = 0 }
-points = { O = { x_mm = 0, y_mm = 0 }, A = { x_mm = 50.8, y_mm = 0 } }
-[links.coupler]
-mass_kg = 2
-inertia_kg_m2 = 0.004
-mass_centre = { x_mm = 76, y_mm = 38 }
-points = { A = { x_mm = 0, y_mm = 0 }, B = { x_mm = 127, y_mm = 0 }, P = { x_mm = 130, y_mm = 76 } }
-[links.rocker]
-mass_kg = 1
-inertia_kg_m2 = 0.005
-mass_centre = { x_mm = 114, y_mm = 0 }
-points = { C = { x_mm = 0, y_mm = 0 }, B = { x_mm = 50.8, y_mm = 0 } }
-[[joints]]
-name = "O"
-type = "revolute"
-links = ["ground", "crank"]
-[[joints]]
-name = "A"
-type = "revolute"
-links = ["crank", "coupler"]
-[[joints]]
-name = "B"
-type = "revolute"
-links = ["coupler", "rocker"]
-[[joints]]
-name = "C"
-type = "revolute"
-links = ["ground", "rocker"]
-[drive]
-joint = "O"
-speed_rpm = 100
-through = "smooth"
-[channels]
-want = ["positions", "velocities", "accelerations"]
-[[loads]]
-type = "force"
-link = "coupler"
-point = "P"
-x_N = 0
-y_N = -355.9
-[start]
-crank_deg = 90
-[[start.groups]]
-links = ["coupler", "rocker"]
-mode = "left"
-[grid]
-from_deg = 90
-to_deg = 450
-step_deg = 10
-"#;
-    let mut text = TEXT.to_string();
-    for (from, to) in edits {
-        assert!(text.contains(from), "{from}");
-        text = text.replacen(from, to, 1);
-    }
-    Scenario::parse(&text, "parallel.toml".as_ref())
+/// The key by which a drive passes change points.
+const SMOOTH: &str = "through = \"smooth\"";
+
+/// What is asked of parallel cranks where reactions are not: these have a pole at the change points.
+const MOTION: &str = "want = [\"positions\", \"velocities\", \"accelerations\"]";
+
+/// Parallel cranks of two to five with a load on the coupler, which go all the way round in steps of `step` (deg).
+/// `want` says which channels are asked for, `through` is the drive's key.
+fn parallel_cranks(through: &str, want: &str, step: f64) -> Case {
+    let mut spec = four_bar([0.127, 0.0508, 0.127, 0.0508], true);
+    spec.links[0].mass = Some((0.5, Vec2::new(0.025, 0.0), 0.0003));
+    spec.links[1].mass = Some((2.0, Vec2::new(0.076, 0.038), 0.004));
+    spec.links[2].mass = Some((1.0, Vec2::new(0.114, 0.0), 0.005));
+    spec.links[1].points.push(("P".into(), Vec2::new(0.13, 0.076)));
+    spec.start = 90f64.to_radians();
+    spec.grid = (spec.start, step.to_radians(), (360.0 / step) as usize);
+    spec.dt = None;
+    spec.other.drive = format!("speed_rpm = 100\n{through}");
+    let load = "type = \"force\"\nlink = \"coupler\"\npoint = \"P\"\nx_N = 0\ny_N = -355.9";
+    spec.other.sections = format!("[channels]\n{want}\n[[loads]]\n{load}\n");
+    spec.scenario().unwrap_or_else(|error| panic!("{error}")).case
 }
 
 /// Symptom: with an instant of the grid exactly at a change point, 16 of 51 numbers of the engine disagreed. Cause: its
 /// equations have many solutions there, and its rates at that very instant were judged.
 #[test]
 fn regress_an_instant_exactly_at_a_change_point_is_passed() {
-    let scenario = parallel_cranks(&[]).unwrap();
+    let case = parallel_cranks(SMOOTH, MOTION, 10.0);
     for side in SIDES {
-        let found = side.solve(&scenario.case).unwrap();
+        let found = side.solve(&case).unwrap();
         // The coupler of parallel cranks does not turn, at the change points (180 and 360 deg) as anywhere.
         for channel in ["link.coupler.omega_rad_s", "link.coupler.alpha_rad_s2"] {
             let values = column(&found, channel);
             assert_within!(values.iter().map(|value| value.abs()).fold(0.0, f64::larger), 1e-6, "{channel}");
         }
     }
-    let proof = prove(&scenario, &Options::default()).unwrap();
+    let proof = prove(&Scenario::of_case("parallel", case).unwrap(), &Options::default()).unwrap();
     assert_ne!(proof.verdict.word(), "disagree", "{:?}", proof.verdict);
     let engine = &proof.engines[0];
     let of = |name: &str| engine.channels.iter().find(|own| own.residual.channel.to_string() == name).unwrap().left_out;
@@ -496,11 +449,10 @@ fn regress_an_instant_exactly_at_a_change_point_is_passed() {
 /// `through`. Where a load works along the other branch, reactions have a pole at the very instant: that is told too.
 #[test]
 fn the_error_at_a_change_point_names_the_way_through() {
-    for step in ["step_deg = 10", "step_deg = 7"] {
-        let edits = [("through = \"smooth\"\n", ""), ("step_deg = 10", step)];
-        let scenario = parallel_cranks(&edits).unwrap();
+    for step in [10.0, 7.0] {
+        let case = parallel_cranks("", MOTION, step);
         for side in SIDES {
-            let error = side.solve(&scenario.case).unwrap_err();
+            let error = side.solve(&case).unwrap_err();
             let way_out = error.way_out().unwrap();
             assert!(
                 way_out.contains("`through = \"smooth\"` in [drive]"),
@@ -509,15 +461,11 @@ fn the_error_at_a_change_point_names_the_way_through() {
             );
         }
     }
-    let want = "want = [\"positions\", \"velocities\", \"accelerations\"]";
-    let scenario = parallel_cranks(&[(want, "want = [\"reactions\"]")]).unwrap();
+    let reactions = "want = [\"reactions\"]";
     for side in SIDES {
-        let error = side.solve(&scenario.case).unwrap_err();
+        let error = side.solve(&parallel_cranks(SMOOTH, reactions, 10.0)).unwrap_err();
         assert!(error.message().contains("reactions grow without bound"), "{error}");
-        assert!(error.way_out().unwrap().contains(want), "{error}");
-    }
-    let beside = parallel_cranks(&[(want, "want = [\"reactions\"]"), ("step_deg = 10", "step_deg = 7")]).unwrap();
-    for side in SIDES {
-        side.solve(&beside.case).unwrap();
+        assert!(error.way_out().unwrap().contains(MOTION), "{error}");
+        side.solve(&parallel_cranks(SMOOTH, reactions, 7.0)).unwrap();
     }
 }

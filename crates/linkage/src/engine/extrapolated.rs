@@ -1,7 +1,7 @@
 //! Richardson extrapolation of any engine with a fixed step to step zero (Richardson 1911).
 //! The engine solves at h, h / 2, h / 4, ...; their states are combined so that the leading errors cancel.
 
-use super::{Engine, Route, Settings, Statics};
+use super::{Engine, Settings, StandIn};
 use crate::case::Case;
 use crate::error::Result;
 use crate::math::{Motion, Vec2, unit};
@@ -150,58 +150,30 @@ impl Solver for Extrapolated {
     }
 }
 
-impl Engine for Extrapolated {
-    fn version(&self) -> String {
-        self.coarsest().version()
+impl StandIn for Extrapolated {
+    fn original(&self) -> &dyn Engine {
+        self.coarsest()
     }
 
-    fn settings(&self) -> Settings {
-        Settings { extrapolated: self.times(), ..self.coarsest().settings() }
-    }
-
-    fn with(&self, settings: Settings) -> Box<dyn Engine> {
+    fn renewed(&self, settings: Settings) -> Box<dyn Engine> {
         self.coarsest().with(settings)
     }
 
-    fn controls_error(&self) -> bool {
-        self.coarsest().controls_error()
+    fn own_settings(&self) -> Settings {
+        Settings { extrapolated: self.times(), ..self.coarsest().settings() }
     }
 
-    fn routes(&self) -> &'static [Route] {
-        self.coarsest().routes()
-    }
-
-    fn own_routes(&self, case: &Case) -> &'static [Route] {
-        self.coarsest().own_routes(case)
-    }
-
-    fn overrun(&self) -> f64 {
-        self.coarsest().overrun()
-    }
-
-    fn sweeps(&self, case: &Case) -> Option<[usize; 2]> {
-        self.coarsest().sweeps(case)
-    }
-
-    fn statics(&self, case: &Case) -> Option<Statics> {
-        self.coarsest().statics(case)
-    }
-
-    fn formal_order(&self, case: &Case, channel: &ChannelKind) -> f64 {
+    fn own_order(&self, case: &Case, channel: &ChannelKind) -> f64 {
         // The errors are proportional to h^p, h^(p+1), ...; the first ones cancel.
         self.coarsest().formal_order(case, channel) + self.times() as f64
     }
 
-    fn noise(&self, case: &Case, channel: &ChannelKind) -> f64 {
+    fn own_noise(&self, case: &Case, channel: &ChannelKind) -> f64 {
         let weights = weights(self.coarsest().formal_order(case, channel), self.runs.len());
         weights.iter().zip(&self.runs).map(|(weight, run)| weight.abs() * run.noise(case, channel)).sum()
     }
 
-    fn is_noise_measured(&self) -> bool {
-        self.coarsest().is_noise_measured()
-    }
-
-    fn told(&self) -> Vec<(&'static str, String)> {
+    fn own_told(&self) -> Vec<(&'static str, String)> {
         let mut told = self.coarsest().told();
         let halves = (0..=self.times()).map(|time| if time == 0 { "h".into() } else { format!("h/{}", 1 << time) });
         told.push(("extrapolated", format!("from runs at {}", halves.collect::<Vec<String>>().join(", "))));
@@ -215,7 +187,7 @@ mod tests {
 
     use super::*;
     use crate::case::Grid;
-    use crate::engine::Kept;
+    use crate::engine::{Kept, Route, Statics};
     use crate::error::{Error, ErrorKind};
     use crate::fixtures;
 

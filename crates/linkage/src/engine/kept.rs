@@ -3,11 +3,11 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, mpsc};
 
-use super::{Engine, Extrapolated, Route, Rows, Settings, Statics};
+use super::{Engine, Extrapolated, Rows, Settings, StandIn};
 use crate::case::Case;
 use crate::error::{Error, Result};
 use crate::solver::{Progress, Provision, Solver, State, Visit};
-use crate::trajectory::{Channel, ChannelKind};
+use crate::trajectory::Channel;
 use crate::work::{self, Work, counted};
 
 /// An engine that makes every run once, and hands out the states it has kept when the run is asked for again.
@@ -160,16 +160,12 @@ impl Solver for Kept {
     }
 }
 
-impl Engine for Kept {
-    fn version(&self) -> String {
-        self.inner.version()
+impl StandIn for Kept {
+    fn original(&self) -> &dyn Engine {
+        self.inner.as_ref()
     }
 
-    fn settings(&self) -> Settings {
-        self.inner.settings()
-    }
-
-    fn with(&self, settings: Settings) -> Box<dyn Engine> {
+    fn renewed(&self, settings: Settings) -> Box<dyn Engine> {
         let plain = self.inner.with(Settings { extrapolated: 0, ..settings });
         let kept = Box::new(Kept { inner: plain, store: Arc::clone(&self.store) });
         match settings.extrapolated {
@@ -178,49 +174,9 @@ impl Engine for Kept {
         }
     }
 
-    fn controls_error(&self) -> bool {
-        self.inner.controls_error()
-    }
-
-    fn routes(&self) -> &'static [Route] {
-        self.inner.routes()
-    }
-
-    fn own_routes(&self, case: &Case) -> &'static [Route] {
-        self.inner.own_routes(case)
-    }
-
-    fn sweeps(&self, case: &Case) -> Option<[usize; 2]> {
-        self.inner.sweeps(case)
-    }
-
-    fn statics(&self, case: &Case) -> Option<Statics> {
-        self.inner.statics(case)
-    }
-
-    fn rows(&self, case: &Case, progress: Progress) -> Result<Arc<Rows>> {
+    fn own_rows(&self, case: &Case, progress: Progress) -> Result<Arc<Rows>> {
         let run = self.found(case, progress);
         progress(1.0);
         run.failed.map_or(Ok(run.rows), Err)
-    }
-
-    fn overrun(&self) -> f64 {
-        self.inner.overrun()
-    }
-
-    fn formal_order(&self, case: &Case, channel: &ChannelKind) -> f64 {
-        self.inner.formal_order(case, channel)
-    }
-
-    fn noise(&self, case: &Case, channel: &ChannelKind) -> f64 {
-        self.inner.noise(case, channel)
-    }
-
-    fn is_noise_measured(&self) -> bool {
-        self.inner.is_noise_measured()
-    }
-
-    fn told(&self) -> Vec<(&'static str, String)> {
-        self.inner.told()
     }
 }

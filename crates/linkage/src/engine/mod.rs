@@ -5,12 +5,14 @@ mod extrapolated;
 mod kept;
 mod rows;
 mod settings;
+mod stand_in;
 mod wrapped;
 
 pub use extrapolated::Extrapolated;
 pub use kept::{Kept, plain_runs};
 pub use rows::Rows;
 pub use settings::{Route, Settings, size_of_step};
+pub use stand_in::StandIn;
 pub use wrapped::{Hook, Wrapped};
 
 use std::sync::Arc;
@@ -25,8 +27,7 @@ pub type Statics = Box<dyn FnMut(&Case, usize, &mut State) -> Result<()>>;
 
 /// An engine: a solver that integrates numerically, with settings that decide its accuracy.
 ///
-/// Only what follows from other methods has a default: whoever stands for another engine is asked by the compiler for
-/// everything else. To change what an engine answers, take [`Wrapped`].
+/// Whoever stands for another engine is a [`StandIn`]. To change what an engine answers, take [`Wrapped`].
 pub trait Engine: Solver {
     /// Name and version of the software behind it.
     fn version(&self) -> String;
@@ -66,8 +67,7 @@ pub trait Engine: Solver {
     /// # Errors
     /// Those of [`Solver::sweep`].
     fn rows(&self, case: &Case, progress: Progress) -> Result<Arc<Rows>> {
-        let (rows, outcome) = Rows::of_run(case, |visit| self.sweep(case, visit, progress));
-        outcome.map(|()| Arc::new(rows))
+        Rows::of_solver(self, case, progress)
     }
 
     /// Steps that a run of a prescribed motion takes beyond either end of its grid.

@@ -4,11 +4,12 @@
 //! them than on its numbers.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use crate::case::Case;
 use crate::error::Result;
 use crate::math::Vec2;
-use crate::solver::State;
+use crate::solver::{Progress, Solver, State};
 use crate::trajectory::Stage;
 
 /// States by row of the grid.
@@ -151,6 +152,15 @@ impl Rows {
         state.torques[..*drives].iter_mut().for_each(|torque| *torque = get());
         state.passing = self.passing.get(&row).copied();
         true
+    }
+
+    /// Those of a whole run of a solver.
+    ///
+    /// # Errors
+    /// Those of [`Solver::sweep`].
+    pub(super) fn of_solver<S: Solver + ?Sized>(solver: &S, case: &Case, progress: Progress) -> Result<Arc<Rows>> {
+        let (rows, outcome) = Rows::of_run(case, |visit| solver.sweep(case, visit, progress));
+        outcome.map(|()| Arc::new(rows))
     }
 
     /// Collects the states that `sweep` visits. What was visited before a failure is kept beside it.

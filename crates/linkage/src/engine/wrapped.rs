@@ -1,10 +1,10 @@
 //! A solver or an engine that stands for another one and changes what it answers.
 
-use super::{Engine, Route, Settings, Statics};
+use super::{Engine, Settings, StandIn, Statics};
 use crate::case::Case;
 use crate::error::Result;
 use crate::solver::{Progress, Provision, Solver, State, Visit};
-use crate::trajectory::{Channel, ChannelKind};
+use crate::trajectory::Channel;
 
 /// What a [`Wrapped`] solver or engine does differently from the one it stands for.
 pub trait Hook: Clone + Send + Sync + 'static {
@@ -57,37 +57,17 @@ impl<H: Hook, S: Solver + ?Sized> Solver for Wrapped<H, S> {
     }
 }
 
-impl<H: Hook> Engine for Wrapped<H, dyn Engine> {
-    fn version(&self) -> String {
-        self.inner.version()
+impl<H: Hook> StandIn for Wrapped<H, dyn Engine> {
+    fn original(&self) -> &dyn Engine {
+        self.inner.as_ref()
     }
 
-    fn settings(&self) -> Settings {
-        self.inner.settings()
-    }
-
-    fn with(&self, settings: Settings) -> Box<dyn Engine> {
+    fn renewed(&self, settings: Settings) -> Box<dyn Engine> {
         let hook = self.hook.with(self.inner.settings(), settings);
         Box::new(Wrapped { hook, inner: self.inner.with(settings) })
     }
 
-    fn controls_error(&self) -> bool {
-        self.inner.controls_error()
-    }
-
-    fn routes(&self) -> &'static [Route] {
-        self.inner.routes()
-    }
-
-    fn own_routes(&self, case: &Case) -> &'static [Route] {
-        self.inner.own_routes(case)
-    }
-
-    fn sweeps(&self, case: &Case) -> Option<[usize; 2]> {
-        self.inner.sweeps(case)
-    }
-
-    fn statics(&self, case: &Case) -> Option<Statics> {
+    fn own_statics(&self, case: &Case) -> Option<Statics> {
         let (changed, hook) = (self.hook.case(case).ok()?, self.hook.clone());
         let mut inner = self.inner.statics(changed.as_ref().unwrap_or(case))?;
         Some(Box::new(move |case, row, state| {
@@ -98,25 +78,5 @@ impl<H: Hook> Engine for Wrapped<H, dyn Engine> {
             (state.motions, state.angles) = motion;
             Ok(())
         }))
-    }
-
-    fn overrun(&self) -> f64 {
-        self.inner.overrun()
-    }
-
-    fn formal_order(&self, case: &Case, channel: &ChannelKind) -> f64 {
-        self.inner.formal_order(case, channel)
-    }
-
-    fn noise(&self, case: &Case, channel: &ChannelKind) -> f64 {
-        self.inner.noise(case, channel)
-    }
-
-    fn is_noise_measured(&self) -> bool {
-        self.inner.is_noise_measured()
-    }
-
-    fn told(&self) -> Vec<(&'static str, String)> {
-        self.inner.told()
     }
 }

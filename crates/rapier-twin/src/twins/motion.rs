@@ -1,7 +1,7 @@
 //! Sets and reads poses and velocities, and does the step itself.
 
 use super::rapier::prelude::{JointAxesMask, JointAxis, Multibody, PhysicsWorld, Pose, Rotation};
-use super::{RIGID_MOTOR, Twin, joints, real, wide};
+use super::{Place, RIGID_MOTOR, Twin, joints, real, wide};
 use crate::tree::{Tree, coordinate};
 use crate::world::{LinkAngle, LinkFrame, World};
 use linkage::drive::Wrench;
@@ -10,40 +10,42 @@ use linkage::math::angle::arc_tangent;
 use linkage::mechanism::{JointKind, LinkPose};
 
 impl Twin {
-    fn multibody(&self) -> Option<&Multibody> {
-        Some(self.world.multibody_joints.get(self.any_link?)?.0)
+    fn multibody(&self, index: usize) -> &Multibody {
+        self.world.multibody_joints.get(self.multibodies[index]).expect("the multibody exists").0
     }
 
     pub(super) fn put_tree(&mut self, poses: &[LinkPose]) {
-        let Some(any_link) = self.any_link else { return };
-        let PhysicsWorld { multibody_joints, bodies, .. } = &mut self.world;
-        let (multibody, _) = multibody_joints.get_mut(any_link).expect("the multibody exists");
-        let mut displacements = vec![0.0; multibody.ndofs()];
-        for ((branch, &dof), &id) in self.tree.branches.iter().zip(&self.dofs).zip(&self.ids) {
+        let mut displacements: Vec<Vec<_>> =
+            (0..self.multibodies.len()).map(|index| vec![0.0; self.multibody(index).ndofs()]).collect();
+        let coords =
+            |place: &Place| self.multibody(place.multibody).link(place.id).expect("known link").joint().coords();
+        for (branch, place) in self.tree.branches.iter().zip(&self.places) {
             let joint = &self.joints[branch.joint];
-            let coords = multibody.link(id).expect("known link").joint().coords();
             // The free coordinate is the first one of a prismatic joint, and the last one of a revolute joint.
             let now = match joint.kind {
-                JointKind::Prismatic { .. } => coords[0],
-                JointKind::Revolute => coords[2],
+                JointKind::Prismatic { .. } => coords(place)[0],
+                JointKind::Revolute => coords(place)[2],
             };
-            displacements[dof] = real(coordinate(joint, branch, poses)) - now;
+            displacements[place.multibody][place.dof] = real(coordinate(joint, branch, poses)) - now;
         }
-        for (&link, &[dof, id]) in self.outside.iter().zip(&self.floating) {
-            let coords = multibody.link(id).expect("known link").joint().coords();
+        for (&link, place) in self.outside.iter().zip(&self.floating) {
             let centre = poses[link].point(self.centres[link]);
             for (k, wanted) in [centre.x, centre.y, poses[link].angle].into_iter().enumerate() {
-                displacements[dof + k] = real(wanted) - coords[k];
+                displacements[place.multibody][place.dof + k] = real(wanted) - coords(place)[k];
             }
         }
-        multibody.apply_displacements(&displacements);
-        multibody.forward_kinematics(bodies, false);
-        multibody.update_rigid_bodies(bodies, true);
+        let PhysicsWorld { multibody_joints, bodies, .. } = &mut self.world;
+        for (&handle, displacements) in self.multibodies.iter().zip(&displacements) {
+            let (multibody, _) = multibody_joints.get_mut(handle).expect("the multibody exists");
+            multibody.apply_displacements(displacements);
+            multibody.forward_kinematics(bodies, false);
+            multibody.update_rigid_bodies(bodies, true);
+        }
     }
 
     /// Moves separate bodies into the given poses.
     pub(super) fn put_bodies(&mut self, poses: &[LinkPose]) {
-        let separate = if self.any_link.is_none() { self.outside.as_slice() } else { &[] };
+        let separate = if self.multibodies.is_empty() { self.outside.as_slice() } else { &[] };
         for &link in separate {
             let pose = Pose::from_parts(joints::vector(poses[link].origin), Rotation::new(real(poses[link].angle)));
             self.world.bodies[self.bodies[link]].set_position(pose, true);
@@ -56,10 +58,9 @@ impl Twin {
             let (origin, direction) = place(self.world.bodies[body].position());
             frame.follow(origin, direction);
         }
-        let Some(any_link) = self.any_link else { return };
-        let (multibody, _) = self.world.multibody_joints.get(any_link).expect("the multibody exists");
-        for ((branch, &id), twist) in self.tree.branches.iter().zip(&self.ids).zip(&self.twists) {
-            let coordinate = || wide(multibody.link(id).expect("known link").joint().coords()[2]);
+        for ((branch, place), twist) in self.tree.branches.iter().zip(&self.places).zip(&self.twists) {
+            let link = || self.multibody(place.multibody).link(place.id).expect("known link");
+            let coordinate = || wide(link().joint().coords()[2]);
             let parent = self.frames[branch.parent].angle();
             self.frames[branch.link].angle = LinkAngle::Whole(parent + twist.unwrap_or_else(coordinate));
         }
@@ -122,7 +123,7 @@ impl World for Twin {
         let turn = omega * self.substep();
         // A separate body turns by atan(omega dt) per substep, so its target speed is raised accordingly.
         // Beyond a radian no speed would be held anyway.
-        let omega = if self.any_link.is_none() && turn.abs() < 1.0 { turn.tan() / self.substep() } else { omega };
+        let omega = if self.multibodies.is_empty() && turn.abs() < 1.0 { turn.tan() / self.substep() } else { omega };
         let joint = self.world.impulse_joints.get_mut(motor.handle, true).expect("the motor exists");
         joint.data.set_motor_velocity(JointAxis::AngX, real(omega * motor.sense), real(RIGID_MOTOR));
     }
@@ -154,8 +155,8 @@ impl World for Twin {
     }
 
     fn relative_speed(&self, index: usize) -> f64 {
-        let multibody = self.multibody().expect("a branch is in the multibody");
-        wide(multibody.generalized_velocity()[self.dofs[index]])
+        let Place { multibody, dof, .. } = self.places[index];
+        wide(self.multibody(multibody).generalized_velocity()[dof])
     }
 
     fn velocity(&self, link: usize) -> Option<(Vec2, f64)> {

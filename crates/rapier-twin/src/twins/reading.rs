@@ -46,7 +46,7 @@ impl Twin {
             |of: [f64; 2], other: [f64; 2]| of[0] * other[0] * inverse[0][1] + of[1] * other[1] * inverse[1][1];
         let lever = |along: Vec2| arms.map(|arm| cross(arm, along));
         // Only between separate bodies Rapier makes a joint's rows orthogonal to each other.
-        let is_orthogonal = self.any_link.is_none();
+        let is_orthogonal = self.multibodies.is_empty();
         let (force, moment) = match cut.joint.kind {
             JointKind::Prismatic { .. } => {
                 if is_orthogonal {
