@@ -414,8 +414,12 @@ fn a_plan_is_told_in_json() {
 fn a_choice_of_a_motor_is_told_in_json() {
     let place = Place::new();
     let catalogue = Path::new(env!("CARGO_MANIFEST_DIR")).join("catalogues/motors.toml");
-    let told =
-        place.run(&format!("drive scenarios/crank_rocker.toml --catalogue {} --json -", catalogue.display())).json();
+    let told = place
+        .run(&format!(
+            "drive scenarios/crank_rocker.toml --catalogue {} --efficiency 0.92 --json -",
+            catalogue.display()
+        ))
+        .json();
     let number = |key: &str| told[key].as_f64().unwrap_or_else(|| panic!("no {key} in {told}"));
     let motors = linkproof::scenario::catalogue::load(&catalogue).unwrap();
     let case = scenario(&place, "crank_rocker").nominal().case;

@@ -140,6 +140,8 @@ fn the_first_of_all_collisions_is_the_first_on_the_way() {
         let case = case.with(|parts| parts.drives.crank_mut().motion = motion).unwrap();
         let cranks = vec![0.0, sense * 3.0 * PI];
         let case = case.on(linkage::case::Grid::of_cranks(case.crank(), cranks)).unwrap();
+        let part = linkage::case::Grid::of_cranks(case.crank(), vec![0.2 * sense, sense]);
+        assert_eq!(range(&case.on(part).unwrap()).unwrap(), [0.2 * sense, sense], "in the order of the motion");
         let post = |degrees: f64| {
             let at = linkage::math::unit(sense * degrees.to_radians()) * 0.08;
             line(&[(at.x, at.y)], 0.004)
@@ -166,12 +168,12 @@ fn the_first_of_all_collisions_is_the_first_on_the_way() {
 #[test]
 fn a_long_lever_is_found_where_it_meets() {
     let case = slider_crank();
-    let mut asked = question(&case, 0.01, &[("post", line(&[(0.0, 3.9)], 0.0))]);
+    let mut asked = question(&case, 0.01, &[("post", line(&[(3.9 * 1f64.cos(), 3.9 * 1f64.sin())], 0.0))]);
     asked.bodies[0].outline = line(&[(0.0, 0.0), (4.0, 0.0)], 0.0);
     (asked.pairs, asked.area) = (vec![[0, 3]], f64::INFINITY);
     let found = find(&case, &asked, &mut |_| ()).unwrap();
     let meeting = found.pairs[0].collision.unwrap();
-    assert!(found.open.is_empty() && (meeting.cranks[1] - PI / 2.0).abs() < 1e-9, "{meeting:?}");
+    assert!(found.open.is_empty() && (meeting.cranks[1] - 1.0).abs() < 1e-9, "{meeting:?}");
 }
 
 /// What rounding may hide is not proven: of nearest points, and of both tracks.
