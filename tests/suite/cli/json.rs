@@ -202,6 +202,6 @@ fn what_few_proofs_have_is_said_as_it_is() {
     assert!(of("disputed").disputes.iter().any(|own| own.odd.is_some()));
     let ends = proofs.iter().filter_map(|(_, proof)| proof.engine().search.as_ref()).map(|search| search.end);
     let ends: Vec<End> = ends.collect();
-    assert!(ends.contains(&End::Budget) && ends.contains(&End::Pace), "{ends:?}");
+    assert!(ends.contains(&End::Budget) && ends.contains(&End::Decided), "{ends:?}");
     assert!(of("some channels").scene.left_out.loads > 0);
 }
