@@ -122,14 +122,15 @@ fn topic(message: &Message, names: &mut schema::Names) -> std::result::Result<To
     let channel = &message.channel;
     let parts = channel.topic.strip_prefix('/').and_then(|rest| rest.split_once('/'));
     let (Some((side, subject)), Some(schema)) = (parts, &channel.schema) else { return Ok(Topic::Other) };
-    if channel.message_encoding != "protobuf" || schema.encoding != "protobuf" || side == "error" {
+    if channel.message_encoding != "protobuf" || schema.encoding != "protobuf" {
         return Ok(Topic::Other);
     }
     let names = names.of(schema)?;
     if subject == "grid" {
         return Ok(Topic::Grid(side.into(), names.clone()));
     }
-    // `link/crank` and the field `x_m` are the channel `link.crank.x_m`.
+    // `link/crank` and the field `x_m` are the channel `link.crank.x_m`. Errors have small units: no field of theirs is
+    // a channel.
     let subject = subject.replacen('/', ".", 1);
     let channels: BTreeMap<u32, Channel> =
         names.iter().filter_map(|(&tag, field)| Some((tag, Channel::named(&format!("{subject}.{field}"))?))).collect();

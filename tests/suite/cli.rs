@@ -1,6 +1,7 @@
 //! The contract of the command line: exit codes, streams, JSON, CSV and messages, on the built command.
 
 mod accept;
+mod answers;
 mod bench;
 mod clearance;
 mod drive;

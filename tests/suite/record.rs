@@ -1,5 +1,6 @@
 //! Recordings are read back bit for bit, are equal for equal runs, and never destroy an older recording.
 
+mod picture;
 mod sliders;
 
 use linkage::ErrorKind;

@@ -1,6 +1,9 @@
 //! `accept`: figures beside a scenario, and what has moved since.
 
+use std::collections::BTreeSet;
 use std::fs;
+
+use serde_json::Value;
 
 use super::tools::{Outcome, Place, texts};
 use crate::common::assert_within;
@@ -69,6 +72,30 @@ fn a_length_that_changes_by_a_tenth_of_a_nanometre_is_seen_and_told_in_bounds() 
         assert!((found - accepted).abs() > bound && bounds > 1.0, "{row}");
         assert_within!(((found - accepted).abs() / bound - bounds).abs(), 1e-3 * bounds);
     }
+    // Every figure is that of the file, under its name; the text has the worst first.
+    let kept: toml::Table = before.parse().unwrap();
+    let of = |name: &Value| {
+        let all = kept["channels"].as_array().unwrap();
+        all.iter().find(|own| own["name"].as_str() == name.as_str()).unwrap()
+    };
+    let mut figures = BTreeSet::new();
+    for row in &moved {
+        let figure = row["figure"].as_str().unwrap();
+        let wanted = match figure {
+            "at" => {
+                let times = kept["times_s"].as_array().unwrap();
+                let place = times.iter().position(|time| time.as_float() == row["t_s"].as_f64()).unwrap();
+                &of(&row["channel"])["at"][place]
+            }
+            _ => &of(&row["channel"])[figure],
+        };
+        assert_eq!(wanted.as_float(), row["accepted"].as_f64(), "{row}");
+        figures.insert(figure.to_string());
+    }
+    assert_eq!(figures.into_iter().collect::<Vec<_>>(), ["at", "greatest", "least", "rms"]);
+    let told = outcome.stdout.lines().skip_while(|line| !is_header(line)).skip(1);
+    let bounds: Vec<f64> = told.map_while(|line| line.split_whitespace().last()?.parse().ok()).collect();
+    assert!(bounds.len() > 3 && bounds.is_sorted_by(|a, b| a >= b), "{}", outcome.stdout);
     // The crank turns as before: of its channels nothing is written anew.
     let told = place.ok(&format!("accept {SCENARIO}"));
     assert!(told.starts_with("crank_rocker: accepted anew in "), "{told}");
@@ -141,6 +168,11 @@ fn what_is_new_or_gone_is_told() {
 #[test]
 fn another_grid_is_told_and_no_value_is_compared() {
     let place = accepted();
+    // An instant that is off by a millionth is another one.
+    edit(&place, FILE, "times_s = [0.0, 0.11538461538461539", "times_s = [0.0, 0.11538473");
+    let outcome = check(&place);
+    assert!(outcome.code == 1 && outcome.stdout.contains("its instants are others"), "{}", outcome.stdout);
+    place.ok(&format!("accept {SCENARIO}"));
     edit(&place, SCENARIO, "step_deg = 1\n", "step_deg = 2\n");
     let outcome = check(&place);
     assert_eq!(outcome.code, 1, "{}", outcome.stdout);
@@ -167,6 +199,9 @@ fn a_bound_that_has_grown_a_hundred_times_proves_nothing() {
         "{}",
         outcome.stdout
     );
+    let json = place.run(&format!("accept --check {SCENARIO} --json -")).json();
+    let wider = &json["files"][0]["comparison"]["wider"][0];
+    assert_eq!([&wider["accepted_bound"], &wider["found_bound"]], [6.6e-15, 6.6e-12]);
 }
 
 /// Symptom: with every kept bound at 1e300, or with a kept verdict `disagree`, whatever a run found was as accepted.

@@ -37,6 +37,38 @@ fn diagrams_and_numbers_are_written() {
     let points = found["scenarios"][0]["points"].as_array().unwrap();
     assert_eq!(rows, points.len() + 1);
     assert_eq!(points[0]["ratio"], 1.0);
+    // The table and the text have the numbers of the JSON.
+    let lines: String = table.lines().filter(|line| !line.starts_with('#')).map(|line| format!("{line}\n")).collect();
+    let mut reader = csv::Reader::from_reader(lines.as_bytes());
+    let header = reader.headers().unwrap().clone();
+    for (row, point) in reader.records().map(Result::unwrap).zip(points) {
+        let cell = |name: &str| &row[header.iter().position(|own| own == name).unwrap()];
+        let same = |name: &str, value: &Value| match value.as_f64() {
+            Some(value) => {
+                assert!((cell(name).parse::<f64>().unwrap() - value).abs() <= 1e-6 * value, "{name}: {row:?}")
+            }
+            None => assert_eq!(cell(name), "", "{row:?}"),
+        };
+        assert_eq!(Some(cell("program")), point["program"].as_str());
+        same("ratio", &point["ratio"]);
+        for part in ["max", "rms"] {
+            same(&format!("positions_{part}"), &point["errors"]["positions"][part]);
+        }
+    }
+    let section = text.split("positions: the reference").nth(1).unwrap().split("\n\n").next().unwrap();
+    for within in [1e-3, 1e-6, 1e-9, 1e-12] {
+        let meets = |own: &&Value| {
+            own["party"] != "side" && own["errors"]["positions"]["max"].as_f64().is_some_and(|error| error <= within)
+        };
+        let ratios = points.iter().filter(meets).filter_map(|own| own["ratio"].as_f64());
+        let fastest = ratios.min_by(f64::total_cmp);
+        let told =
+            section.lines().find_map(|line| line.trim().strip_prefix(&format!("other programs at {within:e}: ")));
+        let number = told.unwrap().split(' ').next().unwrap().parse::<f64>().ok();
+        // Three digits.
+        let same = |(told, right): (f64, f64)| (told - right).abs() <= 0.006 * right;
+        assert!(number.is_some() == fastest.is_some() && number.zip(fastest).is_none_or(same), "{within:e}: {section}");
+    }
     let page = fs::read_to_string(place.path("page.md")).unwrap();
     assert!(
         page.contains("## five_bar") && page.contains("out/deep/five_bar.time.svg") && page.contains("linkproof bench"),

@@ -49,7 +49,7 @@ fn assert_alone(page: &str) {
 #[test]
 fn a_page_has_verdict_channels_errors_and_the_places_of_the_solution() {
     let place = Place::new();
-    let run = "run scenarios/pendulum.toml --no-record --budget 1e5";
+    let run = "run scenarios/pendulum.toml --record out --budget 1e5";
     let told = place.ok(&format!("{run} --html page.html --json out.json"));
     assert!(told.contains("page       page.html"), "{told}");
     let page = fs::read_to_string(place.path("page.html")).unwrap();
@@ -67,8 +67,10 @@ fn a_page_has_verdict_channels_errors_and_the_places_of_the_solution() {
     for ((channel, own), judged) in channels.iter().zip(data["engines"][0]["channels"].as_array().unwrap()).zip(judged)
     {
         assert_eq!(channel["name"], judged["channel"]);
-        for key in ["max", "bound", "verdict", "scale"] {
-            assert_eq!(own[key], judged[key], "{key} of {}", channel["name"]);
+        for (key, same) in
+            [("max", "max"), ("bound", "bound"), ("verdict", "verdict"), ("scale", "scale"), ("at", "worst_t_s")]
+        {
+            assert_eq!(own[key], judged[same], "{key} of {}", channel["name"]);
         }
         // Errors are taken before they are rounded: the largest is that of the report to single precision.
         let largest = singles(&own["errors"]).iter().map(|error| error.abs()).fold(0.0, f64::larger);
@@ -86,6 +88,18 @@ fn a_page_has_verdict_channels_errors_and_the_places_of_the_solution() {
         let right = solved.column(name);
         assert_eq!(doubles(&own["values"]), rows.iter().map(|&row| right[row]).collect::<Vec<_>>(), "{name}");
     }
+    // Errors are the engine less the reference, as in the recording.
+    let sides = linkproof::record::load(&place.path("out/pendulum.mcap")).unwrap();
+    let value = |side: usize, name: &str, row: usize| sides[side].1.named(name).unwrap()[row];
+    for name in ["link.rod.omega_rad_s", "joint.O.fx_N", "point.E.y_m"] {
+        let place = channels.iter().position(|own| own["name"] == name).unwrap();
+        let errors = singles(&data["engines"][0]["channels"][place]["errors"]);
+        let wanted = rows.iter().map(|&row| f64::from((value(1, name, row) - value(0, name, row)) as f32));
+        assert_eq!(errors, wanted.collect::<Vec<f64>>(), "{name}");
+    }
+    // Instants that are not judged are marked; here all are judged.
+    assert!(judged.iter().all(|own| own["left_out"] == 0));
+    assert_eq!(data["engines"][0]["unjudged"], serde_json::json!([]));
     // Equal runs give equal bytes.
     place.ok(&format!("{run} --html again.html"));
     assert!(fs::read_to_string(place.path("again.html")).unwrap() == page);
@@ -123,6 +137,7 @@ fn a_long_run_is_thinned_and_says_so() {
     let data = data(&page);
     let shown = doubles(&data["time"]).len();
     assert!(shown > 1000 && data["instants"] == 30_001, "{shown} of {}", data["instants"]);
+    assert_eq!(doubles(&data["time"]).last(), Some(&3.0));
     assert!(page.contains(&format!("{shown} of 30001 instants")), "{shown}");
     // The worst instant of every channel that is judged everywhere is there.
     let json: Value = serde_json::from_str(&fs::read_to_string(place.path("out.json")).unwrap()).unwrap();
@@ -162,7 +177,15 @@ fn every_drive_with_a_moment_is_on_the_page_with_its_channel() {
     let place = Place::new();
     for (file, moments) in [("crank_rocker", &["O"][..]), ("five_bar", &["O1", "O2"]), ("double_pendulum", &[])] {
         place.ok(&format!("run scenarios/{file}.toml --no-record --budget 1e5 --html {file}.html"));
-        let data = data(&fs::read_to_string(place.path(&format!("{file}.html"))).unwrap());
+        let page = fs::read_to_string(place.path(&format!("{file}.html"))).unwrap();
+        let data = data(&page);
+        if file == "crank_rocker" {
+            // The rocker hangs on C at (150, 15) mm; in pictures y points down.
+            let own = between(&page, "data-name=\"rocker\" transform=\"matrix(", ")");
+            let numbers: Vec<f64> = own.split(' ').map(|part| part.parse().unwrap()).collect();
+            let unit = data["motion"]["unit"].as_f64().unwrap();
+            assert!((numbers[4] * unit - 0.15).abs() < 1e-9 && (numbers[5] * unit + 0.015).abs() < 1e-9, "{own}");
+        }
         let drives = data["loads"]["drives"].as_array().unwrap();
         let named: Vec<&Value> =
             drives.iter().map(|own| &data["channels"][own["torque"].as_u64().unwrap() as usize]["name"]).collect();
@@ -195,6 +218,13 @@ fn a_page_has_loads_and_the_vectors_of_the_plans() {
     assert_eq!(force["name"], "force at B on piston");
     let size = first(&force["force"][0]).hypot(first(&force["force"][1]));
     assert!((size - 300.0).abs() < 1e-4 && force["moment"].is_null(), "{force}");
+    let place_of = |name: &str| {
+        let channels = data["channels"].as_array().unwrap();
+        doubles(&channels.iter().find(|own| own["name"] == name).unwrap()["values"])[0]
+    };
+    let [x, y] = ["point.B.x_m", "point.B.y_m"].map(place_of);
+    let along = (x * first(&force["force"][0]) + y * first(&force["force"][1])) / x.hypot(y);
+    assert!((along + 300.0).abs() < 1e-3, "towards the pivot, which is the origin: {along}");
     assert!(loads["weights"].as_array().unwrap().iter().all(|own| own["force"][0] == 0.0));
     let between: Vec<&str> =
         loads["between"].as_array().unwrap().iter().map(|own| own["name"].as_str().unwrap()).collect();

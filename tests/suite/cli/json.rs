@@ -3,8 +3,11 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use linkproof::parts::{ChannelProof, Check, EngineProof};
-use linkproof::{Options, Scenario, Verdict, prove};
+use linkage::solver::Provision;
+use linkproof::parts::{ChannelProof, Check, EngineInfo, EngineName, EngineProof};
+use linkproof::proof::{End, prove_against};
+use linkproof::report::json::Document;
+use linkproof::{Options, Proof, Scenario, Verdict, prove};
 use serde_json::Value;
 
 use super::tools::Place;
@@ -53,13 +56,22 @@ fn of_check(own: &Check) -> Numbers<'static> {
     numbers
 }
 
-fn channels(what: &str, rows: &Value, own: &[ChannelProof]) {
+/// Where an engine's values of a stage come from.
+fn source(info: &EngineInfo, own: &ChannelProof) -> String {
+    match info.provides.iter().find(|(stage, _)| *stage == own.residual.channel.kind.stage.name()).unwrap().1 {
+        Provision::Computed => "read".into(),
+        Provision::Derived(how) => format!("derived: {how}"),
+    }
+}
+
+fn channels(what: &str, rows: &Value, info: &EngineInfo, own: &[ChannelProof]) {
     let rows = rows.as_array().unwrap();
     assert_eq!(rows.len(), own.len(), "{what}");
     for (row, own) in rows.iter().zip(own) {
         let name = own.residual.channel.to_string();
         assert_eq!((row["channel"].as_str(), row["verdict"].as_str()), (Some(name.as_str()), Some(own.verdict.word())));
         assert_eq!(row["unit"].as_str(), Some(own.residual.channel.kind.unit.symbol()));
+        assert_eq!(row["source"].as_str(), Some(source(info, own).as_str()), "{what}: {name}");
         is_said(&format!("{what}: {name}"), row, &of_channel(own));
     }
 }
@@ -76,21 +88,66 @@ fn checks(what: &str, rows: &Value, own: &[Check]) {
 }
 
 fn engine(what: &str, row: &Value, own: &EngineProof) {
-    is_said(what, row, &BTreeMap::from([("dt_s", own.info.settings.resolution)]));
-    channels(what, &row["channels"], &own.channels);
+    // Engines that control their error have an accuracy in place of a step.
+    let size = if own.info.controls_error { "accuracy" } else { "dt_s" };
+    is_said(what, row, &BTreeMap::from([(size, own.info.settings.resolution)]));
+    assert_eq!((row["name"].as_str(), row["verdict"].as_str()), (Some(own.info.name), Some(own.verdict.word())));
+    channels(what, &row["channels"], &own.info, &own.channels);
     checks(what, &row["checks"], &own.checks);
-    let searched = own.search.as_ref().unwrap();
-    let extrapolated = own.info.settings.extrapolated as f64;
-    let search = BTreeMap::from([
-        ("runs", searched.runs as f64),
-        ("effort_steps", searched.effort),
-        ("budget_steps", searched.budget),
-        ("extrapolated_times", extrapolated),
-    ]);
-    is_said(what, &row["search"], &search);
+    match &own.search {
+        Some(searched) => {
+            let search = BTreeMap::from([
+                ("runs", searched.runs as f64),
+                ("effort_steps", searched.effort),
+                ("budget_steps", searched.budget),
+                ("extrapolated_times", own.info.settings.extrapolated as f64),
+            ]);
+            is_said(what, &row["search"], &search);
+            let end = match searched.end {
+                End::Decided => "decided",
+                End::Rounding => "rounding",
+                End::Budget => "budget",
+                End::Pace => "pace",
+                End::Nothing => "nothing left to choose",
+            };
+            assert_eq!(row["search"]["end"].as_str(), Some(end), "{what}");
+        }
+        None => assert!(row["search"].is_null(), "{what}"),
+    }
     if let Some(forces) = &own.own_forces {
         is_said(what, &row["own_forces"], &BTreeMap::from([("dt_s", forces.info.settings.resolution)]));
-        channels(&format!("{what}, own forces"), &row["own_forces"]["channels"], &forces.channels);
+        channels(&format!("{what}, own forces"), &row["own_forces"]["channels"], &forces.info, &forces.channels);
+    }
+}
+
+fn proven(what: &str, run: &Value, proof: &Proof) {
+    is_said(what, run, &BTreeMap::new());
+    assert_eq!(run["verdict"].as_str(), Some(proof.verdict.word()));
+    let times = proof.reference_trajectory.times();
+    let [first, last] = [times[0], times[times.len() - 1]];
+    assert!(first < last);
+    let reference = BTreeMap::from([("samples", times.len() as f64), ("from_s", first), ("to_s", last)]);
+    is_said(what, &run["reference"], &reference);
+    checks(what, &run["checks"], &proof.checks);
+    let engines = run["engines"].as_array().unwrap();
+    assert_eq!(engines.len(), proof.engines.len());
+    for (row, own) in engines.iter().zip(&proof.engines) {
+        engine(what, row, own);
+    }
+    let disputes = run["disputes"].as_array().map_or(&[][..], Vec::as_slice);
+    assert_eq!(disputes.len(), proof.disputes.len());
+    for (row, own) in disputes.iter().zip(&proof.disputes) {
+        assert_eq!((row["channel"].as_str(), row["odd_one_out"].as_str()), (Some(own.channel.as_str()), own.odd));
+        assert_eq!(row["pairs"], serde_json::json!(own.pairs));
+    }
+    is_said(what, &run["left_out"], &BTreeMap::from([("loads", proof.scene.left_out.loads as f64)]));
+    for (row, own) in run["work"].as_array().unwrap().iter().zip(&proof.work) {
+        let counts: Numbers =
+            own.work.iter().flat_map(|own| own.iter()).map(|(what, times)| (what.name(), times as f64)).collect();
+        match own.work {
+            Some(_) => is_said(&own.part, &row["counts"], &counts),
+            None => assert!(row["counts"].is_null()),
+        }
     }
 }
 
@@ -103,25 +160,48 @@ fn every_number_of_the_json_is_the_proof_s_own() {
         let json = place.run(&format!("run {path} --no-record --json -")).json();
         let scenario = Scenario::load(&Path::new(env!("CARGO_MANIFEST_DIR")).join(&path)).unwrap();
         let proof = prove(&scenario, &Options::default()).unwrap();
-        let run = &json["runs"][0];
-        is_said(name, run, &BTreeMap::new());
-        assert_eq!(run["verdict"].as_str(), Some(proof.verdict.word()));
-        let times = proof.reference_trajectory.times();
-        let [first, last] = [times[0], times[times.len() - 1]];
-        assert!(first < last);
-        let reference = BTreeMap::from([("samples", times.len() as f64), ("from_s", first), ("to_s", last)]);
-        is_said(name, &run["reference"], &reference);
-        checks(name, &run["checks"], &proof.checks);
-        assert_eq!(run["engines"].as_array().unwrap().len(), proof.engines.len());
-        engine(name, &run["engines"][0], proof.engine());
-        is_said(name, &run["left_out"], &BTreeMap::from([("loads", proof.scene.left_out.loads as f64)]));
-        for (row, own) in run["work"].as_array().unwrap().iter().zip(&proof.work) {
-            let counts: Numbers =
-                own.work.iter().flat_map(|own| own.iter()).map(|(what, times)| (what.name(), times as f64)).collect();
-            match own.work {
-                Some(_) => is_said(&own.part, &row["counts"], &counts),
-                None => assert!(row["counts"].is_null()),
-            }
-        }
+        proven(name, &json["runs"][0], &proof);
     }
+}
+
+/// What those two do not have: a grid that begins late, another engine, engines that agree against the reference, work
+/// that is used up, loads that are left out.
+#[test]
+fn what_few_proofs_have_is_said_as_it_is() {
+    let load = |name: &str, edit: [&str; 2]| {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios").join(name);
+        let text = std::fs::read_to_string(&path).unwrap();
+        assert!(text.contains(edit[0]), "{} in {name}", edit[0]);
+        Scenario::parse(&text.replace(edit[0], edit[1]), &path).unwrap()
+    };
+    let same = ["format = 1", "format = 1"];
+    let late = load("crank_rocker.toml", ["from_deg = 0\nto_deg = 360", "from_deg = 30\nto_deg = 60"]);
+    let coarse = Options::default().step(2e-3);
+    let two = coarse.clone().engine(EngineName::Rapier).engine(EngineName::Impulse);
+    let wrong = load("crank_rocker.toml", ["mass_kg = 34.7", "mass_kg = 34.8"]);
+    let some = load("loaded_slider.toml", same).only(&["link.crank".to_string()]).unwrap();
+    let mut proofs = vec![
+        ("late", prove(&late, &coarse).unwrap()),
+        ("disputed", prove_against(&load("crank_rocker.toml", same), &wrong.case, &two).unwrap()),
+        ("some channels", prove(&some, &coarse).unwrap()),
+    ];
+    for work in [1e2, 1e3, 1e4] {
+        proofs.push(("little work", prove(&late, &Options::default().budget(work)).unwrap()));
+    }
+    if cfg!(feature = "simbody") {
+        let simbody = Options::default().engine(EngineName::Simbody);
+        proofs.push(("simbody", prove(&load("crank_rocker.toml", same), &simbody).unwrap()));
+    }
+    for (what, proof) in &proofs {
+        let mut document = Document::new();
+        document.add(proof, None);
+        proven(what, &serde_json::from_str::<Value>(&document.text()).unwrap()["runs"][0], proof);
+    }
+    let of = |name: &str| &proofs.iter().find(|(own, _)| *own == name).unwrap().1;
+    assert!(of("late").reference_trajectory.times()[0] > 0.0);
+    assert!(of("disputed").disputes.iter().any(|own| own.odd.is_some()));
+    let ends = proofs.iter().filter_map(|(_, proof)| proof.engine().search.as_ref()).map(|search| search.end);
+    let ends: Vec<End> = ends.collect();
+    assert!(ends.contains(&End::Budget) && ends.contains(&End::Decided), "{ends:?}");
+    assert!(of("some channels").scene.left_out.loads > 0);
 }

@@ -2,6 +2,11 @@
 
 use std::fs;
 
+use linkage::error::Advice;
+use linkproof::report::outcomes::Outcomes;
+use linkproof::report::{junit, markdown};
+use linkproof::{Options, Proof, Scenario, Verdict, prove};
+
 use super::tools::Place;
 
 /// Three scenarios: one agrees, one has a wrong published number, one cannot be read.
@@ -67,4 +72,99 @@ fn markdown_begins_with_the_verdict_and_tells_what_is_wrong() {
     assert!(text.contains("| pendulum | agree |") && text.contains("| wrong | **disagree** |"), "{text}");
     assert!(text.contains("w as link.crank.omega_rad_s") && text.contains("joint \"Q\""), "{text}");
     assert!(text.lines().all(|line| !line.contains('\t')), "{text}");
+}
+
+/// Verdicts of a proof, with who judged and what, as the reports list them.
+fn verdicts(proof: &Proof) -> Vec<(String, String, &Verdict)> {
+    let mut all: Vec<_> = proof.checks.iter().map(|own| ("analytic sides".into(), own.name(), &own.verdict)).collect();
+    for engine in &proof.engines {
+        let by = engine.info.name.to_string();
+        let channels = engine.channels.iter().map(|own| (own.residual.channel.to_string(), &own.verdict));
+        let own = engine.own_forces.iter().flat_map(|own| &own.channels);
+        let own = own.filter(|own| own.verdict.word() != "inconclusive");
+        let own = own.map(|own| (format!("{} as the engine exerts it", own.residual.channel), &own.verdict));
+        let checks = engine.checks.iter().map(|own| (own.name(), &own.verdict));
+        all.extend(channels.chain(own).chain(checks).map(|(name, verdict)| (by.clone(), name, verdict)));
+    }
+    all
+}
+
+/// A proof that disagrees in many numbers and knows a finding, one that proves nothing, and one whose engines failed.
+fn proofs() -> [Proof; 3] {
+    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/crank_rocker.toml");
+    let scenario = Scenario::load(&path).unwrap();
+    let wrong = fs::read_to_string(&path).unwrap().replace("mass_kg = 34.7", "mass_kg = 34.8");
+    let wrong = Scenario::parse(&wrong, &path).unwrap();
+    let disagrees = linkproof::proof::prove_against(&scenario, &wrong.case, &Options::default().step(2e-3)).unwrap();
+    let open = prove(&scenario, &Options::default().step(2e-2)).unwrap();
+    let mut failed = open.clone();
+    failed.engines.push(failed.engines[0].clone());
+    for (engine, why) in failed.engines.iter_mut().zip(["the first fails", "the second fails"]) {
+        engine.failure = Some(linkage::Error::new(linkage::ErrorKind::Numeric, why));
+    }
+    [disagrees, open, failed]
+}
+
+/// Who judged, what it came to and why, case by case, in both reports.
+#[test]
+fn reports_have_every_verdict_with_who_judged_and_why() {
+    let proofs = proofs();
+    let mut outcomes = Outcomes::told_by(Advice::to_string);
+    proofs.iter().for_each(|proof| outcomes.add(proof));
+    let xml = junit::xml(&outcomes);
+    let tree = roxmltree::Document::parse(&xml).unwrap();
+    let suites: Vec<_> = tree.descendants().filter(|node| node.has_tag_name("testsuite")).collect();
+    let text = markdown::text(&outcomes);
+    let rows: Vec<&str> = text.lines().filter(|line| line.starts_with("| crank_rocker |")).collect();
+    assert_eq!((suites.len(), rows.len()), (3, 3), "{text}");
+    assert!(text.starts_with("**linkproof**: 3 scenarios, 1 disagree, 2 prove nothing\n"), "{text}");
+    for ((proof, suite), row) in proofs.iter().zip(&suites).zip(rows) {
+        let all = verdicts(proof);
+        let mut cases = suite.children().filter(|node| node.has_tag_name("testcase"));
+        for (by, name, verdict) in &all {
+            let case = cases.next().unwrap();
+            let class = format!("crank_rocker.{by}");
+            assert_eq!((case.attribute("name"), case.attribute("classname")), (Some(&**name), Some(&*class)));
+            let said = case.children().find(roxmltree::Node::is_element);
+            let (tag, word) = match verdict {
+                Verdict::Agree { .. } => (None, None),
+                Verdict::Expected { .. } => (Some("system-out"), None),
+                Verdict::Disagree { .. } => (Some("failure"), Some("disagree")),
+                Verdict::Inconclusive { .. } => (Some("error"), Some("inconclusive")),
+            };
+            let reason = verdict.reason(Advice::to_string);
+            assert_eq!(said.map(|said| said.tag_name().name()), tag, "{name}");
+            assert_eq!(said.and_then(|said| said.attribute("type")), word, "{name}");
+            let told = said.and_then(|said| said.attribute("message").or(said.text()));
+            assert_eq!(told, reason.as_deref(), "{name}");
+        }
+        // The engine that failed first says why.
+        let failure = cases.next().map(|case| (case.attribute("name"), case.first_element_child().unwrap()));
+        let wanted = proof.engines[0].failure.as_ref().map(|_| (Some("proof"), Some("the first fails")));
+        assert_eq!(failure.map(|(name, own)| (name, own.attribute("message"))), wanted);
+        let count = |word: &str| all.iter().filter(|(_, _, verdict)| verdict.word() == word).count();
+        let numbers = ["agree", "expected", "disagree", "inconclusive"].map(count).map(|count| count.to_string());
+        assert!(row.ends_with(&format!(" | {} |", numbers.join(" | "))), "{row} {numbers:?}");
+    }
+    // Ten reasons are told for each, the others counted.
+    let sections: Vec<&str> = text.split("\n### ").skip(1).collect();
+    assert_eq!(sections.len(), 3);
+    for ((section, proof), errors) in sections.iter().zip(&proofs).zip([0, 0, 1]) {
+        let told = section.lines().filter(|line| line.starts_with("- `")).count();
+        let reasons =
+            verdicts(proof).iter().filter(|(_, _, own)| ["disagree", "inconclusive"].contains(&own.word())).count();
+        assert!(told == 10 && section.contains(&format!("- ... and {} more", reasons - 10)), "{reasons}: {section}");
+        assert_eq!(section.lines().filter(|line| *line == "- the first fails").count(), errors, "{section}");
+    }
+}
+
+/// A scenario whose engine failed, or that cannot be read, has an entry also where no channel is wrong.
+#[test]
+fn an_error_is_told_without_any_verdict() {
+    let mut outcomes = Outcomes::told_by(Advice::to_string);
+    outcomes.add_failure("a.toml", &linkage::Error::new(linkage::ErrorKind::Input, "line 3 is bad"));
+    let text = markdown::text(&outcomes);
+    assert!(text.contains("1 cannot be proven") && text.contains("\n### a.toml\n\n- line 3 is bad\n"), "{text}");
+    let xml = junit::xml(&outcomes);
+    assert!(xml.contains("message=\"line 3 is bad\"") && xml.contains("type=\"error\""), "{xml}");
 }

@@ -29,6 +29,33 @@ fn a_run_is_the_same_from_any_number_of_threads_and_goes_on_where_it_was() {
     assert_eq!(whole.keys().filter(|name| name.starts_with("length_ratio.")).count(), 3, "{:?}", whole.keys());
     assert!(whole == files(&place, "two"), "other bytes from two threads");
 
+    // The table has the numbers of the JSON, to its digits.
+    let json: Value = serde_json::from_slice(&whole["length_ratio.json"]).unwrap();
+    let mut table = csv::Reader::from_reader(&whole["length_ratio.csv"][..]);
+    let header = table.headers().unwrap().clone();
+    let rows: Vec<csv::StringRecord> = table.records().map(Result::unwrap).collect();
+    let mut closures = 0;
+    for (point, party) in json["points"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .flat_map(|own| own["parties"].as_array().unwrap().iter().map(move |party| (own, party)))
+    {
+        let cell =
+            |row: &csv::StringRecord, name: &str| row[header.iter().position(|own| own == name).unwrap()].to_string();
+        let is_own = |row: &&csv::StringRecord| {
+            cell(row, "dial").parse::<f64>().ok() == point["dial"].as_f64()
+                && Some(&*cell(row, "party")) == party["name"].as_str()
+        };
+        for row in rows.iter().filter(is_own) {
+            for key in ["closure", "balance", "step_s"] {
+                assert_eq!(cell(row, key).parse::<f64>().ok(), party[key].as_f64(), "{key}: {row:?}");
+            }
+            closures += usize::from(party["closure"] != party["balance"]);
+        }
+    }
+    assert!(closures > 0);
+
     // Nothing is run again.
     let told = place.ok("stress length_ratio redundant --quick --out one");
     assert!(run_of(&told).contains("0 of 5 points were run"), "{told}");

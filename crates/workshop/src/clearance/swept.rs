@@ -5,6 +5,9 @@
 //! Free is a square that the outline does not come near over any part of the range, by the bounds of [`super::gap`].
 //! What is left at the end lies on the border. It is the bound of the area, and a straight border gives its share.
 
+#[cfg(test)]
+mod tests;
+
 use linkage::error::Result;
 use linkage::math::{KeepNan, Vec2, cross, rotated};
 

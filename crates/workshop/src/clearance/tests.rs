@@ -6,7 +6,7 @@ use linkage::case::Case;
 use linkage::math::Vec2;
 use linkage::mechanism::{AssemblyMode, GROUND};
 
-use super::question::pairs;
+use super::question::{are_joined, pairs};
 use super::tube::Tubes;
 use super::*;
 
@@ -126,6 +126,115 @@ fn the_first_meeting_is_where_the_distance_falls_to_nothing() {
     assert!(meeting.cranks[0] <= expected && expected - meeting.cranks[0] < 1e-5, "{meeting:?}");
     assert_eq!(crank.smallest.distance, 0.0);
     assert_eq!(found.first_collision().unwrap().0.bodies[1], crank.bodies[1]);
+    // They meet at the border of the post.
+    assert!(((meeting.place - Vec2::new(0.0, 0.09)).norm() - 0.004).abs() < 1e-6, "{meeting:?}");
+}
+
+/// Of two posts the one that is met first, whichever stands first in the question, in either sense of the crank.
+#[test]
+fn the_first_of_all_collisions_is_the_first_on_the_way() {
+    for sense in [1.0, -1.0] {
+        let case = slider_crank();
+        let law = linkage::drive::MotionLaw::ConstantSpeed(10.0 * sense);
+        let motion = linkage::drive::DriveMotion::Prescribed { law, motor: None };
+        let case = case.with(|parts| parts.drives.crank_mut().motion = motion).unwrap();
+        let cranks = vec![0.0, sense * 3.0 * PI];
+        let case = case.on(linkage::case::Grid::of_cranks(case.crank(), cranks)).unwrap();
+        let part = linkage::case::Grid::of_cranks(case.crank(), vec![0.2 * sense, sense]);
+        assert_eq!(range(&case.on(part).unwrap()).unwrap(), [0.2 * sense, sense], "in the order of the motion");
+        let post = |degrees: f64| {
+            let at = linkage::math::unit(sense * degrees.to_radians()) * 0.08;
+            line(&[(at.x, at.y)], 0.004)
+        };
+        let mut asked = question(&case, 0.001, &[("late", post(200.0)), ("early", post(90.0))]);
+        asked.pairs = vec![[0, 3], [0, 4]];
+        asked.area = f64::INFINITY;
+        let found = find(&case, &asked, &mut |_| ()).unwrap();
+        assert_eq!(found.range, [0.0, sense * TAU], "of a longer grid one turn");
+        let (first, meeting) = found.first_collision().unwrap();
+        assert!(found.pairs.iter().all(|pair| pair.collision.is_some()));
+        assert_eq!(first.bodies, [0, 4]);
+        assert!((meeting.cranks[1].abs() - 0.5 * PI).abs() < 0.1, "{meeting:?}");
+        // Areas ask for hardly any pose that distances have not.
+        assert!(found.work.positions < found.work.poses, "{:?}", found.work);
+    }
+    // Where branches cross, the next turn may take another one.
+    let smooth = slider_crank().with(|parts| parts.drives.crank_mut().through = true).unwrap();
+    let grid = linkage::case::Grid::of_cranks(smooth.crank(), vec![0.0, 3.0 * PI]);
+    assert_eq!(range(&smooth.on(grid).unwrap()).unwrap(), [0.0, 3.0 * PI]);
+}
+
+/// A lever without width, ten times as long as the mechanism, passes a place in no time at all.
+#[test]
+fn a_long_lever_is_found_where_it_meets() {
+    let case = slider_crank();
+    let mut asked = question(&case, 0.01, &[("post", line(&[(3.9 * 1f64.cos(), 3.9 * 1f64.sin())], 0.0))]);
+    asked.bodies[0].outline = line(&[(0.0, 0.0), (4.0, 0.0)], 0.0);
+    (asked.pairs, asked.area) = (vec![[0, 3]], f64::INFINITY);
+    let found = find(&case, &asked, &mut |_| ()).unwrap();
+    let meeting = found.pairs[0].collision.unwrap();
+    assert!(found.open.is_empty() && (meeting.cranks[1] - 1.0).abs() < 1e-9, "{meeting:?}");
+}
+
+/// What rounding may hide is not proven: of nearest points, and of both tracks.
+#[test]
+fn a_distance_is_proven_but_for_rounding() {
+    let case = slider_crank();
+    let asked = question(&case, 0.01, &[("post", line(&[(0.0, 0.3)], 0.01))]);
+    let mut tubes = Tubes::new(&case, [0.0, TAU], asked.extent()).unwrap();
+    let (slice, rounding) = (tubes.slice(0.3, 0.0).unwrap(), tubes.rounding());
+    let solids: Vec<Solid> = asked.bodies.iter().map(|own| Solid::new(own.link, &own.outline, 1.0)).collect();
+    let [one, two] = [&solids[0], &solids[3]];
+    let places = [&one.placed(&slice), &two.placed(&slice)];
+    let found = gap::gap([one, two], places, &slice, rounding, f64::INFINITY, &mut 0);
+    // The post stands still, and the nearest points are on the crank's line and on the post.
+    let expected = 0.3 - 0.1 * 0.3f64.sin() - 0.02;
+    assert!(found.now > expected - 0.01 && found.now - found.least >= 1.99 * rounding, "{found:?} {rounding}");
+}
+
+#[test]
+fn parts_that_touch_are_put_together_in_the_order_of_the_motion() {
+    let open = || vec![[3.0, 4.0], [1.0, 2.0], [2.0, 2.5], [3.0, 3.5]];
+    assert_eq!(merged(open(), [0.0, 5.0]), [[1.0, 2.5], [3.0, 4.0]]);
+    let back = open().into_iter().map(|[a, b]| [-a, -b]).collect();
+    assert_eq!(merged(back, [0.0, -5.0]), [[-1.0, -2.5], [-3.0, -4.0]]);
+}
+
+/// Parts of the housing cannot meet, joined links touch where they are joined, and a pair may be left out in either order.
+#[test]
+fn pairs_that_cannot_meet_are_not_asked_for() {
+    let case = four_bar();
+    let asked = question(&case, 0.01, &[("floor", line(&[(0.0, -1.0)], 0.0)), ("wall", line(&[(1.0, 0.0)], 0.0))]);
+    let all = [[0, 2], [0, 3], [0, 4], [1, 3], [1, 4], [2, 3], [2, 4]];
+    assert_eq!(asked.pairs, all);
+    let without = |ignored: [usize; 2]| pairs(&case.mechanism, &asked.bodies, &[ignored]);
+    assert_eq!([without([0, 2]), without([2, 0])].map(|own| own == all[1..]), [true; 2]);
+    // Four links on one pin, each joined to the next.
+    let place = |link: usize| linkage::mechanism::Side { link, local: Vec2::zeros() };
+    let links = ["ground", "a", "b", "c", "d", "e"].map(|name| linkage::mechanism::Link {
+        name: name.into(),
+        points: Vec::new(),
+        mass: 1.0,
+        mass_centre: Vec2::zeros(),
+        inertia: 1.0,
+    });
+    let joint = |(first, second): (usize, usize), end: Vec2| linkage::mechanism::Joint {
+        name: format!("{first}{second}"),
+        kind: linkage::mechanism::JointKind::Revolute,
+        first: linkage::mechanism::Side { link: first, local: end },
+        second: place(second),
+        drawn: None,
+    };
+    let joints = vec![
+        joint((1, 2), Vec2::zeros()),
+        joint((2, 3), Vec2::zeros()),
+        joint((3, 4), Vec2::zeros()),
+        joint((4, 5), Vec2::new(1.0, 0.0)),
+        joint((0, 1), Vec2::new(1.0, 0.0)),
+    ];
+    let mechanism = linkage::mechanism::Mechanism::new(links.to_vec(), joints).unwrap();
+    assert!(are_joined(&mechanism, [1, 4]) && are_joined(&mechanism, [4, 1]));
+    assert!(!are_joined(&mechanism, [1, 5]) && !are_joined(&mechanism, [3, 5]));
 }
 
 /// Without rounding, the direction of nearest points is lost where two corners come close; their sides have it.

@@ -12,6 +12,9 @@
 //! branch, no sampling. F is linear but for the sines and cosines of the links' angles, so that F(x0) and the change of
 //! F' have bounds in closed form: |exp(i a) - 1 - i a| <= a^2 / 2 and |exp(i a) - 1| <= |a|.
 
+#[cfg(test)]
+mod tests;
+
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
@@ -244,14 +247,11 @@ impl<'a> Tubes<'a> {
             *tube = Tube { centre, at, rate, direction, spin, off: rounding, twist: ROUNDING, half };
         }
         for drive in case.drives.iter() {
-            // It turns evenly about its pivot, which does not move.
-            let joint = &case.mechanism.joints()[drive.joint];
-            let (pivot, carrier) = (joint.on(drive.link), joint.other(drive.link));
-            let (pivot, motion) = (pivot.unwrap_or_else(Vec2::zeros), &state.motions[drive.link]);
-            let carried = if carrier.link == GROUND { 0.0 } else { f64::INFINITY };
-            let tube = &mut tubes[drive.link];
+            // It turns evenly about its pivot on the ground: drives that hang on moving links are free, and of a motion
+            // with several freedoms no one angle tells the pose.
+            let pivot = case.mechanism.joints()[drive.joint].on(drive.link).unwrap_or_else(Vec2::zeros);
+            let (tube, motion) = (&mut tubes[drive.link], &state.motions[drive.link]);
             (tube.centre, tube.at, tube.rate) = (pivot, motion.point(pivot), Vec2::zeros());
-            tube.off += carried;
         }
         let sound = case.structure.groups.iter().all(|group| enclose(case, group, half, &mut tubes, rounding));
         Ok(Slice { crank, half, tubes, sound })

@@ -1,0 +1,46 @@
+//! Sides that pass over discs, against samples of both.
+
+use linkage::math::unit;
+
+use super::*;
+
+/// A side that passes has every place of the disc on one side first and on the other at the end, and between its ends
+/// all the time, wherever its ends are within their errors.
+#[test]
+fn what_passes_over_a_disc_passes_over_each_of_its_places() {
+    // Knuth's MMIX generator: the same numbers in every run.
+    let mut state: u64 = 7;
+    let mut number = || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    };
+    let (half, mut passed) = (0.5, 0);
+    for _ in 0..40_000 {
+        let mut end = |x: f64| {
+            let error = if number() > 0.0 { 0.05 * number().abs() } else { 0.0 };
+            Track {
+                at: Vec2::new(x + 0.5 * number(), 0.5 * number()),
+                rate: Vec2::new(2.0 * number(), 4.0 * number()),
+                error,
+            }
+        };
+        let side = [end(-0.5), end(0.5)];
+        let (centre, about) = (Vec2::new(0.5 * number(), 0.5 * number()), 0.1 * number().abs());
+        if !passes(&side, half, centre, about) {
+            continue;
+        }
+        passed += 1;
+        for _ in 0..10 {
+            let ends = [0, 1].map(|k| side[k].at + unit(4.0 * number()) * side[k].error);
+            let place = centre + unit(4.0 * number()) * about;
+            let at = |by: f64| {
+                let [a, b] = [ends[0] + side[0].rate * by, ends[1] + side[1].rate * by];
+                (cross(b - a, place - a), (place - a).dot(&(b - a)) / (b - a).norm_squared())
+            };
+            assert!(at(-half).0 * at(half).0 < 0.0, "{side:?} {centre} {about}");
+            let between = |k: i32| (0.0..=1.0).contains(&at(half * f64::from(k) / 40.0).1);
+            assert!((-40..=40).all(between), "{side:?} {centre} {about}");
+        }
+    }
+    assert!(passed > 400, "{passed}");
+}

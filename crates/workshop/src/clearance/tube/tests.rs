@@ -1,0 +1,235 @@
+//! The bounds against samples: random joints between random tubes. Each quantity is left out in some of them, so that
+//! every term of a bound is the largest somewhere.
+
+use linkage::math::unit;
+use linkage::mechanism::{JointKind, Side};
+
+use super::*;
+
+/// Joints, and poses tried for each.
+const JOINTS: usize = 4_000;
+const POSES: usize = 30;
+
+/// Random numbers, the same in every run (Knuth's MMIX generator).
+struct Random(u64);
+
+impl Random {
+    /// From -1 to 1.
+    fn number(&mut self) -> f64 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    }
+
+    fn yes(&mut self) -> bool {
+        self.number() > 0.0
+    }
+
+    /// A number of at most `most`, or, as often, zero.
+    fn some(&mut self, most: f64) -> f64 {
+        let number = most * self.number();
+        if self.yes() { number } else { 0.0 }
+    }
+
+    fn vector(&mut self, most: f64) -> Vec2 {
+        let size = self.some(most);
+        unit(4.0 * self.number()) * size
+    }
+}
+
+/// Place of a link: its reference point and its angle.
+type Place = (Vec2, f64);
+
+fn point(tube: &Tube, (at, angle): Place, local: Vec2) -> Vec2 {
+    at + rotated(unit(angle), local - tube.centre)
+}
+
+/// A place that the tube allows, at the distance `by` from the middle crank angle: often at the tube's wall.
+fn place(tube: &Tube, by: f64, random: &mut Random) -> Place {
+    let mut share = || if random.yes() { random.number() } else { random.number().signum() };
+    let (off, twist) = (tube.off * share(), tube.twist * share());
+    let middle = tube.direction.y.atan2(tube.direction.x);
+    (tube.at + tube.rate * by + unit(4.0 * random.number()) * off, middle + tube.spin * by + twist)
+}
+
+fn tube(random: &mut Random, half: f64) -> Tube {
+    Tube {
+        centre: random.vector(1.0),
+        at: random.vector(1.0),
+        rate: random.vector(1.0),
+        direction: unit(4.0 * random.number()),
+        spin: random.some(1.0),
+        off: random.some(0.01).abs(),
+        twist: random.some(0.02).abs(),
+        half,
+    }
+}
+
+/// A joint of two links, which nearly holds at the middle, the tubes of both, and which of them are of the group.
+struct Sample {
+    joint: Joint,
+    tubes: [Tube; 2],
+    own: [bool; 2],
+    half: f64,
+}
+
+impl Sample {
+    fn of(random: &mut Random) -> Sample {
+        let half = 0.1 * random.number().abs();
+        let mut tubes = [tube(random, half), tube(random, half)];
+        let locals = tubes.map(|tube| tube.centre + random.vector(1.0));
+        let sides = [0, 1].map(|link| Side { link, local: locals[link] });
+        let slides = random.yes();
+        let axis = unit(4.0 * random.number());
+        if slides {
+            // The axes are nearly parallel, and the sliding place is near the line.
+            let turn = unit(random.some(0.01));
+            let along = rotated(tubes[0].direction, axis);
+            let gap = along * random.some(1.0) + turned(along) * random.some(0.01);
+            let arm = rotated(tubes[1].direction, locals[1] - tubes[1].centre);
+            tubes[1].at = tubes[0].point(locals[0]).at + gap - arm;
+            let back = Vec2::new(tubes[1].direction.x, -tubes[1].direction.y);
+            let axes = [axis, rotated(back, rotated(turn, along))];
+            return Sample::with(JointKind::Prismatic { axes }, sides, tubes, half, random);
+        }
+        Sample::with(JointKind::Revolute, sides, tubes, half, random)
+    }
+
+    fn with(kind: JointKind, [first, second]: [Side; 2], tubes: [Tube; 2], half: f64, random: &mut Random) -> Sample {
+        let joint = Joint { name: "j".into(), kind, first, second, drawn: None };
+        let own = if random.yes() { [true, random.yes()] } else { [false, true] };
+        Sample { joint, tubes, own, half }
+    }
+
+    /// How far the joint's equations are open. The places coincide; or the second lies on the first's line, and both
+    /// axes have one direction.
+    fn open(&self, places: [Place; 2]) -> [f64; 2] {
+        let sides = [self.joint.first, self.joint.second];
+        let [first, second] = [0, 1].map(|k| point(&self.tubes[k], places[k], sides[k].local));
+        let gap = second - first;
+        let Some(axes) = self.joint.kind.axes() else { return [gap.x, gap.y] };
+        let [one, two] = [0, 1].map(|k| rotated(unit(places[k].1), axes[k]));
+        [cross(one, gap), cross(one, two).atan2(one.dot(&two))]
+    }
+
+    /// The derivative of the equations by the places of the links of the group, by differences.
+    fn derivative(&self, places: [Place; 2]) -> Matrix {
+        const STEP: f64 = 1e-5;
+        let mut found = Matrix::zeros(2, 6);
+        for column in (0..6).filter(|column| self.own[column / 3]) {
+            let [ahead, behind] = [STEP, -STEP].map(|step| {
+                let mut moved = places;
+                let (at, angle) = &mut moved[column / 3];
+                match column % 3 {
+                    0 => at.x += step,
+                    1 => at.y += step,
+                    _ => *angle += step,
+                }
+                self.open(moved)
+            });
+            for row in 0..2 {
+                found[(row, column)] = (ahead[row] - behind[row]) / (2.0 * STEP);
+            }
+        }
+        found
+    }
+
+    fn column(&self) -> impl Fn(usize) -> Option<usize> {
+        let own = self.own;
+        move |link: usize| own[link].then_some(3 * link)
+    }
+
+    fn equations(&self) -> (Matrix, Vec<f64>) {
+        let (mut derivative, mut open) = (Matrix::zeros(2, 6), vec![0.0; 2]);
+        equations(&self.joint, &self.tubes, self.half, &self.column(), 0, &mut derivative, &mut open);
+        (derivative, open)
+    }
+}
+
+/// Distance from the middle crank angle: often one of the ends.
+fn distance(half: f64, random: &mut Random) -> f64 {
+    half * if random.yes() { random.number() } else { random.number().signum() }
+}
+
+#[test]
+fn points_stay_within_the_error_of_their_tracks() {
+    let mut random = Random(1);
+    for _ in 0..JOINTS {
+        let half = 0.1 * random.number().abs();
+        let (tube, local) = (tube(&mut random, half), random.vector(1.0));
+        let track = tube.point(local);
+        for _ in 0..POSES {
+            let by = distance(half, &mut random);
+            let off = point(&tube, place(&tube, by, &mut random), local) - track.at - track.rate * by;
+            assert!(off.norm() <= track.error * (1.0 + 1e-12) + 1e-15, "{off} {track:?} {tube:?}");
+        }
+    }
+}
+
+/// Links of the group move evenly, the others are anywhere in their tubes.
+#[test]
+fn equations_are_open_by_no_more_than_is_said() {
+    let mut random = Random(2);
+    let mut tightest = [[0.0; 2]; 2];
+    for _ in 0..JOINTS {
+        let sample = Sample::of(&mut random);
+        let (_, open) = sample.equations();
+        for _ in 0..POSES {
+            let by = distance(sample.half, &mut random);
+            let places = [0, 1].map(|k| {
+                let tube = &sample.tubes[k];
+                let even = Tube { off: 0.0, twist: 0.0, ..*tube };
+                place(if sample.own[k] { &even } else { tube }, by, &mut random)
+            });
+            for (row, found) in sample.open(places).into_iter().enumerate() {
+                let bound = open[row] * (1.0 + 1e-12) + 1e-14;
+                assert!(found.abs() <= bound, "row {row}: {found} {open:?} {:?}", sample.joint.kind);
+                let slides = usize::from(sample.joint.kind.axes().is_some());
+                tightest[slides][row] = f64::larger(tightest[slides][row], found.abs() / bound);
+            }
+        }
+    }
+    // Not a bound that holds because it is wide.
+    assert!(tightest.iter().flatten().all(|share| *share > 0.99), "{tightest:?}");
+}
+
+#[test]
+fn the_derivative_is_the_limit_of_differences() {
+    let mut random = Random(3);
+    for _ in 0..JOINTS {
+        let sample = Sample::of(&mut random);
+        let middle = sample.tubes.map(|tube| (tube.at, tube.direction.y.atan2(tube.direction.x)));
+        let off = (sample.equations().0 - sample.derivative(middle)).amax();
+        assert!(off < 1e-8, "{off} {:?}", sample.joint.kind);
+    }
+}
+
+/// The change of the derivative over the box, times the radii of the box.
+#[test]
+fn the_derivative_changes_by_no_more_than_is_said() {
+    let mut random = Random(4);
+    let mut tightest: f64 = 0.0;
+    for _ in 0..JOINTS {
+        let mut sample = Sample::of(&mut random);
+        let mut radii = vec![0.0; 6];
+        for link in (0..2).filter(|&link| sample.own[link]) {
+            let [x, y, twist] = [0.01, 0.01, 0.02].map(|most| random.some(most).abs());
+            radii[3 * link..3 * link + 3].copy_from_slice(&[x, y, twist]);
+            (sample.tubes[link].off, sample.tubes[link].twist) = (x.hypot(y), twist);
+        }
+        let changes = changes(&sample.joint, &sample.tubes, sample.half, &sample.column(), &radii);
+        let (middle, _) = sample.equations();
+        for _ in 0..POSES {
+            let by = distance(sample.half, &mut random);
+            let places = [0, 1].map(|k| place(&sample.tubes[k], by, &mut random));
+            let off = (sample.derivative(places) - &middle).abs();
+            for (row, bound) in changes.iter().enumerate() {
+                let found: f64 = (0..6).map(|column| off[(row, column)] * radii[column]).sum();
+                assert!(found <= bound * (1.0 + 1e-12) + 1e-9 * radii.iter().sum::<f64>(), "{row}: {found} {bound}");
+                if *bound > 1e-6 {
+                    tightest = tightest.larger(found / bound);
+                }
+            }
+        }
+    }
+    assert!(tightest > 0.99, "{tightest}");
+}
