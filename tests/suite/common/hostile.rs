@@ -104,8 +104,8 @@ pub fn attack(seed: u64, index: u64, good: &Good) -> Attack {
         1 => {
             let expression = expression(random, &mut what);
             match random.index(3) {
-                // Arguments have less than 128 kB.
-                0 if expression.len() < 100_000 => {
+                // Arguments have less than 128 kB, and no zero.
+                0 if expression.len() < 100_000 && !expression.contains('\0') => {
                     files.push(("good.toml".into(), CRANK_ROCKER.into()));
                     let words = ["check", "good.toml", &expression, "--channel=link.rocker.angle_rad", "-q"];
                     return Attack {

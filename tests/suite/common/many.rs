@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
 /// Time after which an input is named that has not ended, many times what the slowest one takes. A clock proves nothing
@@ -14,14 +14,26 @@ pub fn number(name: &str) -> Option<u64> {
     std::env::var(name).ok()?.parse().ok()
 }
 
+/// Counts down when a thread ends, also by a panic: who watches over it ends too.
+struct Leaves<'a>(&'a AtomicUsize);
+
+impl Drop for Leaves<'_> {
+    fn drop(&mut self) {
+        self.0.fetch_sub(1, Ordering::Relaxed);
+    }
+}
+
 /// What `work` finds out about each of `count` inputs from the number `from` on, in their order.
 pub fn each<T: Send>(from: u64, count: u64, work: impl Fn(u64) -> T + Sync) -> Vec<(u64, T)> {
     let next = AtomicU64::new(from);
     let found: Mutex<BTreeMap<u64, T>> = Mutex::default();
     let busy: Mutex<BTreeMap<u64, Instant>> = Mutex::default();
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    let at_work = AtomicUsize::new(threads);
     std::thread::scope(|scope| {
-        for _ in 0..std::thread::available_parallelism().map_or(1, usize::from) {
+        for _ in 0..threads {
             scope.spawn(|| {
+                let _leaves = Leaves(&at_work);
                 loop {
                     let index = next.fetch_add(1, Ordering::Relaxed);
                     if index >= from + count {
@@ -36,7 +48,7 @@ pub fn each<T: Send>(from: u64, count: u64, work: impl Fn(u64) -> T + Sync) -> V
         }
         // One that does not end is named before whoever runs the tests stops them.
         scope.spawn(|| {
-            while next.load(Ordering::Relaxed) < from + count || !busy.lock().unwrap().is_empty() {
+            while at_work.load(Ordering::Relaxed) > 0 {
                 std::thread::sleep(Duration::from_millis(200));
                 for (index, since) in busy.lock().unwrap().iter_mut().filter(|(_, since)| since.elapsed() > PATIENCE) {
                     eprintln!("number {index} has not ended after {PATIENCE:?}");
