@@ -215,19 +215,19 @@ pub fn attack(seed: u64, index: u64, good: &Good) -> Attack {
             .into()
         }
         9 => {
-            let bytes = match random.index(3) {
-                0 => announced(random, &mut what),
-                1 => {
-                    let mut bytes = PARQUETS[random.index(PARQUETS.len())].to_vec();
-                    spoil(random, &mut bytes, &mut what);
-                    bytes
+            let is_shipped = random.yes();
+            let mut bytes =
+                if is_shipped { PARQUETS[random.index(PARQUETS.len())].to_vec() } else { announced(random, &mut what) };
+            match (is_shipped, random.index(3)) {
+                // One bit of what is probably a number.
+                (true, 0) => {
+                    let at = 4 + random.index(bytes.len() / 3);
+                    bytes[at] ^= 1 << random.index(8);
+                    what.push(format!("a bit of byte {at}"));
                 }
-                _ => {
-                    let mut bytes = announced(random, &mut what);
-                    spoil(random, &mut bytes, &mut what);
-                    bytes
-                }
-            };
+                (false, 0 | 1) => {}
+                _ => spoil(random, &mut bytes, &mut what),
+            }
             files.push(("table.parquet".into(), bytes));
             let oracle =
                 "file = \"table.parquet\"\ncrank = \"a\"\n[oracle.columns]\na = { channel = \"point.B.x_m\" }\n";
@@ -241,7 +241,7 @@ pub fn attack(seed: u64, index: u64, good: &Good) -> Attack {
                 "compare table.parquet table.parquet",
                 "compare plain.toml table.parquet --map a=point.B.x_m",
                 "run good.toml --no-record -q",
-            ][random.index(4)]
+            ][random.index(if is_shipped { 2 } else { 4 })]
             .into()
         }
         10 => {
