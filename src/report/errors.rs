@@ -62,8 +62,11 @@ fn one(error: &Error, tell: Tell) -> String {
         return format!("error: {title}{help}");
     };
     let path = visible(&place.file.display().to_string(), false);
-    let annotation = AnnotationKind::Primary.span(place.span.clone());
     let source = of_same_length(&place.text);
+    // A span may end within a letter, as where a text is cut after so many bytes; the renderer would panic.
+    let start = (0..=place.span.start.min(source.len())).rfind(|&at| source.is_char_boundary(at)).unwrap_or(0);
+    let end = (place.span.end.clamp(start, source.len())..=source.len()).find(|&at| source.is_char_boundary(at));
+    let annotation = AnnotationKind::Primary.span(start..end.unwrap_or(source.len()));
     let snippet = Snippet::source(&*source).path(path.as_str()).annotation(annotation);
     let mut group = Group::with_title(Level::ERROR.primary_title(title.as_str())).element(snippet);
     if let Some(help) = help {

@@ -19,6 +19,11 @@ const LONGEST_TEXT: usize = 10_000;
 /// whatever its length in the file: the memory is told before it is taken.
 const MOST_VALUES: usize = 2_000_000;
 
+/// Most parts of a file: tables, such as points, links, joints, loads and formulas. Costs grow with the square of their
+/// number in several places; with so many they are seconds. Published numbers do not count.
+const MOST_PARTS: usize = 30_000;
+const UNCOUNTED: &str = "oracle";
+
 /// Gives the place of a range of bytes in the file.
 type Places<'a> = &'a dyn Fn(Range<usize>) -> Place;
 
@@ -44,10 +49,10 @@ pub fn check_size(source: Places, text: &str) -> Result<()> {
 /// # Errors
 /// [`ErrorKind::Input`] with the place and the key of the first that is refused.
 pub fn check(source: Places, tree: &DeTable) -> Result<()> {
-    table(source, tree, "")
+    table(source, tree, "", &mut 0)
 }
 
-fn table(source: Places, table: &DeTable, path: &str) -> Result<()> {
+fn table(source: Places, table: &DeTable, path: &str, parts: &mut usize) -> Result<()> {
     for (key, value) in table {
         let place = || source(key.span());
         let name: &str = key.get_ref();
@@ -62,7 +67,7 @@ fn table(source: Places, table: &DeTable, path: &str) -> Result<()> {
             return refused(format!("a key has more than {LONGEST_NAME} letters"), "give it a shorter name");
         }
         let path = if path.is_empty() { name.to_string() } else { format!("{path}.{name}") };
-        any(source, value, &path)?;
+        any(source, value, &path, parts)?;
     }
     Ok(())
 }
@@ -70,7 +75,7 @@ fn table(source: Places, table: &DeTable, path: &str) -> Result<()> {
 const UNSEEN_HELP: &str = "take out line breaks, control characters and changes of the writing direction";
 
 #[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the TOML parser")]
-fn any(source: Places, value: &Spanned<DeValue>, path: &str) -> Result<()> {
+fn any(source: Places, value: &Spanned<DeValue>, path: &str, parts: &mut usize) -> Result<()> {
     let refused = |message: String, help: &str| {
         Err(Error::new(ErrorKind::Input, message).key(path).at(source(value.span())).help(help))
     };
@@ -81,8 +86,17 @@ fn any(source: Places, value: &Spanned<DeValue>, path: &str) -> Result<()> {
         DeValue::String(text) if text.chars().count() > LONGEST_TEXT => {
             refused(format!("the text has more than {LONGEST_TEXT} letters"), "shorten it")
         }
-        DeValue::Table(own) => table(source, own, path),
-        DeValue::Array(array) => array.iter().try_for_each(|element| any(source, element, path)),
+        DeValue::Table(_) if *parts >= MOST_PARTS => refused(
+            format!(
+                "the file has more than {MOST_PARTS} parts (points, links, joints, loads, formulas and other tables)"
+            ),
+            "divide it into several files",
+        ),
+        DeValue::Table(own) => {
+            *parts += usize::from(!path.starts_with(UNCOUNTED));
+            table(source, own, path, parts)
+        }
+        DeValue::Array(array) => array.iter().try_for_each(|element| any(source, element, path, parts)),
         _ => Ok(()),
     }
 }

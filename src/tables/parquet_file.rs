@@ -1,24 +1,30 @@
 //! Parquet files, as pandas and polars write them.
 
+mod announced;
+mod thrift;
+
 use std::fmt::Display;
 use std::fs::File;
 use std::io::Read;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
-use parquet::basic::Compression;
+use parquet::basic::{Compression, ConvertedType, Type};
+use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
+use parquet::data_type::DataType;
 use parquet::errors::ParquetError;
 use parquet::file::reader::{FileReader, SerializedFileReader};
-use parquet::record::Field;
+use parquet::schema::types::ColumnDescriptor;
 
+use announced::MAGIC;
 use columns::{MISSING, Table, Twice, UNDEFINED};
 use formula::Rounded;
 use linkage::error::{Error, ErrorKind, Result};
 
-/// What a Parquet file begins with.
-const MAGIC: &[u8; 4] = b"PAR1";
 /// Largest number of values that is read.
-const MOST: i64 = 1 << 26;
+const MOST: u64 = 1 << 26;
+/// Values that are read at a time.
+const BATCH: usize = 1 << 12;
 
 /// Whether a file is one of this format.
 pub(super) fn is_one(path: &Path) -> bool {
@@ -41,7 +47,11 @@ pub(super) fn read(path: &Path, may_take: &dyn Fn(f64) -> Result<()>) -> Result<
 
 /// The columns that hold numbers; others, such as names, are passed over.
 fn of_file(path: &Path, may_take: &dyn Fn(f64) -> Result<()>) -> std::result::Result<Result<Table>, ParquetError> {
-    let reader = SerializedFileReader::new(File::open(path)?)?;
+    let file = File::open(path)?;
+    // An error of the file system would call itself external.
+    let wrong = |error: std::io::Error| ParquetError::General(error.to_string());
+    announced::check_description(&file).map_err(wrong)?;
+    let reader = SerializedFileReader::new(file.try_clone()?)?;
     let described = reader.metadata().file_metadata();
     let names: Vec<String> = described.schema().get_fields().iter().map(|field| field.name().to_string()).collect();
     let refused = |message: String, help: &str| {
@@ -51,30 +61,37 @@ fn of_file(path: &Path, may_take: &dyn Fn(f64) -> Result<()>) -> std::result::Re
     if let Some(twice) = Twice::of(&names) {
         return refused(twice.to_string(), Twice::HELP);
     }
-    let mut parts = reader.metadata().row_groups().iter().flat_map(|group| group.columns());
-    if let Some(name) = parts.find_map(|part| unread(part.compression())) {
+    let groups = reader.metadata().row_groups();
+    if let Some(name) = groups.iter().flat_map(|group| group.columns()).find_map(|part| unread(part.compression())) {
         let help = "write it uncompressed or with Snappy, Zstandard or gzip, or as CSV: \
                     df.to_parquet(FILE, compression=\"zstd\")";
         return refused(format!("its columns are compressed with {name}, which is not read here"), help);
     }
-    let values = described.num_rows().saturating_mul(names.len() as i64);
-    if !(0..=MOST).contains(&values) {
+    let wanted = described.schema_descr().columns().iter().enumerate().filter(|(_, column)| is_number(column));
+    let wanted: Vec<(usize, String)> = wanted.map(|(index, column)| (index, column.name().to_string())).collect();
+    // Each group says how many rows it has, and the file how many all have.
+    let rows = groups.iter().try_fold(0_u64, |sum, group| sum.checked_add(u64::try_from(group.num_rows()).ok()?));
+    let Some(rows) = rows.filter(|&rows| i64::try_from(rows) == Ok(described.num_rows())) else {
+        return Err(ParquetError::General("its groups have other rows than the file says".into()));
+    };
+    let values = rows.saturating_mul(wanted.len() as u64);
+    if values > MOST {
         return refused(format!("it has {values} values, more than {MOST}"), "give fewer rows, or fewer columns");
     }
     if let Err(error) = may_take(values as f64 * size_of::<Rounded>() as f64) {
         return Ok(Err(error));
     }
-    let mut columns: Vec<Vec<Rounded>> = vec![Vec::new(); names.len()];
-    let mut are_numbers = vec![true; names.len()];
-    for row in reader.get_row_iter(None)? {
-        for (index, (_, field)) in row?.get_column_iter().enumerate() {
-            let number = number(field);
-            are_numbers[index] &= number.is_some();
-            columns[index].push(number.unwrap_or(MISSING));
+    let (mut names, mut columns) = (Vec::new(), Vec::new());
+    for (index, name) in wanted {
+        let mut column = Vec::with_capacity(rows as usize);
+        for (number, group) in groups.iter().enumerate() {
+            announced::check_pages(&file, group.num_rows() as u64, group.column(index)).map_err(wrong)?;
+            let part = reader.get_row_group(number)?.get_column_reader(index)?;
+            values_of(part, group.column(index).column_descr(), group.num_rows() as usize, &mut column)?;
         }
+        names.push(name);
+        columns.push(column);
     }
-    let mut are_kept = are_numbers.iter();
-    let (names, columns) = names.into_iter().zip(columns).filter(|_| are_kept.next() == Some(&true)).unzip();
     Ok(Ok(Table { names, columns }))
 }
 
@@ -88,24 +105,80 @@ fn unread(compression: Compression) -> Option<&'static str> {
     }
 }
 
-#[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the Parquet reader")]
-fn number(field: &Field) -> Option<Rounded> {
-    let exact = |value: f64| Some(Rounded::exact(value));
-    let finite = |number: Rounded| Some(if number.value.is_finite() { number } else { UNDEFINED });
-    match *field {
-        Field::Null => Some(MISSING),
-        Field::Byte(value) => exact(value.into()),
-        Field::Short(value) => exact(value.into()),
-        Field::Int(value) => exact(value.into()),
-        Field::UByte(value) => exact(value.into()),
-        Field::UShort(value) => exact(value.into()),
-        Field::UInt(value) => exact(value.into()),
-        Field::Long(value) => Some(Rounded::nearly(value as f64)),
-        Field::ULong(value) => Some(Rounded::nearly(value as f64)),
-        Field::Double(value) => finite(Rounded::nearly(value)),
-        Field::Float(value) => {
-            finite(Rounded { value: value.into(), error: f64::from(f32::EPSILON) * f64::from(value.abs()) })
+/// Whether a column holds one number in each row: whole ones that are no dates, times or decimals, and those with a point.
+fn is_number(column: &ColumnDescriptor) -> bool {
+    use ConvertedType as Kind;
+    let is_plain = column.path().parts().len() == 1 && column.max_rep_level() == 0;
+    let kind = column.converted_type();
+    is_plain
+        && match column.physical_type() {
+            Type::FLOAT | Type::DOUBLE => true,
+            Type::INT32 => matches!(
+                kind,
+                Kind::NONE | Kind::INT_8 | Kind::INT_16 | Kind::INT_32 | Kind::UINT_8 | Kind::UINT_16 | Kind::UINT_32
+            ),
+            Type::INT64 => matches!(kind, Kind::NONE | Kind::INT_64 | Kind::UINT_64),
+            Type::BOOLEAN | Type::INT96 | Type::BYTE_ARRAY | Type::FIXED_LEN_BYTE_ARRAY => false,
         }
-        _ => None,
+}
+
+/// Adds the values of a part of a column, one for each row.
+fn values_of(
+    part: ColumnReader,
+    of: &ColumnDescriptor,
+    rows: usize,
+    to: &mut Vec<Rounded>,
+) -> std::result::Result<(), ParquetError> {
+    let finite = |number: Rounded| if number.value.is_finite() { number } else { UNDEFINED };
+    let is_unsigned = [ConvertedType::UINT_8, ConvertedType::UINT_16, ConvertedType::UINT_32, ConvertedType::UINT_64]
+        .contains(&of.converted_type());
+    let full = of.max_def_level();
+    match part {
+        ColumnReader::Int32ColumnReader(part) => taken(part, full, rows, to, |value: i32| {
+            Rounded::exact(if is_unsigned { value.cast_unsigned().into() } else { value.into() })
+        }),
+        ColumnReader::Int64ColumnReader(part) => taken(part, full, rows, to, |value: i64| {
+            Rounded::nearly(if is_unsigned { value.cast_unsigned() as f64 } else { value as f64 })
+        }),
+        ColumnReader::FloatColumnReader(part) => taken(part, full, rows, to, |value: f32| {
+            finite(Rounded { value: value.into(), error: f64::from(f32::EPSILON) * f64::from(value.abs()) })
+        }),
+        ColumnReader::DoubleColumnReader(part) => {
+            taken(part, full, rows, to, |value: f64| finite(Rounded::nearly(value)))
+        }
+        ColumnReader::BoolColumnReader(_)
+        | ColumnReader::Int96ColumnReader(_)
+        | ColumnReader::ByteArrayColumnReader(_)
+        | ColumnReader::FixedLenByteArrayColumnReader(_) => unreachable!("these are no numbers"),
     }
+}
+
+/// The same for one kind of value; where a row has none, its level is not `full`.
+fn taken<T: DataType>(
+    mut part: ColumnReaderImpl<T>,
+    full: i16,
+    rows: usize,
+    to: &mut Vec<Rounded>,
+    number: impl Fn(T::T) -> Rounded,
+) -> std::result::Result<(), ParquetError>
+where
+    T::T: Copy,
+{
+    let (mut values, mut levels) = (Vec::with_capacity(BATCH), Vec::with_capacity(BATCH));
+    let end = to.len() + rows;
+    while to.len() < end {
+        values.clear();
+        levels.clear();
+        let (read, _, _) = part.read_records(BATCH.min(end - to.len()), Some(&mut levels), None, &mut values)?;
+        if read == 0 {
+            return Err(ParquetError::General("a column has fewer values than there are rows".into()));
+        }
+        let mut values = values.iter().map(|&value| number(value));
+        let mut next =
+            || values.next().ok_or_else(|| ParquetError::General("a column has fewer values than it says".into()));
+        for row in 0..read {
+            to.push(if full == 0 || levels[row] == full { next()? } else { MISSING });
+        }
+    }
+    Ok(())
 }

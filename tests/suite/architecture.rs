@@ -27,7 +27,7 @@ const CRATES: &[(&str, &str, &str, &str)] = &[
         "linkproof",
         "",
         "analytic columns drawing formula linkage precise rapier-twin simbody-twin workshop",
-        "annotate-snippets anstream anstyle base64 chacha20 clap clap_complete clap_mangen comfy-table csv ctrlc foxglove include_dir indicatif libtest-mimic mcap parquet plotters prost prost-types quick-junit serde serde_json strsim tempfile terminal_size textwrap toml toml_edit tungstenite",
+        "annotate-snippets anstream anstyle base64 chacha20 clap clap_complete clap_mangen comfy-table csv ctrlc flate2 foxglove include_dir indicatif libtest-mimic mcap parquet plotters prost prost-types quick-junit serde serde_json strsim tempfile terminal_size textwrap toml toml_edit tungstenite",
     ),
 ];
 
@@ -146,6 +146,7 @@ const HOMES: &[(&str, &str)] = &[
     // `scenario` reads tables of published numbers, `outside` those of peers, `tables` any; `report` writes tables.
     ("csv", "linkproof::outside linkproof::report linkproof::scenario linkproof::tables"),
     ("parquet", "linkproof::tables"),
+    ("flate2", "linkproof::tables"),
     ("anstream", "linkproof::cli linkproof::report"),
     ("anstyle", "linkproof::report"),
     ("clap", "linkproof::cli"),

@@ -115,6 +115,21 @@ fn regress_what_no_machine_has_is_refused() {
     assert_eq!((error.scenario_key(), error.place().is_some()), (Some("drive"), true));
 }
 
+/// Symptom: a file of 5 MB with 100 000 points took 28 s to inspect, and minutes to draw.
+#[test]
+fn regress_more_parts_than_can_be_drawn_are_refused() {
+    let points = |count: usize| -> String {
+        (0..count).map(|k| format!("[links.rocker.points.P{k}]\nx_mm = {k}\ny_mm = 1\n")).collect()
+    };
+    let body = GOOD.split("[[oracle]]").next().unwrap();
+    assert!(parse(&format!("{body}\n{}", points(1000)), TABLE).is_ok());
+    let text = format!("{body}\n{}", points(30_000));
+    let error = parse(&text, TABLE).unwrap_err();
+    assert!(error.message().contains("more than 30000 parts"), "{error}");
+    assert!(error.place().is_some() && error.way_out().is_some());
+    assert!(error.scenario_key().is_some_and(|key| key.starts_with("links.rocker.points.P29")), "{error}");
+}
+
 /// Symptom: an array of 31 million numbers took 5.95 GB before anything was estimated. Cause: the file was parsed first.
 #[test]
 fn regress_more_values_than_memory_can_hold_are_counted_before_they_are_read() {

@@ -1,5 +1,6 @@
-//! SECURITY.md: every guarantee names a test, and every test that is named is there.
+//! SECURITY.md: every sentence of a guarantee names a test, and every test that is named is there.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 /// Files in which the function of a path such as `robustness::names::x` may stand.
@@ -21,18 +22,69 @@ fn is_there(name: &str) -> bool {
     })
 }
 
+/// Sentences of a text, in one line each.
+fn sentences(text: &str) -> Vec<String> {
+    let line = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    line.trim_end_matches('.').split(". ").map(str::trim).filter(|own| !own.is_empty()).map(String::from).collect()
+}
+
+/// Tests that a text names.
+fn tests_in(text: &str) -> Vec<String> {
+    text.split('`').skip(1).step_by(2).filter(|word| word.contains("::")).map(String::from).collect()
+}
+
 #[test]
-fn every_guarantee_names_a_test_that_is_there() {
+fn every_sentence_of_a_guarantee_names_a_test_that_is_there() {
     let page = include_str!("../../SECURITY.md");
     let section = page.split("\n## ").find(|section| section.starts_with("What is guaranteed")).unwrap();
     let guarantees: Vec<&str> = section.split("\n- **").skip(1).collect();
     assert!(guarantees.len() >= 7, "{} guarantees", guarantees.len());
+    let mut names = Vec::new();
     for guarantee in guarantees {
-        let named: Vec<&str> = guarantee.split('`').skip(1).step_by(2).filter(|word| word.contains("::")).collect();
-        assert!(!named.is_empty(), "no test of: {guarantee}");
-        for name in named {
-            assert!(is_there(name), "there is no test {name}");
+        // A title is a sentence, or begins one.
+        let (_, rest) = guarantee.split_once("**").unwrap();
+        for sentence in sentences(rest) {
+            let before = names.len();
+            names.extend(tests_in(&sentence));
+            assert!(names.len() > before, "no test of: {sentence}");
         }
     }
+    let opening = page.split("\n## ").next().unwrap();
+    names.extend(tests_in(opening));
+    for name in names {
+        assert!(is_there(&name), "there is no test {name}");
+    }
     assert!(!is_there("robustness::names::no_such_test") && !is_there("robustness::names::files"));
+}
+
+/// What the page says that the program leaves alone.
+#[test]
+fn no_connection_is_opened_no_variable_is_read_and_no_other_program_is_run() {
+    let top = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut open = vec![top.join("src")];
+    open.extend(std::fs::read_dir(top.join("crates")).unwrap().map(|own| own.unwrap().path().join("src")));
+    let mut programs = BTreeSet::new();
+    while let Some(directory) = open.pop() {
+        for entry in std::fs::read_dir(directory).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                open.push(path);
+                continue;
+            }
+            if path.ends_with("tests.rs") {
+                continue;
+            }
+            let Ok(text) = std::fs::read_to_string(&path) else { continue };
+            let code = text.split("#[cfg(test)]").next().unwrap();
+            for word in ["::connect(", "UdpSocket", "env::var", "env::set_var", "password"] {
+                assert!(!code.contains(word), "{}: {word}", path.display());
+            }
+            let run = code.split("Command::new(\"").skip(1).map(|rest| rest.split('"').next().unwrap());
+            programs.extend(run.map(String::from));
+            // A program whose name is no text would be whatever somebody says; a peer is what the caller says.
+            let other = code.matches("Command::new(").count() - code.matches("Command::new(\"").count();
+            assert!(other == 0 || path.ends_with("cli/bench.rs"), "{}", path.display());
+        }
+    }
+    assert_eq!(programs, ["kill", "sh"].map(String::from).into());
 }

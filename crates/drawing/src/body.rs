@@ -1,5 +1,7 @@
 //! Links: bars, plates, mass centres and traced points.
 
+use std::collections::BTreeSet;
+
 use super::mark::{Mark, Role};
 use linkage::math::{KeepNan, Vec2, cross, turned, unit};
 use linkage::mechanism::{GROUND, Mechanism};
@@ -13,14 +15,11 @@ const QUARTER: usize = 6;
 
 /// Places of a link (m, its frame): its points, then its joints that have no named point.
 pub fn places(mechanism: &Mechanism, link: usize) -> Vec<Vec2> {
-    let mut places: Vec<Vec2> = Vec::new();
     let points = mechanism.links()[link].points.iter().map(|point| point.local);
-    for place in points.chain(mechanism.joints().iter().filter_map(|joint| joint.on(link))) {
-        if !places.contains(&place) {
-            places.push(place);
-        }
-    }
-    places
+    let all = points.chain(mechanism.joints().iter().filter_map(|joint| joint.on(link)));
+    // Both zeros are one place.
+    let mut seen = BTreeSet::new();
+    all.filter(|place| seen.insert([place.x, place.y].map(|own| (own + 0.0).to_bits()))).collect()
 }
 
 /// Corners of a link: its hull, or both ends of a bar.

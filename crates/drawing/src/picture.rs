@@ -4,7 +4,7 @@ use super::acting::Acting;
 use super::mark::{Fill, Ink, Layer, Look, Mark, Role, Shape};
 use super::palette::LOAD;
 use super::paper::figure::{Figure, Style, Type, solid, sub, words};
-use super::paper::labels::{self, Obstacles, place};
+use super::paper::labels::{self, Obstacles, place_among};
 use super::paper::lettering::{LETTER, label_size, letter};
 use super::paper::style::{BLACK, GREY, colour, significant};
 use super::sign::{arrow, turning};
@@ -289,12 +289,18 @@ impl<'a> Picture<'a> {
 
     /// Places all letters and returns the figure.
     #[must_use]
-    pub fn finish(mut self) -> Figure {
+    pub fn finish(self) -> Figure {
+        self.finish_among(1)
+    }
+
+    /// The same for one of so many drawings that are made together: they share the work for letters.
+    #[must_use]
+    pub fn finish_among(mut self, drawings: usize) -> Figure {
         let numbers = std::mem::take(&mut self.numbers).into_iter().map(|own| (own, true));
         let letters = std::mem::take(&mut self.labels).into_iter().map(|own| (own, false));
         let all: Vec<_> = numbers.chain(letters).collect();
         let boxes: Vec<labels::Label> = all.iter().map(|((label, ..), _)| *label).collect();
-        for (((label, text, paint), is_number), at) in all.iter().zip(place(&boxes, &self.obstacles)) {
+        for (((label, text, paint), is_number), at) in all.iter().zip(place_among(&boxes, &self.obstacles, drawings)) {
             if *is_number {
                 draw_number(&mut self.figure, at, text.clone(), paint);
             } else {

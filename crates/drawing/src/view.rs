@@ -69,7 +69,8 @@ pub fn cells(
         .with_drives(subject.mechanism, subject.drives)
         .with_loads(subject.mechanism, subject.loads);
     let sketch = if extras.loads { sketch } else { sketch.without(&[Role::MassCentre, Role::MassQuarter]) };
-    let figures: Vec<_> = shots.iter().map(|shot| figure(subject, &sketch, shot, traces, extras, scale)).collect();
+    let figures: Vec<_> =
+        shots.iter().map(|shot| figure(subject, &sketch, shot, traces, extras, scale, shots.len())).collect();
     let bounds = figures.iter().map(super::paper::figure::Figure::bounds);
     let bounds = bounds.reduce(|a, b| [a[0].inf(&b[0]), a[1].sup(&b[1])]).unwrap_or([Vec2::zeros(); 2]);
     let cell = |figure| Cell { heading: Vec::new(), figure, bounds, scale, faults: Vec::new() };
@@ -83,6 +84,7 @@ fn figure(
     traces: &[Trace],
     extras: Extras,
     scale: f64,
+    drawings: usize,
 ) -> super::paper::figure::Figure {
     let laid = &shot.laid;
     let mut picture = Picture::of(sketch, &laid.places, scale);
@@ -126,7 +128,7 @@ fn figure(
     if extras.loads {
         picture.draw_gravity(subject.gravity);
     }
-    picture.finish()
+    picture.finish_among(drawings)
 }
 
 /// All places that the picture must hold (m).

@@ -82,7 +82,7 @@ fn peers_are_points_and_never_a_crash() {
     place.ok("solve scenarios/five_bar.toml --with newton --only positions --csv good.csv");
     let copy = format!("cp {} \"$csv\"", place.path("good.csv").display());
     peer(&place, "good", &format!("echo a library greets; {copy}; {TIME}"));
-    peer(&place, "hangs", "sleep 30 & sleep 30");
+    peer(&place, "hangs", &format!("sleep 900 & echo $! > {}; sleep 30", place.path("started").display()));
     peer(&place, "garbage", "head -c 2000 /dev/urandom");
     peer(&place, "fails", "echo it went wrong >&2; exit 3");
     peer(&place, "silent", TIME);
@@ -94,6 +94,10 @@ fn peers_are_points_and_never_a_crash() {
     let line = format!("bench scenarios/five_bar.toml --out out {QUICK} --peer-limit 1 {}", peers.join(" "));
     let told = place.ok(&line);
     assert!(told.contains("half: positions without "), "{told}");
+    // What it has started has ended with it: where a process was, there is no command any more.
+    let started = fs::read_to_string(place.path("started")).unwrap();
+    let left = fs::read(format!("/proc/{}/cmdline", started.trim())).unwrap_or_default();
+    assert!(left.is_empty(), "{}", String::from_utf8_lossy(&left));
     let found: Value = serde_json::from_str(&fs::read_to_string(place.path("out/bench.json")).unwrap()).unwrap();
     let points = found["scenarios"][0]["points"].as_array().unwrap();
     let of = |name: &str| &points.iter().find(|point| point["program"] == name).unwrap()["errors"]["positions"];
@@ -135,6 +139,7 @@ fn a_peer_s_numbers_are_checked_and_its_words_are_shown_as_words() {
         ("half", answers(r#""seconds": 1, "work": {"steps": 1.5}"#), "no whole number"),
         ("list", answers(r#""seconds": 1, "work": [7]"#), "no JSON object"),
         ("pipe", format!("mkfifo \"$csv\"; {TIME}"), "answer.csv is no regular file"),
+        ("long", format!("head -c 67108865 /dev/zero > \"$csv\"; {TIME}"), "answer.csv has more than 67108864 bytes"),
         ("device", format!("ln -s /dev/zero \"$csv\"; {TIME}"), "answer.csv is no regular file"),
         (
             "output",

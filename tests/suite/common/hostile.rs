@@ -1,12 +1,27 @@
 //! Hostile inputs to every door of the command line, by seed and number: shipped files damaged as text and as bytes, and
 //! what nobody writes by hand.
 
+mod spoil;
+
 use super::damage::{NUMBERS, SHIPPED, damaged};
 use super::sketch::Random;
+use spoil::{announced, lengths, spoil, wide};
 
 /// The doors through which something comes in that nobody vouches for.
-pub const DOORS: [&str; 9] =
-    ["scenario", "formula", "table", "mapping", "recording", "catalogue", "kept figures", "peer", "standard input"];
+pub const DOORS: [&str; 12] = [
+    "scenario",
+    "formula",
+    "table",
+    "mapping",
+    "recording",
+    "catalogue",
+    "kept figures",
+    "peer",
+    "standard input",
+    "Parquet",
+    "synthesis",
+    "older output",
+];
 
 /// Good inputs that are damaged, made once by the program itself.
 pub struct Good {
@@ -15,7 +30,20 @@ pub struct Good {
     pub stress: Vec<u8>,
     pub table: Vec<u8>,
     pub positions: Vec<u8>,
+    /// Outputs whose names the program makes up: the command, and its files.
+    pub older: Vec<(&'static str, Vec<(String, Vec<u8>)>)>,
 }
+
+/// Commands that make up names of files, so that they look at what is there already.
+pub const OLDER: [&str; 7] = [
+    "run pendulum.toml --route differences --record r --html h/",
+    "export pendulum.toml --mjcf",
+    "export pendulum.toml --json",
+    "view r/pendulum.mcap --with foxglove",
+    "stress turns --quick --out s --page p/page.md",
+    "bench five_bar.toml --out b --page p/page.md --quick --engine rapier --only positions --budget 1e4",
+    "man --output m",
+];
 
 /// A command with its inputs.
 pub struct Attack {
@@ -26,12 +54,21 @@ pub struct Attack {
     pub arguments: Vec<String>,
     pub standard_input: Vec<u8>,
     /// Files that the command may replace: it made them, or they are named.
-    pub may: &'static [&'static str],
+    pub may: Vec<String>,
 }
 
 const CRANK_ROCKER: &str = include_str!("../../../scenarios/crank_rocker.toml");
 const PENDULUM: &str = include_str!("../../../scenarios/pendulum.toml");
 const GOOD: &str = include_str!("../bad_scenarios/good.toml");
+const FIVE_BAR: &str = include_str!("../../../scenarios/five_bar.toml");
+const TASK: &str = include_str!("../../../scenarios/ov7_drives/sinker_task.toml");
+const DRAWING: &str = include_str!("../../../scenarios/ov7_drives/rockers_drawing.toml");
+const SINKER: &str = include_str!("../../../scenarios/ov7_drives/sinker.toml");
+const PARQUETS: [&[u8]; 3] = [
+    include_bytes!("../versus/pandas.parquet"),
+    include_bytes!("../versus/polars_f32.parquet"),
+    include_bytes!("../versus/gzip.parquet"),
+];
 const CATALOGUE: &str = include_str!("../../../catalogues/motors.toml");
 const MAPPING: &str = "[channels]\n\"point.B.x_mm\" = \"point.B.x_m*1000\"\n\n[tolerance]\nall = { rel = 0.01 }\n\
      \"point.B.y_m\" = { abs = 0.1 }\n";
@@ -41,26 +78,34 @@ pub fn attack(seed: u64, index: u64, good: &Good) -> Attack {
     let door = index as usize % DOORS.len();
     let random = &mut Random::of_sample(seed, index);
     let mut what = Vec::new();
-    let (mut files, mut standard_input, mut may) = (Vec::new(), Vec::new(), &[][..]);
+    let (mut files, mut standard_input, mut may) = (Vec::new(), Vec::new(), Vec::new());
+    // Each command has its turn at each door.
+    let turn = index as usize / DOORS.len() + door;
     let line = match door {
         0 | 8 => {
             let mut text = scenario(random, seed, index, &mut what);
             if random.index(3) > 0 {
                 spoil(random, &mut text, &mut what);
             }
-            let command = COMMANDS[random.index(COMMANDS.len())];
+            let command = COMMANDS[turn % COMMANDS.len()];
             match door {
                 0 => files.push(("bad.toml".into(), text)),
                 _ => standard_input = text,
             }
-            may = &["recordings/pendulum.mcap"];
+            files.push(("good.toml".into(), CRANK_ROCKER.into()));
+            files.push(("task.toml".into(), TASK.into()));
+            files.push(("rockers_drawing.toml".into(), DRAWING.into()));
+            may = vec!["recordings/pendulum.mcap".into(), "bad.accepted".into()];
+            if command.contains("--write") {
+                may.push("bad.toml".into());
+            }
             command.replace("FILE", if door == 0 { "bad.toml" } else { "-" })
         }
         1 => {
             let expression = expression(random, &mut what);
             match random.index(3) {
-                // Arguments have less than 128 kB.
-                0 if expression.len() < 100_000 => {
+                // Arguments have less than 128 kB, and no zero.
+                0 if expression.len() < 100_000 && !expression.contains('\0') => {
                     files.push(("good.toml".into(), CRANK_ROCKER.into()));
                     let words = ["check", "good.toml", &expression, "--channel=link.rocker.angle_rad", "-q"];
                     return Attack {
@@ -138,7 +183,7 @@ pub fn attack(seed: u64, index: u64, good: &Good) -> Attack {
             files.push(("recordings/pendulum.mcap".into(), bytes));
             files.push(("good.mcap".into(), good.recording.clone()));
             files.push(("pendulum.toml".into(), PENDULUM.into()));
-            may = &["recordings/pendulum.mcap"];
+            may = vec!["recordings/pendulum.mcap".into()];
             [
                 "view recordings/pendulum.mcap --with foxglove -o out.json",
                 "view recordings/pendulum.mcap --with plotjuggler -o out.xml",
@@ -161,7 +206,7 @@ pub fn attack(seed: u64, index: u64, good: &Good) -> Attack {
             spoil(random, &mut text, &mut what);
             files.push((if is_stress { "s/turns.json" } else { "pendulum.accepted" }.into(), text));
             files.push(("pendulum.toml".into(), PENDULUM.into()));
-            may = &["s/turns.json", "pendulum.accepted"];
+            may = vec!["s/turns.json".into(), "pendulum.accepted".into()];
             match (is_stress, random.yes()) {
                 (true, _) => "stress turns --quick --out s",
                 (false, true) => "accept pendulum.toml --check --route differences",
@@ -169,8 +214,77 @@ pub fn attack(seed: u64, index: u64, good: &Good) -> Attack {
             }
             .into()
         }
+        9 => {
+            let is_shipped = random.yes();
+            let mut bytes =
+                if is_shipped { PARQUETS[random.index(PARQUETS.len())].to_vec() } else { announced(random, &mut what) };
+            match (is_shipped, random.index(3)) {
+                // One bit of what is probably a number.
+                (true, 0) => {
+                    let at = 4 + random.index(bytes.len() / 3);
+                    bytes[at] ^= 1 << random.index(8);
+                    what.push(format!("a bit of byte {at}"));
+                }
+                (false, 0 | 1) => {}
+                _ => spoil(random, &mut bytes, &mut what),
+            }
+            files.push(("table.parquet".into(), bytes));
+            let oracle =
+                "file = \"table.parquet\"\ncrank = \"a\"\n[oracle.columns]\na = { channel = \"point.B.x_m\" }\n";
+            files.push((
+                "good.toml".into(),
+                format!("{CRANK_ROCKER}\n[[oracle]]\nsource = \"a table\"\n{oracle}").into(),
+            ));
+            files.push(("plain.toml".into(), CRANK_ROCKER.into()));
+            [
+                "compare plain.toml table.parquet",
+                "compare table.parquet table.parquet",
+                "compare plain.toml table.parquet --map a=point.B.x_m",
+                "run good.toml --no-record -q",
+            ][random.index(if is_shipped { 2 } else { 4 })]
+            .into()
+        }
+        10 => {
+            let (mut task, mut drawing) = (TASK.as_bytes().to_vec(), DRAWING.as_bytes().to_vec());
+            let one = if random.index(3) > 0 { &mut task } else { &mut drawing };
+            spoil(random, one, &mut what);
+            files.push(("task.toml".into(), task));
+            files.push(("rockers_drawing.toml".into(), drawing));
+            files.push(("sinker.toml".into(), SINKER.into()));
+            [
+                "synthesize search task.toml --candidates 500 --refined 1 --evaluations 50 -o out.toml --svg out.svg",
+                "synthesize check task.toml sinker.toml",
+                "run rockers_drawing.toml --no-record -q",
+            ][random.index(3)]
+            .into()
+        }
+        11 => {
+            let (command, older) = &good.older[turn % good.older.len()];
+            files.push(("pendulum.toml".into(), PENDULUM.into()));
+            files.push(("five_bar.toml".into(), FIVE_BAR.into()));
+            files.push(("r/pendulum.mcap".into(), good.recording.clone()));
+            may.push("p/page.md".into());
+            let one = random.index(older.len());
+            for (index, (name, bytes)) in older.iter().enumerate() {
+                let mut bytes = bytes.clone();
+                if index == one {
+                    spoil(random, &mut bytes, &mut what);
+                    what.push(name.clone());
+                }
+                // Of these the program tells only whether it wrote them.
+                let is_any = ["mcap", "s/turns.json", "s/turns.csv"].iter().any(|own| name.ends_with(own));
+                // Ends of lines are no change: tools change them.
+                let plain = |bytes: &[u8]| bytes.iter().copied().filter(|&byte| byte != b'\r').collect::<Vec<u8>>();
+                if is_any || plain(&bytes) == plain(&older[index].1) {
+                    may.push(name.clone());
+                }
+                files.retain(|(own, _)| own != name);
+                files.push((name.clone(), bytes));
+            }
+            (*command).into()
+        }
         _ => {
-            files.push(("five_bar.toml".into(), include_bytes!("../../../scenarios/five_bar.toml").to_vec()));
+            files.push(("five_bar.toml".into(), FIVE_BAR.into()));
             files.extend(peer(random, good, &mut what));
             let command = "bench five_bar.toml --out bench --page page.md --quick --engine rapier --only positions";
             format!("{command} --budget 1e4 --peer-limit 3 --peer")
@@ -184,25 +298,43 @@ pub fn attack(seed: u64, index: u64, good: &Good) -> Attack {
 }
 
 /// What is done with a scenario; most often what most people do.
-const COMMANDS: [&str; 18] = [
-    "run FILE --no-record -q",
+const COMMANDS: [&str; 36] = [
     "run FILE --no-record -q",
     "run FILE",
     "run FILE --no-record --verbose --json out.json --html out.html",
-    "run FILE --no-record --explain",
     "check FILE",
+    "run FILE --no-record --explain",
     "inspect FILE --modes",
+    "run FILE --no-record -q",
     "inspect FILE --range",
     "solve FILE --with assur",
-    "solve FILE --with newton",
     "draw FILE -o out.svg --loads --dimensions",
-    "draw FILE -o out.svg --each-mode",
     "export FILE --mjcf -",
-    "export FILE --json -",
+    "solve FILE --with newton",
+    "run FILE --no-record -q --budget 1e4",
     "plan FILE",
     "bearings FILE",
     "drive FILE",
+    "run FILE --no-record -q --engine all --budget 1e4",
     "clearance FILE",
+    "draw FILE -o out.svg --each-mode",
+    "export FILE --json -",
+    "tune FILE --within 0.01 --engine rapier --channel positions --budget 1e4",
+    "run FILE --no-record -q",
+    "accept FILE --budget 1e4",
+    "mutate FILE --kind load --no-sizes --budget 1e4",
+    "compare good.toml FILE",
+    "compare FILE good.toml --by crank",
+    "solve FILE --with rapier --dt 0.001",
+    "diagram FILE --channel link.crank.angle_rad",
+    "draw FILE -o out.png --trace B",
+    "list --channels FILE",
+    "list .",
+    "synthesize check task.toml FILE",
+    "bench FILE --out bench --quick --engine rapier --only positions --budget 1e4",
+    "run FILE good.toml --no-record --write --budget 1e4 --record r",
+    "drive FILE --run-up out.csv --points 100",
+    "draw FILE -o out.gif --frames 4 --width 200",
 ];
 
 /// A scenario, damaged as text, or with a number of parts that nobody writes by hand.
@@ -213,7 +345,7 @@ fn scenario(random: &mut Random, seed: u64, index: u64, what: &mut Vec<String>) 
         return bad.text.into_bytes();
     }
     let count = [100, 1000, 10_000][random.index(3)];
-    let (name, part): (&str, &dyn Fn(usize) -> String) = match random.index(9) {
+    let (name, part): (&str, &dyn Fn(usize) -> String) = match random.index(11) {
         0 => ("links", &|k| format!("[links.l{k}.points]\nA = {{ x_mm = {k}, y_mm = 0 }}\n")),
         1 => ("points", &|k| format!("[links.coupler.points.P{k}]\nx_mm = {k}\ny_mm = 1\n")),
         2 => ("joints", &|k| {
@@ -236,7 +368,16 @@ fn scenario(random: &mut Random, seed: u64, index: u64, what: &mut Vec<String>) 
             0 => "[grid]\ntimes_s = [0".into(),
             _ => format!(", {}e-5", k),
         }),
-        7 => ("tables", &|k| format!("[a.b.c.d{k}]\nx = {k}\n")),
+        7 => ("traces", &|k| match k {
+            0 => "[draw]\ntraces = [\"B\"".into(),
+            _ => ", \"B\"".into(),
+        }),
+        8 => ("sliders", &|k| {
+            format!(
+                "[links.s{k}.points]\nS = {{ x_mm = 0, y_mm = 0 }}\n[[joints]]\nname = \"S{k}\"\ntype = \"prismatic\"\nlinks = [\"ground\", \"s{k}\"]\n"
+            )
+        }),
+        9 => ("tables", &|k| format!("[a.b.c.d{k}]\nx = {k}\n")),
         _ => ("one key", &|_| "title = \"again\"\n".into()),
     };
     what.push(format!("{count} {name}"));
@@ -246,7 +387,7 @@ fn scenario(random: &mut Random, seed: u64, index: u64, what: &mut Vec<String>) 
     }
     text.push('\n');
     (0..count).for_each(|k| text.push_str(&part(k)));
-    if name == "instants" {
+    if name == "instants" || name == "traces" {
         text.push(']');
     }
     text.into_bytes()
@@ -281,13 +422,6 @@ fn expression(random: &mut Random, what: &mut Vec<String>) -> String {
     }
 }
 
-/// A table with each of its columns many times.
-fn wide(table: &[u8], columns: usize) -> Vec<u8> {
-    let lines = table.split(|&byte| byte == b'\n').take(4_000_000 / columns.max(1) / 8 + 2);
-    let times = columns / 4 + 1;
-    lines.flat_map(|line| [vec![line; times].join(&b','), vec![b'\n']].concat()).collect()
-}
-
 /// A peer: what it says, what it writes, and how it ends.
 fn peer(random: &mut Random, good: &Good, what: &mut Vec<String>) -> Vec<(String, Vec<u8>)> {
     let mut ways = br#"[{"name": "as it is", "resolution": "none", "dt": 0.001}]"#.to_vec();
@@ -319,153 +453,4 @@ fn peer(random: &mut Random, good: &Good, what: &mut Vec<String>) -> Vec<(String
         "here=$PWD\nif [ \"$1\" = ways ]; then cat ways; exit; fi\n{csv}\ncat table > \"$csv\"\ncat answer\n{end}\n"
     );
     vec![("peer.sh".into(), script.into()), ("ways".into(), ways), ("answer".into(), answer), ("table".into(), table)]
-}
-
-/// Lengths and sizes in a recording that are not what is there.
-fn lengths(random: &mut Random, bytes: &mut [u8], what: &mut Vec<String>) {
-    let mut places = Vec::new();
-    let mut at = mcap::MAGIC.len();
-    while at + 9 < bytes.len() {
-        let length = u64::from_le_bytes(bytes[at + 1..at + 9].try_into().unwrap()) as usize;
-        places.extend([(at + 1, bytes[at]), (at + 9, bytes[at]), (at + 17, bytes[at]), (at + 25, bytes[at])]);
-        at = at.saturating_add(9).saturating_add(length);
-    }
-    for _ in 0..=random.index(3) {
-        let (place, code) = places[random.index(places.len())];
-        let value = [0, 1, 9, 5000, 1 << 20, 1 << 31, 1 << 40, u64::MAX - 8, u64::MAX][random.index(9)];
-        if let Some(own) = bytes.get_mut(place..place + 8) {
-            own.copy_from_slice(&value.to_le_bytes());
-            what.push(format!("{value} at byte {place} of a record {code}"));
-        }
-    }
-}
-
-/// Does something to bytes that whoever wrote them would not.
-fn spoil(random: &mut Random, bytes: &mut Vec<u8>, what: &mut Vec<String>) {
-    /// Most bytes of an input: more are refused at every door.
-    const MOST: usize = 8 << 20;
-    if random.yes() {
-        slip(random, bytes, what);
-        return;
-    }
-    for _ in 0..=random.index(3) {
-        let place = random.index(bytes.len().max(1)).min(bytes.len());
-        let end = (place + random.index(2000)).min(bytes.len());
-        let deep = [10, 1000, 100_000][random.index(3)];
-        what.push(match random.index(15) {
-            0 => {
-                bytes.truncate(place);
-                format!("cut after {place} bytes")
-            }
-            1 => {
-                let count = 1 + random.index(16);
-                for _ in 0..count.min(bytes.len()) {
-                    let at = random.index(bytes.len());
-                    bytes[at] ^= 1 << random.index(8);
-                }
-                format!("{count} bits turned")
-            }
-            2 => {
-                let all: [&[u8]; 8] =
-                    [b"\0", b"\xef\xbb\xbf", b"\xff", b"\x1b[31m", "\u{202e}".as_bytes(), b"\r", b"\"", b","];
-                let own = all[random.index(all.len())];
-                bytes.splice(place..place, own.iter().copied());
-                format!("{own:?} at byte {place}")
-            }
-            3 => {
-                *bytes = bytes
-                    .iter()
-                    .flat_map(|&byte| if byte == b'\n' { vec![b'\r', b'\n'] } else { vec![byte] })
-                    .collect();
-                "ends of lines of Windows".into()
-            }
-            4 => {
-                let is_marked = random.yes();
-                let units = String::from_utf8_lossy(bytes).encode_utf16().collect::<Vec<_>>();
-                let mark = if is_marked { vec![0xfeffu16] } else { Vec::new() };
-                *bytes = mark.into_iter().chain(units).flat_map(u16::to_le_bytes).collect();
-                "UTF-16".into()
-            }
-            5 | 6 => {
-                let start = bytes[..place].iter().rposition(|&byte| byte == b'\n').map_or(0, |at| at + 1);
-                let stop =
-                    bytes[place..].iter().position(|&byte| byte == b'\n').map_or(bytes.len(), |at| place + at + 1);
-                let line = bytes[start..stop].to_vec();
-                let times = deep.min(MOST / line.len().max(1));
-                bytes.splice(stop..stop, line.repeat(times));
-                format!("a line {times} times")
-            }
-            7 | 8 => {
-                let digits = "9".repeat(deep);
-                let new = if random.index(6) == 0 { digits.as_str() } else { NUMBERS[random.index(NUMBERS.len())] };
-                number(random, bytes, new.as_bytes());
-                format!("a number {}", &new[..new.len().min(30)])
-            }
-            9 | 10 => {
-                let [open, close] =
-                    [["[", "]"], ["(", ")"], ["{a = ", "}"], ["{\"a\": ", "}"], ["\"", "\""]][random.index(5)];
-                let close = if random.yes() { close.repeat(deep) } else { String::new() };
-                number(random, bytes, format!("{}1{close}", open.repeat(deep)).as_bytes());
-                format!("{open} {deep} times")
-            }
-            11 => {
-                bytes.splice(place..place, vec![b'a'; deep * 10]);
-                format!("a word of {} letters", deep * 10)
-            }
-            12 => {
-                bytes.drain(place..end);
-                format!("without bytes {place} to {end}")
-            }
-            13 => {
-                let part = bytes[place..end].to_vec();
-                let to = random.index(bytes.len().max(1)).min(bytes.len());
-                bytes.splice(to..to, part);
-                format!("bytes {place} to {end} again at {to}")
-            }
-            _ => {
-                *bytes = match random.index(4) {
-                    0 => Vec::new(),
-                    1 => vec![b' '; deep],
-                    2 => vec![b'\n'; deep * 10],
-                    _ => (0..deep.min(5000)).map(|_| random.index(256) as u8).collect(),
-                };
-                format!("{} other bytes", bytes.len())
-            }
-        });
-        bytes.truncate(MOST);
-    }
-}
-
-/// A slip of whoever writes by hand: one other digit, a line twice, one line less, or two of them exchanged.
-fn slip(random: &mut Random, bytes: &mut Vec<u8>, what: &mut Vec<String>) {
-    let kind = random.index(4);
-    if kind == 0 {
-        let digits: Vec<usize> = (0..bytes.len()).filter(|&at| bytes[at].is_ascii_digit()).collect();
-        if let Some(&at) = digits.get(random.index(digits.len().max(1))) {
-            bytes[at] = b'0' + random.index(10) as u8;
-            what.push(format!("another digit at byte {at}"));
-        }
-        return;
-    }
-    let mut lines: Vec<Vec<u8>> = bytes.split(|&byte| byte == b'\n').map(<[u8]>::to_vec).collect();
-    let [a, b] = [random.index(lines.len()), random.index(lines.len())];
-    match kind {
-        1 => lines.insert(b, lines[a].clone()),
-        2 => drop(lines.remove(a)),
-        _ => lines.swap(a, b),
-    }
-    what.push(format!("{} lines {a}, {b}", ["", "twice", "without", "exchanged"][kind]));
-    *bytes = lines.join(&b'\n');
-}
-
-/// Puts something in the place of a number.
-fn number(random: &mut Random, bytes: &mut Vec<u8>, new: &[u8]) {
-    let starts = |at: &usize| bytes[*at].is_ascii_digit() && (*at == 0 || !bytes[at - 1].is_ascii_alphanumeric());
-    let all: Vec<usize> = (0..bytes.len()).filter(starts).collect();
-    if all.is_empty() {
-        return;
-    }
-    let start = all[random.index(all.len())];
-    let length = bytes[start..].iter().take_while(|byte| byte.is_ascii_alphanumeric() || **byte == b'.').count();
-    bytes.splice(start..start + length, new.iter().copied());
 }

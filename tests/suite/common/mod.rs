@@ -10,6 +10,8 @@ pub mod higher;
 #[cfg(target_os = "linux")]
 pub mod hostile;
 pub mod loads;
+pub mod many;
+pub mod parquet;
 pub mod random;
 pub mod sliders;
 pub mod specimens;

@@ -2,8 +2,6 @@
 
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 use linkage::case::Grid;
@@ -13,16 +11,13 @@ use linkproof::{Options, Proof, Verdict, prove};
 
 use crate::common::damage::{Damaged, damaged};
 use crate::common::entries;
+use crate::common::many::{each, number};
 
 /// Instants and turns of a proof: enough to begin everything that a proof begins.
 const INSTANTS: usize = 5;
 const TURNS: f64 = 1.5;
 /// Work of a search of settings, in steps.
 const BUDGET: f64 = 2e4;
-/// Time after which a scenario is named that has not ended, many times what the slowest one takes. A clock proves
-/// nothing on a busy machine: that all end is what the test shows by ending.
-const PATIENCE: Duration = Duration::from_secs(300);
-
 /// How a scenario ended, in a few words.
 fn ending(index: u64, bad: &Damaged) -> String {
     let scenario = match Scenario::parse(&bad.text, &bad.path) {
@@ -78,66 +73,34 @@ fn shortened(mut scenario: Scenario) -> Option<Scenario> {
 /// `LINKPROOF_BAD_TO` names a directory that they are written to.
 #[test]
 fn bad_scenarios_end_with_a_message_and_a_place() {
-    let number = |name: &str| std::env::var(name).ok().and_then(|text| text.parse::<u64>().ok());
     let count = match std::env::var_os("LINKPROOF_NIGHTLY") {
         Some(_) => number("LINKPROOF_BAD_SCENARIOS").unwrap_or(10_000),
         None => 300,
     };
-    let from = number("LINKPROOF_BAD_FROM").unwrap_or(0);
-    let next = AtomicU64::new(from);
-    let found = Mutex::new((BTreeMap::<String, usize>::new(), Vec::<String>::new(), Vec::<(Duration, u64)>::new()));
-    let busy: Mutex<BTreeMap<u64, Instant>> = Mutex::default();
-    std::thread::scope(|scope| {
-        for _ in 0..std::thread::available_parallelism().map_or(1, usize::from) {
-            scope.spawn(|| {
-                loop {
-                    let index = next.fetch_add(1, Ordering::Relaxed);
-                    if index >= from + count {
-                        return;
-                    }
-                    let bad = damaged(1, index);
-                    if let Some(directory) = std::env::var_os("LINKPROOF_BAD_TO") {
-                        let text = format!("# {}\n{}", bad.what.join("; ").escape_debug(), bad.text);
-                        std::fs::write(std::path::Path::new(&directory).join(format!("{index}.toml")), text).unwrap();
-                    }
-                    let since = Instant::now();
-                    busy.lock().unwrap().insert(index, since);
-                    let ended = catch_unwind(AssertUnwindSafe(|| ending(index, &bad)));
-                    busy.lock().unwrap().remove(&index);
-                    let mut found = found.lock().unwrap();
-                    found.2.push((since.elapsed(), index));
-                    let word = match ended {
-                        Ok(word) => word,
-                        Err(panic) => {
-                            let why = panic.downcast_ref::<String>().cloned();
-                            let why = why.or_else(|| panic.downcast_ref::<&str>().map(ToString::to_string));
-                            found.1.push(format!("{index}: {:?}: {}", bad.what, why.unwrap_or_default()));
-                            "panicked".into()
-                        }
-                    };
-                    *found.0.entry(word).or_insert(0) += 1;
-                }
-            });
+    let found = each(number("LINKPROOF_BAD_FROM").unwrap_or(0), count, |index| {
+        let bad = damaged(1, index);
+        if let Some(directory) = std::env::var_os("LINKPROOF_BAD_TO") {
+            let text = format!("# {}\n{}", bad.what.join("; ").escape_debug(), bad.text);
+            std::fs::write(std::path::Path::new(&directory).join(format!("{index}.toml")), text).unwrap();
         }
-        // A scenario that does not end is named before whoever runs the tests stops them.
-        scope.spawn(|| {
-            while next.load(Ordering::Relaxed) < from + count || !busy.lock().unwrap().is_empty() {
-                std::thread::sleep(Duration::from_millis(200));
-                busy.lock().unwrap().retain(|index, since| {
-                    let is_late = since.elapsed() > PATIENCE;
-                    if is_late {
-                        eprintln!("number {index} of seed 1 has not ended after {PATIENCE:?}");
-                    }
-                    !is_late
-                });
-            }
+        let since = Instant::now();
+        let ended = catch_unwind(AssertUnwindSafe(|| ending(index, &bad))).map_err(|panic| {
+            let why = panic.downcast_ref::<String>().cloned();
+            let why = why.or_else(|| panic.downcast_ref::<&str>().map(ToString::to_string));
+            format!("{index}: {:?}: {}", bad.what, why.unwrap_or_default())
         });
+        (since.elapsed(), ended)
     });
-    let (endings, panics, mut times) = found.into_inner().unwrap();
-    times.sort();
+    let mut endings = BTreeMap::<&str, usize>::new();
+    for (_, (_, ended)) in &found {
+        *endings.entry(ended.as_ref().map_or("panicked", String::as_str)).or_insert(0) += 1;
+    }
     println!("{count} bad scenarios:");
     endings.iter().for_each(|(ending, times)| println!("{times:6} {ending}"));
+    let mut times: Vec<(Duration, u64)> = found.iter().map(|(index, (time, _))| (*time, *index)).collect();
+    times.sort();
     let whole: Duration = times.iter().map(|(time, _)| *time).sum();
     println!("mean {:?}, slowest {:?}", whole / count as u32, times.iter().rev().take(5).collect::<Vec<_>>());
-    assert!(panics.is_empty(), "{} panics:\n{}", panics.len(), panics.join("\n"));
+    let panics: Vec<&String> = found.iter().filter_map(|(_, (_, ended))| ended.as_ref().err()).collect();
+    assert!(panics.is_empty(), "{} panics: {panics:#?}", panics.len());
 }

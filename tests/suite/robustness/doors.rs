@@ -2,24 +2,24 @@
 //! with an exit code and a message, and leaves every file alone that is not its own.
 #![cfg(target_os = "linux")]
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::io::Write;
 use std::path::Path;
 use std::process::{Command, Stdio};
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::LazyLock;
 
 use assert_cmd::cargo::CommandCargoExt;
 use linkage::mechanism::is_unseen;
 
 use crate::cli::tools::Place;
-use crate::common::hostile::{Attack, DOORS, Good, attack};
+use crate::common::hostile::{Attack, DOORS, Good, OLDER, attack};
+use crate::common::many::{each, number};
 
 /// Seed of all attacks.
 const SEED: u64 = 1;
 /// Attacks of an ordinary run, as many at each door; by night 10 000 in all.
-const FEW: u64 = 189;
+const FEW: u64 = 16 * DOORS.len() as u64;
 const MANY: u64 = 10_000;
 /// Memory (kB) and processor time (s) that a command may take. Two threads take the time twice as fast.
 const MEMORY: u64 = 2_000_000;
@@ -27,7 +27,7 @@ const SECONDS: u64 = 60;
 /// Time (s) after which a command is stopped that waits for something, many times what the slowest one takes.
 const PATIENCE: u64 = 900;
 
-fn good() -> Good {
+static GOOD: LazyLock<Good> = LazyLock::new(|| {
     let place = Place::new();
     place.ok("run scenarios/pendulum.toml --route differences --record .");
     place.ok("accept scenarios/pendulum.toml --route differences");
@@ -36,14 +36,31 @@ fn good() -> Good {
     place.ok(columns);
     place.ok("solve scenarios/five_bar.toml --with newton --only positions --csv positions.csv");
     let read = |name: &str| fs::read(place.path(name)).unwrap();
+    let recording = read("pendulum.mcap");
+    let older = OLDER.map(|command| {
+        let place = Place::empty();
+        for name in ["pendulum.toml", "five_bar.toml"] {
+            fs::copy(Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios").join(name), place.path(name)).unwrap();
+        }
+        ["r", "h", "p"].iter().for_each(|name| fs::create_dir(place.path(name)).unwrap());
+        if command.starts_with("view") {
+            fs::write(place.path("r/pendulum.mcap"), &recording).unwrap();
+        }
+        let before = files(&place.path(""));
+        place.ok(command);
+        let made: Vec<_> = files(&place.path("")).into_iter().filter(|(name, _)| !before.contains_key(name)).collect();
+        assert!(!made.is_empty(), "{command}");
+        (command, made)
+    });
     Good {
-        recording: read("pendulum.mcap"),
+        recording,
         accepted: read("scenarios/pendulum.accepted"),
         stress: read("turns.json"),
         table: read("table.csv"),
         positions: read("positions.csv"),
+        older: older.into(),
     }
-}
+});
 
 /// All files below a directory, with what is in them.
 fn files(root: &Path) -> BTreeMap<String, Vec<u8>> {
@@ -102,7 +119,7 @@ fn ending(own: &Attack) -> Result<(i32, f64), String> {
     }
     let after = files(&place.path(""));
     for (name, bytes) in &before {
-        if after.get(name) != Some(bytes) && !own.may.contains(&name.as_str()) {
+        if after.get(name) != Some(bytes) && !own.may.contains(name) {
             return Err(format!("{name} is not what it was"));
         }
     }
@@ -119,40 +136,29 @@ fn ending(own: &Attack) -> Result<(i32, f64), String> {
 /// `LINKPROOF_HOSTILE_FROM` and `LINKPROOF_HOSTILE` choose some by number.
 #[test]
 fn hostile_inputs_end_in_little_time_and_memory_and_change_no_file_of_others() {
-    let number = |name: &str| std::env::var(name).ok().and_then(|text| text.parse::<u64>().ok());
     let usual = if std::env::var_os("LINKPROOF_NIGHTLY").is_some() { MANY } else { FEW };
     let (from, count) = (number("LINKPROOF_HOSTILE_FROM").unwrap_or(0), number("LINKPROOF_HOSTILE").unwrap_or(usual));
-    let good = good();
-    let next = AtomicU64::new(from);
-    let found = Mutex::new((BTreeMap::<(usize, i32), usize>::new(), Vec::<String>::new(), Vec::<(f64, String)>::new()));
-    std::thread::scope(|scope| {
-        for _ in 0..std::thread::available_parallelism().map_or(1, usize::from) {
-            scope.spawn(|| {
-                loop {
-                    let index = next.fetch_add(1, Ordering::Relaxed);
-                    if index >= from + count {
-                        return;
-                    }
-                    let own = attack(SEED, index, &good);
-                    let line = format!("{:.200}", own.arguments.join(" "));
-                    let what = format!("number {index}, {}, {:?}: linkproof {line}", DOORS[own.door], own.what);
-                    let ended = ending(&own);
-                    let mut found = found.lock().unwrap();
-                    match ended {
-                        Ok((code, seconds)) => {
-                            *found.0.entry((own.door, code)).or_insert(0) += 1;
-                            found.2.push((seconds, what));
-                        }
-                        Err(why) => {
-                            println!("{what}: {why}");
-                            found.1.push(format!("{what}: {why}"));
-                        }
-                    }
-                }
-            });
+    let found = each(from, count, |index| {
+        let own = attack(SEED, index, &GOOD);
+        let line = format!("{:.200}", own.arguments.join(" "));
+        let what = format!("number {index}, {}, {:?}: linkproof {line}", DOORS[own.door], own.what);
+        let ended = ending(&own);
+        if let Err(why) = &ended {
+            println!("{what}: {why}");
         }
+        (own.door, what, ended)
     });
-    let (endings, failures, mut times) = found.into_inner().unwrap();
+    let mut endings = BTreeMap::<(usize, i32), usize>::new();
+    let (mut times, mut failures) = (Vec::<(f64, &str)>::new(), Vec::<String>::new());
+    for (_, (door, what, ended)) in &found {
+        match ended {
+            Ok((code, seconds)) => {
+                *endings.entry((*door, *code)).or_insert(0) += 1;
+                times.push((*seconds, what));
+            }
+            Err(why) => failures.push(format!("{what}: {why}")),
+        }
+    }
     times.sort_by(|a, b| b.0.total_cmp(&a.0));
     println!("{count} hostile inputs from number {from}:");
     endings.iter().for_each(|((door, code), count)| println!("{count:6} {} with exit code {code}", DOORS[*door]));
@@ -162,4 +168,71 @@ fn hostile_inputs_end_in_little_time_and_memory_and_change_no_file_of_others() {
     let untried: Vec<&str> = (0..DOORS.len()).filter(|&door| !is_tried(door)).map(|door| DOORS[door]).collect();
     assert!(untried.is_empty() || count < FEW, "everything is refused at {untried:?}");
     assert!(failures.is_empty(), "{} of {count}:\n{}", failures.len(), failures.join("\n"));
+}
+
+/// Names of values in the help that are no path of a file or directory.
+const NO_PATHS: &str = "KEY=NUMBER REFERENCE ENGINE S ACCURACY N ROUTE TIMES STEPS GB FROM:TO:STEP LINK,LINK=MODE DEG FACTOR HZ \
+    [HOST:]PORT WORD EXPR CHANNEL NAME=EXPR NUMBER [CHANNEL=]SHARE CHANNEL=SIZE WHAT NAME SOLVER SHARE KIND PARTY FAMILY \
+    TEMPLATE MM MPA POINT PIXELS X,Y KG_PER_M K RPM SHELL PAGE[#SECTION] WITH COMMAND";
+/// Options that name a file which is written, whatever is there.
+const WRITTEN: [&str; 8] = ["--output", "--json", "--junit", "--markdown", "--svg", "--csv", "--run-up", "--write-map"];
+/// The same options where the program makes up a name, so that it looks at what is there.
+const MADE: [&str; 2] = ["export --json", "man --output"];
+/// What reads no input of others: a directory that the program's own files go to.
+const NO_INPUT: [&str; 1] = ["new --shipped"];
+
+/// Commands with their arguments as the help lists them: the name of an option or of a value, and the value's name.
+fn arguments(place: &Place, command: &str, found: &mut Vec<(String, String, String)>) {
+    let help = place.ok(format!("{command} --help").trim());
+    let section = |title: &'static str| {
+        let lines = help.lines().skip_while(move |line| *line != title).skip(1);
+        let lines = lines.take_while(|line| line.is_empty() || line.starts_with(' '));
+        lines.map(str::trim_start).filter(|line| !line.is_empty())
+    };
+    for line in section("Arguments:").filter(|line| line.starts_with(['<', '['])) {
+        let word = line.split(' ').next().unwrap().trim_end_matches('.');
+        let name = &word[1..word.len() - 1];
+        found.push((command.into(), name.into(), name.into()));
+    }
+    for line in section("Options:").filter(|line| line.starts_with('-')) {
+        let Some((_, value)) = line.split_once('<') else { continue };
+        let name = line.split([' ', '=', '[']).find(|word| word.starts_with("--")).unwrap();
+        found.push((command.into(), name.into(), value.split('>').next().unwrap().into()));
+    }
+    let indent = |line: &str| line.len() - line.trim_start().len();
+    let commands = help.lines().skip_while(|line| *line != "Commands:").skip(1).take_while(|line| !line.is_empty());
+    for line in commands.filter(|line| indent(line) == 2) {
+        match line.split_whitespace().next().unwrap() {
+            "help" => {}
+            own => arguments(place, format!("{command} {own}").trim(), found),
+        }
+    }
+}
+
+/// The list of doors is made from what the command line says that it reads.
+#[test]
+fn every_argument_that_is_read_is_a_door() {
+    let mut listed = Vec::new();
+    arguments(&Place::empty(), "", &mut listed);
+    assert!(listed.len() > 100, "{}", listed.len());
+    let is_read = |command: &str, name: &str, value: &str| {
+        let whole = format!("{command} {name}");
+        let is_written = WRITTEN.contains(&name) && !MADE.contains(&whole.as_str());
+        !NO_PATHS.split_whitespace().any(|own| own == value) && !is_written && !NO_INPUT.contains(&whole.as_str())
+    };
+    let read = listed.iter().filter(|(command, name, value)| is_read(command, name, value));
+    let read: BTreeSet<String> = read
+        .map(|(command, name, _)| if name.starts_with("--") { format!("{command} {name}") } else { command.clone() })
+        .collect();
+    let mut tried = BTreeSet::new();
+    for index in 0..40 * DOORS.len() as u64 {
+        let own = attack(SEED, index, &GOOD);
+        let words = if own.arguments[0] == "synthesize" { 2 } else { 1 };
+        let command = own.arguments[..words].join(" ");
+        let options = own.arguments.iter().filter(|word| word.starts_with("--"));
+        tried.extend(options.map(|word| format!("{command} {word}")));
+        tried.insert(command);
+    }
+    let missing: Vec<_> = read.difference(&tried).collect();
+    assert!(missing.is_empty(), "nobody tries {missing:?}");
 }

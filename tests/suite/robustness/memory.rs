@@ -64,6 +64,17 @@ fn a_run_that_needs_too_much_does_not_begin() {
         help.contains("fewer instants") && help.contains("fewer channels") && help.contains("more memory"),
         "{help}"
     );
+    // Without a word it is 4 GB.
+    let scenario = shipped("ov7_base.toml");
+    let long = |instants: u32| {
+        let mut scenario = scenario.clone();
+        let times = (0..instants).map(|k| f64::from(k) * 1e-6).collect();
+        scenario.case = scenario.case.on(Grid::of_times(scenario.case.crank(), times)).unwrap();
+        scenario
+    };
+    let of_one = memory::of_proof(&long(200_000).case, 1) / 2e5;
+    let error = prove(&long((5e9 / of_one) as u32), &Options::default()).unwrap_err();
+    assert!(error.scenario_key() == Some("grid") && error.message().contains("4.0 GB"), "{error}");
     for command in ["run --no-record", "solve --with assur", "tune --within 1e-3"] {
         let mut run = Command::cargo_bin("linkproof").unwrap();
         run.args(command.split(' ')).args(["scenarios/crank_rocker.toml", "--memory", "0.001"]);

@@ -116,6 +116,14 @@ fn messages_show_no_letter_that_commands_a_terminal() {
     place.refused("run bad.toml --no-record", &["no regular file"]);
     #[cfg(unix)]
     place.refused("run /dev/zero --no-record", &["/dev/zero", "64 MiB"]);
+    // A formula that is cut off within a letter of two bytes, and of three that nobody sees.
+    for letter in ["\u{e9}", "\u{202e}"] {
+        for start in ["", "p", "ph"] {
+            let text = format!("{start}{}", letter.repeat(12_000));
+            let told = place.run(&format!("check scenarios/crank_rocker.toml {text} --channel link.rocker.angle_rad"));
+            assert!(told.code == 2 && told.stderr.contains("more than 20000"), "{:.300}", told.stderr);
+        }
+    }
 }
 
 /// Text that is allowed and as bad as possible: every output stays in its form and its folder.

@@ -1,9 +1,11 @@
 //! Files: recordings of earlier versions, Parquet, text; damaged ones.
 
 use std::fs;
+use std::io::Write;
 use std::path::Path;
 
 use crate::cli::tools::Place;
+use crate::common::parquet::{Announced, GZIP};
 
 /// Directory of files that other versions and other programs have written.
 const KEPT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/suite/versus");
@@ -82,6 +84,51 @@ fn damaged_parquet_files_are_refused() {
         }
     }
     assert!(refused > 100, "{refused}");
+}
+
+/// A reader takes as much memory as a file announces: what is announced is looked at first.
+#[test]
+fn what_a_parquet_file_announces_and_does_not_have_takes_no_memory() {
+    let directory = tempfile::TempDir::new().unwrap();
+    let path = directory.path().join("x.parquet");
+    let load = |own: &Announced| {
+        fs::write(&path, own.file()).unwrap();
+        linkproof::tables::load(&path)
+    };
+    let packed = |bytes: usize| {
+        let mut packer = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::best());
+        packer.write_all(&vec![0; bytes]).unwrap();
+        packer.finish().unwrap()
+    };
+    let (zeros, run) = (Announced::zeros(1000), Announced::run(1000));
+    let of_gzip = |bytes: usize| {
+        let body = packed(bytes);
+        Announced { codec: GZIP, stored: body.len() as i64, body, ..zeros.clone() }
+    };
+    let groups = Announced { groups: 3, rows: 3000, ..run.clone() };
+    for (own, rows) in [(zeros.clone(), 1000), (run.clone(), 1000), (groups, 3000), (of_gzip(8000), 1000)] {
+        let table = load(&own).unwrap();
+        assert_eq!(table.names, ["a"]);
+        assert!(table.columns[0].len() == rows && table.columns[0].iter().all(|cell| cell.value == 0.0));
+    }
+    let most = i64::from(i32::MAX);
+    for (own, told) in [
+        (Announced { children: most, ..zeros.clone() }, "columns that are not there"),
+        (Announced { children: -1, ..zeros.clone() }, "columns that are not there"),
+        (Announced { depth: 100_000, ..zeros.clone() }, "within each other"),
+        (Announced { held: most, ..zeros.clone() }, "announces 2147483647 bytes"),
+        (Announced { stored: most, ..zeros.clone() }, "longer than its column"),
+        (Announced { values: most, ..zeros.clone() }, "more values than the 1000 rows"),
+        (Announced { dictionary: Some(most), ..run.clone() }, "a dictionary of 8 bytes has 2147483647 values"),
+        (Announced { rows: 1, ..zeros.clone() }, "other rows than the file says"),
+        (Announced { of_group: -1, ..zeros.clone() }, "other rows than the file says"),
+        (of_gzip(1 << 26), "more than the 8000 bytes"),
+        (Announced { values: 10, ..Announced::zeros(100) }, "fewer values than there are rows"),
+        (Announced { rows: most << 20, of_group: most << 20, ..run }, "more than 67108864"),
+    ] {
+        let error = load(&own).unwrap_err();
+        assert!(error.message().contains("x.parquet") && error.message().contains(told), "{told}: {}", error.message());
+    }
 }
 
 #[test]

@@ -18,6 +18,8 @@ const NEIGHBOURS: f64 = 12.0;
 /// Comparisons of a label with what is around it, in all, after which labels take their first position: a drawing of
 /// hundreds of links has no room for their names anyway.
 const MOST_COMPARED: usize = 200_000_000;
+/// The same for one of many drawings that are made together, as frames are: it is no less than this.
+const LEAST_COMPARED: usize = 10_000_000;
 
 /// A label to be placed; paper coordinates (mm), y upwards.
 #[derive(Clone, Copy, Debug)]
@@ -44,7 +46,13 @@ pub struct Obstacles {
 /// Centres of the labels' boxes.
 #[must_use]
 pub fn place(labels: &[Label], obstacles: &Obstacles) -> Vec<Vec2> {
-    place_within(labels, obstacles, MOST_COMPARED)
+    place_among(labels, obstacles, 1)
+}
+
+/// The same in one of so many drawings that are made together and share the work.
+#[must_use]
+pub fn place_among(labels: &[Label], obstacles: &Obstacles, drawings: usize) -> Vec<Vec2> {
+    place_within(labels, obstacles, (MOST_COMPARED / drawings.max(1)).max(LEAST_COMPARED))
 }
 
 fn place_within(labels: &[Label], obstacles: &Obstacles, most: usize) -> Vec<Vec2> {

@@ -1,0 +1,159 @@
+//! What a Parquet file announces of its sizes, looked at before its reader takes memory for them: it takes as much as
+//! a file says.
+
+use std::fs::File;
+use std::io::{self, BufReader, Read, Seek, SeekFrom};
+
+use flate2::bufread::MultiGzDecoder;
+use parquet::basic::Compression;
+use parquet::file::metadata::ColumnChunkMetaData;
+
+use super::thrift::{Found, Walk, wrong};
+
+/// What a Parquet file begins and ends with.
+pub(super) const MAGIC: &[u8; 4] = b"PAR1";
+/// What stands behind the description of a file: its length, and the sign of the format.
+const TAIL: u64 = 8;
+/// Most columns and groups of columns within each other: the reader goes down by recursion.
+const DEEPEST: usize = 32;
+/// Most bytes of a page for each of its values: eight, and levels and the unfinished blocks of delta encoding.
+const WIDEST: u64 = 16;
+/// Bytes of a page beside its values: a block of delta encoding is always whole.
+const BESIDE: u64 = 1 << 12;
+/// Largest dictionary (bytes); writers begin to do without one from 1 MiB on.
+const DICTIONARY: u64 = 1 << 26;
+
+/// Fields of the description of a file, of a column there, and of the header of a page.
+const SCHEMA: i64 = 2;
+const CHILDREN: i64 = 5;
+const HELD: i64 = 2;
+const STORED: i64 = 3;
+const OF_DATA: [i64; 2] = [5, 8];
+const OF_DICTIONARY: i64 = 7;
+const VALUES: i64 = 1;
+
+/// Looks at the description of a file: no more columns are announced than there are, and none too deep.
+pub(super) fn check_description(file: &File) -> io::Result<()> {
+    let whole = file.metadata()?.len();
+    let mut tail = [0; TAIL as usize];
+    let mut from = file;
+    from.seek(SeekFrom::Start(whole.saturating_sub(TAIL)))?;
+    from.read_exact(&mut tail)?;
+    let [length, magic] = [&tail[..4], &tail[4..]].map(|part| <[u8; 4]>::try_from(part).expect("four bytes"));
+    let length = u64::from(u32::from_le_bytes(length));
+    if &magic != MAGIC || length + TAIL > whole {
+        return Err(wrong("its end is not that of a Parquet file"));
+    }
+    from.seek(SeekFrom::Start(whole - TAIL - length))?;
+    let (mut own, mut open, mut columns) = (0, Vec::<i64>::new(), 0_u64);
+    let mut tell = |depth: usize, [outer, field]: [i64; 2], found: Found| {
+        if (depth, outer) != (1, SCHEMA) {
+            return Ok(());
+        }
+        match (field, found) {
+            // A group has no more columns than there are bytes.
+            (CHILDREN, Found::Number(count)) if (0..=length.cast_signed()).contains(&count) => own = count,
+            (CHILDREN, Found::Number(_) | Found::Other) => {
+                return Err(wrong("it announces columns that are not there"));
+            }
+            (_, Found::End) => {
+                columns += 1;
+                if let Some(left) = open.last_mut() {
+                    *left -= 1;
+                }
+                if own > 0 {
+                    open.push(own);
+                }
+                while open.last() == Some(&0) {
+                    open.pop();
+                }
+                own = 0;
+                if open.len() > DEEPEST {
+                    return Err(wrong(format!("more than {DEEPEST} of its columns are within each other")));
+                }
+            }
+            (_, Found::Number(_) | Found::Other) => {}
+        }
+        Ok(())
+    };
+    Walk::new(BufReader::new(from).take(length)).structure(0, 0, &mut tell)
+}
+
+/// What the header of a page announces: bytes when it is unpacked, bytes in the file, values, and whether it is a
+/// dictionary.
+#[derive(Default)]
+struct Page {
+    held: Option<u64>,
+    stored: Option<u64>,
+    data: Option<u64>,
+    dictionary: Option<u64>,
+}
+
+impl Page {
+    /// Reads a header; returns also how long it is (bytes).
+    fn read(from: impl Read) -> io::Result<(Self, u64)> {
+        let mut page = Page::default();
+        let mut tell = |depth: usize, [outer, field]: [i64; 2], found: Found| {
+            let slot = match (depth, outer, field) {
+                (0, _, HELD) => &mut page.held,
+                (0, _, STORED) => &mut page.stored,
+                (1, OF_DICTIONARY, VALUES) => &mut page.dictionary,
+                (1, _, VALUES) if OF_DATA.contains(&outer) => &mut page.data,
+                _ => return Ok(()),
+            };
+            match found {
+                Found::Number(number) => {
+                    let size = u32::try_from(number).map_err(|_| wrong(format!("a page announces {number} bytes")))?;
+                    *slot = Some(size.into());
+                    Ok(())
+                }
+                Found::Other => Err(wrong("the size of a page is no number")),
+                Found::End => Ok(()),
+            }
+        };
+        let mut walk = Walk::new(from);
+        walk.structure(0, 0, &mut tell)?;
+        Ok((page, walk.read))
+    }
+}
+
+/// Looks at the pages of a column of numbers, in a group with so many rows.
+pub(super) fn check_pages(file: &File, rows: u64, column: &ColumnChunkMetaData) -> io::Result<()> {
+    let (start, mut left) = column.byte_range();
+    let mut from = BufReader::new(file);
+    from.seek(SeekFrom::Start(start))?;
+    let mut values = 0;
+    while left > 0 {
+        let (page, header) = Page::read(&mut from)?;
+        let (Some(held), Some(stored)) = (page.held, page.stored) else { return Err(wrong("a page has no size")) };
+        left = left.checked_sub(header + stored).ok_or_else(|| wrong("a page is longer than its column"))?;
+        let own = page.data.unwrap_or(0);
+        values += own;
+        if values > rows {
+            return Err(wrong(format!("its pages have more values than the {rows} rows of their group")));
+        }
+        let most = match page.dictionary {
+            // Every value of a dictionary stands there, with four bytes at least.
+            Some(count) if count > held / 4 => {
+                return Err(wrong(format!("a dictionary of {held} bytes has {count} values")));
+            }
+            Some(_) => DICTIONARY,
+            None => own * WIDEST + BESIDE,
+        };
+        if held > most {
+            return Err(wrong(format!("a page announces {held} bytes; such a page has {most} at most")));
+        }
+        let mut body = from.by_ref().take(stored);
+        let unpacked = match column.compression() {
+            // Only this one unpacks further than it was asked to.
+            Compression::GZIP(_) => io::copy(&mut MultiGzDecoder::new(&mut body).take(held + 1), &mut io::sink())?,
+            Compression::UNCOMPRESSED | Compression::SNAPPY | Compression::ZSTD(_) => 0,
+            Compression::BROTLI(_) | Compression::LZ4 | Compression::LZ4_RAW | Compression::LZO => 0,
+        };
+        if unpacked > held {
+            return Err(wrong(format!("a page holds more than the {held} bytes that it announces")));
+        }
+        io::copy(&mut body, &mut io::sink())?;
+    }
+    Ok(())
+}

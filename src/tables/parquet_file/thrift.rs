@@ -1,0 +1,137 @@
+//! The compact protocol of Thrift, in which a Parquet file describes itself: a walk over it that takes no memory.
+
+use std::io::{self, Read};
+
+/// Most elements of all lists together: the reader takes memory for as many as a list announces.
+const MOST: u64 = 1 << 22;
+/// Most structures and lists within each other.
+const DEEPEST: usize = 32;
+
+/// What stands at a field.
+pub(super) enum Found {
+    /// A whole number.
+    Number(i64),
+    /// Anything else.
+    Other,
+    /// The structure that the field belongs to ends.
+    End,
+}
+
+/// Is told how deep a field stands (0 in the outermost structure), the field of the structure that it belongs to, its
+/// number there, and what it holds.
+pub(super) type Tell<'a> = &'a mut dyn FnMut(usize, [i64; 2], Found) -> io::Result<()>;
+
+/// A walk, with what it has read (bytes).
+pub(super) struct Walk<R> {
+    from: R,
+    pub read: u64,
+    elements: u64,
+}
+
+pub(super) fn wrong(what: impl Into<String>) -> io::Error {
+    io::Error::other(what.into())
+}
+
+impl<R: Read> Walk<R> {
+    pub fn new(from: R) -> Self {
+        Walk { from, read: 0, elements: 0 }
+    }
+
+    /// Walks over a structure, the outermost one at depth 0.
+    pub fn structure(&mut self, depth: usize, outer: i64, tell: Tell) -> io::Result<()> {
+        let mut field: i64 = 0;
+        loop {
+            let head = self.byte()?;
+            if head == 0 {
+                return tell(depth, [outer, field], Found::End);
+            }
+            field = match i64::from(head >> 4) {
+                0 => self.number()?,
+                step => field.saturating_add(step),
+            };
+            match head & 15 {
+                // Truth stands in the kind itself.
+                1 | 2 => tell(depth, [outer, field], Found::Other)?,
+                kind => self.value(kind, depth, [outer, field], tell)?,
+            }
+        }
+    }
+
+    fn value(&mut self, kind: u8, depth: usize, at: [i64; 2], tell: Tell) -> io::Result<()> {
+        if depth > DEEPEST {
+            return Err(wrong(format!("more than {DEEPEST} of its parts are within each other")));
+        }
+        if let 4..=6 = kind {
+            let number = self.number()?;
+            return tell(depth, at, Found::Number(number));
+        }
+        tell(depth, at, Found::Other)?;
+        match kind {
+            1..=3 => self.pass(1),
+            7 => self.pass(8),
+            8 => {
+                let length = self.varint()?;
+                self.pass(length)
+            }
+            9 | 10 => {
+                let head = self.byte()?;
+                let count = if head >> 4 == 15 { self.varint()? } else { u64::from(head >> 4) };
+                self.each(count, &[head & 15], depth, at, tell)
+            }
+            11 => match self.varint()? {
+                0 => Ok(()),
+                count => {
+                    let kinds = self.byte()?;
+                    self.each(count, &[kinds >> 4, kinds & 15], depth, at, tell)
+                }
+            },
+            12 => self.structure(depth + 1, at[1], tell),
+            _ => Err(wrong(format!("it has a part of the unknown kind {kind}"))),
+        }
+    }
+
+    /// The elements of a list, or of a map with two kinds.
+    fn each(&mut self, count: u64, kinds: &[u8], depth: usize, at: [i64; 2], tell: Tell) -> io::Result<()> {
+        self.elements = self.elements.saturating_add(count);
+        if self.elements > MOST {
+            return Err(wrong(format!("it is described by more than {MOST} parts")));
+        }
+        for _ in 0..count {
+            for &kind in kinds {
+                self.value(kind, depth + usize::from(kind != 12), at, tell)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn byte(&mut self) -> io::Result<u8> {
+        let mut byte = [0];
+        self.from.read_exact(&mut byte)?;
+        self.read += 1;
+        Ok(byte[0])
+    }
+
+    fn varint(&mut self) -> io::Result<u64> {
+        let mut value = 0;
+        for shift in (0..64).step_by(7) {
+            let byte = self.byte()?;
+            value |= u64::from(byte & 127) << shift;
+            if byte < 128 {
+                return Ok(value);
+            }
+        }
+        Err(wrong("it has a number without an end"))
+    }
+
+    /// A whole number: its sign is its last bit.
+    fn number(&mut self) -> io::Result<i64> {
+        let value = self.varint()?;
+        Ok((value >> 1).cast_signed() ^ -(value & 1).cast_signed())
+    }
+
+    fn pass(&mut self, bytes: u64) -> io::Result<()> {
+        let passed = io::copy(&mut self.from.by_ref().take(bytes), &mut io::sink())?;
+        self.read += passed;
+        if passed == bytes { Ok(()) } else { Err(io::ErrorKind::UnexpectedEof.into()) }
+    }
+}
