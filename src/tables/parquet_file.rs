@@ -2,7 +2,6 @@
 
 use std::fmt::Display;
 use std::fs::File;
-use std::io::Read;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
@@ -11,28 +10,23 @@ use parquet::errors::ParquetError;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
 
+use super::May;
 use columns::{MISSING, Table, Twice, UNDEFINED};
 use formula::Rounded;
 use linkage::error::{Error, ErrorKind, Result};
 
 /// What a Parquet file begins with.
-const MAGIC: &[u8; 4] = b"PAR1";
+pub(super) const MAGIC: &[u8; 4] = b"PAR1";
 /// Largest number of values that is read.
 const MOST: i64 = 1 << 26;
 
-/// Whether a file is one of this format.
-pub(super) fn is_one(path: &Path) -> bool {
-    let mut first = [0; MAGIC.len()];
-    File::open(path).and_then(|mut file| file.read_exact(&mut first)).is_ok() && &first == MAGIC
-}
-
-pub(super) fn read(path: &Path, may_take: &dyn Fn(f64) -> Result<()>) -> Result<Table> {
+pub(super) fn read(path: &Path, size: u64, may: May) -> Result<Table> {
     let damaged = |error: &dyn Display| {
         Error::new(ErrorKind::Io, format!("the table {} is cut off or damaged: {error}", path.display()))
             .help("write it again, as Parquet or as CSV")
     };
     // The reader is given whatever a file claims to be.
-    match catch_unwind(AssertUnwindSafe(|| of_file(path, may_take))) {
+    match catch_unwind(AssertUnwindSafe(|| of_file(path, size, may))) {
         Ok(Ok(read)) => read,
         Ok(Err(error)) => Err(damaged(&error)),
         Err(_) => Err(damaged(&"its parts contradict each other")),
@@ -40,7 +34,7 @@ pub(super) fn read(path: &Path, may_take: &dyn Fn(f64) -> Result<()>) -> Result<
 }
 
 /// The columns that hold numbers; others, such as names, are passed over.
-fn of_file(path: &Path, may_take: &dyn Fn(f64) -> Result<()>) -> std::result::Result<Result<Table>, ParquetError> {
+fn of_file(path: &Path, size: u64, may: May) -> std::result::Result<Result<Table>, ParquetError> {
     let reader = SerializedFileReader::new(File::open(path)?)?;
     let described = reader.metadata().file_metadata();
     let names: Vec<String> = described.schema().get_fields().iter().map(|field| field.name().to_string()).collect();
@@ -61,7 +55,8 @@ fn of_file(path: &Path, may_take: &dyn Fn(f64) -> Result<()>) -> std::result::Re
     if !(0..=MOST).contains(&values) {
         return refused(format!("it has {values} values, more than {MOST}"), "give fewer rows, or fewer columns");
     }
-    if let Err(error) = may_take(values as f64 * size_of::<Rounded>() as f64) {
+    // What is compressed is unpacked part by part.
+    if let Err(error) = may(size as f64 + values as f64 * size_of::<Rounded>() as f64, described.num_rows() as usize) {
         return Ok(Err(error));
     }
     let mut columns: Vec<Vec<Rounded>> = vec![Vec::new(); names.len()];
@@ -75,7 +70,7 @@ fn of_file(path: &Path, may_take: &dyn Fn(f64) -> Result<()>) -> std::result::Re
     }
     let mut are_kept = are_numbers.iter();
     let (names, columns) = names.into_iter().zip(columns).filter(|_| are_kept.next() == Some(&true)).unzip();
-    Ok(Ok(Table { names, columns }))
+    Ok(Ok(Table { names, columns, lines: Vec::new() }))
 }
 
 /// Name of a compression that is not read.

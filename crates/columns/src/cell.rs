@@ -98,6 +98,41 @@ impl Cell {
         if is(&NO_NUMBER, size) { no_number(false) } else { None }
     }
 
+    /// The number; NaN where there is none.
+    #[must_use]
+    pub fn value(&self) -> f64 {
+        self.value
+    }
+
+    /// Decimals printed, less the exponent.
+    #[must_use]
+    pub fn decimals(&self) -> i32 {
+        self.decimals
+    }
+
+    /// Digits printed from the first that is not zero.
+    pub(crate) fn significant(&self) -> u16 {
+        self.significant
+    }
+
+    /// Whether it is a number other than zero.
+    pub(crate) fn has_digits(&self) -> bool {
+        self.significant > 0 && !self.value.is_nan()
+    }
+
+    /// The same number with the zeros at its end that were not printed: as many as neither so many decimals nor so many
+    /// significant digits forbid.
+    pub(crate) fn with_zeros(mut self, decimals: i32, significant: u16) -> Cell {
+        let mut zeros = decimals.saturating_sub(self.decimals).max(0);
+        if self.has_digits() {
+            zeros = zeros.min(i32::from(significant.saturating_sub(self.significant)));
+            self.significant += zeros as u16;
+            self.telling = self.significant;
+        }
+        self.decimals += zeros;
+        self
+    }
+
     /// Power of ten of its first digit that is not zero.
     fn first_place(&self) -> i32 {
         i32::from(self.significant) - 1 - self.decimals
@@ -147,7 +182,7 @@ const FEW: usize = 2;
 const TELLING: usize = 8;
 
 /// Whether a column holds numbers in single precision, each with as many digits as tell it from its neighbours.
-fn are_single(cells: &[Cell]) -> bool {
+pub(crate) fn are_single(cells: &[Cell]) -> bool {
     let shown = || cells.iter().filter(|cell| !cell.value.is_nan());
     if shown().any(|cell| cell.significant > 9) || shown().filter(|cell| cell.significant >= 8).count() < TELLING {
         return false;

@@ -139,7 +139,7 @@ fn what_is_no_number_does_not_agree_and_what_is_missing_is_counted() {
     // A mapping computes with what is there only.
     fs::write(place.path("some.csv"), "t_s,a,b\n0,0,\n0.01,1,60\n").unwrap();
     let line = "compare scenarios/crank_rocker.toml some.csv --map ln(a-2)+b=link.rocker.angle_deg --rel 100";
-    place.refused(line, &["row 2 of the table", "ln(-1) is undefined"]);
+    place.refused(line, &["line 3 of the table", "ln(-1) is undefined"]);
     let told = place.ok("compare scenarios/crank_rocker.toml some.csv --map a+b=link.rocker.angle_deg --rel 100");
     assert!(told.starts_with("AGREE: all 1 channels at 2 times, 1 of 2 values"), "{told}");
 }
