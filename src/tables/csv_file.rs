@@ -5,7 +5,7 @@ use std::path::Path;
 
 use columns::{Fault, Table};
 
-use super::{May, unread};
+use super::source::{May, unread};
 use crate::files::{self, LARGEST};
 use linkage::error::{Error, ErrorKind, Place, Result};
 

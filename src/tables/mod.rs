@@ -3,15 +3,18 @@
 mod csv_file;
 mod held;
 mod parquet_file;
+mod source;
 
 pub use columns::Table as Raw;
 pub use held::{At, Column, Held, Instants};
+pub use source::May;
 
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
 use self::parquet_file::MAGIC;
+use self::source::unread;
 use linkage::error::{Error, ErrorKind, Result};
 
 /// Reads a file: Parquet by its first bytes, else text with separated columns.
@@ -21,9 +24,6 @@ use linkage::error::{Error, ErrorKind, Result};
 pub fn load(path: &Path) -> Result<Raw> {
     load_within(path, &|_, _| Ok(()))
 }
-
-/// Whether so many bytes may be taken for a table of so many rows; 0 before they are counted.
-pub type May<'a> = &'a dyn Fn(f64, usize) -> Result<()>;
 
 /// The same where memory is asked for before it is taken: before a file is read, by its size, and before its numbers
 /// are, by its rows and cells.
@@ -50,9 +50,4 @@ pub fn load_within(path: &Path, may: May) -> Result<Raw> {
         return Err(Error::new(ErrorKind::Input, message).help("give a table with a header and one row per instant"));
     }
     Ok(raw)
-}
-
-fn unread(path: &Path, error: &std::io::Error) -> Error {
-    Error::new(ErrorKind::Io, format!("the table {} cannot be read: {error}", path.display()))
-        .help("give a scenario (.toml), a recording (.mcap), a table of text (.csv) or a Parquet file")
 }

@@ -60,9 +60,10 @@ impl Table {
                 case.crank(),
                 (0..rows).map(|row| 0.0361 + 0.127_314_159_265 * f64::from(row)).collect(),
             ),
-            // The last is rounded up, beyond the run.
+            // The last may be rounded up, beyond the run.
             false => {
-                Grid::of_times(case.crank(), (1..=rows).map(|row| last * f64::from(row) / f64::from(rows)).collect())
+                let share = |row: i32| (f64::from(row) / f64::from(rows)).powf(1.1);
+                Grid::of_times(case.crank(), (1..=rows).map(|row| last * share(row)).collect())
             }
         };
         let at = if name.starts_with("crank") { grid.cranks.clone() } else { grid.times.clone() };

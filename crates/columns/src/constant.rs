@@ -1,6 +1,6 @@
 //! Columns of one number throughout: a moment that is zero, a constant speed.
 
-use crate::cell::{Cell, are_single, numbers};
+use crate::cell::{Cell, are_single, numbers, numbers_as};
 use crate::instants::chosen;
 use formula::Rounded;
 
@@ -22,16 +22,25 @@ where
     Others: IntoIterator<Item: AsRef<[Cell]>>,
 {
     match is_constant(cells).then(|| vouched(others())).flatten() {
-        Some((decimals, significant)) => {
-            numbers(&cells.iter().map(|cell| cell.with_zeros(decimals, significant)).collect::<Vec<Cell>>())
+        Some(Vouched { decimals, significant, are_single }) => {
+            let cells: Vec<Cell> = cells.iter().map(|cell| cell.with_zeros(decimals, significant)).collect();
+            numbers_as(&cells, are_single)
         }
         None => numbers(cells),
     }
 }
 
-/// Decimals and significant digits that other columns vouch for; `None` if they say nothing.
-fn vouched(others: impl IntoIterator<Item: AsRef<[Cell]>>) -> Option<(i32, u16)> {
-    let mut coarsest: Option<(i32, u16)> = None;
+/// What other columns vouch for: the fewest decimals and digits of them, and whether one is in single precision.
+#[derive(Clone, Copy)]
+struct Vouched {
+    decimals: i32,
+    significant: u16,
+    are_single: bool,
+}
+
+/// What other columns vouch for; `None` if they say nothing.
+fn vouched(others: impl IntoIterator<Item: AsRef<[Cell]>>) -> Option<Vouched> {
+    let mut coarsest: Option<Vouched> = None;
     for column in others {
         let cells = column.as_ref();
         if is_constant(cells) || chosen(&numbers(cells), false) {
@@ -46,11 +55,14 @@ fn vouched(others: impl IntoIterator<Item: AsRef<[Cell]>>) -> Option<(i32, u16)>
         if decimals <= 0 || !leaves_zeros_out(cells) {
             return None;
         }
-        let significant = if are_single(cells) { significant.min(SINGLE) } else { significant };
-        coarsest = match coarsest {
-            None => Some((decimals, significant)),
-            Some((fewest, least)) => Some((fewest.min(decimals), least.min(significant))),
-        };
+        let are_single = are_single(cells);
+        let significant = if are_single { significant.min(SINGLE) } else { significant };
+        let own = Vouched { decimals, significant, are_single };
+        coarsest = Some(coarsest.map_or(own, |least| Vouched {
+            decimals: least.decimals.min(own.decimals),
+            significant: least.significant.min(own.significant),
+            are_single: least.are_single || own.are_single,
+        }));
     }
     coarsest
 }

@@ -49,24 +49,27 @@ fn evidence(multiples: f64, mut round: f64) -> f64 {
     evidence
 }
 
-/// The same at unequal steps. Whole numbers that have nothing to do with each other share a divisor in as few cases as
-/// its power says; those of one hidden step do not, and must tell as equal steps do.
+/// Independent numbers that rows may have at most for a divisor: those of one hidden step depend on each other.
+const INDEPENDENT: i32 = 3;
+
+/// The same at unequal steps: a divisor of all tells as much as its roundness, such as zeros at all ends. Whole degrees
+/// that have nothing to do with each other share a divisor in as few cases as its power says.
 fn are_multiples(values: &[Rounded], unit: f64, are_whole_degrees: bool) -> bool {
-    let (mut divisor, mut count, mut largest) = (0u64, -1i32, 0u64);
+    let (mut divisor, mut count) = (0u64, 0i32);
     for at in values.iter().filter(|at| at.value != 0.0) {
-        let units = (at.value / unit).abs().round();
-        if !is_multiple(at.value, unit) || !(units < 1e15) {
+        let units = (at.value / unit).abs();
+        if !(units < 1e12) || (units - units.round()).abs() > 1e-3 {
             return false;
         }
-        let units = units as u64;
-        divisor = common(divisor, units);
+        divisor = common(divisor, units.round() as u64);
         count = count.saturating_add(1);
-        largest = largest.max(units);
     }
-    if count < 1 || (divisor as f64).powi(count) < EVIDENCE {
+    // One number is a multiple of itself.
+    if count < 2 {
         return false;
     }
-    are_whole_degrees || evidence((largest / divisor) as f64, divisor as f64) >= EVIDENCE
+    let independent = if count - 1 < INDEPENDENT { count - 1 } else { INDEPENDENT };
+    evidence(1.0, divisor as f64) >= EVIDENCE || are_whole_degrees && (divisor as f64).powi(independent) >= EVIDENCE
 }
 
 /// Greatest common divisor.
@@ -135,8 +138,10 @@ mod tests {
             (["0", "3", "5", "8", "10"], true, false),
             // With the zeros that say so.
             (["0.000", "17.000", "46.000", "63.000", "90.000"], true, true),
-            (["0.00", "0.05", "0.20", "0.25", "1.00"], false, true),
+            (["0.000", "0.200", "0.500", "0.600", "1.000"], false, true),
             (["0.0000", "0.0333", "0.0667", "0.2000", "0.5000"], false, false),
+            // A step that is hidden is even by chance.
+            (["2.068378", "9.362942", "16.657506", "23.952070", "31.246634"], true, false),
         ] {
             assert_eq!(chosen(&of(&texts.map(Into::into)), are_degrees), expected, "{texts:?}");
         }

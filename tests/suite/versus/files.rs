@@ -1,7 +1,9 @@
 //! Files: recordings of earlier versions, Parquet, text; damaged ones.
 
 use std::fs;
+use std::io::Write;
 use std::path::Path;
+use std::process::{Command, Stdio};
 
 use crate::cli::tools::Place;
 
@@ -205,6 +207,31 @@ fn compressed_parquet_files_are_read_or_named() {
     assert!(told.starts_with("AGREE: all 1 channels at 31 times, 31 values"), "{told}");
 }
 
+/// A pipe gives every byte once: the first four say whether the table is Parquet.
+#[test]
+fn a_table_comes_through_a_pipe_with_all_its_bytes() {
+    let place = place();
+    let through = |bytes: &[u8]| {
+        let mut child = Command::new(env!("CARGO_BIN_EXE_linkproof"))
+            .args(["compare", "scenarios/crank_rocker.toml", "-"])
+            .current_dir(place.path(""))
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        child.stdin.take().unwrap().write_all(bytes).unwrap();
+        let done = child.wait_with_output().unwrap();
+        (done.status.code(), String::from_utf8(done.stdout).unwrap() + &String::from_utf8(done.stderr).unwrap())
+    };
+    let table = place.ok("solve scenarios/crank_rocker.toml --with assur --only link.rocker.angle_rad");
+    let (code, told) = through(table.as_bytes());
+    assert!(code == Some(0) && told.starts_with("AGREE: all 1 channels at 361 times"), "{told}");
+    assert_eq!(through(b"t\n").0, Some(2));
+    let (code, told) = through(&fs::read(place.path("pandas.parquet")).unwrap());
+    assert!(code == Some(2) && told.contains("Parquet file that comes through a pipe"), "{told}");
+}
+
 /// Memory is told before it is taken: for the numbers of a table, for what they are held against, and for `[[oracle]]`.
 #[test]
 fn what_needs_more_memory_than_is_allowed_is_refused() {
@@ -224,6 +251,14 @@ fn what_needs_more_memory_than_is_allowed_is_refused() {
                   columns = { a = { channel = \"link.crank.angle_deg\" } }\n";
     fs::write(place.path("scenarios/long.toml"), text + oracle).unwrap();
     place.refused("run scenarios/long.toml --no-record --memory 0.05", &["[[oracle]]", words[0], words[1]]);
+    // Before the numbers are read, and before the file is.
+    place.refused(
+        "run scenarios/long.toml --no-record --memory 0.01",
+        &["scenarios/long.toml:", "reading 200000 rows", words[0], words[1], words[2]],
+    );
+    let line = "compare scenarios/crank_rocker.toml long.csv --map a=link.crank.angle_deg";
+    place.refused(&format!("{line} --memory 0.02"), &["comparing 200000 rows", words[0], words[1], words[2]]);
+    place.refused(&format!("{line} --memory 1e-3"), &["the table long.csv", words[0], words[1], words[2]]);
 }
 
 #[test]
