@@ -14,7 +14,8 @@ pub(super) fn read(path: &Path, from: impl Read, size: Option<u64>, may: May) ->
     // No more is read, whatever there is.
     may(size.unwrap_or(LARGEST).min(LARGEST) as f64, 0)?;
     let text = files::text_from(from).map_err(|error| unread(path, &error))?;
-    let rows = text.bytes().filter(|&byte| byte == b'\n').count();
+    // At least so many: one line may be a header.
+    let rows = text.bytes().filter(|&byte| byte == b'\n').count().saturating_sub(1);
     may(text.len() as f64 + columns::bytes(&text), rows)?;
     columns::read(&text).map_err(|Fault { at, message, help }| {
         let place = Place { file: path.into(), text: text.as_str().into(), span: at };

@@ -70,7 +70,7 @@ impl Table {
         let right = analytic::AssurSolver.solve(&case.on(grid).unwrap()).unwrap();
         let mut columns = Vec::new();
         for (channel, values) in right.iter() {
-            if random.index(right.channels().len()) < 9 {
+            if columns.is_empty() || random.index(right.channels().len()) < 9 {
                 columns.push(column(channel, values, &right, random));
             }
         }
