@@ -13,7 +13,7 @@ use std::io;
 
 pub(crate) use seal::{is_sealed, sealed};
 pub(crate) use target::{Target, may_fill, may_write, size, unwritten};
-pub(crate) use text::{read_named, read_text, text, text_from, way_out};
+pub(crate) use text::{LARGEST, read_named, read_text, text, text_from, way_out};
 
 use target::Place;
 use temporary::{clear, create, directory_of};

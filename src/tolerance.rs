@@ -59,7 +59,7 @@ pub enum Basis {
         /// How the rounding part is known. The other two parts are estimated.
         noise: Origin,
     },
-    /// Half a unit of the last digit of a number, plus the known error of the number.
+    /// Half a unit of the last digit of a number, plus the known error of the number, and what its instant leaves open.
     Digits {
         /// How the number is known: published, recomputed or derived.
         origin: Origin,
@@ -67,6 +67,8 @@ pub enum Basis {
         digits: i32,
         /// Source of the number.
         source: String,
+        /// The part of the bound by which the number changes within the rounding of its instant, in its unit.
+        instant: f64,
     },
     /// Rounding of a formula, passed through its operations, and what the mechanism's side knows.
     Formula {
@@ -170,8 +172,12 @@ impl fmt::Display for Basis {
                     noise.word()
                 )
             }
-            Basis::Digits { origin, digits, source } => {
-                write!(f, "{} with {digits} decimals: {source}", origin.word())
+            Basis::Digits { origin, digits, source, instant } => {
+                write!(f, "{} with {digits} decimals: {source}", origin.word())?;
+                match *instant > 0.0 {
+                    true => write!(f, "; {instant:.1e} of the bound for the rounding of the instant"),
+                    false => Ok(()),
+                }
             }
             Basis::Formula { claimed } => {
                 let error = if *claimed { "the error that the formula claims, its" } else { "the formula's" };
@@ -220,7 +226,7 @@ mod tests {
 
     #[test]
     fn every_basis_begins_with_its_origin() {
-        let digits = Basis::Digits { origin: Origin::Recomputed, digits: 3, source: "a table".into() };
+        let digits = Basis::Digits { origin: Origin::Recomputed, digits: 3, source: "a table".into(), instant: 0.0 };
         let noted = Basis::Noted(Box::new(Basis::Wanted("so much")), "a note");
         assert_eq!(digits.to_string(), "recomputed with 3 decimals: a table");
         assert_eq!((noted.to_string().as_str(), noted.origin()), ("wanted: so much; a note", Origin::Wanted));

@@ -10,7 +10,7 @@ use super::grid::GridArgs;
 use super::load::StartArgs;
 use super::number::not_negative;
 use super::reports::Reports;
-use super::{advice, exit_code, output, terminal};
+use super::{advice, exit_code, output, standard_input, terminal};
 use crate::proof::memory;
 use crate::record;
 use crate::report::outcomes::Outcomes;
@@ -149,8 +149,8 @@ pub(super) fn compare(args: &Args) -> u8 {
         let mut mapping = mapping(&args.map, "--map")?;
         mapping.allowed.extend(args.rel.iter().chain(&args.rel_value).chain(&args.abs).cloned());
         let first_mapping = mapping_of_first(args, &mapping)?;
-        let second = party(args, &args.second, &mapping)?;
-        let first = party(args, &args.first, &first_mapping)?;
+        let second = party(args, &args.second, &args.first, &mapping)?;
+        let first = party(args, &args.first, &args.second, &first_mapping)?;
         if let Some(to) = &args.write_map {
             output::write(&mapping.text(), to)?;
         }
@@ -226,15 +226,24 @@ fn mapping(lines: &[String], option: &str) -> Result<Mapping> {
     Ok(mapping)
 }
 
-fn party(args: &Args, path: &Path, mapping: &Mapping) -> Result<Party> {
+/// A party; `other` is the path of the one beside it.
+fn party(args: &Args, path: &Path, other: &Path, mapping: &Mapping) -> Result<Party> {
+    let path = if standard_input::is_meant(path) { Path::new("/dev/stdin") } else { path };
     let ending = path.extension().and_then(|ending| ending.to_str());
     Ok(match ending {
         Some("toml") => Party::Scenario(Box::new(args.start.load(path, &GridArgs::default())?)),
         Some("mcap") => Party::Recording(record::load(path)?),
         Some(_) | None => {
-            let what = format!("the table {}", path.display());
-            let may_take = |needed: f64| memory::check_input(&what, needed, Some(args.memory.bytes()));
-            Party::Table(Box::new(Held::of_table(&tables::load_within(path, &may_take)?, mapping)?))
+            let claims = mapping.channels.len().max(1);
+            let is_solved = other.extension().is_some_and(|ending| ending == "toml");
+            let may = |bytes: f64, rows: usize| {
+                let most = Some(args.memory.bytes());
+                memory::check_input(&format!("the table {}", path.display()), bytes, most)?;
+                // At least that: columns that are called as channels may come to it.
+                let compared = if is_solved && rows > 0 { memory::of_comparison(rows, claims, claims) } else { 0.0 };
+                memory::check_input(&format!("comparing {rows} rows"), compared, most)
+            };
+            Party::Table(Box::new(Held::of_table(&tables::load_within(path, &may)?, mapping)?))
         }
     })
 }

@@ -28,18 +28,27 @@ pub(super) struct StartArgs {
 impl StartArgs {
     /// Reads a scenario with this start, on the grid given, else on its own.
     pub(super) fn load(&self, file: &Path, grid: &GridArgs) -> Result<Scenario> {
-        self.load_and_add(file, grid, false)
+        self.load_as(file, grid, Asked::default())
+    }
+
+    /// The same; the numbers of its tables may take so much memory (bytes).
+    pub(super) fn load_within(&self, file: &Path, grid: &GridArgs, memory: f64) -> Result<Scenario> {
+        self.load_as(file, grid, Asked { memory: Some(memory), ..Asked::default() })
     }
 
     /// The same; parameters that are set and that the file does not have are added, if they may be.
     pub(super) fn load_and_add(&self, file: &Path, grid: &GridArgs, adds_parameters: bool) -> Result<Scenario> {
+        self.load_as(file, grid, Asked { adds_parameters, ..Asked::default() })
+    }
+
+    fn load_as(&self, file: &Path, grid: &GridArgs, besides: Asked) -> Result<Scenario> {
         let crank = self.start_crank_deg.map(f64::to_radians);
         let asked = Asked {
             modes: self.mode.clone(),
             crank,
             without_grid: grid.told().is_some(),
             set: self.set.clone(),
-            adds_parameters,
+            ..besides
         };
         grid.on(as_asked(file, &asked)?)
     }

@@ -46,7 +46,10 @@ pub fn of_comparison(rows: usize, claims: usize, channels: usize) -> f64 {
 pub fn of_oracles(oracles: &[Oracle]) -> f64 {
     let series: Vec<usize> = oracles.iter().flat_map(|own| &own.series).map(|own| own.instants().count()).collect();
     let (rows, numbers) = (series.iter().copied().max().unwrap_or(0), series.iter().sum::<usize>());
-    let solved = (2 * (2 * series.len() + BESIDE) * size_of::<f64>()) as f64;
+    // Rounded instants are solved at one end after the other, beside what is known so far.
+    let is_rounded = oracles.iter().flat_map(|own| &own.series).any(|own| own.all().any(|point| point.at_error > 0.0));
+    let trajectories = if is_rounded { 5 } else { 2 };
+    let solved = (trajectories * (2 * series.len() + BESIDE) * size_of::<f64>()) as f64;
     rows as f64 * (solved + OF_ROW) + numbers as f64 * OF_NUMBER
 }
 

@@ -30,9 +30,11 @@ mod planted;
 #[cfg(test)]
 mod planted_forces;
 mod room;
+mod rounded_instants;
 mod runs;
 mod sensitivity;
 mod settle;
+pub mod shifted;
 pub mod solved;
 mod stall;
 

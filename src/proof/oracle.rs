@@ -1,12 +1,14 @@
 //! Numbers of other sources against both analytic sides.
 
 use super::figures::Measured;
-use crate::compare::{Check, Verdict, magnitudes};
+use super::rounded_instants::RoundedInstants;
+use super::shifted::TELLING;
+use crate::compare::{Check, Verdict, magnitudes, scales};
 use crate::scenario::{ExpectedCell, FigureValue, Oracle, OracleBasis, OraclePoint, OracleSeries, Scenario, When};
 use crate::tolerance::{Basis, Origin, Tolerance};
 use linkage::case::{Case, Grid, Wanted};
 use linkage::drive::Drive;
-use linkage::error::{Error, ErrorKind, Result};
+use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::math::KeepNan;
 use linkage::math::angle::wrapped;
 use linkage::math::statistics::share;
@@ -35,8 +37,11 @@ const ULPS: f64 = 16.0;
 /// Most instants that all channels of a stage are solved at.
 const MOST: usize = 20_000;
 
-/// Both sides' trajectories, and the largest numbers of the quantity of every channel.
-struct Solved([(Trajectory, Vec<(Channel, f64)>); 2]);
+/// Both sides' trajectories, and the largest numbers of the quantity and the scale of every channel.
+struct Solved {
+    sides: [(Trajectory, Vec<(Channel, [f64; 2])>); 2],
+    rounded: RoundedInstants,
+}
 
 /// What both sides answer where an oracle's numbers hold.
 struct Answers<'a> {
@@ -59,9 +64,11 @@ impl<'a> Answers<'a> {
         let own = |series: &&OracleSeries| [Some(series.channel.clone()), series.y()].into_iter().flatten();
         let channels: Vec<Channel> = series.iter().flat_map(own).collect();
         let stages: Vec<Stage> = series.iter().map(|series| series.channel.kind.stage).collect();
-        type At = fn(When) -> Option<f64>;
-        type Of = fn(&Drive, Vec<f64>) -> Grid;
-        let solved = |case: &Case, at: At, grid: Of| -> Result<Option<Solved>> {
+        let solved = |case: &Case, by_crank: bool| -> Result<Option<Solved>> {
+            let (at, grid): (fn(When) -> Option<f64>, fn(&Drive, Vec<f64>) -> Grid) = match by_crank {
+                true => (When::crank, Grid::of_cranks),
+                false => (When::time, Grid::of_times),
+            };
             let mut instants: Vec<f64> = series.iter().flat_map(|series| series.instants()).filter_map(at).collect();
             if instants.is_empty() {
                 return Ok(None);
@@ -74,27 +81,33 @@ impl<'a> Answers<'a> {
             let whole = case.on(grid(case.crank(), few))?.wanting(Wanted::of(&stages));
             let many = (step > 1).then(|| case.on(grid(case.crank(), instants))).transpose()?;
             let many = many.map(|many| many.wanting_only(&channels));
-            let of = |solver: &dyn Solver| -> Result<(Trajectory, Vec<(Channel, f64)>)> {
+            let of = |solver: &dyn Solver| -> Result<(Trajectory, Vec<(Channel, [f64; 2])>)> {
                 let found = solver.solve(&whole)?;
-                let sizes = found.channels().iter().cloned().zip(magnitudes(&found)).collect();
+                let sizes = magnitudes(&found).into_iter().zip(scales(&found)).map(|(size, scale)| [size, scale]);
+                let sizes = found.channels().iter().cloned().zip(sizes).collect();
                 Ok((many.as_ref().map_or(Ok(found), |many| solver.solve(many))?, sizes))
             };
-            Ok(Some(Solved([of(solvers[0])?, of(solvers[1])?])))
+            let points = series.iter().flat_map(|series| series.all());
+            let rounded = RoundedInstants::of(case, points, (at, by_crank), &channels, solvers[0])?;
+            Ok(Some(Solved { sides: [of(solvers[0])?, of(solvers[1])?], rounded }))
         };
         // Where forces decide the true motion, numbers at crank angles belong to the nominal motion.
-        let nominal = solved(&case.nominal(), When::crank, Grid::of_cranks)?;
-        Ok(Answers { solvers, nominal, timed: solved(case, When::time, Grid::of_times)?, integration })
+        let nominal = solved(&case.nominal(), true)?;
+        Ok(Answers { solvers, nominal, timed: solved(case, false)?, integration })
     }
 
     /// What a side answers for a series.
     fn of_series<'b>(&'b self, oracle: &Oracle, series: &OracleSeries, side: usize) -> Result<Answer<'b>> {
         let told = |solved: &'b Option<Solved>, integration: f64| -> Result<Option<Told<'b>>> {
-            let Some(Solved(solved)) = solved else { return Ok(None) };
-            let [own, other] = [side, 1 - side].map(|side| Components::of(oracle, series, &solved[side].0));
+            let Some(Solved { sides, rounded }) = solved else { return Ok(None) };
+            let [own, other] = [side, 1 - side].map(|side| Components::of(oracle, series, &sides[side].0));
             let (own, other) = (own?, other?);
-            let (trajectory, sizes) = &solved[side];
-            let size = sizes.iter().find(|(own, _)| *own == series.channel).map_or(0.0, |(_, size)| *size);
-            Ok(Some(Told { trajectory, own, other, known: ULPS * f64::EPSILON * size + integration }))
+            let (trajectory, sizes) = &sides[side];
+            let sizes = sizes.iter().find(|(own, _)| *own == series.channel);
+            let [size, scale] = sizes.map_or([0.0; 2], |(_, sizes)| *sizes);
+            let known = ULPS * f64::EPSILON * size + integration;
+            let channels = [Some(series.channel.clone()), series.y()];
+            Ok(Some(Told { trajectory, own, other, known, scale, rounded, channels }))
         };
         let of = |channel: &Channel| (self.integration)(side, channel);
         let integration = of(&series.channel) + series.y().map_or(0.0, |y| of(&y));
@@ -114,12 +127,40 @@ struct Told<'a> {
     own: Components<'a>,
     other: Components<'a>,
     known: f64,
+    /// Scale of the channel where the numbers hold.
+    scale: f64,
+    rounded: &'a RoundedInstants,
+    /// The channel, and the other component of a magnitude.
+    channels: [Option<Channel>; 2],
+}
+
+/// What a side answers for one printed number.
+struct Found {
+    /// Its distance from the printed number.
+    deviation: f64,
+    bound: f64,
+    /// The part of the bound that comes of the rounding of the instant.
+    instant: f64,
+    scale: f64,
+}
+
+impl Found {
+    /// Share of the bound that is used; NaN uses all of it.
+    fn used(&self) -> f64 {
+        let used = share(self.deviation, self.bound);
+        if used.is_nan() { f64::INFINITY } else { used }
+    }
+
+    /// Whether it is off by something that tells, and within the bound only because its instant is rounded.
+    fn is_open(&self) -> bool {
+        self.used() <= 1.0 && self.deviation.smaller(self.instant) > TELLING * self.scale
+    }
 }
 
 impl Answer<'_> {
-    /// The value at an instant, and how far it is known.
-    fn at(&self, instant: When) -> (f64, f64) {
-        let (told, instants, at) = match (instant, &self.nominal, &self.timed) {
+    /// What is found for a printed number of a series.
+    fn of(&self, series: &OracleSeries, point: &OraclePoint) -> Found {
+        let (told, instants, at) = match (point.at, &self.nominal, &self.timed) {
             (When::Crank(crank), Some(told), _) => (told, told.trajectory.cranks(), crank),
             (When::Time(time), _, Some(told)) => (told, told.trajectory.times(), time),
             (When::Crank(_), None, _) | (When::Time(_), _, None) => unreachable!("solved at every instant"),
@@ -127,7 +168,18 @@ impl Answer<'_> {
         let row = instants.binary_search_by(|other| other.total_cmp(&at)).expect("solved at this instant");
         let [value, other] = [told.own.at(row), told.other.at(row)];
         // No number is known better than both sides agree on it.
-        (value, told.known + 2.0 * (value - other).abs())
+        let known = told.known + 2.0 * (value - other).abs();
+        let difference = value - point.value;
+        let deviation = if series.channel.kind.periodic { wrapped(difference) } else { difference }.abs();
+        // A magnitude changes by no more than its vector.
+        let drift = told.channels.iter().flatten().map(|own| told.rounded.of_point(own, at, point.at_error));
+        let instant = drift.fold(0.0, f64::hypot);
+        let bound = match point.at {
+            When::Crank(_) => point.bound.larger(known),
+            // The error of an integration is no rounding: it adds to that of the printed number.
+            When::Time(_) => point.bound + known,
+        };
+        Found { deviation, bound: bound + instant, instant, scale: told.scale }
     }
 }
 
@@ -152,19 +204,9 @@ fn of_series(
 /// all values are known to be wrong, they have one check together.
 fn of_one(oracle: &Oracle, series: &OracleSeries, answers: &Answers, side: usize) -> Result<Vec<Check>> {
     let answer = answers.of_series(oracle, series, side)?;
-    let deviation = |point: &OraclePoint| -> [f64; 2] {
-        let (value, known) = answer.at(point.at);
-        let difference = value - point.value;
-        let deviation = if series.channel.kind.periodic { wrapped(difference) } else { difference }.abs();
-        match point.at {
-            When::Crank(_) => [deviation, point.bound.larger(known)],
-            // The error of an integration is no rounding: it adds to that of the printed number.
-            When::Time(_) => [deviation, point.bound + known],
-        }
-    };
     let against = |family: &str, point: &OraclePoint, origin: Origin| -> Check {
-        let [deviation, bound] = deviation(point);
-        let tolerance = tolerance(oracle, origin, bound, point.digits);
+        let Found { deviation, bound, instant, .. } = answer.of(series, point);
+        let tolerance = tolerance(oracle, origin, (bound, instant), point.digits);
         let check = Check::new(family, deviation, tolerance, series.channel.kind.unit.symbol());
         check.located(|| format!("at {}", point.at))
     };
@@ -174,20 +216,19 @@ fn of_one(oracle: &Oracle, series: &OracleSeries, answers: &Answers, side: usize
         against(&wrong, &cell.right, Origin::Recomputed).expected(&cell.finding, &printed)
     };
     // Each cell has its own bound: the worst cell is the one that uses the largest share of it. NaN is the worst.
-    let used = |point: &OraclePoint| {
-        let [deviation, bound] = deviation(point);
-        let used = share(deviation, bound);
-        if used.is_nan() { f64::INFINITY } else { used }
-    };
-    let mut worst: Option<(f64, &OraclePoint)> = None;
+    let (mut worst, mut open): (Option<(f64, &OraclePoint)>, Option<&OraclePoint>) = (None, None);
     for point in &series.points {
-        let used = used(point);
-        if worst.is_none_or(|(most, _)| used >= most) {
-            worst = Some((used, point));
+        let found = answer.of(series, point);
+        if worst.is_none_or(|(most, _)| found.used() >= most) {
+            worst = Some((found.used(), point));
         }
+        open = open.or(found.is_open().then_some(point));
     }
-    let worst = worst.map(|(_, point)| against(&family, point, origin(oracle)).of(&series.name));
-    let mut checks: Vec<Check> = worst.into_iter().collect();
+    let checked = |point: &OraclePoint| against(&family, point, origin(oracle)).of(&series.name);
+    let mut checks: Vec<Check> = worst.iter().map(|(_, point)| checked(point)).collect();
+    if let (Some(point), Some((..=1.0, _))) = (open, worst) {
+        checks = vec![Check { verdict: unproven(point), ..checked(point) }];
+    }
     for cell in &series.expected {
         checks.push(corrected(cell).of(format!("{} at {}", series.name, shortly(cell.point.at))));
     }
@@ -195,6 +236,17 @@ fn of_one(oracle: &Oracle, series: &OracleSeries, answers: &Answers, side: usize
         checks.extend(worst_of(cells.iter().map(corrected)).map(|check| check.of(&series.name)));
     }
     Ok(checks)
+}
+
+/// The verdict on a number that may be wrong by as much as its instant is rounded.
+fn unproven(point: &OraclePoint) -> Verdict {
+    let reason = format!(
+        "at {} the rounding of the instant leaves more open than a hundredth of the channel's scale, and the number is \
+         off by more",
+        point.at
+    );
+    let advice = vec![Advice::Text("print the instants with more digits, zeros at their ends included".into())];
+    Verdict::Inconclusive { reason, advice }
 }
 
 fn shortly(at: When) -> String {
@@ -215,9 +267,9 @@ fn worst_of(checks: impl Iterator<Item = Check>) -> Option<Check> {
 }
 
 /// Bound of a number: half a unit of its last digit, plus the known error of the number, but never less than what the
-/// analytic sides know.
-fn tolerance(oracle: &Oracle, origin: Origin, bound: f64, digits: i32) -> Tolerance {
-    Tolerance { bound, basis: Basis::Digits { origin, digits, source: oracle.source.clone() } }
+/// analytic sides know; and the part of it that the rounding of its instant leaves open.
+fn tolerance(oracle: &Oracle, origin: Origin, (bound, instant): (f64, f64), digits: i32) -> Tolerance {
+    Tolerance { bound, basis: Basis::Digits { origin, digits, source: oracle.source.clone(), instant } }
 }
 
 /// How the numbers of an oracle are known.
@@ -267,7 +319,7 @@ fn of_figures(scenario: &Scenario, solvers: [&dyn Solver; 2]) -> Result<Vec<Chec
             let known = ULPS * f64::EPSILON * value.abs() + 2.0 * (value - other).abs();
             let (family, unit) = (family(oracle, figure.wrong.is_some(), solver.name()), figure.figure.unit());
             let against = |number: &FigureValue, origin: Origin| {
-                let tolerance = tolerance(oracle, origin, number.bound.larger(known), number.digits);
+                let tolerance = tolerance(oracle, origin, (number.bound.larger(known), 0.0), number.digits);
                 Check::new(family.as_str(), (value - number.value).abs(), tolerance, unit)
                     .of(&figure.name)
                     .located(|| format!("given {} {unit}, found {value:.10}", number.value))

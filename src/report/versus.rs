@@ -13,7 +13,7 @@ use super::tell::Tell;
 use crate::claims::Cause;
 use crate::compare::Verdict;
 use crate::numbers;
-use crate::versus::{Compared, Comparison, Explained, Pair, Row};
+use crate::versus::{Compared, Comparison, Contradiction, Explained, Pair, Row};
 use linkage::math::KeepNan;
 
 /// Channels of agreeing pairs that a short report shows.
@@ -66,7 +66,7 @@ fn of_pair(pair: &Pair, all: bool, tell: Tell, width: usize) -> String {
         paragraph(&mut text, &format!("{}: {}", own.claim.text, own.verdict.reason(tell).unwrap_or_default()));
     }
     for explained in &pair.causes {
-        let _ = writeln!(text, "\n{}", cause(explained, width));
+        let _ = writeln!(text, "\n{}", cause(pair, explained, width));
     }
     if pair.channels.iter().any(|own| looks_like_a_simulation(pair, own)) {
         paragraph(&mut text, SIMULATION);
@@ -164,8 +164,19 @@ fn notes(pair: &Pair) -> String {
         let count = missing - pair.unshared;
         let _ = write!(text, "\nleft out: up to {count} instants of a channel at which nothing was measured");
     }
+    let (what, factor, unit) = if pair.by_crank { ("angle", 1f64.to_degrees(), "deg") } else { ("time", 1.0, "s") };
+    if let Some(Contradiction { rows: [one, other], at, channel, values }) = &pair.contradiction {
+        let at = numbers::significant(factor * at, 6);
+        let [first, second] = numbers::beside(*values, 0.0);
+        let _ = write!(
+            text,
+            "\nrows {} and {} hold at the same {what}, {at} {unit}, and contradict each other: {channel} is {first} and \
+             {second}",
+            one + 1,
+            other + 1
+        );
+    }
     if let Some((row, [from, to])) = pair.turns_back {
-        let (what, factor, unit) = if pair.by_crank { ("angle", 1f64.to_degrees(), "deg") } else { ("time", 1.0, "s") };
         let [from, to] = [from, to].map(|at| numbers::significant(factor * at, 6));
         let _ =
             write!(text, "\nthe {what} jumps back in row {}, from {from} to {to} {unit}: has it begun anew?", row + 1);
@@ -186,13 +197,13 @@ fn some(names: &[String]) -> String {
     }
 }
 
-fn cause(explained: &Explained, width: usize) -> String {
+fn cause(pair: &Pair, explained: &Explained, width: usize) -> String {
     let Explained { of, diagnosis: found, left, .. } = explained;
     let mut text = style::wrapped(&format!("{}:", some(of)), Some(width), 2);
     let mut line = |what: &str, told: &str| {
         let _ = write!(text, "\n{}", style::wrapped(&format!("  {what:<8}{told}"), Some(width), 10));
     };
-    if let Some(since) = found.since.first() {
+    if let Some(since) = pair.since(of) {
         let [time, crank] = [numbers::fixed(since.time, 6), numbers::fixed(since.crank.to_degrees(), 3)];
         line("since", &format!("t = {time} s, crank angle {crank} deg"));
     }
@@ -274,6 +285,7 @@ pub fn json(paths: [&Path; 2], comparison: &Comparison, tell: Tell) -> String {
             "unshared": pair.unshared,
             "values": pair.values()[0],
             "jumps_back_in_row": pair.turns_back.map(|(row, _)| row + 1),
+            "rows_that_contradict": pair.contradiction.as_ref().map(|own| own.rows.map(|row| row + 1)),
             "only_in_first": pair.alone[0],
             "only_in_second": pair.alone[1],
             "channels": pair.channels.iter().map(channel).collect::<Vec<_>>(),

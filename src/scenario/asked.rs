@@ -26,6 +26,8 @@ pub struct Asked {
     pub without_grid: bool,
     /// Parameters of formulas by their keys, in place of the file's own.
     pub set: Vec<(String, f64)>,
+    /// Memory that the numbers of the file's tables may take (bytes); `None` for what a proof is allowed by default.
+    pub memory: Option<f64>,
     /// Whether parameters that the file does not have are added; else they are refused.
     pub adds_parameters: bool,
 }

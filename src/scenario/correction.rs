@@ -8,7 +8,7 @@ use linkage::error::{ErrorKind, Result};
 pub(super) fn number(entry: &mut Table) -> Result<Printed> {
     let value = entry.number("value")?;
     let digits = digits(entry)?;
-    Ok(Printed { value, digits })
+    Ok(Printed::with_digits(value, digits))
 }
 
 /// Why a printed number is wrong, and the correct number, in the printed unit.

@@ -3,8 +3,11 @@
 use super::reader::{Sign, Table};
 use super::series::When;
 use super::unit::{ANGLE, TIME, Unit};
+use formula::Rounded;
 use linkage::case::{Case, Grid};
+use linkage::drive::Drive;
 use linkage::error::{ErrorKind, Result};
+use linkage::math::KeepNan;
 
 /// Share of the last instant by which a time may lie beyond it: the rounding of a number in other units.
 const ROUNDING: f64 = 1e-12;
@@ -68,16 +71,33 @@ impl Rows {
         }
     }
 
-    /// The instant of a row, in a motion with this [`end`].
+    /// Whether the column is of crank angles in degrees.
+    pub fn are_degrees(&self) -> bool {
+        !self.is_time && self.unit.suffix == "deg"
+    }
+
+    /// The instant of a row, in a motion with this [`end`], and by how much it may be off (rad or s). A rounded time may
+    /// lie a little beyond the motion.
     ///
     /// # Errors
     /// A message for a time that the motion does not have.
-    pub fn instant(&self, case: &Case, end: Option<f64>, printed: f64) -> std::result::Result<When, String> {
-        let value = self.unit.to_si(printed);
-        match self.is_time {
-            false => Ok(When::Crank(value)),
-            true => checked(case, end, value).map(|()| When::Time(value)),
+    pub fn instant(&self, case: &Case, end: Option<f64>, printed: Rounded) -> std::result::Result<(When, f64), String> {
+        let [value, error] = [printed.value, printed.error].map(|number| self.unit.to_si(number));
+        if !self.is_time {
+            return Ok((When::Crank(value), error));
         }
+        let within = within(case.crank(), value).smaller(end.unwrap_or(f64::INFINITY));
+        let value = if (within - value).abs() <= error { within } else { value };
+        checked(case, end, value).map(|()| (When::Time(value), error))
+    }
+}
+
+/// A time brought into the motion of a drive: from zero to the end of its law.
+#[must_use]
+pub fn within(drive: &Drive, time: f64) -> f64 {
+    match drive.constant_speed() {
+        Some(_) => time,
+        None => time.larger(0.0).smaller(drive.end().unwrap_or(f64::INFINITY)),
     }
 }
 

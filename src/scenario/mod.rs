@@ -50,6 +50,7 @@ pub use self::formula::{Formula, Formulas};
 pub use asked::{Asked, Undecided};
 pub use draft::Draft;
 pub use figure::{Figure, FigureValue, OracleFigure};
+pub use instant::within;
 pub use oracle::{Oracle, OracleBasis};
 pub use parameters::{INPUTS, Parameter};
 pub use printed::{Printed, PrintedChannel};
@@ -312,7 +313,7 @@ fn read(root: &mut Table, asked: &Asked, lists: bool) -> Result<Found> {
         None => case,
     };
     let mut faults = Faults::none();
-    let mut oracles = oracle::read(stated.oracles, &case, &mut faults);
+    let mut oracles = oracle::read(stated.oracles, &case, asked.memory, &mut faults);
     let mut formulas =
         self::formula::read(root.source().parameters.list().to_vec(), stated.formulas, &case, &mut faults);
     faults.end()?;

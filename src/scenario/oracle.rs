@@ -77,9 +77,9 @@ impl OracleBasis {
 }
 
 /// The oracles of a case, but those with mistakes.
-pub(super) fn read(tables: Vec<Table>, case: &Case, faults: &mut Faults) -> Vec<Oracle> {
+pub(super) fn read(tables: Vec<Table>, case: &Case, memory: Option<f64>, faults: &mut Faults) -> Vec<Oracle> {
     let (wanted, all) = (case.channels(), case.all_channels());
-    let known = Known { channels: &all, wanted: &wanted, digits: None, slack: 0.0 };
+    let known = Known { channels: &all, wanted: &wanted, digits: None, slack: 0.0, memory };
     let mut inline = 0;
     let one = |mut table: Table| faults.read(&mut table, |table| oracle(table, &known, case, &mut inline));
     tables.into_iter().filter_map(one).collect()
@@ -137,6 +137,7 @@ fn value(entry: &mut Table, at: When, known: &Known) -> Result<OracleSeries> {
     let (name, channel) = known.channel(entry)?;
     let si = |number: Printed| OraclePoint {
         at,
+        at_error: 0.0,
         value: channel.to_si(number.value),
         bound: channel.to_si(number.half_unit()),
         digits: number.digits,

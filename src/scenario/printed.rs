@@ -1,7 +1,8 @@
 //! Printed numbers: their value, and how far the true value may be from it.
 
 use super::unit::{ANGLE, Family, LENGTH, Unit};
-use columns::Decimal;
+use columns::Cell;
+use formula::Rounded;
 use linkage::trajectory::{self, CHANNELS, Channel, ChannelKind};
 
 /// A number as printed: its value and its count of decimals.
@@ -11,28 +12,36 @@ pub struct Printed {
     pub value: f64,
     /// Decimals printed; negative if digits before the decimal point are missing (1.5e3 has -2).
     pub digits: i32,
+    /// How far the number may be from the one that was printed, in the printed unit.
+    half_unit: f64,
 }
 
 impl Printed {
-    /// Reads a decimal number with an optional exponent; any other text is refused.
+    /// A number with a count of decimals, whatever its text shows.
     #[must_use]
-    pub fn parse(text: &str) -> Option<Printed> {
-        let begins = text.strip_prefix(['+', '-']).unwrap_or(text);
-        let Decimal { value, decimals: digits, .. } = Decimal::parse(text).filter(|_| !begins.starts_with('.'))?;
-        (digits.abs() <= MOST_DIGITS).then_some(Printed { value, digits })
+    pub fn with_digits(value: f64, digits: i32) -> Printed {
+        // The printed decimal is rounded once more to binary; the excess covers only that rounding.
+        Printed { value, digits, half_unit: 0.5 * 10f64.powi(-digits) * (1.0 + 1e-9) }
     }
 
-    /// The same number with this count of decimals, of which zeros at the end were not printed.
+    /// A number of a column, with what the digits of the column leave open.
     #[must_use]
-    pub fn with_zeros(self, digits: Option<i32>) -> Printed {
-        Printed { digits: digits.map_or(self.digits, |all| all.max(self.digits)), ..self }
+    pub fn of_column(number: &Rounded) -> Printed {
+        let Rounded { value, error } = *number;
+        Printed { value, digits: -(2.0 * error).log10().round() as i32, half_unit: error }
+    }
+
+    /// Reads a decimal number with an optional exponent; any other text is refused, and so is a cell without a number.
+    #[must_use]
+    pub fn cell(text: &str) -> Option<Cell> {
+        let begins = text.strip_prefix(['+', '-']).unwrap_or(text);
+        Cell::parse(text).filter(|cell| !begins.starts_with('.') && cell.value().is_finite())
     }
 
     /// Half a unit of the last printed digit, in the printed unit.
     #[must_use]
     pub fn half_unit(&self) -> f64 {
-        // The printed decimal is rounded once more to binary; the excess covers only that rounding.
-        0.5 * 10f64.powi(-self.digits) * (1.0 + 1e-9)
+        self.half_unit
     }
 }
 
@@ -137,7 +146,7 @@ mod tests {
 
     #[test]
     fn digits_are_counted_in_the_text() {
-        let digits = |text| Printed::parse(text).map(|printed| printed.digits);
+        let digits = |text| Printed::cell(text).map(|cell| cell.decimals());
         assert_eq!(digits("-14.890"), Some(3));
         assert_eq!(digits("-0.00"), Some(2));
         assert_eq!(digits("82"), Some(0));
@@ -149,9 +158,13 @@ mod tests {
     }
 
     #[test]
-    fn the_bound_is_half_a_unit_of_the_last_digit() {
-        let printed = Printed::parse("-14.89").unwrap();
-        assert_eq!(printed.half_unit(), 0.005 * (1.0 + 1e-9));
+    fn the_bound_is_half_a_unit_of_the_last_digit_of_the_column() {
+        assert_eq!(Printed::with_digits(-14.89, 2).half_unit(), 0.005 * (1.0 + 1e-9));
+        let cells = ["-14.89", "2.5", "12"].map(|text| Printed::cell(text).unwrap());
+        for number in columns::numbers(&cells) {
+            let printed = Printed::of_column(&number);
+            assert_eq!((printed.digits, printed.half_unit()), (2, 0.005 * (1.0 + 1e-9)));
+        }
     }
 
     #[test]

@@ -30,9 +30,11 @@ pub struct OracleSeries {
 pub struct OraclePoint {
     /// Where the value holds.
     pub at: When,
+    /// By how much the instant may be off, because a table has rounded it (rad or s); 0 of one that was chosen.
+    pub at_error: f64,
     /// Value in the channel's SI unit.
     pub value: f64,
-    /// Half a unit of the last printed digit, plus the known error of the numbers, in the channel's SI unit.
+    /// Half a unit of the last digit of the column, plus the known error of the numbers, in the channel's SI unit.
     pub bound: f64,
     /// Number of printed decimals, in the printed unit.
     pub digits: i32,
@@ -96,6 +98,8 @@ pub(super) struct Known<'a> {
     pub digits: Option<i32>,
     /// Known error of the published numbers, in the printed unit.
     pub slack: f64,
+    /// Memory that the numbers of tables may take (bytes).
+    pub memory: Option<f64>,
 }
 
 impl OracleSeries {
@@ -106,11 +110,16 @@ impl OracleSeries {
         self.magnitude.then(named)
     }
 
-    /// Where all its values hold, those known to be wrong included.
-    pub fn instants(&self) -> impl Iterator<Item = When> {
+    /// All its values as printed, those known to be wrong included.
+    pub fn all(&self) -> impl Iterator<Item = &OraclePoint> {
         let wrong = self.wrong.iter().flat_map(|(_, cells)| cells);
-        let cells = self.expected.iter().chain(wrong).map(|cell| cell.point.at);
-        self.points.iter().map(|point| point.at).chain(cells)
+        let cells = self.expected.iter().chain(wrong).map(|cell| &cell.point);
+        self.points.iter().chain(cells)
+    }
+
+    /// Where they hold.
+    pub fn instants(&self) -> impl Iterator<Item = When> {
+        self.all().map(|point| point.at)
     }
 }
 

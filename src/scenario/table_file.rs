@@ -1,5 +1,6 @@
 //! Tables of published numbers: CSV files with a header, read as text because the printed digits matter.
 
+use std::borrow::Cow;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
@@ -13,12 +14,21 @@ use super::source::Source;
 use super::words::suggestion;
 use crate::files;
 use columns::{Records, Twice};
+use formula::Rounded;
 use linkage::case::Case;
-use linkage::error::{Error, ErrorKind, Place, Result};
+use linkage::error::{Advice, Error, ErrorKind, Place, Result};
 use linkage::mechanism::is_unseen;
 
 /// Crank angles (rad), or times (s), that differ by less than this belong to the same row.
 const SAME: f64 = 1e-9;
+
+/// Memory of a row of a table while it is read (bytes): its place, where it holds.
+const OF_ROW: f64 = (size_of::<u32>() + size_of::<(When, f64)>()) as f64;
+/// Memory of a number (bytes): as a cell, as it was printed, and as it is kept.
+const OF_NUMBER: f64 =
+    (size_of::<columns::Cell>() + size_of::<Rounded>() + size_of::<Printed>() + size_of::<OraclePoint>()) as f64;
+/// Memory allowed where nothing is said (bytes), as for a proof.
+const MOST: f64 = 4e9;
 
 /// Name and series of the table that an oracle with the key `file` describes.
 pub fn read(oracle: &mut Table, known: &Known, case: &Case) -> Result<(String, Vec<OracleSeries>)> {
@@ -33,16 +43,26 @@ pub fn read(oracle: &mut Table, known: &Known, case: &Case) -> Result<(String, V
     let rows = Rows::read(&source).map_err(|error| error.key(oracle.path_of("file")))?;
 
     let from = instant::Rows::read(oracle)?;
-    let end = instant::end(case);
-    let instants: Vec<When> = rows
+    let mut columns = oracle.table("columns")?;
+    let needed = rows.records.len() as f64 * (OF_ROW + OF_NUMBER * columns.keys().len() as f64);
+    let most = known.memory.unwrap_or(MOST);
+    if needed > most {
+        let [needs, allowed] = [needed, most].map(|bytes| format!("{:.1} GB", bytes / 1e9));
+        let message = format!(
+            "reading {} rows of what [[oracle]] says needs about {needs} of memory; {allowed} are allowed",
+            rows.records.len()
+        );
+        let error = oracle.wrong(ErrorKind::Unsupported, "file", message);
+        return Err(error.help("give fewer rows, or fewer columns").or_help(Advice::MoreMemory { to: needed }));
+    }
+    let instants: Vec<(When, f64)> = rows
         .column(&from.column)
-        .and_then(|column| rows.cells(column).map(|cell| cell.instant(&from, case, end)).collect::<Result<_>>())
+        .and_then(|column| rows.instants(column, &from, case))
         .map_err(|error| error.key(oracle.path_of(from.key)))?;
 
     let digits = if oracle.has("digits") { Some(digits(oracle)?) } else { None };
     let slack = slack(oracle)?;
     let known = &known.of_table(digits, slack);
-    let mut columns = oracle.table("columns")?;
     let mut all = Vec::new();
     for mut column in columns.all_tables()? {
         let series = column.read(|column| series(column, &rows, &instants, known, case)).map(Some);
@@ -56,16 +76,18 @@ pub fn read(oracle: &mut Table, known: &Known, case: &Case) -> Result<(String, V
     Ok((name, all))
 }
 
-fn series(table: &mut Table, rows: &Rows, instants: &[When], known: &Known, case: &Case) -> Result<OracleSeries> {
+fn series(
+    table: &mut Table,
+    rows: &Rows,
+    instants: &[(When, f64)],
+    known: &Known,
+    case: &Case,
+) -> Result<OracleSeries> {
     let name = table.name().to_string();
     let column = rows.column(&name).map_err(|error| error.key(table.path()))?;
     let (_, channel) = known.channel(table)?;
     let offset = offset(table, &channel)?;
-    let printed: Vec<Printed> = rows
-        .cells(column)
-        .map(|cell| Ok(cell.printed()?.with_zeros(known.digits)))
-        .collect::<Result<_>>()
-        .map_err(|error: Error| error.key(table.path()))?;
+    let printed = rows.printed(column, known.digits).map_err(|error| error.key(table.path()))?;
     let whole = whole_column(table, &printed)?;
     let cells = single_cells(table, instants, &printed, case)?;
     if whole.is_some() && !cells.is_empty() {
@@ -74,7 +96,8 @@ fn series(table: &mut Table, rows: &Rows, instants: &[When], known: &Known, case
     }
     table.finish()?;
     let point = |row: usize, number: &Printed, slack: f64| OraclePoint {
-        at: instants[row],
+        at: instants[row].0,
+        at_error: instants[row].1,
         value: channel.to_si(number.value) - offset,
         bound: channel.to_si(number.half_unit() + slack),
         digits: number.digits,
@@ -104,14 +127,14 @@ fn series(table: &mut Table, rows: &Rows, instants: &[When], known: &Known, case
 /// The cells under `expect`: their rows, and the correct values there.
 fn single_cells(
     table: &mut Table,
-    instants: &[When],
+    instants: &[(When, f64)],
     printed: &[Printed],
     case: &Case,
 ) -> Result<Vec<(usize, Correction)>> {
     let mut cells = Vec::new();
     for mut expect in table.tables("expect")? {
         let at = instant::read(&mut expect, case)?;
-        let is_same = |row: &When| match (*row, at) {
+        let is_same = |(row, _): &(When, f64)| match (*row, at) {
             (When::Crank(own), When::Crank(asked)) | (When::Time(own), When::Time(asked)) => {
                 (own - asked).abs() <= SAME
             }
@@ -147,7 +170,7 @@ fn whole_column(table: &mut Table, printed: &[Printed]) -> Result<Option<(String
             .wrong(ErrorKind::Input, "values", message)
             .help("give one value for every row, in their order"));
     }
-    let right: Vec<Printed> = values.into_iter().map(|value| Printed { value, digits }).collect();
+    let right: Vec<Printed> = values.into_iter().map(|value| Printed::with_digits(value, digits)).collect();
     printed.iter().zip(&right).try_for_each(|(printed, right)| check_apart(table, printed, right))?;
     Ok(Some((finding, right)))
 }
@@ -236,18 +259,47 @@ impl<'a> Rows<'a> {
     fn cells(&self, column: usize) -> impl Iterator<Item = Cell<'_>> {
         (0..self.records.len()).map(move |row| Cell { rows: self, row, column })
     }
+
+    /// The numbers of a column; with so many `digits` at least, or with those that the column shows.
+    fn printed(&self, column: usize, digits: Option<i32>) -> Result<Vec<Printed>> {
+        let cells: Vec<columns::Cell> = self.cells(column).map(|cell| cell.number()).collect::<Result<_>>()?;
+        Ok(match digits {
+            Some(all) => {
+                cells.iter().map(|cell| Printed::with_digits(cell.value(), all.max(cell.decimals()))).collect()
+            }
+            None => columns::numbers_beside(&cells, || self.others(column)).iter().map(Printed::of_column).collect(),
+        })
+    }
+
+    /// The other columns that hold numbers, whether the oracle reads them or not.
+    fn others(&self, column: usize) -> impl Iterator<Item = Vec<columns::Cell>> {
+        let others = (0..self.records.header.len()).filter(move |other| *other != column);
+        others.filter_map(|other| self.cells(other).map(|cell| columns::Cell::parse(&cell.text())).collect())
+    }
+
+    /// Where the rows hold, and by how much that may be off because it was rounded.
+    fn instants(&self, column: usize, from: &instant::Rows, case: &Case) -> Result<Vec<(When, f64)>> {
+        let cells: Vec<columns::Cell> = self.cells(column).map(|cell| cell.number()).collect::<Result<_>>()?;
+        let numbers = columns::numbers(&cells);
+        let is_chosen = columns::chosen(&numbers, from.are_degrees());
+        let end = instant::end(case);
+        let of = |(cell, printed): (Cell, Rounded)| {
+            let printed = if is_chosen { Rounded::exact(printed.value) } else { printed };
+            let wrong = |message| Error::new(ErrorKind::Input, message).at(cell.place()).help(instant::TIME_HELP);
+            from.instant(case, end, printed).map_err(wrong)
+        };
+        self.cells(column).zip(numbers).map(of).collect()
+    }
 }
 
 impl Cell<'_> {
-    /// Where the row of this cell holds.
-    fn instant(&self, rows: &instant::Rows, case: &Case, end: Option<f64>) -> Result<When> {
-        rows.instant(case, end, self.printed()?.value)
-            .map_err(|message| Error::new(ErrorKind::Input, message).at(self.place()).help(instant::TIME_HELP))
+    fn text(&self) -> Cow<'_, str> {
+        self.rows.records.cell(self.row, self.column)
     }
 
-    fn printed(&self) -> Result<Printed> {
-        let text = self.rows.records.cell(self.row, self.column);
-        Printed::parse(&text).ok_or_else(|| {
+    fn number(&self) -> Result<columns::Cell> {
+        let text = self.text();
+        Printed::cell(&text).ok_or_else(|| {
             let comma = if has_decimal_comma(&text) { ", and decimals take a point" } else { "" };
             Error::new(ErrorKind::Input, format!("found \"{text}\", but a decimal number is needed{comma}"))
                 .at(self.place())

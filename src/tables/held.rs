@@ -78,7 +78,7 @@ pub struct Held {
 }
 
 /// Names for the time in seconds that need no mapping besides those of [`INSTANTS`].
-const TIMES: [&str; 3] = ["t_s", "t", "time"];
+const TIMES: [&str; 2] = ["t_s", "t"];
 
 impl Held {
     /// What a table says by a mapping. A column that has the name of a channel, unit included, needs none.
@@ -99,7 +99,7 @@ impl Held {
             let exact = |own: Rounded| if is_chosen { Rounded::nearly(own.value) } else { own };
             let values: Vec<Rounded> = printed.into_iter().map(|own| exact(scaled(own, factor))).collect();
             if let Some(row) = values.iter().position(|own| !(own.value + own.error).is_finite()) {
-                let message = format!("row {} of the table holds at no instant", row + 1);
+                let message = format!("{} holds at no instant: `{}` is no number there", raw.place(row), mapped.text);
                 return Err(mapped.wrong(&message, "take the row out, or complete it"));
             }
             *(if is_crank { &mut at.cranks } else { &mut at.times }) = Some(values);
@@ -209,11 +209,39 @@ fn single(claim: &Claim) -> Option<&PrintedChannel> {
     matches!(claim.tree.shape, Shape::Name(_)).then(|| &claim.channels[0].1)
 }
 
-/// The columns that say by their names where the rows hold.
+/// The columns that say by their names where the rows hold. One that is called so letter by letter stands before one
+/// that says the same in words, as `Time [s]`.
 fn instants_of(raw: &Raw) -> Vec<Mapped> {
     let seconds = TIMES.into_iter().find(|name| raw.names.iter().any(|own| own == name));
     let named = INSTANTS.iter().map(|(name, ..)| *name).filter(|name| raw.names.iter().any(|own| own == name));
-    named.map(|name| Mapped::same(name, name)).chain(seconds.map(|name| Mapped::same("time_s", name))).collect()
+    let mut all: Vec<Mapped> =
+        named.map(|name| Mapped::same(name, name)).chain(seconds.map(|name| Mapped::same("time_s", name))).collect();
+    for name in &raw.names {
+        let Some(mapped) = in_words(name).map(|instant| Mapped::same(instant, name)) else { continue };
+        let is_crank = |of: &Mapped| of.instant().is_some_and(|(_, is_crank)| is_crank);
+        if !all.iter().any(|own| is_crank(own) == is_crank(&mapped)) {
+            all.push(mapped);
+        }
+    }
+    all
+}
+
+/// Which of [`INSTANTS`] the name of a column says in words: `Time`, `t [s]`, `time (ms)`, `Crank [deg]`.
+fn in_words(name: &str) -> Option<&'static str> {
+    let bracketed = ["[]", "()"].iter().find_map(|pair| {
+        let (open, close) = pair.split_at(1);
+        name.trim_end().strip_suffix(close)?.rsplit_once(open)
+    });
+    let (word, unit) = bracketed.map_or((name.trim(), None), |(word, unit)| (word.trim(), Some(unit.trim())));
+    let is = |one: &str| word.eq_ignore_ascii_case(one);
+    match unit {
+        None | Some("s") if is("time") => Some("time_s"),
+        Some("s") if word == "t" => Some("time_s"),
+        Some("ms") if word == "t" || is("time") => Some("time_ms"),
+        Some("deg") if is("crank") || is("crank angle") => Some("crank_deg"),
+        Some("rad") if is("crank") || is("crank angle") => Some("crank_rad"),
+        None | Some(_) => None,
+    }
 }
 
 /// A claim of any channels that there are.
@@ -295,7 +323,7 @@ impl<'a> Reader<'a> {
                 let of = |name: &str| column(name).map_or(Rounded::nearly(std::f64::consts::PI), |own| inputs[own]);
                 if let Err(fault) = tree.evaluated(&of) {
                     let help = format!("{}; else leave the row out, or its cell empty", fault.help);
-                    let message = format!("in row {} of the table {}", row + 1, fault.message);
+                    let message = format!("in {} {}", self.raw.place(row), fault.message);
                     return Err(mapped.refused(&Fault { message, help, ..fault }));
                 }
             }

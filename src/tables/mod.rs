@@ -3,12 +3,18 @@
 mod csv_file;
 mod held;
 mod parquet_file;
+mod source;
 
 pub use columns::Table as Raw;
 pub use held::{At, Column, Held, Instants};
+pub use source::May;
 
+use std::fs::File;
+use std::io::Read;
 use std::path::Path;
 
+use self::parquet_file::MAGIC;
+use self::source::unread;
 use linkage::error::{Error, ErrorKind, Result};
 
 /// Reads a file: Parquet by its first bytes, else text with separated columns.
@@ -16,17 +22,28 @@ use linkage::error::{Error, ErrorKind, Result};
 /// # Errors
 /// [`ErrorKind::Io`] if it cannot be read, [`ErrorKind::Input`] if it is no table of numbers, with the place.
 pub fn load(path: &Path) -> Result<Raw> {
-    load_within(path, &|_| Ok(()))
+    load_within(path, &|_, _| Ok(()))
 }
 
-/// The same where memory is asked for before it is taken: `may_take` says whether so many bytes may be.
+/// The same where memory is asked for before it is taken: before a file is read, by its size, and before its numbers
+/// are, by its rows and cells.
 ///
 /// # Errors
-/// Those of [`load`], and what `may_take` says.
-pub fn load_within(path: &Path, may_take: &dyn Fn(f64) -> Result<()>) -> Result<Raw> {
-    let raw = match parquet_file::is_one(path) {
-        true => parquet_file::read(path, may_take)?,
-        false => csv_file::read(path, may_take)?,
+/// Those of [`load`], and what `may` says.
+pub fn load_within(path: &Path, may: May) -> Result<Raw> {
+    let mut file = File::open(path).map_err(|error| unread(path, &error))?;
+    let about = file.metadata().map_err(|error| unread(path, &error))?;
+    let size = about.is_file().then(|| about.len());
+    // A pipe gives its first bytes once.
+    let mut first = Vec::new();
+    file.by_ref().take(MAGIC.len() as u64).read_to_end(&mut first).map_err(|error| unread(path, &error))?;
+    let raw = match (first == MAGIC, size) {
+        (true, Some(size)) => parquet_file::read(path, size, may)?,
+        (true, None) => {
+            let message = format!("the table {} is a Parquet file that comes through a pipe", path.display());
+            return Err(Error::new(ErrorKind::Input, message).help("write it to a file first: its end is read first"));
+        }
+        (false, size) => csv_file::read(path, first.as_slice().chain(file), size, may)?,
     };
     if raw.is_empty() {
         let message = format!("{} has no rows of numbers", path.display());

@@ -5,7 +5,6 @@ mod thrift;
 
 use std::fmt::Display;
 use std::fs::File;
-use std::io::Read;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
@@ -16,7 +15,8 @@ use parquet::errors::ParquetError;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::schema::types::ColumnDescriptor;
 
-use announced::MAGIC;
+use super::source::May;
+pub(super) use announced::MAGIC;
 use columns::{MISSING, Table, Twice, UNDEFINED};
 use formula::Rounded;
 use linkage::error::{Error, ErrorKind, Result};
@@ -26,19 +26,13 @@ const MOST: u64 = 1 << 26;
 /// Values that are read at a time.
 const BATCH: usize = 1 << 12;
 
-/// Whether a file is one of this format.
-pub(super) fn is_one(path: &Path) -> bool {
-    let mut first = [0; MAGIC.len()];
-    File::open(path).and_then(|mut file| file.read_exact(&mut first)).is_ok() && &first == MAGIC
-}
-
-pub(super) fn read(path: &Path, may_take: &dyn Fn(f64) -> Result<()>) -> Result<Table> {
+pub(super) fn read(path: &Path, size: u64, may: May) -> Result<Table> {
     let damaged = |error: &dyn Display| {
         Error::new(ErrorKind::Io, format!("the table {} is cut off or damaged: {error}", path.display()))
             .help("write it again, as Parquet or as CSV")
     };
     // The reader is given whatever a file claims to be.
-    match catch_unwind(AssertUnwindSafe(|| of_file(path, may_take))) {
+    match catch_unwind(AssertUnwindSafe(|| of_file(path, size, may))) {
         Ok(Ok(read)) => read,
         Ok(Err(error)) => Err(damaged(&error)),
         Err(_) => Err(damaged(&"its parts contradict each other")),
@@ -46,7 +40,7 @@ pub(super) fn read(path: &Path, may_take: &dyn Fn(f64) -> Result<()>) -> Result<
 }
 
 /// The columns that hold numbers; others, such as names, are passed over.
-fn of_file(path: &Path, may_take: &dyn Fn(f64) -> Result<()>) -> std::result::Result<Result<Table>, ParquetError> {
+fn of_file(path: &Path, size: u64, may: May) -> std::result::Result<Result<Table>, ParquetError> {
     let file = File::open(path)?;
     // An error of the file system would call itself external.
     let wrong = |error: std::io::Error| ParquetError::General(error.to_string());
@@ -78,7 +72,8 @@ fn of_file(path: &Path, may_take: &dyn Fn(f64) -> Result<()>) -> std::result::Re
     if values > MOST {
         return refused(format!("it has {values} values, more than {MOST}"), "give fewer rows, or fewer columns");
     }
-    if let Err(error) = may_take(values as f64 * size_of::<Rounded>() as f64) {
+    // What is compressed is unpacked part by part.
+    if let Err(error) = may(size as f64 + values as f64 * size_of::<Rounded>() as f64, rows as usize) {
         return Ok(Err(error));
     }
     let (mut names, mut columns) = (Vec::new(), Vec::new());
@@ -92,7 +87,7 @@ fn of_file(path: &Path, may_take: &dyn Fn(f64) -> Result<()>) -> std::result::Re
         names.push(name);
         columns.push(column);
     }
-    Ok(Ok(Table { names, columns }))
+    Ok(Ok(Table { names, columns, lines: Vec::new() }))
 }
 
 /// Name of a compression that is not read.

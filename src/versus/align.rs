@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::allowed::How;
+use super::contradiction;
 use super::crank;
 use super::interpolate::Course;
 use super::judge::Both;
@@ -69,6 +70,7 @@ pub(super) fn beside(one: &Side, other: &Side, how: &How) -> Result<Pair> {
         how,
     };
     let channels = both.judged(&claims);
+    let contradiction = contradiction::found(&both, 1, &claims);
     let names = [one.0.clone(), other.0.clone()];
     let (instants, by_crank, turns_back) = (to.values.len(), to.is_crank, to.turns_back());
     let mut checks = Vec::new();
@@ -79,7 +81,7 @@ pub(super) fn beside(one: &Side, other: &Side, how: &How) -> Result<Pair> {
         checks.extend(crank::check([&ours, theirs], &both.places, &drift(&ours, Some(TAU)), measure, how));
     }
     let causes = Vec::new();
-    Ok(Pair { names, channels, checks, instants, unshared, alone, turns_back, by_crank, causes })
+    Ok(Pair { names, channels, checks, instants, unshared, alone, turns_back, contradiction, by_crank, causes })
 }
 
 /// What the digits of the instants of both leave open in a column of the first at the rows of the second.

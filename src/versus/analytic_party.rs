@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 
 use super::allowed::How;
 use super::cause;
+use super::contradiction;
 use super::crank;
 use super::instants;
 use super::judge::Both;
@@ -11,7 +12,7 @@ use super::pair::{Pair, Side};
 use super::scale::Scales;
 use crate::proof::memory;
 use crate::proof::solved::{Solved, asked};
-use crate::scenario::{Claim, Scenario};
+use crate::scenario::{Claim, Scenario, within};
 use crate::tables::{At, Column, Held};
 use formula::Rounded;
 use linkage::case::Grid;
@@ -63,7 +64,11 @@ pub(super) fn beside(scenario: &Scenario, (name, held): Side, is_first: bool, ho
         how,
     };
     let channels = both.judged(&claims);
-    let causes = cause::explained(scenario, &both, &channels, is_first)?;
+    let contradiction = contradiction::found(&both, usize::from(is_first), &claims);
+    let causes = match contradiction {
+        None => cause::explained(scenario, &both, &channels, is_first)?,
+        Some(_) => Vec::new(),
+    };
     let mut checks = solved.checks().to_vec();
     if let (false, Some(theirs)) = (at.is_crank, &other.at.cranks) {
         let ours = solved.on_course(|course| Ok(rows.iter().map(|&row| course.crank(row)).collect::<Vec<_>>()))?;
@@ -75,7 +80,7 @@ pub(super) fn beside(scenario: &Scenario, (name, held): Side, is_first: bool, ho
         false => ([name, String::new()], [alone, Vec::new()]),
     };
     let (instants, by_crank, turns_back) = (at.values.len(), at.is_crank, at.turns_back());
-    Ok(Pair { names, channels, checks, instants, unshared: 0, alone, turns_back, by_crank, causes })
+    Ok(Pair { names, channels, checks, instants, unshared: 0, alone, turns_back, contradiction, by_crank, causes })
 }
 
 /// What a party says of channels that the scenario has, and the names of its other ones.
@@ -107,7 +112,7 @@ fn grid(scenario: &Scenario, at: &At) -> Result<(Grid, Vec<usize>)> {
     for row in at.ascending() {
         let Rounded { value, error } = at.values[row];
         // A rounded instant may lie a little beyond the motion.
-        let within = if at.is_crank { value } else { instants::within(scenario.case.crank(), value) };
+        let within = if at.is_crank { value } else { within(scenario.case.crank(), value) };
         let value = if (within - value).abs() <= error { within } else { value };
         if all.last() != Some(&value) {
             all.push(value);

@@ -191,8 +191,10 @@ impl Stage {
             }
             names.push(printed.channel.clone());
             columns.push(rows.iter().map(|&row| printed.to_si(values[row].value)).collect::<Vec<f64>>());
-            let bound = printed.to_si(own.worst.map_or(0.0, |worst| worst.bound));
-            bounds.push((own.claim.text.clone(), bound, own.since.is_none()));
+            // A cause is held against one bound: a tighter one, of numbers with more digits, would refuse right ones.
+            let largest = own.largest.map_or(0.0, |at| at.difference.abs());
+            let bound = if largest > own.loosest { own.loosest } else { own.worst.map_or(0.0, |worst| worst.bound) };
+            bounds.push((own.claim.text.clone(), printed.to_si(bound), own.since.is_none()));
         }
         let all: Vec<Channel> = scenario.case.all_channels();
         let case = scenario.case.on(Grid { times: times.clone(), cranks: cranks.clone() })?.wanting_only(&all);

@@ -2,6 +2,7 @@
 
 use super::allowed::How;
 use crate::compare::Verdict;
+use crate::proof::shifted::TELLING;
 use crate::scenario::Claim;
 use crate::tables::{At, Held};
 use columns::{Beside, Judged, judge};
@@ -27,6 +28,8 @@ pub struct Compared {
     pub scale: f64,
     /// Root of the mean square of the differences.
     pub rms: f64,
+    /// The widest bound.
+    pub loosest: f64,
     /// The largest difference.
     pub largest: Option<Row>,
     /// The instant that uses most of its bound.
@@ -57,9 +60,6 @@ pub(super) struct Both<'a> {
     pub drift: Vec<Vec<f64>>,
     pub how: &'a How,
 }
-
-/// Share of its scale beyond which what digits, interpolation and instants leave open proves nothing.
-const TELLING: f64 = 1e-2;
 
 impl Both<'_> {
     /// All claims that both parties have.
@@ -110,11 +110,22 @@ impl Both<'_> {
             allowance: allowed.unwrap_or_default(),
             measure,
         });
-        let Judged { judged, missing, rms, widest, largest, worst, since } = found;
+        let Judged { judged, missing, rms, widest, loosest, largest, worst, since } = found;
         let is_derived = allowed.is_none();
         let verdict = Verdict::open("nothing was compared");
-        let mut own =
-            Compared { claim: claim.clone(), judged, missing, scale, rms, largest, worst, since, is_derived, verdict };
+        let mut own = Compared {
+            claim: claim.clone(),
+            judged,
+            missing,
+            scale,
+            rms,
+            loosest,
+            largest,
+            worst,
+            since,
+            is_derived,
+            verdict,
+        };
         own.verdict = self.verdict(&own, widest);
         own
     }

@@ -7,6 +7,7 @@ mod align;
 mod allowed;
 mod analytic_party;
 mod cause;
+mod contradiction;
 mod crank;
 mod instants;
 mod interpolate;
@@ -16,6 +17,7 @@ mod scale;
 
 pub use allowed::How;
 pub use cause::Explained;
+pub use contradiction::Contradiction;
 pub use judge::{Compared, Row};
 pub use pair::Pair;
 

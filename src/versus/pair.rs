@@ -1,8 +1,9 @@
 //! What is known of two sides after they were compared.
 
 use super::cause::Explained;
+use super::contradiction::Contradiction;
 use super::crank;
-use super::judge::Compared;
+use super::judge::{Compared, Row};
 use crate::compare::{Check, Verdict, overall};
 use crate::tables::Held;
 
@@ -25,6 +26,9 @@ pub struct Pair {
     pub alone: [Vec<String>; 2],
     /// The first row whose instant lies back, with the one before: see [`At::turns_back`](crate::tables::At::turns_back).
     pub turns_back: Option<(usize, [f64; 2])>,
+    /// Two rows of the party that gives the instants which hold at the same one and contradict each other. No cause is
+    /// sought then.
+    pub contradiction: Option<Contradiction>,
     /// Whether the instants are crank angles.
     pub by_crank: bool,
     /// Why channels are off, where that is simple.
@@ -44,6 +48,13 @@ impl Pair {
     pub fn crank_is_off(&self) -> bool {
         let is_off = |check: &Check| check.family == crank::NAME && matches!(check.verdict, Verdict::Disagree { .. });
         self.checks.iter().any(is_off)
+    }
+
+    /// The first row at which one of some channels, by their texts, is beyond its bound.
+    #[must_use]
+    pub fn since(&self, channels: &[String]) -> Option<Row> {
+        let own = self.channels.iter().filter(|own| channels.contains(&own.claim.text));
+        own.filter_map(|own| own.since).min_by(|one, other| one.time.total_cmp(&other.time))
     }
 
     /// The verdict on all channels, and on the analytic sides that solved them.

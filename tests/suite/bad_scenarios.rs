@@ -80,7 +80,7 @@ mod timed;
 fn the_good_scenario_is_good() {
     let scenario = parse(GOOD, TABLE).unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(scenario.case.grid.len(), 37);
-    assert_eq!(scenario.oracles[0].series[0].points[1].digits, 1);
+    assert_eq!(scenario.oracles[0].series[0].points[1].digits, 2);
 }
 
 /// Symptom: masses of 1e300 ended in DISAGREE by NaN, and a start at 1e18 deg in no end at all.

@@ -34,6 +34,7 @@ mod library_texts;
 #[cfg(feature = "live")]
 mod live;
 mod loads;
+mod oracle_tables;
 mod outside;
 mod own_forces;
 mod peaks;

@@ -1,8 +1,10 @@
 //! Tables, recordings and scenarios held against each other: what is right agrees, what is wrong is found and named.
 
-mod digits;
+mod constants;
+pub(crate) mod digits;
 mod files;
 mod foreign;
+mod instants;
 mod mistakes;
 mod pairs;
 
@@ -32,6 +34,7 @@ pub(crate) fn table(columns: &[(&str, Vec<f64>)]) -> Raw {
     Raw {
         names: columns.iter().map(|(name, _)| (*name).to_string()).collect(),
         columns: columns.iter().map(|(_, values)| doubles(values)).collect(),
+        lines: Vec::new(),
     }
 }
 

@@ -98,6 +98,41 @@ impl Cell {
         if is(&NO_NUMBER, size) { no_number(false) } else { None }
     }
 
+    /// The number; NaN where there is none.
+    #[must_use]
+    pub fn value(&self) -> f64 {
+        self.value
+    }
+
+    /// Decimals printed, less the exponent.
+    #[must_use]
+    pub fn decimals(&self) -> i32 {
+        self.decimals
+    }
+
+    /// Digits printed from the first that is not zero.
+    pub(crate) fn significant(&self) -> u16 {
+        self.significant
+    }
+
+    /// Whether it is a number other than zero.
+    pub(crate) fn has_digits(&self) -> bool {
+        self.significant > 0 && !self.value.is_nan()
+    }
+
+    /// The same number with the zeros at its end that were not printed: as many as neither so many decimals nor so many
+    /// significant digits forbid.
+    pub(crate) fn with_zeros(mut self, decimals: i32, significant: u16) -> Cell {
+        let mut zeros = decimals.saturating_sub(self.decimals).max(0);
+        if self.has_digits() {
+            zeros = zeros.min(i32::from(significant.saturating_sub(self.significant)));
+            self.significant += zeros as u16;
+            self.telling = self.significant;
+        }
+        self.decimals += zeros;
+        self
+    }
+
     /// Power of ten of its first digit that is not zero.
     fn first_place(&self) -> i32 {
         i32::from(self.significant) - 1 - self.decimals
@@ -111,14 +146,19 @@ impl Cell {
 /// format in which the column was printed, because with decimals the largest number has most significant digits, and
 /// with significant digits the smallest has most decimals. Where several whole numbers have more digits than any other
 /// cell only by zeros at their end, these stand for what was rounded off, unless all numbers are steps that were chosen.
-/// Numbers in single precision, which are printed with up to nine digits, hold less than these.
+/// Numbers in single precision, which are printed with up to nine digits, hold less than these; the shortest text that
+/// tells one from its neighbours may lie half way to these, so that it is read in single precision again.
 #[must_use]
 pub fn numbers(cells: &[Cell]) -> Vec<Rounded> {
+    numbers_as(cells, are_single(cells))
+}
+
+pub(crate) fn numbers_as(cells: &[Cell], are_single: bool) -> Vec<Rounded> {
     let shown = || cells.iter().filter(|cell| !cell.value.is_nan());
     let decimals = shown().map(|cell| cell.decimals).max().unwrap_or(0);
     let [all, telling] = [|cell: &Cell| cell.significant, |cell: &Cell| cell.telling]
         .map(|of| i32::from(shown().map(of).max().unwrap_or(0)));
-    let binary = if are_single(cells) { 0.5 * f64::from(f32::EPSILON) } else { f64::EPSILON };
+    let binary = if are_single { 0.5 * f64::from(f32::EPSILON) } else { f64::EPSILON };
     let with = |significant: i32| -> Vec<Rounded> {
         let of = |cell: &Cell| {
             if cell.value.is_nan() {
@@ -130,7 +170,8 @@ pub fn numbers(cells: &[Cell]) -> Vec<Rounded> {
             };
             // The decimal is rounded once more to binary; the excess covers only that rounding.
             let half = 0.5 * 10f64.powi(place) * (1.0 + 1e-9);
-            Rounded { value: cell.value, error: half.larger(binary * cell.value.abs()) }
+            let value = if are_single { f64::from(cell.value as f32) } else { cell.value };
+            Rounded { value, error: half.larger(binary * value.abs()) }
         };
         cells.iter().map(of).collect()
     };
@@ -147,7 +188,7 @@ const FEW: usize = 2;
 const TELLING: usize = 8;
 
 /// Whether a column holds numbers in single precision, each with as many digits as tell it from its neighbours.
-fn are_single(cells: &[Cell]) -> bool {
+pub(crate) fn are_single(cells: &[Cell]) -> bool {
     let shown = || cells.iter().filter(|cell| !cell.value.is_nan());
     if shown().any(|cell| cell.significant > 9) || shown().filter(|cell| cell.significant >= 8).count() < TELLING {
         return false;
@@ -220,10 +261,10 @@ mod tests {
     fn single_precision_has_fewer_digits_than_it_is_printed_with() {
         let printed: Vec<String> = (1..40).map(|row| (0.1f32 + (row as f32).sqrt()).to_string()).collect();
         let texts: Vec<&str> = printed.iter().map(String::as_str).collect();
-        for (row, error) in errors(&texts).into_iter().enumerate() {
-            let exact = 0.1 + ((row + 1) as f64).sqrt();
-            let value: f64 = texts[row].parse().unwrap();
-            assert!(error > 5.9e-8 * value && (value - exact).abs() < 3.0 * error, "{row}: {value} {error}");
+        let cells: Vec<Cell> = texts.iter().map(|text| Cell::parse(text).unwrap()).collect();
+        for (row, Rounded { value, error }) in numbers(&cells).into_iter().enumerate() {
+            let exact = 0.1f32 + ((row + 1) as f32).sqrt();
+            assert!(value == f64::from(exact) && error > 5.9e-8 * value, "{row}: {value} {error}");
         }
         // Doubles with eight digits are none.
         let printed: Vec<String> = (1..40).map(|row| format!("{:.7}", f64::from(row).sqrt())).collect();

@@ -8,36 +8,76 @@ use linkage::math::KeepNan;
 const EVIDENCE: f64 = 50.0;
 
 /// Whether instants were chosen as they are printed, and not rounded: whole multiples of one step, which are so many,
-/// or of a step so round, that no other step would look like that. Whole degrees at equal steps always are.
+/// or of a step so round, that no other step would look like that. Whole degrees at equal steps always are, and at
+/// others where they have a divisor that whole numbers rarely share, such as 0, 30, 45, 60, 90.
 #[must_use]
 pub fn chosen(values: &[Rounded], are_degrees: bool) -> bool {
     let Some(first) = values.first() else { return false };
     let size = values.iter().map(|at| at.value.abs()).fold(0.0, f64::larger);
     let step = values.get(1).map_or(first.value, |second| second.value - first.value);
-    let is_multiple = |value: f64, of: f64| (value / of - (value / of).round()).abs() <= 1e-6 * (value / of).abs();
     let is_step = |pair: &[Rounded]| (pair[1].value - pair[0].value - step).abs() <= 8.0 * f64::EPSILON * size;
     let is_first_one = first.value == 0.0 || is_multiple(first.value, step);
+    let are_whole = are_degrees && values.iter().all(|at| at.value.fract() == 0.0);
+    // Half a unit has an excess for its rounding.
+    let unit = 2.0 * values.iter().map(|at| at.error).fold(0.0, f64::larger) / (1.0 + 1e-9);
     if !is_first_one || !values.windows(2).all(is_step) {
-        return false;
+        return are_multiples(values, unit, are_whole);
     }
-    if are_degrees && values.iter().all(|at| at.value.fract() == 0.0) {
+    if are_whole {
         return true;
     }
-    let unit = 2.0 * values.iter().map(|at| at.error).fold(0.0, f64::larger);
-    let mut round = (step / unit).abs().round();
-    if !is_multiple(step, unit) || !(round < 1e15) {
-        return false;
-    }
-    let mut evidence = (values.len() - 1) as f64;
-    if evidence < 1.0 {
-        evidence = 1.0;
+    is_multiple(step, unit) && evidence((values.len() - 1) as f64, (step / unit).abs().round()) >= EVIDENCE
+}
+
+fn is_multiple(value: f64, of: f64) -> bool {
+    (value / of - (value / of).round()).abs() <= 1e-6 * (value / of).abs()
+}
+
+/// What so many multiples of a step of `round` units tell: as many cases as they are, times two or five for every such
+/// factor of the step.
+fn evidence(multiples: f64, mut round: f64) -> f64 {
+    let mut evidence = if multiples < 1.0 { 1.0 } else { multiples };
+    // Larger ones are no whole numbers any more.
+    if !(round < 1e15) {
+        return 0.0;
     }
     for prime in [2.0, 5.0] {
         while evidence < EVIDENCE && round % prime == 0.0 {
             (evidence, round) = (evidence * prime, round / prime);
         }
     }
-    evidence >= EVIDENCE
+    evidence
+}
+
+/// Independent numbers that rows may have at most for a divisor: those of one hidden step depend on each other.
+const INDEPENDENT: i32 = 3;
+
+/// The same at unequal steps: a divisor of all tells as much as its roundness, such as zeros at all ends. Whole degrees
+/// that have nothing to do with each other share a divisor in as few cases as its power says.
+fn are_multiples(values: &[Rounded], unit: f64, are_whole_degrees: bool) -> bool {
+    let (mut divisor, mut count) = (0u64, 0i32);
+    for at in values.iter().filter(|at| at.value != 0.0) {
+        let units = (at.value / unit).abs();
+        if !(units < 1e12) || (units - units.round()).abs() > 1e-3 {
+            return false;
+        }
+        divisor = common(divisor, units.round() as u64);
+        count = count.saturating_add(1);
+    }
+    // One number is a multiple of itself.
+    if count < 2 {
+        return false;
+    }
+    let independent = if count - 1 < INDEPENDENT { count - 1 } else { INDEPENDENT };
+    evidence(1.0, divisor as f64) >= EVIDENCE || are_whole_degrees && (divisor as f64).powi(independent) >= EVIDENCE
+}
+
+/// Greatest common divisor.
+fn common(mut one: u64, mut other: u64) -> u64 {
+    while other != 0 {
+        (one, other) = (other, one % other);
+    }
+    one
 }
 
 /// Near an inflection a course is steeper than both secants: with eight rows in a period by a ninth.
@@ -93,6 +133,20 @@ mod tests {
         assert!(!chosen(&of(&["0".into(), "2".into(), "3".into(), "5".into()]), true));
         // Parts of degrees say no more than parts of seconds.
         assert!(!chosen(&of(&["0".into(), "2.7".into(), "5.4".into()]), true));
+        for (texts, are_degrees, expected) in [
+            // As tables in books have them, and what a program has rounded.
+            (["0", "30", "45", "60", "90"], true, true),
+            (["0", "30", "45", "60", "90"], false, false),
+            (["0", "3", "5", "8", "10"], true, false),
+            // With the zeros that say so.
+            (["0.000", "17.000", "46.000", "63.000", "90.000"], true, true),
+            (["0.000", "0.200", "0.500", "0.600", "1.000"], false, true),
+            (["0.0000", "0.0333", "0.0667", "0.2000", "0.5000"], false, false),
+            // A step that is hidden is even by chance.
+            (["2.068378", "9.362942", "16.657506", "23.952070", "31.246634"], true, false),
+        ] {
+            assert_eq!(chosen(&of(&texts.map(Into::into)), are_degrees), expected, "{texts:?}");
+        }
     }
 
     /// Rows in descending order; an angle goes on by 0.2 where it jumps by a turn.

@@ -70,6 +70,8 @@ pub struct Judged {
     pub rms: f64,
     /// The widest part of a bound that is known.
     pub widest: f64,
+    /// The widest bound.
+    pub loosest: f64,
     /// The largest difference between numbers.
     pub largest: Option<Row>,
     /// The row that uses most of its bound.
@@ -104,7 +106,7 @@ pub fn judge(both: &Beside) -> Judged {
         if difference.is_finite() {
             numbers += 1;
             squares += difference * difference;
-            own.widest = own.widest.larger(known);
+            (own.widest, own.loosest) = (own.widest.larger(known), own.loosest.larger(bound));
             if own.largest.is_none_or(|largest| difference.abs() > largest.difference.abs()) {
                 own.largest = Some(at);
             }

@@ -5,6 +5,7 @@
 //! - [`read`]: a text with separated columns as a [`Table`].
 //! - [`Records`]: the rows of a table whose cells are not all numbers.
 //! - [`Cell`] and [`numbers`]: what the digits of a column leave open.
+//! - [`numbers_beside`]: the same in a file, where other columns tell what a constant does not show.
 //! - [`chosen`]: whether instants were chosen as they are printed, or rounded.
 //! - [`judge`]: two columns against each other.
 //!
@@ -15,6 +16,7 @@
 //! ```
 
 mod cell;
+mod constant;
 mod instants;
 mod judge;
 mod names;
@@ -22,6 +24,7 @@ mod records;
 mod text;
 
 pub use cell::{Cell, Decimal, MISSING, UNDEFINED, is_missing, numbers};
+pub use constant::numbers_beside;
 pub use instants::{chosen, drift};
 pub use judge::{Allowance, Beside, Judged, Row, judge};
 pub use names::Twice;

@@ -4,7 +4,8 @@
 use std::borrow::Cow;
 use std::ops::Range;
 
-use super::cell::{Cell, numbers};
+use super::cell::Cell;
+use super::constant::numbers_beside;
 use super::names::Twice;
 use formula::Rounded;
 
@@ -18,6 +19,8 @@ pub struct Table {
     pub names: Vec<String>,
     /// Their numbers, each with what its digits leave open.
     pub columns: Vec<Vec<Rounded>>,
+    /// Number of the line of every row, from 1; empty where the file has no lines.
+    pub lines: Vec<u32>,
 }
 
 impl Table {
@@ -25,6 +28,15 @@ impl Table {
     #[must_use]
     pub fn len(&self) -> usize {
         self.columns.first().map_or(0, Vec::len)
+    }
+
+    /// A row in words, from its number from 0: by its line, if there are lines.
+    #[must_use]
+    pub fn place(&self, row: usize) -> String {
+        match self.lines.get(row) {
+            Some(line) => format!("line {line} of the table"),
+            None => format!("row {} of the table", row + 1),
+        }
     }
 
     /// Whether there is no row.
@@ -80,7 +92,11 @@ pub fn read(text: &str) -> Result<Table, Fault> {
         return Err(wrong(header_at, twice.to_string(), Twice::HELP));
     }
     let mut columns: Vec<Vec<Cell>> = vec![Vec::new(); names.len()];
+    let (mut places, mut seen, mut place) = (Vec::new(), 0, 1u32);
     for (start, line) in rows {
+        place += text.as_bytes()[seen..start].iter().filter(|&&byte| byte == b'\n').count() as u32;
+        seen = start;
+        places.push(place);
         let (mut count, mut fault) = (0, None);
         divide(line, separator, &mut |cell| {
             match (number(cell), columns.get_mut(count)) {
@@ -100,7 +116,10 @@ pub fn read(text: &str) -> Result<Table, Fault> {
             return Err(wrong(start, message, help));
         }
     }
-    Ok(Table { names, columns: columns.into_iter().map(|cells| numbers(&cells)).collect() })
+    let others = |own: usize| columns.iter().enumerate().filter(move |(other, _)| *other != own);
+    let of = |(own, cells): (usize, &Vec<Cell>)| numbers_beside(cells, || others(own).map(|(_, cells)| cells));
+    let columns = columns.iter().enumerate().map(of).collect();
+    Ok(Table { names, columns, lines: places })
 }
 
 /// A cell; decimal commas are taken where cells are not separated by commas.
@@ -178,6 +197,7 @@ mod tests {
             let table = read(text).unwrap();
             assert_eq!((table.names, table.columns[1][1].value), (vec!["t".into(), "x".into()], 2.5), "{text}");
         }
+        assert_eq!(read("# a\n\nt,x\r\n0,1.5\n\n1,2.5\n").unwrap().lines, [4, 6]);
         assert_eq!(read("#only\n0,1.5\n1,2.5\n").unwrap().names, ["c1", "c2"]);
         assert_eq!(read("t,\"a, \"\"b\"\"\"\n0,1\n").unwrap().names, ["t", "a, \"b\""]);
         assert!(read("t,x\n0,\n1,2\n").unwrap().columns[1][0].value.is_nan());

@@ -11,7 +11,7 @@ use parquet::file::metadata::ColumnChunkMetaData;
 use super::thrift::{Found, Walk, wrong};
 
 /// What a Parquet file begins and ends with.
-pub(super) const MAGIC: &[u8; 4] = b"PAR1";
+pub(in super::super) const MAGIC: &[u8; 4] = b"PAR1";
 /// What stands behind the description of a file: its length, and the sign of the format.
 const TAIL: u64 = 8;
 /// Most columns and groups of columns within each other: the reader goes down by recursion.

@@ -11,10 +11,10 @@ use linkproof::tables::{Raw, load};
 use linkproof::versus::{Comparison, How};
 
 /// Numbers by chance, the same in every run (SplitMix64).
-struct Random(u64);
+pub(crate) struct Random(pub(crate) u64);
 
 impl Random {
-    fn index(&mut self, count: usize) -> usize {
+    pub(crate) fn index(&mut self, count: usize) -> usize {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut mixed = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
         mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
@@ -24,7 +24,7 @@ impl Random {
 
 /// How a column is printed.
 #[derive(Clone, Copy, Debug)]
-enum Format {
+pub(crate) enum Format {
     /// So many significant digits, without zeros at the end, as `%.9g`.
     General(usize),
     /// So many digits behind the first, with an exponent.
@@ -33,14 +33,17 @@ enum Format {
     Fixed(usize),
     /// As Python does: the shortest text of a double.
     Shortest,
+    /// The shortest text of a number in single precision.
+    Single,
 }
 
 impl Format {
-    fn print(self, value: f64) -> String {
+    pub(crate) fn print(self, value: f64) -> String {
         match self {
             Format::Exponent(digits) => format!("{value:.*e}", digits - 1),
             Format::Fixed(decimals) => format!("{value:.decimals$}"),
             Format::Shortest => format!("{value}"),
+            Format::Single => format!("{}", value as f32),
             Format::General(digits) => {
                 let rounded = format!("{value:.*e}", digits - 1);
                 let (_, exponent) = rounded.split_once('e').unwrap();
@@ -55,13 +58,14 @@ impl Format {
     }
 
     /// A unit of the last digit of a value.
-    fn unit(self, value: f64) -> f64 {
+    pub(crate) fn unit(self, value: f64) -> f64 {
         match self {
             Format::Fixed(decimals) => 10f64.powi(-(decimals as i32)),
             Format::General(digits) | Format::Exponent(digits) => {
                 10f64.powi(value.abs().log10().floor() as i32 + 1 - digits as i32)
             }
             Format::Shortest => f64::EPSILON * value.abs(),
+            Format::Single => f64::from(f32::EPSILON) * value.abs(),
         }
     }
 }
@@ -183,7 +187,7 @@ fn a_number_that_is_wrong_by_three_units_of_its_last_digit_is_found() {
                 (Format::Fixed(decimals), places) => Format::Fixed(decimals.min((6 - places).max(0) as usize)),
                 (Format::General(digits), _) => Format::General(digits.min(7)),
                 (Format::Exponent(digits), _) => Format::Exponent(digits.min(7)),
-                (Format::Shortest, _) => Format::General(7),
+                (Format::Shortest | Format::Single, _) => Format::General(7),
             };
             // What is zero but for rounding has no digits.
             let has_digits = size > 1e-6 && values[row].abs() > 1e-3 * size && format.unit(values[row]) > 1e-7 * size;

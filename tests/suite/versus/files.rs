@@ -3,6 +3,7 @@
 use std::fs;
 use std::io::Write;
 use std::path::Path;
+use std::process::{Command, Stdio};
 
 use crate::cli::tools::Place;
 use crate::common::parquet::{Announced, GZIP};
@@ -186,7 +187,7 @@ fn what_is_no_number_does_not_agree_and_what_is_missing_is_counted() {
     // A mapping computes with what is there only.
     fs::write(place.path("some.csv"), "t_s,a,b\n0,0,\n0.01,1,60\n").unwrap();
     let line = "compare scenarios/crank_rocker.toml some.csv --map ln(a-2)+b=link.rocker.angle_deg --rel 100";
-    place.refused(line, &["row 2 of the table", "ln(-1) is undefined"]);
+    place.refused(line, &["line 3 of the table", "ln(-1) is undefined"]);
     let told = place.ok("compare scenarios/crank_rocker.toml some.csv --map a+b=link.rocker.angle_deg --rel 100");
     assert!(told.starts_with("AGREE: all 1 channels at 2 times, 1 of 2 values"), "{told}");
 }
@@ -252,6 +253,31 @@ fn compressed_parquet_files_are_read_or_named() {
     assert!(told.starts_with("AGREE: all 1 channels at 31 times, 31 values"), "{told}");
 }
 
+/// A pipe gives every byte once: the first four say whether the table is Parquet.
+#[test]
+fn a_table_comes_through_a_pipe_with_all_its_bytes() {
+    let place = place();
+    let through = |bytes: &[u8]| {
+        let mut child = Command::new(env!("CARGO_BIN_EXE_linkproof"))
+            .args(["compare", "scenarios/crank_rocker.toml", "-"])
+            .current_dir(place.path(""))
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        child.stdin.take().unwrap().write_all(bytes).unwrap();
+        let done = child.wait_with_output().unwrap();
+        (done.status.code(), String::from_utf8(done.stdout).unwrap() + &String::from_utf8(done.stderr).unwrap())
+    };
+    let table = place.ok("solve scenarios/crank_rocker.toml --with assur --only link.rocker.angle_rad");
+    let (code, told) = through(table.as_bytes());
+    assert!(code == Some(0) && told.starts_with("AGREE: all 1 channels at 361 times"), "{told}");
+    assert_eq!(through(b"t\n").0, Some(2));
+    let (code, told) = through(&fs::read(place.path("pandas.parquet")).unwrap());
+    assert!(code == Some(2) && told.contains("Parquet file that comes through a pipe"), "{told}");
+}
+
 /// Memory is told before it is taken: for the numbers of a table, for what they are held against, and for `[[oracle]]`.
 #[test]
 fn what_needs_more_memory_than_is_allowed_is_refused() {
@@ -271,6 +297,14 @@ fn what_needs_more_memory_than_is_allowed_is_refused() {
                   columns = { a = { channel = \"link.crank.angle_deg\" } }\n";
     fs::write(place.path("scenarios/long.toml"), text + oracle).unwrap();
     place.refused("run scenarios/long.toml --no-record --memory 0.05", &["[[oracle]]", words[0], words[1]]);
+    // Before the numbers are read, and before the file is.
+    place.refused(
+        "run scenarios/long.toml --no-record --memory 0.01",
+        &["scenarios/long.toml:", "reading 200000 rows", words[0], words[1], words[2]],
+    );
+    let line = "compare scenarios/crank_rocker.toml long.csv --map a=link.crank.angle_deg";
+    place.refused(&format!("{line} --memory 0.02"), &["comparing 200000 rows", words[0], words[1], words[2]]);
+    place.refused(&format!("{line} --memory 1e-3"), &["the table long.csv", words[0], words[1], words[2]]);
 }
 
 #[test]

@@ -1,0 +1,136 @@
+//! Columns of one number throughout: a moment that is zero, a constant speed.
+
+use crate::cell::{Cell, are_single, numbers, numbers_as};
+use crate::instants::chosen;
+use formula::Rounded;
+
+/// Digits that a number in single precision has for certain.
+const SINGLE: u16 = 7;
+
+/// The numbers of a column of a file with the `others` beside it, each with what its digits leave open: [`numbers`], but
+/// for a column of one number throughout.
+///
+/// Such a column does not show its own format: `0` is an exact zero as `%g`, Python and the like print it, and
+/// anything below a half as `%.0f` does. A file is written by one format as a rule, and a format that leaves out zeros
+/// at the end shows in its other columns: their cells differ in decimals and in significant digits. Where all do, a
+/// constant has at least the decimals and the digits of the coarsest of them. With decimals of one count anywhere, as
+/// `%.6f` prints, or whole numbers that are no steps, each column may have its own format, and a constant be rounded to
+/// it.
+#[must_use]
+pub fn numbers_beside<Others>(cells: &[Cell], others: impl FnOnce() -> Others) -> Vec<Rounded>
+where
+    Others: IntoIterator<Item: AsRef<[Cell]>>,
+{
+    match is_zero(cells).then(|| vouched(others())).flatten() {
+        Some(Vouched { decimals, significant, are_single }) => {
+            let cells: Vec<Cell> = cells.iter().map(|cell| cell.with_zeros(decimals, significant)).collect();
+            numbers_as(&cells, are_single)
+        }
+        None => numbers(cells),
+    }
+}
+
+/// What other columns vouch for: the fewest decimals and digits of them, and whether one is in single precision.
+#[derive(Clone, Copy)]
+struct Vouched {
+    decimals: i32,
+    significant: u16,
+    are_single: bool,
+}
+
+/// What other columns vouch for; `None` if they say nothing.
+fn vouched(others: impl IntoIterator<Item: AsRef<[Cell]>>) -> Option<Vouched> {
+    let mut coarsest: Option<Vouched> = None;
+    for column in others {
+        let cells = column.as_ref();
+        if is_constant(cells) || chosen(&numbers(cells), false) {
+            continue;
+        }
+        let shown = || cells.iter().filter(|cell| cell.has_digits());
+        let (Some(decimals), Some(significant)) =
+            (shown().map(Cell::decimals).max(), shown().map(Cell::significant).max())
+        else {
+            continue;
+        };
+        if decimals <= 0 || !leaves_zeros_out(cells) {
+            return None;
+        }
+        let are_single = are_single(cells);
+        let significant = if are_single { significant.min(SINGLE) } else { significant };
+        let own = Vouched { decimals, significant, are_single };
+        coarsest = Some(coarsest.map_or(own, |least| Vouched {
+            decimals: least.decimals.min(own.decimals),
+            significant: least.significant.min(own.significant),
+            are_single: least.are_single || own.are_single,
+        }));
+    }
+    coarsest
+}
+
+/// Whether all numbers of a column are zero: of a format by significant digits that is exact, however few they are. Any
+/// other constant may have been rounded to fewer digits than the other columns have.
+fn is_zero(cells: &[Cell]) -> bool {
+    is_constant(cells) && cells.iter().any(|cell| cell.value() == 0.0)
+}
+
+/// Whether all numbers of a column are the same.
+fn is_constant(cells: &[Cell]) -> bool {
+    let mut shown = cells.iter().map(Cell::value).filter(|value| !value.is_nan());
+    let Some(first) = shown.next() else { return false };
+    shown.all(|value| value == first)
+}
+
+fn leaves_zeros_out(cells: &[Cell]) -> bool {
+    fn differ<T: PartialEq>(cells: &[Cell], of: fn(&Cell) -> T) -> bool {
+        let mut all = cells.iter().filter(|cell| cell.has_digits()).map(of);
+        let first = all.next();
+        all.any(|own| Some(own) != first)
+    }
+    differ(cells, Cell::decimals) && differ(cells, Cell::significant)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn cells(texts: &[&str]) -> Vec<Cell> {
+        texts.iter().map(|text| Cell::parse(text).unwrap()).collect()
+    }
+
+    /// What the digits of the first number of a column leave open beside others.
+    fn error(column: &[&str], others: &[&[&str]]) -> f64 {
+        let others: Vec<Vec<Cell>> = others.iter().map(|texts| cells(texts)).collect();
+        numbers_beside(&cells(column), || others)[0].error
+    }
+
+    const GENERAL: &[&str] = &["0.123456789", "1.5", "12.3456789"];
+    const FORCES: &[&str] = &["2450.12345", "-13.5", "301.12"];
+    const STEPS: &[&str] = &["0.000", "0.025", "0.050"];
+
+    #[test]
+    fn a_file_that_leaves_out_zeros_vouches_for_its_constants() {
+        for zero in [["0", "0", "-0"], ["0.0", "0.0", "0"]] {
+            approx::assert_relative_eq!(error(&zero, &[STEPS, GENERAL, FORCES]), 5e-6, max_relative = 1e-6);
+        }
+        // Another constant may have digits of its own: 13.6 may have been 13.63 with three, 1.36e1 too.
+        approx::assert_relative_eq!(error(&["13.6", "13.6", ""], &[GENERAL, FORCES]), 0.05, max_relative = 1e-6);
+        approx::assert_relative_eq!(error(&["1.36e1", "1.36e1"], &[GENERAL, FORCES]), 0.05, max_relative = 1e-6);
+        let three: &[&str] = &["0.123", "1.5", "12.3"];
+        approx::assert_relative_eq!(error(&["0", "0", "0"], &[three]), 5e-4, max_relative = 1e-6);
+    }
+
+    #[test]
+    fn a_format_of_its_own_may_have_rounded_a_constant() {
+        // With decimals, with an exponent, without either; steps and other constants say nothing.
+        for fixed in [["0.125000", "1.500000", "12.345679"], ["1.25e-1", "1.50e0", "1.23e1"], ["2450", "-13", "301"]] {
+            approx::assert_relative_eq!(error(&["0", "0", "0"], &[GENERAL, &fixed]), 0.5, max_relative = 1e-6);
+        }
+        approx::assert_relative_eq!(
+            error(&["0", "0", "0"], &[STEPS, &["7.5", "7.5", "7.5"]]),
+            0.5,
+            max_relative = 1e-6
+        );
+        // A column that varies shows its own digits.
+        approx::assert_relative_eq!(error(&["0", "1", "0"], &[GENERAL, FORCES]), 0.5, max_relative = 1e-6);
+    }
+}

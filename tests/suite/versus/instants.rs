@@ -1,0 +1,154 @@
+//! Columns of instants as they come: in another order, twice, in other units, glued, called otherwise. Each is judged
+//! rightly, or refused with its place.
+
+use std::fmt::Write;
+use std::fs;
+
+use linkage::case::Grid;
+use linkage::solver::Solver;
+
+use super::{scenario, solved};
+use crate::cli::tools::Place;
+
+/// A row: instant, angle of the rocker (deg), its speed.
+type Row = (String, f64, f64);
+
+/// Rows of a right table of the crank-rocker, by times of nine digits; `of` makes the instant from the time.
+fn rows(of: impl Fn(f64) -> f64) -> Vec<Row> {
+    let right = solved(&scenario("crank_rocker"));
+    let [angle, omega] = ["link.rocker.angle_rad", "link.rocker.omega_rad_s"].map(|name| right.named(name).unwrap());
+    let row = |row: usize| (of(right.times()[row]).to_string(), angle[row].to_degrees(), omega[row]);
+    (0..right.times().len()).map(row).collect()
+}
+
+fn text(instants: &str, rows: &[Row]) -> String {
+    let mut text = format!("{instants},link.rocker.angle_deg,link.rocker.omega_rad_s\n");
+    rows.iter().for_each(|(at, angle, omega)| writeln!(text, "{at},{angle:.9},{omega:.9}").unwrap());
+    text
+}
+
+/// Code and output of a comparison with a table.
+fn compared(place: &Place, text: &str) -> (i32, String) {
+    fs::write(place.path("spoiled.csv"), text).unwrap();
+    let outcome = place.run("compare scenarios/crank_rocker.toml spoiled.csv");
+    let all = format!("{}\n{}", outcome.stdout, outcome.stderr);
+    (outcome.code, all.split_whitespace().collect::<Vec<_>>().join(" "))
+}
+
+/// A turn at 130 rpm.
+const TURN: f64 = 60.0 / 130.0;
+
+#[test]
+fn right_rows_agree_in_any_order_any_number_of_times_and_at_any_turn() {
+    let place = Place::new();
+    let right = rows(|at| at);
+    let mixed: Vec<Row> = (0..right.len()).map(|row| right[(row * 137) % right.len()].clone()).collect();
+    let backwards: Vec<Row> = right.iter().rev().cloned().collect();
+    let twice = [right.clone(), right.clone()].concat();
+    for (what, rows, note) in [
+        ("mixed", mixed, "the time jumps back in row"),
+        ("backwards", backwards, ""),
+        ("twice", twice, "the time jumps back in row 362"),
+        ("before zero", rows(|at| at - TURN), ""),
+        ("a turn beyond the run", rows(|at| at + TURN), ""),
+    ] {
+        let (code, told) = compared(&place, &text("t_s", &rows));
+        assert!(code == 0 && told.contains(note) && !told.contains("contradict"), "{what}: {told}");
+    }
+}
+
+#[test]
+fn a_column_says_in_words_and_brackets_where_rows_hold() {
+    let place = Place::new();
+    for name in ["t [s]", "Time", "TIME (s)", "time [s]", "t (s)"] {
+        assert_eq!(compared(&place, &text(name, &rows(|at| at))).0, 0, "{name}");
+    }
+    for name in ["time_ms", "Time [ms]", "t (ms)"] {
+        assert_eq!(compared(&place, &text(name, &rows(|at| 1e3 * at))).0, 0, "{name}");
+    }
+    for name in ["Crank [deg]", "crank angle (deg)"] {
+        assert_eq!(compared(&place, &text(name, &rows(|at| 360.0 * at / TURN))).0, 0, "{name}");
+    }
+    // What is no unit of an instant here, and what may be another quantity.
+    for name in ["t [min]", "T", "temperature [s]"] {
+        let (code, told) = compared(&place, &text(name, &rows(|at| at)));
+        assert!(code == 2 && told.contains("nothing says where the rows") && told.contains("time_s"), "{name}: {told}");
+    }
+    // A name letter by letter comes first.
+    let both: Vec<Row> =
+        rows(|at| at).into_iter().map(|(at, angle, omega)| (format!("{at},7"), angle, omega)).collect();
+    assert_eq!(compared(&place, &text("time_s,Time [ms]", &both)).0, 0);
+}
+
+#[test]
+fn instants_in_another_unit_disagree_and_the_unit_is_named() {
+    let place = Place::new();
+    let (code, told) = compared(&place, &text("t_s", &rows(|at| 1e3 * at)));
+    assert!(code == 1 && told.contains("milliseconds taken for seconds"), "{told}");
+    // So far away that nothing can be followed there.
+    let (code, told) = compared(&place, &text("t_s", &rows(|at| 1e9 * at)));
+    assert!(code == 2 && told.contains("check the unit of the instants"), "{told}");
+}
+
+/// Rows of one instant with other numbers: no cause is made up for them.
+#[test]
+fn rows_of_one_instant_that_contradict_each_other_are_told() {
+    let place = Place::new();
+    let right = rows(|at| at);
+    let other: Vec<Row> = right.iter().map(|(at, angle, omega)| (at.clone(), angle + 5.0, *omega)).collect();
+    let one = vec![(right[100].0.clone(), right[200].1, right[200].2)];
+    let still: Vec<Row> = right.iter().map(|(_, angle, omega)| ("0.100000000".into(), *angle, *omega)).collect();
+    for (rows, numbers) in [
+        ([right.clone(), other].concat(), "rows 1 and 362 hold"),
+        ([right.clone(), one].concat(), "rows 101 and 362 hold"),
+        (still, "rows 1 and 2 hold"),
+    ] {
+        let (code, told) = compared(&place, &text("t_s", &rows));
+        assert!(code == 1 && told.contains(numbers) && told.contains("contradict each other"), "{told}");
+        assert!(!told.contains("cause ") && !told.contains("noise"), "{told}");
+    }
+}
+
+#[test]
+fn rows_without_an_instant_are_refused_with_their_line() {
+    let place = Place::new();
+    let right = rows(|at| at);
+    for (cell, words) in [
+        ("", ["line 9 of the table", "holds at no instant", "`t_s`"]),
+        ("nan", ["line 9 of the table", "holds at no instant", "`t_s`"]),
+        ("0.1 s", ["spoiled.csv:9:1", "\"t_s\"", "\"0.1 s\""]),
+        ("2024-01-01", ["spoiled.csv:9:1", "\"t_s\"", "no number"]),
+        ("0,1", ["spoiled.csv:9:1", "4 cells", "header"]),
+    ] {
+        let mut spoiled = right.clone();
+        spoiled[5].0 = cell.into();
+        let (code, told) = compared(&place, &format!("# a comment\n\n{}", text("t_s", &spoiled)));
+        assert!(code == 2 && words.iter().all(|word| told.contains(word)), "{cell}: {told}");
+    }
+}
+
+/// A law ends, and a free motion begins: instants beyond are refused, but for the rounding of the last.
+#[test]
+fn instants_beyond_a_law_are_refused_and_rounded_ones_are_not() {
+    let place = Place::new();
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/outside/scenarios/cycloidal_press.toml");
+    let press = fs::read_to_string(path).unwrap().replace("time_ms = 400", "time_ms = 400.06");
+    fs::write(place.path("press.toml"), press.split("[[oracle]]").next().unwrap()).unwrap();
+    let press = linkproof::Scenario::load(&place.path("press.toml")).unwrap();
+    let end = press.case.crank().end().unwrap();
+    assert!((end - 0.400_06).abs() < 1e-12, "{end}");
+    let of = |late: f64| {
+        let times: Vec<f64> = (0..=40).map(|row| end * f64::from(row) / 40.0).collect();
+        let grid = Grid::of_times(press.case.crank(), times);
+        let right = analytic::AssurSolver.solve(&press.case.on(grid).unwrap()).unwrap();
+        let angles = right.named("link.crank.angle_rad").unwrap();
+        // The last is printed as 0.4001.
+        let rows = right.times().iter().zip(angles).map(|(at, angle)| format!("{:.4},{angle}\n", at + late));
+        fs::write(place.path("late.csv"), format!("t_s,link.crank.angle_rad\n{}", rows.collect::<String>())).unwrap();
+        place.run("compare press.toml late.csv")
+    };
+    let outcome = of(0.0);
+    assert!(outcome.code == 0, "{}{}", outcome.stdout, outcome.stderr);
+    let outcome = of(0.01);
+    assert!(outcome.code == 2 && outcome.stderr.contains("check the unit of the instants"), "{}", outcome.stderr);
+}
