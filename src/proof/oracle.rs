@@ -174,12 +174,9 @@ impl Answer<'_> {
         // A magnitude changes by no more than its vector.
         let drift = told.channels.iter().flatten().map(|own| told.rounded.of_point(own, at, point.at_error));
         let instant = drift.fold(0.0, f64::hypot);
-        let bound = match point.at {
-            When::Crank(_) => point.bound.larger(known),
-            // The error of an integration is no rounding: it adds to that of the printed number.
-            When::Time(_) => point.bound + known,
-        };
-        Found { deviation, bound: bound + instant, instant, scale: told.scale }
+        // What a side knows is no rounding of the printed number: it adds to that.
+        let bound = point.bound + known + instant;
+        Found { deviation, bound, instant, scale: told.scale }
     }
 }
 

@@ -61,7 +61,8 @@ fn val_ov7_base_every_printed_number_by_both_sides() {
             "rad" => 0.005f64.to_radians(),
             _ => 0.005,
         };
-        assert!(check.bound <= half_unit * (1.0 + 1e-8), "{}", check.name());
+        // But for what rounding leaves of the sides' own numbers.
+        assert!(check.bound <= half_unit * (1.0 + 1e-6), "{}", check.name());
     }
 }
 

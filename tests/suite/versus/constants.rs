@@ -66,8 +66,8 @@ fn a_zero_or_a_constant_that_is_wrong_is_found_where_it_is_exact_and_open_where_
             ],
         )
     };
-    assert_eq!(of(NINE, NINE), ["agree", "agree", "disagree", "inconclusive"]);
-    assert_eq!(of(Format::Shortest, Format::Shortest), ["agree", "agree", "disagree", "inconclusive"]);
+    assert_eq!(of(NINE, NINE), ["agree", "agree", "disagree", "disagree"]);
+    assert_eq!(of(Format::Shortest, Format::Shortest), ["agree", "agree", "disagree", "disagree"]);
     // Each column in decimals of its own.
     assert_eq!(of(Format::Fixed(9), Format::Fixed(0))[..3], ["agree", "agree", "inconclusive"]);
 }
