@@ -126,7 +126,7 @@ fn allowed(stage: &Stage, kinds: &[&'static Kind], asked: &Asked) -> Result<()> 
         stage.scenario.name,
         PROOFS * budget
     );
-    let help = "plant fewer of them with --kind, --party and --no-sizes";
+    let help = "plant fewer of them: some kinds, one party, or no sizes";
     Err(Error::new(ErrorKind::Unsupported, message).help(help).or_help(Advice::MoreWork { to: work / PROOFS }))
 }
 

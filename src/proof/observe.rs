@@ -3,6 +3,7 @@
 use analytic::range::is_singular;
 use analytic::witness::{momentum, power};
 use linkage::case::Case;
+use linkage::drive::Load;
 use linkage::error::Error;
 use linkage::math::statistics::share;
 use linkage::math::{KeepNan, Motion, Vec2, largest_size};
@@ -137,15 +138,7 @@ pub(super) fn observe(
     let mut singular = if case.crank().passes() { vec![false; case.grid.len()] } else { Vec::new() };
     let mut visit = |row: usize, state: &State| {
         let crank = state.angles[case.crank().link] - case.crank().zero;
-        let sensed = case.loads.iter().filter_map(|load| {
-            let of_link = |link: usize| Vec2::new(case.spin(&state.motions, link), 0.0);
-            let of_point = |at: Side| match case.moves(&state.motions, at) {
-                true => state.motions[at.link].point_velocity(at.local),
-                false => Vec2::zeros(),
-            };
-            let sensed = load.sensed_link().map(of_link).or_else(|| load.sensed_point().map(of_point))?;
-            Some((sensed, load.jump(crank) > 0.0))
-        });
+        let sensed = case.loads.iter().filter_map(|load| Some((sensed(case, state, load)?, load.jump(crank) > 0.0)));
         let own = senses.values.iter_mut().zip(&mut senses.jumps).skip(row * senses.each);
         own.zip(sensed).for_each(|((value, jumps), now)| (*value, *jumps) = now);
         if let Some(opening) = opening.get_mut(row) {
@@ -161,10 +154,8 @@ pub(super) fn observe(
             };
             fastest = case.drives.iter().map(|drive| state.motions[drive.link].omega.abs()).fold(fastest, f64::larger);
             moment = moment.larger(state.largest_moment(arm));
-            // In the instant of starting, loads already act against a motion that the state does not show yet.
-            let setting_off = case.is_free() && case.drives.iter().all(|drive| state.motions[drive.link].omega == 0.0);
-            if watch == Watch::Side && !setting_off {
-                unbalance.add(case, state);
+            if watch == Watch::Side {
+                unbalance.add(case, state, crank);
             }
         }
         passing = passing.larger(state.passing.unwrap_or(1.0));
@@ -200,6 +191,16 @@ pub(super) fn observe(
     })
 }
 
+/// The motion whose sense a load depends on (rad/s as the first component, or m/s); zero where it stands still.
+fn sensed(case: &Case, state: &State, load: &Load) -> Option<Vec2> {
+    let of_link = |link: usize| Vec2::new(case.spin(&state.motions, link), 0.0);
+    let of_point = |at: Side| match case.moves(&state.motions, at) {
+        true => state.motions[at.link].point_velocity(at.local),
+        false => Vec2::zeros(),
+    };
+    load.sensed_link().map(of_link).or_else(|| load.sensed_point().map(of_point))
+}
+
 /// Places and directions of all links.
 pub(super) fn pose_of(state: &State) -> Pose {
     let frame =
@@ -220,6 +221,19 @@ fn reduced_torque(case: &Case, state: &State) -> f64 {
     state.torques[0] + further.sum::<f64>()
 }
 
+/// Force (N) and moment about the origin (N m) that a state leaves open: a load on a link or point at rest already acts
+/// against the motion that begins, which the state does not show yet.
+fn open(case: &Case, state: &State, crank: f64) -> [f64; 2] {
+    let mut open = [0.0; 2];
+    for load in case.loads.iter().filter(|load| sensed(case, state, load) == Some(Vec2::zeros())) {
+        let (jump, point) = (load.jump(crank), load.sensed_point());
+        let lever = point.map(|at| state.motions[at.link].point(at.local).norm());
+        open[0] += if point.is_some() { jump } else { 0.0 };
+        open[1] += jump * lever.unwrap_or(1.0);
+    }
+    open
+}
+
 /// Equilibrium of the whole mechanism, observed over a run.
 #[derive(Default)]
 struct Unbalance {
@@ -230,10 +244,11 @@ struct Unbalance {
 }
 
 impl Unbalance {
-    fn add(&mut self, case: &Case, state: &State) {
+    fn add(&mut self, case: &Case, state: &State, crank: f64) {
         let ((force, moment), (other_force, other_moment)) = (state.shaking(case), momentum::shaking(case, state));
-        self.force = self.force.larger((force - other_force).norm());
-        self.moment = self.moment.larger((moment - other_moment).abs());
+        let [open_force, open_moment] = open(case, state, crank);
+        self.force = self.force.larger(((force - other_force).norm() - open_force).larger(0.0));
+        self.moment = self.moment.larger(((moment - other_moment).abs() - open_moment).larger(0.0));
         for (index, joint) in case.mechanism.joints().iter().enumerate() {
             let place = state.motions[joint.second.link].point(joint.second.local);
             let own = state.forces[index].norm();

@@ -13,7 +13,7 @@ pub(super) const INDENT: usize = 12;
 
 /// What is told where a diagnosis has ended early.
 pub(super) const CUT: &str =
-    "The search for a cause ended at its limit of work, before all causes were tried: `--budget` allows more.";
+    "The search for a cause ended at its limit of work, before all causes were tried: allow more work.";
 
 /// Channels that are named; the others are counted.
 const NAMED: usize = 3;

@@ -91,3 +91,33 @@ fn regress_a_start_that_is_no_single_motion_is_refused() {
     let error = AssurSolver.solve(&case).unwrap_err();
     assert!(error.message().contains("from rest in either sense") && error.way_out().is_some(), "{error}");
 }
+
+/// A pendulum on a driven crank is at rest as the motion begins, and a load on it acts against the motion that begins.
+/// Symptom: the momentum of the whole mechanism had no such load at that instant, and a right motion disagreed.
+#[test]
+fn regress_a_load_on_a_link_that_is_at_rest_while_others_move_agrees() {
+    let text = |load: &str| {
+        format!(
+            "format = 1\nname = \"pendulum\"\ntitle = \"pendulum\"\n[ground.points]\nO = {{ x_m = 0, y_m = 0 }}\n\
+             [links.crank]\nmass_kg = 3\ninertia_kg_m2 = 0.01\nmass_centre = {{ x_m = 0.1, y_m = 0 }}\n\
+             [links.crank.points]\nO = {{ x_m = 0, y_m = 0 }}\nA = {{ x_m = 0.15, y_m = 0 }}\n\
+             [links.bob]\nmass_kg = 2\ninertia_kg_m2 = 0.05\nmass_centre = {{ x_m = 0.3, y_m = 0.02 }}\n\
+             [links.bob.points]\nA = {{ x_m = 0, y_m = 0 }}\nB = {{ x_m = 0.5, y_m = 0 }}\n\
+             [[joints]]\nname = \"O\"\ntype = \"revolute\"\nlinks = [\"ground\", \"crank\"]\n\
+             [[joints]]\nname = \"A\"\ntype = \"revolute\"\nlinks = [\"crank\", \"bob\"]\n\
+             [[drive]]\njoint = \"O\"\nspeed_rad_s = 2.5\n\
+             [[drive]]\njoint = \"A\"\nmotion = \"free\"\nspeed_rad_s = 2\ninitial_speed_rad_s = 0\nstart_deg = -40\n\
+             [gravity]\nx_m_s2 = 0\ny_m_s2 = -9.81\n[[loads]]\n{load}\n[start]\ncrank_deg = 130\n\
+             [grid]\nfrom_s = 0\nto_s = 0.3\nstep_s = 0.01\n"
+        )
+    };
+    for load in [
+        "type = \"resistance\"\nlink = \"bob\"\nmoment_N_m = 0.8",
+        "type = \"moment\"\nlink = \"bob\"\nmoment_N_m = 0.8\nacts = \"clockwise\"",
+        "type = \"moment\"\nlink = \"bob\"\nmoment_N_m = -0.8\nacts = \"counter-clockwise\"",
+    ] {
+        let scenario = Scenario::parse(&text(load), Path::new("pendulum.toml")).unwrap_or_else(|error| panic!("{error}"));
+        let proof = linkproof::prove(&scenario, &linkproof::Options::default()).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(proof.verdict.word(), "agree", "{load}: {:?}", proof.verdict);
+    }
+}
