@@ -171,8 +171,9 @@ where
         let mut values = values.iter().map(|&value| number(value));
         let mut next =
             || values.next().ok_or_else(|| ParquetError::General("a column has fewer values than it says".into()));
-        for row in 0..read {
-            to.push(if full == 0 || levels[row] == full { next()? } else { MISSING });
+        // A column that must have values says nothing about each.
+        for level in levels.iter().copied().chain(std::iter::repeat(full)).take(read) {
+            to.push(if level == full { next()? } else { MISSING });
         }
     }
     Ok(())
