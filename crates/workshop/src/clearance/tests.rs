@@ -192,6 +192,21 @@ fn a_distance_is_proven_but_for_rounding() {
     assert!(found.now > expected - 0.01 && found.now - found.least >= 1.99 * rounding, "{found:?} {rounding}");
 }
 
+/// A double knows a place at a thousand metres to a thousand times its epsilon, whichever body's or link's it is.
+#[test]
+fn rounding_goes_with_the_farthest_place() {
+    let case = slider_crank();
+    let near = question(&case, 0.01, &[]);
+    let mut far = question(&case, 0.01, &[("post", line(&[(0.0, 1e3)], 0.01))]);
+    far.pairs = vec![[0, 3]];
+    let rounding = |case: &Case, asked: &Question| Tubes::new(case, [0.0, TAU], asked.extent()).unwrap().rounding();
+    let least = 1e3 * f64::EPSILON;
+    assert!(rounding(&case, &near) < 0.1 * least && rounding(&case, &far) > least);
+    far.bodies.swap_remove(3);
+    far.bodies[0].outline = line(&[(0.0, 1e3)], 0.01);
+    assert!(rounding(&case, &far) > least);
+}
+
 #[test]
 fn parts_that_touch_are_put_together_in_the_order_of_the_motion() {
     let open = || vec![[3.0, 4.0], [1.0, 2.0], [2.0, 2.5], [3.0, 3.5]];
