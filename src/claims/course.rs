@@ -272,4 +272,22 @@ mod tests {
             }
         }
     }
+    /// The root of the squares of both components, with the errors of both.
+    #[test]
+    fn a_magnitude_is_known_as_well_as_its_components() {
+        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/crank_rocker.toml");
+        let case = Scenario::load(&path).unwrap().case;
+        let claim = Claim::parse("joint.A.f_N", &case).unwrap();
+        let trajectory = analytic::AssurSolver.solve(&case).unwrap();
+        let [x, y] = ["joint.A.fx_N", "joint.A.fy_N"].map(|name| trajectory.named(name).unwrap());
+        let is_y = |channel: &Channel| channel.to_string() == "joint.A.fy_N";
+        let y_alone = |column: usize, _: usize| if is_y(&trajectory.channels()[column]) { 1e-6 } else { 0.0 };
+        let course = Course::new(&case, &trajectory, &y_alone);
+        for (row, found) in course.values(&claim).unwrap().into_iter().enumerate() {
+            let size = x[row].hypot(y[row]);
+            assert!((found.value / size - 1.0).abs() < 1e-14, "{row}: {} {size}", found.value);
+            let error = 1e-6 * y[row].abs() / size;
+            assert!((error..2.0 * error + 1e-9).contains(&found.error), "{row}: {} {error}", found.error);
+        }
+    }
 }
