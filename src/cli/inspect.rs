@@ -3,11 +3,13 @@
 use std::path::PathBuf;
 
 use super::{load, number, output};
+use crate::proof::BUDGET;
 use crate::report::{inspect as report, modes, range};
 use crate::scenario::Asked;
 use analytic::range::explained;
 use linkage::case::Grid;
 use linkage::error::{Error, ErrorKind, Result};
+use linkage::work::limited;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -34,6 +36,9 @@ pub(super) struct Args {
     /// Crank angle for --modes in degrees, as the scenario states it [default: that of the start]
     #[arg(long, value_name = "DEG", allow_hyphen_values = true, requires = "modes", value_parser = number::finite)]
     at_crank_deg: Option<f64>,
+    /// Work allowed for --range, in steps of an engine without sweeps [default: 2e7]
+    #[arg(long, value_name = "STEPS", allow_hyphen_values = true, requires = "range", value_parser = number::positive)]
+    budget: Option<f64>,
     /// Start a group in another assembly mode than the file states, as in `linkproof run`
     #[arg(long, value_name = "LINK,LINK=MODE")]
     mode: Vec<String>,
@@ -61,7 +66,10 @@ pub(super) fn inspect(args: &Args) -> Result<()> {
         }
         false => None,
     };
-    let range = if args.range { Some(analytic::range::Range::of(case)?) } else { None };
+    let range = match args.range {
+        true => Some(limited(args.budget.unwrap_or(BUDGET), || analytic::range::Range::of(case)).0?),
+        false => None,
+    };
     match &args.json {
         Some(to) => {
             let modes = modes.as_ref().map(|(crank, all)| (*crank, all.as_slice()));

@@ -51,6 +51,18 @@ pub enum Size {
     OfValue(f64),
 }
 
+impl Size {
+    /// Its kind, from 0: in units, of the scale, of each value.
+    #[must_use]
+    pub fn kind(self) -> usize {
+        match self {
+            Size::Absolute(_) => 0,
+            Size::Relative(_) => 1,
+            Size::OfValue(_) => 2,
+        }
+    }
+}
+
 /// Names of what rows hold at, each with its factor to SI, and whether it is a crank angle.
 pub const INSTANTS: [(&str, f64, bool); 4] = [
     ("time_s", 1.0, false),

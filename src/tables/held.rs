@@ -1,6 +1,7 @@
 //! What a table says of a mechanism: claims of channels, at instants.
 
 use std::borrow::Cow;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::Raw;
 use crate::scenario::mapping::{INSTANTS, Mapped, Mapping};
@@ -75,12 +76,41 @@ pub struct Held {
     pub is_analytic: bool,
     /// Columns of a table that say nothing of a channel.
     pub unused: Vec<String>,
+    places: Places,
+}
+
+/// Where columns stand: the first of each text, and the first of each channel that is no arithmetic, with whether it is
+/// a magnitude. A party has as many columns as a mapping has lines, and each is asked for.
+#[derive(Clone, Debug, Default)]
+struct Places {
+    texts: BTreeMap<String, usize>,
+    channels: BTreeMap<(String, bool), usize>,
+}
+
+impl Places {
+    fn of(columns: &[Column]) -> Self {
+        let mut places = Places::default();
+        for (index, column) in columns.iter().enumerate() {
+            places.texts.entry(column.claim.text.clone()).or_insert(index);
+            if let Some(own) = single(&column.claim) {
+                places.channels.entry((own.channel.to_string(), own.magnitude)).or_insert(index);
+            }
+        }
+        places
+    }
 }
 
 /// Names for the time in seconds that need no mapping besides those of [`INSTANTS`].
 const TIMES: [&str; 2] = ["t_s", "t"];
 
 impl Held {
+    /// What a party holds in some columns.
+    #[must_use]
+    pub fn of_columns(at: Instants, columns: Vec<Column>, is_analytic: bool) -> Held {
+        let places = Places::of(&columns);
+        Held { at, columns, is_analytic, unused: Vec::new(), places }
+    }
+
     /// What a table says by a mapping. A column that has the name of a channel, unit included, needs none.
     ///
     /// # Errors
@@ -110,8 +140,9 @@ impl Held {
             let help = "map a column to time_s, time_ms, crank_deg or crank_rad, such as time=time_s";
             return Err(Error::new(ErrorKind::Input, message).help(help));
         }
-        let is_mapped = |name: &str| mapping.channels.iter().any(|mapped| mapped.name == name);
-        let channels = raw.names.iter().filter(|name| PrintedChannel::named(name).is_some() && !is_mapped(name));
+        let mapped: BTreeSet<&str> = mapping.channels.iter().map(|mapped| mapped.name.as_str()).collect();
+        let is_own = |name: &&String| PrintedChannel::named(name).is_some() && !mapped.contains(name.as_str());
+        let channels = raw.names.iter().filter(is_own);
         let own: Vec<Mapped> = channels.map(|name| Mapped::same(name, name)).collect();
         let mut columns = Vec::new();
         for mapped in &mapping.channels {
@@ -127,9 +158,8 @@ impl Held {
             let help = "map columns to channels, such as phi3*180/pi=link.rocker.angle_deg";
             return Err(Error::new(ErrorKind::Input, message).help(help));
         }
-        let is_used = |name: &&String| reader.used.contains(name);
-        let unused = raw.names.iter().filter(|name| !is_used(name)).cloned().collect();
-        Ok(Held { at, columns, is_analytic: false, unused })
+        let unused = raw.names.iter().filter(|name| !reader.used.contains(name.as_str())).cloned().collect();
+        Ok(Held { unused, ..Held::of_columns(at, columns, false) })
     }
 
     /// What a trajectory holds.
@@ -144,7 +174,7 @@ impl Held {
             Some(Column { claim, values: exact(values), scale: None, mapped: None })
         };
         let columns = trajectory.iter().filter_map(column).collect();
-        Held { at: Instants { times, cranks }, columns, is_analytic, unused: Vec::new() }
+        Held::of_columns(Instants { times, cranks }, columns, is_analytic)
     }
 
     /// The instants of its rows: crank angles or times as asked for, else times where it has some.
@@ -175,6 +205,12 @@ impl Held {
         self.len() == 0
     }
 
+    /// Whether it has numbers for a claim.
+    #[must_use]
+    pub fn holds(&self, claim: &Claim) -> bool {
+        self.column_of(claim).is_some()
+    }
+
     /// Its numbers for a claim, in the claim's unit: under the same text, or the same channel in another unit.
     #[must_use]
     pub fn values_of(&self, claim: &Claim) -> Option<Cow<'_, [Rounded]>> {
@@ -193,13 +229,12 @@ impl Held {
 
     /// The column of a claim, and its unit over that of the claim.
     fn column_of(&self, claim: &Claim) -> Option<(&Column, f64)> {
-        if let Some(own) = self.columns.iter().find(|own| own.claim.text == claim.text) {
-            return Some((own, 1.0));
+        if let Some(&index) = self.places.texts.get(&claim.text) {
+            return Some((&self.columns[index], 1.0));
         }
         let wanted = single(claim)?;
-        let is_same = |own: &PrintedChannel| own.channel == wanted.channel && own.magnitude == wanted.magnitude;
-        let found = |column: &'_ Column| single(&column.claim).filter(|own| is_same(own)).map(|own| own.to_si(1.0));
-        let (column, unit) = self.columns.iter().find_map(|column| Some((column, found(column)?)))?;
+        let column = &self.columns[*self.places.channels.get(&(wanted.channel.to_string(), wanted.magnitude))?];
+        let unit = single(&column.claim)?.to_si(1.0);
         Some((column, unit / wanted.to_si(1.0)))
     }
 }
@@ -280,36 +315,42 @@ const NAMED: usize = 8;
 struct Reader<'a> {
     raw: &'a Raw,
     graph: Graph,
-    used: Vec<String>,
+    /// The first column of each name.
+    places: BTreeMap<&'a str, usize>,
+    used: BTreeSet<&'a str>,
+    /// A row of numbers, for the columns that an arithmetic names.
+    inputs: Vec<Rounded>,
 }
 
 impl<'a> Reader<'a> {
     fn of(raw: &'a Raw) -> Self {
         let names: Vec<&str> = raw.names.iter().map(String::as_str).collect();
-        Reader { raw, graph: Graph::new(&names, 0), used: Vec::new() }
+        let places = names.iter().enumerate().rev().map(|(index, name)| (*name, index)).collect();
+        let inputs = vec![Rounded::exact(0.0); raw.columns.len()];
+        Reader { raw, graph: Graph::new(&names, 0), places, used: BTreeSet::new(), inputs }
     }
 
     fn column(&mut self, mapped: &Mapped) -> Result<Vec<Rounded>> {
         let (text, names) = (mapped.text.as_str(), &self.raw.names);
-        let is_whole = names.iter().any(|name| name == text);
+        let is_whole = self.places.contains_key(text);
         let tree = match is_whole {
             true => Ok(Tree { shape: Shape::Name(text.into()), at: 0..text.len() }),
             false => Tree::parse(text),
         };
         let tree = tree.map_err(|fault| mapped.refused(&fault))?;
         let named = tree.names();
-        let column = |name: &str| names.iter().position(|own| own == name);
+        let column = |name: &str| self.places.get(name).copied();
         if let Some((name, at)) = named.iter().find(|(name, _)| !self.graph.knows(name)) {
             return Err(mapped.refused(&self.unknown(name, at.clone())));
         }
         let node = self.graph.add_defined(&tree).map_err(|fault| mapped.refused(&fault))?;
         let used: Vec<usize> = named.iter().filter_map(|(name, _)| column(name)).collect();
-        self.used.extend(used.iter().map(|&column| names[column].clone()));
+        self.used.extend(used.iter().map(|&column| names[column].as_str()));
         if is_whole && let [index] = used[..] {
             return Ok(self.raw.columns[index].clone());
         }
         let mut program = Program::of(&self.graph, &[node]);
-        let mut inputs = vec![Rounded::exact(0.0); self.raw.columns.len()];
+        let inputs = &mut self.inputs;
         let mut row = |row: usize| {
             for &index in &used {
                 inputs[index] = self.raw.columns[index][row];
@@ -340,5 +381,36 @@ impl<'a> Reader<'a> {
             None => format!("its columns are {}; backquotes hold a name with blanks or signs", some(&self.raw.names)),
         };
         Fault { message, at, help }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Of two columns of one text the first counts; a channel is found in another unit too, a magnitude is another one.
+    #[test]
+    fn a_claim_is_found_by_its_text_or_by_its_channel() {
+        let names = ["point.B.x_mm", "2*point.B.x_m", "point.B.x_mm", "point.B.x_m", "joint.A.f_N", "joint.B.fx_N"];
+        let column = |(index, text): (usize, &&str)| {
+            let values = vec![Rounded::exact(1.0 + index as f64)];
+            Column { claim: claim_of(text).unwrap(), values, scale: None, mapped: None }
+        };
+        let held = Held::of_columns(Instants::default(), names.iter().enumerate().map(column).collect(), false);
+        let value = |text: &str| held.values_of(&claim_of(text).unwrap()).map(|values| values[0].value);
+        for (text, expected) in [
+            ("point.B.x_mm", Some(1.0)),
+            ("2*point.B.x_m", Some(2.0)),
+            ("point.B.x_m", Some(4.0)),
+            ("point.B.x_cm", Some(0.1)),
+            ("joint.A.f_N", Some(5.0)),
+            ("joint.A.fx_N", None),
+            ("joint.B.f_N", None),
+            ("3*point.B.x_m", None),
+        ] {
+            let same = |found: f64| expected.is_some_and(|own| (found - own).abs() < 1e-15);
+            assert!(value(text).map_or(expected.is_none(), same), "{text}: {:?}", value(text));
+            assert_eq!(held.holds(&claim_of(text).unwrap()), expected.is_some(), "{text}");
+        }
     }
 }

@@ -26,11 +26,11 @@ pub(super) fn beside(one: &Side, other: &Side, how: &How) -> Result<Pair> {
         Some(!has_times)
     });
     let (from, to) = (one.1.at(by_crank)?, other.1.at(by_crank)?);
-    let wanted: Vec<Claim> =
-        other.1.columns.iter().map(|own| own.claim.clone()).filter(|claim| how.asks_for(claim)).collect();
-    let claims: Vec<Claim> = wanted.iter().filter(|claim| one.1.values_of(claim).is_some()).cloned().collect();
+    let asked = how.asked();
+    let wanted = other.1.columns.iter().map(|own| &own.claim).filter(|claim| asked(claim));
+    let claims: Vec<Claim> = wanted.filter(|claim| one.1.holds(claim)).cloned().collect();
     let lacks = |of: &Held, in_it: &Held| -> Vec<String> {
-        let own = of.columns.iter().filter(|own| in_it.values_of(&own.claim).is_none());
+        let own = of.columns.iter().filter(|own| !in_it.holds(&own.claim));
         own.map(|own| own.claim.text.clone()).collect()
     };
     let alone = [lacks(&one.1, &other.1), lacks(&other.1, &one.1)];
@@ -57,7 +57,7 @@ pub(super) fn beside(one: &Side, other: &Side, how: &How) -> Result<Pair> {
     let columns: Vec<Column> = claims.iter().filter_map(column).collect();
     let drift = drift(&from, &to, &places);
     let of_claims = columns.iter().map(|own| drift(&own.values, own.claim.turn())).collect();
-    let first = Held { at: Instants::default(), columns, is_analytic: one.1.is_analytic, unused: Vec::new() };
+    let first = Held::of_columns(Instants::default(), columns, one.1.is_analytic);
     let known = |of: &Option<Vec<Rounded>>| match of {
         Some(values) => values.iter().map(|at| at.value).collect(),
         None => vec![f64::NAN; to.values.len()],

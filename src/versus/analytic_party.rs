@@ -25,7 +25,7 @@ pub(super) fn held(scenario: &Scenario) -> Result<Held> {
     let claims: Vec<Claim> = scenario.case.channels().iter().filter_map(channel).collect();
     let solved = Solved::of(scenario, scenario.case.grid.clone(), &claims)?;
     let columns = columns(&solved, &claims, &|row| row, scenario.case.grid.len())?;
-    Ok(Held { columns, is_analytic: true, ..Held::of_trajectory(solved.trajectory(), true) })
+    Ok(Held::of_columns(Held::of_trajectory(solved.trajectory(), true).at, columns, true))
 }
 
 /// What the sides say of claims, `of(row)` being the instant of a row.
@@ -52,7 +52,7 @@ pub(super) fn beside(scenario: &Scenario, (name, held): Side, is_first: bool, ho
     let mut columns = columns(&solved, &claims, &|row| rows[row], at.values.len())?;
     columns.iter_mut().for_each(|column| column.scale = scales.of_claim(&column.claim));
     let drift = instants::drift(&solved, &claims, &at, &rows, &columns);
-    let own = Held { at: held.at.clone(), columns, is_analytic: true, unused: Vec::new() };
+    let own = Held::of_columns(held.at.clone(), columns, true);
     let other = if held.is_analytic { as_well_known(held, &own) } else { held };
     let place = |of: &[f64]| rows.iter().map(|&row| of[row]).collect::<Vec<f64>>();
     let trajectory = solved.trajectory();
@@ -86,7 +86,8 @@ pub(super) fn beside(scenario: &Scenario, (name, held): Side, is_first: bool, ho
 /// What a party says of channels that the scenario has, and the names of its other ones.
 fn claims(scenario: &Scenario, held: &Held, how: &How) -> Result<(Vec<Claim>, Vec<String>)> {
     let (mut claims, mut alone) = (Vec::new(), Vec::new());
-    for column in held.columns.iter().filter(|column| how.asks_for(&column.claim)) {
+    let asked = how.asked();
+    for column in held.columns.iter().filter(|column| asked(&column.claim)) {
         match (Claim::parse(&column.claim.text, &scenario.case), &column.mapped) {
             (Ok(claim), _) => claims.push(claim),
             (Err(fault), Some(mapped)) => return Err(mapped.wrong(&fault.message, &fault.help)),
@@ -132,12 +133,10 @@ fn grid(scenario: &Scenario, at: &At) -> Result<(Grid, Vec<usize>)> {
 }
 
 /// What an analytic side has recorded is as well known as what it finds now.
-fn as_well_known(held: Held, own: &Held) -> Held {
-    let column = |column: Column| {
-        let Some(found) = own.values_of(&column.claim) else { return column };
-        let more = |(value, found): (Rounded, Rounded)| Rounded { error: value.error + found.error, ..value };
-        let values = column.values.iter().copied().zip(found.iter().copied()).map(more).collect();
-        Column { values, ..column }
-    };
-    Held { columns: held.columns.into_iter().map(column).collect(), ..held }
+fn as_well_known(mut held: Held, own: &Held) -> Held {
+    for column in &mut held.columns {
+        let Some(found) = own.values_of(&column.claim) else { continue };
+        column.values.iter_mut().zip(found.iter()).for_each(|(value, found)| value.error += found.error);
+    }
+    held
 }

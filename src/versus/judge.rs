@@ -1,6 +1,6 @@
 //! Channel by channel: differences, bounds, verdicts.
 
-use super::allowed::How;
+use super::allowed::{Allowances, How};
 use crate::compare::Verdict;
 use crate::proof::shifted::TELLING;
 use crate::scenario::Claim;
@@ -65,9 +65,10 @@ impl Both<'_> {
     /// All claims that both parties have.
     pub(super) fn judged(&self, claims: &[Claim]) -> Vec<Compared> {
         let [one, other] = self.parties;
+        let allowances = self.how.allowances();
         let of = |(index, claim): (usize, &Claim)| {
             let values = [one.values_of(claim)?, other.values_of(claim)?];
-            Some(self.channel(claim, index, [&values[0], &values[1]]))
+            Some(self.channel(claim, index, [&values[0], &values[1]], &allowances))
         };
         claims.iter().enumerate().filter_map(of).collect()
     }
@@ -98,10 +99,10 @@ impl Both<'_> {
         })
     }
 
-    fn channel(&self, claim: &Claim, index: usize, values: [&[Rounded]; 2]) -> Compared {
+    fn channel(&self, claim: &Claim, index: usize, values: [&[Rounded]; 2], allowances: &Allowances) -> Compared {
         let measure = self.measure();
         let scale = self.scale(claim, values[measure.0]);
-        let allowed = self.how.allows(claim, scale);
+        let allowed = allowances.of(claim, scale);
         let found = judge(&Beside {
             values,
             places: [&self.places[0], &self.places[1]],

@@ -1,5 +1,7 @@
 //! What differences in a channel are measured by.
 
+use std::collections::BTreeMap;
+
 use crate::compare::scales;
 use crate::proof::solved::{known_at_least, known_of_complete};
 use crate::scenario::{Claim, Scenario};
@@ -13,9 +15,9 @@ use linkage::trajectory::{Channel, Trajectory};
 /// Most instants that scales are found on.
 const MOST: usize = 20_000;
 
-/// The scales of all channels over a whole run, and how well they are known at best (both in SI), whatever of them is
+/// The scales of all channels, by name, over a whole run, and how well they are known at best (both in SI), whatever of them is
 /// compared.
-pub(super) struct Scales(Vec<(Channel, f64, f64)>);
+pub(super) struct Scales(BTreeMap<String, (f64, f64)>);
 
 impl Scales {
     /// Those of a scenario over its run; over `grid`, the instants of the other party, if it has none or cannot be
@@ -31,7 +33,7 @@ impl Scales {
             let found = has_instants.then(|| AssurSolver.solve(&case).ok()).flatten()?;
             Some(Scales::with(&found, known_of_complete(&case, &found)))
         };
-        solved(&scenario.case.grid).or_else(|| solved(grid)).unwrap_or(Scales(Vec::new()))
+        solved(&scenario.case.grid).or_else(|| solved(grid)).unwrap_or_else(|| Scales(BTreeMap::new()))
     }
 
     /// Those of a complete trajectory.
@@ -41,18 +43,18 @@ impl Scales {
 
     fn with(trajectory: &Trajectory, known: Vec<f64>) -> Self {
         let all = trajectory.channels().iter().zip(scales(trajectory)).zip(known);
-        Scales(all.map(|((channel, scale), known)| (channel.clone(), scale, known)).collect())
+        Scales(all.map(|((channel, scale), known)| (channel.to_string(), (scale, known))).collect())
     }
 
     /// How well a channel is known at best, in its SI unit.
     pub(super) fn known(&self, channel: &Channel) -> f64 {
-        self.0.iter().find(|(own, ..)| own == channel).map_or(0.0, |(.., known)| *known)
+        self.0.get(&channel.to_string()).map_or(0.0, |(_, known)| *known)
     }
 
     /// The scale of a channel in the unit of its claim; `None` for an arithmetic.
     pub(super) fn of_claim(&self, claim: &Claim) -> Option<f64> {
         let (Shape::Name(_), Some((_, printed))) = (&claim.tree.shape, claim.channels.first()) else { return None };
-        let of = |channel: &Channel| self.0.iter().find(|(own, ..)| own == channel).map(|(_, scale, _)| *scale);
+        let of = |channel: &Channel| self.0.get(&channel.to_string()).map(|(scale, _)| *scale);
         let across = Channel::named(&format!("joint.{}.fy_N", printed.channel.of)).filter(|_| printed.magnitude);
         let own = of(&printed.channel)?;
         let scale = across.and_then(|across| of(&across)).map_or(own, |across| own.larger(across));

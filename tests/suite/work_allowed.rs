@@ -2,7 +2,9 @@
 
 use std::path::Path;
 
-use linkage::work::{Count, Work, counted};
+use analytic::range::{Range, explained};
+use linkage::error::{Error, ErrorKind};
+use linkage::work::{Count, Work, counted, limited};
 use linkproof::mutate::{Asked, Party, mutate};
 use linkproof::parts::Advice;
 use linkproof::proof::{End, Options, Proof, prove};
@@ -47,6 +49,25 @@ fn regress_a_step_of_a_large_mechanism_is_more_work() {
     let (proof, work) = proven(&scenario("n_four_bar_10.toml"), &Options::default().budget(1e6));
     assert_eq!(proof.verdict.word(), "inconclusive");
     assert!(work.of(Count::Sweeps) < 3_000_000, "{work:?}");
+}
+
+/// Poses of a range, of which each needs systems of all links, were nobody's work: a hundred four-bars had no end.
+#[test]
+fn regress_the_range_of_a_large_mechanism_is_work() {
+    let chain = named("chain").expect("there are chains");
+    let large = (chain.setup)(100.0, 0, 0).unwrap().case;
+    let (found, is_over) = limited(1e5, || Range::of(&large));
+    let error = found.expect_err("a hundred four-bars are more than 1e5 steps");
+    assert!(is_over && error.message().contains("1.0e5 steps") && !error.advice().is_empty(), "{error}");
+    // A four-bar is little work, and what is left of it is not lost.
+    let small = shipped("crank_rocker.toml").case;
+    let (found, is_over) = limited(1e5, || Range::of(&small));
+    assert!(found.is_ok_and(|range| range.links.len() == 3) && !is_over);
+    // An error is explained as far as that is allowed, and says where it is not.
+    let out_of_reach = || Error::new(ErrorKind::Geometry, "the poses end").out_of_reach();
+    let (told, _) = limited(10.0, || explained(&small, out_of_reach()));
+    assert!(told.message().contains("is not known") && told.message().contains("1.0e1 steps"), "{told}");
+    assert_eq!(explained(&small, out_of_reach()).message(), "the poses end");
 }
 
 /// Hundreds of faults, each of them a proof of a large mechanism, went on for hours.

@@ -64,3 +64,12 @@ fn a_crank_that_does_not_turn_fully_is_told_with_its_limits() {
 fn range_and_modes_are_two_questions() {
     Place::new().refused("inspect scenarios/crank_rocker.toml --range --modes", &["cannot be used with"]);
 }
+
+#[test]
+fn a_range_is_sought_within_the_work_that_is_allowed() {
+    let place = Place::new();
+    place.refused("inspect scenarios/crank_rocker.toml --range --budget 10", &["1.0e1 steps", "--budget 1e2"]);
+    place.refused("inspect scenarios/crank_rocker.toml --budget 10", &["--range"]);
+    let told = place.ok("inspect scenarios/crank_rocker.toml --range --budget 1e5");
+    assert_eq!(told, place.ok("inspect scenarios/crank_rocker.toml --range"));
+}

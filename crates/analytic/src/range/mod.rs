@@ -25,6 +25,7 @@ use linkage::case::Case;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::Vec2;
 use linkage::mechanism::{Group, Mechanism, Pose};
+use linkage::work::limited;
 use tracking::{End, Point, Tracker};
 
 /// Below this, a determinant that is not zero is reported as [`Kind::BranchContact`].
@@ -32,6 +33,10 @@ use tracking::{End, Point, Tracker};
 const CONTACT: f64 = 1e-3;
 /// Below this, a pose counts as singular. Rounding separates configurations that meet by its square root, 1e-8 to 1e-7.
 const SINGULAR: f64 = 1e-6;
+
+/// Work that the crank angles which can be reached are worth where something else is asked, as in the message of an
+/// error, in the unit of budgets: a twentieth of what a proof is allowed.
+pub const ASIDE: f64 = 1e6;
 
 /// Crank angles over which a mechanism can be followed on its branch.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -85,7 +90,8 @@ impl Range {
     /// Follows the mechanism of a case over all crank angles that its branch reaches.
     ///
     /// # Errors
-    /// [`ErrorKind::Geometry`] if the start pose is singular, [`ErrorKind::Numeric`] if the branch cannot be followed.
+    /// [`ErrorKind::Geometry`] if the start pose is singular, [`ErrorKind::Numeric`] if the branch cannot be followed,
+    /// [`ErrorKind::Unsupported`] if that is more work than [`limited`](linkage::work::limited) allows.
     pub fn of(case: &Case) -> Result<Self> {
         let (tracker, start) = Tracker::new(case)?;
         let (points, extent) = both_ways(&tracker, &start)?;
@@ -103,7 +109,7 @@ impl Range {
         singularities.sort_by(|a, b| a.crank.total_cmp(&b.crank));
         let groups = (0..case.structure.groups.len()).map(|group| worst(&tracker, &points, extent, group)).collect();
         let links = extremes::links(&tracker, &points, closed, case.mechanism.links().len());
-        Ok(Range { extent, singularities, groups, links, samples, four_bar: FourBar::of(case) })
+        tracker.allowed(Ok(Range { extent, singularities, groups, links, samples, four_bar: FourBar::of(case) }))
     }
 }
 
@@ -125,10 +131,12 @@ pub fn explained(case: &Case, error: Error) -> Error {
     if !error.is_out_of_reach() {
         return error;
     }
-    let reached = match reachable(case) {
+    let (reached, is_too_much) = limited(ASIDE, || reachable(case));
+    let reached = match reached {
         Ok(Extent::Limited(limits)) => format!("; crank angles can be reached {}", interval(limits)),
         Ok(Extent::FullTurn(_)) => String::new(),
         Err(why) if why.kind() == ErrorKind::Geometry => format!("; {}", why.message()),
+        Err(why) if is_too_much => format!("; which crank angles can be reached is not known: {}", why.message()),
         Err(_) => String::new(),
     };
     error.map_message(|message| format!("{message}{reached}")).explained()

@@ -8,7 +8,7 @@
 //! The smallest singular value of the Jacobian is a lower bound on the distance to another branch.
 //! Steps are kept below it, so that no step jumps to another branch.
 
-use std::cell::RefCell;
+use std::cell::{OnceCell, RefCell};
 use std::f64::consts::TAU;
 
 use super::constraints::{Constraints, Gearing};
@@ -20,6 +20,7 @@ use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::dense::Lu;
 use linkage::math::root::{self, Close};
 use linkage::math::{Column, KeepNan, Matrix, unit};
+use linkage::work;
 
 /// Longest step: two degrees, where only the crank turns.
 const LONGEST: f64 = std::f64::consts::PI / 90.0;
@@ -41,6 +42,9 @@ const SHORTEST: f64 = 1e-9;
 const STEPS_TO_ZERO: usize = 60;
 /// Largest number of poses. More mean that something is wrong.
 const MOST_POINTS: usize = 200_000;
+/// Work of an elimination, or of two solutions with a factored matrix, over the square of the number of coordinates, in
+/// the unit of budgets.
+const SQUARE: f64 = 1e-3;
 /// Number of turns after which the search for the first pose ends.
 const MOST_TURNS: i32 = 12;
 
@@ -97,6 +101,8 @@ pub(super) struct Tracker<'a> {
     signs: Vec<f64>,
     /// Direction of the smallest singular value of the last pose, from which that of the next is found.
     weakest: RefCell<Column>,
+    /// Why no further pose is placed: the work that was allowed is done.
+    over: OnceCell<Error>,
 }
 
 impl<'a> Tracker<'a> {
@@ -115,12 +121,14 @@ impl<'a> Tracker<'a> {
             crank: Constraints::angle(drive.link),
             signs: vec![1.0; case.structure.groups.len()],
             weakest: RefCell::new(any_direction(q.len())),
+            over: OnceCell::new(),
         };
         let mut along = Column::zeros(q.len());
         along[tracker.crank] = 1.0;
         let rough = tracker.point(q, &along);
         tracker.check_regular(&rough)?;
-        let start = tracker.at_crank(&rough, drive.world_angle(drive.start)).ok_or_else(|| lost(drive.start))?;
+        let start = tracker.at_crank(&rough, drive.world_angle(drive.start)).ok_or_else(|| lost(drive.start));
+        let start = tracker.allowed(start)?;
         for (index, group) in case.structure.groups.iter().enumerate() {
             let sine = linkage::mechanism::assembly::transmission_sine(&case.mechanism, group, &case.start);
             let wanted = sine.map_or(1.0, f64::signum);
@@ -128,6 +136,24 @@ impl<'a> Tracker<'a> {
         }
         let start = tracker.point(start.q, &along);
         Ok((tracker, start))
+    }
+
+    /// Takes the work of `squares` eliminations from what is allowed. `None` if no more is.
+    fn spend(&self, squares: usize) -> Option<()> {
+        let size = self.constraints.coordinates() as f64;
+        let spent = work::spend(SQUARE * squares as f64 * size * size);
+        spent.map_err(|error| self.over.get_or_init(|| error).kind()).ok()
+    }
+
+    /// What was found, unless a pose was missing for it because no more work is allowed.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Unsupported`] then, with a larger budget as the way out.
+    pub(super) fn allowed<T>(&self, found: Result<T>) -> Result<T> {
+        match self.over.get() {
+            Some(error) => Err(error.clone()),
+            None => found,
+        }
     }
 
     /// Crank angle of a pose as the scenario states it (rad).
@@ -164,7 +190,9 @@ impl<'a> Tracker<'a> {
     fn point(&self, q: Column, along: &Column) -> Point {
         let jacobian = self.constraints.at(&q).jacobian;
         let tangent = tangent(&jacobian, along);
-        let sigma = smallest_singular_value(&bordered(&jacobian, &tangent), &mut self.weakest.borrow_mut());
+        let (sigma, rounds) = smallest_singular_value(&bordered(&jacobian, &tangent), &mut self.weakest.borrow_mut());
+        // Two eliminations, for the tangent and here. Who asks for poses sees at the next one that no more is allowed.
+        let _ = self.spend(2 + rounds);
         let groups = self.case.structure.groups.iter().zip(&self.signs);
         let pose = self.constraints.pose(&q);
         let measures = groups.map(|(group, sign)| {
@@ -180,6 +208,7 @@ impl<'a> Tracker<'a> {
     fn correct(&self, mut q: Column, across: &Column, from: &Column, distance: f64, most: f64) -> Option<Column> {
         let mut last = f64::INFINITY;
         for _ in 0..10 {
+            self.spend(1)?;
             let equations = self.constraints.at(&q);
             let ahead = across.dot(&(&q - from)) - distance;
             let rows = equations.residual.len();
@@ -238,8 +267,12 @@ impl<'a> Tracker<'a> {
     /// Follows the curve with the crank turning in the sense of `sense` at first.
     ///
     /// # Errors
-    /// [`ErrorKind::Numeric`] if it does not end.
+    /// [`ErrorKind::Numeric`] if it does not end, and those of [`Tracker::allowed`].
     pub(super) fn follow(&self, start: &Point, sense: f64) -> Result<Track> {
+        self.allowed(self.followed(start, sense))
+    }
+
+    fn followed(&self, start: &Point, sense: f64) -> Result<Track> {
         let mut first = start.clone();
         if self.crank_rate(&first) * sense < 0.0 {
             first.tangent.neg_mut();
@@ -466,20 +499,21 @@ fn solved(matrix: &Matrix, mut right: Column) -> Option<Column> {
     Some(right)
 }
 
-/// Smallest singular value, by inverse iteration; 0 for a matrix that is singular to working precision.
-/// The iteration starts from the direction `x` and leaves the one that belongs to the value.
-fn smallest_singular_value(matrix: &Matrix, x: &mut Column) -> f64 {
-    let Some(lu) = factored(matrix) else { return 0.0 };
+/// Smallest singular value, by inverse iteration, and the number of iterations; 0 for a matrix that is singular to
+/// working precision. The iteration starts from the direction `x` and leaves the one that belongs to the value.
+fn smallest_singular_value(matrix: &Matrix, x: &mut Column) -> (f64, usize) {
+    let Some(lu) = factored(matrix) else { return (0.0, 0) };
     // A little of every direction, so that none is missed.
     *x = (&*x + any_direction(matrix.nrows()) * 1e-3).normalize();
-    let mut largest = 0.0f64;
+    let (mut largest, mut rounds) = (0.0f64, 0);
     for _ in 0..MOST_ITERATIONS {
+        rounds += 1;
         lu.solve_transposed(x.as_mut_slice());
         lu.solve(x.as_mut_slice());
         let grown = x.norm();
         if !(grown.is_finite() && grown > 0.0) {
             *x = any_direction(matrix.nrows());
-            return 0.0;
+            return (0.0, rounds);
         }
         *x /= grown;
         let change = (grown - largest).abs();
@@ -488,7 +522,7 @@ fn smallest_singular_value(matrix: &Matrix, x: &mut Column) -> f64 {
             break;
         }
     }
-    1.0 / largest.sqrt()
+    (1.0 / largest.sqrt(), rounds)
 }
 
 /// Unit vector that the Jacobian maps to zero, on the side of `along`; `along` itself if there are several.
