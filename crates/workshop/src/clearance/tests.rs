@@ -375,25 +375,3 @@ fn a_singular_pose_is_left_open() {
     let ([from, _], [_, to]) = (found.open[0], found.open[found.open.len() - 1]);
     assert!(from <= PI && PI <= to && to - from < 1e-3, "{:?}", found.open);
 }
-
-/// An angle of six corners, in either sense: the same places are inside, and its convex parts make up the same area.
-#[test]
-fn a_polygon_is_the_same_in_either_sense() {
-    let corners =
-        [(0.0, 0.0), (3.0, 0.0), (3.0, 1.0), (1.0, 1.0), (1.0, 2.0), (0.0, 2.0)].map(|(x, y)| Vec2::new(x, y));
-    let mut reversed = corners;
-    reversed.reverse();
-    let area = |ring: &[Vec2]| {
-        let next = ring.iter().cycle().skip(1);
-        ring.iter().zip(next).map(|(a, b)| cross(*a, *b)).sum::<f64>() / 2.0
-    };
-    for outline in [corners, reversed].map(|corners| Outline::polygon(&corners, 0.1).unwrap()) {
-        let whole = outline.parts().iter().map(|part| area(part)).sum::<f64>();
-        assert!((area(outline.corners()) - 4.0).abs() < 1e-14 && (whole - 4.0).abs() < 1e-14, "{outline:?}");
-        assert!(outline.parts().iter().all(|part| area(part) > 0.0), "{outline:?}");
-        for (place, distance) in [((0.5, 1.5), -0.6), ((2.0, 2.0), 0.9), ((4.0, 0.5), 0.9)] {
-            let found = outline.distance(Vec2::new(place.0, place.1)).0;
-            assert!((found - distance).abs() < 1e-14, "{place:?}: {found}");
-        }
-    }
-}
