@@ -135,9 +135,9 @@ pub fn named(name: &str, step: f64) -> Option<Box<dyn Engine>> {
     EngineName::named(name)?.with_step(step).ok()
 }
 
-/// Whether the current thread is inside an engine step whose panic is caught and becomes an error. The panic hook of a
-/// program may stay silent then.
+/// Whether the current thread is inside a call whose panic is caught and becomes an error, such as a step of an engine.
+/// The panic hook of a program may stay silent then.
 #[must_use]
 pub fn panic_is_caught() -> bool {
-    rapier_twin::is_guarded()
+    linkage::quiet::is_guarded()
 }

@@ -319,3 +319,34 @@ fn leaves(rows: &[Row], is_exact: bool) -> Option<Cause> {
     (is_exact && right >= 2 && right < order.len())
         .then(|| Cause::Leaves { after: order[right - 1][1], before: order[right][1] })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Ten numbers known to 1e-12: what is left by an offset or a factor must be as small as that, in every one.
+    #[test]
+    fn an_offset_or_a_factor_leaves_nothing_over() {
+        let found = |of: &dyn Fn(f64) -> f64, off: f64| {
+            let mut rows: Vec<Row> = (0..10u32)
+                .map(|k| {
+                    let mechanism = (0.7 * f64::from(k)).sin() + 0.2;
+                    [f64::from(k), f64::from(k), of(mechanism), mechanism, 1e-12]
+                })
+                .collect();
+            rows[3][2] += off;
+            of_numbers(&rows)
+        };
+        let factor = found(&|right| 1.1 * right, 0.0);
+        assert!(matches!(factor, Some(Cause::Factor(own)) if (own - 1.1).abs() < 1e-12), "{factor:?}");
+        let offset = found(&|right| right + 0.5, 0.0);
+        assert!(matches!(offset, Some(Cause::Offset(own)) if (own - 0.5).abs() < 1e-12), "{offset:?}");
+        for of in [&(|right| 1.1 * right) as &dyn Fn(f64) -> f64, &|right| right + 0.5] {
+            assert!(found(of, 2e-12).is_some());
+            let over = found(of, 1e-9);
+            assert!(over.is_none(), "{over:?}");
+        }
+        let square = found(&|right| right * right, 0.0);
+        assert!(square.is_none(), "{square:?}");
+    }
+}

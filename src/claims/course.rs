@@ -246,3 +246,48 @@ impl<'a> Course<'a> {
 fn missing(what: &dyn std::fmt::Display) -> Error {
     Error::new(ErrorKind::Input, format!("{what} was not asked for"))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenario::Scenario;
+    use linkage::solver::Solver;
+
+    /// The larger of what is known at an instant and at all, in the unit of the claim.
+    #[test]
+    fn no_channel_is_known_better_than_its_limit() {
+        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/crank_rocker.toml");
+        let case = Scenario::load(&path).unwrap().case;
+        let claim = Claim::parse("link.rocker.angle_deg", &case).unwrap();
+        let trajectory = analytic::AssurSolver.solve(&case).unwrap();
+        let is_own = |channel: &Channel| *channel == claim.channels[0].1.channel;
+        let error = |_: usize, row: usize| if row == 7 { 1e-3 } else { 1e-9 };
+        let course = Course::new(&case, &trajectory, &error);
+        let least: Vec<f64> =
+            trajectory.channels().iter().map(|channel| if is_own(channel) { 1e-5 } else { 1.0 }).collect();
+        for (course, usual) in [(course.known_at_least(&least), 1e-5), (course.known_at_least(&[]), 1e-9)] {
+            for (row, found) in course.values(&claim).unwrap().into_iter().enumerate() {
+                let wanted = if row == 7 { 1e-3f64 } else { usual }.to_degrees();
+                assert!((found.error / wanted - 1.0).abs() < 1e-3, "{row}: {} {wanted}", found.error);
+            }
+        }
+    }
+    /// The root of the squares of both components, with the errors of both.
+    #[test]
+    fn a_magnitude_is_known_as_well_as_its_components() {
+        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/crank_rocker.toml");
+        let case = Scenario::load(&path).unwrap().case;
+        let claim = Claim::parse("joint.A.f_N", &case).unwrap();
+        let trajectory = analytic::AssurSolver.solve(&case).unwrap();
+        let [x, y] = ["joint.A.fx_N", "joint.A.fy_N"].map(|name| trajectory.named(name).unwrap());
+        let is_y = |channel: &Channel| channel.to_string() == "joint.A.fy_N";
+        let y_alone = |column: usize, _: usize| if is_y(&trajectory.channels()[column]) { 1e-6 } else { 0.0 };
+        let course = Course::new(&case, &trajectory, &y_alone);
+        for (row, found) in course.values(&claim).unwrap().into_iter().enumerate() {
+            let size = x[row].hypot(y[row]);
+            assert!((found.value / size - 1.0).abs() < 1e-14, "{row}: {} {size}", found.value);
+            let error = 1e-6 * y[row].abs() / size;
+            assert!((error..2.0 * error + 1e-9).contains(&found.error), "{row}: {} {error}", found.error);
+        }
+    }
+}

@@ -202,3 +202,47 @@ fn of_tree(tree: &Tree, named: &dyn Fn(&str) -> Known) -> Result<Known, Unsound>
         }
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Mass m, length l, time t, angle a, and something unknown.
+    fn of(text: &str) -> Result<Known, ()> {
+        let named = |name: &str| match name {
+            "m" => Some([1.0, 0.0, 0.0]),
+            "l" => Some([0.0, 1.0, 0.0]),
+            "t" => Some([0.0, 0.0, 1.0]),
+            "a" => Some(NONE),
+            _ => None,
+        };
+        of_tree(&Tree::parse(text).unwrap(), &named).map_err(|Unsound| ())
+    }
+
+    #[test]
+    fn powers_of_kilogram_metre_and_second_follow_the_operations() {
+        let force = [1.0, 1.0, -2.0];
+        for (text, wanted) in [
+            ("m*l/t^2", Some(force)),
+            ("-(m*l)/t/t", Some(force)),
+            ("m*l*t^-2 + m/t*(l/t)", Some(force)),
+            ("m/(t*t/l)", Some(force)),
+            ("1/t", Some([0.0, 0.0, -1.0])),
+            ("2*l - l/3", Some([0.0, 1.0, 0.0])),
+            ("sqrt(l^2 + l*l)", Some([0.0, 1.0, 0.0])),
+            ("abs(l/t)", Some([0.0, 1.0, -1.0])),
+            ("atan2(l, 2*l) + sin(a) + l/l", Some(NONE)),
+            ("sign(l)*exp(a)", Some(NONE)),
+            ("l + 0", Some([0.0, 1.0, 0.0])),
+            // What is not known fits everywhere, and 9.81 may have a unit.
+            ("l + x", Some([0.0, 1.0, 0.0])),
+            ("l*x", None),
+            ("m*9.81", None),
+        ] {
+            assert_eq!(of(text), Ok(wanted), "{text}");
+        }
+        for text in ["l + t", "m - l*m", "l + 1", "sin(l)", "ln(t/l)", "atan2(l, t)", "2^l", "l^a + 1", "sqrt(l) + l"] {
+            assert!(of(text).is_err(), "{text}: {:?}", of(text));
+        }
+    }
+}

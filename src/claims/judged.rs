@@ -190,3 +190,35 @@ impl Judged {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenario::{Formulas, Scenario};
+
+    /// Errors of a formula and of the mechanism, as shares of the scale: a formula that is known much worse than the
+    /// mechanism, and to less than six digits, says nothing.
+    #[test]
+    fn digits_are_lost_only_where_the_mechanism_has_them() {
+        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/crank_rocker.toml");
+        let case = Scenario::load(&path).unwrap().case;
+        let claim = Claim::parse("link.rocker.omega_rad_s", &case).unwrap();
+        let mut formulas = Formulas::over(Vec::new());
+        let formula = formulas.add("f", "2").unwrap();
+        let claimed = |error: f64, own: f64| {
+            let of = |row: u32| Pair {
+                place: [f64::from(row), f64::from(row)],
+                formula: Rounded { value: 2.0, error: 2.0 * error },
+                mechanism: Rounded { value: 2.0, error: 2.0 * own },
+            };
+            let judged = Judged::of((&*formula, &claim), None, (0..10).map(of));
+            (judged.outcome() == Outcome::Right, judged.judged, judged.lost)
+        };
+        let (right, lost) = ((true, 10, 0), (false, 0, 10));
+        let cases =
+            [(9e-7, 0.0, right), (1e-4, 0.0, lost), (1e-4, 1e-6, right), (1e-4, 1e-8, lost), (1e-2, 1e-6, lost)];
+        for (error, own, wanted) in cases {
+            assert_eq!(claimed(error, own), wanted, "{error} {own}");
+        }
+    }
+}

@@ -234,3 +234,25 @@ fn in_order(mut rows: Vec<usize>) -> Vec<usize> {
     rows.dedup();
     rows
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Misfit;
+
+    /// By hand: -1 <= own + amount effect <= 1 in every place.
+    #[test]
+    fn amounts_of_an_effect_keep_everything_within_its_bound() {
+        for (own, effect, wanted) in [
+            (vec![4.0], vec![2.0], Some([-2.5, -1.5])),
+            (vec![4.0], vec![-2.0], Some([1.5, 2.5])),
+            (vec![4.0, 3.0], vec![-2.0, -1.0], Some([2.0, 2.5])),
+            (vec![4.0, -3.0], vec![-2.0, 1.0], Some([2.0, 2.5])),
+            (vec![4.0, 3.0], vec![-2.0, 1.0], None),
+            (vec![4.0, 0.5], vec![-2.0, 0.0], Some([1.5, 2.5])),
+            (vec![4.0, 1.5], vec![-2.0, 0.0], None),
+            (vec![0.5], vec![0.0], None),
+        ] {
+            assert_eq!(Misfit(own.clone()).kept_by(&Misfit(effect.clone())), wanted, "{own:?} {effect:?}");
+        }
+    }
+}

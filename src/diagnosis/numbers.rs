@@ -222,3 +222,30 @@ pub(super) fn confirmed(
     let tried = within(knob, [other + low, other + high]).into_iter().filter_map(|value| Some((value, on(value)?)));
     tried.into_iter().find(|(_, misfit)| misfit.fits())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::diagnosis::cause::Part;
+
+    /// A number that is off by less than a thousandth and has many digits was hardly typed: it counts only where the
+    /// difference is a hundred times its bound.
+    #[test]
+    fn a_tiny_change_of_many_digits_is_no_cause() {
+        let degrees = f64::to_radians;
+        for (found, given, unit, excess, sure) in [
+            (1.000_456_7, 1.0, "kg", 10.0, false),
+            (0.999_543_2, 1.0, "kg", 99.0, false),
+            (1.000_456_7, 1.0, "kg", 100.0, true),
+            (1.002_456_7, 1.0, "kg", 10.0, true),
+            (-1.0, 1.0, "kg", 10.0, true),
+            (0.350_2, 0.35, "kg", 10.0, true),
+            (degrees(30.01), degrees(30.0), "rad", 10.0, true),
+            (degrees(30.012_345), degrees(30.0), "rad", 10.0, false),
+        ] {
+            let change = Change { part: Part::Mass("rod".into()), how: How::Instead { found, given, unit } };
+            assert_eq!(is_sure(&change, excess), sure, "{found} instead of {given} {unit}, {excess} times the bound");
+        }
+        assert!(is_sure(&Change { part: Part::Mass("rod".into()), how: How::Missing }, 1.0));
+    }
+}

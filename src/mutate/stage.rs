@@ -7,9 +7,9 @@ use super::kinds::Plant;
 use super::mutant::Party;
 use super::planted::{Fault, Planted};
 use super::seen::{Eyes, Outcome};
-use crate::claims::{Course, Judged};
+use crate::claims::Course;
 use crate::compare::overall;
-use crate::proof::{BUDGET, EngineProof, Engines, Entrant, Ledger, Options, SIDES, Sides, TRUE_SIDES};
+use crate::proof::{BUDGET, EngineProof, Engines, Entrant, Ledger, Options, SIDES, SideClaims, Sides, TRUE_SIDES};
 use crate::scenario::{Formulas, Scenario};
 use analytic::{AssurSolver, NewtonSolver, TIGHT_ASSUR, TIGHT_NEWTON};
 use linkage::case::Case;
@@ -105,7 +105,7 @@ impl<'a> Stage<'a> {
     }
 
     /// What both sides say of formulas.
-    pub(super) fn claimed(&self, formulas: &Formulas) -> Result<[(&'static str, Vec<Vec<Judged>>); 2]> {
+    pub(super) fn claimed(&self, formulas: &Formulas) -> Result<[SideClaims; 2]> {
         self.sides.claimed(&self.scenario.case, formulas)
     }
 

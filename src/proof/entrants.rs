@@ -21,6 +21,9 @@ use linkage::error::Result;
 use linkage::solver::Solver;
 use linkage::trajectory::{Channel, Trajectory};
 
+/// What a side, by its name, says of the claims of every formula.
+pub(crate) type SideClaims = (&'static str, Vec<Vec<Judged>>);
+
 /// Share of the progress that the analytic sides are given.
 const SIDES: f64 = 0.1;
 
@@ -193,7 +196,7 @@ impl Sides {
     ///
     /// # Errors
     /// Those of [`claims::judge`].
-    pub(crate) fn claimed(&self, case: &Case, formulas: &Formulas) -> Result<[(&'static str, Vec<Vec<Judged>>); 2]> {
+    pub(crate) fn claimed(&self, case: &Case, formulas: &Formulas) -> Result<[SideClaims; 2]> {
         let of = |side: usize| -> Result<_> {
             Ok((self.observed[side].0, self.on_course(case, side, |course| claims::judge(formulas, course))?))
         };

@@ -98,3 +98,28 @@ fn place(since: &At) -> String {
         significant(*mechanism, 9)
     )
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::proof::claimed::judge;
+    use crate::scenario::{Claim, Scenario};
+
+    /// Below 0.5 rad the formula has no value, but its rates have one, and are wrong by something else.
+    #[test]
+    fn only_the_value_is_said_to_be_undefined() {
+        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/crank_rocker.toml");
+        let mut scenario = Scenario::load(&path).unwrap();
+        let claim = Claim::parse("link.crank.angle_deg", &scenario.case).unwrap();
+        scenario.formulas.add("late", "phi*180/pi + 0.001*ln(phi - 0.5)").unwrap().claim = Some(claim);
+        let judgement = judge(&scenario).unwrap().judgement;
+        let judged: Vec<&Judged> = judgement.sides.iter().flat_map(|(_, all)| all.iter().flatten()).collect();
+        let checks = checks(&judgement);
+        assert_eq!((judged.len(), checks.len()), (6, 6));
+        for (judged, check) in judged.into_iter().zip(checks) {
+            let Verdict::Disagree { place } = &check.verdict else { panic!("{} {:?}", check.name(), check.verdict) };
+            assert_eq!(place.contains("is undefined"), judged.order == 0, "{}: {place}", check.name());
+            assert_eq!(place.contains("it has no value"), judged.order == 0, "{}: {place}", check.name());
+        }
+    }
+}

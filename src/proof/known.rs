@@ -250,6 +250,28 @@ mod tests {
         assert!(!falls("crank_rocker_runup.toml"));
     }
 
+    /// In a motion under forces both integrations are off: what the sides may be apart is what is known of both, their
+    /// common rounding once.
+    #[test]
+    fn sides_may_be_apart_by_what_is_known_of_both() {
+        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/crank_rocker_runup.toml");
+        let case = Scenario::load(&path).unwrap().case;
+        let sides: [&dyn Solver; 2] = [&AssurSolver, &NewtonSolver];
+        let [own, other] = sides.map(|side| side.solve(&case).unwrap());
+        let sensitivity = vec![0.0; own.channels().len()];
+        let known = Known::of(&case, [("assur", &own), ("newton", &other)], &sensitivity).unwrap();
+        let mut seen = 0;
+        for (channel, kind) in own.channels().iter().map(|channel| channel.kind).enumerate() {
+            let [first, second] = [0, 1].map(|side| known.integration(side, channel));
+            let rounding = known.at(0, kind.stage, channel, 0) - first;
+            let apart = known.apart(kind.stage, channel, 0) * known.magnitude(channel);
+            let wanted = rounding + first + second;
+            assert!((apart - wanted).abs() <= 1e-9 * wanted, "{}: {apart:e} {wanted:e}", own.channels()[channel]);
+            seen += usize::from(first + second > 1e-3 * rounding && first > 0.0 && second > 0.0);
+        }
+        assert!(seen > 10, "{seen} channels have an error of their integration");
+    }
+
     /// Each derivative, and each solution for forces, is divided by the determinant of the pose once more.
     #[test]
     fn rounding_grows_with_a_power_of_the_condition() {

@@ -213,6 +213,23 @@ fn crank_of(case: &Case, row: usize, state: &State) -> DriveState {
 mod tests {
     use super::*;
 
+    /// A method that fails has judged no more than the instants before: whatever they say, its first error is the reason.
+    #[test]
+    fn a_method_that_fails_proves_nothing() {
+        for before in [0.0, 1e-3] {
+            let mut worst = Worst::default();
+            worst.put(Quantity::Force, before, 0.0);
+            for reason in ["singular at 1 rad", "singular at 2 rad"] {
+                let error = Error::new(ErrorKind::Numeric, reason).help("move the pin");
+                assert!(worst.answer::<()>(Err(error)).is_none());
+            }
+            let Verdict::Inconclusive { reason, advice } = worst.check("a method", "", [1.0; 4]).verdict else {
+                panic!("{before}: not inconclusive")
+            };
+            assert_eq!((reason.as_str(), advice.len()), ("singular at 1 rad", 1), "{before}");
+        }
+    }
+
     /// At whichever instant: a NaN is taken in and kept, and no number of the method is right then.
     #[test]
     fn a_method_without_a_number_at_one_instant_disagrees() {

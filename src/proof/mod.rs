@@ -39,7 +39,7 @@ pub mod solved;
 mod stall;
 
 pub use engines::EngineProof;
-pub(crate) use entrants::{Engines, Entrant, Sides, TRUE_SIDES};
+pub(crate) use entrants::{Engines, Entrant, SideClaims, Sides, TRUE_SIDES};
 pub use formulas::Judgement;
 pub(crate) use formulas::checks as formula_checks;
 pub use judge::{ChannelProof, EngineInfo};

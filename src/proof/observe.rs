@@ -263,3 +263,19 @@ impl Unbalance {
         share(self.force, self.largest_force).larger(share(self.moment, self.largest_moment))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Forces are measured by the largest force, moments by the largest moment, and the worse of both counts.
+    #[test]
+    fn neither_forces_nor_moments_are_out_of_balance() {
+        for (force, moment, wanted) in
+            [(0.0, 0.0, 0.0), (4.0, 0.0, 2.0), (0.0, 4.0, 0.5), (4.0, 4.0, 2.0), (4.0, 32.0, 4.0)]
+        {
+            let found = Unbalance { force, moment, largest_force: 2.0, largest_moment: 8.0 }.share();
+            assert_eq!(found, wanted, "{force} N, {moment} N m");
+        }
+    }
+}

@@ -37,9 +37,12 @@ const ULPS: f64 = 16.0;
 /// Most instants that all channels of a stage are solved at.
 const MOST: usize = 20_000;
 
-/// Both sides' trajectories, and the largest numbers of the quantity and the scale of every channel.
+/// A side's trajectory, and the largest number of the quantity and the scale of every channel.
+type Side = (Trajectory, Vec<(Channel, [f64; 2])>);
+
+/// What both sides have found.
 struct Solved {
-    sides: [(Trajectory, Vec<(Channel, [f64; 2])>); 2],
+    sides: [Side; 2],
     rounded: RoundedInstants,
 }
 
@@ -65,10 +68,8 @@ impl<'a> Answers<'a> {
         let channels: Vec<Channel> = series.iter().flat_map(own).collect();
         let stages: Vec<Stage> = series.iter().map(|series| series.channel.kind.stage).collect();
         let solved = |case: &Case, by_crank: bool| -> Result<Option<Solved>> {
-            let (at, grid): (fn(When) -> Option<f64>, fn(&Drive, Vec<f64>) -> Grid) = match by_crank {
-                true => (When::crank, Grid::of_cranks),
-                false => (When::time, Grid::of_times),
-            };
+            let at: fn(When) -> Option<f64> = if by_crank { When::crank } else { When::time };
+            let grid: fn(&Drive, Vec<f64>) -> Grid = if by_crank { Grid::of_cranks } else { Grid::of_times };
             let mut instants: Vec<f64> = series.iter().flat_map(|series| series.instants()).filter_map(at).collect();
             if instants.is_empty() {
                 return Ok(None);
@@ -81,7 +82,7 @@ impl<'a> Answers<'a> {
             let whole = case.on(grid(case.crank(), few))?.wanting(Wanted::of(&stages));
             let many = (step > 1).then(|| case.on(grid(case.crank(), instants))).transpose()?;
             let many = many.map(|many| many.wanting_only(&channels));
-            let of = |solver: &dyn Solver| -> Result<(Trajectory, Vec<(Channel, [f64; 2])>)> {
+            let of = |solver: &dyn Solver| -> Result<Side> {
                 let found = solver.solve(&whole)?;
                 let sizes = magnitudes(&found).into_iter().zip(scales(&found)).map(|(size, scale)| [size, scale]);
                 let sizes = found.channels().iter().cloned().zip(sizes).collect();

@@ -14,6 +14,7 @@ use super::observe::Stopped;
 use super::runs::{Bank, FEWER, other_sweeps};
 use crate::compare::{Convergence, Verdict};
 use crate::numbers::error;
+use crate::tolerance::Parts;
 
 /// Share of the formal order below which an order is looked at again.
 const LOW: f64 = 0.75;
@@ -61,8 +62,9 @@ pub(super) fn look(judge: &Judge, bank: &mut Bank, judged: &mut Judged) -> Resul
         rungs.push(own);
     }
     // What the sweeps leave takes one more run, as long as half of the longest. Few orders are so steady that it is asked.
-    let may_be =
-        |index: usize| is_low(&judged.channels[index]) && is_steady([0, 1, 2].map(|k| &rungs[k].channels[index]));
+    let may_be = |index: usize| {
+        is_low(&judged.channels[index]) && is_steady([0, 1, 2].map(|k| rungs[k].channels[index].convergence))
+    };
     if !(0..judged.channels.len()).any(may_be) {
         return Ok(false);
     }
@@ -71,15 +73,16 @@ pub(super) fn look(judge: &Judge, bank: &mut Bank, judged: &mut Judged) -> Resul
     let mut is_found = false;
     for index in 0..judged.channels.len() {
         if is_low(&judged.channels[index]) {
-            let [coarse, middle, fine] = [coarse, middle, fine].map(|rung| &rung.channels[index]);
-            if let Some(order) = steady(coarse, middle, fine) {
+            let rungs = [coarse, middle, fine].map(|rung| &rung.channels[index]);
+            let (convergences, parts) = (rungs.map(|own| own.convergence), rungs[2].parts);
+            if let Some(order) = steady(convergences, parts) {
                 let steps = [8.0, 0.5].map(|times| times * finest);
                 let place = format!(
                     "the runs converge with order {order:.2}, at all of five steps from {} to {} s, where the \
                      method has {}: what is read or computed is not what the method gives",
                     error(steps[0]),
                     error(steps[1]),
-                    fine.convergence.formal
+                    convergences[2].formal
                 );
                 judged.channels[index].verdict = Verdict::Disagree { place };
                 is_found = true;
@@ -91,16 +94,50 @@ pub(super) fn look(judge: &Judge, bank: &mut Bank, judged: &mut Judged) -> Resul
 }
 
 /// Whether three estimates, the finest last, have the same low whole number as their order.
-fn is_steady(rungs: [&ChannelProof; 3]) -> bool {
-    let Convergence { observed, formal, .. } = rungs[2].convergence;
+fn is_steady(rungs: [Convergence; 3]) -> bool {
+    let Convergence { observed, formal, .. } = rungs[2];
     let whole = observed.round();
-    let is_same = rungs.iter().all(|own| (own.convergence.observed - whole).abs() <= STEADY);
+    let is_same = rungs.iter().all(|own| (own.observed - whole).abs() <= STEADY);
     is_same && whole >= 1.0 && whole <= LOW * formal
 }
 
-/// The order of three estimates, if it is steady and not that of rounding or of the sweeps.
-fn steady(coarse: &ChannelProof, middle: &ChannelProof, fine: &ChannelProof) -> Option<f64> {
-    let other = fine.parts.iteration.larger(fine.parts.rounding).larger(fine.parts.reference);
-    let is_clear = fine.convergence.error > CLEAR * other;
-    (is_steady([coarse, middle, fine]) && is_clear).then_some(fine.convergence.observed)
+/// The order of three estimates, the finest last, if it is steady and not that of what else is in the finest one.
+fn steady(rungs: [Convergence; 3], finest: Parts) -> Option<f64> {
+    let other = finest.iteration.larger(finest.rounding).larger(finest.reference);
+    let is_clear = rungs[2].error > CLEAR * other;
+    (is_steady(rungs) && is_clear).then_some(rungs[2].observed)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Halved steps halve an error of 8: its order is 1, and that of a method of order 2 is lost. Where sweeps, rounding
+    /// or the reference leave a fourth of the finest error, the order may be theirs.
+    #[test]
+    fn an_order_counts_only_where_nothing_else_is_nearly_as_large() {
+        let rungs = |orders: [f64; 3], formal: f64| {
+            let error = |k: usize| 8.0 * 0.5f64.powi(k as i32);
+            [0, 1, 2].map(|k| Convergence {
+                observed: orders[k],
+                formal,
+                error: error(k),
+                safety: 1.25,
+                iteration: 0.0,
+            })
+        };
+        let first = rungs([1.02, 0.98, 1.01], 2.0);
+        let none = Parts::default();
+        for (size, found) in [(0.0, Some(1.01)), (0.1, Some(1.01)), (0.5, None), (5.0, None)] {
+            for other in
+                [Parts { iteration: size, ..none }, Parts { rounding: size, ..none }, Parts { reference: size, ..none }]
+            {
+                assert_eq!(steady(first, other), found, "{other:?}");
+            }
+        }
+        // Orders that change, an order of nothing, and the order that the method has.
+        for (orders, formal) in [([1.3, 1.1, 1.0], 2.0), ([0.0; 3], 2.0), ([2.0; 3], 2.0), ([1.0; 3], 1.0)] {
+            assert_eq!(steady(rungs(orders, formal), none), None, "{orders:?} {formal}");
+        }
+    }
 }

@@ -31,3 +31,34 @@ pub(super) fn of(case: &Case, solver: &dyn Solver, reference: &Trajectory) -> Re
     };
     Ok(reference.iter().zip(other.iter()).map(of).collect())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenario::Scenario;
+    use analytic::AssurSolver;
+    use linkage::math::KeepNan;
+
+    /// A pendulum let go at rest goes through the same places in stronger gravity, in a time that is shorter by the root
+    /// of it: theta(t; (1 + e) g) = theta(t sqrt(1 + e); g). Its rates follow, each with one root more.
+    #[test]
+    fn a_pendulum_depends_on_gravity_as_its_own_time_does() {
+        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/pendulum.toml");
+        let case = Scenario::load(&path).unwrap().case;
+        let found = AssurSolver.solve(&case).unwrap();
+        let sensitivity = of(&case, &AssurSolver, &found).unwrap();
+        let own = |name: &str| found.named(&format!("link.rod.{name}")).unwrap();
+        let (omega, alpha) = (own("omega_rad_s"), own("alpha_rad_s2"));
+        let largest = |of: &dyn Fn(usize) -> f64| (0..omega.len()).map(|row| of(row).abs()).fold(0.0, f64::larger);
+        let time = |row: usize| found.times()[row] / 2.0;
+        let wanted = [
+            ("angle_rad", largest(&|row| omega[row] * time(row))),
+            ("omega_rad_s", largest(&|row| omega[row] / 2.0 + alpha[row] * time(row))),
+        ];
+        for (name, wanted) in wanted {
+            let channel = found.channels().iter().position(|own| own.to_string() == format!("link.rod.{name}"));
+            let found = sensitivity[channel.unwrap()];
+            assert!((found / wanted - 1.0).abs() < 1e-4, "{name}: {found} {wanted}");
+        }
+    }
+}

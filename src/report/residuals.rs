@@ -31,3 +31,33 @@ pub fn all(proof: &Proof) -> String {
     }
     format!("\n{}\n", trimmed(&table))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::proof::{Options, prove};
+    use crate::scenario::Scenario;
+
+    /// Residual, bound and what is used of it, line by line, in the order of the proof.
+    #[test]
+    fn every_residual_stands_beside_its_bound() {
+        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/crank_rocker.toml");
+        let proof = prove(&Scenario::load(&path).unwrap(), &Options::default().step(2e-3).sweeps(16)).unwrap();
+        let channels = proof.engines.iter().flat_map(|engine| &engine.channels);
+        let own_forces = proof.engines.iter().flat_map(|engine| engine.own_forces.iter().flat_map(|own| &own.channels));
+        let channels = channels.chain(own_forces).map(|own| ([own.residual.max, own.bound], own.verdict.word()));
+        let checks = proof.all_checks().map(|own| ([own.value, own.bound], own.verdict.word()));
+        let text = all(&proof);
+        let mut lines = text.lines().filter(|line| ["agree", "expected"].iter().any(|word| line.ends_with(word)));
+        for ([value, bound], verdict) in channels.chain(checks) {
+            let line = lines.next().unwrap();
+            let numbers: Vec<f64> = line.split_whitespace().filter_map(|cell| cell.parse().ok()).collect();
+            let found = &numbers[numbers.len() - 3..];
+            for (found, wanted) in found.iter().zip([value, bound, value / bound]) {
+                assert!((found - wanted).abs() <= 5e-3 * wanted.abs(), "{line}: {found} {wanted}");
+            }
+            assert!(line.ends_with(verdict), "{line}: {verdict}");
+        }
+        assert_eq!(lines.next(), None);
+    }
+}

@@ -33,7 +33,7 @@ pub fn load(path: &Path) -> Result<Raw> {
 pub fn load_within(path: &Path, may: May) -> Result<Raw> {
     let mut file = File::open(path).map_err(|error| unread(path, &error))?;
     let about = file.metadata().map_err(|error| unread(path, &error))?;
-    let size = about.is_file().then(|| about.len());
+    let size = about.is_file().then_some(about.len());
     // A pipe gives its first bytes once.
     let mut first = Vec::new();
     file.by_ref().take(MAGIC.len() as u64).read_to_end(&mut first).map_err(|error| unread(path, &error))?;

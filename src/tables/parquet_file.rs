@@ -5,7 +5,6 @@ mod thrift;
 
 use std::fmt::Display;
 use std::fs::File;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
 use parquet::basic::{Compression, ConvertedType, Type};
@@ -20,6 +19,7 @@ pub(super) use announced::MAGIC;
 use columns::{MISSING, Table, Twice, UNDEFINED};
 use formula::Rounded;
 use linkage::error::{Error, ErrorKind, Result};
+use linkage::quiet::guarded;
 
 /// Largest number of values that is read.
 const MOST: u64 = 1 << 26;
@@ -32,7 +32,7 @@ pub(super) fn read(path: &Path, size: u64, may: May) -> Result<Table> {
             .help("write it again, as Parquet or as CSV")
     };
     // The reader is given whatever a file claims to be.
-    match catch_unwind(AssertUnwindSafe(|| of_file(path, size, may))) {
+    match guarded(|| of_file(path, size, may)) {
         Ok(Ok(read)) => read,
         Ok(Err(error)) => Err(damaged(&error)),
         Err(_) => Err(damaged(&"its parts contradict each other")),
@@ -171,8 +171,9 @@ where
         let mut values = values.iter().map(|&value| number(value));
         let mut next =
             || values.next().ok_or_else(|| ParquetError::General("a column has fewer values than it says".into()));
-        for row in 0..read {
-            to.push(if full == 0 || levels[row] == full { next()? } else { MISSING });
+        // A column that must have values says nothing about each.
+        for level in levels.iter().copied().chain(std::iter::repeat(full)).take(read) {
+            to.push(if level == full { next()? } else { MISSING });
         }
     }
     Ok(())

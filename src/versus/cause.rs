@@ -339,3 +339,30 @@ impl Stage {
         diagnose(&question, &parties)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Within half a turn of zero, as many programs print angles.
+    fn wrapped(values: &[f64]) -> Vec<f64> {
+        values.iter().map(|value| value - TAU * (value / TAU).round()).collect()
+    }
+
+    #[test]
+    fn angles_go_on_where_they_were() {
+        let right: Vec<f64> = (0..60).map(|row| 0.3 + 0.25 * f64::from(row)).collect();
+        let twice: Vec<f64> = right.iter().map(|angle| 2.0 * angle - 0.3).collect();
+        for (meant, is_right) in [(&right, true), (&twice, false)] {
+            let mut values = wrapped(meant);
+            unwrap(&mut values, &right, is_right);
+            assert!(values.iter().zip(meant).all(|(a, b)| (a - b).abs() < 1e-12), "{is_right}: {values:?}");
+        }
+        // What was not wrapped stays, unless it is right but for turns.
+        for (is_right, turns) in [(false, 2.0), (true, 0.0)] {
+            let mut values: Vec<f64> = right.iter().map(|angle| angle + 2.0 * TAU).collect();
+            unwrap(&mut values, &right, is_right);
+            assert!(values.iter().zip(&right).all(|(a, b)| (a - b - turns * TAU).abs() < 1e-12), "{is_right}");
+        }
+    }
+}

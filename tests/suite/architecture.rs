@@ -40,6 +40,7 @@ const ROOMS: &[(&str, &str)] = &[
     ("linkage::math", ""),
     ("linkage::mechanism", "error math"),
     ("linkage::solver", "case error math mechanism trajectory"),
+    ("linkage::quiet", ""),
     ("linkage::trajectory", "error"),
     ("linkage::work", "error"),
     ("analytic::assur", "motion"),

@@ -249,3 +249,50 @@ fn a_column_of_zeros_is_exact_where_the_other_columns_leave_zeros_out() {
     let wrong = ["agree", "agree", "disagree", "agree", "agree", "disagree"];
     assert_eq!(verdicts("point.A.x_m", Format::General(9)), wrong);
 }
+
+/// Angles mean the same a whole turn apart: programs print them within one turn, or over many. A place does not.
+#[test]
+fn angles_may_be_whole_turns_apart() {
+    let scenario = text("scenarios/crank_rocker.toml");
+    let case = Scenario::parse(&scenario, Path::new("x.toml")).unwrap().case;
+    let turns: [fn(f64, f64) -> f64; 4] = [
+        |angle, turn| angle - turn * (angle / turn).floor(),
+        |angle, turn| angle - turn * (angle / turn).round(),
+        |angle, turn| angle + 3.0 * turn,
+        |angle, turn| angle - 2.0 * turn,
+    ];
+    let mut tables = Vec::new();
+    for instants in [(Format::General(15), 1.0, "t_s"), (Format::Shortest, 1.0, "crank_rad")] {
+        let mut table = Table::of(&case, instants, &mut Random(3));
+        let grid = match instants.2 {
+            "t_s" => Grid::of_times(case.crank(), table.at.clone()),
+            _ => Grid::of_cranks(case.crank(), table.at.clone()),
+        };
+        let right = analytic::AssurSolver.solve(&case.on(grid).unwrap()).unwrap();
+        table.columns.clear();
+        for link in ["crank", "coupler", "rocker"] {
+            for (unit, factor) in [("rad", 1.0), ("deg", 180.0 / std::f64::consts::PI)] {
+                let angles = right.named(&format!("link.{link}.angle_rad")).unwrap();
+                for of in turns {
+                    let angles =
+                        angles.iter().map(|angle| of(factor * angle, factor * std::f64::consts::TAU)).collect();
+                    table.columns.push((format!("link.{link}.angle_{unit}"), Format::Fixed(9), angles));
+                }
+            }
+        }
+        tables.push(table);
+    }
+    let found = checks(&scenario, &tables);
+    assert_eq!(found.len(), 2 * 2 * 24);
+    for check in found {
+        assert_eq!(check.verdict.word(), "agree", "{}", told(&check, &tables));
+    }
+    // A tenth of a degree off stays so, whatever turns there are besides.
+    for table in &mut tables {
+        table.columns.retain(|(channel, ..)| channel.ends_with("deg"));
+        table.columns.iter_mut().for_each(|(_, _, values)| values[7] += 720.1);
+    }
+    for check in checks(&scenario, &tables) {
+        assert_eq!(check.verdict.word(), "disagree", "{}", told(&check, &tables));
+    }
+}

@@ -116,8 +116,10 @@ fn regress_a_load_on_a_link_that_is_at_rest_while_others_move_agrees() {
         "type = \"moment\"\nlink = \"bob\"\nmoment_N_m = 0.8\nacts = \"clockwise\"",
         "type = \"moment\"\nlink = \"bob\"\nmoment_N_m = -0.8\nacts = \"counter-clockwise\"",
     ] {
-        let scenario = Scenario::parse(&text(load), Path::new("pendulum.toml")).unwrap_or_else(|error| panic!("{error}"));
-        let proof = linkproof::prove(&scenario, &linkproof::Options::default()).unwrap_or_else(|error| panic!("{error}"));
+        let scenario =
+            Scenario::parse(&text(load), Path::new("pendulum.toml")).unwrap_or_else(|error| panic!("{error}"));
+        let proof =
+            linkproof::prove(&scenario, &linkproof::Options::default()).unwrap_or_else(|error| panic!("{error}"));
         assert_eq!(proof.verdict.word(), "agree", "{load}: {:?}", proof.verdict);
     }
 }

@@ -280,7 +280,8 @@ fn cancellation_is_told() {
 /// Errors that are no small ones: the bound holds both ends of what is known of the arguments, whatever bends between.
 #[test]
 fn a_bound_holds_the_ends_of_wide_arguments() {
-    let wide: [(&str, [f64; 2], [f64; 2], fn(f64, f64) -> f64); 8] = [
+    type Case = (&'static str, [f64; 2], [f64; 2], fn(f64, f64) -> f64);
+    let wide: [Case; 8] = [
         ("ln(x)", [1.0, 0.5], [0.0, 0.0], |x, _| x.ln()),
         ("sqrt(x)", [1.0, 0.9], [0.0, 0.0], |x, _| x.sqrt()),
         ("exp(x)", [1.0, 2.0], [0.0, 0.0], |x, _| x.exp()),

@@ -15,6 +15,7 @@ pub mod error;
 pub mod fixtures;
 pub mod math;
 pub mod mechanism;
+pub mod quiet;
 pub mod solver;
 pub mod trajectory;
 pub mod work;

@@ -3,7 +3,6 @@
 
 use std::fmt;
 
-use super::quiet::guarded;
 use super::world::{LinkFrame, World, masses, opening};
 use linkage::case::Case;
 use linkage::drive::{Drive, DriveMotion, Wrench};
@@ -11,6 +10,7 @@ use linkage::engine::Settings;
 use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::{LinkPose, Side};
+use linkage::quiet::guarded;
 use linkage::solver::State;
 use linkage::work::{Count, Tally};
 

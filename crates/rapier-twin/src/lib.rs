@@ -17,7 +17,6 @@ mod native;
 pub mod newton_euler;
 mod noise;
 mod probe;
-mod quiet;
 mod rapier;
 mod ring;
 mod run;
@@ -29,5 +28,4 @@ pub mod world;
 
 pub use build::{Build, Precision};
 pub use linkage::mechanism::spanning_tree as tree;
-pub use quiet::is_guarded;
 pub use rapier::Rapier;

@@ -31,8 +31,11 @@ pub struct Good {
     pub table: Vec<u8>,
     pub positions: Vec<u8>,
     /// Outputs whose names the program makes up: the command, and its files.
-    pub older: Vec<(&'static str, Vec<(String, Vec<u8>)>)>,
+    pub older: Vec<(&'static str, Files)>,
 }
+
+/// Files by name, with their bytes.
+pub type Files = Vec<(String, Vec<u8>)>;
 
 /// Commands that make up names of files, so that they look at what is there already.
 pub const OLDER: [&str; 7] = [

@@ -140,7 +140,7 @@ fn a_mapping_that_has_no_value_in_a_row_is_refused() {
     let place = Place::new();
     std::fs::write(place.path("table.csv"), "time_s,a\n0,1.0\n0.1,-1.0\n0.2,\n").unwrap();
     let compare = "compare scenarios/crank_rocker.toml table.csv --rel 1 --map";
-    let words = ["in row 2 of the table sqrt(-1) is undefined", "zero or a positive number", "leave the row out"];
+    let words = ["in line 3 of the table sqrt(-1) is undefined", "zero or a positive number", "leave the row out"];
     place.refused(&format!("{compare} a+0*sqrt(a)=link.crank.angle_deg"), &words);
     assert_ne!(place.run(&format!("{compare} a+0*sqrt(a+2)=link.crank.angle_deg")).code, 2);
 }

@@ -171,6 +171,29 @@ fn samples_are_numbered_from_zero_and_fields_from_one() {
     assert!(sequences.values().all(|own| own.iter().copied().eq(0..81)), "{:?}", sequences.keys());
 }
 
+/// A grid may list its instants in any order: samples are numbered and written by time, and read back as they were.
+#[test]
+fn rows_of_any_order_are_numbered_by_their_times() {
+    let times: Vec<f64> = (0..40).map(|k| START + TAU / OMEGA * f64::from((7 * k + 3) % 40) / 40.0).collect();
+    let run = Run { show: Show { slow: SLOW, ..Show::default() }, ..Run::over(times.clone()) };
+    let (_directory, path, bytes) = written(&run);
+    let mut stamps: BTreeMap<String, Vec<(u32, u64)>> = BTreeMap::new();
+    for message in mcap::MessageStream::new(&bytes).unwrap().map(Result::unwrap) {
+        let topic = message.channel.topic.clone();
+        if topic.starts_with("/reference/") || topic.starts_with("/error/") {
+            stamps.entry(topic).or_default().push((message.sequence, message.log_time));
+        }
+    }
+    let log_time = |k: u32| (TAU / OMEGA * f64::from(k) / 40.0 * SLOW * 1e9).round() as u64;
+    for (topic, own) in &stamps {
+        assert_eq!(own.len(), 40, "{topic}");
+        let is_in_order = |(k, (sequence, time)): (u32, &(u32, u64))| *sequence == k && time.abs_diff(log_time(k)) <= 1;
+        assert!((0..).zip(own).all(is_in_order), "{topic}: {own:?}");
+    }
+    assert!(stamps.len() > 10);
+    assert_eq!(load(&path).unwrap()[0].1.times(), times);
+}
+
 #[test]
 fn a_film_is_the_motion_the_forces_and_the_curves_of_its_recording() {
     let run = run();

@@ -166,7 +166,7 @@ fn hostile_inputs_end_in_little_time_and_memory_and_change_no_file_of_others() {
     // A door at which everything is refused at once is no door that was tried.
     let is_tried = |door: usize| endings.keys().any(|&(own, code)| own == door && code != 2);
     let untried: Vec<&str> = (0..DOORS.len()).filter(|&door| !is_tried(door)).map(|door| DOORS[door]).collect();
-    assert!(untried.is_empty() || count < FEW, "everything is refused at {untried:?}");
+    assert!(untried.is_empty() || count < FEW || from > 0, "everything is refused at {untried:?}");
     assert!(failures.is_empty(), "{} of {count}:\n{}", failures.len(), failures.join("\n"));
 }
 

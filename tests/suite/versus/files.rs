@@ -349,3 +349,11 @@ fn other_programs_read_the_verdicts() {
         place.refused(&format!("{line} --write-map {target}"), &["--write-map", words]);
     }
 }
+
+/// Symptom: the reader's panic over a page of a dictionary that is not there was caught, and printed all the same.
+#[test]
+fn regress_a_panic_of_the_parquet_reader_is_a_message() {
+    let place = Place::new();
+    fs::write(place.path("x.parquet"), Announced { encoding: 2, ..Announced::zeros(1000) }.file()).unwrap();
+    place.refused("compare x.parquet x.parquet", &["x.parquet is cut off or damaged", "contradict each other"]);
+}

@@ -237,6 +237,24 @@ fn two_tables_in_different_units_are_compared_in_one() {
     assert_eq!(verdict(of("point.B.x_m", 1.0), late("time_ms")), "agree");
     let both = [of("point.B.x_m", 1.0), late("time_s")];
     assert!(compared(both, &rel(1e-9)).map_or(true, |found| found.verdict.word() != "agree"));
+    // Another unit leaves no more open than rounding: a last number that is off by a ten-millionth is found.
+    for (instants, name, factor) in [
+        ("t", "point.B.x_m", 1.0),
+        ("t", "point.B.x_mm", 1e3),
+        ("time_ms", "point.B.x_m", 1.0),
+        ("time_ms", "point.B.x_mm", 1e3),
+    ] {
+        let with = |more: f64| {
+            let mut values = x(factor);
+            *values.last_mut().unwrap() *= 1.0 + more;
+            let times = if instants == "t" { right.times().to_vec() } else { ms.clone() };
+            held(&table(&[(instants, times), (name, values)]))
+        };
+        for (more, word) in [(0.0, "agree"), (1e-7, "disagree"), (-1e-7, "disagree")] {
+            assert_eq!(verdict(of("point.B.x_m", 1.0), with(more)), word, "{instants} {name} {more}");
+            assert_eq!(verdict(with(more), of("point.B.x_m", 1.0)), word, "{instants} {name} {more}");
+        }
+    }
 }
 
 #[test]

@@ -137,11 +137,7 @@ impl Search<'_, '_> {
 
     /// Notes a part over which nothing is proven.
     fn leave(&mut self, part: Part) {
-        let [from, to] = self.tubes.ends(part);
-        match self.open.last_mut() {
-            Some(last) if last[1] == from => last[1] = to,
-            _ => self.open.push([from, to]),
-        }
+        self.open.push(self.tubes.ends(part));
     }
 
     /// Follows the distance down to its minimum beside the best instant.

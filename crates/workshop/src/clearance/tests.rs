@@ -11,7 +11,7 @@ use super::tube::Tubes;
 use super::*;
 
 /// Slider-crank along x: crank 0.1 m, rod 0.3 m.
-fn slider_crank() -> Case {
+pub(super) fn slider_crank() -> Case {
     let case = Case::builder()
         .ground(&[("O", [0.0, 0.0])])
         .link("crank", &[("O", [0.0, 0.0]), ("A", [0.1, 0.0])])
@@ -190,6 +190,40 @@ fn a_distance_is_proven_but_for_rounding() {
     // The post stands still, and the nearest points are on the crank's line and on the post.
     let expected = 0.3 - 0.1 * 0.3f64.sin() - 0.02;
     assert!(found.now > expected - 0.01 && found.now - found.least >= 1.99 * rounding, "{found:?} {rounding}");
+}
+
+/// A polygon is the same in either sense: counter-clockwise corners, parts that cover it, and distances from it.
+#[test]
+fn a_polygon_is_the_same_in_either_sense() {
+    let angle = [(0.0, 0.0), (0.3, 0.0), (0.3, 0.1), (0.1, 0.1), (0.1, 0.4), (0.0, 0.4)].map(|(x, y)| Vec2::new(x, y));
+    let mut back = angle;
+    back.reverse();
+    let [one, other] = [&angle, &back].map(|corners| Outline::polygon(corners, 0.01).unwrap());
+    assert_eq!((one.corners(), one.radius()), (&angle[..], 0.01));
+    assert_eq!(one, other);
+    let area = |part: &Vec<Vec2>| {
+        let around = |k: usize| linkage::math::cross(part[k], part[(k + 1) % part.len()]) / 2.0;
+        (0..part.len()).map(around).sum::<f64>()
+    };
+    assert!((one.parts().iter().map(area).sum::<f64>() - 0.06).abs() < 1e-15);
+    for (x, y, wanted) in [(0.05, 0.2, -0.06), (0.2, 0.2, 0.09), (0.2, -0.1, 0.09), (0.25, 0.05, -0.06)] {
+        assert!((other.distance(Vec2::new(x, y)).0 - wanted).abs() < 1e-15, "{x} {y}");
+    }
+}
+
+/// A double knows a place at a thousand metres to a thousand times its epsilon, whichever body's or link's it is.
+#[test]
+fn rounding_goes_with_the_farthest_place() {
+    let case = slider_crank();
+    let near = question(&case, 0.01, &[]);
+    let mut far = question(&case, 0.01, &[("post", line(&[(0.0, 1e3)], 0.01))]);
+    far.pairs = vec![[0, 3]];
+    let rounding = |case: &Case, asked: &Question| Tubes::new(case, [0.0, TAU], asked.extent()).unwrap().rounding();
+    let least = 1e3 * f64::EPSILON;
+    assert!(rounding(&case, &near) < 0.1 * least && rounding(&case, &far) > least);
+    far.bodies.swap_remove(3);
+    far.bodies[0].outline = line(&[(0.0, 1e3)], 0.01);
+    assert!(rounding(&case, &far) > least);
 }
 
 #[test]

@@ -1,8 +1,40 @@
 //! Sides that pass over discs, against samples of both.
 
+use std::f64::consts::TAU;
+
 use linkage::math::unit;
 
+use super::super::tests::slider_crank;
 use super::*;
+
+/// A crank of 0.1 m, rounded by 0.02 m, sweeps a disc of 0.12 m: no square that is covered sticks out of it, and none
+/// that is free reaches into it.
+#[test]
+fn squares_are_covered_or_free_with_all_their_corners() {
+    let case = slider_crank();
+    let mut tubes = Tubes::new(&case, [0.0, TAU], 0.12).unwrap();
+    let outline = Outline::line(&[Vec2::new(0.0, 0.0), Vec2::new(0.1, 0.0)], 0.02).unwrap();
+    let mut sweep = Sweep::new(&mut tubes, 1, &outline);
+    let near = sweep.sound_parts().unwrap();
+    let mut counts = [0; 3];
+    for half in [4e-3, 1e-3] {
+        for (k, direction) in (0..25).flat_map(|k| (0..16).map(move |direction| (k, direction))) {
+            let centre = unit(TAU * f64::from(direction) / 16.0) * (0.12 + half * (f64::from(k) - 12.0) / 6.0);
+            let far = (centre.abs() + Vec2::repeat(half)).norm();
+            let close = (centre.abs() - Vec2::repeat(half)).map(|x| x.larger(0.0)).norm();
+            let found = sweep.judge(centre, half, &near).unwrap();
+            let kind = match found {
+                Square::Covered => 0,
+                Square::Free => 1,
+                Square::Border(..) => 2,
+            };
+            counts[kind] += 1;
+            assert!(kind != 0 || far <= 0.12, "covered, but {far} m away: {centre} {half}");
+            assert!(kind != 1 || close >= 0.12, "free, but {close} m away: {centre} {half}");
+        }
+    }
+    assert!(counts.iter().all(|count| *count > 100), "{counts:?}");
+}
 
 /// A side that passes has every place of the disc on one side first and on the other at the end, and between its ends
 /// all the time, wherever its ends are within their errors.

@@ -161,6 +161,8 @@ fn points_stay_within_the_error_of_their_tracks() {
             let by = distance(half, &mut random);
             let off = point(&tube, place(&tube, by, &mut random), local) - track.at - track.rate * by;
             assert!(off.norm() <= track.error * (1.0 + 1e-12) + 1e-15, "{off} {track:?} {tube:?}");
+            let moved = (off + track.rate * by).norm();
+            assert!(moved <= track.reach(half) * (1.0 + 1e-12) + 1e-15, "{moved} {track:?} {tube:?}");
         }
     }
 }

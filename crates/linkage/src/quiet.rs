@@ -1,4 +1,4 @@
-//! Panics inside the engine are caught and become an error's message.
+//! Panics inside an engine, or inside a reader of files, are caught and become an error's message.
 //! The panic hook belongs to the process, not to a library.
 //! A program can ask here which panics need no output of their own.
 
@@ -11,7 +11,7 @@ thread_local! {
     static GUARDED: Cell<bool> = const { Cell::new(false) };
 }
 
-/// Whether the current thread is inside a step of the engine whose panic is caught and becomes an error.
+/// Whether the current thread is inside a call, such as a step of the engine, whose panic is caught and becomes an error.
 ///
 /// A program may ask this in its panic hook and print nothing then: the error contains the panic's message.
 /// The hook runs on the thread that panics, before the panic is caught.
@@ -22,7 +22,10 @@ pub fn is_guarded() -> bool {
 }
 
 /// Runs `action` and catches its panic. During the call [`is_guarded`] is true.
-pub(super) fn guarded<R>(action: impl FnOnce() -> R) -> thread::Result<R> {
+///
+/// # Errors
+/// What the panic was given, as of [`catch_unwind`].
+pub fn guarded<R>(action: impl FnOnce() -> R) -> thread::Result<R> {
     let before = GUARDED.replace(true);
     let outcome = catch_unwind(AssertUnwindSafe(action));
     GUARDED.set(before);
