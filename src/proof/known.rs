@@ -67,10 +67,11 @@ fn lever(case: &Case, groups: &[usize]) -> f64 {
 /// times.
 const PLACES: f64 = 4.0;
 
-/// By what the rounding of places is more than that of a link of its size: a group far from the origin is known to the
-/// last digit of that distance, its angles to as much over the distance of a link's pins. Every group adds its rounding
-/// to that of the groups before it, and they know nothing of each other: as the root of their number.
-fn placed(case: &Case, groups: &[usize]) -> f64 {
+/// Rounding of the places of groups (m, in units of [`ULPS`]), and the shortest distance between the pins of a link (m):
+/// a group far from the origin is known to the last digit of that distance, its angles to as much over the distance of
+/// a link's pins. Every group adds its rounding to that of the groups before it, and they know nothing of each other: as
+/// the root of their number.
+fn placed(case: &Case, groups: &[usize]) -> [f64; 2] {
     let (mut far, mut arm) = (0.0f64, f64::INFINITY);
     for group in groups.iter().map(|&group| &case.structure.groups[group]) {
         let joints = || group.inner.iter().chain(&group.outer).map(|&joint| &case.mechanism.joints()[joint]);
@@ -83,7 +84,7 @@ fn placed(case: &Case, groups: &[usize]) -> f64 {
             arm = if apart > 0.0 { arm.smaller(apart) } else { arm };
         }
     }
-    PLACES / ULPS * (groups.len() as f64).sqrt() * far / arm
+    [PLACES / ULPS * (groups.len() as f64).sqrt() * far, arm]
 }
 
 /// Errors allowed to the analytic sides, channel by channel. Each is judged by the numbers that it is made of: near a
@@ -99,7 +100,7 @@ pub(super) struct Known {
     /// Condition number of the pose at every instant, so far in a motion under forces, for every set of groups; empty
     /// as long as nobody needs it.
     conditions: Vec<Vec<f64>>,
-    /// For every set of groups: see [`lever`] and [`placed`].
+    /// For every channel: see [`lever`] and [`placed`].
     levers: Vec<f64>,
     /// Size of the crank angle at every instant of a prescribed motion (rad): it is a double, and both sides get it.
     turned: Vec<f64>,
@@ -147,7 +148,15 @@ impl Known {
             false => case.grid.cranks.iter().map(|crank| crank.abs()).collect(),
         };
         let is_angle = reference.1.channels().iter().map(|channel| channel.kind.unit == Unit::Radian).collect();
-        let levers = dependence.sets.iter().map(|set| lever(case, set).larger(placed(case, set))).collect();
+        let of_sets: Vec<_> = dependence.sets.iter().map(|set| (lever(case, set), placed(case, set))).collect();
+        let own = reference.1.channels().iter().zip(&dependence.of).zip(&magnitudes);
+        let lever_of = |((channel, &set), &magnitude): ((&Channel, &usize), &f64)| {
+            let (lever, [places, arm]) = of_sets[set];
+            // The numbers of coordinates have the distance from the origin in them already.
+            let over = if channel.kind.unit == Unit::Metre { arm.larger(magnitude) } else { arm };
+            lever.larger(places / over)
+        };
+        let levers = own.map(lever_of).collect();
         Ok(Known { magnitudes, integration, dependence, conditions: Vec::new(), levers, turned, is_angle })
     }
 
@@ -197,7 +206,7 @@ impl Known {
         // The crank angle is rounded before either side begins: what it leaves is felt like any error of a position.
         let turned = self.turned.get(row).filter(|_| !self.is_angle[channel]);
         let turned = turned.map_or(0.0, |turned| f64::EPSILON * turned * condition.powi(power(stage)));
-        usual(stage).larger(self.levers[set] * of_condition(stage, condition)) + turned
+        usual(stage).larger(self.levers[channel] * of_condition(stage, condition)) + turned
     }
 
     /// Relative difference allowed between the sides in a channel of a stage at an instant.
@@ -369,6 +378,9 @@ mod tests {
                 beyond += usize::from(relative > usual(stage));
                 // A fault of a fixed size is found: a ten-millionth, where the last digit of a place is 1.5e-11 m.
                 assert!(apart < 1e-7, "{count} from {from} m, {channel}: {apart:e}");
+                // That digit and no more: what is known of a coordinate does not go by the distance twice.
+                let coordinate = channel.kind.unit == Unit::Metre;
+                assert!(!coordinate || apart < 1.1e-12, "{count} from {from} m, {channel}: {apart:e}");
             }
         }
         assert!(beyond > 0, "no row needs more than what is usual");
