@@ -402,7 +402,6 @@ mod tests {
             ("point.B.x_mm", Some(1.0)),
             ("2*point.B.x_m", Some(2.0)),
             ("point.B.x_m", Some(4.0)),
-            ("point.B.x_cm", Some(0.1)),
             ("joint.A.f_N", Some(5.0)),
             ("joint.A.fx_N", None),
             ("joint.B.f_N", None),
