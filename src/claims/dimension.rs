@@ -225,7 +225,7 @@ mod tests {
         for (text, wanted) in [
             ("m*l/t^2", Some(force)),
             ("-(m*l)/t/t", Some(force)),
-            ("m*l*t^-2 + m/t*(l/t)", Some(force)),
+            ("m*l*t^2 - m*t^2*l", Some([1.0, 1.0, 2.0])),
             ("m/(t*t/l)", Some(force)),
             ("1/t", Some([0.0, 0.0, -1.0])),
             ("2*l - l/3", Some([0.0, 1.0, 0.0])),
