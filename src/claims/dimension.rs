@@ -163,6 +163,16 @@ fn same(one: Known, other: Known) -> Result<Known, Unsound> {
     }
 }
 
+/// The number that an exponent is, as `2`, `-2` or `1/2`; `None` for anything else.
+fn number(tree: &Tree) -> Option<f64> {
+    match &tree.shape {
+        Shape::Number(value) => Some(*value),
+        Shape::Negative(part) => Some(-number(part)?),
+        Shape::Pair(Operator::Over, parts) => Some(number(&parts[0])? / number(&parts[1])?),
+        Shape::Pair(..) | Shape::Name(_) | Shape::Call(..) => None,
+    }
+}
+
 fn of_tree(tree: &Tree, named: &dyn Fn(&str) -> Known) -> Result<Known, Unsound> {
     let both = |one: Known, other: Known, sign: f64| {
         let [one, other] = [one?, other?];
@@ -175,12 +185,12 @@ fn of_tree(tree: &Tree, named: &dyn Fn(&str) -> Known) -> Result<Known, Unsound>
         Shape::Negative(part) => of_tree(part, named)?,
         Shape::Pair(operator, parts) => {
             let (left, right) = (of_tree(&parts[0], named)?, of_tree(&parts[1], named)?);
-            match (operator, &parts[1].shape) {
+            match (operator, number(&parts[1])) {
                 (Operator::Plus | Operator::Minus, _) => same(left, right)?,
                 (Operator::Times, _) => both(left, right, 1.0),
                 (Operator::Over, _) => both(left, right, -1.0),
-                (Operator::Power, Shape::Number(power)) => left.map(|left| left.map(|own| power * own)),
-                (Operator::Power, _) => same(left, Some(NONE))?.and(same(right, Some(NONE))?),
+                (Operator::Power, Some(power)) => left.map(|left| left.map(|own| power * own)),
+                (Operator::Power, None) => same(left, Some(NONE))?.and(same(right, Some(NONE))?),
             }
         }
         Shape::Call(function, arguments) => {
@@ -226,6 +236,7 @@ mod tests {
             ("m*l/t^2", Some(force)),
             ("-(m*l)/t/t", Some(force)),
             ("m*l*t^-2 + m/t*(l/t)", Some(force)),
+            ("(l^2)^(1/2) - l^(-1)*l^2", Some([0.0, 1.0, 0.0])),
             ("m/(t*t/l)", Some(force)),
             ("1/t", Some([0.0, 0.0, -1.0])),
             ("2*l - l/3", Some([0.0, 1.0, 0.0])),

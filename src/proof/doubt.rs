@@ -211,11 +211,11 @@ mod tests {
             let reverses = |row: &usize| omega[*row] * omega[*row + 1] < 0.0;
             let reversals: Vec<f64> = (1..times.len() - 1).filter(reverses).map(|row| times[row]).collect();
             assert_eq!(reversals.len(), 2, "{reversals:?}");
-            for (row, kept) in doubt.keeps(Stage::Reactions).into_iter().enumerate() {
-                // At the beginning it rests.
-                let away = reversals.iter().map(|t| (times[row] - t - 5e-4).abs()).fold(times[row], f64::smaller);
-                assert!(away > reach + 1e-3 || !kept, "{route:?}: {} s", times[row]);
-                assert!(away < reach - 1e-3 || kept || row == 0, "{route:?}: {} s", times[row]);
+            // At the beginning it rests.
+            for (row, kept) in doubt.keeps(Stage::Reactions).into_iter().enumerate().skip(30) {
+                let away = reversals.iter().map(|t| (times[row] - t - 5e-4).abs()).fold(f64::INFINITY, f64::smaller);
+                assert!(away > reach - 1e-3 || !kept, "{route:?}: {} s", times[row]);
+                assert!(away < reach + 1e-3 || kept, "{route:?}: {} s", times[row]);
             }
             assert_eq!(doubt.keeps(Stage::Accelerations), doubt.keeps(Stage::Reactions), "{route:?}");
         }

@@ -43,12 +43,15 @@ mod tests {
     fn every_residual_stands_beside_its_bound() {
         let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/crank_rocker.toml");
         let proof = prove(&Scenario::load(&path).unwrap(), &Options::default().step(2e-3).sweeps(16)).unwrap();
-        let channels = proof.engines.iter().flat_map(|engine| &engine.channels);
-        let own_forces = proof.engines.iter().flat_map(|engine| engine.own_forces.iter().flat_map(|own| &own.channels));
-        let channels = channels.chain(own_forces).map(|own| ([own.residual.max, own.bound], own.verdict.word()));
+        let channels = proof
+            .engines
+            .iter()
+            .flat_map(|engine| engine.channels.iter().chain(engine.own_forces.iter().flat_map(|own| &own.channels)));
+        let channels = channels.map(|own| ([own.residual.max, own.bound], own.verdict.word()));
         let checks = proof.all_checks().map(|own| ([own.value, own.bound], own.verdict.word()));
         let text = all(&proof);
-        let mut lines = text.lines().filter(|line| ["agree", "expected"].iter().any(|word| line.ends_with(word)));
+        let verdicts = ["agree", "disagree", "inconclusive", "expected"];
+        let mut lines = text.lines().filter(|line| verdicts.iter().any(|word| line.ends_with(word)));
         for ([value, bound], verdict) in channels.chain(checks) {
             let line = lines.next().unwrap();
             let numbers: Vec<f64> = line.split_whitespace().filter_map(|cell| cell.parse().ok()).collect();
