@@ -365,7 +365,7 @@ mod tests {
         let motion = Wanted::of(&[Stage::Positions, Stage::Velocities, Stage::Accelerations]);
         let mut beyond = 0;
         for (count, from) in [(1, 1e5), (20, 0.0), (20, 1e3), (20, 1e5)] {
-            let case = row(count, from, &[85.0, 90.0, 95.0].map(f64::to_radians)).wanting(motion.clone());
+            let case = row(count, from, &[85.0, 90.0, 95.0].map(f64::to_radians)).wanting(motion);
             let sides: [&dyn Solver; 2] = [&AssurSolver, &NewtonSolver];
             let [own, other] = sides.map(|side| side.solve(&case).unwrap());
             let mut known = Known::of(&case, [("assur", &own), ("newton", &other)], &[]).unwrap();

@@ -359,7 +359,7 @@ impl<'a> Reader<'a> {
             if used.iter().any(|&index| is_missing(&inputs[index])) {
                 return Ok(MISSING);
             }
-            let found = program.run(&inputs)[0];
+            let found = program.run(inputs)[0];
             if found.is_undefined() && used.iter().all(|&index| !inputs[index].is_undefined()) {
                 let of = |name: &str| column(name).map_or(Rounded::nearly(std::f64::consts::PI), |own| inputs[own]);
                 if let Err(fault) = tree.evaluated(&of) {

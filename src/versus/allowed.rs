@@ -57,7 +57,6 @@ impl How {
     }
 
     /// Whether a channel is asked for.
-    #[must_use]
     pub fn asked(&self) -> impl Fn(&Claim) -> bool + use<> {
         let words = Words::of(self.only.iter().map(String::as_str).enumerate());
         let is_all = self.only.is_empty();
