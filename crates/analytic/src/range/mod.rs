@@ -91,7 +91,7 @@ impl Range {
     ///
     /// # Errors
     /// [`ErrorKind::Geometry`] if the start pose is singular, [`ErrorKind::Numeric`] if the branch cannot be followed,
-    /// [`ErrorKind::Unsupported`] if that is more work than [`limited`](linkage::work::limited) allows.
+    /// [`ErrorKind::Unsupported`] if that is more work than [`limited`] allows.
     pub fn of(case: &Case) -> Result<Self> {
         let (tracker, start) = Tracker::new(case)?;
         let (points, extent) = both_ways(&tracker, &start)?;
