@@ -228,6 +228,8 @@ proptest! {
         let theirs = [theirs.eval(&[x, y]).unwrap(), theirs.partial(1).unwrap().eval(&[x, y]).unwrap()];
         for (ours, theirs) in [first, mixed].into_iter().zip(theirs) {
             prop_assume!(theirs.is_finite() && ours.error < 1e-6 * (1.0 + ours.value.abs()));
+            // exmex squares what it divides by, and loses digits where the square is a subnormal number.
+            prop_assume!(ours.value.abs() < 1e100);
             let bound = (ours.error + 1e-12 * ours.value.abs()) * 1e3 + 1e-9;
             prop_assert!((ours.value - theirs).abs() <= bound, "{}: {:?} {}", tree, ours, theirs);
         }
