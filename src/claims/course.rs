@@ -250,14 +250,13 @@ fn missing(what: &dyn std::fmt::Display) -> Error {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scenario::Scenario;
+    use crate::scenario::of_repository;
     use linkage::solver::Solver;
 
     /// The larger of what is known at an instant and at all, in the unit of the claim.
     #[test]
     fn no_channel_is_known_better_than_its_limit() {
-        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/crank_rocker.toml");
-        let case = Scenario::load(&path).unwrap().case;
+        let case = of_repository("scenarios/crank_rocker.toml").case;
         let claim = Claim::parse("link.rocker.angle_deg", &case).unwrap();
         let trajectory = analytic::AssurSolver.solve(&case).unwrap();
         let is_own = |channel: &Channel| *channel == claim.channels[0].1.channel;
@@ -272,11 +271,11 @@ mod tests {
             }
         }
     }
+
     /// The root of the squares of both components, with the errors of both.
     #[test]
     fn a_magnitude_is_known_as_well_as_its_components() {
-        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/crank_rocker.toml");
-        let case = Scenario::load(&path).unwrap().case;
+        let case = of_repository("scenarios/crank_rocker.toml").case;
         let claim = Claim::parse("joint.A.f_N", &case).unwrap();
         let trajectory = analytic::AssurSolver.solve(&case).unwrap();
         let [x, y] = ["joint.A.fx_N", "joint.A.fy_N"].map(|name| trajectory.named(name).unwrap());

@@ -194,14 +194,13 @@ impl Judged {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scenario::{Formulas, Scenario};
+    use crate::scenario::{Formulas, of_repository};
 
     /// Errors of a formula and of the mechanism, as shares of the scale: a formula that is known much worse than the
     /// mechanism, and to less than six digits, says nothing.
     #[test]
     fn digits_are_lost_only_where_the_mechanism_has_them() {
-        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/crank_rocker.toml");
-        let case = Scenario::load(&path).unwrap().case;
+        let case = of_repository("scenarios/crank_rocker.toml").case;
         let claim = Claim::parse("link.rocker.omega_rad_s", &case).unwrap();
         let mut formulas = Formulas::over(Vec::new());
         let formula = formulas.add("f", "2").unwrap();

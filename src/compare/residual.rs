@@ -397,7 +397,7 @@ mod tests {
         let built = Built { length: 0.5, speed: 4.0, force: 30.0 };
         let found = scales_beyond(&[1e-10; 5], &still, &built);
         assert_eq!(found, [1e-3, 0.1 * 4.0, 0.1 * 16.0 * 0.5, 0.1 * 30.0, 0.1 * 15.0]);
-        // A size of its own, however small, stays: only rounding of what the case is built for is none.
+        // A size stays, however small, unless it is rounding of what the case is built for.
         assert_eq!([3e-9, 4e-8, 1.0].map(|own| built.unless(own, Unit::Newton)), [30.0, 4e-8, 1.0]);
     }
 

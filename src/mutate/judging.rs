@@ -1,8 +1,6 @@
 //! Judgement by part: one thing wrong at a time, by a size that no bound decides, and what must see it.
 //! A bound that is a thousand times too wide, or a comparison that is left out, fails here.
 
-use std::path::Path;
-
 use super::kinds::{At, Family, Kind, Plant};
 use super::mutant::Party;
 use super::planted::Fault;
@@ -10,7 +8,7 @@ use super::seen::Outcome;
 use super::stage::Stage;
 use crate::compare::Verdict;
 use crate::proof::Options;
-use crate::scenario::Scenario;
+use crate::scenario::{Scenario, of_repository};
 use linkage::case::Wanted;
 use linkage::math::Vec2;
 use linkage::mechanism::GROUND;
@@ -28,9 +26,8 @@ fn fault(kind: &'static Kind) -> Fault {
 }
 
 fn scenario(name: &str) -> Scenario {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios").join(format!("{name}.toml"));
     // Numbers from outside are judged elsewhere.
-    Scenario { oracles: Vec::new(), ..Scenario::load(&path).unwrap_or_else(|error| panic!("{error}")) }
+    Scenario { oracles: Vec::new(), ..of_repository(&format!("scenarios/{name}.toml")) }
 }
 
 fn at_row(at: At, row: usize, change: impl FnOnce()) -> Option<()> {

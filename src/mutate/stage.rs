@@ -120,7 +120,7 @@ impl<'a> Stage<'a> {
             Party::Assur | Party::Newton => self.in_side(fault, party),
             Party::Engine => self.in_engine(fault),
             Party::All => self.in_all(fault),
-            Party::Formulas => Ok(Outcome::Refused("formulas have mistakes of their own".into())),
+            Party::Formulas => Ok(Outcome::Refused("mistakes of formulas are planted in formulas".into())),
         };
         outcome.unwrap_or_else(|error| Outcome::Refused(error.message().into()))
     }

@@ -1,5 +1,4 @@
 use std::collections::BTreeSet;
-use std::path::Path;
 
 use super::kinds::{all, named};
 use super::mutant::Party;
@@ -8,13 +7,12 @@ use super::planted::Fault;
 use super::seen::Outcome;
 use super::stage::Stage;
 use crate::proof::Options;
-use crate::scenario::Scenario;
+use crate::scenario::{Scenario, of_repository};
 use linkage::drive::load::Acts;
 use linkage::drive::{Course, Load};
 
 fn scenario(name: &str) -> Scenario {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios").join(format!("{name}.toml"));
-    Scenario::load(&path).unwrap_or_else(|error| panic!("{error}"))
+    of_repository(&format!("scenarios/{name}.toml"))
 }
 
 fn fault(name: &str, size: Option<f64>) -> Fault {

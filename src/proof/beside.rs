@@ -175,15 +175,14 @@ fn deviations(truth: &Trajectory, own: &Trajectory, known: &Known) -> Result<Vec
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scenario::Scenario;
+    use crate::scenario::of_repository;
     use analytic::AssurSolver;
     use linkage::case::Grid;
 
     /// At one instant between others, in every channel.
     #[test]
     fn numbers_from_outside_that_are_off_at_one_instant_are_seen() {
-        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/crank_rocker.toml");
-        let case = Scenario::load(&path).unwrap().case;
+        let case = of_repository("scenarios/crank_rocker.toml").case;
         let cranks = [0.0, 1.0, 2.0, 3.0].to_vec();
         let case = case.on(Grid::of_cranks(case.crank(), cranks)).unwrap();
         let right = AssurSolver.solve(&case).unwrap();

@@ -12,9 +12,6 @@ use analytic::range::explained;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::trajectory::Channel;
 
-/// Most operations of a search for causes after which all of it is done once more, with more channels.
-const AGAIN: u64 = MOST_WORK;
-
 /// What formulas come to on both sides.
 #[derive(Clone, Debug)]
 pub struct Claimed {
@@ -53,7 +50,8 @@ pub fn judge(scenario: &Scenario) -> Result<Claimed> {
     let mut sides = solved(scenario, &asked)?;
     let is_open = |own: &Judgement| {
         let mut causes = own.causes.iter();
-        own.work <= AGAIN
+        // A search that was long is not done once more with more channels.
+        own.work <= MOST_WORK
             && causes.any(|(name, cause)| !cause.as_ref().is_some_and(Cause::is_whole) && !own.unsought.contains(name))
     };
     if let Some(own) = sides.judgement.as_mut().filter(|own| is_open(own)) {

@@ -96,16 +96,14 @@ impl<'a> Places<'a> {
 
 #[cfg(test)]
 mod tests {
-    use std::path::Path;
 
     use super::*;
-    use crate::scenario::Scenario;
+    use crate::scenario::of_repository;
     use crate::solve;
 
     #[test]
     fn motions_depend_on_the_groups_before_and_forces_on_all() {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/ov7_base.toml");
-        let case = Scenario::load(&path).unwrap().case;
+        let case = of_repository("scenarios/ov7_base.toml").case;
         let solved = solve(&case).unwrap();
         let found = Dependence::of(&case, solved.channels());
         let groups = case.structure.groups.len();

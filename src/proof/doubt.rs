@@ -198,6 +198,7 @@ mod tests {
     fn rates_beside_a_jump_of_the_acceleration_are_left_out() {
         assert_eq!(left_out("tests/outside/scenarios/ramped_arm.toml"), ([3, 0], 0.0));
     }
+
     /// A pendulum with friction, let go at rest, reverses twice in three seconds. Impulses are read from six steps, one
     /// step late: five of the longest steps, 11 ms, are in doubt. Second differences are for 17.6 ms.
     #[test]

@@ -100,13 +100,12 @@ fn side_bounds(sides: &[(&'static str, Observed); 2], known: &Known) -> Vec<Judg
 
 #[cfg(test)]
 mod tests {
-    use std::path::Path;
 
     use super::*;
     use crate::diagnosis::{Cause, Plain, Slip};
     use crate::proof::observe::{Watch, observe};
     use crate::proof::{Options, prove};
-    use crate::scenario::Scenario;
+    use crate::scenario::of_repository;
     use analytic::{AssurSolver, NewtonSolver};
 
     /// The same observations with the opposite balancing moment in the trajectory.
@@ -126,8 +125,7 @@ mod tests {
     /// The engine decides between the two sides, and the cause is named for the one that is wrong.
     #[test]
     fn a_side_that_the_other_side_and_the_engine_contradict_stands_alone() {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/crank_rocker.toml");
-        let scenario = Scenario::load(&path).unwrap();
+        let scenario = of_repository("scenarios/crank_rocker.toml");
         let case = &scenario.case;
         let right = prove(&scenario, &Options::default()).unwrap();
         assert!(right.diagnosis.is_none());

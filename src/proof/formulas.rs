@@ -103,13 +103,12 @@ fn place(since: &At) -> String {
 mod tests {
     use super::*;
     use crate::proof::claimed::judge;
-    use crate::scenario::{Claim, Scenario};
+    use crate::scenario::{Claim, of_repository};
 
     /// Below 0.5 rad the formula has no value, but its rates have one, and are wrong by something else.
     #[test]
     fn only_the_value_is_said_to_be_undefined() {
-        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/crank_rocker.toml");
-        let mut scenario = Scenario::load(&path).unwrap();
+        let mut scenario = of_repository("scenarios/crank_rocker.toml");
         let claim = Claim::parse("link.crank.angle_deg", &scenario.case).unwrap();
         scenario.formulas.add("late", "phi*180/pi + 0.001*ln(phi - 0.5)").unwrap().claim = Some(claim);
         let judgement = judge(&scenario).unwrap().judgement;

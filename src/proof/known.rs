@@ -62,15 +62,15 @@ fn lever(case: &Case, groups: &[usize]) -> f64 {
 }
 
 /// Rounding of the places that a group is put together from, in units in the last place of their distance from the
-/// origin. On either side four places enter it: two outer joints, the inner one and an origin. Each coordinate is rounded
-/// by 0.3 units, root mean square, and the sixteen of two sides, without regard to each other, by 1.2: taken over three
-/// times.
+/// origin. On either side four places enter it: two outer joints, the inner one and an origin. Each coordinate is
+/// rounded by 0.3 units, root mean square, and the sixteen of two sides, without regard to each other, by 1.2: taken
+/// over three times.
 const PLACES: f64 = 4.0;
 
-/// Rounding of the places of groups (m, in units of [`ULPS`]), and the shortest distance between the pins of a link (m):
-/// a group far from the origin is known to the last digit of that distance, its angles to as much over the distance of
-/// a link's pins. Every group adds its rounding to that of the groups before it, and they know nothing of each other: as
-/// the root of their number.
+/// Rounding of the places of groups (m, in units of [`ULPS`]), and the shortest distance between the pins of a link
+/// (m): a group far from the origin is known to the last digit of that distance, its angles to as much over the
+/// distance of a link's pins. Every group adds its rounding to that of the groups before it, and they know nothing of
+/// each other: as the root of their number.
 fn placed(case: &Case, groups: &[usize]) -> [f64; 2] {
     let (mut far, mut arm) = (0.0f64, f64::INFINITY);
     for group in groups.iter().map(|&group| &case.structure.groups[group]) {
@@ -236,7 +236,7 @@ impl Known {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scenario::Scenario;
+    use crate::scenario::{Scenario, of_repository};
     use analytic::{AssurSolver, NewtonSolver};
     use linkage::case::{Grid, Wanted};
 
@@ -244,8 +244,7 @@ mod tests {
     #[test]
     fn the_worst_condition_so_far_counts_under_forces() {
         let falls = |name: &str| {
-            let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios").join(name);
-            let case = Scenario::load(&path).unwrap().case;
+            let case = of_repository(&format!("scenarios/{name}")).case;
             let sides: [&dyn Solver; 2] = [&AssurSolver, &NewtonSolver];
             let [own, other] = sides.map(|side| side.solve(&case).unwrap());
             let sensitivity = vec![0.0; own.channels().len()];
@@ -263,8 +262,7 @@ mod tests {
     /// common rounding once.
     #[test]
     fn sides_may_be_apart_by_what_is_known_of_both() {
-        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/crank_rocker_runup.toml");
-        let case = Scenario::load(&path).unwrap().case;
+        let case = of_repository("scenarios/crank_rocker_runup.toml").case;
         let sides: [&dyn Solver; 2] = [&AssurSolver, &NewtonSolver];
         let [own, other] = sides.map(|side| side.solve(&case).unwrap());
         let sensitivity = vec![0.0; own.channels().len()];
@@ -291,8 +289,7 @@ mod tests {
     /// Side 2 counts from mass centres: places on a link are as uncertain as the last digit of that distance.
     #[test]
     fn a_mass_centre_far_from_its_joints_is_a_lever_of_rounding() {
-        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/crank_rocker.toml");
-        let text = std::fs::read_to_string(&path).unwrap();
+        let Scenario { text, path, .. } = of_repository("scenarios/crank_rocker.toml");
         let of = |text: &str| lever(&Scenario::parse(text, &path).unwrap().case, &[0]);
         let far = text[..text.find("[[oracle]]").unwrap()]
             .replace("x_mm = 250, y_mm = 0 } # S3", "x_mm = 2500, y_mm = 0 } # S3");
@@ -305,9 +302,7 @@ mod tests {
     /// millionth is found there.
     #[test]
     fn numbers_at_a_change_point_are_known_to_a_millionth() {
-        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
-        let path = path.join("tests/outside/scenarios/parallel_cranks_passing.toml");
-        let case = Scenario::load(&path).unwrap().case;
+        let case = of_repository("tests/outside/scenarios/parallel_cranks_passing.toml").case;
         let cranks = [80.0, 120.0, 180.0, 240.0].map(f64::to_radians).to_vec();
         let motion = Wanted::of(&[Stage::Positions, Stage::Velocities, Stage::Accelerations]);
         let case = case.on(Grid::of_cranks(case.crank(), cranks)).unwrap().wanting(motion);

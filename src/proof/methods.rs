@@ -213,7 +213,8 @@ fn crank_of(case: &Case, row: usize, state: &State) -> DriveState {
 mod tests {
     use super::*;
 
-    /// A method that fails has judged no more than the instants before: whatever they say, its first error is the reason.
+    /// A method that fails has judged no more than the instants before: whatever they say, its first error is the
+    /// reason.
     #[test]
     fn a_method_that_fails_proves_nothing() {
         for before in [0.0, 1e-3] {

@@ -61,7 +61,8 @@ pub(super) fn look(judge: &Judge, bank: &mut Bank, judged: &mut Judged) -> Resul
         let Some(own) = rung(times, false)? else { return Ok(false) };
         rungs.push(own);
     }
-    // What the sweeps leave takes one more run, as long as half of the longest. Few orders are so steady that it is asked.
+    // What the sweeps leave takes one more run, as long as half of the longest. Few orders are so steady that it is
+    // asked.
     let may_be = |index: usize| {
         is_low(&judged.channels[index]) && is_steady([0, 1, 2].map(|k| rungs[k].channels[index].convergence))
     };
@@ -112,8 +113,8 @@ fn steady(rungs: [Convergence; 3], finest: Parts) -> Option<f64> {
 mod tests {
     use super::*;
 
-    /// Halved steps halve an error of 8: its order is 1, and that of a method of order 2 is lost. Where sweeps, rounding
-    /// or the reference leave a fourth of the finest error, the order may be theirs.
+    /// Halved steps halve an error of 8: its order is 1, and that of a method of order 2 is lost. Where sweeps,
+    /// rounding or the reference leave a fourth of the finest error, the order may be theirs.
     #[test]
     fn an_order_counts_only_where_nothing_else_is_nearly_as_large() {
         let rungs = |orders: [f64; 3], formal: f64| {

@@ -462,8 +462,8 @@ fn a_fault_of_fixed_size_is_found_where_the_reference_is_zero() {
     }
 }
 
-/// Where no force of the mechanism has a size, what its mass and speed could exert is the size: a millionth of a newton is
-/// found in a balanced rotor.
+/// Where no force of the mechanism has a size, what its mass and speed could exert is the size: a millionth of a newton
+/// is found in a balanced rotor.
 #[test]
 fn a_fault_of_fixed_size_is_found_where_nothing_has_a_size() {
     let everything = Free { step: true, sweeps: true, extrapolated: true };

@@ -1,7 +1,5 @@
 //! Faults that only one of the two judgements of an engine's forces can see.
 
-use std::path::Path;
-
 use super::known::Known;
 use super::ledger::Ledger;
 use super::observe::{Watch, observe};
@@ -9,7 +7,7 @@ use super::options::Chosen;
 use super::settle::{self, Free};
 use super::{EngineProof, ForceFault, engines, sensitivity};
 use crate::engines::coarse_step;
-use crate::scenario::Scenario;
+use crate::scenario::of_repository;
 use analytic::{AssurSolver, NewtonSolver};
 use linkage::case::Case;
 use linkage::engine::{Engine, Hook, Route, Settings, Wrapped};
@@ -42,8 +40,7 @@ impl Hook for ByRoute {
 }
 
 fn proven(name: &str, by: &'static [Route], fault: Fault) -> EngineProof {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios").join(format!("{name}.toml"));
-    let scenario = Scenario::load(&path).unwrap_or_else(|error| panic!("{error}"));
+    let scenario = of_repository(&format!("scenarios/{name}.toml"));
     let case = &scenario.case;
     let seen = |solver: &dyn Solver| {
         observe(case, solver, Watch::Side, &mut |_| {}).unwrap_or_else(|stopped| panic!("{}", stopped.error))

@@ -35,16 +35,15 @@ pub(super) fn of(case: &Case, solver: &dyn Solver, reference: &Trajectory) -> Re
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scenario::Scenario;
+    use crate::scenario::of_repository;
     use analytic::AssurSolver;
     use linkage::math::KeepNan;
 
-    /// A pendulum let go at rest goes through the same places in stronger gravity, in a time that is shorter by the root
-    /// of it: theta(t; (1 + e) g) = theta(t sqrt(1 + e); g). Its rates follow, each with one root more.
+    /// A pendulum let go at rest goes through the same places in stronger gravity, in a time that is shorter by the
+    /// root of it: theta(t; (1 + e) g) = theta(t sqrt(1 + e); g). Its rates follow, each with one root more.
     #[test]
     fn a_pendulum_depends_on_gravity_as_its_own_time_does() {
-        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/pendulum.toml");
-        let case = Scenario::load(&path).unwrap().case;
+        let case = of_repository("scenarios/pendulum.toml").case;
         let found = AssurSolver.solve(&case).unwrap();
         let sensitivity = of(&case, &AssurSolver, &found).unwrap();
         let own = |name: &str| found.named(&format!("link.rod.{name}")).unwrap();

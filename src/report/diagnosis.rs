@@ -11,7 +11,7 @@ use linkage::trajectory::{Channel, Stage};
 /// Column at which the text of a line begins.
 pub(super) const INDENT: usize = 12;
 
-/// What is told where a diagnosis has ended early.
+/// Note on a diagnosis that ended early.
 pub(super) const CUT: &str =
     "The search for a cause ended at its limit of work, before all causes were tried: allow more work.";
 

@@ -204,12 +204,12 @@ pub(super) fn json(scenario: &Scenario, range: &Range) -> Value {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scenario::of_repository;
 
     /// A closed curve of poses may take several turns of the crank.
     #[test]
     fn turns_to_the_same_pose_are_told() {
-        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/crank_rocker.toml");
-        let scenario = Scenario::load(&path).unwrap();
+        let scenario = of_repository("scenarios/crank_rocker.toml");
         let range = Range { extent: Extent::FullTurn(2), ..Range::of(&scenario.case).unwrap() };
         assert_eq!(json(&scenario, &range)["extent"], json!({"full_turn": true, "turns_to_same_pose": 2}));
         assert!(text(&scenario, &range).contains("at its first pose after 2 turns"));

@@ -36,13 +36,13 @@ pub fn all(proof: &Proof) -> String {
 mod tests {
     use super::*;
     use crate::proof::{Options, prove};
-    use crate::scenario::Scenario;
+    use crate::scenario::of_repository;
 
     /// Residual, bound and what is used of it, line by line, in the order of the proof.
     #[test]
     fn every_residual_stands_beside_its_bound() {
-        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/crank_rocker.toml");
-        let proof = prove(&Scenario::load(&path).unwrap(), &Options::default().step(2e-3).sweeps(16)).unwrap();
+        let proof =
+            prove(&of_repository("scenarios/crank_rocker.toml"), &Options::default().step(2e-3).sweeps(16)).unwrap();
         let channels = proof
             .engines
             .iter()

@@ -76,8 +76,8 @@ impl Rows {
         !self.is_time && self.unit.suffix == "deg"
     }
 
-    /// The instant of a row, in a motion with this [`end`], and by how much it may be off (rad or s). A rounded time may
-    /// lie a little beyond the motion.
+    /// The instant of a row, in a motion with this [`end`], and by how much it may be off (rad or s). A rounded time
+    /// may lie a little beyond the motion.
     ///
     /// # Errors
     /// A message for a time that the motion does not have.

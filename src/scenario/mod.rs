@@ -130,6 +130,13 @@ pub fn files_in(directory: &Path) -> Result<Vec<PathBuf>> {
     Ok(files)
 }
 
+/// The scenario of a file of the repository, by its path from the top.
+#[cfg(test)]
+pub(crate) fn of_repository(file: &str) -> Scenario {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(file);
+    Scenario::load(&path).unwrap_or_else(|error| panic!("{error}"))
+}
+
 impl Scenario {
     /// Reads the scenario file at `path` and the tables it names.
     ///

@@ -100,7 +100,8 @@ fn unread(compression: Compression) -> Option<&'static str> {
     }
 }
 
-/// Whether a column holds one number in each row: whole ones that are no dates, times or decimals, and those with a point.
+/// Whether a column holds one number in each row: whole ones that are no dates, times or decimals, and those with a
+/// point.
 fn is_number(column: &ColumnDescriptor) -> bool {
     use ConvertedType as Kind;
     let is_plain = column.path().parts().len() == 1 && column.max_rep_level() == 0;

@@ -15,8 +15,8 @@ use linkage::trajectory::{Channel, Trajectory};
 /// Most instants that scales are found on.
 const MOST: usize = 20_000;
 
-/// The scales of all channels, by name, over a whole run, and how well they are known at best (both in SI), whatever of them is
-/// compared.
+/// The scales of all channels, by name, over a whole run, and how well they are known at best (both in SI), whatever of
+/// them is compared.
 pub(super) struct Scales(BTreeMap<String, (f64, f64)>);
 
 impl Scales {

@@ -1,6 +1,6 @@
 //! Channels that are zero throughout: by a constant speed, by guides that forbid a turn, by equal lengths. Their own range
-//! is rounding and says nothing; they are measured by a tenth of the size of their quantity, and where that vanishes too,
-//! of what the mechanism is built for.
+//! is rounding and says nothing; they are measured by a tenth of the size of their quantity, and where that vanishes
+//! too, of what the mechanism is built for.
 
 use std::path::Path;
 
@@ -82,8 +82,8 @@ fn alone(centre: Vec2) -> Spec {
     spec
 }
 
-/// Symptom: ten of the numbers of a balanced rotor without gravity were open, "of scale: inf". Cause: all its forces and
-/// moments are zero, and nothing in its motion said how large they could be. Its mass and its speed do.
+/// Symptom: ten of the numbers of a balanced rotor without gravity were open, "of scale: inf". Cause: all its forces
+/// and moments are zero, and nothing in its motion said how large they could be. Its mass and its speed do.
 #[test]
 fn regress_a_balanced_rotor_agrees_though_it_has_no_force_at_all() {
     let mut spec = alone(Vec2::zeros());
@@ -121,9 +121,9 @@ fn regress_a_mechanism_in_equilibrium_agrees_though_nothing_moves() {
     }
 }
 
-/// Symptom: 94 of 122 numbers of a crane disagreed: a jib that is free on a spring, a trolley that a winch pulls along it,
-/// and a load that is let go from rest at its tip. Cause: the load started with the speed of the jib. What the trolley's
-/// guide has as moment is small beside all others, and keeps nothing open.
+/// Symptom: 94 of 122 numbers of a crane disagreed: a jib that is free on a spring, a trolley that a winch pulls along
+/// it, and a load that is let go from rest at its tip. Cause: the load started with the speed of the jib. What the
+/// trolley's guide has as moment is small beside all others, and keeps nothing open.
 #[test]
 fn regress_a_crane_with_a_trolley_on_its_jib_agrees() {
     let proof = proven(&scenario("jib_crane.toml"));

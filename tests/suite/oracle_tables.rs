@@ -1,4 +1,4 @@
-//! Tables of `[[oracle]]` as programs print them: each column with digits of its own, times and crank angles rounded.
+//! Tables of `[[oracle]]` as programs print them: each column with other digits, times and crank angles rounded.
 //! None that is right is refused, and what is wrong by a few units of its last digit is found.
 
 use std::fmt::Write;

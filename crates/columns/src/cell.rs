@@ -7,7 +7,7 @@ use linkage::math::KeepNan;
 /// A cell as it was read.
 #[derive(Clone, Copy, Debug)]
 pub struct Cell {
-    /// The number; NaN where there is none.
+    /// The number; NaN where the cell has no number.
     value: f64,
     /// Decimals printed, less the exponent.
     decimals: i32,

@@ -7,8 +7,8 @@ use formula::Rounded;
 /// Digits that a number in single precision has for certain.
 const SINGLE: u16 = 7;
 
-/// The numbers of a column of a file with the `others` beside it, each with what its digits leave open: [`numbers`], but
-/// for a column of one number throughout.
+/// The numbers of a column of a file with the `others` beside it, each with what its digits leave open: [`numbers`],
+/// but for a column of one number throughout.
 ///
 /// Such a column does not show its own format: `0` is an exact zero as `%g`, Python and the like print it, and
 /// anything below a half as `%.0f` does. A file is written by one format as a rule, and a format that leaves out zeros
@@ -112,7 +112,7 @@ mod tests {
         for zero in [["0", "0", "-0"], ["0.0", "0.0", "0"]] {
             approx::assert_relative_eq!(error(&zero, &[STEPS, GENERAL, FORCES]), 5e-6, max_relative = 1e-6);
         }
-        // Another constant may have digits of its own: 13.6 may have been 13.63 with three, 1.36e1 too.
+        // Another constant may have more digits: 13.6 may have been 13.63 with three, 1.36e1 too.
         approx::assert_relative_eq!(error(&["13.6", "13.6", ""], &[GENERAL, FORCES]), 0.05, max_relative = 1e-6);
         approx::assert_relative_eq!(error(&["1.36e1", "1.36e1"], &[GENERAL, FORCES]), 0.05, max_relative = 1e-6);
         let three: &[&str] = &["0.123", "1.5", "12.3"];

@@ -11,7 +11,8 @@ thread_local! {
     static GUARDED: Cell<bool> = const { Cell::new(false) };
 }
 
-/// Whether the current thread is inside a call, such as a step of the engine, whose panic is caught and becomes an error.
+/// Whether the current thread is inside a call, such as a step of the engine, whose panic is caught and becomes an
+/// error.
 ///
 /// A program may ask this in its panic hook and print nothing then: the error contains the panic's message.
 /// The hook runs on the thread that panics, before the panic is caught.

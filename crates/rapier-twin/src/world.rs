@@ -104,8 +104,8 @@ fn own_angle(direction: Vec2) -> f64 {
 }
 
 /// The Rapier world of a case.
-/// All links form one multibody: those in its tree hang on each other, the others float. In large free motions each link
-/// that hangs on the ground has one with all that hangs on it. Without branches every link is a separate body.
+/// All links form one multibody: those in its tree hang on each other, the others float. In large free motions each
+/// link that hangs on the ground has one with all that hangs on it. Without branches every link is a separate body.
 /// Joints that the tree cuts are impulse joints.
 /// Every drive has its own motor so that its impulse can be read.
 /// All numbers are f64, SI, world axes.

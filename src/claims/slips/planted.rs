@@ -7,7 +7,7 @@ use crate::scenario::Formulas;
 use formula::Tree;
 
 /// A formula with one slip of a kind. What may have been meant by a part is as well what may be written for it: of all
-/// places and ways in which the slip can be made, the one with a `number`, counted round. `None` if there is none.
+/// places and ways in which the slip can be made, the one with a `number`, counted round. `None` if it cannot be made.
 #[must_use]
 pub fn planted(formulas: &Formulas, formula: usize, kind: Kind, number: usize) -> Option<Tree> {
     let tree = &formulas.list[formula].tree;

@@ -21,6 +21,7 @@ use workshop::motor::Choice;
 
 use super::tools::{Place, Table};
 use crate::common::assert_within;
+use crate::common::spec::four_bar;
 
 fn scenario(place: &Place, name: &str) -> Scenario {
     Scenario::load(&place.path(&format!("scenarios/{name}.toml"))).unwrap()
@@ -31,59 +32,16 @@ fn point(at: Vec2) -> Value {
 }
 
 /// A parallelogram that goes on through its change point: beside it nothing is proven.
-const SMOOTH: &str = r#"
-format = 1
-name = "smooth"
-title = "Parallelogram"
-[ground.points]
-O = { x_m = 0, y_m = 0 }
-C = { x_m = 0.4, y_m = 0 }
-[links.crank.points]
-O = { x_m = 0, y_m = 0 }
-A = { x_m = 0.1, y_m = 0 }
-[links.coupler.points]
-A = { x_m = 0, y_m = 0 }
-B = { x_m = 0.4, y_m = 0 }
-[links.rocker.points]
-C = { x_m = 0, y_m = 0 }
-B = { x_m = 0.1, y_m = 0 }
-[[joints]]
-name = "O"
-type = "revolute"
-links = ["ground", "crank"]
-[[joints]]
-name = "A"
-type = "revolute"
-links = ["crank", "coupler"]
-[[joints]]
-name = "B"
-type = "revolute"
-links = ["coupler", "rocker"]
-[[joints]]
-name = "C"
-type = "revolute"
-links = ["ground", "rocker"]
-[drive]
-joint = "O"
-speed_rad_s = 2
-through = "smooth"
-[start]
-crank_deg = 60
-[[start.groups]]
-links = ["coupler", "rocker"]
-mode = "right"
-[grid]
-from_deg = 60
-to_deg = 240
-step_deg = 10
-[clearance]
-radius_mm = 2
-area_rel = 0.2
-[[clearance.housing]]
-name = "post"
-line = [{ x_mm = 200, y_mm = 300 }]
-radius_mm = 3
-"#;
+fn smooth() -> String {
+    let mut spec = four_bar([0.4, 0.1, 0.4, 0.1], false);
+    (spec.start, spec.dt) = (60f64.to_radians(), None);
+    spec.grid = (spec.start, 10f64.to_radians(), 18);
+    spec.other.drive = "speed_rad_s = 2\nthrough = \"smooth\"".into();
+    spec.other.sections = "[clearance]\nradius_mm = 2\narea_rel = 0.2\n[[clearance.housing]]\nname = \"post\"\n\
+                           line = [{ x_mm = 200, y_mm = 300 }]\nradius_mm = 3\n"
+        .into();
+    spec.toml()
+}
 
 /// A collision, one that goes backwards, and one that is not proven.
 #[test]
@@ -101,7 +59,7 @@ fn a_clearance_is_told_in_json_csv_and_text() {
             coarse,
         ],
     );
-    fs::write(place.path("scenarios/smooth.toml"), SMOOTH).unwrap();
+    fs::write(place.path("scenarios/smooth.toml"), smooth()).unwrap();
     for (name, standing, code) in [("longer", "collides", 1), ("back", "collides", 1), ("smooth", "not proven", 3)] {
         let scenario = scenario(&place, name);
         let asked = scenario.clearance.as_ref().unwrap();
@@ -253,7 +211,7 @@ fn a_range_is_told_in_json() {
         });
         assert_eq!(told["four_bar"], json!(bar), "{name}");
     }
-    // Angles of the rocker between its ends: they are told as they are swept.
+    // Angles of the rocker between its ends: as they are swept.
     let text = place.ok("inspect scenarios/crank_rocker.toml --range");
     assert!(text.contains("over 32.000000 deg"), "{text}");
 }

@@ -52,7 +52,8 @@ fn what_is_constant_by_structure_agrees_in_every_format() {
     }
 }
 
-/// A force in place of which `0` stands was forgotten, if `0` is exact; rounded to whole numbers it may be any below a half.
+/// A force in place of which `0` stands was forgotten, if `0` is exact; rounded to whole numbers it may be any below a
+/// half.
 #[test]
 fn a_zero_or_a_constant_that_is_wrong_is_found_where_it_is_exact_and_open_where_it_is_not() {
     let of = |format, constant| {
@@ -68,6 +69,6 @@ fn a_zero_or_a_constant_that_is_wrong_is_found_where_it_is_exact_and_open_where_
     };
     assert_eq!(of(NINE, NINE), ["agree", "agree", "disagree", "disagree"]);
     assert_eq!(of(Format::Shortest, Format::Shortest), ["agree", "agree", "disagree", "disagree"]);
-    // Each column in decimals of its own.
+    // Each column with other decimals.
     assert_eq!(of(Format::Fixed(9), Format::Fixed(0))[..3], ["agree", "agree", "inconclusive"]);
 }

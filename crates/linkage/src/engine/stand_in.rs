@@ -9,8 +9,8 @@ use crate::error::Result;
 use crate::solver::{Progress, Solver};
 use crate::trajectory::ChannelKind;
 
-/// A solver that stands for an engine, and so is one. It says what it changes; a new question of [`Engine`] is asked for
-/// by the compiler in one place, and passed on from there.
+/// A solver that stands for an engine, and so is one. It says what it changes; a new question of [`Engine`] is asked
+/// for by the compiler in one place, and passed on from there.
 pub trait StandIn: Solver {
     /// The engine that it stands for.
     fn original(&self) -> &dyn Engine;

@@ -26,12 +26,11 @@ use linkage::mechanism::{GROUND, Joint, LinkPose};
 const RIGID_MOTOR: f64 = 1e30;
 
 /// Links of a tree from which a free motion has a multibody for every link that hangs on the ground.
-/// A row of the sweeps costs as much as the multibodies of its two links have coordinates, whether they move these links
-/// or not: a chain of ten four-bars takes 0.6 of the time.
-/// Smaller ones stay in one piece, and so do prescribed motions, where the drives' flywheels are. Rapier takes the Coriolis
-/// forces of a multibody from the start of a step instead of its end as soon as they would add a hundredth to its energy,
-/// and that spoils the order of coarse steps: with a piece for every link on the ground, forces on `ov7_base` at 1.4 ms
-/// had errors 60 times as large.
+/// A row of the sweeps costs as much as the multibodies of its two links have coordinates, whether they move these
+/// links or not: a chain of ten four-bars takes 0.6 of the time.
+/// Smaller ones stay in one piece, and so do prescribed motions, where the drives' flywheels are: with a piece for every
+/// link on the ground, forces on `ov7_base` at 1.4 ms had errors 60 times as large. The likely cause is that Rapier takes
+/// Coriolis forces from the start of a step as soon as those of its end would add a hundredth to a multibody's energy.
 const LARGE: usize = 16;
 
 /// A joint that closes a loop.
@@ -202,7 +201,8 @@ impl Twin {
         Ok(twin)
     }
 
-    /// Prepares the multibodies; `home` says in which of them every link is. The order of calls matters: see the comments.
+    /// Prepares the multibodies; `home` says in which of them every link is. The order of calls matters: see the
+    /// comments.
     fn prepare(&mut self, home: &[usize]) {
         if self.multibodies.is_empty() {
             return;

@@ -234,7 +234,8 @@ fn parts_that_touch_are_put_together_in_the_order_of_the_motion() {
     assert_eq!(merged(back, [0.0, -5.0]), [[-1.0, -2.5], [-3.0, -4.0]]);
 }
 
-/// Parts of the housing cannot meet, joined links touch where they are joined, and a pair may be left out in either order.
+/// Parts of the housing cannot meet, joined links touch where they are joined, and a pair may be left out in either
+/// order.
 #[test]
 fn pairs_that_cannot_meet_are_not_asked_for() {
     let case = four_bar();
