@@ -6,10 +6,10 @@
 use std::time::Instant;
 
 use analytic::{AssurSolver, NewtonSolver};
+use lab::stress::named;
 use linkage::math::KeepNan;
 use linkage::solver::Solver;
-use linkproof::proof::beside::sides;
-use linkproof::stress::named;
+use prover::proof::beside::sides;
 
 /// Timings, of which the shortest counts. What takes longer than a second is timed once.
 const REPEATS: usize = 5;

@@ -9,9 +9,9 @@ use std::time::Instant;
 use linkage::case::{Case, Grid, Wanted};
 use linkage::engine::{Engine, Settings};
 use linkage::solver::Solver;
-use linkproof::scenario::Scenario;
 use rapier_twin::tree::Tree;
 use rapier_twin::{Build, Precision, Rapier};
+use scenario::Scenario;
 
 /// Steps per run. Short runs fit between other activity of the machine.
 const STEPS: usize = 500;

@@ -10,8 +10,8 @@ use linkage::case::Grid;
 use linkage::math::KeepNan;
 use linkage::solver::Solver;
 use linkage::trajectory::Trajectory;
-use linkproof::claims::{Course, judge, needed};
-use linkproof::scenario::{Scenario, files_in};
+use prover::claims::{Course, judge, needed};
+use scenario::{Scenario, files_in};
 
 /// Timings, of which the shortest counts: other activity of the machine only adds time.
 const REPEATS: usize = 15;

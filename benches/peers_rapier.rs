@@ -11,8 +11,8 @@ use linkage::case::{Case, Wanted};
 use linkage::engine::{Engine, Settings};
 use linkage::solver::Solver;
 use linkage::trajectory::{Stage, Trajectory};
-use linkproof::scenario::Scenario;
 use rapier_twin::{Build, Precision, Rapier};
+use scenario::Scenario;
 
 /// Channels that are compared, the crank angle apart.
 const CHANNELS: [&str; 2] = ["joint.B.fx_N", "joint.B.fy_N"];

@@ -13,7 +13,7 @@ use analytic::PoseSolver;
 use analytic::assur::batch::{Batch, Poses};
 use four_bar::FourBar;
 use linkage::trajectory::Stage;
-use linkproof::scenario::Scenario;
+use scenario::Scenario;
 
 /// Poses per timing: one turn in as many steps.
 const POSES: usize = 3600;

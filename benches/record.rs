@@ -11,11 +11,11 @@ use std::time::Instant;
 use linkage::case::{Case, Grid};
 use linkage::math::KeepNan;
 use linkage::trajectory::Trajectory;
-use linkproof::record::{Recording, Show, Side, write};
-use linkproof::scenario::Scenario;
 use linkproof::{Options, prove};
 use mcap::records::MessageHeader;
 use mcap::{Channel, MessageStream, WriteOptions};
+use recording::{Recording, Show, Side, write};
+use scenario::Scenario;
 
 /// Timings, of which the shortest counts: other activity of the machine only adds time.
 const REPEATS: usize = 9;
@@ -121,7 +121,7 @@ fn main() {
         let sides: Vec<Side> = std::iter::once(reference).chain(other).collect();
         let recording = shortest(|| record(&own, &sides, engine.errors.as_ref(), &ours));
 
-        let solved = linkproof::proof::solve(&long).unwrap();
+        let solved = prover::proof::solve(&long).unwrap();
         let sides = ["reference", "engine"].map(|name| Side { name, trajectory: &solved });
         let writing = shortest(|| record(&own, &sides, None, &ours));
         let bytes = fs::read(&ours).unwrap();

@@ -9,7 +9,7 @@ use std::sync::LazyLock;
 use analytic::reduced::{ACCURACY, Model, RunUp, motion};
 use divan::{Bencher, black_box};
 use linkage::case::Case;
-use linkproof::scenario::Scenario;
+use scenario::Scenario;
 
 const ACCURACIES: [f64; 5] = [1e-8, 1e-9, 1e-10, ACCURACY, 1e-12];
 

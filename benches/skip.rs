@@ -10,7 +10,7 @@ use linkage::case::{Case, Grid};
 use linkage::engine::Settings;
 use linkage::math::KeepNan;
 use linkage::solver::Solver;
-use linkproof::scenario::Scenario;
+use scenario::Scenario;
 
 /// Timings, of which the shortest counts: other activity of the machine only adds time.
 const REPEATS: usize = 15;
@@ -46,7 +46,7 @@ fn main() {
     println!("{:14} {:24} {:>8} {:>8} {:>8}", "", "asked", "assur", "newton", "rapier");
     for (name, words) in QUESTIONS {
         let whole = case(name);
-        let plain = linkproof::engines::all(1e-4).remove(0);
+        let plain = prover::engines::all(1e-4).remove(0);
         let engine = plain.with(Settings { sweeps: 64, ..plain.settings() });
         let asked = |word: &&str| {
             let channels = whole.channels_called(word);

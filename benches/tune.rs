@@ -11,13 +11,13 @@ use std::hint::black_box;
 use std::path::Path;
 use std::time::Instant;
 
+use lab::tune::{Wish, tune};
 use linkage::case::{Case, Grid, Wanted};
 use linkage::engine::{Engine, Route, Settings};
 use linkage::trajectory::Stage;
-use linkproof::engines::EngineName;
-use linkproof::proof::Options;
-use linkproof::scenario::Scenario;
-use linkproof::tune::{Wish, tune};
+use prover::engines::EngineName;
+use prover::proof::Options;
+use scenario::Scenario;
 
 #[path = "../tests/suite/tune/exhaustive.rs"]
 mod exhaustive;
@@ -95,7 +95,7 @@ fn told(engine: &dyn Engine, case: &Case) -> String {
 fn compare(name: &str) {
     let scenario = thinned(scenario(name), EVERY);
     let case = &scenario.case;
-    let engines = linkproof::engines::all(1e-3).into_iter().filter(|engine| !engine.controls_error());
+    let engines = prover::engines::all(1e-3).into_iter().filter(|engine| !engine.controls_error());
     let named = engines.filter_map(|engine| EngineName::named(engine.name()));
     let options = named.fold(Options::default(), Options::engine);
     let wish = Wish { within: WITHIN, channels: Vec::new() };
@@ -111,9 +111,8 @@ fn compare(name: &str) {
     let since = Instant::now();
     let found = tune(&scenario, &wish, &options, &mut price, &mut |_| {}).unwrap_or_else(|error| panic!("{error}"));
     let tuning = since.elapsed().as_secs_f64();
-    let best = linkproof::engines::named(found.cheapest.engine, 1e-3)
-        .expect("it is one of them")
-        .with(found.cheapest.settings);
+    let best =
+        prover::engines::named(found.cheapest.engine, 1e-3).expect("it is one of them").with(found.cheapest.settings);
     let mut clock = Clock { case, row: None, fit: [0.0; 2] };
     let since = Instant::now();
     let (mut met, runs) =
@@ -155,7 +154,7 @@ fn measure_prices() {
     let times = (1..=steps).map(|k| k as f64 * step).collect();
     let all = base.on(Grid::of_times(base.crank(), times)).unwrap().wanting(Wanted::ALL);
     let mut unit = f64::NAN;
-    for engine in linkproof::engines::all(step).into_iter().filter(|engine| !engine.controls_error()) {
+    for engine in prover::engines::all(step).into_iter().filter(|engine| !engine.controls_error()) {
         let set = |sweeps, substeps, route| engine.with(Settings { sweeps, substeps, route, ..engine.settings() });
         let cost = |case: &Case, sweeps, substeps, route| {
             seconds(set(sweeps, substeps, route).as_ref(), case, 15) / (steps + 16) as f64

@@ -9,9 +9,9 @@ use analytic::AssurSolver;
 use linkage::engine::{Engine, Settings};
 use linkage::solver::Solver;
 use linkage::trajectory::{Stage, Trajectory};
-use linkproof::compare::residuals;
-use linkproof::scenario::Scenario;
+use prover::compare::residuals;
 use rapier_twin::Rapier;
+use scenario::Scenario;
 
 /// Steps of fixed-step engines, in degrees of crank angle.
 const STEPS: [f64; 3] = [0.8, 0.24, 0.08];
@@ -66,7 +66,7 @@ fn main() {
     let reference = AssurSolver.solve(&scenario.case).unwrap_or_else(|error| panic!("{error}"));
     let omega = scenario.case.crank().at(0.0).omega.abs();
     let mut rows = Vec::new();
-    for engine in linkproof::engines::all(1e-3) {
+    for engine in prover::engines::all(1e-3) {
         let resolutions: Vec<(f64, String)> = match engine.controls_error() {
             true => ACCURACIES.map(|accuracy| (accuracy, format!("{accuracy:e}"))).to_vec(),
             false => STEPS.map(|degrees: f64| (degrees.to_radians() / omega, format!("{degrees} deg"))).to_vec(),

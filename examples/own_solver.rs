@@ -7,9 +7,9 @@
 use linkage::error::Result;
 use linkage::math::{Motion, Vec2, unit};
 use linkage::solver::{Progress, Provision, Solver, State, Visit};
-use linkproof::compare::residuals;
 use linkproof::parts::{Channel, Reference, Stage, Wanted};
 use linkproof::{Case, Scenario};
+use prover::compare::residuals;
 
 /// Lengths of crank, coupler, rocker and ground (m), and the angle of the line between the fixed pivots (rad).
 struct Freudenstein {

@@ -13,9 +13,9 @@ use linkage::case::{Case, Wanted};
 use linkage::engine::{Engine, Route, Settings};
 use linkage::solver::Solver;
 use linkage::trajectory::{Stage, Trajectory};
-use linkproof::compare::convergence::observed_order;
-use linkproof::compare::residuals;
-use linkproof::scenario::Scenario;
+use prover::compare::convergence::observed_order;
+use prover::compare::residuals;
+use scenario::Scenario;
 
 fn solve(solver: &dyn Solver, case: &Case) -> Option<(Trajectory, f64)> {
     let since = Instant::now();
@@ -47,7 +47,7 @@ fn main() {
         Stage::ALL.map(Stage::name).join(", ")
     );
     for name in at(2, "rapier,impulse,rapier-f32,impulse-f32").split(',') {
-        let engine = linkproof::engines::named(name, step).unwrap_or_else(|| panic!("no engine {name}"));
+        let engine = prover::engines::named(name, step).unwrap_or_else(|| panic!("no engine {name}"));
         for route in at(3, "differences,native,probe").split(',') {
             let route = Route::named(route).expect("a route");
             for extrapolated in at(4, "plain,extrapolated").split(',').map(|word| usize::from(word == "extrapolated")) {

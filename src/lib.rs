@@ -51,64 +51,30 @@
 //! only in scenario files and carry their suffix there.
 
 #[doc(hidden)]
-pub mod accept;
-#[doc(hidden)]
-pub mod bench;
-#[doc(hidden)]
-pub mod claims;
-#[doc(hidden)]
 pub mod cli;
 #[doc(hidden)]
-pub mod compare;
-#[doc(hidden)]
-pub mod diagnosis;
-#[doc(hidden)]
-pub mod engines;
-mod files;
-#[doc(hidden)]
-pub mod mutate;
-mod numbers;
-mod outside;
-#[doc(hidden)]
-pub mod proof;
-#[doc(hidden)]
-pub mod record;
-#[doc(hidden)]
 pub mod report;
-#[doc(hidden)]
-pub mod scenario;
-#[doc(hidden)]
-pub mod specimens;
-#[doc(hidden)]
-pub mod stress;
-#[doc(hidden)]
-pub mod tables;
+mod shipped;
 pub mod testing;
-#[doc(hidden)]
-pub mod tolerance;
-#[doc(hidden)]
-pub mod tune;
-#[doc(hidden)]
-pub mod versus;
 
-#[doc(inline)]
-pub use compare::Verdict;
 #[doc(inline)]
 pub use linkage::case::Case;
 #[doc(inline)]
-pub use proof::{Options, Proof, prove, solve};
+pub use prover::compare::Verdict;
+#[doc(inline)]
+pub use prover::proof::{Options, Proof, prove, solve};
 #[doc(inline)]
 pub use scenario::Scenario;
 
 /// What the front door's signatures name besides: errors, choices, what a proof and a solution consist of.
 pub mod parts {
-    pub use crate::compare::{Check, Residual};
-    pub use crate::engines::EngineName;
-    pub use crate::proof::{ChannelProof, EngineInfo, EngineProof, Reference, prove_with};
     pub use linkage::case::{CaseBuilder, Grid, Wanted};
     pub use linkage::drive::{Load, MotionLaw};
     pub use linkage::engine::Route;
     pub use linkage::error::{Advice, Error, ErrorKind};
     pub use linkage::mechanism::AssemblyMode;
     pub use linkage::trajectory::{Channel, Stage, Trajectory};
+    pub use prover::compare::{Check, Residual};
+    pub use prover::engines::EngineName;
+    pub use prover::proof::{ChannelProof, EngineInfo, EngineProof, Reference, prove_with};
 }

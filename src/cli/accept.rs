@@ -6,13 +6,13 @@ use super::engine_args::EngineArgs;
 use super::exit_code::graver;
 use super::progress::Bar;
 use super::{advice, exit_code, output, terminal};
-use crate::accept::{compared, figures, renewed};
-use crate::proof::{Proof, Reference, memory, prove_with};
 use crate::report::accept::{Deed, Document, Item, text};
 use crate::report::brief;
-use crate::scenario::Scenario;
-use crate::scenario::accepted::{self, beside};
 use linkage::error::{Error, ErrorKind, Result};
+use prover::accept::{compared, figures, renewed};
+use prover::proof::{Proof, Reference, memory, prove_with};
+use scenario::Scenario;
+use scenario::accepted::{self, beside};
 
 const EXAMPLES: &str = "\
 Examples:

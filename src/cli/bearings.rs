@@ -6,8 +6,8 @@ use super::load::plain;
 use super::{number, output};
 use crate::report::bearings::{self as report, Journals};
 use analytic::range::explained;
+use design::bearings;
 use linkage::error::{Error, ErrorKind, Result};
-use workshop::bearings;
 
 const EXAMPLES: &str = "\
 Examples:

@@ -10,15 +10,15 @@ use super::engine_args::engine_names;
 use super::load::{only, plain};
 use super::progress::Bar;
 use super::{number, output};
-use crate::bench::{Axis, Bench, Clock, Options, Peer, bench};
-use crate::engines::{EngineName, usual_step};
-use crate::outside::{Command, Exports, machine, processor_time};
 use crate::report::{bench as report, bench_page, bench_plot, case_json};
-use crate::scenario::{Scenario, files_in};
 use analytic::AssurSolver;
 use analytic::range::explained;
+use design::export::{first_state, mjcf};
+use lab::bench::{Axis, Bench, Clock, Options, Peer, bench};
+use lab::outside::{Command, Exports, machine, processor_time};
 use linkage::error::{Error, ErrorKind, Result};
-use workshop::export::{first_state, mjcf};
+use prover::engines::{EngineName, usual_step};
+use scenario::{Scenario, files_in};
 
 const EXAMPLES: &str = "\
 Examples:

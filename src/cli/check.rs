@@ -5,11 +5,11 @@ use std::path::PathBuf;
 use super::grid::GridArgs;
 use super::load::StartArgs;
 use super::{advice, exit_code, number, output, terminal};
-use crate::proof::claimed;
 use crate::report::check as report;
-use crate::scenario::formula::{fault_of_claim, refused};
-use crate::scenario::{Claim, Scenario};
 use linkage::error::{Error, ErrorKind, Result};
+use prover::proof::claimed;
+use scenario::formula::{fault_of_claim, refused};
+use scenario::{Claim, Scenario};
 
 const EXAMPLES: &str = "\
 Examples:

@@ -7,11 +7,12 @@ use super::load::plain;
 use super::progress::Bar;
 use super::{exit_code, output, standard_input};
 use crate::report::clearance::{self as report, Standing};
-use crate::scenario::Scenario;
 use analytic::range::explained;
+use design::clearance::{Clearance, course, find};
+use design::diagram::draw;
 use linkage::error::{Error, ErrorKind, Result};
-use workshop::clearance::{Clearance, Question, course, find};
-use workshop::diagram::draw;
+use scenario::Scenario;
+use scenario::clearance::Question;
 
 const EXAMPLES: &str = "\
 Examples:

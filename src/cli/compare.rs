@@ -11,14 +11,13 @@ use super::load::StartArgs;
 use super::number::not_negative;
 use super::reports::Reports;
 use super::{advice, exit_code, output, standard_input, terminal};
-use crate::proof::memory;
-use crate::record;
 use crate::report::outcomes::Outcomes;
 use crate::report::versus as report;
-use crate::scenario::mapping::{Allowed, Mapped, Mapping, Size};
-use crate::tables::{self, Held};
-use crate::versus::{How, Party, compare as compared};
 use linkage::error::{Error, ErrorKind, Result};
+use prover::proof::memory;
+use prover::tables::{self, Held};
+use prover::versus::{How, Party, compare as compared};
+use scenario::mapping::{Allowed, Mapped, Mapping, Size};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -232,7 +231,7 @@ fn party(args: &Args, path: &Path, other: &Path, mapping: &Mapping) -> Result<Pa
     let ending = path.extension().and_then(|ending| ending.to_str());
     Ok(match ending {
         Some("toml") => Party::Scenario(Box::new(args.start.load(path, &GridArgs::default())?)),
-        Some("mcap") => Party::Recording(record::load(path)?),
+        Some("mcap") => Party::Recording(recording::load(path)?),
         Some(_) | None => {
             let claims = mapping.channels.len().max(1);
             let is_solved = other.extension().is_some_and(|ending| ending == "toml");

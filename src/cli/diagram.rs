@@ -8,8 +8,8 @@ use super::load::{plain, reference_names};
 use super::{number, output};
 use crate::report::diagram as report;
 use analytic::range::explained;
+use design::diagram::{Course, MotionDiagram, draw};
 use linkage::error::Result;
-use workshop::diagram::{Course, MotionDiagram, draw};
 
 const EXAMPLES: &str = "\
 Examples:

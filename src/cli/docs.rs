@@ -1,8 +1,8 @@
 //! `linkproof docs`: the documents, in the program itself.
 
 use super::output;
-use crate::scenario::words::suggestion;
 use linkage::error::{Error, ErrorKind, Result};
+use scenario::words::suggestion;
 
 const EXAMPLES: &str = "\
 Examples:

@@ -8,14 +8,14 @@ use super::{number, output};
 use crate::report::drive::{self as report, Found};
 use crate::report::drive_graphs::{self, Curves};
 use crate::report::{run_up, table_csv};
-use crate::scenario::Scenario;
 use analytic::AssurSolver;
 use analytic::range::explained;
 use analytic::reduced::means as reduced;
 use analytic::reduced::{ACCURACY, Model, RunUp};
 use analytic::steady::Averaged;
+use design::flywheel::Flywheel;
 use linkage::error::{Error, ErrorKind, Result};
-use workshop::flywheel::Flywheel;
+use scenario::Scenario;
 
 const EXAMPLES: &str = "\
 Examples:

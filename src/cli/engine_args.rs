@@ -3,12 +3,12 @@
 use clap::builder::PossibleValuesParser;
 
 use super::{number, output};
-use crate::engines::EngineName;
-use crate::proof::{Options, Reference, memory};
-use crate::scenario::Scenario;
 use linkage::case::Case;
 use linkage::engine::{Engine, Route};
 use linkage::error::Result;
+use prover::engines::EngineName;
+use prover::proof::{Options, Reference, memory};
+use scenario::Scenario;
 
 /// Stands for every engine of this build, in place of a name.
 const ALL: &str = "all";

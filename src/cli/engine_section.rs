@@ -3,11 +3,11 @@
 use std::io::{self, Write};
 use std::path::Path;
 
-use crate::engines::named;
-use crate::files::{self, Target};
-use crate::scenario::{EngineKeys, Scenario, edit};
+use files::{self, Target};
 use linkage::engine::Settings;
 use linkage::error::Result;
+use prover::engines::named;
+use scenario::{EngineKeys, Scenario, edit};
 
 /// What a scenario must state to run an engine at `settings`: its step (s), and its other keys. The engine's usual
 /// route is left out unless the scenario states one: without it the engine's own forces are judged too.

@@ -1,6 +1,6 @@
 //! Exit codes.
 
-use crate::compare::Verdict;
+use prover::compare::Verdict;
 
 /// Exit code when everything agrees.
 pub const AGREE: u8 = 0;

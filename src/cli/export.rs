@@ -4,12 +4,12 @@ use std::path::{Path, PathBuf};
 
 use super::load::load;
 use super::{number, output};
-use crate::engines::usual_step;
 use crate::report::case_json;
 use analytic::AssurSolver;
 use analytic::range::explained;
+use design::export::{first_state, mjcf};
 use linkage::error::Result;
-use workshop::export::{first_state, mjcf};
+use prover::engines::usual_step;
 
 const EXAMPLES: &str = "\
 Examples:

@@ -2,10 +2,10 @@
 
 use std::str::FromStr;
 
-use crate::scenario::Scenario;
-use crate::scenario::grid::{listed, range};
 use linkage::case::{Case, Grid};
 use linkage::error::{Error, ErrorKind, Result};
+use scenario::Scenario;
+use scenario::grid::{listed, range};
 
 /// The instants of a command, instead of the scenario's grid.
 #[derive(Clone, Debug, Default, clap::Args)]

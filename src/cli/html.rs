@@ -5,15 +5,15 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::{advice, drive, output};
-use crate::files;
-use crate::proof::Proof;
 use crate::report::drive_graphs;
 use crate::report::html::{self, Beside};
-use crate::scenario::Scenario;
 use analytic::range::explained;
 use analytic::reduced::Model;
+use design::diagram::Graphs;
+use files;
 use linkage::error::{Error, ErrorKind, Result};
-use workshop::diagram::Graphs;
+use prover::proof::Proof;
+use scenario::Scenario;
 
 /// Crank angle between two rows of the reduced quantities (deg): only their means and extremes are told.
 const STEP_DEG: f64 = 10.0;

@@ -3,13 +3,13 @@
 use std::path::PathBuf;
 
 use super::{load, number, output};
-use crate::proof::BUDGET;
 use crate::report::{inspect as report, modes, range};
-use crate::scenario::Asked;
 use analytic::range::explained;
 use linkage::case::Grid;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::work::limited;
+use prover::proof::BUDGET;
+use scenario::Asked;
 
 const EXAMPLES: &str = "\
 Examples:

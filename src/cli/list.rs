@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use super::load::plain;
 use super::{advice, output};
 use crate::report::lists;
-use crate::scenario::{self, Scenario};
 use linkage::error::Result;
+use scenario::{self, Scenario};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -38,7 +38,7 @@ pub(super) fn list(args: &Args) -> Result<()> {
             None => lists::channels(),
         }
     } else if args.solvers {
-        let (solvers, engines) = (analytic::all(), crate::engines::all(1.0));
+        let (solvers, engines) = (analytic::all(), prover::engines::all(1.0));
         let engines = engines.iter().map(|engine| (engine.name(), engine.version()));
         lists::solvers(solvers.iter().map(|solver| solver.name()), engines)
     } else {

@@ -22,8 +22,8 @@ use linkage::error::{Error, ErrorKind, Result};
 #[cfg(not(feature = "live"))]
 use {
     super::record_args::RecordArgs,
-    crate::proof::{Proof, Reference},
-    crate::scenario::Scenario,
+    prover::proof::{Proof, Reference},
+    scenario::Scenario,
     std::path::Path,
 };
 

@@ -4,8 +4,8 @@ use std::path::Path;
 
 use super::grid::GridArgs;
 use super::{number, standard_input};
-use crate::scenario::{Asked, Draft, Scenario, Undecided};
 use linkage::error::{Error, ErrorKind, Result};
+use scenario::{Asked, Draft, Scenario, Undecided};
 
 /// Another start than that of the file.
 #[derive(Clone, Debug, clap::Args)]

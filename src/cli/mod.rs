@@ -131,7 +131,7 @@ enum Command {
 /// Runs the command line and returns its exit code.
 #[must_use]
 pub fn main() -> ExitCode {
-    panics::silence(crate::engines::panic_is_caught);
+    panics::silence(prover::engines::panic_is_caught);
     let cli = Cli::parse();
     let code = match cli.command {
         Command::New(args) => new::new(&args),
@@ -251,7 +251,7 @@ mod tests {
     /// The first example brings the files that the others name; the program carries them.
     #[test]
     fn every_example_of_help_is_understood_and_has_its_files() {
-        let shipped = crate::scenario::shipped::files();
+        let shipped = crate::shipped::files();
         let is_there = |word: &str| {
             let (begin, end) = word.split_once('*').unwrap_or((word, ""));
             shipped.iter().any(|(path, _)| path.starts_with(begin) && path.ends_with(end))

@@ -5,9 +5,10 @@ use std::path::{Path, PathBuf};
 
 use super::{number, output};
 use crate::report::motor_choice as report;
-use crate::scenario::{Scenario, catalogue};
+use design::catalogue;
+use design::motor::Choice;
 use linkage::error::{Error, ErrorKind, Result};
-use workshop::motor::Choice;
+use scenario::Scenario;
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {

@@ -3,9 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use super::{exit_code, load, output};
-use crate::scenario::templates::{self, TEMPLATES, Template};
-use crate::scenario::{Scenario, shipped};
+use crate::shipped;
 use linkage::error::{Error, ErrorKind, Result};
+use scenario::Scenario;
+use scenario::templates::{self, TEMPLATES, Template};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -105,7 +106,7 @@ fn begin(name: &str, args: &Args) -> Result<u8> {
 
 /// Says why the mechanism cannot be assembled or does not turn; the exit code.
 fn told(text: &str, path: &Path, template: &Template) -> u8 {
-    let Err(error) = Scenario::parse(text, path).and_then(|scenario| crate::proof::solve(&scenario.case)) else {
+    let Err(error) = Scenario::parse(text, path).and_then(|scenario| prover::proof::solve(&scenario.case)) else {
         return exit_code::AGREE;
     };
     output::show(&error);

@@ -5,8 +5,8 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use super::advice;
-use crate::files::{self, Target};
 use crate::report::errors;
+use files::{self, Target};
 use linkage::error::{Error, ErrorKind, Result};
 
 /// Path that results may be written to, `-` for standard output. Scenario files are refused: in `--json

@@ -8,9 +8,9 @@ use super::load::{plain, reference_names};
 use super::{advice, number, output};
 use crate::report::plan as report;
 use analytic::range::explained;
+use design::diagram::plan::state_at;
+use design::diagram::{Plans, SingularPoint, draw};
 use linkage::error::{Error, ErrorKind, Result};
-use workshop::diagram::plan::state_at;
-use workshop::diagram::{Plans, SingularPoint, draw};
 
 const EXAMPLES: &str = "\
 Examples:

@@ -5,18 +5,18 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::{advice, number, output};
-use crate::files::{self, Target};
-use crate::proof::Proof;
-use crate::record::{self, Place, Recording, Show, Side};
 use crate::report::{layout, recorded};
-use crate::scenario::Scenario;
+use files::{self, Target};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::KeepNan;
+use prover::proof::Proof;
+use recording::{self, Place, Recording, Show, Side};
+use scenario::Scenario;
 #[cfg(feature = "live")]
 use {
-    crate::record::{Level, LogEntry, Reel},
     linkage::case::Case,
     linkage::trajectory::Trajectory,
+    recording::{Level, LogEntry, Reel},
 };
 
 /// Size from which on a recording is called large (bytes): viewers then take seconds to open it.
@@ -108,9 +108,9 @@ impl RecordArgs {
                 .help("name another directory with --record, or use --no-record")
         })?;
         metadata.extend(self.record_hz.map(|hz| ("record_hz".into(), hz.to_string())));
-        let Place { path, other } = record::place(directory, &scenario.name, &scenario.text, &metadata)?;
+        let Place { path, other } = recording::place(directory, &scenario.name, &scenario.text, &metadata)?;
         let view = self.as_recorded(scenario, proof, &metadata, |recording| {
-            record::write(recording, &path).map(|()| record::view(recording))
+            recording::write(recording, &path).map(|()| recording::view(recording))
         })?;
         let layout = view.map(|view| (path.with_extension("foxglove.json"), layout::text(&view)));
         let layout = layout.map(|(to, text)| -> Result<(PathBuf, String)> {
@@ -137,7 +137,7 @@ impl RecordArgs {
     /// What a recording of a proof holds, for viewers that look on.
     #[cfg(feature = "live")]
     pub(super) fn reel(&self, scenario: &Scenario, proof: &Proof) -> Result<Reel> {
-        self.as_recorded(scenario, proof, &BTreeMap::new(), record::reel)
+        self.as_recorded(scenario, proof, &BTreeMap::new(), recording::reel)
     }
 
     /// The same before there is a proof: the reference alone.
@@ -145,7 +145,7 @@ impl RecordArgs {
     pub(super) fn first_reel(&self, scenario: &Scenario, case: &Case, reference: &Trajectory) -> Result<Reel> {
         let text = "the engine is at work; its side appears as soon as the proof is done";
         let time = reference.times().iter().copied().fold(f64::INFINITY, f64::smaller);
-        record::reel(&Recording {
+        recording::reel(&Recording {
             name: &scenario.name,
             scenario_text: &scenario.text,
             metadata: &BTreeMap::new(),

@@ -14,9 +14,9 @@ use super::live::Live;
 use super::load::only;
 use super::progress::Shared;
 use super::{output, standard_input};
-use crate::proof::{Proof, memory, prove_with};
-use crate::scenario::Scenario;
 use linkage::error::Result;
+use prover::proof::{Proof, memory, prove_with};
+use scenario::Scenario;
 use session::Session;
 
 pub(super) use args::Args;

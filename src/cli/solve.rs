@@ -9,10 +9,10 @@ use super::grid::GridArgs;
 use super::load::{StartArgs, only, reference_names};
 use super::output;
 use super::progress::Bar;
-use crate::proof::memory;
 use crate::report::table_csv;
 use analytic::range::explained;
 use linkage::error::{Error, ErrorKind, Result};
+use prover::proof::memory;
 
 const EXAMPLES: &str = "\
 Examples:

@@ -6,9 +6,9 @@ use clap::builder::PossibleValuesParser;
 
 use super::progress::Bar;
 use super::{exit_code, number, output};
-use crate::files;
 use crate::report::stress as report;
-use crate::stress::{FAMILIES, Family, Job, Outcome, jobs, run_all};
+use files;
+use lab::stress::{FAMILIES, Family, Job, Outcome, jobs, run_all};
 use linkage::error::{Error, ErrorKind, Result};
 
 const EXAMPLES: &str = "\

@@ -8,10 +8,10 @@ use super::load::plain;
 use super::progress::Bar;
 use super::{number, output, standard_input};
 use crate::report::tune as report;
-use crate::scenario::{EngineKeys, Scenario, edit};
-use crate::tune::{Candidate, Wish, by_work, tune};
+use lab::tune::{Candidate, Wish, by_work, tune};
 use linkage::engine::Engine;
 use linkage::error::{Advice, Error, Result};
+use scenario::{EngineKeys, Scenario, edit};
 
 const EXAMPLES: &str = "\
 Examples:

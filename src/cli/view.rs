@@ -6,9 +6,8 @@ use std::time::Instant;
 use clap::ValueEnum;
 
 use super::output;
-use crate::outside;
-use crate::record;
 use crate::report::{film, layout, plotjuggler};
+use lab::outside;
 use linkage::error::{Error, ErrorKind, Result};
 
 const EXAMPLES: &str = "\
@@ -53,7 +52,7 @@ pub(super) fn view(args: &Args) -> Result<()> {
     let beside = |ending: &str| args.output.clone().unwrap_or_else(|| args.file.with_extension(ending));
     match args.with {
         Viewer::Rerun => {
-            let film = record::film(&args.file)?;
+            let film = recording::film(&args.file)?;
             let to = beside("rrd");
             let since = Instant::now();
             let python = &args.python;
@@ -75,7 +74,7 @@ pub(super) fn view(args: &Args) -> Result<()> {
             }
         }
         Viewer::Foxglove => {
-            let film = record::film(&args.file)?;
+            let film = recording::film(&args.file)?;
             let to = beside("foxglove.json");
             put(args, &layout::text(&film.view), &to)?;
             output::print(&format!(
@@ -88,7 +87,7 @@ pub(super) fn view(args: &Args) -> Result<()> {
         }
         Viewer::Plotjuggler => {
             let to = beside("plotjuggler.xml");
-            let numbers = record::numbers(&args.file)?;
+            let numbers = recording::numbers(&args.file)?;
             put(args, &plotjuggler::text(&numbers, &seen_from(&to, &args.file)), &to)?;
             output::print(&format!(
                 "layout     {}\n\

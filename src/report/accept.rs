@@ -10,12 +10,12 @@ use super::diagnosis::{number, told_apart};
 use super::json::Failure;
 use super::pretty::pretty;
 use super::tell::Tell;
-use crate::accept::{Comparison, Figure, Moved, Wider};
-use crate::compare::Verdict;
-use crate::proof::Proof;
-use crate::scenario::accepted::Accepted;
 use linkage::error::Error;
 use linkage::trajectory::Channel;
+use prover::accept::{Comparison, Figure, Moved, Wider};
+use prover::compare::Verdict;
+use prover::proof::Proof;
+use scenario::accepted::Accepted;
 
 /// Channels of which figures are shown; the others are counted.
 const SHOWN: usize = 20;

@@ -6,9 +6,9 @@ use serde_json::json;
 
 use super::cells::{table, trimmed};
 use super::pretty::pretty;
-use crate::numbers;
-use crate::scenario::Scenario;
-use workshop::bearings::{Peak, Peaks, journal_diameter};
+use design::bearings::{Peak, Peaks, journal_diameter};
+use prover::numbers;
+use scenario::Scenario;
 
 /// Lever and stress for which the journals are chosen.
 #[derive(Clone, Copy, Debug)]

@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 
 use super::cells::table;
 use super::pretty::pretty;
-use crate::bench::{Axis, Bench, Errors, Outcome, Party, Point, front};
+use lab::bench::{Axis, Bench, Errors, Outcome, Party, Point, front};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::trajectory::Stage;
 

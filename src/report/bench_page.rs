@@ -5,7 +5,7 @@ use std::fmt::Write;
 use super::bench::{Machine, error, fastest, ratio, short};
 use super::bench_plot::{gaps, reasons};
 use super::markdown::foreign;
-use crate::bench::{Axis, Bench, CLEAR, Party, Point, front};
+use lab::bench::{Axis, Bench, CLEAR, Party, Point, front};
 use linkage::trajectory::Stage;
 
 /// Errors in the cells of the tables.

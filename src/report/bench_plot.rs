@@ -9,7 +9,7 @@ use plotters::prelude::{
 };
 use plotters::style::IntoFont;
 
-use crate::bench::{Axis, Bench, CLEAR, Party, Point, front};
+use lab::bench::{Axis, Bench, CLEAR, Party, Point, front};
 use linkage::math::KeepNan;
 use linkage::trajectory::Stage;
 

@@ -8,10 +8,10 @@ use super::own_forces;
 use super::reasons::{self, count};
 use super::style;
 use super::tell::Tell;
-use crate::compare::Verdict;
-use crate::numbers;
-use crate::proof::{ChannelProof, EngineInfo, EngineProof, Proof};
 use linkage::trajectory::{Channel, Trajectory, Unit};
+use prover::compare::Verdict;
+use prover::numbers;
+use prover::proof::{ChannelProof, EngineInfo, EngineProof, Proof};
 
 /// Channels that are shown with their values.
 const WORST: usize = 3;

@@ -2,9 +2,9 @@
 
 use comfy_table::{CellAlignment, ColumnConstraint, ContentArrangement, Table, Width, presets};
 
-use crate::compare::Verdict;
-use crate::numbers;
-use crate::proof::ChannelProof;
+use prover::compare::Verdict;
+use prover::numbers;
+use prover::proof::ChannelProof;
 
 /// An empty table without lines; the columns in `numbers` are aligned right.
 pub(super) fn table<const N: usize>(header: [&str; N], numbers: &[usize]) -> Table {

@@ -10,11 +10,11 @@ use super::cells::{flush, trimmed};
 use super::pretty::pretty;
 use super::style::{self, wrapped};
 use super::tell::Tell;
-use crate::claims::{At, CUT, Cause, Judged, Missing, Outcome, Term, WORDS};
-use crate::compare::Verdict;
-use crate::numbers::{beside, error, fixed, fixed_in, with_unit};
-use crate::proof::claimed::Claimed;
-use crate::scenario::{Formula, Scenario};
+use prover::claims::{At, CUT, Cause, Judged, Missing, Outcome, Term, WORDS};
+use prover::compare::Verdict;
+use prover::numbers::{beside, error, fixed, fixed_in, with_unit};
+use prover::proof::claimed::Claimed;
+use scenario::{Formula, Scenario};
 
 /// Claims that the short report shows with their values.
 const WORST: usize = 3;

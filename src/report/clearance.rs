@@ -6,11 +6,12 @@ use serde_json::{Value, json};
 
 use super::cells::{table, trimmed};
 use super::pretty::pretty;
-use crate::numbers;
-use crate::scenario::Scenario;
+use design::clearance::{Clearance, Course, Meeting, PairClearance};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::Vec2;
-use workshop::clearance::{Clearance, Course, Meeting, PairClearance, Question};
+use prover::numbers;
+use scenario::Scenario;
+use scenario::clearance::Question;
 
 /// How a question is answered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -5,9 +5,9 @@ use std::fmt::Write;
 use serde_json::json;
 
 use super::pretty::pretty;
-use crate::numbers::fixed_in;
-use workshop::synthesis::crank_rocker::{CrankRocker, Extreme};
-use workshop::synthesis::slider_crank::SliderCrank;
+use design::synthesis::crank_rocker::{CrankRocker, Extreme};
+use design::synthesis::slider_crank::SliderCrank;
+use prover::numbers::fixed_in;
 
 /// A result as text and as JSON.
 #[derive(Debug)]

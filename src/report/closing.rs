@@ -2,9 +2,9 @@
 
 use super::brief::{ranked, resolution};
 use super::cells::{flush, trimmed};
-use crate::compare::{Check, Verdict};
-use crate::numbers::percent;
-use crate::proof::Proof;
+use prover::compare::{Check, Verdict};
+use prover::numbers::percent;
+use prover::proof::Proof;
 
 /// One file of the command.
 #[derive(Clone, Debug)]

@@ -4,9 +4,9 @@ use std::fmt::Write;
 
 use serde::Serialize;
 
-use crate::diagnosis::{Arm, Axis, Cause, Change, Diagnosis, How, Nature, Over, Part, Plain, Since, Slip, Standing};
-use crate::numbers::{fixed, significant};
 use linkage::trajectory::{Channel, Stage};
+use prover::diagnosis::{Arm, Axis, Cause, Change, Diagnosis, How, Nature, Over, Part, Plain, Since, Slip, Standing};
+use prover::numbers::{fixed, significant};
 
 /// Column at which the text of a line begins.
 pub(super) const INDENT: usize = 12;
@@ -195,7 +195,7 @@ fn duration(seconds: f64) -> String {
 /// What an error without a simple cause looks like.
 #[must_use]
 pub fn nature(nature: Nature) -> String {
-    let percent = crate::numbers::percent;
+    let percent = prover::numbers::percent;
     match nature {
         Nature::Growing(power) => {
             let how = power.map_or(String::new(), |power| match power {

@@ -5,10 +5,10 @@ use std::fmt::Write;
 use serde_json::json;
 
 use super::pretty::pretty;
-use crate::numbers;
-use crate::scenario::Scenario;
-use workshop::diagram::MotionDiagram;
-use workshop::diagram::draw::significant;
+use design::diagram::MotionDiagram;
+use design::diagram::draw::significant;
+use prover::numbers;
+use scenario::Scenario;
 
 /// The diagram as text: the largest and the mean error of every method.
 pub(crate) fn text(scenario: &Scenario, diagram: &MotionDiagram) -> String {

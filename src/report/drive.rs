@@ -6,13 +6,13 @@ use serde_json::{Value, json};
 
 use super::cells::{table, trimmed};
 use super::pretty::pretty;
-use crate::numbers::{fixed, fixed_in};
-use crate::scenario::Scenario;
 use analytic::reduced::means::Means;
 use analytic::steady::course::{Extremes, Row};
 use analytic::steady::regime::At;
 use analytic::steady::{Averaged, Regime};
-use workshop::flywheel::Flywheel;
+use design::flywheel::Flywheel;
+use prover::numbers::{fixed, fixed_in};
+use scenario::Scenario;
 
 /// What is known about a drive.
 #[derive(Debug)]

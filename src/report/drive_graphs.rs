@@ -1,11 +1,11 @@
 //! The reduced quantities and the steady motion of a mechanism as graphs.
 
 use super::drive::Found;
-use crate::scenario::Scenario;
 use analytic::steady::Regime;
 use analytic::steady::course::{Extremes, Row};
+use design::diagram::{Graph, Graphs, Mark, draw};
 use linkage::math::KeepNan;
-use workshop::diagram::{Graph, Graphs, Mark, draw};
+use scenario::Scenario;
 
 /// Data of the curves.
 #[derive(Debug)]

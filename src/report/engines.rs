@@ -5,9 +5,9 @@ use std::fmt::Write;
 use comfy_table::Table;
 
 use super::cells::{self, share, used};
-use crate::compare::overall;
-use crate::proof::{EngineProof, Proof};
 use linkage::trajectory::Stage;
+use prover::compare::overall;
+use prover::proof::{EngineProof, Proof};
 
 /// One row per engine, one column per stage: the channel that uses the largest share of its bound.
 pub(super) fn table(engines: &[EngineProof], width: Option<usize>) -> Table {

@@ -5,27 +5,9 @@ use std::borrow::Cow;
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 
 use super::tell::Tell;
+use files::visible;
 use linkage::error::Error;
 use linkage::mechanism::is_unseen;
-
-/// Longest part of a message that is shown (letters).
-const LONGEST: usize = 2000;
-
-/// A text with every letter that is not seen written out, so that no name from a file forges a line or commands a
-/// terminal, and of bounded length. Help may have several lines, such as a section to add.
-pub(crate) fn visible(text: &str, has_lines: bool) -> String {
-    let mut shown = String::new();
-    for letter in text.chars().take(LONGEST) {
-        match is_unseen(letter) && !(has_lines && letter == '\n') {
-            true => shown.extend(letter.escape_default()),
-            false => shown.push(letter),
-        }
-    }
-    if text.chars().nth(LONGEST).is_some() {
-        shown.push_str(" ...");
-    }
-    shown
-}
 
 /// A text for a snippet, whose places are counted in bytes: every letter that is not seen gives way to a sign of as many
 /// bytes. Those of ASCII the renderer replaces itself.

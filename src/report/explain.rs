@@ -2,10 +2,10 @@
 
 use std::fmt::Write;
 
-use crate::proof::{Entry, Proof};
 use linkage::case::{Case, LeftOut};
 use linkage::trajectory::Stage;
 use linkage::work::Work;
+use prover::proof::{Entry, Proof};
 
 /// The page of one proof. `further` are parts that the command adds: recording, other files.
 #[must_use]

@@ -3,7 +3,7 @@
 use serde_json::{Map, Value, json};
 
 use super::layout::{height, speed};
-use crate::record::{Film, Part};
+use recording::{Film, Part};
 
 /// The film as JSON: places in m, angles in rad, times in simulated seconds.
 pub(crate) fn text(film: &Film) -> String {

@@ -6,12 +6,12 @@ use serde_json::{Value, json};
 
 use super::pretty::pretty;
 use super::{modes, range};
-use crate::numbers::{fixed_in, significant};
-use crate::scenario::{Scenario, Undecided};
 use analytic::modes::Modes;
 use analytic::range::Range;
 use linkage::mechanism::assembly::{Choice, transmission_sine};
 use linkage::mechanism::{GROUND, Joint, Mechanism};
+use prover::numbers::{fixed_in, significant};
+use scenario::{Scenario, Undecided};
 
 /// Digits of a mass or a moment of inertia: all that a scenario states, and none that a conversion has left.
 const SHOWN: usize = 12;

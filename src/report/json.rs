@@ -6,11 +6,11 @@ use serde::Serialize;
 
 use super::diagnosis;
 use super::tell::Tell;
-use crate::compare::{Check, Verdict};
-use crate::proof::{ChannelProof, Dispute, End, EngineInfo, EngineProof, Entry, ForceFault, OwnForces, Proof, Search};
 use linkage::error::{Advice, Error};
 use linkage::solver::Provision;
 use linkage::work::Work;
+use prover::compare::{Check, Verdict};
+use prover::proof::{ChannelProof, Dispute, End, EngineInfo, EngineProof, Entry, ForceFault, OwnForces, Proof, Search};
 
 /// The whole document.
 #[derive(Debug, Serialize)]

@@ -2,8 +2,8 @@
 
 use serde_json::{Map, Value, json};
 
-use crate::record::{Line, Plot, View};
 use linkage::math::KeepNan;
+use recording::{Line, Plot, View};
 
 /// Speeds that the players offer.
 const SPEEDS: [f64; 8] = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 0.8, 1.0];

@@ -4,10 +4,10 @@ use std::fmt::{Display, Write};
 use std::path::{Path, PathBuf};
 
 use super::tell::Tell;
-use crate::scenario::Scenario;
 use linkage::case::Case;
 use linkage::error::Result;
 use linkage::trajectory::{CHANNELS, Channel, Subject};
+use scenario::Scenario;
 
 /// The scenario files of a directory with title and structure, or the reason why a file cannot be read.
 pub(crate) fn scenarios(directory: &Path, all: &[(Result<Scenario>, PathBuf)], tell: Tell) -> String {

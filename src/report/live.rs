@@ -8,9 +8,9 @@ use base64::engine::general_purpose::STANDARD;
 use serde_json::{Value, json};
 
 use super::layout::{TURN, speed};
-use crate::numbers::significant;
-use crate::record::{Kind, Reel, Told};
 use linkage::math::KeepNan;
+use prover::numbers::significant;
+use recording::{Kind, Reel, Told};
 
 /// A name of the protocol. Viewers offer the names that they know.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

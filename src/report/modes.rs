@@ -4,10 +4,10 @@ use std::fmt::Write;
 
 use serde_json::{Value, json};
 
-use crate::numbers::{fixed, fixed_in};
-use crate::scenario::{Scenario, Undecided};
 use analytic::modes::Modes;
 use linkage::mechanism::AssemblyMode;
+use prover::numbers::{fixed, fixed_in};
+use scenario::{Scenario, Undecided};
 
 /// Why a configuration has no angular velocities.
 const SINGULAR: &str = "the configuration is singular: angular velocities are not determined";

@@ -6,10 +6,10 @@ use std::fmt::Write;
 use serde_json::json;
 
 use super::pretty::pretty;
-use crate::numbers::fixed_in;
-use crate::scenario::Scenario;
+use design::motor::Choice;
 use linkage::drive::MotorLaw;
-use workshop::motor::Choice;
+use prover::numbers::fixed_in;
+use scenario::Scenario;
 
 fn rpm(omega: f64) -> f64 {
     omega * 60.0 / TAU

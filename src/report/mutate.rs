@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 
 use super::cells::{table, trimmed};
 use super::pretty::pretty;
-use crate::mutate::{End, Kind, Mutant, Mutated, Outcome, Party, Share, Sight, Spoiled, Tally, all, tally};
+use lab::mutate::{End, Kind, Mutant, Mutated, Outcome, Party, Share, Sight, Spoiled, Tally, all, tally};
 use linkage::math::KeepNan;
 
 /// The result as text, the verdict first.
@@ -267,9 +267,9 @@ fn described(kind: &Kind) -> [String; 5] {
 
 fn place(kind: &Kind) -> &'static str {
     match kind.plant {
-        crate::mutate::Plant::Case(_) => "case",
-        crate::mutate::Plant::Answer(_) => "answer",
-        crate::mutate::Plant::Formula(_) => "formula",
+        lab::mutate::Plant::Case(_) => "case",
+        lab::mutate::Plant::Answer(_) => "answer",
+        lab::mutate::Plant::Formula(_) => "formula",
     }
 }
 

@@ -4,10 +4,10 @@ use std::path::Path;
 
 use super::tell::Tell;
 use super::{own_forces, versus};
-use crate::compare::Verdict;
-use crate::proof::Proof;
-use crate::versus::{Comparison, Pair};
 use linkage::error::{Advice, Error};
+use prover::compare::Verdict;
+use prover::proof::Proof;
+use prover::versus::{Comparison, Pair};
 
 /// One channel or check.
 #[derive(Clone, Debug)]

@@ -1,10 +1,10 @@
 //! Forces as an engine itself exerts them, beside those that follow from its motion.
 
 use super::cells::used;
-use crate::numbers;
-use crate::proof::{ChannelProof, EngineProof, ForceFault, OwnForces};
 use linkage::solver::Provision;
 use linkage::trajectory::Stage;
+use prover::numbers;
+use prover::proof::{ChannelProof, EngineProof, ForceFault, OwnForces};
 
 /// Name of a channel as the engine itself exerts it.
 pub(super) fn name(channel: &ChannelProof) -> String {

@@ -6,12 +6,12 @@ use serde_json::json;
 
 use super::pretty::pretty;
 use super::tell::Tell;
-use crate::numbers::fixed_in;
-use crate::scenario::Scenario;
+use design::diagram::draw::significant;
+use design::diagram::{Plan, Plans, SingularPoint};
 use linkage::case::Case;
 use linkage::error::Result;
-use workshop::diagram::draw::significant;
-use workshop::diagram::{Plan, Plans, SingularPoint};
+use prover::numbers::fixed_in;
+use scenario::Scenario;
 
 /// The plans as text. `singular`: the singular points of groups of class IV, or the reason why one was not found.
 /// `is_free` says that forces decide the motion, while the scenario's case is the nominal one. Advice is worded by `tell`.

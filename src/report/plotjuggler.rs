@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::html::escaped;
-use crate::record::{Line, Numbers, Plot};
+use recording::{Line, Numbers, Plot};
 
 /// The layout of a recording as XML. `file` is the recording, relative to the layout or absolute.
 pub(crate) fn text(numbers: &Numbers, file: &Path) -> String {

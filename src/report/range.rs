@@ -6,9 +6,9 @@ use std::fmt::Write;
 use serde_json::{Value, json};
 
 use super::cells::{table, trimmed};
-use crate::numbers;
-use crate::scenario::Scenario;
 use analytic::range::{At, Extent, Extreme, LinkRange, Measure, Range, Singularity};
+use prover::numbers;
+use scenario::Scenario;
 
 /// Number of extreme positions of one link that are shown in full; the others are only counted.
 const EXTREMES: usize = 8;
@@ -204,7 +204,7 @@ pub(super) fn json(scenario: &Scenario, range: &Range) -> Value {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scenario::of_repository;
+    use scenario::of_repository;
 
     /// A closed curve of poses may take several turns of the crank.
     #[test]

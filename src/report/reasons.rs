@@ -7,9 +7,9 @@ use super::diagnosis;
 use super::own_forces;
 use super::style::wrapped;
 use super::tell::Tell;
-use crate::compare::Verdict;
-use crate::proof::{ChannelProof, Proof};
 use linkage::error::Advice;
+use prover::compare::Verdict;
+use prover::proof::{ChannelProof, Proof};
 
 /// All verdicts of a proof by name: channels, forces that engines exert themselves, and checks.
 pub(super) fn verdicts(proof: &Proof) -> impl Iterator<Item = (String, &Verdict)> {

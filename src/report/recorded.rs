@@ -5,10 +5,10 @@ use std::collections::BTreeMap;
 use super::json;
 use super::own_forces;
 use super::tell::Tell;
-use crate::compare::Verdict;
-use crate::proof::{ChannelProof, EngineProof, Proof};
-use crate::record::{Level, LogEntry};
 use linkage::math::KeepNan;
+use prover::compare::Verdict;
+use prover::proof::{ChannelProof, EngineProof, Proof};
+use recording::{Level, LogEntry};
 
 /// Versions, settings and verdict, by name.
 pub(crate) fn metadata(proof: &Proof) -> BTreeMap<String, String> {

@@ -2,8 +2,8 @@
 
 use super::cells::{table, trimmed};
 use super::own_forces;
-use crate::numbers;
-use crate::proof::Proof;
+use prover::numbers;
+use prover::proof::Proof;
 
 /// One line for every channel of every engine, and for every check.
 #[must_use]
@@ -35,8 +35,8 @@ pub fn all(proof: &Proof) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::proof::{Options, prove};
-    use crate::scenario::of_repository;
+    use prover::proof::{Options, prove};
+    use scenario::of_repository;
 
     /// Residual, bound and what is used of it, line by line, in the order of the proof.
     #[test]

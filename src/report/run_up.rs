@@ -2,8 +2,8 @@
 
 use std::fmt::Write;
 
-use crate::numbers;
 use analytic::reduced::{End, RunUp};
+use prover::numbers;
 
 /// The end of a run-up as text, with an empty line after it.
 pub(crate) fn text(run_up: &RunUp) -> String {

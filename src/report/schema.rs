@@ -3,7 +3,7 @@
 use serde_json::{Map, Value, json};
 
 use super::pretty::pretty;
-use crate::scenario::keys::{Key, Kind, section};
+use scenario::keys::{Key, Kind, section};
 
 /// The schema (draft 7), with a line feed at its end.
 #[must_use]

@@ -4,7 +4,7 @@
 use anstyle::{AnsiColor, Style};
 use textwrap::{Options, WordSplitter, wrap};
 
-use crate::compare::Verdict;
+use prover::compare::Verdict;
 
 /// Columns of a report that goes to a file or a pipe.
 pub const COLUMNS: usize = 80;

@@ -6,11 +6,11 @@ use serde_json::json;
 
 use super::cells::table;
 use super::pretty::pretty;
-use crate::numbers;
-use workshop::diagram::timing::{Stretch, TimingDiagram};
-use workshop::synthesis::achieved::BAND;
-use workshop::synthesis::{Achieved, Found};
-use workshop::task::{Output, Sense, Task};
+use design::diagram::timing::{Stretch, TimingDiagram};
+use design::synthesis::achieved::BAND;
+use design::synthesis::{Achieved, Found};
+use design::task::{Output, Sense, Task};
+use prover::numbers;
 
 /// A task, what was achieved, and how it was found.
 #[derive(Debug)]
@@ -136,7 +136,7 @@ pub(crate) fn diagram(story: &Story) -> TimingDiagram {
         let row = achieved.turns.iter().position(|&turn| turn >= crank);
         achieved.shares[row.unwrap_or(achieved.shares.len() - 1)]
     };
-    let least = |phase: &workshop::task::Phase| {
+    let least = |phase: &design::task::Phase| {
         let start = share(phase.from);
         let way = match phase.sense {
             Sense::Dwell => 0.0,
@@ -145,7 +145,7 @@ pub(crate) fn diagram(story: &Story) -> TimingDiagram {
         };
         [start, phase.level.unwrap_or(start + way)]
     };
-    let stretch = |(phase, done): (&workshop::task::Phase, &workshop::synthesis::achieved::PhaseDone)| Stretch {
+    let stretch = |(phase, done): (&design::task::Phase, &design::synthesis::achieved::PhaseDone)| Stretch {
         from: phase.from,
         to: phase.to,
         word: phase.sense.name(),

@@ -11,9 +11,9 @@ use super::own_forces;
 use super::reasons::{self, count};
 use super::style::wrapped;
 use super::tell::Tell;
-use crate::compare::{Check, Verdict};
-use crate::numbers;
-use crate::proof::{ChannelProof, End, EngineInfo, EngineProof, OwnForces, Proof, Search};
+use prover::compare::{Check, Verdict};
+use prover::numbers;
+use prover::proof::{ChannelProof, End, EngineInfo, EngineProof, OwnForces, Proof, Search};
 
 /// Number of reasons that are shown in full; the others are only counted.
 const REASONS: usize = 5;
@@ -183,7 +183,7 @@ pub(super) fn sentence(verdict: &Verdict, proof: &Proof) -> String {
 
 /// Verdict on a family of checks; `expected` if all wrong numbers are known to be wrong.
 fn family_word<'a>(family: impl Iterator<Item = &'a Check> + Clone) -> &'static str {
-    let word = crate::compare::overall(family.clone().map(|check| &check.verdict)).word();
+    let word = prover::compare::overall(family.clone().map(|check| &check.verdict)).word();
     let known = family.clone().any(|check| matches!(check.verdict, Verdict::Expected { .. }));
     if known && word == "agree" { "expected" } else { word }
 }
@@ -209,7 +209,7 @@ fn channels(channels: &[ChannelProof], width: Option<usize>) -> Table {
             share(residual.max, residual.scale),
             share(worst.bound, residual.scale),
             order(worst.convergence.observed),
-            crate::compare::overall(family().map(|c| &c.verdict)).word().to_string(),
+            prover::compare::overall(family().map(|c| &c.verdict)).word().to_string(),
         ]);
     }
     table

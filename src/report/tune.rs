@@ -7,10 +7,10 @@ use serde_json::json;
 
 use super::cells::{table, trimmed};
 use super::pretty::pretty;
-use crate::numbers;
-use crate::scenario::Scenario;
-use crate::tune::{Candidate, Tuning};
+use lab::tune::{Candidate, Tuning};
 use linkage::engine::Settings;
+use prover::numbers;
+use scenario::Scenario;
 
 /// The `[engine]` section that a scenario needs for the best settings.
 #[derive(Clone, Copy, Debug)]

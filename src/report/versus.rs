@@ -10,11 +10,11 @@ use super::diagnosis;
 use super::pretty::pretty;
 use super::style;
 use super::tell::Tell;
-use crate::claims::Cause;
-use crate::compare::Verdict;
-use crate::numbers;
-use crate::versus::{Compared, Comparison, Contradiction, Explained, Pair, Row};
 use linkage::math::KeepNan;
+use prover::claims::Cause;
+use prover::compare::Verdict;
+use prover::numbers;
+use prover::versus::{Compared, Comparison, Contradiction, Explained, Pair, Row};
 
 /// Channels of agreeing pairs that a short report shows.
 const SHOWN: usize = 3;

@@ -5,10 +5,11 @@ use std::process::ExitCode;
 
 use libtest_mimic::{Arguments, Failed, Trial, run};
 
-use crate::proof::{Options, Proof};
+use super::{Proving, failure};
 use crate::report::errors;
-use crate::scenario::files_in;
 use linkage::error::Advice;
+use prover::proof::Options;
+use scenario::files_in;
 
 /// Proves every scenario of a folder (`*.toml`, without those of folders inside), each as a test with the name of its
 /// file. The path is relative to the package, in whose directory Cargo runs tests.
@@ -108,8 +109,8 @@ fn name(file: &Path) -> String {
 }
 
 fn proven(file: PathBuf, options: Options) -> Result<(), Failed> {
-    match Proof::of(file).with(options).prove() {
-        Ok(proof) => proof.failure().map_or(Ok(()), |failure| Err(failure.into())),
+    match Proving::of(file).with(options).prove() {
+        Ok(proof) => failure(&proof).map_or(Ok(()), |failure| Err(failure.into())),
         Err(error) => Err(errors::text(&error, Advice::to_string).into()),
     }
 }

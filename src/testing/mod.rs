@@ -12,13 +12,13 @@ pub use folder::{Folder, main};
 
 use std::path::PathBuf;
 
-use crate::compare::Verdict;
-use crate::proof::{Options, Proof, prove};
 use crate::report::{brief, errors, style};
-use crate::scenario::grid::listed;
-use crate::scenario::{Asked, Scenario};
 use linkage::case::Grid;
 use linkage::error::{Advice, Error, ErrorKind, Result};
+use prover::compare::Verdict;
+use prover::proof::{Options, Proof, prove};
+use scenario::grid::listed;
+use scenario::{Asked, Scenario};
 
 /// Proves a scenario file, and panics with the report unless it agrees; gives the [`Proof`].
 ///
@@ -44,38 +44,20 @@ macro_rules! assert_proven {
     };
     ($file:expr $(, $($options:tt)*)?) => {{
         let file = ::std::path::Path::new(::core::env!("CARGO_MANIFEST_DIR")).join($file);
-        $crate::assert_proven!(@with $crate::Proof::of(file), $($($options)*)?).assert()
+        $crate::assert_proven!(@with $crate::testing::Proving::of(file), $($($options)*)?).assert()
     }};
 }
 
-impl Proof {
-    /// Begins a proof of the scenario file at `path`, for a test.
-    ///
-    /// ```no_run
-    /// use linkproof::{Options, Proof};
-    ///
-    /// Proof::of("scenarios/crank_rocker.toml").with(Options::default().step(1e-3)).only(["positions"]).assert();
-    /// ```
-    pub fn of(path: impl Into<PathBuf>) -> Proving {
-        Proving {
-            file: path.into(),
-            asked: Asked::default(),
-            instants: None,
-            only: Vec::new(),
-            options: Options::default(),
-            tolerance: None,
-        }
-    }
-
+/// What a test wants of a [`Proof`]: its report, and a panic unless it agrees.
+pub trait AssertProven: Sized {
     /// The report, as the terminal shows it.
     #[must_use]
-    pub fn report(&self) -> String {
-        style::plain(&brief::proof(self, Advice::to_string, style::COLUMNS))
-    }
+    fn report(&self) -> String;
 
     /// Gives the proof back if it agrees.
     ///
     /// ```
+    /// use linkproof::testing::AssertProven;
     /// use linkproof::{Options, Scenario, prove};
     ///
     /// # std::env::set_current_dir(env!("CARGO_MANIFEST_DIR"))?;
@@ -87,28 +69,37 @@ impl Proof {
     /// # Panics
     /// If it disagrees or is inconclusive, with the verdict and the report.
     #[track_caller]
-    pub fn assert(self) -> Self {
-        match self.failure() {
+    fn assert(self) -> Self;
+}
+
+impl AssertProven for Proof {
+    fn report(&self) -> String {
+        style::plain(&brief::proof(self, Advice::to_string, style::COLUMNS))
+    }
+
+    #[track_caller]
+    fn assert(self) -> Self {
+        match failure(&self) {
             None => self,
             Some(failure) => panic!("{failure}"),
         }
     }
-
-    /// Why a test that wants this proof fails; `None` if it does not.
-    fn failure(&self) -> Option<String> {
-        let word = match self.verdict {
-            Verdict::Agree { .. } | Verdict::Expected { .. } => return None,
-            Verdict::Disagree { .. } | Verdict::Inconclusive { .. } => self.verdict.word(),
-        };
-        let mut told = format!("{} is not proven: {word}\n\n{}", self.scenario, self.report());
-        for error in self.engines.iter().filter_map(|engine| engine.failure.as_ref()) {
-            told += &format!("\n{}\n", errors::text(error, Advice::to_string));
-        }
-        Some(told)
-    }
 }
 
-/// A proof to be made of a scenario file: [`Proof::of`]. What is not set is the file's.
+/// Why a test that wants this proof fails; `None` if it does not.
+fn failure(proof: &Proof) -> Option<String> {
+    let word = match proof.verdict {
+        Verdict::Agree { .. } | Verdict::Expected { .. } => return None,
+        Verdict::Disagree { .. } | Verdict::Inconclusive { .. } => proof.verdict.word(),
+    };
+    let mut told = format!("{} is not proven: {word}\n\n{}", proof.scenario, proof.report());
+    for error in proof.engines.iter().filter_map(|engine| engine.failure.as_ref()) {
+        told += &format!("\n{}\n", errors::text(error, Advice::to_string));
+    }
+    Some(told)
+}
+
+/// A proof to be made of a scenario file: [`Proving::of`]. What is not set is the file's.
 #[derive(Clone, Debug)]
 #[must_use = "nothing is proven before `prove` or `assert`"]
 pub struct Proving {
@@ -130,6 +121,25 @@ enum Instants {
 }
 
 impl Proving {
+    /// Begins a proof of the scenario file at `path`, for a test.
+    ///
+    /// ```no_run
+    /// use linkproof::Options;
+    /// use linkproof::testing::Proving;
+    ///
+    /// Proving::of("scenarios/crank_rocker.toml").with(Options::default().step(1e-3)).only(["positions"]).assert();
+    /// ```
+    pub fn of(path: impl Into<PathBuf>) -> Self {
+        Proving {
+            file: path.into(),
+            asked: Asked::default(),
+            instants: None,
+            only: Vec::new(),
+            options: Options::default(),
+            tolerance: None,
+        }
+    }
+
     /// Sets engines, their settings and the reference.
     pub fn with(mut self, options: Options) -> Self {
         self.options = options;

@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use linkage::{Error, ErrorKind};
-use linkproof::scenario::Scenario;
+use scenario::Scenario;
 
 const GOOD: &str = include_str!("bad_scenarios/good.toml");
 

@@ -3,12 +3,12 @@
 use std::cell::Cell;
 
 use analytic::NewtonSolver;
+use lab::bench::{Answer, Axis, Bench, CLEAR, Effort, Options, Party, Peer, Way, bench, front};
 use linkage::case::Grid;
 use linkage::solver::Solver;
 use linkage::trajectory::{Stage, Trajectory};
-use linkproof::bench::{Answer, Axis, Bench, CLEAR, Effort, Options, Party, Peer, Way, bench, front};
-use linkproof::engines::EngineName;
-use linkproof::scenario::Scenario;
+use prover::engines::EngineName;
+use scenario::Scenario;
 
 use crate::common::{assert_within, shipped};
 
@@ -80,7 +80,7 @@ fn what_fails_stays_with_its_reason() {
 #[test]
 fn errors_and_counts_are_the_same_again() {
     let of = |bench: Bench| {
-        let told = |point: &linkproof::bench::Point| {
+        let told = |point: &lab::bench::Point| {
             format!("{:?} {:?}", point.settings, point.run().map(|run| (run.errors, run.effort.clone())))
         };
         bench.points.iter().map(told).collect::<Vec<_>>()

@@ -10,8 +10,8 @@ use std::fmt::Write;
 use std::path::Path;
 
 use linkage::math::KeepNan;
-use linkproof::proof::claimed::judge;
 use linkproof::{Options, Proof, Scenario, prove};
+use prover::proof::claimed::judge;
 
 const TABLE: &str = include_str!("bounds/parts.txt");
 /// Largest ratio of two numbers that are the same but for noise.

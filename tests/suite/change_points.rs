@@ -7,7 +7,7 @@ use linkage::error::Result;
 use linkage::math::{KeepNan, Vec2, cross};
 use linkage::mechanism::AssemblyMode;
 use linkage::trajectory::Stage;
-use linkproof::scenario::Scenario;
+use scenario::Scenario;
 
 use crate::common::higher::{Among, FAMILIES, mechanism};
 use crate::common::sketch::Random;
@@ -147,7 +147,7 @@ fn no_step_passes_over_the_change_point_of_a_dyad_on_a_dyad() {
 }
 
 /// The case with one of its ground points moved.
-fn moved(spec: &linkproof::specimens::spec::Spec, by: f64) -> Option<Scenario> {
+fn moved(spec: &lab::specimens::spec::Spec, by: f64) -> Option<Scenario> {
     let mut spec = spec.clone();
     let last = spec.ground.len() - 1;
     spec.ground[last].1.x += by;

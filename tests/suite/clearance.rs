@@ -5,13 +5,14 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use analytic::NewtonSolver;
+use design::clearance::{Clearance, course, find};
 use linkage::case::{Case, Grid};
 use linkage::math::{KeepNan, Vec2, cross};
 use linkage::mechanism::GROUND;
 use linkage::solver::{Solver, State};
-use linkproof::scenario::Scenario;
-use workshop::clearance::question::{are_joined, pairs};
-use workshop::clearance::{Body, Clearance, Outline, Question, course, find};
+use scenario::Scenario;
+use scenario::clearance::question::{are_joined, pairs};
+use scenario::clearance::{Body, Outline, Question};
 
 use crate::common::sketch::Random;
 use crate::common::specimens::specimen;

@@ -4,8 +4,8 @@
 use crate::common::spec::{Spec, four_bar};
 use crate::common::{from_outside, shipped};
 use linkage::math::Vec2;
-use linkproof::proof::{Options, Proof, Reference, prove};
-use linkproof::scenario::Scenario;
+use prover::proof::{Options, Proof, Reference, prove};
+use scenario::Scenario;
 use std::path::Path;
 
 fn proof_of(what: &str, scenario: &Scenario, options: &Options) -> Proof {

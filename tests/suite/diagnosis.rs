@@ -12,10 +12,10 @@ use std::path::Path;
 use linkage::case::Case;
 use linkage::solver::Solver;
 use linkage::trajectory::{Stage, Trajectory};
-use linkproof::compare::{differences, scales};
-use linkproof::diagnosis::{Diagnosis, Judged, Question, diagnose};
 use linkproof::report::diagnosis::cause;
-use linkproof::scenario::Scenario;
+use prover::compare::{differences, scales};
+use prover::diagnosis::{Diagnosis, Judged, Question, diagnose};
+use scenario::Scenario;
 
 fn text(name: &str) -> String {
     std::fs::read_to_string(Path::new("scenarios").join(format!("{name}.toml"))).unwrap()

@@ -7,9 +7,9 @@ use std::path::{Path, PathBuf};
 
 use analytic::AssurSolver;
 use assert_cmd::Command;
+use design::diagram::plan::state_at;
 use linkage::math::{KeepNan, Vec2};
 use linkproof::Scenario;
-use workshop::diagram::plan::state_at;
 
 use crate::common::assert_within;
 

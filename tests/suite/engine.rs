@@ -21,8 +21,8 @@ use linkage::engine::{Engine, Kept, Settings};
 use linkage::math::KeepNan;
 use linkage::solver::Solver;
 use linkage::trajectory::{Channel, Stage, Subject, Trajectory};
-use linkproof::compare::convergence::observed_order;
-use linkproof::compare::residuals;
+use prover::compare::convergence::observed_order;
+use prover::compare::residuals;
 
 fn solve(solver: &dyn Solver, case: &Case) -> Trajectory {
     solver.solve(case).unwrap_or_else(|error| panic!("{error}"))
@@ -48,7 +48,7 @@ fn epsilon(engine: &dyn Engine) -> f64 {
 /// The engines whose step the user chooses. An engine that controls its error has neither instants on its steps nor a
 /// visible order, and its steps are not the user's.
 fn stepping(dt: f64) -> impl Iterator<Item = Box<dyn Engine>> {
-    linkproof::engines::all(dt).into_iter().filter(|engine| !engine.controls_error())
+    prover::engines::all(dt).into_iter().filter(|engine| !engine.controls_error())
 }
 
 /// Those of them that compute in double precision: in single precision, rounding hides orders (story 60).
@@ -90,7 +90,7 @@ fn has_formal_order(case: &Case, engines: impl Iterator<Item = Box<dyn Engine>>,
 #[test]
 fn kept_runs_are_those_made_alone() {
     let case = four_bar([0.4, 0.1, 0.35, 0.3], true).scenario().unwrap().case;
-    for engine in linkproof::engines::all(2e-3) {
+    for engine in prover::engines::all(2e-3) {
         for extrapolated in [0, if engine.controls_error() { 0 } else { 2 }] {
             let own = engine.settings();
             let asked = Settings { sweeps: own.sweeps.min(64), extrapolated, ..own };
@@ -128,7 +128,7 @@ fn regress_01_the_motor_holds_its_speed_over_many_turns() {
         spec.speed = speed;
         spec.grid = (0.0, speed.signum(), 126);
         let case = spec.scenario().unwrap().case;
-        for engine in linkproof::engines::all(1e-3) {
+        for engine in prover::engines::all(1e-3) {
             let run = solve(engine.as_ref(), &case);
             let angles = run.column(&Channel::named("link.crank.angle_rad").unwrap()).unwrap();
             let steps = case.grid.times.last().unwrap() / engine.settings().resolution;
@@ -152,7 +152,7 @@ fn regress_02_the_driven_joint_may_name_the_crank_first() {
     let mut other = spec.clone();
     other.pins.iter_mut().for_each(|pin| pin.links.reverse());
     let [one, two] = [&spec, &other].map(|spec| spec.scenario().unwrap().case);
-    for engine in linkproof::engines::all(1e-3) {
+    for engine in prover::engines::all(1e-3) {
         // The impulse build corrects loops along the first body's axes, so another order of the links gives another
         // error of second order.
         let share = if engine.name() == "rapier" { 1e-7 } else { 1e-3 };
@@ -177,7 +177,7 @@ fn regress_03_massless_links_move_alike_and_carry_no_force() {
     let mut without = with.clone();
     without.links.iter_mut().for_each(|link| link.mass = None);
     let [with, without] = [&with, &without].map(|spec| spec.scenario().unwrap().case);
-    for engine in linkproof::engines::all(1e-3) {
+    for engine in prover::engines::all(1e-3) {
         let case = &with;
         let (with, without) = (solve(engine.as_ref(), &with), solve(engine.as_ref(), &without));
         for (channel, values) in without.iter() {

@@ -7,8 +7,8 @@ use std::path::Path;
 use linkage::case::Wanted;
 use linkage::math::{KeepNan, Vec2, largest_size};
 use linkage::trajectory::Stage;
-use linkproof::proof::{ChannelProof, Options, Proof, prove};
-use linkproof::scenario::Scenario;
+use prover::proof::{ChannelProof, Options, Proof, prove};
+use scenario::Scenario;
 
 use crate::common::shipped;
 use crate::common::spec::{Spec, four_bar};

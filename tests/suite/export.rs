@@ -5,15 +5,15 @@ mod model;
 
 use crate::common::assert_within;
 use analytic::AssurSolver;
+use design::export::mjcf::{Model, mjcf};
 use linkage::ErrorKind;
 use linkage::case::Case;
 use linkage::drive::Load;
 use linkage::math::{KeepNan, Vec2, cross, rotated, unit};
 use linkage::mechanism::{GROUND, JointKind, Mechanism, Side, Tree};
 use linkage::solver::State;
-use linkproof::scenario::Scenario;
 use model::{Document, Kind};
-use workshop::export::mjcf::{Model, mjcf};
+use scenario::Scenario;
 
 /// Step (s) of the files here.
 const STEP: f64 = 1e-3;

@@ -4,9 +4,9 @@
 use std::path::Path;
 
 use linkage::trajectory::Stage;
-use linkproof::engines::EngineName;
-use linkproof::proof::{Options, Proof, prove_against};
-use linkproof::scenario::Scenario;
+use prover::engines::EngineName;
+use prover::proof::{Options, Proof, prove_against};
+use scenario::Scenario;
 
 const TEXT: &str = include_str!("../../scenarios/crank_rocker.toml");
 

@@ -9,10 +9,10 @@ use linkage::case::{Case, Grid};
 use linkage::math::KeepNan;
 use linkage::solver::{Solver, State};
 use linkage::trajectory::{Channel, Stage, Trajectory};
-use linkproof::compare::{Verdict, difference, residuals, scales};
-use linkproof::proof::{Options, Proof, prove};
-use linkproof::scenario::Scenario;
-use linkproof::tolerance::{Basis, Origin};
+use prover::compare::{Verdict, difference, residuals, scales};
+use prover::proof::{Options, Proof, prove};
+use prover::tolerance::{Basis, Origin};
+use scenario::Scenario;
 
 const ALL: [&str; 5] = ["crank_rocker", "ov7_base", "ov7_new", "ov7_new_tabulated", "fourth_class"];
 
@@ -174,7 +174,7 @@ fn rapier_on_the_crank_rocker_is_within_a_thousandth_and_a_hundred_times_less() 
     let reference = solve(&AssurSolver, &case);
     let stages = [Stage::Positions, Stage::Reactions, Stage::BalancingMoment];
     let error = |step| {
-        worst_share(&reference, &solve(linkproof::engines::named("rapier", step).unwrap().as_ref(), &case), &stages)
+        worst_share(&reference, &solve(prover::engines::named("rapier", step).unwrap().as_ref(), &case), &stages)
     };
     let [coarse, fine] = [1e-3, 1e-4].map(error);
     assert_within!(coarse, 1e-3, "{coarse:e}");
@@ -312,7 +312,7 @@ fn a_length_as_solved_is_held_to_its_last_digit() {
         .checks
         .iter()
         .filter(|check| check.verdict.word() == "disagree")
-        .map(linkproof::compare::Check::name)
+        .map(prover::compare::Check::name)
         .collect();
     for side in ["assur", "newton"] {
         let name = format!("published lengths, known to be wrong ({side}), distance_m of A B");

@@ -13,9 +13,9 @@ mod wrong_input;
 
 use std::path::{Path, PathBuf};
 
-use linkproof::claims::Outcome;
-use linkproof::proof::claimed::{Claimed, judge};
-use linkproof::scenario::{Formulas, Scenario, files_in};
+use prover::claims::Outcome;
+use prover::proof::claimed::{Claimed, judge};
+use scenario::{Formulas, Scenario, files_in};
 
 fn files() -> Vec<PathBuf> {
     files_in(&Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/formulas")).unwrap()

@@ -11,8 +11,8 @@ use crate::common::{centre, centre_acceleration, centre_velocity, states};
 use linkage::math::{KeepNan, Vec2};
 use linkage::solver::{Solver, State};
 use linkage::trajectory::Stage;
-use linkproof::compare::residuals;
 use proptest::test_runner::TestCaseError;
+use prover::compare::residuals;
 
 /// Number of mechanisms on which every invariant is tested.
 const COUNT: u32 = 128;

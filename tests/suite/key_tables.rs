@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use linkproof::scenario::keys::{Key, Kind, SECTIONS, Section, section};
+use scenario::keys::{Key, Kind, SECTIONS, Section, section};
 
 const DOCUMENT: &str = include_str!("../../docs/scenario.md");
 const BEGIN: &str = "<!-- keys of ";

@@ -4,12 +4,12 @@ use linkage::math::KeepNan;
 use std::path::Path;
 
 use analytic::{self, witness::momentum, witness::power};
+use design::export;
 use linkage::error::ErrorKind;
 use linkage::trajectory::Stage;
-use linkproof::compare::residuals;
-use linkproof::proof::{Options, prove};
-use linkproof::scenario::Scenario;
-use workshop::export;
+use prover::compare::residuals;
+use prover::proof::{Options, prove};
+use scenario::Scenario;
 
 use crate::common::{assert_within, shipped, states};
 
@@ -146,7 +146,7 @@ fn what_knows_constant_speeds_only_refuses_by_name() {
     assert_eq!(error.kind(), ErrorKind::Unsupported);
     assert!(error.message().contains("law \"cycloidal\""), "{error}");
     let table = swing(TABLE, "from_s = 0\nto_s = 0.2\nstep_s = 0.01").case;
-    let error = workshop::bearings::over_range(&table).unwrap_err();
+    let error = design::bearings::over_range(&table).unwrap_err();
     assert!(error.message().contains("more than once"), "{error}");
-    assert!(workshop::bearings::over_range(&case).is_ok());
+    assert!(design::bearings::over_range(&case).is_ok());
 }

@@ -8,10 +8,10 @@ use linkage::case::{Case, Grid};
 use linkage::math::{KeepNan, largest_size};
 use linkage::solver::Solver;
 use linkage::trajectory::{Channel, Trajectory};
-use linkproof::compare::Check;
-use linkproof::proof::{Options, prove};
-use linkproof::scenario::Scenario;
-use linkproof::tolerance::Basis;
+use prover::compare::Check;
+use prover::proof::{Options, prove};
+use prover::tolerance::Basis;
+use scenario::Scenario;
 
 use crate::versus::digits::{Format, Random};
 

@@ -5,10 +5,10 @@ use linkage::case::Wanted;
 use linkage::engine::{Engine, Route};
 use linkage::math::{KeepNan, Vec2};
 use linkage::trajectory::{Channel, Stage, Subject};
-use linkproof::engines::EngineName;
-use linkproof::proof::{Options, OwnForces, Proof, prove};
-use linkproof::scenario::Scenario;
+use prover::engines::EngineName;
+use prover::proof::{Options, OwnForces, Proof, prove};
 use rapier_twin::{Build, Precision, Rapier};
+use scenario::Scenario;
 
 use crate::common::{assert_within, shipped, states};
 

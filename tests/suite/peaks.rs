@@ -4,8 +4,8 @@ use crate::common::assert_within;
 use std::path::Path;
 
 use analytic::NewtonSolver;
-use linkproof::scenario::Scenario;
-use workshop::bearings::{journal_diameter, over_range};
+use design::bearings::{journal_diameter, over_range};
+use scenario::Scenario;
 
 /// A crank alone with its mass centre at radius r: |R| = m |w^2 r e + g|, largest where the centre is lowest.
 #[test]

@@ -6,8 +6,8 @@ use std::path::Path;
 use crate::common::higher::{Among, FAMILIES, mechanism};
 use crate::common::random::{SORTS, for_each_of};
 use crate::common::sketch::Random;
-use linkproof::proof::{Options, prove};
-use linkproof::scenario::Scenario;
+use prover::proof::{Options, prove};
+use scenario::Scenario;
 
 /// Symptom: correct mechanisms disagree in their velocities, by up to twice the bound. Cause: too few sweeps leave an
 /// error of first order there. In the differences from which the bound is made, it cancels against the error of second

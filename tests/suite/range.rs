@@ -268,7 +268,7 @@ fn two_groups_with_one_dead_point() {
                 [[joints]]\nname = \"C_2\"\npoint = \"C\"\ntype = \"revolute\"\nlinks = [\"ground\", \"rocker_2\"]\n";
     spec.dyads.push(Dyad { links: [copy("coupler"), copy("rocker")], left: false });
     let text = spec.toml().replacen("[drive]", &format!("{more}[drive]"), 1);
-    let scenario = linkproof::scenario::Scenario::parse(&text, std::path::Path::new("test.toml")).unwrap();
+    let scenario = scenario::Scenario::parse(&text, std::path::Path::new("test.toml")).unwrap();
     let found = Range::of(&scenario.case).unwrap();
     let expected = closed_form(lengths, spec.start).unwrap();
     for (limit, expected) in limits(&found).unwrap().iter().zip(expected) {

@@ -7,7 +7,7 @@ use linkage::ErrorKind;
 use linkage::math::{Motion, Vec2, cross, turned, unit};
 use linkage::mechanism::{Joint, JointKind, Link, Mechanism, Point, Side as On};
 use linkage::trajectory::{CHANNELS, Channel, Stage, Subject, Trajectory};
-use linkproof::record::{Level, LogEntry, Recording, Show, Side, load, write};
+use recording::{Level, LogEntry, Recording, Show, Side, load, write};
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 use std::fs;

@@ -3,7 +3,7 @@
 use crate::common::assert_within;
 use std::path::Path;
 
-use linkproof::scenario::{Scenario, files_in};
+use scenario::{Scenario, files_in};
 
 #[test]
 fn the_worked_example_is_a_scenario() {

@@ -8,7 +8,7 @@ use linkage::case::{Case, Grid};
 use linkage::math::{KeepNan, largest_size};
 use linkage::solver::Solver;
 use linkage::work::{Count, counted};
-use linkproof::scenario::{Scenario, files_in};
+use scenario::{Scenario, files_in};
 
 use crate::common::specimens::specimen;
 use crate::common::{assert_within, shipped};

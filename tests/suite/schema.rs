@@ -4,7 +4,7 @@ use std::path::Path;
 
 use jsonschema::Validator;
 use linkproof::report::schema;
-use linkproof::scenario::files_in;
+use scenario::files_in;
 use serde_json::Value;
 
 use crate::cli::tools::Place;

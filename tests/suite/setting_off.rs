@@ -8,7 +8,7 @@ use analytic::{AssurSolver, NewtonSolver};
 use linkage::case::Case;
 use linkage::math::KeepNan;
 use linkage::solver::Solver;
-use linkproof::scenario::Scenario;
+use scenario::Scenario;
 
 fn case_of(text: &str) -> Case {
     Scenario::parse(text, Path::new("setting_off.toml")).unwrap_or_else(|error| panic!("{error}")).case
@@ -18,7 +18,7 @@ fn case_of(text: &str) -> Case {
 fn solvers(step: f64) -> Vec<(Box<dyn Solver>, f64)> {
     let mut all: Vec<(Box<dyn Solver>, f64)> = vec![(Box::new(AssurSolver), 1e-11), (Box::new(NewtonSolver), 1e-11)];
     for name in ["rapier", "impulse"] {
-        all.push((linkproof::engines::named(name, step).unwrap(), 1e-3));
+        all.push((prover::engines::named(name, step).unwrap(), 1e-3));
     }
     all
 }

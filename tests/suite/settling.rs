@@ -4,9 +4,9 @@ use std::path::Path;
 
 use linkage::case::Grid;
 use linkage::engine::Route;
-use linkproof::engines::EngineName;
-use linkproof::proof::{End, Options, Proof, prove, prove_against};
-use linkproof::scenario::Scenario;
+use prover::engines::EngineName;
+use prover::proof::{End, Options, Proof, prove, prove_against};
+use scenario::Scenario;
 
 use crate::common::shipped;
 use crate::common::spec::four_bar;
@@ -22,7 +22,7 @@ fn proven(scenario: &Scenario) -> Proof {
 
 /// What a proof says, and what it does not depend on the machine: every number of every channel.
 fn numbers(proof: &Proof) -> Vec<(f64, f64, String)> {
-    let of = |channel: &linkproof::proof::ChannelProof| {
+    let of = |channel: &prover::proof::ChannelProof| {
         (channel.residual.max, channel.bound, channel.verdict.word().to_string())
     };
     proof.engine().channels.iter().map(of).collect()
@@ -63,7 +63,7 @@ fn regress_sweeps_that_have_hardly_begun_to_converge_prove_nothing() {
     let proof = prove(&scenario, &Options::default().step(1.39e-2).sweeps(64)).unwrap();
     assert_eq!(proof.verdict.word(), "inconclusive", "{:?}", proof.verdict);
     let of_speed =
-        |channel: &&linkproof::proof::ChannelProof| channel.residual.channel.to_string() == "link.link1.omega_rad_s";
+        |channel: &&prover::proof::ChannelProof| channel.residual.channel.to_string() == "link.link1.omega_rad_s";
     let speed = proof.engine().channels.iter().find(of_speed).unwrap();
     assert!(!(speed.residual.max > speed.bound), "{} {}", speed.residual.max, speed.bound);
 }

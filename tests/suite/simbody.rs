@@ -14,10 +14,10 @@ use linkage::engine::Engine;
 use linkage::math::{KeepNan, Vec2};
 use linkage::solver::Solver;
 use linkage::trajectory::{Channel, Stage, Trajectory, Unit};
-use linkproof::compare::{Verdict, residuals};
-use linkproof::engines::EngineName;
-use linkproof::proof::{Options, prove};
-use simbody_twin::Simbody;
+use prover::compare::{Verdict, residuals};
+use prover::engines::EngineName;
+use prover::engines::Simbody;
+use prover::proof::{Options, prove};
 use std::collections::BTreeMap;
 
 /// Every scenario of the repository's top level.
@@ -325,7 +325,7 @@ fn a_proof_with_simbody_agrees() {
 
 #[test]
 fn it_is_listed_with_an_accuracy_instead_of_a_step() {
-    let engine = linkproof::engines::named("simbody", 1e-3).unwrap();
+    let engine = prover::engines::named("simbody", 1e-3).unwrap();
     assert!(engine.controls_error());
     assert_eq!(engine.settings().resolution, Simbody::ACCURACY);
     assert_eq!(engine.at(1e-5).settings().resolution, 1e-5);

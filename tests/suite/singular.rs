@@ -10,7 +10,7 @@ use linkage::case::{Case, Grid};
 use linkage::error::ErrorKind;
 use linkage::math::KeepNan;
 use linkage::solver::Solver;
-use linkproof::scenario::Scenario;
+use scenario::Scenario;
 
 const SIDES: [&dyn Solver; 2] = [&AssurSolver, &NewtonSolver];
 
@@ -144,7 +144,7 @@ fn regress_a_link_that_only_translates_has_no_sense_of_rotation() {
     assert!(!loaded.case.can_turn(2) && loaded.case.can_turn(1) && loaded.case.can_turn(3));
     let mut solvers: Vec<Box<dyn Solver>> = vec![Box::new(AssurSolver), Box::new(NewtonSolver)];
     for name in ["rapier", "impulse"] {
-        solvers.push(linkproof::engines::named(name, 1e-3).unwrap());
+        solvers.push(prover::engines::named(name, 1e-3).unwrap());
     }
     for solver in solvers {
         let [with, without] = [&loaded.case, &plain.case].map(|case| solver.solve(&on(case)).unwrap());

@@ -9,7 +9,7 @@ use analytic::range::{Extent, Kind, Range, explained};
 use analytic::{self, AssurSolver};
 use linkage::ErrorKind;
 use linkage::case::{Case, Grid};
-use linkproof::scenario::Scenario;
+use scenario::Scenario;
 
 fn on_cranks(case: &Case, cranks: &[f64]) -> Case {
     case.on(Grid::of_cranks(case.crank(), cranks.iter().map(|degrees| degrees.to_radians()).collect())).unwrap()

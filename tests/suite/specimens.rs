@@ -6,7 +6,7 @@ use std::path::Path;
 use analytic::{AssurSolver, NewtonSolver};
 use linkage::error::ErrorKind;
 use linkage::solver::Solver;
-use linkproof::scenario::Scenario;
+use scenario::Scenario;
 
 use crate::common::specimens::specimen;
 

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::AssemblyMode;
-use linkproof::scenario::Scenario;
+use scenario::Scenario;
 
 /// A crank OA of 100 mm and the given links, joints and start; the crank is at `crank` degrees.
 fn parse(ground: &str, body: &str, crank: f64, start: &str) -> linkage::Result<Scenario> {

@@ -3,15 +3,15 @@
 
 mod precise;
 
+use lab::stress::{FAMILIES, named, run};
 use linkage::case::Wanted;
 use linkage::math::KeepNan;
 use linkage::mechanism::AssemblyMode;
 use linkage::trajectory::{Stage, Unit};
 use linkage::work::Count;
 use linkproof::Case;
-use linkproof::compare::Verdict;
-use linkproof::proof::beside::sides;
-use linkproof::stress::{FAMILIES, named, run};
+use prover::compare::Verdict;
+use prover::proof::beside::sides;
 
 use crate::common::assert_within;
 

@@ -5,8 +5,8 @@ use std::panic::{self, AssertUnwindSafe};
 use std::path::Path;
 
 use linkproof::parts::{EngineName, Error};
-use linkproof::testing::Proving;
-use linkproof::{Options, Proof, assert_proven};
+use linkproof::testing::{AssertProven, Proving};
+use linkproof::{Options, assert_proven};
 
 use crate::cli::tools::Place;
 use crate::common::assert_within;
@@ -14,7 +14,7 @@ use crate::common::assert_within;
 const CRANK_ROCKER: &str = "scenarios/crank_rocker.toml";
 
 fn of(file: &str) -> Proving {
-    Proof::of(Path::new(env!("CARGO_MANIFEST_DIR")).join(file))
+    Proving::of(Path::new(env!("CARGO_MANIFEST_DIR")).join(file))
 }
 
 thread_local! {
@@ -61,7 +61,7 @@ fn what_disagrees_fails_at_the_line_of_the_test_with_the_report() {
     assert_eq!(at, (file!().to_string(), line));
     let (first, report) = message.split_once("\n\n").unwrap();
     assert_eq!(first, "crank_rocker is not proven: disagree");
-    let proof = Proof::of(&path).only(["velocities"]).prove().unwrap();
+    let proof = Proving::of(&path).only(["velocities"]).prove().unwrap();
     assert_eq!(report, proof.report());
     assert!(report.contains("DISAGREE: ") && report.contains("w as link.crank.omega_rad_s"), "{report}");
     let line = line!() + 1;
@@ -81,7 +81,7 @@ fn what_proves_nothing_fails_too() {
 fn what_cannot_be_proven_fails_with_its_place_in_the_file() {
     let place = Place::new();
     place.edited("pendulum.toml", "broken.toml", &[("joint = \"O\"", "joint = \"Q\"")]);
-    let (message, _) = failure(|| drop(Proof::of(place.path("scenarios/broken.toml")).assert()));
+    let (message, _) = failure(|| drop(Proving::of(place.path("scenarios/broken.toml")).assert()));
     for word in ["error: ", "joint \"Q\"", "broken.toml:", "help: "] {
         assert!(message.contains(word), "{word}: {message}");
     }

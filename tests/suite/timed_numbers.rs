@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use linkproof::scenario::{Asked, Scenario, When};
 use linkproof::{Options, prove};
+use scenario::{Asked, Scenario, When};
 
 use crate::common::disc::disc;
 

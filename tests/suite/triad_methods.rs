@@ -15,10 +15,10 @@ use linkage::case::Case;
 use linkage::math::{KeepNan, Matrix, Vec2, cross, rotated, turned, unit};
 use linkage::mechanism::GROUND;
 use linkage::solver::{Solver, State};
-use linkproof::proof::{Options, prove};
-use linkproof::scenario::Scenario;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
+use prover::proof::{Options, prove};
+use scenario::Scenario;
 
 /// Largest differences from a solver, relative to the largest value of the quantity.
 #[derive(Clone, Copy, Debug, Default)]

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use crate::common::assert_within;
 use crate::common::disc::disc;
-use linkproof::mutate::{Asked, Party, Plant, mutate, named};
+use lab::mutate::{Asked, Party, Plant, mutate, named};
 use linkproof::{Case, Scenario, solve};
 
 /// What follows the disc: a motor behind a reducer, from a speed of its own.

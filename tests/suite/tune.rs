@@ -3,10 +3,10 @@
 mod exhaustive;
 mod near;
 
+use lab::tune::{Wish, tune};
 use linkage::engine::{Engine, Settings};
-use linkproof::engines::EngineName;
-use linkproof::proof::{Options, prove};
-use linkproof::tune::{Wish, tune};
+use prover::engines::EngineName;
+use prover::proof::{Options, prove};
 
 use crate::common::shipped;
 use exhaustive::{REFERENCES, Space, thinned};

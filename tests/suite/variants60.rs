@@ -18,8 +18,8 @@ use linkage::math::Vec2;
 use linkage::math::angle::wrapped;
 use linkage::mechanism::{LinkPose, Pose};
 use linkage::solver::Solver;
-use linkproof::scenario::Scenario;
 use plan::Plan;
+use scenario::Scenario;
 
 fn path(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(name)

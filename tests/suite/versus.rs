@@ -13,10 +13,10 @@ use std::path::Path;
 use formula::Rounded;
 use linkage::solver::Solver;
 use linkage::trajectory::Trajectory;
-use linkproof::scenario::Scenario;
-use linkproof::scenario::mapping::{Mapped, Mapping};
-use linkproof::tables::{Held, Raw};
-use linkproof::versus::{Comparison, How, Party, compare};
+use prover::tables::{Held, Raw};
+use prover::versus::{Comparison, How, Party, compare};
+use scenario::Scenario;
+use scenario::mapping::{Mapped, Mapping};
 
 fn scenario(name: &str) -> Scenario {
     Scenario::load(&Path::new("scenarios").join(format!("{name}.toml"))).unwrap()

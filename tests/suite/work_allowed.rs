@@ -3,13 +3,13 @@
 use std::path::Path;
 
 use analytic::range::{Range, explained};
+use lab::mutate::{Asked, Party, mutate};
+use lab::stress::named;
 use linkage::error::{Error, ErrorKind};
 use linkage::work::{Count, Work, counted, limited};
-use linkproof::mutate::{Asked, Party, mutate};
 use linkproof::parts::Advice;
-use linkproof::proof::{End, Options, Proof, prove};
-use linkproof::scenario::Scenario;
-use linkproof::stress::named;
+use prover::proof::{End, Options, Proof, prove};
+use scenario::Scenario;
 
 use crate::common::shipped;
 

@@ -14,10 +14,10 @@ use linkage::solver::Solver;
 use linkage::trajectory::Trajectory;
 use linkproof::report::diagnosis::{cause, nature};
 use linkproof::report::versus::why;
-use linkproof::scenario::Scenario;
-use linkproof::scenario::mapping::{Allowed, Mapped, Mapping, Size};
-use linkproof::tables::{Held, load};
-use linkproof::versus::{Comparison, Explained, How, Party, compare};
+use prover::tables::{Held, load};
+use prover::versus::{Comparison, Explained, How, Party, compare};
+use scenario::Scenario;
+use scenario::mapping::{Allowed, Mapped, Mapping, Size};
 
 /// How a table comes to be wrong.
 enum Make {

@@ -4,7 +4,8 @@ use std::path::Path;
 
 use super::super::load;
 use super::motion::{swung, turned, with_travels};
-use crate::scenario::{Asked, Draft, Scenario};
+use design::diagram::draw::significant;
+use design::diagram::plan::state_at;
 use drawing::lay::{Laid, all_modes, lay, lay_loose};
 use drawing::sheet::Cell;
 use drawing::view::{Extras, Shot, Subject, Trace, cells};
@@ -14,8 +15,7 @@ use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::Vec2;
 use linkage::mechanism::{AssemblyMode, LinkPose, Mechanism, Structure};
 use linkage::solver::{Solver, State};
-use workshop::diagram::draw::significant;
-use workshop::diagram::plan::state_at;
+use scenario::{Asked, Draft, Scenario};
 
 /// Most configurations on a sheet, and most mistakes below one.
 const MOST: usize = 24;

@@ -2,9 +2,9 @@
 
 use std::ops::Range;
 
-use crate::record::Reel;
 use crate::report::live::State;
 use linkage::math::KeepNan;
+use recording::Reel;
 
 /// Where a viewer is in a reel, and how it goes on.
 #[derive(Clone, Copy, Debug)]

@@ -7,8 +7,8 @@ use std::time::Duration;
 
 use super::stage::Stage;
 use super::viewer::Viewer;
-use crate::record::Reel;
 use linkage::error::{Error, ErrorKind, Result};
+use recording::Reel;
 
 /// Most viewers at a time.
 const MOST: usize = 32;

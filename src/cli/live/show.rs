@@ -4,10 +4,10 @@ use std::path::Path;
 
 use super::server::Live;
 use crate::cli::record_args::RecordArgs;
-use crate::proof::{Proof, Reference};
 use crate::report::live::pace_told;
-use crate::scenario::Scenario;
 use linkage::error::Result;
+use prover::proof::{Proof, Reference};
+use scenario::Scenario;
 
 impl Live {
     /// Shows the reference alone, before there is a proof. Where it fails, the proof says why.

@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use crate::record::Reel;
+use recording::Reel;
 
 /// What is shown to all viewers.
 pub(super) struct Stage {

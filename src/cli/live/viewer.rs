@@ -13,8 +13,8 @@ use tungstenite::{Error, Message, WebSocket, accept_hdr_with_config};
 use super::player::Player;
 use super::stage::{Shown, Stage};
 use super::wants::Wants;
-use crate::record::Reel;
 use crate::report::live::{self, Control, Dialect, Request};
+use recording::Reel;
 
 /// What is waited for a request between two looks at the clock.
 const TICK: Duration = Duration::from_millis(10);

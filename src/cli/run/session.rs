@@ -10,13 +10,13 @@ use crate::cli::html::Pages;
 use crate::cli::live::Live;
 use crate::cli::record_args::Recorded;
 use crate::cli::{advice, output, standard_input, terminal};
-use crate::proof::{EngineProof, Entry, Proof};
 use crate::report::closing::Closing;
 use crate::report::outcomes::Outcomes;
 use crate::report::{brief, explain, json, recorded, residuals, text};
-use crate::scenario::Scenario;
 use linkage::error::{Error, Result};
 use linkage::work::Work;
+use prover::proof::{EngineProof, Entry, Proof};
+use scenario::Scenario;
 
 /// What the command has shown and written so far. It takes the proofs in the order of the files.
 pub(super) struct Session<'a> {

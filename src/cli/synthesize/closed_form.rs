@@ -6,12 +6,12 @@ use std::path::{Path, PathBuf};
 use super::target::{scenario_target, write_scenario};
 use crate::cli::{number, output};
 use crate::report::closed_form::{self as report, Told};
-use crate::scenario::Scenario;
+use design::synthesis::Sheet;
+use design::synthesis::crank_rocker::{self, CrankRocker};
+use design::synthesis::slider_crank::{Given, SliderCrank};
 use linkage::error::Result;
 use linkage::math::Vec2;
-use workshop::synthesis::Sheet;
-use workshop::synthesis::crank_rocker::{self, CrankRocker};
-use workshop::synthesis::slider_crank::{Given, SliderCrank};
+use scenario::Scenario;
 
 /// Where results are written, and what a scenario needs besides dimensions.
 #[derive(Debug, clap::Args)]

@@ -6,12 +6,13 @@ use super::target::{scenario_target, write_scenario};
 use crate::cli::load::plain;
 use crate::cli::{output, progress};
 use crate::report::synthesis::{self as report, Story};
-use crate::scenario::task_file::TaskFile;
-use crate::scenario::{Scenario, redraw};
+use design::diagram::draw;
+use design::redraw;
+use design::synthesis::{self, Achieved};
+use design::task::Task;
+use design::task_file::TaskFile;
 use linkage::error::{Error, ErrorKind, Result};
-use workshop::diagram::draw;
-use workshop::synthesis::{self, Achieved};
-use workshop::task::Task;
+use scenario::Scenario;
 
 /// Where results are written.
 #[derive(Debug, clap::Args)]

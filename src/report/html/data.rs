@@ -4,13 +4,13 @@ use serde_json::{Map, Value, json};
 
 use super::markup::{doubles, singles};
 use super::thinned::{Errors, Thinned, is_wide};
-use crate::compare::Verdict;
-use crate::proof::{ChannelProof, EngineProof, Proof};
 use crate::report::tell::Tell;
 use drawing::{Lettering, Shape, Sketch};
 use linkage::math::Vec2;
 use linkage::mechanism::Side;
 use linkage::trajectory::{Channel, Trajectory};
+use prover::compare::Verdict;
+use prover::proof::{ChannelProof, EngineProof, Proof};
 
 /// Everything, as one object.
 pub(super) fn of(proof: &Proof, errors: &[Errors], thinned: &Thinned, tell: Tell) -> Map<String, Value> {

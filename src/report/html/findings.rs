@@ -3,11 +3,11 @@
 use std::fmt::Write;
 
 use super::markup::escaped;
-use crate::compare::Verdict;
-use crate::proof::Proof;
 use crate::report::tell::Tell;
 use crate::report::{engines, own_forces, reasons};
 use linkage::trajectory::Channel;
+use prover::compare::Verdict;
+use prover::proof::Proof;
 
 /// Reasons at the head of the page; the others stand among the findings.
 const FIRST: usize = 3;

@@ -4,11 +4,11 @@ use serde_json::{Value, json};
 
 use super::markup::singles;
 use super::thinned::ends;
+use design::diagram::Graphs;
 use linkage::case::Case;
 use linkage::drive::{Motor, MotorLaw};
 use linkage::math::KeepNan;
 use linkage::trajectory::{Channel, Trajectory};
-use workshop::diagram::Graphs;
 
 /// Points of the motor's curve.
 const POINTS: u32 = 240;

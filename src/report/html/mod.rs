@@ -15,14 +15,14 @@ mod words;
 use std::collections::BTreeMap;
 
 use super::tell::Tell;
-use crate::proof::Proof;
+use design::diagram::Graphs;
 use drawing::{Sketch, Travels};
 pub(super) use markup::escaped;
 use markup::{contained, filled};
 use placed::Placed;
+use prover::proof::Proof;
 use serde_json::Value;
 use thinned::Thinned;
-use workshop::diagram::Graphs;
 
 const TEMPLATE: &str = include_str!("page.html");
 const STYLE: &str = include_str!("page.css");

@@ -4,9 +4,9 @@ use serde_json::{Value, json};
 
 use super::markup::column;
 use super::placed::Placed;
+use design::diagram::{Part, Plan, Planner, Quantity, TipKind};
 use linkage::case::Case;
 use linkage::solver::State;
-use workshop::diagram::{Part, Plan, Planner, Quantity, TipKind};
 
 /// Numbers in single precision that a row takes, about.
 pub(super) fn width(case: &Case, placed: &Placed, row: usize) -> usize {

@@ -4,11 +4,11 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use super::markup::escaped;
-use crate::compare::Verdict;
-use crate::numbers::{error_in, fixed, significant};
-use crate::proof::Proof;
 use crate::report::{brief, own_forces, style, text};
 use linkage::mechanism::Mechanism;
+use prover::compare::Verdict;
+use prover::numbers::{error_in, fixed, significant};
+use prover::proof::Proof;
 
 /// Longest scenario that is shown (bytes).
 const LONGEST: usize = 200_000;

@@ -4,7 +4,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::summary::WORDS;
-use crate::stress::{Family, Group, Outcome, Party, Reached, fnv};
+use lab::stress::{Family, Group, Outcome, Party, Reached, fnv};
 
 const SCHEMA: u32 = 1;
 

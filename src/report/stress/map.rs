@@ -6,7 +6,7 @@ use plotters::coord::Shift;
 use plotters::prelude::*;
 
 use super::summary::names;
-use crate::stress::{Family, Group, Outcome, Party};
+use lab::stress::{Family, Group, Outcome, Party};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::KeepNan;
 

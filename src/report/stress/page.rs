@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use super::summary::{Tally, cells, names};
-use crate::stress::{Family, Outcome};
+use lab::stress::{Family, Outcome};
 
 /// The page as Markdown. `command` is what makes it, `maps` the directory of the maps as the page names it.
 pub(crate) fn page(families: &[(&Family, Vec<&Outcome>)], command: &str, maps: &str) -> String {

@@ -6,7 +6,7 @@ use std::fmt::Write;
 use linkage::math::KeepNan;
 
 use super::super::cells::table;
-use crate::stress::{Family, Group, Outcome};
+use lab::stress::{Family, Group, Outcome};
 
 /// Counts over all points.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -1,6 +1,6 @@
 //! A family as CSV: one row for every group of channels of every party at every point.
 
-use crate::stress::{Family, Outcome};
+use lab::stress::{Family, Outcome};
 use linkage::error::{Error, ErrorKind, Result};
 
 const HEADER: [&str; 21] = [

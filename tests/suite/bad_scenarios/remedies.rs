@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use linkage::Error;
-use linkproof::scenario::{Scenario, files_in};
+use scenario::{Scenario, files_in};
 
 /// Sections whose keys are names that the author chooses.
 const OWN_NAMES: [&str; 4] = ["points", "links", "columns", "parameters"];

@@ -9,15 +9,16 @@ use analytic::range::{At, Extent, Range};
 use analytic::reduced::Model;
 use analytic::reduced::means::means_over_turn;
 use analytic::{AssurSolver, NewtonSolver};
+use design::bearings::{Peak, over_range};
+use design::clearance::{Meeting, course, find};
+use design::motor::Choice;
 use linkage::case::{Case, Grid};
 use linkage::drive::{DriveMotion, Load};
 use linkage::math::{KeepNan, Vec2};
 use linkage::solver::Solver;
-use linkproof::scenario::Scenario;
+use scenario::Scenario;
+use scenario::clearance::Question;
 use serde_json::{Value, json};
-use workshop::bearings::{Peak, over_range};
-use workshop::clearance::{Meeting, Question, course, find};
-use workshop::motor::Choice;
 
 use super::tools::{Place, Table};
 use crate::common::assert_within;
@@ -120,7 +121,7 @@ fn a_clearance_is_told_in_json_csv_and_text() {
     }
 }
 
-fn in_text(place: &Place, name: &str, asked: &Question, found: &workshop::clearance::Clearance) {
+fn in_text(place: &Place, name: &str, asked: &Question, found: &design::clearance::Clearance) {
     let text = place.run(&format!("clearance scenarios/{name}.toml")).stdout;
     let rows: Vec<Vec<&str>> = text.lines().map(|line| line.split_whitespace().collect()).collect();
     for pair in &found.pairs {
@@ -379,7 +380,7 @@ fn a_choice_of_a_motor_is_told_in_json() {
         ))
         .json();
     let number = |key: &str| told[key].as_f64().unwrap_or_else(|| panic!("no {key} in {told}"));
-    let motors = linkproof::scenario::catalogue::load(&catalogue).unwrap();
+    let motors = design::catalogue::load(&catalogue).unwrap();
     let case = scenario(&place, "crank_rocker").nominal().case;
     let choice = Choice::of(&case, &motors, number("efficiency")).unwrap();
     assert_eq!(told["peak"], json!({"crank_rad": choice.peak.0, "moment_N_m": choice.peak.1}));

@@ -34,7 +34,7 @@ fn all_engines_stand_side_by_side() {
 fn every_engine_is_a_side_of_the_recording() {
     let place = Place::new();
     place.ok("run scenarios/crank_rocker.toml --engine rapier --engine impulse --dt 2e-3");
-    let sides = linkproof::record::load(&place.path("recordings/crank_rocker.mcap")).unwrap();
+    let sides = recording::load(&place.path("recordings/crank_rocker.mcap")).unwrap();
     assert_eq!(sides.iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>(), ["reference", "rapier", "impulse"]);
 }
 

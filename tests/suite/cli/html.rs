@@ -89,7 +89,7 @@ fn a_page_has_verdict_channels_errors_and_the_places_of_the_solution() {
         assert_eq!(doubles(&own["values"]), rows.iter().map(|&row| right[row]).collect::<Vec<_>>(), "{name}");
     }
     // Errors are the engine less the reference, as in the recording.
-    let sides = linkproof::record::load(&place.path("out/pendulum.mcap")).unwrap();
+    let sides = recording::load(&place.path("out/pendulum.mcap")).unwrap();
     let value = |side: usize, name: &str, row: usize| sides[side].1.named(name).unwrap()[row];
     for name in ["link.rod.omega_rad_s", "joint.O.fx_N", "point.E.y_m"] {
         let place = channels.iter().position(|own| own["name"] == name).unwrap();

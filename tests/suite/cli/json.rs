@@ -5,9 +5,9 @@ use std::path::Path;
 
 use linkage::solver::Provision;
 use linkproof::parts::{ChannelProof, Check, EngineInfo, EngineName, EngineProof};
-use linkproof::proof::{End, prove_against};
 use linkproof::report::json::Document;
 use linkproof::{Options, Proof, Scenario, Verdict, prove};
+use prover::proof::{End, prove_against};
 use serde_json::Value;
 
 use super::tools::Place;

@@ -3,8 +3,8 @@
 use std::fs;
 
 use linkage::math::KeepNan;
-use linkproof::scenario::Scenario;
-use linkproof::scenario::templates::TEMPLATES;
+use scenario::Scenario;
+use scenario::templates::TEMPLATES;
 
 use super::tools::{Place, Table};
 use crate::common::assert_within;

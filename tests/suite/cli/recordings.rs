@@ -110,7 +110,7 @@ fn a_time_scale_changes_no_number() {
     let run = |options: &str, to: &str| {
         place.ok(&format!("run scenarios/crank_rocker.toml {options} --record {to}"));
         let path = place.path(to).join("crank_rocker.mcap");
-        (fs::read(&path).unwrap(), linkproof::record::load(&path).unwrap())
+        (fs::read(&path).unwrap(), recording::load(&path).unwrap())
     };
     let (plain, whole) = run("", "plain");
     let (slow, same) = run("--slow 20", "slow");

@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 use linkage::case::Case;
-use linkproof::scenario::Scenario;
+use scenario::Scenario;
 
 /// Scenario of `pairs` parallelograms of slender rods of 1 m and 1 kg, upright at t = 0 with 1 m/s at the first
 /// coupler.

@@ -11,7 +11,7 @@ use linkage::math::{Vec2, unit};
 use linkage::mechanism::{GROUND, Joint, JointKind, Link, Mechanism, Point, Side, Structure, is_unseen};
 use linkage::trajectory::CHANNELS;
 use linkage::{Error, ErrorKind};
-use linkproof::{record, scenario::Scenario};
+use scenario::Scenario;
 
 /// The text of a scenario file: it loads, or the error has what a user needs.
 pub fn scenario(text: &str) -> Option<Scenario> {
@@ -170,7 +170,7 @@ pub fn recording(bytes: &[u8]) -> Result<()> {
         0 => rest.to_vec(),
         _ => drawn_file(&mut Unstructured::new(rest))?,
     };
-    match record::read_bytes(&file, Path::new("drawn.mcap")) {
+    match recording::read_bytes(&file, Path::new("drawn.mcap")) {
         Ok(sides) => {
             assert!(!sides.is_empty());
             for (_, side) in sides {

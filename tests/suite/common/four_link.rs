@@ -3,7 +3,7 @@
 use std::fmt::Write;
 use std::path::Path;
 
-use linkproof::scenario::Scenario;
+use scenario::Scenario;
 
 pub use super::sketch::Random;
 

@@ -17,11 +17,11 @@ pub mod sliders;
 pub mod specimens;
 
 pub(crate) use dial::assert_within;
+pub use lab::specimens::{sketch, spec};
 use linkage::case::{Case, Grid};
 use linkage::math::Vec2;
 use linkage::solver::{Solver, State};
-use linkproof::scenario::Scenario;
-pub use linkproof::specimens::{sketch, spec};
+use scenario::Scenario;
 
 /// A scenario of the repository.
 pub fn shipped(name: &str) -> Scenario {

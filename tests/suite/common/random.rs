@@ -3,9 +3,9 @@
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 
+pub use lab::specimens::dyads::{DEAD, REACH, SORTS, Sample, chain, dyad, sample, sort};
 use linkage::math::KeepNan;
 use linkage::mechanism::{Group, LinkPose};
-pub use linkproof::specimens::dyads::{DEAD, REACH, SORTS, Sample, chain, dyad, sample, sort};
 use proptest::test_runner::TestCaseError;
 
 use super::assert_within;

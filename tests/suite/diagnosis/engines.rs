@@ -1,8 +1,8 @@
 //! Faults planted in the engine's case: the whole proof names them.
 
 use super::{Tally, edited, parsed, text};
-use linkproof::diagnosis::Standing;
-use linkproof::proof::{Options, prove_against};
+use prover::diagnosis::Standing;
+use prover::proof::{Options, prove_against};
 
 /// Scenario, place in its text, what stands there instead, and the words that must name it.
 type Fault = (&'static str, &'static str, &'static str, &'static str);

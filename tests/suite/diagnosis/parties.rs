@@ -1,7 +1,7 @@
 //! Who stands alone, since when, and in which channels first.
 
 use linkage::trajectory::{Channel, Trajectory};
-use linkproof::diagnosis::{Judged, Party, Standing, since, standing};
+use prover::diagnosis::{Judged, Party, Standing, since, standing};
 
 fn trajectory(rows: &[(&str, Vec<f64>)]) -> Trajectory {
     let times: Vec<f64> = (0..rows[0].1.len()).map(|row| row as f64).collect();

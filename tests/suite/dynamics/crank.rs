@@ -11,7 +11,7 @@ use analytic::reduced::{ACCURACY, End, Model, RunUp, motion};
 use analytic::steady::Averaged;
 use linkage::case::Case;
 use linkage::drive::{DriveMotion, Load, MotionLaw, Motor, MotorLaw, ShaftInertia};
-use linkproof::scenario::Scenario;
+use scenario::Scenario;
 
 /// A bar of 2 kg and 0.05 kg m^2 about its mass centre, 0.3 m from the pivot; it starts in the direction `start` (deg).
 fn bar(centre: f64, start: f64, gravity: bool) -> Case {

@@ -5,9 +5,9 @@ use std::f64::consts::TAU;
 use crate::common::{assert_within, shipped};
 use analytic::reduced::means;
 use analytic::reduced::{ACCURACY, End, Model, RunUp, motion};
+use design::flywheel::Flywheel;
 use linkage::drive::{Load, Motor, MotorLaw};
 use linkage::math::{KeepNan, Vec2};
-use workshop::flywheel::Flywheel;
 
 /// From half a millisecond to half a second: the run-up of the published problem.
 fn times() -> Vec<f64> {

@@ -10,10 +10,10 @@ use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::Mechanism;
 use linkage::solver::Solver;
 use linkage::trajectory::{Channel, Stage, Trajectory, Unit};
-use linkproof::compare::{Verdict, residuals};
-use linkproof::engines::EngineName;
-use linkproof::proof::{Options, prove};
-use linkproof::scenario::Scenario;
+use prover::compare::{Verdict, residuals};
+use prover::engines::EngineName;
+use prover::proof::{Options, prove};
+use scenario::Scenario;
 
 use crate::common::{assert_within, shipped};
 
@@ -160,7 +160,7 @@ fn several_freedoms_keep_their_energy() {
 const STEP: f64 = 1e-4;
 
 pub(super) fn twin(name: &str, settings: impl Fn(Settings) -> Settings) -> Box<dyn Engine> {
-    let engine = linkproof::engines::named(name, STEP).unwrap();
+    let engine = prover::engines::named(name, STEP).unwrap();
     engine.with(settings(engine.settings()))
 }
 
@@ -284,7 +284,7 @@ fn what_a_free_motion_cannot_be_asked_says_so() {
     let mechanism = Mechanism::new(links, case.mechanism.joints().to_vec()).unwrap();
     let bare = case.with(|parts| parts.mechanism = mechanism).unwrap();
     let extrapolated = twin("rapier", |settings| Settings { extrapolated: 1, ..settings });
-    let engines: Vec<_> = linkproof::engines::all(STEP).into_iter().chain([extrapolated]).collect();
+    let engines: Vec<_> = prover::engines::all(STEP).into_iter().chain([extrapolated]).collect();
     let solvers = engines.iter().map(|engine| engine.as_ref() as &dyn Solver);
     for solver in solvers.clone().chain([&AssurSolver as &dyn Solver, &NewtonSolver]) {
         let error = solver.solve(&before).unwrap_err();

@@ -8,7 +8,7 @@ use linkage::engine::Settings;
 use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::Side;
 use linkage::trajectory::Trajectory;
-use linkproof::scenario::Scenario;
+use scenario::Scenario;
 
 use super::free::{column, energies, solve, twin, worst};
 use crate::common::{assert_within, shipped};

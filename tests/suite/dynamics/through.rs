@@ -9,9 +9,9 @@ use linkage::error::ErrorKind;
 use linkage::math::{KeepNan, Vec2};
 use linkage::solver::Solver;
 use linkage::trajectory::{Channel, Stage, Trajectory, Unit};
-use linkproof::compare::Verdict;
-use linkproof::proof::{Options, prove};
-use linkproof::scenario::Scenario;
+use prover::compare::Verdict;
+use prover::proof::{Options, prove};
+use scenario::Scenario;
 
 use super::free::{column, energies, solve};
 use crate::common::spec::{Spec, four_bar};

@@ -7,8 +7,8 @@ use linkage::engine::{Engine, Route, Settings};
 use linkage::math::KeepNan;
 use linkage::solver::{Solver, State};
 use linkage::trajectory::{Stage, Unit};
-use linkproof::compare::convergence::observed_order;
-use linkproof::compare::{Residual, residuals};
+use prover::compare::convergence::observed_order;
+use prover::compare::{Residual, residuals};
 
 use super::solve;
 use crate::common::{assert_within, shipped};
@@ -22,7 +22,7 @@ fn whole(name: &str) -> Case {
 
 /// The engine at a step of 0.08 deg of the crank.
 fn fine(name: &str, case: &Case, route: Route, extrapolated: usize) -> Box<dyn Engine> {
-    let engine = linkproof::engines::named(name, 0.08f64.to_radians() / case.crank().at(0.0).omega.abs()).unwrap();
+    let engine = prover::engines::named(name, 0.08f64.to_radians() / case.crank().at(0.0).omega.abs()).unwrap();
     engine.with(Settings { route, extrapolated, sweeps: SWEEPS, ..engine.settings() })
 }
 
@@ -157,7 +157,7 @@ fn regress_64_a_crank_half_as_long_leaves_less_than_a_ten_millionth() {
     let text = shipped("crank_rocker.toml").text;
     let half = text.replace("A = { x_m = 0.025995627740337, y_m = 0 }", "A = { x_m = 0.0129978138701685, y_m = 0 }");
     assert_ne!(text, half);
-    let half = linkproof::scenario::Scenario::parse(&half, std::path::Path::new("half.toml")).unwrap().case;
+    let half = scenario::Scenario::parse(&half, std::path::Path::new("half.toml")).unwrap().case;
     let half = half.wanting(Wanted::of(&[Stage::Positions]));
     let gaps = [&whole_crank, &half].map(|case| {
         let run = of_states(fine("rapier", case, Route::Differences, 0).as_ref(), case, |state| gap(case, state));
@@ -227,7 +227,7 @@ fn regress_63_extrapolation_raises_the_order_by_one() {
 #[test]
 fn regress_14_thirty_two_sweeps_are_as_good_as_a_thousand() {
     let case = whole("crank_rocker");
-    let engine = linkproof::engines::named("rapier", 1e-3).unwrap();
+    let engine = prover::engines::named("rapier", 1e-3).unwrap();
     let runs = [32, 1024].map(|sweeps| solve(engine.with(Settings { sweeps, ..engine.settings() }).as_ref(), &case));
     for residual in residuals(&runs[1], &runs[0]).unwrap() {
         let share = residual.share();
@@ -260,7 +260,7 @@ fn regress_60_single_precision_is_within_its_rounding_bound() {
         for (single, double) in [("rapier-f32", "rapier"), ("impulse-f32", "impulse")] {
             for (&route, step) in routes.iter().flat_map(|route| [(route, 1e-3), (route, 2.5e-4)]) {
                 let engines = [double, single].map(|name| {
-                    let engine = linkproof::engines::named(name, step).unwrap();
+                    let engine = prover::engines::named(name, step).unwrap();
                     engine.with(Settings { route, ..engine.settings() })
                 });
                 assert!(super::epsilon(engines[1].as_ref()) > 1e-8);

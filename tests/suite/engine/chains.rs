@@ -5,7 +5,7 @@ use linkage::case::{Case, Grid};
 use linkage::engine::{Route, Settings};
 use linkage::math::{KeepNan, Vec2};
 use linkage::trajectory::{Stage, Trajectory};
-use linkproof::compare::residuals;
+use prover::compare::residuals;
 
 use super::solve;
 use crate::common::assert_within;
@@ -59,7 +59,7 @@ fn regress_68_twelve_links_converge_in_the_impulse_build() {
     assert_eq!(case.mechanism.links().len(), 12);
     let truth = solve(&AssurSolver, &case);
     let errors = [2e-3, 1e-3].map(|step| {
-        let run = solve(linkproof::engines::named("impulse", step).unwrap().as_ref(), &case);
+        let run = solve(prover::engines::named("impulse", step).unwrap().as_ref(), &case);
         [Stage::Positions, Stage::Velocities, Stage::Accelerations, Stage::Reactions]
             .map(|stage| worst(&truth, &run, |own| own == stage))
     });
@@ -86,7 +86,7 @@ fn regress_69_stand_ins_are_taken_off_reported_impulses() {
     for name in ["rapier", "impulse"] {
         for (route, formal, bound) in [(Route::Native, 1.0, 0.125), (Route::Probe, 2.0, 5e-3)] {
             let errors = [2e-3, 1e-3].map(|step| {
-                let engine = linkproof::engines::named(name, step).unwrap();
+                let engine = prover::engines::named(name, step).unwrap();
                 let run = solve(engine.with(Settings { route, sweeps: 1024, ..engine.settings() }).as_ref(), &case);
                 worst(&truth, &run, |stage| stage >= Stage::Reactions)
             });

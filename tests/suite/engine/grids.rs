@@ -4,7 +4,7 @@ use linkage::case::{Case, Grid};
 use linkage::engine::Settings;
 use linkage::math::KeepNan;
 use linkage::trajectory::Trajectory;
-use linkproof::compare::residuals;
+use prover::compare::residuals;
 
 use super::{double, solve, stepping};
 use crate::common::assert_within;
@@ -26,7 +26,7 @@ fn differ(dense: &Trajectory, other: &Trajectory, row: impl Fn(usize) -> usize) 
         dense.iter().map(|(_, values)| (0..other.times().len()).map(|k| values[row(k)]).collect()).collect();
     let channels = dense.channels().to_vec();
     let picked = Trajectory::new(other.times().to_vec(), other.cranks().to_vec(), channels, picked).unwrap();
-    let scales = linkproof::compare::scales(dense);
+    let scales = prover::compare::scales(dense);
     let worst = residuals(&picked, other).unwrap().into_iter().zip(scales).map(|(r, scale)| (r.max / scale, r.channel));
     let (worst, channel) = worst.max_by(|a, b| a.0.total_cmp(&b.0)).unwrap();
     (worst, channel.to_string())
@@ -76,7 +76,7 @@ fn regress_21_samples_between_steps_are_as_good_as_samples_on_steps() {
 #[test]
 fn regress_22_instants_before_the_start_are_as_good_as_others() {
     let case = case();
-    for engine in linkproof::engines::all(DT) {
+    for engine in prover::engines::all(DT) {
         let whole = at(&case, (-300..=300).map(|k| f64::from(k) * DT).collect());
         let truth = solve(&analytic::AssurSolver, &whole);
         let run = solve(engine.as_ref(), &whole);

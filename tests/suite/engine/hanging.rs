@@ -4,9 +4,9 @@ use super::solve;
 use crate::common::{assert_within, rapiers};
 use linkage::case::Grid;
 use linkage::trajectory::Channel;
-use linkproof::engines::EngineName;
-use linkproof::proof::{Options, prove};
-use linkproof::scenario::Scenario;
+use prover::engines::EngineName;
+use prover::proof::{Options, prove};
+use scenario::Scenario;
 
 const ON_A_LOOP: &str = include_str!("hanging_on_loop.toml");
 const CRANK: &str = "joint = \"O\"\nmotion = \"free\"\n";

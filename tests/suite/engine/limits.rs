@@ -9,9 +9,9 @@ use linkage::ErrorKind;
 use linkage::case::Grid;
 use linkage::math::statistics::largest_difference;
 use linkage::solver::Solver;
-use linkproof::engines::EngineName;
-use linkproof::proof::{Options, prove};
-use linkproof::scenario::Scenario;
+use prover::engines::EngineName;
+use prover::proof::{Options, prove};
+use scenario::Scenario;
 
 use super::stepping;
 use crate::common::shipped;
@@ -61,7 +61,7 @@ fn regress_41_a_pose_that_cannot_be_assembled_is_an_error_with_its_crank_angle()
     spec.grid = (0.5, 0.05, 60);
     let case = spec.scenario().unwrap().case;
     for step in [1e-2, 1e-3, 1e-4] {
-        for engine in linkproof::engines::all(step) {
+        for engine in prover::engines::all(step) {
             assert_helpful(&engine.solve(&case).unwrap_err());
         }
     }
@@ -79,7 +79,7 @@ fn regress_41_a_pose_that_cannot_be_assembled_is_an_error_with_its_crank_angle()
 fn regress_42_a_slider_out_of_reach_is_an_error_with_its_crank_angle() {
     let case = short_rod();
     for step in [1e-2, 1e-3, 1e-4] {
-        for engine in linkproof::engines::all(step) {
+        for engine in prover::engines::all(step) {
             assert_helpful(&engine.solve(&case).unwrap_err());
         }
     }

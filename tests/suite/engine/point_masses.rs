@@ -8,7 +8,7 @@ use linkage::case::Case;
 use linkage::engine::{Route, Settings};
 use linkage::math::KeepNan;
 use linkage::solver::State;
-use linkproof::scenario::Scenario;
+use scenario::Scenario;
 
 fn case_of(text: &str) -> Case {
     Scenario::parse(text, Path::new("point_masses.toml")).unwrap_or_else(|error| panic!("{error}")).case
@@ -49,7 +49,7 @@ fn approaches(what: &str, case: &Case, step: f64, bound: f64) {
     for name in ["rapier", "impulse"] {
         for route in [Route::Differences, Route::Native] {
             let of = |step: f64| {
-                let engine = linkproof::engines::named(name, step).unwrap();
+                let engine = prover::engines::named(name, step).unwrap();
                 // Impulses of the first steps between bodies of their own take most sweeps: with 4096 a thousandth is left.
                 let many = if name == "impulse" && route == Route::Native { 4 } else { 1 };
                 let own = engine.settings();
@@ -94,7 +94,7 @@ fn massless_links_move_under_forces() {
 fn regress_a_free_link_without_motor_has_no_driving_moment() {
     let case = with("pendulum.toml", &[]);
     for name in ["rapier", "impulse"] {
-        let engine = linkproof::engines::named(name, 1e-4).unwrap();
+        let engine = prover::engines::named(name, 1e-4).unwrap();
         let engine = engine.with(Settings { route: Route::Native, ..engine.settings() });
         for state in states(engine.as_ref(), &case, &[0.01, 0.1]).unwrap() {
             assert_eq!(state.torques[0], 0.0, "{name}");

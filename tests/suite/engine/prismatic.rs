@@ -29,9 +29,9 @@ fn lighter(case: &Case) -> Case {
 fn regress_50_all_sorts_of_sliders_converge_with_the_formal_order() {
     for sample in sliders::all() {
         for case in [sample.case.clone(), swapped(&sample.case), lighter(&sample.case)] {
-            has_formal_order(&case, linkproof::engines::named("rapier", 1e-3).into_iter(), &NewtonSolver);
+            has_formal_order(&case, prover::engines::named("rapier", 1e-3).into_iter(), &NewtonSolver);
         }
-        has_formal_order(&sample.case, linkproof::engines::named("impulse", 2e-3).into_iter(), &NewtonSolver);
+        has_formal_order(&sample.case, prover::engines::named("impulse", 2e-3).into_iter(), &NewtonSolver);
     }
 }
 
@@ -102,8 +102,8 @@ fn regress_53_errors_of_sliders_are_as_measured() {
     let measured = [1.4e-6, 8.3e-6, 7.8e-7, 2.0e-5, 1.7e-6];
     for (sample, measured) in sliders::all().into_iter().zip(measured) {
         let truth = solve(&NewtonSolver, &sample.case);
-        for engine in [linkproof::engines::named("rapier", 1e-4).unwrap()] {
-            let found = linkproof::compare::residuals(&truth, &solve(engine.as_ref(), &sample.case)).unwrap();
+        for engine in [prover::engines::named("rapier", 1e-4).unwrap()] {
+            let found = prover::compare::residuals(&truth, &solve(engine.as_ref(), &sample.case)).unwrap();
             for residual in found {
                 let error = residual.share();
                 assert_within!(error, 1.1 * measured, "{} {}: {error:e}", sample.name, residual.channel);

@@ -8,7 +8,7 @@ use linkage::case::Case;
 use linkage::engine::{Engine, Hook, Kept, Route, Settings, Wrapped};
 use linkage::solver::State;
 use linkage::trajectory::Subject;
-use linkproof::engines::EngineName;
+use prover::engines::EngineName;
 use syn::{Item, TraitItem};
 
 /// Changes nothing.

@@ -7,12 +7,12 @@ use roxmltree::{Document, Node};
 use super::{exported, start};
 use crate::common::{assert_within, shipped};
 use analytic::AssurSolver;
+use design::export::mjcf::mjcf;
 use linkage::ErrorKind;
 use linkage::case::Case;
 use linkage::drive::{Acts, Course, Load, MotorLaw};
 use linkage::mechanism::Side;
-use linkproof::scenario::Scenario;
-use workshop::export::mjcf::mjcf;
+use scenario::Scenario;
 
 fn all_loads() -> Case {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/viewers/scenarios/all_loads.toml");

@@ -1,6 +1,6 @@
 use super::{files, is_named, is_wrong, judged, load};
 use crate::cli::tools::Place;
-use linkproof::scenario::{Formulas, Scenario};
+use scenario::{Formulas, Scenario};
 
 /// The scenario with one formula written otherwise, and only the claim of another, or of the same, kept.
 fn with_mistake(scenario: &Scenario, step: &str, text: &str, claim: &str) -> Scenario {

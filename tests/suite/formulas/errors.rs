@@ -1,9 +1,9 @@
 //! Wrong formulas of kinds that the search was not built on: every mistake is found, most are called by their cause,
 //! and no cause is made up.
 
-use linkproof::claims::{Cause, MOST_WORK};
-use linkproof::proof::claimed::Claimed;
-use linkproof::scenario::{Claim, Formulas, Scenario};
+use prover::claims::{Cause, MOST_WORK};
+use prover::proof::claimed::Claimed;
+use scenario::{Claim, Formulas, Scenario};
 
 use super::{files, is_named, is_wrong, judged, load};
 

@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use linkproof::claims::Outcome;
-use linkproof::scenario::Scenario;
 use linkproof::{Options, prove};
+use prover::claims::Outcome;
+use scenario::Scenario;
 
 use super::{judged, load, rewritten};
 
@@ -76,7 +76,7 @@ fn what_is_right_at_the_instants_alone_is_found_by_its_rate() {
     let scenario = load(&path);
     let orders = |scenario: &Scenario| -> Vec<Vec<(usize, bool)>> {
         let sides = judged(scenario).judgement.sides;
-        let of = |all: &Vec<Vec<linkproof::claims::Judged>>| {
+        let of = |all: &Vec<Vec<prover::claims::Judged>>| {
             all.iter().flatten().map(|own| (own.order, own.outcome() == Outcome::Right)).collect()
         };
         sides.iter().map(|(_, all)| of(all)).collect()

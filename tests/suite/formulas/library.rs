@@ -1,6 +1,6 @@
 use std::collections::BTreeMap;
 
-use linkproof::claims::Cause;
+use prover::claims::Cause;
 
 use super::{files, is_wrong, judged, load, rewritten};
 

@@ -1,8 +1,8 @@
 //! The search for a cause is counted, and ends: whatever is written, and however much of it.
 
-use linkproof::claims::{CUT, Cause, MOST_WORK};
-use linkproof::proof::claimed::Claimed;
-use linkproof::scenario::{Claim, Formulas, Scenario};
+use prover::claims::{CUT, Cause, MOST_WORK};
+use prover::proof::claimed::Claimed;
+use scenario::{Claim, Formulas, Scenario};
 
 use super::{files, judged, load, rewritten};
 use crate::cli::tools::Place;

@@ -2,7 +2,7 @@ use std::fs;
 use std::path::Path;
 
 use crate::cli::tools::Place;
-use linkproof::scenario::Scenario;
+use scenario::Scenario;
 
 const FOUR_BAR: &str = r#"
 format = 1

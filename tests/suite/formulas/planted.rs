@@ -1,7 +1,7 @@
 use formula::{Function, Operator, Program, Rounded, Shape, Tree};
 use linkage::math::KeepNan;
-use linkproof::claims::{Cause, Kind};
-use linkproof::scenario::{Formula, Scenario};
+use prover::claims::{Cause, Kind};
+use scenario::{Formula, Scenario};
 
 use super::{files, is_wrong, judged, load, rewritten};
 use crate::common::sketch::Random;

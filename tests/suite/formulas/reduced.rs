@@ -5,7 +5,7 @@ use crate::cli::tools::Place;
 use crate::common::assert_within;
 use analytic::PoseSolver;
 use analytic::reduced::Model;
-use linkproof::scenario::{Claim, Formulas, Scenario};
+use scenario::{Claim, Formulas, Scenario};
 
 fn scenario(name: &str) -> Scenario {
     load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios").join(format!("{name}.toml")))

@@ -1,7 +1,7 @@
 //! What is undefined is neither right nor read over, at whatever door it comes in.
 
-use linkproof::claims::Outcome;
-use linkproof::scenario::Scenario;
+use prover::claims::Outcome;
+use scenario::Scenario;
 
 use crate::cli::tools::Place;
 use crate::common::shipped;
@@ -82,7 +82,7 @@ fn operations_that_leave_their_domain_on_the_way_disagree_with_their_place() {
         for (name, text) in steps {
             scenario.formulas.add(name, text).unwrap();
         }
-        let claim = linkproof::scenario::Claim::parse("link.crank.angle_deg", &scenario.case).unwrap();
+        let claim = scenario::Claim::parse("link.crank.angle_deg", &scenario.case).unwrap();
         for (name, text) in [("formula", text), ("right", right)] {
             scenario.formulas.add(name, text).unwrap().claim = Some(claim.clone());
         }
@@ -102,7 +102,7 @@ fn operations_that_leave_their_domain_on_the_way_disagree_with_their_place() {
 #[test]
 fn poles_between_instants_and_poles_that_rounding_hides() {
     let scenario = shipped("crank_rocker.toml");
-    let claim = linkproof::scenario::Claim::parse("link.crank.angle_deg", &scenario.case).unwrap();
+    let claim = scenario::Claim::parse("link.crank.angle_deg", &scenario.case).unwrap();
     let outcome = |text: &str| {
         let mut scenario = scenario.clone();
         scenario.formulas.add("formula", text).unwrap().claim = Some(claim.clone());
@@ -126,7 +126,7 @@ fn poles_between_instants_and_poles_that_rounding_hides() {
 #[test]
 fn overflow_proves_nothing() {
     let mut scenario = shipped("crank_rocker.toml");
-    let claim = linkproof::scenario::Claim::parse("link.crank.angle_deg", &scenario.case).unwrap();
+    let claim = scenario::Claim::parse("link.crank.angle_deg", &scenario.case).unwrap();
     let formula = scenario.formulas.add("formula", "phi*180/pi + 0*exp(1000*phi)").unwrap();
     formula.claim = Some(claim);
     let found = super::judged(&scenario);

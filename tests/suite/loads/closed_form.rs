@@ -5,7 +5,7 @@ use std::path::Path;
 
 use linkage::case::Case;
 use linkage::math::quadrature;
-use linkproof::scenario::Scenario;
+use scenario::Scenario;
 
 use crate::common::{assert_within, states};
 

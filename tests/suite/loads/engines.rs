@@ -1,8 +1,8 @@
 //! The engine under loads, by every route.
 
+use design::export;
 use linkage::error::ErrorKind;
-use linkproof::proof::{Options, prove};
-use workshop::export;
+use prover::proof::{Options, prove};
 
 use crate::common::shipped;
 

@@ -2,8 +2,8 @@
 
 use linkage::engine::Route;
 use linkage::trajectory::Stage;
-use linkproof::proof::{Options, Proof, prove};
-use linkproof::scenario::Scenario;
+use prover::proof::{Options, Proof, prove};
+use scenario::Scenario;
 
 use crate::common::{from_outside, shipped};
 

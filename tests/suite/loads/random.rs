@@ -5,8 +5,8 @@ use linkage::math::KeepNan;
 use analytic::{self, witness::momentum, witness::power};
 use linkage::case::Case;
 use linkage::trajectory::Stage;
-use linkproof::compare::residuals;
-use linkproof::scenario::Scenario;
+use prover::compare::residuals;
+use scenario::Scenario;
 
 use crate::common::loads::Sizes;
 use crate::common::random::{for_each, within};

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 use linkage::trajectory::CHANNELS;
-use linkproof::scenario::keys::{Kind, section};
+use scenario::keys::{Kind, section};
 use toml_edit::{Item, TableLike, Value};
 
 use super::{SOURCE, files, loaded};

@@ -1,7 +1,7 @@
 //! Drawings of plans: well formed, complete, true to scale, legible.
 
+use design::diagram::draw;
 use linkage::math::Vec2;
-use workshop::diagram::draw;
 
 use super::{Named, REVOLUTE, SLIDERS, all, degrees_of, plans};
 use crate::common::assert_within;

@@ -3,7 +3,7 @@
 use crate::common::assert_within;
 use std::f64::consts::TAU;
 
-use workshop::diagram::{Graph, Graphs, Mark, draw};
+use design::diagram::{Graph, Graphs, Mark, draw};
 
 /// A cosine about 3 N over one turn from 90 deg on, in the direction `way`.
 fn cosine(amplitude: f64, way: f64) -> Graphs {

@@ -4,9 +4,9 @@ use linkage::math::KeepNan;
 use std::f64::consts::{PI, TAU};
 
 use analytic::AssurSolver;
-use workshop::diagram::motion::Method;
-use workshop::diagram::plan::state_at;
-use workshop::diagram::{Course, MotionDiagram, draw};
+use design::diagram::motion::Method;
+use design::diagram::plan::state_at;
+use design::diagram::{Course, MotionDiagram, draw};
 
 use super::scenario;
 use crate::common::assert_within;

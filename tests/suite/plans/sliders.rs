@@ -2,13 +2,13 @@
 //! derivatives, and drawn guides.
 
 use analytic::{AssurSolver, NewtonSolver};
+use design::diagram::plan::state_at;
+use design::diagram::{Part, TipKind, draw};
 use linkage::case::Case;
 use linkage::math::{KeepNan, Vec2, cross, rotated, turned};
 use linkage::solver::{Solver, State};
 use linkage::trajectory::Stage;
-use linkproof::scenario::Scenario;
-use workshop::diagram::plan::state_at;
-use workshop::diagram::{Part, TipKind, draw};
+use scenario::Scenario;
 
 use super::{Named, SLIDERS, angles, contours, degrees_of, longest, plans, plans_of, plans_with, scenario};
 use crate::common::assert_within;

@@ -11,8 +11,8 @@ use linkage::math::dense::Lu;
 use linkage::math::{KeepNan, Motion, Vec2, cross, turned, unit};
 use linkage::mechanism::{EQUATIONS, Joint, Tree};
 use linkage::solver::State;
-use linkproof::scenario::Scenario;
 use rapier_twin::newton_euler::NewtonEuler;
+use scenario::Scenario;
 
 /// Cases of all shipped scenarios and study variants, by name.
 fn shipped() -> Vec<(String, Case)> {

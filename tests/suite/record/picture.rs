@@ -9,9 +9,9 @@ use foxglove::messages::line_primitive::Type as LineType;
 use foxglove::messages::{ArrowPrimitive, FrameTransforms, Log, Pose, SceneEntity, SceneUpdate, Timestamp};
 use linkage::math::{KeepNan, Motion, Vec2, rotated, unit};
 use linkage::trajectory::{Stage, Trajectory};
-use linkproof::record::{Level, LogEntry, Show, Side, film, load, place, view};
 use mcap::records::Record;
 use prost::Message;
+use recording::{Level, LogEntry, Show, Side, film, load, place, view};
 
 use super::{OMEGA, Run, floats, motions, reactions, turn};
 use crate::common::assert_within;

@@ -14,9 +14,9 @@ use linkage::math::Vec2;
 use linkage::mechanism::{GROUND, LinkPose};
 use linkage::solver::Solver;
 use linkage::trajectory::Trajectory;
-use linkproof::record::{Recording, Show, Side, load, write};
-use linkproof::scenario::Scenario;
 use prost::Message;
+use recording::{Recording, Show, Side, load, write};
+use scenario::Scenario;
 
 const SLIDERS: [&str; 5] = ["compressor", "six_bar_slider", "quick_return", "scotch_yoke", "tangent"];
 

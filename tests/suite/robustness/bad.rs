@@ -6,8 +6,8 @@ use std::time::{Duration, Instant};
 
 use linkage::case::Grid;
 use linkproof::parts::ChannelProof;
-use linkproof::scenario::Scenario;
 use linkproof::{Options, Proof, Verdict, prove};
+use scenario::Scenario;
 
 use crate::common::damage::{Damaged, damaged};
 use crate::common::entries;

@@ -7,8 +7,8 @@ use std::time::Duration;
 use assert_cmd::cargo::CommandCargoExt;
 use linkage::case::{Grid, Wanted};
 use linkage::trajectory::Stage;
-use linkproof::proof::memory;
 use linkproof::{Options, prove};
+use prover::proof::memory;
 
 use crate::common::shipped;
 

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use linkage::mechanism::is_unseen;
-use linkproof::scenario::Scenario;
+use scenario::Scenario;
 
 use crate::cli::tools::{Place, Table};
 use crate::common::entries::explains;

@@ -7,7 +7,7 @@ use std::path::Path;
 use mcap::records::MessageHeader;
 
 use crate::cli::tools::Place;
-use linkproof::record::read_bytes;
+use recording::read_bytes;
 
 /// Where the content of the first record of a code begins.
 fn content(file: &[u8], code: u8) -> usize {

@@ -6,8 +6,8 @@ use std::path::Path;
 
 use linkage::math::Vec2;
 use linkage::mechanism::Mechanism;
-use linkproof::scenario::Scenario;
 use linkproof::{Options, Proof, Verdict, prove};
+use scenario::Scenario;
 
 /// A shipped scenario without its published numbers, with edits and another grid, proven with little work.
 fn proven(file: &str, edits: &[(&str, &str)], grid: &str) -> Proof {

@@ -90,7 +90,7 @@ fn a_law_that_is_steep_for_a_moment_ends() {
     let grid = "[grid]\ntimes_s = [0, 1e-9, 1e9]\n";
     let cut = text.find("[grid]").unwrap();
     let text = format!("{}{grid}", text[..cut].replacen("speed_rpm = 130", law, 1));
-    let scenario = linkproof::scenario::Scenario::parse(&text, std::path::Path::new("steep.toml"));
+    let scenario = scenario::Scenario::parse(&text, std::path::Path::new("steep.toml"));
     let scenario = scenario.unwrap_or_else(|error| panic!("{error}: {text}"));
     for solver in analytic::all() {
         if let Err(error) = solver.solve(&scenario.case) {

@@ -5,12 +5,12 @@ use std::path::Path;
 
 use analytic::range::{Extent, FourBarType, Range};
 use analytic::{AssurSolver, NewtonSolver};
+use design::synthesis::Sheet;
+use design::synthesis::crank_rocker::{CrankRocker, Wish};
+use design::synthesis::slider_crank::{Given, SliderCrank};
 use linkage::case::Case;
 use linkage::math::{KeepNan, Vec2};
-use linkproof::scenario::Scenario;
-use workshop::synthesis::Sheet;
-use workshop::synthesis::crank_rocker::{CrankRocker, Wish};
-use workshop::synthesis::slider_crank::{Given, SliderCrank};
+use scenario::Scenario;
 
 use crate::common::{assert_within, shipped, states};
 

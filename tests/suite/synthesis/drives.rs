@@ -3,13 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use analytic::{AssurSolver, NewtonSolver};
+use design::synthesis::{Achieved, search};
+use design::task::{Effort, Task};
+use design::task_file::TaskFile;
 use linkage::math::{KeepNan, Vec2, unit};
-use linkproof::compare::Verdict;
-use linkproof::proof::{Options, prove};
-use linkproof::scenario::Scenario;
-use linkproof::scenario::task_file::TaskFile;
-use workshop::synthesis::{Achieved, search};
-use workshop::task::{Effort, Task};
+use prover::compare::Verdict;
+use prover::proof::{Options, prove};
+use scenario::Scenario;
 
 use crate::common::{assert_within, shipped, states};
 

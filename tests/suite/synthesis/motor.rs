@@ -2,12 +2,12 @@
 
 use std::path::Path;
 
-use linkproof::scenario::catalogue;
-use workshop::motor::Choice;
+use design::catalogue;
+use design::motor::Choice;
 
 use crate::common::{assert_within, shipped};
 
-fn motors() -> Vec<workshop::motor::CatalogueMotor> {
+fn motors() -> Vec<design::motor::CatalogueMotor> {
     catalogue::load(&Path::new(env!("CARGO_MANIFEST_DIR")).join("catalogues/motors.toml")).unwrap()
 }
 
@@ -22,7 +22,7 @@ fn the_peak_without_the_weight_of_the_crank() {
         text = text.replace(from, to);
     }
     // The scenario's published masses are an oracle and not needed here.
-    let scenario = linkproof::scenario::Scenario::parse(&text, Path::new("x.toml")).unwrap();
+    let scenario = scenario::Scenario::parse(&text, Path::new("x.toml")).unwrap();
     let choice = Choice::of(&scenario.case, &motors(), 0.92).unwrap();
     assert_within!((choice.peak.1 - 37.016).abs(), 5e-4, "{}", choice.peak.1);
     assert_eq!(choice.motor.power, 550.0);

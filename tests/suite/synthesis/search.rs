@@ -3,14 +3,14 @@
 use std::f64::consts::TAU;
 use std::path::PathBuf;
 
+use design::redraw;
+use design::synthesis::crank_rocker::{CrankRocker, Wish};
+use design::synthesis::{Achieved, search};
+use design::task::{Effort, Task};
+use design::task_file::TaskFile;
 use linkage::ErrorKind;
 use linkage::math::Vec2;
-use linkproof::scenario::Scenario;
-use linkproof::scenario::redraw;
-use linkproof::scenario::task_file::TaskFile;
-use workshop::synthesis::crank_rocker::{CrankRocker, Wish};
-use workshop::synthesis::{Achieved, search};
-use workshop::task::{Effort, Task};
+use scenario::Scenario;
 
 use crate::common::{assert_within, shipped};
 

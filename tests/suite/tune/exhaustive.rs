@@ -7,8 +7,8 @@ use linkage::engine::{Engine, Settings};
 use linkage::math::KeepNan;
 use linkage::solver::Solver;
 use linkage::trajectory::Trajectory;
-use linkproof::compare::{Residual, residuals};
-use linkproof::scenario::Scenario;
+use prover::compare::{Residual, residuals};
+use scenario::Scenario;
 
 /// Mechanisms with published figures, of every class, with and without sliders.
 pub const REFERENCES: [&str; 8] = [
@@ -69,7 +69,7 @@ pub fn truth(scenario: &Scenario) -> Trajectory {
 /// All ways of setting the Rapier engines except the step: engine, route, extrapolation, substeps, sweeps.
 fn rows(space: &Space) -> Vec<Box<dyn Engine>> {
     let mut rows = Vec::new();
-    for engine in linkproof::engines::all(1e-3).into_iter().filter(|engine| !engine.controls_error()) {
+    for engine in prover::engines::all(1e-3).into_iter().filter(|engine| !engine.controls_error()) {
         for &route in engine.routes() {
             for extrapolated in [0, 1] {
                 for substeps in [1, 2] {

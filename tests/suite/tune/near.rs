@@ -1,11 +1,11 @@
 //! The result of `tune` against all of a space of settings, by the price model: for the tests, and with the whole space
 //! for `benches/tune.rs`.
 
+use lab::tune::{Tuning, Wish, price_of, tune};
 use linkage::engine::Engine;
-use linkproof::engines::EngineName;
-use linkproof::proof::Options;
-use linkproof::scenario::Scenario;
-use linkproof::tune::{Tuning, Wish, price_of, tune};
+use prover::engines::EngineName;
+use prover::proof::Options;
+use scenario::Scenario;
 
 use super::exhaustive::{Space, cheaper, error_of, truth};
 
@@ -27,11 +27,11 @@ pub fn tuned(scenario: &Scenario, within: f64, channels: &[&str], options: &Opti
 /// result may cost at most [`FACTOR`] times the cheapest of them.
 pub fn near_the_cheapest(scenario: &Scenario, within: f64, below: f64, space: &Space) {
     let name = &scenario.name;
-    let engines = linkproof::engines::all(1e-3).into_iter().filter(|engine| !engine.controls_error());
+    let engines = prover::engines::all(1e-3).into_iter().filter(|engine| !engine.controls_error());
     let named = engines.filter_map(|engine| EngineName::named(engine.name()));
     let options = named.fold(Options::default(), Options::engine);
     let found = tuned(scenario, within, &[], &options).unwrap_or_else(|error| panic!("{name}: {error}"));
-    let best = linkproof::engines::named(found.best.engine, 1e-3).unwrap().with(found.best.settings);
+    let best = prover::engines::named(found.best.engine, 1e-3).unwrap().with(found.best.settings);
     let verified = error_of(scenario, &truth(scenario), best.as_ref());
     assert!(verified <= within, "{name}: {verified:e} with {:?}", found.best);
     let promised = found.best.verified;

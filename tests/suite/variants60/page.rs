@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use linkproof::scenario::Scenario;
+use scenario::Scenario;
 
 use super::geometry::{Linkage, Senses, Variant};
 use super::plan::Plan;

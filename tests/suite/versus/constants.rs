@@ -2,8 +2,8 @@
 
 use super::digits::Format;
 use super::{scenario, solved};
-use linkproof::tables::load;
-use linkproof::versus::{Comparison, How};
+use prover::tables::load;
+use prover::versus::{Comparison, How};
 
 /// A scenario's channels in some formats, one column replaced by numbers of another.
 fn compared(name: &str, columns: &[(&str, Format, Option<f64>)]) -> Comparison {

@@ -7,8 +7,8 @@ use super::{against, scenario, solved};
 use linkage::math::KeepNan;
 use linkage::trajectory::Trajectory;
 use linkproof::Scenario;
-use linkproof::tables::{Raw, load};
-use linkproof::versus::{Comparison, How};
+use prover::tables::{Raw, load};
+use prover::versus::{Comparison, How};
 
 /// Numbers by chance, the same in every run (SplitMix64).
 pub(crate) struct Random(pub(crate) u64);

@@ -76,7 +76,7 @@ fn damaged_parquet_files_are_refused() {
             _ => bytes[at..].iter_mut().take(8).for_each(|byte| *byte = 0),
         }
         fs::write(&file, bytes).unwrap();
-        match linkproof::tables::load(&file) {
+        match prover::tables::load(&file) {
             Ok(_) => {}
             Err(error) => {
                 refused += 1;
@@ -94,7 +94,7 @@ fn what_a_parquet_file_announces_and_does_not_have_takes_no_memory() {
     let path = directory.path().join("x.parquet");
     let load = |own: &Announced| {
         fs::write(&path, own.file()).unwrap();
-        linkproof::tables::load(&path)
+        prover::tables::load(&path)
     };
     let packed = |bytes: usize| {
         let mut packer = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::best());

@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 
 use super::scenario;
 use linkproof::report::diagnosis::cause;
-use linkproof::scenario::mapping::{Mapped, Mapping};
-use linkproof::tables::{Held, load};
-use linkproof::versus::{Comparison, How, Party, compare};
+use prover::tables::{Held, load};
+use prover::versus::{Comparison, How, Party, compare};
+use scenario::mapping::{Mapped, Mapping};
 
 const FOREIGN: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/foreign");
 

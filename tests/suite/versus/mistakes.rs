@@ -6,8 +6,8 @@ use super::{against, scenario, solved, table};
 use linkage::case::Case;
 use linkage::trajectory::Trajectory;
 use linkproof::report::versus::why;
-use linkproof::scenario::mapping::{Allowed, Size};
-use linkproof::versus::{Comparison, How};
+use prover::versus::{Comparison, How};
+use scenario::mapping::{Allowed, Size};
 
 /// A mistake: what it does to the right columns of a table, and words of the cause that it should be called by.
 type Mistake = (&'static str, fn(&mut Columns), &'static [&'static str]);

@@ -3,9 +3,9 @@
 use std::path::Path;
 
 use super::{against, held, mapping, scenario, solved, table};
-use linkproof::scenario::mapping::{Allowed, Size};
-use linkproof::tables::{Held, load};
-use linkproof::versus::{Comparison, How, Party, compare};
+use prover::tables::{Held, load};
+use prover::versus::{Comparison, How, Party, compare};
+use scenario::mapping::{Allowed, Size};
 
 fn compared(parties: [Party; 2], how: &How) -> Result<Comparison, linkage::Error> {
     compare(parties, [Path::new("a.csv"), Path::new("b.csv")], how)
@@ -42,7 +42,7 @@ fn a_mapping_bridges_names_units_signs_and_offsets() {
     let text = mapping.text();
     let path = std::env::temp_dir().join("linkproof-mapping-of-a-test.toml");
     std::fs::write(&path, &text).unwrap();
-    assert_eq!(linkproof::scenario::mapping::Mapping::load(&path).unwrap().text(), text);
+    assert_eq!(scenario::mapping::Mapping::load(&path).unwrap().text(), text);
     assert!(text.contains("\"link.rocker.angle_deg\" = \"-(`phi 3` + 0.25)*180/pi\""), "{text}");
 }
 

@@ -1,0 +1,201 @@
+//! The distance of two bodies at the middle of a part of the range, and a bound below which it does not fall over it.
+//!
+//! Nearest points come from parry2d. The bound takes from them a direction only: along any fixed direction two convex
+//! parts are as far apart as their extreme corners, and these move evenly but for a proven error. So a wrong pair of
+//! nearest points makes the bound weak, never wrong.
+
+use linkage::math::{KeepNan, Vec2, turned};
+use parry2d_f64::math::{Pose, Rot2, Vector};
+use parry2d_f64::query::{self, ClosestPoints};
+use parry2d_f64::shape::{ConvexPolygon, Segment, Shape};
+
+use super::tube::{Slice, Track};
+use scenario::clearance::Outline;
+
+/// Largest distance that is asked for, in sizes of the mechanism.
+const FAR: f64 = 1e9;
+
+/// Distance of two parts, in sizes of the mechanism, below which the direction of their nearest points is not enough.
+const CLOSE: f64 = 1e-5;
+
+/// A body's outline made ready for distances.
+pub struct Solid {
+    /// Its link; the ground's for the housing.
+    pub link: usize,
+    /// Radius of its rounding (m).
+    pub radius: f64,
+    pieces: Vec<Piece>,
+    scale: f64,
+}
+
+struct Piece {
+    corners: Vec<Vec2>,
+    centre: Vec2,
+    reach: f64,
+    shape: Box<dyn Shape>,
+}
+
+/// A solid over a part of the range.
+pub struct Placed {
+    pose: Pose,
+    pieces: Vec<PlacedPiece>,
+}
+
+struct PlacedPiece {
+    corners: Vec<Track>,
+    centre: Vec2,
+    /// Largest distance that a corner moves from the middle (m).
+    moves: f64,
+}
+
+/// What is known of the distance of two bodies over a part of the range.
+#[derive(Clone, Copy, Debug)]
+pub struct Gap {
+    /// The distance at the middle (m): 0 where they meet. The true one is not larger. Infinite if all pieces are
+    /// farther apart than what was asked for.
+    pub now: f64,
+    /// The nearest points at the middle, of the first and of the second body (m).
+    pub points: [Vec2; 2],
+    /// No distance over the part is smaller (m); not proven unless the slice is sound. May be negative.
+    pub least: f64,
+}
+
+impl Solid {
+    /// Lengths are given to the library in units of `scale` (m): its tolerances are absolute.
+    #[must_use]
+    pub fn new(link: usize, outline: &Outline, scale: f64) -> Self {
+        let pieces = outline.parts().iter().map(|part| Piece::new(part, scale)).collect();
+        Solid { link, radius: outline.radius(), pieces, scale }
+    }
+
+    /// Number of its convex parts.
+    #[must_use]
+    pub fn pieces(&self) -> usize {
+        self.pieces.len()
+    }
+
+    /// Where it is over a part of the range.
+    #[must_use]
+    pub fn placed(&self, slice: &Slice) -> Placed {
+        let tube = &slice.tubes[self.link];
+        let (origin, direction) = tube.frame();
+        let origin = origin / self.scale;
+        let rotation = Rot2::from_cos_sin_unchecked(direction.x, direction.y);
+        let piece = |piece: &Piece| {
+            let corners: Vec<Track> = piece.corners.iter().map(|&corner| tube.point(corner)).collect();
+            let moves = corners.iter().map(|corner| corner.reach(slice.half)).fold(0.0, f64::larger);
+            PlacedPiece { corners, centre: tube.point(piece.centre).at, moves }
+        };
+        Placed {
+            pose: Pose::from_parts(Vector::new(origin.x, origin.y), rotation),
+            pieces: self.pieces.iter().map(piece).collect(),
+        }
+    }
+}
+
+impl Piece {
+    fn new(corners: &[Vec2], scale: f64) -> Self {
+        let centre = corners.iter().sum::<Vec2>() / corners.len() as f64;
+        let reach = corners.iter().map(|corner| (corner - centre).norm()).fold(0.0, f64::larger);
+        let foreign = |corner: &Vec2| Vector::new(corner.x / scale, corner.y / scale);
+        let segment = || Box::new(Segment::new(foreign(&corners[0]), foreign(&corners[corners.len() - 1])));
+        let shape: Box<dyn Shape> = if corners.len() < 3 {
+            segment()
+        } else {
+            match ConvexPolygon::from_convex_polyline_unmodified(corners.iter().map(foreign).collect()) {
+                Some(polygon) => Box::new(polygon),
+                None => segment(),
+            }
+        };
+        Piece { corners: corners.to_vec(), centre, reach, shape }
+    }
+}
+
+/// The distance of two solids over a part of the range. Pieces that cannot come nearer than `enough` (m) are not asked
+/// for their nearest points; `asked` counts the others.
+#[must_use]
+pub fn gap(
+    [a, b]: [&Solid; 2],
+    places: [&Placed; 2],
+    slice: &Slice,
+    rounding: f64,
+    enough: f64,
+    asked: &mut usize,
+) -> Gap {
+    let radii = a.radius + b.radius;
+    let mut found = Gap { now: f64::INFINITY, points: [Vec2::zeros(); 2], least: f64::INFINITY };
+    for (one, own) in a.pieces.iter().zip(&places[0].pieces) {
+        for (two, other) in b.pieces.iter().zip(&places[1].pieces) {
+            let between = (own.centre - other.centre).norm() - one.reach - two.reach - radii;
+            let sure = between - own.moves - other.moves - rounding;
+            if sure > enough.smaller(found.now) {
+                found.least = found.least.smaller(sure);
+                continue;
+            }
+            *asked += 1;
+            let [p, q] = closest([one, two], [own, other], places, a.scale);
+            let core = (p - q).norm();
+            let now = (core - radii).larger(0.0);
+            if now < found.now || !found.now.is_finite() {
+                let normal = if core > 0.0 { (p - q) / core } else { Vec2::zeros() };
+                (found.now, found.points) = (now, [p - normal * a.radius, q + normal * b.radius]);
+                if now == 0.0 {
+                    let middle = (found.points[0] + found.points[1]) / 2.0;
+                    found.points = [middle; 2];
+                }
+            }
+            let mut least = f64::NEG_INFINITY;
+            let mut ask = |normal: Vec2| {
+                let apart = apart(&own.corners, &other.corners, normal, slice.half);
+                least = least.larger(apart);
+            };
+            if core > 0.0 {
+                ask((p - q) / core);
+            }
+            if core < CLOSE * a.scale {
+                // Of points so close the direction is rounding. One of the sides is between the two, or nothing is.
+                normals(&own.corners, -1.0, &mut ask);
+                normals(&other.corners, 1.0, &mut ask);
+            }
+            found.least = found.least.smaller(least - radii - rounding);
+        }
+    }
+    found
+}
+
+/// Nearest points of two pieces at the middle (m); one common place where they meet.
+fn closest(pieces: [&Piece; 2], placed: [&PlacedPiece; 2], places: [&Placed; 2], scale: f64) -> [Vec2; 2] {
+    let shapes = pieces.map(|piece| &*piece.shape);
+    match query::closest_points(&places[0].pose, shapes[0], &places[1].pose, shapes[1], FAR) {
+        Ok(ClosestPoints::WithinMargin(p, q)) => [p, q].map(|point| Vec2::new(point.x, point.y) * scale),
+        Ok(ClosestPoints::Intersecting) => {
+            let middle = (placed[0].centre + placed[1].centre) / 2.0;
+            [middle; 2]
+        }
+        // Any two points of the pieces bound the distance from above.
+        Ok(ClosestPoints::Disjoint) | Err(_) => placed.map(|piece| piece.centre),
+    }
+}
+
+/// Passes the normals of a convex part's sides to `ask`, outwards for the sign 1, inwards for -1; those of a segment in
+/// both directions.
+fn normals(corners: &[Track], sign: f64, ask: &mut impl FnMut(Vec2)) {
+    let count = corners.len();
+    for k in 0..count {
+        let along = corners[(k + 1) % count].at - corners[k].at;
+        if along.norm() > 0.0 {
+            ask(turned(along).normalize() * -sign);
+        }
+    }
+}
+
+/// How far two convex parts are apart along `normal` at least, within `half` of the middle (m): the smallest of the
+/// first's corners along it less the largest of the second's. That is a concave function of the crank angle.
+fn apart(first: &[Track], second: &[Track], normal: Vec2, half: f64) -> f64 {
+    let at = |by: f64| {
+        let low = first.iter().map(|corner| normal.dot(&corner.at) + normal.dot(&corner.rate) * by - corner.error);
+        let high = second.iter().map(|corner| normal.dot(&corner.at) + normal.dot(&corner.rate) * by + corner.error);
+        low.fold(f64::INFINITY, f64::smaller) - high.fold(f64::NEG_INFINITY, f64::larger)
+    };
+    at(-half).smaller(at(half))
+}

@@ -1,0 +1,249 @@
+//! Clearance: smallest distances of links from each other and from a housing, first collision, and swept areas, over the
+//! whole range of the grid and not at its instants only.
+
+mod gap;
+mod search;
+mod swept;
+#[cfg(test)]
+mod tests;
+mod tube;
+
+pub use search::{Meeting, Smallest};
+pub use swept::Area;
+
+use std::f64::consts::TAU;
+
+use analytic::{AssurSolver, PoseSolver};
+use linkage::case::{Case, Wanted};
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::math::{KeepNan, Motion};
+use linkage::mechanism::GroupKind;
+use linkage::solver::Solver;
+use linkage::trajectory::Stage;
+use scenario::clearance::{Body, Question};
+
+use gap::Solid;
+use search::Search;
+use swept::Sweep;
+use tube::Tubes;
+
+/// Share of the mechanism's size that distances are found to, unless the question says otherwise.
+const TOLERANCE: f64 = 1e-6;
+/// Share of the mechanism's size that counts as no distance where nothing more can be proven.
+const TOUCH: f64 = 1e-9;
+/// Pairs of convex parts that one run may look at, at all parts of the range together; and tests of one swept area.
+const BUDGET: usize = 5_000_000;
+const AREA_BUDGET: usize = 8_000_000;
+
+/// What is known of a pair of bodies.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PairClearance {
+    /// The bodies, by their numbers in the question.
+    pub bodies: [usize; 2],
+    /// Their smallest distance.
+    pub smallest: Smallest,
+    /// Where they first meet.
+    pub collision: Option<Meeting>,
+    /// Where they first are no farther apart than wanted; `None` also where nothing is wanted.
+    pub too_near: Option<Meeting>,
+}
+
+/// Exact work of a run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Work {
+    /// Poses of side 1 for distances.
+    pub poses: usize,
+    /// Further poses of side 1 for swept areas.
+    pub positions: usize,
+    /// Pairs of convex parts whose nearest points were asked for.
+    pub distances: usize,
+    /// Tests of a square of the plane against a part of the range.
+    pub squares: usize,
+}
+
+/// The answer to a question of clearance.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Clearance {
+    /// Range of crank angles (rad), in the order of the motion.
+    pub range: [f64; 2],
+    /// All pairs that were asked for.
+    pub pairs: Vec<PairClearance>,
+    /// Swept area of every moving body of the question: its number and the area.
+    pub swept: Vec<(usize, Area)>,
+    /// Parts of the range over which nothing could be proven (rad): beside singular poses.
+    pub open: Vec<[f64; 2]>,
+    /// Error that the smallest distances may have (m).
+    pub tolerance: f64,
+    /// What it took.
+    pub work: Work,
+}
+
+impl Clearance {
+    /// The pair that meets first, and where. Among pairs that meet at the start the first of the question.
+    #[must_use]
+    pub fn first_collision(&self) -> Option<(&PairClearance, Meeting)> {
+        self.first(|pair| pair.collision)
+    }
+
+    /// The pair that first is no farther apart than wanted, and where.
+    #[must_use]
+    pub fn first_too_near(&self) -> Option<(&PairClearance, Meeting)> {
+        self.first(|pair| pair.too_near)
+    }
+
+    fn first(&self, of: impl Fn(&PairClearance) -> Option<Meeting>) -> Option<(&PairClearance, Meeting)> {
+        let gone = |meeting: &Meeting| (meeting.cranks[1] - self.range[0]).abs();
+        let found = self.pairs.iter().filter_map(|pair| Some((pair, of(pair)?)));
+        found.min_by(|a, b| gone(&a.1).total_cmp(&gone(&b.1)))
+    }
+
+    /// The pair with the smallest distance of all.
+    #[must_use]
+    pub fn smallest(&self) -> Option<&PairClearance> {
+        self.pairs.iter().min_by(|a, b| a.smallest.distance.total_cmp(&b.smallest.distance))
+    }
+}
+
+/// Answers a question about a case, over the crank angles that its grid spans. `progress` receives the finished share.
+///
+/// A mechanism whose groups are all dyads repeats its poses after a turn: of a longer range one turn is looked at.
+/// In a free motion of one freedom the range is that of the crank angles at the instants of the grid.
+///
+/// # Errors
+/// [`ErrorKind::Unsupported`] for a free motion of several freedoms.
+/// Those of [`analytic::PoseSolver::solve`] for crank angles that cannot be reached.
+pub fn find(case: &Case, question: &Question, progress: &mut dyn FnMut(f64)) -> Result<Clearance> {
+    let range = range(case)?;
+    let case = &case.nominal();
+    let size = case.mechanism.size();
+    let mut tubes = Tubes::new(case, range, question.extent())?;
+    let solids: Vec<Solid> = question.bodies.iter().map(|body| Solid::new(body.link, &body.outline, size)).collect();
+    let tolerance = question.tolerance.unwrap_or(TOLERANCE * size);
+    let mut search = Search {
+        tubes: &mut tubes,
+        solids: &solids,
+        tolerance,
+        touch: TOUCH * size,
+        asked: 0,
+        budget: BUDGET,
+        open: Vec::new(),
+    };
+    let smallest = search.smallest(&question.pairs)?;
+    progress(0.3);
+    let mut pairs = Vec::with_capacity(smallest.len());
+    for (&bodies, smallest) in question.pairs.iter().zip(smallest) {
+        let mut first = |threshold: f64| {
+            if smallest.least > threshold { Ok(None) } else { search.first(bodies, threshold) }
+        };
+        let collision = first(0.0)?;
+        let too_near = question.wanted.map(&mut first).transpose()?.flatten();
+        pairs.push(PairClearance { bodies, smallest, collision, too_near });
+    }
+    progress(0.5);
+    let (distances, mut open) = (search.asked, search.open);
+    let poses = tubes.poses;
+    let moving: Vec<usize> = (0..question.bodies.len()).filter(|&body| question.bodies[body].moves()).collect();
+    let (mut swept, mut squares) = (Vec::with_capacity(moving.len()), 0);
+    for (done, &body) in moving.iter().enumerate() {
+        let Body { link, outline, .. } = &question.bodies[body];
+        let mut sweep = Sweep::new(&mut tubes, *link, outline);
+        swept.push((body, sweep.area(question.area, AREA_BUDGET)?));
+        squares += sweep.tests;
+        open.append(&mut sweep.open);
+        progress(0.5 + 0.5 * (done + 1) as f64 / moving.len() as f64);
+    }
+    let open = merged(open, range);
+    let work = Work { poses, positions: tubes.poses - poses, distances, squares };
+    Ok(Clearance { range, pairs, swept, open, tolerance, work })
+}
+
+/// Distances of all pairs at the instants of a grid: samples, for graphs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Course {
+    /// Crank angles (rad), one an instant.
+    pub cranks: Vec<f64>,
+    /// The distance of every pair of the question (m), a row an instant.
+    pub rows: Vec<Vec<f64>>,
+}
+
+/// Distances of all pairs at the instants of the case's grid.
+///
+/// # Errors
+/// Those of [`find`].
+pub fn course(case: &Case, question: &Question) -> Result<Course> {
+    let cranks = cranks(case)?;
+    let case = &case.nominal();
+    let size = case.mechanism.size();
+    let mut tubes = Tubes::new(case, [case.crank().start; 2], question.extent())?;
+    let solids: Vec<Solid> = question.bodies.iter().map(|body| Solid::new(body.link, &body.outline, size)).collect();
+    let rounding = tubes.rounding();
+    let mut rows = Vec::with_capacity(cranks.len());
+    for &crank in &cranks {
+        let slice = tubes.slice(crank, 0.0)?;
+        let placed: Vec<gap::Placed> = solids.iter().map(|solid| solid.placed(&slice)).collect();
+        let of = |&[a, b]: &[usize; 2]| {
+            let bodies = [&solids[a], &solids[b]];
+            gap::gap(bodies, [&placed[a], &placed[b]], &slice, rounding, f64::INFINITY, &mut 0).now
+        };
+        rows.push(question.pairs.iter().map(of).collect());
+    }
+    Ok(Course { cranks, rows })
+}
+
+/// Poses of all links at crank angles (rad), for drawings.
+///
+/// # Errors
+/// Those of [`PoseSolver::solve`].
+pub fn poses(case: &Case, cranks: &[f64]) -> Result<Vec<Vec<Motion>>> {
+    let case = &case.nominal();
+    let mut solver = PoseSolver::new(case)?;
+    let mut at = |&crank: &f64| Ok(solver.solve(crank, 1.0, 0.0, Stage::Positions)?.motions.clone());
+    cranks.iter().map(&mut at).collect()
+}
+
+/// Crank angles at the instants of the grid (rad): of a motion under forces its solution's.
+fn cranks(case: &Case) -> Result<Vec<f64>> {
+    if !case.is_free() {
+        return Ok(case.grid.cranks.clone());
+    }
+    if !case.drives.further().is_empty() {
+        let message = "clearance is looked for over crank angles, but forces decide several freedoms of the motion";
+        let error = Error::new(ErrorKind::Unsupported, message);
+        return Err(error.help("prescribe the drives, or let no more than one link move freely"));
+    }
+    Ok(AssurSolver.solve(&case.wanting(Wanted::of(&[Stage::Positions])))?.cranks().to_vec())
+}
+
+/// Crank angles from which and to which the grid goes, in the order of the motion (rad).
+fn range(case: &Case) -> Result<[f64; 2]> {
+    let cranks = cranks(case)?;
+    let low = cranks.iter().copied().fold(f64::INFINITY, f64::smaller);
+    let mut high = cranks.iter().copied().fold(f64::NEG_INFINITY, f64::larger);
+    let dyads = case.structure.groups.iter().all(|group| group.kind != GroupKind::Higher);
+    let forwards = case.crank().sense() > 0.0;
+    if dyads && case.drives.further().is_empty() && !case.crank().through && high - low > TAU {
+        if !forwards {
+            return Ok([high, high - TAU]);
+        }
+        high = low + TAU;
+    }
+    Ok(if forwards { [low, high] } else { [high, low] })
+}
+
+/// Ranges in the order of the motion, those that touch put together.
+fn merged(mut open: Vec<[f64; 2]>, range: [f64; 2]) -> Vec<[f64; 2]> {
+    let gone = |angle: f64| (angle - range[0]).abs();
+    open.sort_by(|a, b| gone(a[0]).total_cmp(&gone(b[0])).then(gone(a[1]).total_cmp(&gone(b[1]))));
+    let mut all: Vec<[f64; 2]> = Vec::new();
+    for own in open {
+        match all.last_mut() {
+            Some(last) if gone(own[0]) <= gone(last[1]) => {
+                if gone(own[1]) > gone(last[1]) {
+                    last[1] = own[1];
+                }
+            }
+            _ => all.push(own),
+        }
+    }
+    all
+}

@@ -1,0 +1,362 @@
+//! Area that a body sweeps: the union of all its positions over the range.
+//!
+//! The plane is divided into squares, and a square into four where it is neither proven covered nor proven free.
+//! Covered is a square that lies inside the outline at one instant, or that one of its sides passes over.
+//! Free is a square that the outline does not come near over any part of the range, by the bounds of [`super::gap`].
+//! What is left at the end lies on the border. It is the bound of the area, and a straight border gives its share.
+
+#[cfg(test)]
+mod tests;
+
+use linkage::error::Result;
+use linkage::math::{KeepNan, Vec2, cross, rotated};
+
+use super::tube::{MOST_HALVINGS, Part, Track, Tube, Tubes};
+use scenario::clearance::Outline;
+
+/// Share of a square's half diagonal within which the outline's border moves over a part of the range.
+const SPREAD: f64 = 0.5;
+/// A window is so many times as wide as its part of the range. Those of its ancestors, so many, are asked too.
+const WINDOW: f64 = 4.0;
+const ANCESTORS: usize = 4;
+/// Share of a square's half diagonal below which a border is taken as not crossing it.
+const CROSSING: f64 = 0.02;
+/// Halvings of the first square after which no more is tried.
+const MOST_DIVISIONS: usize = 24;
+
+/// A swept area.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Area {
+    /// The area (m2), with the border taken as straight in every square that it crosses.
+    pub value: f64,
+    /// Area that is proven covered (m2).
+    pub least: f64,
+    /// The same and the squares on the border (m2): the area is proven not to be larger.
+    pub most: f64,
+}
+
+impl Area {
+    /// Largest error of the value (m2).
+    #[must_use]
+    pub fn error(&self) -> f64 {
+        (self.most - self.value).larger(self.value - self.least)
+    }
+}
+
+/// A part of the range with the body's place.
+struct Node {
+    part: Part,
+    half: f64,
+    tube: Tube,
+    parts: Vec<Vec<Track>>,
+    sides: Vec<[Track; 2]>,
+    parent: Option<u32>,
+    halves: Option<u32>,
+    /// The sides over a wider part around the same middle, once they were asked for.
+    window: Option<Window>,
+}
+
+/// Sides of an outline over a part of the range; none if nothing is proven of them.
+struct Window {
+    half: f64,
+    sides: Vec<[Track; 2]>,
+}
+
+/// What a square is.
+enum Square {
+    Covered,
+    Free,
+    /// On the border: parts of the range that come near, and the covered share if the border is straight.
+    Border(Vec<u32>, f64),
+}
+
+/// The search for one body's swept area.
+pub struct Sweep<'a, 'c> {
+    tubes: &'a mut Tubes<'c>,
+    outline: &'a Outline,
+    link: usize,
+    nodes: Vec<Node>,
+    rounding: f64,
+    /// Tests of a square against a part of the range.
+    pub tests: usize,
+    /// Ranges of crank angles (rad) whose positions are left out, because nothing is proven of them.
+    pub open: Vec<[f64; 2]>,
+}
+
+impl<'a, 'c> Sweep<'a, 'c> {
+    /// For a link with an outline.
+    pub fn new(tubes: &'a mut Tubes<'c>, link: usize, outline: &'a Outline) -> Self {
+        let rounding = tubes.rounding();
+        Sweep { tubes, outline, link, nodes: Vec::new(), rounding, tests: 0, open: Vec::new() }
+    }
+
+    /// The area, to a share `wanted` of itself, or as near as `budget` tests allow.
+    ///
+    /// # Errors
+    /// Those of a pose.
+    pub fn area(&mut self, wanted: f64, budget: usize) -> Result<Area> {
+        let first = self.sound_parts()?;
+        if first.is_empty() {
+            return Ok(Area { value: 0.0, least: 0.0, most: 0.0 });
+        }
+        let [low, high] = self.bounds(&first);
+        let mut half = (high - low).amax() / 2.0 + self.rounding;
+        let (mut open, mut covered) = (vec![((low + high) / 2.0, first, 0.5)], 0.0);
+        let mut best = Area { value: 0.0, least: 0.0, most: f64::INFINITY };
+        for _ in 0..MOST_DIVISIONS {
+            let mut next = Vec::new();
+            half /= 2.0;
+            for (centre, near, _) in &open {
+                for (x, y) in [(-half, -half), (half, -half), (-half, half), (half, half)] {
+                    let centre = centre + Vec2::new(x, y);
+                    match self.judge(centre, half, near)? {
+                        Square::Covered => covered += 4.0 * half * half,
+                        Square::Free => {}
+                        Square::Border(near, share) => next.push((centre, near, share)),
+                    }
+                }
+            }
+            open = next;
+            let border = open.len() as f64 * 4.0 * half * half;
+            let share: f64 = open.iter().map(|(_, _, share)| share).sum::<f64>() * 4.0 * half * half;
+            best = Area { value: covered + share, least: covered, most: covered + border };
+            if best.error() <= wanted * best.value || 4 * self.tests > budget {
+                break;
+            }
+        }
+        Ok(best)
+    }
+
+    /// The range in parts over which the bounds are proven, as far as such parts can be had.
+    fn sound_parts(&mut self) -> Result<Vec<u32>> {
+        let mut ahead: Vec<Part> = self.tubes.parts().rev().collect();
+        let mut found = Vec::with_capacity(ahead.len());
+        while let Some(part) = ahead.pop() {
+            let slice = self.tubes.at(part)?;
+            if slice.sound {
+                found.push(self.node(part, None)?);
+            } else if part.halvings < MOST_HALVINGS {
+                ahead.extend(part.halves().into_iter().rev());
+            } else {
+                self.open.push(self.tubes.ends(part));
+            }
+        }
+        Ok(found)
+    }
+
+    /// Both corners of a box around all positions.
+    fn bounds(&self, nodes: &[u32]) -> [Vec2; 2] {
+        let radius = self.outline.radius();
+        let mut ends = [Vec2::repeat(f64::INFINITY), Vec2::repeat(f64::NEG_INFINITY)];
+        for node in nodes.iter().map(|&node| &self.nodes[node as usize]) {
+            for corner in node.parts.iter().flatten() {
+                let reach = Vec2::repeat(corner.reach(node.half) + radius);
+                ends = [ends[0].inf(&(corner.at - reach)), ends[1].sup(&(corner.at + reach))];
+            }
+        }
+        ends
+    }
+
+    fn node(&mut self, part: Part, parent: Option<u32>) -> Result<u32> {
+        let slice = self.tubes.at(part)?;
+        let tube = slice.tubes[self.link];
+        let of = |corners: &Vec<Vec2>| corners.iter().map(|&corner| tube.point(corner)).collect();
+        self.nodes.push(Node {
+            part,
+            half: slice.half,
+            tube,
+            parts: self.outline.parts().iter().map(of).collect(),
+            sides: self.sides(&tube),
+            parent,
+            halves: None,
+            window: None,
+        });
+        Ok(u32::try_from(self.nodes.len() - 1).unwrap_or(u32::MAX))
+    }
+
+    fn sides(&self, tube: &Tube) -> Vec<[Track; 2]> {
+        self.outline.sides().map(|side| side.map(|end| tube.point(end))).collect()
+    }
+
+    /// Whether a side passes over a disc within a wider part around a node's middle or that of one of its ancestors.
+    /// A part of the range that is as short as the square is small moves a side only into it, and not over it.
+    fn is_passed(&mut self, node: u32, centre: Vec2, about: f64) -> Result<bool> {
+        let mut next = Some(node);
+        for _ in 0..ANCESTORS {
+            let Some(index) = next else { break };
+            if self.nodes[index as usize].window.is_none() {
+                let window = self.window(self.nodes[index as usize].part)?;
+                self.nodes[index as usize].window = Some(window);
+            }
+            let own = &self.nodes[index as usize];
+            if let Some(Window { half, sides }) = &own.window
+                && sides.iter().any(|side| passes(side, *half, centre, about))
+            {
+                return Ok(true);
+            }
+            next = own.parent;
+        }
+        Ok(false)
+    }
+
+    fn window(&mut self, part: Part) -> Result<Window> {
+        let ([from, to], range) = (self.tubes.ends(part), self.tubes.range());
+        let (middle, half) = (f64::midpoint(from, to), WINDOW * (to - from).abs() / 2.0);
+        let low = (middle - half).larger(range[0].smaller(range[1]));
+        let high = (middle + half).smaller(range[0].larger(range[1]));
+        let slice = self.tubes.slice(f64::midpoint(low, high), (high - low) / 2.0)?;
+        let sides = if slice.sound { self.sides(&slice.tubes[self.link]) } else { Vec::new() };
+        Ok(Window { half: slice.half, sides })
+    }
+
+    /// The halves of a part, made once. The second follows the first. `None` where nothing is proven of a half.
+    fn halves(&mut self, node: u32) -> Result<Option<[u32; 2]>> {
+        if let Some(first) = self.nodes[node as usize].halves {
+            return Ok(Some([first, first + 1]));
+        }
+        let [one, two] = self.nodes[node as usize].part.halves();
+        if !(self.tubes.at(one)?.sound && self.tubes.at(two)?.sound) {
+            return Ok(None);
+        }
+        let first = self.node(one, Some(node))?;
+        self.node(two, Some(node))?;
+        self.nodes[node as usize].halves = Some(first);
+        Ok(Some([first, first + 1]))
+    }
+
+    fn judge(&mut self, centre: Vec2, half: f64, near: &[u32]) -> Result<Square> {
+        let about = half * std::f64::consts::SQRT_2 + self.rounding;
+        // Coarse parts first: one of them may cover the square, and spares the halves of all others.
+        let (mut ahead, mut next) = (near.to_vec(), 0);
+        let (mut kept, mut crossing, mut lowest) = (Vec::new(), Vec::new(), (f64::INFINITY, Vec2::new(1.0, 0.0)));
+        while let Some(&index) = ahead.get(next) {
+            next += 1;
+            self.tests += 1;
+            let node = &self.nodes[index as usize];
+            let (now, away) = self.outline.distance(node.tube.local(centre));
+            if now <= -about {
+                return Ok(Square::Covered);
+            }
+            let away = rotated(node.tube.frame().1, away);
+            // The border's own point moves away from the square, or towards it.
+            let border = node.tube.point(node.tube.local(centre - away * (now + self.outline.radius())));
+            let swing = away.dot(&border.rate).abs() * node.half;
+            if self.least(node, centre) > about {
+                continue;
+            }
+            if node.sides.iter().any(|side| passes(side, node.half, centre, about)) {
+                return Ok(Square::Covered);
+            }
+            if swing + border.error > SPREAD * about
+                && node.part.halvings < MOST_HALVINGS
+                && let Some(halves) = self.halves(index)?
+            {
+                ahead.extend(halves);
+                continue;
+            }
+            kept.push(index);
+            if swing > CROSSING * about {
+                crossing.push(index);
+            }
+            if now - swing < lowest.0 {
+                lowest = (now - swing, away);
+            }
+        }
+        for index in crossing {
+            if self.is_passed(index, centre, about)? {
+                return Ok(Square::Covered);
+            }
+        }
+        Ok(if kept.is_empty() { Square::Free } else { Square::Border(kept, share(lowest, half)) })
+    }
+
+    /// The body does not come nearer to a place than this over a part of the range (m); negative where it may cover it.
+    fn least(&self, node: &Node, place: Vec2) -> f64 {
+        let mut least = f64::INFINITY;
+        for part in &node.parts {
+            let nearest = nearest(part, place);
+            let off = place - nearest;
+            let distance = off.norm();
+            if distance <= 0.0 {
+                return f64::NEG_INFINITY;
+            }
+            let normal = off / distance;
+            let at = |by: f64| {
+                let of = |corner: &Track| normal.dot(&(corner.at + corner.rate * by)) + corner.error;
+                normal.dot(&place) - part.iter().map(of).fold(f64::NEG_INFINITY, f64::larger)
+            };
+            least = least.smaller(at(-node.half)).smaller(at(node.half));
+        }
+        least - self.outline.radius()
+    }
+}
+
+/// The point of a convex part, a place, a segment or a counter-clockwise polygon, that is nearest to a place; the place
+/// itself inside.
+fn nearest(part: &[Track], place: Vec2) -> Vec2 {
+    let count = part.len();
+    let side = |k: usize| [part[k].at, part[(k + 1) % count].at];
+    if count > 2 && (0..count).all(|k| cross(side(k)[1] - side(k)[0], place - side(k)[0]) >= 0.0) {
+        return place;
+    }
+    let sides = if count > 2 { count } else { 1 };
+    let mut best = (f64::INFINITY, place);
+    for k in 0..sides {
+        let found = scenario::clearance::outline::nearest(place, side(k));
+        let distance = (found - place).norm();
+        if distance < best.0 {
+            best = (distance, found);
+        }
+    }
+    best.1
+}
+
+/// Whether a side passes over a whole disc within a part of the range: the disc is on one side of it at the beginning,
+/// on the other at the end, and between the side's ends all the time. Then every place of the disc is on the side at
+/// some instant.
+fn passes([from, to]: &[Track; 2], half: f64, centre: Vec2, about: f64) -> bool {
+    let error = from.error + to.error;
+    let signed = |by: f64| {
+        let [a, b] = [from, to].map(|end| end.at + end.rate * by);
+        cross(b - a, centre - a) / (b - a).norm()
+    };
+    let [before, after] = [signed(-half), signed(half)];
+    // Nothing is sure of a line whose ends are not much farther apart than their errors.
+    let sure = about + 2.0 * error;
+    if !(before.abs() > sure && after.abs() > sure && before * after < 0.0) {
+        return false;
+    }
+    // (centre - a) . (b - a) over the part is a quadratic function; the same from the other end.
+    let beyond = |a: &Track, b: &Track| {
+        let (own, along) = (centre - a.at, b.at - a.at);
+        let (moved, turned) = (-a.rate, b.rate - a.rate);
+        let [c0, c1, c2] = [own.dot(&along), own.dot(&turned) + moved.dot(&along), moved.dot(&turned)];
+        let at = |by: f64| c0 + (c1 + c2 * by) * by;
+        let ends = at(-half).smaller(at(half));
+        let vertex = -c1 / (2.0 * c2);
+        let least = if c2 > 0.0 && vertex.abs() < half { at(vertex) } else { ends };
+        let (long, wide) = (along.norm() + turned.norm() * half, own.norm() + moved.norm() * half);
+        let doubt = (about + a.error) * (long + error) + wide * error;
+        least > doubt
+    };
+    let longest = (to.at - from.at).norm();
+    longest > 4.0 * error && beyond(from, to) && beyond(to, from)
+}
+
+/// Share of a square with half the side `half` that lies where `value` + `away` . (place - centre) <= 0.
+fn share((value, away): (f64, Vec2), half: f64) -> f64 {
+    let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(x, y)| Vec2::new(x, y) * half);
+    let mut kept: Vec<Vec2> = Vec::with_capacity(6);
+    for k in 0..4 {
+        let [a, b] = [corners[k], corners[(k + 1) % 4]];
+        let [at_a, at_b] = [a, b].map(|corner| value + away.dot(&corner));
+        if at_a <= 0.0 {
+            kept.push(a);
+        }
+        if (at_a <= 0.0) != (at_b <= 0.0) {
+            kept.push(a + (b - a) * (at_a / (at_a - at_b)));
+        }
+    }
+    let around = |k: usize| cross(kept[k], kept[(k + 1) % kept.len()]);
+    (0..kept.len()).map(around).sum::<f64>() / 2.0 / (4.0 * half * half)
+}

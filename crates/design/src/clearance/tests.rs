@@ -1,0 +1,379 @@
+//! Closed forms: a lever over a wall, a plate on a slider, areas of sectors and strips.
+
+use std::f64::consts::{PI, TAU};
+
+use linkage::case::Case;
+use linkage::math::Vec2;
+use linkage::mechanism::{AssemblyMode, GROUND};
+
+use super::tube::Tubes;
+use super::*;
+use scenario::clearance::Outline;
+use scenario::clearance::question::{are_joined, pairs};
+
+/// Slider-crank along x: crank 0.1 m, rod 0.3 m.
+pub(super) fn slider_crank() -> Case {
+    let case = Case::builder()
+        .ground(&[("O", [0.0, 0.0])])
+        .link("crank", &[("O", [0.0, 0.0]), ("A", [0.1, 0.0])])
+        .link("rod", &[("A", [0.0, 0.0]), ("B", [0.3, 0.0])])
+        .link("piston", &[("B", [0.0, 0.0])])
+        .pin("O", "ground", "crank")
+        .pin("A", "crank", "rod")
+        .pin("B", "rod", "piston")
+        .slider("bore", ("ground", "O"), ("piston", "B"), [0.0, 0.0])
+        .crank("O", 10.0)
+        .mode(&["rod", "piston"], AssemblyMode::Ahead);
+    case.build().unwrap()
+}
+
+fn four_bar() -> Case {
+    let case = Case::builder()
+        .ground(&[("O", [0.0, 0.0]), ("C", [0.4, 0.0])])
+        .link("crank", &[("O", [0.0, 0.0]), ("A", [0.1, 0.0])])
+        .link("coupler", &[("A", [0.0, 0.0]), ("B", [0.35, 0.0])])
+        .link("rocker", &[("C", [0.0, 0.0]), ("B", [0.25, 0.0])])
+        .pin("O", "ground", "crank")
+        .pin("A", "crank", "coupler")
+        .pin("B", "coupler", "rocker")
+        .pin("C", "ground", "rocker")
+        .crank("O", 10.0)
+        .mode(&["coupler", "rocker"], AssemblyMode::Left);
+    case.build().unwrap()
+}
+
+/// All links as capsules, and walls.
+fn question(case: &Case, radius: f64, walls: &[(&str, Outline)]) -> Question {
+    let links = case.mechanism.links().iter().enumerate().skip(1);
+    let mut bodies: Vec<Body> = links
+        .map(|(link, own)| {
+            let places: Vec<Vec2> = own.points.iter().map(|point| point.local).collect();
+            Body { name: own.name.clone(), link, outline: Outline::of_points(&places, radius).unwrap() }
+        })
+        .collect();
+    let wall =
+        |(name, outline): &(&str, Outline)| Body { name: (*name).into(), link: GROUND, outline: outline.clone() };
+    bodies.extend(walls.iter().map(wall));
+    let pairs = pairs(&case.mechanism, &bodies, &[]);
+    Question { bodies, pairs, wanted: None, tolerance: None, area: 2e-3 }
+}
+
+fn line(places: &[(f64, f64)], radius: f64) -> Outline {
+    let places: Vec<Vec2> = places.iter().map(|&(x, y)| Vec2::new(x, y)).collect();
+    Outline::line(&places, radius).unwrap()
+}
+
+fn of<'a>(asked: &Question, found: &'a Clearance, names: [&str; 2]) -> &'a PairClearance {
+    let is = |pair: &&PairClearance| pair.bodies.map(|body| asked.bodies[body].name.as_str()) == names;
+    found.pairs.iter().find(is).unwrap()
+}
+
+#[test]
+fn a_lever_over_a_wall() {
+    let case = slider_crank();
+    let asked = question(&case, 0.01, &[("floor", line(&[(-1.0, -0.15), (1.0, -0.15)], 0.005))]);
+    let found = find(&case, &asked, &mut |_| ()).unwrap();
+    let crank = of(&asked, &found, ["crank", "floor"]);
+    // The pin is lowest at 270 deg.
+    let expected = 0.15 - 0.1 - 0.015;
+    assert!((crank.smallest.distance - expected).abs() < 1e-12, "{crank:?}");
+    assert!((crank.smallest.crank - 1.5 * PI).abs() < 1e-6, "{crank:?}");
+    assert!(crank.smallest.least > expected - 1e-6 && crank.collision.is_none());
+    // The slider's distance from the floor is the same all the way.
+    let piston = of(&asked, &found, ["piston", "floor"]);
+    assert!((piston.smallest.distance - 0.135).abs() < 1e-12 && piston.smallest.least > 0.135 - 1e-6, "{piston:?}");
+    assert!(found.open.is_empty());
+    assert_eq!(found.smallest().unwrap().bodies, crank.bodies);
+}
+
+/// A nail that the crank's end passes within a ten-thousandth of a degree.
+#[test]
+fn a_thin_crossing_between_two_instants_is_found() {
+    let (case, radius) = (slider_crank(), 1e-7);
+    let at = 77.123_456_f64.to_radians();
+    // The nail's near side is 1e-13 m inside of the circle of the crank's end.
+    let nail = Vec2::new(at.cos(), at.sin()) * (0.1 + 2.0 * radius - 1e-13);
+    let mut asked = question(&case, radius, &[("nail", line(&[(nail.x, nail.y)], radius))]);
+    asked.pairs.retain(|pair| *pair == [0, 3]);
+    let samples = course(&case, &asked).unwrap();
+    assert!(samples.rows.iter().all(|row| row[0] > 0.0));
+    let found = find(&case, &asked, &mut |_| ()).unwrap();
+    let (pair, meeting) = found.first_collision().unwrap();
+    assert_eq!(pair.smallest.distance.max_zero(), 0.0, "{pair:?}");
+    assert!((meeting.cranks[1] - at).abs() < 1e-5 && meeting.cranks[0] <= meeting.cranks[1], "{meeting:?}");
+}
+
+trait MaxZero {
+    fn max_zero(self) -> f64;
+}
+impl MaxZero for f64 {
+    /// A distance below a billionth of the size is none.
+    fn max_zero(self) -> f64 {
+        if self < 3e-10 { 0.0 } else { self }
+    }
+}
+
+#[test]
+fn the_first_meeting_is_where_the_distance_falls_to_nothing() {
+    let (case, radius) = (slider_crank(), 0.01);
+    let asked = question(&case, radius, &[("post", line(&[(0.0, 0.09)], 0.004))]);
+    let found = find(&case, &asked, &mut |_| ()).unwrap();
+    let crank = of(&asked, &found, ["crank", "post"]);
+    let meeting = crank.collision.unwrap();
+    // The post is 0.014 m from the crank's line at sin(90 deg - a) = 0.014 / 0.09.
+    let expected = (0.014_f64 / 0.09).acos();
+    assert!((meeting.cranks[1] - expected).abs() < 1e-7, "{} {expected}", meeting.cranks[1]);
+    // Up to a crank angle just before, no contact is proven.
+    assert!(meeting.cranks[0] <= expected && expected - meeting.cranks[0] < 1e-5, "{meeting:?}");
+    assert_eq!(crank.smallest.distance, 0.0);
+    assert_eq!(found.first_collision().unwrap().0.bodies[1], crank.bodies[1]);
+    // They meet at the border of the post.
+    assert!(((meeting.place - Vec2::new(0.0, 0.09)).norm() - 0.004).abs() < 1e-6, "{meeting:?}");
+}
+
+/// Of two posts the one that is met first, whichever stands first in the question, in either sense of the crank.
+#[test]
+fn the_first_of_all_collisions_is_the_first_on_the_way() {
+    for sense in [1.0, -1.0] {
+        let case = slider_crank();
+        let law = linkage::drive::MotionLaw::ConstantSpeed(10.0 * sense);
+        let motion = linkage::drive::DriveMotion::Prescribed { law, motor: None };
+        let case = case.with(|parts| parts.drives.crank_mut().motion = motion).unwrap();
+        let cranks = vec![0.0, sense * 3.0 * PI];
+        let case = case.on(linkage::case::Grid::of_cranks(case.crank(), cranks)).unwrap();
+        let part = linkage::case::Grid::of_cranks(case.crank(), vec![0.2 * sense, sense]);
+        assert_eq!(range(&case.on(part).unwrap()).unwrap(), [0.2 * sense, sense], "in the order of the motion");
+        let post = |degrees: f64| {
+            let at = linkage::math::unit(sense * degrees.to_radians()) * 0.08;
+            line(&[(at.x, at.y)], 0.004)
+        };
+        let mut asked = question(&case, 0.001, &[("late", post(200.0)), ("early", post(90.0))]);
+        asked.pairs = vec![[0, 3], [0, 4]];
+        asked.area = f64::INFINITY;
+        let found = find(&case, &asked, &mut |_| ()).unwrap();
+        assert_eq!(found.range, [0.0, sense * TAU], "of a longer grid one turn");
+        let (first, meeting) = found.first_collision().unwrap();
+        assert!(found.pairs.iter().all(|pair| pair.collision.is_some()));
+        assert_eq!(first.bodies, [0, 4]);
+        assert!((meeting.cranks[1].abs() - 0.5 * PI).abs() < 0.1, "{meeting:?}");
+        // Areas ask for hardly any pose that distances have not.
+        assert!(found.work.positions < found.work.poses, "{:?}", found.work);
+    }
+    // Where branches cross, the next turn may take another one.
+    let smooth = slider_crank().with(|parts| parts.drives.crank_mut().through = true).unwrap();
+    let grid = linkage::case::Grid::of_cranks(smooth.crank(), vec![0.0, 3.0 * PI]);
+    assert_eq!(range(&smooth.on(grid).unwrap()).unwrap(), [0.0, 3.0 * PI]);
+}
+
+/// A lever without width, ten times as long as the mechanism, passes a place in no time at all.
+#[test]
+fn a_long_lever_is_found_where_it_meets() {
+    let case = slider_crank();
+    let mut asked = question(&case, 0.01, &[("post", line(&[(3.9 * 1f64.cos(), 3.9 * 1f64.sin())], 0.0))]);
+    asked.bodies[0].outline = line(&[(0.0, 0.0), (4.0, 0.0)], 0.0);
+    (asked.pairs, asked.area) = (vec![[0, 3]], f64::INFINITY);
+    let found = find(&case, &asked, &mut |_| ()).unwrap();
+    let meeting = found.pairs[0].collision.unwrap();
+    assert!(found.open.is_empty() && (meeting.cranks[1] - 1.0).abs() < 1e-9, "{meeting:?}");
+}
+
+/// What rounding may hide is not proven: of nearest points, and of both tracks.
+#[test]
+fn a_distance_is_proven_but_for_rounding() {
+    let case = slider_crank();
+    let asked = question(&case, 0.01, &[("post", line(&[(0.0, 0.3)], 0.01))]);
+    let mut tubes = Tubes::new(&case, [0.0, TAU], asked.extent()).unwrap();
+    let (slice, rounding) = (tubes.slice(0.3, 0.0).unwrap(), tubes.rounding());
+    let solids: Vec<Solid> = asked.bodies.iter().map(|own| Solid::new(own.link, &own.outline, 1.0)).collect();
+    let [one, two] = [&solids[0], &solids[3]];
+    let places = [&one.placed(&slice), &two.placed(&slice)];
+    let found = gap::gap([one, two], places, &slice, rounding, f64::INFINITY, &mut 0);
+    // The post stands still, and the nearest points are on the crank's line and on the post.
+    let expected = 0.3 - 0.1 * 0.3f64.sin() - 0.02;
+    assert!(found.now > expected - 0.01 && found.now - found.least >= 1.99 * rounding, "{found:?} {rounding}");
+}
+
+/// A polygon is the same in either sense: counter-clockwise corners, parts that cover it, and distances from it.
+#[test]
+fn a_polygon_is_the_same_in_either_sense() {
+    let angle = [(0.0, 0.0), (0.3, 0.0), (0.3, 0.1), (0.1, 0.1), (0.1, 0.4), (0.0, 0.4)].map(|(x, y)| Vec2::new(x, y));
+    let mut back = angle;
+    back.reverse();
+    let [one, other] = [&angle, &back].map(|corners| Outline::polygon(corners, 0.01).unwrap());
+    assert_eq!((one.corners(), one.radius()), (&angle[..], 0.01));
+    assert_eq!(one, other);
+    let area = |part: &Vec<Vec2>| {
+        let around = |k: usize| linkage::math::cross(part[k], part[(k + 1) % part.len()]) / 2.0;
+        (0..part.len()).map(around).sum::<f64>()
+    };
+    assert!((one.parts().iter().map(area).sum::<f64>() - 0.06).abs() < 1e-15);
+    for (x, y, wanted) in [(0.05, 0.2, -0.06), (0.2, 0.2, 0.09), (0.2, -0.1, 0.09), (0.25, 0.05, -0.06)] {
+        assert!((other.distance(Vec2::new(x, y)).0 - wanted).abs() < 1e-15, "{x} {y}");
+    }
+}
+
+/// A double knows a place at a thousand metres to a thousand times its epsilon, whichever body's or link's it is.
+#[test]
+fn rounding_goes_with_the_farthest_place() {
+    let case = slider_crank();
+    let near = question(&case, 0.01, &[]);
+    let mut far = question(&case, 0.01, &[("post", line(&[(0.0, 1e3)], 0.01))]);
+    far.pairs = vec![[0, 3]];
+    let rounding = |case: &Case, asked: &Question| Tubes::new(case, [0.0, TAU], asked.extent()).unwrap().rounding();
+    let least = 1e3 * f64::EPSILON;
+    assert!(rounding(&case, &near) < 0.1 * least && rounding(&case, &far) > least);
+    far.bodies.swap_remove(3);
+    far.bodies[0].outline = line(&[(0.0, 1e3)], 0.01);
+    assert!(rounding(&case, &far) > least);
+}
+
+#[test]
+fn parts_that_touch_are_put_together_in_the_order_of_the_motion() {
+    let open = || vec![[3.0, 4.0], [1.0, 2.0], [2.0, 2.5], [3.0, 3.5]];
+    assert_eq!(merged(open(), [0.0, 5.0]), [[1.0, 2.5], [3.0, 4.0]]);
+    let back = open().into_iter().map(|[a, b]| [-a, -b]).collect();
+    assert_eq!(merged(back, [0.0, -5.0]), [[-1.0, -2.5], [-3.0, -4.0]]);
+}
+
+/// Parts of the housing cannot meet, joined links touch where they are joined, and a pair may be left out in either
+/// order.
+#[test]
+fn pairs_that_cannot_meet_are_not_asked_for() {
+    let case = four_bar();
+    let asked = question(&case, 0.01, &[("floor", line(&[(0.0, -1.0)], 0.0)), ("wall", line(&[(1.0, 0.0)], 0.0))]);
+    let all = [[0, 2], [0, 3], [0, 4], [1, 3], [1, 4], [2, 3], [2, 4]];
+    assert_eq!(asked.pairs, all);
+    let without = |ignored: [usize; 2]| pairs(&case.mechanism, &asked.bodies, &[ignored]);
+    assert_eq!([without([0, 2]), without([2, 0])].map(|own| own == all[1..]), [true; 2]);
+    // Four links on one pin, each joined to the next.
+    let place = |link: usize| linkage::mechanism::Side { link, local: Vec2::zeros() };
+    let links = ["ground", "a", "b", "c", "d", "e"].map(|name| linkage::mechanism::Link {
+        name: name.into(),
+        points: Vec::new(),
+        mass: 1.0,
+        mass_centre: Vec2::zeros(),
+        inertia: 1.0,
+    });
+    let joint = |(first, second): (usize, usize), end: Vec2| linkage::mechanism::Joint {
+        name: format!("{first}{second}"),
+        kind: linkage::mechanism::JointKind::Revolute,
+        first: linkage::mechanism::Side { link: first, local: end },
+        second: place(second),
+        drawn: None,
+    };
+    let joints = vec![
+        joint((1, 2), Vec2::zeros()),
+        joint((2, 3), Vec2::zeros()),
+        joint((3, 4), Vec2::zeros()),
+        joint((4, 5), Vec2::new(1.0, 0.0)),
+        joint((0, 1), Vec2::new(1.0, 0.0)),
+    ];
+    let mechanism = linkage::mechanism::Mechanism::new(links.to_vec(), joints).unwrap();
+    assert!(are_joined(&mechanism, [1, 4]) && are_joined(&mechanism, [4, 1]));
+    assert!(!are_joined(&mechanism, [1, 5]) && !are_joined(&mechanism, [3, 5]));
+}
+
+/// Without rounding, the direction of nearest points is lost where two corners come close; their sides have it.
+#[test]
+fn sharp_corners_meet() {
+    let case = slider_crank();
+    let corners = |places: &[(f64, f64)]| places.iter().map(|&(x, y)| Vec2::new(x, y)).collect::<Vec<Vec2>>();
+    let blade = Outline::polygon(&corners(&[(0.0, -0.01), (0.1, -0.01), (0.12, 0.0), (0.1, 0.01)]), 0.0).unwrap();
+    let block = Outline::polygon(&corners(&[(-0.02, 0.11), (0.0, 0.10), (0.3, 0.11), (0.3, 0.3)]), 0.0).unwrap();
+    let mut asked = question(&case, 0.01, &[("block", block)]);
+    asked.bodies[0].outline = blade;
+    asked.pairs = vec![[0, 3]];
+    let found = find(&case, &asked, &mut |_| ()).unwrap();
+    assert!(found.open.is_empty(), "{:?}", found.open);
+    let meeting = found.pairs[0].collision.unwrap();
+    // The tip at 0.12 m comes to the side from (0, 0.1) to (0.3, 0.11).
+    let tip = Vec2::new(meeting.cranks[1].cos(), meeting.cranks[1].sin()) * 0.12;
+    assert!((tip.y - 0.1 - tip.x * 0.01 / 0.3).abs() < 1e-8, "{meeting:?}");
+}
+
+#[test]
+fn swept_areas_are_closed_forms() {
+    let (case, radius) = (slider_crank(), 0.02);
+    let found = find(&case, &question(&case, radius, &[]), &mut |_| ()).unwrap();
+    let near = |(_, area): (usize, Area), expected: f64| {
+        assert!((area.least..=area.most).contains(&expected), "{area:?} {expected}");
+        assert!(area.error() < 3e-3 * expected, "{area:?} {expected}");
+        assert!((area.value - expected).abs() < 5e-4 * expected, "{area:?} {expected}");
+    };
+    // The crank a disc, the piston's disc a strip with round ends.
+    near(found.swept[0], PI * 0.12 * 0.12);
+    near(found.swept[2], 0.2 * 0.04 + PI * 0.02 * 0.02);
+    // Over 70 deg the crank sweeps a sector: an area, its border's length times the radius, and the disc.
+    let part = case.on(linkage::case::Grid::of_cranks(case.crank(), vec![0.3, 0.3 + PI * 70.0 / 180.0])).unwrap();
+    let found = find(&part, &question(&case, radius, &[]), &mut |_| ()).unwrap();
+    let turn = PI * 70.0 / 180.0;
+    near(found.swept[0], turn / 2.0 * 0.01 + (0.2 + 0.1 * turn) * radius + PI * radius * radius);
+}
+
+/// A link without width covers what its line passes over.
+#[test]
+fn a_thin_link_sweeps_an_area() {
+    let case = slider_crank();
+    let found = find(&case, &question(&case, 1e-9, &[]), &mut |_| ()).unwrap();
+    let (_, area) = found.swept[0];
+    let expected = PI * 0.01;
+    assert!((area.least..=area.most).contains(&expected) && area.error() < 6e-3 * expected, "{area:?} {expected}");
+    // Half of the rod's border is an envelope, which the work allowed leaves broad.
+    let (_, thin) = found.swept[1];
+    assert!(thin.error() < 0.05 * thin.value, "{thin:?}");
+}
+
+/// Tubes hold the true poses at any crank angle between, and neighbours overlap.
+#[test]
+fn tubes_hold_the_motion() {
+    for case in [slider_crank(), four_bar()] {
+        let mut tubes = Tubes::new(&case, [0.2, 0.2 + TAU], 0.0).unwrap();
+        let parts: Vec<_> = tubes.parts().flat_map(|part| part.halves()).collect();
+        let mut widest: f64 = 0.0;
+        for part in parts {
+            let slice = tubes.at(part).unwrap();
+            assert!(slice.sound, "{part:?}");
+            let [from, to] = tubes.ends(part);
+            let cranks: Vec<f64> = (0..=6).map(|k| from + (to - from) * f64::from(k) / 6.0).collect();
+            for (crank, pose) in cranks.iter().zip(poses(&case, &cranks).unwrap()) {
+                for (link, tube) in slice.tubes.iter().enumerate().skip(1) {
+                    for local in [Vec2::new(0.0, 0.0), Vec2::new(0.3, 0.0), Vec2::new(0.1, -0.2)] {
+                        let track = tube.point(local);
+                        let even = track.at + track.rate * (crank - slice.crank);
+                        let off = (pose[link].point(local) - even).norm();
+                        assert!(off <= track.error, "link {link}: {off} {}", track.error);
+                        widest = widest.larger(track.error);
+                    }
+                }
+            }
+        }
+        // Second order, not much more: h^2 / 2 times accelerations of up to 0.5 m/rad2.
+        assert!(widest < 0.005, "{widest}");
+    }
+}
+
+/// At a dead point nothing is proven, and that is told.
+#[test]
+fn a_singular_pose_is_left_open() {
+    // A parallelogram at its change point, passed smoothly.
+    let case = Case::builder()
+        .ground(&[("O", [0.0, 0.0]), ("C", [0.4, 0.0])])
+        .link("crank", &[("O", [0.0, 0.0]), ("A", [0.1, 0.0])])
+        .link("coupler", &[("A", [0.0, 0.0]), ("B", [0.4, 0.0])])
+        .link("rocker", &[("C", [0.0, 0.0]), ("B", [0.1, 0.0])])
+        .pin("O", "ground", "crank")
+        .pin("A", "crank", "coupler")
+        .pin("B", "coupler", "rocker")
+        .pin("C", "ground", "rocker")
+        .crank("O", 10.0)
+        .start(1.0)
+        .mode(&["coupler", "rocker"], AssemblyMode::Right)
+        .build()
+        .unwrap();
+    let case = case.with(|parts| parts.drives.crank_mut().through = true).unwrap();
+    let grid = linkage::case::Grid::of_cranks(case.crank(), vec![1.0, 4.0]);
+    let case = case.on(grid).unwrap();
+    let found = find(&case, &question(&case, 0.01, &[]), &mut |_| ()).unwrap();
+    let ([from, _], [_, to]) = (found.open[0], found.open[found.open.len() - 1]);
+    assert!(from <= PI && PI <= to && to - from < 1e-3, "{:?}", found.open);
+}

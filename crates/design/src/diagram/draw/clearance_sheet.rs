@@ -1,0 +1,125 @@
+//! Clearance as a drawing: the housing, what every link sweeps over the range, the mechanism with its outlines where the
+//! smallest distance or the first collision is.
+
+use crate::clearance::{Clearance, poses};
+use drawing::paper::document::document;
+use drawing::paper::figure::{Figure, solid};
+use drawing::paper::style::{GREY, colour, significant};
+use drawing::picture::{ALARM, Picture, Place};
+use drawing::sheet::{Cell, fit, sheet};
+use drawing::{Lettering, Role, Sketch, Travels};
+use linkage::case::Case;
+use linkage::error::Result;
+use linkage::math::{KeepNan, Motion, Vec2};
+use linkage::mechanism::LinkPose;
+use scenario::clearance::{Outline, Question};
+
+/// Room of the drawing (mm).
+const ROOM: Vec2 = Vec2::new(150.0, 150.0);
+/// Positions of a link that make its swept area.
+const POSITIONS: usize = 240;
+/// Opacity of what is swept, and of outlines.
+const SWEPT: f64 = 0.2;
+const OUTLINE: f64 = 0.45;
+/// Least width of a line (mm).
+const THIN: f64 = 0.2;
+
+/// Draws a question and its answer. Swept areas are shown by many positions of each link.
+///
+/// # Errors
+/// Those of a pose.
+pub fn clearance(case: &Case, name: &str, asked: &Question, found: &Clearance) -> Result<String> {
+    let [from, to] = found.range;
+    let cranks: Vec<f64> = (0..=POSITIONS).map(|k| from + (to - from) * (k as f64 / POSITIONS as f64)).collect();
+    let smallest = found.smallest().filter(|pair| pair.smallest.distance.is_finite());
+    let collision = found.first_collision();
+    let shown = match (collision, smallest) {
+        (Some((_, meeting)), _) => meeting.cranks[1],
+        (None, Some(pair)) => pair.smallest.crank,
+        (None, None) => from,
+    };
+    let all = poses(case, &cranks)?;
+    let here = poses(case, &[shown])?.remove(0);
+    let mut travels = Travels::none(&case.mechanism);
+    for pose in all.iter().chain([&here]) {
+        travels.take_in(&case.mechanism, |link, local| Some(pose[link].point(local)));
+    }
+    let scale = fit(extent(asked, &all), ROOM);
+    let sketch = Sketch::of(&case.mechanism, &travels, scale).with_drives(&case.mechanism, &case.drives);
+    let sketch = sketch.without(&[Role::MassCentre, Role::MassQuarter]);
+    // The walls of a housing are where they are; a guide's mark would stand for them elsewhere.
+    let has_housing = asked.bodies.iter().any(|body| !body.moves());
+    let sketch = if has_housing { sketch.without(&[Role::Bore, Role::Rail, Role::Hatch]) } else { sketch };
+    let places: Vec<Place> = here.iter().map(|own| Place::Here(pose_of(own))).collect();
+    let mut picture = Picture::of(&sketch, &places, scale);
+    for body in asked.bodies.iter().filter(|body| body.moves()) {
+        let mut swept = Figure::default();
+        all.iter().for_each(|pose| draw(&mut swept, &body.outline, &pose[body.link], colour(body.link), scale));
+        picture.figure.group(swept, SWEPT, format!("swept by {}", body.name));
+    }
+    for body in &asked.bodies {
+        let (pose, paint, opacity) = match body.moves() {
+            true => (&here[body.link], colour(body.link), OUTLINE),
+            false => (&Motion::REST, GREY, 1.0),
+        };
+        let mut own = Figure::default();
+        draw(&mut own, &body.outline, pose, paint, scale);
+        picture.figure.group(own, opacity, body.name.clone());
+    }
+    picture.draw_marks();
+    picture.number_links();
+    let crank = format!("crank angle {} deg", significant(shown.to_degrees()));
+    let words = if let Some((pair, meeting)) = collision {
+        picture.figure.disc(meeting.place / scale, 2.2, "none", solid(ALARM, 0.8));
+        let [a, b] = pair.bodies.map(|body| &asked.bodies[body].name);
+        format!("first collision: {a} and {b} at {crank}")
+    } else if let Some(pair) = smallest {
+        let ends = pair.smallest.points.map(|point| point / scale);
+        picture.figure.line(ends, solid(ALARM, 0.8));
+        ends.iter().for_each(|end| picture.figure.disc(*end, 0.9, ALARM, solid(ALARM, THIN)));
+        let distance = format!("{} mm", significant(1e3 * pair.smallest.distance));
+        let middle = (ends[0] + ends[1]) / 2.0;
+        picture.letters(middle, Vec2::zeros(), 1.2, distance.clone(), ALARM);
+        let [a, b] = pair.bodies.map(|body| &asked.bodies[body].name);
+        format!("smallest distance {distance}: {a} and {b} at {crank}")
+    } else {
+        crank
+    };
+    picture.name(picture.names(|what| matches!(what, Lettering::Point | Lettering::Motor)));
+    let figure = picture.finish();
+    let bounds = figure.bounds();
+    let cell = Cell { heading: Vec::new(), figure, bounds, scale, faults: Vec::new() };
+    let title = format!("{name}: clearance");
+    let (page, size) = sheet(&title, &words, &[cell], ROOM.x);
+    Ok(document(&page, size, &title))
+}
+
+/// How far all outlines reach over all poses (m).
+fn extent(asked: &Question, all: &[Vec<Motion>]) -> Vec2 {
+    let (mut low, mut high) = (Vec2::repeat(f64::INFINITY), Vec2::repeat(f64::NEG_INFINITY));
+    for body in &asked.bodies {
+        let radius = Vec2::repeat(body.outline.radius());
+        for corner in all.iter().flat_map(|pose| body.outline.corners().iter().map(|&own| pose[body.link].point(own))) {
+            (low, high) = (low.inf(&(corner - radius)), high.sup(&(corner + radius)));
+        }
+    }
+    high - low
+}
+
+fn pose_of(motion: &Motion) -> LinkPose {
+    LinkPose { origin: motion.origin, angle: motion.direction.y.atan2(motion.direction.x) }
+}
+
+/// An outline: its rounding is the width of a line with round joins.
+fn draw(figure: &mut Figure, outline: &Outline, pose: &Motion, paint: &'static str, scale: f64) {
+    let mut corners: Vec<Vec2> = outline.corners().iter().map(|&corner| pose.point(corner) / scale).collect();
+    // A single place is a line to itself.
+    if let [only] = corners[..] {
+        corners.push(only);
+    }
+    let wide = 2.0 * outline.radius() / scale;
+    match outline.is_solid() {
+        true => figure.shape(corners, true, Some((paint, 1.0)), solid(paint, wide)),
+        false => figure.shape(corners, false, None, solid(paint, wide.larger(THIN))),
+    }
+}

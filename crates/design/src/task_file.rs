@@ -1,0 +1,281 @@
+//! Synthesis files: the dimensions of a drawing that may vary, and the wanted motion of its output. docs/synthesis.md
+//! describes the format.
+
+use std::path::Path;
+
+use crate::task::{Effort, Entry, Output, Phase, Place, Sense, Task, Timing, Variable};
+use files;
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::math::{Vec2, unit};
+use linkage::mechanism::{GROUND, Mechanism};
+use scenario::Scenario;
+use scenario::header::{check_format, name};
+use scenario::joints::link;
+use scenario::reader::{Sign, Table};
+use scenario::source::Source;
+use scenario::unit::{ANGLE, Family, LENGTH, MASS_PER_LENGTH};
+use scenario::words::suggestion;
+
+/// Least displacement of a moving phase (share of the stroke), unless the file states another one.
+const LEAST: f64 = 0.1;
+
+/// A task, and the drawing from which it starts.
+#[derive(Clone, Debug)]
+pub struct TaskFile {
+    /// The task.
+    pub task: Task,
+    /// The drawing.
+    pub drawing: Scenario,
+}
+
+impl TaskFile {
+    /// Reads the synthesis file at `path` and the scenario that it names, which is searched in the same directory.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Io`] if a file cannot be read, [`ErrorKind::Input`] for anything wrong in it, and those of
+    /// [`Scenario::load`] and [`Task::check`].
+    pub fn load(path: &Path) -> Result<Self> {
+        let text = files::read_text(path).map_err(|error| {
+            Error::new(ErrorKind::Io, format!("the synthesis file {} cannot be read: {error}", path.display()))
+                .help(files::way_out(&error, "give the path of a synthesis file, such as sinker_task.toml"))
+        })?;
+        let source = Source::new(path, &text);
+        let tree = source.tree()?;
+        read(&mut Table::root(&source, &tree)).map_err(|error| source.located(tree.get_ref(), error))
+    }
+}
+
+fn read(root: &mut Table) -> Result<TaskFile> {
+    check_format(root)?;
+    let (own_name, title) = (name(root)?, root.string("title")?);
+    let file = root.string("scenario")?;
+    let (phases, follow) = (root.tables("phases")?, root.optional_boolean("follow")?.unwrap_or(false));
+    let (output, limits) = (root.table("output")?, root.optional_table("limits")?);
+    let (zero, vary) = (root.optional_table("zero")?, root.tables("vary")?);
+    let (effort, bar) = (root.table("search")?, root.optional_quantity("bar", &MASS_PER_LENGTH, Sign::Positive)?);
+    root.finish()?;
+
+    let beside = root.source().path.parent().unwrap_or(Path::new("")).join(&file);
+    let drawing = Scenario::load(&beside).map_err(|error| {
+        // A missing drawing is an error of this file; an error in the drawing has its own place.
+        if error.place().is_some() {
+            error
+        } else {
+            root.wrong(error.kind(), "scenario", error.message())
+                .help("name the scenario file of the drawing, beside this file")
+        }
+    })?;
+    let mechanism = &drawing.case.mechanism;
+    let timing = timing(phases, follow)?;
+    let (output, forward, is_angle) = read_output(output, mechanism)?;
+    let (stroke, transmission) = read_limits(limits, is_angle)?;
+    let mut variables = Vec::new();
+    let mut places = Vec::new();
+    for table in vary {
+        let found = place(table, mechanism, &mut variables, &places)?;
+        places.push(found);
+    }
+    let zero = match zero {
+        None => Entry::Fixed(drawing.case.crank().zero),
+        Some(mut table) => {
+            let bounds = bounds(&mut table, &ANGLE)?;
+            table.finish()?;
+            free(&mut variables, "zero".into(), bounds, true)
+        }
+    };
+    let task = Task {
+        name: own_name,
+        title,
+        case: drawing.case.clone(),
+        starts: drawing.starts.clone(),
+        variables,
+        places,
+        zero,
+        output,
+        forward,
+        timing,
+        stroke,
+        transmission,
+        effort: read_effort(effort)?,
+        bar,
+    };
+    task.check()?;
+    Ok(TaskFile { task, drawing })
+}
+
+fn timing(tables: Vec<Table>, follow: bool) -> Result<Timing> {
+    let (mut from, mut phases, mut places) = (0.0, Vec::new(), Vec::new());
+    for mut table in tables {
+        let to = table.quantity("to", &ANGLE, Sign::Positive)?;
+        let word = table.string("sense")?;
+        let all = [Sense::Dwell, Sense::Forward, Sense::Back];
+        let Some(&sense) = all.iter().find(|sense| sense.name() == word) else {
+            let error = table.wrong(ErrorKind::Input, "sense", format!("\"{word}\" is no sense of a phase"));
+            return Err(error.help(suggestion(&word, all.map(Sense::name), "\"")));
+        };
+        let (level, least) = (table.optional_number("level")?, table.optional_number("least")?.unwrap_or(LEAST));
+        table.finish()?;
+        phases.push(Phase { from, to, sense, level, least });
+        places.push(table.fault(""));
+        from = to;
+    }
+    Timing::of(phases, follow).map_err(|error| {
+        let own =
+            places.iter().find(|own| own.scenario_key() == error.scenario_key()).and_then(|own| own.place()).cloned();
+        own.map_or(error.clone(), |place| error.at(place))
+    })
+}
+
+/// Output, the sense of forward motion, and whether the output is an angle.
+fn read_output(mut table: Table, mechanism: &Mechanism) -> Result<(Output, Option<f64>, bool)> {
+    let forward = match table.optional_string("forward")?.as_deref() {
+        None => None,
+        Some("positive") => Some(1.0),
+        Some("negative") => Some(-1.0),
+        Some(other) => {
+            let error = table.wrong(ErrorKind::Input, "forward", format!("\"{other}\" is no sense of an output"));
+            return Err(error.help(suggestion(other, ["positive", "negative"], "\"")));
+        }
+    };
+    let (of_link, of_point) = (table.optional_string("link")?, table.optional_string("point")?);
+    let found = match (of_link, of_point) {
+        (Some(name), None) => {
+            let link = link(&mut table, &name, mechanism.links())?;
+            if link == GROUND {
+                let error = table.wrong(ErrorKind::Input, "link", "the ground does not turn");
+                return Err(error.help("name the moving link whose angle is watched"));
+            }
+            (Output::Angle { link }, forward, true)
+        }
+        (None, Some(name)) => {
+            let along = unit(table.quantity("along", &ANGLE, Sign::Any)?);
+            let moving = || mechanism.links().iter().enumerate().skip(1);
+            let found = moving()
+                .find_map(|(link, body)| Some((link, body.points.iter().position(|point| point.name == name)?)));
+            let Some((link, point)) = found else {
+                let names = moving().flat_map(|(_, body)| body.points.iter().map(|point| point.name.as_str()));
+                let error = table.wrong(ErrorKind::Input, "point", format!("no moving link has a point \"{name}\""));
+                return Err(error.help(suggestion(&name, names, "\"")));
+            };
+            (Output::Coordinate { link, point, along }, forward, false)
+        }
+        _ => {
+            let help =
+                "write `link = \"lever\"` for its angle, or `point = \"F\"` and `along_deg = 90` for a coordinate";
+            return Err(table.fault("an output is one link or one point").help(help));
+        }
+    };
+    table.finish()?;
+    Ok(found)
+}
+
+/// Limits of the stroke, and the smallest transmission angle.
+fn read_limits(table: Option<Table>, is_angle: bool) -> Result<([f64; 2], f64)> {
+    let Some(mut table) = table else { return Ok(([0.0, f64::INFINITY], 0.0)) };
+    let transmission = table.optional_quantity("transmission", &ANGLE, Sign::NotNegative)?.unwrap_or(0.0);
+    if transmission >= std::f64::consts::FRAC_PI_2 {
+        let message =
+            format!("a transmission angle of {:.6} deg cannot be kept over a turn", transmission.to_degrees());
+        return Err(table
+            .wrong(ErrorKind::Input, "transmission", message)
+            .help("give less than 90 deg; 30 to 45 deg are usual"));
+    }
+    let family = if is_angle { &ANGLE } else { &LENGTH };
+    let stroke = match table.optional_table("stroke")? {
+        None => [0.0, f64::INFINITY],
+        Some(mut stroke) => {
+            let found = bounds(&mut stroke, family)?;
+            stroke.finish()?;
+            found
+        }
+    };
+    table.finish()?;
+    Ok((stroke, transmission))
+}
+
+fn read_effort(mut table: Table) -> Result<Effort> {
+    let mut count = |key: &str, default: i64| -> Result<u64> {
+        let found = table.optional_integer(key)?.unwrap_or(default);
+        u64::try_from(found).map_err(|_| {
+            table
+                .wrong(ErrorKind::Input, key, format!("found {found}, but a count is not negative"))
+                .help("give a whole number from 0 on")
+        })
+    };
+    let seed = count("seed", 1)?;
+    let size = |found: u64| usize::try_from(found).unwrap_or(usize::MAX);
+    let (candidates, refined) = (size(count("candidates", 200_000)?), size(count("refined", 16)?));
+    let evaluations = size(count("evaluations", 20_000)?);
+    table.finish()?;
+    Ok(Effort { seed, candidates, refined, evaluations })
+}
+
+/// `from` and `to` of a quantity (SI).
+fn bounds(table: &mut Table, family: &'static Family) -> Result<[f64; 2]> {
+    let (from, to) = (table.quantity("from", family, Sign::Any)?, table.quantity("to", family, Sign::Any)?);
+    if !(from <= to) {
+        let error = table.fault("the greatest value is below the least one");
+        return Err(error.help("let `from` be the smaller of the two"));
+    }
+    Ok([from, to])
+}
+
+fn free(variables: &mut Vec<Variable>, name: String, bounds: [f64; 2], is_angle: bool) -> Entry {
+    variables.push(Variable { name, bounds, is_angle });
+    Entry::Free(variables.len() - 1)
+}
+
+/// One `[[vary]]`: a point, by its coordinates or relative to another point of its link.
+fn place(mut table: Table, mechanism: &Mechanism, variables: &mut Vec<Variable>, before: &[Place]) -> Result<Place> {
+    let (link_name, point_name) = (table.string("link")?, table.string("point")?);
+    let own = link(&mut table, &link_name, mechanism.links())?;
+    let points = &mechanism.links()[own].points;
+    let names = || points.iter().map(|point| point.name.as_str());
+    let index = |table: &Table, key: &str, name: &str| {
+        points.iter().position(|point| point.name == name).ok_or_else(|| {
+            let error = table.wrong(ErrorKind::Input, key, format!("link \"{link_name}\" has no point \"{name}\""));
+            error.help(suggestion(name, names(), "\""))
+        })
+    };
+    let point = index(&table, "point", &point_name)?;
+    let Some(handle) = mechanism.handle(own, point) else {
+        let message = format!(
+            "point \"{point_name}\" of the drawing lies on another point of the link: its joints cannot be told apart"
+        );
+        return Err(table.wrong(ErrorKind::Input, "point", message).help("draw the two points in different places"));
+    };
+    if before.iter().any(|place| place.handle == handle) {
+        let message = "this point varies already";
+        return Err(table
+            .wrong(ErrorKind::Input, "point", message)
+            .help("put all that varies about a point into one table"));
+    }
+    let from = table.optional_string("from")?.map(|name| index(&table, "from", &name)).transpose()?;
+    let kinds: [(&str, &Family); 2] =
+        if from.is_some() { [("length", &LENGTH), ("angle", &ANGLE)] } else { [("x", &LENGTH), ("y", &LENGTH)] };
+    let drawn = points[point].local;
+    let drawn = match from {
+        None => [drawn.x, drawn.y],
+        Some(from) => polar(drawn - points[from].local),
+    };
+    let mut entries = drawn.map(Entry::Fixed);
+    for (entry, (key, family)) in entries.iter_mut().zip(kinds) {
+        if let Some(mut own) = table.optional_table(key)? {
+            let family = if std::ptr::eq(family, &ANGLE) { &ANGLE } else { &LENGTH };
+            let found = bounds(&mut own, family)?;
+            own.finish()?;
+            *entry = free(variables, format!("{link_name}.{point_name} {key}"), found, std::ptr::eq(family, &ANGLE));
+        }
+    }
+    table.finish()?;
+    if entries.iter().all(|entry| matches!(entry, Entry::Fixed(_))) {
+        let help = format!("add `{0} = {{ from_mm = ..., to_mm = ... }}`", kinds[0].0);
+        return Err(table.fault("nothing about this point varies").help(help));
+    }
+    Ok(Place { handle, from, entries })
+}
+
+/// Length (m) and angle (rad) of a vector.
+fn polar(v: Vec2) -> [f64; 2] {
+    [v.norm(), v.y.atan2(v.x)]
+}

@@ -1,0 +1,82 @@
+//! A mark in a file that tells whether this program wrote it, and whether anybody has changed it since.
+
+use std::path::Path;
+
+/// What stands before the seal's digits.
+const MARK: &str = "made by linkproof, seal ";
+/// Hexadecimal digits of a seal.
+const DIGITS: usize = 16;
+
+/// A text with its seal, as a comment or a key that the format of the file allows: JSON, HTML, SVG, other XML, pages of
+/// a manual, and tables that begin with lines of `#`. Any other text has it in its last line.
+pub fn sealed(text: &str, place: &Path) -> String {
+    let blank = format!("{MARK}{}", "0".repeat(DIGITS));
+    let open = match place.extension().and_then(|ending| ending.to_str()).unwrap_or_default() {
+        "json" => text.replacen('{', &format!("{{\n  \"made_by\": \"{blank}\","), 1),
+        "html" | "svg" | "xml" => format!("{}\n<!-- {blank} -->\n", text.trim_end()),
+        "1" => format!(".\\\" {blank}\n{text}"),
+        "csv" => {
+            let lines = text.split_inclusive('\n').take_while(|line| line.starts_with('#'));
+            let (head, rows) = text.split_at(lines.map(str::len).sum());
+            format!("{head}# {blank}\n{rows}")
+        }
+        _ => format!("{text}{blank}\n"),
+    };
+    open.replacen(&blank, &format!("{MARK}{:016x}", hash(open.as_bytes())), 1)
+}
+
+/// Whether a file has its seal, unbroken: this program wrote it, and it is as it was then.
+pub fn is_sealed(bytes: &[u8]) -> bool {
+    let Ok(text) = std::str::from_utf8(bytes) else { return false };
+    // It stands at the beginning or at the end; the text between may quote another.
+    [text.find(MARK), text.rfind(MARK)].into_iter().flatten().any(|found| {
+        let digits = found + MARK.len()..found + MARK.len() + DIGITS;
+        let Some(told) = text.get(digits.clone()) else { return false };
+        let mut open = text.to_string();
+        open.replace_range(digits, &"0".repeat(DIGITS));
+        told == format!("{:016x}", hash(open.as_bytes()))
+    })
+}
+
+/// FNV-1a, which stays what it is in every version of the language. Ends of lines do not count: tools change them.
+fn hash(bytes: &[u8]) -> u64 {
+    let letters = bytes.iter().filter(|&&byte| byte != b'\r');
+    letters.fold(0xcbf2_9ce4_8422_2325, |hash, &byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
+}
+
+/// A word's own check digits, by which [`super::temporary`] knows its names.
+pub(super) fn check(word: &str) -> String {
+    format!("{:08x}", hash(word.as_bytes()) >> 32)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_seal_breaks_with_any_change_but_that_of_line_ends() {
+        for (name, text) in [
+            ("a.json", "{\n  \"b\": 1\n}\n"),
+            ("a.html", "<!doctype html>\n<p>b</p>\n"),
+            ("a.svg", "<svg><title>made by linkproof, seal 0123</title></svg>\n"),
+            ("a.1", ".TH b\n"),
+            ("a.csv", "# cpu: b\nx,y\n"),
+            ("a.txt", "b\n"),
+        ] {
+            let own = sealed(text, Path::new(name));
+            assert!(is_sealed(own.as_bytes()), "{own}");
+            assert!(is_sealed(own.replace('\n', "\r\n").as_bytes()), "{own}");
+            assert!(!is_sealed(text.as_bytes()) && !is_sealed(b"") && !is_sealed(b"made by linkproof, seal 12"));
+            for (at, letter) in own.char_indices().filter(|(_, letter)| *letter != '\n') {
+                let other = if letter == 'x' { 'y' } else { 'x' };
+                let mut changed = own.clone();
+                changed.replace_range(at..at + letter.len_utf8(), &other.to_string());
+                assert!(!is_sealed(changed.as_bytes()), "{changed}");
+            }
+            if name.ends_with("json") {
+                let parsed: serde_json::Value = serde_json::from_str(&own).unwrap();
+                assert_eq!(parsed["b"], 1);
+            }
+        }
+    }
+}

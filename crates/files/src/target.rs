@@ -1,0 +1,229 @@
+//! Where files may be written, what they may replace, and what is said if not.
+
+use std::fs::{self, File};
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
+
+use super::temporary::{create, directory_of};
+use linkage::error::{Error, ErrorKind};
+
+/// Most symbolic links from a name to its file.
+const LINKS: usize = 40;
+/// Most of an older file that is looked into (bytes).
+const SEEN: u64 = 64 << 20;
+
+/// A file to be written, and what may be replaced there. This is the one place for the rule: a file is replaced only if
+/// the caller named it or this program wrote it, and a symbolic link is followed only where the caller named it.
+pub enum Target<'a> {
+    /// The caller named this very file.
+    Named(&'a Path),
+    /// The program made the name up, or a part of it; an older file is replaced if `is_ours` says so of its beginning.
+    Made(&'a Path, &'a dyn Fn(&[u8]) -> bool),
+}
+
+/// Where the content of a target goes.
+pub(super) enum Place {
+    /// To what is open already, or is no regular file.
+    Open(PathBuf),
+    /// In place of this file, of which this is known if it is there.
+    File(PathBuf, Option<fs::Metadata>),
+}
+
+impl Target<'_> {
+    /// Where the content goes.
+    ///
+    /// # Errors
+    /// [`io::ErrorKind::AlreadyExists`] for what may not be replaced, and those of the file system.
+    pub(super) fn place(&self) -> io::Result<Place> {
+        match *self {
+            Target::Named(path) => {
+                let old = fs::metadata(path).ok();
+                if is_open_already(path) || old.as_ref().is_some_and(|old| !old.is_file()) {
+                    return Ok(Place::Open(path.to_path_buf()));
+                }
+                Ok(Place::File(followed(path)?, old))
+            }
+            Target::Made(path, is_ours) => {
+                let in_the_way = |what: &str| Err(io::Error::new(io::ErrorKind::AlreadyExists, what));
+                let old = match fs::symlink_metadata(path) {
+                    Err(error) if error.kind() == io::ErrorKind::NotFound => None,
+                    other => Some(other?),
+                };
+                match &old {
+                    None => {}
+                    Some(old) if old.is_symlink() => return in_the_way("a symbolic link that nobody named is there"),
+                    Some(old) if !old.is_file() => return in_the_way("something else than a file is there"),
+                    Some(_) => {
+                        let mut bytes = Vec::new();
+                        File::open(path)?.take(SEEN).read_to_end(&mut bytes)?;
+                        if !is_ours(&bytes) {
+                            return in_the_way(
+                                "a file is there that this program did not write, or that was changed since",
+                            );
+                        }
+                    }
+                }
+                Ok(Place::File(path.to_path_buf(), old))
+            }
+        }
+    }
+
+    /// Why this may not be written, if what is there may not be replaced.
+    pub fn in_the_way(&self) -> Option<String> {
+        self.place().err().filter(|error| error.kind() == io::ErrorKind::AlreadyExists).map(|error| error.to_string())
+    }
+}
+
+/// Whether a path is another word for something that this process, or the system, has open.
+fn is_open_already(path: &Path) -> bool {
+    let open = ["/dev/stdout", "/dev/stderr", "/dev/stdin"].map(Path::new);
+    open.contains(&path) || path.starts_with("/dev/fd") || path.starts_with("/proc/self/fd")
+}
+
+/// The file that a path names at the end of all symbolic links, whether or not it is there.
+fn followed(path: &Path) -> io::Result<PathBuf> {
+    let mut place = path.to_path_buf();
+    for _ in 0..LINKS {
+        match fs::read_link(&place) {
+            Ok(next) => place = directory_of(&place).join(next),
+            // What is no link is the end.
+            Err(_) => return Ok(place),
+        }
+    }
+    Err(io::Error::other(format!("more than {LINKS} symbolic links lead on from there")))
+}
+
+/// Tries whether a file can be written at `path`, which the caller named, before any work is done. Nothing is left
+/// there, and nothing that is there is touched.
+///
+/// # Errors
+/// What is in the way.
+pub fn may_write(path: &Path) -> Result<(), String> {
+    if fs::metadata(path).is_ok_and(|old| old.is_dir()) || path.as_os_str().to_string_lossy().ends_with('/') {
+        return Err("this is a directory; expected a file".into());
+    }
+    let place = match Target::Named(path).place() {
+        // A pipe or a device is opened when there is something to write.
+        Ok(Place::Open(_)) => return Ok(()),
+        Ok(Place::File(place, _)) => place,
+        Err(error) => return Err(format!("{error}; expected a file")),
+    };
+    let directory = directory_of(&place);
+    match fs::metadata(directory) {
+        Ok(found) if found.is_dir() => try_directory(directory),
+        Ok(_) => Err(format!("{} is no directory; expected a file in a directory", directory.display())),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => {
+            Err(format!("there is no directory {}; expected one that is there", directory.display()))
+        }
+        Err(error) => Err(format!("{}: {error}; expected a directory that may be written to", directory.display())),
+    }
+}
+
+/// The same for a directory that is made with all that it lies in.
+///
+/// # Errors
+/// What is in the way.
+pub fn may_fill(directory: &Path) -> Result<(), String> {
+    let mut there: PathBuf = directory.to_path_buf();
+    loop {
+        match fs::metadata(&there) {
+            Ok(found) if found.is_dir() => return try_directory(&there),
+            Ok(_) => return Err(format!("{} is no directory; expected one", there.display())),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => there = directory_of(&there).to_path_buf(),
+            Err(error) => return Err(format!("{}: {error}; expected a directory", there.display())),
+        }
+    }
+}
+
+fn try_directory(directory: &Path) -> Result<(), String> {
+    match create(directory) {
+        Ok(_) => Ok(()),
+        Err(error) => {
+            Err(format!("{}: {}; expected a directory that may be written to", directory.display(), why(&error)))
+        }
+    }
+}
+
+/// Why something could not be written, in words.
+#[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the standard library")]
+fn why(error: &io::Error) -> String {
+    match error.kind() {
+        io::ErrorKind::StorageFull => "no room is left on the device".into(),
+        io::ErrorKind::QuotaExceeded => "the quota on the device is used up".into(),
+        io::ErrorKind::FileTooLarge => "a file of this size is not allowed".into(),
+        _ => error.to_string(),
+    }
+}
+
+/// The error of an output that could not be written: `what` it is, and how many bytes it `needs`, if that is known.
+/// `usual` is the way out where there is room.
+#[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the standard library")]
+pub fn unwritten(what: &str, error: &io::Error, needs: Option<u64>, usual: &str) -> Error {
+    let way_out = match error.kind() {
+        io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => "make room there, or write to another device",
+        io::ErrorKind::AlreadyExists => "rename or remove what is there, or name another place",
+        io::ErrorKind::FileTooLarge => "raise the limit on the size of files, or ask for fewer instants or channels",
+        _ => usual,
+    };
+    let is_room = error.kind() != io::ErrorKind::AlreadyExists && way_out != usual;
+    let needs = needs.filter(|_| is_room).map(|bytes| format!("; {} are needed", size(bytes)));
+    let message = format!("{what} cannot be written: {}{}", why(error), needs.unwrap_or_default());
+    Error::new(ErrorKind::Io, message).help(way_out)
+}
+
+/// A size in words.
+pub fn size(bytes: u64) -> String {
+    match bytes {
+        0..10_000 => format!("{bytes} bytes"),
+        10_000..1_000_000 => format!("{:.0} kB", bytes as f64 / 1e3),
+        1_000_000..10_000_000 => format!("{:.1} MB", bytes as f64 / 1e6),
+        _ => format!("{:.0} MB", bytes as f64 / 1e6),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn targets_are_tried_and_left_alone() {
+        let own = tempfile::tempdir().unwrap();
+        let at = |name: &str| own.path().join(name);
+        fs::write(at("file"), "old").unwrap();
+        for (path, words) in [
+            (at(""), "a directory"),
+            (at("new/"), "a directory"),
+            (at("no/file"), "there is no directory"),
+            (at("file/below"), "directory"),
+        ] {
+            let told = may_write(&path).unwrap_err();
+            assert!(told.contains(words) && told.contains("expected"), "{}: {told}", path.display());
+        }
+        assert_eq!(
+            [may_write(&at("file")), may_write(&at("new")), may_write(Path::new("/dev/null"))],
+            [Ok(()), Ok(()), Ok(())]
+        );
+        assert_eq!([may_fill(own.path()), may_fill(&at("a/b/c"))], [Ok(()), Ok(())]);
+        assert!(may_fill(&at("file")).is_err() && may_fill(&at("file/a")).is_err());
+        let left: Vec<_> = fs::read_dir(own.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+        assert_eq!((left, fs::read_to_string(at("file")).unwrap().as_str()), (vec!["file".into()], "old"));
+    }
+
+    #[test]
+    fn sizes_are_told_in_few_digits() {
+        let told = [874, 874_918, 5_000_000, 62_000_000].map(size);
+        assert_eq!(told, ["874 bytes", "875 kB", "5.0 MB", "62 MB"]);
+    }
+
+    #[test]
+    fn a_full_device_is_called_so() {
+        let told = |kind: io::ErrorKind| unwritten("out.csv", &kind.into(), Some(20_400), "usual").to_string();
+        let full = "out.csv cannot be written: no room is left on the device; 20 kB are needed; make room there, or write to another device";
+        assert_eq!(told(io::ErrorKind::StorageFull), full);
+        assert!(
+            told(io::ErrorKind::FileTooLarge)
+                .contains("of this size is not allowed; 20 kB are needed; raise the limit")
+        );
+        assert!(told(io::ErrorKind::PermissionDenied).ends_with("; usual"));
+    }
+}

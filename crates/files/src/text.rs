@@ -1,0 +1,171 @@
+//! Files that are read as text, and what is said about those that are none.
+
+use std::fmt;
+use std::fs::{self, File};
+use std::io::{self, Read};
+use std::path::Path;
+
+use linkage::mechanism::is_unseen;
+
+/// Largest file that is read as text (bytes).
+pub const LARGEST: u64 = 64 << 20;
+/// Longest part of a message that is shown (letters).
+const LONGEST: usize = 2000;
+
+/// A text with every letter that is not seen written out, so that no name from a file forges a line or commands a
+/// terminal, and of bounded length. Help may have several lines, such as a section to add.
+#[must_use]
+pub fn visible(text: &str, has_lines: bool) -> String {
+    let mut shown = String::new();
+    for letter in text.chars().take(LONGEST) {
+        match is_unseen(letter) && !(has_lines && letter == '\n') {
+            true => shown.extend(letter.escape_default()),
+            false => shown.push(letter),
+        }
+    }
+    if text.chars().nth(LONGEST).is_some() {
+        shown.push_str(" ...");
+    }
+    shown
+}
+
+/// Text of the file at `path`, of 64 MiB at most.
+///
+/// # Errors
+/// Those of the file system; also if the file is larger, or no text. [`way_out`] tells what to do.
+pub fn read_text(path: &Path) -> io::Result<String> {
+    text_from(File::open(path)?)
+}
+
+/// Text of 64 MiB at most from whatever is open.
+///
+/// # Errors
+/// Those of [`read_text`].
+pub fn text_from(from: impl Read) -> io::Result<String> {
+    let mut bytes = Vec::new();
+    from.take(LARGEST + 1).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > LARGEST {
+        return Err(io::Error::other(format!("it has more than {} MiB", LARGEST >> 20)));
+    }
+    decoded(bytes).map_err(|other| io::Error::new(io::ErrorKind::InvalidData, other))
+}
+
+/// The same for a file that another file names: what is no regular file, such as a terminal, might never end.
+///
+/// # Errors
+/// Those of [`read_text`]; also if it is no regular file.
+pub fn read_named(path: &Path) -> io::Result<String> {
+    match fs::metadata(path)?.is_file() {
+        true => read_text(path),
+        false => Err(io::Error::other("it is no regular file")),
+    }
+}
+
+/// The text of a file whose name the program made up; `None` if there is no such file.
+///
+/// # Errors
+/// Those of [`read_named`].
+pub fn text(path: &Path) -> io::Result<Option<String>> {
+    match read_named(path) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+        other => other.map(Some),
+    }
+}
+
+/// What to do about a file that could not be read: `usual`, unless it is written in another encoding.
+pub fn way_out(error: &io::Error, usual: &str) -> String {
+    match error.get_ref().and_then(|inner| inner.downcast_ref::<Encoding>()) {
+        None => usual.into(),
+        Some(Encoding { name: None, .. }) => "give a text file in UTF-8".into(),
+        Some(Encoding { name: Some(name), .. }) => {
+            format!("save it as UTF-8 in your editor, or convert it: `iconv -f {name} -t UTF-8 OLD > NEW`")
+        }
+    }
+}
+
+/// What a file is written in, which is not UTF-8.
+#[derive(Debug)]
+struct Encoding {
+    told: String,
+    /// Its name for `iconv`; `None` if it is no text.
+    name: Option<&'static str>,
+}
+
+impl fmt::Display for Encoding {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.told)
+    }
+}
+
+impl std::error::Error for Encoding {}
+
+fn decoded(bytes: Vec<u8>) -> Result<String, Encoding> {
+    let other = |name| Encoding { told: format!("it is written in {name}, but UTF-8 is needed"), name: Some(name) };
+    match bytes.as_slice() {
+        [0xff, 0xfe, 0, 0, ..] | [0, 0, 0xfe, 0xff, ..] => return Err(other("UTF-32")),
+        [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => return Err(other("UTF-16")),
+        // Without a mark: every other byte of plain letters is zero.
+        [first, 0, second, 0, ..] if *first != 0 && *second != 0 => return Err(other("UTF-16LE")),
+        [0, first, 0, second, ..] if *first != 0 && *second != 0 => return Err(other("UTF-16BE")),
+        _ => {}
+    }
+    if let Some(at) = bytes.iter().position(|&byte| byte == 0) {
+        let told = format!("it is no text: byte {} is zero", at + 1);
+        return Err(Encoding { told, name: None });
+    }
+    String::from_utf8(bytes).map_err(|error| {
+        let at = error.utf8_error().valid_up_to();
+        let bytes = error.as_bytes();
+        let (byte, line) = (bytes[at], bytes[..at].iter().filter(|&&byte| byte == b'\n').count() + 1);
+        let told = format!(
+            "it is not written in UTF-8: line {line} has the byte 0x{byte:02X}, in Latin-1 the letter `{}`",
+            char::from(byte).escape_debug()
+        );
+        Encoding { told, name: Some("WINDOWS-1252") }
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn told(bytes: &[u8]) -> (String, String) {
+        let error = text_from(bytes).unwrap_err();
+        (error.to_string(), way_out(&error, "usual"))
+    }
+
+    #[test]
+    fn other_encodings_are_named_with_a_way_out() {
+        let utf16 = |swap: bool| -> Vec<u8> {
+            "name = \"ä\""
+                .encode_utf16()
+                .flat_map(|unit| if swap { unit.to_be_bytes() } else { unit.to_le_bytes() })
+                .collect()
+        };
+        for (bytes, name) in [
+            ([&[0xff, 0xfe][..], &utf16(false)].concat(), "UTF-16"),
+            ([&[0xfe, 0xff][..], &utf16(true)].concat(), "UTF-16"),
+            (utf16(false), "UTF-16LE"),
+            (utf16(true), "UTF-16BE"),
+            (b"\xff\xfe\0\0n\0\0\0".to_vec(), "UTF-32"),
+        ] {
+            let (message, help) = told(&bytes);
+            assert_eq!(message, format!("it is written in {name}, but UTF-8 is needed"));
+            assert!(help.contains(&format!("iconv -f {name} -t UTF-8")), "{help}");
+        }
+        let (message, help) = told(b"a = 1\nb = \"\xe4\"\n");
+        assert!(message.contains("line 2 has the byte 0xE4, in Latin-1 the letter `\u{e4}`"), "{message}");
+        assert!(help.contains("iconv -f WINDOWS-1252"), "{help}");
+        let (message, help) = told(b"MCAP0\r\n\x01\0\0");
+        assert!(message.contains("no text") && help == "give a text file in UTF-8", "{message} {help}");
+    }
+
+    #[test]
+    fn utf_8_is_read_with_and_without_its_mark() {
+        assert_eq!(text_from("ä".as_bytes()).unwrap(), "ä");
+        assert_eq!(text_from("\u{feff}a".as_bytes()).unwrap(), "\u{feff}a");
+        assert_eq!(text_from(&b""[..]).unwrap(), "");
+        let missing = File::open("no such file").unwrap_err();
+        assert_eq!(way_out(&missing, "usual"), "usual");
+    }
+}

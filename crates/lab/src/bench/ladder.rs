@@ -1,0 +1,218 @@
+//! The ways that are measured: steps, sweeps, routes and extrapolations of every engine, accuracies of the sides.
+
+use super::options::Options;
+use super::peer::Way;
+use super::point::Party;
+use analytic::reduced::ACCURACY;
+use analytic::{AssurAt, NewtonAt};
+use linkage::case::Case;
+use linkage::engine::{Engine, Route, Settings};
+use linkage::solver::Solver;
+use linkage::trajectory::Stage;
+use prover::engines::{EngineName, usual_step};
+
+/// Steps of fixed-step engines over the usual one, the coarsest first.
+const STEPS: [f64; 10] = [16.0, 8.0, 4.0, 2.0, 1.0, 0.5, 0.25, 0.125, 0.0625, 0.03125];
+const QUICK_STEPS: [f64; 3] = [8.0, 2.0, 0.5];
+/// Accuracies of engines that control their error.
+const ACCURACIES: [f64; 6] = [1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12];
+const QUICK_ACCURACIES: [f64; 2] = [1e-4, 1e-10];
+/// Accuracies of the sides' integration besides the usual one.
+const SIDES: [f64; 5] = [1e-4, 1e-6, 1e-8, 1e-10, 1e-12];
+/// Numbers of sweeps over the fewest that an engine thinks worth trying.
+const SWEEPS: [usize; 3] = [1, 4, 16];
+/// Extrapolations.
+const TIMES: [usize; 4] = [0, 1, 2, 3];
+
+/// Who runs it.
+pub(super) enum Runner {
+    /// A side.
+    Side(Box<dyn Solver>),
+    /// An engine.
+    Engine(Box<dyn Engine>),
+    /// The peer with this number, and what it is told.
+    Peer(usize, Way),
+}
+
+/// A way that is to be measured.
+pub(super) struct Planned {
+    pub(super) program: String,
+    pub(super) party: Party,
+    pub(super) way: String,
+    pub(super) resolution: String,
+    pub(super) settings: Option<Settings>,
+    pub(super) is_usual: bool,
+    pub(super) runner: Runner,
+}
+
+impl Planned {
+    /// A peer's own way.
+    pub(super) fn of_peer(index: usize, name: &str, way: Way) -> Self {
+        Planned {
+            program: name.to_string(),
+            party: Party::Peer,
+            way: way.name.clone(),
+            resolution: way.resolution.clone(),
+            settings: None,
+            is_usual: false,
+            runner: Runner::Peer(index, way),
+        }
+    }
+
+    fn of_side(solver: Box<dyn Solver>, accuracy: Option<f64>, is_usual: bool) -> Self {
+        Planned {
+            program: solver.name().to_string(),
+            party: Party::Side,
+            way: String::new(),
+            resolution: accuracy.map_or_else(String::new, |accuracy| format!("accuracy {accuracy:e}")),
+            settings: None,
+            is_usual,
+            runner: Runner::Side(solver),
+        }
+    }
+}
+
+/// Everything that is to be measured of sides and engines.
+pub(super) struct Plan {
+    pub(super) points: Vec<Planned>,
+    pub(super) left_out: usize,
+    pub(super) versions: Vec<(String, String)>,
+}
+
+/// The ways of sides and engines. The budget is shared equally by all curves of engines; each takes ever finer steps
+/// until its share is used.
+pub(super) fn plan(case: &Case, options: &Options) -> Plan {
+    let mut points = sides(case, options);
+    let names = match options.engines.is_empty() {
+        true => EngineName::ALL.to_vec(),
+        false => options.engines.clone(),
+    };
+    let engines: Vec<Box<dyn Engine>> =
+        names.into_iter().filter_map(|name| name.with_step(usual_step(case)).ok()).collect();
+    let versions = engines.iter().map(|engine| (engine.name().to_string(), engine.version())).collect();
+    let curves: Vec<(&dyn Engine, Settings)> = engines
+        .iter()
+        .flat_map(|engine| {
+            curves(engine.as_ref(), case, options).into_iter().map(move |curve| (engine.as_ref(), curve))
+        })
+        .collect();
+    let share = options.budget() / curves.len().max(1) as f64;
+    let mut left_out = 0;
+    for (engine, curve) in curves {
+        let mut spent = 0.0;
+        for (rung, resolution) in resolutions(engine, curve.resolution, options).into_iter().enumerate() {
+            let settings = Settings { resolution, ..curve };
+            spent += work(case, engine, &settings);
+            // The coarsest run of a way is made in any case.
+            if spent > share && rung > 0 {
+                left_out += 1;
+                continue;
+            }
+            points.push(Planned {
+                program: engine.name().to_string(),
+                party: Party::Engine,
+                way: told(engine, &settings, case),
+                resolution: match engine.controls_error() {
+                    true => format!("accuracy {resolution:e}"),
+                    false => format!("step {resolution:.3e} s"),
+                },
+                settings: Some(settings),
+                is_usual: false,
+                runner: Runner::Engine(engine.with(settings)),
+            });
+        }
+    }
+    Plan { points, left_out, versions }
+}
+
+fn sides(case: &Case, options: &Options) -> Vec<Planned> {
+    let make = |accuracy: f64| -> [Box<dyn Solver>; 2] { [Box::new(AssurAt(accuracy)), Box::new(NewtonAt(accuracy))] };
+    let [first, second] = make(ACCURACY);
+    let told = case.is_free().then_some(ACCURACY);
+    let mut points = vec![Planned::of_side(first, told, true), Planned::of_side(second, told, true)];
+    if case.is_free() {
+        let accuracies = if options.is_quick { &SIDES[2..3] } else { &SIDES[..] };
+        for &accuracy in accuracies {
+            points.extend(make(accuracy).map(|side| Planned::of_side(side, Some(accuracy), false)));
+        }
+    }
+    points
+}
+
+/// All settings of an engine but its resolution.
+fn curves(engine: &dyn Engine, case: &Case, options: &Options) -> Vec<Settings> {
+    let own = engine.settings();
+    let has_forces = case.wanted.deepest() >= Stage::Reactions;
+    let routes: Vec<Route> = if has_forces { engine.routes().to_vec() } else { vec![own.route] };
+    let sweeps: Vec<usize> = match engine.sweeps(case) {
+        None => vec![own.sweeps],
+        Some([1, 1]) => vec![1],
+        Some([few, most]) if options.is_quick => vec![(few * SWEEPS[1]).min(most)],
+        Some([few, most]) => SWEEPS.map(|times| (few * times).min(most)).to_vec(),
+    };
+    let times: &[usize] = match (engine.controls_error(), options.is_quick) {
+        (true, _) => &TIMES[..1],
+        (false, true) => &TIMES[..2],
+        (false, false) => &TIMES,
+    };
+    let mut curves = Vec::new();
+    for &route in &routes {
+        for &sweeps in &sweeps {
+            for &extrapolated in times {
+                // Probes and impulses are read from single runs, or from two: the rest brings nothing that is new.
+                if route == Route::Differences || extrapolated < 2 {
+                    curves.push(Settings { sweeps, route, extrapolated, ..own });
+                }
+            }
+        }
+    }
+    curves
+}
+
+fn resolutions(engine: &dyn Engine, usual: f64, options: &Options) -> Vec<f64> {
+    match (engine.controls_error(), options.is_quick) {
+        (true, true) => QUICK_ACCURACIES.to_vec(),
+        (true, false) => ACCURACIES.to_vec(),
+        (false, true) => QUICK_STEPS.map(|times| times * usual).to_vec(),
+        (false, false) => STEPS.map(|times| times * usual).to_vec(),
+    }
+}
+
+/// Work of a run, in steps without sweeps. That of an engine that chooses its own steps is not known.
+fn work(case: &Case, engine: &dyn Engine, settings: &Settings) -> f64 {
+    if engine.controls_error() {
+        return 0.0;
+    }
+    let runs = 2f64.powi(settings.extrapolated as i32 + 1) - 1.0;
+    let probes = match settings.route {
+        Route::Probe => case.grid.len() as f64 * settings.work() * settings.resolution,
+        Route::Differences | Route::Native => 0.0,
+    };
+    span(case) * runs * settings.work() + probes * (settings.extrapolated + 1) as f64
+}
+
+fn span(case: &Case) -> f64 {
+    let times = &case.grid.times;
+    let ends = times
+        .iter()
+        .fold([0.0f64; 2], |[first, last], &t| [if t < first { t } else { first }, if t > last { t } else { last }]);
+    ends[1] - ends[0]
+}
+
+/// The settings besides the resolution, in words.
+fn told(engine: &dyn Engine, settings: &Settings, case: &Case) -> String {
+    let mut words = Vec::new();
+    if engine.routes().len() > 1 && case.wanted.deepest() >= Stage::Reactions {
+        words.push(settings.route.name().to_string());
+    }
+    if engine.sweeps(case).is_some() {
+        words.push(format!("{} sweeps", settings.sweeps));
+    }
+    match settings.extrapolated {
+        0 => {}
+        1 => words.push("extrapolated once".into()),
+        2 => words.push("extrapolated twice".into()),
+        times => words.push(format!("extrapolated {times} times")),
+    }
+    words.join(", ")
+}

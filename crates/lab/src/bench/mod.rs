@@ -1,0 +1,98 @@
+//! Work and precision: what every solver, engine and setting costs for the error that it leaves.
+//!
+//! Each way of solving a scenario is a [`Point`]: its error against the reference by stage of channels, its times and
+//! its exact effort. Ways that fail stay, with their reason. The reference's own error is the floor of the diagram:
+//! what lies less than a hundred times above it is marked, because there the reference is measured too.
+//!
+//! This room has no clock: times come from the function that it is given.
+
+mod effort;
+mod front;
+mod ladder;
+mod measure;
+mod options;
+mod peer;
+mod point;
+mod reference;
+
+pub use effort::Effort;
+pub use front::{Axis, front};
+pub use options::{CLEAR, Clock, Options};
+pub use peer::{Answer, Peer, Way};
+pub use point::{Errors, Outcome, Party, Point, Run};
+pub use reference::Floor;
+
+use linkage::error::Result;
+use linkage::trajectory::Stage;
+use scenario::Scenario;
+
+/// All points of one scenario.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Bench {
+    /// Name and title of the scenario.
+    pub scenario: [String; 2],
+    /// Number of instants, and the times (s) of the first and the last.
+    pub instants: usize,
+    /// See `instants`.
+    pub span: [f64; 2],
+    /// Whether forces decide the motion.
+    pub is_free: bool,
+    /// Stages that were wanted.
+    pub stages: Vec<Stage>,
+    /// The reference and its own error.
+    pub floor: Floor,
+    /// Shortest time (s) of side 1 at its usual accuracy: the unit of all ratios.
+    pub unit: f64,
+    /// Versions of engines and peers, by name.
+    pub versions: Vec<(String, String)>,
+    /// The points, in the order in which they were made.
+    pub points: Vec<Point>,
+    /// Number of settings that the budget did not allow.
+    pub left_out: usize,
+    /// Peers that could not be asked at all, with the reason.
+    pub absent: Vec<(String, String)>,
+}
+
+/// Measures all ways of solving a scenario. `progress` receives the finished share.
+///
+/// # Errors
+/// Those of the two sides: without a reference there is no error. Engines and peers that fail are points.
+pub fn bench(
+    scenario: &Scenario,
+    options: &Options,
+    peers: &[&dyn Peer],
+    clock: Clock,
+    progress: &mut dyn FnMut(f64),
+) -> Result<Bench> {
+    let case = &scenario.case;
+    let (reference, floor) = reference::of(case)?;
+    let plan = ladder::plan(case, options);
+    let (mut found, left_out) = (plan.points, plan.left_out);
+    let mut versions = plan.versions;
+    let mut absent = Vec::new();
+    for (index, peer) in peers.iter().enumerate() {
+        match peer.ways() {
+            Ok(ways) => found.extend(ways.into_iter().map(|way| ladder::Planned::of_peer(index, peer.name(), way))),
+            Err(reason) => absent.push((peer.name().to_string(), reason)),
+        }
+    }
+    let rounds = options.rounds();
+    let desk = measure::Desk { case, reference: &reference, floor: &floor, peers, clock };
+    let points = desk.measure(&found, rounds, progress, &mut versions);
+    let own = |point: &&Point| point.party == Party::Side && point.is_usual && point.program == "assur";
+    let unit = points.iter().find(own).and_then(Point::seconds).unwrap_or(f64::NAN);
+    let times = &case.grid.times;
+    Ok(Bench {
+        scenario: [scenario.name.clone(), scenario.title.clone()],
+        instants: case.grid.len(),
+        span: [*times.first().unwrap_or(&0.0), *times.last().unwrap_or(&0.0)],
+        is_free: case.is_free(),
+        stages: Stage::ALL.into_iter().filter(|&stage| case.wanted.has(stage)).collect(),
+        floor,
+        unit,
+        versions,
+        points,
+        left_out,
+        absent,
+    })
+}

@@ -1,0 +1,71 @@
+//! The reference, and how well it is known.
+
+use super::options::CLEAR;
+use super::point::Errors;
+use analytic::range::explained;
+use analytic::{AssurSolver, NewtonSolver, TIGHT_ASSUR, TIGHT_NEWTON};
+use linkage::case::Case;
+use linkage::error::Result;
+use linkage::math::KeepNan;
+use linkage::solver::Solver;
+use linkage::trajectory::{Stage, Trajectory};
+use prover::compare::residuals;
+
+/// Share of the difference between a run at the usual accuracy and the tighter reference that may be left in the
+/// reference: it allows a hundredth in every step, and four times that is the margin of `proof::known`.
+const LEFT: f64 = 0.04;
+
+/// The reference's own error.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Floor {
+    /// The reference, in words.
+    pub reference: &'static str,
+    /// How its error is known, in words.
+    pub basis: &'static str,
+    /// Error by stage over the scales, in the order of [`Stage::ALL`]; 0 for what is not wanted.
+    pub errors: [f64; Stage::ALL.len()],
+}
+
+impl Floor {
+    /// Marks an error that is not clear of the floor.
+    #[must_use]
+    pub fn judged(&self, stage: Stage, [max, rms]: [f64; 2]) -> Errors {
+        Errors { max, rms, is_limited: !(max >= CLEAR * self.errors[stage as usize]) }
+    }
+}
+
+/// The reference of a case, and its own error.
+///
+/// # Errors
+/// Those of the sides.
+pub(super) fn of(case: &Case) -> Result<(Trajectory, Floor)> {
+    let solved = |solver: &dyn Solver| solver.solve(case).map_err(|error| explained(case, error));
+    if case.is_free() {
+        let (tight, other) = (solved(&TIGHT_ASSUR)?, solved(&TIGHT_NEWTON)?);
+        let (between, left) = (apart(&tight, &other)?, apart(&tight, &solved(&AssurSolver)?)?);
+        let errors = std::array::from_fn(|stage| between[stage][0].larger(LEFT * left[stage][0]).larger(f64::EPSILON));
+        let basis = "difference of both sides at the tighter integration, or what the tighter integration leaves";
+        return Ok((
+            tight,
+            Floor { reference: "side 1 (assur), integrated a hundred times as tightly", basis, errors },
+        ));
+    }
+    let (first, second) = (solved(&AssurSolver)?, solved(&NewtonSolver)?);
+    let between = apart(&first, &second)?;
+    let errors = std::array::from_fn(|stage| between[stage][0].larger(f64::EPSILON));
+    Ok((first, Floor { reference: "side 1 (assur)", basis: "difference of the two sides", errors }))
+}
+
+/// Largest error and largest root mean square by stage, over the reference's scales, of the channels that both have.
+///
+/// # Errors
+/// If the grids differ.
+pub(super) fn apart(reference: &Trajectory, found: &Trajectory) -> Result<[[f64; 2]; Stage::ALL.len()]> {
+    let mut worst = [[0.0f64; 2]; Stage::ALL.len()];
+    for residual in residuals(reference, found)? {
+        let own = &mut worst[residual.channel.kind.stage as usize];
+        let scale = if residual.scale > 0.0 { residual.scale } else { 1.0 };
+        *own = [own[0].larger(residual.share()), own[1].larger(residual.rms / scale)];
+    }
+    Ok(worst)
+}

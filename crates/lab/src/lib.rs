@@ -1,0 +1,14 @@
+//! The laboratory: what is studied about the prover, and what a proof does not need.
+//!
+//! - [`bench`]: work against error of every solver and engine.
+//! - [`stress`], [`specimens`]: families of hard mechanisms, and random ones.
+//! - [`mutate`]: faults planted in one party, and who finds them.
+//! - [`tune`]: engine settings by their price.
+//! - [`outside`]: other programs that solve a case or show it.
+
+pub mod bench;
+pub mod mutate;
+pub mod outside;
+pub mod specimens;
+pub mod stress;
+pub mod tune;

@@ -1,0 +1,75 @@
+//! What a fault changes in exact answers: a fault that changes nothing is none.
+
+use super::kinds::{At, Plant};
+use super::planted::{Fault, Planted};
+use analytic::AssurSolver;
+use linkage::case::Case;
+use linkage::error::Result;
+use linkage::math::KeepNan;
+use linkage::math::statistics::share;
+use linkage::solver::{Solver, State};
+use linkage::trajectory::{Stage, Trajectory};
+use prover::compare::magnitudes;
+
+/// Change, relative to the largest number of a quantity, that is rounding: of a case solved once more with other
+/// numbers, which follow from each other. It is a tenth and less of what the two sides are allowed to differ by.
+pub(super) fn rounding(stage: Stage) -> f64 {
+    match stage {
+        Stage::Positions => 1e-13,
+        Stage::Velocities | Stage::Accelerations => 1e-12,
+        Stage::Reactions | Stage::BalancingMoment => 1e-11,
+    }
+}
+
+/// What a fault does to a case.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Effect {
+    /// The case has no part that the fault is in.
+    None,
+    /// Exact answers are the same to rounding: the largest change, relative to the largest number of the quantity.
+    Equivalent(f64),
+    /// Exact answers change, by so much at most.
+    Changes(f64),
+    /// There is no exact answer any more.
+    Unsolved,
+}
+
+/// Whether a case has a part that a fault is in.
+pub(super) fn has_part(case: &Case, fault: Fault) -> Result<bool> {
+    match fault.kind.plant {
+        Plant::Case(change) => Ok(change(case, fault.size).is_some()),
+        Plant::Answer(change) => {
+            let mut any = false;
+            let mut look = |row: usize, state: &State| {
+                any |= change(At { case, row }, &mut state.clone(), fault.size).is_some();
+                Ok(())
+            };
+            AssurSolver.each(case, &mut look)?;
+            Ok(any)
+        }
+        // No case has formulas.
+        Plant::Formula(_) => Ok(false),
+    }
+}
+
+/// What a fault changes in the exact answers of side 1, whose right ones are `right`, and known to `integration` where
+/// forces decide the motion (channel by channel, in their units).
+pub(super) fn effect(case: &Case, right: &Trajectory, integration: &[f64], fault: Fault) -> Result<Effect> {
+    if !has_part(case, fault)? {
+        return Ok(Effect::None);
+    }
+    let Ok(wrong) = Planted { hook: fault, inner: Box::new(AssurSolver) }.solve(case) else {
+        return Ok(Effect::Unsolved);
+    };
+    let sizes = magnitudes(right);
+    let (mut largest, mut beyond) = (0.0f64, false);
+    let known = sizes.iter().zip(integration);
+    for ((channel, ours), ((size, error), (_, theirs))) in right.iter().zip(known.zip(wrong.iter())) {
+        // Whole turns count here.
+        let change = ours.iter().zip(theirs).fold(0.0f64, |most, (a, b)| most.larger((a - b).abs()));
+        let relative = share(change, *size);
+        largest = largest.larger(relative);
+        beyond |= !(relative <= rounding(channel.kind.stage) + share(*error, *size));
+    }
+    Ok(if beyond { Effect::Changes(largest) } else { Effect::Equivalent(largest) })
+}

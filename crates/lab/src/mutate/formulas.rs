@@ -1,0 +1,158 @@
+//! Mistakes in formulas, judged as `run` judges formulas.
+
+use std::collections::BTreeSet;
+
+use super::effect::{Effect, rounding};
+use super::kinds::{Kind, Mistake};
+use super::mutant::Spoiled;
+use super::seen::{Eyes, Outcome};
+use super::stage::Stage;
+use formula::{Id, Operator, Program, Rounded, Tree};
+use linkage::error::Result;
+use linkage::math::KeepNan;
+use linkage::math::statistics::share;
+use linkage::trajectory::{Channel, Stage as Of};
+use prover::claims::planted;
+use prover::proof::{Judgement, formula_checks};
+use scenario::{Claim, Formula, Formulas};
+
+/// Work of an operation of a formula at an instant, in steps of an engine's four-bar.
+const OPERATION: f64 = 0.04;
+
+/// A mistake, ready to be judged.
+pub(super) struct Planting {
+    pub(super) what: Spoiled,
+    formulas: Formulas,
+}
+
+impl Stage<'_> {
+    /// Indices of the formulas that claim an exact value, and of the steps that they use. What is claimed with an
+    /// error stays right within it.
+    pub(super) fn formulas(&self) -> Vec<usize> {
+        let all = &self.scenario.formulas.list;
+        let judged = self.judged_formulas();
+        let mut used: BTreeSet<&str> = BTreeSet::new();
+        let mut found = Vec::new();
+        for (index, own) in all.iter().enumerate().rev() {
+            let is_exact = own.claim.is_some() && own.error.is_none() && judged.contains(own.name.as_str());
+            if is_exact || used.contains(own.name.as_str()) {
+                used.extend(own.tree.names().into_iter().map(|(name, _)| name));
+                found.push(index);
+            }
+        }
+        found.reverse();
+        found
+    }
+
+    /// Work of judging all formulas once, on both sides (in steps of an engine's four-bar).
+    pub(super) fn work_of_formulas(&self) -> f64 {
+        let formulas = &self.scenario.formulas;
+        let nodes: Vec<Id> = formulas.claims().map(|(formula, _)| formula.id).collect();
+        let operations = Program::of(&formulas.graph, &nodes).len() * self.cranks().len();
+        // By value and twice by derivative.
+        OPERATION * 2.0 * 6.0 * operations as f64
+    }
+
+    /// A mistake in a formula; `None` if it has no place for it.
+    pub(super) fn planting(&self, kind: &Kind, mistake: Mistake, of: usize, size: f64) -> Option<Planting> {
+        let formulas = &self.scenario.formulas;
+        let own = &formulas.list[of];
+        let with_tree = |tree: Tree| {
+            let wrong = tree.to_string();
+            let what = Spoiled { formula: own.name.clone(), right: own.text.clone(), wrong };
+            Some(Planting { what, formulas: formulas.with_tree(of, tree)? })
+        };
+        let with_claim = |claim: Claim| {
+            let mut formulas = formulas.clone();
+            let right = own.claim.as_ref()?.text.clone();
+            let what = Spoiled { formula: own.name.clone(), right, wrong: claim.text.clone() };
+            formulas.list[of].claim = Some(claim);
+            Some(Planting { what, formulas })
+        };
+        match mistake {
+            // One place of many, another one in every formula and for every kind, and the same in every run.
+            Mistake::Slip(slip) => {
+                let number = own.name.bytes().chain(kind.name.bytes()).map(usize::from).sum();
+                with_tree(planted(formulas, of, slip, number)?)
+            }
+            Mistake::Larger => {
+                let more = Tree::pair(Operator::Times, own.tree.clone(), Tree::number(1.0 + size));
+                with_tree(more)
+            }
+            Mistake::Subject => {
+                with_claim(self.other(own, &|one, other| one.kind == other.kind && one.of != other.of)?)
+            }
+            Mistake::Quantity => with_claim(self.other(own, &|one, other| {
+                one.kind.unit == other.kind.unit && one.kind != other.kind && one.of == other.of
+            })?),
+        }
+    }
+
+    /// The claim of another channel, the first after the claimed one that is meant.
+    fn other(&self, own: &Formula, is_meant: &dyn Fn(&Channel, &Channel) -> bool) -> Option<Claim> {
+        let claim = own.claim.as_ref()?;
+        let [(name, claimed)] = claim.channels.as_slice() else { return None };
+        // The unit of its name stays, as `deg`.
+        let unit = name.strip_prefix(&format!("{}.", claimed.channel.subject()))?;
+        let is_si = unit == claimed.channel.kind.suffix;
+        let all = self.channels();
+        let first = all.iter().position(|channel| *channel == claimed.channel)?;
+        let other = all[first..].iter().chain(all).find(|other| is_meant(&claimed.channel, other))?;
+        let suffix = if other.kind == claimed.channel.kind { unit } else { other.kind.suffix };
+        let is_named = *name == claim.text && (is_si || other.kind == claimed.channel.kind);
+        is_named.then(|| Claim::of_channels(&format!("{}.{suffix}", other.subject()), all).ok()).flatten()
+    }
+
+    /// What a mistake changes: in a value that is claimed, or in what is claimed.
+    pub(super) fn formula_effect(&self, own: &Planting) -> Result<Effect> {
+        let right = &self.scenario.formulas;
+        self.on_course(&|course| {
+            let [ours, theirs] = [right, &own.formulas].map(|formulas| course.given(formulas));
+            let (mut largest, mut beyond, mut unsolved) = (0.0f64, false, false);
+            let judged = self.judged_formulas();
+            let claims = right.claims().zip(own.formulas.claims());
+            for (((formula, claim), (_, claimed)), (ours, theirs)) in claims.zip(ours.iter().zip(&theirs)) {
+                if formula.error.is_some() || !judged.contains(formula.name.as_str()) {
+                    continue;
+                }
+                let stage = claim.channels.iter().map(|(_, own)| own.channel.kind.stage).max();
+                let allowed = rounding(stage.unwrap_or(Of::BalancingMoment));
+                let turn = claim.turn();
+                let mut compare = |ours: &[Rounded], theirs: &[Rounded]| {
+                    let scale = ours.iter().fold(0.0f64, |most, own| most.larger(own.value.abs()));
+                    for (one, other) in ours.iter().zip(theirs) {
+                        let change = other.value - one.value;
+                        let change = turn.map_or(change, |turn| change - turn * (change / turn).round()).abs();
+                        unsolved |= change.is_nan();
+                        largest = largest.larger(share(change, scale));
+                        beyond |= !(change <= one.error + other.error + allowed * scale);
+                    }
+                };
+                if claim.text == claimed.text {
+                    compare(ours, theirs);
+                } else {
+                    let holds = |claim: &Claim| -> Result<Vec<Rounded>> {
+                        let all = course.values(claim)?.into_iter().zip(self.cranks());
+                        Ok(all.filter(|(_, crank)| formula.holds_at(**crank)).map(|(value, _)| value).collect())
+                    };
+                    compare(&holds(claim)?, &holds(claimed)?);
+                }
+            }
+            Ok(match (unsolved, beyond) {
+                (true, _) => Effect::Unsolved,
+                (false, true) => Effect::Changes(largest),
+                (false, false) => Effect::Equivalent(largest),
+            })
+        })
+    }
+
+    /// What both sides make of it.
+    pub(super) fn formula_outcome(&self, own: &Planting) -> Outcome {
+        let judged = self.claimed(&own.formulas).map(|sides| {
+            let judgement = Judgement::of(sides);
+            let checks = formula_checks(&judgement);
+            Eyes::default().formulas(&judgement, &checks).outcome()
+        });
+        judged.unwrap_or_else(|error| Outcome::Refused(error.message().into()))
+    }
+}

@@ -1,0 +1,141 @@
+//! Angles and speeds of driving links.
+
+use std::f64::consts::{PI, TAU};
+
+use super::kind::{Family, Kind};
+use super::touch::parts;
+use linkage::case::{Case, Grid};
+use linkage::drive::{Drive, DriveMotion, MotionLaw};
+use prover::diagnosis::{at_speed, driven, reassembled};
+
+const OF: Family = Family::Drive;
+
+pub(super) const KINDS: &[Kind] = &[
+    Kind::case(OF, "start-angle", "the crank starts at another angle (rad)", |case, size| {
+        started(case, 0, |start| start + size)
+    })
+    .sized(1e-2),
+    Kind::case(OF, "start-degrees", "the crank's start angle in degrees is taken for radians", |case, _| {
+        started(case, 0, f64::to_degrees)
+    }),
+    Kind::case(OF, "start-radians", "the crank's start angle is converted to radians twice", |case, _| {
+        started(case, 0, f64::to_radians)
+    }),
+    Kind::case(OF, "start-sense", "the crank's start angle is counted clockwise", |case, _| {
+        started(case, 0, |start| -start)
+    }),
+    Kind::case(OF, "start-from-y", "the crank's angle is measured from the y axis", |case, _| {
+        started(case, 0, |start| start + PI / 2.0)
+    }),
+    Kind::case(OF, "speed", "the drive is faster by a share of its speed", |case, size| faster(case, 0, 1.0 + size))
+        .sized(1e-2),
+    Kind::case(OF, "speed-reversed", "the drive turns the other way", |case, _| faster(case, 0, -1.0)),
+    Kind::case(OF, "speed-rpm", "the speed in rad/s is taken for rpm", |case, _| faster(case, 0, PI / 30.0)),
+    Kind::case(OF, "speed-hertz", "the speed in rad/s is taken for revolutions per second", |case, _| {
+        faster(case, 0, TAU)
+    }),
+    Kind::case(OF, "law-constant", "a speed that changes is taken for the constant top speed", |case, _| {
+        if case.is_free() || case.crank().constant_speed().is_some() {
+            return None;
+        }
+        let law = MotionLaw::ConstantSpeed(case.crank().top_speed());
+        turned(case, 0, |drive| match &mut drive.motion {
+            DriveMotion::Prescribed { law: own, .. } => *own = law.clone(),
+            DriveMotion::Free { .. } => {}
+        })
+    }),
+    Kind::case(OF, "initial-speed", "the free crank starts faster by a share of its nominal speed", |case, size| {
+        let nominal = case.crank().top_speed();
+        initial(case, |speed| speed + size * nominal)
+    })
+    .sized(1e-2),
+    Kind::case(OF, "initial-speed-missing", "the free crank starts from rest", |case, _| {
+        (case.crank().initial_speed() != 0.0).then_some(())?;
+        initial(case, |_| 0.0)
+    }),
+    Kind::case(OF, "initial-speed-reversed", "the free crank starts the other way", |case, _| {
+        (case.crank().initial_speed() != 0.0).then_some(())?;
+        initial(case, |speed| -speed)
+    }),
+    Kind::case(OF, "free-held", "a free crank turns with its nominal speed all the time", |case, _| {
+        (case.crank().is_free() && case.drives.iter().count() == 1).then_some(())?;
+        turned(case, 0, |drive| *drive = drive.nominal())
+    }),
+    Kind::case(OF, "second-angle", "the last driving link starts at another angle (rad)", |case, size| {
+        let last = case.drives.further().len();
+        (last > 0).then_some(())?;
+        started(case, last, |start| start + size)
+    })
+    .sized(1e-2),
+    Kind::case(OF, "second-reversed", "the last driving link turns the other way", |case, _| {
+        let last = case.drives.further().len();
+        (last > 0).then_some(())?;
+        faster(case, last, -1.0)
+    }),
+    Kind::case(OF, "second-speed", "the last driving link is faster by a share of its speed", |case, size| {
+        let last = case.drives.further().len();
+        (last > 0).then_some(())?;
+        faster(case, last, 1.0 + size)
+    })
+    .sized(1e-2),
+    Kind::case(OF, "late", "every instant is taken later by a share of a radian of the crank", |case, size| {
+        shifted(case, size)
+    })
+    .sized(1e-3),
+    Kind::case(OF, "clock", "the clock goes slow: time is counted in units larger by a share", |case, size| {
+        scaled(case, 1.0 - size)
+    })
+    .sized(1e-3),
+];
+
+/// The case with one drive changed.
+fn turned(case: &Case, index: usize, change: impl Fn(&mut Drive)) -> Option<Case> {
+    parts(case, |parts| {
+        driven(parts, index, change);
+        Some(())
+    })
+}
+
+fn started(case: &Case, index: usize, to: impl Fn(f64) -> f64) -> Option<Case> {
+    let old = case.drives.get(index)?.start;
+    let new = to(old);
+    if new == old {
+        return None;
+    }
+    parts(case, |parts| {
+        driven(parts, index, |drive| drive.start = new);
+        reassembled(parts)
+    })
+}
+
+fn faster(case: &Case, index: usize, factor: f64) -> Option<Case> {
+    let drive = case.drives.get(index)?;
+    if drive.is_free() && drive.initial_speed() == 0.0 {
+        return None;
+    }
+    turned(case, index, |drive| match &mut drive.motion {
+        DriveMotion::Prescribed { law, .. } => *law = at_speed(law, factor * law.top_speed()),
+        DriveMotion::Free { initial_speed, .. } => *initial_speed *= factor,
+    })
+}
+
+fn initial(case: &Case, to: impl Fn(f64) -> f64) -> Option<Case> {
+    case.crank().is_free().then_some(())?;
+    turned(case, 0, |drive| match &mut drive.motion {
+        DriveMotion::Prescribed { .. } => {}
+        DriveMotion::Free { initial_speed, .. } => *initial_speed = to(*initial_speed),
+    })
+}
+
+/// Instants earlier by the time of an angle (rad) at top speed; none before t = 0 where the motion begins there.
+fn shifted(case: &Case, angle: f64) -> Option<Case> {
+    let begins = case.is_free() || case.crank().constant_speed().is_none();
+    let by = angle / case.crank().top_speed().abs();
+    let earlier = |&t: &f64| if begins && t < by { 0.0 } else { t - by };
+    case.on(Grid::of_times(case.crank(), case.grid.times.iter().map(earlier).collect())).ok()
+}
+
+fn scaled(case: &Case, factor: f64) -> Option<Case> {
+    let times = case.grid.times.iter().map(|t| t * factor).collect();
+    case.on(Grid::of_times(case.crank(), times)).ok()
+}

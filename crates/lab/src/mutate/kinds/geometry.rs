@@ -1,0 +1,107 @@
+//! Lengths, guides and configurations.
+
+use super::kind::{Family, Kind};
+use super::touch::{coupler, crank, ends, move_places, moving_guide, output, placed, slider};
+use linkage::case::Case;
+use linkage::math::{Vec2, rotated, turned, unit};
+use linkage::mechanism::{GROUND, JointKind};
+use prover::diagnosis::others;
+
+const OF: Family = Family::Geometry;
+
+pub(super) const KINDS: &[Kind] = &[
+    Kind::case(
+        OF,
+        "coupler-longer",
+        "the first link that is not driven is longer by a share of its length",
+        |case, size| stretched(case, coupler(case)?, 1.0 + size),
+    )
+    .sized(1e-2),
+    Kind::case(OF, "crank-longer", "the crank is longer by a share of its length", |case, size| {
+        stretched(case, crank(case), 1.0 + size)
+    })
+    .sized(1e-2),
+    Kind::case(OF, "crank-half", "the crank has half its length", |case, _| stretched(case, crank(case), 0.5)),
+    Kind::case(OF, "output-longer", "the last link is longer by a share of its length", |case, size| {
+        stretched(case, output(case), 1.0 + size)
+    })
+    .sized(1e-2),
+    Kind::case(
+        OF,
+        "pivot-aside",
+        "the last pivot of the ground is moved along x by a share of the size",
+        |case, size| pivot(case, |place, long| place + Vec2::new(size * long, 0.0)),
+    )
+    .sized(1e-2),
+    Kind::case(OF, "pivot-up", "the last pivot of the ground is moved along y by a share of the size", |case, size| {
+        pivot(case, |place, long| place + Vec2::new(0.0, size * long))
+    })
+    .sized(1e-2),
+    Kind::case(OF, "pivot-mirrored", "the last pivot of the ground has y with the wrong sign", |case, _| {
+        pivot(case, |place, _| Vec2::new(place.x, -place.y))
+    }),
+    Kind::case(
+        OF,
+        "point-mirrored",
+        "a place on a link with three places is on the wrong side of the link",
+        |case, _| {
+            let joints = case.mechanism.joints();
+            let off = |link: usize| joints.iter().filter_map(move |joint| joint.on(link)).find(|place| place.y != 0.0);
+            let link = (1..case.mechanism.links().len()).find(|&link| off(link).is_some())?;
+            let wrong = off(link)?;
+            let mirrored = move |place: Vec2| if place == wrong { Vec2::new(place.x, -place.y) } else { place };
+            placed(case, |links, joints| move_places(links, joints, link, mirrored))
+        },
+    ),
+    Kind::case(OF, "guide-turned", "the axis of the first slider is turned by an angle", |case, size| {
+        guided(case, slider(case)?, |axis| rotated(unit(size), axis), 0.0)
+    })
+    .sized(1e-2),
+    Kind::case(
+        OF,
+        "guide-aside",
+        "the guide of the first slider is moved across by a share of the size",
+        |case, size| guided(case, slider(case)?, |axis| axis, size * case.mechanism.size()),
+    )
+    .sized(1e-2),
+    Kind::case(OF, "moving-guide-aside", "a guide that moves is moved across by a share of the size", |case, size| {
+        guided(case, moving_guide(case)?, |axis| axis, size * case.mechanism.size())
+    })
+    .sized(1e-2),
+    Kind::case(OF, "branch", "the first group that has another configuration is in that one", |case, _| {
+        others(case).into_iter().next().map(|(_, other)| other)
+    }),
+    Kind::case(OF, "last-branch", "the last group that has another configuration is in that one", |case, _| {
+        others(case).into_iter().next_back().map(|(_, other)| other)
+    }),
+];
+
+/// All places on a link moved away from the first one by a factor.
+fn stretched(case: &Case, link: usize, factor: f64) -> Option<Case> {
+    let [first, _] = ends(case, link)?;
+    placed(case, |links, joints| move_places(links, joints, link, |place| first + (place - first) * factor))
+}
+
+/// The last place of a pin on the ground that is not the crank's, moved; `to` is given the place and the size of the
+/// mechanism (m).
+fn pivot(case: &Case, to: impl Fn(Vec2, f64) -> Vec2) -> Option<Case> {
+    let pins = case.mechanism.joints().iter().enumerate().filter(|(_, joint)| joint.is_pin());
+    let fixed = pins.filter(|(index, _)| *index != case.crank().joint);
+    let last = fixed.filter_map(|(_, joint)| joint.on(GROUND)).next_back()?;
+    let (new, moved) = (to(last, case.mechanism.size()), |place, new| if place == last { new } else { place });
+    if new == last {
+        return None;
+    }
+    placed(case, |links, joints| move_places(links, joints, GROUND, |place| moved(place, new)))
+}
+
+/// A prismatic joint with another axis on its first link, and its place there moved across (m).
+fn guided(case: &Case, joint: usize, axis: impl Fn(Vec2) -> Vec2, across: f64) -> Option<Case> {
+    placed(case, |_, joints| {
+        let own = &mut joints[joint];
+        if let JointKind::Prismatic { axes } = &mut own.kind {
+            own.first.local += turned(axes[0]) * across;
+            axes[0] = axis(axes[0]);
+        }
+    })
+}

@@ -1,0 +1,226 @@
+//! Which faults are planted where, and all of them at once.
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::mpsc;
+
+use super::effect::Effect;
+use super::formulas;
+use super::kinds::{self, Family, Kind, Mistake, Plant};
+use super::lost::smallest;
+use super::mutant::{Mutant, Mutated, Party};
+use super::planted::Fault;
+use super::seen::Outcome;
+use super::stage::Stage;
+use linkage::error::{Advice, Error, ErrorKind, Result};
+use prover::proof::{BUDGET, Options};
+use scenario::Scenario;
+
+/// What is asked for.
+#[derive(Clone, Debug, Default)]
+pub struct Asked {
+    /// Names of kinds or families; all if empty.
+    pub kinds: Vec<String>,
+    /// Parties; all if empty.
+    pub parties: Vec<Party>,
+    /// Whether the size is searched at which a fault is lost.
+    pub with_sizes: bool,
+    /// Number of threads; as many as there are cores if zero.
+    pub jobs: usize,
+    /// Options of the proofs.
+    pub options: Options,
+}
+
+impl Asked {
+    fn kinds(&self) -> Vec<&'static Kind> {
+        let is_asked = |kind: &&Kind| {
+            self.kinds.is_empty() || self.kinds.iter().any(|own| own == kind.name || own == kind.family.name())
+        };
+        let takes = |kind: &&Kind| self.parties().iter().any(|party| party.takes(kind));
+        kinds::all().filter(is_asked).filter(takes).collect()
+    }
+
+    fn parties(&self) -> Vec<Party> {
+        if self.parties.is_empty() { Party::ALL.to_vec() } else { self.parties.clone() }
+    }
+}
+
+/// Plants all faults that are asked for in a scenario. The result does not depend on the number of threads.
+///
+/// # Errors
+/// Those of the proof without a fault; [`ErrorKind::Input`] if it disagrees.
+pub fn mutate(scenario: &Scenario, asked: &Asked, progress: &mut dyn FnMut(f64)) -> Result<Mutated> {
+    let stage = Stage::new(scenario, &asked.options)?;
+    if stage.verdict == "disagree" {
+        let message = format!("{} disagrees without a fault, so that every fault would count as found", scenario.name);
+        let help = "prove it without a fault, and mend what disagrees";
+        return Err(Error::new(ErrorKind::Input, message).help(help));
+    }
+    let kinds = asked.kinds();
+    allowed(&stage, &kinds, asked)?;
+    let next = AtomicUsize::new(0);
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    let threads = if asked.jobs == 0 { cores } else { asked.jobs };
+    let (tell, told) = mpsc::channel();
+    let mut found: Vec<Option<Result<Planting>>> = kinds.iter().map(|_| None).collect();
+    std::thread::scope(|scope| {
+        for _ in 0..threads.min(kinds.len()) {
+            let (tell, next, kinds, stage) = (tell.clone(), &next, &kinds, &stage);
+            scope.spawn(move || {
+                while let Some(kind) = kinds.get(next.fetch_add(1, Ordering::Relaxed)) {
+                    let _ = tell.send((kind.name, of_kind(stage, kind, asked)));
+                }
+            });
+        }
+        drop(tell);
+        for (count, (name, planting)) in told.into_iter().enumerate() {
+            let index = kinds.iter().position(|kind| kind.name == name).expect("the kind is one of these");
+            found[index] = Some(planting);
+            progress((count + 1) as f64 / kinds.len() as f64);
+        }
+    });
+    let (mut mutants, mut without) = (Vec::new(), Vec::new());
+    for (kind, planting) in kinds.iter().zip(found) {
+        match planting.expect("every kind was planted")? {
+            Planting::Nowhere => without.push(kind.name),
+            Planting::Done(own) => mutants.extend(own),
+        }
+    }
+    let is_real = |mutant: &Mutant| !matches!(mutant.outcome, Outcome::Equivalent(_));
+    let instead = if mutants.iter().any(is_real) { Vec::new() } else { families(&stage)? };
+    let formulas = stage.formulas().len();
+    let Stage { verdict, engine, .. } = stage;
+    Ok(Mutated { scenario: scenario.name.clone(), verdict, engine, mutants, formulas, without, instead })
+}
+
+/// Work that all faults of a file may take, over what one proof may: shipped mechanisms take less than that of five.
+const PROOFS: f64 = 10.0;
+/// Proofs that a size takes in which the fault is lost.
+const SIZES: f64 = 8.0;
+
+/// Whether all faults that are asked for can be planted with the work that is allowed.
+///
+/// # Errors
+/// [`ErrorKind::Unsupported`] if not, with what it would take.
+fn allowed(stage: &Stage, kinds: &[&'static Kind], asked: &Asked) -> Result<()> {
+    let [sides, engine] = stage.work;
+    let formulas = stage.formulas().len() as f64 * stage.work_of_formulas();
+    let (mut faults, mut work) = (0usize, 0.0);
+    for kind in kinds {
+        for party in asked.parties().into_iter().filter(|party| party.takes(kind)) {
+            let once = match party {
+                Party::Assur | Party::Newton | Party::All => sides,
+                Party::Engine => engine,
+                Party::Formulas => formulas,
+            };
+            let is_sized = asked.with_sizes && kind.size.is_some() && party != Party::All;
+            faults += if party == Party::Formulas { stage.formulas().len() } else { 1 };
+            work += once * if is_sized { 1.0 + SIZES } else { 1.0 };
+        }
+    }
+    let budget = asked.options.budget.unwrap_or(BUDGET);
+    if work <= PROOFS * budget {
+        return Ok(());
+    }
+    let message = format!(
+        "{}: planting {faults} faults takes the work of about {work:.1e} steps of a four-bar, {:.1e} are allowed",
+        stage.scenario.name,
+        PROOFS * budget
+    );
+    let help = "plant fewer of them: some kinds, one party, or no sizes";
+    Err(Error::new(ErrorKind::Unsupported, message).help(help).or_help(Advice::MoreWork { to: work / PROOFS }))
+}
+
+/// Names of the families of which a kind changes something in a scenario.
+fn families(stage: &Stage) -> Result<Vec<&'static str>> {
+    let mut names = Vec::new();
+    for family in Family::ALL {
+        for kind in kinds::all().filter(|kind| kind.family == family) {
+            let changes = match kind.plant {
+                Plant::Formula(mistake) => !spoiled(stage, kind, mistake, true)?.is_empty(),
+                Plant::Case(_) | Plant::Answer(_) => matches!(stage.effect(fault(kind))?, Effect::Changes(_)),
+            };
+            if changes {
+                names.push(family.name());
+                break;
+            }
+        }
+    }
+    Ok(names)
+}
+
+/// A kind at the size that is tried first.
+fn fault(kind: &'static Kind) -> Fault {
+    Fault { kind, size: kind.size.unwrap_or(1.0) }
+}
+
+/// What came of one kind.
+enum Planting {
+    Nowhere,
+    Done(Vec<Mutant>),
+}
+
+/// A mistake in every formula that has a place for it, with what it changes; if `only_real`, the first that changes
+/// something.
+fn spoiled(
+    stage: &Stage,
+    kind: &'static Kind,
+    mistake: Mistake,
+    only_real: bool,
+) -> Result<Vec<(usize, formulas::Planting, Effect)>> {
+    let mut all = Vec::new();
+    for index in stage.formulas() {
+        let Some(own) = stage.planting(kind, mistake, index, fault(kind).size) else { continue };
+        let effect = stage.formula_effect(&own)?;
+        let is_real = !matches!(effect, Effect::Equivalent(_) | Effect::None);
+        if is_real || !only_real {
+            all.push((index, own, effect));
+        }
+        if is_real && only_real {
+            break;
+        }
+    }
+    Ok(all)
+}
+
+fn in_formulas(stage: &Stage, kind: &'static Kind, mistake: Mistake, asked: &Asked) -> Result<Planting> {
+    let found = |index: usize, size: f64| {
+        stage.planting(kind, mistake, index, size).is_some_and(|own| stage.formula_outcome(&own).is_found())
+    };
+    let mut mutants = Vec::new();
+    for (index, own, effect) in spoiled(stage, kind, mistake, false)? {
+        let (outcome, effect) = match effect {
+            Effect::Equivalent(change) => (Outcome::Equivalent(change), Some(change)),
+            Effect::Changes(change) => (stage.formula_outcome(&own), Some(change)),
+            Effect::None | Effect::Unsolved => (stage.formula_outcome(&own), None),
+        };
+        let sized = kind.size.filter(|_| asked.with_sizes).zip(outcome.margin());
+        let smallest = sized.map(|(size, margin)| smallest(size, margin, &|size| found(index, size)));
+        mutants.push(Mutant { kind, party: Party::Formulas, formula: Some(own.what), outcome, effect, smallest });
+    }
+    Ok(if mutants.is_empty() { Planting::Nowhere } else { Planting::Done(mutants) })
+}
+
+fn of_kind(stage: &Stage, kind: &'static Kind, asked: &Asked) -> Result<Planting> {
+    if let Plant::Formula(mistake) = kind.plant {
+        return in_formulas(stage, kind, mistake, asked);
+    }
+    let fault = fault(kind);
+    let effect = stage.effect(fault)?;
+    let change = match effect {
+        Effect::None => return Ok(Planting::Nowhere),
+        Effect::Unsolved => None,
+        Effect::Equivalent(change) | Effect::Changes(change) => Some(change),
+    };
+    let parties = asked.parties().into_iter().filter(|party| party.takes(kind));
+    let one = |party: Party| {
+        let outcome = match effect {
+            Effect::Equivalent(change) => Outcome::Equivalent(change),
+            Effect::None | Effect::Unsolved | Effect::Changes(_) => stage.proven(fault, party),
+        };
+        let sized = asked.with_sizes && kind.size.is_some() && party != Party::All;
+        let is_found = |size: f64| stage.proven(Fault { size, ..fault }, party).is_found();
+        let smallest = outcome.margin().filter(|_| sized).map(|margin| smallest(fault.size, margin, &is_found));
+        Mutant { kind, party, formula: None, outcome, effect: change, smallest }
+    };
+    Ok(Planting::Done(parties.map(one).collect()))
+}

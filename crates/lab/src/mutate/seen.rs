@@ -1,0 +1,193 @@
+//! Who sees a fault: channels and checks beyond their bounds, since when, by how much.
+
+use linkage::math::statistics::ascending;
+use linkage::trajectory::Trajectory;
+use prover::compare::{Check, Verdict, differences, overall};
+use prover::proof::{ChannelProof, EngineProof, Judgement, Sides};
+
+/// A channel or a check beyond its bound.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sight {
+    /// Name of the channel or check, and who compares.
+    pub what: String,
+    /// First instant beyond the bound (s), and its crank angle (rad); `None` for a check of the whole run.
+    pub since: Option<(f64, f64)>,
+    /// Largest difference over its bound.
+    pub margin: f64,
+}
+
+/// How a proof ended in which one party has a fault.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Outcome {
+    /// Something disagrees.
+    Detected {
+        /// What sees it first: the earliest instant, and of several the largest margin.
+        first: Sight,
+        /// What sees it most clearly.
+        clearest: Sight,
+        /// Number of channels beyond their bounds.
+        channels: usize,
+        /// Families of checks that disagree.
+        checks: Vec<String>,
+    },
+    /// A party has no answer; its message.
+    Refused(String),
+    /// Nothing is proven either way; the reason.
+    Inconclusive(String),
+    /// Everything agrees.
+    Escaped,
+    /// Exact answers are the same to rounding: the largest change, relative to the largest number of a quantity.
+    Equivalent(f64),
+}
+
+impl Outcome {
+    /// Word for tables.
+    #[must_use]
+    pub fn word(&self) -> &'static str {
+        match self {
+            Outcome::Detected { .. } => "detected",
+            Outcome::Refused(_) => "refused",
+            Outcome::Inconclusive(_) => "inconclusive",
+            Outcome::Escaped => "escaped",
+            Outcome::Equivalent(_) => "equivalent",
+        }
+    }
+
+    /// Whether a user learns that something is wrong.
+    #[must_use]
+    pub fn is_found(&self) -> bool {
+        match self {
+            Outcome::Detected { .. } | Outcome::Refused(_) => true,
+            Outcome::Inconclusive(_) | Outcome::Escaped | Outcome::Equivalent(_) => false,
+        }
+    }
+
+    /// Largest margin of a detected fault.
+    #[must_use]
+    pub fn margin(&self) -> Option<f64> {
+        match self {
+            Outcome::Detected { clearest, .. } => Some(clearest.margin),
+            Outcome::Refused(_) | Outcome::Inconclusive(_) | Outcome::Escaped | Outcome::Equivalent(_) => None,
+        }
+    }
+}
+
+fn disagrees(verdict: &Verdict) -> bool {
+    matches!(verdict, Verdict::Disagree { .. })
+}
+
+/// Puts together what sees a fault.
+#[derive(Default)]
+pub(super) struct Eyes {
+    sights: Vec<Sight>,
+    channels: usize,
+    checks: Vec<String>,
+    verdicts: Vec<Verdict>,
+}
+
+impl Eyes {
+    /// What the analytic sides see; `is_outside` leaves out what they see in each other.
+    pub(super) fn sides(mut self, sides: &Sides, is_outside: bool) -> Self {
+        if !is_outside {
+            let beyond = sides.beyond();
+            self.channels += beyond.len();
+            let sights = beyond.into_iter().map(|own| Sight {
+                what: format!("{} (assur against newton)", own.channel),
+                since: Some(own.since),
+                margin: own.margin,
+            });
+            self.sights.extend(sights);
+        }
+        let between = |check: &&Check| check.family.starts_with("assur against newton");
+        self.checks(sides.checks.iter().filter(|check| !is_outside || !between(check)));
+        self
+    }
+
+    /// What an engine sees.
+    pub(super) fn engine(mut self, proof: &EngineProof, reference: &Trajectory) -> Self {
+        let name = proof.info.name;
+        if let Some(trajectory) = &proof.trajectory {
+            self.channels(&proof.channels, reference, trajectory, &proof.kept, name);
+        }
+        if let Some(own) = &proof.own_forces
+            && let Some(trajectory) = &own.trajectory
+            && own.adds().is_some()
+        {
+            self.channels(&own.channels, reference, trajectory, &[], &format!("{name}'s own forces"));
+        }
+        self.checks(proof.checks.iter());
+        self.verdicts.push(proof.verdict.clone());
+        self
+    }
+
+    /// What the judgement of formulas sees; its `checks` are in its order.
+    pub(super) fn formulas(mut self, judgement: &Judgement, checks: &[Check]) -> Self {
+        let judged = judgement.sides.iter().flat_map(|(_, all)| all.iter().flatten());
+        for (check, judged) in checks.iter().zip(judged) {
+            let before = self.sights.len();
+            self.checks(std::iter::once(check));
+            for sight in &mut self.sights[before..] {
+                sight.since = judged.since.map(|at| (at.time, at.crank));
+            }
+        }
+        self
+    }
+
+    fn channels(
+        &mut self,
+        judged: &[ChannelProof],
+        reference: &Trajectory,
+        run: &Trajectory,
+        kept: &[bool],
+        who: &str,
+    ) {
+        let rows = ascending(reference.times());
+        for own in judged.iter().filter(|own| disagrees(&own.verdict)) {
+            let channel = &own.residual.channel;
+            self.channels += 1;
+            let since = reference.column(channel).zip(run.column(channel)).and_then(|(ours, theirs)| {
+                let gaps = differences(ours, theirs, channel.kind.periodic);
+                let is_beyond =
+                    |row: &&usize| kept.get(**row).copied().unwrap_or(true) && !(gaps[**row].abs() <= own.bound);
+                let first = *rows.iter().find(is_beyond)?;
+                Some((reference.times()[first], reference.cranks()[first]))
+            });
+            let what = format!("{channel} ({who})");
+            self.sights.push(Sight { what, since, margin: own.residual.max / own.bound });
+        }
+    }
+
+    fn checks<'a>(&mut self, checks: impl Iterator<Item = &'a Check>) {
+        for check in checks {
+            self.verdicts.push(check.verdict.clone());
+            if disagrees(&check.verdict) {
+                if !self.checks.contains(&check.family) {
+                    self.checks.push(check.family.clone());
+                }
+                self.sights.push(Sight { what: check.name(), since: None, margin: check.used() });
+            }
+        }
+    }
+
+    /// Whether something disagrees already.
+    pub(super) fn is_decided(&self) -> bool {
+        self.verdicts.iter().any(disagrees)
+    }
+
+    /// The outcome, all verdicts together.
+    pub(super) fn outcome(self) -> Outcome {
+        match overall(&self.verdicts) {
+            Verdict::Disagree { place } => {
+                let unnamed = || Sight { what: place.clone(), since: None, margin: f64::INFINITY };
+                let time = |sight: &Sight| sight.since.map_or(f64::INFINITY, |(time, _)| time);
+                let earlier = |a: &&Sight, b: &&Sight| time(a).total_cmp(&time(b)).then(b.margin.total_cmp(&a.margin));
+                let first = self.sights.iter().min_by(earlier).cloned().unwrap_or_else(unnamed);
+                let clearest = self.sights.iter().max_by(|a, b| a.margin.total_cmp(&b.margin));
+                let clearest = clearest.cloned().unwrap_or_else(unnamed);
+                Outcome::Detected { first, clearest, channels: self.channels, checks: self.checks }
+            }
+            Verdict::Inconclusive { reason, .. } => Outcome::Inconclusive(reason),
+            Verdict::Agree { .. } | Verdict::Expected { .. } => Outcome::Escaped,
+        }
+    }
+}

@@ -1,0 +1,224 @@
+//! One scenario with its true parties, and proofs in which one of them has a fault.
+
+use std::sync::OnceLock;
+
+use super::effect::{Effect, effect};
+use super::kinds::Plant;
+use super::mutant::Party;
+use super::planted::{Fault, Planted};
+use super::seen::{Eyes, Outcome};
+use analytic::{AssurSolver, NewtonSolver, TIGHT_ASSUR, TIGHT_NEWTON};
+use linkage::case::Case;
+use linkage::engine::{Engine, Kept};
+use linkage::error::Result;
+use linkage::math::KeepNan;
+use linkage::solver::Solver;
+use linkage::trajectory::{Channel, Trajectory};
+use linkage::work::{Count, PLACED, counted, limited};
+use prover::claims::Course;
+use prover::compare::overall;
+use prover::proof::{BUDGET, EngineProof, Engines, Entrant, Ledger, Options, SIDES, SideClaims, Sides, TRUE_SIDES};
+use scenario::{Formulas, Scenario};
+use std::collections::BTreeSet;
+
+/// What stands around an engine.
+type Around<'a> = &'a dyn Fn(Box<dyn Engine>) -> Box<dyn Engine>;
+
+/// A scenario's proof without a fault, and what can be used again.
+pub(super) struct Stage<'a> {
+    pub(super) scenario: Scenario,
+    /// The scenario with the whole mechanism, where only part of it is wanted.
+    whole: &'a Scenario,
+    options: &'a Options,
+    /// The analytic sides without a fault.
+    sides: Sides,
+    /// Exact answers of side 1, and the error of its integration, channel by channel.
+    right: Trajectory,
+    integration: Vec<f64>,
+    /// The engine's runs without a fault.
+    runs: OnceLock<Kept>,
+    /// Work of both sides, and of the engine, without a fault (in steps of an engine's four-bar).
+    pub(super) work: [f64; 2],
+    /// Verdict of the proof without a fault, and the engine.
+    pub(super) verdict: &'static str,
+    pub(super) engine: &'static str,
+}
+
+impl<'a> Stage<'a> {
+    /// Proves the scenario without a fault.
+    ///
+    /// # Errors
+    /// Those of the proof.
+    pub(super) fn new(scenario: &'a Scenario, options: &'a Options) -> Result<Self> {
+        let (whole, scenario) = (scenario, Scenario { case: scenario.case.scene()?.case, ..scenario.clone() });
+        let allowed = options.budget.unwrap_or(BUDGET).larger(SIDES);
+        let of_sides = || Sides::of([&scenario, whole], TRUE_SIDES, options.reference, &mut Ledger::default());
+        let (sides, done) = counted(|| limited(allowed, of_sides).0);
+        let sides = sides?;
+        // Side 2 counts no groups; it places as many links.
+        let placed = PLACED * 2.0 * done.of(Count::Groups) as f64 + done.of(Count::Intervals) as f64;
+        let right = AssurSolver.solve(&scenario.case)?;
+        let integration = sides.integration();
+        let runs = OnceLock::new();
+        let (work, verdict, engine) = ([placed, 0.0], "", "");
+        let mut stage = Stage { scenario, whole, options, sides, right, integration, runs, work, verdict, engine };
+        let proof = stage.engine(&stage.sides, &|own| stage.kept(own), true)?;
+        let own_forces = proof.own_forces.as_ref().and_then(|own| own.search.as_ref());
+        stage.work[1] = proof.search.iter().chain(own_forces).map(|own| own.effort).sum();
+        let verdict = stage.sides.verdict();
+        (stage.verdict, stage.engine) = (overall([&verdict, &proof.verdict]).word(), proof.info.name);
+        Ok(stage)
+    }
+
+    /// The engine's proof against these sides.
+    fn engine(&self, sides: &Sides, around: Around, own_forces: bool) -> Result<EngineProof> {
+        let how = Engines { case: &self.scenario.case, around, own_forces };
+        let engines = self.options.chosen(&self.scenario)?;
+        let mut proofs = sides.engines(&self.scenario, &how, engines, (&mut Ledger::default(), &mut |_| {}))?;
+        Ok(proofs.swap_remove(0))
+    }
+
+    /// The engine whose runs are kept for all proofs of this scenario.
+    fn kept(&self, engine: Box<dyn Engine>) -> Box<dyn Engine> {
+        kept_in(&self.runs, engine)
+    }
+
+    /// Names of the formulas that both sides judge.
+    pub(super) fn judged_formulas(&self) -> BTreeSet<&str> {
+        let judged = self.sides.judgement().into_iter().flat_map(|own| &own.sides[0].1);
+        judged.filter_map(|all| Some(all.first()?.name.as_str())).collect()
+    }
+
+    /// The channels that the sides have solved.
+    pub(super) fn channels(&self) -> &[Channel] {
+        self.right.channels()
+    }
+
+    /// Crank angles of all instants (rad).
+    pub(super) fn cranks(&self) -> &[f64] {
+        self.right.cranks()
+    }
+
+    /// What side 1 has found, as formulas are judged by it.
+    pub(super) fn on_course<T>(&self, then: &dyn Fn(&Course) -> Result<T>) -> Result<T> {
+        self.sides.on_course(&self.scenario.case, 0, then)
+    }
+
+    /// What both sides say of formulas.
+    pub(super) fn claimed(&self, formulas: &Formulas) -> Result<[SideClaims; 2]> {
+        self.sides.claimed(&self.scenario.case, formulas)
+    }
+
+    /// What a fault changes in exact answers.
+    pub(super) fn effect(&self, fault: Fault) -> Result<Effect> {
+        effect(&self.scenario.case, &self.right, &self.integration, fault)
+    }
+
+    /// The proof with a fault in one party.
+    pub(super) fn proven(&self, fault: Fault, party: Party) -> Outcome {
+        let outcome = match party {
+            Party::Assur | Party::Newton => self.in_side(fault, party),
+            Party::Engine => self.in_engine(fault),
+            Party::All => self.in_all(fault),
+            Party::Formulas => Ok(Outcome::Refused("mistakes of formulas are planted in formulas".into())),
+        };
+        outcome.unwrap_or_else(|error| Outcome::Refused(error.message().into()))
+    }
+
+    fn in_side(&self, fault: Fault, party: Party) -> Result<Outcome> {
+        let wrong = planted_sides(fault);
+        let mut entrants = TRUE_SIDES;
+        let index = usize::from(party == Party::Newton);
+        entrants[index] = Entrant { solver: &wrong[index][0], tight: &wrong[index][1] };
+        let sides = self.sides([&self.scenario, self.whole], entrants)?;
+        let eyes = Eyes::default().sides(&sides, false);
+        if eyes.is_decided() {
+            return Ok(eyes.outcome());
+        }
+        self.judged(&sides, &|own| self.kept(own))
+    }
+
+    fn in_engine(&self, fault: Fault) -> Result<Outcome> {
+        let runs = OnceLock::new();
+        let around = |own: Box<dyn Engine>| -> Box<dyn Engine> {
+            match fault.kind.plant {
+                Plant::Case(_) => kept_in(&runs, Box::new(Planted { hook: fault, inner: own })),
+                // Its runs are right; what it says of them is wrong.
+                Plant::Answer(_) | Plant::Formula(_) => Box::new(Planted { hook: fault, inner: self.kept(own) }),
+            }
+        };
+        self.judged(&self.sides, &around)
+    }
+
+    /// The engine's own part of a proof in which what it answers has a fault.
+    #[cfg(test)]
+    pub(super) fn engine_proof(&self, fault: Fault) -> Result<EngineProof> {
+        self.engine(&self.sides, &|own| Box::new(Planted { hook: fault, inner: self.kept(own) }), false)
+    }
+
+    /// The engine against these sides. Its own forces are asked where its motion and their forces agree: no verdict on
+    /// them takes a disagreement back.
+    fn judged(&self, sides: &Sides, around: Around) -> Result<Outcome> {
+        let mut last = Outcome::Escaped;
+        for own_forces in [false, true] {
+            let proof = self.engine(sides, around, own_forces)?;
+            if let Some(error) = &proof.failure {
+                return Ok(Outcome::Refused(error.message().into()));
+            }
+            last = Eyes::default().sides(sides, false).engine(&proof, sides.trajectory()).outcome();
+            if last.is_found() {
+                break;
+            }
+        }
+        Ok(last)
+    }
+
+    fn sides(&self, scenarios: [&Scenario; 2], entrants: [Entrant; 2]) -> Result<Sides> {
+        Sides::of(scenarios, entrants, self.options.reference, &mut Ledger::default())
+    }
+
+    /// Whether a case differs in its instants only.
+    fn is_late(&self, case: &Case) -> bool {
+        let right = &self.scenario.case;
+        case.grid != right.grid && case.on(right.grid.clone()).is_ok_and(|own| own == *right)
+    }
+
+    /// The fault in what all parties share: no party can contradict another, and what comes from outside is asked.
+    fn in_all(&self, fault: Fault) -> Result<Outcome> {
+        let case = match fault.kind.plant {
+            Plant::Case(change) => match change(&self.scenario.case, fault.size) {
+                None => return Ok(Outcome::Refused("the case cannot be put together".into())),
+                // Whoever asks names the instants. What is wrong is when the sides take them to be.
+                Some(case) if self.is_late(&case) => None,
+                Some(case) => Some(case),
+            },
+            Plant::Answer(_) | Plant::Formula(_) => None,
+        };
+        let sides = match case {
+            Some(case) => {
+                let wrong = Scenario { case, ..self.scenario.clone() };
+                self.sides([&wrong, &wrong], TRUE_SIDES)?
+            }
+            None => {
+                let wrong = planted_sides(fault);
+                let entrants = [0, 1].map(|side: usize| Entrant { solver: &wrong[side][0], tight: &wrong[side][1] });
+                self.sides([&self.scenario, self.whole], entrants)?
+            }
+        };
+        Ok(Eyes::default().sides(&sides, true).outcome())
+    }
+}
+
+/// The engine with the runs that are kept; they are those of the first engine that comes.
+fn kept_in(runs: &OnceLock<Kept>, engine: Box<dyn Engine>) -> Box<dyn Engine> {
+    runs.get_or_init(|| Kept::new(engine.as_ref())).with(engine.settings())
+}
+
+/// Side 1 and side 2 with a fault, each as it is and with a tighter tolerance.
+fn planted_sides(fault: Fault) -> [[Planted<dyn Solver>; 2]; 2] {
+    let planted = |inner: Box<dyn Solver>| Planted { hook: fault, inner };
+    [
+        [planted(Box::new(AssurSolver)), planted(Box::new(TIGHT_ASSUR))],
+        [planted(Box::new(NewtonSolver)), planted(Box::new(TIGHT_NEWTON))],
+    ]
+}

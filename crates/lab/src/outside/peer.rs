@@ -1,0 +1,106 @@
+//! A peer: a command that is given a scenario and answers with a solution. docs/peers.md is the protocol.
+
+use std::cell::RefCell;
+use std::fs;
+use std::path::Path;
+
+use serde_json::{Value, json};
+use tempfile::TempDir;
+
+use super::answer;
+use super::process;
+use crate::bench::{Answer, Clock, Peer, Way};
+use files::visible;
+
+/// Version of the protocol.
+const PROTOCOL: u32 = 1;
+
+/// A scenario as other programs get it.
+#[derive(Clone, Debug)]
+pub struct Exports {
+    /// Its name.
+    pub name: String,
+    /// The case as JSON.
+    pub case: String,
+    /// The case as MJCF, or why there is none.
+    pub mjcf: Result<String, String>,
+    /// Whether a coarse picture is enough.
+    pub is_quick: bool,
+}
+
+/// A command that speaks the protocol.
+pub struct Command<'a> {
+    name: String,
+    command: String,
+    exports: &'a Exports,
+    /// Longest time of a call (s).
+    limit: f64,
+    clock: Clock<'a>,
+    /// Made where it is first needed, and removed with the peer.
+    place: RefCell<Option<TempDir>>,
+}
+
+impl<'a> Command<'a> {
+    /// The peer `name`, called as `command`, which may take `limit` (s) a call.
+    pub fn new(name: &str, command: &str, exports: &'a Exports, limit: f64, clock: Clock<'a>) -> Self {
+        let (name, command) = (name.to_string(), command.to_string());
+        Command { name, command, exports, limit, clock, place: RefCell::new(None) }
+    }
+
+    /// Calls the command with a request and gives its output and the directory to `read`.
+    fn call<T>(
+        &self,
+        what: &str,
+        way: Option<&Way>,
+        read: impl FnOnce(&str, &Path) -> Result<T, String>,
+    ) -> Result<T, String> {
+        let mut place = self.place.borrow_mut();
+        if place.is_none() {
+            *place = Some(self.furnished().map_err(|error| format!("no temporary directory: {error}"))?);
+        }
+        let directory = place.as_ref().expect("it was made").path();
+        let table = directory.join("answer.csv");
+        let request = directory.join("request.json");
+        // A table of an earlier run is no answer, and a link in the place of the request is not followed.
+        for old in [&table, &request] {
+            let _ = fs::remove_file(old);
+        }
+        let way = way.map_or(Value::Null, |way| serde_json::from_str(&way.told).unwrap_or(Value::Null));
+        let mjcf = self.exports.mjcf.as_ref();
+        let value = json!({
+            "protocol": PROTOCOL, "do": what, "scenario": self.exports.name, "quick": self.exports.is_quick,
+            "case": directory.join("case.json"), "csv": table, "way": way,
+            "mjcf": mjcf.ok().map(|_| directory.join("model.xml")), "mjcf_refused": mjcf.err(),
+        });
+        fs::write(&request, value.to_string()).map_err(|error| format!("the request cannot be written: {error}"))?;
+        let request = request.to_string_lossy();
+        let output = process::run(&self.command, &[what, &request], directory, self.limit, self.clock);
+        // Whatever it says of its failure is shown to people.
+        output.and_then(|output| read(&output, directory)).map_err(|reason| visible(&reason, false))
+    }
+
+    fn furnished(&self) -> std::io::Result<TempDir> {
+        let place = TempDir::with_prefix("linkproof-peer-")?;
+        fs::write(place.path().join("case.json"), &self.exports.case)?;
+        if let Ok(model) = &self.exports.mjcf {
+            fs::write(place.path().join("model.xml"), model)?;
+        }
+        Ok(place)
+    }
+}
+
+impl Peer for Command<'_> {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn ways(&self) -> Result<Vec<Way>, String> {
+        self.call("ways", None, |output, _| answer::ways(output))
+    }
+
+    fn run(&self, way: &Way) -> Result<Answer, String> {
+        let read =
+            |output: &str, directory: &Path| answer::answer(output, || process::text(&directory.join("answer.csv")));
+        self.call("solve", Some(way), read)
+    }
+}

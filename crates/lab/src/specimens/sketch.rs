@@ -1,0 +1,205 @@
+//! Mechanisms drawn at random in their start pose. Links have any place and direction, and a joint is put at the
+//! present place of its two links. So every drawing can be assembled, and its start pose is known without any formula.
+
+use chacha20::ChaCha20Rng;
+use chacha20::rand_core::{Rng, SeedableRng};
+use linkage::math::{KeepNan, Vec2, rotated, unit};
+use linkage::mechanism::LinkPose;
+
+use super::spec::{Body, Guide, Other, Pin, Spec};
+
+/// Source of random numbers.
+pub struct Random(ChaCha20Rng);
+
+impl Random {
+    /// The numbers that follow from `seed`.
+    pub fn from_seed(seed: u8) -> Self {
+        Random(ChaCha20Rng::from_seed([seed; 32]))
+    }
+
+    /// The numbers of one of many samples that follow from one seed.
+    pub fn of_sample(seed: u64, index: u64) -> Self {
+        let mut bytes = [0; 32];
+        bytes[..8].copy_from_slice(&seed.to_le_bytes());
+        bytes[8..16].copy_from_slice(&index.to_le_bytes());
+        bytes[31] = 1;
+        Random(ChaCha20Rng::from_seed(bytes))
+    }
+
+    /// A positive number whose logarithm is uniform.
+    pub fn decades(&mut self, from: f64, to: f64) -> f64 {
+        10f64.powf(self.number(from.log10(), to.log10()))
+    }
+
+    /// The next number.
+    pub fn number(&mut self, from: f64, to: f64) -> f64 {
+        from + (to - from) * (self.0.next_u64() >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    /// One of `count` indices.
+    pub fn index(&mut self, count: usize) -> usize {
+        self.number(0.0, count as f64) as usize
+    }
+
+    /// A toss of a coin.
+    pub fn yes(&mut self) -> bool {
+        self.number(0.0, 1.0) < 0.5
+    }
+
+    /// An angle (rad), not quite a turn wide.
+    pub fn angle(&mut self) -> f64 {
+        self.number(-3.1, 3.1)
+    }
+
+    /// A vector in any direction.
+    pub fn vector(&mut self, shortest: f64, longest: f64) -> Vec2 {
+        unit(self.angle()) * self.number(shortest, longest)
+    }
+}
+
+/// A joint of a drawing.
+#[derive(Clone, Copy, Debug)]
+pub struct Drawn {
+    /// Its world places on the two links, in the order asked for: one point, or two along the axis.
+    pub places: [Vec2; 2],
+    /// World direction of a prismatic joint's axis; zero for a revolute joint.
+    pub axis: Vec2,
+    /// Which of the two links the joint names first.
+    pub first: usize,
+}
+
+/// A mechanism under construction. Link 0 is the ground, link 1 the crank.
+pub struct Sketch<'a> {
+    /// Where its numbers come from.
+    pub random: &'a mut Random,
+    /// What is drawn so far.
+    pub spec: Spec,
+    /// Pose of the ground and of every link.
+    pub poses: Vec<LinkPose>,
+    /// For every link, one link that turns with it; the same one for all links that turn together.
+    turning: Vec<usize>,
+    joints: usize,
+}
+
+/// Largest slide at the start (m).
+const SLIDE: f64 = 0.5;
+
+impl<'a> Sketch<'a> {
+    /// A crank on the ground with a length between the given ones (m).
+    pub fn new(random: &'a mut Random, crank: [f64; 2]) -> Self {
+        let start = random.angle();
+        let speed = random.number(0.5, 30.0) * if random.yes() { 1.0 } else { -1.0 };
+        let (zero, gravity, guides_first) = (random.angle(), random.vector(0.0, 10.0), random.yes());
+        let spec = Spec {
+            ground: Vec::new(),
+            links: Vec::new(),
+            pins: Vec::new(),
+            guides: Vec::new(),
+            guides_first,
+            speed,
+            zero,
+            start,
+            gravity,
+            loads: Vec::new(),
+            dyads: Vec::new(),
+            starts: Vec::new(),
+            grid: (start - 0.3, 0.05, 12),
+            dt: Some(1e-3),
+            other: Other::default(),
+        };
+        let mut sketch = Sketch { random, spec, poses: vec![LinkPose::GROUND], turning: vec![0], joints: 0 };
+        let pivot = sketch.random.vector(0.0, 0.5);
+        let crank_link = sketch.link(pivot);
+        sketch.poses[crank_link].angle = zero + start;
+        sketch.join(false, 0, crank_link, pivot);
+        // A point at the crank's end determines its length.
+        let end = sketch.random.vector(crank[0], crank[1]);
+        sketch.put(crank_link, "E", pivot + end);
+        sketch
+    }
+
+    /// World place of the crank's end.
+    pub fn crank_end(&self) -> Vec2 {
+        let (_, end) = &self.spec.links[0].points[1];
+        self.poses[1].point(*end)
+    }
+
+    /// A new link whose frame is near `at`.
+    pub fn link(&mut self, at: Vec2) -> usize {
+        let index = self.poses.len();
+        self.poses.push(LinkPose { origin: at + self.random.vector(0.0, 0.3), angle: self.random.angle() });
+        self.turning.push(index);
+        self.spec.links.push(Body { name: format!("link{index}"), points: Vec::new(), mass: None });
+        index
+    }
+
+    /// Name of a link.
+    pub fn name(&self, link: usize) -> String {
+        if link == 0 { "ground".into() } else { self.spec.links[link - 1].name.clone() }
+    }
+
+    /// Name of the next joint.
+    pub fn next_joint(&self) -> String {
+        format!("J{}", self.joints)
+    }
+
+    fn local(&self, link: usize, at: Vec2) -> Vec2 {
+        let pose = self.poses[link];
+        rotated(unit(-pose.angle), at - pose.origin)
+    }
+
+    fn put(&mut self, link: usize, point: &str, at: Vec2) {
+        let local = self.local(link, at);
+        let points = if link == 0 { &mut self.spec.ground } else { &mut self.spec.links[link - 1].points };
+        points.push((point.into(), local));
+    }
+
+    /// Joins links `a` and `b`, either of which may be named first, at the place `at` of `a`.
+    pub fn join(&mut self, slides: bool, a: usize, b: usize, at: Vec2) -> Drawn {
+        let name = self.next_joint();
+        self.joints += 1;
+        let is_turned = self.random.yes();
+        let order = |pair: [usize; 2]| if is_turned { [pair[1], pair[0]] } else { pair };
+        let links = order([a, b]).map(|link| self.name(link));
+        let first = order([a, b])[0];
+        if !slides {
+            self.put(a, &name, at);
+            self.put(b, &name, at);
+            self.spec.pins.push(Pin { name, links });
+            return Drawn { places: [at, at], axis: Vec2::zeros(), first };
+        }
+        let angle = self.random.angle();
+        let slide = self.random.number(-SLIDE, SLIDE);
+        let axis = unit(angle);
+        let places = [at, at + axis * slide];
+        let points = [format!("A{name}"), format!("B{name}")];
+        for (link, place) in [a, b].into_iter().zip(places) {
+            self.put(link, &points[usize::from(link == b)], place);
+        }
+        let axes = order([a, b]).map(|link| angle - self.poses[link].angle);
+        let [p, q] = points;
+        let points = if is_turned { [q, p] } else { [p, q] };
+        self.spec.guides.push(Guide { name, links, points, axes });
+        let (kept, gone) = (self.turning[a].min(self.turning[b]), self.turning[a].max(self.turning[b]));
+        self.turning.iter_mut().filter(|own| **own == gone).for_each(|own| *own = kept);
+        Drawn { places, axis, first }
+    }
+
+    /// Adds masses with mass centres off all lines, and resistances on some of the links that turn.
+    pub fn finish(mut self) -> (Spec, Vec<LinkPose>) {
+        for index in 0..self.spec.links.len() {
+            let points = &self.spec.links[index].points;
+            let middle = points.iter().map(|(_, at)| at).sum::<Vec2>() / points.len() as f64;
+            let reach = points.iter().map(|(_, at)| (at - middle).norm()).fold(0.05, f64::larger);
+            let centre = middle + self.random.vector(0.0, reach);
+            let mass = self.random.number(0.1, 5.0);
+            let inertia = mass * reach * reach * self.random.number(0.1, 1.0);
+            self.spec.links[index].mass = Some((mass, centre, inertia));
+            if self.turning[index + 1] != 0 && self.random.number(0.0, 1.0) < 0.3 {
+                let load = self.random.number(0.0, 20.0);
+                self.spec.loads.push((self.spec.links[index].name.clone(), load));
+            }
+        }
+        (self.spec, self.poses)
+    }
+}

@@ -1,0 +1,225 @@
+//! One point: both sides and all engines on one case.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+use linkage::case::Case;
+use linkage::error::{Error, Result};
+use linkage::math::KeepNan;
+use linkage::math::statistics::share;
+use linkage::trajectory::{Channel, Stage, Trajectory};
+use linkage::work::{Count, counted};
+
+use super::outcome::{Group, Outcome, Party, Reached, rounded};
+use super::{Engines, Family, Setup};
+use prover::compare::{Check, Verdict, difference, scales};
+use prover::engines::EngineName;
+use prover::proof::beside::{Deviation, Side, Sides, sides};
+use prover::proof::{EngineProof, Options, prove};
+use scenario::Scenario;
+
+/// Solves a family's point with everything that this build has. A panic is a failure of the point like any other.
+#[must_use]
+pub fn run(family: &Family, dial: f64, sample: u64, seed: u64) -> Outcome {
+    let setup = (family.setup)(dial, sample, seed);
+    let key = key(family, setup.as_ref().ok(), seed);
+    let mut outcome = Outcome { dial, sample, key, refused: String::new(), parties: Vec::new() };
+    match setup {
+        Err(error) => outcome.refused = told(&error),
+        Ok(setup) => match catch_unwind(AssertUnwindSafe(|| parties(family, &setup))) {
+            Ok(Ok(parties)) => outcome.parties = parties,
+            Ok(Err(error)) => outcome.refused = told(&error),
+            Err(_) => outcome.refused = "panic".into(),
+        },
+    }
+    outcome
+}
+
+/// The key of a point without running it.
+pub(super) fn key_of(family: &Family, dial: f64, sample: u64, seed: u64) -> String {
+    key(family, (family.setup)(dial, sample, seed).as_ref().ok(), seed)
+}
+
+/// FNV-1a of what the result depends on: the program's version, its engines, and the case with what runs on it.
+fn key(family: &Family, setup: Option<&Setup>, seed: u64) -> String {
+    let engines: Vec<String> =
+        built().map(|name| name.with_step(1.0).map_or_else(|_| String::new(), |own| own.version())).collect();
+    let text = format!("{} {} {seed} {engines:?} {setup:?}", env!("CARGO_PKG_VERSION"), family.name);
+    fnv(&text)
+}
+
+/// FNV-1a of a text, in hexadecimal digits.
+pub fn fnv(text: &str) -> String {
+    let hash = |hash: u64, byte: u8| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+    format!("{:016x}", text.bytes().fold(0xcbf2_9ce4_8422_2325, hash))
+}
+
+fn built() -> impl Iterator<Item = EngineName> {
+    EngineName::ALL.into_iter().filter(|name| name.is_built())
+}
+
+/// An error as one line, with its crank angle.
+fn told(error: &Error) -> String {
+    // Some messages tell the crank angle themselves.
+    let crank = error.crank().filter(|_| !error.message().contains("crank angle"));
+    let crank = crank.map_or_else(String::new, |crank| format!(" at crank angle {:.4} deg", crank.to_degrees()));
+    format!("{}{crank}", error.message())
+}
+
+fn parties(family: &Family, setup: &Setup) -> Result<Vec<Party>> {
+    let case = &setup.case;
+    let truth = if setup.precise { Some(precise::solve(case)) } else { None };
+    let (truth, without) = match truth {
+        Some(Ok(truth)) => (Some(truth), String::new()),
+        Some(Err(error)) => (None, told(&error)),
+        None => (None, String::new()),
+    };
+    let found = sides(case, truth.as_ref())?;
+    let against = match &truth {
+        Some(_) => precise::method(case).to_string(),
+        None if without.is_empty() => "the other side".into(),
+        None => format!("the other side ({without})"),
+    };
+    let mut all: Vec<Party> = found.sides.iter().map(|side| of_side(side, &found, &against)).collect();
+    let reference = truth.as_ref().map(|truth| (truth, against.as_str()));
+    let reference = reference.or(found.trajectory.as_ref().map(|own| (own, "side 1")));
+    if setup.engines != Engines::None {
+        for name in built() {
+            all.push(of_engine(family, setup, name, reference));
+        }
+    }
+    Ok(all)
+}
+
+fn of_side(side: &Side, all: &Sides, against: &str) -> Party {
+    if let Some(error) = &side.failure {
+        return Party::failed(side.name, &told(error));
+    }
+    let beyond = side.deviations.iter().filter(|own| !(own.used <= 1.0)).count();
+    Party {
+        against: if side.deviations.is_empty() { String::new() } else { against.into() },
+        reached: reached(&side.deviations),
+        closure: side.closure.map(rounded),
+        balance: side.balance.map(rounded),
+        verdict: all.verdict.word().into(),
+        why: reason(&all.verdict),
+        done: side.work.iter().map(|(what, times)| (what.name().into(), times)).collect(),
+        silent: if all.silent > 0 { beyond } else { 0 },
+        ..Party::failed(side.name, "")
+    }
+}
+
+fn of_engine(family: &Family, setup: &Setup, name: EngineName, truth: Option<(&Trajectory, &str)>) -> Party {
+    let options = match setup.engines {
+        Engines::None | Engines::Found(_) => Options::default(),
+        // What a search with free settings would bring is not asked here.
+        Engines::Given { step, sweeps } => Options::default().step(step).sweeps(sweeps).budget(1.0),
+    };
+    let options = match setup.engines {
+        Engines::Found(work) => options.budget(work),
+        Engines::None | Engines::Given { .. } => options,
+    };
+    let scenario = Scenario::of_case(family.name, setup.case.clone());
+    let (proof, work) = counted(|| scenario.and_then(|scenario| prove(&scenario, &options.engine(name))));
+    let own = [Count::Worlds, Count::Steps, Count::Sweeps, Count::Probes];
+    let done = own.map(|what| (what.name().to_string(), work.of(what))).into_iter().filter(|(_, times)| *times > 0);
+    let party = match proof {
+        Err(error) => Party::failed(name.name(), &told(&error)),
+        // An engine that agrees with a reference which disagrees with itself is not told as agreeing.
+        Ok(proof) => of_proof(&setup.case, proof.engine(), &proof.verdict, truth),
+    };
+    Party { done: done.collect(), ..party }
+}
+
+fn of_proof(case: &Case, proof: &EngineProof, whole: &Verdict, truth: Option<(&Trajectory, &str)>) -> Party {
+    let name = proof.info.name;
+    if let Some(error) = &proof.failure {
+        return Party::failed(name, &told(error));
+    }
+    let (Some(trajectory), Some((truth, against))) = (&proof.trajectory, truth) else {
+        return Party::failed(name, "there is nothing to hold it against");
+    };
+    let deviations = match deviations(truth, trajectory, proof) {
+        Ok(deviations) => deviations,
+        Err(error) => return Party::failed(name, &told(&error)),
+    };
+    let settings = &proof.info.settings;
+    let agrees = |verdict: &Verdict| matches!(verdict, Verdict::Agree { .. } | Verdict::Expected { .. });
+    let told_of = |own: &Deviation| {
+        let own = proof.channels.iter().find(|channel| channel.residual.channel == own.channel);
+        own.is_some_and(|own| !agrees(&own.verdict))
+    };
+    let silent = deviations.iter().filter(|own| !(own.used <= 1.0) && agrees(whole) && !told_of(own)).count();
+    let check = |family: &str| {
+        let own = |check: &&Check| check.family.starts_with(family);
+        proof.checks.iter().find(own).map(|check| rounded(check.value))
+    };
+    let span = case.grid.times.iter().fold(0.0f64, |last, t| last.larger(t.abs()));
+    let fixed = |value: f64| (!proof.info.controls_error).then(|| rounded(value));
+    Party {
+        against: against.into(),
+        reached: reached(&deviations),
+        closure: check("closure"),
+        balance: check("driving moment"),
+        verdict: whole.word().into(),
+        why: reason(whole),
+        step: fixed(settings.resolution),
+        sweeps: Some(settings.sweeps),
+        extrapolated: Some(settings.extrapolated),
+        steps: fixed((span / settings.resolution).ceil()),
+        runs: proof.search.as_ref().map(|search| search.runs),
+        work: proof.search.as_ref().map(|search| rounded(search.effort)),
+        silent,
+        ..Party::failed(name, "")
+    }
+}
+
+/// Every channel of an engine that is judged, beside its truth, where nothing is left out.
+fn deviations(truth: &Trajectory, own: &Trajectory, proof: &EngineProof) -> Result<Vec<Deviation>> {
+    let (errors, scales) = (difference(truth, own)?, scales(truth));
+    let of = |((channel, values), scale): ((&Channel, &[f64]), f64)| {
+        let judged = proof.channels.iter().find(|judged| judged.residual.channel == *channel)?;
+        let kept = |row: usize| judged.left_out == 0 || proof.kept.get(row).is_none_or(|kept| *kept);
+        let sizes = values.iter().enumerate().filter(|(row, _)| kept(*row)).map(|(_, value)| value.abs());
+        let error = sizes.fold(0.0, f64::larger);
+        Some(Deviation {
+            channel: channel.clone(),
+            error: share(error, scale),
+            bound: share(judged.bound, scale),
+            used: share(error, judged.bound),
+        })
+    };
+    Ok(errors.iter().zip(scales).filter_map(of).collect())
+}
+
+fn group(stage: Stage) -> Group {
+    match stage {
+        Stage::Positions => Group::Positions,
+        Stage::Velocities | Stage::Accelerations => Group::Rates,
+        Stage::Reactions | Stage::BalancingMoment => Group::Forces,
+    }
+}
+
+/// The worst channel of every group.
+fn reached(deviations: &[Deviation]) -> Vec<Reached> {
+    let of = |wanted: Group| {
+        let own = || deviations.iter().filter(|own| group(own.channel.kind.stage) == wanted);
+        let worst = own().max_by(|a, b| a.error.total_cmp(&b.error))?;
+        Some(Reached {
+            group: wanted,
+            error: rounded(worst.error),
+            bound: rounded(worst.bound),
+            channel: worst.channel.to_string(),
+            used: rounded(own().map(|own| own.used).fold(0.0, f64::larger)),
+        })
+    };
+    Group::ALL.into_iter().filter_map(of).collect()
+}
+
+/// The reason of a verdict, without advice: what helps depends on who asks.
+fn reason(verdict: &Verdict) -> String {
+    match verdict {
+        Verdict::Agree { .. } | Verdict::Expected { .. } => String::new(),
+        Verdict::Disagree { place } => place.clone(),
+        Verdict::Inconclusive { reason, .. } => reason.clone(),
+    }
+}

@@ -1,0 +1,292 @@
+//! Runs of one engine against the reference, and its cheapest settings.
+
+use linkage::math::KeepNan;
+use std::f64::consts::PI;
+
+use super::candidate::{Candidate, Measured, Price};
+use super::search::{Found, largest_step};
+use super::ways::{sweeps, ways};
+use linkage::case::Case;
+use linkage::engine::{Engine, Kept, Settings};
+use linkage::error::{ErrorKind, Result};
+use linkage::trajectory::{Channel, Trajectory};
+use prover::compare::{Convergence, Ladder, OtherSweeps, residuals};
+use prover::proof::Options;
+
+/// Coarsest accuracy that is tried for an engine that controls its error.
+const COARSEST: f64 = 0.1;
+/// Number of sweeps that is tried first.
+const ENOUGH: usize = 64;
+/// First step that is tried, as a multiple of the step asked for. A coarse step is cheap, and its price predicts that
+/// of other steps.
+const COARSE_START: f64 = 4.0;
+/// Factor from the step found with some number of sweeps to the first step tried with twice as many.
+const COARSER: f64 = 1.4;
+/// Settings are of interest only if they cost less than this share of the cheapest known price.
+const GAIN: f64 = 0.95;
+/// Turns of the fastest driving link (rad) in one step. The steps are so coarse that a run costs little more than its
+/// readings. The first step at which the engine runs is used.
+const ROUGH: [f64; 3] = [PI / 6.0, PI / 18.0, PI / 54.0];
+
+/// Result of the search with one engine.
+pub(super) enum Outcome {
+    /// The cheapest settings.
+    Met(Candidate),
+    /// The smallest error found.
+    TooCoarse(f64),
+    /// The engine could meet the wish, but at a higher price than another engine.
+    TooDear,
+}
+
+/// Runs engines against the reference.
+pub(super) struct Bench<'a> {
+    pub(super) case: &'a Case,
+    pub(super) reference: &'a Trajectory,
+    pub(super) wanted: &'a [Channel],
+    pub(super) price: Price<'a>,
+    pub(super) runs: usize,
+    /// Whether the engine has refused the last way of setting it. No step and no number of sweeps can change that.
+    pub(super) refused: bool,
+    /// Work done so far and allowed in all, in steps without sweeps.
+    pub(super) effort: f64,
+    pub(super) budget: f64,
+    /// Whether a run was not made because its work is not allowed any more.
+    pub(super) is_spent: bool,
+}
+
+/// Least price of a run, however coarse its step: instants are read, and some routes do all sweeps at each of them.
+/// Known for some numbers of sweeps, in ascending order.
+struct Floor(Vec<(usize, f64)>);
+
+impl Floor {
+    /// With `sweeps`, a run costs a constant and a part proportional to the sweeps; neither is negative.
+    fn at(&self, sweeps: usize) -> f64 {
+        let sweeps = sweeps.max(1) as f64;
+        let of = |&(many, price): &(usize, f64)| price * (sweeps / many.max(1) as f64).smaller(1.0);
+        let least = self.0.iter().map(of).fold(0.0, f64::larger);
+        let [(few, low), (many, high)] = self.0[..] else { return least };
+        least.larger(low + (high - low) / (many - few) as f64 * (sweeps - few as f64))
+    }
+}
+
+/// State of the search through the numbers of sweeps of one way.
+struct Row {
+    /// The first step to try.
+    start: f64,
+    /// Error with the last number of sweeps within the cheapest price, and how often in a row it has risen.
+    last: f64,
+    rising: usize,
+}
+
+/// The cheapest settings of one engine so far.
+struct Search<'e> {
+    engine: &'e dyn Engine,
+    within: f64,
+    /// Lowest price of the other engines.
+    others: f64,
+    best: Option<Candidate>,
+    /// Smallest error of the settings that do not meet the wish at any price.
+    least: f64,
+    /// Whether some settings would, or might, meet the wish at a higher price.
+    dear: bool,
+}
+
+impl Search<'_> {
+    /// Highest price at which a run is still of interest.
+    fn limit(&self) -> f64 {
+        self.best.as_ref().map_or(self.others, |best| best.price.smaller(self.others)) * GAIN
+    }
+}
+
+impl Bench<'_> {
+    /// Cheapest settings of one engine that cost less than `others`.
+    pub(super) fn best_of(
+        &mut self,
+        engine: &dyn Engine,
+        within: f64,
+        options: &Options,
+        others: f64,
+        progress: &mut dyn FnMut(f64),
+    ) -> Outcome {
+        let mut search = Search { engine, within, others, best: None, least: f64::INFINITY, dear: false };
+        let (ways, sweeps) = (ways(engine, self.case, options), sweeps(engine, options));
+        for (done, way) in ways.iter().enumerate() {
+            progress(done as f64 / ways.len() as f64);
+            self.through_sweeps(&mut search, way, &sweeps);
+        }
+        match search.best {
+            Some(best) => Outcome::Met(best),
+            None if search.dear => Outcome::TooDear,
+            None => Outcome::TooCoarse(search.least),
+        }
+    }
+
+    /// One way of setting an engine, with all numbers of sweeps that may be of interest, in ascending order. Within the
+    /// cheapest price, the error first falls with more sweeps; beyond the needed number it rises again.
+    fn through_sweeps(&mut self, search: &mut Search, way: &Settings, sweeps: &[usize]) {
+        let unlimited = search.limit().is_infinite();
+        self.refused = false;
+        let floor = if unlimited { Floor(Vec::new()) } else { self.floor(search.engine, way, sweeps, search.limit()) };
+        // Without a limit, a small number of sweeps would be searched down to the finest steps.
+        let first = sweeps.iter().copied().find(|&sweeps| sweeps >= ENOUGH && unlimited);
+        let start = if search.engine.controls_error() { way.resolution } else { COARSE_START * way.resolution };
+        let mut row = Row { start, last: f64::INFINITY, rising: 0 };
+        for sweeps in first.into_iter().chain(sweeps.iter().copied().filter(|&sweeps| Some(sweeps) != first)) {
+            if self.refused || self.is_spent {
+                break;
+            }
+            if floor.at(sweeps) >= search.limit() {
+                search.dear = true;
+                break;
+            }
+            let error = self.largest_step(search, &mut row, Settings { sweeps, ..*way });
+            if !search.engine.controls_error() {
+                // More sweeps cost more, so only a larger step stays within the price.
+                row.start *= COARSER;
+            }
+            row.rising = if error > row.last { row.rising + 1 } else { 0 };
+            row.last = error;
+            if row.rising >= 2 {
+                break;
+            }
+        }
+    }
+
+    /// Searches the largest step at which the settings meet the wish. Returns their error within the cheapest price.
+    fn largest_step(&mut self, search: &mut Search, row: &mut Row, settings: Settings) -> f64 {
+        let Search { engine, within, .. } = *search;
+        let limit = search.limit();
+        let most = if engine.controls_error() { COARSEST } else { f64::INFINITY };
+        let order = engine.with(settings).formal_order(self.case, self.wanted[0].kind);
+        let mut run = |resolution: f64| self.measure(engine, Settings { resolution, ..settings });
+        match largest_step([row.start, most], order, within, limit, &mut run) {
+            Found::Step { resolution, measured: Measured { error, worst, price } } => {
+                row.start = resolution;
+                search.dear |= price >= limit;
+                if price < limit {
+                    search.best = Some(Candidate {
+                        engine: engine.name(),
+                        settings: Settings { resolution, ..settings },
+                        controls_error: engine.controls_error(),
+                        verified: error,
+                        worst,
+                        price,
+                        is_proven: false,
+                    });
+                }
+                within * (price / limit).larger(1.0)
+            }
+            Found::TooDear { resolution, error } => {
+                (row.start, search.dear) = (resolution, true);
+                error
+            }
+            Found::TooCoarse(error) => {
+                (row.start, search.least) = (row.start / COARSER, search.least.smaller(error));
+                error
+            }
+        }
+    }
+
+    /// Least price of one way of setting an engine, from runs so coarse that they cost little more than their readings.
+    /// It stops as soon as the price is known to exceed `limit`.
+    fn floor(&mut self, engine: &dyn Engine, way: &Settings, sweeps: &[usize], limit: f64) -> Floor {
+        let rough = match engine.controls_error() {
+            true => vec![COARSEST],
+            false => ROUGH.map(|turn| turn / self.case.drives.top_speed()).to_vec(),
+        };
+        let mut floor = Floor(Vec::new());
+        let many = sweeps.iter().copied().find(|&many| many >= ENOUGH && many > sweeps[0]);
+        for sweeps in [Some(sweeps[0]), many].into_iter().flatten() {
+            let prices = rough
+                .iter()
+                .filter(|step| step.is_finite())
+                .map(|&resolution| self.measure(engine, Settings { resolution, sweeps, ..*way }).price);
+            let Some(price) = { prices }.find(|price| price.is_finite()) else { continue };
+            floor.0.push((sweeps, price));
+            if price >= limit {
+                break;
+            }
+        }
+        floor
+    }
+
+    /// One run; an engine that fails has an infinite error.
+    pub(super) fn measure(&mut self, engine: &dyn Engine, settings: Settings) -> Measured {
+        let failed = |price: f64| Measured { error: f64::INFINITY, worst: String::new(), price };
+        self.effort += self.work(engine, settings);
+        if self.effort > self.budget {
+            self.is_spent = true;
+            return failed(f64::INFINITY);
+        }
+        self.runs += 1;
+        let engine = engine.with(settings);
+        let mut found = None;
+        let mut run = || {
+            found = Some(engine.solve(self.case)?);
+            Ok(())
+        };
+        let price = match (self.price)(engine.as_ref(), &mut run) {
+            Ok(price) => price,
+            Err(error) => {
+                self.refused |= error.kind() == ErrorKind::Unsupported;
+                return failed(f64::INFINITY);
+            }
+        };
+        let Some(trajectory) = found else { return failed(price) };
+        let Ok(residuals) = residuals(self.reference, &trajectory) else { return failed(price) };
+        let of_wanted = residuals.iter().filter(|residual| self.wanted.contains(&residual.channel));
+        let (mut error, mut worst, mut seen) = (0.0, String::new(), 0);
+        for residual in of_wanted {
+            seen += 1;
+            let own = residual.share();
+            if !(own <= error) {
+                (error, worst) = (own, residual.channel.to_string());
+            }
+        }
+        // An engine without a wanted channel does not meet the wish.
+        if seen < self.wanted.len() { failed(price) } else { Measured { error, worst, price } }
+    }
+
+    /// Work of a run, in steps without sweeps. That of an engine that chooses its own steps is not known.
+    fn work(&self, engine: &dyn Engine, settings: Settings) -> f64 {
+        if engine.controls_error() {
+            return 0.0;
+        }
+        let times = &self.case.grid.times;
+        let [first, last] = times.iter().fold([0.0f64; 2], |[first, last], &t| [first.smaller(t), last.larger(t)]);
+        let runs = 2f64.powi(settings.extrapolated as i32 + 1) - 1.0;
+        (last - first) * runs * settings.work()
+    }
+
+    /// Error that is expected from the engine's own runs.
+    pub(super) fn predicted(&mut self, engine: &dyn Engine) -> Result<f64> {
+        let settings = engine.settings();
+        let at = |factor: f64| Settings { resolution: settings.resolution * factor, ..settings };
+        let mut rungs = vec![at(2.0), settings, at(0.5)];
+        // Compared with twice the sweeps. The error left then is small against the present one, so the difference is
+        // the error itself. (A proof uses half of the sweeps, which costs a quarter and errs on the safe side.)
+        if settings.sweeps > 0 {
+            rungs.push(Settings { sweeps: settings.sweeps * 2, ..settings });
+        }
+        self.runs += rungs.len();
+        let kept = Kept::new(engine);
+        let runs: Result<Vec<Trajectory>> = rungs.iter().map(|&rung| kept.with(rung).solve(self.case)).collect();
+        let runs = runs?;
+        let [double, single, half] = [0, 1, 2].map(|k| &runs[k]);
+        let other_sweeps = OtherSweeps { runs: [runs.get(3), None], factor: 0.5, growth: 0.0 };
+        let ladder = Ladder { resolutions: [double, single, half], other_sweeps };
+        let finest = engine.at(settings.resolution / 2.0);
+        let mut predicted: f64 = 0.0;
+        for residual in residuals(self.reference, single)? {
+            let (channel, kind) = (&residual.channel, residual.channel.kind);
+            if residual.scale == 0.0 || !self.wanted.contains(channel) {
+                continue;
+            }
+            let noise = finest.noise(self.case, kind);
+            let found = Convergence::of_channel(ladder, channel, engine.formal_order(self.case, kind), noise);
+            let found = found.expect("all runs of an engine have the same channels");
+            predicted = predicted.larger((found.error + found.iteration) / residual.scale);
+        }
+        Ok(predicted)
+    }
+}

@@ -1,0 +1,73 @@
+//! Settings that a proof confirms. The error measured against the reference may be small by chance, or where an engine's
+//! own runs show no order: then the same settings prove nothing.
+
+use linkage::engine::Engine;
+use linkage::error::{Advice, Result};
+use linkage::trajectory::Channel;
+
+use super::bench::Bench;
+use super::candidate::{Candidate, Measured};
+use prover::compare::Verdict;
+use prover::proof::{EngineProof, Options, Reference, prove};
+use scenario::Scenario;
+
+/// Largest number of refinements.
+const MOST: usize = 16;
+/// Factor on the step, or on the accuracy of an engine that chooses its steps, from one trial to the next.
+const FINER: f64 = 0.7;
+const TIGHTER: f64 = 0.1;
+
+/// The candidate at settings that a proof confirms, refined as little as it takes. What cannot be confirmed stays as it is
+/// and says so.
+///
+/// # Errors
+/// Those of [`prove`].
+pub(super) fn confirmed(
+    bench: &mut Bench,
+    scenario: &Scenario,
+    engine: &dyn Engine,
+    candidate: Candidate,
+    (within, reference): (f64, Reference),
+) -> Result<Candidate> {
+    let mut now = candidate.clone();
+    for _ in 0..MOST {
+        // No settings are searched for: the budget is none.
+        let options = Options::exactly(engine.with(now.settings).as_ref());
+        let Some(options) = options.map(|options| options.reference(reference).budget(1.0)) else { break };
+        let proof = prove(scenario, &options)?;
+        let is_exact = now.verified <= within;
+        match open(proof.engine(), bench.wanted, scenario) {
+            None if is_exact => return Ok(Candidate { is_proven: true, ..now }),
+            Some(advice)
+                if advice.iter().any(|one| matches!(one, Advice::MoreSweeps { .. })) && now.settings.sweeps > 0 =>
+            {
+                now.settings.sweeps *= 2;
+            }
+            Some(_) | None => now.settings.resolution *= if now.controls_error { TIGHTER } else { FINER },
+        }
+        let Measured { error, worst, price } = bench.measure(engine, now.settings);
+        if !price.is_finite() {
+            break;
+        }
+        (now.verified, now.worst, now.price) = (error, worst, price);
+    }
+    Ok(candidate)
+}
+
+/// Advice of the wanted channels that the proof leaves open, and of its checks where everything is wanted; `None` if all
+/// agree.
+fn open(proof: &EngineProof, wanted: &[Channel], scenario: &Scenario) -> Option<Vec<Advice>> {
+    if proof.channels.is_empty() {
+        return Some(Vec::new());
+    }
+    let channels = proof.channels.iter().filter(|own| wanted.contains(&own.residual.channel)).map(|own| &own.verdict);
+    let is_all = wanted.len() == scenario.case.channels().len();
+    let checks = proof.checks.iter().filter(|_| is_all).map(|check| &check.verdict);
+    let of = |verdict: &Verdict| match verdict {
+        Verdict::Agree { .. } | Verdict::Expected { .. } => None,
+        Verdict::Disagree { .. } => Some(Vec::new()),
+        Verdict::Inconclusive { advice, .. } => Some(advice.clone()),
+    };
+    let all: Vec<Vec<Advice>> = channels.chain(checks).filter_map(of).collect();
+    (!all.is_empty()).then(|| all.concat())
+}

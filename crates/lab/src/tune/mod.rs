@@ -1,0 +1,175 @@
+//! The cheapest settings of an engine that meet a wanted error, found by measurement.
+//!
+//! An engine's error depends on its step, its sweeps, its substeps, its extrapolation, and the route to its reactions.
+//! For every setting of all but the step, runs against the reference find the largest step that meets the wanted error.
+//! The error falls with a power of the step, so a few runs are enough. The step is then priced, and the cheapest
+//! settings win. The error that the engine's own runs at three steps predict, without the reference, is given beside
+//! the measured one.
+
+mod bench;
+mod candidate;
+mod confirm;
+mod price;
+mod search;
+mod ways;
+
+pub use candidate::{Candidate, Price};
+pub use price::{by_work, price_of};
+
+use analytic::AssurSolver;
+use analytic::range::explained;
+use bench::{Bench, Outcome};
+use confirm::confirmed;
+use linkage::case::Wanted;
+use linkage::error::{Advice, Error, ErrorKind, Result};
+use linkage::math::KeepNan;
+use linkage::solver::Solver;
+use linkage::trajectory::{Channel, Stage};
+use prover::numbers::significant;
+use prover::proof::{Options, memory};
+use scenario::Scenario;
+
+/// Work allowed by default, in steps without sweeps: many times what the shipped mechanisms take at 1e-7.
+const BUDGET: f64 = 5e6;
+
+/// The wanted accuracy.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Wish {
+    /// Largest error, as a share of each channel's scale (half its range over the run).
+    pub within: f64,
+    /// Channels by name, or stages (`positions`, `reactions`, ...). If empty: all channels that the scenario wants.
+    pub channels: Vec<String>,
+}
+
+/// Result of tuning.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tuning {
+    /// The cheapest settings that meet the wish and that a proof confirms; if it confirms none, the cheapest.
+    pub best: Candidate,
+    /// The cheapest settings that meet the wish, whether a proof confirms them or not.
+    pub cheapest: Candidate,
+    /// Largest error of the cheapest candidate over the channel's scale, predicted by its own runs at three steps and
+    /// with twice the sweeps, without the reference.
+    pub predicted: f64,
+    /// The cheapest settings of every engine that meets the wish, the cheapest first.
+    pub by_engine: Vec<Candidate>,
+    /// Engines that do not meet the wish, with the smallest error found; infinite if no run of the engine finished.
+    pub too_coarse: Vec<(&'static str, f64)>,
+    /// Engines that would cost more than another engine before they meet the wish.
+    pub too_dear: Vec<&'static str>,
+    /// Number of runs in the search.
+    pub runs: usize,
+    /// Whether the search ended because the work that was allowed was done: there may be cheaper settings.
+    pub is_spent: bool,
+}
+
+/// Finds the cheapest settings of the engines in `options` that meet the wish. Settings that the options fix stay as
+/// they are.
+///
+/// # Errors
+/// [`ErrorKind::Input`] if the wish or a channel makes no sense; [`ErrorKind::Numeric`] if no engine meets the wish,
+/// with how far each comes; those of the analytic solver.
+pub fn tune(
+    scenario: &Scenario,
+    wish: &Wish,
+    options: &Options,
+    price: Price,
+    progress: &mut dyn FnMut(f64),
+) -> Result<Tuning> {
+    if !(wish.within > 0.0 && wish.within < 1.0) {
+        return Err(Error::new(ErrorKind::Input, format!("an error within {} is wanted", wish.within))
+            .help("give a share of a channel's scale between 0 and 1, such as 1e-4"));
+    }
+    let wanted = wanted_channels(scenario, wish)?;
+    let stages: Vec<Stage> = wanted.iter().map(|channel| channel.kind.stage).collect();
+    let case = scenario.case.wanting(Wanted::of(&stages));
+    memory::check(&case, memory::of_proof(&case, 1), options.memory)?;
+    let reference = AssurSolver.solve(&case).map_err(|error| explained(&case, error))?;
+    let engines = options.set_engines(scenario)?;
+    let budget = options.budget.unwrap_or(BUDGET);
+    let mut bench = Bench {
+        case: &case,
+        reference: &reference,
+        wanted: &wanted,
+        price,
+        runs: 0,
+        refused: false,
+        effort: 0.0,
+        budget,
+        is_spent: false,
+    };
+    let mut cheapest = Vec::new();
+    let (mut by_engine, mut too_coarse, mut too_dear): (Vec<Candidate>, _, _) = (Vec::new(), Vec::new(), Vec::new());
+    for (index, engine) in engines.iter().enumerate() {
+        let mut part = |part: f64| progress((index as f64 + part) / engines.len() as f64);
+        let known = cheapest.iter().map(|candidate: &Candidate| candidate.price).fold(f64::INFINITY, f64::smaller);
+        match bench.best_of(engine.as_ref(), wish.within, options, known, &mut part) {
+            Outcome::Met(candidate) => {
+                cheapest.push(candidate.clone());
+                by_engine.push(confirmed(
+                    &mut bench,
+                    scenario,
+                    engine.as_ref(),
+                    candidate,
+                    (wish.within, options.reference),
+                )?);
+            }
+            Outcome::TooCoarse(error) => too_coarse.push((engine.name(), error)),
+            Outcome::TooDear => too_dear.push(engine.name()),
+        }
+    }
+    let by_price = |a: &Candidate, b: &Candidate| a.price.total_cmp(&b.price);
+    by_engine.sort_by(|a, b| b.is_proven.cmp(&a.is_proven).then(by_price(a, b)));
+    cheapest.sort_by(by_price);
+    let (Some(best), Some(cheapest)) = (by_engine.first().cloned(), cheapest.into_iter().next()) else {
+        let tell = |(name, error): &(&str, f64)| match error.is_finite() {
+            true => format!("{name} comes to {}", significant(*error, 2)),
+            false => format!("{name} does not run it"),
+        };
+        let tells: Vec<String> = too_coarse.iter().map(tell).collect();
+        let message = format!(
+            "no settings meet an error within {} of the scale: {}",
+            significant(wish.within, 6),
+            tells.join(", ")
+        );
+        let error = Error::new(ErrorKind::Numeric, message).help(Advice::WeakerWish);
+        return Err(match bench.is_spent {
+            true => error
+                .map_message(|message| format!("{message}; the work that was allowed is done"))
+                .or_help(Advice::MoreWork { to: 10.0 * budget }),
+            false => error,
+        });
+    };
+    let engine = engines.iter().find(|engine| engine.name() == best.engine).expect("it is one of them");
+    let predicted = bench.predicted(engine.with(best.settings).as_ref())?;
+    Ok(Tuning {
+        best,
+        cheapest,
+        predicted,
+        by_engine,
+        too_coarse,
+        too_dear,
+        runs: bench.runs,
+        is_spent: bench.is_spent,
+    })
+}
+
+/// The channels of a wish.
+fn wanted_channels(scenario: &Scenario, wish: &Wish) -> Result<Vec<Channel>> {
+    let all = scenario.case.channels();
+    if wish.channels.is_empty() {
+        return Ok(all);
+    }
+    let mut wanted = Vec::new();
+    for asked in &wish.channels {
+        let named = |channel: &&Channel| channel.to_string() == *asked || channel.kind.stage.name() == asked;
+        let before = wanted.len();
+        wanted.extend(all.iter().filter(named).cloned());
+        if wanted.len() == before {
+            let stages = Stage::ALL.map(Stage::name).join(", ");
+            return Err(Error::new(ErrorKind::Input, format!("the scenario wants no channel \"{asked}\""))
+                .help(Advice::OtherChannel { groups: stages }));
+        }
+    }
+    Ok(wanted)
+}

@@ -1,0 +1,101 @@
+//! What a run costs, by the work that its settings mean: the same on every machine and in every run, so that no clock
+//! decides what is found.
+
+use linkage::case::Case;
+use linkage::engine::{Engine, Route};
+use linkage::error::Result;
+use linkage::math::KeepNan;
+use linkage::mechanism::Tree;
+use linkage::work::{Count, counted};
+use prover::engines::EngineName;
+
+/// Steps of a run besides those between the first and the last instant: a few backwards, the same number forwards, and
+/// some beyond the end.
+const EXTRA_STEPS: f64 = 16.0;
+/// Tiny steps of a probe in every world.
+const TINY_STEPS: f64 = 5.0;
+
+/// Costs of an engine, in units of a step of `rapier` without sweeps on the same mechanism (4.9 us on the machine of the
+/// measurement).
+struct Costs {
+    /// A step, without its substeps.
+    step: f64,
+    /// A substep, without its sweeps.
+    substep: f64,
+    sweep: f64,
+    /// Reading all channels at an instant.
+    instant: f64,
+    /// A step in a world whose reactions are read, as a ratio to any other step.
+    native: f64,
+    /// A tiny step of a probe, as a ratio to any other step.
+    tiny: f64,
+}
+
+/// Measured once on `crank_rocker` by `cargo bench --bench tune -- prices`. The costs with one and with two substeps
+/// show which part of a step happens once and which happens in every substep.
+/// Simbody's are those of its own steps and readings, from runs of `bench` on the same file at 1e-4 and 1e-10.
+fn costs(engine: EngineName) -> Costs {
+    match engine {
+        EngineName::Rapier => Costs { step: 0.47, substep: 0.53, sweep: 0.028, instant: 0.26, native: 1.03, tiny: 1.1 },
+        EngineName::RapierF32 => {
+            Costs { step: 0.33, substep: 0.65, sweep: 0.029, instant: 0.40, native: 1.1, tiny: 1.25 }
+        }
+        EngineName::Impulse => {
+            Costs { step: 0.25, substep: 0.36, sweep: 0.076, instant: 0.53, native: 1.26, tiny: 1.7 }
+        }
+        EngineName::ImpulseF32 => {
+            Costs { step: 0.55, substep: 0.20, sweep: 0.074, instant: 0.29, native: 1.16, tiny: 1.45 }
+        }
+        EngineName::Simbody => Costs { step: 38.0, substep: 0.0, sweep: 0.0, instant: 32.0, native: 1.0, tiny: 1.0 },
+    }
+}
+
+/// Makes a run of an engine on a case and tells what it costs, in steps of `rapier` without sweeps.
+/// Only of an engine that chooses its own steps they are counted in the run.
+///
+/// # Errors
+/// Those of the run.
+pub fn by_work(case: &Case, engine: &dyn Engine, run: &mut dyn FnMut() -> Result<()>) -> Result<f64> {
+    let (outcome, work) = counted(run);
+    outcome?;
+    Ok(match engine.controls_error() {
+        true => {
+            let costs = named(engine);
+            costs.step * work.of(Count::Steps) as f64 + costs.instant * case.grid.len() as f64
+        }
+        false => price_of(case, engine),
+    })
+}
+
+fn named(engine: &dyn Engine) -> Costs {
+    costs(EngineName::named(engine.name()).expect("engines are made by their names"))
+}
+
+/// Price of a run of an engine with a fixed step, by its settings.
+///
+/// # Panics
+/// If the engine is none of [`EngineName::ALL`].
+#[must_use]
+pub fn price_of(case: &Case, engine: &dyn Engine) -> f64 {
+    let settings = engine.settings();
+    let costs = named(engine);
+    let worlds = match engine.name().starts_with("rapier") {
+        true => Tree::covering(&case.mechanism, &case.wanted_reactions()).len() as f64,
+        false => 1.0,
+    };
+    let end = |of: fn(f64, f64) -> f64| case.grid.times.iter().copied().fold(0.0, of);
+    let (span, instants) = (end(f64::larger) - end(f64::smaller), case.grid.len() as f64);
+    let substep = costs.substep + costs.sweep * settings.sweeps as f64;
+    let step = costs.step + settings.substeps as f64 * substep;
+    let tiny = (costs.step + substep) * costs.tiny;
+    let run = |resolution: f64| {
+        let steps = (span / resolution + EXTRA_STEPS) * step;
+        let steps = match settings.route {
+            Route::Differences => steps,
+            Route::Native => steps * worlds * costs.native,
+            Route::Probe => steps + instants * TINY_STEPS * worlds * tiny,
+        };
+        steps + instants * costs.instant
+    };
+    (0..=settings.extrapolated as i32).map(|time| run(settings.resolution * 0.5f64.powi(time))).sum()
+}

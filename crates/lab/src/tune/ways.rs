@@ -1,0 +1,47 @@
+//! Settings of an engine besides its step.
+
+use linkage::case::Case;
+use linkage::engine::{Engine, Route, Settings};
+use linkage::trajectory::Stage;
+use prover::proof::Options;
+
+/// Numbers of sweeps that are tried.
+const SWEEPS: [usize; 11] = [4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048, 4096];
+/// Numbers of substeps that are tried.
+const SUBSTEPS: [usize; 2] = [1, 2];
+
+/// All ways of setting an engine, except its sweeps and its resolution. Those that are usually cheapest come first, so
+/// that ways above the known price are given up early.
+pub(super) fn ways(engine: &dyn Engine, case: &Case, options: &Options) -> Vec<Settings> {
+    let Settings { resolution, sweeps, substeps, route, extrapolated } = engine.settings();
+    let forces = case.wanted.deepest() >= Stage::Reactions;
+    let routes: Vec<Route> = match forces && options.route.is_none() {
+        true => engine.routes().to_vec(),
+        false => vec![route],
+    };
+    let substeps = match (options.substeps, substeps) {
+        (None, 1..) if !engine.controls_error() => SUBSTEPS.to_vec(),
+        (Some(_), _) | (None, _) => vec![substeps],
+    };
+    let extrapolated = match options.extrapolated {
+        None if !engine.controls_error() => vec![1, 0],
+        Some(_) | None => vec![extrapolated],
+    };
+    let mut ways = Vec::new();
+    for &extrapolated in &extrapolated {
+        for &route in &routes {
+            for &substeps in &substeps {
+                ways.push(Settings { resolution, sweeps, substeps, route, extrapolated });
+            }
+        }
+    }
+    ways
+}
+
+/// Numbers of sweeps that are tried, in ascending order.
+pub(super) fn sweeps(engine: &dyn Engine, options: &Options) -> Vec<usize> {
+    match (options.sweeps, engine.settings().sweeps) {
+        (None, 1..) => SWEEPS.to_vec(),
+        (_, own) => vec![own],
+    }
+}

@@ -1,0 +1,256 @@
+//! What is kept of a proof to judge later ones by, and what has moved since. Judged within the bounds of both, never by
+//! bytes.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::compare::{Verdict, overall};
+use crate::proof::Proof;
+use linkage::math::KeepNan;
+use linkage::math::statistics::{rms, share};
+use scenario::accepted::{Accepted, Kept};
+
+/// Number of instants at which values are kept, evenly over the grid, its ends included.
+const INSTANTS: usize = 5;
+
+/// Part of a bound that the rounding of a written number takes.
+const WRITTEN: f64 = 0.05;
+
+/// Ratio of the bounds, accepted and found, from which agreement proves nothing: what was known before is not known any
+/// more, or what is accepted is not what was known.
+const WIDER: f64 = 100.0;
+
+/// Difference of two times that are the same instant, over the larger of both.
+const SAME_TIME: f64 = 1e-9;
+
+/// The figures of a proof. A channel whose bound is not finite has none.
+#[must_use]
+pub fn figures(proof: &Proof) -> Accepted {
+    let trajectory = &proof.reference_trajectory;
+    let rows = rows(trajectory.times().len());
+    let pick = |values: &[f64]| -> Vec<f64> { rows.iter().map(|&row| values[row]).collect() };
+    let bounded = trajectory.iter().zip(&proof.reference_bounds).filter(|(_, bound)| bound.is_finite());
+    let channels = bounded.map(|((channel, values), bound)| Kept {
+        name: channel.to_string(),
+        bound: rounded_up(bound * (1.0 + WRITTEN)),
+        at: pick(values),
+        least: values.iter().copied().fold(f64::INFINITY, f64::smaller),
+        greatest: values.iter().copied().fold(f64::NEG_INFINITY, f64::larger),
+        rms: (!channel.kind.periodic).then(|| rms(values)),
+    });
+    Accepted {
+        scenario: proof.scenario.clone(),
+        verdict: proof.verdict.word().into(),
+        instants: trajectory.times().len(),
+        times: pick(trajectory.times()),
+        channels: channels.collect(),
+    }
+}
+
+/// Rows of a grid at which values are kept.
+fn rows(count: usize) -> Vec<usize> {
+    let mut rows: Vec<usize> = (0..INSTANTS).map(|part| part * count.saturating_sub(1) / (INSTANTS - 1)).collect();
+    rows.dedup();
+    rows
+}
+
+/// A bound with two digits, not less than it is.
+fn rounded_up(bound: f64) -> f64 {
+    let unit = 10f64.powf(bound.log10().floor() - 1.0);
+    let rounded: f64 = format!("{:.1e}", (bound / unit).ceil() * unit).parse().unwrap_or(bound);
+    // Of zero, and of what is too small to have two digits, nothing is left to round.
+    if rounded >= bound { rounded } else { bound }
+}
+
+/// One figure beside the one that was accepted.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Moved {
+    /// Name of the channel.
+    pub channel: String,
+    /// Which of its figures.
+    pub figure: Figure,
+    /// The figure that was accepted, in the channel's unit.
+    pub accepted: f64,
+    /// The figure found now.
+    pub found: f64,
+    /// Largest difference that both bounds allow.
+    pub bound: f64,
+}
+
+/// A figure of a channel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Figure {
+    /// Value at this time (s).
+    At(f64),
+    /// Smallest value.
+    Least,
+    /// Largest value.
+    Greatest,
+    /// Root of the mean square.
+    Rms,
+}
+
+impl Moved {
+    /// The difference over what the bounds allow.
+    #[must_use]
+    pub fn bounds(&self) -> f64 {
+        share((self.found - self.accepted).abs(), self.bound)
+    }
+}
+
+/// A channel with a bound so wide, accepted or found, that its agreement proves nothing.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Wider {
+    /// Name of the channel.
+    pub channel: String,
+    /// The bound that was accepted, in the channel's unit.
+    pub accepted: f64,
+    /// The bound now.
+    pub found: f64,
+}
+
+/// Figures found, beside those that were accepted.
+#[derive(Clone, Debug)]
+pub struct Comparison {
+    /// Number of channels found.
+    pub channels: usize,
+    /// Figures beyond both bounds, in the order of channels.
+    pub moved: Vec<Moved>,
+    /// Channels that are known much worse than before.
+    pub wider: Vec<Wider>,
+    /// Channels that were accepted within a bound much wider than that of now: anything near would be as accepted.
+    pub looser: Vec<Wider>,
+    /// Channels that were not accepted yet.
+    pub new: Vec<String>,
+    /// Channels that were accepted and are not found.
+    pub gone: Vec<String>,
+    /// Whether the instants are others: values are then not compared.
+    pub is_other_grid: bool,
+    /// Words of the verdicts on the proof, accepted and found, unless both agree.
+    pub proof: Option<[String; 2]>,
+    /// The verdict: disagree if anything but a bound has moved or the proof disagrees, inconclusive if only bounds have
+    /// or one of the proofs proves nothing.
+    pub verdict: Verdict,
+}
+
+impl Comparison {
+    /// Whether nothing has changed that a file of accepted figures says.
+    #[must_use]
+    pub fn is_same(&self) -> bool {
+        let is_other_proof = self.proof.as_ref().is_some_and(|[accepted, found]| accepted != found);
+        let figures = [&self.new, &self.gone].into_iter().all(Vec::is_empty) && self.moved.is_empty();
+        let bounds = self.wider.is_empty() && self.looser.is_empty();
+        figures && bounds && !self.is_other_grid && !is_other_proof
+    }
+
+    /// Names of the channels of which a figure has moved, each once.
+    #[must_use]
+    pub fn moved_channels(&self) -> Vec<&str> {
+        let mut names: Vec<&str> = self.moved.iter().map(|moved| moved.channel.as_str()).collect();
+        names.dedup();
+        names
+    }
+}
+
+/// Compares what a run has found with what was accepted.
+#[must_use]
+pub fn compared(accepted: &Accepted, found: &Accepted) -> Comparison {
+    let is_other_grid = !is_same_grid(accepted, found);
+    let known = by_name(accepted);
+    let (mut moved, mut wider, mut looser, mut new) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    let mut least_margin = f64::INFINITY;
+    for own in &found.channels {
+        let Some(kept) = counterpart(&known, own) else {
+            new.push(own.name.clone());
+            continue;
+        };
+        let both = || Wider { channel: own.name.clone(), accepted: kept.bound, found: own.bound };
+        if own.bound > WIDER * kept.bound {
+            wider.push(both());
+        } else if kept.bound > WIDER * own.bound {
+            looser.push(both());
+        }
+        if is_other_grid {
+            continue;
+        }
+        for one in pairs(kept, own, &found.times) {
+            match Verdict::of((one.found - one.accepted).abs(), one.bound, String::new) {
+                Verdict::Agree { margin } => least_margin = least_margin.smaller(margin),
+                Verdict::Disagree { .. } | Verdict::Expected { .. } | Verdict::Inconclusive { .. } => moved.push(one),
+            }
+        }
+    }
+    let left = by_name(found);
+    let gone = accepted.channels.iter().filter(|kept| !left.contains_key(kept.name.as_str()));
+    let gone: Vec<String> = gone.map(|kept| kept.name.clone()).collect();
+    let verdicts = [accepted.verdict.clone(), found.verdict.clone()];
+    let proof = verdicts.iter().any(|word| word != "agree").then_some(verdicts);
+    let is_other =
+        is_other_grid || !moved.is_empty() || !new.is_empty() || !gone.is_empty() || found.verdict == "disagree";
+    // Where there is no figure, none has moved, which proves nothing.
+    let is_open = !wider.is_empty() || !looser.is_empty() || proof.is_some() || found.channels.is_empty();
+    let parts = [
+        Verdict::Agree { margin: least_margin },
+        if is_other { Verdict::Disagree { place: "not as accepted".into() } } else { AGREE },
+        if is_open { Verdict::open("too little is known, now or when it was accepted") } else { AGREE },
+    ];
+    let verdict = overall(&parts);
+    Comparison { channels: found.channels.len(), moved, wider, looser, new, gone, is_other_grid, proof, verdict }
+}
+
+/// Channels by their names.
+fn by_name(accepted: &Accepted) -> BTreeMap<&str, &Kept> {
+    accepted.channels.iter().map(|kept| (kept.name.as_str(), kept)).collect()
+}
+
+/// What was accepted of a channel, with the same figures.
+fn counterpart<'a>(known: &BTreeMap<&str, &'a Kept>, found: &Kept) -> Option<&'a Kept> {
+    known.get(found.name.as_str()).copied().filter(|kept| kept.rms.is_some() == found.rms.is_some())
+}
+
+const AGREE: Verdict = Verdict::Agree { margin: f64::INFINITY };
+
+fn is_same_grid(accepted: &Accepted, found: &Accepted) -> bool {
+    let is_same = |(a, b): (&f64, &f64)| (a - b).abs() <= SAME_TIME * a.abs().larger(b.abs());
+    accepted.instants == found.instants
+        && accepted.times.len() == found.times.len()
+        && accepted.times.iter().zip(&found.times).all(is_same)
+}
+
+/// All figures of a channel, accepted and found, on the same grid.
+fn pairs(kept: &Kept, found: &Kept, times: &[f64]) -> Vec<Moved> {
+    // Angles that always differ by the same whole turns are the same motion.
+    let turns = match (found.rms, kept.at.first(), found.at.first()) {
+        (None, Some(kept), Some(found)) => ((found - kept) / std::f64::consts::TAU).round() * std::f64::consts::TAU,
+        _ => 0.0,
+    };
+    let pair = |figure: Figure, accepted: f64, own: f64| Moved {
+        channel: found.name.clone(),
+        figure,
+        accepted,
+        found: own - turns,
+        bound: kept.bound + found.bound,
+    };
+    let at = times.iter().zip(kept.at.iter().zip(&found.at)).map(|(&t, (&kept, &own))| pair(Figure::At(t), kept, own));
+    let rms = kept.rms.zip(found.rms).map(|(kept, own)| pair(Figure::Rms, kept, own));
+    let ends = [pair(Figure::Least, kept.least, found.least), pair(Figure::Greatest, kept.greatest, found.greatest)];
+    at.chain(ends).chain(rms).collect()
+}
+
+/// What is to be kept after `found`: of channels that have not moved what was accepted, so that a file changes only
+/// where figures have.
+#[must_use]
+pub fn renewed(accepted: &Accepted, found: Accepted, comparison: &Comparison) -> Accepted {
+    if comparison.is_other_grid {
+        return found;
+    }
+    let moved = comparison.moved.iter().map(|moved| moved.channel.as_str());
+    let bounds = comparison.wider.iter().chain(&comparison.looser).map(|own| own.channel.as_str());
+    let others: BTreeSet<&str> = moved.chain(bounds).collect();
+    let known = by_name(accepted);
+    let kept = |own: Kept| match counterpart(&known, &own) {
+        Some(kept) if !others.contains(own.name.as_str()) => kept.clone(),
+        Some(_) | None => own,
+    };
+    let channels = found.channels.into_iter().map(kept).collect();
+    Accepted { times: accepted.times.clone(), channels, ..found }
+}

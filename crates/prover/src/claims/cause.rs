@@ -1,0 +1,352 @@
+//! Why a formula is wrong.
+
+use std::collections::BTreeSet;
+use std::fmt;
+
+use super::Course;
+use super::dimension::Dimensions;
+use super::missing::{Missing, missing};
+use super::slips::{self, Kind, Mended, Slip};
+use super::terms::{self, Term};
+use super::trial::{MOST_LEFT, Trial};
+use crate::numbers::{fixed, significant};
+use linkage::error::Result;
+use linkage::math::KeepNan;
+use scenario::{Claim, Formulas};
+
+/// The simplest explanation of a wrong formula: with it granted, nothing is left over, unless it says so.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Cause {
+    /// One slip of the pen.
+    Slip(Slip),
+    /// The same amount too much everywhere, in the unit of the claim.
+    Offset(f64),
+    /// Too large by the same factor everywhere.
+    Factor(f64),
+    /// A term or factor of the derivation is missing.
+    Missing(Missing),
+    /// Terms are missing that the mechanism has.
+    Terms(Vec<Term>),
+    /// It is right up to a crank angle (rad) and then another branch.
+    Leaves {
+        /// The last crank angle at which it is right.
+        after: f64,
+        /// The first at which it is not.
+        before: f64,
+    },
+    /// Several slips explain it equally well, and more that are not told.
+    Several {
+        /// The simplest.
+        causes: Vec<Cause>,
+        /// Number of those that are not told.
+        more: usize,
+    },
+    /// It is another channel of the mechanism, by name.
+    Other(String),
+    /// It is a constant, and what it claims is not.
+    Constant,
+    /// Nothing simple explains it, and it is nearly right.
+    Near {
+        /// Its largest error, in the unit of the claim.
+        error: f64,
+        /// The same over the mechanism's largest number.
+        share: f64,
+    },
+    /// Nothing simple explains all of it; this explains most.
+    Mostly {
+        /// What explains most of it.
+        cause: Box<Cause>,
+        /// Share of the difference that stays over when it is granted.
+        left: f64,
+    },
+}
+
+impl fmt::Display for Cause {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Cause::Slip(Slip { formula, kind, written, right, everywhere }) => {
+                let wherever = if *everywhere { " wherever it stands" } else { "" };
+                write!(f, "{}, in {formula}: `{right}` instead of `{written}`{wherever}", kind.words())
+            }
+            Cause::Offset(offset) => write!(f, "{} too much everywhere", significant(*offset, 6)),
+            Cause::Factor(factor) => write!(f, "too large by the factor {} everywhere", significant(*factor, 6)),
+            Cause::Missing(Missing { formula, beside, what, is_factor }) => {
+                let noun = match is_factor {
+                    true if what.starts_with('/') => "divisor, or a factor too many",
+                    true => "factor",
+                    false => "term",
+                };
+                let beside = beside.as_ref().map_or(String::new(), |part| format!(" beside `{part}`"));
+                write!(f, "a missing {noun}, in {formula}: `{what}`{beside}")
+            }
+            Cause::Terms(terms) => {
+                let noun = if terms.len() == 1 { "a missing term" } else { "missing terms" };
+                let terms: Vec<String> = terms.iter().map(Term::to_string).collect();
+                write!(f, "{noun}, {}", terms.join(" and "))
+            }
+            Cause::Leaves { after, before } => {
+                let [after, before] = [after, before].map(|crank| fixed(crank.to_degrees(), 3));
+                write!(
+                    f,
+                    "another branch: it is right up to crank angle {after} deg, and no longer at {before} deg; \
+                     atan2 in place of acos, asin or atan follows it"
+                )
+            }
+            Cause::Several { causes, more } => {
+                let told: Vec<String> = causes.iter().map(Cause::to_string).collect();
+                write!(f, "one of several that fit equally: {}", told.join("; or "))?;
+                if *more > 0 { write!(f, "; or {more} more") } else { Ok(()) }
+            }
+            Cause::Other(channel) => write!(f, "another quantity is claimed: it is {channel}"),
+            Cause::Constant => write!(f, "it is a constant, and what it claims changes with the crank"),
+            Cause::Near { error, share } => write!(
+                f,
+                "no single slip or term; it is right to {} % of the largest number, as an approximation or a rounded \
+                 number is: `error = {}` claims it as one",
+                significant(100.0 * share, 2),
+                significant(1.06 * error, 2)
+            ),
+            Cause::Mostly { cause, left } => {
+                write!(f, "for the most part {cause}; with that, {:.2} % of the difference stays over", 100.0 * left)
+            }
+        }
+    }
+}
+
+impl fmt::Display for Term {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let factor = self.factor.clone().unwrap_or_else(|| significant(self.coefficient, 6));
+        let (sign, factor) = factor.strip_prefix('-').map_or(("+", factor.as_str()), |size| ("-", size));
+        match self.of.as_str() {
+            "" => write!(f, "`{sign} {factor}`"),
+            of => write!(f, "`{sign} {factor}*{of}`"),
+        }
+    }
+}
+
+impl Cause {
+    /// Whether nothing is left over when it is granted.
+    #[must_use]
+    pub fn is_whole(&self) -> bool {
+        !matches!(self, Cause::Mostly { .. } | Cause::Near { .. } | Cause::Constant)
+    }
+}
+
+/// What a search for a cause came to.
+#[derive(Clone, Debug, Default)]
+pub struct Search {
+    /// The cause, if there is a simple one.
+    pub cause: Option<Cause>,
+    /// Whether the search ended because its work was used up, before all was tried.
+    pub is_cut: bool,
+    /// Operations that it took: evaluations of a part of a formula at an instant, and what costs as much.
+    pub work: u64,
+}
+
+/// Why a search has found no cause, where it is cut.
+pub const CUT: &str = "the search ended at its limit of work, before all slips and terms were tried";
+
+/// Most operations of the search for the cause of one formula.
+pub const MOST_WORK: u64 = 60_000_000;
+/// Most explanations that are told where several fit equally.
+const TOLD: usize = 3;
+/// Share of the largest number of the mechanism that an approximation is off by at most.
+const NEAR: f64 = 0.02;
+
+/// Why the formula called `name` is wrong on a course, sought with no more operations than `limit`. There is no cause
+/// if it claims nothing, or nothing simple explains it.
+///
+/// # Errors
+/// If the course lacks a channel of the claim.
+pub fn cause(formulas: &Formulas, name: &str, course: &Course, limit: u64) -> Result<Search> {
+    if limit == 0 {
+        return Ok(Search { is_cut: true, ..Search::default() });
+    }
+    let Some(index) = formulas.list.iter().position(|own| own.name == name) else { return Ok(Search::default()) };
+    let Some(claim) = &formulas.list[index].claim else { return Ok(Search::default()) };
+    let mut trial = Trial::of(formulas, index, claim, course, limit)?;
+    let found = sought(&mut trial, claim, course);
+    Ok(Search {
+        is_cut: trial.is_spent() && !found.as_ref().is_some_and(Cause::is_whole),
+        cause: found,
+        work: trial.sheet.operations(),
+    })
+}
+
+fn sought(trial: &mut Trial, claim: &Claim, course: &Course) -> Option<Cause> {
+    let rows = trial.rows();
+    let number = of_numbers(&rows);
+    trial.is_number = number.is_some();
+    let formulas = trial.formulas.clone();
+    let dimensions = Dimensions::of(&formulas, trial.index, claim);
+    let tried = slips::tried(trial, &dimensions);
+    let is_sound = |own: &&Mended| !own.rank.0;
+    let is_simple = |own: &&Mended| own.slip.kind != Kind::Value || !own.rank.1;
+    let mut sound: Vec<&Mended> = tried.right.iter().filter(is_sound).filter(is_simple).collect();
+    // Where nothing changes, or the formula is wrong by a factor, a number is all that a slip has to meet.
+    let is_weak = trial.is_constant() || trial.is_number;
+    if let Some(first) = sound.first().copied() {
+        // A sign, a unit, and units that fit together only with it, say more than the number does.
+        let own = formulas.list[trial.index].tree.clone();
+        let is_natural = match first.slip.kind {
+            Kind::Sign | Kind::Branch | Kind::PerRadian | Kind::PerSecond => true,
+            Kind::Unit => !trial.is_constant(),
+            Kind::Function
+            | Kind::Power
+            | Kind::Name
+            | Kind::Exchanged
+            | Kind::Term
+            | Kind::Reference
+            | Kind::Factor
+            | Kind::Operator
+            | Kind::Parentheses
+            | Kind::Value => !dimensions.are_sound(&[(trial.index, own)]),
+        };
+        let mut kinds = BTreeSet::new();
+        let (rank, written) = (first.rank, first.slip.written.clone());
+        sound.retain(|own| {
+            let is_same = own.rank != rank && written.contains(&own.slip.written);
+            if is_weak && !is_natural {
+                let is_near = own.rank.2 == rank.2 || trial.is_constant();
+                return own.rank.1 == rank.1 && is_near && !is_same && kinds.insert((own.slip.kind, own.rank.2));
+            }
+            // By the numbers of a mechanism, one length may be twice another, or a ratio twice its inverse.
+            let is_number = |kind: Kind| kind == Kind::Factor;
+            let is_other = own.rank.1 == rank.1
+                && (matches!(rank.3, Kind::Name | Kind::Exchanged) && is_number(own.slip.kind)
+                    || is_number(rank.3) && own.rank.2 && own.rank.3 < rank.3);
+            own.rank == rank && own.slip.written == written || is_other && kinds.insert((own.slip.kind, own.rank.2))
+        });
+        return one_of(sound.into_iter().map(|own| Cause::Slip(own.slip.clone())).collect());
+    }
+    // What is missing comes before slips whose units do not fit together.
+    let lacks = if trial.is_spent() { Vec::new() } else { missing(trial, &dimensions) };
+    let found: Vec<Cause> = lacks.into_iter().map(Cause::Missing).collect();
+    if !found.is_empty() {
+        return one_of(found);
+    }
+    if let Some(first) = tried.right.first() {
+        return Some(Cause::Slip(first.slip.clone()));
+    }
+    if number.is_some() {
+        return number;
+    }
+    if !trial.is_spent()
+        && let Some(found) = terms::of(trial, course, &dimensions)
+    {
+        return Some(Cause::Terms(found));
+    }
+    if let Some(found) = terms::is_other(trial, claim, course) {
+        return Some(Cause::Other(found));
+    }
+    if trial.gives_one_number() && !trial.is_constant() {
+        return Some(Cause::Constant);
+    }
+    if let Some(found) = leaves(&rows, trial.formula.error.is_none()) {
+        return Some(found);
+    }
+    // Of as many that are as simple, one leaves as little at two independent instants by chance.
+    let by_chance = |own: &Mended| (CHANCE / own.among as f64).sqrt().smaller(MOST_LEFT);
+    let nearest = tried.nearest.filter(|own| !own.rank.0 && !is_weak && own.left <= by_chance(own));
+    let mostly = |own: Mended| Cause::Mostly { cause: Box::new(Cause::Slip(own.slip)), left: own.left };
+    nearest.map(mostly).or_else(|| near(&rows, trial.formula.error.is_none()))
+}
+
+/// Chance that a slip leaves little of the difference though it is not the cause.
+const CHANCE: f64 = 0.05;
+
+/// One cause, or several that fit equally well.
+fn one_of(mut causes: Vec<Cause>) -> Option<Cause> {
+    causes.dedup();
+    let more = causes.len().saturating_sub(TOLD);
+    causes.truncate(TOLD);
+    if causes.len() > 1 { Some(Cause::Several { causes, more }) } else { causes.pop() }
+}
+
+/// Whether it is right to within a small share of its largest number, as a series or a formula for small angles is.
+fn near(rows: &[Row], is_exact: bool) -> Option<Cause> {
+    let largest = |of: &dyn Fn(&Row) -> f64| rows.iter().map(|row| of(row).abs()).fold(0.0, f64::larger);
+    let (error, scale) = (largest(&|row| row[2] - row[3]), largest(&|row| row[3]));
+    let is_near = is_exact && rows.len() >= FEWEST && error <= NEAR * scale;
+    is_near.then_some(Cause::Near { error, share: error / scale })
+}
+
+/// Fewest instants that an approximation is recognised by.
+const FEWEST: usize = 8;
+
+/// Formula and mechanism at an instant: time, crank, formula without whole turns, mechanism, bound.
+pub(super) type Row = [f64; 5];
+
+impl Trial<'_> {
+    fn rows(&self) -> Vec<Row> {
+        let of = |(place, pair): (usize, &super::judged::Pair)| {
+            let mechanism = pair.mechanism.value;
+            let formula = mechanism + self.difference(pair.formula.value, place);
+            [pair.place[0], pair.place[1], formula, mechanism, self.bound(place)]
+        };
+        self.pairs.iter().enumerate().map(of).collect()
+    }
+}
+
+/// An offset or a factor, if either is all that is wrong.
+fn of_numbers(rows: &[Row]) -> Option<Cause> {
+    if rows.len() < 3 || rows.iter().any(|row| !row[2].is_finite()) {
+        return None;
+    }
+    let left = |row: &Row| row[2] - row[3];
+    let largest = |column: usize| rows.iter().map(|row| row[column].abs()).fold(0.0, f64::larger);
+    // A coefficient that is taken from the numbers themselves is as well known as they are.
+    let slack = 8.0 * f64::EPSILON * (largest(2) + largest(3));
+    let by = |basis: &dyn Fn(&Row) -> f64| {
+        let [above, below] = rows.iter().fold([0.0, 0.0], |[above, below], row| {
+            let basis = basis(row);
+            [above + basis * left(row), below + basis * basis]
+        });
+        let coefficient = above / below;
+        let fits = rows.iter().all(|row| (left(row) - coefficient * basis(row)).abs() <= 4.0 * row[4] + slack);
+        (coefficient.is_finite() && fits).then_some(coefficient)
+    };
+    let offset = by(&|_| 1.0).map(Cause::Offset);
+    offset.or_else(|| by(&|row| row[3]).map(|more| Cause::Factor(1.0 + more)))
+}
+
+/// Right up to somewhere, and wrong from there on; an approximation is right by chance where it crosses.
+fn leaves(rows: &[Row], is_exact: bool) -> Option<Cause> {
+    let mut order: Vec<&Row> = rows.iter().collect();
+    order.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    let is_right = |row: &&Row| (row[2] - row[3]).abs() <= row[4];
+    let right = order.iter().copied().take_while(is_right).count();
+    (is_exact && right >= 2 && right < order.len())
+        .then(|| Cause::Leaves { after: order[right - 1][1], before: order[right][1] })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Ten numbers known to 1e-12: what is left by an offset or a factor must be as small as that, in every one.
+    #[test]
+    fn an_offset_or_a_factor_leaves_nothing_over() {
+        let found = |of: &dyn Fn(f64) -> f64, off: f64| {
+            let mut rows: Vec<Row> = (0..10u32)
+                .map(|k| {
+                    let mechanism = (0.7 * f64::from(k)).sin() + 0.2;
+                    [f64::from(k), f64::from(k), of(mechanism), mechanism, 1e-12]
+                })
+                .collect();
+            rows[3][2] += off;
+            of_numbers(&rows)
+        };
+        let factor = found(&|right| 1.1 * right, 0.0);
+        assert!(matches!(factor, Some(Cause::Factor(own)) if (own - 1.1).abs() < 1e-12), "{factor:?}");
+        let offset = found(&|right| right + 0.5, 0.0);
+        assert!(matches!(offset, Some(Cause::Offset(own)) if (own - 0.5).abs() < 1e-12), "{offset:?}");
+        for of in [&(|right| 1.1 * right) as &dyn Fn(f64) -> f64, &|right| right + 0.5] {
+            assert!(found(of, 2e-12).is_some());
+            let over = found(of, 1e-9);
+            assert!(over.is_none(), "{over:?}");
+        }
+        let square = found(&|right| right * right, 0.0);
+        assert!(square.is_none(), "{square:?}");
+    }
+}

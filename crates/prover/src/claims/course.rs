@@ -1,0 +1,292 @@
+//! What a side found, with how well it knows it.
+
+use formula::{Function, Operator, Rounded};
+use linkage::case::Case;
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::math::KeepNan;
+use linkage::trajectory::{Channel, OfJoint, OfLink, OfPoint, Reading, Trajectory};
+use scenario::{Claim, Figure, Formula, PrintedChannel};
+
+/// A side's trajectory, and how far every number of it is known (by column and row, in its SI unit).
+pub struct Course<'a> {
+    trajectory: &'a Trajectory,
+    error: &'a dyn Fn(usize, usize) -> f64,
+    crank_name: &'a str,
+    /// Angular velocity and acceleration of the crank, where the side has them.
+    crank: [Option<usize>; 2],
+    /// Angle of a crank that moves under forces, where the side has it: it is known as well as it was integrated.
+    angle: Option<usize>,
+    /// Figures of the whole mechanism, in SI.
+    figures: &'a [(Figure, Rounded)],
+    /// How well every channel is known at best, in its SI unit; empty for no such limit.
+    least: &'a [f64],
+}
+
+/// One column in the unit of a claim.
+pub(super) struct Column<'a> {
+    values: &'a [f64],
+    error: Box<dyn Fn(usize) -> f64 + 'a>,
+    /// Of a vector's magnitude: the other component.
+    across: Option<Box<Column<'a>>>,
+    /// The SI unit over the claim's.
+    factor: f64,
+}
+
+impl Column<'_> {
+    pub(super) fn at(&self, row: usize) -> Rounded {
+        let own = Rounded { value: self.values[row], error: (self.error)(row) };
+        let si = match &self.across {
+            None => own,
+            Some(across) => {
+                let square = |number| Rounded::pair(Operator::Times, number, number);
+                let sum = Rounded::pair(Operator::Plus, square(own), square(across.at(row)));
+                Rounded::call(Function::Sqrt, [sum, sum])
+            }
+        };
+        match self.factor {
+            1.0 => si,
+            factor => Rounded::pair(Operator::Over, si, Rounded::nearly(factor)),
+        }
+    }
+}
+
+/// The channels that judging a claim needs of a case, derivatives included.
+#[must_use]
+pub fn needed(claim: &Claim, case: &Case) -> Vec<Channel> {
+    let crank = &case.mechanism.links()[case.crank().link].name;
+    let mut all: Vec<Channel> = ["angle_rad", "omega_rad_s", "alpha_rad_s2"]
+        .iter()
+        .filter_map(|suffix| Channel::named(&format!("link.{crank}.{suffix}")))
+        .collect();
+    for (_, channel) in &claim.channels {
+        all.extend(across(channel));
+        let mut next = Some(channel.channel.clone());
+        while let Some(channel) = next {
+            next = channel.rate();
+            all.push(channel);
+        }
+    }
+    all
+}
+
+/// The channels that a diagnosis may find a missing term among: angles, velocities and accelerations of all links and
+/// points; and what has the unit of a claim, which may be meant.
+#[must_use]
+pub fn telling<'a>(case: &Case, claims: impl Iterator<Item = &'a Claim>) -> Vec<Channel> {
+    let claimed: Vec<_> =
+        claims.flat_map(|claim| claim.channels.iter().map(|(_, channel)| channel.channel.kind.unit)).collect();
+    let is_motion = |channel: &Channel| matches!(channel.kind.reading, Reading::Link(_) | Reading::Point(_));
+    let of = |channel: &Channel| is_motion(channel) || claimed.contains(&channel.kind.unit);
+    case.all_channels().into_iter().filter(of).collect()
+}
+
+/// The other component of a vector whose magnitude is claimed.
+fn across(channel: &PrintedChannel) -> Option<Channel> {
+    let is_other = |kind: &&'static linkage::trajectory::ChannelKind| kind.reading == Reading::Joint(OfJoint::ForceY);
+    let kind = channel.magnitude.then(|| linkage::trajectory::CHANNELS.iter().find(is_other)).flatten()?;
+    Some(Channel { of: channel.channel.of.clone(), kind })
+}
+
+impl<'a> Course<'a> {
+    /// What a side found on a case; `error` says how far a number is known, by column and row.
+    #[must_use]
+    pub fn new(case: &'a Case, trajectory: &'a Trajectory, error: &'a dyn Fn(usize, usize) -> f64) -> Self {
+        let crank = &case.mechanism.links()[case.crank().link].name;
+        let of = |suffix: &str| {
+            let channel = Channel::named(&format!("link.{crank}.{suffix}"))?;
+            trajectory.channels().iter().position(|own| *own == channel)
+        };
+        let angle = case.is_free().then(|| of("angle_rad")).flatten();
+        Course {
+            trajectory,
+            error,
+            crank_name: crank,
+            crank: ["omega_rad_s", "alpha_rad_s2"].map(of),
+            angle,
+            figures: &[],
+            least: &[],
+        }
+    }
+
+    /// The same with figures of the whole mechanism, in SI.
+    #[must_use]
+    pub fn with_figures(self, figures: &'a [(Figure, Rounded)]) -> Self {
+        Course { figures, ..self }
+    }
+
+    /// The same with limits to how well channels are known, in their SI units.
+    #[must_use]
+    pub fn known_at_least(&'a self, least: &'a [f64]) -> Self {
+        Course { least, ..*self }
+    }
+
+    pub(super) fn len(&self) -> usize {
+        self.trajectory.times().len()
+    }
+
+    pub(super) fn times(&self) -> &[f64] {
+        self.trajectory.times()
+    }
+
+    pub(super) fn cranks(&self) -> &[f64] {
+        self.trajectory.cranks()
+    }
+
+    /// The instants at which a formula is claimed to hold.
+    pub(super) fn rows(&self, formula: &Formula) -> Vec<usize> {
+        (0..self.len()).filter(|&row| formula.holds_at(self.cranks()[row])).collect()
+    }
+
+    /// Names of the links, except the crank, of which all is known here, with angle (rad), angular velocity and
+    /// angular acceleration.
+    pub(super) fn links(&self) -> impl Iterator<Item = (&str, [&[f64]; 3])> {
+        let channels = self.trajectory.channels();
+        let column = |channel: &Channel| {
+            let index = channels.iter().position(|own| own == channel)?;
+            self.trajectory.column_near(channel, index)
+        };
+        channels.iter().filter_map(move |angle| {
+            let is_angle = angle.kind.reading == Reading::Link(OfLink::Angle) && angle.of != self.crank_name;
+            let omega = angle.rate().filter(|_| is_angle)?;
+            let alpha = omega.rate()?;
+            Some((angle.of.as_str(), [column(angle)?, column(&omega)?, column(&alpha)?]))
+        })
+    }
+
+    /// All channels with their columns.
+    pub(super) fn columns(&self) -> impl Iterator<Item = (&Channel, &[f64])> {
+        let all = self.trajectory.channels().iter().enumerate();
+        all.filter_map(|(index, own)| Some((own, self.trajectory.column_near(own, index)?)))
+    }
+
+    /// Channels and columns of velocities and accelerations of points and mass centres.
+    pub(super) fn points(&self) -> impl Iterator<Item = (&Channel, &[f64])> {
+        self.columns().filter(|(channel, _)| {
+            let (Reading::Point(of) | Reading::Link(OfLink::Centre(of))) = channel.kind.reading else { return false };
+            !matches!(of, OfPoint::X | OfPoint::Y)
+        })
+    }
+
+    /// The inputs of formulas at an instant.
+    pub(super) fn inputs(&self, row: usize) -> [Rounded; 4] {
+        let of = |column: Option<usize>| {
+            let column = column?;
+            let value = self.trajectory.column_near(&self.trajectory.channels()[column], column)?[row];
+            Some(Rounded { value, error: (self.error)(column, row) })
+        };
+        let [omega, alpha] = self.crank.map(|column| of(column).unwrap_or(Rounded::exact(f64::NAN)));
+        [self.crank(row), Rounded::nearly(self.times()[row]), omega, alpha]
+    }
+
+    /// The crank angle at an instant (rad, as the scenario states it).
+    #[must_use]
+    pub fn crank(&self, row: usize) -> Rounded {
+        let mut phi = Rounded::nearly(self.cranks()[row]);
+        phi.error += self.angle.map_or(0.0, |column| (self.error)(column, row));
+        phi
+    }
+
+    /// Number of derivatives of a claim that the side has channels for. Figures are numbers and have none.
+    ///
+    /// # Errors
+    /// If a channel or figure of the claim itself is missing.
+    pub(super) fn orders(&self, claim: &Claim) -> Result<usize> {
+        self.channels(claim, 0)?;
+        self.figures(claim)?;
+        if claim.channels.is_empty() {
+            return Ok(0);
+        }
+        let own = (1..=2).take_while(|&order| self.channels(claim, order).is_ok()).count();
+        Ok(own.min(self.crank.iter().take_while(|column| column.is_some()).count()))
+    }
+
+    /// The figures of a claim.
+    pub(super) fn figures(&self, claim: &Claim) -> Result<Vec<Rounded>> {
+        let of = |(name, figure): &(String, Figure)| {
+            let found = self.figures.iter().find(|(own, _)| own == figure);
+            found.map(|(_, number)| *number).ok_or_else(|| missing(name))
+        };
+        claim.figures.iter().map(of).collect()
+    }
+
+    /// The columns of a claim's channels, then of their rates, and of the rates of those, up to an order.
+    pub(super) fn channels(&self, claim: &Claim, orders: usize) -> Result<Vec<Column<'_>>> {
+        let mut all = Vec::with_capacity(claim.channels.len() * (orders + 1));
+        let mut present: Vec<(Channel, &PrintedChannel)> =
+            claim.channels.iter().map(|(_, printed)| (printed.channel.clone(), printed)).collect();
+        for order in 0..=orders {
+            for (channel, printed) in &mut present {
+                if order > 0 {
+                    *channel = channel.rate().filter(|_| !printed.magnitude).ok_or_else(|| missing(channel))?;
+                }
+                all.push(self.column(channel, printed)?);
+            }
+        }
+        Ok(all)
+    }
+
+    fn column(&self, channel: &Channel, printed: &PrintedChannel) -> Result<Column<'_>> {
+        let index = self.trajectory.channels().iter().position(|own| own == channel);
+        let index = index.ok_or_else(|| missing(channel))?;
+        let values = self.trajectory.column_near(channel, index).ok_or_else(|| missing(channel))?;
+        let across = match across(printed) {
+            Some(other) => Some(Box::new(self.column(&other, &PrintedChannel::plain(other.clone()))?)),
+            None => None,
+        };
+        let (error, least) = (self.error, self.least.get(index).copied().unwrap_or(0.0));
+        Ok(Column {
+            values,
+            error: Box::new(move |row| error(index, row).larger(least)),
+            across,
+            factor: printed.to_si(1.0),
+        })
+    }
+}
+
+fn missing(what: &dyn std::fmt::Display) -> Error {
+    Error::new(ErrorKind::Input, format!("{what} was not asked for"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use linkage::solver::Solver;
+    use scenario::of_repository;
+
+    /// The larger of what is known at an instant and at all, in the unit of the claim.
+    #[test]
+    fn no_channel_is_known_better_than_its_limit() {
+        let case = of_repository("scenarios/crank_rocker.toml").case;
+        let claim = Claim::parse("link.rocker.angle_deg", &case).unwrap();
+        let trajectory = analytic::AssurSolver.solve(&case).unwrap();
+        let is_own = |channel: &Channel| *channel == claim.channels[0].1.channel;
+        let error = |_: usize, row: usize| if row == 7 { 1e-3 } else { 1e-9 };
+        let course = Course::new(&case, &trajectory, &error);
+        let least: Vec<f64> =
+            trajectory.channels().iter().map(|channel| if is_own(channel) { 1e-5 } else { 1.0 }).collect();
+        for (course, usual) in [(course.known_at_least(&least), 1e-5), (course.known_at_least(&[]), 1e-9)] {
+            for (row, found) in course.values(&claim).unwrap().into_iter().enumerate() {
+                let wanted = if row == 7 { 1e-3f64 } else { usual }.to_degrees();
+                assert!((found.error / wanted - 1.0).abs() < 1e-3, "{row}: {} {wanted}", found.error);
+            }
+        }
+    }
+
+    /// The root of the squares of both components, with the errors of both.
+    #[test]
+    fn a_magnitude_is_known_as_well_as_its_components() {
+        let case = of_repository("scenarios/crank_rocker.toml").case;
+        let claim = Claim::parse("joint.A.f_N", &case).unwrap();
+        let trajectory = analytic::AssurSolver.solve(&case).unwrap();
+        let [x, y] = ["joint.A.fx_N", "joint.A.fy_N"].map(|name| trajectory.named(name).unwrap());
+        let is_y = |channel: &Channel| channel.to_string() == "joint.A.fy_N";
+        let y_alone = |column: usize, _: usize| if is_y(&trajectory.channels()[column]) { 1e-6 } else { 0.0 };
+        let course = Course::new(&case, &trajectory, &y_alone);
+        for (row, found) in course.values(&claim).unwrap().into_iter().enumerate() {
+            let size = x[row].hypot(y[row]);
+            assert!((found.value / size - 1.0).abs() < 1e-14, "{row}: {} {size}", found.value);
+            let error = 1e-6 * y[row].abs() / size;
+            assert!((error..2.0 * error + 1e-9).contains(&found.error), "{row}: {} {error}", found.error);
+        }
+    }
+}

@@ -1,0 +1,223 @@
+//! A formula's course against that of the mechanism.
+
+use formula::Rounded;
+use linkage::error::Advice;
+use linkage::math::KeepNan;
+use scenario::{Claim, Formula};
+
+/// An instant, and what stands there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct At {
+    /// Time (s).
+    pub time: f64,
+    /// Crank angle (rad, as the scenario states it).
+    pub crank: f64,
+    /// What the formula gives.
+    pub formula: f64,
+    /// What the mechanism does.
+    pub mechanism: f64,
+    /// Formula less mechanism; for angles without whole turns.
+    pub difference: f64,
+    /// How far they may be apart.
+    pub bound: f64,
+}
+
+impl At {
+    /// Difference over bound; infinite for no number.
+    #[must_use]
+    pub fn used(&self) -> f64 {
+        let used = if self.difference == 0.0 { 0.0 } else { self.difference.abs() / self.bound };
+        if used.is_nan() { f64::INFINITY } else { used }
+    }
+}
+
+/// What a formula and its claim come to at an instant: time (s) and crank angle (rad).
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pair {
+    pub(super) place: [f64; 2],
+    pub(super) formula: Rounded,
+    pub(super) mechanism: Rounded,
+}
+
+/// What a judgement comes to.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Outcome {
+    /// The formula is right, at every instant that was judged.
+    Right,
+    /// It is not.
+    Wrong,
+    /// Nothing is proven.
+    Open {
+        /// Why not.
+        reason: String,
+        /// What would decide it.
+        advice: Vec<Advice>,
+    },
+}
+
+/// A formula judged by value, or by a derivative.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Judged {
+    /// Name of the formula.
+    pub name: String,
+    /// What it claims to be.
+    pub claim: String,
+    /// Unit of the numbers of the claim itself; empty for an arithmetic of several channels.
+    pub unit: &'static str,
+    /// Number of derivatives with respect to time (s): 0, 1 or 2.
+    pub order: usize,
+    /// Whether the bound is the error that the formula claims to have.
+    pub claimed: bool,
+    /// Number of instants judged.
+    pub judged: usize,
+    /// Number of instants at which the formula has lost so many digits that nothing can be said.
+    pub lost: usize,
+    /// Number of instants at which the claim itself has no number, as what is reduced to a crank that rests.
+    pub undefined: usize,
+    /// Number of instants at which the formula has no value, though the claim has.
+    pub without: usize,
+    /// First instant beyond its bound.
+    pub since: Option<At>,
+    /// The instant that uses most of its bound.
+    pub worst: Option<At>,
+    /// Largest number of the mechanism.
+    pub scale: f64,
+}
+
+/// Share of the scale beyond which a bound says nothing.
+const TELLING: f64 = 1e-6;
+/// Error of a formula over that of the mechanism that is no loss: a few products of numbers that the side knows as well.
+const NO_WORSE: f64 = 1e3;
+/// Share of instants without a telling bound beyond which nothing is proven.
+const MOST_LOST: f64 = 0.03;
+
+/// Whether a number of the claim is one.
+fn has_number(mechanism: Rounded) -> bool {
+    mechanism.value.is_finite() && mechanism.error.is_finite()
+}
+
+impl Judged {
+    /// A formula with its claim, or a derivative of both, before it is judged.
+    pub(super) fn new((formula, claim): (&Formula, &Claim), order: usize) -> Self {
+        Judged {
+            name: formula.name.clone(),
+            claim: claim.text.clone(),
+            unit: if order == 0 { claim.unit() } else { "" },
+            order,
+            claimed: formula.error.is_some(),
+            judged: 0,
+            lost: 0,
+            undefined: 0,
+            without: 0,
+            since: None,
+            worst: None,
+            scale: 0.0,
+        }
+    }
+
+    /// Judges the courses of a formula and of its claim by value. For angles, values a `turn` apart mean the same.
+    pub(super) fn of(
+        (formula, claim): (&Formula, &Claim),
+        turn: Option<f64>,
+        course: impl Iterator<Item = Pair> + Clone,
+    ) -> Self {
+        let mut own = Judged::new((formula, claim), 0);
+        course.clone().for_each(|pair| own.seen(pair.mechanism));
+        course.for_each(|pair| own.put(formula, turn, pair));
+        own
+    }
+
+    /// Takes in how large a number of the claim is. All of them come before the first that is judged.
+    pub(super) fn seen(&mut self, mechanism: Rounded) {
+        match has_number(mechanism) {
+            true => self.scale = self.scale.larger(mechanism.value.abs()),
+            false => self.undefined += 1,
+        }
+    }
+
+    /// Judges one instant.
+    pub(super) fn put(&mut self, formula: &Formula, turn: Option<f64>, pair: Pair) {
+        let Pair { place: [time, crank], formula: found, mechanism } = pair;
+        if !has_number(mechanism) {
+            return;
+        }
+        self.without += usize::from(found.is_undefined());
+        let difference = found.value - mechanism.value;
+        let difference = turn.map_or(difference, |turn| difference - turn * (difference / turn).round());
+        // What has no value has no rounding either.
+        let rounding = if found.is_undefined() { 0.0 } else { found.error };
+        let bound = formula.error.unwrap_or(0.0) + rounding + mechanism.error;
+        let at = At { time, crank, formula: found.value, mechanism: mechanism.value, difference, bound };
+        // What the mechanism itself is hardly known better is not the formula's loss.
+        let has_lost = !(found.error <= TELLING * self.scale) && !(found.error <= NO_WORSE * mechanism.error);
+        // Where a function ends, as acos at 1, its derivative has no number though the value is right.
+        let is_end = self.order > 0 && !found.value.is_finite();
+        if is_end || has_lost && at.used() <= 1.0 {
+            self.lost += 1;
+            return;
+        }
+        self.judged += 1;
+        if !(at.used() <= 1.0) && self.since.is_none_or(|since| time < since.time) {
+            self.since = Some(at);
+        }
+        if self.worst.is_none_or(|worst| at.used() > worst.used()) {
+            self.worst = Some(at);
+        }
+    }
+
+    /// What it comes to.
+    #[must_use]
+    pub fn outcome(&self) -> Outcome {
+        if self.since.is_some() {
+            return Outcome::Wrong;
+        }
+        let open = |reason: String, advice: &str| Outcome::Open { reason, advice: vec![advice.into()] };
+        let all = self.judged + self.lost;
+        match self.worst {
+            None if all == 0 && self.undefined > 0 => open(
+                format!("the claim has no number at any of {} instants: it divides by zero", self.undefined),
+                "claim it where the crank turns",
+            ),
+            None if all == 0 => open(
+                "no instant lies between the crank angles for which the formula is claimed".into(),
+                "let the grid come to them, or claim it for others",
+            ),
+            Some(_) if self.lost as f64 <= MOST_LOST * all as f64 => Outcome::Right,
+            _ => open(
+                format!("rounding leaves the formula less than six digits at {} of {all} instants", self.lost),
+                "write it so that no digits cancel, for example with atan2 in place of acos",
+            ),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use scenario::{Formulas, of_repository};
+
+    /// Errors of a formula and of the mechanism, as shares of the scale: a formula that is known much worse than the
+    /// mechanism, and to less than six digits, says nothing.
+    #[test]
+    fn digits_are_lost_only_where_the_mechanism_has_them() {
+        let case = of_repository("scenarios/crank_rocker.toml").case;
+        let claim = Claim::parse("link.rocker.omega_rad_s", &case).unwrap();
+        let mut formulas = Formulas::over(Vec::new());
+        let formula = formulas.add("f", "2").unwrap();
+        let claimed = |error: f64, own: f64| {
+            let of = |row: u32| Pair {
+                place: [f64::from(row), f64::from(row)],
+                formula: Rounded { value: 2.0, error: 2.0 * error },
+                mechanism: Rounded { value: 2.0, error: 2.0 * own },
+            };
+            let judged = Judged::of((&*formula, &claim), None, (0..10).map(of));
+            (judged.outcome() == Outcome::Right, judged.judged, judged.lost)
+        };
+        let (right, lost) = ((true, 10, 0), (false, 0, 10));
+        let cases =
+            [(9e-7, 0.0, right), (1e-4, 0.0, lost), (1e-4, 1e-6, right), (1e-4, 1e-8, lost), (1e-2, 1e-6, lost)];
+        for (error, own, wanted) in cases {
+            assert_eq!(claimed(error, own), wanted, "{error} {own}");
+        }
+    }
+}

@@ -1,0 +1,70 @@
+//! Places in formulas, and the names and steps that they use.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use formula::Tree;
+use scenario::Formulas;
+
+/// Names of parameters (in SI), and of the steps before a formula: they stand for quantities.
+pub(in crate::claims) fn quantities(formulas: &Formulas, formula: usize) -> Vec<String> {
+    // A plain number is no quantity.
+    let steps = formulas.list[..formula].iter().filter(|step| !step.tree.names().is_empty());
+    let steps = steps.map(|step| step.name.clone());
+    formulas.parameters.iter().map(|own| own.quantity().to_string()).chain(steps).collect()
+}
+
+/// Indices of a formula and of those that it uses, itself first.
+pub(in crate::claims) fn used_by(formulas: &Formulas, formula: usize) -> Vec<usize> {
+    let names: BTreeMap<&str, usize> =
+        formulas.list[..formula].iter().enumerate().map(|(index, own)| (own.name.as_str(), index)).collect();
+    let (mut found, mut known) = (vec![formula], BTreeSet::from([formula]));
+    let mut next = 0;
+    while next < found.len() {
+        for (name, _) in formulas.list[found[next]].tree.names() {
+            if let Some(&index) = names.get(name).filter(|index| known.insert(**index)) {
+                found.push(index);
+            }
+        }
+        next += 1;
+    }
+    found
+}
+
+/// Visits every part of a tree with its place, the whole first.
+pub(in crate::claims) fn at_every_place<'a>(tree: &'a Tree, visit: &mut dyn FnMut(&[usize], &'a Tree)) {
+    fn go<'a>(tree: &'a Tree, place: &mut Vec<usize>, visit: &mut dyn FnMut(&[usize], &'a Tree)) {
+        visit(place, tree);
+        for (index, part) in tree.parts().iter().enumerate() {
+            place.push(index);
+            go(part, place, visit);
+            place.pop();
+        }
+    }
+    go(tree, &mut Vec::new(), visit);
+}
+
+/// The part with a number, as [`at_every_place`] visits them.
+pub(in crate::claims) fn numbered(tree: &Tree, number: usize) -> &Tree {
+    let (mut found, mut next) = (tree, 0);
+    at_every_place(tree, &mut |_, part| {
+        if next == number {
+            found = part;
+        }
+        next += 1;
+    });
+    found
+}
+
+/// A tree with another part in place of the one with a number.
+pub(in crate::claims) fn replaced(tree: &Tree, number: usize, other: &Tree) -> Tree {
+    let (mut at, mut next) = (Vec::new(), 0);
+    at_every_place(tree, &mut |place, _| {
+        if next == number {
+            at = place.to_vec();
+        }
+        next += 1;
+    });
+    let mut changed = tree.clone();
+    *at.iter().fold(&mut changed, |tree, &index| &mut tree.parts_mut()[index]) = other.clone();
+    changed
+}

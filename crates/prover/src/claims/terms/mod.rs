@@ -1,0 +1,143 @@
+//! Terms that a wrong formula lacks as a whole, by least squares over what the mechanism has: sines and cosines of its
+//! links' angles, the squares of their speeds, their accelerations.
+
+mod squares;
+
+use super::Course;
+use super::dimension::Dimensions;
+use super::judged::Pair;
+use super::missing::Monomials;
+use super::trial::Trial;
+use linkage::math::KeepNan;
+use linkage::trajectory::Channel;
+use scenario::Claim;
+use squares::{Basis, Part, bases, explanations};
+
+pub use squares::Wrong;
+
+/// A term with its coefficient.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Term {
+    /// Its coefficient, in the unit of the claim.
+    pub coefficient: f64,
+    /// The coefficient as a product of parameters, if it is one whose unit fits.
+    pub factor: Option<String>,
+    /// What it is a multiple of; empty for a constant.
+    pub of: String,
+}
+
+/// Relative accuracy to which a coefficient is recognised as a product of parameters.
+const ACCURACY: f64 = 1e-8;
+/// Complexity of a coefficient that is no product of parameters.
+const UNKNOWN_NUMBER: usize = 20;
+/// Size of a term over the difference that it is a part of.
+const LARGER: f64 = 3.0;
+/// Error of a channel's number over the largest of its column.
+const KNOWN: f64 = 1e-10;
+
+/// One or two terms with which nothing is left over. Their coefficients are products of parameters with the unit that
+/// is missing; only what a sine or cosine has before it may be a number.
+pub(super) fn of(trial: &mut Trial, course: &Course, dimensions: &Dimensions) -> Option<Vec<Term>> {
+    let rows = course.rows(trial.formula);
+    if rows.len() != trial.pairs.len() {
+        return None;
+    }
+    let place = |place: usize| -trial.difference(trial.pairs[place].formula.value, place);
+    let wrong = Wrong {
+        rows: &rows,
+        differences: (0..rows.len()).map(place).collect(),
+        bounds: (0..rows.len()).map(|place| trial.bound(place)).collect(),
+        right: trial.pairs.iter().map(|pair| pair.mechanism.value).collect(),
+        few: &trial.few,
+    };
+    let bases = bases(course, &wrong);
+    let largest = wrong.differences.iter().fold(0.0, |largest: f64, own| largest.larger(own.abs()));
+    // A constant that is wrong is not explained by what takes it away.
+    let formula = trial.pairs.first()?.formula.value;
+    let is_constant = trial.gives_one_number();
+    let monomials = Monomials::of(&trial.formulas, trial.index, &[], dimensions);
+    // The simplest of what explains all of it.
+    let mut whole: Option<(usize, Vec<Term>)> = None;
+    explanations(&wrong, &bases, |parts| {
+        let is_named = |(term, basis): &(Term, &Basis)| term.factor.is_some() || basis.unit == "rad";
+        // What is much larger than the difference is no part of it: two such terms cancel each other, or the formula.
+        if parts.iter().any(|part| part.coefficient.abs() * part.basis.largest() > LARGER * largest) {
+            return;
+        }
+        let written =
+            parts.iter().map(|part| (written_as(part.basis, part.coefficient, &monomials, dimensions), part.basis));
+        let (mut terms, mut weight) = (Vec::new(), 0);
+        for ((term, own), basis) in written {
+            let takes_away = basis.text.is_empty() && (term.coefficient + formula).abs() <= 1e-6 * formula.abs();
+            if is_constant && takes_away {
+                return;
+            }
+            let pair = (term, basis);
+            if !is_named(&pair) {
+                return;
+            }
+            terms.push(pair.0);
+            weight += own;
+        }
+        if whole.as_ref().is_none_or(|(least, _)| weight < *least) {
+            whole = Some((weight, terms));
+        }
+    });
+    trial.sheet.count((bases.len() * bases.len() * trial.few.len() + monomials.len()) as u64);
+    whole.map(|(_, terms)| terms)
+}
+
+/// The channel that a formula is right for, if it is another than the claimed one.
+pub(super) fn is_other(trial: &Trial, claim: &Claim, course: &Course) -> Option<String> {
+    let [(_, claimed)] = claim.channels.as_slice() else { return None };
+    let rows = course.rows(trial.formula);
+    if rows.len() != trial.pairs.len() || rows.len() < FEWEST || claim.unit().is_empty() {
+        return None;
+    }
+    let turn = claim.turn();
+    let is_right = |(channel, values): &(&Channel, &[f64])| {
+        let largest = rows.iter().fold(0.0, |largest: f64, &row| largest.larger(values[row].abs()));
+        // Another quantity counts in its own unit.
+        let is_alike = channel.kind.unit == claimed.channel.kind.unit;
+        let (unit, turn) = if is_alike { (claimed.to_si(1.0), turn) } else { (1.0, None) };
+        let fits = |(&row, pair): (&usize, &Pair)| {
+            let gap = pair.formula.value - values[row] / unit;
+            let gap = turn.map_or(gap, |turn| gap - turn * (gap / turn).round());
+            gap.abs() <= 4.0 * pair.formula.error + KNOWN * largest / unit
+        };
+        **channel != claimed.channel && largest > 0.0 && rows.iter().zip(&trial.pairs).all(fits)
+    };
+    course.columns().find(is_right).map(|(channel, _)| channel.to_string())
+}
+
+/// Fewest instants that a channel is recognised by.
+const FEWEST: usize = 8;
+
+impl Term {
+    /// A term whose coefficient is a number.
+    pub(super) fn plain(part: &Part) -> Term {
+        Term { coefficient: part.coefficient, factor: None, of: part.basis.text.clone() }
+    }
+}
+
+/// What a single term explains of numbers that no formula stands behind, or two if nothing is left over: the terms, and
+/// the share of the largest difference that stays over.
+#[must_use]
+pub fn missing_in_numbers(course: &Course, wrong: &Wrong) -> Option<(Vec<Term>, f64)> {
+    let terms = |parts: Vec<Part>| parts.iter().map(Term::plain).collect::<Vec<_>>();
+    let bases = bases(course, wrong);
+    let mut whole = None;
+    let most = explanations(wrong, &bases, |parts| {
+        whole.get_or_insert_with(|| terms(parts));
+    });
+    let whole = whole.map(|terms| (terms, 0.0));
+    whole.or_else(|| most.filter(|most| most.parts.len() == 1).map(|most| (terms(most.parts), most.left)))
+}
+
+/// A term as it may be written, and how complicated it is.
+fn written_as(basis: &Basis, coefficient: f64, monomials: &Monomials, dimensions: &Dimensions) -> (Term, usize) {
+    let mut products = monomials.with_value(coefficient, ACCURACY).into_iter();
+    let product = products.find(|(tree, _)| dimensions.is_sound_term(tree, basis.unit));
+    let weight = product.as_ref().map_or(UNKNOWN_NUMBER, |(_, weight)| *weight);
+    (Term { coefficient, factor: product.map(|(tree, _)| tree.to_string()), of: basis.text.clone() }, weight)
+}

@@ -1,0 +1,210 @@
+//! A wrong formula, and what a change of it would make of it.
+
+use super::judge;
+use super::judged::{Judged, Pair};
+use super::{Course, Outcome};
+use formula::{Program, Rounded, Sheet, Target, Tree};
+use linkage::error::Result;
+use linkage::math::KeepNan;
+use scenario::formula::OMEGA;
+use scenario::{Claim, Formula, Formulas, INPUTS, Parameter};
+
+/// Instants at which every change is tried first, besides the one at which the formula is worst.
+const FIRST: usize = 9;
+/// Steps before a formula, and parameters, that it does not use and may have forgotten.
+const BESIDE: usize = 20;
+/// What making a change as a tree, and judging it, costs beside its evaluations, in operations.
+const TREE: u64 = 2000;
+/// What adding a formula, or a part of one, to a graph costs, in operations.
+const ADDED: usize = 16;
+/// What making a change of one part costs beside its evaluations, in operations.
+const EDIT: u64 = 40;
+/// Share of the difference that a change may leave, at some instant, to be looked at more closely.
+pub(super) const MOST_LEFT: f64 = 0.1;
+
+/// A formula that a course contradicts, ready for changes to be tried.
+pub(super) struct Trial<'a> {
+    /// The formula with what it may know.
+    pub(super) formulas: Formulas,
+    /// Its index in that list.
+    pub(super) index: usize,
+    pub(super) formula: &'a Formula,
+    claim: &'a Claim,
+    /// Inputs of the formulas, formula and mechanism at every instant.
+    inputs: Vec<[Rounded; 4]>,
+    pub(super) pairs: Vec<Pair>,
+    /// Some of the instants, neither the first nor the last alone: much is zero there.
+    pub(super) few: Vec<usize>,
+    /// The derivation at the few instants.
+    pub(super) sheet: Sheet,
+    /// What the formula ought to be at each of the few.
+    pub(super) targets: Vec<Target>,
+    /// Numbers of the few, those first at which the formula is worst.
+    pub(super) order: Vec<usize>,
+    /// The largest difference at the few instants, or the largest number of the mechanism if that is less.
+    before: f64,
+    /// Whether a factor or an offset makes the formula right.
+    pub(super) is_number: bool,
+    /// Most operations that the search may take.
+    limit: u64,
+}
+
+impl<'a> Trial<'a> {
+    /// A formula and its claim on a course.
+    ///
+    /// # Errors
+    /// If the course lacks a channel of the claim.
+    pub(super) fn of(
+        formulas: &'a Formulas,
+        index: usize,
+        claim: &'a Claim,
+        course: &Course,
+        limit: u64,
+    ) -> Result<Self> {
+        let formula = &formulas.list[index];
+        let rows = course.rows(formula);
+        let mut pairs = judge::pairs(formulas, (formula, claim), course, &rows)?;
+        let mut inputs: Vec<[Rounded; 4]> = rows.iter().map(|&row| course.inputs(row)).collect();
+        // Where the claim has no number, as what is reduced to a crank that rests, nothing can be tried.
+        let has_number = |pair: &Pair| pair.mechanism.value.is_finite() && pair.mechanism.error.is_finite();
+        let kept: Vec<bool> = pairs.iter().map(has_number).collect();
+        let mut keep = kept.iter();
+        inputs.retain(|_| *keep.next().unwrap_or(&true));
+        pairs.retain(has_number);
+        let (index_of_file, (formulas, index)) = (index, formulas.derivation(index, BESIDE));
+        let step = pairs.len().div_ceil(FIRST).max(1);
+        let mut own = Trial {
+            sheet: Sheet::new(&[], Vec::new()),
+            formulas,
+            index,
+            formula,
+            claim,
+            few: (0..pairs.len()).skip(step / 2).step_by(step).collect(),
+            inputs,
+            pairs,
+            targets: Vec::new(),
+            order: Vec::new(),
+            before: 0.0,
+            is_number: false,
+            limit,
+        };
+        let size = |place: usize| own.difference(own.pairs[place].formula.value, place).abs();
+        let worse = |one: &usize, other: &usize| size(*one).total_cmp(&size(*other));
+        let worst = (0..own.pairs.len()).filter(|place| size(*place).is_finite()).max_by(worse);
+        let mut few = own.few.clone();
+        few.extend(worst);
+        few.sort_unstable();
+        few.dedup();
+        let mut order: Vec<usize> = (0..few.len()).collect();
+        order.sort_by(|one, other| size(few[*other]).total_cmp(&size(few[*one])));
+        // Of a difference that is larger than the mechanism's numbers, almost anything leaves little.
+        let largest = |of: &dyn Fn(usize) -> f64| few.iter().map(|&place| of(place)).fold(0.0, f64::larger);
+        let numbers = largest(&|place| own.pairs[place].mechanism.value.abs());
+        own.before = largest(&size).smaller(numbers);
+        let target = |&place: &usize| Target {
+            value: own.pairs[place].mechanism.value,
+            bound: own.bound(place),
+            turn: own.claim.turn(),
+        };
+        let targets = few.iter().map(target).collect();
+        (own.targets, own.order, own.few) = (targets, order, few);
+        let instants = own.few.iter().map(|&place| own.inputs[place].to_vec()).collect();
+        own.sheet = Sheet::new(&[INPUTS[0], INPUTS[1], OMEGA], instants);
+        for (name, number) in own.formulas.parameters.iter().flat_map(Parameter::names) {
+            own.sheet.constant(name, number);
+        }
+        for step in &own.formulas.list {
+            own.sheet.add(&step.name, &step.tree).expect("a formula knows what stands before it");
+        }
+        // Making the trial is work too: judging, and looking through the file.
+        let made = (16 * own.pairs.len() + 8 * index_of_file) as u64 + 8 * own.sheet.operations();
+        own.sheet.count(made);
+        Ok(own)
+    }
+
+    /// Whether the search has taken all the work that it may.
+    pub(super) fn is_spent(&self) -> bool {
+        self.sheet.operations() >= self.limit
+    }
+
+    /// Whether the mechanism's number does not change, or is one number.
+    pub(super) fn is_constant(&self) -> bool {
+        is_one(self.pairs.iter().map(|pair| pair.mechanism))
+    }
+
+    /// Whether the formula gives one number at all instants.
+    pub(super) fn gives_one_number(&self) -> bool {
+        is_one(self.pairs.iter().map(|pair| pair.formula))
+    }
+
+    /// Formula less mechanism, for angles without whole turns.
+    pub(super) fn difference(&self, formula: f64, place: usize) -> f64 {
+        let difference = formula - self.pairs[place].mechanism.value;
+        self.claim.turn().map_or(difference, |turn| difference - turn * (difference / turn).round())
+    }
+
+    /// How far formula and mechanism may be apart at an instant.
+    pub(super) fn bound(&self, place: usize) -> f64 {
+        let Pair { formula, mechanism, .. } = self.pairs[place];
+        formula.error + mechanism.error + self.formula.error.unwrap_or(0.0)
+    }
+
+    /// The inputs of formulas at one of the instants.
+    pub(super) fn inputs(&self, place: usize) -> [Rounded; 4] {
+        self.inputs[place]
+    }
+
+    /// Whether a change at some places of the sheet makes the formula right at the few instants, or leaves little of
+    /// the difference there. `depending` is what depends on the places.
+    pub(super) fn is_promising(&mut self, changes: &[(usize, Tree)], depending: &[usize]) -> bool {
+        let claimed = self.formula.error.unwrap_or(0.0);
+        self.sheet.count(EDIT);
+        (0..self.order.len()).all(|next| {
+            let (instant, place) = (self.order[next], self.few[self.order[next]]);
+            let found = self.sheet.changed(changes, depending, instant);
+            let difference = self.targets[instant].difference(found.value).abs();
+            difference <= found.error + self.pairs[place].mechanism.error + claimed
+                || difference <= MOST_LEFT * self.before
+        })
+    }
+
+    /// Whether the formula is right at every instant with these trees in place of those of the file; `slack` more
+    /// than its bound is allowed.
+    pub(super) fn fits(&mut self, changed: &[(usize, Tree)], slack: f64) -> bool {
+        self.left(changed, slack) == Some(0.0)
+    }
+
+    /// What such a change leaves of the difference: zero if the formula is right at every instant, else the largest
+    /// difference at some of them over the largest that there was. `None` if it has no value.
+    pub(super) fn left(&mut self, changed: &[(usize, Tree)], slack: f64) -> Option<f64> {
+        let Trial { formulas, index, formula, claim, inputs, pairs, few, .. } = self;
+        let after = *index - changed.iter().map(|(own, _)| *own).min().unwrap_or(*index);
+        let mut program = formulas.with_trees(changed, *index, |graph, id| Program::of(graph, &[id]))?;
+        let mut judged = |places: &mut dyn Iterator<Item = usize>| {
+            let mut at = |place: usize| {
+                let mut pair = Pair { formula: program.run(&inputs[place])[0], ..pairs[place] };
+                pair.mechanism.error += slack;
+                pair
+            };
+            let pairs: Vec<Pair> = places.map(&mut at).collect();
+            Judged::of((formula, claim), claim.turn(), pairs.into_iter())
+        };
+        let first = judged(&mut few.iter().copied());
+        // Where digits cancel, the few instants alone decide nothing.
+        let is_right = first.since.is_none() && judged(&mut (0..inputs.len())).outcome() == Outcome::Right;
+        let rows = if first.since.is_none() { inputs.len() } else { few.len() };
+        let work = (program.len() * (rows + ADDED) + after * ADDED) as u64 + TREE;
+        self.sheet.count(work);
+        if is_right {
+            return Some(0.0);
+        }
+        let left = first.worst.map(|worst| worst.difference.abs())? / self.before;
+        left.is_finite().then_some(left.larger(f64::MIN_POSITIVE))
+    }
+}
+
+/// Whether numbers are the same but for their errors.
+fn is_one(mut numbers: impl Iterator<Item = Rounded>) -> bool {
+    let Some(first) = numbers.next() else { return true };
+    numbers.all(|own| (own.value - first.value).abs() <= 4.0 * (own.error + first.error))
+}

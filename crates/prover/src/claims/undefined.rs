@@ -1,0 +1,57 @@
+//! Where a formula has no value.
+
+use std::fmt;
+
+use super::Course;
+use super::trial::Trial;
+use crate::numbers::fixed;
+use formula::Fault;
+use linkage::error::Result;
+use scenario::Formulas;
+
+/// An operation outside its domain, at the first instant at which a formula has no value.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Undefined {
+    /// Name of the formula in which the operation stands: the one that was asked about, or one that it uses.
+    pub formula: String,
+    /// The operation with its arguments, its place in the formula's text (bytes), and what would be in its domain.
+    pub fault: Fault,
+    /// The operation as it is written.
+    pub written: String,
+    /// The crank angle (rad).
+    pub crank: f64,
+    /// Whether the formula is right wherever it has a value, and has one somewhere: nothing else is wrong then.
+    pub is_all: bool,
+}
+
+impl fmt::Display for Undefined {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Undefined { formula, fault: Fault { message, at, help }, written, crank, .. } = self;
+        let crank = fixed(crank.to_degrees(), 3);
+        let place = format!("`{written}` in {formula}, from its letter {}", at.start + 1);
+        write!(f, "{message} at crank angle {crank} deg, {place}: {help}, whatever the result is multiplied by")
+    }
+}
+
+/// Where the formula called `name` has no value on a course, and the operations that it took to see it; `None` if it
+/// has one everywhere, or claims nothing.
+///
+/// # Errors
+/// If the course lacks a channel of the claim.
+pub fn undefined(formulas: &Formulas, name: &str, course: &Course) -> Result<(Option<Undefined>, u64)> {
+    let Some(index) = formulas.list.iter().position(|own| own.name == name) else { return Ok((None, 0)) };
+    let Some(claim) = &formulas.list[index].claim else { return Ok((None, 0)) };
+    let trial = Trial::of(formulas, index, claim, course, 0)?;
+    let pairs = trial.pairs.iter().enumerate();
+    let (without, with): (Vec<_>, Vec<_>) = pairs.partition(|(_, pair)| pair.formula.is_undefined());
+    let first = without.into_iter().min_by(|one, other| one.1.place[0].total_cmp(&other.1.place[0]));
+    let work = trial.sheet.operations();
+    let Some((place, pair)) = first else { return Ok((None, work)) };
+    let [phi, t, ..] = trial.inputs(place);
+    let Some((of, fault)) = formulas.undefined(index, [phi, t]) else { return Ok((None, work)) };
+    let is_right = |place: usize| trial.difference(trial.pairs[place].formula.value, place).abs() <= trial.bound(place);
+    let is_all = !with.is_empty() && with.iter().all(|&(place, _)| is_right(place));
+    let own = &formulas.list[of];
+    let written = own.text.get(fault.at.clone()).unwrap_or_default().to_string();
+    Ok((Some(Undefined { formula: own.name.clone(), fault, written, crank: pair.place[1], is_all }), work))
+}

@@ -1,0 +1,76 @@
+//! First poses of changed cases, and the other configurations of a case's groups.
+
+use super::cause::{Change, How, Part};
+use linkage::case::{Case, CaseParts};
+use linkage::mechanism::assembly::{StartGroup, configurations, first_pose};
+use linkage::mechanism::pose::SidePoint;
+use linkage::mechanism::{AssemblyMode, LinkPose, Side};
+
+/// Puts the mechanism together again after a change of its lengths or of its drives' start angles: dyads in their
+/// modes, higher groups as near as they can be to where they were.
+pub fn reassembled(parts: &mut CaseParts) -> Option<()> {
+    let wanted = wanted(parts);
+    assembled(parts, &wanted)
+}
+
+/// What keeps every group in its configuration.
+fn wanted(parts: &CaseParts) -> Vec<StartGroup> {
+    let groups = parts.structure.groups.iter().zip(&parts.modes);
+    let of = |(group, mode): (&linkage::mechanism::Group, &AssemblyMode)| match mode {
+        AssemblyMode::Left | AssemblyMode::Right | AssemblyMode::Ahead | AssemblyMode::Behind => {
+            StartGroup { mode: Some(*mode), ..StartGroup::default() }
+        }
+        AssemblyMode::Only => StartGroup::default(),
+        AssemblyMode::Followed => {
+            let near = group.links.iter().flat_map(|&link| {
+                let points = parts.mechanism.links()[link].points.iter();
+                points.map(move |point| {
+                    let side = Side { link, local: point.local };
+                    (SidePoint { name: point.name.clone(), side }, parts.start.0[link].point(point.local))
+                })
+            });
+            StartGroup { near: near.collect(), ..StartGroup::default() }
+        }
+    };
+    groups.map(of).collect()
+}
+
+fn assembled(parts: &mut CaseParts, wanted: &[StartGroup]) -> Option<()> {
+    let angles: Vec<f64> = parts.drives.iter().map(|drive| drive.world_angle(drive.start)).collect();
+    (parts.start, parts.modes) = first_pose(&parts.mechanism, &parts.structure, &angles, wanted).ok()?;
+    Some(())
+}
+
+/// The case with one group in another of its configurations, for all of them that are known.
+pub fn others(case: &Case) -> Vec<(Change, Case)> {
+    let mut found = Vec::new();
+    for (index, group) in case.structure.groups.iter().enumerate() {
+        // Not all configurations of groups of more than four links are known.
+        let all = configurations(&case.mechanism, group, &case.start).unwrap_or_default();
+        for (number, one) in all.iter().enumerate() {
+            let same = |(&link, place): (&usize, &LinkPose)| {
+                let own = &case.start.0[link];
+                let turn = (place.angle - own.angle).sin().abs() + (1.0 - (place.angle - own.angle).cos());
+                (place.origin - own.origin).norm() < 1e-6 * case.mechanism.size() && turn < 1e-6
+            };
+            if group.links.iter().zip(&one.links).all(same) {
+                continue;
+            }
+            let mut parts = case.clone().into_parts();
+            let mut wanted = wanted(&parts);
+            wanted[index] = StartGroup { rank: Some(number + 1), ..StartGroup::default() };
+            let other = assembled(&mut parts, &wanted).and_then(|()| Case::new(parts).ok());
+            let how = match one.mode {
+                AssemblyMode::Followed => How::Other(format!("number {}", number + 1)),
+                mode @ (AssemblyMode::Left
+                | AssemblyMode::Right
+                | AssemblyMode::Ahead
+                | AssemblyMode::Behind
+                | AssemblyMode::Only) => How::Other(mode.name().into()),
+            };
+            let part = Part::Configuration(group.names(&case.mechanism));
+            found.extend(other.map(|other| (Change { part, how }, other)));
+        }
+    }
+    found
+}

@@ -1,0 +1,408 @@
+//! Parts of a case that one number changes: which there are, and how each is turned.
+
+use std::f64::consts::PI;
+
+use super::cause::{Axis, How, Part};
+use super::configurations::reassembled;
+use linkage::case::{Case, CaseParts, Grid};
+use linkage::drive::{Drive, DriveMotion, Load, MotionLaw, Motor, ShaftInertia};
+use linkage::math::{KeepNan, Vec2};
+use linkage::mechanism::{Joint, Link, Mechanism};
+
+/// Makes the parts those of another value; `None` where there is no such case.
+type Turn = Box<dyn Fn(&mut CaseParts, f64) -> Option<()>>;
+
+/// A part of a case that one number changes.
+pub(super) struct Knob {
+    pub(super) part: Part,
+    /// Its value in the case, and the unit of its values.
+    pub(super) given: f64,
+    pub(super) unit: &'static str,
+    /// Values with a meaning, the simplest first.
+    pub(super) plain: Vec<(f64, How)>,
+    /// Change of the value that shows its effect.
+    pub(super) nudge: f64,
+    /// Whether reactions and moments are all that it changes where the motion is prescribed.
+    pub(super) moves_nothing: bool,
+    /// Whether it may show in places of mass centres only.
+    pub(super) is_centre: bool,
+    /// Whether a first approximation tells nothing about values far away.
+    pub(super) is_far: bool,
+    turn: Turn,
+}
+
+impl Knob {
+    /// The case with another value of this part.
+    pub(super) fn at(&self, case: &Case, value: f64) -> Option<Case> {
+        let mut parts = case.clone().into_parts();
+        (self.turn)(&mut parts, value)?;
+        Case::new(parts).ok()
+    }
+
+    /// How the part is different at a value.
+    pub(super) fn told(&self, found: f64) -> How {
+        How::Instead { found, given: self.given, unit: self.unit }
+    }
+
+    /// The value with a number of significant digits; angles in degrees.
+    pub(super) fn significant(&self, value: f64, digits: usize) -> f64 {
+        match self.unit {
+            "rad" => significant(value.to_degrees(), digits).to_radians(),
+            _ => significant(value, digits),
+        }
+    }
+
+    /// A part that counts as `given` and may be multiplied.
+    fn amount(part: Part, given: f64, unit: &'static str, turn: Turn) -> Knob {
+        let plain = vec![
+            (0.0, How::Missing),
+            (-given, How::Reversed),
+            (2.0 * given, How::Twice),
+            (given / 2.0, How::Half),
+            (1e3 * given, How::Times(1e3, "as g for kg, or m for mm")),
+            (1e-3 * given, How::Times(1e-3, "as kg for g, or mm for m")),
+        ];
+        Knob {
+            part,
+            given,
+            unit,
+            plain,
+            nudge: 1e-3 * given,
+            moves_nothing: true,
+            is_centre: false,
+            is_far: false,
+            turn,
+        }
+    }
+
+    /// A place or an angle, whose size has no meaning; `natural` is what it is measured by.
+    fn place(part: Part, given: f64, natural: f64, unit: &'static str, turn: Turn) -> Knob {
+        let plain = if given == 0.0 { Vec::new() } else { vec![(-given, How::Reversed)] };
+        Knob {
+            part,
+            given,
+            unit,
+            plain,
+            nudge: 1e-4 * natural,
+            moves_nothing: false,
+            is_centre: false,
+            is_far: false,
+            turn,
+        }
+    }
+
+    fn also(mut self, plain: impl IntoIterator<Item = (f64, How)>) -> Knob {
+        self.plain.extend(plain);
+        self
+    }
+
+    fn moving(mut self) -> Knob {
+        self.moves_nothing = false;
+        self
+    }
+}
+
+/// All knobs of a case, the simplest first.
+pub(super) fn all(case: &Case) -> Vec<Knob> {
+    let mut knobs = Vec::new();
+    let gravity = case.gravity;
+    if gravity.norm() > 0.0 {
+        let turn: Turn = Box::new(move |parts, value| {
+            parts.gravity = gravity * (value / gravity.norm());
+            Some(())
+        });
+        knobs.push(Knob::amount(Part::Gravity, gravity.norm(), "m/s^2", turn));
+    }
+    knobs.extend((0..case.loads.len()).map(|index| load(case, index)));
+    knobs.extend((0..case.loads.len()).filter_map(|index| free(case, index)));
+    knobs.extend(motor(case));
+    let moving = || case.mechanism.links().iter().enumerate().skip(1);
+    // Of a single link all is the same as this one.
+    if moving().filter(|(_, link)| link.mass > 0.0).count() > 1 {
+        knobs.push(share(Part::Masses, |link, factor| link.mass *= factor));
+    }
+    if moving().filter(|(_, link)| link.inertia > 0.0).count() > 1 {
+        knobs.push(share(Part::Inertias, |link, factor| link.inertia *= factor));
+    }
+    for (index, link) in moving().filter(|(_, link)| link.mass > 0.0) {
+        let turn: Turn = Box::new(move |parts, mass| changed(parts, |links, _| links[index].mass = mass));
+        knobs.push(Knob::amount(Part::Mass(link.name.clone()), link.mass, "kg", turn));
+    }
+    for (index, link) in moving().filter(|(_, link)| link.inertia > 0.0) {
+        knobs.push(inertia(case, index, link));
+    }
+    for (index, drive) in case.drives.iter().enumerate() {
+        knobs.extend(of_drive(case, index, drive));
+    }
+    for (index, link) in moving().filter(|(_, link)| link.mass > 0.0) {
+        knobs.extend([Axis::X, Axis::Y].map(|axis| mass_centre(index, link, axis)));
+    }
+    for (joint, link) in places(case) {
+        knobs.extend([Axis::X, Axis::Y].map(|axis| place(case, joint, link, axis)));
+    }
+    knobs.extend(lengths(case));
+    knobs
+}
+
+/// Changes links and joints. The structure stays what it is.
+pub fn changed(parts: &mut CaseParts, change: impl FnOnce(&mut [Link], &mut [Joint])) -> Option<()> {
+    let (mut links, mut joints) = (parts.mechanism.links().to_vec(), parts.mechanism.joints().to_vec());
+    change(&mut links, &mut joints);
+    for link in &mut links {
+        // Nothing that turns has inertia without mass; so little mass has no effect either.
+        if link.mass == 0.0 && link.inertia > 0.0 {
+            link.mass = 1e-12;
+        }
+    }
+    parts.mechanism = Mechanism::new(links, joints).ok()?;
+    Some(())
+}
+
+fn share(part: Part, scale: fn(&mut Link, f64)) -> Knob {
+    let turn: Turn =
+        Box::new(move |parts, factor| changed(parts, |links, _| links.iter_mut().for_each(|link| scale(link, factor))));
+    Knob::amount(part, 1.0, "", turn)
+}
+
+fn load(case: &Case, index: usize) -> Knob {
+    let sort = case.loads[index].nature().sort;
+    let turn: Turn = Box::new(move |parts, factor| {
+        let own = parts.loads.remove(index).times(factor)?;
+        parts.loads.splice(index..index, own);
+        Some(())
+    });
+    let ratio = case.drives.iter().find_map(Drive::motor).map(|motor| motor.ratio);
+    let by_ratio = ratio.into_iter().filter(|ratio| *ratio != 1.0).flat_map(|ratio| {
+        [
+            (1.0 / ratio, How::Times(1.0 / ratio, "divided by the reducer's ratio once more")),
+            (ratio, How::Times(ratio, "multiplied by the reducer's ratio once more")),
+        ]
+    });
+    Knob::amount(Part::Load(index + 1, sort), 1.0, "", turn).also(by_ratio)
+}
+
+/// The length or twist of a spring at which it exerts nothing.
+fn free(case: &Case, index: usize) -> Option<Knob> {
+    let (given, unit) = match &case.loads[index] {
+        Load::Spring { free_length, .. } => (*free_length, "m"),
+        Load::TorsionSpring { free_angle, .. } => (*free_angle, "rad"),
+        Load::Resistance { .. } | Load::Moment { .. } | Load::Force { .. } | Load::ResistingForce { .. } => {
+            return None;
+        }
+        Load::Damper { .. } | Load::TorsionDamper { .. } => return None,
+    };
+    let turn: Turn = Box::new(move |parts, value| {
+        if let Load::Spring { free_length: own, .. } | Load::TorsionSpring { free_angle: own, .. } =
+            &mut parts.loads[index]
+        {
+            *own = value;
+        }
+        Some(())
+    });
+    let natural = if unit == "m" { case.mechanism.size() } else { 1.0 };
+    let knob = Knob::place(Part::Free(index + 1), given, natural, unit, turn);
+    Some(Knob { moves_nothing: true, ..knob }.also([(0.0, How::Missing)]))
+}
+
+fn inertia(case: &Case, index: usize, link: &Link) -> Knob {
+    let turn: Turn = Box::new(move |parts, inertia| changed(parts, |links, _| links[index].inertia = inertia));
+    let about = case.mechanism.joints().iter().filter_map(|joint| {
+        let arm = (joint.on(index)? - link.mass_centre).norm_squared();
+        (arm > 0.0).then(|| (link.inertia + link.mass * arm, How::AboutJoint(joint.name.clone())))
+    });
+    Knob::amount(Part::Inertia(link.name.clone()), link.inertia, "kg m^2", turn).also(about)
+}
+
+fn mass_centre(index: usize, link: &Link, axis: Axis) -> Knob {
+    let given = along(link.mass_centre, axis);
+    let turn: Turn = Box::new(move |parts, value| {
+        changed(parts, |links, _| *along_mut(&mut links[index].mass_centre, axis) = value)
+    });
+    let part = Part::MassCentreAlong(link.name.clone(), axis);
+    Knob { is_centre: true, ..Knob::place(part, given, link.extent(), "m", turn) }
+}
+
+/// Places of joints on links, each once.
+fn places(case: &Case) -> Vec<(usize, usize)> {
+    let mut found: Vec<(usize, usize)> = Vec::new();
+    let joints = case.mechanism.joints();
+    for (index, joint) in joints.iter().enumerate() {
+        for side in [joint.first, joint.second] {
+            let known =
+                found.iter().any(|&(other, link)| link == side.link && joints[other].on(link) == Some(side.local));
+            if !known {
+                found.push((index, side.link));
+            }
+        }
+    }
+    found
+}
+
+fn place(case: &Case, joint: usize, link: usize, axis: Axis) -> Knob {
+    let own = &case.mechanism.joints()[joint];
+    let old = own.on(link).expect("the joint is on the link");
+    let turn: Turn = Box::new(move |parts, value| {
+        let mut new = old;
+        *along_mut(&mut new, axis) = value;
+        moved(parts, link, old, new)
+    });
+    let part = Part::Place(own.name.clone(), case.mechanism.links()[link].name.clone(), axis);
+    Knob::place(part, along(old, axis), case.mechanism.size(), "m", turn)
+}
+
+/// Moves a place of a link, with every joint and point that is there.
+fn moved(parts: &mut CaseParts, link: usize, old: Vec2, new: Vec2) -> Option<()> {
+    changed(parts, |links, joints| {
+        let points = links[link].points.iter_mut().map(|point| &mut point.local);
+        let on_link = joints.iter_mut().flat_map(|joint| [&mut joint.first, &mut joint.second]);
+        let sides = on_link.filter(|side| side.link == link).map(|side| &mut side.local);
+        points.chain(sides).filter(|local| **local == old).for_each(|local| *local = new);
+    })?;
+    reassembled(parts)
+}
+
+/// Distances of two joints on a link that are along neither axis of its frame: along one, a place is the distance.
+fn lengths(case: &Case) -> Vec<Knob> {
+    let places = places(case);
+    let at = |&(joint, link): &(usize, usize)| case.mechanism.joints()[joint].on(link);
+    let mut knobs = Vec::new();
+    for one in &places {
+        for other in places.iter().filter(|other| other.1 == one.1 && other.0 != one.0) {
+            let (Some(old), Some(from)) = (at(one), at(other)) else { continue };
+            let (arm, link) = (old - from, one.1);
+            if !(arm.x.abs().smaller(arm.y.abs()) > 1e-9 * arm.norm()) {
+                continue;
+            }
+            let turn: Turn = Box::new(move |parts, length| moved(parts, link, old, from + arm * (length / arm.norm())));
+            let name = |place: &(usize, usize)| case.mechanism.joints()[place.0].name.clone();
+            let part = Part::Length(name(one), name(other), case.mechanism.links()[link].name.clone());
+            let knob = Knob::place(part, arm.norm(), case.mechanism.size(), "m", turn);
+            knobs.push(Knob { plain: Vec::new(), ..knob });
+        }
+    }
+    knobs
+}
+
+/// What is driven, by a law or by its speed at the start.
+fn of_drive(case: &Case, index: usize, drive: &Drive) -> Vec<Knob> {
+    let joint = case.mechanism.joints()[drive.joint].name.clone();
+    let start: Turn = Box::new(move |parts, value| {
+        driven(parts, index, |drive| drive.start = value);
+        reassembled(parts)
+    });
+    let quarter = [PI / 2.0, -PI / 2.0, PI]
+        .map(|by| (drive.start + by, How::Instead { found: drive.start + by, given: drive.start, unit: "rad" }));
+    let angle = Knob::place(Part::StartAngle(joint.clone()), drive.start, 1.0, "rad", start).also(quarter);
+    let speed: Turn = Box::new(move |parts, value| {
+        driven(parts, index, |drive| match &mut drive.motion {
+            DriveMotion::Prescribed { law, .. } => *law = at_speed(law, value),
+            DriveMotion::Free { initial_speed, .. } => *initial_speed = value,
+        });
+        Some(())
+    });
+    let given = if drive.is_free() { drive.initial_speed() } else { drive.top_speed() };
+    let part = if drive.is_free() { Part::InitialSpeed(joint) } else { Part::Speed(joint) };
+    let units = [(30.0 / PI, "as rpm for rad/s"), (PI / 30.0, "as rad/s for rpm"), (PI / 180.0, "as rad/s for deg/s")];
+    let mut speed = Knob::amount(part, given, "rad/s", speed).moving();
+    speed.plain.extend(units.map(|(factor, told)| (factor * given, How::Times(factor, told))));
+    if given == 0.0 {
+        (speed.plain, speed.nudge) = (Vec::new(), 1e-3 * drive.top_speed());
+    } else if !drive.is_free() {
+        // A prescribed motion without speed is no case.
+        speed.plain.remove(0);
+    }
+    // All of the motion goes by them.
+    vec![Knob { is_far: true, ..speed }, Knob { is_far: true, ..angle }]
+}
+
+/// Changes one drive, and the crank angles of the grid with it.
+pub fn driven(parts: &mut CaseParts, index: usize, change: impl FnOnce(&mut Drive)) {
+    let (mut change, mut number) = (Some(change), 0);
+    parts.drives = parts.drives.map(|drive| {
+        let mut own = drive.clone();
+        if number == index
+            && let Some(change) = change.take()
+        {
+            change(&mut own);
+        }
+        number += 1;
+        own
+    });
+    parts.grid = Grid::of_times(parts.drives.crank(), parts.grid.times.clone());
+}
+
+/// The law with another top speed (rad/s).
+pub fn at_speed(law: &MotionLaw, speed: f64) -> MotionLaw {
+    let factor = speed / law.top_speed();
+    match law {
+        MotionLaw::ConstantSpeed(_) => MotionLaw::ConstantSpeed(speed),
+        MotionLaw::Ramp { time, .. } => MotionLaw::Ramp { speed, time: *time },
+        MotionLaw::Cycloidal { rise, time } => MotionLaw::Cycloidal { rise: factor * rise, time: *time },
+        MotionLaw::Table(table) => MotionLaw::Table(table.times(factor).into()),
+    }
+}
+
+/// The motor that moves the crank: its moment, and the inertia of its shafts.
+fn motor(case: &Case) -> Vec<Knob> {
+    let Some(motor) = case.crank().moving_motor() else { return Vec::new() };
+    let of_motor = |change: fn(&mut Motor, f64)| -> Turn {
+        Box::new(move |parts, factor| {
+            let drive = parts.drives.crank_mut();
+            let mut motor = drive.moving_motor()?.clone();
+            change(&mut motor, factor);
+            *drive = drive.with_motor(Some(motor));
+            Some(())
+        })
+    };
+    let (ratio, efficiency) = (motor.ratio, motor.efficiency);
+    let moment = of_motor(|motor, factor| motor.law = motor.law.scaled(factor));
+    let mut moment = Knob::amount(Part::MotorMoment, 1.0, "", moment).moving();
+    if efficiency < 1.0 {
+        moment.plain.extend([
+            (1.0 / efficiency, How::Times(1.0 / efficiency, "without the efficiency")),
+            (efficiency, How::Times(efficiency, "with the efficiency twice")),
+            (
+                1.0 / (efficiency * efficiency),
+                How::Times(1.0 / (efficiency * efficiency), "divided by the efficiency instead of multiplied"),
+            ),
+        ]);
+    }
+    moment.plain.extend([
+        (1.0 / ratio, How::Times(1.0 / ratio, "without the reducer's ratio")),
+        (ratio, How::Times(ratio, "with the reducer's ratio twice")),
+    ]);
+    let mut knobs = vec![moment];
+    if motor.inertia_on_crank() > 0.0 {
+        let inertia = of_motor(|motor, factor| {
+            let own = &mut motor.inertia;
+            let ShaftInertia { rotor, input, intermediate, intermediate_ratio: _, output } = own;
+            [rotor, input, intermediate, output].into_iter().for_each(|part| *part *= factor);
+        });
+        knobs.push(Knob::amount(Part::RotorInertia, 1.0, "", inertia).moving());
+    }
+    knobs
+}
+
+fn along(vector: Vec2, axis: Axis) -> f64 {
+    match axis {
+        Axis::X => vector.x,
+        Axis::Y => vector.y,
+    }
+}
+
+fn along_mut(vector: &mut Vec2, axis: Axis) -> &mut f64 {
+    match axis {
+        Axis::X => &mut vector.x,
+        Axis::Y => &mut vector.y,
+    }
+}
+
+/// Largest of the sizes of the knob's value and its nudge: what a relative change is measured by.
+pub(super) fn natural(knob: &Knob) -> f64 {
+    knob.given.abs().larger(1e3 * knob.nudge.abs())
+}
+
+/// A number with so many significant digits.
+pub(super) fn significant(value: f64, digits: usize) -> f64 {
+    format!("{value:.*e}", digits - 1).parse().unwrap_or(value)
+}

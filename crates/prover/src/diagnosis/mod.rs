@@ -1,0 +1,33 @@
+//! Diagnosis of a disagreement: which party stands alone, since when and in which channels, and which simple cause
+//! explains it.
+//!
+//! Pure functions of data: trajectories, bounds, and the case with a solver that can try a changed case. Nothing here
+//! knows engines, files or proofs.
+
+mod alone;
+mod bench;
+mod cause;
+mod changes;
+mod configurations;
+mod derived;
+mod diagnose;
+mod knobs;
+mod late;
+mod nature;
+mod numbers;
+mod others;
+mod question;
+mod since;
+mod slips;
+mod tries;
+mod whole;
+
+pub use alone::{Party, Standing, standing};
+pub use cause::{Arm, Axis, Cause, Change, How, Over, Part, Plain, Slip};
+pub use configurations::{others, reassembled};
+pub(crate) use derived::even;
+pub use diagnose::{Diagnosis, diagnose};
+pub use knobs::{at_speed, changed, driven};
+pub use nature::Nature;
+pub use question::{Judged, Question};
+pub use since::{Since, since};

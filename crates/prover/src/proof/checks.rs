@@ -1,0 +1,237 @@
+//! Checks besides the comparison of the two sides: closure, side against side, powers.
+
+use super::built::built;
+use super::known::{Known, of_condition};
+use super::observe::Observed;
+use super::runs::Runs;
+use crate::compare::{Check, Convergence, difference};
+use crate::tolerance::{Basis, Origin, Tolerance};
+use linkage::case::Case;
+use linkage::engine::{Engine, Route};
+use linkage::math::statistics::{ascending, share};
+use linkage::math::{KeepNan, largest_size};
+use linkage::trajectory::{Channel, ChannelKind, Stage, Trajectory, Unit};
+use scenario::Scenario;
+
+/// Wanted of an analytic side: closure of the joints, relative to the mechanism's size or its distance from the origin.
+/// The shipped mechanisms have 5e-16 at most.
+const CLOSURE: f64 = 1e-13;
+/// Wanted of an analytic side: balancing moment computed in two ways, relative to the moments in its balance.
+const TWO_WAYS: f64 = 1e-11;
+
+/// The same for a side that passes change points: there forces are known less well.
+fn two_ways(side: &Observed) -> f64 {
+    TWO_WAYS.larger(of_condition(Stage::Reactions, side.passing))
+}
+
+pub(super) fn rounding(bound: f64, why: &'static str) -> Tolerance {
+    Tolerance { bound, basis: Basis::Wanted(why) }
+}
+
+/// Checks on the two analytic sides, by name.
+pub(super) fn of_sides(case: &Case, sides: &[(&'static str, Observed); 2], known: &Known) -> Vec<Check> {
+    let size = case.mechanism.size();
+    let mut checks = Vec::new();
+    for (name, side) in sides {
+        let tolerance =
+            rounding(CLOSURE, "positions are good to a few units in the last place of the largest coordinate");
+        checks.push(Check::new(
+            format!("closure of all joints ({name})"),
+            side.closure() / size.larger(side.reach),
+            tolerance,
+            "",
+        ));
+    }
+    checks.extend(between_sides(sides, known));
+    for (name, side) in sides.iter().filter(|(_, side)| !side.power.is_empty()) {
+        let tolerance = rounding(two_ways(side), "sums of a few forces and powers");
+        let name = format!("balancing moment from equilibrium and from powers ({name})");
+        checks.push(Check::new(name, side.two_ways(), tolerance, ""));
+    }
+    for (name, side) in sides {
+        checks.extend(side.unbalance.map(|share| {
+            let tolerance = rounding(two_ways(side), "sums of as many forces as there are links");
+            Check::new(
+                format!("shaking force and moment from reactions and from momentum ({name})"),
+                share,
+                tolerance,
+                "",
+            )
+        }));
+    }
+    checks
+}
+
+/// One channel at the instant at which its difference uses the largest share of what is allowed.
+struct Worst<'a> {
+    channel: &'a Channel,
+    row: usize,
+    /// The difference over the size of the channel's numbers, and what is allowed.
+    relative: f64,
+    allowed: f64,
+}
+
+impl Worst<'_> {
+    fn used(&self) -> f64 {
+        let used = share(self.relative, self.allowed);
+        if used.is_nan() { f64::INFINITY } else { used }
+    }
+}
+
+/// Every channel of side 1 at its worst instant.
+fn worst_instants<'a>([reference, other]: [&'a Trajectory; 2], known: &Known) -> Vec<Worst<'a>> {
+    let errors = difference(reference, other).expect("both sides stand on one grid");
+    let of = |(index, channel): (usize, &'a Channel)| {
+        let values = errors.column_near(channel, index).expect("both sides have all channels");
+        let at = |(row, &value): (usize, &f64)| Worst {
+            channel,
+            row,
+            relative: share(value.abs(), known.magnitude(index)),
+            allowed: known.apart(channel.kind.stage, index, row),
+        };
+        values.iter().enumerate().map(at).max_by(|a, b| a.used().total_cmp(&b.used())).expect("there is an instant")
+    };
+    reference.channels().iter().enumerate().map(of).collect()
+}
+
+/// Where two trajectories leave what is allowed in one channel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Beyond {
+    /// The channel.
+    pub channel: Channel,
+    /// First instant beyond what is allowed (s), and its crank angle (rad).
+    pub since: (f64, f64),
+    /// Largest difference over what is allowed.
+    pub margin: f64,
+}
+
+/// Every channel in which the two sides differ by more than what is allowed: since when, and by how much.
+pub(super) fn beyond(sides: &[(&'static str, Observed); 2], known: &Known) -> Vec<Beyond> {
+    let [reference, other] = [0, 1].map(|side| &sides[side].1.trajectory);
+    let rows = ascending(reference.times());
+    let errors = difference(reference, other).expect("both sides stand on one grid");
+    let of = |worst: Worst| {
+        let index = reference.channels().iter().position(|own| own == worst.channel)?;
+        let values = errors.column(worst.channel)?;
+        // Written so that NaN counts as beyond.
+        let is_beyond = |row: &&usize| {
+            let relative = share(values[**row].abs(), known.magnitude(index));
+            !(relative <= known.apart(worst.channel.kind.stage, index, **row))
+        };
+        let first = *rows.iter().find(is_beyond)?;
+        let since = (reference.times()[first], reference.cranks()[first]);
+        Some(Beyond { channel: worst.channel.clone(), since, margin: worst.used() })
+    };
+    worst_instants([reference, other], known).into_iter().filter_map(of).collect()
+}
+
+/// Whether the two sides differ by more than what is allowed.
+pub(super) fn sides_differ(sides: [&Trajectory; 2], known: &Known) -> bool {
+    worst_instants(sides, known).iter().any(|worst| !(worst.used() <= 1.0))
+}
+
+fn between_sides(sides: &[(&'static str, Observed); 2], known: &Known) -> Vec<Check> {
+    let [reference, other] = [0, 1].map(|side| &sides[side].1.trajectory);
+    let all = worst_instants([reference, other], known);
+    let of_stage = |stage: Stage| {
+        let own = all.iter().filter(|worst| worst.channel.kind.stage == stage);
+        let worst = own.max_by(|a, b| a.used().total_cmp(&b.used()))?;
+        let why = "two solvers without a common equation, each good to the rounding of its poses and to the error of \
+                   the integration that a tighter run shows";
+        let tolerance = rounding(worst.allowed, why);
+        let check = Check::new(format!("{} against {}", sides[0].0, sides[1].0), worst.relative, tolerance, "");
+        let crank = reference.cranks()[worst.row].to_degrees();
+        Some(check.of(stage.name()).located(|| format!("in {} at crank angle {crank:.3} deg", worst.channel)))
+    };
+    Stage::ALL.into_iter().filter_map(of_stage).collect()
+}
+
+/// Checks on the engine, from its runs at double, single and half step.
+pub(super) fn of_engine(scenario: &Scenario, engine: &dyn Engine, runs: &Runs) -> Vec<Check> {
+    let mut checks = vec![closure(scenario, engine, runs)];
+    if !runs.single().power.is_empty() {
+        checks.push(power_balance(scenario, engine, runs));
+    }
+    checks
+}
+
+/// Opening of the engine's loops. In a closed loop it is zero, so the opening is itself an error. It must vanish with
+/// the step at the rate that the runs show.
+fn closure(scenario: &Scenario, engine: &dyn Engine, runs: &Runs) -> Check {
+    let size = scenario.case.mechanism.size();
+    let kind = Channel::named("point.A.x_m").expect("the table has positions of points").kind;
+    Vanishing {
+        family: format!("closure of all joints ({})", engine.name()),
+        of: &|run: &Observed| run.opening.iter().map(|opening| opening / size).collect(),
+        value: runs.single().closure() / size,
+        kind,
+        noise: 1.0 / size,
+        note: "an opening is all error: it must vanish as its runs say",
+    }
+    .check(scenario, engine, runs)
+}
+
+/// The engine's driving moment against the balance of powers of its own motion. Both belong to one motion, so their
+/// difference must vanish with the step.
+fn power_balance(scenario: &Scenario, engine: &dyn Engine, runs: &Runs) -> Check {
+    let kind = Channel::named("drive.torque_N_m").expect("the table has the moment").kind;
+    // Where no moment is more than rounding, the mechanism could have one all the same.
+    let scale = built(&scenario.case).unless(runs.single().moment, Unit::NewtonMetre);
+    let gaps = |run: &Observed| run.moment_gap().collect::<Vec<f64>>();
+    let by_differences = engine.settings().route == Route::Differences;
+    Vanishing {
+        family: format!("driving moment from reactions and from powers ({})", engine.name()),
+        of: &|run: &Observed| gaps(run).into_iter().map(|gap| share(gap, scale)).collect(),
+        value: share(largest_size(&gaps(runs.single())), scale),
+        kind,
+        // Each of the two may have this error.
+        noise: if scale == 0.0 { 0.0 } else { 2.0 / scale },
+        note: match by_differences {
+            true => {
+                "both from the same accelerations, so that it holds the equations of motion and the speeds of the \
+                 loops, not the accelerations"
+            }
+            false => "reactions and speeds come from the engine each by itself",
+        },
+    }
+    .check(scenario, engine, runs)
+}
+
+/// A relative number of an engine's runs that would be zero for a perfect engine.
+struct Vanishing<'a> {
+    family: String,
+    /// The number at every instant of a run.
+    of: &'a dyn Fn(&Observed) -> Vec<f64>,
+    /// Its largest size in the run that is judged.
+    value: f64,
+    /// The channel that gives its order and its rounding.
+    kind: &'static ChannelKind,
+    /// Rounding of the number over that of the channel.
+    noise: f64,
+    /// Note on what the check shows.
+    note: &'static str,
+}
+
+impl Vanishing<'_> {
+    /// The number must not exceed the size that the runs predict for it. A part that does not vanish with the step is
+    /// found as soon as it exceeds the safety factor's share of the part that does.
+    fn check(self, scenario: &Scenario, engine: &dyn Engine, runs: &Runs) -> Check {
+        let (case, resolution) = (&scenario.case, engine.settings().resolution);
+        let noise = |engine: &dyn Engine| self.noise * engine.noise(case, self.kind);
+        let [double, single, half] = [0, 1, 2].map(|k| (self.of)(&runs.resolutions[k]));
+        let order = engine.formal_order(case, self.kind);
+        let found = Convergence::of(&double, &single, &half, false, order, noise(engine.at(resolution / 2.0).as_ref()));
+        let others = runs.other_sweeps.map(|run| (self.of)(run));
+        let found = found.with_other_sweeps(&single, &others.map(Vec::as_slice), noise(engine), false);
+        let found = found.extrapolated(engine.settings().extrapolated);
+        let parts = found.parts(noise(engine));
+        let basis = found.tolerance(resolution, parts, noise_origin(engine)).basis;
+        let basis = Basis::Noted(Box::new(basis), self.note);
+        Check::estimated(self.family, self.value, &found, parts, basis, scenario.engine_rel)
+    }
+}
+
+/// How the rounding of an engine is known.
+pub(super) fn noise_origin(engine: &dyn Engine) -> Origin {
+    if engine.is_noise_measured() { Origin::Measured } else { Origin::Wanted }
+}

@@ -1,0 +1,131 @@
+//! Which groups the number of a channel depends on: an error of another group does not reach it.
+
+use std::collections::BTreeMap;
+
+use linkage::case::Case;
+use linkage::mechanism::{Mechanism, Structure};
+use linkage::trajectory::{Channel, Stage, Subject};
+
+/// Sets of groups that channels depend on.
+pub(super) struct Dependence {
+    /// The different sets: indices of groups in ascending order.
+    pub(super) sets: Vec<Vec<usize>>,
+    /// The set of every channel, as an index.
+    pub(super) of: Vec<usize>,
+    /// Groups of every set from which all its others follow, because they are before them.
+    tops: Vec<Vec<usize>>,
+}
+
+impl Dependence {
+    /// A prescribed motion comes to a link through its own group and those before it. Forces, and a motion that they
+    /// decide, depend on all groups.
+    pub(super) fn of(case: &Case, channels: &[Channel]) -> Self {
+        let all: Vec<usize> = (0..case.structure.groups.len()).collect();
+        let upstream = case.structure.upstream(&case.mechanism);
+        let mut found = Dependence { sets: Vec::new(), of: Vec::with_capacity(channels.len()), tops: Vec::new() };
+        let places = Places::of(&case.mechanism);
+        // A set follows from the groups of its channel's links: each is found once.
+        let mut known: BTreeMap<Vec<usize>, usize> = BTreeMap::new();
+        for channel in channels {
+            // A link's own group is the last of those that it depends on.
+            let tops = match case.is_free() || channel.kind.stage >= Stage::Reactions {
+                true => all.clone(),
+                false => places.links_of(channel).iter().filter_map(|&link| upstream[link].last().copied()).collect(),
+            };
+            let index = *known.entry(tops).or_insert_with_key(|tops| {
+                let set = if *tops == all { all.clone() } else { joined(&case.structure, &upstream, tops) };
+                let same = found.sets.iter().position(|own| *own == set);
+                same.unwrap_or_else(|| {
+                    found.sets.push(set);
+                    found.tops.push(tops.clone());
+                    found.sets.len() - 1
+                })
+            });
+            found.of.push(index);
+        }
+        found
+    }
+
+    /// Whether all that set `from` depends on is also what set `to` depends on.
+    pub(super) fn feeds(&self, from: usize, to: usize) -> bool {
+        let (from, to) = (&self.tops[from], &self.sets[to]);
+        from.iter().all(|group| to.binary_search(group).is_ok())
+    }
+}
+
+/// The groups `tops` and all before them, in ascending order.
+fn joined(structure: &Structure, upstream: &[Vec<usize>], tops: &[usize]) -> Vec<usize> {
+    let of = |&top: &usize| upstream[structure.groups[top].links[0]].iter().copied();
+    let mut set: Vec<usize> = tops.iter().flat_map(of).collect();
+    set.sort_unstable();
+    set.dedup();
+    set
+}
+
+/// Links, points and joints by name.
+struct Places<'a> {
+    mechanism: &'a Mechanism,
+    links: BTreeMap<&'a str, usize>,
+    points: BTreeMap<&'a str, usize>,
+    joints: BTreeMap<&'a str, usize>,
+}
+
+impl<'a> Places<'a> {
+    fn of(mechanism: &'a Mechanism) -> Self {
+        let links = mechanism.links().iter().enumerate().map(|(index, link)| (link.name.as_str(), index));
+        let joints = mechanism.joints().iter().enumerate().map(|(index, joint)| (joint.name.as_str(), index));
+        let points = mechanism.moving_points().map(|(name, side)| (name, side.link));
+        Places { mechanism, links: links.collect(), points: points.collect(), joints: joints.collect() }
+    }
+
+    /// The links whose motion a channel of motion tells: each belongs to a part of its mechanism.
+    fn links_of(&self, channel: &Channel) -> Vec<usize> {
+        let of = channel.of.as_str();
+        match channel.kind.subject {
+            Subject::Link => vec![self.links[of]],
+            Subject::Point => vec![self.points[of]],
+            Subject::Joint | Subject::Slider => {
+                let joint = &self.mechanism.joints()[self.joints[of]];
+                vec![joint.first.link, joint.second.link]
+            }
+            // None of them tells a motion.
+            Subject::Frame | Subject::Drive | Subject::Motor => Vec::new(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+
+    use super::*;
+    use crate::proof::solve;
+    use scenario::of_repository;
+
+    #[test]
+    fn motions_depend_on_the_groups_before_and_forces_on_all() {
+        let case = of_repository("scenarios/ov7_base.toml").case;
+        let solved = solve(&case).unwrap();
+        let found = Dependence::of(&case, solved.channels());
+        let groups = case.structure.groups.len();
+        assert!(groups > 1);
+        let set = |name: &str| {
+            let index = solved.channels().iter().position(|own| own.to_string() == name);
+            found.sets[found.of[index.unwrap_or_else(|| panic!("{name}"))]].clone()
+        };
+        let (driving, _) = case.structure.drivers[0];
+        let name = |link: usize| &case.mechanism.links()[link].name;
+        assert!(set(&format!("link.{}.alpha_rad_s2", name(driving))).is_empty());
+        for (index, group) in case.structure.groups.iter().enumerate() {
+            let own = set(&format!("link.{}.alpha_rad_s2", name(group.links[0])));
+            assert_eq!(own.last(), Some(&index), "{}", name(group.links[0]));
+        }
+        assert_eq!(set("drive.torque_N_m"), (0..groups).collect::<Vec<_>>());
+        // What follows from the last groups of a set is what all of its groups say.
+        let (sets, count) = (&found.sets, found.sets.len());
+        assert!(count > 2);
+        for (from, to) in (0..count).flat_map(|from| (0..count).map(move |to| (from, to))) {
+            let all = sets[from].iter().all(|group| sets[to].contains(group));
+            assert_eq!(found.feeds(from, to), all, "{:?} {:?}", sets[from], sets[to]);
+        }
+    }
+}

@@ -1,0 +1,253 @@
+//! One engine against the reference: at the settings asked for, or at those that it finds.
+
+use std::fmt::Write;
+use std::sync::Arc;
+
+use super::judge::{ChannelProof, EngineInfo, Judge, Judged, describe};
+use super::known::Known;
+use super::ledger::Ledger;
+use super::observe::{Observed, Stopped, Watch};
+use super::options::Chosen;
+use super::order;
+use super::own_forces::{ForceFault, OwnForces};
+use super::runs::{Bank, FEWER, other_sweeps, rungs};
+use super::settle::{BUDGET, End, FIRST, Free, Search, Settling, too_much};
+use crate::compare::{Check, Verdict, difference, overall};
+use crate::engines::coarse_step;
+use crate::numbers::error;
+use linkage::case::Case;
+use linkage::engine::{Engine, Settings};
+use linkage::error::{Advice, Error, ErrorKind, Result};
+use linkage::math::KeepNan;
+use linkage::trajectory::Trajectory;
+use scenario::Scenario;
+
+/// One engine's part of a proof.
+#[derive(Clone, Debug)]
+pub struct EngineProof {
+    /// The engine.
+    pub info: EngineInfo,
+    /// How its settings were found; `None` if all were given, or if the engine failed.
+    pub search: Option<Search>,
+    /// Channels, in the order of columns; none if the engine failed.
+    pub channels: Vec<ChannelProof>,
+    /// Checks on the engine alone.
+    pub checks: Vec<Check>,
+    /// Forces as the engine itself exerts them, where the others follow from its motion.
+    pub own_forces: Option<OwnForces>,
+    /// Verdict on channels, checks and own forces together.
+    pub verdict: Verdict,
+    /// Its trajectory: all instants, or those before it failed.
+    pub trajectory: Option<Trajectory>,
+    /// Engine minus reference; `None` if the engine failed.
+    pub errors: Option<Trajectory>,
+    /// Whether all channels are judged at an instant, by row of the grid; empty if the engine failed.
+    pub kept: Vec<bool>,
+    /// Why there is no comparison.
+    pub failure: Option<Error>,
+}
+
+impl EngineProof {
+    /// Which of the two judgements of the forces disagrees; `None` if neither does, or if there is only one, or if the
+    /// other one is open or the motion itself disagrees, so that nothing follows.
+    #[must_use]
+    pub fn force_fault(&self) -> Option<ForceFault> {
+        self.own_forces.as_ref()?.fault(&self.channels)
+    }
+
+    /// The verdicts on channels and checks, and that on all of them.
+    fn verdicts_mut(&mut self) -> impl Iterator<Item = &mut Verdict> {
+        let channels = self.channels.iter_mut().map(|channel| &mut channel.verdict);
+        channels.chain(self.checks.iter_mut().map(|check| &mut check.verdict)).chain([&mut self.verdict])
+    }
+}
+
+/// Runs an engine on `case`, at the settings asked for or at those that it finds, and compares it with `reference`.
+pub(super) fn prove(
+    scenario: &Scenario,
+    case: &Case,
+    chosen: &Chosen,
+    reference: &Observed,
+    known: &Known,
+    (ledger, progress): (&mut Ledger, &mut dyn FnMut(f64)),
+) -> Result<EngineProof> {
+    let engine = chosen.engine.as_ref();
+    let asked = engine.settings();
+    let judge = Judge::new(scenario, reference, known, asked);
+    let mut bank = Bank::new(case, engine, Watch::Engine);
+    // A step that cannot be is refused by the engine.
+    let is_step = asked.resolution > 0.0 && asked.resolution.is_finite();
+    let searches = chosen.free.any() && !engine.controls_error() && is_step;
+    let why =
+        if searches { "finds its settings, and its error from its own runs" } else { "its error from its own runs" };
+    let found = ledger.done(engine.name(), why, || match searches {
+        true => {
+            let search = Settling::new(&judge, &mut bank, engine, chosen.free, chosen.budget);
+            search.run(progress).map(|(judged, search)| (judged, Some(search)))
+        }
+        false => at_given(&judge, &mut bank, engine, (chosen.budget, progress)).map(|judged| (judged, None)),
+    });
+    let (judged, search) = match found {
+        Ok(found) => found,
+        Err(Stopped { error, kept, spent }) => {
+            // Without work for finer steps nobody knows whether the engine fails or only its coarse steps.
+            let (verdict, failure) = match spent {
+                None => (Verdict::open(error.message()), Some(error)),
+                Some(work) => {
+                    let reason = match error.kind() {
+                        ErrorKind::Unsupported => error.message().to_string(),
+                        ErrorKind::Numeric | ErrorKind::Geometry | ErrorKind::Input | ErrorKind::Io => {
+                            format!("the work that was allowed is done, and no run stands: {}", error.message())
+                        }
+                    };
+                    let most = 10f64.powf(work.log10().ceil());
+                    let advice = vec![Advice::MoreWork { to: FIRST.larger(most) }];
+                    (Verdict::Inconclusive { reason, advice }, None)
+                }
+            };
+            return Ok(EngineProof {
+                info: describe(engine),
+                search: None,
+                channels: Vec::new(),
+                checks: Vec::new(),
+                own_forces: None,
+                verdict,
+                trajectory: kept.map(|kept| *kept),
+                errors: None,
+                kept: Vec::new(),
+                failure,
+            });
+        }
+    };
+    let Judged { info, channels, checks, verdict, run, too_coarse: _, kept } = judged;
+    let mut proof = EngineProof {
+        info,
+        search,
+        channels,
+        checks,
+        own_forces: None,
+        verdict,
+        trajectory: None,
+        errors: None,
+        kept,
+        failure: None,
+    };
+    let is_open = matches!(proof.verdict, Verdict::Inconclusive { .. });
+    if is_open && !chosen.free.step && !engine.controls_error() {
+        let why = "the given step proves nothing: what a free one would";
+        let advice =
+            ledger.done(format!("{}, other settings", engine.name()), why, || tried(&judge, &mut bank, chosen));
+        for verdict in proof.verdicts_mut() {
+            if let Verdict::Inconclusive { advice: own, .. } = verdict {
+                own.push(advice.clone());
+            }
+        }
+    }
+    if let Some(search) = &proof.search {
+        let (end, budget) = (search.end, search.budget);
+        proof.verdicts_mut().for_each(|verdict| end.tell(verdict, budget));
+    }
+    // Its runs are dropped before others are made.
+    drop(bank);
+    let trajectory = Arc::unwrap_or_clone(run).trajectory;
+    let motion = (proof.info.settings.sweeps, proof.search.as_ref().map_or(0.0, |search| search.effort));
+    let part = format!("{}, own forces", engine.name());
+    match OwnForces::are_asked(&judge, chosen) {
+        true => {
+            let own = || OwnForces::judged(&judge, case, chosen, motion, &mut |part| progress(0.7 + 0.3 * part));
+            proof.own_forces = ledger.done(part, "what it exerts itself, beside what follows from its motion", own);
+        }
+        false => ledger.skipped(part, "no force is wanted, or its forces are read by its own route"),
+    }
+    if let Some(verdict) = proof.own_forces.as_ref().and_then(OwnForces::adds) {
+        proof.verdict = overall([&proof.verdict, verdict]);
+    }
+    proof.errors = Some(difference(&reference.trajectory, &trajectory)?);
+    proof.trajectory = Some(trajectory);
+    Ok(proof)
+}
+
+/// An engine judged, or why it stopped.
+type Outcome = std::result::Result<Judged, Stopped>;
+
+/// The engine at its own settings, none of which is free. They are kept to within the usual work, whatever is allowed
+/// for a search.
+fn at_given(
+    judge: &Judge,
+    bank: &mut Bank,
+    engine: &dyn Engine,
+    (budget, progress): (f64, &mut dyn FnMut(f64)),
+) -> Outcome {
+    if !engine.controls_error() {
+        let budget = budget.larger(BUDGET);
+        too_much(bank, judge.asked, &rungs(judge.asked, &[]), [budget; 2])?;
+    }
+    let others = other_sweeps(bank.case, engine, judge.asked.sweeps, FEWER);
+    let mut with = |others: &[usize]| -> Outcome {
+        let runs = bank.runs(judge.asked, others, progress)?;
+        Ok(judge.judge(engine, runs)?)
+    };
+    let judged = with(&others[..others.len().min(1)])?;
+    // Sweeps that have hardly begun to converge differ little: a third run tells them from those that have.
+    let mut judged = match judged.against().is_empty() || others.len() < 2 {
+        true => judged,
+        false => match with(&others) {
+            Err(stopped) if stopped.error.kind() == ErrorKind::Numeric => {
+                let why = "a run with a quarter of the sweeps fails, so that nobody knows what they leave";
+                let mut judged = judged;
+                judged.doubt(why, &Advice::MoreSweeps { to: None });
+                judged
+            }
+            told => told?,
+        },
+    };
+    if !engine.controls_error() {
+        order::look(judge, bank, &mut judged)?;
+    }
+    Ok(judged)
+}
+
+/// What a run finds that is free to choose its settings, as advice for one that was not and is inconclusive.
+fn tried(judge: &Judge, bank: &mut Bank, chosen: &Chosen) -> Advice {
+    let case = bank.case;
+    let engine = chosen.engine.at(coarse_step(case));
+    let judge = judge.asking(engine.settings());
+    let free = Free { step: true, sweeps: true, extrapolated: true };
+    let found = Settling::new(&judge, bank, engine.as_ref(), free, chosen.budget).run(&mut |_| {});
+    let Ok((judged, search)) = found else { return Advice::FreeSettings };
+    let Settings { resolution, sweeps, extrapolated, .. } = judged.info.settings;
+    let outcome = match (&judged.verdict, search.end) {
+        (Verdict::Inconclusive { .. }, End::Budget | End::Pace) => "the work allowed is not enough there either".into(),
+        (Verdict::Inconclusive { .. }, _) => "nothing is proven there either".into(),
+        (verdict, _) => format!("the verdict there is {}", verdict.word()),
+    };
+    let combined = match extrapolated {
+        0 => "not extrapolated".into(),
+        1 => "extrapolated once".into(),
+        times => format!("extrapolated {times} times"),
+    };
+    Advice::Text(format!(
+        "leave the step to the proof: it takes {} s and {sweeps} sweeps, {combined}, and {outcome}",
+        error(resolution)
+    ))
+}
+
+/// Adds to an inconclusive verdict how strongly the motion depends on the forces that cause it: `sensitivity`, channel
+/// by channel of the reference.
+pub(super) fn tell_sensitivity(proof: &mut EngineProof, reference: &Trajectory, sensitivity: &[f64]) {
+    for (channel, &change) in reference.channels().iter().zip(sensitivity) {
+        let own = proof.channels.iter_mut().find(|own| own.residual.channel == *channel);
+        if let Some(own) = own
+            && own.residual.scale > 0.0
+        {
+            let share = change / own.residual.scale;
+            own.sensitivity = Some(share);
+            if let Verdict::Inconclusive { reason, .. } = &mut own.verdict {
+                let _ = write!(
+                    reason,
+                    "; a millionth more of gravity and motor torque changes the channel by {share:.2} millionths of its scale"
+                );
+            }
+        }
+    }
+}

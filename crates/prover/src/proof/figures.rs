@@ -1,0 +1,108 @@
+//! Figures of a mechanism as the analytic sides find them.
+
+use analytic::reduced::means::{self as reduced, Means};
+use formula::Rounded;
+use linkage::case::{Grid, Wanted};
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::mechanism::Side;
+use linkage::solver::{Solver, State};
+use linkage::trajectory::Stage;
+use scenario::{Figure, Formulas, Scenario};
+
+/// Relative error of a side's figures. Wanted, because rounding allows it in sums over thousands of poses.
+const KNOWN: f64 = 1e-11;
+
+/// The figures that formulas claim, by both sides: numbers in SI, known as well as the sides agree and to rounding.
+///
+/// # Errors
+/// Those of [`Measured::value`].
+pub(super) fn claimed(
+    formulas: &Formulas,
+    scenario: &Scenario,
+    solvers: [&dyn Solver; 2],
+) -> Result<[Vec<(Figure, Rounded)>; 2]> {
+    let mut asked: Vec<Figure> = Vec::new();
+    for (_, figure) in formulas.claims().flat_map(|(_, claim)| &claim.figures) {
+        if !asked.contains(figure) {
+            asked.push(*figure);
+        }
+    }
+    let mut sides = solvers.map(|solver| Measured::of(scenario, solver));
+    let mut found = [Vec::new(), Vec::new()];
+    for figure in asked {
+        let values = [sides[0].value(figure)?, sides[1].value(figure)?];
+        let error = KNOWN * values[0].abs() + 2.0 * (values[0] - values[1]).abs();
+        for (found, value) in found.iter_mut().zip(values) {
+            found.push((figure, Rounded { value, error }));
+        }
+    }
+    Ok(found)
+}
+
+/// Figures computed by one analytic side. The means over a turn are computed once, if one is asked for.
+pub(super) struct Measured<'a> {
+    scenario: &'a Scenario,
+    solver: &'a dyn Solver,
+    means: Option<Means>,
+}
+
+impl<'a> Measured<'a> {
+    /// A scenario in its nominal motion and a side; nothing is measured yet.
+    pub(super) fn of(scenario: &'a Scenario, solver: &'a dyn Solver) -> Self {
+        Measured { scenario, solver, means: None }
+    }
+
+    /// A figure in SI.
+    ///
+    /// # Errors
+    /// Those of the means over a turn, and of a motor that no speed of balances the resistance.
+    pub(super) fn value(&mut self, figure: Figure) -> Result<f64> {
+        Ok(match figure {
+            Figure::ReducedInertiaMean => self.means()?.inertia,
+            Figure::ReducedResistanceMean => self.means()?.resistance,
+            Figure::SteadyCrankSpeed => self.steady()?[0],
+            Figure::SteadyMotorSpeed => self.steady()?[1],
+            Figure::Distance(ends) => self.distance(ends)?,
+        })
+    }
+
+    fn means(&mut self) -> Result<Means> {
+        let found = match self.means {
+            Some(means) => means,
+            None => reduced::means_over_turn(&self.scenario.case, self.solver)?,
+        };
+        self.means = Some(found);
+        Ok(found)
+    }
+
+    /// Steady speeds of the crank and of the motor (rad/s).
+    fn steady(&mut self) -> Result<[f64; 2]> {
+        let case = &self.scenario.case;
+        // A scenario with this figure has one; a case that is changed afterwards may not.
+        let no_motor = || Error::new(ErrorKind::Input, "the steady speed needs a motor, and the crank has none");
+        let motor = case.crank().motor().ok_or_else(|| no_motor().help("add `[motor]`, or leave the figure out"))?;
+        // The motor acts in the direction in which the crank is driven.
+        let sense = case.crank().sense();
+        let resistance = sense * self.means()?.resistance;
+        let Some(speed) = motor.steady_speed(resistance) else {
+            return Err(reduced::no_steady_speed(resistance));
+        };
+        let crank = sense * speed;
+        Ok([crank, crank * motor.ratio])
+    }
+
+    /// Distance of two points at t = 0 by this side (m).
+    fn distance(&self, ends: [Side; 2]) -> Result<f64> {
+        let base = &self.scenario.case;
+        let grid = Grid::of_times(base.crank(), vec![0.0]);
+        let case = base.on(grid)?.wanting(Wanted::of(&[Stage::Positions]));
+        let mut distance = f64::NAN;
+        let mut visit = |_: usize, state: &State| {
+            let [first, second] = ends.map(|end| state.motions[end.link].point(end.local));
+            distance = (second - first).norm();
+            Ok(())
+        };
+        self.solver.each(&case, &mut visit)?;
+        Ok(distance)
+    }
+}

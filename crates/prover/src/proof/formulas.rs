@@ -1,0 +1,124 @@
+//! Formulas as checks of a proof.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::claims::{At, CUT, Cause, Judged, Outcome, Undefined, WORDS};
+use crate::compare::{Check, Verdict};
+use crate::numbers::{fixed, significant};
+use crate::tolerance::{Basis, Tolerance};
+
+/// What formulas come to.
+#[derive(Clone, Debug)]
+pub struct Judgement {
+    /// The sides' names, and what they say of every claim: by value, then by derivative.
+    pub sides: [(&'static str, Vec<Vec<Judged>>); 2],
+    /// The formulas that are wrong by name, each with the cause if it is a simple one.
+    pub causes: Vec<(String, Option<Cause>)>,
+    /// Those of them that somewhere have no value by name, each with the operation that has none.
+    pub undefined: BTreeMap<String, Undefined>,
+    /// Names of those whose search for a cause ended because its work was used up.
+    pub unsought: BTreeSet<String>,
+    /// Operations that all searches took.
+    pub work: u64,
+}
+
+impl Judgement {
+    /// What both sides say; why a formula is wrong is not sought.
+    pub fn of(sides: [(&'static str, Vec<Vec<Judged>>); 2]) -> Self {
+        Judgement { sides, causes: Vec::new(), undefined: BTreeMap::new(), unsought: BTreeSet::new(), work: 0 }
+    }
+
+    /// The operation that leaves a formula without a value, if there is one.
+    #[must_use]
+    pub fn undefined(&self, name: &str) -> Option<&Undefined> {
+        self.undefined.get(name)
+    }
+}
+
+/// A check for every claim, and for every derivative that could be judged, of both sides.
+pub fn checks(judgement: &Judgement) -> Vec<Check> {
+    let causes: BTreeMap<&str, String> = judgement
+        .causes
+        .iter()
+        .filter_map(|(name, cause)| {
+            let words = match cause {
+                Some(cause) if judgement.unsought.contains(name) => {
+                    format!("cause: {cause}; perhaps another: {CUT}")
+                }
+                Some(cause) => format!("cause: {cause}"),
+                None if judgement.unsought.contains(name) => format!("cause not found: {CUT}"),
+                None => return None,
+            };
+            Some((name.as_str(), words))
+        })
+        .collect();
+    let of_side = |(side, all): &(&'static str, Vec<Vec<Judged>>)| -> Vec<Check> {
+        let words = |judged: &Judged| {
+            let undefined = judgement.undefined(&judged.name).filter(|_| judged.order == 0).map(ToString::to_string);
+            let all: Vec<String> = undefined.into_iter().chain(causes.get(judged.name.as_str()).cloned()).collect();
+            all.join("; ")
+        };
+        all.iter().flatten().map(|judged| check(side, judged, &words(judged))).collect()
+    };
+    judgement.sides.iter().flat_map(of_side).collect()
+}
+
+/// The check of a judged formula; `why` says why it is wrong, where that is known.
+fn check(side: &str, judged: &Judged, why: &str) -> Check {
+    let (value, bound) = judged.worst.map_or((0.0, 0.0), |worst| (worst.difference.abs(), worst.bound));
+    let tolerance = Tolerance { bound, basis: Basis::Formula { claimed: judged.claimed } };
+    let mut check = Check::new(format!("formulas ({side})"), value, tolerance, judged.unit).of(name(judged));
+    if let Outcome::Open { reason, advice } = judged.outcome() {
+        check.verdict = Verdict::Inconclusive { reason, advice };
+    }
+    check.located(|| {
+        let place = judged.since.map_or_else(String::new, |since| place(&since));
+        if why.is_empty() { place } else { format!("{place}; {why}") }
+    })
+}
+
+/// A formula with its claim, and which derivative.
+fn name(judged: &Judged) -> String {
+    let of = match judged.order {
+        0 => String::new(),
+        order => format!("{} of ", WORDS[order]),
+    };
+    format!("{of}{} as {}", judged.name, judged.claim)
+}
+
+/// Since when, in words.
+fn place(since: &At) -> String {
+    let At { time, crank, formula, mechanism, .. } = since;
+    let found =
+        if formula.is_nan() { "it has no value".to_string() } else { format!("it gives {}", significant(*formula, 9)) };
+    format!(
+        "first at t = {} s, crank angle {} deg: {found}, the mechanism {}",
+        fixed(*time, 6),
+        fixed(crank.to_degrees(), 3),
+        significant(*mechanism, 9)
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::proof::claimed::judge;
+    use scenario::{Claim, of_repository};
+
+    /// Below 0.5 rad the formula has no value, but its rates have one, and are wrong by something else.
+    #[test]
+    fn only_the_value_is_said_to_be_undefined() {
+        let mut scenario = of_repository("scenarios/crank_rocker.toml");
+        let claim = Claim::parse("link.crank.angle_deg", &scenario.case).unwrap();
+        scenario.formulas.add("late", "phi*180/pi + 0.001*ln(phi - 0.5)").unwrap().claim = Some(claim);
+        let judgement = judge(&scenario).unwrap().judgement;
+        let judged: Vec<&Judged> = judgement.sides.iter().flat_map(|(_, all)| all.iter().flatten()).collect();
+        let checks = checks(&judgement);
+        assert_eq!((judged.len(), checks.len()), (6, 6));
+        for (judged, check) in judged.into_iter().zip(checks) {
+            let Verdict::Disagree { place } = &check.verdict else { panic!("{} {:?}", check.name(), check.verdict) };
+            assert_eq!(place.contains("is undefined"), judged.order == 0, "{}: {place}", check.name());
+            assert_eq!(place.contains("it has no value"), judged.order == 0, "{}: {place}", check.name());
+        }
+    }
+}

@@ -1,0 +1,107 @@
+//! Memory that a run needs, estimated before it begins.
+//!
+//! A run holds whole trajectories: 8 bytes for every value. Which runs an engine needs is not known beforehand; the
+//! estimate takes what most searches need. Measured peaks lie between half of it and twice.
+
+use linkage::case::Case;
+use linkage::engine::Rows;
+use linkage::error::{Advice, Error, ErrorKind, Result};
+use scenario::Oracle;
+
+/// Memory allowed by default (bytes).
+pub(crate) const MOST: f64 = 4e9;
+/// Memory that a run has besides its instants (bytes).
+const ELSE: f64 = 2e7;
+/// Trajectories of a proof at its peak: two sides, the three runs that are judged, one with other sweeps, the
+/// best one so far, one being made.
+const TRAJECTORIES: f64 = 8.0;
+/// Kept runs of an engine at the peak: steps that are halved a few times, and other sweeps for some of them.
+const RUNS: f64 = 12.0;
+/// Values of an instant besides its channels: time, crank angle, order, openings, powers.
+const BESIDE: usize = 6;
+
+/// Estimated memory (bytes) of a proof of a case by engines, one after the other.
+#[must_use]
+pub fn of_proof(case: &Case, engines: usize) -> f64 {
+    // Of every engine its trajectory is left.
+    let trajectories = TRAJECTORIES + engines.saturating_sub(1) as f64;
+    let row = trajectories * trajectory(case) + RUNS * Rows::bytes_of_row(case) as f64;
+    ELSE + case.grid.len() as f64 * row
+}
+
+/// Memory of a number of a table: as it was read, with its digits, and as what it is held against (bytes).
+const OF_NUMBER: f64 = 88.0;
+/// Memory of a row of a table besides its numbers (bytes).
+const OF_ROW: f64 = 50.0;
+
+/// Estimated memory (bytes) of comparing a table of some rows by `claims` with both sides, solved in `channels`.
+#[must_use]
+pub fn of_comparison(rows: usize, claims: usize, channels: usize) -> f64 {
+    let solved = (2 * (channels + BESIDE) * size_of::<f64>()) as f64;
+    ELSE + rows as f64 * (solved + claims as f64 * OF_NUMBER + OF_ROW)
+}
+
+/// Estimated memory (bytes) of what both sides answer to the numbers of other sources.
+#[must_use]
+pub fn of_oracles(oracles: &[Oracle]) -> f64 {
+    let series: Vec<usize> = oracles.iter().flat_map(|own| &own.series).map(|own| own.instants().count()).collect();
+    let (rows, numbers) = (series.iter().copied().max().unwrap_or(0), series.iter().sum::<usize>());
+    // Rounded instants are solved at one end after the other, beside what is known so far.
+    let is_rounded = oracles.iter().flat_map(|own| &own.series).any(|own| own.all().any(|point| point.at_error > 0.0));
+    let trajectories = if is_rounded { 5 } else { 2 };
+    let solved = (trajectories * (2 * series.len() + BESIDE) * size_of::<f64>()) as f64;
+    rows as f64 * (solved + OF_ROW) + numbers as f64 * OF_NUMBER
+}
+
+/// Checks that what an input needs (bytes) is allowed before it is taken; `what` it is.
+///
+/// # Errors
+/// [`ErrorKind::Unsupported`] with the ways out.
+pub fn check_input(what: &str, needed: f64, most: Option<f64>) -> Result<()> {
+    let most = most.unwrap_or(MOST);
+    if needed <= most {
+        return Ok(());
+    }
+    let message = format!("{what} needs about {} of memory; {} are allowed", gigabytes(needed), gigabytes(most));
+    let fewer = Advice::Text("give fewer rows, or fewer columns".into());
+    Err(Error::new(ErrorKind::Unsupported, message).help(fewer).or_help(Advice::MoreMemory { to: needed }))
+}
+
+/// Estimated memory (bytes) of one solution of a case by a solver that combines `runs` runs.
+#[must_use]
+pub fn of_solution(case: &Case, runs: usize) -> f64 {
+    let row = trajectory(case) + runs.saturating_sub(1) as f64 * Rows::bytes_of_row(case) as f64;
+    ELSE + case.grid.len() as f64 * row
+}
+
+/// Memory of one instant of a trajectory (bytes).
+fn trajectory(case: &Case) -> f64 {
+    ((case.channels().len() + BESIDE) * size_of::<f64>()) as f64
+}
+
+/// Checks that `needed` (bytes) is allowed: `most`, or the default.
+///
+/// # Errors
+/// [`ErrorKind::Unsupported`] with the size of the run and the ways out.
+pub fn check(case: &Case, needed: f64, most: Option<f64>) -> Result<()> {
+    let most = most.unwrap_or(MOST);
+    if needed <= most {
+        return Ok(());
+    }
+    let message = format!("{}; {} are allowed", told(case, needed), gigabytes(most));
+    Err(Error::new(ErrorKind::Unsupported, message)
+        .key("grid")
+        .help(Advice::FewerInstants)
+        .or_help(Advice::MoreMemory { to: needed }))
+}
+
+/// What a run needs, in words.
+#[must_use]
+pub fn told(case: &Case, needed: f64) -> String {
+    let (instants, channels) = (case.grid.len(), case.channels().len());
+    format!("{instants} instants of {channels} channels need about {} of memory", gigabytes(needed))
+}
+
+fn gigabytes(bytes: f64) -> String {
+    format!("{:.1} GB", bytes / 1e9)
+}

@@ -1,0 +1,358 @@
+//! Numbers of other sources against both analytic sides.
+
+use super::figures::Measured;
+use super::rounded_instants::RoundedInstants;
+use super::shifted::TELLING;
+use crate::compare::{Check, Verdict, magnitudes, scales};
+use crate::tolerance::{Basis, Origin, Tolerance};
+use linkage::case::{Case, Grid, Wanted};
+use linkage::drive::Drive;
+use linkage::error::{Advice, Error, ErrorKind, Result};
+use linkage::math::KeepNan;
+use linkage::math::angle::wrapped;
+use linkage::math::statistics::share;
+use linkage::solver::Solver;
+use linkage::trajectory::{Channel, Stage, Trajectory};
+use scenario::{ExpectedCell, FigureValue, Oracle, OracleBasis, OraclePoint, OracleSeries, Scenario, When};
+
+/// One check for every series and figure of an oracle and for each analytic side.
+/// Series are those of channels of the `scenario`, figures those of the `whole` mechanism.
+/// `integration` is the error of a side's integration in a channel, in its unit, for numbers of a motion under forces.
+pub fn checks(
+    scenario: &Scenario,
+    whole: &Scenario,
+    sides: [&dyn Solver; 2],
+    integration: &dyn Fn(usize, &Channel) -> f64,
+) -> Result<Vec<Check>> {
+    let mut checks = of_series(scenario, sides, integration)?;
+    // Where forces decide the true motion, means over a turn belong to the nominal motion.
+    checks.extend(of_figures(&whole.clone().nominal(), sides)?);
+    Ok(checks)
+}
+
+/// Rounding of an analytic side's number, in units in the last place of the largest number of its quantity. A printed
+/// number may have more digits than that.
+const ULPS: f64 = 16.0;
+
+/// Most instants that all channels of a stage are solved at.
+const MOST: usize = 20_000;
+
+/// A side's trajectory, and the largest number of the quantity and the scale of every channel.
+type Side = (Trajectory, Vec<(Channel, [f64; 2])>);
+
+/// What both sides have found.
+struct Solved {
+    sides: [Side; 2],
+    rounded: RoundedInstants,
+}
+
+/// What both sides answer where an oracle's numbers hold.
+struct Answers<'a> {
+    solvers: [&'a dyn Solver; 2],
+    /// In the nominal motion, in the order of crank angles; `None` if no number holds at one.
+    nominal: Option<Solved>,
+    /// In the motion itself, in the order of times; `None` if no number holds at one.
+    timed: Option<Solved>,
+    /// Error of a side's integration in a channel of the motion itself.
+    integration: &'a dyn Fn(usize, &Channel) -> f64,
+}
+
+impl<'a> Answers<'a> {
+    fn of(
+        case: &Case,
+        series: &[&OracleSeries],
+        solvers: [&'a dyn Solver; 2],
+        integration: &'a dyn Fn(usize, &Channel) -> f64,
+    ) -> Result<Self> {
+        let own = |series: &&OracleSeries| [Some(series.channel.clone()), series.y()].into_iter().flatten();
+        let channels: Vec<Channel> = series.iter().flat_map(own).collect();
+        let stages: Vec<Stage> = series.iter().map(|series| series.channel.kind.stage).collect();
+        let solved = |case: &Case, by_crank: bool| -> Result<Option<Solved>> {
+            let at: fn(When) -> Option<f64> = if by_crank { When::crank } else { When::time };
+            let grid: fn(&Drive, Vec<f64>) -> Grid = if by_crank { Grid::of_cranks } else { Grid::of_times };
+            let mut instants: Vec<f64> = series.iter().flat_map(|series| series.instants()).filter_map(at).collect();
+            if instants.is_empty() {
+                return Ok(None);
+            }
+            instants.sort_unstable_by(f64::total_cmp);
+            instants.dedup();
+            // Of many instants, what is asked is solved at all, and what its numbers are measured by at some.
+            let step = instants.len().div_ceil(MOST);
+            let few = instants.iter().copied().step_by(step).collect();
+            let whole = case.on(grid(case.crank(), few))?.wanting(Wanted::of(&stages));
+            let many = (step > 1).then(|| case.on(grid(case.crank(), instants))).transpose()?;
+            let many = many.map(|many| many.wanting_only(&channels));
+            let of = |solver: &dyn Solver| -> Result<Side> {
+                let found = solver.solve(&whole)?;
+                let sizes = magnitudes(&found).into_iter().zip(scales(&found)).map(|(size, scale)| [size, scale]);
+                let sizes = found.channels().iter().cloned().zip(sizes).collect();
+                Ok((many.as_ref().map_or(Ok(found), |many| solver.solve(many))?, sizes))
+            };
+            let points = series.iter().flat_map(|series| series.all());
+            let rounded = RoundedInstants::of(case, points, (at, by_crank), &channels, solvers[0])?;
+            Ok(Some(Solved { sides: [of(solvers[0])?, of(solvers[1])?], rounded }))
+        };
+        // Where forces decide the true motion, numbers at crank angles belong to the nominal motion.
+        let nominal = solved(&case.nominal(), true)?;
+        Ok(Answers { solvers, nominal, timed: solved(case, false)?, integration })
+    }
+
+    /// What a side answers for a series.
+    fn of_series<'b>(&'b self, oracle: &Oracle, series: &OracleSeries, side: usize) -> Result<Answer<'b>> {
+        let told = |solved: &'b Option<Solved>, integration: f64| -> Result<Option<Told<'b>>> {
+            let Some(Solved { sides, rounded }) = solved else { return Ok(None) };
+            let [own, other] = [side, 1 - side].map(|side| Components::of(oracle, series, &sides[side].0));
+            let (own, other) = (own?, other?);
+            let (trajectory, sizes) = &sides[side];
+            let sizes = sizes.iter().find(|(own, _)| *own == series.channel);
+            let [size, scale] = sizes.map_or([0.0; 2], |(_, sizes)| *sizes);
+            let known = ULPS * f64::EPSILON * size + integration;
+            let channels = [Some(series.channel.clone()), series.y()];
+            Ok(Some(Told { trajectory, own, other, known, scale, rounded, channels }))
+        };
+        let of = |channel: &Channel| (self.integration)(side, channel);
+        let integration = of(&series.channel) + series.y().map_or(0.0, |y| of(&y));
+        Ok(Answer { nominal: told(&self.nominal, 0.0)?, timed: told(&self.timed, integration)? })
+    }
+}
+
+/// What a side answers for a series, at crank angles and at times.
+struct Answer<'a> {
+    nominal: Option<Told<'a>>,
+    timed: Option<Told<'a>>,
+}
+
+/// A series as both sides have solved it, and how far the number of one is known besides their difference.
+struct Told<'a> {
+    trajectory: &'a Trajectory,
+    own: Components<'a>,
+    other: Components<'a>,
+    known: f64,
+    /// Scale of the channel where the numbers hold.
+    scale: f64,
+    rounded: &'a RoundedInstants,
+    /// The channel, and the other component of a magnitude.
+    channels: [Option<Channel>; 2],
+}
+
+/// What a side answers for one printed number.
+struct Found {
+    /// Its distance from the printed number.
+    deviation: f64,
+    bound: f64,
+    /// The part of the bound that comes of the rounding of the instant.
+    instant: f64,
+    scale: f64,
+}
+
+impl Found {
+    /// Share of the bound that is used; NaN uses all of it.
+    fn used(&self) -> f64 {
+        let used = share(self.deviation, self.bound);
+        if used.is_nan() { f64::INFINITY } else { used }
+    }
+
+    /// Whether it is off by something that tells, and within the bound only because its instant is rounded.
+    fn is_open(&self) -> bool {
+        self.used() <= 1.0 && self.deviation.smaller(self.instant) > TELLING * self.scale
+    }
+}
+
+impl Answer<'_> {
+    /// What is found for a printed number of a series.
+    fn of(&self, series: &OracleSeries, point: &OraclePoint) -> Found {
+        let (told, instants, at) = match (point.at, &self.nominal, &self.timed) {
+            (When::Crank(crank), Some(told), _) => (told, told.trajectory.cranks(), crank),
+            (When::Time(time), _, Some(told)) => (told, told.trajectory.times(), time),
+            (When::Crank(_), None, _) | (When::Time(_), _, None) => unreachable!("solved at every instant"),
+        };
+        let row = instants.binary_search_by(|other| other.total_cmp(&at)).expect("solved at this instant");
+        let [value, other] = [told.own.at(row), told.other.at(row)];
+        // No number is known better than both sides agree on it.
+        let known = told.known + 2.0 * (value - other).abs();
+        let difference = value - point.value;
+        let deviation = if series.channel.kind.periodic { wrapped(difference) } else { difference }.abs();
+        // A magnitude changes by no more than its vector.
+        let drift = told.channels.iter().flatten().map(|own| told.rounded.of_point(own, at, point.at_error));
+        let instant = drift.fold(0.0, f64::hypot);
+        // What a side knows is no rounding of the printed number: it adds to that.
+        let bound = point.bound + known + instant;
+        Found { deviation, bound, instant, scale: told.scale }
+    }
+}
+
+fn of_series(
+    scenario: &Scenario,
+    solvers: [&dyn Solver; 2],
+    integration: &dyn Fn(usize, &Channel) -> f64,
+) -> Result<Vec<Check>> {
+    let all = || scenario.oracles.iter().flat_map(|oracle| oracle.series.iter().map(move |series| (oracle, series)));
+    let series: Vec<&OracleSeries> = all().map(|(_, series)| series).collect();
+    let answers = Answers::of(&scenario.case, &series, solvers, integration)?;
+    let mut checks = Vec::new();
+    for side in 0..2 {
+        for (oracle, series) in all() {
+            checks.extend(of_one(oracle, series, &answers, side)?);
+        }
+    }
+    Ok(checks)
+}
+
+/// The checks of one series: one for all correct values together, and one for each value that is known to be wrong. If
+/// all values are known to be wrong, they have one check together.
+fn of_one(oracle: &Oracle, series: &OracleSeries, answers: &Answers, side: usize) -> Result<Vec<Check>> {
+    let answer = answers.of_series(oracle, series, side)?;
+    let against = |family: &str, point: &OraclePoint, origin: Origin| -> Check {
+        let Found { deviation, bound, instant, .. } = answer.of(series, point);
+        let tolerance = tolerance(oracle, origin, (bound, instant), point.digits);
+        let check = Check::new(family, deviation, tolerance, series.channel.kind.unit.symbol());
+        check.located(|| format!("at {}", point.at))
+    };
+    let [family, wrong] = [false, true].map(|wrong| family(oracle, wrong, answers.solvers[side].name()));
+    let corrected = |cell: &ExpectedCell| -> Check {
+        let printed = against(&wrong, &cell.point, origin(oracle));
+        against(&wrong, &cell.right, Origin::Recomputed).expected(&cell.finding, &printed)
+    };
+    // Each cell has its own bound: the worst cell is the one that uses the largest share of it. NaN is the worst.
+    let (mut worst, mut open): (Option<(f64, &OraclePoint)>, Option<&OraclePoint>) = (None, None);
+    for point in &series.points {
+        let found = answer.of(series, point);
+        if worst.is_none_or(|(most, _)| found.used() >= most) {
+            worst = Some((found.used(), point));
+        }
+        open = open.or(found.is_open().then_some(point));
+    }
+    let checked = |point: &OraclePoint| against(&family, point, origin(oracle)).of(&series.name);
+    let mut checks: Vec<Check> = worst.iter().map(|(_, point)| checked(point)).collect();
+    if let (Some(point), Some((..=1.0, _))) = (open, worst) {
+        checks = vec![Check { verdict: unproven(point), ..checked(point) }];
+    }
+    for cell in &series.expected {
+        checks.push(corrected(cell).of(format!("{} at {}", series.name, shortly(cell.point.at))));
+    }
+    if let Some((_, cells)) = &series.wrong {
+        checks.extend(worst_of(cells.iter().map(corrected)).map(|check| check.of(&series.name)));
+    }
+    Ok(checks)
+}
+
+/// The verdict on a number that may be wrong by as much as its instant is rounded.
+fn unproven(point: &OraclePoint) -> Verdict {
+    let reason = format!(
+        "at {} the rounding of the instant leaves more open than a hundredth of the channel's scale, and the number is \
+         off by more",
+        point.at
+    );
+    let advice = vec![Advice::Text("print the instants with more digits, zeros at their ends included".into())];
+    Verdict::Inconclusive { reason, advice }
+}
+
+fn shortly(at: When) -> String {
+    match at {
+        When::Crank(crank) => format!("{:.1} deg", crank.to_degrees()),
+        When::Time(_) => at.to_string(),
+    }
+}
+
+/// The worst check of printed numbers that are all known to be wrong: the first that is not as expected, else the one
+/// that uses the largest share of its bound.
+fn worst_of(checks: impl Iterator<Item = Check>) -> Option<Check> {
+    let rank = |check: &Check| (!matches!(check.verdict, Verdict::Expected { .. }), check.used());
+    checks.reduce(|worst, check| {
+        let ((wrong, used), (other_wrong, other_used)) = (rank(&worst), rank(&check));
+        if (other_wrong && !wrong) || (other_wrong == wrong && other_used > used) { check } else { worst }
+    })
+}
+
+/// Bound of a number: half a unit of its last digit, plus the known error of the number, but never less than what the
+/// analytic sides know; and the part of it that the rounding of its instant leaves open.
+fn tolerance(oracle: &Oracle, origin: Origin, (bound, instant): (f64, f64), digits: i32) -> Tolerance {
+    Tolerance { bound, basis: Basis::Digits { origin, digits, source: oracle.source.clone(), instant } }
+}
+
+/// How the numbers of an oracle are known.
+fn origin(oracle: &Oracle) -> Origin {
+    match oracle.basis {
+        OracleBasis::Published => Origin::Published,
+        OracleBasis::Recomputed => Origin::Recomputed,
+        OracleBasis::Derived => Origin::Derived,
+    }
+}
+
+/// The channel of a series, or both components of the vector whose magnitude it is.
+struct Components<'a> {
+    x: &'a [f64],
+    y: Option<&'a [f64]>,
+}
+
+impl<'a> Components<'a> {
+    fn of(oracle: &Oracle, series: &OracleSeries, solved: &'a Trajectory) -> Result<Self> {
+        let named = |channel: &Channel| {
+            solved.column(channel).ok_or_else(|| {
+                Error::new(ErrorKind::Input, format!("oracle {}: there is no channel {channel}", oracle.name))
+                    .help("name a link, point or joint of this scenario")
+            })
+        };
+        Ok(Components { x: named(&series.channel)?, y: series.y().map(|y| named(&y)).transpose()? })
+    }
+
+    fn at(&self, row: usize) -> f64 {
+        self.y.map_or(self.x[row], |y| self.x[row].hypot(y[row]))
+    }
+}
+
+fn of_figures(scenario: &Scenario, solvers: [&dyn Solver; 2]) -> Result<Vec<Check>> {
+    let all = || scenario.oracles.iter().flat_map(|oracle| oracle.figures.iter().map(move |figure| (oracle, figure)));
+    let mut values = [Vec::new(), Vec::new()];
+    for (values, solver) in values.iter_mut().zip(solvers) {
+        let mut measured = Measured::of(scenario, solver);
+        for (_, figure) in all() {
+            values.push(measured.value(figure.figure)?);
+        }
+    }
+    let mut checks = Vec::new();
+    for (side, solver) in solvers.into_iter().enumerate() {
+        for (index, (oracle, figure)) in all().enumerate() {
+            let [value, other] = [values[side][index], values[1 - side][index]];
+            let known = ULPS * f64::EPSILON * value.abs() + 2.0 * (value - other).abs();
+            let (family, unit) = (family(oracle, figure.wrong.is_some(), solver.name()), figure.figure.unit());
+            let against = |number: &FigureValue, origin: Origin| {
+                let tolerance = tolerance(oracle, origin, (number.bound.larger(known), 0.0), number.digits);
+                Check::new(family.as_str(), (value - number.value).abs(), tolerance, unit)
+                    .of(&figure.name)
+                    .located(|| format!("given {} {unit}, found {value:.10}", number.value))
+            };
+            let printed = against(&figure.printed, origin(oracle));
+            checks.push(match &figure.wrong {
+                Some((finding, right)) => against(right, Origin::Recomputed).expected(finding, &printed),
+                None => printed,
+            });
+        }
+    }
+    Ok(checks)
+}
+
+/// Heading of the checks of an oracle.
+fn family(oracle: &Oracle, wrong: bool, side: &str) -> String {
+    let known = if wrong { ", known to be wrong" } else { "" };
+    format!("{} {}{known} ({side})", origin(oracle).word(), oracle.name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_not_as_expected_comes_before_what_uses_most() {
+        let check = |value: f64, verdict: Verdict| {
+            let tolerance = Tolerance { bound: 1.0, basis: Basis::Wanted("test") };
+            Check { verdict, ..Check::new("f", value, tolerance, "") }
+        };
+        let expected = |value: f64| check(value, Verdict::Expected { finding: "why".into(), off: 1.0 });
+        let wrong = check(0.1, Verdict::Disagree { place: String::new() });
+        let worst = |all: Vec<Check>| worst_of(all.into_iter()).map(|check| check.value);
+        assert_eq!(worst(vec![expected(0.9), wrong, expected(0.95)]), Some(0.1));
+        assert_eq!(worst(vec![expected(0.5), expected(0.9), expected(0.7)]), Some(0.9));
+        assert_eq!(worst(Vec::new()), None);
+    }
+}

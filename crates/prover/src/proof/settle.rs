@@ -1,0 +1,481 @@
+//! An engine that finds its own settings: coarse first, refined by what is to blame, until every channel is conclusive.
+//!
+//! Each round has one run more, at half the finest step so far. Its runs are combined in all ways: the engine as it is,
+//! extrapolated once, twice, ..., each judged at the step that leaves the finest run to tell the error. The best of
+//! them counts. A channel that is not conclusive blames its step, its sweeps or its rounding.
+//!
+//! Everything is decided by the engine's own runs and by counted work, so that the same input gives the same settings.
+
+use crate::numbers::error;
+use linkage::engine::{Engine, Settings};
+use linkage::error::{Advice, Error, ErrorKind};
+use linkage::math::KeepNan;
+use linkage::math::statistics::half_range;
+
+use super::judge::{Judge, Judged};
+use super::need::{Blame, MOST_LEFT_OUT, Need, need};
+use super::observe::Stopped;
+use super::order;
+use super::pace::Pace;
+use super::room::room;
+use super::runs::{Bank, FEWER, other_sweeps, rungs};
+use super::stall::{Next, Stall};
+use crate::compare::Verdict;
+use crate::tolerance::Part;
+
+/// Settings that a proof may choose.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub(crate) struct Free {
+    /// The time step.
+    pub(crate) step: bool,
+    /// The sweeps of the iteration.
+    pub(crate) sweeps: bool,
+    /// How often runs are extrapolated.
+    pub(crate) extrapolated: bool,
+}
+
+impl Free {
+    /// Whether there is anything to choose.
+    pub(crate) fn any(self) -> bool {
+        self.step || self.sweeps || self.extrapolated
+    }
+}
+
+/// How the settings of an engine were found.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Search {
+    /// Number of runs that were made, each at another step or with other sweeps.
+    pub runs: usize,
+    /// Work done, in steps without sweeps; twenty sweeps count as one step more.
+    pub effort: f64,
+    /// Work that was allowed, in the same unit.
+    pub budget: f64,
+    /// Why the search ended.
+    pub end: End,
+}
+
+/// Why a search of settings ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum End {
+    /// Every channel has the aimed accuracy, or is conclusive and the work for more is spent.
+    Decided,
+    /// A finer step would add more rounding than it takes away.
+    Rounding,
+    /// The work that was allowed is done.
+    Budget,
+    /// At the pace of its rounds the work that was allowed would not be enough.
+    Pace,
+    /// The settings that are left to choose have no better value.
+    Nothing,
+}
+
+/// Work allowed by default, in steps without sweeps.
+pub const BUDGET: f64 = 2e7;
+/// Work within which a conclusive result is refined further, to the aimed accuracy.
+const THRIFT: f64 = 0.0015;
+/// Share of the widest conclusive bound that is aimed at: a proof a hundred times sharper costs little with
+/// extrapolation.
+const AIM: f64 = 0.01;
+/// Extrapolations that are tried: with more, the weights add more rounding than the errors they cancel.
+const MOST_TIMES: usize = 4;
+/// Coarsest step that is tried against rounding, in units of the first one.
+const COARSEST: f64 = 16.0;
+/// Work of the first runs that is done whatever is allowed, some hundredths of a second: without them nothing can be
+/// told.
+pub(super) const FIRST: f64 = 1e4;
+/// Failed runs after which more sweeps are tried instead of a smaller step.
+const FAILURES: usize = 6;
+/// Share of the room beside a dead point that the steps of a run may take.
+const ROOM: f64 = 0.98;
+/// Rounds of a search that is not long.
+const QUICK: i32 = 3;
+/// What is to blame where runs with fewer sweeps fail.
+const SWEEPS: Blame = Blame { part: Part::Iteration, is_shared: false };
+/// Factors between numbers of sweeps: far from the end of a search, and near to it.
+const MORE_SWEEPS: [usize; 2] = [4, 2];
+/// Largest bound, over what is wanted, that is near.
+const NEAR: f64 = 8.0;
+
+impl End {
+    /// Puts into an inconclusive verdict what the search has tried, in place of advice to try it.
+    pub(super) fn tell(self, verdict: &mut Verdict, budget: f64) {
+        let Verdict::Inconclusive { reason, advice } = verdict else { return };
+        if advice.is_empty() {
+            return;
+        }
+        let (why, way_out) = match self {
+            // The settings that are given decide, and its own advice holds.
+            End::Decided | End::Nothing => return,
+            End::Rounding => ("a finer step adds more rounding than it takes away", vec![Advice::OtherEngine]),
+            End::Budget => ("the work that was allowed is done", vec![Advice::MoreWork { to: 10.0 * budget }]),
+            End::Pace => (
+                "at the pace of its rounds the work that was allowed would not be enough",
+                vec![Advice::MoreWork { to: 10.0 * budget }],
+            ),
+        };
+        reason.push_str("; ");
+        reason.push_str(why);
+        *advice = way_out;
+    }
+}
+
+/// An error if the first runs of an engine, those of `rungs`, are more work than is allowed: `most` of the `budget` asked
+/// for. A step so small that no budget would be enough is a mistake, which the engine itself refuses.
+pub(super) fn too_much(
+    bank: &Bank,
+    settings: Settings,
+    rungs: &[Settings],
+    [most, budget]: [f64; 2],
+) -> Result<(), Stopped> {
+    let first = bank.missing(rungs);
+    let is_mistake = 2.0 * half_range(&bank.case.grid.times) / settings.resolution > BUDGET;
+    // Written so that NaN is too much.
+    if first <= most || is_mistake {
+        return Ok(());
+    }
+    let message = format!(
+        "the first runs of the engine, with all their substeps, take the work of {} steps of a four-bar, {} are allowed",
+        error(first),
+        error(budget)
+    );
+    let error = Error::new(ErrorKind::Unsupported, message);
+    Err(Stopped { error, kept: None, spent: Some(first) })
+}
+
+/// One way to combine the runs made so far, judged.
+struct Trial {
+    judged: Judged,
+    need: Need,
+    blame: Blame,
+}
+
+/// The state of a search.
+pub(super) struct Settling<'a, 'b> {
+    judge: &'a Judge<'a>,
+    bank: &'a mut Bank<'b>,
+    free: Free,
+    /// Present settings; the step is the finest one of all runs.
+    now: Settings,
+    most_sweeps: usize,
+    /// Step of the coarsest run.
+    coarsest: f64,
+    budget: f64,
+    /// Largest bound aimed at, over what is wanted.
+    aim: f64,
+    /// Whether being conclusive is all that is aimed at.
+    conclusive: bool,
+    /// Finest step of a run, for steps that are free only above it.
+    finest: f64,
+    /// Number of sweeps over that before.
+    factor: usize,
+    /// Whether the last round was near to what is wanted.
+    near: bool,
+    /// Largest step (s) with room beside the dead points; `None` as long as nobody asks.
+    room: Option<f64>,
+}
+
+impl<'a, 'b> Settling<'a, 'b> {
+    /// A search that begins with the settings of `engine`.
+    pub(super) fn new(
+        judge: &'a Judge<'a>,
+        bank: &'a mut Bank<'b>,
+        engine: &dyn Engine,
+        free: Free,
+        budget: f64,
+    ) -> Self {
+        let mut now = engine.settings();
+        let [first, most] = engine.sweeps(bank.case).unwrap_or([now.sweeps; 2]);
+        if free.sweeps {
+            now.sweeps = first;
+        }
+        // The finest of the first three runs.
+        let times = if free.extrapolated { 0 } else { now.extrapolated };
+        now.resolution *= 0.5f64.powi(times as i32 + 1);
+        let coarsest = 2.0 * engine.settings().resolution;
+        Settling {
+            judge,
+            bank,
+            free,
+            now,
+            most_sweeps: most,
+            coarsest,
+            budget,
+            aim: AIM,
+            conclusive: false,
+            finest: 0.0,
+            factor: MORE_SWEEPS[0],
+            near: false,
+            room: None,
+        }
+    }
+
+    /// The same search, content as soon as every channel is conclusive, with coarser steps to begin with and none below
+    /// `finest` (s), and with `sweeps` at least.
+    pub(super) fn conclusive(mut self, finest: f64, sweeps: usize) -> Self {
+        (self.aim, self.conclusive, self.finest, self.factor) = (1.0, true, finest, MORE_SWEEPS[1]);
+        if self.free.sweeps {
+            self.now.sweeps = self.now.sweeps.max(sweeps);
+        }
+        if self.free.step {
+            self.coarsest *= 4.0;
+        }
+        self
+    }
+
+    /// Whether there is no finer step to try.
+    fn is_finest(&self) -> bool {
+        !self.free.step || 0.5 * self.now.resolution < 0.99 * self.finest
+    }
+
+    /// Runs the engine until it is decided, or until nothing is left to try.
+    ///
+    /// # Errors
+    /// The failure of the last run, if no run can be judged; an error if the first runs are more work than is allowed.
+    pub(super) fn run(mut self, progress: &mut dyn FnMut(f64)) -> Result<(Judged, Search), Stopped> {
+        let mut best: Option<Trial> = None;
+        let mut failure = None;
+        let (mut round, mut failed) = (0, 0);
+        let (mut stall, mut pace) = (Stall::default(), Pace::default());
+        // What disagrees in the last round, and what did so in two rounds running.
+        let (mut against, mut borne_out): (Vec<String>, Vec<String>) = (Vec::new(), Vec::new());
+        too_much(self.bank, self.now, &self.rungs(), [self.budget.larger(FIRST), self.budget])?;
+        let end = loop {
+            let left = 0.5f64.powi(round);
+            let mut part = |part: f64| progress(1.0 - left + 0.5 * left * part);
+            round += 1;
+            let blame = match self.round(round > QUICK, &mut part) {
+                Ok(trial) if trial.need.is_vague && self.makes_room() => {
+                    best = best.or(Some(trial));
+                    Part::Discretisation
+                }
+                Ok(mut trial) => {
+                    // No step and no sweeps help where the order is wrong.
+                    if round > QUICK && order::look(self.judge, self.bank, &mut trial.judged)? {
+                        borne_out = trial.judged.against();
+                        best = Some(trial);
+                        break End::Decided;
+                    }
+                    let now = trial.judged.against();
+                    borne_out = now.iter().filter(|name| against.contains(name)).cloned().collect();
+                    against = now;
+                    let disagrees = !against.is_empty();
+                    let (decided, sharp) = (trial.need.is_within(1.0), trial.need.is_within(self.aim));
+                    // Sweeps that leave only a part of the bound are multiplied with care: half the step does the rest.
+                    let is_careful = round > QUICK && !trial.need.is_vague && trial.blame.is_shared;
+                    self.near = trial.need.is_within(NEAR) || is_careful;
+                    let is_slow = self.conclusive && pace.is_too_slow(self.bank.effort, trial.need, self.budget);
+                    let thrift = self.bank.effort > THRIFT * self.budget;
+                    let blame = match stall.look_closer(trial.need, trial.blame.part, self.now.sweeps, self.free.sweeps)
+                    {
+                        Next::Blames(part) => part,
+                        Next::Returns(fewer) => {
+                            self.now.sweeps = fewer;
+                            Part::Discretisation
+                        }
+                    };
+                    if trial.need.is_of_instants() && self.free.step {
+                        self.leave_out_less(&trial.judged);
+                    }
+                    // A later round speaks for itself where it disagrees, or no longer does.
+                    let better = best.as_ref().is_none_or(|best| {
+                        let refuted = decided && !best.judged.against().is_empty();
+                        disagrees || refuted || trial.need < best.need
+                    });
+                    if better {
+                        best = Some(trial);
+                    }
+                    // A disagreement counts if the next refinement bears it out.
+                    if decided && (sharp || thrift) && (!disagrees || !borne_out.is_empty()) {
+                        break End::Decided;
+                    }
+                    if is_slow {
+                        break End::Pace;
+                    }
+                    blame
+                }
+                Err(stopped) if stopped.error.kind() == ErrorKind::Numeric => {
+                    failure = Some(stopped);
+                    // A run that fails may lack either; most lack a smaller step.
+                    failed = if self.makes_room() { 0 } else { failed + 1 };
+                    if failed > 0 && failed % FAILURES == 0 { Part::Iteration } else { Part::Discretisation }
+                }
+                Err(stopped) => return Err(stopped),
+            };
+            if let Some(end) = self.refine(blame) {
+                break end;
+            }
+        };
+        progress(1.0);
+        let search = Search { runs: self.bank.count, effort: self.bank.effort, budget: self.budget, end };
+        match (best, failure) {
+            (Some(mut best), _) => {
+                // At a given step there is no finer run: its own estimate counts.
+                let is_over = matches!(end, End::Budget | End::Pace);
+                let is_cut = self.free.sweeps && is_over;
+                if (!self.is_finest() || is_cut) && borne_out.is_empty() {
+                    best.judged.doubt("no finer run bears it out", &Advice::SmallerStep { to: None });
+                }
+                // Impulses are of first order, and sweeps leave more in them than in the motion: where the search is
+                // cut off before all are conclusive, none is disproven.
+                if self.conclusive && is_over {
+                    best.judged.doubt("the others are not conclusive", &Advice::MoreWork { to: 10.0 * self.budget });
+                }
+                Ok((best.judged, search))
+            }
+            (None, Some(stopped)) => Err(Stopped { spent: (end == End::Budget).then_some(self.budget), ..stopped }),
+            (None, None) => unreachable!("a round ends with a trial or a failure"),
+        }
+    }
+
+    /// Goes on at steps that leave out few enough instants, in proportion to the step. Coarser ones decide nothing.
+    fn leave_out_less(&mut self, judged: &Judged) {
+        let most = judged.info.settings.resolution * MOST_LEFT_OUT / judged.too_coarse;
+        // The next round halves the step once more.
+        while self.now.resolution > most && !self.is_finest() {
+            self.now.resolution *= 0.5;
+        }
+        while self.coarsest > 4.0 * most.larger(self.now.resolution) {
+            self.coarsest *= 0.5;
+        }
+    }
+
+    /// Goes on at steps with room beside the dead points, if those of this round have none: they go through them, and
+    /// fail or show no order. Returns whether it is so.
+    fn makes_room(&mut self) -> bool {
+        let (case, engine) = (&self.judge.scenario.case, self.bank.engine(self.now));
+        let most = *self.room.get_or_insert_with(|| room(case, engine.as_ref()));
+        let is_cramped = 4.0 * self.now.resolution > most && !self.is_finest();
+        if is_cramped {
+            // The next round halves the step once more. Rounding asks for the largest step that there is room for.
+            if self.finest == 0.0 {
+                self.now.resolution = self.now.resolution.smaller(ROOM * 0.5 * most);
+            }
+            while 2.0 * self.now.resolution > most && !self.is_finest() {
+                self.now.resolution *= 0.5;
+            }
+            self.coarsest = 2.0 * self.now.resolution;
+        }
+        is_cramped
+    }
+
+    /// Changes the settings by what is to blame. Returns why it cannot.
+    fn refine(&mut self, blame: Part) -> Option<End> {
+        let mut next = self.now;
+        let factor = MORE_SWEEPS[usize::from(self.conclusive || self.near)];
+        match blame {
+            Part::Iteration if self.free.sweeps && self.now.sweeps < self.most_sweeps => next.sweeps *= factor,
+            // At a given step only more sweeps are left, and too few of them spoil the order that the step shows.
+            Part::Discretisation
+                if self.is_finest() && self.free.sweeps && self.now.sweeps < self.judge.asked.sweeps =>
+            {
+                next.sweeps *= factor;
+            }
+            // Coarser runs, extrapolated more often, have less rounding.
+            Part::Rounding if self.free.step && self.coarsest < COARSEST * self.judge.asked.resolution => {
+                self.coarsest = COARSEST * self.judge.asked.resolution;
+                return None;
+            }
+            // At a given step no coarser one is left to choose.
+            Part::Rounding | Part::Reference if self.free.step => return Some(End::Rounding),
+            Part::Rounding | Part::Reference => return Some(End::Nothing),
+            Part::Discretisation | Part::Iteration if !self.is_finest() => next.resolution *= 0.5,
+            Part::Discretisation | Part::Iteration => return Some(End::Nothing),
+        }
+        if next.sweeps != self.now.sweeps {
+            self.bank.keep_sweeps(&[next.sweeps, self.now.sweeps]);
+            self.factor = factor;
+        }
+        let previous = std::mem::replace(&mut self.now, next);
+        if self.bank.effort + self.bank.missing(&self.rungs()) > self.budget {
+            self.now = previous;
+            return Some(End::Budget);
+        }
+        None
+    }
+
+    /// Settings of all combinations that the finest run judges, the one extrapolated most often first.
+    fn candidates(&self) -> Vec<Settings> {
+        let asked = self.judge.asked;
+        let times = if self.free.extrapolated { 0..=MOST_TIMES } else { asked.extrapolated..=asked.extrapolated };
+        let at = |times: usize| Settings {
+            resolution: self.now.resolution * 2f64.powi(times as i32 + 1),
+            extrapolated: times,
+            ..self.now
+        };
+        // A judgement takes steps of four times the finest one at least.
+        let coarsest = self.coarsest.larger(4.0 * self.now.resolution);
+        let is_open = |settings: &Settings| !self.free.step || 2.0 * settings.resolution <= coarsest * 1.000_001;
+        times.rev().map(at).filter(is_open).collect()
+    }
+
+    /// Settings of the runs of this round.
+    fn rungs(&self) -> Vec<Settings> {
+        self.candidates().into_iter().flat_map(|settings| rungs(settings, &[])).collect()
+    }
+
+    /// Makes the runs of a round and judges their combinations. The best one is returned. A search that `is_long` asks
+    /// what the sweeps leave, whatever the step.
+    fn round(&mut self, is_long: bool, progress: &mut dyn FnMut(f64)) -> Result<Trial, Stopped> {
+        let mut best: Option<Trial> = None;
+        let mut failure = None;
+        let candidates = self.candidates();
+        let all = self.rungs();
+        self.bank.keep_needed(&all);
+        self.bank.prepare(&all, &mut |part| progress(0.7 * part));
+        for settings in candidates {
+            let trial = match self.trial(settings, &[], &mut |_| {}) {
+                Ok(trial) => trial,
+                Err(stopped) => {
+                    failure = Some(stopped);
+                    continue;
+                }
+            };
+            if best.as_ref().is_none_or(|best| trial.need < best.need) {
+                let sharp = trial.need.is_within(self.aim);
+                best = Some(trial);
+                if sharp {
+                    break;
+                }
+            }
+        }
+        let Some(best) = best else { return Err(failure.expect("every round has a candidate")) };
+        // At first, what the sweeps leave is asked only where the step is not to blame.
+        let settings = best.judged.info.settings;
+        let engine = self.bank.engine(settings);
+        let share = if self.free.sweeps { self.factor } else { FEWER };
+        let others = other_sweeps(self.bank.case, engine.as_ref(), settings.sweeps, share);
+        let disagrees = !best.judged.against().is_empty();
+        let is_asking = is_long && !self.conclusive && !best.need.is_of_instants();
+        if others.is_empty() || (best.need.share > 1.0 && !best.need.is_vague && !disagrees && !is_asking) {
+            return Ok(best);
+        }
+        let found = match self.trial(settings, &others[..1], &mut |part| progress(0.7 + 0.2 * part)) {
+            // Sweeps so few that the run fails say that those of the other run are hardly enough.
+            Err(stopped) if stopped.error.kind() == ErrorKind::Numeric => {
+                return Ok(Trial { need: Need { is_vague: true, ..best.need }, blame: SWEEPS, ..best });
+            }
+            found => found?,
+        };
+        // A third run tells how fast the sweeps converge, before they are multiplied; and whether they do, before
+        // anything is disproven: sweeps that have hardly begun to converge differ little.
+        let is_asked = found.blame.part == Part::Iteration && !found.need.is_within(self.aim) && self.free.sweeps;
+        if others.len() < 2 || (!is_asked && found.judged.against().is_empty()) {
+            return Ok(found);
+        }
+        match self.trial(settings, &others, &mut |part| progress(0.9 + 0.1 * part)) {
+            // What fails with fewer sweeps has hardly enough of them.
+            Err(stopped) if stopped.error.kind() == ErrorKind::Numeric && !found.judged.against().is_empty() => {
+                Ok(Trial { need: Need { is_vague: true, ..found.need }, blame: SWEEPS, ..found })
+            }
+            Err(stopped) if stopped.error.kind() == ErrorKind::Numeric => Ok(found),
+            better => better,
+        }
+    }
+
+    fn trial(&mut self, settings: Settings, others: &[usize], progress: &mut dyn FnMut(f64)) -> Result<Trial, Stopped> {
+        let runs = self.bank.runs(settings, others, progress)?;
+        let judged = self.judge.judge(self.bank.engine(settings).as_ref(), runs)?;
+        let (need, blame) = need(&judged, self.judge.scenario.engine_rel);
+        Ok(Trial { judged, need, blame })
+    }
+}

@@ -1,0 +1,99 @@
+//! A scenario solved by both analytic sides at instants of somebody else, without engines.
+
+use super::dependence::Dependence;
+use super::entrants::{Sides, TRUE_SIDES};
+use super::known::usual;
+use super::ledger::Ledger;
+use super::options::Reference;
+use crate::claims::{Course, needed};
+use crate::compare::{Check, magnitudes, magnitudes_by};
+use analytic::range::explained;
+use linkage::case::{Case, Grid};
+use linkage::error::Result;
+use linkage::trajectory::{Channel, Trajectory};
+use scenario::{Claim, Formulas, Scenario};
+
+/// How far the numbers of an analytic side's trajectory are known where nothing was measured: what rounding leaves in
+/// well conditioned poses, channel by channel, in their units.
+#[must_use]
+pub fn known_at_least(trajectory: &Trajectory) -> Vec<f64> {
+    let sizes = magnitudes(trajectory).into_iter().zip(trajectory.channels());
+    sizes.map(|(size, channel)| usual(channel.kind.stage) * size).collect()
+}
+
+/// The same for a trajectory of all channels of a case: every channel by the numbers of the groups that it depends on.
+#[must_use]
+pub fn known_of_complete(case: &Case, trajectory: &Trajectory) -> Vec<f64> {
+    let depends = Dependence::of(case, trajectory.channels());
+    let sizes = magnitudes_by(trajectory, &depends.of, &|from, to| depends.feeds(from, to));
+    sizes.into_iter().zip(trajectory.channels()).map(|(size, channel)| usual(channel.kind.stage) * size).collect()
+}
+
+/// The channels that are solved for a claim: what judging it needs, and the other channels of what it is about. A
+/// component that is zero but for rounding is known as well as these.
+#[must_use]
+pub fn asked(claim: &Claim, case: &Case) -> Vec<Channel> {
+    let is_beside = |channel: &Channel| {
+        claim.channels.iter().any(|(_, own)| {
+            let own = &own.channel;
+            own.of == channel.of && own.kind.subject == channel.kind.subject && own.kind.stage >= channel.kind.stage
+        })
+    };
+    let mut asked = needed(claim, case);
+    asked.extend(case.all_channels().into_iter().filter(is_beside));
+    asked
+}
+
+/// What both sides find, and how well they know it.
+pub struct Solved {
+    /// What was solved: the part of the mechanism that the claims need, at the instants.
+    pub case: Case,
+    sides: Sides,
+    /// How well every channel is known at best, whatever else is solved.
+    least: Vec<f64>,
+}
+
+impl Solved {
+    /// Solves what some claims of a scenario need at the instants of a grid.
+    ///
+    /// # Errors
+    /// Those of the sides, with the crank angle, and of a grid to which the drive does not come.
+    pub fn of<'a>(scenario: &Scenario, grid: Grid, claims: impl IntoIterator<Item = &'a Claim>) -> Result<Self> {
+        let asked: Vec<Channel> = claims.into_iter().flat_map(|claim| asked(claim, &scenario.case)).collect();
+        let case = scenario.case.on(grid)?.wanting_only(&asked).scene()?.case;
+        let formulas = Formulas::over(Vec::new());
+        let scene = Scenario { case, oracles: Vec::new(), formulas, ..scenario.clone() };
+        let sides = Sides::of([&scene, &scene], TRUE_SIDES, Reference::Assur, &mut Ledger::default())
+            .map_err(|error| explained(&scene.case, error))?;
+        let least = vec![0.0; sides.trajectory().channels().len()];
+        Ok(Solved { case: scene.case, sides, least })
+    }
+
+    /// The same, where no channel is known better than all channels of the mechanism say: a few channels may be those
+    /// that are zero but for rounding, which is that of the others.
+    #[must_use]
+    pub fn known_at_least(mut self, of: &dyn Fn(&Channel) -> f64) -> Self {
+        self.least = self.sides.trajectory().channels().iter().map(of).collect();
+        self
+    }
+
+    /// What the reference finds, with how well it knows it.
+    ///
+    /// # Errors
+    /// Those of `then`.
+    pub fn on_course<T>(&self, then: impl FnOnce(&Course) -> Result<T>) -> Result<T> {
+        self.sides.on_course(&self.case, 0, |course| then(&course.known_at_least(&self.least)))
+    }
+
+    /// The reference's numbers.
+    #[must_use]
+    pub fn trajectory(&self) -> &Trajectory {
+        self.sides.trajectory()
+    }
+
+    /// The checks of the sides on each other.
+    #[must_use]
+    pub fn checks(&self) -> &[Check] {
+        &self.sides.checks
+    }
+}

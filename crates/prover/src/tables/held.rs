@@ -1,0 +1,415 @@
+//! What a table says of a mechanism: claims of channels, at instants.
+
+use std::borrow::Cow;
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::Raw;
+use columns::{MISSING, UNDEFINED, is_missing};
+use formula::{Fault, Graph, Program, Rounded, Shape, Tree};
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::math::statistics::ascending;
+use linkage::trajectory::{Channel, Trajectory};
+use scenario::mapping::{INSTANTS, Mapped, Mapping};
+use scenario::words::{choice, nearest};
+use scenario::{Claim, PrintedChannel};
+use std::ops::Range;
+
+/// Where the rows of a party hold; one of the two is always there.
+#[derive(Clone, Debug, Default)]
+pub struct Instants {
+    /// Times (s).
+    pub times: Option<Vec<Rounded>>,
+    /// Crank angles (rad, as the scenario states them).
+    pub cranks: Option<Vec<Rounded>>,
+}
+
+/// The instants by which rows are brought together.
+#[derive(Clone, Debug)]
+pub struct At {
+    /// Times (s), or crank angles (rad).
+    pub values: Vec<Rounded>,
+    /// Whether they are crank angles.
+    pub is_crank: bool,
+}
+
+impl At {
+    /// Rows in ascending order of their instants.
+    #[must_use]
+    pub fn ascending(&self) -> Vec<usize> {
+        ascending(&self.values.iter().map(|at| at.value).collect::<Vec<f64>>())
+    }
+
+    /// The first row, from 0, whose instant lies the other way from the one before than the second from the first, with
+    /// both instants: time that jumps back has begun anew.
+    #[must_use]
+    pub fn turns_back(&self) -> Option<(usize, [f64; 2])> {
+        let step = |row: usize| self.values[row].value - self.values[row - 1].value;
+        let way = (1..self.values.len()).map(step).find(|step| *step != 0.0)?;
+        let row = (1..self.values.len()).find(|&row| step(row) * way < 0.0)?;
+        Some((row, [self.values[row - 1].value, self.values[row].value]))
+    }
+}
+
+/// What a party says of a channel, or of an arithmetic of channels.
+#[derive(Clone, Debug)]
+pub struct Column {
+    /// The channel in its unit.
+    pub claim: Claim,
+    /// Its numbers by rows, in the unit of the claim. [`MISSING`] where nothing was measured; another NaN where no
+    /// number came out.
+    pub values: Vec<Rounded>,
+    /// Scale of the channel in the unit of the claim, as a complete trajectory gives it; `None` where only this column
+    /// is known.
+    pub scale: Option<f64>,
+    /// The line of the mapping that says so; `None` where the table's own header does.
+    pub mapped: Option<Mapped>,
+}
+
+/// All that a party holds.
+#[derive(Clone, Debug, Default)]
+pub struct Held {
+    /// Where its rows hold.
+    pub at: Instants,
+    /// What it holds there.
+    pub columns: Vec<Column>,
+    /// Whether an analytic side has found it, so that its errors are known.
+    pub is_analytic: bool,
+    /// Columns of a table that say nothing of a channel.
+    pub unused: Vec<String>,
+    places: Places,
+}
+
+/// Where columns stand: the first of each text, and the first of each channel that is no arithmetic, with whether it is
+/// a magnitude. A party has as many columns as a mapping has lines, and each is asked for.
+#[derive(Clone, Debug, Default)]
+struct Places {
+    texts: BTreeMap<String, usize>,
+    channels: BTreeMap<(String, bool), usize>,
+}
+
+impl Places {
+    fn of(columns: &[Column]) -> Self {
+        let mut places = Places::default();
+        for (index, column) in columns.iter().enumerate() {
+            places.texts.entry(column.claim.text.clone()).or_insert(index);
+            if let Some(own) = single(&column.claim) {
+                places.channels.entry((own.channel.to_string(), own.magnitude)).or_insert(index);
+            }
+        }
+        places
+    }
+}
+
+/// Names for the time in seconds that need no mapping besides those of [`INSTANTS`].
+const TIMES: [&str; 2] = ["t_s", "t"];
+
+impl Held {
+    /// What a party holds in some columns.
+    #[must_use]
+    pub fn of_columns(at: Instants, columns: Vec<Column>, is_analytic: bool) -> Held {
+        let places = Places::of(&columns);
+        Held { at, columns, is_analytic, unused: Vec::new(), places }
+    }
+
+    /// What a table says by a mapping. A column that has the name of a channel, unit included, needs none.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Input`] for a column or channel that is not known, with its place, and if nothing says where the
+    /// rows hold or what they mean.
+    pub fn of_table(raw: &Raw, mapping: &Mapping) -> Result<Held> {
+        let mut reader = Reader::of(raw);
+        let mut at = Instants::default();
+        let own: Vec<Mapped> = if mapping.at.is_empty() { instants_of(raw) } else { Vec::new() };
+        for mapped in mapping.at.iter().chain(&own) {
+            let (factor, is_crank) =
+                mapped.instant().ok_or_else(|| mapped.wrong("this is no instant", "map a time"))?;
+            let printed = reader.column(mapped)?;
+            let is_chosen = columns::chosen(&printed, mapped.name == "crank_deg");
+            // A factor to SI rounds.
+            let exact = |own: Rounded| if is_chosen { Rounded::nearly(own.value) } else { own };
+            let values: Vec<Rounded> = printed.into_iter().map(|own| exact(scaled(own, factor))).collect();
+            if let Some(row) = values.iter().position(|own| !(own.value + own.error).is_finite()) {
+                let message = format!("{} holds at no instant: `{}` is no number there", raw.place(row), mapped.text);
+                return Err(mapped.wrong(&message, "take the row out, or complete it"));
+            }
+            *(if is_crank { &mut at.cranks } else { &mut at.times }) = Some(values);
+        }
+        if at.times.is_none() && at.cranks.is_none() {
+            let message =
+                format!("nothing says where the rows of the table hold; its columns are {}", some(&raw.names));
+            let help = "map a column to time_s, time_ms, crank_deg or crank_rad, such as time=time_s";
+            return Err(Error::new(ErrorKind::Input, message).help(help));
+        }
+        let mapped: BTreeSet<&str> = mapping.channels.iter().map(|mapped| mapped.name.as_str()).collect();
+        let is_own = |name: &&String| PrintedChannel::named(name).is_some() && !mapped.contains(name.as_str());
+        let channels = raw.names.iter().filter(is_own);
+        let own: Vec<Mapped> = channels.map(|name| Mapped::same(name, name)).collect();
+        let mut columns = Vec::new();
+        for mapped in &mapping.channels {
+            let claim = claim_of(&mapped.name).map_err(|fault| mapped.wrong(&fault.message, &fault.help))?;
+            columns.push(Column { claim, values: reader.column(mapped)?, scale: None, mapped: Some(mapped.clone()) });
+        }
+        for mapped in &own {
+            let claim = claim_of(&mapped.name).map_err(|fault| mapped.wrong(&fault.message, &fault.help))?;
+            columns.push(Column { claim, values: reader.column(mapped)?, scale: None, mapped: None });
+        }
+        if columns.is_empty() {
+            let message = format!("no column of the table is a channel; they are {}", some(&raw.names));
+            let help = "map columns to channels, such as phi3*180/pi=link.rocker.angle_deg";
+            return Err(Error::new(ErrorKind::Input, message).help(help));
+        }
+        let unused = raw.names.iter().filter(|name| !reader.used.contains(name.as_str())).cloned().collect();
+        Ok(Held { unused, ..Held::of_columns(at, columns, false) })
+    }
+
+    /// What a trajectory holds.
+    #[must_use]
+    pub fn of_trajectory(trajectory: &Trajectory, is_analytic: bool) -> Held {
+        let exact = |values: &[f64]| -> Vec<Rounded> { values.iter().map(|&value| Rounded::nearly(value)).collect() };
+        let times = Some(trajectory.times().iter().map(|&time| Rounded::exact(time)).collect());
+        let cranks = Some(exact(trajectory.cranks()));
+        let column = |(channel, values): (&Channel, &[f64])| {
+            let name = channel.to_string();
+            let claim = Claim::of_channels(&name, std::slice::from_ref(channel)).ok()?;
+            Some(Column { claim, values: exact(values), scale: None, mapped: None })
+        };
+        let columns = trajectory.iter().filter_map(column).collect();
+        Held::of_columns(Instants { times, cranks }, columns, is_analytic)
+    }
+
+    /// The instants of its rows: crank angles or times as asked for, else times where it has some.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Input`] if it lacks what is asked for.
+    pub fn at(&self, by_crank: Option<bool>) -> Result<At> {
+        let Instants { times, cranks } = &self.at;
+        let is_crank = by_crank.unwrap_or(times.is_none());
+        let found = if is_crank { cranks } else { times };
+        let [lacks, has] = if is_crank { ["crank angles", "times"] } else { ["times", "crank angles"] };
+        let values = found.clone().ok_or_else(|| {
+            Error::new(ErrorKind::Input, format!("the rows of a table have {has}, and no {lacks}"))
+                .help(format!("compare by {has}, or map a column to {lacks}"))
+        })?;
+        Ok(At { values, is_crank })
+    }
+
+    /// Number of rows.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.at.times.as_ref().or(self.at.cranks.as_ref()).map_or(0, Vec::len)
+    }
+
+    /// Whether there is no row.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Whether it has numbers for a claim.
+    #[must_use]
+    pub fn holds(&self, claim: &Claim) -> bool {
+        self.column_of(claim).is_some()
+    }
+
+    /// Its numbers for a claim, in the claim's unit: under the same text, or the same channel in another unit.
+    #[must_use]
+    pub fn values_of(&self, claim: &Claim) -> Option<Cow<'_, [Rounded]>> {
+        match self.column_of(claim)? {
+            (column, 1.0) => Some(Cow::Borrowed(&column.values)),
+            (column, factor) => Some(column.values.iter().map(|&value| scaled(value, factor)).collect()),
+        }
+    }
+
+    /// The scale of a claim, in its unit, where it is that of a complete trajectory.
+    #[must_use]
+    pub fn scale_of(&self, claim: &Claim) -> Option<f64> {
+        let (column, factor) = self.column_of(claim)?;
+        Some(column.scale? * factor)
+    }
+
+    /// The column of a claim, and its unit over that of the claim.
+    fn column_of(&self, claim: &Claim) -> Option<(&Column, f64)> {
+        if let Some(&index) = self.places.texts.get(&claim.text) {
+            return Some((&self.columns[index], 1.0));
+        }
+        let wanted = single(claim)?;
+        let column = &self.columns[*self.places.channels.get(&(wanted.channel.to_string(), wanted.magnitude))?];
+        let unit = single(&column.claim)?.to_si(1.0);
+        Some((column, unit / wanted.to_si(1.0)))
+    }
+}
+
+/// The channel of a claim that is no arithmetic.
+fn single(claim: &Claim) -> Option<&PrintedChannel> {
+    matches!(claim.tree.shape, Shape::Name(_)).then(|| &claim.channels[0].1)
+}
+
+/// The columns that say by their names where the rows hold. One that is called so letter by letter stands before one
+/// that says the same in words, as `Time [s]`.
+fn instants_of(raw: &Raw) -> Vec<Mapped> {
+    let seconds = TIMES.into_iter().find(|name| raw.names.iter().any(|own| own == name));
+    let named = INSTANTS.iter().map(|(name, ..)| *name).filter(|name| raw.names.iter().any(|own| own == name));
+    let mut all: Vec<Mapped> =
+        named.map(|name| Mapped::same(name, name)).chain(seconds.map(|name| Mapped::same("time_s", name))).collect();
+    for name in &raw.names {
+        let Some(mapped) = in_words(name).map(|instant| Mapped::same(instant, name)) else { continue };
+        let is_crank = |of: &Mapped| of.instant().is_some_and(|(_, is_crank)| is_crank);
+        if !all.iter().any(|own| is_crank(own) == is_crank(&mapped)) {
+            all.push(mapped);
+        }
+    }
+    all
+}
+
+/// Which of [`INSTANTS`] the name of a column says in words: `Time`, `t [s]`, `time (ms)`, `Crank [deg]`.
+fn in_words(name: &str) -> Option<&'static str> {
+    let bracketed = ["[]", "()"].iter().find_map(|pair| {
+        let (open, close) = pair.split_at(1);
+        name.trim_end().strip_suffix(close)?.rsplit_once(open)
+    });
+    let (word, unit) = bracketed.map_or((name.trim(), None), |(word, unit)| (word.trim(), Some(unit.trim())));
+    let is = |one: &str| word.eq_ignore_ascii_case(one);
+    match unit {
+        None | Some("s") if is("time") => Some("time_s"),
+        Some("s") if word == "t" => Some("time_s"),
+        Some("ms") if word == "t" || is("time") => Some("time_ms"),
+        Some("deg") if is("crank") || is("crank angle") => Some("crank_deg"),
+        Some("rad") if is("crank") || is("crank angle") => Some("crank_rad"),
+        None | Some(_) => None,
+    }
+}
+
+/// A claim of any channels that there are.
+///
+/// # Errors
+/// What cannot be read, or is no channel.
+fn claim_of(text: &str) -> std::result::Result<Claim, Fault> {
+    let known = |name: &str| PrintedChannel::named(name).map(|own| own.channel);
+    let all: Vec<Channel> = match known(text) {
+        Some(channel) => vec![channel],
+        None => Tree::parse(text)?.names().iter().filter_map(|(name, _)| known(name)).collect(),
+    };
+    Claim::of_channels(text, &all)
+}
+
+fn scaled(number: Rounded, factor: f64) -> Rounded {
+    match factor {
+        1.0 => number,
+        _ => Rounded::pair(formula::Operator::Times, number, Rounded::nearly(factor)),
+    }
+}
+
+/// The first columns by name.
+fn some(names: &[String]) -> String {
+    let shown = names.iter().take(NAMED).map(String::as_str);
+    match names.len().saturating_sub(NAMED) {
+        0 => choice(shown, "`"),
+        more => format!("{} and {more} more", shown.map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")),
+    }
+}
+
+/// Columns that a message names; the others are counted.
+const NAMED: usize = 8;
+
+/// Evaluates arithmetics over the columns of a table.
+struct Reader<'a> {
+    raw: &'a Raw,
+    graph: Graph,
+    /// The first column of each name.
+    places: BTreeMap<&'a str, usize>,
+    used: BTreeSet<&'a str>,
+    /// A row of numbers, for the columns that an arithmetic names.
+    inputs: Vec<Rounded>,
+}
+
+impl<'a> Reader<'a> {
+    fn of(raw: &'a Raw) -> Self {
+        let names: Vec<&str> = raw.names.iter().map(String::as_str).collect();
+        let places = names.iter().enumerate().rev().map(|(index, name)| (*name, index)).collect();
+        let inputs = vec![Rounded::exact(0.0); raw.columns.len()];
+        Reader { raw, graph: Graph::new(&names, 0), places, used: BTreeSet::new(), inputs }
+    }
+
+    fn column(&mut self, mapped: &Mapped) -> Result<Vec<Rounded>> {
+        let (text, names) = (mapped.text.as_str(), &self.raw.names);
+        let is_whole = self.places.contains_key(text);
+        let tree = match is_whole {
+            true => Ok(Tree { shape: Shape::Name(text.into()), at: 0..text.len() }),
+            false => Tree::parse(text),
+        };
+        let tree = tree.map_err(|fault| mapped.refused(&fault))?;
+        let named = tree.names();
+        let column = |name: &str| self.places.get(name).copied();
+        if let Some((name, at)) = named.iter().find(|(name, _)| !self.graph.knows(name)) {
+            return Err(mapped.refused(&self.unknown(name, at.clone())));
+        }
+        let node = self.graph.add_defined(&tree).map_err(|fault| mapped.refused(&fault))?;
+        let used: Vec<usize> = named.iter().filter_map(|(name, _)| column(name)).collect();
+        self.used.extend(used.iter().map(|&column| names[column].as_str()));
+        if is_whole && let [index] = used[..] {
+            return Ok(self.raw.columns[index].clone());
+        }
+        let mut program = Program::of(&self.graph, &[node]);
+        let inputs = &mut self.inputs;
+        let mut row = |row: usize| {
+            for &index in &used {
+                inputs[index] = self.raw.columns[index][row];
+            }
+            // What nobody measured gives no number; what was measured gives one, or the mapping is a mistake.
+            if used.iter().any(|&index| is_missing(&inputs[index])) {
+                return Ok(MISSING);
+            }
+            let found = program.run(inputs)[0];
+            if found.is_undefined() && used.iter().all(|&index| !inputs[index].is_undefined()) {
+                let of = |name: &str| column(name).map_or(Rounded::nearly(std::f64::consts::PI), |own| inputs[own]);
+                if let Err(fault) = tree.evaluated(&of) {
+                    let help = format!("{}; else leave the row out, or its cell empty", fault.help);
+                    let message = format!("in {} {}", self.raw.place(row), fault.message);
+                    return Err(mapped.refused(&Fault { message, help, ..fault }));
+                }
+            }
+            Ok(if found.value.is_finite() { found } else { UNDEFINED })
+        };
+        (0..self.raw.len()).map(&mut row).collect()
+    }
+
+    /// The fault of a name that is not known, with the columns that are.
+    fn unknown(&self, name: &str, at: Range<usize>) -> Fault {
+        let message = format!("the table has no column `{name}`");
+        let help = match nearest(name, self.raw.names.iter().map(String::as_str)) {
+            Some(near) => format!("did you mean `{near}`?"),
+            None => format!("its columns are {}; backquotes hold a name with blanks or signs", some(&self.raw.names)),
+        };
+        Fault { message, at, help }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Of two columns of one text the first counts; a channel is found in another unit too, a magnitude is another one.
+    #[test]
+    fn a_claim_is_found_by_its_text_or_by_its_channel() {
+        let names = ["point.B.x_mm", "2*point.B.x_m", "point.B.x_mm", "point.B.x_m", "joint.A.f_N", "joint.B.fx_N"];
+        let column = |(index, text): (usize, &&str)| {
+            let values = vec![Rounded::exact(1.0 + index as f64)];
+            Column { claim: claim_of(text).unwrap(), values, scale: None, mapped: None }
+        };
+        let held = Held::of_columns(Instants::default(), names.iter().enumerate().map(column).collect(), false);
+        let value = |text: &str| held.values_of(&claim_of(text).unwrap()).map(|values| values[0].value);
+        for (text, expected) in [
+            ("point.B.x_mm", Some(1.0)),
+            ("2*point.B.x_m", Some(2.0)),
+            ("point.B.x_m", Some(4.0)),
+            ("joint.A.f_N", Some(5.0)),
+            ("joint.A.fx_N", None),
+            ("joint.B.f_N", None),
+            ("3*point.B.x_m", None),
+        ] {
+            let same = |found: f64| expected.is_some_and(|own| (found - own).abs() < 1e-15);
+            assert!(value(text).map_or(expected.is_none(), same), "{text}: {:?}", value(text));
+            assert_eq!(held.holds(&claim_of(text).unwrap()), expected.is_some(), "{text}");
+        }
+    }
+}

@@ -1,0 +1,233 @@
+//! Bounds and their justification.
+
+use std::fmt;
+
+/// How a bound, or the number compared with, is known.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Origin {
+    /// Claimed by the formula that is judged.
+    Claimed,
+    /// Derived from given data by a formula.
+    Derived,
+    /// Estimated from an engine's own runs at several resolutions.
+    Estimated,
+    /// Measured on cases like this one, with a margin added.
+    Measured,
+    /// Chosen: the wanted size of the number.
+    Wanted,
+    /// Recomputed with this project's own solvers, from data published by others.
+    Recomputed,
+    /// Printed in a source.
+    Published,
+}
+
+impl Origin {
+    /// Word for reports and scenario files, such as `measured`.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Origin::Claimed => "claimed",
+            Origin::Derived => "derived",
+            Origin::Estimated => "estimated",
+            Origin::Measured => "measured",
+            Origin::Wanted => "wanted",
+            Origin::Recomputed => "recomputed",
+            Origin::Published => "published",
+        }
+    }
+}
+
+/// Why a bound is what it is.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Basis {
+    /// Chosen: wanted of a number that only rounding should keep from zero. The text says why rounding allows this
+    /// bound.
+    Wanted(&'static str),
+    /// Error of the engine, estimated from its own runs at three resolutions and with fewer sweeps.
+    Truncation {
+        /// Order of convergence observed between the runs; NaN where the differences are only rounding.
+        observed: f64,
+        /// Order that the method should have.
+        formal: f64,
+        /// Step (s) or accuracy of the run that is judged.
+        resolution: f64,
+        /// Safety factor on the estimate of the discretisation error.
+        safety: f64,
+        /// The parts of the bound, safety factors included, in the channel's unit.
+        parts: Parts,
+        /// How the rounding part is known. The other two parts are estimated.
+        noise: Origin,
+    },
+    /// Half a unit of the last digit of a number, plus the known error of the number, and what its instant leaves open.
+    Digits {
+        /// How the number is known: published, recomputed or derived.
+        origin: Origin,
+        /// Number of decimals.
+        digits: i32,
+        /// Source of the number.
+        source: String,
+        /// The part of the bound by which the number changes within the rounding of its instant, in its unit.
+        instant: f64,
+    },
+    /// Rounding of a formula, passed through its operations, and what the mechanism's side knows.
+    Formula {
+        /// Whether the formula claims an error besides.
+        claimed: bool,
+    },
+    /// A basis with a note on the check that uses it.
+    Noted(Box<Basis>, &'static str),
+}
+
+impl Basis {
+    /// How the bound, or the number compared with, is known.
+    #[must_use]
+    pub fn origin(&self) -> Origin {
+        match self {
+            Basis::Wanted(_) => Origin::Wanted,
+            Basis::Truncation { parts, noise, .. } => match parts.largest() {
+                Part::Rounding => *noise,
+                Part::Reference => Origin::Wanted,
+                Part::Discretisation | Part::Iteration => Origin::Estimated,
+            },
+            Basis::Digits { origin, .. } => *origin,
+            Basis::Formula { claimed } => {
+                if *claimed {
+                    Origin::Claimed
+                } else {
+                    Origin::Derived
+                }
+            }
+            Basis::Noted(basis, _) => basis.origin(),
+        }
+    }
+}
+
+/// The parts of a bound on an engine's error, safety factors included.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct Parts {
+    /// Discretisation: reduced by a finer step.
+    pub discretisation: f64,
+    /// Iteration: reduced by more sweeps.
+    pub iteration: f64,
+    /// Rounding: reduced by neither.
+    pub rounding: f64,
+    /// Error of the reference itself: how well the analytic sides know the number.
+    pub reference: f64,
+}
+
+/// One of the [`Parts`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// See [`Parts::discretisation`].
+    Discretisation,
+    /// See [`Parts::iteration`].
+    Iteration,
+    /// See [`Parts::rounding`].
+    Rounding,
+    /// See [`Parts::reference`].
+    Reference,
+}
+
+impl Parts {
+    /// The bound: the sum of its parts.
+    #[must_use]
+    pub fn sum(&self) -> f64 {
+        self.discretisation + self.iteration + self.rounding + self.reference
+    }
+
+    /// The largest part.
+    #[must_use]
+    pub fn largest(&self) -> Part {
+        let own = self.discretisation + self.iteration + self.rounding;
+        if self.reference > own {
+            Part::Reference
+        } else if self.rounding >= self.discretisation && self.rounding >= self.iteration {
+            Part::Rounding
+        } else if self.iteration >= self.discretisation {
+            Part::Iteration
+        } else {
+            Part::Discretisation
+        }
+    }
+}
+
+impl fmt::Display for Basis {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Basis::Wanted(why) => write!(f, "wanted: {why}"),
+            Basis::Truncation { observed, formal, resolution, safety, parts, noise } => {
+                let Parts { discretisation, iteration, rounding, reference } = parts;
+                let order = match observed.is_nan() {
+                    true => format!("below round-off, order {formal} assumed"),
+                    false => format!("observed order {observed:.2} (formal {formal})"),
+                };
+                write!(
+                    f,
+                    "{}: truncation, {order} at resolutions {:e}, {resolution:e} and {:e}, safety factor {safety}; \
+                     discretisation {discretisation:.1e}, iteration {iteration:.1e}, rounding {rounding:.1e} ({}), reference {reference:.1e}",
+                    self.origin().word(),
+                    2.0 * resolution,
+                    resolution / 2.0,
+                    noise.word()
+                )
+            }
+            Basis::Digits { origin, digits, source, instant } => {
+                write!(f, "{} with {digits} decimals: {source}", origin.word())?;
+                match *instant > 0.0 {
+                    true => write!(f, "; {instant:.1e} of the bound for the rounding of the instant"),
+                    false => Ok(()),
+                }
+            }
+            Basis::Formula { claimed } => {
+                let error = if *claimed { "the error that the formula claims, its" } else { "the formula's" };
+                let origin = self.origin().word();
+                write!(f, "{origin}: {error} rounding, passed through its operations, and what the side knows")
+            }
+            Basis::Noted(basis, note) => write!(f, "{basis}; {note}"),
+        }
+    }
+}
+
+/// A bound with its basis.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tolerance {
+    /// The bound, in the unit of the checked number.
+    pub bound: f64,
+    /// What the bound rests on.
+    pub basis: Basis,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn truncation(parts: Parts) -> Basis {
+        let noise = Origin::Measured;
+        Basis::Truncation { observed: 2.0, formal: 2.0, resolution: 1e-3, safety: 1.25, parts, noise }
+    }
+
+    #[test]
+    fn a_bound_that_is_rounding_in_the_main_says_how_its_rounding_is_known() {
+        let estimated = truncation(Parts { discretisation: 1.0, rounding: 0.5, ..Parts::default() });
+        let measured = truncation(Parts { discretisation: 0.5, rounding: 1.0, ..Parts::default() });
+        assert_eq!([estimated.origin(), measured.origin()], [Origin::Estimated, Origin::Measured]);
+        assert!(estimated.to_string().starts_with("estimated: truncation, observed order 2.00"));
+        assert!(measured.to_string().starts_with("measured: "));
+        assert!(measured.to_string().ends_with("rounding 1.0e0 (measured), reference 0.0e0"));
+    }
+
+    #[test]
+    fn a_bound_is_the_sum_of_all_its_parts() {
+        let parts = Parts { discretisation: 1.0, iteration: 2.0, rounding: 4.0, reference: 8.0 };
+        assert_eq!((parts.sum(), parts.largest()), (15.0, Part::Reference));
+        assert_eq!(Parts { reference: 7.0, ..parts }.largest(), Part::Rounding);
+    }
+
+    #[test]
+    fn every_basis_begins_with_its_origin() {
+        let digits = Basis::Digits { origin: Origin::Recomputed, digits: 3, source: "a table".into(), instant: 0.0 };
+        let noted = Basis::Noted(Box::new(Basis::Wanted("so much")), "a note");
+        assert_eq!(digits.to_string(), "recomputed with 3 decimals: a table");
+        assert_eq!((noted.to_string().as_str(), noted.origin()), ("wanted: so much; a note", Origin::Wanted));
+    }
+}

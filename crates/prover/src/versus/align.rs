@@ -1,0 +1,147 @@
+//! Two tables side by side: rows of the same instants, or the first interpolated at those of the second.
+
+use std::f64::consts::TAU;
+
+use super::allowed::How;
+use super::contradiction;
+use super::crank;
+use super::interpolate::Course;
+use super::judge::Both;
+use super::pair::{Pair, Side};
+use crate::tables::{At, Column, Held, Instants};
+use columns::MISSING;
+use formula::Rounded;
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::math::KeepNan;
+use scenario::Claim;
+
+/// Share of the distance of two rows within which an instant is one of them.
+const SAME: f64 = 1e-6;
+
+/// Compares two parties at the instants of the second.
+pub(super) fn beside(one: &Side, other: &Side, how: &How) -> Result<Pair> {
+    let by_crank = how.by_crank.or_else(|| {
+        // By what both have.
+        let has_times = [one, other].iter().all(|side| side.1.at.times.is_some());
+        Some(!has_times)
+    });
+    let (from, to) = (one.1.at(by_crank)?, other.1.at(by_crank)?);
+    let asked = how.asked();
+    let wanted = other.1.columns.iter().map(|own| &own.claim).filter(|claim| asked(claim));
+    let claims: Vec<Claim> = wanted.filter(|claim| one.1.holds(claim)).cloned().collect();
+    let lacks = |of: &Held, in_it: &Held| -> Vec<String> {
+        let own = of.columns.iter().filter(|own| !in_it.holds(&own.claim));
+        own.map(|own| own.claim.text.clone()).collect()
+    };
+    let alone = [lacks(&one.1, &other.1), lacks(&other.1, &one.1)];
+    if claims.is_empty() {
+        let some = |names: &[String]| names.iter().take(5).cloned().collect::<Vec<_>>().join(", ");
+        let message = format!("the two have no channel in common: {} against {}", some(&alone[0]), some(&alone[1]));
+        return Err(Error::new(ErrorKind::Input, message).help("map the columns of both to the same channels"));
+    }
+    let places = places(&from, &to, how.interpolates);
+    let unshared = places.iter().filter(|place| matches!(place, Place::Nowhere)).count();
+    let shared = to.values.len() - unshared;
+    // One alone proves nothing: of times in other units, zero is the same.
+    if shared == 0 || shared == 1 && unshared > 0 {
+        let what = if from.is_crank { "crank angle" } else { "time" };
+        let which = if shared == 0 { "no" } else { "only one" };
+        let message = format!("{which} {what} of the second party is one of the first");
+        return Err(Error::new(ErrorKind::Input, message)
+            .help("allow interpolation, or give both the same instants; check the units of both"));
+    }
+    let column = |claim: &Claim| {
+        let values = at_places(&one.1.values_of(claim)?, &from, &places, claim.turn());
+        Some(Column { claim: claim.clone(), values, scale: one.1.scale_of(claim), mapped: None })
+    };
+    let columns: Vec<Column> = claims.iter().filter_map(column).collect();
+    let drift = drift(&from, &to, &places);
+    let of_claims = columns.iter().map(|own| drift(&own.values, own.claim.turn())).collect();
+    let first = Held::of_columns(Instants::default(), columns, one.1.is_analytic);
+    let known = |of: &Option<Vec<Rounded>>| match of {
+        Some(values) => values.iter().map(|at| at.value).collect(),
+        None => vec![f64::NAN; to.values.len()],
+    };
+    let both = Both {
+        parties: [&first, &other.1],
+        at: &to,
+        places: [known(&other.1.at.times), known(&other.1.at.cranks)],
+        drift: of_claims,
+        how,
+    };
+    let channels = both.judged(&claims);
+    let contradiction = contradiction::found(&both, 1, &claims);
+    let names = [one.0.clone(), other.0.clone()];
+    let (instants, by_crank, turns_back) = (to.values.len(), to.is_crank, to.turns_back());
+    let mut checks = Vec::new();
+    if let ([Some(ours), Some(theirs)], false) = ([&one.1.at.cranks, &other.1.at.cranks], to.is_crank) {
+        let ours = at_places(ours, &from, &places, Some(TAU));
+        let measure =
+            (usize::from(!one.1.is_analytic && other.1.is_analytic), one.1.is_analytic || other.1.is_analytic);
+        checks.extend(crank::check([&ours, theirs], &both.places, &drift(&ours, Some(TAU)), measure, how));
+    }
+    let causes = Vec::new();
+    Ok(Pair { names, channels, checks, instants, unshared, alone, turns_back, contradiction, by_crank, causes })
+}
+
+/// What the digits of the instants of both leave open in a column of the first at the rows of the second.
+fn drift(from: &At, to: &At, places: &[Place]) -> impl Fn(&[Rounded], Option<f64>) -> Vec<f64> + use<> {
+    let widest = from.values.iter().map(|at| at.error).fold(0.0, f64::larger);
+    let of = |(place, own): (&Place, &Rounded)| match place {
+        Place::At(row) => own.error + from.values[*row].error,
+        Place::Between(_) => own.error + widest,
+        Place::Nowhere => 0.0,
+    };
+    let slack: Vec<f64> = places.iter().zip(&to.values).map(of).collect();
+    let (at, order) = (to.values.iter().map(|at| at.value).collect::<Vec<f64>>(), to.ascending());
+    move |values, turn| columns::drift(values, &at, &slack, &order, turn)
+}
+
+/// Where an instant of the second party lies among the rows of the first.
+enum Place {
+    /// At a row.
+    At(usize),
+    /// Between two rows, in order to be interpolated.
+    Between(f64),
+    /// Between two rows, and nothing is interpolated; or beyond all of them.
+    Nowhere,
+}
+
+fn places(from: &At, to: &At, interpolates: bool) -> Vec<Place> {
+    let order = from.ascending();
+    let at = |index: usize| from.values[order[index]].value;
+    let of = |wanted: &Rounded| {
+        let next = order.partition_point(|&row| from.values[row].value < wanted.value);
+        let near = [next.checked_sub(1), (next < order.len()).then_some(next)];
+        let step = match near {
+            [Some(before), Some(after)] => at(after) - at(before),
+            [Some(_), None] | [None, Some(_)] | [None, None] => 0.0,
+        };
+        let is_same = |index: &usize| {
+            let slack = wanted.error + from.values[order[*index]].error;
+            (at(*index) - wanted.value).abs() <= slack.larger(SAME * step).larger(1e-9 * wanted.value.abs())
+        };
+        if let Some(index) = near.into_iter().flatten().find(is_same) {
+            return Place::At(order[index]);
+        }
+        match near {
+            [Some(_), Some(_)] if interpolates => Place::Between(wanted.value),
+            _ => Place::Nowhere,
+        }
+    };
+    to.values.iter().map(of).collect()
+}
+
+/// The numbers of a claim at some places among the rows that hold at `from`.
+fn at_places(values: &[Rounded], from: &At, places: &[Place], turn: Option<f64>) -> Vec<Rounded> {
+    let order = from.ascending();
+    let at: Vec<f64> = order.iter().map(|&row| from.values[row].value).collect();
+    let sorted: Vec<Rounded> = order.iter().map(|&row| values[row]).collect();
+    let course = Course::new(&at, &sorted, turn);
+    let of = |place: &Place| match place {
+        Place::At(row) => values[*row],
+        Place::Between(wanted) => course.value(*wanted),
+        Place::Nowhere => MISSING,
+    };
+    places.iter().map(of).collect()
+}

@@ -1,0 +1,216 @@
+//! What a comparison is asked, and what is allowed besides what is known.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::math::KeepNan;
+use scenario::mapping::{Allowed, Size};
+use scenario::{Claim, PrintedChannel};
+
+use columns::Allowance;
+
+/// How two parties are compared.
+#[derive(Clone, Debug, Default)]
+pub struct How {
+    /// Differences that are allowed; of several for one channel the last counts.
+    pub allowed: Vec<Allowed>,
+    /// Whether instants are crank angles; `None` for times where there are some.
+    pub by_crank: Option<bool>,
+    /// Whether a table may be interpolated between its instants.
+    pub interpolates: bool,
+    /// The side of a recording that is compared; `None` for all.
+    pub side: Option<String>,
+    /// Words for channels that are compared; empty for all.
+    pub only: Vec<String>,
+    /// Memory allowed (bytes); `None` for what a proof is allowed.
+    pub memory: Option<f64>,
+}
+
+impl How {
+    /// What is allowed of channels.
+    #[must_use]
+    pub fn allowances(&self) -> Allowances<'_> {
+        let mut all = [None; 3];
+        for (index, allowed) in self.allowed.iter().enumerate().filter(|(_, allowed)| allowed.of.is_none()) {
+            all[allowed.size.kind()] = Some(index);
+        }
+        Allowances { allowed: &self.allowed, all, words: self.allowed_words() }
+    }
+
+    fn allowed_words(&self) -> Words {
+        let own = self.allowed.iter().enumerate();
+        Words::of(own.filter_map(|(index, allowed)| Some((index, allowed.of.as_deref()?))))
+    }
+
+    /// What is allowed of the crank angle (rad) with this scale: what is allowed of all, and of the word `crank`, with
+    /// sizes in degrees.
+    #[must_use]
+    pub fn allows_crank(&self, scale: f64) -> Option<Allowance> {
+        let own = self.allowed.iter().filter(|own| own.of.as_deref().is_none_or(|word| word == CRANK));
+        allowance(own, scale, 1f64.to_radians())
+    }
+
+    /// Whether the crank angle is asked for.
+    #[must_use]
+    pub fn asks_for_crank(&self) -> bool {
+        self.only.is_empty() || self.only.iter().any(|word| word == CRANK)
+    }
+
+    /// Whether a channel is asked for.
+    pub fn asked(&self) -> impl Fn(&Claim) -> bool + use<> {
+        let words = Words::of(self.only.iter().map(String::as_str).enumerate());
+        let is_all = self.only.is_empty();
+        move |claim| is_all || words.meaning(claim).next().is_some()
+    }
+
+    /// Refuses words that no compared channel answers to.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Input`] with the word.
+    pub(super) fn check_used<'a>(&self, compared: impl Iterator<Item = &'a Claim> + Clone) -> Result<()> {
+        let words = self.allowed_words();
+        let used: BTreeSet<usize> = compared.clone().flat_map(|claim| words.meaning(claim)).collect();
+        let is_unused = |(index, word): &(usize, &String)| *word != CRANK && !used.contains(index);
+        let own = self.allowed.iter().enumerate();
+        match own.filter_map(|(index, allowed)| Some((index, allowed.of.as_ref()?))).find(is_unused) {
+            None => Ok(()),
+            Some((_, word)) => {
+                let all: Vec<&str> = compared.map(|claim| claim.text.as_str()).take(5).collect();
+                let message = format!("no channel that is compared is called {word}");
+                let help = format!("name one of them ({}, ...), a subject or a stage", all.join(", "));
+                Err(Error::new(ErrorKind::Input, message).help(help))
+            }
+        }
+    }
+}
+
+/// The word for the crank angle of rows.
+const CRANK: &str = "crank";
+
+/// Words for claims, with their numbers: many are held against many claims.
+struct Words(BTreeMap<String, Vec<usize>>);
+
+impl Words {
+    fn of<'a>(words: impl Iterator<Item = (usize, &'a str)>) -> Self {
+        let mut own: BTreeMap<String, Vec<usize>> = BTreeMap::new();
+        for (index, word) in words {
+            own.entry(in_si(word)).or_default().push(index);
+        }
+        Words(own)
+    }
+
+    /// The numbers of the words that mean a claim: its text, its channel in any unit, the channel's subject, stage, or
+    /// both. An arithmetic is meant by what means all its channels.
+    fn meaning(&self, claim: &Claim) -> impl Iterator<Item = usize> + use<'_> {
+        let mut channels = claim.channels.iter().map(|(_, own)| called(own));
+        let first = channels.next().unwrap_or_default();
+        let mut names = channels.fold(first, |all, own| all.intersection(&own).cloned().collect());
+        names.insert(in_si(&claim.text));
+        names.into_iter().filter_map(|name| self.0.get(&name)).flatten().copied()
+    }
+}
+
+/// A word with its channel, if it is one, in SI units.
+fn in_si(word: &str) -> String {
+    PrintedChannel::named(word).map_or_else(|| word.into(), |own| own.channel.to_string())
+}
+
+/// What a channel is called.
+fn called(own: &PrintedChannel) -> BTreeSet<String> {
+    let (name, stage) = (own.channel.to_string(), own.channel.kind.stage.name());
+    let subject = name.rsplit_once('.').map_or("", |(subject, _)| subject).to_string();
+    [format!("{subject}.{stage}"), subject, stage.into(), name].into()
+}
+
+/// What is allowed of channels, found by their names.
+pub struct Allowances<'a> {
+    allowed: &'a [Allowed],
+    /// The last for all channels, kind by kind.
+    all: [Option<usize>; 3],
+    words: Words,
+}
+
+impl Allowances<'_> {
+    /// What is allowed of a channel with this scale, in its unit; `None` if nothing is said of it.
+    #[must_use]
+    pub fn of(&self, claim: &Claim, scale: f64) -> Option<Allowance> {
+        let own: BTreeSet<usize> = self.words.meaning(claim).chain(self.all.into_iter().flatten()).collect();
+        allowance(own.into_iter().map(|index| &self.allowed[index]), scale, 1.0)
+    }
+}
+
+/// What is allowed by all of `own`, with sizes in a `unit`; of a kind the last counts.
+fn allowance<'a>(own: impl Iterator<Item = &'a Allowed>, scale: f64, unit: f64) -> Option<Allowance> {
+    let mut sizes: [Option<f64>; 3] = [None; 3];
+    for allowed in own {
+        sizes[allowed.size.kind()] = Some(match allowed.size {
+            Size::Absolute(size) => unit * size,
+            Size::Relative(share) => share * scale,
+            Size::OfValue(share) => share,
+        });
+    }
+    let [absolute, relative, of_value] = sizes.map(Option::unwrap_or_default);
+    let is_allowed = sizes.iter().any(Option::is_some);
+    is_allowed.then_some(Allowance { fixed: absolute.larger(relative), of_value })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use linkage::trajectory::Channel;
+
+    fn how(allowed: &[(Option<&str>, Size)]) -> How {
+        let of = |(of, size): &(Option<&str>, Size)| Allowed { of: of.map(Into::into), size: *size };
+        How { allowed: allowed.iter().map(of).collect(), ..How::default() }
+    }
+
+    /// Of a channel with a scale of 4, in its unit; of several allowances for one the last of each kind counts.
+    #[test]
+    fn what_is_allowed_is_the_larger_of_what_is_said() {
+        let channel = Channel::named("point.B.x_m").unwrap();
+        let claim = Claim::of_channels("point.B.x_mm", &[channel]).unwrap();
+        let (absolute, relative, of_value) = (Size::Absolute, Size::Relative, Size::OfValue);
+        let allows = |fixed: f64, of_value: f64| Some(Allowance { fixed, of_value });
+        for (said, allowed) in [
+            (vec![(None, absolute(3.0))], allows(3.0, 0.0)),
+            (vec![(None, relative(0.5))], allows(2.0, 0.0)),
+            (vec![(None, of_value(0.125))], allows(0.0, 0.125)),
+            (vec![(None, absolute(3.0)), (Some("point.B"), relative(0.5))], allows(3.0, 0.0)),
+            (vec![(Some("positions"), absolute(1.0)), (None, relative(0.5))], allows(2.0, 0.0)),
+            (vec![(None, absolute(9.0)), (Some("point.B.x_m"), absolute(1.0))], allows(1.0, 0.0)),
+            (vec![(Some("point.B.positions"), of_value(0.25)), (None, absolute(1.0))], allows(1.0, 0.25)),
+            (vec![(Some("point.A"), absolute(3.0)), (Some("velocities"), relative(0.5))], None),
+            (vec![], None),
+        ] {
+            assert_eq!(how(&said).allowances().of(&claim, 4.0), allowed, "{said:?}");
+        }
+        // Of the crank in degrees, of its range, and of nothing that is said of a channel alone.
+        let crank = |said: &[(Option<&str>, Size)]| how(said).allows_crank(4.0).map(|own| own.fixed);
+        assert_eq!(crank(&[(Some("crank"), absolute(180.0))]), Some(std::f64::consts::PI));
+        assert_eq!(crank(&[(None, relative(0.5))]), Some(2.0));
+        assert_eq!(crank(&[(Some("point.B"), absolute(1.0))]), None);
+    }
+
+    /// An arithmetic is meant by its text and by what means all its channels; a word that means nothing is named.
+    #[test]
+    fn words_mean_claims_by_what_all_their_channels_are_called() {
+        let channels = ["point.B.x_m", "point.B.y_m"].map(|name| Channel::named(name).unwrap());
+        let claim = Claim::of_channels("point.B.x_m + point.B.y_m", &channels).unwrap();
+        for (word, is_meant) in [
+            ("point.B.x_m + point.B.y_m", true),
+            ("point.B", true),
+            ("positions", true),
+            ("point.B.positions", true),
+            ("point.B.x_m", false),
+            ("velocities", false),
+        ] {
+            let only = How { only: vec!["point.C".into(), word.into()], ..How::default() };
+            assert_eq!(only.asked()(&claim), is_meant, "{word}");
+            let said = how(&[(Some("crank"), Size::Absolute(1.0)), (Some(word), Size::Absolute(1.0))]);
+            assert_eq!(said.allowances().of(&claim, 1.0).is_some(), is_meant, "{word}");
+            let refused = said.check_used([&claim].into_iter()).err();
+            assert_eq!(refused.map(|error| error.message().contains(word)), (!is_meant).then_some(true), "{word}");
+        }
+        assert!(How::default().asked()(&claim));
+    }
+}

@@ -1,0 +1,206 @@
+//! From an MCAP file back to trajectories.
+
+use super::{messages, raw, schema};
+use files;
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::trajectory::{Channel, Trajectory};
+use mcap::{McapError, Message};
+use std::collections::{BTreeMap, HashMap};
+use std::fmt::Display;
+use std::fs;
+use std::io;
+use std::path::Path;
+
+/// Values with the sequence numbers of their samples.
+type Numbered = Vec<(u32, f64)>;
+
+/// How the messages of one MCAP channel are used.
+enum Topic {
+    /// The grid of a side, with the names of the fields by number.
+    Grid(String, BTreeMap<u32, String>),
+    /// Values of a side, with the channels by field number.
+    Values(String, BTreeMap<u32, Channel>),
+    /// Not a topic of this format.
+    Other,
+}
+
+/// The data found of one side. Keys keep sides and columns in the order of recording: MCAP channel, then field.
+#[derive(Default)]
+struct Found {
+    grid: BTreeMap<String, Numbered>,
+    columns: BTreeMap<(u16, u32), (Channel, Numbered)>,
+    first: Option<u16>,
+}
+
+/// What is wrong with a file.
+enum Damage {
+    File(McapError),
+    Message(prost::DecodeError),
+}
+
+impl From<McapError> for Damage {
+    fn from(error: McapError) -> Self {
+        Damage::File(error)
+    }
+}
+
+impl From<prost::DecodeError> for Damage {
+    fn from(error: prost::DecodeError) -> Self {
+        Damage::Message(error)
+    }
+}
+
+pub(super) fn read(path: &Path) -> Result<Vec<(String, Trajectory)>> {
+    of_bytes(&bytes(path)?, path)
+}
+
+/// The bytes of a recording.
+pub(super) fn bytes(path: &Path) -> Result<Vec<u8>> {
+    let read = || match fs::metadata(path)?.is_file() {
+        true => fs::read(path),
+        // It might never end.
+        false => Err(io::Error::other("it is no regular file")),
+    };
+    read().map_err(|error| {
+        Error::new(ErrorKind::Io, format!("the recording {} cannot be read: {error}", path.display()))
+            .help("check the path")
+    })
+}
+
+/// Refuses a file whose chunks hold far more than any recording of its size, before they are decompressed.
+fn bounded(bytes: &[u8], path: &Path) -> Result<()> {
+    let [told, most] = raw::expanded(bytes);
+    if told <= most {
+        return Ok(());
+    }
+    let [length, told, most] = [bytes.len() as u64, told, most].map(files::size);
+    let message = format!(
+        "the recording {} has {length} and says that it holds {told}; of such a file at most {most} are read",
+        path.display()
+    );
+    Err(Error::new(ErrorKind::Io, message)
+        .help("record it again: recordings of this program hold some three times their size"))
+}
+
+pub(super) fn of_bytes(bytes: &[u8], path: &Path) -> Result<Vec<(String, Trajectory)>> {
+    if !bytes.starts_with(mcap::MAGIC) {
+        let what = if bytes.is_empty() { "is empty" } else { "is no recording: it does not begin as MCAP files do" };
+        return Err(Error::new(ErrorKind::Io, format!("the file {} {what}", path.display()))
+            .help("name a recording (.mcap), which a run leaves"));
+    }
+    bounded(bytes, path)?;
+    let damaged = |error: &dyn Display| {
+        Error::new(ErrorKind::Io, format!("the recording {} is cut off or damaged: {error}", path.display()))
+            .help("record it again, or save what is left of it with `pymcap-cli recover`")
+    };
+    let mut topics: HashMap<u16, Topic> = HashMap::new();
+    let mut names = schema::Names::default();
+    let mut sides: BTreeMap<String, Found> = BTreeMap::new();
+    let mut take = |message: &Message| -> std::result::Result<(), Damage> {
+        let id = message.channel.id;
+        if let std::collections::hash_map::Entry::Vacant(entry) = topics.entry(id) {
+            entry.insert(topic(message, &mut names)?);
+        }
+        collect(message, &topics[&id], &mut sides)?;
+        Ok(())
+    };
+    messages::each(bytes, &mut take).map_err(|error| match error {
+        Damage::File(error) => damaged(&error),
+        Damage::Message(error) => damaged(&error),
+    })?;
+    let mut sides: Vec<(String, Found)> = sides.into_iter().collect();
+    sides.sort_by_key(|(_, found)| found.first);
+    if sides.is_empty() {
+        return Err(Error::new(ErrorKind::Input, format!("the recording {} holds no trajectory", path.display()))
+            .help("a side needs a topic `/<side>/grid` with the fields t_s and crank_rad"));
+    }
+    sides.into_iter().map(|(name, found)| assemble(&name, found, path).map(|trajectory| (name, trajectory))).collect()
+}
+
+/// Content of a message's topic, from its name and from the descriptor in the file.
+fn topic(message: &Message, names: &mut schema::Names) -> std::result::Result<Topic, prost::DecodeError> {
+    let channel = &message.channel;
+    let parts = channel.topic.strip_prefix('/').and_then(|rest| rest.split_once('/'));
+    let (Some((side, subject)), Some(schema)) = (parts, &channel.schema) else { return Ok(Topic::Other) };
+    if channel.message_encoding != "protobuf" || schema.encoding != "protobuf" {
+        return Ok(Topic::Other);
+    }
+    let names = names.of(schema)?;
+    if subject == "grid" {
+        return Ok(Topic::Grid(side.into(), names.clone()));
+    }
+    // `link/crank` and the field `x_m` are the channel `link.crank.x_m`. Errors have small units: no field of theirs is
+    // a channel.
+    let subject = subject.replacen('/', ".", 1);
+    let channels: BTreeMap<u32, Channel> =
+        names.iter().filter_map(|(&tag, field)| Some((tag, Channel::named(&format!("{subject}.{field}"))?))).collect();
+    Ok(if channels.is_empty() { Topic::Other } else { Topic::Values(side.into(), channels) })
+}
+
+fn collect(
+    message: &Message,
+    topic: &Topic,
+    sides: &mut BTreeMap<String, Found>,
+) -> std::result::Result<(), prost::DecodeError> {
+    let id = message.channel.id;
+    match topic {
+        Topic::Grid(side, names) => {
+            let found = sides.entry(side.clone()).or_default();
+            found.first = Some(id);
+            for (tag, value) in schema::numbers(&message.data)? {
+                if let Some(name) = names.get(&tag) {
+                    found.grid.entry(name.clone()).or_default().push((message.sequence, value));
+                }
+            }
+        }
+        Topic::Values(side, channels) => {
+            let found = sides.entry(side.clone()).or_default();
+            for (tag, value) in schema::numbers(&message.data)? {
+                if let Some(channel) = channels.get(&tag) {
+                    let column = found.columns.entry((id, tag)).or_insert_with(|| (channel.clone(), Vec::new()));
+                    column.1.push((message.sequence, value));
+                }
+            }
+        }
+        Topic::Other => {}
+    }
+    Ok(())
+}
+
+fn assemble(name: &str, mut found: Found, path: &Path) -> Result<Trajectory> {
+    let incomplete = |what: &dyn Display| {
+        Error::new(
+            ErrorKind::Input,
+            format!("in the recording {}, the side \"{name}\" lacks samples of {what}", path.display()),
+        )
+        .help("every topic of a side needs one message for each of its grid, with the same sequence number")
+    };
+    let mut take = |field: &str| {
+        let mut values = found.grid.remove(field).unwrap_or_default();
+        values.sort_by_key(|&(sequence, _)| sequence);
+        values
+    };
+    let [times, cranks, rows] = schema::GRID_FIELDS.map(&mut take);
+    let same = |values: &Numbered| {
+        values.len() == times.len() && values.iter().zip(&times).all(|(value, time)| value.0 == time.0)
+    };
+    if times.is_empty() || !same(&cranks) {
+        return Err(incomplete(&"its grid"));
+    }
+    // Without row numbers (other programs do not write them) the order of the samples applies.
+    let mut order: Vec<usize> = (0..times.len()).collect();
+    if same(&rows) {
+        order.sort_by(|&a, &b| rows[a].1.total_cmp(&rows[b].1));
+    }
+    let ordered = |values: &Numbered| order.iter().map(|&index| values[index].1).collect::<Vec<f64>>();
+    let (mut channels, mut columns) = (Vec::new(), Vec::new());
+    for (channel, mut values) in found.columns.into_values() {
+        values.sort_by_key(|&(sequence, _)| sequence);
+        if !same(&values) {
+            return Err(incomplete(&channel));
+        }
+        columns.push(ordered(&values));
+        channels.push(channel);
+    }
+    Trajectory::new(ordered(&times), ordered(&cranks), channels, columns)
+}

@@ -1,0 +1,80 @@
+//! A recording as an MCAP file.
+
+use super::beside::is_ours;
+use super::forces::Forces;
+use super::output::Output;
+use super::pour::{Drawn, lasts, pour, start};
+use super::recording::{Recording, Show, Side};
+use super::scene::Scene;
+use super::thin::thinned;
+use files::{self, Target};
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::trajectory::Trajectory;
+use mcap::{McapError, McapResult};
+use std::fs::File;
+use std::path::Path;
+
+/// Longest log time (s), a third of what 64 bits hold in nanoseconds.
+const LONGEST: f64 = 3e9;
+
+#[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the MCAP library")]
+pub(super) fn write(recording: &Recording, path: &Path) -> Result<()> {
+    check(recording)?;
+    files::replace(&Target::Made(path, &is_ours), |file| fill(recording, file.try_clone()?)).map_err(|error| {
+        let what = format!("the recording {}", path.display());
+        let usual = "check that the directory exists, may be written to and has room, or record elsewhere";
+        match error {
+            McapError::Io(error) => files::unwritten(&what, &error, None, usual),
+            other => Error::new(ErrorKind::Io, format!("{what} cannot be written: {other}")).help(usual),
+        }
+    })
+}
+
+pub(super) fn check(recording: &Recording) -> Result<()> {
+    for (index, side) in recording.sides.iter().enumerate() {
+        let taken = recording.sides[..index].iter().any(|other| other.name == side.name);
+        if taken || side.name.is_empty() || side.name.contains('/') || ["error", "mechanism"].contains(&side.name) {
+            let message = format!("a side of a recording cannot be called \"{}\"", side.name);
+            return Err(Error::new(ErrorKind::Input, message)
+                .help("give it a name of its own without `/`; \"error\" and \"mechanism\" are taken"));
+        }
+    }
+    let Show { slow, hz, forces: _ } = recording.show;
+    if let Some(wrong) = [Some(slow), hz].into_iter().flatten().find(|&part| !(part.is_finite() && part > 0.0)) {
+        let message = format!("a recording cannot have a time scale or a number of samples a second of {wrong}");
+        return Err(Error::new(ErrorKind::Input, message).help("give a finite number greater than 0"));
+    }
+    let trajectories = recording.sides.iter().map(|side| side.trajectory).chain(recording.errors);
+    if let Some(time) = trajectories.flat_map(Trajectory::times).find(|time| !time.is_finite()) {
+        return Err(Error::new(ErrorKind::Input, format!("a time of the recording's grid is {time} s")));
+    }
+    let lasts = slow * lasts(recording);
+    if !(lasts <= LONGEST) {
+        return Err(Error::new(ErrorKind::Input, format!("a recording cannot last {lasts:e} s: viewers count less"))
+            .help("give a smaller time scale"));
+    }
+    Ok(())
+}
+
+fn fill(recording: &Recording, file: File) -> McapResult<()> {
+    as_shown(recording, |recording, drawn| {
+        let mut output = Output::create(file)?;
+        output.describe(recording, start(recording), drawn.forces.as_ref().map(|forces| forces.scale))?;
+        pour(recording, drawn, &mut output)?;
+        output.finish()
+    })
+}
+
+/// Calls `visit` with the samples that are kept and with what is drawn of them.
+pub(super) fn as_shown<T>(recording: &Recording, visit: impl FnOnce(&Recording, &Drawn) -> T) -> T {
+    let thin = |trajectory: &Trajectory| recording.show.hz.map(|hz| thinned(trajectory, hz));
+    let fewer: Vec<Option<Trajectory>> = recording.sides.iter().map(|side| thin(side.trajectory)).collect();
+    let fewer_errors = recording.errors.and_then(thin);
+    let sides: Vec<Side> = (recording.sides.iter().zip(&fewer))
+        .map(|(side, fewer)| Side { name: side.name, trajectory: fewer.as_ref().unwrap_or(side.trajectory) })
+        .collect();
+    let shown = Recording { sides: &sides, errors: fewer_errors.as_ref().or(recording.errors), ..*recording };
+    let scene = Scene::new(shown.mechanism, shown.sides);
+    let forces = scene.as_ref().filter(|_| shown.show.forces).and_then(Forces::new);
+    visit(&shown, &Drawn { scene: &scene, forces: &forces })
+}

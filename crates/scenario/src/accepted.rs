@@ -1,0 +1,256 @@
+//! Accepted figures: a file beside the scenario, for people to review and for later runs to be judged by.
+//!
+//! It is TOML, but not called so: `*.toml` are scenarios.
+
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+use toml_edit::Value;
+
+use super::header::check_format;
+use super::reader::Table;
+use super::source::Source;
+use files;
+use linkage::error::{Error, ErrorKind, Result};
+
+/// Figures of a reference that were accepted, or that a run has found.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Accepted {
+    /// Name of the scenario.
+    pub scenario: String,
+    /// Word of the proof's verdict.
+    pub verdict: String,
+    /// Number of instants of the grid.
+    pub instants: usize,
+    /// The instants at which values are kept (s), in the order of the grid.
+    pub times: Vec<f64>,
+    /// Channels, in the order of columns.
+    pub channels: Vec<Kept>,
+}
+
+/// Figures of one channel, in its unit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Kept {
+    /// Name of the channel.
+    pub name: String,
+    /// How far every figure is known.
+    pub bound: f64,
+    /// Values at the instants kept.
+    pub at: Vec<f64>,
+    /// Smallest value over the run.
+    pub least: f64,
+    /// Largest value over the run.
+    pub greatest: f64,
+    /// Root of the mean square; none of an angle, whose turns are counted from anywhere.
+    pub rms: Option<f64>,
+}
+
+/// Ending of the file, in place of the scenario's.
+const ENDING: &str = "accepted";
+
+/// The file of a scenario's accepted figures.
+#[must_use]
+pub fn beside(scenario: &Path) -> PathBuf {
+    scenario.with_extension(ENDING)
+}
+
+/// The accepted figures in the file at `path`, which must be those of the scenario called `name`; `None` if there is no
+/// file.
+///
+/// # Errors
+/// [`ErrorKind::Io`] if the file cannot be read, [`ErrorKind::Input`] for anything wrong in it, with the place.
+pub fn load(path: &Path, name: &str) -> Result<Option<Accepted>> {
+    let text = files::text(path).map_err(|error| {
+        Error::new(ErrorKind::Io, format!("the accepted figures {} cannot be read: {error}", path.display()))
+            .help("restore the file, or delete it and accept the figures anew")
+    })?;
+    text.map(|text| parse(&text, path, name)).transpose()
+}
+
+fn parse(text: &str, path: &Path, name: &str) -> Result<Accepted> {
+    let source = Source::new(path, text);
+    let tree = source.tree()?;
+    read(&mut Table::root(&source, &tree), name).map_err(|error| source.located(tree.get_ref(), error))
+}
+
+fn read(root: &mut Table, name: &str) -> Result<Accepted> {
+    if root.is_empty() {
+        let error = root.fault("the file holds no accepted figures");
+        return Err(error.help("restore the file, or delete it and accept the figures anew"));
+    }
+    check_format(root)?;
+    let scenario = root.string("scenario")?;
+    if scenario != name {
+        let message = format!("these are accepted figures of \"{scenario}\", not of \"{name}\"");
+        let help = "move the file to its own scenario; if the scenario was renamed, change the name here too";
+        return Err(root.wrong(ErrorKind::Input, "scenario", message).help(help));
+    }
+    let verdict = root.string("verdict")?;
+    if !["agree", "disagree", "inconclusive"].contains(&verdict.as_str()) {
+        let error = root.wrong(ErrorKind::Input, "verdict", format!("\"{verdict}\" is no verdict"));
+        return Err(error.help("write agree, disagree or inconclusive"));
+    }
+    let instants = root.integer("instants")?;
+    let instants = usize::try_from(instants).map_err(|_| {
+        root.wrong(ErrorKind::Input, "instants", format!("found {instants} instants")).help("give their number")
+    })?;
+    let times = root.numbers("times_s")?;
+    let tables = root.tables("channels")?.into_iter();
+    let channels: Vec<Kept> = tables.map(|table| kept(table, times.len())).collect::<Result<_>>()?;
+    root.finish()?;
+    twice(root, &channels)?;
+    Ok(Accepted { scenario, verdict, instants, times, channels })
+}
+
+fn kept(mut table: Table, count: usize) -> Result<Kept> {
+    let name = table.string("name")?;
+    let bound = table.number("bound")?;
+    if bound < 0.0 {
+        let error = table.wrong(ErrorKind::Input, "bound", format!("the bound {bound:e} is negative"));
+        return Err(error.help("accept the figures anew"));
+    }
+    let at = table.numbers("at")?;
+    if at.len() != count {
+        let message = format!("{} values are kept for {count} instants", at.len());
+        let help = "give one value for each of `times_s`, or accept the figures anew";
+        return Err(table.wrong(ErrorKind::Input, "at", message).help(help));
+    }
+    let (least, greatest) = (table.number("least")?, table.number("greatest")?);
+    let rms = table.optional_number("rms")?;
+    table.finish()?;
+    Ok(Kept { name, bound, at, least, greatest, rms })
+}
+
+/// Refuses a channel that stands twice.
+fn twice(root: &Table, channels: &[Kept]) -> Result<()> {
+    let mut names: Vec<&str> = channels.iter().map(|own| own.name.as_str()).collect();
+    names.sort_unstable();
+    match names.windows(2).find(|pair| pair[0] == pair[1]) {
+        None => Ok(()),
+        Some(pair) => {
+            let message = format!("the channel {} stands twice", pair[0]);
+            Err(root.wrong(ErrorKind::Input, "channels", message).help("delete one of the two"))
+        }
+    }
+}
+
+/// The file of accepted figures. Numbers have one digit more than their bound.
+#[must_use]
+pub fn text(accepted: &Accepted) -> String {
+    let quoted = |text: &str| Value::from(text).to_string();
+    let Accepted { scenario, verdict, instants, times, channels } = accepted;
+    let mut text = format!(
+        "# Accepted figures of {scenario}: the reference's, each known within `bound`, in the units of the names.\n\
+         # How later runs are judged by them: docs/testing.md in the repository of linkproof.\n\
+         format = {}\nscenario = {}\nverdict = {}\ninstants = {instants}\ntimes_s = {}\n",
+        super::header::FORMAT,
+        quoted(scenario),
+        quoted(verdict),
+        list(times, 0.0)
+    );
+    for Kept { name, bound, at, least, greatest, rms } in channels {
+        let [least, greatest] = [least, greatest].map(|figure| number(*figure, *bound));
+        let _ = write!(
+            text,
+            "\n[[channels]]\nname = {}\nbound = {bound:e}\nat = {}\nleast = {least}\ngreatest = {greatest}\n",
+            quoted(name),
+            list(at, *bound)
+        );
+        if let Some(rms) = rms {
+            let _ = writeln!(text, "rms = {}", number(*rms, *bound));
+        }
+    }
+    text
+}
+
+fn list(values: &[f64], bound: f64) -> String {
+    let values: Vec<String> = values.iter().map(|&value| number(value, bound)).collect();
+    format!("[{}]", values.join(", "))
+}
+
+/// Numbers below this have an exponent.
+const SMALL: f64 = 1e-4;
+/// Numbers from this on have an exponent.
+const LARGE: f64 = 1e9;
+/// More digits than a double has say nothing.
+const MOST_DIGITS: f64 = 17.0;
+
+/// A number rounded by a twentieth of its bound at most; all digits where the bound is zero.
+/// What is read back is written again with the same digits.
+fn number(value: f64, bound: f64) -> String {
+    if bound == 0.0 {
+        return format!("{value:?}");
+    }
+    let decimals = -(bound / 10.0).log10().floor();
+    let magnitude = |value: f64| value.abs().log10().floor();
+    // Rounding may carry over into one more digit: the second time it does not.
+    let rounded = digits(value, magnitude(value) + decimals).parse().unwrap_or(value);
+    if rounded == 0.0 {
+        return "0.0".into();
+    }
+    let is_plain = (SMALL..LARGE).contains(&rounded.abs()) && decimals >= 1.0;
+    match is_plain && magnitude(rounded) + decimals < MOST_DIGITS {
+        true => format!("{rounded:.*}", decimals as usize),
+        false => digits(rounded, magnitude(rounded) + decimals),
+    }
+}
+
+/// A number with so many digits after its first one; zero if the first one is beyond what counts.
+fn digits(value: f64, after_the_first: f64) -> String {
+    if value == 0.0 || after_the_first < -1.0 {
+        return "0.0".into();
+    }
+    format!("{value:.*e}", after_the_first.clamp(0.0, MOST_DIGITS - 1.0) as usize)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_number_is_rounded_by_a_twentieth_of_its_bound_at_most() {
+        for (value, bound, written) in [
+            (1.234_567_89, 1e-3, "1.2346"),
+            (1.234_567_89, 9.9e-4, "1.23457"),
+            (-1234.567, 50.0, "-1.235e3"),
+            (0.000_012_345, 1e-8, "1.2345e-5"),
+            (3.0, 1e3, "0.0"),
+            (99.0, 1e3, "1e2"),
+            (-1e-20, 1e-12, "0.0"),
+            (0.1, 0.0, "0.1"),
+            (9.999_999_6e-6, 1e-11, "1.0000000e-5"),
+            (6.02e23, 1e12, "6.020000000000e23"),
+        ] {
+            assert_eq!(number(value, bound), written, "{value:e} to {bound:e}");
+        }
+        for exponent in -30..30 {
+            for (value, bound) in [(0.987_654_321, 1e-6), (-9.999_999_9, 3e-7), (1.0, 9.9e-3), (5.0, 1e-30)] {
+                let size = 10f64.powi(exponent);
+                let (value, bound) = (value * size, bound * size);
+                let written = number(value, bound);
+                let read: f64 = written.parse().unwrap();
+                assert!(
+                    (read - value).abs() <= 0.0501 * bound + 1e-16 * value.abs(),
+                    "{value:e} to {bound:e}: {written}"
+                );
+                assert_eq!(number(read, bound), written, "{value:e} to {bound:e}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_written_is_read_back() {
+        let kept =
+            |name: &str, rms| Kept { name: name.into(), bound: 1e-9, at: vec![0.5], least: -1.0, greatest: 1.0, rms };
+        let accepted = Accepted {
+            scenario: "four_bar".into(),
+            verdict: "agree".into(),
+            instants: 3,
+            times: vec![0.1 + 0.2],
+            channels: vec![kept("link.a.angle_rad", None), kept(&format!("joint.{}.fx_N", "B".repeat(100)), Some(0.7))],
+        };
+        let path = Path::new("four_bar.accepted");
+        assert_eq!(parse(&text(&accepted), path, "four_bar").unwrap(), accepted);
+        assert_eq!(beside(Path::new("a/four_bar.toml")), Path::new("a/four_bar.accepted"));
+    }
+}

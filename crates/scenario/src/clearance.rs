@@ -1,0 +1,246 @@
+//! `[clearance]`: outlines of links, the housing, and what is wanted of their distances.
+
+pub mod outline;
+pub mod question;
+
+pub use outline::{Flaw, MOST_CORNERS, Outline};
+pub use question::{Body, Question};
+
+use super::links::{NAME_HELP, place};
+use super::reader::{Sign, Table};
+use super::unit::LENGTH;
+use super::words::suggestion;
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::math::{KeepNan, Vec2};
+use linkage::mechanism::{GROUND, Link, Mechanism, Point, is_sound_name};
+use question::pairs;
+
+/// Share of a swept area that its error may have, unless the file says otherwise.
+const AREA: f64 = 5e-3;
+/// Smallest share: the number of squares grows with its inverse.
+const SMALLEST_AREA: f64 = 1e-5;
+/// Smallest tolerance, and largest extent of an outline, in sizes of the mechanism: beyond them rounding decides.
+const FINEST: f64 = 1e-10;
+const FARTHEST: f64 = 1e6;
+/// Most parts of a housing.
+const MOST_PARTS: usize = 200;
+/// Name that stands for all parts of the housing.
+const HOUSING: &str = "housing";
+
+/// The question that a file asks about clearance.
+pub fn read(table: &mut Table, mechanism: &Mechanism) -> Result<Question> {
+    let radius = table.optional_quantity("radius", &LENGTH, Sign::Positive)?;
+    let wanted = table.optional_quantity("wanted", &LENGTH, Sign::NotNegative)?;
+    let tolerance = table.optional_quantity("tolerance", &LENGTH, Sign::Positive)?;
+    let size = mechanism.size();
+    if tolerance.is_some_and(|tolerance| tolerance < FINEST * size) {
+        let message =
+            format!("distances are found to {:.1e} m and no better: {FINEST:e} of the mechanism's size", FINEST * size);
+        return Err(table
+            .wrong(ErrorKind::Input, "tolerance", message)
+            .help("give a larger tolerance, or leave it out"));
+    }
+    let area = area(table)?;
+    let (outlines, housing) = (table.optional_table("outlines")?, table.tables("housing")?);
+    let ignored = table.tables("ignore")?;
+    table.finish()?;
+    let mut bodies = links(table, outlines, radius, mechanism)?;
+    if housing.len() > MOST_PARTS {
+        let message = format!("found {} parts of the housing, but at most {MOST_PARTS} are handled", housing.len());
+        return Err(table.wrong(ErrorKind::Input, HOUSING, message).help("leave out parts that no link comes near"));
+    }
+    for part in housing {
+        let body = wall(part, mechanism, &bodies)?;
+        bodies.push(body);
+    }
+    let ground = mechanism.links()[GROUND].points.iter().map(|point| point.local.norm()).fold(0.0, f64::larger);
+    if let Some(far) = bodies.iter().find(|body| !(body.outline.extent() <= FARTHEST * (size + ground))) {
+        let message = format!(
+            "the outline of \"{}\" extends to {:.3e} m, the mechanism to {size:.3e} m",
+            far.name,
+            far.outline.extent()
+        );
+        return Err(table.fault(message).help("check the units of its corners and its radius"));
+    }
+    let ignored = ignored.into_iter().map(|pair| ignore(pair, &bodies)).collect::<Result<Vec<_>>>()?.concat();
+    let pairs = pairs(mechanism, &bodies, &ignored);
+    Ok(Question { bodies, pairs, wanted, tolerance, area })
+}
+
+fn area(table: &mut Table) -> Result<f64> {
+    let share = table.optional_number("area_rel")?.unwrap_or(AREA);
+    if (SMALLEST_AREA..1.0).contains(&share) {
+        return Ok(share);
+    }
+    let message = format!("found {share}, but this is the share of a swept area that its error may have");
+    let error = table.wrong(ErrorKind::Input, "area_rel", message);
+    table.instead(share, error.help(format!("give a number from {SMALLEST_AREA:e} to 1, such as 1e-3")))
+}
+
+/// The moving links with their outlines, in the order of the mechanism.
+fn links(table: &Table, outlines: Option<Table>, radius: Option<f64>, mechanism: &Mechanism) -> Result<Vec<Body>> {
+    let links = mechanism.links();
+    let mut given: Vec<Option<Outline>> = vec![None; links.len()];
+    if let Some(mut outlines) = outlines {
+        for own in outlines.all_tables()? {
+            let name = own.name().to_string();
+            let found = links.iter().position(|link| link.name == name);
+            let Some(link) = found.filter(|&link| link != GROUND) else {
+                let (message, names) = match found {
+                    Some(_) => ("the ground has no outline of its own".into(), "write `[[clearance.housing]]`".into()),
+                    None => {
+                        let names = links[1..].iter().map(|link| link.name.as_str());
+                        (format!("there is no link \"{name}\""), suggestion(&name, names, "\""))
+                    }
+                };
+                return Err(own.fault(message).help(names));
+            };
+            given[link] = Some(of_link(own, radius, &links[link])?);
+        }
+    }
+    let body = |(link, own): (usize, Option<Outline>)| {
+        let Link { name, points, .. } = &links[link];
+        let outline = match (own, radius) {
+            (Some(outline), _) => outline,
+            (None, Some(radius)) => default(table, points, radius)?,
+            (None, None) => {
+                let message = format!("link \"{name}\" has no outline");
+                return Err(table.fault(message).help(format!(
+                    "give all links capsules with `radius_mm` in `[clearance]`, or this one an outline in \
+                     `[clearance.outlines.{name}]`"
+                )));
+            }
+        };
+        Ok(Body { name: name.clone(), link, outline })
+    };
+    given.into_iter().enumerate().skip(1).map(body).collect()
+}
+
+fn default(table: &Table, points: &[Point], radius: f64) -> Result<Outline> {
+    let places: Vec<Vec2> = points.iter().map(|point| point.local).collect();
+    Outline::of_points(&places, radius).map_err(|flaw| flawed(table, "radius", flaw))
+}
+
+/// The outline that a link states: corners, a line, or the radius of its capsules alone.
+fn of_link(mut table: Table, default_radius: Option<f64>, link: &Link) -> Result<Outline> {
+    let drawn = drawn(&mut table, &link.points)?;
+    let solid = matches!(drawn, Some(("corners", _)));
+    let sign = if solid { Sign::NotNegative } else { Sign::Positive };
+    let radius = table.optional_quantity("radius", &LENGTH, sign)?;
+    table.finish()?;
+    match drawn {
+        Some(("corners", corners)) => {
+            Outline::polygon(&corners, radius.unwrap_or(0.0)).map_err(|flaw| flawed(&table, "corners", flaw))
+        }
+        drawn => {
+            let Some(radius) = radius.or(default_radius) else {
+                return Err(table.fault("the outline has no radius").help("add `radius_mm`, or give `corners`"));
+            };
+            match drawn {
+                Some((key, places)) => Outline::line(&places, radius).map_err(|flaw| flawed(&table, key, flaw)),
+                None => default(&table, &link.points, radius),
+            }
+        }
+    }
+}
+
+/// A part of the housing.
+fn wall(mut table: Table, mechanism: &Mechanism, before: &[Body]) -> Result<Body> {
+    let name = table.string("name")?;
+    if !is_sound_name(&name) {
+        let message = format!("\"{name}\" cannot be the name of a part of the housing");
+        return Err(table.wrong(ErrorKind::Input, "name", message).help(NAME_HELP));
+    }
+    if name == HOUSING || before.iter().any(|body| body.name == name) {
+        let message = format!("\"{name}\" is taken");
+        return Err(table
+            .wrong(ErrorKind::Input, "name", message)
+            .help("give every part a name of its own; \"housing\" stands for all parts"));
+    }
+    let drawn = drawn(&mut table, &mechanism.links()[GROUND].points)?;
+    let radius = table.optional_quantity("radius", &LENGTH, Sign::NotNegative)?.unwrap_or(0.0);
+    table.finish()?;
+    let outline = match drawn {
+        Some(("corners", corners)) => {
+            Outline::polygon(&corners, radius).map_err(|flaw| flawed(&table, "corners", flaw))?
+        }
+        Some((key, places)) => Outline::line(&places, radius).map_err(|flaw| flawed(&table, key, flaw))?,
+        None => {
+            return Err(table
+                .fault("this part of the housing has no outline")
+                .help("add `corners` of a solid part, or the places of a wall as `line`"));
+        }
+    };
+    Ok(Body { name, link: GROUND, outline })
+}
+
+/// `corners` of a polygon or the places of a `line`, if there are any; places may count from the points `known`.
+fn drawn(table: &mut Table, known: &[Point]) -> Result<Option<(&'static str, Vec<Vec2>)>> {
+    let mut found = None;
+    for key in ["corners", "line"] {
+        let places = table.tables(key)?;
+        if !table.has(key) {
+            continue;
+        }
+        if found.is_some() {
+            let error = table.wrong(ErrorKind::Input, key, "`corners` and `line` are both given");
+            return Err(error.help("keep one of the two"));
+        }
+        if places.len() > MOST_CORNERS {
+            return Err(flawed(table, key, Flaw::Many(places.len())));
+        }
+        let places = places.into_iter().map(|own| place(own, known)).collect::<Result<Vec<_>>>()?;
+        found = Some((key, places));
+    }
+    Ok(found)
+}
+
+/// The error of a flawed outline.
+fn flawed(table: &Table, key: &str, flaw: Flaw) -> Error {
+    let (message, help) = match flaw {
+        Flaw::Few(0) if key == "line" => {
+            ("a line needs a place or more".into(), "one place is a disc, two are a capsule")
+        }
+        Flaw::Few(count) => {
+            (format!("found {count} corners, but a polygon has three or more"), "add corners, or write a `line`")
+        }
+        Flaw::Many(count) => (
+            format!("found {count} corners, but at most {MOST_CORNERS} are handled"),
+            "leave out corners that change the outline by less than its clearance",
+        ),
+        Flaw::Repeated([a, b]) => (
+            format!("corners {} and {} are in one place", a + 1, b + 1),
+            "give every corner once; the last side closes by itself",
+        ),
+        Flaw::Crossing([a, b]) => (
+            format!("the sides that begin at corners {} and {} touch or cross", a + 1, b + 1),
+            "give the corners in their order around the outline",
+        ),
+        Flaw::Flat => ("all corners lie on one line".into(), "write a `line`, or give corners around an area"),
+        Flaw::NoNumber => ("a coordinate or the radius is no number".into(), "give finite numbers"),
+    };
+    table.wrong(ErrorKind::Input, key, message).help(help)
+}
+
+/// The pairs of bodies that one entry of `ignore` names.
+fn ignore(mut table: Table, bodies: &[Body]) -> Result<Vec<[usize; 2]>> {
+    let names = table.strings("bodies")?;
+    table.finish()?;
+    let [first, second] = &names[..] else {
+        let message = format!("found {} names, but a pair has two", names.len());
+        let help = "write `{ bodies = [\"crank\", \"rocker\"] }`";
+        return Err(table.wrong(ErrorKind::Input, "bodies", message).help(help));
+    };
+    let numbers = |name: &str| -> Result<Vec<usize>> {
+        let is_named = |body: &Body| body.name == name || (name == HOUSING && !body.moves());
+        let found: Vec<usize> = (0..bodies.len()).filter(|&body| is_named(&bodies[body])).collect();
+        if found.is_empty() {
+            let message = format!("there is no link and no part of the housing \"{name}\"");
+            let known = bodies.iter().map(|body| body.name.as_str());
+            return Err(table.wrong(ErrorKind::Input, "bodies", message).help(suggestion(name, known, "\"")));
+        }
+        Ok(found)
+    };
+    let (first, second) = (numbers(first)?, numbers(second)?);
+    Ok(first.iter().flat_map(|&a| second.iter().map(move |&b| [a, b])).collect())
+}

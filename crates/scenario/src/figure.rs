@@ -1,0 +1,187 @@
+//! Figures of a mechanism: lengths as solved, and quantities over a turn.
+
+use super::correction::{Correction, number};
+use super::printed::Printed;
+use super::reader::Table;
+use super::unit::{LENGTH, Unit};
+use super::words::suggestion;
+use linkage::case::Case;
+use linkage::error::{ErrorKind, Result};
+use linkage::mechanism::Side;
+
+/// One figure with the number it must have.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OracleFigure {
+    /// Which figure.
+    pub figure: Figure,
+    /// Its name in reports: the name in scenario files, and the subject of the figure.
+    pub name: String,
+    /// The number as printed.
+    pub printed: FigureValue,
+    /// For a number known to be wrong: the finding that says so, and the correct number.
+    pub wrong: Option<(String, FigureValue)>,
+}
+
+/// A number that a figure is compared with.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FigureValue {
+    /// Value in the figure's SI unit.
+    pub value: f64,
+    /// Half a unit of the last digit, in the figure's SI unit.
+    pub bound: f64,
+    /// Number of decimals.
+    pub digits: i32,
+}
+
+/// A figure of a mechanism.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Figure {
+    /// Mean over the turn of the moment of inertia reduced to the crank (kg m^2).
+    ReducedInertiaMean,
+    /// Mean over the turn of the moment of resistance reduced to the crank (N m).
+    ReducedResistanceMean,
+    /// Speed of the crank (rad/s) at which the motor's moment on it equals the mean resistance.
+    SteadyCrankSpeed,
+    /// Speed of the motor (rad/s) at that speed of the crank.
+    SteadyMotorSpeed,
+    /// Distance between two points at t = 0 (m).
+    Distance([Side; 2]),
+}
+
+impl Figure {
+    /// SI unit.
+    #[must_use]
+    pub fn unit(self) -> &'static str {
+        match self {
+            Figure::ReducedInertiaMean => "kg m^2",
+            Figure::ReducedResistanceMean => "N m",
+            Figure::SteadyCrankSpeed | Figure::SteadyMotorSpeed => "rad/s",
+            Figure::Distance(_) => "m",
+        }
+    }
+}
+
+/// Figures of the whole mechanism: their names in scenario files, unit included.
+const OF_MECHANISM: [(&str, Figure); 4] = [
+    ("reduced_inertia_mean_kg_m2", Figure::ReducedInertiaMean),
+    ("reduced_resistance_mean_N_m", Figure::ReducedResistanceMean),
+    ("steady_crank_speed_rad_s", Figure::SteadyCrankSpeed),
+    ("steady_motor_speed_rad_s", Figure::SteadyMotorSpeed),
+];
+
+/// Names of the figures between two points.
+const OF_POINTS: [&str; 2] = ["distance_m", "distance_mm"];
+
+/// What the name of a figure begins with in a claim.
+const CLAIMED: &str = "figure.";
+
+impl Figure {
+    /// The names of all figures that a formula may claim.
+    pub(super) fn claims() -> impl Iterator<Item = String> {
+        OF_MECHANISM.iter().map(|(name, _)| format!("{CLAIMED}{name}"))
+    }
+
+    /// The figure that a claim names, `None` if it names none.
+    ///
+    /// # Errors
+    /// A figure that the case does not have: the message, and the way out.
+    pub(super) fn claimed(name: &str, case: &Case) -> Option<std::result::Result<Figure, (String, String)>> {
+        let name = name.strip_prefix(CLAIMED)?;
+        let (_, figure) = OF_MECHANISM.iter().find(|(own, _)| *own == name)?;
+        Some(figure.lacks(case).map_or(Ok(*figure), |(message, help)| Err((message.into(), help.into()))))
+    }
+
+    /// What a case lacks for the figure, and the way out.
+    fn lacks(self, case: &Case) -> Option<(&'static str, &'static str)> {
+        match self {
+            Figure::SteadyCrankSpeed | Figure::SteadyMotorSpeed if case.crank().motor().is_none() => Some((
+                "a steady speed needs a motor, and the scenario has none",
+                "add a `[motor]` section: its law, and the ratio of the reducer",
+            )),
+            Figure::SteadyCrankSpeed | Figure::SteadyMotorSpeed => None,
+            Figure::ReducedInertiaMean | Figure::ReducedResistanceMean | Figure::Distance(_) => None,
+        }
+    }
+}
+
+/// The figures of an oracle.
+pub(super) fn read(table: &mut Table, case: &Case) -> Result<Vec<OracleFigure>> {
+    let mut figures = Vec::new();
+    for mut entry in table.tables("figures")? {
+        let figure = entry.read(|entry| one(entry, case)).map(Some);
+        figures.extend(table.part(figure));
+    }
+    if figures.is_empty() {
+        let names = suggestion("", names(), "\"");
+        return Err(table.wrong(ErrorKind::Input, "figures", "there is no figure").help(names));
+    }
+    Ok(figures)
+}
+
+fn one(entry: &mut Table, case: &Case) -> Result<OracleFigure> {
+    let name = entry.string("figure")?;
+    let (figure, of) = match OF_MECHANISM.iter().find(|(known, _)| *known == name) {
+        Some((_, figure)) => (*figure, String::new()),
+        None if OF_POINTS.contains(&name.as_str()) => distance(entry, case)?,
+        None => {
+            let error = entry.wrong(ErrorKind::Input, "figure", format!("there is no figure \"{name}\""));
+            return Err(error.help(suggestion(&name, names(), "\"")));
+        }
+    };
+    if let Some((message, help)) = figure.lacks(case) {
+        return Err(entry.wrong(ErrorKind::Input, "figure", message).help(help));
+    }
+    let printed = number(entry)?;
+    let correction = Correction::read(entry, &printed)?;
+    entry.finish()?;
+    let unit = LENGTH.unit_of("distance", &name);
+    let si = |value: f64| unit.map_or(value, |unit: &Unit| unit.to_si(value));
+    let of_number = |number: &Printed| FigureValue {
+        value: si(number.value),
+        bound: si(number.half_unit()),
+        digits: number.digits,
+    };
+    let name = if of.is_empty() { name } else { format!("{name} of {of}") };
+    let wrong = correction.map(|Correction { finding, right }| (finding, of_number(&right)));
+    Ok(OracleFigure { figure, name, printed: of_number(&printed), wrong })
+}
+
+fn names() -> impl Iterator<Item = &'static str> {
+    OF_MECHANISM.into_iter().map(|(name, _)| name).chain(OF_POINTS)
+}
+
+fn distance(entry: &mut Table, case: &Case) -> Result<(Figure, String)> {
+    let names = entry.strings("points")?;
+    let [first, second] = names.as_slice() else {
+        let message = format!("a distance lies between two points, found {}", names.len());
+        return Err(entry.wrong(ErrorKind::Input, "points", message).help("write `points = [\"A\", \"B\"]`"));
+    };
+    let places = [places(entry, case, first)?, places(entry, case, second)?];
+    // On one link a distance is only what the file states. So it is measured between two links, where the solver must
+    // bring the two points together.
+    let has = |link: usize, of: &[Side]| of.iter().any(|side| side.link == link);
+    let measured = |this: usize| places[this].iter().find(|side| !has(side.link, &places[1 - this])).copied();
+    let (Some(first), Some(second)) = (measured(0), measured(1)) else {
+        let message =
+            format!("the distance of {} stands in the file: only one link has both points", names.join(" and "));
+        let help = "name points whose distance follows from how the links stand together";
+        return Err(entry.wrong(ErrorKind::Input, "points", message).help(help));
+    };
+    Ok((Figure::Distance([first, second]), names.join(" ")))
+}
+
+/// The point called `name` on every link that has it.
+fn places(entry: &Table, case: &Case, name: &str) -> Result<Vec<Side>> {
+    let links = || case.mechanism.links().iter().enumerate();
+    let on = |(link, body): (usize, &linkage::mechanism::Link)| {
+        let point = body.points.iter().find(|point| point.name == name)?;
+        Some(Side { link, local: point.local })
+    };
+    let places: Vec<Side> = links().filter_map(on).collect();
+    if places.is_empty() {
+        let names = links().flat_map(|(_, body)| body.points.iter().map(|point| point.name.as_str()));
+        let error = entry.wrong(ErrorKind::Input, "points", format!("the mechanism has no point \"{name}\""));
+        return Err(error.help(suggestion(name, names, "\"")));
+    }
+    Ok(places)
+}

@@ -1,0 +1,93 @@
+//! The table of keys against what the readers ask for.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+
+use super::{SECTIONS, Section, section};
+use crate::reader::asked;
+use crate::{Scenario, files_in};
+
+/// Changes of a scenario that bring readers to keys which no scenario of the repository has.
+const CHANGES: [(&str, &str, &str); 7] = [
+    (
+        "crank_rocker",
+        "speed_rpm = 130",
+        "law = \"table\"\npoints = [{ time_s = 0, angle_deg = 0 }, { time_s = 1, angle_deg = 90 }]",
+    ),
+    ("crank_rocker", "law = \"linear\"\ntorque_at_rest_N_m = 22.51", "law = \"constant\"\ntorque_N_m = 5"),
+    (
+        "crank_rocker",
+        "law = \"linear\"\ntorque_at_rest_N_m = 22.51",
+        "law = \"table\"\npoints = [{ speed_rpm = 0, torque_N_m = 4 }, { speed_rpm = 3000, torque_N_m = 1 }]",
+    ),
+    (
+        "crank_rocker",
+        "[[loads]]\n",
+        "[[loads]]\ntype = \"resisting_force\"\nlink = \"rocker\"\npoint = \"B\"\nforce_N = 3\n\n[[loads]]\n",
+    ),
+    (
+        "crank_rocker",
+        "[[loads]]\n",
+        "[[loads]]\ntype = \"moment\"\nlink = \"rocker\"\n\
+         table = [{ crank_deg = 0, moment_N_m = 1 }, { crank_deg = 90, moment_N_m = 2 }]\n\n[[loads]]\n",
+    ),
+    (
+        "crank_rocker",
+        "[grid]",
+        "[tolerances]\nengine_rel = 1e-2\n\
+         [clearance]\nradius_mm = 1\nignore = [{ bodies = [\"crank\", \"rocker\"] }]\n\
+         [clearance.outlines.rocker]\nline = [{ x_mm = 0, y_mm = 0 }]\nradius_mm = 2\n\
+         [[clearance.housing]]\nname = \"floor\"\n\
+         corners = [{ x_mm = 0, y_mm = -90 }, { x_mm = 9, y_mm = -80 }, { x_mm = 0, y_mm = -70 }]\n[grid]",
+    ),
+    ("ov7_base", "file = ", "digits = 3\nfile = "),
+];
+
+fn asked_by_readers() -> BTreeMap<String, BTreeSet<String>> {
+    let top = &Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    asked::forget();
+    for directory in ["scenarios", "scenarios/formulas", "scenarios/variants60"] {
+        for path in files_in(&top.join(directory)).unwrap() {
+            Scenario::load(&path).unwrap_or_else(|error| panic!("{error}"));
+        }
+    }
+    for (name, old, new) in CHANGES {
+        let path = top.join(format!("scenarios/{name}.toml"));
+        let text = std::fs::read_to_string(&path).unwrap();
+        assert!(text.contains(old), "{name}: {old}");
+        // Whether it makes sense does not matter: what is read has been asked for.
+        let _ = Scenario::parse(&text.replacen(old, new, 1), &path);
+    }
+    asked::all()
+}
+
+#[test]
+fn every_key_that_a_reader_asks_for_is_in_the_table() {
+    for (path, keys) in asked_by_readers() {
+        let Some(section) = section(&path) else {
+            let is_named = SECTIONS.iter().any(|own| own.path.strip_suffix(".*") == Some(path.as_str()));
+            assert!(is_named || path == "parameters", "there is no section `{path}`");
+            continue;
+        };
+        let known: BTreeSet<String> = section.keys.iter().flat_map(super::Key::spellings).collect();
+        let unknown: Vec<&String> = keys.difference(&known).collect();
+        assert!(unknown.is_empty(), "`{path}` lacks {unknown:?}");
+    }
+}
+
+#[test]
+fn every_key_of_the_table_is_asked_for() {
+    let asked = asked_by_readers();
+    let names = |section: &Section| section.keys.iter().map(|key| key.name).collect::<Vec<_>>();
+    let mut never = Vec::new();
+    for section in SECTIONS {
+        // Places and printed numbers stand in several sections and have one reader.
+        let alike = || SECTIONS.iter().filter(|other| names(other) == names(section));
+        for spelling in section.keys.iter().flat_map(super::Key::spellings) {
+            if !alike().any(|own| asked.get(own.path).is_some_and(|keys| keys.contains(&spelling))) {
+                never.push(format!("{}.{spelling}", section.path));
+            }
+        }
+    }
+    assert!(never.is_empty(), "{never:?}");
+}

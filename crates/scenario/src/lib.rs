@@ -1,0 +1,365 @@
+//! Scenario files: TOML in, a [`Case`] out. Only this module converts units; docs/scenario.md describes the format.
+//! Every error names file, line and key, what was found, and the way out.
+
+pub mod accepted;
+mod asked;
+mod claim;
+pub mod clearance;
+mod correction;
+mod draft;
+pub mod edit;
+mod figure;
+pub mod formula;
+pub mod grid;
+pub mod header;
+mod hostile;
+mod instant;
+pub mod joints;
+pub mod keys;
+mod links;
+mod loads;
+mod malformed;
+pub mod mapping;
+mod masses;
+mod motion;
+mod motor;
+pub mod oracle;
+mod parameter_table;
+mod parameters;
+mod printed;
+pub mod reader;
+mod reduced;
+mod series;
+mod settings;
+pub mod source;
+mod start;
+mod stated;
+mod table_file;
+pub mod templates;
+#[cfg(test)]
+mod tests;
+pub mod unit;
+pub mod words;
+
+pub use self::claim::Claim;
+pub use self::formula::{Formula, Formulas};
+pub use asked::{Asked, Undecided};
+pub use draft::Draft;
+pub use figure::{Figure, FigureValue, OracleFigure};
+pub use instant::within;
+pub use oracle::{Oracle, OracleBasis};
+pub use parameters::{INPUTS, Parameter};
+pub use printed::{Printed, PrintedChannel};
+pub use series::{ExpectedCell, OraclePoint, OracleSeries, When};
+pub use settings::EngineKeys;
+
+use std::path::{Path, PathBuf};
+
+use self::clearance::Question;
+use self::header::{NAME_HELP, is_name};
+use self::reader::{Faults, Table};
+use self::source::{Source, text_of};
+use self::stated::Stated;
+use linkage::case::{Case, CaseParts, Grid, Wanted};
+use linkage::error::{Error, ErrorKind, Result};
+use linkage::mechanism::assembly::{Choice, group_of};
+use linkage::mechanism::{StartGroup, Structure};
+
+/// A scenario: the problem, the engine's settings, and the published numbers that it is compared with.
+///
+/// ```
+/// use linkproof::Scenario;
+///
+/// # std::env::set_current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))?;
+/// let scenario = Scenario::load("scenarios/crank_rocker.toml".as_ref())?;
+/// assert_eq!(scenario.name, "crank_rocker");
+/// assert_eq!(scenario.case.mechanism.joints().len(), 4);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Scenario {
+    /// Short name, usable in file names: lower-case letters, digits and `_`.
+    pub name: String,
+    /// One line for people.
+    pub title: String,
+    /// Where the dimensions come from.
+    pub source: Option<String>,
+    /// Path of the file as the user gave it.
+    pub path: PathBuf,
+    /// Whole text of the file.
+    pub text: String,
+    /// The problem, in SI.
+    pub case: Case,
+    /// Step of the engine (s), if the scenario gives one.
+    pub dt: Option<f64>,
+    /// The other keys of the engine.
+    pub engine: EngineKeys,
+    /// Largest discretisation error of the engine, as a share of a channel's scale, at which agreement is still a
+    /// proof.
+    pub engine_rel: f64,
+    /// Published numbers.
+    pub oracles: Vec<Oracle>,
+    /// Formulas over parameters, and what they claim.
+    pub formulas: Formulas,
+    /// Outlines and what is asked of their distances, if the scenario asks.
+    pub clearance: Option<Question>,
+    /// The start asked for in the file for each group, in the order of the structure.
+    pub starts: Vec<StartGroup>,
+    /// How each group was placed at the start, in the order of the structure.
+    pub choices: Vec<Choice>,
+}
+
+/// The scenario files (`*.toml`) of a directory, by name.
+///
+/// # Errors
+/// [`ErrorKind::Io`] if the directory cannot be read.
+pub fn files_in(directory: &Path) -> Result<Vec<PathBuf>> {
+    let entries = std::fs::read_dir(directory).map_err(|error| {
+        Error::new(ErrorKind::Io, format!("the directory {} cannot be read: {error}", directory.display()))
+    })?;
+    let mut files: Vec<PathBuf> = entries
+        .filter_map(|entry| entry.ok().map(|entry| entry.path()))
+        .filter(|path| path.extension().is_some_and(|extension| extension == "toml"))
+        .collect();
+    files.sort();
+    Ok(files)
+}
+
+/// The scenario of a file of the repository, by its path from the top.
+///
+/// # Panics
+/// If it cannot be read.
+#[cfg(any(test, feature = "fixtures"))]
+#[must_use]
+pub fn of_repository(file: &str) -> Scenario {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(file);
+    Scenario::load(&path).unwrap_or_else(|error| panic!("{error}"))
+}
+
+impl Scenario {
+    /// Reads the scenario file at `path` and the tables it names.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Io`] if a file cannot be read, else as [`Scenario::parse`].
+    pub fn load(path: &Path) -> Result<Scenario> {
+        Scenario::load_as(path, &Asked::default())
+    }
+
+    /// Reads a scenario from its text. Tables of published numbers are searched in the directory of `path`.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Input`] for anything wrong in the text, [`ErrorKind::Geometry`] if the first pose cannot be
+    /// taken, [`ErrorKind::Unsupported`] for what this version does not solve, [`ErrorKind::Io`] for a table that
+    /// cannot be read; all with the place in the file and the key.
+    pub fn parse(text: &str, path: &Path) -> Result<Scenario> {
+        Ok(parse(text, path, &Asked::default(), false)?.0)
+    }
+
+    /// Reads the scenario file at `path` with another start.
+    ///
+    /// Published numbers belong to the file's own branch: on another one they are left out.
+    /// With another crank angle at t = 0, so are those that depend on it: distances at t = 0, and values over the crank
+    /// angle if the crank's speed changes, if there are further drives, or if a torsional spring counts turns from the
+    /// start.
+    ///
+    /// # Errors
+    /// Those of [`Scenario::load`], and [`ErrorKind::Input`] without a place in the file if a group, its mode or its
+    /// number is not known.
+    pub fn load_as(path: &Path, asked: &Asked) -> Result<Scenario> {
+        Scenario::parse_as(&text_of(path)?, path, asked)
+    }
+
+    /// The same from the text of the file.
+    ///
+    /// # Errors
+    /// Those of [`Scenario::load_as`], except that the file cannot be read.
+    pub fn parse_as(text: &str, path: &Path, asked: &Asked) -> Result<Scenario> {
+        Ok(parse(text, path, asked, false)?.0)
+    }
+
+    /// As [`Scenario::load_as`], for a list of configurations: groups for which the file does not decide are placed in
+    /// one of their configurations, and are returned with the reason, in the order of the structure.
+    ///
+    /// # Errors
+    /// Those of [`Scenario::load_as`], except that nothing decides for a group.
+    pub fn load_to_list(path: &Path, asked: &Asked) -> Result<(Scenario, Vec<Undecided>)> {
+        Scenario::parse_to_list(&text_of(path)?, path, asked)
+    }
+
+    /// The same from the text of the file.
+    ///
+    /// # Errors
+    /// Those of [`Scenario::load_to_list`], except that the file cannot be read.
+    pub fn parse_to_list(text: &str, path: &Path, asked: &Asked) -> Result<(Scenario, Vec<Undecided>)> {
+        let (scenario, mut undecided) = parse(text, path, asked, true)?;
+        undecided.sort_by_key(|undecided| undecided.group);
+        Ok((scenario, undecided))
+    }
+
+    /// The scenario of a case that was built in code: without a file, without published numbers, with the engine's own
+    /// settings, which the proof finds. `name` must be usable in file names.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Input`] for a name with other characters than lower-case letters, digits and `_`.
+    pub fn of_case(name: &str, case: Case) -> Result<Scenario> {
+        if !is_name(name) {
+            let message = format!("\"{name}\" cannot be the name of a scenario");
+            return Err(Error::new(ErrorKind::Input, message).key("name").help(NAME_HELP));
+        }
+        Ok(Scenario {
+            name: name.into(),
+            title: name.into(),
+            source: None,
+            path: PathBuf::new(),
+            text: String::new(),
+            choices: case.modes.iter().map(|&mode| Choice { mode, nearest_m: None, next_m: None }).collect(),
+            starts: vec![StartGroup::default(); case.structure.groups.len()],
+            case,
+            dt: None,
+            engine: EngineKeys::default(),
+            engine_rel: settings::ENGINE_REL,
+            oracles: Vec::new(),
+            formulas: Formulas::over(Vec::new()),
+            clearance: None,
+        })
+    }
+
+    /// The same scenario with only the channels wanted that `words` ask for, as those of `want` in `[channels]`.
+    /// Published numbers of other channels are left out, and so are figures of the whole mechanism.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Input`] for a word that asks for nothing.
+    pub fn only(mut self, words: &[String]) -> Result<Scenario> {
+        let channels = settings::called(&self.case, words)
+            .map_err(|(message, help)| Error::new(ErrorKind::Input, message).help(help))?;
+        self.case = self.case.wanting_only(&channels);
+        let wanted = self.case.channels();
+        for oracle in &mut self.oracles {
+            oracle.series.retain(|series| wanted.contains(&series.channel));
+            oracle.figures.clear();
+        }
+        self.oracles.retain(|oracle| !oracle.series.is_empty());
+        let is_wanted = |claim: &Claim| {
+            claim.figures.is_empty() && claim.channels.iter().all(|(_, own)| wanted.contains(&own.channel))
+        };
+        for formula in &mut self.formulas.list {
+            formula.claim = formula.claim.take().filter(|claim| is_wanted(claim));
+        }
+        Ok(self)
+    }
+
+    /// The same scenario with every drive in its nominal motion, for questions about crank angles.
+    #[must_use]
+    pub fn nominal(self) -> Scenario {
+        Scenario { case: self.case.nominal(), ..self }
+    }
+}
+
+fn parse(text: &str, path: &Path, asked: &Asked, lists: bool) -> Found {
+    let plain = Source::new(path, text);
+    let tree = plain.tree()?;
+    let (parameters, fault) = parameter_table::read(
+        Table::root(&plain, &tree).optional_table("parameters")?,
+        &asked.set,
+        asked.adds_parameters,
+    )?;
+    if let Some(fault) = fault {
+        return Err(fault);
+    }
+    let source = plain.with(parameters);
+    let found = Table::root(&source, &tree).read(|root| read(root, asked, lists));
+    found.map_err(|error| source.located(tree.get_ref(), error))?
+}
+
+/// What a file with another start gives: the scenario and the groups that are not decided, or an error of what was
+/// asked for, which has no place in the file.
+type Found = std::result::Result<(Scenario, Vec<Undecided>), Error>;
+
+fn read(root: &mut Table, asked: &Asked, lists: bool) -> Result<Found> {
+    let stated = Stated::read(root, asked)?;
+    root.sound_so_far()?;
+    let Stated { mechanism, crank: own_crank, .. } = stated;
+    let (Some(drives), Some(start)) = (stated.drives, stated.start) else {
+        unreachable!("what is missing has ended the reading");
+    };
+    let crank = asked.crank.unwrap_or(own_crank);
+    masses::check(&mechanism, &drives)?;
+    masses::check_speeds(&mechanism, &drives)?;
+    let structure = Structure::of(&mechanism, &drives.joints())?;
+    let groups_asked = match asked.groups(&mechanism, &structure) {
+        Ok(groups) => groups,
+        Err(error) => return Ok(Err(error)),
+    };
+    let starts = start::groups(&start, stated.groups, &mechanism, &structure, &groups_asked)?;
+    let placing = asked::Start {
+        mechanism: &mechanism,
+        structure: &structure,
+        drives: &drives,
+        crank: own_crank,
+        starts: &starts,
+        lists,
+    };
+    let placed = match placing.placed(crank, &groups_asked) {
+        Ok(placed) => placed,
+        Err(error)
+            if groups_asked.iter().any(|(index, _)| group_of(&mechanism, &structure, &error) == Some(*index)) =>
+        {
+            return Ok(Err(error));
+        }
+        Err(error) => return Err(error),
+    };
+    let (starts, choices, undecided) = (placed.starts, placed.choices, placed.undecided);
+    let modes = choices.iter().map(|choice| choice.mode).collect();
+    let start = placed.pose;
+    let (loads, gravity, grid, wanted) = (stated.loads, stated.gravity, stated.grid, Wanted::ALL);
+    let case =
+        Case::new(CaseParts { mechanism, structure, drives, loads, gravity, start, modes, grid, wanted, only: None })?;
+    let case = match stated.channels {
+        Some((table, words)) => settings::wanting(&table, &words, case)?,
+        None => case,
+    };
+    let mut faults = Faults::none();
+    let mut oracles = oracle::read(stated.oracles, &case, asked.memory, &mut faults);
+    let mut formulas =
+        self::formula::read(root.source().parameters.list().to_vec(), stated.formulas, &case, &mut faults);
+    faults.end()?;
+    if !asked.set.is_empty() {
+        // Published numbers belong to the file's own parameters.
+        oracles.clear();
+    }
+    if !placed.is_own_branch {
+        oracles.clear();
+        formulas.list.iter_mut().for_each(|formula| formula.claim = None);
+    } else if crank != own_crank {
+        oracles = oracles.into_iter().filter_map(|oracle| oracle.at_another_start(&case)).collect();
+    }
+    let series = oracles.iter().flat_map(|oracle| &oracle.series);
+    let cranks: Vec<f64> = series.flat_map(OracleSeries::instants).filter_map(When::crank).collect();
+    if let Err(message) = Grid::of_cranks(case.crank(), cranks).check(case.crank()) {
+        let error = Error::new(ErrorKind::Input, format!("published numbers: {message}")).key("oracle");
+        return Err(error.help(match case.crank().is_free() {
+            true => "give the numbers at times (`time_s`)",
+            false => "take the numbers out, or give them at crank angles to which the drive comes",
+        }));
+    }
+    let source = root.source();
+    let (path, text) = (source.path.to_path_buf(), source.text.to_string());
+    let (dt, engine) = stated.engine;
+    let scenario = Scenario {
+        name: stated.name,
+        title: stated.title,
+        source: stated.source,
+        path,
+        text,
+        case,
+        dt,
+        engine,
+        engine_rel: stated.engine_rel,
+        oracles,
+        formulas,
+        clearance: stated.clearance,
+        starts,
+        choices,
+    };
+    Ok(Ok((scenario, undecided)))
+}

@@ -1,0 +1,245 @@
+//! Mapping files: which numbers of another program's table are which channels of a mechanism.
+
+use std::path::Path;
+
+use super::reader::Table;
+use super::source::Source;
+use super::words::suggestion;
+use files;
+use formula::Fault;
+use linkage::error::{Error, ErrorKind, Place, Result};
+
+/// Which numbers of a table are what.
+#[derive(Clone, Debug, Default)]
+pub struct Mapping {
+    /// Where the rows hold: names `time_s` and the like, as in the measurements of a scenario.
+    pub at: Vec<Mapped>,
+    /// Channels, or arithmetics of channels.
+    pub channels: Vec<Mapped>,
+    /// What the table is trusted to.
+    pub allowed: Vec<Allowed>,
+}
+
+/// A channel, and what it is in the table.
+#[derive(Clone, Debug)]
+pub struct Mapped {
+    /// The channel in its unit, such as `link.rocker.angle_deg`; or a name of [`INSTANTS`].
+    pub name: String,
+    /// An arithmetic over the table's columns.
+    pub text: String,
+    place: Place,
+    start: usize,
+}
+
+/// A difference that is allowed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Allowed {
+    /// A channel or a word for several; `None` for all.
+    pub of: Option<String>,
+    /// How much.
+    pub size: Size,
+}
+
+/// How a difference that is allowed is given.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Size {
+    /// In the channel's unit.
+    Absolute(f64),
+    /// As a share of the channel's scale.
+    Relative(f64),
+    /// As a share of each value.
+    OfValue(f64),
+}
+
+impl Size {
+    /// Its kind, from 0: in units, of the scale, of each value.
+    #[must_use]
+    pub fn kind(self) -> usize {
+        match self {
+            Size::Absolute(_) => 0,
+            Size::Relative(_) => 1,
+            Size::OfValue(_) => 2,
+        }
+    }
+}
+
+/// Names of what rows hold at, each with its factor to SI, and whether it is a crank angle.
+pub const INSTANTS: [(&str, f64, bool); 4] = [
+    ("time_s", 1.0, false),
+    ("time_ms", 1e-3, false),
+    ("crank_rad", 1.0, true),
+    ("crank_deg", std::f64::consts::PI / 180.0, true),
+];
+
+impl Mapped {
+    /// `EXPR=NAME`, as an argument gives it; `what` it is, for messages.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Input`] if there is no `=`, or nothing on one of its sides.
+    pub fn parse(text: &str, what: &str) -> Result<Self> {
+        let place = Place { file: what.into(), text: text.into(), span: 0..text.len() };
+        let parts = text.rsplit_once('=').map(|(left, right)| (left.trim(), right.trim()));
+        match parts {
+            Some((left, right)) if !left.is_empty() && !right.is_empty() => {
+                let start = text.len() - text.trim_start().len();
+                Ok(Mapped { name: right.into(), text: left.into(), place, start })
+            }
+            _ => Err(Error::new(ErrorKind::Input, "a mapping is an arithmetic over columns, `=`, and a channel")
+                .at(place)
+                .help("write it such as phi3*180/pi=link.rocker.angle_deg")),
+        }
+    }
+
+    /// A column that has the name of a channel already.
+    #[must_use]
+    pub fn same(name: &str, text: &str) -> Self {
+        let place = Place { file: "the header".into(), text: text.into(), span: 0..text.len() };
+        Mapped { name: name.into(), text: text.into(), place, start: 0 }
+    }
+
+    /// The factor of a name of [`INSTANTS`] to SI, and whether it is a crank angle.
+    #[must_use]
+    pub fn instant(&self) -> Option<(f64, bool)> {
+        INSTANTS.iter().find(|(name, ..)| *name == self.name).map(|&(_, factor, is_crank)| (factor, is_crank))
+    }
+
+    /// An error about its arithmetic.
+    #[must_use]
+    pub fn refused(&self, fault: &Fault) -> Error {
+        let span = self.start + fault.at.start..self.start + fault.at.end;
+        let place = Place { span, ..self.place.clone() };
+        Error::new(ErrorKind::Input, fault.message.clone()).at(place).help(fault.help.clone())
+    }
+
+    /// An error about the channel that it names.
+    #[must_use]
+    pub fn wrong(&self, message: &str, help: &str) -> Error {
+        Error::new(ErrorKind::Input, message).at(self.place.clone()).help(help)
+    }
+}
+
+impl Mapping {
+    /// Reads a mapping file.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Io`] if it cannot be read, [`ErrorKind::Input`] for anything wrong in it, with the place.
+    pub fn load(path: &Path) -> Result<Self> {
+        let text = files::read_text(path).map_err(|error| {
+            Error::new(ErrorKind::Io, format!("the mapping {} cannot be read: {error}", path.display()))
+                .help("give a mapping file, or one column after the other as EXPR=CHANNEL")
+        })?;
+        let source = Source::new(path, &text);
+        let tree = source.tree()?;
+        read(&mut Table::root(&source, &tree)).map_err(|error| source.located(tree.get_ref(), error))
+    }
+
+    /// Adds what another mapping says.
+    pub fn extend(&mut self, other: Mapping) {
+        self.at.extend(other.at);
+        self.channels.extend(other.channels);
+        self.allowed.extend(other.allowed);
+    }
+
+    /// Adds one line of it.
+    pub fn push(&mut self, mapped: Mapped) {
+        match mapped.instant() {
+            Some(_) => self.at.push(mapped),
+            None => self.channels.push(mapped),
+        }
+    }
+
+    /// Whether it says nothing.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.at.is_empty() && self.channels.is_empty() && self.allowed.is_empty()
+    }
+
+    /// The text of a file that says the same.
+    #[must_use]
+    pub fn text(&self) -> String {
+        let mut document = toml_edit::DocumentMut::new();
+        let mut section = |name: &str, lines: &[Mapped]| {
+            let mut table = toml_edit::Table::new();
+            for line in lines {
+                table.insert(&line.name, toml_edit::value(line.text.as_str()));
+            }
+            if !table.is_empty() {
+                document.insert(name, toml_edit::Item::Table(table));
+            }
+        };
+        section("at", &self.at);
+        section("channels", &self.channels);
+        let mut tolerances = toml_edit::Table::new();
+        for Allowed { of, size } in &self.allowed {
+            let (key, number) = match *size {
+                Size::Absolute(number) => ("abs", number),
+                Size::Relative(number) => ("rel", number),
+                Size::OfValue(number) => ("rel_value", number),
+            };
+            let entry = tolerances.entry(of.as_deref().unwrap_or(ALL)).or_insert_with(|| {
+                toml_edit::Item::Value(toml_edit::Value::InlineTable(toml_edit::InlineTable::new()))
+            });
+            if let Some(table) = entry.as_inline_table_mut() {
+                table.insert(key, number.into());
+            }
+        }
+        if !tolerances.is_empty() {
+            document.insert("tolerance", toml_edit::Item::Table(tolerances));
+        }
+        document.to_string()
+    }
+}
+
+/// Stands for all channels among tolerances.
+const ALL: &str = "all";
+
+fn read(root: &mut Table) -> Result<Mapping> {
+    let (at, channels) = (root.optional_table("at")?, root.optional_table("channels")?);
+    let tolerances = root.optional_table("tolerance")?;
+    root.finish()?;
+    let mut mapping = Mapping::default();
+    if let Some(mut at) = at {
+        for name in at.keys() {
+            let mapped = line(&mut at, &name)?;
+            if mapped.instant().is_none() {
+                let error = at.wrong(ErrorKind::Input, &name, format!("rows do not hold at `{name}`"));
+                return Err(error.help(suggestion(&name, INSTANTS.map(|(name, ..)| name), "`")));
+            }
+            mapping.at.push(mapped);
+        }
+        at.finish()?;
+    }
+    if let Some(mut channels) = channels {
+        for name in channels.keys() {
+            mapping.channels.push(line(&mut channels, &name)?);
+        }
+        channels.finish()?;
+    }
+    if let Some(mut tolerances) = tolerances {
+        for mut entry in tolerances.all_tables()? {
+            let name = entry.name().to_string();
+            let of = (name != ALL).then_some(name);
+            for (key, size) in
+                [("abs", Size::Absolute as fn(f64) -> Size), ("rel", Size::Relative), ("rel_value", Size::OfValue)]
+            {
+                let Some(number) = entry.optional_number(key)? else { continue };
+                if number < 0.0 {
+                    let error = entry.wrong(ErrorKind::Input, key, format!("found {number}"));
+                    return Err(error.help("a difference that is allowed is zero or more"));
+                }
+                mapping.allowed.push(Allowed { of: of.clone(), size: size(number) });
+            }
+            entry.finish()?;
+        }
+        tolerances.finish()?;
+    }
+    Ok(mapping)
+}
+
+fn line(table: &mut Table, name: &str) -> Result<Mapped> {
+    let text = table.string(name)?;
+    let whole = Fault { message: String::new(), at: 0..text.len(), help: String::new() };
+    let place = table.fault_in(name, &whole).place().cloned();
+    let place = place.unwrap_or_else(|| Place { file: table.source().path.into(), text: "".into(), span: 0..0 });
+    Ok(Mapped { name: name.into(), text, start: place.span.start, place })
+}

@@ -1,0 +1,241 @@
+//! The mistakes of a table, and of several, all at once.
+
+use toml::de::DeValue;
+
+use super::{Entry, Table};
+use crate::words::{choice, nearest};
+use linkage::error::{Error, ErrorKind, Result};
+
+/// Unknown keys of a table for which the nearest known one is sought.
+const MOST: usize = 20;
+
+/// The mistakes of a file.
+#[derive(Debug)]
+pub struct Faults {
+    all: Vec<Error>,
+    /// Whether everything that others rest on could be read. What a table says beyond its own keys counts only then.
+    pub whole: bool,
+    /// Whether all links and their points are there. What a table names in vain counts only then.
+    pub names: bool,
+}
+
+impl Faults {
+    /// None yet.
+    pub fn none() -> Self {
+        Faults { all: Vec::new(), whole: true, names: true }
+    }
+
+    /// What `read` makes of a table; `None` after a mistake, which is noted.
+    pub fn read<'a, T>(&mut self, table: &mut Table<'a>, read: impl FnOnce(&mut Table<'a>) -> Result<T>) -> Option<T> {
+        let (found, own) = table.tried(self.names, read);
+        self.all.extend(own);
+        match found {
+            Ok(value) => return Some(value),
+            Err(Some(error)) if self.whole => self.all.push(error),
+            Err(_) => {}
+        }
+        None
+    }
+
+    /// The value, or `None` after its error is noted.
+    pub fn kept<T>(&mut self, value: Result<T>) -> Option<T> {
+        value.map_err(|error| self.all.push(error)).ok()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.all.is_empty()
+    }
+
+    /// Ends the reading if there are any.
+    pub fn end(self) -> Result<()> {
+        Error::all(self.all).map_or(Ok(()), Err)
+    }
+}
+
+impl<'a> Table<'a> {
+    /// What `read` makes of the table. All mistakes of its keys and values come together. What `read` says beyond them,
+    /// about what the values mean, counts only without them: it might follow from one of them.
+    pub fn read<T>(&mut self, read: impl FnOnce(&mut Self) -> Result<T>) -> Result<T> {
+        match self.tried(true, read) {
+            (Ok(value), _) => Ok(value),
+            (Err(beyond), own) => Err(own.or(beyond).expect("there is an error")),
+        }
+    }
+
+    /// What `read` makes of the table in spite of the mistakes that it notes, and these.
+    ///
+    /// # Errors
+    /// What ends the reading, with the mistakes noted before.
+    pub fn read_on<T>(&mut self, read: impl FnOnce(&mut Self) -> Result<T>) -> Result<(T, Option<Error>)> {
+        self.goes_on = true;
+        let found = read(self);
+        self.pair_missing();
+        let noted = Error::all(std::mem::take(&mut self.faults));
+        match found {
+            Ok(value) => Ok((value, noted)),
+            Err(error) => Err(noted.unwrap_or(error)),
+        }
+    }
+
+    /// The value, or else what `read` says beyond mistakes of keys and values; and these. Unknown names are among them
+    /// if all `names` could be read.
+    fn tried<T>(
+        &mut self,
+        names: bool,
+        read: impl FnOnce(&mut Self) -> Result<T>,
+    ) -> (std::result::Result<T, Option<Error>>, Option<Error>) {
+        self.goes_on = true;
+        let found = read(self);
+        // Where the reading has stopped early, a key that was not asked for yet may be right.
+        self.pair_missing();
+        let unknown = std::mem::take(&mut self.unknown_names);
+        let is_sound = self.faults.is_empty() && unknown.is_empty();
+        let own = std::mem::take(&mut self.faults).into_iter().chain(unknown.into_iter().filter(|_| names));
+        match found {
+            Ok(value) if is_sound => (Ok(value), None),
+            Err(error) if is_sound => (Err(Some(error)), None),
+            _ => (Err(None), Error::all(own)),
+        }
+    }
+
+    /// The value that was read, or its default after its error is noted.
+    pub fn part<T: Default>(&mut self, read: Result<T>) -> T {
+        read.unwrap_or_else(|error| {
+            self.faults.push(error);
+            T::default()
+        })
+    }
+
+    /// Ends the reading if mistakes are noted.
+    pub fn sound_so_far(&self) -> Result<()> {
+        Error::all(self.faults.iter().cloned()).map_or(Ok(()), Err)
+    }
+
+    /// Notes an error if the reading goes on after one: `value` then stands for the one that is wrong.
+    pub fn instead<T>(&mut self, value: T, error: Error) -> Result<T> {
+        if !self.goes_on {
+            return Err(error);
+        }
+        self.faults.push(error);
+        Ok(value)
+    }
+
+    /// The same for a name that no other table has.
+    pub fn unknown_name<T>(&mut self, value: T, error: Error) -> Result<T> {
+        if !self.goes_on {
+            return Err(error);
+        }
+        self.unknown_names.push(error);
+        Ok(value)
+    }
+
+    /// Notes an error after which nothing more can be read of the table.
+    pub(super) fn noted(&mut self, error: Error) -> Error {
+        if self.goes_on {
+            self.faults.push(error.clone());
+        }
+        error
+    }
+
+    /// The error for a key that is missing under all its spellings. What stands in its place is clear when all keys
+    /// have been asked for.
+    pub(super) fn missing(&mut self, spellings: &[String]) -> Error {
+        if self.goes_on {
+            self.missing.push((spellings.to_vec(), None));
+        }
+        self.missing_by(spellings, None).0
+    }
+
+    /// The same for keys of which one is needed; `help` tells of them.
+    pub fn lacks(&mut self, spellings: &[&str], help: &'static str) -> Error {
+        let spellings: Vec<String> = spellings.iter().map(|&spelling| spelling.into()).collect();
+        if self.goes_on {
+            self.missing.push((spellings.clone(), Some(help)));
+        }
+        self.missing_by(&spellings, Some(help)).0
+    }
+
+    /// That error, and the entry that misspells the key.
+    fn missing_by(&self, spellings: &[String], help: Option<&'static str>) -> (Error, Option<&'a str>) {
+        let wanted = choice(spellings.iter().map(String::as_str), "`");
+        // At the top level there is no table to name.
+        let error = self.fault(format!("{wanted} is missing")).key(spellings[0].clone());
+        let spelling = |key: &str| nearest(key, spellings.iter().map(String::as_str));
+        let unread = self.entries.iter().filter(|entry| self.is_unknown(entry));
+        match unread.filter_map(|entry| Some((entry, spelling(entry.key)?))).next() {
+            Some((entry, spelling)) => {
+                let error = Error::new(ErrorKind::Input, format!("{wanted} is missing"))
+                    .key(self.path_of(spelling))
+                    .at(self.source.place(entry.key_span.clone()))
+                    .help(format!("there is `{}`: did you mean `{spelling}`?", entry.key));
+                (error, Some(entry.key))
+            }
+            None if help.is_some() => (help.into_iter().fold(error, Error::help), None),
+            None if self.path.is_empty() => {
+                (error.help(format!("add {wanted}; docs/scenario.md describes every key")), None)
+            }
+            None => (error.help(format!("add {wanted} to `{}`", self.path)), None),
+        }
+    }
+
+    /// Notes the keys that are missing, each with the unknown key that stands in its place.
+    fn pair_missing(&mut self) {
+        for (spellings, help) in std::mem::take(&mut self.missing) {
+            let (error, misspelt) = self.missing_by(&spellings, help);
+            self.used.extend(misspelt);
+            self.faults.push(error);
+        }
+    }
+
+    fn is_unknown(&self, entry: &Entry) -> bool {
+        !self.used.contains(&entry.key) && !self.asked.iter().any(|asked| asked == entry.key)
+    }
+
+    /// Whether there is a table, or an array, that nobody asked for.
+    pub fn has_unknown_table(&self) -> bool {
+        let is_table = |entry: &&Entry| matches!(entry.value.get_ref(), DeValue::Table(_) | DeValue::Array(_));
+        self.entries.iter().filter(is_table).any(|entry| self.is_unknown(entry))
+    }
+
+    /// Ends the reading. A key that nobody asked for is an error that names the nearest known key.
+    pub fn finish(&mut self) -> Result<()> {
+        #[cfg(test)]
+        super::asked::put(&self.section, &self.asked);
+        self.pair_missing();
+        let unknown: Vec<&Entry> = self.entries.iter().filter(|entry| self.is_unknown(entry)).collect();
+        let asked = || self.asked.iter().map(String::as_str);
+        let error = |(count, entry): (usize, &&Entry)| {
+            let is_open = |key: &&str| !self.has(key) && !self.settled.iter().any(|settled| settled == key);
+            let near = || nearest(entry.key, asked().filter(is_open));
+            let help = match (count < MOST).then(near).flatten() {
+                Some(near) => format!("did you mean `{near}`?"),
+                None => format!("known here: {}", choice(asked(), "`")),
+            };
+            Error::new(ErrorKind::Input, "this key is not known here")
+                .key(self.path_of(entry.key))
+                .at(self.source.place(entry.key_span.clone()))
+                .help(help)
+        };
+        let errors: Vec<Error> = unknown.iter().enumerate().map(error).collect();
+        let keys: Vec<&str> = unknown.iter().map(|entry| entry.key).collect();
+        self.used.extend(keys);
+        self.faults.extend(errors);
+        match self.goes_on {
+            true => self.sound_so_far(),
+            false => Error::all(std::mem::take(&mut self.faults)).map_or(Ok(()), Err),
+        }
+    }
+
+    /// Those that are sound; the errors of the others are noted.
+    pub(super) fn sound<T>(&mut self, all: Vec<Result<T>>) -> Result<Vec<T>> {
+        let mut sound = Vec::with_capacity(all.len());
+        for one in all {
+            match one {
+                Ok(one) => sound.push(one),
+                Err(error) => self.instead((), error)?,
+            }
+        }
+        Ok(sound)
+    }
+}

@@ -1,0 +1,136 @@
+//! What a scenario file states, before it is asked what that means as a whole.
+
+use super::asked::Asked;
+use super::clearance::Question;
+use super::header::{check_format, name};
+use super::reader::{Faults, Sign, Table};
+use super::settings::{self, ENGINE_REL, EngineKeys};
+use super::{clearance, grid, joints, links, loads, motion, start, unit};
+use linkage::case::Grid;
+use linkage::drive::{Drive, Drives, Load, MotionLaw};
+use linkage::error::Result;
+use linkage::math::Vec2;
+use linkage::mechanism::{Joint, Link, Mechanism};
+
+/// The sections of a file. Those that need the whole case are still tables. What has a mistake is left out, or stands
+/// for itself as nothing does.
+pub struct Stated<'a> {
+    pub name: String,
+    pub title: String,
+    pub source: Option<String>,
+    /// Links and joints; after a mistake good for looking at only.
+    pub mechanism: Mechanism,
+    /// What moves it; `None` after a mistake.
+    pub drives: Option<Drives>,
+    /// Crank angle at t = 0 (rad).
+    pub crank: f64,
+    pub loads: Vec<Load>,
+    pub gravity: Vec2,
+    /// The section `[start]`; `None` if it is missing.
+    pub start: Option<Table<'a>>,
+    pub groups: Vec<start::Stated<'a>>,
+    pub grid: Grid,
+    /// The section `[channels]` with its words.
+    pub channels: Option<(Table<'a>, Vec<String>)>,
+    pub engine: (Option<f64>, EngineKeys),
+    pub engine_rel: f64,
+    pub oracles: Vec<Table<'a>>,
+    pub formulas: Vec<Table<'a>>,
+    pub clearance: Option<Question>,
+}
+
+impl<'a> Stated<'a> {
+    /// Reads every section. The mistakes of all of them are noted in `root`.
+    ///
+    /// # Errors
+    /// What this version cannot read at all.
+    pub fn read(root: &mut Table<'a>, asked: &Asked) -> Result<Stated<'a>> {
+        check_format(root)?;
+        let (name, title, source) = (name(root), root.string("title"), root.optional_string("source"));
+        // All sections are fetched before any is read: a misspelt section is the cause of other errors.
+        let (ground, links, joints) = (root.table("ground"), root.table("links"), root.tables("joints")?);
+        let (drives, motor) = (root.needed_tables("drive"), root.optional_table("motor")?);
+        let (gravity, loads) = (root.optional_table("gravity")?, root.tables("loads")?);
+        let (start, grid, channels) = (root.table("start"), root.table("grid"), root.optional_table("channels")?);
+        let (engine, tolerances) = (root.optional_table("engine")?, root.optional_table("tolerances")?);
+        let (oracles, clearance) = (root.tables("oracle")?, root.optional_table("clearance")?);
+        let formulas = root.tables("formula")?;
+        // It was read before all others, which may use it.
+        root.optional_table("parameters")?;
+        let mut faults = Faults::none();
+        let has_all = ground.is_ok() && links.is_ok() && drives.is_ok() && start.is_ok();
+        faults.whole = has_all && !root.has_unknown_table();
+        faults.names = ground.is_ok() && links.is_ok();
+        // Its errors are noted.
+        let _ = root.finish();
+
+        let engine_rel = tolerances.and_then(|mut table| faults.read(&mut table, settings::engine_rel));
+        let gravity = gravity.and_then(|mut table| faults.read(&mut table, motion::gravity));
+        let channels = channels.and_then(|mut table| Some((faults.read(&mut table, settings::wanted)?, table)));
+        let links = links::read(ground.ok(), links.ok(), &mut faults);
+        let joints = joints::read(joints, &links, &mut faults);
+        let mechanism = mechanism(links, joints, &mut faults);
+        let (mut start, mut groups, mut crank) = (start.ok(), Vec::new(), 0.0);
+        if let Some(start) = &mut start {
+            let own = |start: &mut Table<'a>| {
+                groups = start.tables("groups")?;
+                let crank = start.quantity("crank", &unit::ANGLE, Sign::Any)?;
+                start.finish()?;
+                Ok(crank)
+            };
+            crank = faults.read(start, own).unwrap_or_default();
+        }
+        let groups = start::stated(groups, &mechanism, &mut faults);
+        let loads = loads::read(loads, &mechanism, &mut faults);
+        let drives = drives
+            .ok()
+            .and_then(|drives| motion::drives(drives, motor, &mechanism, asked.crank.unwrap_or(crank), &mut faults));
+        // What follows depends on numbers of the mechanism and of the drive.
+        faults.whole &= faults.is_empty();
+        let clearance =
+            clearance.and_then(|mut table| faults.read(&mut table, |table| clearance::read(table, &mechanism)));
+        let crank_drive = match &drives {
+            Some(drives) => drives.crank().clone(),
+            None => Drive::prescribed(0, 1, 0.0, 0.0, MotionLaw::ConstantSpeed(1.0)),
+        };
+        let grid = grid
+            .ok()
+            .and_then(|mut grid| faults.read(&mut grid, |grid| grid::read(grid, &crank_drive, asked.without_grid)));
+        let engine =
+            engine.and_then(|mut table| faults.read(&mut table, |table| settings::engine(table, &crank_drive)));
+        root.part(faults.end());
+        Ok(Stated {
+            name: name.unwrap_or_default(),
+            title: title.unwrap_or_default(),
+            source: source.unwrap_or_default(),
+            mechanism,
+            drives,
+            crank,
+            loads,
+            gravity: gravity.unwrap_or_else(Vec2::zeros),
+            start,
+            groups,
+            grid: grid.unwrap_or_default(),
+            channels: channels.map(|(words, table)| (table, words)),
+            engine: engine.unwrap_or_default(),
+            engine_rel: engine_rel.unwrap_or(ENGINE_REL),
+            oracles,
+            formulas,
+            clearance,
+        })
+    }
+}
+
+/// The mechanism; after a mistake one that is good for its names only.
+fn mechanism(links: Vec<Link>, joints: Vec<Joint>, faults: &mut Faults) -> Mechanism {
+    if !(faults.is_empty() && faults.whole) {
+        return Mechanism::unchecked(links, joints);
+    }
+    match faults.kept(Mechanism::new(links.clone(), joints.clone())) {
+        Some(mechanism) => mechanism,
+        None => {
+            faults.whole = false;
+            Mechanism::unchecked(links, joints)
+        }
+    }
+}

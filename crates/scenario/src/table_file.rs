@@ -1,0 +1,332 @@
+//! Tables of published numbers: CSV files with a header, read as text because the printed digits matter.
+
+use std::borrow::Cow;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use super::correction::{Correction, check_apart, digits, finding};
+use super::instant;
+use super::malformed::has_decimal_comma;
+use super::printed::{Printed, PrintedChannel};
+use super::reader::{Sign, Table};
+use super::series::{ExpectedCell, Known, OraclePoint, OracleSeries, When};
+use super::source::Source;
+use super::words::suggestion;
+use columns::{Records, Twice};
+use files;
+use formula::Rounded;
+use linkage::case::Case;
+use linkage::error::{Advice, Error, ErrorKind, Place, Result};
+use linkage::mechanism::is_unseen;
+
+/// Crank angles (rad), or times (s), that differ by less than this belong to the same row.
+const SAME: f64 = 1e-9;
+
+/// Memory of a row of a table while it is read (bytes): its place, where it holds.
+const OF_ROW: f64 = (size_of::<u32>() + size_of::<(When, f64)>()) as f64;
+/// Memory of a number (bytes): as a cell, as it was printed, and as it is kept.
+const OF_NUMBER: f64 =
+    (size_of::<columns::Cell>() + size_of::<Rounded>() + size_of::<Printed>() + size_of::<OraclePoint>()) as f64;
+/// Memory allowed where nothing is said (bytes), as for a proof.
+const MOST: f64 = 4e9;
+
+/// Name and series of the table that an oracle with the key `file` describes.
+pub fn read(oracle: &mut Table, known: &Known, case: &Case) -> Result<(String, Vec<OracleSeries>)> {
+    let file = oracle.string("file")?;
+    let path: PathBuf = oracle.source().path.parent().unwrap_or(Path::new("")).join(&file);
+    let text = files::read_named(&path).map_err(|error| {
+        oracle
+            .wrong(ErrorKind::Io, "file", format!("the table {} cannot be read: {error}", path.display()))
+            .help(files::way_out(&error, "the path is relative to the scenario's directory"))
+    })?;
+    let source = Source::new(&path, &text);
+    let rows = Rows::read(&source).map_err(|error| error.key(oracle.path_of("file")))?;
+
+    let from = instant::Rows::read(oracle)?;
+    let mut columns = oracle.table("columns")?;
+    let needed = rows.records.len() as f64 * (OF_ROW + OF_NUMBER * columns.keys().len() as f64);
+    let most = known.memory.unwrap_or(MOST);
+    if needed > most {
+        let [needs, allowed] = [needed, most].map(|bytes| format!("{:.1} GB", bytes / 1e9));
+        let message = format!(
+            "reading {} rows of what [[oracle]] says needs about {needs} of memory; {allowed} are allowed",
+            rows.records.len()
+        );
+        let error = oracle.wrong(ErrorKind::Unsupported, "file", message);
+        return Err(error.help("give fewer rows, or fewer columns").or_help(Advice::MoreMemory { to: needed }));
+    }
+    let instants: Vec<(When, f64)> = rows
+        .column(&from.column)
+        .and_then(|column| rows.instants(column, &from, case))
+        .map_err(|error| error.key(oracle.path_of(from.key)))?;
+
+    let digits = if oracle.has("digits") { Some(digits(oracle)?) } else { None };
+    let slack = slack(oracle)?;
+    let known = &known.of_table(digits, slack);
+    let mut all = Vec::new();
+    for mut column in columns.all_tables()? {
+        let series = column.read(|column| series(column, &rows, &instants, known, case)).map(Some);
+        all.extend(oracle.part(series));
+    }
+    if all.is_empty() {
+        let help = "map at least one column: `P2x_mm = { channel = \"point.2.x_mm\" }`";
+        return Err(columns.fault("there is no column").help(help));
+    }
+    let name = path.file_name().map_or(file, |name| name.to_string_lossy().into_owned());
+    Ok((name, all))
+}
+
+fn series(
+    table: &mut Table,
+    rows: &Rows,
+    instants: &[(When, f64)],
+    known: &Known,
+    case: &Case,
+) -> Result<OracleSeries> {
+    let name = table.name().to_string();
+    let column = rows.column(&name).map_err(|error| error.key(table.path()))?;
+    let (_, channel) = known.channel(table)?;
+    let offset = offset(table, &channel)?;
+    let printed = rows.printed(column, known.digits).map_err(|error| error.key(table.path()))?;
+    let whole = whole_column(table, &printed)?;
+    let cells = single_cells(table, instants, &printed, case)?;
+    if whole.is_some() && !cells.is_empty() {
+        let message = "a column that is wrong as a whole has no single cells that are";
+        return Err(table.wrong(ErrorKind::Input, "expect", message).help("keep either `expect` or `finding`"));
+    }
+    table.finish()?;
+    let point = |row: usize, number: &Printed, slack: f64| OraclePoint {
+        at: instants[row].0,
+        at_error: instants[row].1,
+        value: channel.to_si(number.value) - offset,
+        bound: channel.to_si(number.half_unit() + slack),
+        digits: number.digits,
+    };
+    // The printed value may be off by the slack; the correct value may not.
+    let corrected = |row: usize, finding: &str, right: &Printed| ExpectedCell {
+        point: point(row, &printed[row], known.slack),
+        right: point(row, right, 0.0),
+        finding: finding.into(),
+    };
+    let (mut points, mut expected) = (Vec::with_capacity(instants.len()), Vec::new());
+    let wrong = whole.map(|(finding, right)| {
+        let all = right.iter().enumerate().map(|(row, right)| corrected(row, &finding, right)).collect();
+        (finding, all)
+    });
+    let single = if wrong.is_none() { 0..instants.len() } else { 0..0 };
+    for row in single {
+        match cells.iter().find(|(of, _)| *of == row) {
+            None => points.push(point(row, &printed[row], known.slack)),
+            Some((_, Correction { finding, right })) => expected.push(corrected(row, finding, right)),
+        }
+    }
+    let PrintedChannel { channel, magnitude, .. } = channel;
+    Ok(OracleSeries { name, channel, magnitude, points, expected, wrong })
+}
+
+/// The cells under `expect`: their rows, and the correct values there.
+fn single_cells(
+    table: &mut Table,
+    instants: &[(When, f64)],
+    printed: &[Printed],
+    case: &Case,
+) -> Result<Vec<(usize, Correction)>> {
+    let mut cells = Vec::new();
+    for mut expect in table.tables("expect")? {
+        let at = instant::read(&mut expect, case)?;
+        let is_same = |(row, _): &(When, f64)| match (*row, at) {
+            (When::Crank(own), When::Crank(asked)) | (When::Time(own), When::Time(asked)) => {
+                (own - asked).abs() <= SAME
+            }
+            (When::Crank(_), When::Time(_)) | (When::Time(_), When::Crank(_)) => false,
+        };
+        let Some(row) = instants.iter().position(is_same) else {
+            let (key, what) = match at {
+                When::Crank(_) => ("crank", "crank angle"),
+                When::Time(_) => ("time", "time"),
+            };
+            let error = expect.wrong(ErrorKind::Input, key, format!("the table has no row with this {what}"));
+            return Err(error.help(format!("give a {what} that stands in the table")));
+        };
+        let Some(correction) = Correction::read(&mut expect, &printed[row])? else {
+            return Err(expect.fault("`finding` is missing").help("say which finding calls the cell wrong"));
+        };
+        expect.finish()?;
+        cells.push((row, correction));
+    }
+    Ok(cells)
+}
+
+/// The finding for a whole column and the correct value in every row: under the keys `finding` and `right`.
+fn whole_column(table: &mut Table, printed: &[Printed]) -> Result<Option<(String, Vec<Printed>)>> {
+    let Some(finding) = finding(table)? else { return Ok(None) };
+    let mut right = table.table("right")?;
+    let values = right.numbers("values")?;
+    let digits = digits(&mut right)?;
+    right.finish()?;
+    if values.len() != printed.len() {
+        let message = format!("found {} right values for the column's {} rows", values.len(), printed.len());
+        return Err(right
+            .wrong(ErrorKind::Input, "values", message)
+            .help("give one value for every row, in their order"));
+    }
+    let right: Vec<Printed> = values.into_iter().map(|value| Printed::with_digits(value, digits)).collect();
+    printed.iter().zip(&right).try_for_each(|(printed, right)| check_apart(table, printed, right))?;
+    Ok(Some((finding, right)))
+}
+
+/// Known error of the published numbers, in the printed unit; the file must explain it.
+fn slack(oracle: &mut Table) -> Result<f64> {
+    let Some(slack) = oracle.optional_number("slack")? else {
+        return match oracle.has("why") {
+            true => {
+                Err(oracle.lacks(&["slack"], "`why` explains `slack`, by which all numbers of the table may be off"))
+            }
+            false => Ok(0.0),
+        };
+    };
+    let why = oracle.string("why")?;
+    if slack > 0.0 && !why.trim().is_empty() {
+        return Ok(slack);
+    }
+    Err(oracle
+        .wrong(ErrorKind::Input, "slack", format!("found {slack}, explained by \"{why}\""))
+        .help("give a positive number and the reason why the published numbers are as far off"))
+}
+
+/// Printed values minus the channel, in SI; zero if it is not given.
+fn offset(table: &mut Table, channel: &PrintedChannel) -> Result<f64> {
+    match channel.family {
+        Some(family) => Ok(table.optional_quantity("offset", family, Sign::Any)?.unwrap_or(0.0)),
+        None => Ok(0.0),
+    }
+}
+
+/// A CSV file in memory.
+struct Rows<'a> {
+    source: &'a Source<'a>,
+    records: Records<'a>,
+}
+
+/// One cell with its place.
+struct Cell<'a> {
+    rows: &'a Rows<'a>,
+    row: usize,
+    column: usize,
+}
+
+impl<'a> Rows<'a> {
+    fn read(source: &'a Source<'a>) -> Result<Self> {
+        let wrong = |at: Range<usize>, message: String| Error::new(ErrorKind::Input, message).at(source.place(at));
+        let header = line_from(source.text, 0);
+        let whole = source.text.get(header.clone()).unwrap_or("");
+        if let (false, Some(other)) =
+            (whole.contains(','), [';', '\t'].into_iter().find(|other| whole.contains(*other)))
+        {
+            let message = format!("the header has one cell, because its columns are separated by {other:?}");
+            return Err(wrong(header, message).help("separate cells with commas, and write decimals with a point"));
+        }
+        let records = Records::of(source.text).map_err(|(at, count)| {
+            let expected = whole.split(',').count();
+            let commas = if count == 2 * expected { ": its decimals seem to have commas" } else { "" };
+            wrong(at, format!("the row has {count} cells, but the header has {expected}{commas}")).help(
+                "separate cells with commas and give every row as many cells as the header; decimals take a point",
+            )
+        })?;
+        if records.header.iter().any(|column| column.contains(is_unseen)) {
+            let error = wrong(0..0, "the header holds a letter that is not seen".into());
+            return Err(error.help("take out line breaks and control characters"));
+        }
+        if let Some(twice) = Twice::of(&records.header) {
+            return Err(wrong(header, twice.to_string()).help(Twice::HELP));
+        }
+        if records.is_empty() {
+            let error = wrong(0..0, "the table has no rows".into());
+            return Err(error.help("give a header and at least one row"));
+        }
+        Ok(Rows { source, records })
+    }
+
+    fn column(&self, name: &str) -> Result<usize> {
+        let header = &self.records.header;
+        header.iter().position(|column| column == name).ok_or_else(|| {
+            Error::new(ErrorKind::Input, format!("the table has no column \"{name}\""))
+                .at(self.source.place(line_from(self.source.text, 0)))
+                .help(suggestion(name, header.iter().map(String::as_str), "\""))
+        })
+    }
+
+    fn cells(&self, column: usize) -> impl Iterator<Item = Cell<'_>> {
+        (0..self.records.len()).map(move |row| Cell { rows: self, row, column })
+    }
+
+    /// The numbers of a column; with so many `digits` at least, or with those that the column shows.
+    fn printed(&self, column: usize, digits: Option<i32>) -> Result<Vec<Printed>> {
+        let cells: Vec<columns::Cell> = self.cells(column).map(|cell| cell.number()).collect::<Result<_>>()?;
+        Ok(match digits {
+            Some(all) => {
+                cells.iter().map(|cell| Printed::with_digits(cell.value(), all.max(cell.decimals()))).collect()
+            }
+            None => columns::numbers_beside(&cells, || self.others(column)).iter().map(Printed::of_column).collect(),
+        })
+    }
+
+    /// The other columns that hold numbers, whether the oracle reads them or not.
+    fn others(&self, column: usize) -> impl Iterator<Item = Vec<columns::Cell>> {
+        let others = (0..self.records.header.len()).filter(move |other| *other != column);
+        others.filter_map(|other| self.cells(other).map(|cell| columns::Cell::parse(&cell.text())).collect())
+    }
+
+    /// Where the rows hold, and by how much that may be off because it was rounded.
+    fn instants(&self, column: usize, from: &instant::Rows, case: &Case) -> Result<Vec<(When, f64)>> {
+        let cells: Vec<columns::Cell> = self.cells(column).map(|cell| cell.number()).collect::<Result<_>>()?;
+        let numbers = columns::numbers(&cells);
+        let is_chosen = columns::chosen(&numbers, from.are_degrees());
+        let end = instant::end(case);
+        let of = |(cell, printed): (Cell, Rounded)| {
+            let printed = if is_chosen { Rounded::exact(printed.value) } else { printed };
+            let wrong = |message| Error::new(ErrorKind::Input, message).at(cell.place()).help(instant::TIME_HELP);
+            from.instant(case, end, printed).map_err(wrong)
+        };
+        self.cells(column).zip(numbers).map(of).collect()
+    }
+}
+
+impl Cell<'_> {
+    fn text(&self) -> Cow<'_, str> {
+        self.rows.records.cell(self.row, self.column)
+    }
+
+    fn number(&self) -> Result<columns::Cell> {
+        let text = self.text();
+        Printed::cell(&text).ok_or_else(|| {
+            let comma = if has_decimal_comma(&text) { ", and decimals take a point" } else { "" };
+            Error::new(ErrorKind::Input, format!("found \"{text}\", but a decimal number is needed{comma}"))
+                .at(self.place())
+                .help("write it as printed, with a decimal point; a cell known to be wrong is named under `expect`, with its finding")
+        })
+    }
+
+    fn place(&self) -> Place {
+        let Rows { source, records } = self.rows;
+        source.place(within(source.text, records.line(self.row), records.header.len(), self.column))
+    }
+}
+
+/// The first line that is not blank, from byte `start` on.
+fn line_from(text: &str, start: usize) -> Range<usize> {
+    let rest = text.get(start..).unwrap_or("");
+    let start = start + (rest.len() - rest.trim_start_matches(['\r', '\n']).len());
+    let length = text.get(start..).map_or(0, |rest| rest.find(['\r', '\n']).unwrap_or(rest.len()));
+    start..start + length
+}
+
+/// The span of a cell in its line; the whole line if quotes hide where the cells end.
+fn within(text: &str, line: Range<usize>, cells: usize, column: usize) -> Range<usize> {
+    let parts: Vec<&str> = text.get(line.clone()).unwrap_or("").split(',').collect();
+    if parts.len() != cells {
+        return line;
+    }
+    let start = line.start + parts[..column].iter().map(|part| part.len() + 1).sum::<usize>();
+    start..start + parts[column].len()
+}

@@ -1,0 +1,175 @@
+//! Mechanisms to begin with: scenarios with comments, whose dimensions are parameters.
+
+use toml_edit::{DocumentMut, Item, Value};
+
+use super::header::is_name;
+use super::words::nearest;
+use linkage::error::{Error, ErrorKind, Result};
+
+/// A mechanism to begin with.
+#[derive(Debug)]
+pub struct Template {
+    /// What it is asked for by.
+    pub name: &'static str,
+    text: &'static str,
+}
+
+macro_rules! templates {
+    ($($name:literal),* $(,)?) => {
+        &[$(Template { name: $name, text: include_str!(concat!("templates/", $name, ".toml")) }),*]
+    };
+}
+
+/// All of them, in the order of lists. A further one is a file in `templates/` and its name here.
+pub static TEMPLATES: &[Template] = templates![
+    "four-bar",
+    "slider-crank",
+    "inverted-slider",
+    "quick-return",
+    "watt",
+    "stephenson",
+    "jansen",
+    "klann",
+    "scissor",
+    "pendulum",
+    "class-iii",
+    "class-iv",
+];
+
+/// The template with a name, which may have `_` for `-`.
+///
+/// # Errors
+/// [`ErrorKind::Input`] if there is none.
+pub fn named(name: &str) -> Result<&'static Template> {
+    let wanted = name.to_ascii_lowercase().replace(['_', ' '], "-");
+    let names = || TEMPLATES.iter().map(|template| template.name);
+    TEMPLATES.iter().find(|template| template.name == wanted).ok_or_else(|| {
+        let near = nearest(&wanted, names()).map_or(String::new(), |near| format!("did you mean \"{near}\"? "));
+        Error::new(ErrorKind::Input, format!("there is no template \"{name}\""))
+            .help(format!("{near}There are: {}", names().collect::<Vec<_>>().join(", ")))
+    })
+}
+
+/// Sets a value and leaves the comment and the blanks around it.
+fn set(value: &mut Value, to: impl Into<Value>) {
+    let decor = value.decor().clone();
+    *value = to.into();
+    *value.decor_mut() = decor;
+}
+
+/// As people write it: without a point where it has no decimals.
+fn written(number: f64) -> Value {
+    // Below 2^53 every whole number is exact.
+    let whole = (number.fract() == 0.0 && number.abs() < 9e15).then(|| format!("{number:.0}").parse::<i64>());
+    match whole {
+        Some(Ok(whole)) => whole.into(),
+        Some(Err(_)) | None => number.into(),
+    }
+}
+
+/// Keys and numbers of the parameters, as they are written.
+fn parameters(document: &DocumentMut) -> Vec<(String, String)> {
+    let plain = |item: &Item| item.as_value().map(|value| value.clone().decorated("", "").to_string());
+    let table = document["parameters"].as_table();
+    table.into_iter().flatten().map(|(key, item)| (key.into(), plain(item).unwrap_or_default())).collect()
+}
+
+/// The same as a list.
+fn dimensions(document: &DocumentMut) -> String {
+    parameters(document).iter().map(|(key, number)| format!("{key} = {number}")).collect::<Vec<_>>().join(", ")
+}
+
+impl Template {
+    fn document(&self) -> DocumentMut {
+        self.text.parse().expect("tests read every template")
+    }
+
+    /// One line that says what it is.
+    #[must_use]
+    pub fn title(&self) -> String {
+        self.document()["title"].as_str().unwrap_or_default().into()
+    }
+
+    /// Its name as a scenario.
+    #[must_use]
+    pub fn scenario_name(&self) -> String {
+        self.name.replace('-', "_")
+    }
+
+    /// Its dimensions.
+    #[must_use]
+    pub fn dimensions(&self) -> String {
+        dimensions(&self.document())
+    }
+
+    /// The text of a scenario: the template under a `name`, if that can be one of a scenario, with other dimensions.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Input`] for a dimension that it does not have.
+    pub fn scenario(&self, name: &str, dimensions: &[(String, f64)]) -> Result<String> {
+        let mut document = self.document();
+        if is_name(name)
+            && let Some(own) = document["name"].as_value_mut()
+        {
+            set(own, name);
+        }
+        for (key, number) in dimensions {
+            match document["parameters"].get_mut(key).and_then(Item::as_value_mut) {
+                Some(value) => set(value, written(*number)),
+                None => return Err(self.lacks(key)),
+            }
+        }
+        Ok(document.to_string())
+    }
+
+    fn lacks(&self, key: &str) -> Error {
+        let document = self.document();
+        let all = parameters(&document);
+        let keys = || all.iter().map(|(key, _)| key.as_str());
+        // The same with its unit is nearer than any letter.
+        let with_unit = keys().find(|own| own.strip_prefix(key).is_some_and(|unit| unit.starts_with('_')));
+        let near = with_unit.or_else(|| nearest(key, keys()));
+        let near = near.map_or(String::new(), |near| format!("did you mean `{near}`? "));
+        Error::new(ErrorKind::Input, format!("the template \"{}\" has no dimension `{key}`", self.name))
+            .help(format!("{near}Its dimensions are: {}", dimensions(&document)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_dimension_and_the_name_change_and_nothing_else() {
+        let template = named("four_bar").unwrap();
+        assert_eq!(template.scenario("four_bar", &[]).unwrap(), template.text);
+        let changed = template.scenario("mine", &[("crank_mm".into(), 30.0), ("density".into(), 0.25)]).unwrap();
+        let lines = template.text.lines().zip(changed.lines()).filter(|(old, new)| old != new);
+        let new: Vec<&str> = lines.map(|(_, new)| new.split(" #").next().unwrap()).collect();
+        assert_eq!(new, ["name = \"mine\"", "crank_mm = 30", "density = 0.25"]);
+        assert_eq!(changed.matches(" # ").count(), template.text.matches(" # ").count());
+        // What cannot be a name is left.
+        assert!(template.scenario("Mine!", &[]).unwrap().contains("name = \"four_bar\""));
+    }
+
+    #[test]
+    fn what_is_not_there_is_answered_with_what_is() {
+        let error = named("fourbar").unwrap_err().to_string();
+        assert!(error.contains("did you mean \"four-bar\"?") && error.contains("class-iv"), "{error}");
+        let error = named("four-bar").unwrap().scenario("a", &[("crank".into(), 1.0)]).unwrap_err().to_string();
+        assert!(error.contains("`crank_mm`?") && error.contains("density = 1.5"), "{error}");
+    }
+
+    #[test]
+    fn the_list_has_every_file() {
+        let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("src/templates");
+        let mut files: Vec<String> = std::fs::read_dir(folder)
+            .unwrap()
+            .map(|entry| entry.unwrap().path().file_stem().unwrap().to_string_lossy().into_owned())
+            .collect();
+        let mut names: Vec<&str> = TEMPLATES.iter().map(|template| template.name).collect();
+        files.sort();
+        names.sort_unstable();
+        assert_eq!(names, files);
+    }
+}
