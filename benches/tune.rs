@@ -2,7 +2,7 @@
 //! Both are timed in turns.
 //! The search covers engines, routes, extrapolation, substeps, sweeps and steps.
 //! `cargo bench --bench tune [-- SCENARIO...]`.
-//! With `-- prices` it measures what the price model of `src/tune/price.rs` needs.
+//! With `-- prices` it measures what the price model of `crates/lab/src/tune/price.rs` needs.
 //! With `-- whole` it searches the whole space of the price model for three required accuracies.
 //! That fails where `tune` misses its promise.
 

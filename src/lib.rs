@@ -50,10 +50,15 @@
 //! SI units and world axes (x right, y up, angles counter-clockwise from +x) everywhere; other units exist
 //! only in scenario files and carry their suffix there.
 
+#[cfg(feature = "command")]
 #[doc(hidden)]
 pub mod cli;
 #[doc(hidden)]
+pub mod plain;
+#[cfg(feature = "command")]
+#[doc(hidden)]
 pub mod report;
+#[cfg(feature = "command")]
 mod shipped;
 pub mod testing;
 

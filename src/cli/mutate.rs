@@ -8,7 +8,8 @@ use super::engine_args::EngineArgs;
 use super::load::plain;
 use super::progress::Bar;
 use super::{advice, exit_code, output, standard_input};
-use crate::report::{errors, mutate as report};
+use crate::plain::errors;
+use crate::report::mutate as report;
 use lab::mutate::{Asked, End, Mutated, Party, all, mutate, named, tally};
 use linkage::error::{Error, ErrorKind, Result};
 

@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use super::advice;
-use crate::report::errors;
+use crate::plain::errors;
 use files::{self, Target};
 use linkage::error::{Error, ErrorKind, Result};
 

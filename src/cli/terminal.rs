@@ -6,7 +6,7 @@ use anstream::AutoStream;
 use terminal_size::{Width, terminal_size_of};
 
 use super::output;
-use crate::report::style::COLUMNS;
+use crate::plain::style::COLUMNS;
 use linkage::error::Result;
 
 /// Columns below which a table is not worth reading; a narrower terminal breaks the lines itself.

@@ -5,11 +5,11 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 
-use super::cells::{table, trimmed};
-use super::diagnosis::{number, told_apart};
 use super::json::Failure;
 use super::pretty::pretty;
-use super::tell::Tell;
+use crate::plain::cells::{table, trimmed};
+use crate::plain::diagnosis::{number, told_apart};
+use crate::plain::tell::Tell;
 use linkage::error::Error;
 use linkage::trajectory::Channel;
 use prover::accept::{Comparison, Figure, Moved, Wider};

@@ -4,8 +4,8 @@ use std::fmt::Write;
 
 use serde_json::json;
 
-use super::cells::{table, trimmed};
 use super::pretty::pretty;
+use crate::plain::cells::{table, trimmed};
 use design::bearings::{Peak, Peaks, journal_diameter};
 use prover::numbers;
 use scenario::Scenario;

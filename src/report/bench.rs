@@ -4,8 +4,8 @@ use std::fmt::Write;
 
 use serde_json::{Value, json};
 
-use super::cells::table;
 use super::pretty::pretty;
+use crate::plain::cells::table;
 use lab::bench::{Axis, Bench, Errors, Outcome, Party, Point, front};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::trajectory::Stage;

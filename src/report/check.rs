@@ -6,10 +6,10 @@ use std::fmt::Write;
 
 use serde_json::{Value, json};
 
-use super::cells::{flush, trimmed};
 use super::pretty::pretty;
-use super::style::{self, wrapped};
-use super::tell::Tell;
+use crate::plain::cells::{flush, trimmed};
+use crate::plain::style::{self, wrapped};
+use crate::plain::tell::Tell;
 use prover::claims::{At, CUT, Cause, Judged, Missing, Outcome, Term, WORDS};
 use prover::compare::Verdict;
 use prover::numbers::{beside, error, fixed, fixed_in, with_unit};

@@ -4,8 +4,8 @@ use std::fmt::Write;
 
 use serde_json::{Value, json};
 
-use super::cells::{table, trimmed};
 use super::pretty::pretty;
+use crate::plain::cells::{table, trimmed};
 use design::clearance::{Clearance, Course, Meeting, PairClearance};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::Vec2;

@@ -1,7 +1,7 @@
 //! The table that closes a command over several files, and the count of their verdicts.
 
-use super::brief::{ranked, resolution};
-use super::cells::{flush, trimmed};
+use crate::plain::brief::{ranked, resolution};
+use crate::plain::cells::{flush, trimmed};
 use prover::compare::{Check, Verdict};
 use prover::numbers::percent;
 use prover::proof::Proof;

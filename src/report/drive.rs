@@ -4,8 +4,8 @@ use std::fmt::Write;
 
 use serde_json::{Value, json};
 
-use super::cells::{table, trimmed};
 use super::pretty::pretty;
+use crate::plain::cells::{table, trimmed};
 use analytic::reduced::means::Means;
 use analytic::steady::course::{Extremes, Row};
 use analytic::steady::regime::At;

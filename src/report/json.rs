@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use super::diagnosis;
-use super::tell::Tell;
+use super::diagnosis_json;
+use crate::plain::tell::Tell;
 use linkage::error::{Advice, Error};
 use linkage::solver::Provision;
 use linkage::work::Work;
@@ -37,7 +37,7 @@ struct Run {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     disputes: Vec<DisputeRow>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    diagnosis: Option<diagnosis::Row>,
+    diagnosis: Option<diagnosis_json::Row>,
     /// Whether the search for it ended at its limit of work.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     diagnosis_cut: bool,
@@ -262,7 +262,7 @@ fn run(proof: &Proof, recording: Option<String>, tell: Tell) -> Run {
             .diagnosis
             .as_ref()
             .filter(|_| matches!(proof.verdict, Verdict::Disagree { .. }))
-            .map(diagnosis::row),
+            .map(diagnosis_json::row),
         diagnosis_cut: proof.diagnosis_is_cut,
         recording,
         left_out: Left {

@@ -3,7 +3,7 @@
 use std::fmt::{Display, Write};
 use std::path::{Path, PathBuf};
 
-use super::tell::Tell;
+use crate::plain::tell::Tell;
 use linkage::case::Case;
 use linkage::error::Result;
 use linkage::trajectory::{CHANNELS, Channel, Subject};

@@ -4,8 +4,8 @@ use std::fmt::Write;
 
 use serde_json::{Value, json};
 
-use super::cells::{table, trimmed};
 use super::pretty::pretty;
+use crate::plain::cells::{table, trimmed};
 use lab::mutate::{End, Kind, Mutant, Mutated, Outcome, Party, Share, Sight, Spoiled, Tally, all, tally};
 use linkage::math::KeepNan;
 

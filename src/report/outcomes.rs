@@ -2,8 +2,9 @@
 
 use std::path::Path;
 
-use super::tell::Tell;
-use super::{own_forces, versus};
+use super::versus;
+use crate::plain::own_forces;
+use crate::plain::tell::Tell;
 use linkage::error::{Advice, Error};
 use prover::compare::Verdict;
 use prover::proof::Proof;

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use serde_json::json;
 
 use super::pretty::pretty;
-use super::tell::Tell;
+use crate::plain::tell::Tell;
 use design::diagram::draw::significant;
 use design::diagram::{Plan, Plans, SingularPoint};
 use linkage::case::Case;

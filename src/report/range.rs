@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use serde_json::{Value, json};
 
-use super::cells::{table, trimmed};
+use crate::plain::cells::{table, trimmed};
 use analytic::range::{At, Extent, Extreme, LinkRange, Measure, Range, Singularity};
 use prover::numbers;
 use scenario::Scenario;

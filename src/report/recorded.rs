@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use super::json;
-use super::own_forces;
-use super::tell::Tell;
+use crate::plain::own_forces;
+use crate::plain::tell::Tell;
 use linkage::math::KeepNan;
 use prover::compare::Verdict;
 use prover::proof::{ChannelProof, EngineProof, Proof};

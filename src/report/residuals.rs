@@ -1,7 +1,7 @@
 //! Every residual of a proof beside its bound, for readers who examine the bounds.
 
-use super::cells::{table, trimmed};
-use super::own_forces;
+use crate::plain::cells::{table, trimmed};
+use crate::plain::own_forces;
 use prover::numbers;
 use prover::proof::Proof;
 

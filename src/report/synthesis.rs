@@ -4,8 +4,8 @@ use std::fmt::Write;
 
 use serde_json::json;
 
-use super::cells::table;
 use super::pretty::pretty;
+use crate::plain::cells::table;
 use design::diagram::timing::{Stretch, TimingDiagram};
 use design::synthesis::achieved::BAND;
 use design::synthesis::{Achieved, Found};

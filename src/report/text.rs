@@ -4,13 +4,13 @@ use std::fmt::Write;
 
 use comfy_table::Table;
 
-use super::brief;
-use super::cells::{fitted, share, trimmed, used};
-use super::engines;
-use super::own_forces;
-use super::reasons::{self, count};
-use super::style::wrapped;
-use super::tell::Tell;
+use crate::plain::brief;
+use crate::plain::cells::{fitted, share, trimmed, used};
+use crate::plain::engines;
+use crate::plain::own_forces;
+use crate::plain::reasons::{self, count};
+use crate::plain::style::wrapped;
+use crate::plain::tell::Tell;
 use prover::compare::{Check, Verdict};
 use prover::numbers;
 use prover::proof::{ChannelProof, End, EngineInfo, EngineProof, OwnForces, Proof, Search};

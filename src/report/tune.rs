@@ -5,8 +5,8 @@ use std::path::Path;
 
 use serde_json::json;
 
-use super::cells::{table, trimmed};
 use super::pretty::pretty;
+use crate::plain::cells::{table, trimmed};
 use lab::tune::{Candidate, Tuning};
 use linkage::engine::Settings;
 use prover::numbers;

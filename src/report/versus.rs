@@ -5,11 +5,12 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 
-use super::cells::{flush, trimmed};
-use super::diagnosis;
+use super::diagnosis_json;
 use super::pretty::pretty;
-use super::style;
-use super::tell::Tell;
+use crate::plain::cells::{flush, trimmed};
+use crate::plain::diagnosis;
+use crate::plain::style;
+use crate::plain::tell::Tell;
 use linkage::math::KeepNan;
 use prover::claims::Cause;
 use prover::compare::Verdict;
@@ -273,7 +274,7 @@ pub fn json(paths: [&Path; 2], comparison: &Comparison, tell: Tell) -> String {
     };
     let cause = |own: &Explained| {
         json!({
-            "channels": own.of, "cause": cause_of(own), "left_over_share": own.left, "but_for_t_s": own.but, "diagnosis": diagnosis::row(&own.diagnosis),
+            "channels": own.of, "cause": cause_of(own), "left_over_share": own.left, "but_for_t_s": own.but, "diagnosis": diagnosis_json::row(&own.diagnosis),
         })
     };
     let pair = |pair: &Pair| {

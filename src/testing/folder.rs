@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use libtest_mimic::{Arguments, Failed, Trial, run};
 
 use super::{Proving, failure};
-use crate::report::errors;
+use crate::plain::errors;
 use linkage::error::Advice;
 use prover::proof::Options;
 use scenario::files_in;

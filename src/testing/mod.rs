@@ -12,7 +12,7 @@ pub use folder::{Folder, main};
 
 use std::path::PathBuf;
 
-use crate::report::{brief, errors, style};
+use crate::plain::{brief, errors, style};
 use linkage::case::Grid;
 use linkage::error::{Advice, Error, ErrorKind, Result};
 use prover::compare::Verdict;

@@ -12,7 +12,7 @@ use std::path::Path;
 use linkage::case::Case;
 use linkage::solver::Solver;
 use linkage::trajectory::{Stage, Trajectory};
-use linkproof::report::diagnosis::cause;
+use linkproof::plain::diagnosis::cause;
 use prover::compare::{differences, scales};
 use prover::diagnosis::{Diagnosis, Judged, Question, diagnose};
 use scenario::Scenario;

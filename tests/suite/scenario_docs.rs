@@ -43,7 +43,7 @@ fn the_gallery_has_every_mechanism() {
     let page = include_str!("../../docs/gallery.md");
     let top = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut count = 0;
-    for folder in ["src/scenario/templates", "scenarios", "scenarios/formulas"] {
+    for folder in ["crates/scenario/src/templates", "scenarios", "scenarios/formulas"] {
         for path in files_in(&top.join(folder)).unwrap() {
             let file = format!("(../{folder}/{})", path.file_name().unwrap().to_string_lossy());
             let title = Scenario::load(&path).unwrap_or_else(|error| panic!("{error}")).title;

@@ -12,7 +12,7 @@ use linkage::math::KeepNan;
 use linkage::mechanism::{Link, Mechanism};
 use linkage::solver::Solver;
 use linkage::trajectory::Trajectory;
-use linkproof::report::diagnosis::{cause, nature};
+use linkproof::plain::diagnosis::{cause, nature};
 use linkproof::report::versus::why;
 use prover::tables::{Held, load};
 use prover::versus::{Comparison, Explained, How, Party, compare};

@@ -4,7 +4,7 @@ use serde_json::{Map, Value, json};
 
 use super::markup::{doubles, singles};
 use super::thinned::{Errors, Thinned, is_wide};
-use crate::report::tell::Tell;
+use crate::plain::tell::Tell;
 use drawing::{Lettering, Shape, Sketch};
 use linkage::math::Vec2;
 use linkage::mechanism::Side;

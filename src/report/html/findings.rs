@@ -3,8 +3,8 @@
 use std::fmt::Write;
 
 use super::markup::escaped;
-use crate::report::tell::Tell;
-use crate::report::{engines, own_forces, reasons};
+use crate::plain::tell::Tell;
+use crate::plain::{engines, own_forces, reasons};
 use linkage::trajectory::Channel;
 use prover::compare::Verdict;
 use prover::proof::Proof;

@@ -14,7 +14,7 @@ mod words;
 
 use std::collections::BTreeMap;
 
-use super::tell::Tell;
+use crate::plain::tell::Tell;
 use design::diagram::Graphs;
 use drawing::{Sketch, Travels};
 pub(super) use markup::escaped;

@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use super::markup::escaped;
-use crate::report::{brief, own_forces, style, text};
+use crate::plain::{brief, own_forces, style};
+use crate::report::text;
 use linkage::mechanism::Mechanism;
 use prover::compare::Verdict;
 use prover::numbers::{error_in, fixed, significant};

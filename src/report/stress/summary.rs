@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use linkage::math::KeepNan;
 
-use super::super::cells::table;
+use crate::plain::cells::table;
 use lab::stress::{Family, Group, Outcome};
 
 /// Counts over all points.

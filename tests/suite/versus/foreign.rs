@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::scenario;
-use linkproof::report::diagnosis::cause;
+use linkproof::plain::diagnosis::cause;
 use prover::tables::{Held, load};
 use prover::versus::{Comparison, How, Party, compare};
 use scenario::mapping::{Mapped, Mapping};

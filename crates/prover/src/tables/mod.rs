@@ -2,6 +2,7 @@
 
 mod csv_file;
 mod held;
+#[cfg(feature = "parquet")]
 mod parquet_file;
 mod source;
 
@@ -13,9 +14,11 @@ use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
-use self::parquet_file::MAGIC;
 use self::source::unread;
 use linkage::error::{Error, ErrorKind, Result};
+
+/// What a Parquet file begins and ends with.
+const MAGIC: [u8; 4] = *b"PAR1";
 
 /// Reads a file: Parquet by its first bytes, else text with separated columns.
 ///
@@ -38,7 +41,14 @@ pub fn load_within(path: &Path, may: May) -> Result<Raw> {
     let mut first = Vec::new();
     file.by_ref().take(MAGIC.len() as u64).read_to_end(&mut first).map_err(|error| unread(path, &error))?;
     let raw = match (first == MAGIC, size) {
+        #[cfg(feature = "parquet")]
         (true, Some(size)) => parquet_file::read(path, size, may)?,
+        #[cfg(not(feature = "parquet"))]
+        (true, Some(_)) => {
+            let message = format!("the table {} is a Parquet file, which this build does not read", path.display());
+            return Err(Error::new(ErrorKind::Unsupported, message)
+                .help("build with the feature `parquet`, or write it as CSV"));
+        }
         (true, None) => {
             let message = format!("the table {} is a Parquet file that comes through a pipe", path.display());
             return Err(Error::new(ErrorKind::Input, message).help("write it to a file first: its end is read first"));

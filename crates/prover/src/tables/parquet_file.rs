@@ -15,7 +15,6 @@ use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::schema::types::ColumnDescriptor;
 
 use super::source::May;
-pub(super) use announced::MAGIC;
 use columns::{MISSING, Table, Twice, UNDEFINED};
 use formula::Rounded;
 use linkage::error::{Error, ErrorKind, Result};

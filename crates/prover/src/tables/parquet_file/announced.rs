@@ -9,9 +9,8 @@ use parquet::basic::Compression;
 use parquet::file::metadata::ColumnChunkMetaData;
 
 use super::thrift::{Found, Walk, wrong};
+use crate::tables::MAGIC;
 
-/// What a Parquet file begins and ends with.
-pub(in super::super) const MAGIC: &[u8; 4] = b"PAR1";
 /// What stands behind the description of a file: its length, and the sign of the format.
 const TAIL: u64 = 8;
 /// Most columns and groups of columns within each other: the reader goes down by recursion.
@@ -41,7 +40,7 @@ pub(super) fn check_description(file: &File) -> io::Result<()> {
     from.read_exact(&mut tail)?;
     let [length, magic] = [&tail[..4], &tail[4..]].map(|part| <[u8; 4]>::try_from(part).expect("four bytes"));
     let length = u64::from(u32::from_le_bytes(length));
-    if &magic != MAGIC || length + TAIL > whole {
+    if magic != MAGIC || length + TAIL > whole {
         return Err(wrong("its end is not that of a Parquet file"));
     }
     from.seek(SeekFrom::Start(whole - TAIL - length))?;

@@ -7,12 +7,12 @@ use prover::numbers;
 use prover::proof::{ChannelProof, EngineProof, ForceFault, OwnForces};
 
 /// Name of a channel as the engine itself exerts it.
-pub(super) fn name(channel: &ChannelProof) -> String {
+pub fn name(channel: &ChannelProof) -> String {
     format!("{} as the engine exerts it", channel.residual.channel)
 }
 
 /// Name of all of them.
-pub(super) fn of_all(engine: &EngineProof, several: bool) -> String {
+pub fn of_all(engine: &EngineProof, several: bool) -> String {
     if several {
         format!("forces as {} itself exerts them", engine.info.name)
     } else {
@@ -21,7 +21,7 @@ pub(super) fn of_all(engine: &EngineProof, several: bool) -> String {
 }
 
 /// Where the forces among an engine's channels come from.
-pub(super) fn source(engine: &EngineProof) -> &str {
+pub fn source(engine: &EngineProof) -> &str {
     let own = engine.info.provides.iter().find(|(stage, _)| *stage == Stage::Reactions.name());
     match own {
         Some((_, Provision::Derived(how))) => how,
@@ -30,7 +30,7 @@ pub(super) fn source(engine: &EngineProof) -> &str {
 }
 
 /// Verdict, and the channel that uses most of its bound.
-pub(super) fn line(own: &OwnForces) -> String {
+pub fn line(own: &OwnForces) -> String {
     let Some(worst) = own.channels.iter().max_by(|a, b| used(a).total_cmp(&used(b))) else { return "none".into() };
     let (residual, unit) = (&worst.residual, worst.residual.channel.kind.unit);
     let [error, bound] = [residual.max, worst.bound].map(|value| numbers::error_in(value, unit.symbol()));
@@ -39,7 +39,7 @@ pub(super) fn line(own: &OwnForces) -> String {
 }
 
 /// What the two judgements say together.
-pub(super) fn sentence(fault: ForceFault) -> &'static str {
+pub fn sentence(fault: ForceFault) -> &'static str {
     match fault {
         ForceFault::Reading => {
             "The engine's motion and the forces that it exerts agree: wrong are the forces that Newton and Euler's \

@@ -10,7 +10,7 @@ use prover::compare::overall;
 use prover::proof::{EngineProof, Proof};
 
 /// One row per engine, one column per stage: the channel that uses the largest share of its bound.
-pub(super) fn table(engines: &[EngineProof], width: Option<usize>) -> Table {
+pub fn table(engines: &[EngineProof], width: Option<usize>) -> Table {
     let stages = Stage::ALL.map(Stage::name);
     let header = ["engine", stages[0], stages[1], stages[2], stages[3], stages[4], "verdict"];
     let mut table = cells::fitted(header, &[1, 2, 3, 4, 5], width);
@@ -40,7 +40,7 @@ fn worst(engine: &EngineProof, stage: Stage) -> String {
 }
 
 /// Which sides disagree with each other, and the one that disagrees with all others.
-pub(super) fn disputes(proof: &Proof) -> String {
+pub fn disputes(proof: &Proof) -> String {
     let mut text = String::new();
     for engine in &proof.engines {
         if let Some(error) = &engine.failure {

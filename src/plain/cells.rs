@@ -7,7 +7,7 @@ use prover::numbers;
 use prover::proof::ChannelProof;
 
 /// An empty table without lines; the columns in `numbers` are aligned right.
-pub(super) fn table<const N: usize>(header: [&str; N], numbers: &[usize]) -> Table {
+pub fn table<const N: usize>(header: [&str; N], numbers: &[usize]) -> Table {
     let mut table = Table::new();
     table.load_style(presets::NOTHING).set_header(header);
     for &index in numbers {
@@ -23,7 +23,7 @@ const NARROWEST: u16 = 16;
 
 /// The same, in at most `width` columns if there is a width: there the texts of the first column are broken, and numbers
 /// stay whole. Where these leave no room for the texts, the table is wider.
-pub(super) fn fitted<const N: usize>(header: [&str; N], numbers: &[usize], width: Option<usize>) -> Table {
+pub fn fitted<const N: usize>(header: [&str; N], numbers: &[usize], width: Option<usize>) -> Table {
     let mut table = table(header, numbers);
     if let Some(width) = width {
         table.set_content_arrangement(ContentArrangement::Dynamic).set_width(width as u16);
@@ -38,7 +38,7 @@ pub(super) fn fitted<const N: usize>(header: [&str; N], numbers: &[usize], width
 }
 
 /// The same without a margin on the left.
-pub(super) fn flush<const N: usize>(header: [&str; N], numbers: &[usize], width: Option<usize>) -> Table {
+pub fn flush<const N: usize>(header: [&str; N], numbers: &[usize], width: Option<usize>) -> Table {
     let mut table = fitted(header, numbers, width);
     let last = N - 1;
     table.column_iter_mut().enumerate().for_each(|(index, column)| {
@@ -49,7 +49,7 @@ pub(super) fn flush<const N: usize>(header: [&str; N], numbers: &[usize], width:
 
 /// A table as text, without blanks at the ends of its lines. One that is too wide has columns one blank apart, not two,
 /// so that fewer texts are broken.
-pub(super) fn trimmed(table: &Table) -> String {
+pub fn trimmed(table: &Table) -> String {
     let mut table = table.clone();
     let needed: u16 = table.column_iter().map(|column| column.padding_width()).sum::<u16>()
         + table.column_max_content_widths().iter().sum::<u16>();
@@ -62,7 +62,7 @@ pub(super) fn trimmed(table: &Table) -> String {
 }
 
 /// Share of its bound that a channel uses. A verdict other than agreement counts more than any share.
-pub(super) fn used(channel: &ChannelProof) -> f64 {
+pub fn used(channel: &ChannelProof) -> f64 {
     let share = if channel.residual.max == 0.0 { 0.0 } else { channel.residual.max / channel.bound };
     match channel.verdict {
         Verdict::Agree { .. } | Verdict::Expected { .. } => share,
@@ -72,6 +72,6 @@ pub(super) fn used(channel: &ChannelProof) -> f64 {
 }
 
 /// A value over its scale; 0 of a scale of 0 is 0.
-pub(super) fn share(value: f64, scale: f64) -> String {
+pub fn share(value: f64, scale: f64) -> String {
     if value == 0.0 { "0".into() } else { numbers::significant(value / scale, 2) }
 }

@@ -45,7 +45,7 @@ pub fn verdict_line(proof: &Proof) -> String {
 }
 
 /// The step or accuracy of the engine, or how many engines there are.
-pub(super) fn resolution(proof: &Proof) -> String {
+pub fn resolution(proof: &Proof) -> String {
     match proof.engines.as_slice() {
         [only] => of_engine(&only.info),
         several => format!("{} engines", several.len()),
@@ -93,7 +93,7 @@ pub fn proof(proof: &Proof, tell: Tell, width: usize) -> String {
 }
 
 /// All channels of all engines, the one that uses most of its bound first.
-pub(super) fn ranked(proof: &Proof) -> Vec<(&EngineProof, &ChannelProof)> {
+pub fn ranked(proof: &Proof) -> Vec<(&EngineProof, &ChannelProof)> {
     let mut all = Vec::new();
     for engine in &proof.engines {
         all.extend(engine.channels.iter().map(|channel| (engine, channel)));
@@ -103,7 +103,7 @@ pub(super) fn ranked(proof: &Proof) -> Vec<(&EngineProof, &ChannelProof)> {
 }
 
 /// The worst channels at their worst instants: both values, their difference and the bound.
-pub(super) fn worst(proof: &Proof, width: Option<usize>, text: &mut String) {
+pub fn worst(proof: &Proof, width: Option<usize>, text: &mut String) {
     let all = ranked(proof);
     if all.is_empty() {
         return;

@@ -12,7 +12,7 @@ use prover::compare::Verdict;
 use prover::proof::{ChannelProof, Proof};
 
 /// All verdicts of a proof by name: channels, forces that engines exert themselves, and checks.
-pub(super) fn verdicts(proof: &Proof) -> impl Iterator<Item = (String, &Verdict)> {
+pub fn verdicts(proof: &Proof) -> impl Iterator<Item = (String, &Verdict)> {
     let several = proof.engines.len() > 1;
     let channels = proof.engines.iter().flat_map(move |engine| {
         let name = move |channel: &ChannelProof| match several {
@@ -36,12 +36,12 @@ pub(super) fn verdicts(proof: &Proof) -> impl Iterator<Item = (String, &Verdict)
 }
 
 /// Number of verdicts of a sort.
-pub(super) fn count(proof: &Proof, is: fn(&Verdict) -> bool) -> usize {
+pub fn count(proof: &Proof, is: fn(&Verdict) -> bool) -> usize {
     verdicts(proof).filter(|(_, verdict)| is(verdict)).count()
 }
 
 /// Why something disagrees or is open, with the way out: `most` reasons in full, what disagrees first.
-pub(super) fn reasons(proof: &Proof, tell: Tell, width: Option<usize>, most: usize, text: &mut String) {
+pub fn reasons(proof: &Proof, tell: Tell, width: Option<usize>, most: usize, text: &mut String) {
     let of_report = |verdict: &Verdict| matches!(verdict, Verdict::Disagree { .. } | Verdict::Inconclusive { .. });
     let mut open: Vec<(String, &Verdict)> = verdicts(proof).filter(|(_, verdict)| of_report(verdict)).collect();
     open.sort_by_key(|(_, verdict)| matches!(verdict, Verdict::Inconclusive { .. }));
@@ -55,7 +55,7 @@ pub(super) fn reasons(proof: &Proof, tell: Tell, width: Option<usize>, most: usi
 }
 
 /// The diagnosis of a disagreement.
-pub(super) fn diagnosed(proof: &Proof, width: Option<usize>, text: &mut String) {
+pub fn diagnosed(proof: &Proof, width: Option<usize>, text: &mut String) {
     if let (Some(found), Verdict::Disagree { .. }) = (&proof.diagnosis, &proof.verdict) {
         let _ = writeln!(text, "\n{}", wrapped(&diagnosis::text(found), width, diagnosis::INDENT));
     }
@@ -65,7 +65,7 @@ pub(super) fn diagnosed(proof: &Proof, width: Option<usize>, text: &mut String) 
 }
 
 /// The published numbers that are wrong as expected, by finding.
-pub(super) fn expected(proof: &Proof, tell: Tell, text: &mut String) {
+pub fn expected(proof: &Proof, tell: Tell, text: &mut String) {
     let mut findings: Vec<(&str, usize)> = Vec::new();
     for check in proof.all_checks() {
         if let Verdict::Expected { finding, .. } = &check.verdict {
@@ -86,7 +86,7 @@ pub(super) fn expected(proof: &Proof, tell: Tell, text: &mut String) {
 }
 
 /// How many instants are not judged, and of what.
-pub(super) fn left_out(proof: &Proof, width: Option<usize>, text: &mut String) {
+pub fn left_out(proof: &Proof, width: Option<usize>, text: &mut String) {
     for engine in &proof.engines {
         let Some(most) = engine.channels.iter().map(|channel| channel.left_out).max().filter(|&most| most > 0) else {
             continue;

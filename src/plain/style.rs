@@ -12,11 +12,14 @@ pub const COLUMNS: usize = 80;
 /// The same text without colours.
 #[must_use]
 pub fn plain(text: &str) -> String {
-    anstream::adapter::strip_str(text).to_string()
+    let mut parts = text.split("\u{1b}[");
+    let first = parts.next().unwrap_or_default();
+    let rest = parts.map(|part| part.split_once('m').map_or("", |(_, rest)| rest));
+    std::iter::once(first).chain(rest).collect()
 }
 
 /// The word of a verdict in capitals, in its colour.
-pub(super) fn verdict(verdict: &Verdict) -> String {
+pub fn verdict(verdict: &Verdict) -> String {
     let colour = match verdict {
         Verdict::Agree { .. } | Verdict::Expected { .. } => AnsiColor::Green,
         Verdict::Disagree { .. } => AnsiColor::Red,
@@ -27,7 +30,7 @@ pub(super) fn verdict(verdict: &Verdict) -> String {
 }
 
 /// `AGREE`, `DISAGREE` or `INCONCLUSIVE`: the verdict on a whole.
-pub(super) fn capitals(verdict: &Verdict) -> &'static str {
+pub fn capitals(verdict: &Verdict) -> &'static str {
     match verdict {
         Verdict::Agree { .. } | Verdict::Expected { .. } => "AGREE",
         Verdict::Disagree { .. } => "DISAGREE",
@@ -37,7 +40,7 @@ pub(super) fn capitals(verdict: &Verdict) -> &'static str {
 
 /// Text in lines of at most `width` columns, if there is a width. Lines after the first of each line given are indented.
 /// A word is never broken: names and commands stay whole.
-pub(super) fn wrapped(text: &str, width: Option<usize>, indent: usize) -> String {
+pub fn wrapped(text: &str, width: Option<usize>, indent: usize) -> String {
     let Some(width) = width else { return text.into() };
     let indent = " ".repeat(indent);
     let options =

@@ -26,7 +26,7 @@ fn of_same_length(text: &str) -> Cow<'_, str> {
 }
 
 /// An error, and those that were found with it, as text without a newline at its end; advice is worded by `tell`.
-pub(crate) fn text(error: &Error, tell: Tell) -> String {
+pub fn text(error: &Error, tell: Tell) -> String {
     let each = error.each().map(|error| one(error, tell));
     each.chain(error.rest().map(|rest| format!("error: {rest}"))).collect::<Vec<_>>().join("\n\n")
 }
