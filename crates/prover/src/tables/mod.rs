@@ -14,11 +14,8 @@ use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
-use self::source::unread;
+use self::source::{MAGIC, unread};
 use linkage::error::{Error, ErrorKind, Result};
-
-/// What a Parquet file begins and ends with.
-const MAGIC: [u8; 4] = *b"PAR1";
 
 /// Reads a file: Parquet by its first bytes, else text with separated columns.
 ///

@@ -5,6 +5,9 @@ use std::path::Path;
 
 use linkage::error::{Error, ErrorKind, Result};
 
+/// What a Parquet file begins and ends with.
+pub(super) const MAGIC: [u8; 4] = *b"PAR1";
+
 /// Whether so many bytes may be taken for a table of so many rows; 0 before they are counted.
 pub type May<'a> = &'a dyn Fn(f64, usize) -> Result<()>;
 

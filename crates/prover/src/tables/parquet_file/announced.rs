@@ -9,7 +9,7 @@ use parquet::basic::Compression;
 use parquet::file::metadata::ColumnChunkMetaData;
 
 use super::thrift::{Found, Walk, wrong};
-use crate::tables::MAGIC;
+use crate::tables::source::MAGIC;
 
 /// What stands behind the description of a file: its length, and the sign of the format.
 const TAIL: u64 = 8;
