@@ -39,7 +39,7 @@ const CRATES: &[(&str, &str, &str, &str)] = &[
         "csv flate2 parquet",
     ),
     ("rapier_twin", "crates/rapier-twin", "linkage", "parry2d parry2d-f64 rapier2d rapier2d-f64"),
-    ("recording", "crates/recording", "drawing files linkage", "foxglove mcap prost prost-types"),
+    ("recording", "crates/recording", "drawing files linkage", "mcap prost prost-types"),
     ("scenario", "crates/scenario", "columns files formula linkage", "csv parry2d-f64 strsim toml toml_edit"),
     ("linkproof_simbody", "crates/simbody", "", ""),
     ("simbody_twin", "crates/simbody-twin", "linkage simbody", ""),
@@ -133,7 +133,7 @@ const NEVER: &[(&str, &str)] = &[
 /// hash.
 const HOMES: &[(&str, &str)] = &[
     ("mcap", "recording"),
-    ("foxglove", "recording"),
+    ("foxglove", ""),
     ("prost", "recording"),
     ("prost_types", "recording"),
     ("toml", "scenario"),

@@ -1,6 +1,6 @@
 //! Where a moving scene is, over all of its frames.
 
-use foxglove::messages::{FrameTransforms, Point3, Pose, SceneEntity, SceneUpdate};
+use crate::viewers::{FrameTransforms, Point3, Pose, SceneEntity, SceneUpdate};
 use linkage::math::{KeepNan, Vec2, rotated, unit};
 
 /// Corners of all that a scene draws, over all of its frames (m).

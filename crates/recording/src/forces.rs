@@ -3,7 +3,7 @@
 use super::placed::{Placed, column};
 use super::scene::Scene;
 use super::shapes::{colour, pose, short, stamp};
-use foxglove::messages::{ArrowPrimitive, SceneEntity, SceneUpdate};
+use crate::viewers::{ArrowPrimitive, SceneEntity, SceneUpdate};
 use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::Joint;
 
@@ -55,7 +55,7 @@ impl<'a> Forces<'a> {
                 });
             }
         }
-        SceneUpdate { deletions: Vec::new(), entities }
+        SceneUpdate { entities }
     }
 
     fn arrow(&self, side: &Placed, at: Vec2, force: Vec2) -> ArrowPrimitive {

@@ -47,6 +47,7 @@ mod table;
 mod thin;
 mod urdf;
 mod view;
+pub mod viewers;
 mod write;
 
 pub use beside::Place;

@@ -1,9 +1,10 @@
 //! The marks of a sketch as the primitives of a scene.
 
 use super::shapes::{colour, extent, point, pose};
+use crate::viewers::{
+    Color, CylinderPrimitive, LinePrimitive, LineType, SceneEntity, TextPrimitive, TriangleListPrimitive,
+};
 use drawing::{Fill, Mark, Role, Shape};
-use foxglove::messages::line_primitive::Type as LineType;
-use foxglove::messages::{Color, CylinderPrimitive, LinePrimitive, SceneEntity, TextPrimitive, TriangleListPrimitive};
 use linkage::math::Vec2;
 
 /// Opacity of areas: what lies beneath shows through.

@@ -7,7 +7,7 @@ use super::shapes::stamp;
 use super::sink::{Kind, Sink};
 use super::table::Table;
 use super::urdf;
-use foxglove::messages::{FrameTransforms, Log, SceneUpdate, log::Level as LogLevel};
+use crate::viewers::{FrameTransforms, Log, LogLevel, SceneUpdate};
 use linkage::math::KeepNan;
 use linkage::math::statistics::ascending;
 use mcap::McapResult;
@@ -48,7 +48,7 @@ pub fn pour(recording: &Recording, drawn: &Drawn, sink: &mut impl Sink) -> McapR
     let mut events: Vec<(u64, Event)> = Vec::new();
     if let Some(scene) = scene {
         let links = scene.links();
-        let topic = sink.topic("/mechanism/links", &Kind::foxglove::<SceneUpdate>())?;
+        let topic = sink.topic("/mechanism/links", &Kind::viewers::<SceneUpdate>())?;
         sink.put(topic, 0, 0, &links.encode_to_vec())?;
         let topic = sink.topic("/robot_description", &Kind::text())?;
         sink.put(topic, 0, 0, &urdf::message(&urdf::text(recording.name, &links)))?;
@@ -63,10 +63,10 @@ pub fn pour(recording: &Recording, drawn: &Drawn, sink: &mut impl Sink) -> McapR
     events.extend(recording.log.iter().map(|entry| (nanoseconds(entry.time), Event::Log(entry))));
     events.sort_by_key(|&(time, _)| time);
 
-    let frames = scene.as_ref().map(|_| sink.topic("/tf", &Kind::foxglove::<FrameTransforms>())).transpose()?;
+    let frames = scene.as_ref().map(|_| sink.topic("/tf", &Kind::viewers::<FrameTransforms>())).transpose()?;
     let arrows =
-        forces.as_ref().map(|_| sink.topic("/mechanism/forces", &Kind::foxglove::<SceneUpdate>())).transpose()?;
-    let log = sink.topic("/log", &Kind::foxglove::<Log>())?;
+        forces.as_ref().map(|_| sink.topic("/mechanism/forces", &Kind::viewers::<SceneUpdate>())).transpose()?;
+    let log = sink.topic("/log", &Kind::viewers::<Log>())?;
     let mut buffer = Vec::new();
     for (time, event) in events {
         match event {

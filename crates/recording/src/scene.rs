@@ -4,8 +4,8 @@ use super::marks::{Brush, letter};
 use super::placed::{Placed, column};
 use super::recording::Side;
 use super::shapes::{GREY, Paint, stamp, turn, vector};
+use crate::viewers::{FrameTransform, FrameTransforms, SceneEntity, SceneUpdate};
 use drawing::{Lettering, Sketch, Travels};
-use foxglove::messages::{FrameTransform, FrameTransforms, SceneEntity, SceneUpdate};
 use linkage::math::statistics::ascending;
 use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::{GROUND, Link, Mechanism};
@@ -112,7 +112,7 @@ impl<'a> Scene<'a> {
                 entities.push(self.entity(&name, &name, &brush, index, number == 0));
             }
         }
-        SceneUpdate { deletions: Vec::new(), entities }
+        SceneUpdate { entities }
     }
 
     /// The marks of a link in its frame, and the names of its points if it is `lettered`.

@@ -1,6 +1,7 @@
 //! Small constructors of the viewers' messages, and the colours of the sides.
 
-use foxglove::messages::{Color, Point3, Pose, Quaternion, Timestamp, Vector3};
+use crate::viewers::{Color, Point3, Pose, Quaternion, Vector3};
+use prost_types::Timestamp;
 
 use linkage::math::Vec2;
 
@@ -38,7 +39,7 @@ pub const GREY: [u8; 4] = [128, 128, 128, 255];
 /// Log time as a time stamp of the viewers.
 pub fn stamp(nanoseconds: u64) -> Option<Timestamp> {
     let seconds = u32::try_from(nanoseconds / 1_000_000_000).unwrap_or(u32::MAX);
-    Some(Timestamp::new(seconds, (nanoseconds % 1_000_000_000) as u32))
+    Some(Timestamp { seconds: seconds.into(), nanos: (nanoseconds % 1_000_000_000) as i32 })
 }
 
 /// Rounds to single precision, which is enough for pictures. Numbers with an empty tail compress to half.

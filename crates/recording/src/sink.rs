@@ -1,7 +1,7 @@
 //! Where messages go: a file, or whoever looks on.
 
 use super::schema;
-use foxglove::{Encode, Schema};
+use crate::viewers::Known;
 use mcap::McapResult;
 
 /// Takes topics and their messages.
@@ -33,9 +33,13 @@ impl Kind {
     }
 
     /// One of the viewers' messages.
-    pub fn foxglove<M: Encode>() -> Kind {
-        let Schema { name, encoding, data } = M::get_schema().expect("the viewers' messages have schemas");
-        Kind { schema: name, encoding, data: data.into_owned(), message: M::get_message_encoding() }
+    pub fn viewers<M: Known>() -> Kind {
+        Kind {
+            schema: M::SCHEMA.into(),
+            encoding: "protobuf".into(),
+            data: M::DESCRIPTOR.into(),
+            message: "protobuf".into(),
+        }
     }
 
     /// A text, as robots' programs write it.

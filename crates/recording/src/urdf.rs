@@ -1,8 +1,7 @@
 //! The links as a robot's description (URDF), for viewers that draw no scenes: boxes and cylinders that `/tf` moves.
 
 use super::shapes::GREY;
-use foxglove::messages::line_primitive::Type as LineType;
-use foxglove::messages::{Color, LinePrimitive, Point3, Pose, SceneEntity, SceneUpdate};
+use crate::viewers::{Color, LinePrimitive, LineType, Point3, Pose, SceneEntity, SceneUpdate};
 use linkage::math::Vec2;
 use std::fmt::Write;
 
