@@ -2,7 +2,6 @@
 //! a circle, that the two analytic sides share only their common base, and a few rules for every file.
 
 mod graph;
-mod matches;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;

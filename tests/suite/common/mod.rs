@@ -23,6 +23,17 @@ use linkage::math::Vec2;
 use linkage::solver::{Solver, State};
 use scenario::Scenario;
 
+/// How many random mechanisms, faults or inputs a test draws: as many as it names, times `LINKPROOF_DRAWS`. Kinds do not
+/// depend on that: a test has each of them in its ordinary draws.
+pub fn draws(ordinary: usize) -> usize {
+    ordinary * std::env::var("LINKPROOF_DRAWS").map_or(1, |times| times.parse().expect("LINKPROOF_DRAWS: a number"))
+}
+
+/// Whether more is drawn than in an ordinary run.
+pub fn by_night() -> bool {
+    draws(1) > 1
+}
+
 /// A scenario of the repository.
 pub fn shipped(name: &str) -> Scenario {
     let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios").join(name);
