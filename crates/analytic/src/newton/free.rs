@@ -13,7 +13,7 @@ use linkage::drive::Wrench;
 use linkage::error::Result;
 use linkage::math::dense::Lu;
 use linkage::math::{KeepNan, Vec2};
-use linkage::mechanism::{self, EQUATIONS};
+use linkage::mechanism;
 use linkage::solver::State;
 use linkage::trajectory::Stage;
 
@@ -60,7 +60,7 @@ impl<'a> Embedded<'a> {
 
     fn find_columns(&mut self) {
         let n = self.system.q.len();
-        let first = EQUATIONS * self.system.case.mechanism.joints().len();
+        let first = self.system.case.mechanism.equations();
         for (index, column) in self.columns.chunks_mut(n).enumerate() {
             column.fill(0.0);
             column[first + index] = 1.0;

@@ -8,7 +8,6 @@ use linkage::case::{Case, Grid};
 use linkage::drive::{Drive, Wrench};
 use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::math::{KeepNan, Motion};
-use linkage::mechanism::EQUATIONS;
 use linkage::solver::State;
 use linkage::trajectory::Stage;
 use linkage::work::{self, Count};
@@ -139,9 +138,9 @@ impl System<'_> {
         self.jacobian.clear();
         let case = self.case;
         for (index, joint) in case.mechanism.joints().iter().enumerate() {
-            self.assemble_joint(2 * index, joint);
+            self.assemble_joint(index, joint);
         }
-        let first = EQUATIONS * case.mechanism.joints().len();
+        let first = case.mechanism.equations();
         for (row, drive) in self.drives() {
             let theta = 3 * (drive.link - 1) + 2;
             self.residual[row] = self.q[theta] - self.inputs[row - first].angle;
@@ -154,14 +153,14 @@ impl System<'_> {
         self.tally.one(Count::Velocities);
         self.tally.one(Count::Accelerations);
         self.rate.fill(0.0);
-        let first = EQUATIONS * self.case.mechanism.joints().len();
+        let case = self.case;
+        let first = case.mechanism.equations();
         for (index, input) in self.inputs.iter().enumerate() {
             (self.rate[first + index], self.second[first + index]) = (input.omega, input.alpha);
         }
         self.jacobian.solve(&mut self.rate);
-        for (index, joint) in self.case.mechanism.joints().iter().enumerate() {
-            let gamma = self.gamma(joint);
-            self.second[2 * index..2 * index + 2].copy_from_slice(&gamma);
+        for (index, joint) in case.mechanism.joints().iter().enumerate() {
+            self.put_gamma(index, joint);
         }
         self.jacobian.solve(&mut self.second);
     }
@@ -243,8 +242,7 @@ impl System<'_> {
             (state.motions[link], state.angles[link]) = self.motion(link);
         }
         for (index, joint) in self.case.mechanism.joints().iter().enumerate() {
-            let multipliers = [self.lambda[2 * index], self.lambda[2 * index + 1]];
-            (state.forces[index], state.moments[index]) = self.reaction(joint, multipliers);
+            (state.forces[index], state.moments[index]) = self.reaction(index, joint);
         }
         for ((row, _), torque) in self.drives().zip(&mut state.torques) {
             *torque = self.lambda[row];

@@ -6,7 +6,7 @@ use super::blocks::Blocks;
 use linkage::case::Case;
 use linkage::drive::{Drive, DriveState, Wrench};
 use linkage::math::{Motion, Vec2, rotated, turned, unit};
-use linkage::mechanism::{EQUATIONS, Joint, Side};
+use linkage::mechanism::{Joint, Side};
 use linkage::trajectory::Stage;
 use linkage::work::Tally;
 
@@ -22,7 +22,8 @@ pub(super) struct System<'a> {
     pub(super) q: Vec<f64>,
     pub(super) rate: Vec<f64>,
     pub(super) second: Vec<f64>,
-    /// Multipliers: two per joint, then those of the drives.
+    /// Multipliers: those of the joints, as [`Mechanism::rows`](linkage::mechanism::Mechanism::rows) says, then those of
+    /// the drives.
     pub(super) lambda: Vec<f64>,
     /// For every joint: see [`twist`].
     pub(super) twists: Vec<f64>,
@@ -105,7 +106,7 @@ impl<'a> System<'a> {
 
     /// The drives with their rows, which come after those of the joints.
     pub(super) fn drives(&self) -> impl Iterator<Item = (usize, &'a Drive)> + use<'a> {
-        let first = EQUATIONS * self.case.mechanism.joints().len();
+        let first = self.case.mechanism.equations();
         self.case.drives.iter().enumerate().map(move |(index, drive)| (first + index, drive))
     }
 

@@ -7,7 +7,7 @@ use super::parts::CaseParts;
 use crate::drive::{Course, Drive, DriveMotion, Load, MotionLaw, Motor, MotorLaw};
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::{KeepNan, unit};
-use crate::mechanism::{AssemblyMode, GROUND, GroupKind, JointKind, LinkPose, Mechanism, Side, Structure};
+use crate::mechanism::{AssemblyMode, GROUND, GroupKind, LinkPose, Mechanism, Side, Structure};
 
 /// Largest opening of a joint in a start pose, as a share of the farthest place in it.
 /// First poses of all shipped scenarios leave less than 1e-15 (`tests/suite/start.rs`).
@@ -58,11 +58,9 @@ fn drives(parts: &CaseParts) -> Result<()> {
         if drive.link == GROUND || joint.on(drive.link).is_none() {
             return fault(ErrorKind::Input, format!("{names}: the joint does not carry a moving link of that name"));
         }
-        match joint.kind {
-            JointKind::Revolute => {}
-            JointKind::Prismatic { .. } => {
-                return fault(ErrorKind::Unsupported, format!("{names}: the joint is prismatic, but a drive turns"));
-            }
+        if !joint.is_pin() {
+            let message = format!("{names}: the joint is {}, but a drive turns", joint.kind.name());
+            return fault(ErrorKind::Unsupported, message);
         }
         if moves_nothing(&parts.mechanism, drive) {
             let message = format!("{names} moves nothing: all joints of the link lie on one point");
@@ -108,12 +106,10 @@ const POINT: f64 = 1e-12;
 fn moves_nothing(mechanism: &Mechanism, drive: &Drive) -> bool {
     let own = mechanism.joints()[drive.joint].on(drive.link);
     let others = || mechanism.joints().iter().enumerate().filter(|&(index, _)| index != drive.joint);
-    let mut carried = others().filter_map(|(_, joint)| Some((joint.kind, joint.on(drive.link)?))).peekable();
+    let mut carried = others().filter_map(|(_, joint)| Some((joint.is_pin(), joint.on(drive.link)?))).peekable();
     carried.peek().is_some()
-        && carried.all(|(kind, place)| match kind {
-            JointKind::Revolute => own.is_some_and(|own| (place - own).norm() <= POINT * mechanism.size()),
-            JointKind::Prismatic { .. } => false,
-        })
+        && carried
+            .all(|(is_pin, place)| is_pin && own.is_some_and(|own| (place - own).norm() <= POINT * mechanism.size()))
 }
 
 fn motion_is_sound(motion: &DriveMotion) -> bool {

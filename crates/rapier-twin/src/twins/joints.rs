@@ -52,6 +52,12 @@ pub(super) fn between(joint: &Joint, links: [usize; 2]) -> GenericJoint {
     }
 }
 
+/// Which coordinate of a joint of [`between`] is free: the first along the axis of a prismatic one, the last, the
+/// angle, of a revolute one.
+pub(super) fn free_coordinate(joint: &Joint) -> usize {
+    if joint.slides() { 0 } else { 2 }
+}
+
 /// A revolute joint between `links` whose rows lie along and across the direction `axis` of the first of them.
 pub(super) fn steered(joint: &Joint, links: [usize; 2], axis: Vec2) -> GenericJoint {
     holding(JointAxesMask::LOCKED_REVOLUTE_AXES, joint, links).local_axis1(vector(axis)).build()

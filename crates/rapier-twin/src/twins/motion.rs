@@ -7,7 +7,7 @@ use crate::world::{LinkAngle, LinkFrame, World};
 use linkage::drive::Wrench;
 use linkage::math::Vec2;
 use linkage::math::angle::arc_tangent;
-use linkage::mechanism::{JointKind, LinkPose};
+use linkage::mechanism::LinkPose;
 
 impl Twin {
     fn multibody(&self, index: usize) -> &Multibody {
@@ -21,11 +21,7 @@ impl Twin {
             |place: &Place| self.multibody(place.multibody).link(place.id).expect("known link").joint().coords();
         for (branch, place) in self.tree.branches.iter().zip(&self.places) {
             let joint = &self.joints[branch.joint];
-            // The free coordinate is the first one of a prismatic joint, and the last one of a revolute joint.
-            let now = match joint.kind {
-                JointKind::Prismatic { .. } => coords(place)[0],
-                JointKind::Revolute => coords(place)[2],
-            };
+            let now = coords(place)[joints::free_coordinate(joint)];
             displacements[place.multibody][place.dof] = real(coordinate(joint, branch, poses)) - now;
         }
         for (&link, place) in self.outside.iter().zip(&self.floating) {

@@ -9,7 +9,6 @@ use crate::newton::system::System;
 use linkage::drive::Wrench;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::{KeepNan, Motion};
-use linkage::mechanism::EQUATIONS;
 
 /// Value at the change point of a multiplier times its distance that counts as zero: a multiple of the difference
 /// between all poses and those without the inner ones, and a share of the largest such product.
@@ -37,7 +36,7 @@ impl Window {
     ) -> Result<()> {
         let (q, rate, second) = (system.q.clone(), system.rate.clone(), system.second.clone());
         let x = angle - self.at;
-        let drive = EQUATIONS * system.case.mechanism.joints().len();
+        let drive = system.case.mechanism.equations();
         let mut all: Vec<Vec<f64>> = Vec::with_capacity(self.spots.len());
         for spot in &self.spots {
             system.q.copy_from_slice(&spot.q);
