@@ -272,7 +272,8 @@ pub fn difference(reference: &Trajectory, other: &Trajectory) -> Result<Trajecto
         channels.push(channel.clone());
         columns.push(differences(ours, theirs, channel.kind.periodic));
     }
-    Trajectory::new(reference.times().to_vec(), reference.cranks().to_vec(), channels, columns)
+    let all = Trajectory::new(reference.times().to_vec(), reference.cranks().to_vec(), channels, columns)?;
+    Ok(all.of_input(reference.input()))
 }
 
 /// Residuals of all channels that both trajectories have, on the reference's scales.

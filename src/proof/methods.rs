@@ -5,7 +5,7 @@ use crate::compare::{Check, Verdict};
 use analytic::witness::triad::class_change::ClassChange;
 use analytic::witness::triad::{Reactions, Triad, assur_point, cramer, linear_system};
 use linkage::case::Case;
-use linkage::drive::DriveState;
+use linkage::drive::{DriveState, Input};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::statistics::share;
 use linkage::math::{KeepNan, Vec2, cross};
@@ -58,7 +58,7 @@ impl Worst {
         let (value, crank) = shares.max_by(|a, b| a.0.abs().total_cmp(&b.0.abs())).unwrap_or_default();
         let tolerance = rounding(BOUND, "two methods without a common equation, each good to rounding");
         let check = Check::new(family, value, tolerance, "").of(detail);
-        let mut check = check.located(|| format!("at crank angle {:.3} deg", crank.to_degrees()));
+        let mut check = check.located(|| format!("at {:.3}", Input::Angle.at(crank)));
         if let Some(error) = self.failure {
             check.verdict = Verdict::Inconclusive { reason: error.message().into(), advice: error.advice().to_vec() };
         }
@@ -205,8 +205,7 @@ fn crank_of(case: &Case, row: usize, state: &State) -> DriveState {
     if !case.is_free() {
         return DriveState { angle: case.grid.cranks[row], ..drive.at(case.grid.times[row]) };
     }
-    let motion = &state.motions[drive.link];
-    DriveState { angle: state.angles[drive.link] - drive.zero, omega: motion.omega, alpha: motion.alpha }
+    drive.state_in(&state.motions[drive.link], state.angles[drive.link])
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@ use super::schema::small_unit;
 use super::table::topic_name;
 use super::write::as_shown;
 use linkage::math::{KeepNan, Vec2};
-use linkage::trajectory::{Channel, ChannelKind, Subject, Trajectory, Unit};
+use linkage::trajectory::{Channel, ChannelKind, Trajectory, Unit};
 
 /// Poses at which is looked where the mechanism is.
 const POSES: usize = 100;
@@ -126,10 +126,10 @@ fn telling(trajectory: &Trajectory) -> Vec<&Channel> {
     units.sort_by_key(|&unit| place(unit));
     units.dedup();
     // A drive's numbers are what people look for first; what shakes the frame is a sum.
-    let rank = |kind: &ChannelKind| match kind.subject {
-        Subject::Drive | Subject::Motor => 0,
-        Subject::Joint | Subject::Slider | Subject::Link | Subject::Point => 1,
-        Subject::Frame => 2,
+    let rank = |kind: &ChannelKind| match (kind.subject.is_drive(), kind.subject.is_whole()) {
+        (true, _) => 0,
+        (false, false) => 1,
+        (false, true) => 2,
     };
     let of = |unit: Unit| {
         let own = || trajectory.iter().filter(|(channel, column)| channel.kind.unit == unit && range(column) > 0.0);

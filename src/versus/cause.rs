@@ -205,7 +205,7 @@ impl Stage {
                 unwrap(column, right, *agrees);
             }
         }
-        let found = Trajectory::new(times, cranks, names, columns)?;
+        let found = Trajectory::new(times, cranks, names, columns)?.of_input(case.crank().input);
         Ok(Some(Stage { case, right, found, bounds }))
     }
 

@@ -31,7 +31,7 @@ fn is_refused(what: &str, case: &Case, crank: f64) {
             Err(error) => error,
         };
         assert!(matches!(error.kind(), ErrorKind::Geometry | ErrorKind::Numeric), "{what}: {error}");
-        let found = error.crank().unwrap_or_else(|| panic!("{what}: {error}")).to_degrees();
+        let found = error.input().unwrap_or_else(|| panic!("{what}: {error}")).value.to_degrees();
         assert_within!((found - crank).abs(), 1e-3, "{what}: {}: {error}", side.name());
     }
 }

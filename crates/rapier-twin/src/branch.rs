@@ -69,15 +69,14 @@ impl Branches {
             }
             if own.sense * determinant < -BEYOND * own.largest {
                 let names = case.structure.groups[own.index].names(&case.mechanism);
-                let crank = case.crank().at(t).angle;
+                let at = case.told(case.crank().at(t).angle);
                 let message = format!(
                     "the engine has slipped into another assembly mode of the group ({names}) before t = {t:.6} s, \
-                     crank angle {:.4} deg: it has passed a dead point on the way",
-                    crank.to_degrees()
+                     {at}: it has passed a dead point on the way"
                 );
                 return Err(Error::new(ErrorKind::Numeric, message)
                     .at_time(t)
-                    .at_crank(crank)
+                    .at_input(at)
                     .of_group(names)
                     .help(Advice::SmallerStep { to: None })
                     .or_help("keep the grid farther from the dead point"));
@@ -90,13 +89,12 @@ impl Branches {
 /// The error for an engine that has not gone on smoothly at a change point.
 fn turned_back(case: &Case, group: usize, t: f64) -> Error {
     let names = case.structure.groups[group].names(&case.mechanism);
-    let crank = case.crank().at(t).angle;
+    let at = case.told(case.crank().at(t).angle);
     let message = format!(
-        "the engine has not gone on smoothly at the change point of the group ({names}) before t = {t:.6} s, crank angle \
-         {:.4} deg: velocities have jumped to the other branch",
-        crank.to_degrees()
+        "the engine has not gone on smoothly at the change point of the group ({names}) before t = {t:.6} s, {at}: \
+         velocities have jumped to the other branch"
     );
-    let error = Error::new(ErrorKind::Numeric, message).at_time(t).at_crank(crank).of_group(names);
+    let error = Error::new(ErrorKind::Numeric, message).at_time(t).at_input(at).of_group(names);
     error.help(Advice::SmallerStep { to: None }).or_help("let the grid end before the change point")
 }
 

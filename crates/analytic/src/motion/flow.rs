@@ -402,7 +402,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
     /// The crank angle (rad, as the scenario states it).
     fn crank(&self, t: f64, y: &[f64; N]) -> f64 {
         let crank = self.case.crank();
-        if crank.is_free() { y[0] - crank.zero } else { crank.at(t).angle }
+        if crank.is_free() { crank.from_world(y[0]) } else { crank.at(t).angle }
     }
 
     /// The crank's speed in the motor's sense. Wherever there is a branch, the crank is the first free driving link.

@@ -10,10 +10,24 @@
 //! 3.3).
 
 use super::system::System;
+use linkage::drive::{Drive, Input};
 use linkage::math::{Vec2, turned};
 use linkage::mechanism::{Joint, JointKind, Side};
 
 impl System<'_> {
+    /// Residual and Jacobian of a drive's equation in `row`: the coordinate of its joint is the input `at`, counted as
+    /// [`Drive::world_angle`] does.
+    #[inline]
+    pub(super) fn assemble_drive(&mut self, row: usize, drive: &Drive, at: f64) {
+        match drive.input {
+            Input::Angle => {
+                let theta = 3 * (drive.link - 1) + 2;
+                self.residual[row] = self.q[theta] - at;
+                self.jacobian.add(row, theta, 1.0);
+            }
+        }
+    }
+
     /// Residuals and Jacobian of the equations of the joint with this number.
     #[inline]
     pub(super) fn assemble_joint(&mut self, index: usize, joint: &Joint) {

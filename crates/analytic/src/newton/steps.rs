@@ -64,7 +64,7 @@ impl System<'_> {
             let turns = turn / TAU;
             return Err(self.lost(&format!("up to {turns:.1e} turns on the way to {t} s are too many to be followed")));
         }
-        let parts = (turn / TRACKING_STEP).ceil().larger(1.0);
+        let parts = (turn / self.case.step(TRACKING_STEP)).ceil().larger(1.0);
         let from = self.time;
         for part in 1..parts as usize {
             self.step_to(from + (t - from) * (part as f64 / parts), HALVINGS)?;
@@ -142,9 +142,7 @@ impl System<'_> {
         }
         let first = case.mechanism.equations();
         for (row, drive) in self.drives() {
-            let theta = 3 * (drive.link - 1) + 2;
-            self.residual[row] = self.q[theta] - self.inputs[row - first].angle;
-            self.jacobian.add(row, theta, 1.0);
+            self.assemble_drive(row, drive, self.inputs[row - first].angle);
         }
     }
 
@@ -250,15 +248,13 @@ impl System<'_> {
     }
 
     pub(super) fn lost(&self, why: &str) -> Error {
-        let (crank, t) = (self.inputs[0].angle - self.case.crank().zero, self.time);
-        let degrees = crank.to_degrees();
+        let (at, t) = (self.case.told(self.case.crank().from_world(self.inputs[0].angle)), self.time);
         // In a free motion only the integrator knows the time.
         if self.case.is_free() {
-            let message = format!("crank angle {degrees:.4} deg: {why}");
-            return Error::new(ErrorKind::Numeric, message).at_crank(crank).help("let the grid end before");
+            return Error::new(ErrorKind::Numeric, format!("{at}: {why}")).at_input(at).help("let the grid end before");
         }
-        let message = format!("crank angle {degrees:.4} deg, t = {t:.6} s: {why}");
-        Error::new(ErrorKind::Numeric, message).at_time(t).at_crank(crank).help(Advice::ShortenGrid)
+        let message = format!("{at}, t = {t:.6} s: {why}");
+        Error::new(ErrorKind::Numeric, message).at_time(t).at_input(at).help(Advice::ShortenGrid)
     }
 }
 

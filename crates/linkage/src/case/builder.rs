@@ -285,10 +285,19 @@ impl CaseBuilder {
         for (name, motion) in &self.cranks {
             let known = mechanism.joints().iter().map(|joint| joint.name.as_str());
             let joint = mechanism.joint_named(name).ok_or_else(|| unknown("joint", name, "drive", known))?;
-            let Joint { first, second, .. } = mechanism.joints()[joint];
+            let Joint { kind, first, second, .. } = mechanism.joints()[joint];
             let carries = |link: usize| link == GROUND || all.iter().any(|before| before.link == link);
             let link = if carries(first.link) { second.link } else { first.link };
-            all.push(Drive { joint, link, zero: 0.0, start: self.start, motion: motion.clone(), through: false });
+            all.push(Drive {
+                // A joint that no drive moves is refused where the structure is analysed.
+                input: kind.input().unwrap_or_default(),
+                joint,
+                link,
+                zero: 0.0,
+                start: self.start,
+                motion: motion.clone(),
+                through: false,
+            });
         }
         if all.is_empty() {
             let help = "name the driven joint with `crank`, `driven` or `free`";

@@ -58,7 +58,7 @@ fn drives(parts: &CaseParts) -> Result<()> {
         if drive.link == GROUND || joint.on(drive.link).is_none() {
             return fault(ErrorKind::Input, format!("{names}: the joint does not carry a moving link of that name"));
         }
-        if !joint.is_pin() {
+        if joint.kind.input() != Some(drive.input) {
             let message = format!("{names}: the joint is {}, but a drive turns", joint.kind.name());
             return fault(ErrorKind::Unsupported, message);
         }
@@ -229,7 +229,7 @@ fn start(parts: &CaseParts) -> Result<()> {
     if let Some((link, pose)) = links.iter().zip(poses).find(|(_, pose)| !is_finite(pose)) {
         return Err(wrong("start", format!("link \"{}\" has no place in the start pose: {pose:?}", link.name)));
     }
-    let crank = parts.drives.crank().start.to_degrees();
+    let at = parts.drives.crank().told(parts.drives.crank().start);
     let reach = poses.iter().fold(mechanism.size(), |most, pose| most.larger(pose.origin.norm()));
     for joint in mechanism.joints() {
         let sides = [joint.first, joint.second];
@@ -237,10 +237,8 @@ fn start(parts: &CaseParts) -> Result<()> {
         let (gap, turn) = joint.opening(places, sides.map(|side| unit(poses[side.link].angle)));
         // Written this way round so that NaN is refused.
         if !(gap <= LARGEST_OPENING * reach && turn <= LARGEST_OPENING) {
-            let message = format!(
-                "joint \"{}\" is open in the start pose, crank angle {crank:.4} deg: by {gap:.3e} m and {turn:.3e} rad",
-                joint.name
-            );
+            let message =
+                format!("joint \"{}\" is open in the start pose, {at}: by {gap:.3e} m and {turn:.3e} rad", joint.name);
             return Err(Error::new(ErrorKind::Geometry, message).key("start").help(CLOSED));
         }
     }

@@ -11,7 +11,7 @@ use crate::math::statistics::ascending;
 pub struct Grid {
     /// Times (s), in any order.
     pub times: Vec<f64>,
-    /// Crank angles at those times (rad, as the scenario states them).
+    /// The input at those times (in its SI unit, as the scenario states it).
     pub cranks: Vec<f64>,
 }
 
@@ -65,7 +65,8 @@ impl Grid {
             let name = drive.law_name();
             if self.times.iter().any(|t| t.is_nan()) && self.cranks.iter().all(|crank| crank.is_finite()) {
                 return Err(format!(
-                    "the drive's law, \"{name}\", does not come to a crank angle of the grid at one time"
+                    "the drive's law, \"{name}\", does not come to a {} of the grid at one time",
+                    drive.input.noun()
                 ));
             }
             // A rounding error beyond the last instant is allowed.

@@ -1,6 +1,7 @@
 //! A driving link and its motion.
 
-use super::{DriveState, MotionLaw, Motor};
+use super::{DriveState, Input, InputValue, MotionLaw, Motor};
+use crate::math::Motion;
 
 /// What moves a driving link.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,17 +26,18 @@ pub enum DriveMotion {
     },
 }
 
-/// A driving link: it turns about its joint as `motion` says.
+/// A driving link: the coordinate of its joint, the input, goes as `motion` says.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drive {
+    /// What its input measures.
+    pub input: Input,
     /// Driven joint.
     pub joint: usize,
     /// The link that the drive turns.
     pub link: usize,
-    /// World direction from which the crank angle is measured: the angle of the link's x axis at crank angle zero
-    /// (rad).
+    /// Where the input is zero. Of an angle: the world angle of the link's x axis there (rad).
     pub zero: f64,
-    /// Crank angle at t = 0 (rad).
+    /// The input at t = 0 (in its SI unit).
     pub start: f64,
     /// What moves the link.
     pub motion: DriveMotion,
@@ -48,7 +50,8 @@ impl Drive {
     /// A drive that follows `law` and has no motor. The other arguments are the fields of the same names.
     #[must_use]
     pub fn prescribed(joint: usize, link: usize, zero: f64, start: f64, law: MotionLaw) -> Self {
-        Drive { joint, link, zero, start, motion: DriveMotion::Prescribed { law, motor: None }, through: false }
+        let motion = DriveMotion::Prescribed { law, motor: None };
+        Drive { input: Input::Angle, joint, link, zero, start, motion, through: false }
     }
 
     /// Applies `read` to the law that prescribes the motion, or to that of the nominal motion.
@@ -227,6 +230,29 @@ impl Drive {
     #[must_use]
     pub fn world_angle(&self, angle: f64) -> f64 {
         self.zero + angle
+    }
+
+    /// The input as the scenario states it, for the coordinate of [`Drive::world_angle`] (rad).
+    #[inline]
+    #[must_use]
+    pub fn from_world(&self, coordinate: f64) -> f64 {
+        coordinate - self.zero
+    }
+
+    /// The input at `value`, as messages say it.
+    #[must_use]
+    pub fn told(&self, value: f64) -> InputValue {
+        self.input.at(value)
+    }
+
+    /// Input, rate and second rate in a state: `motion` is that of the driving link, `angle` the angle of its frame
+    /// (rad, turns kept).
+    #[inline]
+    #[must_use]
+    pub fn state_in(&self, motion: &Motion, angle: f64) -> DriveState {
+        match self.input {
+            Input::Angle => DriveState { angle: self.from_world(angle), omega: motion.omega, alpha: motion.alpha },
+        }
     }
 }
 

@@ -19,6 +19,7 @@ pub use structure::{Group, GroupKind, Structure};
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
+use crate::drive::Input;
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::{KeepNan, Vec2, cross, rotated};
 
@@ -135,6 +136,15 @@ impl JointKind {
         match self {
             JointKind::Revolute => false,
             JointKind::Prismatic { .. } => true,
+        }
+    }
+
+    /// What its coordinate measures where a drive gives it; `None` for a kind that no drive moves.
+    #[must_use]
+    pub fn input(self) -> Option<Input> {
+        match self {
+            JointKind::Revolute => Some(Input::Angle),
+            JointKind::Prismatic { .. } => None,
         }
     }
 

@@ -76,6 +76,6 @@ impl Twin {
             // Rapier leaves a motor that is off the impulse of the last step in which it was on.
             return 0.0;
         }
-        -wide(joint.data.motors[2].impulse) / self.substep() * motor.sense
+        -wide(joint.data.motors[motor.axis as usize].impulse) / self.substep() * motor.sense
     }
 }

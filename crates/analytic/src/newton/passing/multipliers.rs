@@ -66,12 +66,9 @@ impl Window {
         (system.q, system.rate, system.second) = (q, rate, second);
         let found = self.beside(x, &all);
         let Some(found) = found else {
-            let crank = angle - system.case.crank().zero;
-            let message = format!(
-                "crank angle {:.4} deg: this is a change point, and towards it reactions grow without bound",
-                crank.to_degrees()
-            );
-            return Err(Error::new(ErrorKind::Numeric, message).at_crank(crank).help(WITHOUT_POLE));
+            let at = system.case.told(system.case.crank().from_world(angle));
+            let message = format!("{at}: this is a change point, and towards it reactions grow without bound");
+            return Err(Error::new(ErrorKind::Numeric, message).at_input(at).help(WITHOUT_POLE));
         };
         system.lambda = found;
         Ok(())

@@ -111,7 +111,15 @@ fn drives_together_are_what_is_solved() {
     let structure = Structure::of(&mechanism, &[0, 1]).unwrap();
     let free = |joint: usize, motor: Option<Motor>| {
         let motion = DriveMotion::Free { initial_speed: 0.0, nominal_speed: 1.0, motor };
-        Drive { joint, link: joint + 1, zero: 0.0, start: 0.0, motion, through: false }
+        Drive {
+            input: crate::drive::Input::Angle,
+            joint,
+            link: joint + 1,
+            zero: 0.0,
+            start: 0.0,
+            motion,
+            through: false,
+        }
     };
     let of = |crank: Drive, second: Drive| {
         let mut pose = vec![LinkPose::GROUND; 3];

@@ -72,11 +72,11 @@ impl Structure {
         Ok(structure)
     }
 
-    /// Whether a revolute joint hinges a driving link to the ground or to an earlier driving link.
+    /// Whether a joint that a drive can move holds a driving link to the ground or to an earlier driving link.
     fn carries(&self, mechanism: &Mechanism, joint: usize, link: usize) -> bool {
         let joint = &mechanism.joints()[joint];
         let base = joint.other(link).link;
-        joint.is_pin() && (base == GROUND || self.drivers.iter().any(|&(driving, _)| driving == base))
+        joint.kind.input().is_some() && (base == GROUND || self.drivers.iter().any(|&(driving, _)| driving == base))
     }
 
     /// Checks that each driving link comes after the link that carries it.
