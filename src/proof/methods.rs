@@ -5,7 +5,7 @@ use crate::compare::{Check, Verdict};
 use analytic::witness::triad::class_change::ClassChange;
 use analytic::witness::triad::{Reactions, Triad, assur_point, cramer, linear_system};
 use linkage::case::Case;
-use linkage::drive::{DriveState, Input};
+use linkage::drive::{Input, InputState};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::statistics::share;
 use linkage::math::{KeepNan, Vec2, cross};
@@ -96,10 +96,10 @@ impl Watch {
     fn see(&mut self, case: &Case, row: usize, state: &State) {
         let deepest = case.wanted.deepest();
         let drive = crank_of(case, row, state);
-        let crank = drive.angle;
+        let crank = drive.value;
         let links = self.triad.links();
-        self.grow(Quantity::Omega, drive.omega);
-        self.grow(Quantity::Alpha, drive.omega * drive.omega);
+        self.grow(Quantity::Omega, drive.rate);
+        self.grow(Quantity::Alpha, drive.rate * drive.rate);
         for link in links {
             self.grow(Quantity::Omega, state.motions[link].omega);
             self.grow(Quantity::Alpha, state.motions[link].alpha);
@@ -127,10 +127,10 @@ impl Watch {
                 let own = state.motions[link].direction;
                 worst.put(Quantity::Angle, cross(own, direction).atan2(own.dot(&direction)).abs(), crank);
             }
-            rates(worst, found.rates(drive.omega, drive.alpha));
+            rates(worst, found.rates(drive.rate, drive.acceleration));
         }
         // In the instant of starting, loads already act against a motion that the state does not show yet.
-        let setting_off = case.is_free() && drive.omega == 0.0;
+        let setting_off = case.is_free() && drive.rate == 0.0;
         if deepest >= Stage::Reactions && !setting_off {
             let known = self.triad.known(case, state);
             let places = self.triad.places(&state.motions);
@@ -200,10 +200,10 @@ pub(super) fn checks(case: &Case, reference: &dyn Solver) -> Result<Vec<Check>> 
 }
 
 /// The crank at an instant: by its law, or from the state if forces decide the motion.
-fn crank_of(case: &Case, row: usize, state: &State) -> DriveState {
+fn crank_of(case: &Case, row: usize, state: &State) -> InputState {
     let drive = case.crank();
     if !case.is_free() {
-        return DriveState { angle: case.grid.cranks[row], ..drive.at(case.grid.times[row]) };
+        return InputState { value: case.grid.cranks[row], ..drive.at(case.grid.times[row]) };
     }
     drive.state_in(&state.motions[drive.link], state.angles[drive.link])
 }

@@ -28,7 +28,7 @@ fn never_disagree(sorts: &[[bool; 3]], most: usize) {
     let [proven, open, refused] = [const { Cell::new(0) }; 3];
     for_each_of(sorts, most, 60, |sample| {
         let mut scenario = sample.scenario.clone();
-        scenario.dt = Some(0.005 / scenario.case.crank().at(0.0).omega.abs());
+        scenario.dt = Some(0.005 / scenario.case.crank().at(0.0).rate.abs());
         match prove(&scenario, &Options::default()) {
             Ok(proof) => {
                 let word = proof.verdict.word();
@@ -77,7 +77,7 @@ fn regress_random_higher_groups_never_disagree() {
         for among in [Among::Alone, Among::Alone, Among::BehindADyad, Among::CarryingADyad] {
             let (spec, _) = mechanism(&mut random, family, among);
             let Ok(mut scenario) = spec.scenario() else { continue };
-            scenario.dt = Some(0.005 / scenario.case.crank().at(0.0).omega.abs());
+            scenario.dt = Some(0.005 / scenario.case.crank().at(0.0).rate.abs());
             let word = match prove(&scenario, &Options::default()) {
                 Ok(proof) => {
                     for channel in &proof.engine().channels {

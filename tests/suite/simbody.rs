@@ -259,7 +259,7 @@ fn random_mechanisms_agree() {
 /// A measure of how near a run comes to a singular pose: its largest speed or square root of an acceleration, over the
 /// crank's (lengths are about a metre). The effect of a small error grows with its square.
 fn nearness(case: &Case, truth: &Trajectory) -> f64 {
-    let crank = case.crank().at(0.0).omega.abs();
+    let crank = case.crank().at(0.0).rate.abs();
     let of = |(channel, values): (&Channel, &[f64])| {
         let most = values.iter().fold(0.0f64, |max, value| max.larger(value.abs()));
         match channel.kind.stage {

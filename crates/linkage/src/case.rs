@@ -199,7 +199,7 @@ impl Case {
     #[must_use]
     pub fn input_in(&self, motions: &[Motion], angles: &[f64]) -> f64 {
         let drive = self.crank();
-        drive.state_in(&motions[drive.link], angles[drive.link]).angle
+        drive.state_in(&motions[drive.link], angles[drive.link]).value
     }
 
     /// A step of the input over which links move as far as while a driving link turns by `turn` (rad).

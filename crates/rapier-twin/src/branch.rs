@@ -69,7 +69,7 @@ impl Branches {
             }
             if own.sense * determinant < -BEYOND * own.largest {
                 let names = case.structure.groups[own.index].names(&case.mechanism);
-                let at = case.told(case.crank().at(t).angle);
+                let at = case.told(case.crank().at(t).value);
                 let message = format!(
                     "the engine has slipped into another assembly mode of the group ({names}) before t = {t:.6} s, \
                      {at}: it has passed a dead point on the way"
@@ -89,7 +89,7 @@ impl Branches {
 /// The error for an engine that has not gone on smoothly at a change point.
 fn turned_back(case: &Case, group: usize, t: f64) -> Error {
     let names = case.structure.groups[group].names(&case.mechanism);
-    let at = case.told(case.crank().at(t).angle);
+    let at = case.told(case.crank().at(t).value);
     let message = format!(
         "the engine has not gone on smoothly at the change point of the group ({names}) before t = {t:.6} s, {at}: \
          velocities have jumped to the other branch"

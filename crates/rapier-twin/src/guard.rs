@@ -100,7 +100,7 @@ impl<'a> Guard<'a> {
     /// Sets all drives to their speeds at `t`.
     pub(super) fn drive(&mut self, t: f64) {
         for (index, drive) in self.case.drives.iter().enumerate() {
-            self.world.set_drive(index, drive.at(t).omega);
+            self.world.set_drive(index, drive.at(t).rate);
         }
     }
 
@@ -263,7 +263,7 @@ struct Moment {
 impl Moment {
     /// A free crank has the angle `before` the step.
     fn of(drive: &Drive, before: f64, t: f64) -> Self {
-        Moment { t, input: drive.told(if drive.is_free() { before } else { drive.at(t).angle }) }
+        Moment { t, input: drive.told(if drive.is_free() { before } else { drive.at(t).value }) }
     }
 
     fn error(self, message: String) -> Error {

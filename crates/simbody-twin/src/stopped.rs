@@ -9,7 +9,7 @@ use linkage::error::{Error, ErrorKind};
 /// The failure of a run as an error with the case's time, crank angle and joint.
 pub(super) fn stopped(case: &Case, linkage: &Linkage, sense: f64, failure: &Failure) -> Error {
     let t = failure.time.unwrap_or(0.0) * sense;
-    let at = case.told(case.crank().at(t).angle);
+    let at = case.told(case.crank().at(t).value);
     // Written so that NaN counts as the largest.
     let widest = failure.gaps.iter().zip(&linkage.tree.cut).reduce(|a, b| if a.0 >= b.0 { a } else { b });
     let gap = widest.map_or(String::new(), |(gap, &joint)| {

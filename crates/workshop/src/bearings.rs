@@ -105,7 +105,7 @@ impl Quantity {
 
 fn at<'p>(case: &Case, poses: &'p mut PoseSolver, crank: f64) -> Result<&'p State> {
     let drive = case.crank().at(case.crank().time_of(crank));
-    poses.solve(crank, drive.omega, drive.alpha, Stage::BalancingMoment)
+    poses.solve(crank, drive.rate, drive.acceleration, Stage::BalancingMoment)
 }
 
 /// The largest sample, refined by golden section between its neighbours.

@@ -56,7 +56,7 @@ fn disagreeing(proof: &Proof) -> Vec<String> {
 fn shortened(mut scenario: Scenario) -> Option<Scenario> {
     let case = &scenario.case;
     let near = |row: &usize| {
-        let turned = (case.grid.cranks[*row] - case.crank().at(0.0).angle).abs();
+        let turned = (case.grid.cranks[*row] - case.crank().at(0.0).value).abs();
         turned <= TURNS * std::f64::consts::TAU || case.is_free()
     };
     let rows: Vec<usize> = (0..case.grid.len()).filter(near).collect();

@@ -394,6 +394,6 @@ fn drive_further(case: &Case, crank: f64, rate: f64, rates: &mut [f64]) {
 fn turn_further(case: &Case, crank: f64, angles: &mut [f64]) {
     let t = case.crank().time_of(crank);
     for (angle, drive) in angles.iter_mut().zip(case.drives.further()) {
-        *angle = drive.world_angle(drive.at(t).angle);
+        *angle = drive.world_angle(drive.at(t).value);
     }
 }

@@ -54,7 +54,7 @@ impl System<'_> {
     /// Follows the branch to time `t`, positions to accelerations.
     pub(super) fn follow_to(&mut self, t: f64) -> Result<()> {
         let turned = |drive: &Drive| match drive.constant_speed() {
-            Some(_) => (drive.at(t).angle - drive.at(self.time).angle).abs(),
+            Some(_) => (drive.at(t).value - drive.at(self.time).value).abs(),
             // The motion may go there and back in between.
             None => drive.top_speed().abs() * (t - self.time).abs(),
         };
@@ -142,7 +142,7 @@ impl System<'_> {
         }
         let first = case.mechanism.equations();
         for (row, drive) in self.drives() {
-            self.assemble_drive(row, drive, self.inputs[row - first].angle);
+            self.assemble_drive(row, drive, self.inputs[row - first].value);
         }
     }
 
@@ -154,7 +154,7 @@ impl System<'_> {
         let case = self.case;
         let first = case.mechanism.equations();
         for (index, input) in self.inputs.iter().enumerate() {
-            (self.rate[first + index], self.second[first + index]) = (input.omega, input.alpha);
+            (self.rate[first + index], self.second[first + index]) = (input.rate, input.acceleration);
         }
         self.jacobian.solve(&mut self.rate);
         for (index, joint) in case.mechanism.joints().iter().enumerate() {
@@ -248,7 +248,7 @@ impl System<'_> {
     }
 
     pub(super) fn lost(&self, why: &str) -> Error {
-        let (at, t) = (self.case.told(self.case.crank().from_world(self.inputs[0].angle)), self.time);
+        let (at, t) = (self.case.told(self.case.crank().from_world(self.inputs[0].value)), self.time);
         // In a free motion only the integrator knows the time.
         if self.case.is_free() {
             return Error::new(ErrorKind::Numeric, format!("{at}: {why}")).at_input(at).help("let the grid end before");

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use super::blocks::Blocks;
 use linkage::case::Case;
-use linkage::drive::{Drive, DriveState, Wrench};
+use linkage::drive::{Drive, InputState, Wrench};
 use linkage::math::{Motion, Vec2, rotated, turned, unit};
 use linkage::mechanism::{Joint, Side};
 use linkage::trajectory::Stage;
@@ -37,7 +37,7 @@ pub(super) struct System<'a> {
     pub(super) rate_before: Vec<f64>,
     pub(super) second_before: Vec<f64>,
     /// The driving links at the present time: angles in the world, angular velocities and accelerations.
-    pub(super) inputs: Vec<DriveState>,
+    pub(super) inputs: Vec<InputState>,
     /// Motions and angles of all links, for their loads, and the loads themselves.
     pub(super) motions: Vec<Motion>,
     pub(super) angles: Vec<f64>,
@@ -147,9 +147,9 @@ impl<'a> System<'a> {
 }
 
 /// State of a driving link by its law, with its angle in the world.
-fn by_law(drive: &Drive, t: f64) -> DriveState {
+fn by_law(drive: &Drive, t: f64) -> InputState {
     let state = drive.at(t);
-    DriveState { angle: drive.world_angle(state.angle), ..state }
+    InputState { value: drive.world_angle(state.value), ..state }
 }
 
 /// Angle of a joint's second link minus that of its first (rad) while the axes of a prismatic pair are parallel.

@@ -19,7 +19,7 @@ impl Grid {
     /// Grid of the given times.
     #[must_use]
     pub fn of_times(drive: &Drive, times: Vec<f64>) -> Self {
-        let cranks = times.iter().map(|&t| drive.at(t).angle).collect();
+        let cranks = times.iter().map(|&t| drive.at(t).value).collect();
         Grid { times, cranks }
     }
 

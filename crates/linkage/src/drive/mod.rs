@@ -15,5 +15,5 @@ pub use driven::{Drive, DriveMotion};
 pub use drives::Drives;
 pub use input::{Input, InputValue};
 pub use load::{Action, Acts, Load, LoadSort, Nature, Senses, Setting, Wrench};
-pub use motion::{DriveState, MotionLaw};
+pub use motion::{InputState, MotionLaw};
 pub use motor::{Motor, MotorLaw, ShaftInertia};
