@@ -119,7 +119,7 @@ pub(super) fn beyond(sides: &[(&'static str, Observed); 2], known: &Known) -> Ve
             !(relative <= known.apart(worst.channel.kind.stage, index, **row))
         };
         let first = *rows.iter().find(is_beyond)?;
-        let since = (reference.times()[first], reference.cranks()[first]);
+        let since = (reference.times()[first], reference.inputs()[first]);
         Some(Beyond { channel: worst.channel.clone(), since, margin: worst.used() })
     };
     worst_instants([reference, other], known).into_iter().filter_map(of).collect()

@@ -203,7 +203,7 @@ pub(super) fn checks(case: &Case, reference: &dyn Solver) -> Result<Vec<Check>> 
 fn crank_of(case: &Case, row: usize, state: &State) -> InputState {
     let drive = case.crank();
     if !case.is_free() {
-        return InputState { value: case.grid.cranks[row], ..drive.at(case.grid.times[row]) };
+        return InputState { value: case.grid.inputs[row], ..drive.at(case.grid.times[row]) };
     }
     drive.state_in(&state.motions[drive.link], state.angles[drive.link])
 }

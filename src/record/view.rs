@@ -77,7 +77,7 @@ pub(super) fn view(recording: &Recording) -> Option<View> {
 /// Log time of a turn, of a recording that lasts so long.
 pub(super) fn turn(lasts: f64, trajectory: &Trajectory) -> f64 {
     let ends = trajectory
-        .cranks()
+        .inputs()
         .iter()
         .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &angle| [low.smaller(angle), high.larger(angle)]);
     let turns = ((ends[1] - ends[0]) / std::f64::consts::TAU).round();

@@ -11,7 +11,7 @@ use linkage::trajectory::Trajectory;
 /// Those of `to`.
 pub(crate) fn solution(trajectory: &Trajectory, to: &mut dyn Write) -> Result<()> {
     let columns: Vec<&[f64]> =
-        [trajectory.times(), trajectory.cranks()].into_iter().chain(trajectory.iter().map(|(_, v)| v)).collect();
+        [trajectory.times(), trajectory.inputs()].into_iter().chain(trajectory.iter().map(|(_, v)| v)).collect();
     let rows = (0..trajectory.times().len()).map(|row| columns.iter().map(|column| column[row]).collect());
     table(&["t_s", trajectory.input().key()], trajectory, rows, to)
 }

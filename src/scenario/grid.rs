@@ -99,7 +99,7 @@ pub fn read(table: &mut Table, drive: &Drive, is_replaced: bool) -> Result<Grid>
         return Ok(Grid::default());
     }
     let by_input = !std::ptr::eq(family, &TIME);
-    let grid = if by_input { Grid::of_cranks(drive, points) } else { Grid::of_times(drive, points) };
+    let grid = if by_input { Grid::of_inputs(drive, points) } else { Grid::of_times(drive, points) };
     let help = match by_input && drive.is_free() {
         true => BY_TIME,
         false => "check the unit and size of the grid and of `drive.speed`",

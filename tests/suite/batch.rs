@@ -147,8 +147,8 @@ fn random_chains_agree_and_fail_alike() {
     for_each(60, |sample| {
         let case = &sample.scenario.case;
         // On the grid, away from dead points; errors of one dyad grow in the next one.
-        let (states, _) = one_by_one(case, &case.grid.cranks, Stage::BalancingMoment);
-        let (poses, outcome) = at_once(case, &case.grid.cranks, Stage::BalancingMoment);
+        let (states, _) = one_by_one(case, &case.grid.inputs, Stage::BalancingMoment);
+        let (poses, outcome) = at_once(case, &case.grid.inputs, Stage::BalancingMoment);
         within("poses lost", f64::from(outcome.is_err()), 0.0)?;
         for found in differences(&rows(case, &poses), &states) {
             within("difference", found, ROUNDING * sample.condition)?;

@@ -321,7 +321,7 @@ fn a_singular_start_is_refused() {
 }
 
 fn asked(case: &Case, degrees: f64) -> Case {
-    case.on(Grid::of_cranks(case.crank(), vec![degrees.to_radians()])).unwrap()
+    case.on(Grid::of_inputs(case.crank(), vec![degrees.to_radians()])).unwrap()
 }
 
 /// Both solvers and the list of configurations state the crank angles that can be reached, to 1e-6 deg.

@@ -32,7 +32,7 @@ impl Solver for AssurSolver {
         let deepest = case.wanted.deepest();
         for (done, row) in case.grid.ascending().into_iter().enumerate() {
             let drive = case.crank().at(case.grid.times[row]);
-            poses.solve(case.grid.cranks[row], drive.rate, drive.acceleration, deepest)?;
+            poses.solve(case.grid.inputs[row], drive.rate, drive.acceleration, deepest)?;
             visit(row, poses.with_angles())?;
             progress((done + 1) as f64 / case.grid.len() as f64);
         }

@@ -278,7 +278,7 @@ impl RunUp {
         let (motion, end) = motion(model, omega, times, accuracy)?;
         let grid = Grid {
             times: motion.iter().map(|instant| instant.t).collect(),
-            cranks: motion.iter().map(|instant| instant.crank).collect(),
+            inputs: motion.iter().map(|instant| instant.crank).collect(),
         };
         // Forces decide this motion, so the law of the crank must not limit its time.
         let case = model.case.at_top_speed().on(grid)?;

@@ -32,8 +32,8 @@ pub(super) fn all(parts: &CaseParts) -> Result<()> {
 
 /// Checks the instants.
 pub(super) fn grid(grid: &Grid, crank: &Drive) -> Result<()> {
-    if grid.times.len() != grid.cranks.len() {
-        let [times, cranks] = [grid.times.len(), grid.cranks.len()];
+    if grid.times.len() != grid.inputs.len() {
+        let [times, cranks] = [grid.times.len(), grid.inputs.len()];
         return Err(wrong("grid", format!("the grid has {times} times, but {cranks} crank angles")));
     }
     grid.check(crank)

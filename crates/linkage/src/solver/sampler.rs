@@ -85,7 +85,7 @@ impl Sampler {
             columns,
             rows: Vec::with_capacity(case.grid.len()),
             kept: 0,
-            inputs: case.grid.cranks.clone(),
+            inputs: case.grid.inputs.clone(),
         };
         let masks = masks(&channels);
         for (subject, index, name) in case.subjects() {

@@ -19,7 +19,7 @@ pub struct Trajectory {
     times: Vec<f64>,
     /// What moves the mechanism, and its values.
     input: Input,
-    cranks: Vec<f64>,
+    inputs: Vec<f64>,
     channels: Vec<Channel>,
     columns: Vec<Vec<f64>>,
 }
@@ -31,9 +31,9 @@ impl Trajectory {
     /// # Errors
     /// [`ErrorKind::Numeric`] if a value is NaN or infinite (with its channel, time and crank angle), or if lengths
     /// differ.
-    pub fn new(times: Vec<f64>, cranks: Vec<f64>, channels: Vec<Channel>, columns: Vec<Vec<f64>>) -> Result<Self> {
+    pub fn new(times: Vec<f64>, inputs: Vec<f64>, channels: Vec<Channel>, columns: Vec<Vec<f64>>) -> Result<Self> {
         let rows = times.len();
-        if cranks.len() != rows || channels.len() != columns.len() || columns.iter().any(|c| c.len() != rows) {
+        if inputs.len() != rows || channels.len() != columns.len() || columns.iter().any(|c| c.len() != rows) {
             return Err(Error::new(ErrorKind::Numeric, "the columns of a trajectory differ in length"));
         }
         for (channel, column) in channels.iter().zip(&columns) {
@@ -47,12 +47,12 @@ impl Trajectory {
                         "{channel} is {} at t = {:.6} s, {}",
                         column[row],
                         times[row],
-                        Input::default().at(cranks[row])
+                        Input::default().at(inputs[row])
                     ),
                 ));
             }
         }
-        Ok(Trajectory { times, input: Input::Angle, cranks, channels, columns })
+        Ok(Trajectory { times, input: Input::Angle, inputs, channels, columns })
     }
 
     /// The same trajectory, moved by another input.
@@ -70,7 +70,7 @@ impl Trajectory {
     /// The input in a row, as messages say it.
     #[must_use]
     pub fn told(&self, row: usize) -> InputValue {
-        self.input.at(self.cranks[row])
+        self.input.at(self.inputs[row])
     }
 
     /// Times of the grid (s).
@@ -81,8 +81,8 @@ impl Trajectory {
 
     /// The input over the grid (in its SI unit, as the scenario states it): see [`Trajectory::input`].
     #[must_use]
-    pub fn cranks(&self) -> &[f64] {
-        &self.cranks
+    pub fn inputs(&self) -> &[f64] {
+        &self.inputs
     }
 
     /// Channels, in the order of columns.
@@ -126,7 +126,7 @@ impl Trajectory {
         Trajectory {
             times: thin(&self.times),
             input: self.input,
-            cranks: thin(&self.cranks),
+            inputs: thin(&self.inputs),
             channels: own().map(|(channel, _)| channel.clone()).collect(),
             columns: own().map(|(_, values)| thin(values)).collect(),
         }

@@ -203,11 +203,11 @@ fn every_group_has_a_mode_of_its_kind() {
 
 #[test]
 fn a_grid_is_where_the_crank_comes() {
-    let far = Grid { times: vec![0.0, 1e9], cranks: vec![0.0, 1e9] };
+    let far = Grid { times: vec![0.0, 1e9], inputs: vec![0.0, 1e9] };
     says(Input, "grid", &["1.6e8 turns"], |parts| parts.grid = far.clone());
     let case = turning(four_bar());
     assert!(case.on(far).is_err() && case.on(Grid::of_times(case.crank(), vec![1.0])).is_ok());
-    let uneven = Grid { times: vec![0.0], cranks: Vec::new() };
+    let uneven = Grid { times: vec![0.0], inputs: Vec::new() };
     assert!(case.on(uneven).unwrap_err().message().contains("1 times, but 0 crank angles"));
-    assert!(case.on(Grid { times: vec![f64::NAN], cranks: vec![0.0] }).is_err());
+    assert!(case.on(Grid { times: vec![f64::NAN], inputs: vec![0.0] }).is_err());
 }
