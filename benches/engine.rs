@@ -34,7 +34,7 @@ fn bare(engine: &Rapier, build: Build, case: &Case, steps: usize) {
     let tree = if build == Build::Impulse { Tree::none(&case.mechanism) } else { Tree::of(&case.mechanism) };
     let mut world = engine.world(case, tree, false).expect("Rapier takes the mechanism");
     for (index, drive) in case.drives.iter().enumerate() {
-        world.set_drive(index, drive.at(0.0).omega);
+        world.set_drive(index, drive.at(0.0).rate);
     }
     for _ in 0..steps {
         world.bare_step();

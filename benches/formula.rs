@@ -38,7 +38,7 @@ fn main() {
         }
         let turn = std::f64::consts::TAU * crank.sense();
         let grid = |first: f64| {
-            Grid::of_cranks(crank, (0..INSTANTS).map(|k| first + turn * k as f64 / INSTANTS as f64).collect())
+            Grid::of_inputs(crank, (0..INSTANTS).map(|k| first + turn * k as f64 / INSTANTS as f64).collect())
         };
         // Only those that turn fully are followed over a turn.
         let Ok(whole) = scenario.case.on(grid(crank.start)) else { continue };

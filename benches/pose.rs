@@ -58,7 +58,7 @@ fn by_hand(scenario: &Scenario) -> FourBar {
 
 /// Both must compute the same, or the ratio means nothing.
 fn check(scenario: &Scenario, hand: &FourBar) {
-    let omega = scenario.case.crank().at(0.0).omega;
+    let omega = scenario.case.crank().at(0.0).rate;
     let mut poses = PoseSolver::new(&scenario.case).unwrap();
     for k in 0..POSES {
         let state = poses.solve(angle(k), omega, 0.0, Stage::BalancingMoment).unwrap();
@@ -82,7 +82,7 @@ const PARTS: [(&str, Part); 3] = [("all", Part::All), ("positions", Part::Positi
 
 /// Solves one turn of a mechanism whenever it is called.
 fn turns_of(case: &Case, part: Part) -> Box<dyn FnMut() + '_> {
-    let (start, omega) = (case.crank().start, case.crank().at(0.0).omega);
+    let (start, omega) = (case.crank().start, case.crank().at(0.0).rate);
     let one_by_one = |deepest: Stage| -> Box<dyn FnMut() + '_> {
         let mut poses = PoseSolver::new(case).unwrap();
         Box::new(move || {
@@ -114,7 +114,7 @@ fn turns_of(case: &Case, part: Part) -> Box<dyn FnMut() + '_> {
 fn count(name: &str, part: &str, turns: usize) {
     if name == "hand" {
         let crank_rocker = scenario("crank_rocker");
-        let (hand, omega) = (by_hand(&crank_rocker), crank_rocker.case.crank().at(0.0).omega);
+        let (hand, omega) = (by_hand(&crank_rocker), crank_rocker.case.crank().at(0.0).rate);
         for k in 0..turns * POSES {
             black_box(hand.solve(black_box(angle(k % POSES)), omega));
         }
@@ -134,7 +134,7 @@ fn main() {
     let crank_rocker = scenario("crank_rocker");
     let hand = by_hand(&crank_rocker);
     check(&crank_rocker, &hand);
-    let omega = crank_rocker.case.crank().at(0.0).omega;
+    let omega = crank_rocker.case.crank().at(0.0).rate;
     let measure = shortest(|| {
         for k in 0..POSES {
             black_box(hand.solve(black_box(angle(k)), omega));

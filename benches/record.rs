@@ -32,7 +32,7 @@ fn scenario(name: &str) -> Scenario {
 fn turn(case: &Case, instants: usize) -> Case {
     let crank = case.crank();
     let angle = |k: usize| crank.start + std::f64::consts::TAU * crank.sense() * k as f64 / (instants - 1) as f64;
-    case.on(Grid::of_cranks(crank, (0..instants).map(angle).collect())).unwrap()
+    case.on(Grid::of_inputs(crank, (0..instants).map(angle).collect())).unwrap()
 }
 
 fn shortest(mut work: impl FnMut()) -> f64 {

@@ -32,7 +32,7 @@ fn case(name: &str) -> Case {
     let crank = scenario.case.crank();
     let turn = std::f64::consts::TAU * crank.sense();
     let angle = |k: usize| crank.start + turn * k as f64 / INSTANTS as f64;
-    scenario.case.on(Grid::of_cranks(crank, (0..INSTANTS).map(angle).collect())).unwrap()
+    scenario.case.on(Grid::of_inputs(crank, (0..INSTANTS).map(angle).collect())).unwrap()
 }
 
 fn seconds(solver: &dyn Solver, case: &Case) -> f64 {

@@ -67,7 +67,7 @@ impl Clock<'_> {
         let row = (Settings { resolution: 0.0, ..own }, engine.name());
         if self.row != Some(row) {
             self.row = Some(row);
-            let degree = 1f64.to_radians() / self.case.crank().at(0.0).omega.abs();
+            let degree = 1f64.to_radians() / self.case.crank().at(0.0).rate.abs();
             let [coarse, fine] = [2.0 * degree, degree];
             let [a, b] = [coarse, fine].map(|step| seconds(engine.at(step).as_ref(), self.case, 2));
             let slope = (b - a) / (1.0 / fine - 1.0 / coarse);
@@ -81,7 +81,7 @@ impl Clock<'_> {
 
 fn told(engine: &dyn Engine, case: &Case) -> String {
     let settings = engine.settings();
-    let degrees = (settings.resolution * case.crank().at(0.0).omega.abs()).to_degrees();
+    let degrees = (settings.resolution * case.crank().at(0.0).rate.abs()).to_degrees();
     format!(
         "{} {} {degrees:.3} deg, {} sweeps, {} substeps{}",
         engine.name(),

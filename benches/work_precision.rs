@@ -64,7 +64,7 @@ fn main() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios").join(format!("{name}.toml"));
     let scenario = Scenario::load(&path).unwrap_or_else(|error| panic!("{error}"));
     let reference = AssurSolver.solve(&scenario.case).unwrap_or_else(|error| panic!("{error}"));
-    let omega = scenario.case.crank().at(0.0).omega.abs();
+    let omega = scenario.case.crank().at(0.0).rate.abs();
     let mut rows = Vec::new();
     for engine in prover::engines::all(1e-3) {
         let resolutions: Vec<(f64, String)> = match engine.controls_error() {

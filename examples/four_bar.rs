@@ -27,7 +27,7 @@ fn main() -> Result<(), Error> {
     let (x, y) = (x.expect("B is a joint"), y.expect("B is a joint"));
     let largest = x.iter().zip(y).map(|(x, y)| x.hypot(*y)).enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
     if let Some((row, force)) = largest {
-        println!("largest reaction in B: {force:.2} N at {:.0} deg", solution.cranks()[row].to_degrees());
+        println!("largest reaction in B: {force:.2} N at {:.0} deg", solution.inputs()[row].to_degrees());
     }
     let proof = prove(&Scenario::of_case("four_bar", case)?, &Options::default())?;
     println!("{}", proof.verdict.word());

@@ -35,7 +35,7 @@ fn main() {
     let scenario = Scenario::load(&path).unwrap_or_else(|error| panic!("{error}"));
     let case = &scenario.case.wanting(Wanted::ALL);
     let degrees: f64 = at(1, "0.08").parse().expect("a step in degrees");
-    let step = degrees.to_radians() / case.crank().at(0.0).omega.abs();
+    let step = degrees.to_radians() / case.crank().at(0.0).rate.abs();
     let (truth, _) = solve(&AssurSolver, case).expect("the reference solves its own scenarios");
     println!("{} at {degrees} deg = {step:e} s a step", scenario.name);
     println!(

@@ -36,7 +36,7 @@ impl GridArgs {
                     true => "give times by --times FROM:TO:STEP",
                     false => "check the unit and size of --crank-deg",
                 };
-                (Grid::of_cranks(crank, cranks), help)
+                (Grid::of_inputs(crank, cranks), help)
             }
             (None, Some(Values { values, .. })) => {
                 (Grid::of_times(crank, values.clone()), "check the unit and size of --times")

@@ -59,7 +59,7 @@ pub(super) fn inspect(args: &Args) -> Result<()> {
     let modes = match args.modes {
         true => {
             let crank = args.at_crank_deg.map_or(case.crank().start, f64::to_radians);
-            Grid::of_cranks(case.crank(), vec![crank])
+            Grid::of_inputs(case.crank(), vec![crank])
                 .check(case.crank())
                 .map_err(|message| Error::new(ErrorKind::Input, message).help("check --at-crank-deg"))?;
             Some((crank, analytic::modes::all(case, crank).map_err(|error| explained(case, error))?))

@@ -4,9 +4,9 @@ use std::fmt::{Display, Write};
 use std::path::{Path, PathBuf};
 
 use crate::plain::tell::Tell;
-use linkage::case::Case;
+use linkage::case::{Case, Seat};
 use linkage::error::Result;
-use linkage::trajectory::{CHANNELS, Channel, Subject};
+use linkage::trajectory::{CHANNELS, Channel};
 use scenario::Scenario;
 
 /// The scenario files of a directory with title and structure, or the reason why a file cannot be read.
@@ -48,11 +48,12 @@ pub(crate) fn channels() -> String {
 
 /// Every channel of a case with its unit, its meaning and the stage that it is computed with.
 pub(crate) fn channels_of(case: &Case) -> String {
-    let rows: Vec<[String; 4]> = case
-        .all_channels()
-        .iter()
-        .map(|own| [own.to_string(), own.kind.unit.to_string(), meaning(own, case), own.kind.stage.name().into()])
-        .collect();
+    let (all, seats) = (case.all_channels(), case.seats());
+    let row = |own: &Channel| {
+        let meaning = meaning(own, seats.of(own).expect("a channel of the case"), case);
+        [own.to_string(), own.kind.unit.to_string(), meaning, own.kind.stage.name().into()]
+    };
+    let rows: Vec<[String; 4]> = all.iter().map(row).collect();
     let width = |column: usize| rows.iter().map(|row| row[column].chars().count()).max().unwrap_or_default();
     let (name, meaning) = (width(0), width(2));
     let mut text = String::new();
@@ -63,22 +64,18 @@ pub(crate) fn channels_of(case: &Case) -> String {
 }
 
 /// What a channel of a case means, in words.
-fn meaning(channel: &Channel, case: &Case) -> String {
+fn meaning(channel: &Channel, seat: Seat, case: &Case) -> String {
     let (mechanism, of, quantity) = (&case.mechanism, channel.of.as_str(), channel.kind.quantity);
     let name = |link: usize| mechanism.links()[link].name.as_str();
-    let what = match channel.kind.subject {
-        Subject::Link => format!("{quantity} of link {of}"),
-        Subject::Point => format!("{quantity}, {of}"),
-        Subject::Joint | Subject::Slider => match mechanism.joint_named(of).map(|index| &mechanism.joints()[index]) {
-            Some(joint) => format!("{quantity} in {of}, {} on {}", name(joint.first.link), name(joint.second.link)),
-            None => format!("{quantity} in {of}"),
-        },
-        Subject::Frame => format!("{quantity} on the frame"),
-        Subject::Drive => format!("{quantity} on link {}", name(case.crank().link)),
-        Subject::Motor => match case.drives.iter().find(|drive| mechanism.joints()[drive.joint].name == of) {
-            Some(drive) => format!("{quantity} on link {}", name(drive.link)),
-            None => format!("{quantity} of the drive at {of}"),
-        },
+    let what = match seat {
+        Seat::Link(_) => format!("{quantity} of link {of}"),
+        Seat::Point(_) => format!("{quantity}, {of}"),
+        Seat::Joint(joint) => {
+            let joint = &mechanism.joints()[joint];
+            format!("{quantity} in {of}, {} on {}", name(joint.first.link), name(joint.second.link))
+        }
+        Seat::Frame => format!("{quantity} on the frame"),
+        Seat::Drive(drive) => format!("{quantity} on link {}", name(case.drives[drive].link)),
     };
     let letters = channel.kind.suffix.split('_').next().unwrap_or_default();
     match letters.chars().next_back().filter(|_| letters.len() <= 2) {

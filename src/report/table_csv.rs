@@ -11,9 +11,9 @@ use linkage::trajectory::Trajectory;
 /// Those of `to`.
 pub(crate) fn solution(trajectory: &Trajectory, to: &mut dyn Write) -> Result<()> {
     let columns: Vec<&[f64]> =
-        [trajectory.times(), trajectory.cranks()].into_iter().chain(trajectory.iter().map(|(_, v)| v)).collect();
+        [trajectory.times(), trajectory.inputs()].into_iter().chain(trajectory.iter().map(|(_, v)| v)).collect();
     let rows = (0..trajectory.times().len()).map(|row| columns.iter().map(|column| column[row]).collect());
-    table(&["t_s", "crank_rad"], trajectory, rows, to)
+    table(&["t_s", trajectory.input().key()], trajectory, rows, to)
 }
 
 /// Writes the crank and the motor's moment in a run-up, then all wanted channels.
@@ -21,7 +21,14 @@ pub(crate) fn solution(trajectory: &Trajectory, to: &mut dyn Write) -> Result<()
 /// # Errors
 /// Those of `to`.
 pub(crate) fn run_up(run_up: &RunUp, to: &mut dyn Write) -> Result<()> {
-    let own = ["t_s", "crank_rad", "crank_omega_rad_s", "crank_alpha_rad_s2", "motor_on_crank_N_m", "shaft_N_m"];
+    let own = [
+        "t_s",
+        run_up.trajectory.input().key(),
+        "crank_omega_rad_s",
+        "crank_alpha_rad_s2",
+        "motor_on_crank_N_m",
+        "shaft_N_m",
+    ];
     let rows = run_up.motion.iter().enumerate().map(|(row, at)| {
         let own = [at.t, at.crank, at.omega, at.alpha, at.motor, at.shaft];
         own.into_iter().chain(run_up.trajectory.iter().map(|(_, values)| values[row])).collect()

@@ -241,7 +241,7 @@ impl Instants {
                 .help("give every instant once, crank angles in rad or times in s")
         };
         let grid = match self {
-            Instants::Cranks(angles) => Grid::of_cranks(crank, listed(angles.clone()).map_err(wrong)?),
+            Instants::Cranks(angles) => Grid::of_inputs(crank, listed(angles.clone()).map_err(wrong)?),
             Instants::Times(times) => Grid::of_times(crank, listed(times.clone()).map_err(wrong)?),
         };
         grid.check(crank).map_err(wrong)?;

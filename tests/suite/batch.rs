@@ -43,7 +43,7 @@ fn sorts(state: &State) -> [Vec<f64>; 9] {
 
 /// Solves one pose after the other, up to the first that fails.
 fn one_by_one(case: &Case, cranks: &[f64], deepest: Stage) -> (Vec<State>, Result<()>) {
-    let (mut solver, omega) = (PoseSolver::new(case).unwrap(), case.crank().at(0.0).omega);
+    let (mut solver, omega) = (PoseSolver::new(case).unwrap(), case.crank().at(0.0).rate);
     let mut states = Vec::new();
     for &crank in cranks {
         match solver.solve(crank, omega, ALPHA, deepest) {
@@ -56,7 +56,7 @@ fn one_by_one(case: &Case, cranks: &[f64], deepest: Stage) -> (Vec<State>, Resul
 
 fn at_once(case: &Case, cranks: &[f64], deepest: Stage) -> (Poses, Result<()>) {
     let mut poses = Poses::new();
-    let omega = case.crank().at(0.0).omega;
+    let omega = case.crank().at(0.0).rate;
     let outcome = Batch::of(case).unwrap().solve(cranks, omega, ALPHA, deepest, &mut poses);
     (poses, outcome)
 }
@@ -147,8 +147,8 @@ fn random_chains_agree_and_fail_alike() {
     for_each(60, |sample| {
         let case = &sample.scenario.case;
         // On the grid, away from dead points; errors of one dyad grow in the next one.
-        let (states, _) = one_by_one(case, &case.grid.cranks, Stage::BalancingMoment);
-        let (poses, outcome) = at_once(case, &case.grid.cranks, Stage::BalancingMoment);
+        let (states, _) = one_by_one(case, &case.grid.inputs, Stage::BalancingMoment);
+        let (poses, outcome) = at_once(case, &case.grid.inputs, Stage::BalancingMoment);
         within("poses lost", f64::from(outcome.is_err()), 0.0)?;
         for found in differences(&rows(case, &poses), &states) {
             within("difference", found, ROUNDING * sample.condition)?;
@@ -172,7 +172,7 @@ fn random_chains_agree_and_fail_alike() {
 #[test]
 fn a_batch_goes_on_after_an_error() {
     let case = &shipped("crank_rocker.toml").case;
-    let (start, omega) = (case.crank().start, case.crank().at(0.0).omega);
+    let (start, omega) = (case.crank().start, case.crank().at(0.0).rate);
     let (mut batch, mut poses) = (Batch::of(case).unwrap(), Poses::new());
     let error = batch.solve(&[start, f64::NAN, start], omega, ALPHA, Stage::Positions, &mut poses).unwrap_err();
     assert_eq!(error.kind(), linkage::ErrorKind::Geometry);
@@ -186,7 +186,7 @@ fn a_batch_goes_on_after_an_error() {
 fn a_row_has_the_same_bits_wherever_it_stands() {
     for name in ["crank_rocker", "ov7_base", "five_bar", "ov7_new", "fourth_class"] {
         let case = &shipped(&format!("{name}.toml")).case;
-        let omega = case.crank().at(0.0).omega;
+        let omega = case.crank().at(0.0).rate;
         let cranks = turn(case, 1000);
         let bits = |state: &State| sorts(state).concat().iter().map(|value| value.to_bits()).collect::<Vec<_>>();
         let whole: Vec<_> = rows(case, &at_once(case, &cranks, Stage::BalancingMoment).0).iter().map(bits).collect();

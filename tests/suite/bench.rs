@@ -3,11 +3,10 @@
 use std::cell::Cell;
 
 use analytic::NewtonSolver;
-use lab::bench::{Answer, Axis, Bench, CLEAR, Effort, Options, Party, Peer, Way, bench, front};
+use lab::bench::{Answer, Axis, Bench, CLEAR, Effort, Options, Party, Peer, Point, Way, bench, front};
 use linkage::case::Grid;
 use linkage::solver::Solver;
 use linkage::trajectory::{Stage, Trajectory};
-use lab::bench::{Answer, Axis, Bench, CLEAR, Effort, Options, Party, Peer, Point, Way, bench, front};
 use prover::engines::EngineName;
 use scenario::Scenario;
 

@@ -82,7 +82,7 @@ fn no_step_passes_over_the_change_point_of_a_four_bar() {
                         assert_eq!(side(&directions), side(&begun), "{what}: the other branch");
                     } else {
                         let error = found.expect_err(&what);
-                        let at = error.crank().unwrap_or_else(|| panic!("{what}: {error}"));
+                        let at = error.input().unwrap_or_else(|| panic!("{what}: {error}")).value;
                         let off = if defect == 0.0 { 1e-3 } else { way };
                         assert!((at - std::f64::consts::PI).abs() < off, "{what}: {error}");
                     }

@@ -78,7 +78,7 @@ fn distance(asked: &Question, state: &State, pair: [usize; 2]) -> f64 {
 /// States of side 2 at crank angles, which a drive of constant speed comes to, whatever the law.
 fn at(case: &Case, cranks: &[f64]) -> Vec<State> {
     let case = &case.at_top_speed();
-    let times: Vec<f64> = Grid::of_cranks(case.crank(), cranks.to_vec()).times;
+    let times: Vec<f64> = Grid::of_inputs(case.crank(), cranks.to_vec()).times;
     states(&NewtonSolver, case, &times).unwrap()
 }
 
@@ -220,7 +220,7 @@ fn planted_thin_crossings_are_found() {
         let case = shipped(&format!("{name}.toml")).case;
         let size = case.mechanism.size();
         let mut random = Random::of_sample(5, index as u64);
-        let [from, to] = [case.grid.cranks[0], case.grid.cranks[case.grid.len() - 1]];
+        let [from, to] = [case.grid.inputs[0], case.grid.inputs[case.grid.len() - 1]];
         for _ in 0..4 {
             let crank = from + (to - from) * random.number(0.05, 0.95);
             let link = 1 + random.index(case.mechanism.links().len() - 1);
@@ -240,7 +240,7 @@ fn planted_thin_crossings_are_found() {
             let meeting = found.pairs[0].collision.unwrap_or_else(|| panic!("{name}: {crank} {:?}", found.pairs));
             planted += 1;
             let fine: Vec<f64> = (0..=7_200).map(|k| from + (to - from) * (f64::from(k) / 7_200.0)).collect();
-            let fine = case.on(Grid::of_cranks(case.crank(), fine)).unwrap();
+            let fine = case.on(Grid::of_inputs(case.crank(), fine)).unwrap();
             missed += usize::from(course(&fine, &asked).unwrap().rows.iter().all(|row| row[0] > 0.0));
             // The path may cross the nail once more, but not later than here.
             assert!((meeting.cranks[1] - from).abs() <= (crank - from).abs() + 1e-3, "{name}: {meeting:?} {crank}");
@@ -257,7 +257,7 @@ fn a_grid_longer_than_a_turn_has_the_distances_and_areas_of_one_turn() {
     let asked = scenario.clearance.as_ref().unwrap();
     let over = |turns: f64| {
         let ends = [0.3, 0.3 + turns * std::f64::consts::TAU];
-        let case = scenario.case.on(Grid::of_cranks(scenario.case.crank(), ends.to_vec())).unwrap();
+        let case = scenario.case.on(Grid::of_inputs(scenario.case.crank(), ends.to_vec())).unwrap();
         find(&case, asked, &mut |_| ()).unwrap()
     };
     let [one, three] = [over(1.0), over(2.75)];
@@ -329,11 +329,11 @@ fn motions_under_forces() {
     let asked = asked(&mut Random::of_sample(3, 1), &case);
     let found = find(&case, &asked, &mut |_| ()).unwrap();
     let solved = analytic::AssurSolver.solve(&case).unwrap();
-    let reached = solved.cranks().iter().copied().fold(f64::NEG_INFINITY, f64::larger);
+    let reached = solved.inputs().iter().copied().fold(f64::NEG_INFINITY, f64::larger);
     let turn = std::f64::consts::TAU;
     let expected = reached.smaller(found.range[0] + turn);
     assert_within!((found.range[1] - expected).abs(), 1e-12, "{:?}", found.range);
-    assert_eq!(course(&case, &asked).unwrap().cranks, solved.cranks());
+    assert_eq!(course(&case, &asked).unwrap().cranks, solved.inputs());
     let case = shipped("double_pendulum.toml").case;
     let error = find(&case, &asked, &mut |_| ()).unwrap_err();
     assert_eq!(error.kind(), linkage::ErrorKind::Unsupported);

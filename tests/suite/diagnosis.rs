@@ -99,7 +99,7 @@ fn examined(case: &Case, suspect: &Trajectory, step: Option<f64>) -> Option<Diag
         });
         columns.push(own);
     }
-    let (times, cranks) = (reference.times().to_vec(), reference.cranks().to_vec());
+    let (times, cranks) = (reference.times().to_vec(), reference.inputs().to_vec());
     let suspicious = Trajectory::new(times, cranks, reference.channels().to_vec(), columns).unwrap();
     let question = Question {
         suspect: "the other",

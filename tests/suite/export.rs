@@ -89,7 +89,7 @@ fn the_file_holds_the_start_pose_and_its_speeds() {
         let document = Document::read(&exported(case, &scenario.name));
         let motions = document.motions();
         let size = mechanism.size();
-        let speed = case.crank().at(0.0).omega.abs();
+        let speed = case.crank().at(0.0).rate.abs();
         let fastest = motions.iter().map(|motion| motion.omega.abs()).fold(speed, f64::larger);
         for joint in mechanism.joints() {
             let [first, second] = [("first", joint.first), ("second", joint.second)].map(|(word, side)| {
@@ -123,7 +123,7 @@ fn the_file_holds_the_start_pose_and_its_speeds() {
         for drive in &case.drives {
             let link = &mechanism.links()[drive.link].name;
             let omega = document.motion_of(&motions, Some(link)).omega;
-            assert_within!((omega - drive.at(0.0).omega).abs(), 1e-14 * speed, "{}: {omega}", scenario.name);
+            assert_within!((omega - drive.at(0.0).rate).abs(), 1e-14 * speed, "{}: {omega}", scenario.name);
         }
     }
 }
@@ -209,7 +209,7 @@ fn the_rotor_outweighs_the_mechanism() {
             body.mass * motion.point_velocity(body.mass_centre).norm_squared() + body.inertia * motion.omega.powi(2)
         };
         let total: f64 = (1..case.mechanism.links().len()).map(energy).sum();
-        let reduced = total / case.crank().at(0.0).omega.powi(2);
+        let reduced = total / case.crank().at(0.0).rate.powi(2);
         assert!(model.rotor() >= 1e7 * reduced, "{}: {:e} and {reduced:e}", scenario.name, model.rotor());
     }
 }

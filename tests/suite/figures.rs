@@ -34,7 +34,7 @@ fn proof(name: &str, step: Option<f64>) -> Proof {
 fn fine(case: &Case) -> Case {
     let sense = case.crank().sense();
     let cranks = (0..=3600).map(|k| (sense * f64::from(k) / 10.0).to_radians() + case.crank().start).collect();
-    case.on(Grid::of_cranks(case.crank(), cranks)).unwrap()
+    case.on(Grid::of_inputs(case.crank(), cranks)).unwrap()
 }
 
 #[test]

@@ -60,7 +60,7 @@ fn worst(family: &Family, among: Among, tries: usize) -> ([f64; 5], usize, usize
             continue;
         };
         solved += 1;
-        let near = nearness(assur, case.crank().at(0.0).omega.abs());
+        let near = nearness(assur, case.crank().at(0.0).rate.abs());
         for (residual, size) in residuals(assur, newton).unwrap().iter().zip(magnitudes(assur)) {
             let share = residual.max / (size * near * near);
             let stage = residual.channel.kind.stage as usize;

@@ -33,7 +33,7 @@ struct Around {
 impl Around {
     fn of(solver: &dyn Solver, sample: &Sample, t: f64) -> Self {
         let case = &sample.scenario.case;
-        let spacing = TURN / case.crank().at(0.0).omega.abs();
+        let spacing = TURN / case.crank().at(0.0).rate.abs();
         let times = [-4.0, -2.0, -1.0, 0.0, 1.0, 2.0, 4.0].map(|k| t + k * spacing);
         let found = states(solver, case, &times).unwrap_or_else(|error| panic!("{error}"));
         Around { states: found.try_into().expect("seven states"), spacing, condition: sample.condition }
@@ -65,7 +65,7 @@ impl Around {
 fn velocities_and_accelerations_are_derivatives() {
     for_each(COUNT, |sample| {
         let case = &sample.scenario.case;
-        let speed = case.crank().at(0.0).omega.abs();
+        let speed = case.crank().at(0.0).rate.abs();
         for solver in analytic::all() {
             for k in [0, case.grid.len() / 2, case.grid.len() - 1] {
                 let around = Around::of(solver, sample, case.grid.times[k]);
@@ -92,7 +92,7 @@ fn both_solvers_agree_to_rounding() {
     for_each(8 * COUNT, |sample| {
         let case = &sample.scenario.case;
         let [a, b] = analytic::all().map(|solver| solver.solve(case).expect("solvable"));
-        let speed = case.crank().at(0.0).omega.abs();
+        let speed = case.crank().at(0.0).rate.abs();
         let largest = |stage: Stage| {
             let own = a.iter().filter(|(channel, _)| channel.kind.stage == stage);
             own.flat_map(|(_, values)| values).fold(0.0, |max: f64, v| max.larger(v.abs()))

@@ -51,8 +51,8 @@ fn both_sides_agree_and_balance_powers_and_momentum() {
             for (state, &t) in states(solver, case, &case.grid.times).unwrap().iter().zip(&case.grid.times) {
                 let crank = state.motions[case.crank().link];
                 let law = case.crank().at(t);
-                assert_within!((crank.omega - law.omega).abs(), 1e-12, "{t}");
-                assert_within!((crank.alpha - law.alpha).abs(), 1e-9, "{t}");
+                assert_within!((crank.omega - law.rate).abs(), 1e-12, "{t}");
+                assert_within!((crank.alpha - law.acceleration).abs(), 1e-9, "{t}");
                 let power = power::of_known_forces(case, state) + state.torques[0] * crank.omega;
                 let scale = moment * case.crank().top_speed().abs();
                 assert_within!(power.abs(), 1e-12 * scale, "{} {t}: {:e}", solver.name(), power / scale);

@@ -56,7 +56,7 @@ impl Table {
         let name = instants.2;
         let (rows, last) = (40, case.grid.times.iter().copied().fold(0.0, KeepNan::larger));
         let grid = match name.starts_with("crank") {
-            true => Grid::of_cranks(
+            true => Grid::of_inputs(
                 case.crank(),
                 (0..rows).map(|row| 0.0361 + 0.127_314_159_265 * f64::from(row)).collect(),
             ),
@@ -66,7 +66,7 @@ impl Table {
                 Grid::of_times(case.crank(), (1..=rows).map(|row| last * share(row)).collect())
             }
         };
-        let at = if name.starts_with("crank") { grid.cranks.clone() } else { grid.times.clone() };
+        let at = if name.starts_with("crank") { grid.inputs.clone() } else { grid.times.clone() };
         let right = analytic::AssurSolver.solve(&case.on(grid).unwrap()).unwrap();
         let mut columns = Vec::new();
         for (channel, values) in right.iter() {
@@ -189,7 +189,7 @@ fn a_wrong_number_is_found_among_rounded_instants() {
             let mut table = Table::of(&case, instants, &mut Random(0));
             let is_crank = instants.2.starts_with("crank");
             let own = match is_crank {
-                true => Grid::of_cranks(case.crank(), table.at.clone()),
+                true => Grid::of_inputs(case.crank(), table.at.clone()),
                 false => Grid::of_times(case.crank(), table.at.clone()),
             };
             let right = analytic::AssurSolver.solve(&case.on(own).unwrap()).unwrap();
@@ -266,7 +266,7 @@ fn angles_may_be_whole_turns_apart() {
         let mut table = Table::of(&case, instants, &mut Random(3));
         let grid = match instants.2 {
             "t_s" => Grid::of_times(case.crank(), table.at.clone()),
-            _ => Grid::of_cranks(case.crank(), table.at.clone()),
+            _ => Grid::of_inputs(case.crank(), table.at.clone()),
         };
         let right = analytic::AssurSolver.solve(&case.on(grid).unwrap()).unwrap();
         table.columns.clear();

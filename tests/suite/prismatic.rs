@@ -10,7 +10,7 @@ use linkage::solver::{Solver, State};
 /// The states of a solver on the sample's grid, with their times and crank angles.
 fn solved(solver: &dyn Solver, case: &Case) -> Vec<(f64, f64, State)> {
     let found = states(solver, case, &case.grid.times).unwrap();
-    let rows = case.grid.times.iter().zip(&case.grid.cranks).zip(found);
+    let rows = case.grid.times.iter().zip(&case.grid.inputs).zip(found);
     rows.map(|((&time, &crank), state)| (time, crank, state)).collect()
 }
 

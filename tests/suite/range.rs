@@ -321,7 +321,7 @@ fn a_singular_start_is_refused() {
 }
 
 fn asked(case: &Case, degrees: f64) -> Case {
-    case.on(Grid::of_cranks(case.crank(), vec![degrees.to_radians()])).unwrap()
+    case.on(Grid::of_inputs(case.crank(), vec![degrees.to_radians()])).unwrap()
 }
 
 /// Both solvers and the list of configurations state the crank angles that can be reached, to 1e-6 deg.
@@ -335,7 +335,7 @@ fn an_angle_out_of_reach_is_answered_with_the_interval() {
         // The solver reports only its own result; the range is added where both are joined.
         assert!(error.is_out_of_reach() && !error.to_string().contains("can be reached from"), "{who}: {error}");
         assert_eq!(error.advice()[0], Advice::ShortenGrid, "{who}");
-        let crank = error.crank().unwrap().to_degrees();
+        let crank = error.input().unwrap().value.to_degrees();
         assert!(crank < from + 1e-3 || crank > to - 1e-3, "{who}: {crank}");
         let error = explained(&case, error);
         assert!(!error.is_out_of_reach() && explained(&case, error.clone()).message() == error.message());

@@ -190,7 +190,7 @@ impl Run {
             theirs.iter().zip(ours).map(|(theirs, ours)| theirs - ours).collect()
         };
         let columns = all.iter().map(difference).collect();
-        let errors = Trajectory::new(reference.times().to_vec(), reference.cranks().to_vec(), all, columns).unwrap();
+        let errors = Trajectory::new(reference.times().to_vec(), reference.inputs().to_vec(), all, columns).unwrap();
         let metadata = BTreeMap::from([("rapier".into(), "0.36.1".into()), ("step_s".into(), "1e-5".into())]);
         let log = vec![
             LogEntry { time: 0.0, level: Level::Warning, text: "transmission angle below 30 deg".into() },
@@ -272,7 +272,7 @@ fn place(name: &str) -> (tempfile::TempDir, PathBuf) {
 
 fn bits(trajectory: &Trajectory) -> Vec<Vec<u64>> {
     let columns = trajectory.iter().map(|(_, column)| column);
-    let all = [trajectory.times(), trajectory.cranks()].into_iter().chain(columns);
+    let all = [trajectory.times(), trajectory.inputs()].into_iter().chain(columns);
     all.map(|column| column.iter().map(|value| value.to_bits()).collect()).collect()
 }
 

@@ -91,7 +91,7 @@ fn instants_far_apart_are_as_good() {
         let case = shipped(name).case;
         let sense = case.crank().sense();
         let cranks = (0..=5).map(|k| case.crank().start + sense * 1.9 * f64::from(k)).collect();
-        let case = case.on(Grid::of_cranks(case.crank(), cranks)).unwrap();
+        let case = case.on(Grid::of_inputs(case.crank(), cranks)).unwrap();
         for accuracy in [1e-2, 1e-4, 1e-6, Simbody::ACCURACY] {
             agree(&case, &Simbody::new(accuracy), &AssurSolver, 1.0);
         }
@@ -211,7 +211,7 @@ fn loads_of_all_sorts_agree() {
     ];
     let case = case.with(|parts| parts.loads.extend(more)).unwrap();
     let cranks = (-7..20).map(|k| 0.05 + 0.31 * f64::from(k)).collect();
-    let case = case.on(Grid::of_cranks(case.crank(), cranks)).unwrap();
+    let case = case.on(Grid::of_inputs(case.crank(), cranks)).unwrap();
     println!("{:?}", agree(&case, &default(), &AssurSolver, 1.0));
 }
 
@@ -259,7 +259,7 @@ fn random_mechanisms_agree() {
 /// A measure of how near a run comes to a singular pose: its largest speed or square root of an acceleration, over the
 /// crank's (lengths are about a metre). The effect of a small error grows with its square.
 fn nearness(case: &Case, truth: &Trajectory) -> f64 {
-    let crank = case.crank().at(0.0).omega.abs();
+    let crank = case.crank().at(0.0).rate.abs();
     let of = |(channel, values): (&Channel, &[f64])| {
         let most = values.iter().fold(0.0f64, |max, value| max.larger(value.abs()));
         match channel.kind.stage {

@@ -31,7 +31,7 @@ fn is_refused(what: &str, case: &Case, crank: f64) {
             Err(error) => error,
         };
         assert!(matches!(error.kind(), ErrorKind::Geometry | ErrorKind::Numeric), "{what}: {error}");
-        let found = error.crank().unwrap_or_else(|| panic!("{what}: {error}")).to_degrees();
+        let found = error.input().unwrap_or_else(|| panic!("{what}: {error}")).value.to_degrees();
         assert_within!((found - crank).abs(), 1e-3, "{what}: {}: {error}", side.name());
     }
 }
@@ -103,11 +103,11 @@ fn regress_a_prescribed_link_does_not_suffer_from_a_dead_point() {
             })
             .unwrap();
         let (crank, drive) = (found.unwrap(), case.crank().at(case.grid.times[0]));
-        let expected = -crank.arm(pin) * drive.omega.powi(2);
+        let expected = -crank.arm(pin) * drive.rate.powi(2);
         let error =
             (crank.point_acceleration(pin) - crank.point_acceleration(linkage::math::Vec2::zeros()) - expected).norm();
         assert_within!(error / expected.norm(), 1e-12, "{off}: {crank:?}");
-        assert_eq!((crank.omega, crank.alpha), (drive.omega, drive.alpha));
+        assert_eq!((crank.omega, crank.alpha), (drive.rate, drive.acceleration));
     }
 }
 

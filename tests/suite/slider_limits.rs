@@ -12,7 +12,7 @@ use linkage::case::{Case, Grid};
 use scenario::Scenario;
 
 fn on_cranks(case: &Case, cranks: &[f64]) -> Case {
-    case.on(Grid::of_cranks(case.crank(), cranks.iter().map(|degrees| degrees.to_radians()).collect())).unwrap()
+    case.on(Grid::of_inputs(case.crank(), cranks.iter().map(|degrees| degrees.to_radians()).collect())).unwrap()
 }
 
 /// Symptom: the range of a mechanism whose slide goes to infinity is an error, and every message that contains the

@@ -14,7 +14,7 @@ use linkage::solver::State;
 fn solved(case: &Case) -> Vec<Vec<(f64, State)>> {
     let states_of = |&solver: &&'static dyn linkage::solver::Solver| {
         let found = states(solver, case, &case.grid.times).unwrap();
-        case.grid.cranks.iter().copied().zip(found).collect()
+        case.grid.inputs.iter().copied().zip(found).collect()
     };
     all().iter().map(states_of).collect()
 }
@@ -120,7 +120,7 @@ fn val_six_bar_slider_stands_highest_where_the_rocker_is_upright() {
     }
     assert_eq!(topmost().count(), 2);
     cranks.sort_by(f64::total_cmp);
-    let there = case.on(Grid::of_cranks(case.crank(), cranks)).unwrap();
+    let there = case.on(Grid::of_inputs(case.crank(), cranks)).unwrap();
     let highest = solved(case)[0].iter().map(|(_, state)| place(case, state, "D")[0].y).fold(0.0, f64::larger);
     for rows in solved(&there) {
         for (crank, state) in rows {
@@ -194,7 +194,7 @@ fn val_quick_return_time_ratio() {
     // The ram reverses there too: its speed, below 3 m/s elsewhere, is that of an angle of 1e-9 rad.
     let mut cranks = vec![first.crank, second.crank];
     cranks.sort_by(f64::total_cmp);
-    for rows in solved(&case.on(Grid::of_cranks(case.crank(), cranks)).unwrap()) {
+    for rows in solved(&case.on(Grid::of_inputs(case.crank(), cranks)).unwrap()) {
         for (crank, state) in rows {
             let speed = place(&case, &state, "C")[1].norm();
             assert_within!(speed, 1e-7, "{crank}: {speed:e}");

@@ -92,7 +92,7 @@ fn what_is_set_is_what_is_proven() {
     let times = of(CRANK_ROCKER).times([0.0, 0.1]).only(["positions"]).prove().unwrap();
     assert_eq!(times.reference_trajectory.times(), [0.0, 0.1]);
     let cranks = of(CRANK_ROCKER).cranks([1.0, 2.0]).only(["positions"]).start(1.0).prove().unwrap();
-    assert_eq!((cranks.reference_trajectory.cranks(), cranks.reference_trajectory.times()[0]), (&[1.0, 2.0][..], 0.0));
+    assert_eq!((cranks.reference_trajectory.inputs(), cranks.reference_trajectory.times()[0]), (&[1.0, 2.0][..], 0.0));
     let rocker = |proving: Proving| {
         let proof = proving.only(["link.rocker.angle_rad"]).cranks([0.5]).prove().unwrap();
         proof.reference_trajectory.named("link.rocker.angle_rad").unwrap()[0]

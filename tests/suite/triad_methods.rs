@@ -72,7 +72,7 @@ fn condition(contours: &Contours) -> f64 {
 /// The methods at the given states of a solver.
 fn differences(case: &Case, triad: &Triad, states: &[State], times: &[f64]) -> Differences {
     let links = triad.links();
-    let speed = case.crank().at(0.0).omega;
+    let speed = case.crank().at(0.0).rate;
     let all =
         |of: &dyn Fn(&State, usize) -> f64| largest(states.iter().flat_map(|s| links.map(|link| of(s, link).abs())));
     let omega = all(&|state, link| state.motions[link].omega).larger(speed.abs());
@@ -94,11 +94,11 @@ fn differences(case: &Case, triad: &Triad, states: &[State], times: &[f64]) -> D
         keep(&mut found.condition, condition(&Contours::of(triad, motions)));
         if let Ok(change) = &mut change {
             let drive = case.crank().at(time);
-            let transfer = change.solve(drive.angle).unwrap_or_else(|error| panic!("{error}"));
+            let transfer = change.solve(drive.value).unwrap_or_else(|error| panic!("{error}"));
             for (link, direction) in links.into_iter().zip(transfer.directions) {
                 keep(&mut found.change[0], (direction - motions[link].direction).norm());
             }
-            compare(&mut found.change[1..], transfer.rates(drive.omega, drive.alpha));
+            compare(&mut found.change[1..], transfer.rates(drive.rate, drive.acceleration));
             keep(&mut found.chain, transfer.condition);
             let now = (transfer.driver, transfer.first[grounded]);
             found.exchanges += usize::from(last.is_some_and(|last| last.0 != now.0));
@@ -262,7 +262,7 @@ fn mechanism(draw: &mut Draw, moving: bool) -> Option<Scenario> {
 /// Whether the class change also reports that the group cannot be followed to one of the times.
 fn class_change_is_lost(case: &Case, times: &[f64]) -> bool {
     match ClassChange::new(case, &only_triad(case)) {
-        Ok(mut change) => times.iter().any(|&time| change.solve(case.crank().at(time).angle).is_err()),
+        Ok(mut change) => times.iter().any(|&time| change.solve(case.crank().at(time).value).is_err()),
         Err(error) => error.kind() == ErrorKind::Geometry,
     }
 }

@@ -32,7 +32,7 @@ impl Solver for AssurSolver {
         let deepest = case.wanted.deepest();
         for (done, row) in case.grid.ascending().into_iter().enumerate() {
             let drive = case.crank().at(case.grid.times[row]);
-            poses.solve(case.grid.cranks[row], drive.omega, drive.alpha, deepest)?;
+            poses.solve(case.grid.inputs[row], drive.rate, drive.acceleration, deepest)?;
             visit(row, poses.with_angles())?;
             progress((done + 1) as f64 / case.grid.len() as f64);
         }
@@ -93,7 +93,7 @@ fn free_motion(case: &Case, accuracy: f64, visit: Visit, progress: Progress) -> 
     let (motion, end) =
         run_up::followed(&model, case.crank().initial_speed(), &times, accuracy, case.wanted.deepest())?;
     if motion.len() < times.len() {
-        return Err(ended(end));
+        return Err(ended(case, end));
     }
     let mut next = 0;
     run_up::states(&model, case, &motion, &mut |index, state| {
@@ -107,13 +107,13 @@ fn free_motion(case: &Case, accuracy: f64, visit: Visit, progress: Progress) -> 
 }
 
 /// The error of a motion that ends before the grid does.
-fn ended(end: End) -> Error {
+fn ended(case: &Case, end: End) -> Error {
     let (what, t, crank) = match end {
         End::Held(t, crank) => ("loads hold the mechanism", t, crank),
         End::Limit(t, crank) => ("the crank comes to a limit of its rotation", t, crank),
         End::Reached => ("the motion ends", 0.0, 0.0),
     };
-    let message = format!("{what} at t = {t:.6} s, crank angle {:.4} deg", crank.to_degrees());
-    let error = Error::new(ErrorKind::Numeric, message).at_time(t).at_crank(crank);
+    let at = case.told(crank);
+    let error = Error::new(ErrorKind::Numeric, format!("{what} at t = {t:.6} s, {at}")).at_time(t).at_input(at);
     error.help("let the grid end before, or give the motor more torque")
 }

@@ -59,7 +59,7 @@ pub fn all(case: &Case, crank: f64) -> Result<Vec<Modes>> {
     let mechanism = &case.mechanism;
     let (mut poses, crank) = reached(case, crank)?;
     let t = case.crank().time_of(crank);
-    let omega = if case.is_steady() { case.crank().at(t).omega } else { case.crank().top_speed() };
+    let omega = if case.is_steady() { case.crank().at(t).rate } else { case.crank().top_speed() };
     let (angles, omegas) =
         (case.drives.world_angles(crank), case.drives.ratios(t).map(|ratio| ratio * omega).collect::<Vec<f64>>());
     poses.solve(crank, omega, 0.0, Stage::Velocities)?;

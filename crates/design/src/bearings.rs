@@ -47,14 +47,14 @@ pub fn journal_diameter(force: f64, lever: f64, stress: f64) -> f64 {
 /// # Errors
 /// Those of [`PoseSolver::solve`], for crank angles within the range that cannot be reached.
 pub fn over_range(case: &Case) -> Result<Peaks> {
-    if case.grid.cranks.iter().any(|&crank| case.crank().time_of(crank).is_nan()) {
+    if case.grid.inputs.iter().any(|&crank| case.crank().time_of(crank).is_nan()) {
         let message =
             "peaks are looked for over the crank angle, but the drive's law may come to an angle more than once";
         return Err(Error::new(ErrorKind::Unsupported, message).help(Advice::SolutionTable));
     }
     let mut poses = PoseSolver::new(case)?;
     let (from, to) =
-        case.grid.cranks.iter().fold((f64::MAX, f64::MIN), |(low, high), &c| (low.smaller(c), high.larger(c)));
+        case.grid.inputs.iter().fold((f64::MAX, f64::MIN), |(low, high), &c| (low.smaller(c), high.larger(c)));
     let parts = ((to - from) / SAMPLE_STEP).ceil().larger(1.0) as usize;
     let cranks: Vec<f64> = (0..=parts).map(|k| from + (to - from) * (k as f64 / parts as f64)).collect();
     let joints = case.mechanism.joints();
@@ -105,7 +105,7 @@ impl Quantity {
 
 fn at<'p>(case: &Case, poses: &'p mut PoseSolver, crank: f64) -> Result<&'p State> {
     let drive = case.crank().at(case.crank().time_of(crank));
-    poses.solve(crank, drive.omega, drive.alpha, Stage::BalancingMoment)
+    poses.solve(crank, drive.rate, drive.acceleration, Stage::BalancingMoment)
 }
 
 /// The largest sample, refined by golden section between its neighbours.

@@ -7,6 +7,7 @@ mod grid;
 mod only;
 mod parts;
 mod scene;
+mod seats;
 mod turning;
 
 use std::collections::BTreeSet;
@@ -14,7 +15,7 @@ use std::ops::Deref;
 
 use crate::Result;
 use crate::drive::load::sense_of;
-use crate::drive::{Action, Drive, Load, Motor, Senses, Setting, Wrench};
+use crate::drive::{Action, Drive, Input, InputValue, Load, Motor, Senses, Setting, Wrench};
 use crate::math::{KeepNan, Motion, Vec2};
 use crate::mechanism::Side;
 use crate::trajectory::{CHANNELS, Channel, OfLink, Reading, Stage, Subject};
@@ -23,6 +24,7 @@ pub use builder::CaseBuilder;
 pub use grid::Grid;
 pub use parts::{CaseParts, Wanted};
 pub use scene::{LeftOut, Scene};
+pub use seats::{Seat, Seats};
 
 /// Share of the fastest link's angular velocity below which a speed is rounding and tells no sense of motion.
 const STANDSTILL: f64 = 1e-12;
@@ -158,34 +160,16 @@ impl Case {
         self.subjects().flat_map(rows).collect()
     }
 
-    /// Everything that has channels, in the order of columns: sort, number among its like, and name.
-    /// Points are numbered as in [`Mechanism::moving_points`](crate::mechanism::Mechanism::moving_points).
-    pub(crate) fn subjects(&self) -> impl Iterator<Item = (Subject, usize, &str)> {
-        let links = self.mechanism.links().iter().enumerate().skip(1);
-        let links = links.map(|(index, link)| (Subject::Link, index, link.name.as_str()));
-        let points = self.mechanism.moving_points().enumerate().map(|(index, (name, _))| (Subject::Point, index, name));
-        let joints = || self.mechanism.joints().iter().enumerate();
-        let sliders = joints().filter(|(_, joint)| joint.slides());
-        let sliders = sliders.map(|(index, joint)| (Subject::Slider, index, joint.name.as_str()));
-        let joints = joints().map(|(index, joint)| (Subject::Joint, index, joint.name.as_str()));
-        let frame = std::iter::once((Subject::Frame, 0, ""));
-        let moved = self.drives.with_moment().map(|(index, drive)| match index {
-            0 => (Subject::Drive, 0, ""),
-            _ => (Subject::Motor, index, self.mechanism.joints()[drive.joint].name.as_str()),
-        });
-        links.chain(points).chain(joints).chain(sliders).chain(frame).chain(moved)
-    }
-
     /// The joints whose reactions are wanted, by themselves or as part of the force on the frame.
     #[must_use]
     pub fn wanted_reactions(&self) -> Vec<usize> {
-        let joints = self.mechanism.joints();
+        let (joints, seats) = (self.mechanism.joints(), self.seats());
         let is_wanted = |joint: &usize| match &self.only {
             None => self.wanted.deepest() >= Stage::Reactions,
-            Some(only) => only.iter().any(|own| match own.kind.subject {
-                Subject::Joint | Subject::Slider => own.of == joints[*joint].name && own.kind.stage >= Stage::Reactions,
-                Subject::Frame => true,
-                Subject::Link | Subject::Point | Subject::Drive | Subject::Motor => false,
+            Some(only) => only.iter().any(|own| match seats.of(own) {
+                Some(Seat::Joint(at)) => at == *joint && own.kind.stage >= Stage::Reactions,
+                Some(Seat::Frame) => true,
+                Some(Seat::Link(_) | Seat::Point(_) | Seat::Drive(_)) | None => false,
             }),
         };
         (0..joints.len()).filter(is_wanted).collect()
@@ -202,6 +186,29 @@ impl Case {
     #[must_use]
     pub fn crank(&self) -> &Drive {
         self.drives.crank()
+    }
+
+    /// The input at `value`, as messages say it.
+    #[must_use]
+    pub fn told(&self, value: f64) -> InputValue {
+        self.crank().told(value)
+    }
+
+    /// The input in a state of the mechanism, as the scenario states it. Arguments as in [`Case::each_load`].
+    #[inline]
+    #[must_use]
+    pub fn input_in(&self, motions: &[Motion], angles: &[f64]) -> f64 {
+        let drive = self.crank();
+        drive.state_in(&motions[drive.link], angles[drive.link]).value
+    }
+
+    /// A step of the input over which links move as far as while a driving link turns by `turn` (rad).
+    #[inline]
+    #[must_use]
+    pub fn step(&self, turn: f64) -> f64 {
+        match self.crank().input {
+            Input::Angle => turn,
+        }
     }
 
     /// Whether forces decide the motion of a driving link.
@@ -285,7 +292,7 @@ impl Case {
 
     #[inline]
     fn setting<'a>(&'a self, motions: &'a [Motion], angles: &'a [f64]) -> Setting<'a> {
-        let crank = angles[self.crank().link] - self.crank().zero;
+        let crank = self.input_in(motions, angles);
         Setting { motions, angles, start: &self.start.0, crank }
     }
 

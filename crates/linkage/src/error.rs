@@ -11,6 +11,8 @@ use std::ops::Range;
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use crate::drive::InputValue;
+
 /// Result of every fallible operation of this crate.
 pub type Result<T> = std::result::Result<T, Error>;
 
@@ -76,15 +78,15 @@ pub struct Excess {
 pub enum Reached {
     /// Up to this time (s).
     Time(f64),
-    /// Up to this crank angle (rad, as the scenario states it).
-    Crank(f64),
+    /// Up to this value of the input.
+    Input(InputValue),
 }
 
 impl fmt::Display for Reached {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Reached::Time(t) => write!(f, "the run stands up to t = {t:.6} s"),
-            Reached::Crank(crank) => write!(f, "the run stands up to crank angle {:.4} deg", crank.to_degrees()),
+            Reached::Input(at) => write!(f, "the run stands up to {at}"),
         }
     }
 }
@@ -100,7 +102,7 @@ struct Inner {
     key: Option<String>,
     place: Option<Place>,
     time: Option<f64>,
-    crank: Option<f64>,
+    input: Option<InputValue>,
     part: Option<Part>,
     residual: Option<Excess>,
     reached: Option<Reached>,
@@ -120,7 +122,7 @@ impl Error {
             key: None,
             place: None,
             time: None,
-            crank: None,
+            input: None,
             part: None,
             residual: None,
             reached: None,
@@ -166,10 +168,10 @@ impl Error {
         self
     }
 
-    /// Sets the crank angle of the error (rad, as the scenario states it).
+    /// Sets the input at which the error is.
     #[must_use]
-    pub fn at_crank(mut self, crank: f64) -> Self {
-        self.0.crank = Some(crank);
+    pub fn at_input(mut self, at: InputValue) -> Self {
+        self.0.input = Some(at);
         self
     }
 
@@ -268,10 +270,10 @@ impl Error {
         self.0.time
     }
 
-    /// Crank angle (rad, as the scenario states it), if known.
+    /// The input at which it is, if known.
     #[must_use]
-    pub fn crank(&self) -> Option<f64> {
-        self.0.crank
+    pub fn input(&self) -> Option<InputValue> {
+        self.0.input
     }
 
     /// Link, joint or group at fault, if known.
@@ -340,6 +342,7 @@ impl std::error::Error for Error {}
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::drive::Input;
 
     #[test]
     fn an_error_is_as_small_as_a_pointer() {
@@ -351,13 +354,13 @@ mod tests {
     fn an_error_tells_its_data_and_its_way_out() {
         let error = Error::new(ErrorKind::Numeric, "the loop has opened")
             .at_time(0.25)
-            .at_crank(1.5)
+            .at_input(Input::Angle.at(1.5))
             .of_joint("B")
             .beyond(0.2, 0.1, "m")
             .after(Reached::Time(0.125))
             .help(Advice::SmallerStep { to: None })
             .or_help("check the pose");
-        assert_eq!((error.time(), error.crank()), (Some(0.25), Some(1.5)));
+        assert_eq!((error.time(), error.input()), (Some(0.25), Some(Input::Angle.at(1.5))));
         assert_eq!(error.part(), Some(&Part::Joint("B".into())));
         assert_eq!(error.residual(), Some(Excess { value: 0.2, bound: 0.1, unit: "m" }));
         assert_eq!(error.advice(), [Advice::SmallerStep { to: None }, "check the pose".into()]);

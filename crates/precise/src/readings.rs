@@ -25,7 +25,7 @@ pub(crate) fn trajectory(case: &Case, instants: &[Snapshot]) -> Result<Trajector
         values
     };
     let columns = channels.iter().map(column).collect();
-    Trajectory::new(case.grid.times.clone(), case.grid.cranks.clone(), channels, columns)
+    Trajectory::new(case.grid.times.clone(), case.grid.inputs.clone(), channels, columns)
 }
 
 /// Adds whole turns, so that an angle changes by less than half a turn from one instant to the next.

@@ -71,7 +71,7 @@ impl Task {
 
 /// An error at an instant of the grid.
 pub(crate) fn stuck(case: &Case, row: usize, what: &str) -> Error {
-    Error::new(ErrorKind::Geometry, format!("no precise numbers: {what}")).at_crank(case.grid.cranks[row])
+    Error::new(ErrorKind::Geometry, format!("no precise numbers: {what}")).at_input(case.told(case.grid.inputs[row]))
 }
 
 /// Frames of the start pose.

@@ -140,7 +140,7 @@ impl Whole<'_> {
         }
     }
 
-    /// Coefficients of all equations in a pose: two rows a joint, one of the drive. With them the gaps of the pose, or
+    /// Coefficients of all equations in a pose: those of the joints, then that of the drive. With them the gaps of the pose, or
     /// the parts of the second derivatives that go with the squares of the speeds, on the other side.
     fn system(&self, frames: &[Frame], what: What) -> System {
         let mut system = System::of(self.unknowns());
@@ -152,7 +152,8 @@ impl Whole<'_> {
             let (one, two) = (Long::ONE, Long::of(2.0));
             let squares =
                 arms[0] * (sides[0].0.omega * sides[0].0.omega) - arms[1] * (sides[1].0.omega * sides[1].0.omega);
-            let rows = [2 * index, 2 * index + 1];
+            let first_row = self.case.mechanism.rows(index).start;
+            let rows = [first_row, first_row + 1];
             match joint.kind {
                 JointKind::Revolute => {
                     for (k, normal) in [Vector::X, Vector::X.turned()].into_iter().enumerate() {
@@ -269,11 +270,12 @@ impl Whole<'_> {
         let mut system = System::of(self.unknowns());
         let joints = self.case.mechanism.joints();
         for (index, joint) in joints.iter().enumerate() {
-            for (k, (force, moment, _)) in Whole::reactions(joint, &instant.frames).into_iter().enumerate() {
+            let unknowns = self.case.mechanism.rows(index);
+            for (k, (force, moment, _)) in unknowns.zip(Whole::reactions(joint, &instant.frames)) {
                 for (link, sign) in [(joint.second.link, Long::ONE), (joint.first.link, -Long::ONE)] {
                     if link != GROUND {
                         for (row, value) in [force.x, force.y, moment].into_iter().enumerate() {
-                            system.rows[column(link) + row][2 * index + k] = value * sign;
+                            system.rows[column(link) + row][k] = value * sign;
                         }
                     }
                 }
@@ -289,8 +291,8 @@ impl Whole<'_> {
         }
         let found = system.solved()?;
         for (index, joint) in joints.iter().enumerate() {
-            for (k, (force, _, moment)) in Whole::reactions(joint, &instant.frames).into_iter().enumerate() {
-                let value = found[2 * index + k];
+            let unknowns = self.case.mechanism.rows(index);
+            for (&value, (force, _, moment)) in found[unknowns].iter().zip(Whole::reactions(joint, &instant.frames)) {
                 instant.forces[index] = instant.forces[index] + force * value;
                 instant.moments[index] = instant.moments[index] + moment * value;
             }

@@ -7,7 +7,7 @@ use linkage::case::Case;
 use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::math::dense::Lu;
 use linkage::math::{KeepNan, Motion, Vec2, turned, unit};
-use linkage::mechanism::{GROUND, JointKind, LinkPose};
+use linkage::mechanism::{GROUND, LinkPose};
 use linkage::solver::State;
 
 /// Share of a group's largest determinant beyond which one of the other sign is another branch, and not what little the
@@ -69,15 +69,14 @@ impl Branches {
             }
             if own.sense * determinant < -BEYOND * own.largest {
                 let names = case.structure.groups[own.index].names(&case.mechanism);
-                let crank = case.crank().at(t).angle;
+                let at = case.told(case.crank().at(t).value);
                 let message = format!(
                     "the engine has slipped into another assembly mode of the group ({names}) before t = {t:.6} s, \
-                     crank angle {:.4} deg: it has passed a dead point on the way",
-                    crank.to_degrees()
+                     {at}: it has passed a dead point on the way"
                 );
                 return Err(Error::new(ErrorKind::Numeric, message)
                     .at_time(t)
-                    .at_crank(crank)
+                    .at_input(at)
                     .of_group(names)
                     .help(Advice::SmallerStep { to: None })
                     .or_help("keep the grid farther from the dead point"));
@@ -90,13 +89,12 @@ impl Branches {
 /// The error for an engine that has not gone on smoothly at a change point.
 fn turned_back(case: &Case, group: usize, t: f64) -> Error {
     let names = case.structure.groups[group].names(&case.mechanism);
-    let crank = case.crank().at(t).angle;
+    let at = case.told(case.crank().at(t).value);
     let message = format!(
-        "the engine has not gone on smoothly at the change point of the group ({names}) before t = {t:.6} s, crank angle \
-         {:.4} deg: velocities have jumped to the other branch",
-        crank.to_degrees()
+        "the engine has not gone on smoothly at the change point of the group ({names}) before t = {t:.6} s, {at}: \
+         velocities have jumped to the other branch"
     );
-    let error = Error::new(ErrorKind::Numeric, message).at_time(t).at_crank(crank).of_group(names);
+    let error = Error::new(ErrorKind::Numeric, message).at_time(t).at_input(at).of_group(names);
     error.help(Advice::SmallerStep { to: None }).or_help("let the grid end before the change point")
 }
 
@@ -117,18 +115,19 @@ impl Watched {
         let size = case.mechanism.size();
         let Watched { constraints, .. } = self;
         constraints.clear();
-        for (k, &joint) in group.inner.iter().chain(&group.outer).enumerate() {
+        let mut first = 0;
+        for &joint in group.inner.iter().chain(&group.outer) {
             let joint = &case.mechanism.joints()[joint];
             let sides = [joint.first, joint.second];
             let [one, other] = sides.map(|side| motions[side.link]);
             // The derivative of a place with the angle of its link.
             let arms = sides.map(|side| turned(motions[side.link].arm(side.local)));
-            let rows: [[[f64; 3]; 2]; 2] = match joint.kind {
-                JointKind::Revolute => [0, 1].map(|end: usize| {
+            let rows: [[[f64; 3]; 2]; 2] = match joint.kind.axes() {
+                None => [0, 1].map(|end: usize| {
                     let sign = if end == 0 { -1.0 } else { 1.0 };
                     [[sign, 0.0, sign * arms[end].x / size], [0.0, sign, sign * arms[end].y / size]]
                 }),
-                JointKind::Prismatic { axes } => {
+                Some(axes) => {
                     let axis: Vec2 = one.arm(axes[0]);
                     let (across, between) =
                         (turned(axis), other.point(joint.second.local) - one.point(joint.first.local));
@@ -143,12 +142,11 @@ impl Watched {
                 let column = group.links.iter().position(|&link| link == side.link && link != GROUND);
                 let Some(column) = column else { continue };
                 for (row, entries) in rows.into_iter().enumerate() {
-                    entries
-                        .into_iter()
-                        .enumerate()
-                        .for_each(|(c, value)| constraints.add(2 * k + row, 3 * column + c, value));
+                    let entries = entries.into_iter().enumerate();
+                    entries.for_each(|(c, value)| constraints.add(first + row, 3 * column + c, value));
                 }
             }
+            first += joint.kind.equations();
         }
         if constraints.factor() { constraints.determinant() } else { 0.0 }
     }

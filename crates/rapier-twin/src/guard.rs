@@ -5,7 +5,7 @@ use std::fmt;
 
 use super::world::{LinkFrame, World, masses, opening};
 use linkage::case::Case;
-use linkage::drive::{Drive, DriveMotion, Wrench};
+use linkage::drive::{Drive, DriveMotion, InputValue, Wrench};
 use linkage::engine::Settings;
 use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::math::{KeepNan, Vec2};
@@ -100,7 +100,7 @@ impl<'a> Guard<'a> {
     /// Sets all drives to their speeds at `t`.
     pub(super) fn drive(&mut self, t: f64) {
         for (index, drive) in self.case.drives.iter().enumerate() {
-            self.world.set_drive(index, drive.at(t).omega);
+            self.world.set_drive(index, drive.at(t).rate);
         }
     }
 
@@ -179,8 +179,9 @@ impl<'a> Guard<'a> {
         let Guard { case, world, frames: before, centres, masses, size, .. } = self;
         let (links, joints) = (case.mechanism.links(), case.mechanism.joints());
         // Uses the frames before the step.
-        let place =
-            |before: &[LinkFrame]| Moment::of(case.crank(), before[case.crank().link].angle() - case.crank().zero, t);
+        let place = |before: &[LinkFrame]| {
+            Moment::of(case.crank(), case.crank().from_world(before[case.crank().link].angle()), t)
+        };
         guarded(|| world.step()).map_err(|cause| panicked(place(before), cause.as_ref()))?;
         let frames = world.frames();
         let mut twice_energy = 0.0;
@@ -232,14 +233,14 @@ impl<'a> Guard<'a> {
             let far = link.points.iter().map(|point| off(point.local)).fold(off(link.mass_centre), f64::larger);
             // Written so that NaN also stops the run.
             if !(far <= self.largest_gap) {
-                let crank = case.crank().start.to_degrees();
+                let at = case.told(case.crank().start);
                 let message = format!(
-                    "the engine ran up from a few steps before the grid and came back to the start at crank angle {crank:.4} deg with link \"{}\" {far:.3e} m off: it has passed a dead point on the way",
+                    "the engine ran up from a few steps before the grid and came back to the start at {at} with link \"{}\" {far:.3e} m off: it has passed a dead point on the way",
                     link.name
                 );
                 return Err(Error::new(ErrorKind::Numeric, message)
                     .at_time(0.0)
-                    .at_crank(case.crank().start)
+                    .at_input(at)
                     .of_link(&link.name)
                     .beyond(far, self.largest_gap, "m")
                     .help(Advice::SmallerStep { to: None })
@@ -255,18 +256,18 @@ impl<'a> Guard<'a> {
 struct Moment {
     /// Time (s).
     t: f64,
-    /// Crank angle (rad), as the scenario defines it.
-    crank: f64,
+    /// The input there.
+    input: InputValue,
 }
 
 impl Moment {
     /// A free crank has the angle `before` the step.
     fn of(drive: &Drive, before: f64, t: f64) -> Self {
-        Moment { t, crank: if drive.is_free() { before } else { drive.at(t).angle } }
+        Moment { t, input: drive.told(if drive.is_free() { before } else { drive.at(t).value }) }
     }
 
     fn error(self, message: String) -> Error {
-        let error = Error::new(ErrorKind::Numeric, message).at_time(self.t).at_crank(self.crank);
+        let error = Error::new(ErrorKind::Numeric, message).at_time(self.t).at_input(self.input);
         error.help(Advice::SmallerStep { to: None })
     }
 
@@ -277,7 +278,7 @@ impl Moment {
 
 impl fmt::Display for Moment {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "t = {:.6} s, crank angle {:.4} deg", self.t, self.crank.to_degrees())
+        write!(f, "t = {:.6} s, {}", self.t, self.input)
     }
 }
 

@@ -2,7 +2,7 @@
 //!
 //! For every link: m (a - g) = sum of joint forces + loads.
 //! J alpha = sum of their moments about the mass centre + moments of the loads.
-//! A joint has two unknown components.
+//! A joint has as many unknown components as equations.
 //! For a revolute joint they are the two components of its force.
 //! For a prismatic joint they are the force across its axis, at its point on the second link, and the moment.
 //!
@@ -19,15 +19,17 @@
 mod seam;
 mod stages;
 
+use std::ops::Range;
+
 use linkage::case::Case;
 use linkage::drive::Wrench;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::Vec2;
 use linkage::math::dense::solve_pair;
-use linkage::mechanism::{EQUATIONS, Tree};
+use linkage::mechanism::Tree;
 use linkage::solver::State;
 use linkage::work::{Count, Tally};
-use seam::{Seam, Stand, Term};
+use seam::{PAIR, Seam, Stand, Term};
 use stages::{Limb, Row, Stage, stages};
 
 /// The equations, reused for every pose.
@@ -36,6 +38,8 @@ pub struct NewtonEuler {
     /// The links of the tree, from the ground outwards.
     tree: Vec<Limb>,
     cut: Vec<Seam>,
+    /// Their components in the list of all.
+    of_cut: Vec<Range<usize>>,
     /// The joints of the tree, then the cut joints, in the present pose.
     stands: Vec<Stand>,
     /// What every link of the tree needs from the joint that carries it.
@@ -86,12 +90,19 @@ impl NewtonEuler {
             Seam::new(case, joint, sides.map(|side| side.link), &numbers)
         });
         let cut: Vec<Seam> = cut.collect();
-        for (index, seam) in cut.iter().enumerate() {
+        let mut components = 0;
+        let of_cut = cut.iter().map(|seam| {
+            let first = components;
+            components += case.mechanism.joints()[seam.joint].kind.equations();
+            first..components
+        });
+        let of_cut: Vec<Range<usize>> = of_cut.collect();
+        for (seam, terms) in cut.iter().zip(&of_cut) {
             for side in seam.numbers {
                 let mut next = side;
                 while let Some(number) = next {
                     let limb = &mut limbs[number];
-                    limb.terms.extend([EQUATIONS * index, EQUATIONS * index + 1]);
+                    limb.terms.extend(terms.clone());
                     next = limb.seam.numbers[0];
                 }
             }
@@ -100,12 +111,12 @@ impl NewtonEuler {
             limb.terms.sort_unstable();
             limb.terms.dedup();
         }
-        let components = EQUATIONS * cut.len();
         debug_assert_eq!(components, limbs.iter().filter(|limb| limb.drive.is_none()).count(), "mobility");
         NewtonEuler {
             stands: Vec::with_capacity(limbs.len() + cut.len()),
             needs: vec![[0.0; 3]; limbs.len() * (components + 1)],
-            stages: stages(&limbs, cut.len()),
+            stages: stages(&limbs, &of_cut),
+            of_cut,
             components: vec![0.0; components],
             loads: vec![Wrench::ZERO; masses.len()],
             tree: limbs,
@@ -151,12 +162,12 @@ impl NewtonEuler {
         for stage in stages {
             match stage {
                 Stage::Pair(term, rows) => {
-                    let (mut matrix, mut right) = ([[0.0; EQUATIONS]; EQUATIONS], [0.0; EQUATIONS]);
+                    let (mut matrix, mut right) = ([[0.0; PAIR]; PAIR], [0.0; PAIR]);
                     for ((entries, right), row) in matrix.iter_mut().zip(&mut right).zip(rows) {
                         *right = row.equation(of(row), components, |column, value| entries[column] = value);
                     }
                     let Some(values) = solve_pair(matrix, right) else { return false };
-                    components[*term..][..EQUATIONS].copy_from_slice(&values);
+                    components[*term..][..PAIR].copy_from_slice(&values);
                 }
                 Stage::All { rows, terms, values, matrix } => {
                     matrix.clear();
@@ -205,10 +216,10 @@ impl NewtonEuler {
             let inertial = (motion.point_acceleration(centre) - case.gravity) * mass - force * self.load_share;
             needs[width - 1] = [inertial.x, inertial.y, inertia * motion.alpha - moment * self.load_share];
         }
-        for (index, (seam, stand)) in self.cut.iter().zip(&self.stands[self.tree.len()..]).enumerate() {
+        for ((seam, own), stand) in self.cut.iter().zip(&self.of_cut).zip(&self.stands[self.tree.len()..]) {
             for (k, (number, sign)) in seam.numbers.into_iter().zip(seam.signs).enumerate() {
                 let Some(number) = number else { continue };
-                let terms = &mut self.needs[number * width + EQUATIONS * index..][..EQUATIONS];
+                let terms = &mut self.needs[number * width..][own.clone()];
                 for (need, given) in terms.iter_mut().zip(stand.components(k)) {
                     (0..3).for_each(|c| need[c] -= sign * given[c]);
                 }
@@ -219,7 +230,8 @@ impl NewtonEuler {
     /// Reactions and driving moments, from the components in the cut joints.
     fn read(&self, state: &mut State) {
         let (constant, (stands, cut)) = (self.components.len(), self.stands.split_at(self.tree.len()));
-        for ((seam, stand), components) in self.cut.iter().zip(cut).zip(self.components.chunks_exact(EQUATIONS)) {
+        for ((seam, stand), own) in self.cut.iter().zip(cut).zip(&self.of_cut) {
+            let components = &self.components[own.clone()];
             (state.forces[seam.joint], state.moments[seam.joint]) = match stand.normal {
                 None => (Vec2::new(components[0], components[1]), 0.0),
                 Some(normal) => (normal * components[0], components[1]),

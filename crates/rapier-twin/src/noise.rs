@@ -88,10 +88,10 @@ pub(super) fn bound(case: &Case, engine: &Rapier, channel: &ChannelKind) -> f64 
 /// On the driving link they act at its far end, and in a prismatic joint, also on that link, anywhere in the mechanism.
 /// On the frame they are taken about the origin.
 fn lever(case: &Case, reach: f64, subject: Subject) -> f64 {
-    match subject {
-        Subject::Drive | Subject::Motor => case.drive_arm(),
-        Subject::Frame => reach,
-        Subject::Link | Subject::Point | Subject::Joint | Subject::Slider => case.mechanism.size(),
+    match (subject.is_drive(), subject == Subject::Frame) {
+        (true, _) => case.drive_arm(),
+        (false, true) => reach,
+        (false, false) => case.mechanism.size(),
     }
 }
 

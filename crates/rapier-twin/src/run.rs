@@ -90,7 +90,7 @@ fn reached(error: Error, case: &Case, visited: Option<usize>) -> Error {
     let (Some(row), ErrorKind::Numeric) = (visited, error.kind()) else { return error };
     let until = match case.is_free() {
         true => Reached::Time(case.grid.times[row]),
-        false => Reached::Crank(case.grid.cranks[row]),
+        false => Reached::Input(case.told(case.grid.inputs[row])),
     };
     error.after(until)
 }

@@ -8,7 +8,7 @@
 
 use linkage::math::Vec2;
 use linkage::mechanism::spanning_tree::Tree;
-use linkage::mechanism::{GROUND, Joint, JointKind, Mechanism};
+use linkage::mechanism::{GROUND, Joint, Mechanism};
 
 /// The links of a cut pin, the more mobile one first, and the direction of its first row in that link's frame.
 /// `masses` are mass (kg) and moment of inertia (kg m^2) of every link. `None` where there is nothing to choose.
@@ -30,14 +30,14 @@ pub(super) fn steered(
         };
         let own = &mechanism.joints()[branch.joint];
         let [mass, inertia] = masses[link];
-        match own.kind {
-            JointKind::Revolute => {
+        match own.axis_on(link) {
+            None => {
                 let pivot = own.on(link)?;
                 let arm = joint.on(link)? - pivot;
                 let about = inertia + mass * (mechanism.links()[link].mass_centre - pivot).norm_squared();
                 (arm.norm() > 0.0).then(|| (arm.norm_squared() / about, arm.normalize()))
             }
-            JointKind::Prismatic { .. } => Some((mass.recip(), own.axis_on(link)?)),
+            Some(axis) => Some((mass.recip(), axis)),
         }
     };
     let arms = links.map(|link| if link == GROUND { None } else { arm(link) });

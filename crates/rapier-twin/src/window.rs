@@ -7,7 +7,7 @@ use linkage::case::Case;
 use linkage::engine::Settings;
 use linkage::math::interpolate::{POINTS, lagrange_weights};
 use linkage::math::{Motion, Vec2, rotated, turned, unit};
-use linkage::mechanism::{JointKind, LinkPose};
+use linkage::mechanism::LinkPose;
 use linkage::solver::State;
 use linkage::trajectory::Stage;
 
@@ -161,8 +161,8 @@ impl Window {
             let along = |link: usize, local: Vec2| rotated(self.directions[link], local);
             let (velocity, omega) = self.rates[branch.parent];
             let speed = world.relative_speed(index);
-            self.rates[branch.link] = match joint.kind {
-                JointKind::Revolute => {
+            self.rates[branch.link] = match joint.axis_on(branch.parent) {
+                None => {
                     let arm = |link: usize| {
                         let local = joint.on(link).expect("the joint is on the link");
                         along(link, local - links[link].mass_centre)
@@ -170,8 +170,7 @@ impl Window {
                     let spin = omega + speed;
                     (velocity + turned(arm(branch.parent)) * omega - turned(arm(branch.link)) * spin, spin)
                 }
-                JointKind::Prismatic { .. } => {
-                    let axis = joint.axis_on(branch.parent).expect("a branch's joint is on its parent");
+                Some(axis) => {
                     let centre = |link: usize| match link {
                         0 => Vec2::zeros(),
                         _ => pair(&self.poses[link]),

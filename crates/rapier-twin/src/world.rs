@@ -8,7 +8,7 @@ use linkage::case::Case;
 use linkage::drive::Wrench;
 use linkage::engine::bodies::stand_in;
 use linkage::math::{KeepNan, Vec2, cross, rotated};
-use linkage::mechanism::{GROUND, Joint, JointKind, Link, LinkPose, Side};
+use linkage::mechanism::{GROUND, Joint, Link, LinkPose, Side};
 
 /// What is known of a link's angle (rad, counter-clockwise positive).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -283,13 +283,11 @@ fn with_flywheels(case: &Case, mut masses: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
 pub(super) fn opening(frames: &[LinkFrame], joint: &Joint, size: f64) -> f64 {
     let sides = [joint.first, joint.second];
     let places = sides.map(|side| frames[side.link].point(side.local));
-    match joint.kind {
-        JointKind::Revolute => (places[1] - places[0]).norm(),
-        JointKind::Prismatic { .. } => {
-            let (distance, turn) = joint.opening(places, sides.map(|side| frames[side.link].direction));
-            distance.larger(turn * size)
-        }
+    if joint.is_pin() {
+        return (places[1] - places[0]).norm();
     }
+    let (distance, turn) = joint.opening(places, sides.map(|side| frames[side.link].direction));
+    distance.larger(turn * size)
 }
 
 #[cfg(test)]

@@ -2,6 +2,7 @@
 
 use super::{messages, raw, schema};
 use files;
+use linkage::drive::Input;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::trajectory::{Channel, Trajectory};
 use mcap::{McapError, Message};
@@ -175,12 +176,13 @@ fn assemble(name: &str, mut found: Found, path: &Path) -> Result<Trajectory> {
         )
         .help("every topic of a side needs one message for each of its grid, with the same sequence number")
     };
+    let input = Input::ALL.into_iter().find(|input| found.grid.contains_key(input.key())).unwrap_or_default();
     let mut take = |field: &str| {
         let mut values = found.grid.remove(field).unwrap_or_default();
         values.sort_by_key(|&(sequence, _)| sequence);
         values
     };
-    let [times, cranks, rows] = schema::GRID_FIELDS.map(&mut take);
+    let [times, cranks, rows] = schema::grid_fields(input).map(&mut take);
     let same = |values: &Numbered| {
         values.len() == times.len() && values.iter().zip(&times).all(|(value, time)| value.0 == time.0)
     };
@@ -202,5 +204,5 @@ fn assemble(name: &str, mut found: Found, path: &Path) -> Result<Trajectory> {
         columns.push(ordered(&values));
         channels.push(channel);
     }
-    Trajectory::new(ordered(&times), ordered(&cranks), channels, columns)
+    Ok(Trajectory::new(ordered(&times), ordered(&cranks), channels, columns)?.of_input(input))
 }

@@ -3,6 +3,7 @@
 //! Every field has presence (proto3 `optional`). A channel that was not computed is not declared either: some viewers show
 //! a field that is absent as zero.
 
+use linkage::drive::Input;
 use linkage::trajectory::{CHANNELS, ChannelKind, Subject, Unit};
 use prost::Message;
 use prost::encoding::{WireType, decode_key, double, encode_key, float, skip_field};
@@ -13,8 +14,10 @@ use prost_types::{
 use std::collections::hash_map::Entry;
 use std::collections::{BTreeMap, HashMap};
 
-/// Fields of the grid message: time (s), crank angle (rad), number of the row in the solver's order.
-pub const GRID_FIELDS: [&str; 3] = ["t_s", "crank_rad", "row"];
+/// Fields of the grid message: time (s), input (in its SI unit), number of the row in the solver's order.
+pub const fn grid_fields(input: Input) -> [&'static str; 3] {
+    ["t_s", input.key(), "row"]
+}
 
 /// A message type as viewers need it.
 pub struct Schema {
@@ -25,8 +28,8 @@ pub struct Schema {
 }
 
 /// The schema of the grid message.
-pub fn grid() -> Schema {
-    schema("Grid", (1..).zip(GRID_FIELDS.map(str::to_string)), Type::Double)
+pub fn grid(input: Input) -> Schema {
+    schema("Grid", (1..).zip(grid_fields(input).map(str::to_string)), Type::Double)
 }
 
 /// The schema of a subject's values that has these channels.

@@ -48,8 +48,8 @@ impl Topic<'_> {
 impl<'a> Table<'a> {
     /// The grid and the values of a side.
     pub fn values(sink: &mut impl Sink, side: &str, trajectory: &'a Trajectory) -> McapResult<Self> {
-        let id = sink.topic(&format!("/{side}/grid"), &Kind::own(schema::grid()))?;
-        let grid = vec![Field::Value(1, trajectory.times()), Field::Value(2, trajectory.cranks()), Field::Row(3)];
+        let id = sink.topic(&format!("/{side}/grid"), &Kind::own(schema::grid(trajectory.input())))?;
+        let grid = vec![Field::Value(1, trajectory.times()), Field::Value(2, trajectory.inputs()), Field::Row(3)];
         let mut topics = vec![Topic { id, fields: grid }];
         for (subject, of, columns) in by_subject(trajectory) {
             let id =

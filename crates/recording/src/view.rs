@@ -7,7 +7,7 @@ use super::schema::small_unit;
 use super::table::topic_name;
 use super::write::as_shown;
 use linkage::math::{KeepNan, Vec2};
-use linkage::trajectory::{Channel, ChannelKind, Subject, Trajectory, Unit};
+use linkage::trajectory::{Channel, ChannelKind, Trajectory, Unit};
 
 /// Poses at which is looked where the mechanism is.
 const POSES: usize = 100;
@@ -77,7 +77,7 @@ pub(super) fn view(recording: &Recording) -> Option<View> {
 /// Log time of a turn, of a recording that lasts so long.
 pub(super) fn turn(lasts: f64, trajectory: &Trajectory) -> f64 {
     let ends = trajectory
-        .cranks()
+        .inputs()
         .iter()
         .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &angle| [low.smaller(angle), high.larger(angle)]);
     let turns = ((ends[1] - ends[0]) / std::f64::consts::TAU).round();
@@ -126,10 +126,10 @@ fn telling(trajectory: &Trajectory) -> Vec<&Channel> {
     units.sort_by_key(|&unit| place(unit));
     units.dedup();
     // A drive's numbers are what people look for first; what shakes the frame is a sum.
-    let rank = |kind: &ChannelKind| match kind.subject {
-        Subject::Drive | Subject::Motor => 0,
-        Subject::Joint | Subject::Slider | Subject::Link | Subject::Point => 1,
-        Subject::Frame => 2,
+    let rank = |kind: &ChannelKind| match (kind.subject.is_drive(), kind.subject.is_whole()) {
+        (true, _) => 0,
+        (false, false) => 1,
+        (false, true) => 2,
     };
     let of = |unit: Unit| {
         let own = || trajectory.iter().filter(|(channel, column)| channel.kind.unit == unit && range(column) > 0.0);

@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 
 use super::reader::{Sign, Table};
-use super::unit::{ANGLE, Family, TIME};
+use super::unit::{self, ANGLE, Family, TIME};
 use linkage::case::Grid;
 use linkage::drive::Drive;
 use linkage::error::{ErrorKind, Result};
@@ -68,7 +68,8 @@ pub fn read(table: &mut Table, drive: &Drive, is_replaced: bool) -> Result<Grid>
     for (base, family) in LISTS {
         lists.extend(table.optional_quantities(base, family)?.map(|values| (base, family, values)));
     }
-    let ranged = table.quantity_in("from", &[&ANGLE, &TIME], Sign::Any)?;
+    let families = [unit::of_input(drive.input)[0], &TIME];
+    let ranged = table.quantity_in("from", &families, Sign::Any)?;
     let (family, points) = match (ranged, lists.as_slice()) {
         (None, [(base, family, values)]) => {
             let points = listed(values.clone()).map_err(|message| {
@@ -79,7 +80,7 @@ pub fn read(table: &mut Table, drive: &Drive, is_replaced: bool) -> Result<Grid>
             (*family, points)
         }
         (Some((family, from)), []) => {
-            let family = [&ANGLE, &TIME][family];
+            let family = families[family];
             (family, ranged_points(table, family, from)?)
         }
         (None, []) => {
@@ -97,9 +98,9 @@ pub fn read(table: &mut Table, drive: &Drive, is_replaced: bool) -> Result<Grid>
     if is_replaced {
         return Ok(Grid::default());
     }
-    let by_angle = std::ptr::eq(family, &ANGLE);
-    let grid = if by_angle { Grid::of_cranks(drive, points) } else { Grid::of_times(drive, points) };
-    let help = match by_angle && drive.is_free() {
+    let by_input = !std::ptr::eq(family, &TIME);
+    let grid = if by_input { Grid::of_inputs(drive, points) } else { Grid::of_times(drive, points) };
+    let help = match by_input && drive.is_free() {
         true => BY_TIME,
         false => "check the unit and size of the grid and of `drive.speed`",
     };

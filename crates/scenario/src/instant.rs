@@ -2,7 +2,7 @@
 
 use super::reader::{Sign, Table};
 use super::series::When;
-use super::unit::{ANGLE, TIME, Unit};
+use super::unit::{self, ANGLE, TIME, Unit};
 use formula::Rounded;
 use linkage::case::{Case, Grid};
 use linkage::drive::Drive;
@@ -16,7 +16,7 @@ const HELP: &str = "a number holds at a crank angle (of the nominal motion, wher
 
 /// The instant of a table under `crank` or `time` with a unit.
 pub fn read(table: &mut Table, case: &Case) -> Result<When> {
-    let crank = table.optional_quantity("crank", &ANGLE, Sign::Any)?;
+    let crank = table.optional_quantity("crank", unit::of_input(case.crank().input)[0], Sign::Any)?;
     let time = table.optional_quantity("time", &TIME, Sign::Any)?;
     match (crank, time) {
         (Some(crank), None) => Ok(When::Crank(crank)),

@@ -335,7 +335,7 @@ fn read(root: &mut Table, asked: &Asked, lists: bool) -> Result<Found> {
     }
     let series = oracles.iter().flat_map(|oracle| &oracle.series);
     let cranks: Vec<f64> = series.flat_map(OracleSeries::instants).filter_map(When::crank).collect();
-    if let Err(message) = Grid::of_cranks(case.crank(), cranks).check(case.crank()) {
+    if let Err(message) = Grid::of_inputs(case.crank(), cranks).check(case.crank()) {
         let error = Error::new(ErrorKind::Input, format!("published numbers: {message}")).key("oracle");
         return Err(error.help(match case.crank().is_free() {
             true => "give the numbers at times (`time_s`)",

@@ -4,12 +4,12 @@ use std::sync::Arc;
 
 use super::motor;
 use super::reader::{Faults, Sign, Table};
-use super::unit::{ACCELERATION, ANGLE, ANGULAR_SPEED, TIME};
+use super::unit::{self, ACCELERATION, ANGLE, TIME};
 use super::words::suggestion;
-use linkage::drive::{Drive, DriveMotion, Drives, MotionLaw};
+use linkage::drive::{Drive, DriveMotion, Drives, Input, InputValue, MotionLaw};
 use linkage::error::{ErrorKind, Result};
 use linkage::math::{Piecewise, Vec2};
-use linkage::mechanism::{GROUND, Mechanism, Side};
+use linkage::mechanism::{GROUND, JointKind, Mechanism, Side};
 
 /// The drives of the mechanism: the crank, with `start` as its angle at t = 0 (rad) and with the motor, and further
 /// drives, which state their own start. `None` after a mistake.
@@ -62,12 +62,15 @@ fn check_beside(table: &Table, drive: &Drive, before: &[Drive]) -> Result<()> {
 /// A drive; `before` are the drives already read.
 fn drive(table: &mut Table, mechanism: &Mechanism, before: &[Drive], start: f64) -> Result<Drive> {
     let name = table.string("joint")?;
-    let law = law(table, start)?;
-    let zero = table.optional_quantity("zero", &ANGLE, Sign::Any)?.unwrap_or(0.0);
-    let motion = motion(table, law)?;
+    let known = mechanism.joint_named(&name);
+    let kind = known.map(|index| mechanism.joints()[index].kind);
+    let input = kind.and_then(JointKind::input).unwrap_or_default();
+    let law = law(table, input.at(start))?;
+    let zero = table.optional_quantity("zero", unit::of_input(input)[0], Sign::Any)?.unwrap_or(0.0);
+    let motion = motion(table, law, input)?;
     let through = through(table)?;
     table.finish()?;
-    let Some(index) = mechanism.joint_named(&name) else {
+    let Some(index) = known else {
         let names = mechanism.joints().iter().map(|joint| joint.name.as_str());
         let error = table.wrong(ErrorKind::Input, "joint", format!("there is no joint \"{name}\""));
         return Err(error.help(suggestion(&name, names, "\"")));
@@ -91,13 +94,13 @@ fn drive(table: &mut Table, mechanism: &Mechanism, before: &[Drive], start: f64)
             .wrong(ErrorKind::Unsupported, "joint", message)
             .help(format!("drive a link that is hinged to the ground: {}", super::words::choice(hinges, "\""))));
     };
-    let drive = Drive { joint: index, link, zero, start, motion, through };
+    let drive = Drive { input, joint: index, link, zero, start, motion, through };
     if joint.on(GROUND).is_none() && !drive.is_free() {
         let message = format!("joint \"{name}\" hangs on a moving link, but the motion of its link is prescribed");
         let help = "only a free link may hang on a moving one: write `motion = \"free\"`, or drive a link that is hinged to the ground";
         return Err(table.wrong(ErrorKind::Unsupported, "joint", message).help(help));
     }
-    if !joint.is_pin() {
+    if joint.kind.input().is_none() {
         let message = format!("joint \"{name}\" is {}, but the crank turns", joint.kind.name());
         let help = "drive a link that is hinged to the ground by a revolute joint";
         return Err(table.wrong(ErrorKind::Unsupported, "joint", message).help(help));
@@ -106,8 +109,8 @@ fn drive(table: &mut Table, mechanism: &Mechanism, before: &[Drive], start: f64)
 }
 
 /// Whether the link follows `law`, or is free from t = 0 on with `law` as its nominal motion.
-fn motion(table: &mut Table, law: MotionLaw) -> Result<DriveMotion> {
-    let initial = table.optional_quantity("initial_speed", &ANGULAR_SPEED, Sign::Any)?;
+fn motion(table: &mut Table, law: MotionLaw, input: Input) -> Result<DriveMotion> {
+    let initial = table.optional_quantity("initial_speed", unit::of_input(input)[1], Sign::Any)?;
     match table.optional_string("motion")?.as_deref() {
         Some("free") => {
             let Some(nominal_speed) = law.constant() else {
@@ -149,13 +152,14 @@ fn through(table: &mut Table) -> Result<bool> {
     }
 }
 
-/// A law: its name in scenario files, and its reader, which gets the crank angle at t = 0 (rad).
-type Law = (&'static str, fn(&mut Table, f64) -> Result<MotionLaw>);
+/// A law: its name in scenario files, and its reader, which gets the input at t = 0.
+type Law = (&'static str, fn(&mut Table, InputValue) -> Result<MotionLaw>);
 
 const LAWS: [Law; 4] = [("constant", constant), ("ramp", ramp), ("cycloidal", cycloidal), ("table", points)];
 
-fn law(table: &mut Table, start: f64) -> Result<MotionLaw> {
-    let mut of_laws = [ANGLE.keys("to"), TIME.keys("time"), vec!["points".into()]].into_iter().flatten();
+fn law(table: &mut Table, start: InputValue) -> Result<MotionLaw> {
+    let mut of_laws =
+        [unit::of_input(start.input)[0].keys("to"), TIME.keys("time"), vec!["points".into()]].into_iter().flatten();
     let kind = match of_laws.any(|key| table.has(&key)) {
         true => table.string("law")?,
         false => table.optional_string("law")?.unwrap_or_else(|| "constant".into()),
@@ -167,17 +171,17 @@ fn law(table: &mut Table, start: f64) -> Result<MotionLaw> {
     law(table, start)
 }
 
-fn constant(table: &mut Table, _: f64) -> Result<MotionLaw> {
-    Ok(MotionLaw::ConstantSpeed(table.quantity("speed", &ANGULAR_SPEED, Sign::NotZero)?))
+fn constant(table: &mut Table, start: InputValue) -> Result<MotionLaw> {
+    Ok(MotionLaw::ConstantSpeed(table.quantity("speed", unit::of_input(start.input)[1], Sign::NotZero)?))
 }
 
-fn ramp(table: &mut Table, _: f64) -> Result<MotionLaw> {
-    let speed = table.quantity("speed", &ANGULAR_SPEED, Sign::NotZero)?;
+fn ramp(table: &mut Table, start: InputValue) -> Result<MotionLaw> {
+    let speed = table.quantity("speed", unit::of_input(start.input)[1], Sign::NotZero)?;
     Ok(MotionLaw::Ramp { speed, time: table.quantity("time", &TIME, Sign::Positive)? })
 }
 
-fn cycloidal(table: &mut Table, start: f64) -> Result<MotionLaw> {
-    let rise = table.quantity("to", &ANGLE, Sign::Any)? - start;
+fn cycloidal(table: &mut Table, start: InputValue) -> Result<MotionLaw> {
+    let rise = table.quantity("to", unit::of_input(start.input)[0], Sign::Any)? - start.value;
     let time = table.quantity("time", &TIME, Sign::Positive)?;
     if rise == 0.0 {
         let message = "the crank is to stay where it starts";
@@ -189,20 +193,24 @@ fn cycloidal(table: &mut Table, start: f64) -> Result<MotionLaw> {
 }
 
 /// From rest at the start, at t = 0, to rest at the last point.
-fn points(table: &mut Table, start: f64) -> Result<MotionLaw> {
+fn points(table: &mut Table, start: InputValue) -> Result<MotionLaw> {
+    let InputValue { input, value: start } = start;
     let mut points: Vec<(f64, f64)> = Vec::new();
     for mut point in table.tables("points")? {
         let read = point.read(|point| {
             let time = point.quantity("time", &TIME, Sign::NotNegative)?;
-            let gone = point.quantity("angle", &ANGLE, Sign::Any)? - start;
+            let gone = point.quantity("angle", unit::of_input(input)[0], Sign::Any)? - start;
             point.finish()?;
             Ok((time, gone))
         });
         let (time, gone) = read?;
         match points.last() {
             None if time != 0.0 || gone.abs() > 1e-12 => {
-                let message =
-                    format!("the table does not begin with the start of the crank, {} deg at 0 s", start.to_degrees());
+                let message = format!(
+                    "the table does not begin with the start of the crank, {} {} at 0 s",
+                    input.shown(start),
+                    input.shown_in().0
+                );
                 return Err(point.fault(message).help("write the start as the first point"));
             }
             Some((last, _)) if !(time > *last) => {

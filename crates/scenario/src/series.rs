@@ -5,6 +5,7 @@ use std::fmt;
 use super::printed::{self, PrintedChannel};
 use super::reader::Table;
 use super::words::suggestion;
+use linkage::drive::Input;
 use linkage::error::{ErrorKind, Result};
 use linkage::trajectory::{CHANNELS, Channel};
 
@@ -72,7 +73,7 @@ impl When {
 impl fmt::Display for When {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self {
-            When::Crank(crank) => write!(f, "crank angle {:.3} deg", crank.to_degrees()),
+            When::Crank(crank) => write!(f, "{:.3}", Input::Angle.at(*crank)),
             When::Time(time) => write!(f, "{time} s"),
         }
     }

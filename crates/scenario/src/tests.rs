@@ -54,7 +54,7 @@ fn ov7_base_is_read_whole() {
     let formula = "I(ground, crank) -> II.2 RRR(rod_23, rocker_43) -> II.2 RRR(rod_35, rocker_65) \
                    -> II.2 RRR(rod_57, rocker_87)";
     assert_eq!(case.structure.formula(&case.mechanism), formula);
-    assert_eq!((case.grid.len(), case.grid.cranks[90]), (361, -90f64.to_radians()));
+    assert_eq!((case.grid.len(), case.grid.inputs[90]), (361, -90f64.to_radians()));
     assert!(case.grid.times.iter().all(|&time| time >= 0.0));
     assert_eq!((scenario.dt, &scenario.engine), (None, &EngineKeys::default()));
     let columns: Vec<usize> = scenario.oracles.iter().map(|oracle| oracle.series.len()).collect();
@@ -159,7 +159,7 @@ fn units_change_nothing_but_the_text() {
     assert!((other.dt.unwrap() - 1e-3).abs() < 1e-17);
     let by_time = edited(&[("from_deg = 0\nto_deg = 360\nstep_deg = 1", "from_s = 0\nto_s = 0.4\nstep_ms = 100")]);
     assert_eq!(by_time.case.grid.times, [0.0, 0.1, 0.2, 3.0 * 0.1, 0.4]);
-    assert!((by_time.case.grid.cranks[1] - 78f64.to_radians()).abs() < 1e-15);
+    assert!((by_time.case.grid.inputs[1] - 78f64.to_radians()).abs() < 1e-15);
 }
 
 #[test]

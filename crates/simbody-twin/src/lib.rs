@@ -247,11 +247,8 @@ fn check_start(case: &Case) -> Result<()> {
     };
     let widest = case.mechanism.joints().iter().reduce(|a, b| if gap(a) >= gap(b) { a } else { b });
     let name = widest.map_or("", |joint| joint.name.as_str());
-    let (crank, bound) = (case.crank().start, LARGEST_GAP * case.mechanism.size());
-    let degrees = crank.to_degrees();
-    let message = format!(
-        "the pose at t = 0, crank angle {degrees:.4} deg, is open by {closure:.3e} m, most at joint \"{name}\""
-    );
-    let error = Error::new(ErrorKind::Geometry, message).at_time(0.0).at_crank(crank).of_joint(name);
+    let (at, bound) = (case.told(case.crank().start), LARGEST_GAP * case.mechanism.size());
+    let message = format!("the pose at t = 0, {at}, is open by {closure:.3e} m, most at joint \"{name}\"");
+    let error = Error::new(ErrorKind::Geometry, message).at_time(0.0).at_input(at).of_joint(name);
     Err(error.beyond(closure, bound, "m").help("give a start pose in which all joints are closed"))
 }

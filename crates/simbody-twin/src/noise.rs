@@ -50,11 +50,6 @@ pub(super) fn bound(case: &Case, [tolerance, accuracy]: [f64; 2], channel: &Chan
         Unit::MetrePerSecond => linear(1),
         Unit::MetrePerSecondSquared => linear(2),
         Unit::Newton => force,
-        Unit::NewtonMetre => match channel.subject {
-            Subject::Frame => force * reach,
-            Subject::Link | Subject::Point | Subject::Joint | Subject::Slider | Subject::Drive | Subject::Motor => {
-                force * size
-            }
-        },
+        Unit::NewtonMetre => force * if channel.subject == Subject::Frame { reach } else { size },
     }
 }

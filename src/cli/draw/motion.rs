@@ -28,7 +28,7 @@ pub(super) fn turned(case: &Case, solver: &dyn Solver) -> (Vec<State>, Travels) 
     let crank = case.crank();
     let turn: Vec<f64> =
         (0..INSTANTS).map(|k| crank.start + crank.sense() * TAU * k as f64 / INSTANTS as f64).collect();
-    let whole = case.on(Grid::of_cranks(crank, turn)).ok().and_then(|case| visited(&case.wanting(seen()), solver));
+    let whole = case.on(Grid::of_inputs(crank, turn)).ok().and_then(|case| visited(&case.wanting(seen()), solver));
     let states = whole.or_else(|| visited(&case.wanting(seen()), solver)).unwrap_or_default();
     with_travels(case, states)
 }

@@ -20,7 +20,7 @@ pub(super) fn of(proof: &Proof, errors: &[Errors], thinned: &Thinned, tell: Tell
     data.insert("reference".into(), proof.reference.into());
     data.insert("instants".into(), thinned.all.into());
     data.insert("time".into(), at(reference.times()).into());
-    data.insert("crank".into(), at(reference.cranks()).into());
+    data.insert("crank".into(), at(reference.inputs()).into());
     data.insert("channels".into(), reference.iter().map(|(own, values)| channel(own, values, &thinned.rows)).collect());
     let engines = proof.engines.iter().zip(errors).map(|(own, errors)| engine(own, reference, errors, thinned, tell));
     data.insert("engines".into(), engines.collect());

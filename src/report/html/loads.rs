@@ -6,10 +6,10 @@ use super::data::{pair, side};
 use super::markup::column;
 use super::placed::Placed;
 use drawing::{Sketch, acting, tensions, weights};
-use linkage::case::Case;
+use linkage::case::{Case, Seat};
 use linkage::drive::{Load, Senses};
 use linkage::mechanism::{GROUND, Mechanism, Side};
-use linkage::trajectory::{Channel, Subject, Trajectory};
+use linkage::trajectory::{Channel, Trajectory};
 
 /// Numbers in single precision that a row takes.
 pub(super) fn width(case: &Case) -> usize {
@@ -44,13 +44,10 @@ pub(super) fn of(case: &Case, sketch: &Sketch, placed: &Placed, rows: &[usize], 
         let ends = sketch.stretched.iter().find(|own| own.load == tensions[0][index].load);
         json!({ "name": name(mechanism, load), "size": size, "ends": ends.map(|own| own.ends.map(side)) })
     });
+    let seats = case.seats();
     let drives = case.drives.with_moment().filter_map(|(number, drive)| {
         let joint = &mechanism.joints()[drive.joint];
-        let is_its_moment = |channel: &Channel| match channel.kind.subject {
-            Subject::Drive => number == 0,
-            Subject::Motor => number > 0 && channel.of == joint.name,
-            Subject::Link | Subject::Point | Subject::Joint | Subject::Slider | Subject::Frame => false,
-        };
+        let is_its_moment = |channel: &Channel| seats.of(channel) == Some(Seat::Drive(number));
         // A scenario may want no moments.
         let torque = reference.channels().iter().position(is_its_moment)?;
         let what = if drive.is_free() { "moment of the motor" } else { "balancing moment" };

@@ -23,7 +23,7 @@ fn every_template_is_proven_for_its_whole_motion() {
         if scenario.case.crank().is_free() {
             assert_eq!(template.name, "pendulum");
         } else {
-            let turn = &scenario.case.grid.cranks;
+            let turn = &scenario.case.grid.inputs;
             assert_within!((turn.last().unwrap() - turn[0] - std::f64::consts::TAU).abs(), 1e-12);
         }
         let told = place.run(&format!("run {file} --no-record --quiet"));

@@ -19,7 +19,7 @@ pub fn scenario(text: &str) -> Option<Scenario> {
     match Scenario::parse(text, path) {
         Ok(scenario) => {
             let case = &scenario.case;
-            assert!(case.grid.times.iter().chain(&case.grid.cranks).all(|value| value.is_finite()));
+            assert!(case.grid.times.iter().chain(&case.grid.inputs).all(|value| value.is_finite()));
             assert!(case.start.0.iter().all(|pose| pose.angle.is_finite() && pose.origin.norm().is_finite()));
             assert_eq!(case.channels().len(), case.channels().iter().collect::<Vec<_>>().len());
             Some(scenario)
@@ -175,7 +175,7 @@ pub fn recording(bytes: &[u8]) -> Result<()> {
             assert!(!sides.is_empty());
             for (_, side) in sides {
                 let rows = side.times().len();
-                assert!(rows > 0 && side.cranks().len() == rows);
+                assert!(rows > 0 && side.inputs().len() == rows);
                 assert!(side.iter().all(|(_, column)| column.len() == rows && column.iter().all(|v| v.is_finite())));
             }
         }

@@ -87,7 +87,7 @@ fn case(links: Vec<Link>, joints: Vec<Joint>, mode: AssemblyMode, start: f64, to
         gravity: Vec2::new(0.0, -9.81),
         start: Pose(pose),
         modes: vec![mode],
-        grid: Grid::of_cranks(&drive, cranks),
+        grid: Grid::of_inputs(&drive, cranks),
         wanted: Wanted::ALL,
         only: None,
     });

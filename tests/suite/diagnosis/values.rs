@@ -18,7 +18,7 @@ fn changed(case: &Case, which: impl Fn(&str, Stage) -> bool, change: impl Fn(usi
         false => values.to_vec(),
     };
     let columns = right.iter().map(column).collect();
-    Trajectory::new(right.times().to_vec(), right.cranks().to_vec(), right.channels().to_vec(), columns).unwrap()
+    Trajectory::new(right.times().to_vec(), right.inputs().to_vec(), right.channels().to_vec(), columns).unwrap()
 }
 
 /// The right values, those of some stages read late.
@@ -30,7 +30,7 @@ fn late(case: &Case, by: f64, which: impl Fn(Stage) -> bool) -> Trajectory {
         .zip(other.iter())
         .map(|((channel, values), (_, late))| if which(channel.kind.stage) { late.to_vec() } else { values.to_vec() });
     let columns = columns.collect();
-    Trajectory::new(right.times().to_vec(), right.cranks().to_vec(), right.channels().to_vec(), columns).unwrap()
+    Trajectory::new(right.times().to_vec(), right.inputs().to_vec(), right.channels().to_vec(), columns).unwrap()
 }
 
 #[test]

@@ -300,7 +300,7 @@ fn a_change_point_itself_has_velocities_and_accelerations() {
         let error = side.solve(&case).unwrap_err();
         assert!(error.message().contains("without bound"), "{error}");
         assert_eq!(error.kind(), ErrorKind::Numeric);
-        assert_within!((error.crank().unwrap().to_degrees() - 180.0).abs(), 1e-9, "{error}");
+        assert_within!((error.input().unwrap().value.to_degrees() - 180.0).abs(), 1e-9, "{error}");
         let wanted = Wanted::of(&[Stage::Positions, Stage::Velocities, Stage::Accelerations]);
         let found = solve(side, &case.wanting(wanted));
         // The limit by the other side of the branch equation: rocker and crank speeds are as the second derivatives of
@@ -372,7 +372,7 @@ fn higher_groups_pass_their_change_points() {
             let case = case.on(Grid::of_times(case.crank(), times)).unwrap();
             for side in SIDES {
                 let Err(error) = side.solve(&case) else { panic!("{} passes with {steps} steps", side.name()) };
-                assert!(error.crank().is_some(), "{error}");
+                assert!(error.input().is_some(), "{error}");
             }
         }
     }
@@ -393,7 +393,7 @@ fn several_driving_links_do_not_pass() {
     let case = Scenario::parse(&text, Path::new("two.toml")).unwrap_or_else(|error| panic!("{error}")).case;
     for side in SIDES {
         let error = side.solve(&case).unwrap_err();
-        let crank = error.crank().unwrap_or_else(|| panic!("{error}")).to_degrees();
+        let crank = error.input().unwrap_or_else(|| panic!("{error}")).value.to_degrees();
         assert_within!(crank.abs(), 0.5, "{}: {error}", side.name());
     }
     let text = text.replacen("joint = \"P\"\n", "joint = \"P\"\nthrough = \"smooth\"\n", 1);

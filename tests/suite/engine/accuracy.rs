@@ -24,7 +24,7 @@ fn whole(name: &str) -> Case {
 
 /// The engine at a step of 0.08 deg of the crank.
 fn fine(name: &str, case: &Case, route: Route, extrapolated: usize) -> Box<dyn Engine> {
-    let engine = prover::engines::named(name, 0.08f64.to_radians() / case.crank().at(0.0).omega.abs()).unwrap();
+    let engine = prover::engines::named(name, 0.08f64.to_radians() / case.crank().at(0.0).rate.abs()).unwrap();
     engine.with(Settings { route, extrapolated, sweeps: SWEEPS, ..engine.settings() })
 }
 
@@ -253,7 +253,7 @@ fn regress_60_single_precision_is_within_its_rounding_bound() {
     let mut used: std::collections::BTreeMap<(Stage, &str, Option<&str>), f64> = Default::default();
     for (name, from, to) in parts {
         let base = whole(name);
-        let turn = std::f64::consts::TAU / base.crank().at(0.0).omega.abs();
+        let turn = std::f64::consts::TAU / base.crank().at(0.0).rate.abs();
         let times = (0..=45).map(|k| turn * (from + (to - from) * f64::from(k) / 45.0)).collect();
         let case = base.on(linkage::case::Grid::of_times(base.crank(), times)).unwrap();
         // Rows of ill-conditioned loops have more weight in an impulse. The constants of the routes by impulses were

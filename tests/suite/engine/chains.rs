@@ -42,7 +42,7 @@ fn twelve_links() -> Spec {
 
 fn quarter(case: &Case) -> Case {
     let cranks = (0..=18).map(|k| f64::from(5 * k).to_radians()).collect();
-    case.on(Grid::of_cranks(case.crank(), cranks)).unwrap()
+    case.on(Grid::of_inputs(case.crank(), cranks)).unwrap()
 }
 
 /// Largest error over the scale in the channels of some stages.

@@ -25,7 +25,7 @@ fn differ(dense: &Trajectory, other: &Trajectory, row: impl Fn(usize) -> usize) 
     let picked: Vec<Vec<f64>> =
         dense.iter().map(|(_, values)| (0..other.times().len()).map(|k| values[row(k)]).collect()).collect();
     let channels = dense.channels().to_vec();
-    let picked = Trajectory::new(other.times().to_vec(), other.cranks().to_vec(), channels, picked).unwrap();
+    let picked = Trajectory::new(other.times().to_vec(), other.inputs().to_vec(), channels, picked).unwrap();
     let scales = prover::compare::scales(dense);
     let worst = residuals(&picked, other).unwrap().into_iter().zip(scales).map(|(r, scale)| (r.max / scale, r.channel));
     let (worst, channel) = worst.max_by(|a, b| a.0.total_cmp(&b.0)).unwrap();

@@ -45,7 +45,7 @@ fn regress_40_steps_that_are_too_large_prove_nothing() {
 fn assert_helpful(error: &linkage::Error) {
     assert_eq!(error.kind(), ErrorKind::Numeric, "{error}");
     assert!(error.message().contains("crank angle"), "{error}");
-    assert!(error.crank().is_some() && error.time().is_some(), "{error:?}");
+    assert!(error.input().is_some() && error.time().is_some(), "{error:?}");
     // Smaller steps do not help an engine that chooses its own steps.
     let helps = |way: String| way.contains("smaller time step") || way.contains("can be assembled");
     assert!(error.way_out().is_some_and(helps), "{error}");

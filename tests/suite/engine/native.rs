@@ -26,7 +26,7 @@ struct Reading {
 pub fn moving(case: &Case, build: Build, tree: Tree, dt: f64) -> Box<dyn World> {
     let mut world = Rapier::new(build, Precision::Double, dt).world(case, tree, true).unwrap();
     for (index, drive) in case.drives.iter().enumerate() {
-        world.set_drive(index, drive.at(0.0).omega);
+        world.set_drive(index, drive.at(0.0).rate);
     }
     world
 }
@@ -142,7 +142,7 @@ fn regress_12_velocities_are_one_step_late() {
                 worst = worst.larger((speed - (omega(branch.link) - omega(branch.parent))).abs());
             }
         }
-        worst / case.crank().at(0.0).omega
+        worst / case.crank().at(0.0).rate
     };
     let (now, late) = (error(0.0), error(dt));
     assert!(now >= 5e-3, "stamped t: {now:e}, stamped t - dt: {late:e}");

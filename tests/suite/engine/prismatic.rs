@@ -78,11 +78,11 @@ fn regress_52_links_in_sliders_turn_together() {
     let case = sliders::double::oldham().case;
     let case = case.with(|parts| parts.start.0[2].angle += std::f64::consts::TAU).unwrap();
     let cranks = (0..=40).map(|k| case.crank().start + f64::from(k) * std::f64::consts::PI).collect();
-    let case = case.on(Grid::of_cranks(case.crank(), cranks)).unwrap();
+    let case = case.on(Grid::of_inputs(case.crank(), cranks)).unwrap();
     let mut solvers: Vec<Box<dyn Solver>> = vec![Box::new(NewtonSolver)];
     solvers.push(Box::new(Rapier::new(Build::Multibody, Precision::Double, 1e-3)));
     for solver in solvers {
-        for (state, &crank) in states(solver.as_ref(), &case, &case.grid.times).unwrap().iter().zip(&case.grid.cranks) {
+        for (state, &crank) in states(solver.as_ref(), &case, &case.grid.times).unwrap().iter().zip(&case.grid.inputs) {
             for link in 1..case.mechanism.links().len() {
                 let turned = state.angles[link] - case.start.0[link].angle;
                 // Half a unit in the last place of the largest angle per step, as in story 1.

@@ -18,7 +18,7 @@ const SWEEPS: usize = 1024;
 fn case() -> Case {
     let case = four_bar([0.4, 0.1, 0.35, 0.3], true).scenario().unwrap().case;
     let cranks = (0..=18).map(|k| f64::from(5 * k).to_radians()).collect();
-    let grid = Grid::of_cranks(case.crank(), cranks);
+    let grid = Grid::of_inputs(case.crank(), cranks);
     case.on(grid).unwrap()
 }
 
@@ -51,7 +51,7 @@ fn regress_66_the_motor_holds_its_speed_with_substeps() {
         let run = solve(engine.as_ref(), &case);
         let angles = run.column(&Channel::named("link.crank.angle_rad").unwrap()).unwrap();
         let steps = case.grid.times.last().unwrap() / engine.settings().resolution;
-        for (angle, crank) in angles.iter().zip(run.cranks()) {
+        for (angle, crank) in angles.iter().zip(run.inputs()) {
             let off = (angle - crank).abs();
             assert_within!(off, 2.0 * epsilon(engine.as_ref()) * steps, "{name}: {off:e} at {crank}");
         }

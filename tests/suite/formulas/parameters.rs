@@ -77,7 +77,7 @@ fn numbers_may_be_an_arithmetic_of_parameters() {
     assert_eq!((coupler.mass, coupler.mass_centre.x), (1.25, 0.06));
     assert!((coupler.inertia - 1.25 * 0.12 * 0.12 / 12.0).abs() < 1e-18);
     let crank = scenario.case.crank();
-    assert!((crank.at(0.0).omega - std::f64::consts::TAU).abs() < 1e-14);
+    assert!((crank.at(0.0).rate - std::f64::consts::TAU).abs() < 1e-14);
     assert_eq!(scenario.case.grid.len(), 11);
 }
 

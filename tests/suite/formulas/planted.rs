@@ -66,8 +66,8 @@ fn change(right: &Scenario, wrong: &Scenario, name: &str) -> f64 {
     let values = |scenario: &Scenario| -> Vec<f64> {
         let formula = scenario.formulas.list.iter().find(|own| own.name == name).unwrap();
         let mut program = Program::of(&scenario.formulas.graph, &[formula.id]);
-        let rows = (0..grid.len()).filter(|&row| formula.holds_at(grid.cranks[row]));
-        rows.map(|row| program.run(&[grid.cranks[row], grid.times[row], 0.0, 0.0].map(Rounded::exact))[0].value)
+        let rows = (0..grid.len()).filter(|&row| formula.holds_at(grid.inputs[row]));
+        rows.map(|row| program.run(&[grid.inputs[row], grid.times[row], 0.0, 0.0].map(Rounded::exact))[0].value)
             .collect()
     };
     let (right, wrong) = (values(right), values(wrong));

@@ -20,7 +20,7 @@ const ROUNDING: f64 = 1e-12;
 /// States of both problems over the grid of the first, at equal crank angles times `sense`.
 fn pairs(solver: &dyn Solver, sample: &Sample, two: &Case, sense: f64) -> Vec<(State, State)> {
     let one = &sample.scenario.case;
-    let times = one.grid.cranks.iter().map(|crank| two.crank().time_of(crank * sense));
+    let times = one.grid.inputs.iter().map(|crank| two.crank().time_of(crank * sense));
     let ours = states(solver, one, &one.grid.times).expect("solvable");
     let theirs = states(solver, two, &times.collect::<Vec<_>>()).expect("solvable");
     ours.into_iter().zip(theirs).collect()

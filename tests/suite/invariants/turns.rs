@@ -38,7 +38,7 @@ fn three_turns(lengths: [f64; 4], turning: [f64; 2], left: bool, speed: f64, ste
     let case = spec.scenario().unwrap_or_else(|error| panic!("{error}")).case;
     let turn = (360.0 / step_deg) as usize;
     let cranks = (0..=3 * turn).map(|k| (k as f64 * step_deg).to_radians() * speed.signum());
-    let times = Grid::of_cranks(case.crank(), cranks.collect()).times;
+    let times = Grid::of_inputs(case.crank(), cranks.collect()).times;
     for solver in analytic::all() {
         let found = states(solver, &case, &times).unwrap_or_else(|error| panic!("{error}"));
         for (first, second) in found.iter().zip(&found[turn..]) {

@@ -51,7 +51,7 @@ fn balances(loads: &str, size: f64, moment: impl Fn(f64) -> f64) {
     let case = &scenario.case;
     for solver in analytic::all() {
         let found = states(solver, case, &case.grid.times).unwrap();
-        for (state, &phi) in found.iter().zip(&case.grid.cranks) {
+        for (state, &phi) in found.iter().zip(&case.grid.inputs) {
             let (found, expected) = (state.torques[0], moment(phi));
             assert_within!((found - expected).abs(), 1e-12 * size, "{} {phi}: {found} {expected}", solver.name());
         }

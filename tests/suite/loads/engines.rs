@@ -11,7 +11,7 @@ fn val_the_press_agrees_by_every_route() {
     let mut scenario = shipped("loaded_slider.toml");
     // Every tenth degree is enough for a test.
     let cranks: Vec<f64> = (0..=36).map(|k| f64::from(10 * k).to_radians()).collect();
-    let grid = linkage::case::Grid::of_cranks(scenario.case.crank(), cranks);
+    let grid = linkage::case::Grid::of_inputs(scenario.case.crank(), cranks);
     scenario.case = scenario.case.on(grid).unwrap();
     for route in ["differences", "native", "probe"] {
         scenario.engine.route = Some(route.into());

@@ -63,7 +63,7 @@ impl Row<'_> {
 
     /// What loads do: link, place, force, moment.
     fn loads(&self) -> Vec<(usize, Vec2, Vec2, f64)> {
-        let crank = self.all.cranks()[self.row];
+        let crank = self.all.inputs()[self.row];
         let omega = |link: usize| self.link(link).turn[1];
         // Zero at rest, as loads are.
         let sense = |speed: f64| if speed == 0.0 { 0.0 } else { speed.signum() };
@@ -215,7 +215,7 @@ fn spoiled(all: &Trajectory, name: &str) -> Trajectory {
         values.iter().map(|value| factor * value).collect()
     };
     let columns = all.iter().map(spoiled).collect();
-    Trajectory::new(all.times().to_vec(), all.cranks().to_vec(), all.channels().to_vec(), columns).unwrap()
+    Trajectory::new(all.times().to_vec(), all.inputs().to_vec(), all.channels().to_vec(), columns).unwrap()
 }
 
 fn scenarios() -> Vec<Scenario> {

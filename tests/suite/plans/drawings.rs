@@ -1,7 +1,7 @@
 //! Drawings of plans: well formed, complete, true to scale, legible.
 
-use linkage::math::{KeepNan, Vec2};
 use design::diagram::draw;
+use linkage::math::{KeepNan, Vec2};
 
 use super::{Named, REVOLUTE, SLIDERS, all, degrees_of, plans};
 use crate::common::assert_within;

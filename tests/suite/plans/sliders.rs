@@ -64,7 +64,7 @@ fn parts_along_and_across_a_moving_guide_are_those_of_numerical_differentiation(
             rotated(Vec2::new(direction.x, -direction.y), place)
         };
         for degrees in angles().map(|degrees| degrees_of(name, degrees)) {
-            let omega = case.crank().at(0.0).omega;
+            let omega = case.crank().at(0.0).rate;
             let at = |k: f64| relative(degrees + (k * h).to_degrees());
             let [a, b, c, d, e] = [-2.0, -1.0, 0.0, 1.0, 2.0].map(at);
             let here = &state(&case, degrees).motions[guide.link];

@@ -9,7 +9,7 @@ use linkage::case::Case;
 use linkage::drive::Wrench;
 use linkage::math::dense::Lu;
 use linkage::math::{KeepNan, Motion, Vec2, cross, turned, unit};
-use linkage::mechanism::{EQUATIONS, Joint, Tree};
+use linkage::mechanism::{Joint, Tree};
 use linkage::solver::State;
 use rapier_twin::newton_euler::NewtonEuler;
 use scenario::Scenario;
@@ -49,7 +49,7 @@ fn dense(case: &Case, state: &State) -> (Vec<Vec<f64>>, Vec<f64>) {
     let n = 3 * (links.len() - 1);
     let (mut matrix, mut right) = (vec![vec![0.0; n]; n], vec![0.0; n]);
     for (index, joint) in case.mechanism.joints().iter().enumerate() {
-        let column = 2 * index;
+        let column = case.mechanism.rows(index).start;
         for (side, sign) in [(joint.first, -1.0), (joint.second, 1.0)] {
             let Some(row) = (3 * side.link).checked_sub(3) else { continue };
             let motion = &state.motions[side.link];
@@ -69,7 +69,7 @@ fn dense(case: &Case, state: &State) -> (Vec<Vec<f64>>, Vec<f64>) {
             }
         }
     }
-    let first = EQUATIONS * case.mechanism.joints().len();
+    let first = case.mechanism.equations();
     for (index, drive) in case.drives.iter().enumerate() {
         matrix[3 * drive.link - 1][first + index] = 1.0;
     }

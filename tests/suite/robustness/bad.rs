@@ -57,7 +57,7 @@ fn disagreeing(proof: &Proof) -> Vec<String> {
 fn shortened(mut scenario: Scenario) -> Option<Scenario> {
     let case = &scenario.case;
     let near = |row: &usize| {
-        let turned = (case.grid.cranks[*row] - case.crank().at(0.0).angle).abs();
+        let turned = (case.grid.inputs[*row] - case.crank().at(0.0).value).abs();
         turned <= TURNS * std::f64::consts::TAU || case.is_free()
     };
     let rows: Vec<usize> = (0..case.grid.len()).filter(near).collect();
@@ -66,7 +66,7 @@ fn shortened(mut scenario: Scenario) -> Option<Scenario> {
         return None;
     }
     let pick = |values: &[f64]| rows.iter().map(|&row| values[row]).collect();
-    scenario.case = case.on(Grid { times: pick(&case.grid.times), cranks: pick(&case.grid.cranks) }).ok()?;
+    scenario.case = case.on(Grid { times: pick(&case.grid.times), inputs: pick(&case.grid.inputs) }).ok()?;
     Some(scenario)
 }
 

@@ -29,7 +29,7 @@ fn assert_repeats(near: &Trajectory, far: &Trajectory, turns: f64, what: &str) {
 
 fn at(case: &Case, turns: f64) -> Case {
     let cranks = [0.3, 2.0, 5.5].map(|angle| angle + turns * TAU).to_vec();
-    case.on(Grid::of_cranks(case.crank(), cranks)).unwrap()
+    case.on(Grid::of_inputs(case.crank(), cranks)).unwrap()
 }
 
 #[test]

@@ -94,7 +94,7 @@ pub fn cheaper(
     price: &mut dyn FnMut(&dyn Engine) -> f64,
 ) -> (Vec<Met>, usize) {
     let truth = truth(scenario);
-    let coarsest = COARSEST_DEG.to_radians() / scenario.case.crank().at(0.0).omega.abs();
+    let coarsest = COARSEST_DEG.to_radians() / scenario.case.crank().at(0.0).rate.abs();
     let (mut met, mut runs): (Vec<Met>, usize) = (Vec::new(), 0);
     for row in rows(space) {
         let mut limit = met.last().map_or(below, |best| best.price);

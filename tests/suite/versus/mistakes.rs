@@ -161,7 +161,7 @@ fn a_term_that_is_missing_is_named() {
         ("alpha_rad_s2", &|row| -0.5 * speed[row].powi(2), "a missing term, `- 0.5*omega(rocker)^2`"),
         (
             "angle_rad",
-            &|row| 0.01 * (2.0 * right.cranks()[row]).sin() + 0.03 * coupler[row].sin(),
+            &|row| 0.01 * (2.0 * right.inputs()[row]).sin() + 0.03 * coupler[row].sin(),
             "missing terms, `+ 0.01*sin(2*phi)` and `+ 0.03*sin(coupler)`",
         ),
     ];

@@ -97,7 +97,7 @@ fn digits_of_numbers_and_of_instants_are_in_the_bound() {
 fn rows_are_brought_together_by_crank_angle_too() {
     let scenario = scenario("crank_rocker");
     let right = solved(&scenario);
-    let cranks: Vec<f64> = right.cranks().iter().map(|crank| crank.to_degrees()).collect();
+    let cranks: Vec<f64> = right.inputs().iter().map(|crank| crank.to_degrees()).collect();
     let raw = table(&[
         ("crank_deg", cranks),
         ("link.rocker.angle_rad", right.named("link.rocker.angle_rad").unwrap().to_vec()),
@@ -151,7 +151,7 @@ fn a_crank_angle_that_is_off_by_a_millionth_is_found() {
     let scenario = scenario("crank_rocker");
     let right = solved(&scenario);
     let verdict = |more: f64| {
-        let cranks = right.cranks().iter().map(|crank| crank + more).collect();
+        let cranks = right.inputs().iter().map(|crank| crank + more).collect();
         let angle = right.named("link.rocker.angle_rad").unwrap().to_vec();
         let raw = table(&[("t", right.times().to_vec()), ("crank_rad", cranks), ("link.rocker.angle_rad", angle)]);
         against(&scenario, &raw, &How::default()).verdict.word()

@@ -59,7 +59,7 @@ impl<'a> PoseSolver<'a> {
     /// [`ErrorKind::Geometry`] if the start pose is singular.
     pub fn new(case: &'a Case) -> Result<Self> {
         let plan = Plan::of(&case.mechanism, &case.structure, &case.modes);
-        let step = if plan.is_closed_form() { CLOSED_FORM_STEP } else { FOLLOWED_STEP };
+        let step = case.step(if plan.is_closed_form() { CLOSED_FORM_STEP } else { FOLLOWED_STEP });
         let (statics, state) = (Kinetostatics::of(case, &plan), State::at_start(case));
         let inputs = vec![0.0; case.drives.len()];
         let gauges = Gauges::of(case, &plan, &state.motions);
@@ -182,7 +182,7 @@ impl<'a> PoseSolver<'a> {
             case.loads_with(motions, angles, sensed, out);
         };
         let found = window.reactions(place, rates, None, (case, &mut self.statics), &mut loads, &mut self.state);
-        found.map_err(|_| passing::unbounded(self.crank))
+        found.map_err(|_| passing::unbounded(self.case.told(self.crank)))
     }
 
     /// As [`PoseSolver::solve`] at the instant at which the crank starts from rest with the acceleration `alpha`: loads
@@ -262,7 +262,7 @@ impl<'a> PoseSolver<'a> {
             let placed = passing.place([from, self.inputs[0]], &mut self.plan, &mut self.state.motions);
             placed.map_err(|reach| match reach.why {
                 Misfit::Passed { crank } => {
-                    OutOfReach { why: Misfit::Passed { crank: crank - self.case.crank().zero }, ..reach }
+                    OutOfReach { why: Misfit::Passed { crank: self.case.crank().from_world(crank) }, ..reach }
                 }
                 Misfit::Span { .. }
                 | Misfit::Guide { .. }
@@ -336,8 +336,8 @@ impl<'a> PoseSolver<'a> {
 
     fn unreachable(&self, crank: f64, reach: OutOfReach) -> Error {
         let group = self.case.structure.groups[reach.group].names(&self.case.mechanism);
-        let degrees = crank.to_degrees();
-        let assembled = format!("the group ({group}) cannot be assembled at crank angle {degrees:.4} deg");
+        let at = self.case.told(crank);
+        let assembled = format!("the group ({group}) cannot be assembled at {at}");
         let message = match reach.why {
             Misfit::Span { distance, reach: [shortest, longest] } => format!(
                 "{assembled}: its outer joints are {distance:.6} m apart, its links span {shortest:.6} to {longest:.6} m"
@@ -349,25 +349,23 @@ impl<'a> PoseSolver<'a> {
                 "{assembled}: its outer pins are {distance:.6} m apart, its slider holds them at least {shortest:.6} m apart"
             ),
             Misfit::Parallel => format!("{assembled}: its two axes are parallel there"),
-            Misfit::Singular => format!("the group ({group}) is singular at crank angle {degrees:.4} deg: {MEET}"),
+            Misfit::Singular => format!("the group ({group}) is singular at {at}: {MEET}"),
             Misfit::Passed { crank } => {
-                let degrees = crank.to_degrees();
+                let at = self.case.told(crank);
                 return Error::new(
                     ErrorKind::Geometry,
-                    format!("the group ({group}) passes a change point at crank angle {degrees:.4} deg: {MEET}"),
+                    format!("the group ({group}) passes a change point at {at}: {MEET}"),
                 )
-                .at_crank(crank)
+                .at_input(at)
                 .of_group(group)
                 .help(Advice::ShortenGrid)
                 .or_help("change a length by a little")
                 .or_help(way_through(self.case));
             }
-            Misfit::Lost => format!(
-                "the group ({group}) cannot be followed beyond crank angle {degrees:.4} deg: it has a dead point there"
-            ),
+            Misfit::Lost => format!("the group ({group}) cannot be followed beyond {at}: it has a dead point there"),
         };
         let error = Error::new(ErrorKind::Geometry, message)
-            .at_crank(crank)
+            .at_input(at)
             .of_group(group)
             .out_of_reach()
             .help(Advice::ShortenGrid)
@@ -396,6 +394,6 @@ fn drive_further(case: &Case, crank: f64, rate: f64, rates: &mut [f64]) {
 fn turn_further(case: &Case, crank: f64, angles: &mut [f64]) {
     let t = case.crank().time_of(crank);
     for (angle, drive) in angles.iter_mut().zip(case.drives.further()) {
-        *angle = drive.world_angle(drive.at(t).angle);
+        *angle = drive.world_angle(drive.at(t).value);
     }
 }

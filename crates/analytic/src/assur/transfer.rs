@@ -113,7 +113,7 @@ impl<'a> TransferSide<'a> {
             now.zip(*before).is_some_and(|(now, before)| now.sine - now.rate < 0.0 && before > 0.0)
         });
         if let Some(group) = passed {
-            let crank = self.target[0] - self.case.crank().zero;
+            let crank = self.case.crank().from_world(self.target[0]);
             return Err(OutOfReach { group, why: Misfit::Passed { crank } });
         }
         self.sines.clear();
@@ -169,23 +169,18 @@ impl<'a> TransferSide<'a> {
 
     fn out_of_reach(&self, reach: OutOfReach) -> Error {
         let group = self.case.structure.groups[reach.group].names(&self.case.mechanism);
-        let crank = self.target[0] - self.case.crank().zero;
-        let degrees = crank.to_degrees();
+        let at = self.case.told(self.case.crank().from_world(self.target[0]));
         let message = match reach.why {
-            Misfit::Lost => format!(
-                "the group ({group}) cannot be followed beyond crank angle {degrees:.4} deg: it has a dead point there"
-            ),
+            Misfit::Lost => format!("the group ({group}) cannot be followed beyond {at}: it has a dead point there"),
             Misfit::Singular | Misfit::Passed { .. } => {
-                format!(
-                    "the group ({group}) is singular at crank angle {degrees:.4} deg: two of its branches meet there"
-                )
+                format!("the group ({group}) is singular at {at}: two of its branches meet there")
             }
             Misfit::Span { .. } | Misfit::Guide { .. } | Misfit::Swing { .. } | Misfit::Parallel => {
-                format!("the group ({group}) cannot be assembled at crank angle {degrees:.4} deg")
+                format!("the group ({group}) cannot be assembled at {at}")
             }
         };
         Error::new(ErrorKind::Geometry, message)
-            .at_crank(crank)
+            .at_input(at)
             .of_group(group)
             .help("let the grid end before the motion comes there")
     }
@@ -297,7 +292,7 @@ impl Side for TransferSide<'_> {
                 &mut loads,
                 &mut self.state,
             );
-            found.map_err(|_| passing::unbounded(self.at[0] - case.crank().zero))?;
+            found.map_err(|_| passing::unbounded(case.told(case.crank().from_world(self.at[0]))))?;
         } else if self.case.wanted.deepest() >= Stage::Reactions {
             self.statics.solve_under(&self.loads, self.case, &self.plan, &mut self.state);
         }

@@ -20,13 +20,14 @@ impl PoseSolver<'_> {
     /// most a few turns; all of them where a turn leads to another pose, or where other drives or change points make
     /// turns differ.
     pub(super) fn skip_turns(&mut self, target: f64) -> Result<()> {
-        let turns = ((target - self.crank).abs() / TAU).floor() - 1.0;
+        let Some((whole, _)) = self.case.crank().input.period() else { return Ok(()) };
+        let turns = ((target - self.crank).abs() / whole).floor() - 1.0;
         let repeats = self.case.drives.further().is_empty() && self.passing.is_none();
         // Written so that NaN skips nothing.
         if !(repeats && turns >= WORTH) {
             return Ok(());
         }
-        let turn = TAU.copysign(target - self.crank);
+        let turn = whole.copysign(target - self.crank);
         let begun = self.state.motions.clone();
         let angles = |solver: &Self| solver.turns.as_ref().map(|turns| turns.angles().collect::<Vec<f64>>());
         let before = angles(self);

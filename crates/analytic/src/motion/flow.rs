@@ -159,8 +159,8 @@ impl<'a, const N: usize> Pieces<'a, N> {
                 free += 1;
             } else {
                 let state = drive.at(t);
-                inputs.angles[index] = drive.world_angle(state.angle);
-                (inputs.speeds[index], inputs.accelerations[index]) = (state.omega, state.alpha);
+                inputs.angles[index] = drive.world_angle(state.value);
+                (inputs.speeds[index], inputs.accelerations[index]) = (state.rate, state.acceleration);
             }
         }
     }
@@ -402,7 +402,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
     /// The crank angle (rad, as the scenario states it).
     fn crank(&self, t: f64, y: &[f64; N]) -> f64 {
         let crank = self.case.crank();
-        if crank.is_free() { y[0] - crank.zero } else { crank.at(t).angle }
+        if crank.is_free() { crank.from_world(y[0]) } else { crank.at(t).value }
     }
 
     /// The crank's speed in the motor's sense. Wherever there is a branch, the crank is the first free driving link.

@@ -11,6 +11,7 @@ use super::march::{MOST_EMPTY, Pace, Place, Stop, march};
 use super::side::Side;
 use super::step::Step;
 use linkage::case::Case;
+use linkage::drive::InputValue;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::solver::{Progress, State, Visit, check_instants};
 
@@ -50,13 +51,13 @@ pub(crate) fn sweep(case: &Case, side: &mut dyn Side, accuracy: f64, visit: Visi
     }
 }
 
-/// An error of the integration at a time (s) and crank angle (rad). Errors of a side say the crank angle themselves.
-fn located(error: Error, t: f64, crank: f64) -> Error {
-    if error.message().starts_with("crank angle") {
+/// An error of the integration at a time (s) and an input. Errors of a side say the input themselves.
+fn located(error: Error, t: f64, at: InputValue) -> Error {
+    if error.message().starts_with(at.input.noun()) {
         return error.at_time(t);
     }
-    let message = format!("t = {t:.6} s, crank angle {:.4} deg: {}", crank.to_degrees(), error.message());
-    Error::new(error.kind(), message).at_time(t).at_crank(crank).help(
+    let message = format!("t = {t:.6} s, {at}: {}", error.message());
+    Error::new(error.kind(), message).at_time(t).at_input(at).help(
         "let the grid end before; where masses nearly vanish at a crank angle, give the crank or the rotor a moment of \
          inertia",
     )
@@ -99,8 +100,8 @@ fn run<const N: usize>(
         let mut at_step = |pieces: &Pieces<N>, &[_, (t, y)]: &Step<N>| reach(pieces, t, &y);
         let stop = march(&pieces, &mut place, &targets, accuracy, &mut at_step);
         let drive = case.drives.free().next().expect("a drive is free").1;
-        let turned = place.y[0] - drive.zero;
-        let stop = stop.map_err(|error| located(error, place.x, turned))?;
+        let at = drive.told(drive.from_world(place.y[0]));
+        let stop = stop.map_err(|error| located(error, place.x, at))?;
         let Stop::Bound(bound) = stop else { break };
         pace.piece(place.x, last)?;
         empty = if place.x > from { 0 } else { empty + 1 };

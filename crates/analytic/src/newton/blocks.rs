@@ -9,7 +9,6 @@
 use linkage::case::Case;
 use linkage::math::KeepNan;
 use linkage::math::dense::Lu;
-use linkage::mechanism::EQUATIONS;
 
 /// One diagonal block: a driving link, or a group.
 #[derive(Clone, Debug)]
@@ -37,12 +36,11 @@ pub(super) struct Blocks {
 impl Blocks {
     /// Storage for the equations of a case; all coefficients zero.
     pub(super) fn of(case: &Case) -> Self {
-        let joints = case.mechanism.joints().len();
         let mut parts: Vec<(Vec<usize>, Vec<usize>)> = Vec::new();
-        let rows_of = |joint: usize| EQUATIONS * joint..EQUATIONS * (joint + 1);
+        let rows_of = |joint: usize| case.mechanism.rows(joint);
         let columns_of = |link: usize| 3 * (link - 1)..3 * link;
         for (index, drive) in case.drives.iter().enumerate() {
-            let rows = rows_of(drive.joint).chain([EQUATIONS * joints + index]).collect();
+            let rows = rows_of(drive.joint).chain([case.mechanism.equations() + index]).collect();
             parts.push((rows, columns_of(drive.link).collect()));
         }
         for group in &case.structure.groups {

@@ -1,4 +1,4 @@
-//! The two equations of every joint: residuals, rows of the Jacobian, and the terms of their second derivatives on the
+//! The equations of every joint: residuals, rows of the Jacobian, and the terms of their second derivatives on the
 //! right-hand side.
 //!
 //! Revolute: C = p2 - p1.
@@ -10,16 +10,31 @@
 //! 3.3).
 
 use super::system::System;
+use linkage::drive::{Drive, Input};
 use linkage::math::{Vec2, turned};
 use linkage::mechanism::{Joint, JointKind, Side};
 
 impl System<'_> {
-    /// Residuals and Jacobian of a joint's equations, the first of them in `row`.
+    /// Residual and Jacobian of a drive's equation in `row`: the coordinate of its joint is the input `at`, counted as
+    /// [`Drive::world_angle`] does.
     #[inline]
-    pub(super) fn assemble_joint(&mut self, row: usize, joint: &Joint) {
+    pub(super) fn assemble_drive(&mut self, row: usize, drive: &Drive, at: f64) {
+        match drive.input {
+            Input::Angle => {
+                let theta = 3 * (drive.link - 1) + 2;
+                self.residual[row] = self.q[theta] - at;
+                self.jacobian.add(row, theta, 1.0);
+            }
+        }
+    }
+
+    /// Residuals and Jacobian of the equations of the joint with this number.
+    #[inline]
+    pub(super) fn assemble_joint(&mut self, index: usize, joint: &Joint) {
+        let row = self.case.mechanism.rows(index).start;
         match joint.kind {
             JointKind::Revolute => self.assemble_revolute(row, joint),
-            JointKind::Prismatic { axes } => self.assemble_prismatic(row, joint, axes[0]),
+            JointKind::Prismatic { axes } => self.assemble_prismatic(row, joint, axes[0], self.twists[index]),
         }
     }
 
@@ -41,7 +56,7 @@ impl System<'_> {
         self.residual[row + 1] = gap.y;
     }
 
-    fn assemble_prismatic(&mut self, row: usize, joint: &Joint, axis: Vec2) {
+    fn assemble_prismatic(&mut self, row: usize, joint: &Joint, axis: Vec2, twist: f64) {
         let [first, second] = [joint.first.link, joint.second.link];
         let axis = self.along(first, axis);
         let normal = turned(axis);
@@ -57,33 +72,36 @@ impl System<'_> {
             }
         }
         self.residual[row] = normal.dot(&gap);
-        self.residual[row + 1] = self.angle(second) - self.angle(first) - self.twists[row / 2];
+        self.residual[row + 1] = self.angle(second) - self.angle(first) - twist;
     }
 
-    /// Right-hand side of a joint's equations for the accelerations.
+    /// Writes the right-hand side of the equations of the joint with this number for the accelerations.
     #[inline]
-    pub(super) fn gamma(&self, joint: &Joint) -> [f64; 2] {
+    pub(super) fn put_gamma(&mut self, index: usize, joint: &Joint) {
         let centripetal = |side: Side| {
             let omega = self.omega(side.link);
             self.arm(side.link, side.local) * (omega * omega)
         };
         let gamma = centripetal(joint.second) - centripetal(joint.first);
+        let row = self.case.mechanism.rows(index).start;
         match joint.kind {
-            JointKind::Revolute => [gamma.x, gamma.y],
+            JointKind::Revolute => (self.second[row], self.second[row + 1]) = (gamma.x, gamma.y),
             JointKind::Prismatic { axes } => {
                 let axis = self.along(joint.first.link, axes[0]);
                 let speed = self.velocity(joint.second) - self.velocity(joint.first);
-                [turned(axis).dot(&gamma) + 2.0 * self.omega(joint.first.link) * axis.dot(&speed), 0.0]
+                let across = turned(axis).dot(&gamma) + 2.0 * self.omega(joint.first.link) * axis.dot(&speed);
+                (self.second[row], self.second[row + 1]) = (across, 0.0);
             }
         }
     }
 
-    /// Force (N) and moment (N m) of the first link on the second, from the joint's multipliers.
+    /// Force (N) and moment (N m) of the first link on the second in the joint with this number, from its multipliers.
     #[inline]
-    pub(super) fn reaction(&self, joint: &Joint, [first, second]: [f64; 2]) -> (Vec2, f64) {
+    pub(super) fn reaction(&self, index: usize, joint: &Joint) -> (Vec2, f64) {
+        let own = &self.lambda[self.case.mechanism.rows(index)];
         match joint.kind {
-            JointKind::Revolute => (Vec2::new(first, second), 0.0),
-            JointKind::Prismatic { axes } => (turned(self.along(joint.first.link, axes[0])) * first, second),
+            JointKind::Revolute => (Vec2::new(own[0], own[1]), 0.0),
+            JointKind::Prismatic { axes } => (turned(self.along(joint.first.link, axes[0])) * own[0], own[1]),
         }
     }
 }

@@ -13,7 +13,7 @@ use linkage::drive::Wrench;
 use linkage::error::Result;
 use linkage::math::dense::Lu;
 use linkage::math::{KeepNan, Vec2};
-use linkage::mechanism::{self, EQUATIONS};
+use linkage::mechanism;
 use linkage::solver::State;
 use linkage::trajectory::Stage;
 
@@ -60,7 +60,7 @@ impl<'a> Embedded<'a> {
 
     fn find_columns(&mut self) {
         let n = self.system.q.len();
-        let first = EQUATIONS * self.system.case.mechanism.joints().len();
+        let first = self.system.case.mechanism.equations();
         for (index, column) in self.columns.chunks_mut(n).enumerate() {
             column.fill(0.0);
             column[first + index] = 1.0;
@@ -75,7 +75,7 @@ impl<'a> Embedded<'a> {
             self.columns.copy_from_slice(&passing.spot.slope);
             return Ok(());
         }
-        let from: Vec<f64> = self.system.inputs.iter().map(|input| input.angle).collect();
+        let from: Vec<f64> = self.system.inputs.iter().map(|input| input.value).collect();
         let farthest = from.iter().zip(angles).fold(0.0f64, |most, (a, b)| most.larger((b - a).abs()));
         let parts = (farthest / TRACKING_STEP).ceil().larger(1.0);
         let n = self.system.q.len();
@@ -84,11 +84,11 @@ impl<'a> Embedded<'a> {
             let system = &mut self.system;
             for (index, (&from, &to)) in from.iter().zip(angles).enumerate() {
                 let target = if share < 1.0 { from + (to - from) * share } else { to };
-                let turn = target - system.inputs[index].angle;
+                let turn = target - system.inputs[index].value;
                 for (q, rate) in system.q.iter_mut().zip(&self.columns[index * n..]) {
                     *q += turn * rate;
                 }
-                system.inputs[index].angle = target;
+                system.inputs[index].value = target;
             }
             system.predicted.copy_from_slice(&system.q);
             system.correct()?;
@@ -116,7 +116,7 @@ impl<'a> Embedded<'a> {
         for (own, (&omega, &alpha)) in
             self.system.inputs.iter_mut().zip(inputs.speeds.iter().zip(&inputs.accelerations))
         {
-            (own.omega, own.alpha) = (omega, alpha);
+            (own.rate, own.acceleration) = (omega, alpha);
         }
         match &self.passing {
             Some(passing) => passing.rates(&mut self.system, inputs.speeds[0], inputs.accelerations[0]),

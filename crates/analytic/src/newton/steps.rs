@@ -8,7 +8,6 @@ use linkage::case::{Case, Grid};
 use linkage::drive::{Drive, Wrench};
 use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::math::{KeepNan, Motion};
-use linkage::mechanism::EQUATIONS;
 use linkage::solver::State;
 use linkage::trajectory::Stage;
 use linkage::work::{self, Count};
@@ -55,7 +54,7 @@ impl System<'_> {
     /// Follows the branch to time `t`, positions to accelerations.
     pub(super) fn follow_to(&mut self, t: f64) -> Result<()> {
         let turned = |drive: &Drive| match drive.constant_speed() {
-            Some(_) => (drive.at(t).angle - drive.at(self.time).angle).abs(),
+            Some(_) => (drive.at(t).value - drive.at(self.time).value).abs(),
             // The motion may go there and back in between.
             None => drive.top_speed().abs() * (t - self.time).abs(),
         };
@@ -65,7 +64,7 @@ impl System<'_> {
             let turns = turn / TAU;
             return Err(self.lost(&format!("up to {turns:.1e} turns on the way to {t} s are too many to be followed")));
         }
-        let parts = (turn / TRACKING_STEP).ceil().larger(1.0);
+        let parts = (turn / self.case.step(TRACKING_STEP)).ceil().larger(1.0);
         let from = self.time;
         for part in 1..parts as usize {
             self.step_to(from + (t - from) * (part as f64 / parts), HALVINGS)?;
@@ -139,13 +138,11 @@ impl System<'_> {
         self.jacobian.clear();
         let case = self.case;
         for (index, joint) in case.mechanism.joints().iter().enumerate() {
-            self.assemble_joint(2 * index, joint);
+            self.assemble_joint(index, joint);
         }
-        let first = EQUATIONS * case.mechanism.joints().len();
+        let first = case.mechanism.equations();
         for (row, drive) in self.drives() {
-            let theta = 3 * (drive.link - 1) + 2;
-            self.residual[row] = self.q[theta] - self.inputs[row - first].angle;
-            self.jacobian.add(row, theta, 1.0);
+            self.assemble_drive(row, drive, self.inputs[row - first].value);
         }
     }
 
@@ -154,14 +151,14 @@ impl System<'_> {
         self.tally.one(Count::Velocities);
         self.tally.one(Count::Accelerations);
         self.rate.fill(0.0);
-        let first = EQUATIONS * self.case.mechanism.joints().len();
+        let case = self.case;
+        let first = case.mechanism.equations();
         for (index, input) in self.inputs.iter().enumerate() {
-            (self.rate[first + index], self.second[first + index]) = (input.omega, input.alpha);
+            (self.rate[first + index], self.second[first + index]) = (input.rate, input.acceleration);
         }
         self.jacobian.solve(&mut self.rate);
-        for (index, joint) in self.case.mechanism.joints().iter().enumerate() {
-            let gamma = self.gamma(joint);
-            self.second[2 * index..2 * index + 2].copy_from_slice(&gamma);
+        for (index, joint) in case.mechanism.joints().iter().enumerate() {
+            self.put_gamma(index, joint);
         }
         self.jacobian.solve(&mut self.second);
     }
@@ -243,8 +240,7 @@ impl System<'_> {
             (state.motions[link], state.angles[link]) = self.motion(link);
         }
         for (index, joint) in self.case.mechanism.joints().iter().enumerate() {
-            let multipliers = [self.lambda[2 * index], self.lambda[2 * index + 1]];
-            (state.forces[index], state.moments[index]) = self.reaction(joint, multipliers);
+            (state.forces[index], state.moments[index]) = self.reaction(index, joint);
         }
         for ((row, _), torque) in self.drives().zip(&mut state.torques) {
             *torque = self.lambda[row];
@@ -252,15 +248,13 @@ impl System<'_> {
     }
 
     pub(super) fn lost(&self, why: &str) -> Error {
-        let (crank, t) = (self.inputs[0].angle - self.case.crank().zero, self.time);
-        let degrees = crank.to_degrees();
+        let (at, t) = (self.case.told(self.case.crank().from_world(self.inputs[0].value)), self.time);
         // In a free motion only the integrator knows the time.
         if self.case.is_free() {
-            let message = format!("crank angle {degrees:.4} deg: {why}");
-            return Error::new(ErrorKind::Numeric, message).at_crank(crank).help("let the grid end before");
+            return Error::new(ErrorKind::Numeric, format!("{at}: {why}")).at_input(at).help("let the grid end before");
         }
-        let message = format!("crank angle {degrees:.4} deg, t = {t:.6} s: {why}");
-        Error::new(ErrorKind::Numeric, message).at_time(t).at_crank(crank).help(Advice::ShortenGrid)
+        let message = format!("{at}, t = {t:.6} s: {why}");
+        Error::new(ErrorKind::Numeric, message).at_time(t).at_input(at).help(Advice::ShortenGrid)
     }
 }
 

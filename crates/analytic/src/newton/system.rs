@@ -4,9 +4,9 @@ use std::f64::consts::TAU;
 
 use super::blocks::Blocks;
 use linkage::case::Case;
-use linkage::drive::{Drive, DriveState, Wrench};
+use linkage::drive::{Drive, InputState, Wrench};
 use linkage::math::{Motion, Vec2, rotated, turned, unit};
-use linkage::mechanism::{EQUATIONS, Joint, Side};
+use linkage::mechanism::{Joint, Side};
 use linkage::trajectory::Stage;
 use linkage::work::Tally;
 
@@ -22,7 +22,8 @@ pub(super) struct System<'a> {
     pub(super) q: Vec<f64>,
     pub(super) rate: Vec<f64>,
     pub(super) second: Vec<f64>,
-    /// Multipliers: two per joint, then those of the drives.
+    /// Multipliers: those of the joints, as [`Mechanism::rows`](linkage::mechanism::Mechanism::rows) says, then those of
+    /// the drives.
     pub(super) lambda: Vec<f64>,
     /// For every joint: see [`twist`].
     pub(super) twists: Vec<f64>,
@@ -36,7 +37,7 @@ pub(super) struct System<'a> {
     pub(super) rate_before: Vec<f64>,
     pub(super) second_before: Vec<f64>,
     /// The driving links at the present time: angles in the world, angular velocities and accelerations.
-    pub(super) inputs: Vec<DriveState>,
+    pub(super) inputs: Vec<InputState>,
     /// Motions and angles of all links, for their loads, and the loads themselves.
     pub(super) motions: Vec<Motion>,
     pub(super) angles: Vec<f64>,
@@ -105,7 +106,7 @@ impl<'a> System<'a> {
 
     /// The drives with their rows, which come after those of the joints.
     pub(super) fn drives(&self) -> impl Iterator<Item = (usize, &'a Drive)> + use<'a> {
-        let first = EQUATIONS * self.case.mechanism.joints().len();
+        let first = self.case.mechanism.equations();
         self.case.drives.iter().enumerate().map(move |(index, drive)| (first + index, drive))
     }
 
@@ -146,9 +147,9 @@ impl<'a> System<'a> {
 }
 
 /// State of a driving link by its law, with its angle in the world.
-fn by_law(drive: &Drive, t: f64) -> DriveState {
+fn by_law(drive: &Drive, t: f64) -> InputState {
     let state = drive.at(t);
-    DriveState { angle: drive.world_angle(state.angle), ..state }
+    InputState { value: drive.world_angle(state.value), ..state }
 }
 
 /// Angle of a joint's second link minus that of its first (rad) while the axes of a prismatic pair are parallel.

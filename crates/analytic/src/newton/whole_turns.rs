@@ -20,7 +20,8 @@ impl System<'_> {
     pub(super) fn skip_turns(&mut self, t: f64) -> Result<()> {
         let [drive] = &self.case.drives.iter().collect::<Vec<_>>()[..] else { return Ok(()) };
         let Some(speed) = drive.constant_speed() else { return Ok(()) };
-        let period = (TAU / speed).abs().copysign(t - self.time);
+        let Some((whole, _)) = drive.input.period() else { return Ok(()) };
+        let period = (whole / speed).abs().copysign(t - self.time);
         let turns = ((t - self.time) / period).floor() - 1.0;
         // Written so that NaN skips nothing.
         if !(turns >= WORTH) {

@@ -6,7 +6,7 @@
 //! Each kind of joint has one function with its rows.
 
 use linkage::math::{Column, Matrix, Vec2, cross, rotated, unit};
-use linkage::mechanism::{EQUATIONS, Group, Joint, JointKind, LinkPose, Mechanism, Pose, Side};
+use linkage::mechanism::{Group, Joint, JointKind, LinkPose, Mechanism, Pose, Side};
 
 /// A driving link that is geared to the crank: its angle follows that of the crank.
 #[derive(Clone, Copy, Debug)]
@@ -62,7 +62,7 @@ impl<'a> Constraints<'a> {
 
     /// Number of equations.
     pub(super) fn rows(&self) -> usize {
-        EQUATIONS * self.mechanism.joints().len() + self.gearings.len()
+        self.mechanism.equations() + self.gearings.len()
     }
 
     /// Index of the coordinate that is the angle of `link`.
@@ -94,7 +94,7 @@ impl<'a> Constraints<'a> {
         let mut equations =
             Equations { residual: Column::zeros(self.rows()), jacobian: Matrix::zeros(self.rows(), q.len()) };
         for (index, joint) in self.mechanism.joints().iter().enumerate() {
-            let row = EQUATIONS * index;
+            let row = self.mechanism.rows(index).start;
             match joint.kind {
                 JointKind::Revolute => self.revolute(joint, q, row, &mut equations),
                 JointKind::Prismatic { axes } => self.prismatic(joint, axes, q, row, &mut equations),
@@ -102,7 +102,7 @@ impl<'a> Constraints<'a> {
         }
         for (index, gearing) in self.gearings.iter().enumerate() {
             let (row, [own, crank]) =
-                (EQUATIONS * self.mechanism.joints().len() + index, [gearing.link, gearing.crank].map(Self::angle));
+                (self.mechanism.equations() + index, [gearing.link, gearing.crank].map(Self::angle));
             equations.residual[row] = q[own] - gearing.ratio * q[crank] - gearing.offset;
             equations.jacobian[(row, own)] += 1.0;
             equations.jacobian[(row, crank)] -= gearing.ratio;
@@ -166,7 +166,7 @@ impl<'a> Constraints<'a> {
     /// then all angles.
     pub(super) fn block(&self, jacobian: &Matrix, group: &Group) -> Matrix {
         let joints = group.inner.iter().chain(&group.outer);
-        let rows: Vec<usize> = joints.flat_map(|&joint| [EQUATIONS * joint, EQUATIONS * joint + 1]).collect();
+        let rows: Vec<usize> = joints.flat_map(|&joint| self.mechanism.rows(joint)).collect();
         let places = group.links.iter().flat_map(|&link| [3 * link - 3, 3 * link - 2]);
         let columns: Vec<usize> = places.chain(group.links.iter().map(|&link| Self::angle(link))).collect();
         Matrix::from_fn(rows.len(), columns.len(), |r, c| jacobian[(rows[r], columns[c])])

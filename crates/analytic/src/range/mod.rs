@@ -176,7 +176,7 @@ fn both_ways(tracker: &Tracker, start: &Point) -> Result<(Vec<Point>, Extent)> {
         End::Limit(to) => to,
     };
     let backwards = tracker.follow(start, -1.0)?;
-    let End::Limit(from) = backwards.end else { return Err(tracking::lost(tracker.crank_of(&start.q))) };
+    let End::Limit(from) = backwards.end else { return Err(tracker.lost(&start.q)) };
     let turned = |mut point: Point| {
         point.tangent.neg_mut();
         point

@@ -15,7 +15,7 @@ use super::constraints::{Constraints, Gearing};
 use super::measure::{self, Measure};
 use super::singularity::{Kind, Singularity};
 use linkage::case::Case;
-use linkage::drive::Drive;
+use linkage::drive::{Drive, InputValue};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::dense::Lu;
 use linkage::math::root::{self, Close};
@@ -127,7 +127,8 @@ impl<'a> Tracker<'a> {
         along[tracker.crank] = 1.0;
         let rough = tracker.point(q, &along);
         tracker.check_regular(&rough)?;
-        let start = tracker.at_crank(&rough, drive.world_angle(drive.start)).ok_or_else(|| lost(drive.start));
+        let start =
+            tracker.at_crank(&rough, drive.world_angle(drive.start)).ok_or_else(|| lost(drive.told(drive.start)));
         let start = tracker.allowed(start)?;
         for (index, group) in case.structure.groups.iter().enumerate() {
             let sine = linkage::mechanism::assembly::transmission_sine(&case.mechanism, group, &case.start);
@@ -158,7 +159,12 @@ impl<'a> Tracker<'a> {
 
     /// Crank angle of a pose as the scenario states it (rad).
     pub(super) fn crank_of(&self, q: &Column) -> f64 {
-        q[self.crank] - self.case.crank().zero
+        self.case.crank().from_world(q[self.crank])
+    }
+
+    /// The error for a pose at which the mechanism cannot be followed.
+    pub(super) fn lost(&self, q: &Column) -> Error {
+        lost(self.case.told(self.crank_of(q)))
     }
 
     /// The crank's part of the tangent.
@@ -169,16 +175,15 @@ impl<'a> Tracker<'a> {
     fn check_regular(&self, start: &Point) -> Result<()> {
         for (group, measure) in self.case.structure.groups.iter().zip(&start.measures) {
             if !(measure.determinant.abs() > MEET) {
-                let names = group.names(&self.case.mechanism);
+                let (names, at) = (group.names(&self.case.mechanism), self.case.told(self.case.crank().start));
                 return Err(Error::new(
                     ErrorKind::Geometry,
                     format!(
-                        "the start pose at crank angle {:.6} deg is singular: two configurations of the group ({names}) meet there",
-                        self.case.crank().start.to_degrees()
+                        "the start pose at {at:.6} is singular: two configurations of the group ({names}) meet there"
                     ),
                 )
                 .key("start")
-                .at_crank(self.case.crank().start)
+                .at_input(at)
                 .of_group(names)
                 .help("start at another crank angle, where the configurations are apart"));
             }
@@ -316,7 +321,7 @@ impl<'a> Tracker<'a> {
                 return self.met(points);
             }
         }
-        Err(lost(self.crank_of(&points[points.len() - 1].q)))
+        Err(self.lost(&points[points.len() - 1].q))
     }
 
     /// Distance of the farthest link from the crank's pivot, in [`NEAR`] sizes of the mechanism; at least 1.
@@ -364,7 +369,7 @@ impl<'a> Tracker<'a> {
     /// So the value at zero is extrapolated from poses at a distance (Neville's scheme).
     fn met(&self, mut points: Vec<Point>) -> Result<Track> {
         let last = &points[points.len() - 1];
-        let Some(group) = weakest(&last.measures) else { return Err(lost(self.crank_of(&last.q))) };
+        let Some(group) = weakest(&last.measures) else { return Err(self.lost(&last.q)) };
         let known = by_determinant(&points, group);
         let known: Vec<(f64, Column)> = known.into_iter().map(|(x, point)| (x, point.q.clone())).collect();
         let q = if known.len() < 3 { last.q.clone() } else { neville_at_zero(&known) };
@@ -406,10 +411,10 @@ impl<'a> Tracker<'a> {
     /// determinant there too, and so are the angles of all links and the measures of the other groups.
     fn escaped(&self, mut points: Vec<Point>) -> Result<Track> {
         let last = &points[points.len() - 1];
-        let Some(group) = weakest(&last.measures) else { return Err(lost(self.crank_of(&last.q))) };
+        let Some(group) = weakest(&last.measures) else { return Err(self.lost(&last.q)) };
         let known = by_determinant(&points, group);
         if known.len() < 3 {
-            return Err(lost(self.crank_of(&last.q)));
+            return Err(self.lost(&last.q));
         }
         let known: Vec<(f64, Column)> = known.into_iter().map(|(x, point)| (x, self.finite(point))).collect();
         let found = neville_at_zero(&known);
@@ -460,13 +465,10 @@ fn weakest(measures: &[Measure]) -> Option<usize> {
     (0..measures.len()).min_by(|&a, &b| measures[a].determinant.abs().total_cmp(&measures[b].determinant.abs()))
 }
 
-pub(super) fn lost(crank: f64) -> Error {
-    Error::new(
-        ErrorKind::Numeric,
-        format!("the poses of the mechanism cannot be followed at crank angle {:.4} deg", crank.to_degrees()),
-    )
-    .at_crank(crank)
-    .help("check the lengths, or start at another crank angle")
+fn lost(at: InputValue) -> Error {
+    Error::new(ErrorKind::Numeric, format!("the poses of the mechanism cannot be followed at {at}"))
+        .at_input(at)
+        .help("check the lengths, or start at another crank angle")
 }
 
 /// A Jacobian with one more row.

@@ -188,7 +188,7 @@ pub fn means_over_turn(case: &Case, solver: &dyn Solver) -> Result<Means> {
     let nodes = quadrature::composite(&breaks, PANEL);
     let cranks = nodes.iter().map(|&(crank, _)| crank).collect();
     let steady = case.nominal().at_top_speed();
-    let turn = steady.on(Grid::of_cranks(steady.crank(), cranks))?.wanting(Wanted::of(&[Stage::Velocities]));
+    let turn = steady.on(Grid::of_inputs(steady.crank(), cranks))?.wanting(Wanted::of(&[Stage::Velocities]));
     let mut means = Means { inertia: 0.0, resistance: 0.0 };
     let mut visit = |row: usize, state: &State| {
         means.inertia += moment_of_inertia(&turn, &state.motions) * nodes[row].1 / period;

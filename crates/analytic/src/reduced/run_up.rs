@@ -118,8 +118,8 @@ impl<'m, 'a> Runner<'m, 'a> {
             let stop = march(&self.flow, &mut self.place, times, accuracy, &mut visit)?;
             empty = if self.place.x > from { 0 } else { empty + 1 };
             if empty > MOST_EMPTY {
-                let crank = self.place.y[0].to_degrees();
-                let message = format!("the motion does not get away from crank angle {crank:.6} deg at {from:.9} s");
+                let at = self.flow.0.model.case.told(self.place.y[0]);
+                let message = format!("the motion does not get away from {at:.6} at {from:.9} s");
                 return Err(Error::new(ErrorKind::Numeric, message)
                     .help("a load that turns about just there holds and lets go in turn: start it a little aside"));
             }
@@ -181,14 +181,14 @@ impl<'m, 'a> Runner<'m, 'a> {
                 continue;
             }
             if omega == 0.0 && way > 0.0 && self.starts_back(crank) {
+                let at = forces.model.case.told(crank + self.gone);
                 let message = format!(
-                    "at t = {t:.6} s, crank angle {:.4} deg, the crank may start from rest in either sense: a load that \
-                     acts in one sense only drives it",
-                    (crank + self.gone).to_degrees()
+                    "at t = {t:.6} s, {at}, the crank may start from rest in either sense: a load that acts in one sense \
+                     only drives it"
                 );
                 return Err(Error::new(ErrorKind::Unsupported, message)
                     .at_time(t)
-                    .at_crank(crank + self.gone)
+                    .at_input(at)
                     .help("give the crank a speed at t = 0, or let the load act in both senses"));
             }
             if omega != 0.0 {
@@ -278,7 +278,7 @@ impl RunUp {
         let (motion, end) = motion(model, omega, times, accuracy)?;
         let grid = Grid {
             times: motion.iter().map(|instant| instant.t).collect(),
-            cranks: motion.iter().map(|instant| instant.crank).collect(),
+            inputs: motion.iter().map(|instant| instant.crank).collect(),
         };
         // Forces decide this motion, so the law of the crank must not limit its time.
         let case = model.case.at_top_speed().on(grid)?;

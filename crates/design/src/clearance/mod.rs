@@ -204,14 +204,14 @@ pub fn poses(case: &Case, cranks: &[f64]) -> Result<Vec<Vec<Motion>>> {
 /// Crank angles at the instants of the grid (rad): of a motion under forces its solution's.
 fn cranks(case: &Case) -> Result<Vec<f64>> {
     if !case.is_free() {
-        return Ok(case.grid.cranks.clone());
+        return Ok(case.grid.inputs.clone());
     }
     if !case.drives.further().is_empty() {
         let message = "clearance is looked for over crank angles, but forces decide several freedoms of the motion";
         let error = Error::new(ErrorKind::Unsupported, message);
         return Err(error.help("prescribe the drives, or let no more than one link move freely"));
     }
-    Ok(AssurSolver.solve(&case.wanting(Wanted::of(&[Stage::Positions])))?.cranks().to_vec())
+    Ok(AssurSolver.solve(&case.wanting(Wanted::of(&[Stage::Positions])))?.inputs().to_vec())
 }
 
 /// Crank angles from which and to which the grid goes, in the order of the motion (rad).

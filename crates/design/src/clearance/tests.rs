@@ -140,8 +140,8 @@ fn the_first_of_all_collisions_is_the_first_on_the_way() {
         let motion = linkage::drive::DriveMotion::Prescribed { law, motor: None };
         let case = case.with(|parts| parts.drives.crank_mut().motion = motion).unwrap();
         let cranks = vec![0.0, sense * 3.0 * PI];
-        let case = case.on(linkage::case::Grid::of_cranks(case.crank(), cranks)).unwrap();
-        let part = linkage::case::Grid::of_cranks(case.crank(), vec![0.2 * sense, sense]);
+        let case = case.on(linkage::case::Grid::of_inputs(case.crank(), cranks)).unwrap();
+        let part = linkage::case::Grid::of_inputs(case.crank(), vec![0.2 * sense, sense]);
         assert_eq!(range(&case.on(part).unwrap()).unwrap(), [0.2 * sense, sense], "in the order of the motion");
         let post = |degrees: f64| {
             let at = linkage::math::unit(sense * degrees.to_radians()) * 0.08;
@@ -161,7 +161,7 @@ fn the_first_of_all_collisions_is_the_first_on_the_way() {
     }
     // Where branches cross, the next turn may take another one.
     let smooth = slider_crank().with(|parts| parts.drives.crank_mut().through = true).unwrap();
-    let grid = linkage::case::Grid::of_cranks(smooth.crank(), vec![0.0, 3.0 * PI]);
+    let grid = linkage::case::Grid::of_inputs(smooth.crank(), vec![0.0, 3.0 * PI]);
     assert_eq!(range(&smooth.on(grid).unwrap()).unwrap(), [0.0, 3.0 * PI]);
 }
 
@@ -304,7 +304,7 @@ fn swept_areas_are_closed_forms() {
     near(found.swept[0], PI * 0.12 * 0.12);
     near(found.swept[2], 0.2 * 0.04 + PI * 0.02 * 0.02);
     // Over 70 deg the crank sweeps a sector: an area, its border's length times the radius, and the disc.
-    let part = case.on(linkage::case::Grid::of_cranks(case.crank(), vec![0.3, 0.3 + PI * 70.0 / 180.0])).unwrap();
+    let part = case.on(linkage::case::Grid::of_inputs(case.crank(), vec![0.3, 0.3 + PI * 70.0 / 180.0])).unwrap();
     let found = find(&part, &question(&case, radius, &[]), &mut |_| ()).unwrap();
     let turn = PI * 70.0 / 180.0;
     near(found.swept[0], turn / 2.0 * 0.01 + (0.2 + 0.1 * turn) * radius + PI * radius * radius);
@@ -371,7 +371,7 @@ fn a_singular_pose_is_left_open() {
         .build()
         .unwrap();
     let case = case.with(|parts| parts.drives.crank_mut().through = true).unwrap();
-    let grid = linkage::case::Grid::of_cranks(case.crank(), vec![1.0, 4.0]);
+    let grid = linkage::case::Grid::of_inputs(case.crank(), vec![1.0, 4.0]);
     let case = case.on(grid).unwrap();
     let found = find(&case, &question(&case, 0.01, &[]), &mut |_| ()).unwrap();
     let ([from, _], [_, to]) = (found.open[0], found.open[found.open.len() - 1]);

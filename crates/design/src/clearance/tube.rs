@@ -263,14 +263,16 @@ fn enclose(case: &Case, group: &Group, half: f64, tubes: &mut [Tube], rounding: 
     let size = 3 * group.links.len();
     let joints: Vec<&Joint> =
         group.inner.iter().chain(&group.outer).map(|&joint| &case.mechanism.joints()[joint]).collect();
-    if joints.len() * 2 != size {
+    if joints.iter().map(|joint| joint.kind.equations()).sum::<usize>() != size {
         return false;
     }
     let column = |link: usize| group.links.iter().position(|&own| own == link).map(|index| 3 * index);
     let mut derivative = Matrix::zeros(size, size);
     let mut open = vec![0.0; size];
-    for (row, joint) in joints.iter().enumerate() {
-        equations(joint, tubes, half, &column, 2 * row, &mut derivative, &mut open);
+    let mut row = 0;
+    for joint in &joints {
+        equations(joint, tubes, half, &column, row, &mut derivative, &mut open);
+        row += joint.kind.equations();
     }
     open.iter_mut().for_each(|open| *open += rounding);
     let Some(inverse) = derivative.clone().try_inverse() else { return false };
@@ -287,9 +289,12 @@ fn enclose(case: &Case, group: &Group, half: f64, tubes: &mut [Tube], rounding: 
         }
         // The change of every equation over the box.
         let mut change = vec![0.0; size];
-        for (row, joint) in joints.iter().enumerate() {
-            let [one, two] = changes(joint, tubes, half, &column, &radii);
-            (change[2 * row], change[2 * row + 1]) = (one, two);
+        let mut row = 0;
+        for joint in &joints {
+            for own in changes(joint, tubes, half, &column, &radii).into_iter().take(joint.kind.equations()) {
+                change[row] = own;
+                row += 1;
+            }
         }
         let next: Vec<f64> = (0..size)
             .map(|i| least[i] + (0..size).map(|k| own[(i, k)] * radii[k] + inverse[(i, k)] * change[k]).sum::<f64>())

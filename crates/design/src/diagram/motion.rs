@@ -185,7 +185,7 @@ impl MotionDiagram {
         let rows = divisions * stride;
         let sense = case.crank().sense();
         let crank = |row: usize| case.crank().start + sense * TAU * (row as f64 / rows as f64);
-        let grid = Grid::of_cranks(case.crank(), (0..=rows).map(crank).collect());
+        let grid = Grid::of_inputs(case.crank(), (0..=rows).map(crank).collect());
         let wanted = Wanted::of(&[Stage::Positions, Stage::Velocities, Stage::Accelerations]);
         let trajectory = solver.solve(&case.on(grid)?.wanting(wanted))?;
         let column = |channel: &Channel| {
@@ -196,7 +196,7 @@ impl MotionDiagram {
         };
         let [x, v, a] = &course.0;
         let exact = [column(x)?, column(v)?, column(a)?];
-        let (cranks, times) = (trajectory.cranks().to_vec(), trajectory.times().to_vec());
+        let (cranks, times) = (trajectory.inputs().to_vec(), trajectory.times().to_vec());
         let scales = scales(&exact, (times[rows] - times[0]).abs());
         let found = Method::ALL.into_iter().map(|method| {
             let runs = [stride, stride / 2, stride / 4].map(|stride| apply(method, stride, &times, &exact));

@@ -123,7 +123,7 @@ impl<'a> Planner<'a> {
 /// # Errors
 /// [`ErrorKind::Input`] for a crank angle too far away to be reached step by step; those of the solver.
 pub fn state_at(case: &Case, solver: &dyn Solver, crank: f64) -> Result<State> {
-    let grid = Grid::of_cranks(case.crank(), vec![crank]);
+    let grid = Grid::of_inputs(case.crank(), vec![crank]);
     grid.check(case.crank())
         .map_err(|message| Error::new(ErrorKind::Input, message).help("give a crank angle in degrees, as 70 or -30"))?;
     let wanted = Wanted::of(&[Stage::Positions, Stage::Velocities, Stage::Accelerations]);

@@ -52,7 +52,7 @@ impl Choice {
         }
         let model = Model::of(case)?;
         let [_, resistance] = model.extremes()?;
-        let omega = case.crank().at(0.0).omega;
+        let omega = case.crank().at(0.0).rate;
         let mean = omega.signum() * means_over_turn(case, &AssurSolver)?.resistance;
         let wanted = omega.abs();
         let power = resistance.greatest.1 * wanted;

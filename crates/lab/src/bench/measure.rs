@@ -166,7 +166,7 @@ impl Desk<'_> {
             }
             let columns = own.iter().map(|one| column(&one.to_string()).cloned().unwrap_or_default()).collect();
             let channels = own.into_iter().cloned().collect();
-            match Trajectory::new(wanted.clone(), self.reference.cranks().to_vec(), channels, columns) {
+            match Trajectory::new(wanted.clone(), self.reference.inputs().to_vec(), channels, columns) {
                 Ok(found) => {
                     let apart = apart(self.reference, &found).map_err(|error| error.to_string())?;
                     errors[stage as usize] = Some(self.floor.judged(stage, apart[stage as usize]));

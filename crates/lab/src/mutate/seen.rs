@@ -150,7 +150,7 @@ impl Eyes {
                 let is_beyond =
                     |row: &&usize| kept.get(**row).copied().unwrap_or(true) && !(gaps[**row].abs() <= own.bound);
                 let first = *rows.iter().find(is_beyond)?;
-                Some((reference.times()[first], reference.cranks()[first]))
+                Some((reference.times()[first], reference.inputs()[first]))
             });
             let what = format!("{channel} ({who})");
             self.sights.push(Sight { what, since, margin: own.residual.max / own.bound });

@@ -96,7 +96,7 @@ impl<'a> Stage<'a> {
 
     /// Crank angles of all instants (rad).
     pub(super) fn cranks(&self) -> &[f64] {
-        self.right.cranks()
+        self.right.inputs()
     }
 
     /// What side 1 has found, as formulas are judged by it.

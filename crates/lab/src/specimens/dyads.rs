@@ -107,7 +107,7 @@ pub fn sample(spec: Spec) -> Option<Sample> {
         case.modes.iter().map(|&mode| StartGroup { mode: Some(mode), ..StartGroup::default() }).collect();
     let place = |cranks: &f64| first_pose(mechanism, structure, &[case.crank().world_angle(*cranks)], &wanted).ok();
     let poses: Vec<Pose> =
-        case.grid.cranks.iter().map(place).map(|found| found.map(|(pose, _)| pose)).collect::<Option<_>>()?;
+        case.grid.inputs.iter().map(place).map(|found| found.map(|(pose, _)| pose)).collect::<Option<_>>()?;
     let joint = |pose: &Pose, joint: usize| {
         let side = mechanism.joints()[joint].second;
         pose.0[side.link].point(side.local)

@@ -57,12 +57,11 @@ fn built() -> impl Iterator<Item = EngineName> {
     EngineName::ALL.into_iter().filter(|name| name.is_built())
 }
 
-/// An error as one line, with its crank angle.
+/// An error as one line, with the input where it is.
 fn told(error: &Error) -> String {
-    // Some messages tell the crank angle themselves.
-    let crank = error.crank().filter(|_| !error.message().contains("crank angle"));
-    let crank = crank.map_or_else(String::new, |crank| format!(" at crank angle {:.4} deg", crank.to_degrees()));
-    format!("{}{crank}", error.message())
+    // Some messages tell it themselves.
+    let at = error.input().filter(|at| !error.message().contains(at.input.noun()));
+    format!("{}{}", error.message(), at.map_or_else(String::new, |at| format!(" at {at}")))
 }
 
 fn parties(family: &Family, setup: &Setup) -> Result<Vec<Party>> {

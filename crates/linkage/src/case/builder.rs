@@ -275,7 +275,7 @@ impl CaseBuilder {
             None => {
                 let sense = crank.sense();
                 let turn = |part: usize| self.start + sense * TAU * part as f64 / self.instants.max(1) as f64;
-                Grid::of_cranks(crank, parts.map(turn).collect())
+                Grid::of_inputs(crank, parts.map(turn).collect())
             }
         }
     }
@@ -285,10 +285,19 @@ impl CaseBuilder {
         for (name, motion) in &self.cranks {
             let known = mechanism.joints().iter().map(|joint| joint.name.as_str());
             let joint = mechanism.joint_named(name).ok_or_else(|| unknown("joint", name, "drive", known))?;
-            let Joint { first, second, .. } = mechanism.joints()[joint];
+            let Joint { kind, first, second, .. } = mechanism.joints()[joint];
             let carries = |link: usize| link == GROUND || all.iter().any(|before| before.link == link);
             let link = if carries(first.link) { second.link } else { first.link };
-            all.push(Drive { joint, link, zero: 0.0, start: self.start, motion: motion.clone(), through: false });
+            all.push(Drive {
+                // A joint that no drive moves is refused where the structure is analysed.
+                input: kind.input().unwrap_or_default(),
+                joint,
+                link,
+                zero: 0.0,
+                start: self.start,
+                motion: motion.clone(),
+                through: false,
+            });
         }
         if all.is_empty() {
             let help = "name the driven joint with `crank`, `driven` or `free`";
@@ -367,7 +376,7 @@ mod tests {
         let case = four_bar().crank("O", -2.0).mode(&["rocker", "coupler"], AssemblyMode::Right).build().unwrap();
         assert_eq!(case.mechanism, crate::fixtures::four_bar());
         assert_eq!(case.modes, [AssemblyMode::Left]);
-        assert_eq!((case.grid.len(), case.grid.cranks[360]), (361, -TAU));
+        assert_eq!((case.grid.len(), case.grid.inputs[360]), (361, -TAU));
         assert_eq!(case.crank().link, 1);
     }
 
@@ -400,12 +409,12 @@ mod tests {
         let case = left(four_bar().free("O", 0.0, 4.0)).times(&[0.0, 0.3, 0.1]).build().unwrap();
         assert_eq!(case.grid.times, [0.0, 0.3, 0.1]);
         // Asked for by crank angle, it is refused wherever the grid comes from.
-        let angles = Grid::of_cranks(case.crank(), vec![0.0, 1.0]);
+        let angles = Grid::of_inputs(case.crank(), vec![0.0, 1.0]);
         assert!(case.on(angles.clone()).unwrap_err().to_string().contains("the motion is free"));
         assert!(case.with(|parts| parts.grid = angles).unwrap_err().to_string().contains("the motion is free"));
         // A prescribed crank takes times too, and a free link may hang on a free one.
         let prescribed = left(four_bar().crank("O", 2.0)).times(&[0.5]).build().unwrap();
-        assert_eq!((prescribed.grid.times[0], prescribed.grid.cranks[0]), (0.5, 1.0));
+        assert_eq!((prescribed.grid.times[0], prescribed.grid.inputs[0]), (0.5, 1.0));
         let pendulum = Case::builder()
             .ground(&[("O", [0.0; 2])])
             .link("lower", &[("A", [0.0; 2]), ("B", [1.0, 0.0])])

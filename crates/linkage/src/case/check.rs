@@ -7,7 +7,7 @@ use super::parts::CaseParts;
 use crate::drive::{Course, Drive, DriveMotion, Load, MotionLaw, Motor, MotorLaw};
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::{KeepNan, unit};
-use crate::mechanism::{AssemblyMode, GROUND, GroupKind, JointKind, LinkPose, Mechanism, Side, Structure};
+use crate::mechanism::{AssemblyMode, GROUND, GroupKind, LinkPose, Mechanism, Side, Structure};
 
 /// Largest opening of a joint in a start pose, as a share of the farthest place in it.
 /// First poses of all shipped scenarios leave less than 1e-15 (`tests/suite/start.rs`).
@@ -32,8 +32,8 @@ pub(super) fn all(parts: &CaseParts) -> Result<()> {
 
 /// Checks the instants.
 pub(super) fn grid(grid: &Grid, crank: &Drive) -> Result<()> {
-    if grid.times.len() != grid.cranks.len() {
-        let [times, cranks] = [grid.times.len(), grid.cranks.len()];
+    if grid.times.len() != grid.inputs.len() {
+        let [times, cranks] = [grid.times.len(), grid.inputs.len()];
         return Err(wrong("grid", format!("the grid has {times} times, but {cranks} crank angles")));
     }
     grid.check(crank)
@@ -58,11 +58,9 @@ fn drives(parts: &CaseParts) -> Result<()> {
         if drive.link == GROUND || joint.on(drive.link).is_none() {
             return fault(ErrorKind::Input, format!("{names}: the joint does not carry a moving link of that name"));
         }
-        match joint.kind {
-            JointKind::Revolute => {}
-            JointKind::Prismatic { .. } => {
-                return fault(ErrorKind::Unsupported, format!("{names}: the joint is prismatic, but a drive turns"));
-            }
+        if joint.kind.input() != Some(drive.input) {
+            let message = format!("{names}: the joint is {}, but a drive turns", joint.kind.name());
+            return fault(ErrorKind::Unsupported, message);
         }
         if moves_nothing(&parts.mechanism, drive) {
             let message = format!("{names} moves nothing: all joints of the link lie on one point");
@@ -108,12 +106,10 @@ const POINT: f64 = 1e-12;
 fn moves_nothing(mechanism: &Mechanism, drive: &Drive) -> bool {
     let own = mechanism.joints()[drive.joint].on(drive.link);
     let others = || mechanism.joints().iter().enumerate().filter(|&(index, _)| index != drive.joint);
-    let mut carried = others().filter_map(|(_, joint)| Some((joint.kind, joint.on(drive.link)?))).peekable();
+    let mut carried = others().filter_map(|(_, joint)| Some((joint.is_pin(), joint.on(drive.link)?))).peekable();
     carried.peek().is_some()
-        && carried.all(|(kind, place)| match kind {
-            JointKind::Revolute => own.is_some_and(|own| (place - own).norm() <= POINT * mechanism.size()),
-            JointKind::Prismatic { .. } => false,
-        })
+        && carried
+            .all(|(is_pin, place)| is_pin && own.is_some_and(|own| (place - own).norm() <= POINT * mechanism.size()))
 }
 
 fn motion_is_sound(motion: &DriveMotion) -> bool {
@@ -233,7 +229,7 @@ fn start(parts: &CaseParts) -> Result<()> {
     if let Some((link, pose)) = links.iter().zip(poses).find(|(_, pose)| !is_finite(pose)) {
         return Err(wrong("start", format!("link \"{}\" has no place in the start pose: {pose:?}", link.name)));
     }
-    let crank = parts.drives.crank().start.to_degrees();
+    let at = parts.drives.crank().told(parts.drives.crank().start);
     let reach = poses.iter().fold(mechanism.size(), |most, pose| most.larger(pose.origin.norm()));
     for joint in mechanism.joints() {
         let sides = [joint.first, joint.second];
@@ -241,10 +237,8 @@ fn start(parts: &CaseParts) -> Result<()> {
         let (gap, turn) = joint.opening(places, sides.map(|side| unit(poses[side.link].angle)));
         // Written this way round so that NaN is refused.
         if !(gap <= LARGEST_OPENING * reach && turn <= LARGEST_OPENING) {
-            let message = format!(
-                "joint \"{}\" is open in the start pose, crank angle {crank:.4} deg: by {gap:.3e} m and {turn:.3e} rad",
-                joint.name
-            );
+            let message =
+                format!("joint \"{}\" is open in the start pose, {at}: by {gap:.3e} m and {turn:.3e} rad", joint.name);
             return Err(Error::new(ErrorKind::Geometry, message).key("start").help(CLOSED));
         }
     }

@@ -11,26 +11,26 @@ use crate::math::statistics::ascending;
 pub struct Grid {
     /// Times (s), in any order.
     pub times: Vec<f64>,
-    /// Crank angles at those times (rad, as the scenario states them).
-    pub cranks: Vec<f64>,
+    /// The input at those times (in its SI unit, as the scenario states it).
+    pub inputs: Vec<f64>,
 }
 
 impl Grid {
     /// Grid of the given times.
     #[must_use]
     pub fn of_times(drive: &Drive, times: Vec<f64>) -> Self {
-        let cranks = times.iter().map(|&t| drive.at(t).angle).collect();
-        Grid { times, cranks }
+        let inputs = times.iter().map(|&t| drive.at(t).value).collect();
+        Grid { times, inputs }
     }
 
-    /// Grid of the given crank angles (rad, as the scenario states them).
-    /// When a free crank comes to an angle is a result of the forces: its grid has no times (NaN), and
+    /// Grid of the given values of the input (in its SI unit, as the scenario states it).
+    /// When a free driving link comes to a value is a result of the forces: its grid has no times (NaN), and
     /// [`Grid::check`] refuses it.
     #[must_use]
-    pub fn of_cranks(drive: &Drive, cranks: Vec<f64>) -> Self {
+    pub fn of_inputs(drive: &Drive, inputs: Vec<f64>) -> Self {
         let time = |&angle: &f64| if drive.is_free() { f64::NAN } else { drive.time_of(angle) };
-        let times = cranks.iter().map(time).collect();
-        Grid { times, cranks }
+        let times = inputs.iter().map(time).collect();
+        Grid { times, inputs }
     }
 
     /// Number of instants.
@@ -57,15 +57,16 @@ impl Grid {
     /// of crank angles.
     pub fn check(&self, drive: &Drive) -> std::result::Result<(), String> {
         let has_angles_alone =
-            self.times.iter().all(|t| t.is_nan()) && self.cranks.iter().all(|crank| crank.is_finite());
+            self.times.iter().all(|t| t.is_nan()) && self.inputs.iter().all(|input| input.is_finite());
         if drive.is_free() && !self.is_empty() && has_angles_alone {
             return Err("the motion is free: when the crank comes to an angle is a result of the forces".into());
         }
         if drive.constant_speed().is_none() {
             let name = drive.law_name();
-            if self.times.iter().any(|t| t.is_nan()) && self.cranks.iter().all(|crank| crank.is_finite()) {
+            if self.times.iter().any(|t| t.is_nan()) && self.inputs.iter().all(|input| input.is_finite()) {
                 return Err(format!(
-                    "the drive's law, \"{name}\", does not come to a crank angle of the grid at one time"
+                    "the drive's law, \"{name}\", does not come to a {} of the grid at one time",
+                    drive.input.noun()
                 ));
             }
             // A rounding error beyond the last instant is allowed.
@@ -76,8 +77,8 @@ impl Grid {
                 ));
             }
         }
-        let most = self.cranks.iter().fold(0.0, |most: f64, crank| most.larger(crank.abs())) / TAU;
-        if most <= Self::MOST_TURNS && self.times.iter().chain(&self.cranks).all(|value| value.is_finite()) {
+        let most = self.inputs.iter().fold(0.0, |most: f64, input| most.larger(input.abs())) / TAU;
+        if most <= Self::MOST_TURNS && self.times.iter().chain(&self.inputs).all(|value| value.is_finite()) {
             return Ok(());
         }
         Err(format!("the grid leads {most:.1e} turns away, the limit is {:e}", Self::MOST_TURNS))

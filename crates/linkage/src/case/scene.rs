@@ -6,11 +6,11 @@
 //! on it. What is left over is neither placed, nor a body of an engine, nor recorded.
 //! Where forces decide the motion, everything that has a mass counts, and nothing is left out.
 
-use super::{Case, CaseParts};
+use super::{Case, CaseParts, Seat};
 use crate::drive::{Drive, Drives, Load};
 use crate::error::Result;
 use crate::mechanism::{AssemblyMode, GROUND, Group, Joint, Link, Mechanism, Pose, Side, Structure};
-use crate::trajectory::{Channel, Stage, Subject};
+use crate::trajectory::{Channel, Stage};
 
 /// Letters that a point keeps of its name if it needs a number besides.
 const SHORT: usize = 80;
@@ -58,9 +58,9 @@ impl Case {
             Some(channels) if !self.is_free() => channels,
             Some(_) | None => return Ok(whole()),
         };
-        let mut needs = Needs::none(self);
+        let (mut needs, seats) = (Needs::none(self), self.seats());
         for channel in channels {
-            needs.add(channel);
+            needs.add(channel, seats.of(channel).expect("a channel of the case"));
         }
         needs.close();
         let left_out = needs.left_out();
@@ -90,27 +90,20 @@ impl<'a> Needs<'a> {
     }
 
     /// Adds what the channel itself reads.
-    fn add(&mut self, channel: &Channel) {
-        let mechanism = &self.case.mechanism;
-        match channel.kind.subject {
-            Subject::Link => self.moves[mechanism.link_named(&channel.of).expect("a channel of the case")] = true,
-            Subject::Point => {
+    fn add(&mut self, channel: &Channel, seat: Seat) {
+        match seat {
+            Seat::Link(link) => self.moves[link] = true,
+            Seat::Point(_) => {
                 let carrier = self.carrier(&channel.of);
                 self.moves[carrier] = true;
             }
-            Subject::Joint | Subject::Slider => {
-                let joint = mechanism.joint_named(&channel.of).expect("a channel of the case");
+            Seat::Joint(joint) => {
                 let link = self.owner(joint);
                 self.moves[link] = true;
                 self.carries[link] |= channel.kind.stage >= Stage::Reactions;
             }
-            Subject::Frame => self.carries.fill(true),
-            Subject::Drive => self.carries[self.case.crank().link] = true,
-            Subject::Motor => {
-                let joint = mechanism.joint_named(&channel.of).expect("a channel of the case");
-                let drive = self.case.drives.iter().find(|drive| drive.joint == joint).expect("a channel of the case");
-                self.carries[drive.link] = true;
-            }
+            Seat::Frame => self.carries.fill(true),
+            Seat::Drive(drive) => self.carries[self.case.drives[drive].link] = true,
         }
     }
 

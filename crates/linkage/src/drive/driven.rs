@@ -1,6 +1,7 @@
 //! A driving link and its motion.
 
-use super::{DriveState, MotionLaw, Motor};
+use super::{Input, InputState, InputValue, MotionLaw, Motor};
+use crate::math::Motion;
 
 /// What moves a driving link.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,17 +26,18 @@ pub enum DriveMotion {
     },
 }
 
-/// A driving link: it turns about its joint as `motion` says.
+/// A driving link: the coordinate of its joint, the input, goes as `motion` says.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drive {
+    /// What its input measures.
+    pub input: Input,
     /// Driven joint.
     pub joint: usize,
     /// The link that the drive turns.
     pub link: usize,
-    /// World direction from which the crank angle is measured: the angle of the link's x axis at crank angle zero
-    /// (rad).
+    /// Where the input is zero. Of an angle: the world angle of the link's x axis there (rad).
     pub zero: f64,
-    /// Crank angle at t = 0 (rad).
+    /// The input at t = 0 (in its SI unit).
     pub start: f64,
     /// What moves the link.
     pub motion: DriveMotion,
@@ -48,7 +50,8 @@ impl Drive {
     /// A drive that follows `law` and has no motor. The other arguments are the fields of the same names.
     #[must_use]
     pub fn prescribed(joint: usize, link: usize, zero: f64, start: f64, law: MotionLaw) -> Self {
-        Drive { joint, link, zero, start, motion: DriveMotion::Prescribed { law, motor: None }, through: false }
+        let motion = DriveMotion::Prescribed { law, motor: None };
+        Drive { input: Input::Angle, joint, link, zero, start, motion, through: false }
     }
 
     /// Applies `read` to the law that prescribes the motion, or to that of the nominal motion.
@@ -63,7 +66,7 @@ impl Drive {
     /// State of the driving link at time `t` (s), as [`MotionLaw::at`]. For a free link: in the nominal motion.
     #[inline]
     #[must_use]
-    pub fn at(&self, t: f64) -> DriveState {
+    pub fn at(&self, t: f64) -> InputState {
         self.by_law(|law| law.at(self.start, t))
     }
 
@@ -83,7 +86,7 @@ impl Drive {
     pub fn step_speed(&self, from: f64, to: f64) -> f64 {
         self.by_law(|law| match law.constant() {
             Some(omega) => omega.copysign(omega * (to - from)),
-            None => (law.at(self.start, to).angle - law.at(self.start, from).angle) / (to - from).abs(),
+            None => (law.at(self.start, to).value - law.at(self.start, from).value) / (to - from).abs(),
         })
     }
 
@@ -105,7 +108,7 @@ impl Drive {
     #[must_use]
     pub fn initial_speed(&self) -> f64 {
         match self.motion {
-            DriveMotion::Prescribed { .. } => self.at(0.0).omega,
+            DriveMotion::Prescribed { .. } => self.at(0.0).rate,
             DriveMotion::Free { initial_speed, .. } => initial_speed,
         }
     }
@@ -228,6 +231,31 @@ impl Drive {
     pub fn world_angle(&self, angle: f64) -> f64 {
         self.zero + angle
     }
+
+    /// The input as the scenario states it, for the coordinate of [`Drive::world_angle`] (rad).
+    #[inline]
+    #[must_use]
+    pub fn from_world(&self, coordinate: f64) -> f64 {
+        coordinate - self.zero
+    }
+
+    /// The input at `value`, as messages say it.
+    #[must_use]
+    pub fn told(&self, value: f64) -> InputValue {
+        self.input.at(value)
+    }
+
+    /// Input, rate and second rate in a state: `motion` is that of the driving link, `angle` the angle of its frame
+    /// (rad, turns kept).
+    #[inline]
+    #[must_use]
+    pub fn state_in(&self, motion: &Motion, angle: f64) -> InputState {
+        match self.input {
+            Input::Angle => {
+                InputState { value: self.from_world(angle), rate: motion.omega, acceleration: motion.alpha }
+            }
+        }
+    }
 }
 
 #[cfg(test)]
@@ -251,14 +279,14 @@ mod tests {
     #[test]
     fn time_and_angle_are_inverse() {
         let constant = drive(MotionLaw::ConstantSpeed(-97.2));
-        assert_eq!((constant.at(0.01).omega, constant.at(0.01).alpha), (-97.2, 0.0));
+        assert_eq!((constant.at(0.01).rate, constant.at(0.01).acceleration), (-97.2, 0.0));
         let ramp = drive(MotionLaw::Ramp { speed: -30.0, time: 0.02 });
         let cycloidal = drive(MotionLaw::Cycloidal { rise: -2.0, time: 0.05 });
         for drive in [constant, ramp, cycloidal] {
             for t in [0.01, 0.02, 0.03] {
                 let state = drive.at(t);
-                assert!((drive.time_of(state.angle) - t).abs() < 1e-15, "{t} {:?}", drive.motion);
-                assert_eq!(drive.world_angle(state.angle), 3.0 + state.angle);
+                assert!((drive.time_of(state.value) - t).abs() < 1e-15, "{t} {:?}", drive.motion);
+                assert_eq!(drive.world_angle(state.value), 3.0 + state.value);
             }
         }
         assert!(drive(table()).time_of(0.6).is_nan());
@@ -279,19 +307,19 @@ mod tests {
             for t in [-0.01, 0.003, 0.09, 0.15, 0.31, 0.39] {
                 let h = 1e-5;
                 let [back, here, ahead] = [t - h, t, t + h].map(|t| drive.at(t));
-                let (omega, alpha) = ((ahead.angle - back.angle) / (2.0 * h), (ahead.omega - back.omega) / (2.0 * h));
+                let (omega, alpha) = ((ahead.value - back.value) / (2.0 * h), (ahead.rate - back.rate) / (2.0 * h));
                 assert!(
-                    (omega - here.omega).abs() < 1e-7 && (alpha - here.alpha).abs() < 1e-5,
+                    (omega - here.rate).abs() < 1e-7 && (alpha - here.acceleration).abs() < 1e-5,
                     "{t} {:?}",
                     drive.motion
                 );
-                assert!(here.omega.abs() <= drive.top_speed().abs() * (1.0 + 1e-12), "{t} {:?}", drive.motion);
+                assert!(here.rate.abs() <= drive.top_speed().abs() * (1.0 + 1e-12), "{t} {:?}", drive.motion);
                 let step = drive.step_speed(t, t + h);
-                assert!((drive.at(t).angle + step * h - ahead.angle).abs() < 1e-15);
+                assert!((drive.at(t).value + step * h - ahead.value).abs() < 1e-15);
                 let step = drive.step_speed(t, t - h);
-                assert!((drive.at(t).angle + step * h - back.angle).abs() < 1e-15);
+                assert!((drive.at(t).value + step * h - back.value).abs() < 1e-15);
             }
-            assert_eq!(drive.at(0.0).angle, 0.5);
+            assert_eq!(drive.at(0.0).value, 0.5);
         }
     }
 
@@ -321,9 +349,9 @@ mod tests {
     fn a_cycloid_rests_at_both_ends() {
         let drive = drive(MotionLaw::Cycloidal { rise: 3.0, time: 0.4 });
         for (t, angle) in [(0.0, 0.5), (0.2, 2.0), (0.4, 3.5)] {
-            assert!((drive.at(t).angle - angle).abs() < 1e-15 && drive.at(t).alpha.abs() < 1e-12, "{t}");
+            assert!((drive.at(t).value - angle).abs() < 1e-15 && drive.at(t).acceleration.abs() < 1e-12, "{t}");
         }
-        assert!(drive.at(0.0).omega == 0.0 && drive.at(0.4).omega.abs() < 1e-12 && drive.at(0.2).omega == 15.0);
+        assert!(drive.at(0.0).rate == 0.0 && drive.at(0.4).rate.abs() < 1e-12 && drive.at(0.2).rate == 15.0);
         assert_eq!(drive.end(), Some(0.4));
     }
 }

@@ -64,15 +64,15 @@ impl Drives {
     #[must_use]
     pub fn world_angles(&self, crank: f64) -> Vec<f64> {
         let t = self.crank().time_of(crank);
-        let further = self.further().iter().map(|drive| drive.world_angle(drive.at(t).angle));
+        let further = self.further().iter().map(|drive| drive.world_angle(drive.at(t).value));
         std::iter::once(self.crank().world_angle(crank)).chain(further).collect()
     }
 
     /// Ratios of the driving links' angular velocities to that of the crank at the time `t` (s). The crank's own ratio
     /// is 1.
     pub fn ratios(&self, t: f64) -> impl Iterator<Item = f64> {
-        let omega = self.crank().at(t).omega;
-        self.0.iter().enumerate().map(move |(index, drive)| if index == 0 { 1.0 } else { drive.at(t).omega / omega })
+        let omega = self.crank().at(t).rate;
+        self.0.iter().enumerate().map(move |(index, drive)| if index == 0 { 1.0 } else { drive.at(t).rate / omega })
     }
 
     /// Largest absolute speed of a driving link (rad/s).

@@ -1,4 +1,4 @@
-//! Laws of motion: the crank angle as a function of time.
+//! Laws of motion: an input as a function of time.
 
 use std::convert::Infallible;
 use std::f64::consts::TAU;
@@ -6,18 +6,18 @@ use std::sync::Arc;
 
 use crate::math::{Piecewise, root};
 
-/// Angle, angular velocity and angular acceleration of a driving link; rad, rad/s, rad/s^2.
+/// An input with its rate and acceleration: rad, rad/s, rad/s^2 of an angle. What it measures: [`Input`](super::Input).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct DriveState {
-    /// Crank angle as the scenario states it: from the drive's zero direction, counter-clockwise, turns counted (rad).
-    pub angle: f64,
-    /// Angular velocity (rad/s), counter-clockwise positive.
-    pub omega: f64,
-    /// Angular acceleration (rad/s^2).
-    pub alpha: f64,
+pub struct InputState {
+    /// Its value as the scenario states it. Of an angle: from the drive's zero direction, counter-clockwise, turns counted.
+    pub value: f64,
+    /// Its rate, counter-clockwise positive.
+    pub rate: f64,
+    /// Its acceleration.
+    pub acceleration: f64,
 }
 
-/// Crank angle as a function of time, from t = 0.
+/// An input as a function of time, from t = 0. Units are those of an angle; of a length they are m and m/s.
 #[derive(Clone, Debug, PartialEq)]
 pub enum MotionLaw {
     /// Constant angular velocity (rad/s, not zero), counter-clockwise positive.
@@ -84,33 +84,33 @@ impl MotionLaw {
         }
     }
 
-    /// Angle, speed and acceleration at time `t` (s) of a motion that begins with the crank angle `start` (rad) at t =
+    /// Angle, speed and acceleration at time `t` (s) of a motion that begins with the input `start` (rad) at t =
     /// 0.
     /// Times beyond the law's end are allowed for callers that approach the end: the formula continues smoothly.
     #[inline]
     #[must_use]
-    pub fn at(&self, start: f64, t: f64) -> DriveState {
+    pub fn at(&self, start: f64, t: f64) -> InputState {
         match *self {
-            MotionLaw::ConstantSpeed(omega) => DriveState { angle: start + omega * t, omega, alpha: 0.0 },
+            MotionLaw::ConstantSpeed(omega) => InputState { value: start + omega * t, rate: omega, acceleration: 0.0 },
             MotionLaw::Ramp { speed, time } if t <= time => {
                 let alpha = speed / time;
-                DriveState { angle: start + alpha * t * t / 2.0, omega: alpha * t, alpha }
+                InputState { value: start + alpha * t * t / 2.0, rate: alpha * t, acceleration: alpha }
             }
             MotionLaw::Ramp { speed, time } => {
-                DriveState { angle: start + speed * (t - time / 2.0), omega: speed, alpha: 0.0 }
+                InputState { value: start + speed * (t - time / 2.0), rate: speed, acceleration: 0.0 }
             }
             MotionLaw::Cycloidal { rise, time } => {
                 let (share, mean) = (t / time, rise / time);
                 let (sin, cos) = (TAU * share).sin_cos();
-                DriveState {
-                    angle: start + rise * (share - sin / TAU),
-                    omega: mean * (1.0 - cos),
-                    alpha: mean / time * TAU * sin,
+                InputState {
+                    value: start + rise * (share - sin / TAU),
+                    rate: mean * (1.0 - cos),
+                    acceleration: mean / time * TAU * sin,
                 }
             }
             MotionLaw::Table(ref table) => {
-                let [gone, omega, alpha] = table.at(t);
-                DriveState { angle: start + gone, omega, alpha }
+                let [gone, rate, acceleration] = table.at(t);
+                InputState { value: start + gone, rate, acceleration }
             }
         }
     }

@@ -17,7 +17,9 @@ pub use spanning_tree::{Branch, Tree};
 pub use structure::{Group, GroupKind, Structure};
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
 
+use crate::drive::Input;
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::{KeepNan, Vec2, cross, rotated};
 
@@ -69,7 +71,8 @@ pub struct Point {
     pub local: Vec2,
 }
 
-/// Kind of kinematic pair. Each has two constraint equations and leaves one relative degree of freedom.
+/// Kind of kinematic pair. How many equations it has, and so how many relative degrees of freedom it leaves, is its own
+/// property: [`JointKind::equations`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum JointKind {
     /// Revolute pair (pin): the joint's places on both links coincide.
@@ -84,12 +87,7 @@ pub enum JointKind {
     },
 }
 
-/// Number of constraint equations of any lower pair of the plane.
-/// In every list of equations the rows of joint k begin at `EQUATIONS * k`.
-pub const EQUATIONS: usize = 2;
-
-/// Properties of a pair for the rest of the crate. A new kind is added here and where its equations are written out by
-/// kind.
+/// Properties of a pair for all crates. A new kind is added here and where its equations are written out by kind.
 impl JointKind {
     /// Axes along which the links slide: unit vectors in the frames of the first and the second link. `None` if they
     /// do not slide.
@@ -102,12 +100,12 @@ impl JointKind {
         }
     }
 
-    /// Number of constraint equations. A kind with a number other than [`EQUATIONS`] needs another row count wherever
-    /// that constant is used.
+    /// Number of constraint equations. Where they stand in a list of all equations: [`Mechanism::rows`].
+    #[inline]
     #[must_use]
     pub fn equations(self) -> usize {
         match self {
-            JointKind::Revolute | JointKind::Prismatic { .. } => EQUATIONS,
+            JointKind::Revolute | JointKind::Prismatic { .. } => 2,
         }
     }
 
@@ -138,6 +136,15 @@ impl JointKind {
         match self {
             JointKind::Revolute => false,
             JointKind::Prismatic { .. } => true,
+        }
+    }
+
+    /// What its coordinate measures where a drive gives it; `None` for a kind that no drive moves.
+    #[must_use]
+    pub fn input(self) -> Option<Input> {
+        match self {
+            JointKind::Revolute => Some(Input::Angle),
+            JointKind::Prismatic { .. } => None,
         }
     }
 
@@ -212,6 +219,16 @@ impl Joint {
         if self.first.link == link { self.second } else { self.first }
     }
 
+    /// Where the joint's reaction acts on `link`, by the side that is known there: a pin's two places are the same
+    /// point, and that of other joints is the place on the second link.
+    #[must_use]
+    pub fn acts_at(&self, link: usize) -> Side {
+        match self.kind {
+            JointKind::Revolute if self.first.link == link => self.first,
+            JointKind::Revolute | JointKind::Prismatic { .. } => self.second,
+        }
+    }
+
     /// [`JointKind::slides`] of its kind.
     #[inline]
     #[must_use]
@@ -268,6 +285,8 @@ pub struct Mechanism {
     joints: Vec<Joint>,
     /// Joints on every link, in order.
     on: Vec<Vec<usize>>,
+    /// First equation of every joint in a list of all, and the number of all at the end.
+    rows: Vec<usize>,
     /// Asked for in every pose; computed once, because a link of many points has many more distances.
     size: f64,
 }
@@ -301,7 +320,12 @@ impl Mechanism {
                 on[side.link].push(index);
             }
         }
-        Mechanism { links, joints, on, size: if size > 0.0 { size } else { 1.0 } }
+        let mut rows = vec![0];
+        rows.extend(joints.iter().scan(0, |next, joint| {
+            *next += joint.kind.equations();
+            Some(*next)
+        }));
+        Mechanism { links, joints, on, rows, size: if size > 0.0 { size } else { 1.0 } }
     }
 
     /// All links; index 0 is the ground.
@@ -314,6 +338,20 @@ impl Mechanism {
     #[must_use]
     pub fn joints(&self) -> &[Joint] {
         &self.joints
+    }
+
+    /// The equations of a joint in a list of those of all joints, in the order of joints.
+    #[inline]
+    #[must_use]
+    pub fn rows(&self, joint: usize) -> Range<usize> {
+        self.rows[joint]..self.rows[joint + 1]
+    }
+
+    /// Number of equations of all joints. What else is in a list of equations, as those of drives, comes after them.
+    #[inline]
+    #[must_use]
+    pub fn equations(&self) -> usize {
+        self.rows[self.joints.len()]
     }
 
     /// Joints on a link, as indices in ascending order.
@@ -511,6 +549,17 @@ mod tests {
         let pins = [("O", "O", "ground", "a"), ("P1", "P", "a", "b"), ("P2", "P", "b", "c")];
         let mechanism = mechanism(links, &pins).unwrap();
         assert_eq!(mechanism.moving_points().map(|(name, _)| name).collect::<Vec<_>>(), ["P"]);
+    }
+
+    #[test]
+    fn equations_stand_in_the_order_of_joints_as_many_as_each_kind_has() {
+        let mechanism = four_bar();
+        let mut next = 0;
+        for (index, joint) in mechanism.joints().iter().enumerate() {
+            assert_eq!(mechanism.rows(index), next..next + joint.kind.equations(), "{}", joint.name);
+            next += joint.kind.equations();
+        }
+        assert_eq!((mechanism.equations(), next), (8, 8));
     }
 
     #[test]

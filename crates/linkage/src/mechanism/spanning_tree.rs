@@ -8,7 +8,7 @@
 //! slider-crank 1.4e-4 and 2.0e-4, swinging guide 8.3e-4 and 1.2e-3, Scotch yoke 7.8e-5 and 6.5e-5,
 //! a crank with a slot 1.9e-3 and an Oldham coupling 9.0e-5 both ways.
 
-use super::{GROUND, Joint, JointKind, LinkPose, Mechanism};
+use super::{GROUND, Joint, LinkPose, Mechanism};
 use crate::math::{rotated, unit};
 
 /// A link that a joint of the tree connects to its parent.
@@ -157,10 +157,9 @@ impl Tree {
 pub fn coordinate(joint: &Joint, branch: &Branch, poses: &[LinkPose]) -> f64 {
     let [parent, child] = [branch.parent, branch.link].map(|link| poses[link]);
     let on = |link: usize| joint.on(link).expect("a branch's joint is on both links");
-    match joint.kind {
-        JointKind::Revolute => child.angle - parent.angle,
-        JointKind::Prismatic { .. } => {
-            let axis = joint.axis_on(branch.parent).expect("a branch's joint is on both links");
+    match joint.axis_on(branch.parent) {
+        None => child.angle - parent.angle,
+        Some(axis) => {
             rotated(unit(parent.angle), axis).dot(&(child.point(on(branch.link)) - parent.point(on(branch.parent))))
         }
     }
@@ -171,6 +170,7 @@ mod tests {
     use super::*;
     use crate::fixtures::{class_four, four_bar};
     use crate::math::Vec2;
+    use crate::mechanism::JointKind;
 
     #[test]
     fn four_bar_is_cut_once() {

@@ -32,9 +32,8 @@ pub struct Sampler {
     /// The last rows. The first `kept` rows of all are in the columns already.
     block: Vec<f64>,
     kept: usize,
-    /// Crank angles (rad, as the scenario states them): those of the grid, or those of the states where forces decide
-    /// the motion.
-    cranks: Vec<f64>,
+    /// The input as the scenario states it: that of the grid, or of the states where forces decide the motion.
+    inputs: Vec<f64>,
 }
 
 /// The wanted rows of one subject in the table of channels.
@@ -86,7 +85,7 @@ impl Sampler {
             columns,
             rows: Vec::with_capacity(case.grid.len()),
             kept: 0,
-            cranks: case.grid.cranks.clone(),
+            inputs: case.grid.inputs.clone(),
         };
         let masks = masks(&channels);
         for (subject, index, name) in case.subjects() {
@@ -111,7 +110,7 @@ impl Sampler {
         let (at, width) = (self.rows.len() - self.kept, self.channels.len());
         self.rows.push(row);
         if case.is_free() {
-            self.cranks[row] = state.angles[case.crank().link] - case.crank().zero;
+            self.inputs[row] = case.input_in(&state.motions, &state.angles);
         }
         let mut out = Row { values: &mut self.block[at * width..][..width] };
         for &(index, mask) in &self.links {
@@ -183,7 +182,8 @@ impl Sampler {
     /// If a value is missing, NaN or infinite.
     pub fn finish(mut self, case: &Case) -> Result<Trajectory> {
         self.keep();
-        Trajectory::new(case.grid.times.clone(), self.cranks, self.channels, self.columns)
+        let trajectory = Trajectory::new(case.grid.times.clone(), self.inputs, self.channels, self.columns)?;
+        Ok(trajectory.of_input(case.crank().input))
     }
 
     /// The trajectory so far: the stored rows in the order in which they came.
@@ -196,7 +196,9 @@ impl Sampler {
         }
         let stored = |values: &[f64]| self.rows.iter().map(|&row| values[row]).collect::<Vec<f64>>();
         let columns = self.columns.iter().map(|column| stored(column)).collect();
-        Trajectory::new(stored(&case.grid.times), stored(&self.cranks), self.channels, columns).ok()
+        let trajectory =
+            Trajectory::new(stored(&case.grid.times), stored(&self.inputs), self.channels, columns).ok()?;
+        Some(trajectory.of_input(case.crank().input))
     }
 }
 

@@ -10,27 +10,30 @@ pub use reading::{OfDrive, OfFrame, OfJoint, OfLink, OfPoint, OfSlider, Reading}
 pub use subject::Subject;
 pub use unit::Unit;
 
+use crate::drive::{Input, InputValue};
 use crate::error::{Error, ErrorKind, Result};
 
 /// Values of several channels on a common grid.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trajectory {
     times: Vec<f64>,
-    cranks: Vec<f64>,
+    /// What moves the mechanism, and its values.
+    input: Input,
+    inputs: Vec<f64>,
     channels: Vec<Channel>,
     columns: Vec<Vec<f64>>,
 }
 
 impl Trajectory {
-    /// A trajectory from its grid (times in s, crank angles in rad as the scenario states them) and one column of
-    /// values per channel.
+    /// A trajectory from its grid (times in s, the input in its SI unit as the scenario states it) and one column of
+    /// values per channel. The input is an angle: see [`Trajectory::of_input`].
     ///
     /// # Errors
     /// [`ErrorKind::Numeric`] if a value is NaN or infinite (with its channel, time and crank angle), or if lengths
     /// differ.
-    pub fn new(times: Vec<f64>, cranks: Vec<f64>, channels: Vec<Channel>, columns: Vec<Vec<f64>>) -> Result<Self> {
+    pub fn new(times: Vec<f64>, inputs: Vec<f64>, channels: Vec<Channel>, columns: Vec<Vec<f64>>) -> Result<Self> {
         let rows = times.len();
-        if cranks.len() != rows || channels.len() != columns.len() || columns.iter().any(|c| c.len() != rows) {
+        if inputs.len() != rows || channels.len() != columns.len() || columns.iter().any(|c| c.len() != rows) {
             return Err(Error::new(ErrorKind::Numeric, "the columns of a trajectory differ in length"));
         }
         for (channel, column) in channels.iter().zip(&columns) {
@@ -41,15 +44,33 @@ impl Trajectory {
                 return Err(Error::new(
                     ErrorKind::Numeric,
                     format!(
-                        "{channel} is {} at t = {:.6} s, crank angle {:.4} deg",
+                        "{channel} is {} at t = {:.6} s, {}",
                         column[row],
                         times[row],
-                        cranks[row].to_degrees()
+                        Input::default().at(inputs[row])
                     ),
                 ));
             }
         }
-        Ok(Trajectory { times, cranks, channels, columns })
+        Ok(Trajectory { times, input: Input::Angle, inputs, channels, columns })
+    }
+
+    /// The same trajectory, moved by another input.
+    #[must_use]
+    pub fn of_input(self, input: Input) -> Self {
+        Trajectory { input, ..self }
+    }
+
+    /// What moves the mechanism.
+    #[must_use]
+    pub fn input(&self) -> Input {
+        self.input
+    }
+
+    /// The input in a row, as messages say it.
+    #[must_use]
+    pub fn told(&self, row: usize) -> InputValue {
+        self.input.at(self.inputs[row])
     }
 
     /// Times of the grid (s).
@@ -58,10 +79,10 @@ impl Trajectory {
         &self.times
     }
 
-    /// Crank angles of the grid (rad, as the scenario states them).
+    /// The input over the grid (in its SI unit, as the scenario states it): see [`Trajectory::input`].
     #[must_use]
-    pub fn cranks(&self) -> &[f64] {
-        &self.cranks
+    pub fn inputs(&self) -> &[f64] {
+        &self.inputs
     }
 
     /// Channels, in the order of columns.
@@ -104,7 +125,8 @@ impl Trajectory {
         let own = || self.iter().filter(|(channel, _)| wanted(channel));
         Trajectory {
             times: thin(&self.times),
-            cranks: thin(&self.cranks),
+            input: self.input,
+            inputs: thin(&self.inputs),
             channels: own().map(|(channel, _)| channel.clone()).collect(),
             columns: own().map(|(_, values)| thin(values)).collect(),
         }

@@ -29,6 +29,15 @@ impl Subject {
         }
     }
 
+    /// Whether it is what a drive exerts.
+    #[must_use]
+    pub fn is_drive(self) -> bool {
+        match self {
+            Subject::Drive | Subject::Motor => true,
+            Subject::Link | Subject::Point | Subject::Joint | Subject::Slider | Subject::Frame => false,
+        }
+    }
+
     /// First word of the channel names.
     #[must_use]
     pub fn word(self) -> &'static str {

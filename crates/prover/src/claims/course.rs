@@ -129,7 +129,7 @@ impl<'a> Course<'a> {
     }
 
     pub(super) fn cranks(&self) -> &[f64] {
-        self.trajectory.cranks()
+        self.trajectory.inputs()
     }
 
     /// The instants at which a formula is claimed to hold.

@@ -88,7 +88,7 @@ pub(crate) fn scales_beyond(errors: &[f64], trajectory: &Trajectory, built: &Bui
     let sizes: Vec<f64> = own.iter().map(|[half, largest]| half.larger(*largest)).collect();
     let (turn, share) = match is_instant {
         true => (1.0, 1.0),
-        false => (half_range(trajectory.cranks()), SMALLEST_SHARE),
+        false => (half_range(trajectory.inputs()), SMALLEST_SHARE),
     };
     let natural: Vec<f64> = natural(trajectory, &sizes, turn)
         .into_iter()
@@ -200,7 +200,7 @@ struct Sizes {
 impl Sizes {
     fn of<'a>(trajectory: &Trajectory, own: impl Iterator<Item = (&'a Channel, f64)>) -> Self {
         let span = half_range(trajectory.times());
-        let speed = if span > 0.0 { half_range(trajectory.cranks()) / span } else { 0.0 };
+        let speed = if span > 0.0 { half_range(trajectory.inputs()) / span } else { 0.0 };
         let mut sizes = Sizes { of_quantity: BTreeMap::new(), length: 0.0, force: 0.0, speed };
         for (channel, size) in own {
             let of_quantity = sizes.of_quantity.entry(channel.kind.quantity).or_insert(0.0);
@@ -272,7 +272,8 @@ pub fn difference(reference: &Trajectory, other: &Trajectory) -> Result<Trajecto
         channels.push(channel.clone());
         columns.push(differences(ours, theirs, channel.kind.periodic));
     }
-    Trajectory::new(reference.times().to_vec(), reference.cranks().to_vec(), channels, columns)
+    let all = Trajectory::new(reference.times().to_vec(), reference.inputs().to_vec(), channels, columns)?;
+    Ok(all.of_input(reference.input()))
 }
 
 /// Residuals of all channels that both trajectories have, on the reference's scales.
@@ -308,7 +309,7 @@ fn of_values(channel: &Channel, values: &[f64], scale: f64, errors: &Trajectory)
         q75: quantile(&sorted, 0.75),
         q99: quantile(&sorted, 0.99),
         worst_time: errors.times().get(worst).copied().unwrap_or(0.0),
-        worst_crank: errors.cranks().get(worst).copied().unwrap_or(0.0),
+        worst_crank: errors.inputs().get(worst).copied().unwrap_or(0.0),
     }
 }
 

@@ -88,7 +88,7 @@ impl<'a> Bench<'a> {
     pub(super) fn new(question: &Question<'a>, rows: &[usize], left: Rc<Cell<usize>>) -> Option<Self> {
         let grid = &question.case.grid;
         let of_rows = |values: &[f64]| rows.iter().map(|&row| values[row]).collect::<Vec<f64>>();
-        let case = question.case.on(Grid { times: of_rows(&grid.times), cranks: of_rows(&grid.cranks) }).ok()?;
+        let case = question.case.on(Grid { times: of_rows(&grid.times), inputs: of_rows(&grid.inputs) }).ok()?;
         let sizes = magnitudes(question.reference);
         let column = |judged: &super::question::Judged| {
             let place = question.reference.channels().iter().position(|own| *own == judged.channel)?;

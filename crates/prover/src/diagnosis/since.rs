@@ -46,7 +46,7 @@ fn of_channel(reference: &Trajectory, suspect: &Trajectory, judged: &Judged, row
     Some(Since {
         channel: channel.clone(),
         time: reference.times()[first],
-        crank: reference.cranks()[first],
+        crank: reference.inputs()[first],
         difference: values[first],
         bound: *bound,
         beyond: rows.iter().filter(is_beyond).count(),

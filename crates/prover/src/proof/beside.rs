@@ -184,10 +184,10 @@ mod tests {
     fn numbers_from_outside_that_are_off_at_one_instant_are_seen() {
         let case = of_repository("scenarios/crank_rocker.toml").case;
         let cranks = [0.0, 1.0, 2.0, 3.0].to_vec();
-        let case = case.on(Grid::of_cranks(case.crank(), cranks)).unwrap();
+        let case = case.on(Grid::of_inputs(case.crank(), cranks)).unwrap();
         let right = AssurSolver.solve(&case).unwrap();
         let moved = |(_, values): (&Channel, &[f64])| [values[0], values[1], values[2] + 1e-3, values[3]].to_vec();
-        let (times, cranks) = (right.times().to_vec(), right.cranks().to_vec());
+        let (times, cranks) = (right.times().to_vec(), right.inputs().to_vec());
         let truth =
             Trajectory::new(times, cranks, right.channels().to_vec(), right.iter().map(moved).collect()).unwrap();
         let found = sides(&case, Some(&truth)).unwrap();

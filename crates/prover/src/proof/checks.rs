@@ -119,7 +119,7 @@ pub(super) fn beyond(sides: &[(&'static str, Observed); 2], known: &Known) -> Ve
             !(relative <= known.apart(worst.channel.kind.stage, index, **row))
         };
         let first = *rows.iter().find(is_beyond)?;
-        let since = (reference.times()[first], reference.cranks()[first]);
+        let since = (reference.times()[first], reference.inputs()[first]);
         Some(Beyond { channel: worst.channel.clone(), since, margin: worst.used() })
     };
     worst_instants([reference, other], known).into_iter().filter_map(of).collect()
@@ -140,8 +140,7 @@ fn between_sides(sides: &[(&'static str, Observed); 2], known: &Known) -> Vec<Ch
                    the integration that a tighter run shows";
         let tolerance = rounding(worst.allowed, why);
         let check = Check::new(format!("{} against {}", sides[0].0, sides[1].0), worst.relative, tolerance, "");
-        let crank = reference.cranks()[worst.row].to_degrees();
-        Some(check.of(stage.name()).located(|| format!("in {} at crank angle {crank:.3} deg", worst.channel)))
+        Some(check.of(stage.name()).located(|| format!("in {} at {:.3}", worst.channel, reference.told(worst.row))))
     };
     Stage::ALL.into_iter().filter_map(of_stage).collect()
 }

@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use linkage::case::Case;
+use linkage::case::{Case, Seat};
 use linkage::mechanism::{Mechanism, Structure};
-use linkage::trajectory::{Channel, Stage, Subject};
+use linkage::trajectory::{Channel, Stage};
 
 /// Sets of groups that channels depend on.
 pub(super) struct Dependence {
@@ -23,14 +23,17 @@ impl Dependence {
         let all: Vec<usize> = (0..case.structure.groups.len()).collect();
         let upstream = case.structure.upstream(&case.mechanism);
         let mut found = Dependence { sets: Vec::new(), of: Vec::with_capacity(channels.len()), tops: Vec::new() };
-        let places = Places::of(&case.mechanism);
+        let seats = case.seats();
         // A set follows from the groups of its channel's links: each is found once.
         let mut known: BTreeMap<Vec<usize>, usize> = BTreeMap::new();
         for channel in channels {
             // A link's own group is the last of those that it depends on.
             let tops = match case.is_free() || channel.kind.stage >= Stage::Reactions {
                 true => all.clone(),
-                false => places.links_of(channel).iter().filter_map(|&link| upstream[link].last().copied()).collect(),
+                false => {
+                    let links = links_of(&case.mechanism, seats.of(channel));
+                    links.iter().filter_map(|&link| upstream[link].last().copied()).collect()
+                }
             };
             let index = *known.entry(tops).or_insert_with_key(|tops| {
                 let set = if *tops == all { all.clone() } else { joined(&case.structure, &upstream, tops) };
@@ -62,35 +65,17 @@ fn joined(structure: &Structure, upstream: &[Vec<usize>], tops: &[usize]) -> Vec
     set
 }
 
-/// Links, points and joints by name.
-struct Places<'a> {
-    mechanism: &'a Mechanism,
-    links: BTreeMap<&'a str, usize>,
-    points: BTreeMap<&'a str, usize>,
-    joints: BTreeMap<&'a str, usize>,
-}
-
-impl<'a> Places<'a> {
-    fn of(mechanism: &'a Mechanism) -> Self {
-        let links = mechanism.links().iter().enumerate().map(|(index, link)| (link.name.as_str(), index));
-        let joints = mechanism.joints().iter().enumerate().map(|(index, joint)| (joint.name.as_str(), index));
-        let points = mechanism.moving_points().map(|(name, side)| (name, side.link));
-        Places { mechanism, links: links.collect(), points: points.collect(), joints: joints.collect() }
-    }
-
-    /// The links whose motion a channel of motion tells: each belongs to a part of its mechanism.
-    fn links_of(&self, channel: &Channel) -> Vec<usize> {
-        let of = channel.of.as_str();
-        match channel.kind.subject {
-            Subject::Link => vec![self.links[of]],
-            Subject::Point => vec![self.points[of]],
-            Subject::Joint | Subject::Slider => {
-                let joint = &self.mechanism.joints()[self.joints[of]];
-                vec![joint.first.link, joint.second.link]
-            }
-            // None of them tells a motion.
-            Subject::Frame | Subject::Drive | Subject::Motor => Vec::new(),
+/// The links whose motion a channel of motion tells: each belongs to a part of its mechanism.
+fn links_of(mechanism: &Mechanism, seat: Option<Seat>) -> Vec<usize> {
+    match seat {
+        Some(Seat::Link(link)) => vec![link],
+        Some(Seat::Point(side)) => vec![side.link],
+        Some(Seat::Joint(joint)) => {
+            let joint = &mechanism.joints()[joint];
+            vec![joint.first.link, joint.second.link]
         }
+        // None of them tells a motion.
+        Some(Seat::Frame | Seat::Drive(_)) | None => Vec::new(),
     }
 }
 

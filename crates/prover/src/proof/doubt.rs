@@ -120,7 +120,7 @@ fn drive_turns(case: &Case, t: f64, reach: f64) -> bool {
         DriveMotion::Prescribed { .. } => {
             let jumps = drive.jump().is_some_and(|jump| (t - jump).abs() <= reach);
             let least = STANDSTILL * drive.top_speed().abs();
-            let speeds = [t - reach, t, t + reach].map(|t| drive.at(t).omega);
+            let speeds = [t - reach, t, t + reach].map(|t| drive.at(t).rate);
             jumps || speeds.iter().any(|speed| !(speed.abs() > least && speed * speeds[1] > 0.0))
         }
     })

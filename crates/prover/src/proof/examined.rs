@@ -117,7 +117,7 @@ mod tests {
             false => values.to_vec(),
         };
         let columns = right.iter().map(column).collect();
-        let (times, cranks) = (right.times().to_vec(), right.cranks().to_vec());
+        let (times, cranks) = (right.times().to_vec(), right.inputs().to_vec());
         side.trajectory = Trajectory::new(times, cranks, right.channels().to_vec(), columns).unwrap();
         side
     }

@@ -145,7 +145,7 @@ impl Known {
         let magnitudes = magnitudes_by(reference.1, &dependence.of, &|from, to| dependence.feeds(from, to));
         let turned = match case.is_free() {
             true => Vec::new(),
-            false => case.grid.cranks.iter().map(|crank| crank.abs()).collect(),
+            false => case.grid.inputs.iter().map(|crank| crank.abs()).collect(),
         };
         let is_angle = reference.1.channels().iter().map(|channel| channel.kind.unit == Unit::Radian).collect();
         let of_sets: Vec<_> = dependence.sets.iter().map(|set| (lever(case, set), placed(case, set))).collect();
@@ -305,7 +305,7 @@ mod tests {
         let case = of_repository("tests/outside/scenarios/parallel_cranks_passing.toml").case;
         let cranks = [80.0, 120.0, 180.0, 240.0].map(f64::to_radians).to_vec();
         let motion = Wanted::of(&[Stage::Positions, Stage::Velocities, Stage::Accelerations]);
-        let case = case.on(Grid::of_cranks(case.crank(), cranks)).unwrap().wanting(motion);
+        let case = case.on(Grid::of_inputs(case.crank(), cranks)).unwrap().wanting(motion);
         let sides: [&dyn Solver; 2] = [&AssurSolver, &NewtonSolver];
         let [own, other] = sides.map(|side| side.solve(&case).unwrap());
         let mut known = Known::of(&case, [("assur", &own), ("newton", &other)], &[]).unwrap();
@@ -350,7 +350,7 @@ mod tests {
         let drive = "[drive]\njoint = \"O0\"\nspeed_rad_s = 1\n[start]\ncrank_deg = 60\n";
         let text = format!("{text}{links}{joints}{drive}{groups}[grid]\nfrom_deg = 60\nto_deg = 120\nstep_deg = 30\n");
         let case = Scenario::parse(&text, std::path::Path::new("row.toml")).unwrap().case;
-        case.on(Grid::of_cranks(case.crank(), cranks.to_vec())).unwrap()
+        case.on(Grid::of_inputs(case.crank(), cranks.to_vec())).unwrap()
     }
 
     /// Symptom: four-bars in a row, and one of them far away, disagree with themselves at 90 deg, where their condition

@@ -5,7 +5,7 @@ use crate::compare::{Check, Verdict};
 use analytic::witness::triad::class_change::ClassChange;
 use analytic::witness::triad::{Reactions, Triad, assur_point, cramer, linear_system};
 use linkage::case::Case;
-use linkage::drive::DriveState;
+use linkage::drive::{Input, InputState};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::statistics::share;
 use linkage::math::{KeepNan, Vec2, cross};
@@ -58,7 +58,7 @@ impl Worst {
         let (value, crank) = shares.max_by(|a, b| a.0.abs().total_cmp(&b.0.abs())).unwrap_or_default();
         let tolerance = rounding(BOUND, "two methods without a common equation, each good to rounding");
         let check = Check::new(family, value, tolerance, "").of(detail);
-        let mut check = check.located(|| format!("at crank angle {:.3} deg", crank.to_degrees()));
+        let mut check = check.located(|| format!("at {:.3}", Input::Angle.at(crank)));
         if let Some(error) = self.failure {
             check.verdict = Verdict::Inconclusive { reason: error.message().into(), advice: error.advice().to_vec() };
         }
@@ -96,10 +96,10 @@ impl Watch {
     fn see(&mut self, case: &Case, row: usize, state: &State) {
         let deepest = case.wanted.deepest();
         let drive = crank_of(case, row, state);
-        let crank = drive.angle;
+        let crank = drive.value;
         let links = self.triad.links();
-        self.grow(Quantity::Omega, drive.omega);
-        self.grow(Quantity::Alpha, drive.omega * drive.omega);
+        self.grow(Quantity::Omega, drive.rate);
+        self.grow(Quantity::Alpha, drive.rate * drive.rate);
         for link in links {
             self.grow(Quantity::Omega, state.motions[link].omega);
             self.grow(Quantity::Alpha, state.motions[link].alpha);
@@ -127,10 +127,10 @@ impl Watch {
                 let own = state.motions[link].direction;
                 worst.put(Quantity::Angle, cross(own, direction).atan2(own.dot(&direction)).abs(), crank);
             }
-            rates(worst, found.rates(drive.omega, drive.alpha));
+            rates(worst, found.rates(drive.rate, drive.acceleration));
         }
         // In the instant of starting, loads already act against a motion that the state does not show yet.
-        let setting_off = case.is_free() && drive.omega == 0.0;
+        let setting_off = case.is_free() && drive.rate == 0.0;
         if deepest >= Stage::Reactions && !setting_off {
             let known = self.triad.known(case, state);
             let places = self.triad.places(&state.motions);
@@ -200,13 +200,12 @@ pub fn checks(case: &Case, reference: &dyn Solver) -> Result<Vec<Check>> {
 }
 
 /// The crank at an instant: by its law, or from the state if forces decide the motion.
-fn crank_of(case: &Case, row: usize, state: &State) -> DriveState {
+fn crank_of(case: &Case, row: usize, state: &State) -> InputState {
     let drive = case.crank();
     if !case.is_free() {
-        return DriveState { angle: case.grid.cranks[row], ..drive.at(case.grid.times[row]) };
+        return InputState { value: case.grid.inputs[row], ..drive.at(case.grid.times[row]) };
     }
-    let motion = &state.motions[drive.link];
-    DriveState { angle: state.angles[drive.link] - drive.zero, omega: motion.omega, alpha: motion.alpha }
+    drive.state_in(&state.motions[drive.link], state.angles[drive.link])
 }
 
 #[cfg(test)]

@@ -137,7 +137,7 @@ pub(super) fn observe(
     let mut passing: f64 = 1.0;
     let mut singular = if case.crank().passes() { vec![false; case.grid.len()] } else { Vec::new() };
     let mut visit = |row: usize, state: &State| {
-        let crank = state.angles[case.crank().link] - case.crank().zero;
+        let crank = case.input_in(&state.motions, &state.angles);
         let sensed = case.loads.iter().filter_map(|load| Some((sensed(case, state, load)?, load.jump(crank) > 0.0)));
         let own = senses.values.iter_mut().zip(&mut senses.jumps).skip(row * senses.each);
         own.zip(sensed).for_each(|((value, jumps), now)| (*value, *jumps) = now);

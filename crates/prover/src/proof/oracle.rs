@@ -69,7 +69,7 @@ impl<'a> Answers<'a> {
         let stages: Vec<Stage> = series.iter().map(|series| series.channel.kind.stage).collect();
         let solved = |case: &Case, by_crank: bool| -> Result<Option<Solved>> {
             let at: fn(When) -> Option<f64> = if by_crank { When::crank } else { When::time };
-            let grid: fn(&Drive, Vec<f64>) -> Grid = if by_crank { Grid::of_cranks } else { Grid::of_times };
+            let grid: fn(&Drive, Vec<f64>) -> Grid = if by_crank { Grid::of_inputs } else { Grid::of_times };
             let mut instants: Vec<f64> = series.iter().flat_map(|series| series.instants()).filter_map(at).collect();
             if instants.is_empty() {
                 return Ok(None);
@@ -162,7 +162,7 @@ impl Answer<'_> {
     /// What is found for a printed number of a series.
     fn of(&self, series: &OracleSeries, point: &OraclePoint) -> Found {
         let (told, instants, at) = match (point.at, &self.nominal, &self.timed) {
-            (When::Crank(crank), Some(told), _) => (told, told.trajectory.cranks(), crank),
+            (When::Crank(crank), Some(told), _) => (told, told.trajectory.inputs(), crank),
             (When::Time(time), _, Some(told)) => (told, told.trajectory.times(), time),
             (When::Crank(_), None, _) | (When::Time(_), _, None) => unreachable!("solved at every instant"),
         };

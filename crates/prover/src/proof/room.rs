@@ -18,8 +18,8 @@ pub(super) fn room(case: &Case, engine: &dyn Engine) -> f64 {
     let at = |t: f64| {
         let own = drive.at(t);
         // To the limit that lies ahead, in either sense of time.
-        let distance = (own.angle - from).abs().smaller((to - own.angle).abs());
-        distance / own.omega.abs() / steps
+        let distance = (own.value - from).abs().smaller((to - own.value).abs());
+        distance / own.rate.abs() / steps
     };
     let times = case.grid.times.iter();
     let [first, last] = times.fold([0.0f64; 2], |[first, last], &t| [first.smaller(t), last.larger(t)]);

@@ -40,7 +40,7 @@ impl RoundedInstants {
         at.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
         at.dedup();
         let (instants, slack): (Vec<f64>, Vec<f64>) = at.iter().copied().unzip();
-        let grid: fn(&Drive, Vec<f64>) -> Grid = if by_crank { Grid::of_cranks } else { Grid::of_times };
+        let grid: fn(&Drive, Vec<f64>) -> Grid = if by_crank { Grid::of_inputs } else { Grid::of_times };
         let case = case.on(grid(case.crank(), instants.clone()))?.wanting_only(channels);
         let own = solver.solve(&case)?;
         let mut drift = vec![vec![0.0; at.len()]; own.channels().len()];

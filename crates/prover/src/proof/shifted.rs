@@ -43,13 +43,13 @@ pub fn shifted(
     let mut at = |part: f64| -> Result<f64> {
         let off = |at: &[f64]| at.iter().zip(slack).map(|(at, slack)| at + part * slack).collect::<Vec<f64>>();
         let grid = match by_crank {
-            true => Grid::of_cranks(crank, off(own.cranks())),
+            true => Grid::of_inputs(crank, off(own.inputs())),
             false => Grid::of_times(crank, off(own.times()).into_iter().map(|at| within(crank, at)).collect()),
         };
         let shifted = case.on(grid)?;
         let found = solver.solve(&shifted)?;
         then(&shifted, &found)?;
-        let turned = own.cranks().iter().zip(found.cranks()).map(|(before, after)| (after - before).abs());
+        let turned = own.inputs().iter().zip(found.inputs()).map(|(before, after)| (after - before).abs());
         Ok(turned.fold(0.0, f64::larger))
     };
     for part in ENDS {

@@ -167,7 +167,7 @@ impl Held {
     pub fn of_trajectory(trajectory: &Trajectory, is_analytic: bool) -> Held {
         let exact = |values: &[f64]| -> Vec<Rounded> { values.iter().map(|&value| Rounded::nearly(value)).collect() };
         let times = Some(trajectory.times().iter().map(|&time| Rounded::exact(time)).collect());
-        let cranks = Some(exact(trajectory.cranks()));
+        let cranks = Some(exact(trajectory.inputs()));
         let column = |(channel, values): (&Channel, &[f64])| {
             let name = channel.to_string();
             let claim = Claim::of_channels(&name, std::slice::from_ref(channel)).ok()?;

@@ -59,7 +59,7 @@ pub(super) fn beside(scenario: &Scenario, (name, held): Side, is_first: bool, ho
     let both = Both {
         parties: if is_first { [&own, &other] } else { [&other, &own] },
         at: &at,
-        places: [place(trajectory.times()), place(trajectory.cranks())],
+        places: [place(trajectory.times()), place(trajectory.inputs())],
         drift: drift.claims,
         how,
     };
@@ -121,7 +121,7 @@ fn grid(scenario: &Scenario, at: &At) -> Result<(Grid, Vec<usize>)> {
         rows[row] = all.len() - 1;
     }
     let crank = scenario.case.crank();
-    let grid = if at.is_crank { Grid::of_cranks(crank, all) } else { Grid::of_times(crank, all) };
+    let grid = if at.is_crank { Grid::of_inputs(crank, all) } else { Grid::of_times(crank, all) };
     grid.check(crank).map_err(|message| {
         let help = match at.is_crank && crank.is_free() {
             true => "give the table a column of times",

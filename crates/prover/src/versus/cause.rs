@@ -197,7 +197,7 @@ impl Stage {
             bounds.push((own.claim.text.clone(), printed.to_si(bound), own.since.is_none()));
         }
         let all: Vec<Channel> = scenario.case.all_channels();
-        let case = scenario.case.on(Grid { times: times.clone(), cranks: cranks.clone() })?.wanting_only(&all);
+        let case = scenario.case.on(Grid { times: times.clone(), inputs: cranks.clone() })?.wanting_only(&all);
         // What is compared was solved at these instants; channels beside it may not be.
         let Ok(right) = AssurSolver.solve(&case) else { return Ok(None) };
         for ((channel, column), (.., agrees)) in names.iter().zip(&mut columns).zip(&bounds) {
@@ -205,7 +205,7 @@ impl Stage {
                 unwrap(column, right, *agrees);
             }
         }
-        let found = Trajectory::new(times, cranks, names, columns)?;
+        let found = Trajectory::new(times, cranks, names, columns)?.of_input(case.crank().input);
         Ok(Some(Stage { case, right, found, bounds }))
     }
 
@@ -253,8 +253,8 @@ impl Stage {
     fn without(&self, row: usize) -> Option<Stage> {
         let keep: Vec<bool> = (0..self.right.times().len()).map(|own| own != row).collect();
         let [right, found] = [&self.right, &self.found].map(|own| own.at_rows(&keep));
-        let (times, cranks) = (right.times().to_vec(), right.cranks().to_vec());
-        let case = self.case.on(Grid { times, cranks }).ok()?;
+        let (times, cranks) = (right.times().to_vec(), right.inputs().to_vec());
+        let case = self.case.on(Grid { times, inputs: cranks }).ok()?;
         let bounds = self.bounds.iter().zip(found.iter()).map(|((text, bound, agrees), (channel, values))| {
             let gap = right.column(channel).map(|right| largest_difference(right, values, channel.kind.periodic));
             (text.clone(), *bound, *agrees || gap.is_some_and(|gap| gap <= *bound))

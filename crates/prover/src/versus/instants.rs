@@ -40,7 +40,7 @@ pub(super) fn drift(solved: &Solved, claims: &[Claim], at: &At, rows: &[usize], 
     let (instants, order) = (at.values.iter().map(|at| at.value).collect::<Vec<f64>>(), at.ascending());
     let slack = of_rows(&slack);
     let along = |values: &[Rounded], turn| columns::drift(values, &instants, &slack, &order, turn);
-    let cranks: Vec<Rounded> = of_rows(trajectory.cranks()).into_iter().map(Rounded::exact).collect();
+    let cranks: Vec<Rounded> = of_rows(trajectory.inputs()).into_iter().map(Rounded::exact).collect();
     let claims = columns.iter().map(|own| along(&own.values, own.claim.turn())).collect();
     Drift { claims, crank: along(&cranks, None) }
 }
@@ -55,7 +55,7 @@ fn by_solving(solved: &Solved, claims: &[Claim], by_crank: bool, slack: &[f64]) 
             let (before, after) = (values(case, own, claim)?, values(shifted, found, claim)?);
             grow(drift, before.iter().zip(&after).map(|(before, after)| after.value - before.value), claim.turn());
         }
-        let turned = own.cranks().iter().zip(found.cranks()).map(|(before, after)| after - before);
+        let turned = own.inputs().iter().zip(found.inputs()).map(|(before, after)| after - before);
         grow(&mut drift.crank, turned, None);
         Ok(())
     })?;

@@ -6,6 +6,7 @@ use crate::proof::shifted::TELLING;
 use crate::tables::{At, Held};
 use columns::{Beside, Judged, judge};
 use formula::{Rounded, Shape};
+use linkage::drive::Input;
 use linkage::error::Advice;
 use linkage::math::statistics::half_range;
 use linkage::math::{KeepNan, largest_size};
@@ -164,9 +165,9 @@ impl Both<'_> {
 pub(super) fn place(at: &Row) -> String {
     let Row { time, crank, values: [one, other], .. } = at;
     let when = match (time.is_nan(), crank.is_nan()) {
-        (false, false) => format!("t = {time:.6} s, crank angle {:.3} deg", crank.to_degrees()),
+        (false, false) => format!("t = {time:.6} s, {:.3}", Input::Angle.at(*crank)),
         (false, true) => format!("t = {time:.6} s"),
-        (true, _) => format!("crank angle {:.3} deg", crank.to_degrees()),
+        (true, _) => format!("{:.3}", Input::Angle.at(*crank)),
     };
     let told = |value: &f64| if value.is_nan() { "no number".into() } else { format!("{value:.9e}") };
     let way_out = match at.difference.is_nan() {

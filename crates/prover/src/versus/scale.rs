@@ -27,7 +27,7 @@ impl Scales {
         let solved = |grid: &Grid| -> Option<Scales> {
             let step = grid.len().div_ceil(MOST).max(1);
             let few = |values: &[f64]| values.iter().copied().step_by(step).collect();
-            let grid = Grid { times: few(&grid.times), cranks: few(&grid.cranks) };
+            let grid = Grid { times: few(&grid.times), inputs: few(&grid.inputs) };
             let case = scenario.case.on(grid).ok()?.wanting_only(&all);
             let has_instants = !case.grid.is_empty();
             let found = has_instants.then(|| AssurSolver.solve(&case).ok()).flatten()?;

@@ -2,8 +2,11 @@
 
 use linkage::case::Case;
 use linkage::math::{Vec2, cross, turned};
-use linkage::mechanism::{EQUATIONS, JointKind, Side};
+use linkage::mechanism::{JointKind, Side};
 use linkage::solver::State;
+
+/// Components that a joint transmits where it stands alone in two equations: those of a pin or of a slide.
+pub(super) const PAIR: usize = 2;
 
 /// A joint between two links.
 #[derive(Clone, Debug)]
@@ -81,7 +84,7 @@ impl Seam {
 impl Stand {
     /// Effect of the joint's two components on the link of side `k`, without the sense of the reaction.
     #[inline]
-    pub(super) fn components(&self, k: usize) -> [Term; EQUATIONS] {
+    pub(super) fn components(&self, k: usize) -> [Term; PAIR] {
         let arm = self.arms[k];
         match self.normal {
             None => [[1.0, 0.0, -arm.y], [0.0, 1.0, arm.x]],

@@ -1,8 +1,9 @@
 //! The equations of the tree's joints, and the order in which they are solved.
 
-use super::seam::{Pass, Seam, Term};
+use std::ops::Range;
+
+use super::seam::{PAIR, Pass, Seam, Term};
 use linkage::math::dense::Lu;
-use linkage::mechanism::EQUATIONS;
 
 /// A link carried by the ground or by another link through a joint of the tree.
 #[derive(Clone, Debug)]
@@ -18,7 +19,7 @@ pub(super) struct Limb {
 #[derive(Debug)]
 pub(super) enum Stage {
     /// Both components of a cut joint from two equations; the first component is given.
-    Pair(usize, [Row; EQUATIONS]),
+    Pair(usize, [Row; PAIR]),
     /// All components that are left, with workspace for the system.
     All { rows: Vec<Row>, terms: Vec<usize>, values: Vec<f64>, matrix: Lu },
 }
@@ -65,22 +66,22 @@ impl Row {
 /// Stages in which the components are found.
 /// First come cut joints whose two components stand alone in two equations; dyads need no more.
 /// Then all others are solved together.
-pub(super) fn stages(limbs: &[Limb], cuts: usize) -> Vec<Stage> {
+pub(super) fn stages(limbs: &[Limb], cut: &[Range<usize>]) -> Vec<Stage> {
     let mut left: Vec<usize> = (0..limbs.len()).rev().filter(|&number| limbs[number].drive.is_none()).collect();
-    let (mut unknown, mut stages): (Vec<usize>, _) = ((0..EQUATIONS * cuts).collect(), Vec::new());
+    let (mut unknown, mut stages): (Vec<usize>, _) = (cut.iter().cloned().flatten().collect(), Vec::new());
     while !left.is_empty() {
         let new = |number: usize| limbs[number].terms.iter().filter(|term| unknown.contains(term));
-        let alone = unknown.iter().step_by(EQUATIONS).find_map(|&first| {
-            let terms = first..first + EQUATIONS;
+        let left_open = cut.iter().filter(|terms| unknown.contains(&terms.start));
+        let alone = left_open.cloned().find_map(|terms| {
             let rows = left.iter().copied().filter(|&number| new(number).all(|term| terms.contains(term)));
             let rows: Vec<usize> = rows.collect();
-            (rows.len() == EQUATIONS).then(|| (rows, terms.collect()))
+            (rows.len() == terms.len()).then(|| (rows, terms.collect()))
         });
         let (rows, terms): (Vec<usize>, Vec<usize>) = alone.unwrap_or_else(|| (left.clone(), unknown.clone()));
         left.retain(|number| !rows.contains(number));
         unknown.retain(|term| !terms.contains(term));
         let rows: Vec<Row> = rows.into_iter().map(|number| Row::of(number, &limbs[number], &terms)).collect();
-        stages.push(match <[Row; EQUATIONS]>::try_from(rows) {
+        stages.push(match <[Row; PAIR]>::try_from(rows) {
             Ok(pair) => Stage::Pair(terms[0], pair),
             Err(rows) => {
                 let (values, matrix) = (vec![0.0; terms.len()], Lu::new(terms.len()));

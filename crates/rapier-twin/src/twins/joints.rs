@@ -2,10 +2,11 @@
 
 use super::parry::mass_properties::MassProperties;
 use super::rapier::prelude::{
-    GenericJoint, GenericJointBuilder, IntegrationParameters, JointAxesMask, RigidBodyBuilder, SpringCoefficients,
-    Vector,
+    GenericJoint, GenericJointBuilder, IntegrationParameters, JointAxesMask, JointAxis, MotorModel, RigidBodyBuilder,
+    SpringCoefficients, Vector,
 };
-use super::{Real, real};
+use super::{RIGID_MOTOR, Real, real};
+use linkage::drive::{Drive, Input};
 use linkage::engine::Settings;
 use linkage::math::Vec2;
 use linkage::mechanism::{Joint, JointKind, Link};
@@ -50,6 +51,21 @@ pub(super) fn between(joint: &Joint, links: [usize; 2]) -> GenericJoint {
             holding(JointAxesMask::LOCKED_PRISMATIC_AXES, joint, links).local_axis1(first).local_axis2(second).build()
         }
     }
+}
+
+/// Which coordinate of a joint of [`between`] is free: the first along the axis of a prismatic one, the last, the
+/// angle, of a revolute one.
+pub(super) fn free_coordinate(joint: &Joint) -> usize {
+    if joint.slides() { 0 } else { 2 }
+}
+
+/// A motor on a drive's input, which holds a speed to rounding, and the coordinate that it moves.
+pub(super) fn motor(drive: &Drive) -> (GenericJoint, JointAxis) {
+    let axis = match drive.input {
+        Input::Angle => JointAxis::AngX,
+    };
+    let rigid = free().motor_model(axis, MotorModel::ForceBased).motor_velocity(axis, 0.0, real(RIGID_MOTOR));
+    (rigid.build(), axis)
 }
 
 /// A revolute joint between `links` whose rows lie along and across the direction `axis` of the first of them.

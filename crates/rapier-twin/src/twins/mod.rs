@@ -9,8 +9,7 @@ mod reading;
 use super::{Real, parry, rapier, real, wide};
 
 use rapier::prelude::{
-    GenericJoint, ImpulseJointHandle, JointAxis, MotorModel, MultibodyJointHandle, PhysicsWorld, RigidBodyBuilder,
-    RigidBodyHandle,
+    GenericJoint, ImpulseJointHandle, JointAxis, MultibodyJointHandle, PhysicsWorld, RigidBodyBuilder, RigidBodyHandle,
 };
 
 use crate::steer::steered;
@@ -51,6 +50,8 @@ struct Cut {
 #[derive(Clone, Debug)]
 struct Motor {
     handle: ImpulseJointHandle,
+    /// The coordinate that it moves.
+    axis: JointAxis,
     /// +1 if the driving link is what the motor counts as second, else -1.
     sense: f64,
 }
@@ -161,14 +162,11 @@ impl Twin {
         let cuts = cuts.collect();
         let motors = case.drives.iter().map(|drive| {
             let joint = &mechanism.joints()[drive.joint];
-            let data = joints::free()
-                .motor_model(JointAxis::AngX, MotorModel::ForceBased)
-                .motor_velocity(JointAxis::AngX, 0.0, real(RIGID_MOTOR))
-                .build();
+            let (data, axis) = joints::motor(drive);
             let is_second = joint.second.link != GROUND;
             let links = if is_second { [GROUND, drive.link] } else { [drive.link, GROUND] };
             let handle = world.impulse_joints.insert(bodies[links[0]], bodies[links[1]], data, true);
-            Motor { handle, sense: if is_second { 1.0 } else { -1.0 } }
+            Motor { handle, axis, sense: if is_second { 1.0 } else { -1.0 } }
         });
         let motors = motors.collect();
         let twists = tree.branches.iter().map(|branch| {

@@ -1,13 +1,13 @@
 //! Sets and reads poses and velocities, and does the step itself.
 
-use super::rapier::prelude::{JointAxesMask, JointAxis, Multibody, PhysicsWorld, Pose, Rotation};
+use super::rapier::prelude::{JointAxesMask, Multibody, PhysicsWorld, Pose, Rotation};
 use super::{Place, RIGID_MOTOR, Twin, joints, real, wide};
 use crate::tree::{Tree, coordinate};
 use crate::world::{LinkAngle, LinkFrame, World};
 use linkage::drive::Wrench;
 use linkage::math::Vec2;
 use linkage::math::angle::arc_tangent;
-use linkage::mechanism::{JointKind, LinkPose};
+use linkage::mechanism::LinkPose;
 
 impl Twin {
     fn multibody(&self, index: usize) -> &Multibody {
@@ -21,11 +21,7 @@ impl Twin {
             |place: &Place| self.multibody(place.multibody).link(place.id).expect("known link").joint().coords();
         for (branch, place) in self.tree.branches.iter().zip(&self.places) {
             let joint = &self.joints[branch.joint];
-            // The free coordinate is the first one of a prismatic joint, and the last one of a revolute joint.
-            let now = match joint.kind {
-                JointKind::Prismatic { .. } => coords(place)[0],
-                JointKind::Revolute => coords(place)[2],
-            };
+            let now = coords(place)[joints::free_coordinate(joint)];
             displacements[place.multibody][place.dof] = real(coordinate(joint, branch, poses)) - now;
         }
         for (&link, place) in self.outside.iter().zip(&self.floating) {
@@ -125,13 +121,13 @@ impl World for Twin {
         // Beyond a radian no speed would be held anyway.
         let omega = if self.multibodies.is_empty() && turn.abs() < 1.0 { turn.tan() / self.substep() } else { omega };
         let joint = self.world.impulse_joints.get_mut(motor.handle, true).expect("the motor exists");
-        joint.data.set_motor_velocity(JointAxis::AngX, real(omega * motor.sense), real(RIGID_MOTOR));
+        joint.data.set_motor_velocity(motor.axis, real(omega * motor.sense), real(RIGID_MOTOR));
     }
 
     fn set_motor(&mut self, drive: usize, target: f64, damping: f64) {
         let motor = &self.motors[drive];
         let joint = self.world.impulse_joints.get_mut(motor.handle, true).expect("the motor exists");
-        joint.data.set_motor_velocity(JointAxis::AngX, real(target * motor.sense), real(damping));
+        joint.data.set_motor_velocity(motor.axis, real(target * motor.sense), real(damping));
         if damping == 0.0 {
             // Rapier treats a motor without stiffness and damping as rigid.
             joint.data.motor_axes = JointAxesMask::empty();

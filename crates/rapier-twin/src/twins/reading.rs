@@ -4,7 +4,6 @@ use super::frame::Frame;
 use super::{Twin, wide};
 use crate::world::World;
 use linkage::math::{Vec2, cross, rotated, turned};
-use linkage::mechanism::JointKind;
 
 impl Twin {
     /// Stores where the joints to be read are, the share `share` of the way from the stored frames to the present ones.
@@ -17,12 +16,12 @@ impl Twin {
             let sides = [joint.first, joint.second];
             let [first, second] = sides.map(|side| self.point(side));
             let direction = self.frames[joint.first.link].direction;
-            let (axis, place) = match joint.kind {
-                JointKind::Revolute => match self.cuts[index].steered {
+            let (axis, place) = match joint.axis_on(joint.first.link) {
+                None => match self.cuts[index].steered {
                     Some((link, axis)) => (rotated(self.frames[link].direction, axis), first),
                     None => (direction, first),
                 },
-                JointKind::Prismatic { axes: [axis, _] } => {
+                Some(axis) => {
                     // Along the free axis the rows act at the point on the second body.
                     let normal = turned(rotated(direction, axis));
                     (rotated(direction, axis), second - normal * normal.dot(&(second - first)))
@@ -47,15 +46,15 @@ impl Twin {
         let lever = |along: Vec2| arms.map(|arm| cross(arm, along));
         // Only between separate bodies Rapier makes a joint's rows orthogonal to each other.
         let is_orthogonal = self.multibodies.is_empty();
-        let (force, moment) = match cut.joint.kind {
-            JointKind::Prismatic { .. } => {
+        let (force, moment) = match cut.joint.keeps_angle() {
+            true => {
                 if is_orthogonal {
                     // Rapier made the row across the axis orthogonal to the row that keeps the angle.
                     rows[2] -= rows[1] * turning(lever(across), [1.0; 2]) / turning([1.0; 2], [1.0; 2]);
                 }
                 (across * rows[1], rows[2])
             }
-            JointKind::Revolute => {
+            false => {
                 if is_orthogonal {
                     // Rapier made the second row orthogonal to the first.
                     let mass = inverse[0][0] + inverse[1][0] + turning(lever(axis), lever(axis));
@@ -77,6 +76,6 @@ impl Twin {
             // Rapier leaves a motor that is off the impulse of the last step in which it was on.
             return 0.0;
         }
-        -wide(joint.data.motors[2].impulse) / self.substep() * motor.sense
+        -wide(joint.data.motors[motor.axis as usize].impulse) / self.substep() * motor.sense
     }
 }

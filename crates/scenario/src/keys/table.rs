@@ -23,7 +23,9 @@ const fn section(path: &'static str, keys: &'static [Key]) -> Section {
 
 const ACCELERATIONS: Kind = Quantity(&[&ACCELERATION]);
 const ANGLES: Kind = Quantity(&[&ANGLE]);
-const ANGLES_OR_TIMES: Kind = Quantity(&[&ANGLE, &TIME]);
+/// Values of an input: see [`unit::of_input`](crate::scenario::unit::of_input).
+const INPUTS: Kind = Quantity(&[&ANGLE]);
+const INPUTS_OR_TIMES: Kind = Quantity(&[&ANGLE, &TIME]);
 const DAMPINGS_OR_SLOPES: Kind = Quantity(&[&DAMPING, &MOMENT_PER_SPEED]);
 const FORCES: Kind = Quantity(&[&FORCE]);
 const INERTIAS: Kind = Quantity(&[&INERTIA]);
@@ -84,7 +86,7 @@ const FINDING: Key = optional(
 const RIGHT: Key = optional("right", Table, "what is right instead, in the printed unit", "required with `finding`");
 const VALUE: Key = needed("value", Number, "the number, in the unit of the name");
 const DIGITS: Key = needed("digits", Integer, "number of printed decimals");
-const CRANK: Key = optional("crank", ANGLES, "crank angle", "a time is given");
+const CRANK: Key = optional("crank", INPUTS, "crank angle", "a time is given");
 const AT_TIME: Key = optional("time", TIMES, "time", "a crank angle is given");
 
 /// All sections.
@@ -189,7 +191,7 @@ pub static SECTIONS: &[Section] = &[
                 "crank angle over time; below",
                 "`\"constant\"`",
             ),
-            optional("zero", ANGLES, "world direction from which the crank angle is measured", "0"),
+            optional("zero", INPUTS, "world direction from which the crank angle is measured", "0"),
             optional(
                 "motion",
                 Choice(&["prescribed", "free"]),
@@ -216,7 +218,7 @@ pub static SECTIONS: &[Section] = &[
                 "required but of the laws `\"cycloidal\"` and `\"table\"`",
             ),
             optional("time", TIMES, "duration of a ramp, or of a cycloidal law", "required of these laws"),
-            optional("to", ANGLES, "last crank angle of a cycloidal law", "required of this law"),
+            optional("to", INPUTS, "last crank angle of a cycloidal law", "required of this law"),
             optional(
                 "points",
                 Tables,
@@ -225,7 +227,7 @@ pub static SECTIONS: &[Section] = &[
             ),
         ],
     ),
-    section("drive.points", &[needed("time", TIMES, "time"), needed("angle", ANGLES, "crank angle at that time")]),
+    section("drive.points", &[needed("time", TIMES, "time"), needed("angle", INPUTS, "crank angle at that time")]),
     section(
         "motor",
         &[
@@ -348,7 +350,7 @@ pub static SECTIONS: &[Section] = &[
     section(
         "loads.table",
         &[
-            needed("crank", ANGLES, "crank angle"),
+            needed("crank", INPUTS, "crank angle"),
             optional("moment", MOMENTS, "moment there", "of a moment"),
             optional("x", FORCES, "force along x there", "of a force"),
             optional("y", FORCES, "force along y there", "of a force"),
@@ -357,7 +359,7 @@ pub static SECTIONS: &[Section] = &[
     section(
         "start",
         &[
-            needed("crank", ANGLES, "crank angle at t = 0, of the first drive"),
+            needed("crank", INPUTS, "crank angle at t = 0, of the first drive"),
             optional("groups", Tables, "one table for each Assur group", "none: a mechanism without groups"),
         ],
     ),
@@ -392,12 +394,12 @@ pub static SECTIONS: &[Section] = &[
         &[
             optional(
                 "from",
-                ANGLES_OR_TIMES,
+                INPUTS_OR_TIMES,
                 "first crank angle, or first time from the start",
                 "given with `to` and `step`",
             ),
-            optional("to", ANGLES_OR_TIMES, "last one, in the same kind of unit", "given with `from`"),
-            optional("step", ANGLES_OR_TIMES, "distance of instants; may be negative", "given with `from`"),
+            optional("to", INPUTS_OR_TIMES, "last one, in the same kind of unit", "given with `from`"),
+            optional("step", INPUTS_OR_TIMES, "distance of instants; may be negative", "given with `from`"),
             optional(
                 "angles",
                 LIST_OF_ANGLES,
@@ -579,8 +581,8 @@ pub static SECTIONS: &[Section] = &[
                 "none: a step of a derivation",
             ),
             optional("source", Text, "where it comes from", "none"),
-            optional("from", ANGLES, "first crank angle for which it is claimed", "the whole run"),
-            optional("to", ANGLES, "last crank angle for which it is claimed", "the whole run"),
+            optional("from", INPUTS, "first crank angle for which it is claimed", "the whole run"),
+            optional("to", INPUTS, "last crank angle for which it is claimed", "the whole run"),
             optional(
                 "error",
                 Number,

@@ -141,7 +141,7 @@ fn safe(case: &Case) -> Result<Safe, String> {
         return Err("too near a singular pose".into());
     }
     let places = (0..=60).map(|k| safe.from + (safe.to - safe.from) * f64::from(k) / 60.0).collect();
-    let grid = Grid::of_cranks(case.crank(), places);
+    let grid = Grid::of_inputs(case.crank(), places);
     let solved = case.on(grid).map(|case| case.wanting(Wanted::of(&[Stage::Positions, Stage::Velocities])));
     let (mut fast, mut far) = (false, false);
     let mut look = |_: usize, state: &State| {

@@ -72,7 +72,10 @@ impl Groups {
     pub(super) fn of(case: &Case, plan: &Plan, layout: Layout) -> Option<Self> {
         let groups = &case.structure.groups;
         let simple = |load: &Load| load.resistance().is_some();
-        let hinged = |&(link, joint): &(usize, usize)| case.mechanism.joints()[joint].other(link).link == GROUND;
+        let hinged = |&(link, joint): &(usize, usize)| {
+            let joint = &case.mechanism.joints()[joint];
+            joint.is_pin() && joint.other(link).link == GROUND
+        };
         if !(case.loads.iter().all(simple) && case.structure.drivers.iter().all(hinged)) {
             return None;
         }

@@ -170,7 +170,7 @@ fn drive(case: &Case, groups: &Groups, asked: Asked, own: [f64; TILE], tile: &mu
         if index > 0 {
             for (row, crank) in own.into_iter().enumerate() {
                 let t = case.crank().time_of(crank);
-                angles[row] = drive.world_angle(drive.at(t).angle);
+                angles[row] = drive.world_angle(drive.at(t).value);
                 ratios[row] = case.drives.ratios(t).nth(index).expect("every drive has a ratio");
             }
         }

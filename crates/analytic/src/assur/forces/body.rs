@@ -3,7 +3,7 @@
 use linkage::case::Case;
 use linkage::drive::{Load, Wrench};
 use linkage::math::{Motion, Vec2, cross};
-use linkage::mechanism::{JointKind, Side};
+use linkage::mechanism::Side;
 
 /// Reactions: what the first link of every joint exerts on the second. Filled in from the last group to the first.
 #[derive(Debug)]
@@ -31,12 +31,7 @@ pub(super) struct Action {
 impl Action {
     pub(super) fn of(case: &Case, joint: usize, link: usize) -> Self {
         let found = &case.mechanism.joints()[joint];
-        let local = found.on(link).expect("the joint is on the link");
-        let side = match found.kind {
-            // Both places are the same point. The one on this link is available.
-            JointKind::Revolute => Side { link, local },
-            JointKind::Prismatic { .. } => found.second,
-        };
+        let side = found.acts_at(link);
         let sign = if found.second.link == link { 1.0 } else { -1.0 };
         Action { joint, side, sign, slides: found.slides(), at_origin: side.local == Vec2::zeros() }
     }

@@ -13,6 +13,7 @@ mod window;
 
 use crate::assur::groups::{Clearance, OutOfReach, Plan};
 use linkage::case::Case;
+use linkage::drive::InputValue;
 use linkage::error::{Error, ErrorKind};
 use linkage::math::{KeepNan, Motion};
 use window::Window;
@@ -184,13 +185,12 @@ impl Passing {
 }
 
 /// The error for reactions at a change point that grow without bound.
-pub(super) fn unbounded(crank: f64) -> Error {
-    let degrees = crank.to_degrees();
+pub(super) fn unbounded(at: InputValue) -> Error {
     let message = format!(
-        "crank angle {degrees:.4} deg: this is a change point, and towards it reactions grow without bound: \
+        "{at}: this is a change point, and towards it reactions grow without bound: \
          they must do what the links no longer can"
     );
-    let error = Error::new(ErrorKind::Numeric, message).at_crank(crank);
+    let error = Error::new(ErrorKind::Numeric, message).at_input(at);
     error.help(WITHOUT_POLE)
 }
 

@@ -81,7 +81,7 @@ impl Passing {
                 Err(_) => step = 0.5 * step.smaller(left.abs()),
             }
         }
-        system.inputs[0].angle = target;
+        system.inputs[0].value = target;
         system.q.copy_from_slice(&self.spot.q);
         Ok(())
     }

@@ -9,7 +9,6 @@ use crate::newton::system::System;
 use linkage::drive::Wrench;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::{KeepNan, Motion};
-use linkage::mechanism::EQUATIONS;
 
 /// Value at the change point of a multiplier times its distance that counts as zero: a multiple of the difference
 /// between all poses and those without the inner ones, and a share of the largest such product.
@@ -37,7 +36,7 @@ impl Window {
     ) -> Result<()> {
         let (q, rate, second) = (system.q.clone(), system.rate.clone(), system.second.clone());
         let x = angle - self.at;
-        let drive = EQUATIONS * system.case.mechanism.joints().len();
+        let drive = system.case.mechanism.equations();
         let mut all: Vec<Vec<f64>> = Vec::with_capacity(self.spots.len());
         for spot in &self.spots {
             system.q.copy_from_slice(&spot.q);
@@ -67,12 +66,9 @@ impl Window {
         (system.q, system.rate, system.second) = (q, rate, second);
         let found = self.beside(x, &all);
         let Some(found) = found else {
-            let crank = angle - system.case.crank().zero;
-            let message = format!(
-                "crank angle {:.4} deg: this is a change point, and towards it reactions grow without bound",
-                crank.to_degrees()
-            );
-            return Err(Error::new(ErrorKind::Numeric, message).at_crank(crank).help(WITHOUT_POLE));
+            let at = system.case.told(system.case.crank().from_world(angle));
+            let message = format!("{at}: this is a change point, and towards it reactions grow without bound");
+            return Err(Error::new(ErrorKind::Numeric, message).at_input(at).help(WITHOUT_POLE));
         };
         system.lambda = found;
         Ok(())

@@ -55,16 +55,16 @@ impl Passing {
             return Ok(());
         };
         let mut own = |motions: &[Motion], angles: &[f64], out: &mut [Wrench]| loads(case, motions, angles, out);
-        window.multipliers(system, [input.angle, input.omega, input.alpha], shaft, &mut own)
+        window.multipliers(system, [input.value, input.rate, input.acceleration], shaft, &mut own)
     }
 
     /// Follows a prescribed motion to the time `t`, as far as its stage asks for.
     pub(in crate::newton) fn pass_to(&mut self, system: &mut System, t: f64) -> Result<()> {
         system.set_time(t);
         let input = system.inputs[0];
-        self.go_to(system, input.angle)?;
+        self.go_to(system, input.value)?;
         system.inputs[0] = input;
-        self.rates(system, input.omega, input.alpha);
+        self.rates(system, input.rate, input.acceleration);
         if system.stage >= Stage::Reactions {
             self.multipliers(system, None, &mut |case, motions, angles, out| case.loads_on(motions, angles, out))?;
         }

@@ -19,10 +19,10 @@ pub(in crate::newton) struct Spot {
 
 /// The spot of a system at its present pose, whose Jacobian is factored.
 pub(super) fn spot(system: &mut System) -> Spot {
-    (system.inputs[0].omega, system.inputs[0].alpha) = (1.0, 0.0);
+    (system.inputs[0].rate, system.inputs[0].acceleration) = (1.0, 0.0);
     system.differentiate();
     Spot {
-        angle: system.inputs[0].angle,
+        angle: system.inputs[0].value,
         q: system.q.clone(),
         slope: system.rate.clone(),
         curve: system.second.clone(),
@@ -34,7 +34,7 @@ pub(super) fn spot(system: &mut System) -> Spot {
 /// Places a system at a spot, with its Jacobian factored there.
 pub(super) fn place(system: &mut System, spot: &Spot) -> Result<()> {
     system.q.copy_from_slice(&spot.q);
-    system.inputs[0].angle = spot.angle;
+    system.inputs[0].value = spot.angle;
     system.branch.clone_from(&spot.signs);
     system.assemble();
     match system.jacobian.factor() {
@@ -57,7 +57,7 @@ pub(super) fn walked(system: &mut System, from: &Spot, to: f64) -> Result<Spot> 
 /// The pose at an angle that is nearest to the expected one.
 pub(super) fn settled(system: &mut System, angle: f64, expected: &[f64]) -> Result<Spot> {
     system.q.copy_from_slice(expected);
-    system.inputs[0].angle = angle;
+    system.inputs[0].value = angle;
     system.correct()?;
     let size = system.case.mechanism.size();
     for (index, (q, expected)) in system.q.iter().zip(expected).enumerate() {

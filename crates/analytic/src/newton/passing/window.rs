@@ -109,13 +109,11 @@ impl Window {
                 Ok(window)
             }
             _ => {
-                let crank = at - system.case.crank().zero;
+                let at = system.case.told(system.case.crank().from_world(at));
                 let why = failed.map_or(String::new(), |error| format!(" ({})", error.message()));
-                let message = format!(
-                    "crank angle {:.4} deg: beside this change point the branch on which velocities go on is not clear{why}",
-                    crank.to_degrees()
-                );
-                Err(Error::new(ErrorKind::Numeric, message).at_crank(crank).help("let the grid end before"))
+                let message =
+                    format!("{at}: beside this change point the branch on which velocities go on is not clear{why}");
+                Err(Error::new(ErrorKind::Numeric, message).at_input(at).help("let the grid end before"))
             }
         }
     }

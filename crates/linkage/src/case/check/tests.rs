@@ -111,7 +111,15 @@ fn drives_together_are_what_is_solved() {
     let structure = Structure::of(&mechanism, &[0, 1]).unwrap();
     let free = |joint: usize, motor: Option<Motor>| {
         let motion = DriveMotion::Free { initial_speed: 0.0, nominal_speed: 1.0, motor };
-        Drive { joint, link: joint + 1, zero: 0.0, start: 0.0, motion, through: false }
+        Drive {
+            input: crate::drive::Input::Angle,
+            joint,
+            link: joint + 1,
+            zero: 0.0,
+            start: 0.0,
+            motion,
+            through: false,
+        }
     };
     let of = |crank: Drive, second: Drive| {
         let mut pose = vec![LinkPose::GROUND; 3];
@@ -195,11 +203,11 @@ fn every_group_has_a_mode_of_its_kind() {
 
 #[test]
 fn a_grid_is_where_the_crank_comes() {
-    let far = Grid { times: vec![0.0, 1e9], cranks: vec![0.0, 1e9] };
+    let far = Grid { times: vec![0.0, 1e9], inputs: vec![0.0, 1e9] };
     says(Input, "grid", &["1.6e8 turns"], |parts| parts.grid = far.clone());
     let case = turning(four_bar());
     assert!(case.on(far).is_err() && case.on(Grid::of_times(case.crank(), vec![1.0])).is_ok());
-    let uneven = Grid { times: vec![0.0], cranks: Vec::new() };
+    let uneven = Grid { times: vec![0.0], inputs: Vec::new() };
     assert!(case.on(uneven).unwrap_err().message().contains("1 times, but 0 crank angles"));
-    assert!(case.on(Grid { times: vec![f64::NAN], cranks: vec![0.0] }).is_err());
+    assert!(case.on(Grid { times: vec![f64::NAN], inputs: vec![0.0] }).is_err());
 }

@@ -11,7 +11,7 @@ use super::three_leads::{Conditions, End, Lead, Pair};
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::angle::wrapped;
 use crate::math::{Vec2, rotated, unit};
-use crate::mechanism::{Group, JointKind, LinkPose, Mechanism, Pose};
+use crate::mechanism::{Group, LinkPose, Mechanism, Pose};
 use std::f64::consts::TAU;
 
 #[cfg(test)]
@@ -70,11 +70,7 @@ impl Layout {
         let lead = |body: Body| {
             let pair = |other: Body| {
                 let joint = between(body, other)?;
-                let slides = match joints[joint].kind {
-                    JointKind::Revolute => false,
-                    JointKind::Prismatic { .. } => true,
-                };
-                Some(Pair { slides, lead: end(joint, body)?, body: end(joint, other)? })
+                Some(Pair { slides: joints[joint].slides(), lead: end(joint, body)?, body: end(joint, other)? })
             };
             Some((body, Lead { near: pair(frame)?, far: pair(Body::Link(base))? }))
         };

@@ -12,7 +12,7 @@ use crate::math::angle::wrapped;
 use crate::math::dense::Lu;
 use crate::math::{KeepNan, Vec2, cross, rotated, turned, unit};
 use crate::mechanism::pose::SidePoint;
-use crate::mechanism::{EQUATIONS, Group, Joint, JointKind, LinkPose, Mechanism, Pose};
+use crate::mechanism::{Group, Joint, JointKind, LinkPose, Mechanism, Pose};
 
 #[cfg(test)]
 mod tests;
@@ -132,10 +132,10 @@ impl System<'_> {
             let [first, second] = [joint.first, joint.second].map(|side| pose.0[side.link].point(side.local));
             let gap = second - first;
             match joint.kind {
-                JointKind::Revolute => [gap.x, gap.y],
+                JointKind::Revolute => vec![gap.x, gap.y],
                 JointKind::Prismatic { axes } => {
                     let [e, f] = self.axes(joint, axes, pose);
-                    [cross(e, gap), self.size * cross(e, f)]
+                    vec![cross(e, gap), self.size * cross(e, f)]
                 }
             }
         });
@@ -150,7 +150,10 @@ impl System<'_> {
     /// Rows of the Jacobian, one per gap.
     fn jacobian(&self, pose: &Pose) -> Vec<Vec<f64>> {
         let mut rows = vec![vec![0.0; 3 * self.group.links.len()]; self.unknowns()];
-        for (index, joint) in self.joints().enumerate() {
+        let mut next = 0;
+        for joint in self.joints() {
+            let row = next;
+            next += joint.kind.equations();
             let sides = [joint.first, joint.second];
             let places = sides.map(|side| pose.0[side.link].point(side.local));
             for (k, sign) in [(0, -1.0), (1, 1.0)] {
@@ -162,17 +165,17 @@ impl System<'_> {
                     let column = 3 * at + column;
                     match joint.kind {
                         JointKind::Revolute => {
-                            rows[2 * index][column] = sign * by.x;
-                            rows[2 * index + 1][column] = sign * by.y;
+                            rows[row][column] = sign * by.x;
+                            rows[row + 1][column] = sign * by.y;
                         }
                         JointKind::Prismatic { axes } => {
                             let [e, f] = self.axes(joint, axes, pose);
-                            rows[2 * index][column] = sign * cross(e, by);
+                            rows[row][column] = sign * cross(e, by);
                             if column % 3 == 2 {
-                                rows[2 * index + 1][column] = sign * e.dot(&f);
+                                rows[row + 1][column] = sign * e.dot(&f);
                                 // The line turns with the first link.
                                 if k == 0 {
-                                    rows[2 * index][column] -= e.dot(&(places[1] - places[0])) / self.size;
+                                    rows[row][column] -= e.dot(&(places[1] - places[0])) / self.size;
                                 }
                             }
                         }
@@ -184,7 +187,7 @@ impl System<'_> {
     }
 
     fn unknowns(&self) -> usize {
-        EQUATIONS * (self.group.inner.len() + self.group.outer.len())
+        self.joints().map(|joint| joint.kind.equations()).sum()
     }
 
     fn moved(&self, pose: &Pose, step: &[f64]) -> Pose {

@@ -15,7 +15,7 @@ mod tests;
 
 pub use group::{Group, GroupKind};
 
-use super::{GROUND, JointKind, Mechanism};
+use super::{GROUND, Mechanism};
 use crate::error::{Error, ErrorKind, Result};
 use contour::highest_contour;
 use owners::{Owners, check_sparse};
@@ -72,11 +72,11 @@ impl Structure {
         Ok(structure)
     }
 
-    /// Whether a revolute joint hinges a driving link to the ground or to an earlier driving link.
+    /// Whether a joint that a drive can move holds a driving link to the ground or to an earlier driving link.
     fn carries(&self, mechanism: &Mechanism, joint: usize, link: usize) -> bool {
         let joint = &mechanism.joints()[joint];
         let base = joint.other(link).link;
-        joint.is_pin() && (base == GROUND || self.drivers.iter().any(|&(driving, _)| driving == base))
+        joint.kind.input().is_some() && (base == GROUND || self.drivers.iter().any(|&(driving, _)| driving == base))
     }
 
     /// Checks that each driving link comes after the link that carries it.
@@ -134,8 +134,7 @@ impl Structure {
 
 /// W = 3 n - 2 p: every lower pair takes two degrees of freedom.
 fn mobility(mechanism: &Mechanism) -> i64 {
-    let equations: usize = mechanism.joints().iter().map(|joint| joint.kind.equations()).sum();
-    3 * (mechanism.links().len() as i64 - 1) - equations as i64
+    3 * (mechanism.links().len() as i64 - 1) - mechanism.equations() as i64
 }
 
 fn check_connected(mechanism: &Mechanism) -> Result<()> {
@@ -227,12 +226,7 @@ fn kind(mechanism: &Mechanism, links: &[usize], inner: &[usize], outer: &[usize]
     if links.len() != 2 {
         return GroupKind::Higher;
     }
-    // Only these two kinds of pairs occur in known dyads.
-    let slides = |&&joint: &&usize| match mechanism.joints()[joint].kind {
-        JointKind::Revolute => false,
-        JointKind::Prismatic { .. } => true,
-    };
-    let slides = |joints: &[usize]| joints.iter().filter(slides).count();
+    let slides = |joints: &[usize]| joints.iter().filter(|&&joint| mechanism.joints()[joint].slides()).count();
     match (slides(inner), slides(outer)) {
         (0, 0) => GroupKind::Rrr,
         (0, 1) => GroupKind::Rrp,

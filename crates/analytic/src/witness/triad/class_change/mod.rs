@@ -30,6 +30,7 @@ mod chain;
 use super::Triad;
 use chain::{Chain, Grounded, Place, along};
 use linkage::case::Case;
+use linkage::drive::Input;
 use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::math::{KeepNan, Vec2, cross, root, rotated, turned, unit};
 use linkage::mechanism::GROUND;
@@ -72,6 +73,7 @@ impl Transfer {
 /// Follows the group over crank angles on one branch.
 #[derive(Clone, Debug)]
 pub struct ClassChange {
+    input: Input,
     /// World angle of the crank at crank angle zero (rad).
     zero: f64,
     names: String,
@@ -126,6 +128,7 @@ impl ClassChange {
             condition: f64::INFINITY,
         };
         let mut change = ClassChange {
+            input: drive.input,
             zero: drive.zero,
             names: names(case, triad),
             pivot: joint.other(drive.link).local,
@@ -164,12 +167,11 @@ impl ClassChange {
             return Ok(());
         }
         if halvings == 0 {
-            let (names, crank) = (&self.names, target.to_degrees());
-            let message = format!(
-                "class change: the group ({names}) cannot be followed beyond crank angle {crank:.4} deg: it has a dead point there"
-            );
+            let (names, at) = (&self.names, self.input.at(target));
+            let message =
+                format!("class change: the group ({names}) cannot be followed beyond {at}: it has a dead point there");
             return Err(Error::new(ErrorKind::Geometry, message)
-                .at_crank(target)
+                .at_input(at)
                 .of_group(names)
                 .help(Advice::ShortenGrid));
         }

@@ -1,0 +1,120 @@
+//! What moves a mechanism: a joint coordinate, the input. This is the one home of what it measures, of its names in
+//! files and messages, and of the conversion to them.
+
+use std::f64::consts::TAU;
+use std::fmt;
+
+use crate::trajectory::Unit;
+
+/// What an input measures. Its values are in SI units, as the scenario counts them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Input {
+    /// The angle of a driving link that turns about its joint, a crank: counter-clockwise from its zero direction, turns
+    /// counted.
+    #[default]
+    Angle,
+}
+
+impl Input {
+    /// All of them.
+    pub const ALL: [Input; 1] = [Input::Angle];
+
+    /// The input at `value` (in its SI unit), as messages say it.
+    #[inline]
+    #[must_use]
+    pub const fn at(self, value: f64) -> InputValue {
+        InputValue { input: self, value }
+    }
+
+    /// Name in messages.
+    #[must_use]
+    pub const fn noun(self) -> &'static str {
+        match self {
+            Input::Angle => "crank angle",
+        }
+    }
+
+    /// SI unit of its values.
+    #[must_use]
+    pub const fn unit(self) -> Unit {
+        match self {
+            Input::Angle => Unit::Radian,
+        }
+    }
+
+    /// Name of its column in SI units, in recordings, tables and JSON.
+    #[must_use]
+    pub const fn key(self) -> &'static str {
+        match self {
+            Input::Angle => "crank_rad",
+        }
+    }
+
+    /// Unit in which people read and write it, and its column in that unit.
+    #[must_use]
+    pub const fn shown_in(self) -> (&'static str, &'static str) {
+        match self {
+            Input::Angle => ("deg", "crank_deg"),
+        }
+    }
+
+    /// A value in the unit in which people read and write it.
+    #[inline]
+    #[must_use]
+    pub fn shown(self, value: f64) -> f64 {
+        match self {
+            Input::Angle => value.to_degrees(),
+        }
+    }
+
+    /// The SI value of what people have written.
+    #[inline]
+    #[must_use]
+    pub fn read(self, shown: f64) -> f64 {
+        match self {
+            Input::Angle => shown.to_radians(),
+        }
+    }
+
+    /// How far the input goes until the driving link stands as before, and what that is called; `None` if it never does.
+    #[must_use]
+    pub const fn period(self) -> Option<(f64, &'static str)> {
+        match self {
+            Input::Angle => Some((TAU, "turns")),
+        }
+    }
+}
+
+/// Value of an input. It is displayed with its name and unit: `crank angle 41.0000 deg`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct InputValue {
+    /// What it measures.
+    pub input: Input,
+    /// The value, in the input's SI unit.
+    pub value: f64,
+}
+
+impl fmt::Display for InputValue {
+    /// With the decimals asked for, four if none are.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (decimals, shown) = (f.precision().unwrap_or(4), self.input.shown(self.value));
+        write!(f, "{} {shown:.decimals$} {}", self.input.noun(), self.input.shown_in().0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_input_is_told_with_name_and_unit_and_read_back() {
+        let input = Input::Angle;
+        let half = input.at(std::f64::consts::PI);
+        assert_eq!(
+            (half.to_string(), format!("{half:.1}")),
+            ("crank angle 180.0000 deg".into(), "crank angle 180.0 deg".into())
+        );
+        assert_eq!(input.read(input.shown(0.75)), 0.75);
+        assert!(input.key().ends_with(input.unit().suffix()) && input.shown_in().1.ends_with(input.shown_in().0));
+    }
+}
