@@ -105,6 +105,7 @@ pub mod parts {
     pub use crate::compare::{Check, Residual};
     pub use crate::engines::EngineName;
     pub use crate::proof::{ChannelProof, EngineInfo, EngineProof, Reference, prove_with};
+    pub use crate::scenario::{EngineSettings, Origin, Setting};
     pub use linkage::case::{CaseBuilder, Grid, Wanted};
     pub use linkage::drive::{Load, MotionLaw};
     pub use linkage::engine::Route;

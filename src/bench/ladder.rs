@@ -3,7 +3,7 @@
 use super::options::Options;
 use super::peer::Way;
 use super::point::Party;
-use crate::engines::{EngineName, usual_step};
+use crate::engines::{EngineName, usual_step, with_step};
 use analytic::reduced::ACCURACY;
 use analytic::{AssurAt, NewtonAt};
 use linkage::case::Case;
@@ -88,7 +88,7 @@ pub(super) fn plan(case: &Case, options: &Options) -> Plan {
         false => options.engines.clone(),
     };
     let engines: Vec<Box<dyn Engine>> =
-        names.into_iter().filter_map(|name| name.with_step(usual_step(case)).ok()).collect();
+        names.into_iter().filter_map(|name| with_step(name, usual_step(case)).ok()).collect();
     let versions = engines.iter().map(|engine| (engine.name().to_string(), engine.version())).collect();
     let curves: Vec<(&dyn Engine, Settings)> = engines
         .iter()

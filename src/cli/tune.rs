@@ -7,8 +7,9 @@ use super::engine_section::{self, keys};
 use super::load::plain;
 use super::progress::Bar;
 use super::{number, output, standard_input};
+use crate::proof::Reference;
 use crate::report::tune as report;
-use crate::scenario::{EngineKeys, Scenario, edit};
+use crate::scenario::{EngineSettings, Scenario, edit};
 use crate::tune::{Candidate, Wish, by_work, tune};
 use linkage::engine::Engine;
 use linkage::error::{Advice, Error, Result};
@@ -51,8 +52,8 @@ pub(super) fn run(args: &Args) -> Result<()> {
     standard_input::refuse_writing(&args.file, args.write)?;
     let scenario = plain(&args.file)?;
     let wish = Wish { within: args.within, channels: args.channel.clone() };
-    let mut options = args.engine.options("assur");
-    if options.engines.is_empty() {
+    let mut options = args.engine.options(Reference::Assur);
+    if options.settings.engines.is_free() {
         options = options.every_engine();
     }
     let mut bar = Bar::new(&scenario.name);
@@ -82,6 +83,6 @@ fn of_argument(error: Error) -> Error {
     }
 }
 
-fn best_keys(scenario: &Scenario, best: &Candidate) -> (Option<f64>, EngineKeys) {
+fn best_keys(scenario: &Scenario, best: &Candidate) -> EngineSettings {
     keys(scenario, best.engine, best.settings)
 }

@@ -265,7 +265,8 @@ impl Sides {
         let count = engines.len() as f64;
         let mut proofs = Vec::with_capacity(engines.len());
         for (index, chosen) in engines.into_iter().enumerate() {
-            let chosen = chosen.with_engine(how.around, how.own_forces);
+            let chosen = chosen.with_engine(how.around);
+            let chosen = if how.own_forces { chosen } else { chosen.by_motion_alone() };
             let mut part = |part: f64| progress(SIDES + (1.0 - SIDES) * (index as f64 + part) / count);
             let told = (&mut *ledger, &mut part as &mut dyn FnMut(f64));
             let mut proof = engines::prove(scenario, &case, &chosen, self.own(), &self.known, told)?;

@@ -10,11 +10,11 @@ use super::known::Known;
 use super::ledger::Ledger;
 use super::observe::{Observed, Watch, observe};
 use super::options::{Chosen, Reference};
-use super::settle::{self, Free};
+use super::settle;
 use super::{checks, engines, methods, oracle};
 use crate::compare::{Check, Verdict, magnitudes};
 use crate::proof::{EngineProof, Options, prove};
-use crate::scenario::{Figure, Scenario};
+use crate::scenario::{EngineSettings, Figure, Scenario};
 use crate::specimens::spec::four_bar;
 use analytic::witness::triad::Triad;
 use analytic::{AssurSolver, NewtonSolver};
@@ -240,16 +240,27 @@ fn every_class_three_method_finds_a_wrong_group_and_stands_in_the_proof() {
     }
 }
 
-fn engine_proof(scenario: &Scenario, fault: Fault, size: f64) -> EngineProof {
-    engine_proven(scenario, fault, size, false, Free::default())
+/// What an engine may choose of its settings.
+#[derive(Clone, Copy, Debug)]
+enum Search {
+    None,
+    Everything,
 }
 
-fn engine_proven(scenario: &Scenario, fault: Fault, size: f64, grows: bool, free: Free) -> EngineProof {
+fn engine_proof(scenario: &Scenario, fault: Fault, size: f64) -> EngineProof {
+    engine_proven(scenario, fault, size, false, Search::None)
+}
+
+fn engine_proven(scenario: &Scenario, fault: Fault, size: f64, grows: bool, search: Search) -> EngineProof {
     let reference = seen(&scenario.case, &AssurSolver);
     let rapier = Rapier::all(STEP).into_iter().next().unwrap();
     let inner = Box::new(rapier) as Box<dyn Engine>;
     let engine: Box<dyn Engine> = Box::new(Wrapped { hook: Everywhere { fault, size, grows }, inner });
-    let chosen = Chosen { engine, free, own_forces: None, budget: settle::BUDGET };
+    let given = match search {
+        Search::None => EngineSettings::exactly(engine.as_ref()),
+        Search::Everything => EngineSettings::default(),
+    };
+    let chosen = Chosen { engine, given, budget: settle::BUDGET }.by_motion_alone();
     let known = knowing(&scenario.case);
     engines::prove(scenario, &scenario.case, &chosen, &reference, &known, (&mut Ledger::default(), &mut |_| {}))
         .unwrap()
@@ -302,9 +313,10 @@ fn regress_what_is_read_too_late_converges_at_another_order_and_disagrees() {
         // Something of the size of a jerk.
         state.motions.iter_mut().for_each(|motion| motion.alpha -= late * motion.omega.powi(3));
     };
-    let everything = Free { step: true, sweeps: true, extrapolated: true };
     // Five steps up to 8e-3 s still show the order of the crank-rocker, not that of the faster machine.
-    for (name, free) in [("crank_rocker", Free::default()), ("crank_rocker", everything), ("ov7_base", everything)] {
+    for (name, free) in
+        [("crank_rocker", Search::None), ("crank_rocker", Search::Everything), ("ov7_base", Search::Everything)]
+    {
         let scenario = parsed(name, &text(name));
         for (fault, late, of) in [(velocities, 0.5, "omega"), (accelerations, 0.25, "alpha")] {
             let proof = engine_proven(&scenario, fault, late * STEP, true, free);
@@ -442,7 +454,6 @@ fn the_error_of_an_integration_adds_to_the_bound_of_numbers_at_times() {
 /// hundredth in that of a rocker that turns with it through change points, which is what still proves something there.
 #[test]
 fn a_fault_of_fixed_size_is_found_where_the_reference_is_zero() {
-    let everything = Free { step: true, sweeps: true, extrapolated: true };
     let cranks = include_str!("../../tests/suite/exact_zeros/parallel_cranks.toml");
     let zeros: [(&str, &str, &str, Fault, f64); 2] = [
         ("crank_rocker", &text("crank_rocker"), "crank", |state, size| state.motions[1].alpha += size, 1e-6),
@@ -455,7 +466,7 @@ fn a_fault_of_fixed_size_is_found_where_the_reference_is_zero() {
         let place = truth.channels().iter().position(|channel| channel.to_string() == own).unwrap();
         let natural = magnitudes(&truth)[place];
         for (size, word) in [(share * natural, "disagree"), (0.0, "agree")] {
-            let proof = engine_proven(&scenario, fault, size, false, everything);
+            let proof = engine_proven(&scenario, fault, size, false, Search::Everything);
             let found = proof.channels.iter().find(|channel| channel.residual.channel.to_string() == own).unwrap();
             assert_eq!(found.verdict.word(), word, "{own} at {size:e}: {found:?}");
         }
@@ -466,7 +477,6 @@ fn a_fault_of_fixed_size_is_found_where_the_reference_is_zero() {
 /// is found in a balanced rotor.
 #[test]
 fn a_fault_of_fixed_size_is_found_where_nothing_has_a_size() {
-    let everything = Free { step: true, sweeps: true, extrapolated: true };
     let mut rotor = four_bar([1.0, 0.3, 1.0, 1.0], true);
     rotor.links.truncate(1);
     rotor.pins.truncate(1);
@@ -480,7 +490,7 @@ fn a_fault_of_fixed_size_is_found_where_nothing_has_a_size() {
     ];
     for (own, fault) in zeros {
         for (size, word) in [(1e-6, "disagree"), (0.0, "agree")] {
-            let proof = engine_proven(&rotor, fault, size, false, everything);
+            let proof = engine_proven(&rotor, fault, size, false, Search::Everything);
             let found = proof.channels.iter().find(|channel| channel.residual.channel.to_string() == own).unwrap();
             assert_eq!(found.verdict.word(), word, "{own} at {size:e}: {found:?}");
             assert_eq!(proof.verdict.word(), word, "{own} at {size:e}");

@@ -4,10 +4,10 @@ use super::known::Known;
 use super::ledger::Ledger;
 use super::observe::{Watch, observe};
 use super::options::Chosen;
-use super::settle::{self, Free};
+use super::settle;
 use super::{EngineProof, ForceFault, engines, sensitivity};
 use crate::engines::coarse_step;
-use crate::scenario::of_repository;
+use crate::scenario::{EngineSettings, of_repository};
 use analytic::{AssurSolver, NewtonSolver};
 use linkage::case::Case;
 use linkage::engine::{Engine, Hook, Route, Settings, Wrapped};
@@ -50,10 +50,9 @@ fn proven(name: &str, by: &'static [Route], fault: Fault) -> EngineProof {
     let both = [("assur", &sides[0].trajectory), ("newton", &sides[1].trajectory)];
     let known = Known::of(case, both, &sensitivity).unwrap();
     let inner: Box<dyn Engine> = Box::new(Rapier::new(Build::Multibody, Precision::Double, coarse_step(case)));
-    let free = Free { step: true, sweeps: true, extrapolated: true };
     let hook = ByRoute { fault, by, route: inner.settings().route };
     let engine = Box::new(Wrapped { hook, inner });
-    let chosen = Chosen { engine, free, own_forces: Some(free), budget: settle::BUDGET };
+    let chosen = Chosen { engine, given: EngineSettings::default(), budget: settle::BUDGET };
     engines::prove(&scenario, case, &chosen, &sides[0], &known, (&mut Ledger::default(), &mut |_| {})).unwrap()
 }
 

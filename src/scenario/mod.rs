@@ -9,6 +9,7 @@ mod clearance;
 mod correction;
 mod draft;
 pub mod edit;
+pub mod engine;
 mod figure;
 pub mod formula;
 pub mod grid;
@@ -32,6 +33,7 @@ mod reader;
 pub mod redraw;
 mod reduced;
 mod series;
+mod setting;
 mod settings;
 pub mod shipped;
 mod source;
@@ -49,13 +51,14 @@ pub use self::claim::Claim;
 pub use self::formula::{Formula, Formulas};
 pub use asked::{Asked, Undecided};
 pub use draft::Draft;
+pub use engine::{EngineName, EngineSettings};
 pub use figure::{Figure, FigureValue, OracleFigure};
 pub use instant::within;
 pub use oracle::{Oracle, OracleBasis};
 pub use parameters::{INPUTS, Parameter};
 pub use printed::{Printed, PrintedChannel};
 pub use series::{ExpectedCell, OraclePoint, OracleSeries, When};
-pub use settings::EngineKeys;
+pub use setting::{Origin, Setting};
 
 use std::path::{Path, PathBuf};
 
@@ -95,10 +98,8 @@ pub struct Scenario {
     pub text: String,
     /// The problem, in SI.
     pub case: Case,
-    /// Step of the engine (s), if the scenario gives one.
-    pub dt: Option<f64>,
-    /// The other keys of the engine.
-    pub engine: EngineKeys,
+    /// Engines and their settings, as far as the scenario gives them.
+    pub engine: EngineSettings,
     /// Largest discretisation error of the engine, as a share of a channel's scale, at which agreement is still a
     /// proof.
     pub engine_rel: f64,
@@ -216,8 +217,7 @@ impl Scenario {
             choices: case.modes.iter().map(|&mode| Choice { mode, nearest_m: None, next_m: None }).collect(),
             starts: vec![StartGroup::default(); case.structure.groups.len()],
             case,
-            dt: None,
-            engine: EngineKeys::default(),
+            engine: EngineSettings::default(),
             engine_rel: settings::ENGINE_REL,
             oracles: Vec::new(),
             formulas: Formulas::over(Vec::new()),
@@ -345,7 +345,6 @@ fn read(root: &mut Table, asked: &Asked, lists: bool) -> Result<Found> {
     }
     let source = root.source();
     let (path, text) = (source.path.to_path_buf(), source.text.to_string());
-    let (dt, engine) = stated.engine;
     let scenario = Scenario {
         name: stated.name,
         title: stated.title,
@@ -353,8 +352,7 @@ fn read(root: &mut Table, asked: &Asked, lists: bool) -> Result<Found> {
         path,
         text,
         case,
-        dt,
-        engine,
+        engine: stated.engine,
         engine_rel: stated.engine_rel,
         oracles,
         formulas,

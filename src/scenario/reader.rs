@@ -18,9 +18,11 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::parameters::{Parameters, arithmetic};
+use super::setting::{Origin, Setting};
 use super::source::Source;
+use super::words::suggested;
 use formula::Fault;
-use linkage::error::{Error, ErrorKind, Result};
+use linkage::error::{Error, ErrorKind, Place, Result};
 
 struct Entry<'a> {
     key: &'a str,
@@ -129,12 +131,26 @@ impl<'a> Table<'a> {
 
     /// An error of a kind about the value of `key`. `key` is the exact spelling, or a quantity's name without the unit.
     pub fn wrong(&self, kind: ErrorKind, key: &str, message: impl Into<String>) -> Error {
+        let (key, place) = self.spot(key);
+        Error::new(kind, message).key(key).at(place)
+    }
+
+    /// A setting whose value was read from `key`, if it was.
+    pub fn given<T>(&self, key: &str, value: Option<T>) -> Setting<T> {
+        value.map_or(Setting::Free, |value| {
+            let (key, place) = self.spot(key);
+            Setting::Given(value, Origin::Key(key, place))
+        })
+    }
+
+    /// Dotted path and place of the value of `key`; of the table if it is not there.
+    fn spot(&self, key: &str) -> (String, Place) {
         let with_unit = |entry: &&Entry| {
             self.used.contains(&entry.key) && entry.key.strip_prefix(key).is_some_and(|rest| rest.starts_with('_'))
         };
         let entry = self.entry(key).or_else(|| self.entries.iter().find(with_unit));
         let (key, span) = entry.map_or((key, self.span.clone()), |entry| (entry.key, entry.value.span()));
-        Error::new(kind, message).key(self.path_of(key)).at(self.source.place(span))
+        (self.path_of(key), self.source.place(span))
     }
 
     /// An error about a part of the text of `key`.
@@ -207,6 +223,24 @@ impl<'a> Table<'a> {
             Some(text) => Ok(Some(text.to_string())),
             None => Err(self.noted(self.mistyped(key, value, "text"))),
         }
+    }
+
+    /// What a word of a list stands for, if the key is there; `what` names it in an error.
+    pub fn optional_word<T: Copy>(
+        &mut self,
+        key: &str,
+        what: &str,
+        all: &[T],
+        name: impl Fn(T) -> &'static str,
+    ) -> Result<Option<T>> {
+        let Some(word) = self.optional_string(key)? else { return Ok(None) };
+        let found = all.iter().find(|&&own| name(own) == word);
+        if found.is_none() {
+            let error = self.wrong(ErrorKind::Input, key, format!("there is no {what} called \"{word}\""));
+            let help = suggested(&word, all.iter().map(|&own| name(own)));
+            return self.instead(None, error.help(help));
+        }
+        Ok(found.copied())
     }
 
     /// Text.

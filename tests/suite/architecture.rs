@@ -69,7 +69,7 @@ const ROOMS: &[(&str, &str)] = &[
     ),
     ("linkproof::compare", "numbers tolerance"),
     ("linkproof::diagnosis", "compare"),
-    ("linkproof::engines", ""),
+    ("linkproof::engines", "scenario"),
     ("linkproof::files", ""),
     ("linkproof::mutate", "claims compare diagnosis proof scenario"),
     ("linkproof::numbers", ""),
@@ -86,7 +86,7 @@ const ROOMS: &[(&str, &str)] = &[
     ("linkproof::tables", "files scenario"),
     ("linkproof::testing", "compare proof report scenario"),
     ("linkproof::tolerance", ""),
-    ("linkproof::tune", "compare engines numbers proof scenario"),
+    ("linkproof::tune", "compare numbers proof scenario"),
     ("linkproof::versus", "claims compare diagnosis proof scenario tables tolerance"),
 ];
 

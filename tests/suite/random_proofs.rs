@@ -7,7 +7,7 @@ use crate::common::higher::{Among, FAMILIES, mechanism};
 use crate::common::random::{SORTS, for_each_of};
 use crate::common::sketch::Random;
 use linkproof::proof::{Options, prove};
-use linkproof::scenario::Scenario;
+use linkproof::scenario::{Scenario, Setting};
 
 /// Symptom: correct mechanisms disagree in their velocities, by up to twice the bound. Cause: too few sweeps leave an
 /// error of first order there. In the differences from which the bound is made, it cancels against the error of second
@@ -28,7 +28,7 @@ fn never_disagree(sorts: &[[bool; 3]], most: usize) {
     let [proven, open, refused] = [const { Cell::new(0) }; 3];
     for_each_of(sorts, most, 60, |sample| {
         let mut scenario = sample.scenario.clone();
-        scenario.dt = Some(0.005 / scenario.case.crank().at(0.0).omega.abs());
+        scenario.engine.step = Setting::of(0.005 / scenario.case.crank().at(0.0).omega.abs());
         match prove(&scenario, &Options::default()) {
             Ok(proof) => {
                 let word = proof.verdict.word();
@@ -77,7 +77,7 @@ fn regress_random_higher_groups_never_disagree() {
         for among in [Among::Alone, Among::Alone, Among::BehindADyad, Among::CarryingADyad] {
             let (spec, _) = mechanism(&mut random, family, among);
             let Ok(mut scenario) = spec.scenario() else { continue };
-            scenario.dt = Some(0.005 / scenario.case.crank().at(0.0).omega.abs());
+            scenario.engine.step = Setting::of(0.005 / scenario.case.crank().at(0.0).omega.abs());
             let word = match prove(&scenario, &Options::default()) {
                 Ok(proof) => {
                     for channel in &proof.engine().channels {

@@ -1,5 +1,6 @@
 //! The engine under loads, by every route.
 
+use linkage::engine::Route;
 use linkage::error::ErrorKind;
 use linkproof::proof::{Options, prove};
 use workshop::export;
@@ -13,9 +14,8 @@ fn val_the_press_agrees_by_every_route() {
     let cranks: Vec<f64> = (0..=36).map(|k| f64::from(10 * k).to_radians()).collect();
     let grid = linkage::case::Grid::of_cranks(scenario.case.crank(), cranks);
     scenario.case = scenario.case.on(grid).unwrap();
-    for route in ["differences", "native", "probe"] {
-        scenario.engine.route = Some(route.into());
-        let proof = prove(&scenario, &Options::default()).unwrap();
+    for route in Route::ALL {
+        let proof = prove(&scenario, &Options::default().route(route)).unwrap();
         let wrong = proof.engine().channels.iter().filter(|channel| channel.verdict.word() != "agree");
         let wrong: Vec<_> = wrong.map(|c| (c.residual.channel.to_string(), c.residual.max, c.bound)).collect();
         assert_eq!(proof.verdict.word(), "agree", "{route:?}: {:?} {wrong:?}", proof.verdict);
