@@ -10,7 +10,7 @@
 //! use linkproof::{Options, Scenario, prove};
 //!
 //! # std::env::set_current_dir(env!("CARGO_MANIFEST_DIR"))?;
-//! let scenario = Scenario::load("scenarios/crank_rocker.toml".as_ref())?;
+//! let scenario = Scenario::load("scenarios/crank_rocker.toml")?;
 //! let proof = prove(&scenario, &Options::default())?;
 //! println!("{}", proof.verdict.word());
 //! # assert_eq!(proof.verdict.word(), "agree");

@@ -10,12 +10,13 @@ use super::observe::{Observed, Stopped, Watch};
 use super::options::Chosen;
 use super::order;
 use super::own_forces::{ForceFault, OwnForces};
+use super::problem::Problem;
 use super::runs::{Bank, FEWER, other_sweeps, rungs};
 use super::settle::{BUDGET, End, FIRST, Search, Settling, too_much};
 use crate::compare::{Check, Verdict, difference, overall};
 use crate::engines::coarse_step;
 use crate::numbers::error;
-use crate::scenario::{EngineSettings, Scenario};
+use crate::scenario::EngineSettings;
 use linkage::case::Case;
 use linkage::engine::{Engine, Settings};
 use linkage::error::{Advice, Error, ErrorKind, Result};
@@ -64,7 +65,7 @@ impl EngineProof {
 
 /// Runs an engine on `case`, at the settings asked for or at those that it finds, and compares it with `reference`.
 pub(super) fn prove(
-    scenario: &Scenario,
+    problem: Problem,
     case: &Case,
     chosen: &Chosen,
     reference: &Observed,
@@ -73,7 +74,7 @@ pub(super) fn prove(
 ) -> Result<EngineProof> {
     let engine = chosen.engine.as_ref();
     let asked = engine.settings();
-    let judge = Judge::new(scenario, reference, known, asked);
+    let judge = Judge::new(problem, reference, known, asked);
     let mut bank = Bank::new(case, engine, Watch::Engine);
     // A step that cannot be is refused by the engine.
     let is_step = asked.resolution > 0.0 && asked.resolution.is_finite();

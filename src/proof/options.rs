@@ -1,8 +1,11 @@
 //! Options of a proof.
 
+use std::fmt;
+
 use super::settle;
 use crate::engines::{self, EngineName};
 use crate::scenario::{EngineSettings, Scenario, Setting};
+use linkage::case::Case;
 use linkage::engine::{Engine, Route, Settings};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::solver::Solver;
@@ -33,6 +36,15 @@ impl Reference {
         Reference::ALL.into_iter().find(|side| side.name() == name)
     }
 
+    /// The other side.
+    #[must_use]
+    pub fn other(self) -> Reference {
+        match self {
+            Reference::Assur => Reference::Newton,
+            Reference::Newton => Reference::Assur,
+        }
+    }
+
     /// The solver of this side.
     #[must_use]
     pub fn solver(self) -> &'static dyn Solver {
@@ -40,6 +52,12 @@ impl Reference {
             Reference::Assur => &analytic::AssurSolver,
             Reference::Newton => &analytic::NewtonSolver,
         }
+    }
+}
+
+impl fmt::Display for Reference {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
     }
 }
 
@@ -179,21 +197,22 @@ impl Options {
     /// [`ErrorKind::Input`] if a number cannot be a setting, or if an engine does not have the route;
     /// [`ErrorKind::Unsupported`] for an engine that this build does not have.
     pub(crate) fn set_engines(&self, scenario: &Scenario) -> Result<Vec<Box<dyn Engine>>> {
-        let chosen = self.chosen_at(scenario, engines::usual_step(&scenario.case))?;
+        let chosen = self.chosen_at(&scenario.engine, engines::usual_step(&scenario.case))?;
         Ok(chosen.into_iter().map(|chosen| chosen.engine).collect())
     }
 
-    /// The engines of a proof. Settings that neither the options nor the scenario give are free.
+    /// The engines of a proof of a case. Settings that neither the options nor those of its scenario, `own`, give are
+    /// free.
     ///
     /// # Errors
     /// Those of [`Options::set_engines`].
-    pub(crate) fn chosen(&self, scenario: &Scenario) -> Result<Vec<Chosen>> {
-        self.chosen_at(scenario, engines::coarse_step(&scenario.case))
+    pub(crate) fn chosen(&self, own: &EngineSettings, case: &Case) -> Result<Vec<Chosen>> {
+        self.chosen_at(own, engines::coarse_step(case))
     }
 
     /// The engines at a step (s), unless one is given.
-    fn chosen_at(&self, scenario: &Scenario, step: f64) -> Result<Vec<Chosen>> {
-        let given = self.settings.or(&scenario.engine);
+    fn chosen_at(&self, own: &EngineSettings, step: f64) -> Result<Vec<Chosen>> {
+        let given = self.settings.or(own);
         let engines = given.engines.value().map_or(&[][..], Vec::as_slice);
         let engines = if engines.is_empty() { &EngineName::ALL[..1] } else { engines };
         let chosen = |&name: &EngineName| {

@@ -4,6 +4,7 @@ use super::known::Known;
 use super::ledger::Ledger;
 use super::observe::{Watch, observe};
 use super::options::Chosen;
+use super::problem::Problem;
 use super::settle;
 use super::{EngineProof, ForceFault, engines, sensitivity};
 use crate::engines::coarse_step;
@@ -47,13 +48,21 @@ fn proven(name: &str, by: &'static [Route], fault: Fault) -> EngineProof {
     };
     let sides = [seen(&AssurSolver), seen(&NewtonSolver)];
     let sensitivity = sensitivity::of(case, &AssurSolver, &sides[0].trajectory).unwrap();
-    let both = [("assur", &sides[0].trajectory), ("newton", &sides[1].trajectory)];
+    let both = [&sides[0].trajectory, &sides[1].trajectory];
     let known = Known::of(case, both, &sensitivity).unwrap();
     let inner: Box<dyn Engine> = Box::new(Rapier::new(Build::Multibody, Precision::Double, coarse_step(case)));
     let hook = ByRoute { fault, by, route: inner.settings().route };
     let engine = Box::new(Wrapped { hook, inner });
     let chosen = Chosen { engine, given: EngineSettings::default(), budget: settle::BUDGET };
-    engines::prove(&scenario, case, &chosen, &sides[0], &known, (&mut Ledger::default(), &mut |_| {})).unwrap()
+    engines::prove(
+        Problem::of(&scenario, case),
+        case,
+        &chosen,
+        &sides[0],
+        &known,
+        (&mut Ledger::default(), &mut |_| {}),
+    )
+    .unwrap()
 }
 
 const EXERTED: &[Route] = &[Route::Native, Route::Probe];

@@ -330,7 +330,7 @@ impl<'a, 'b> Settling<'a, 'b> {
     /// Goes on at steps with room beside the dead points, if those of this round have none: they go through them, and
     /// fail or show no order. Returns whether it is so.
     fn makes_room(&mut self) -> bool {
-        let (case, engine) = (&self.judge.scenario.case, self.bank.engine(self.now));
+        let (case, engine) = (self.judge.problem.case, self.bank.engine(self.now));
         let most = *self.room.get_or_insert_with(|| room(case, engine.as_ref()));
         let is_cramped = 4.0 * self.now.resolution > most && !self.is_finest();
         if is_cramped {
@@ -468,7 +468,7 @@ impl<'a, 'b> Settling<'a, 'b> {
     fn trial(&mut self, settings: Settings, others: &[usize], progress: &mut dyn FnMut(f64)) -> Result<Trial, Stopped> {
         let runs = self.bank.runs(settings, others, progress)?;
         let judged = self.judge.judge(self.bank.engine(settings).as_ref(), runs)?;
-        let (need, blame) = need(&judged, self.judge.scenario.engine_rel);
+        let (need, blame) = need(&judged, self.judge.problem.engine_rel);
         Ok(Trial { judged, need, blame })
     }
 }

@@ -2,6 +2,7 @@
 //!
 //! [`ROWS`] is the one place of a setting: reader, writer, argument, schema and documents follow from its row.
 
+use std::fmt;
 use std::ops::RangeInclusive;
 
 use super::keys::{Key, Kind, optional};
@@ -59,6 +60,12 @@ impl EngineName {
             EngineName::RapierF32 | EngineName::ImpulseF32 => Some("f32"),
             EngineName::Simbody => Some("simbody"),
         }
+    }
+}
+
+impl fmt::Display for EngineName {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
     }
 }
 

@@ -17,7 +17,7 @@ fn with(text: &str, changes: &[(&str, &str)]) -> Scenario {
         assert_eq!(text.matches(from).count(), 1, "{from}");
         text.replace(from, to)
     });
-    Scenario::parse(&changed, "hanging.toml".as_ref()).unwrap_or_else(|error| panic!("{error}"))
+    Scenario::parse(&changed, "hanging.toml").unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// The crank and its pendulum alone.
