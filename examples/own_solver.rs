@@ -80,7 +80,7 @@ impl Solver for Freudenstein {
 }
 
 fn main() -> Result<()> {
-    let scenario = Scenario::load("scenarios/crank_rocker.toml".as_ref())?;
+    let scenario = Scenario::load("scenarios/crank_rocker.toml")?;
     let case = scenario.case.wanting(Wanted::of(&[Stage::Positions, Stage::Velocities]));
     let own = Freudenstein::of(&case).solve(&case)?;
     for side in Reference::ALL {

@@ -7,7 +7,7 @@ use linkproof::{Options, Scenario, prove};
 
 fn main() -> Result<(), Error> {
     let file = std::env::args().nth(1).unwrap_or_else(|| "scenarios/crank_rocker.toml".into());
-    let proof = prove(&Scenario::load(file.as_ref())?, &Options::default())?;
+    let proof = prove(&Scenario::load(file)?, &Options::default())?;
     let used = |channel: &linkproof::parts::ChannelProof| channel.residual.max / channel.bound;
     let worst = proof.engine().channels.iter().max_by(|a, b| used(a).total_cmp(&used(b)));
     println!("{}: {}", proof.scenario, proof.verdict.word());

@@ -12,7 +12,7 @@ const POSES: usize = 10_000;
 
 fn main() -> Result<(), Error> {
     let file = std::env::args().nth(1).unwrap_or_else(|| "scenarios/crank_rocker.toml".into());
-    let case = Scenario::load(file.as_ref())?.case;
+    let case = Scenario::load(file)?.case;
     let (start, speed) = (case.crank().start, case.crank().top_speed());
     let cranks: Vec<f64> = (0..POSES).map(|k| start + speed.signum() * TAU * k as f64 / POSES as f64).collect();
     let (mut batch, mut poses) = (Batch::of(&case)?, Poses::new());

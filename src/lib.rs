@@ -10,7 +10,7 @@
 //! use linkproof::{Options, Scenario, prove};
 //!
 //! # std::env::set_current_dir(env!("CARGO_MANIFEST_DIR"))?;
-//! let scenario = Scenario::load("scenarios/crank_rocker.toml".as_ref())?;
+//! let scenario = Scenario::load("scenarios/crank_rocker.toml")?;
 //! let proof = prove(&scenario, &Options::default())?;
 //! println!("{}", proof.verdict.word());
 //! # assert_eq!(proof.verdict.word(), "agree");
@@ -82,4 +82,5 @@ pub mod parts {
     pub use prover::compare::{Check, Residual};
     pub use prover::engines::EngineName;
     pub use prover::proof::{ChannelProof, EngineInfo, EngineProof, Reference, prove_with};
+    pub use scenario::{EngineSettings, Origin, Setting};
 }

@@ -116,9 +116,8 @@ fn one(args: &Args, file: &Path, document: &mut Document) -> Result<u8> {
 
 /// The proof of a scenario.
 fn proven(args: &Args, scenario: &Scenario) -> Result<Proof> {
-    let options = args.engine.options(Reference::default().name());
-    let engines = options.engines.len().max(1);
-    args.engine.memory.tell(&scenario.case, memory::of_proof(&scenario.case, engines));
+    let options = args.engine.options(Reference::default());
+    args.engine.memory.tell(&scenario.case, memory::of_proof(&scenario.case, options.engine_count()));
     let mut bar = Bar::new(&scenario.name);
     prove_with(scenario, &options, &mut |part| bar.at(part))
 }

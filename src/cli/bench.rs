@@ -4,9 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use clap::builder::PossibleValuesParser;
-
-use super::engine_args::engine_names;
+use super::engine_args::{engine_names, word};
 use super::load::{only, plain};
 use super::progress::Bar;
 use super::{number, output};
@@ -15,8 +13,11 @@ use analytic::AssurSolver;
 use analytic::range::explained;
 use design::export::{first_state, mjcf};
 use lab::bench::{Axis, Bench, Clock, Options, Peer, bench};
+
 use lab::outside::{Command, Exports, machine, processor_time};
+
 use linkage::error::{Error, ErrorKind, Result};
+use prover::engines::with_step;
 use prover::engines::{EngineName, usual_step};
 use scenario::{Scenario, files_in};
 
@@ -54,8 +55,8 @@ pub(super) struct Args {
     #[arg(long, value_name = "WORD")]
     only: Vec<String>,
     /// Engine. May be given several times [default: all of this build]
-    #[arg(long, value_name = "ENGINE", value_parser = PossibleValuesParser::new(engine_names()))]
-    engine: Vec<String>,
+    #[arg(long, value_name = "ENGINE", value_parser = word(engine_names(), EngineName::named))]
+    engine: Vec<EngineName>,
     /// Another program, by a name and the command that runs it. May be given several times
     #[arg(long, value_name = "NAME=COMMAND", value_parser = peer)]
     peer: Vec<(String, String)>,
@@ -92,15 +93,10 @@ pub(super) fn run(args: &Args) -> Result<()> {
             .help("their files in the directory would have the same names: give each a directory of its own"));
     }
     let machine = machine();
-    let named = |name: &String| EngineName::named(name).expect("the argument parser knows all names");
-    let options = Options {
-        engines: args.engine.iter().map(named).collect(),
-        is_quick: args.quick,
-        budget: args.budget,
-        rounds: args.rounds,
-    };
+    let options =
+        Options { engines: args.engine.clone(), is_quick: args.quick, budget: args.budget, rounds: args.rounds };
     for engine in &options.engines {
-        engine.with_step(1.0)?;
+        with_step(*engine, 1.0)?;
     }
     fs::create_dir_all(&args.out).map_err(|error| {
         Error::new(ErrorKind::Io, format!("{} cannot be made: {error}", args.out.display()))

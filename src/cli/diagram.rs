@@ -2,14 +2,14 @@
 
 use std::path::PathBuf;
 
-use clap::builder::PossibleValuesParser;
-
-use super::load::{plain, reference_names};
+use super::engine_args::side;
+use super::load::plain;
 use super::{number, output};
 use crate::report::diagram as report;
 use analytic::range::explained;
 use design::diagram::{Course, MotionDiagram, draw};
 use linkage::error::Result;
+use prover::proof::Reference;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -34,8 +34,8 @@ pub(super) struct Args {
     #[arg(long, value_name = "N", default_value_t = 12, allow_hyphen_values = true, value_parser = number::count)]
     divisions: usize,
     /// Analytic solver
-    #[arg(long, value_name = "SOLVER", default_value = "assur", value_parser = PossibleValuesParser::new(reference_names()))]
-    with: String,
+    #[arg(long, value_name = "SOLVER", default_value = "assur", value_parser = side())]
+    with: Reference,
     /// Draw the three diagrams to a file, or to standard output instead of the text with `-`
     #[arg(long, value_name = "FILE", value_parser = output::target, conflicts_with_all = ["json", "csv"])]
     svg: Option<PathBuf>,
@@ -49,7 +49,7 @@ pub(super) struct Args {
 
 pub(super) fn diagram(args: &Args) -> Result<()> {
     let scenario = plain(&args.file)?.nominal();
-    let solver = analytic::named(&args.with).expect("the argument parser knows all names");
+    let solver = args.with.solver();
     let course = Course::named(&scenario.case, &args.channel)?;
     let diagram = MotionDiagram::of(&scenario.case, solver, &course, args.divisions)
         .map_err(|error| explained(&scenario.case, error))?;

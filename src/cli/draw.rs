@@ -6,15 +6,14 @@ mod subject;
 
 use std::path::PathBuf;
 
-use clap::builder::PossibleValuesParser;
-
-use super::load::reference_names;
+use super::engine_args::side;
 use super::{exit_code, number, output};
 use drawing::sheet::{Cell, columns, sheet};
 use drawing::view::Extras;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::Vec2;
 use media::Medium;
+use prover::proof::Reference;
 use subject::{Drawn, Wish};
 
 const EXAMPLES: &str = "\
@@ -77,8 +76,8 @@ pub(super) struct Args {
     #[arg(long, value_name = "S", value_parser = number::positive)]
     seconds: Option<f64>,
     /// Analytic solver
-    #[arg(long, value_name = "SOLVER", default_value = "assur", value_parser = PossibleValuesParser::new(reference_names()))]
-    with: String,
+    #[arg(long, value_name = "SOLVER", default_value = "assur", value_parser = side())]
+    with: Reference,
 }
 
 /// Path of a picture: one whose ending says how it is written, or standard output.
@@ -134,7 +133,7 @@ fn drawn(args: &Args) -> Result<bool> {
         all_traces: args.traces,
         traces: &args.trace,
         frames,
-        solver: analytic::named(&args.with).expect("the argument parser knows all names"),
+        solver: args.with.solver(),
     };
     let all = args.files.iter().map(|file| Drawn::of(file, &wish)).collect::<Result<Vec<_>>>()?;
     let count: usize = all.iter().map(|own| if args.each_mode { own.shots.len() } else { 1 }).sum();

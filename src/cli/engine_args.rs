@@ -1,28 +1,47 @@
 //! Arguments that choose engines and their settings, common to several commands.
 
-use clap::builder::PossibleValuesParser;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::{Arg, ArgMatches, Command, FromArgMatches};
 
 use super::{number, output};
 use linkage::case::Case;
 use linkage::engine::{Engine, Route};
-use linkage::error::Result;
+use linkage::error::Error;
 use prover::engines::EngineName;
 use prover::proof::{Options, Reference, memory};
-use scenario::Scenario;
+use scenario::engine::{ROWS, Row, Slot};
+use scenario::{EngineSettings, Origin, Scenario, Setting};
 
-/// Stands for every engine of this build, in place of a name.
-const ALL: &str = "all";
+type Result<T, E = Error> = std::result::Result<T, E>;
 
-/// Why a name that came through the parser is found: nothing is dropped in silence.
-const KNOWN: &str = "the argument parser knows all names";
+/// Which engines run.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Which {
+    /// Every engine of this build.
+    All,
+    /// This one.
+    One(EngineName),
+}
+
+impl Which {
+    /// Every engine of this build, in place of a name.
+    const ALL: &'static str = "all";
+
+    fn parser() -> impl TypedValueParser<Value = Which> {
+        word(engine_names().chain([Which::ALL]), |word| match word {
+            Which::ALL => Some(Which::All),
+            name => EngineName::named(name).map(Which::One),
+        })
+    }
+}
 
 /// The engines and their settings.
 #[derive(Clone, Debug, clap::Args)]
 pub(super) struct EngineArgs {
     /// Engine, or `all` to run every one side by side. May be given several times [default: the scenario's, else the
     /// first]
-    #[arg(long, value_name = "ENGINE", value_parser = PossibleValuesParser::new(names_and_all()))]
-    pub(super) engine: Vec<String>,
+    #[arg(long, value_name = "ENGINE", value_parser = Which::parser())]
+    pub(super) engine: Vec<Which>,
     #[command(flatten)]
     settings: SettingArgs,
     /// Work allowed for finding the settings that are not given, in steps without sweeps [default: 2e7, of `tune` 5e6]
@@ -58,43 +77,84 @@ impl MemoryArgs {
     }
 }
 
-/// The settings of an engine. What is not given is the scenario's, else found by the proof or the engine's own.
-#[derive(Clone, Debug, clap::Args)]
-#[group(skip)]
+/// The settings of an engine, one argument for each row of [`ROWS`]. What is not given is the scenario's, else found by
+/// the proof or the engine's own.
+#[derive(Clone, Debug)]
 pub(super) struct SettingArgs {
-    /// Time step of the engine in seconds [default: the scenario's, else `run` finds it, and others take a quarter of a
-    /// degree of the crank or less]
-    #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = number::positive)]
-    dt: Option<f64>,
-    /// Relative accuracy of an engine that chooses its own steps [default: its tightest]
-    #[arg(long, value_name = "ACCURACY", allow_hyphen_values = true, value_parser = number::positive)]
-    accuracy: Option<f64>,
-    /// Sweeps of the engine's iteration in a step [default: the scenario's, else `run` finds them, and others take the
-    /// engine's]
-    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = number::count)]
-    sweeps: Option<usize>,
-    /// Number of substeps into which the engine divides a step
-    #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = number::count)]
-    substeps: Option<usize>,
-    /// Route by which reactions and balancing moment are computed
-    #[arg(long, value_name = "ROUTE", value_parser = PossibleValuesParser::new(Route::ALL.map(Route::name)))]
-    route: Option<String>,
-    /// Combine runs at the step and at halves of it, so that the leading errors cancel: once if no number is given
-    /// [default: the scenario's, else `run` finds it unless the step is given, and others do not extrapolate]
-    #[arg(long, value_name = "TIMES", num_args = 0..=1, default_missing_value = "1", require_equals = true)]
-    extrapolate: Option<usize>,
+    settings: EngineSettings,
+    /// The first of them that is given.
+    first: Option<&'static str>,
+}
+
+impl clap::Args for SettingArgs {
+    fn augment_args(command: Command) -> Command {
+        ROWS.iter().filter_map(argument).fold(command, Command::arg)
+    }
+
+    fn augment_args_for_update(command: Command) -> Command {
+        Self::augment_args(command)
+    }
+}
+
+impl FromArgMatches for SettingArgs {
+    fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
+        let mut own = EngineSettings::default();
+        for row in ROWS {
+            match (row.slot)(&mut own) {
+                Slot::Engines(_) => {}
+                Slot::Positive(number) => *number = given(matches, row),
+                Slot::Count(number) | Slot::Times(number) => *number = given(matches, row),
+                Slot::Route(route) => *route = given(matches, row),
+            }
+        }
+        let first = ROWS.iter().find(|row| argument(row).is_some() && matches.contains_id(row.argument));
+        Ok(SettingArgs { settings: own, first: first.map(|row| row.argument) })
+    }
+
+    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), clap::Error> {
+        *self = Self::from_arg_matches(matches)?;
+        Ok(())
+    }
+}
+
+/// The argument of a row; `None` for that of the engines, which commands have in their own ways.
+fn argument(row: &'static Row) -> Option<Arg> {
+    let own = Arg::new(row.argument).long(&row.argument[2..]).value_name(row.value).help(row.help);
+    Some(match (row.slot)(&mut EngineSettings::default()) {
+        Slot::Engines(_) => return None,
+        Slot::Positive(_) => own.value_parser(number::positive).allow_hyphen_values(true),
+        Slot::Count(_) => own.value_parser(number::count).allow_hyphen_values(true),
+        Slot::Route(_) => own.value_parser(word(Route::ALL.map(Route::name), Route::named)),
+        Slot::Times(_) => {
+            own.value_parser(number::times).num_args(0..=1).default_missing_value("1").require_equals(true)
+        }
+    })
+}
+
+fn given<T: Clone + Send + Sync + 'static>(matches: &ArgMatches, row: &Row) -> Setting<T> {
+    let value = matches.get_one::<T>(row.argument).cloned();
+    value.map_or(Setting::Free, |value| Setting::Given(value, Origin::Argument(row.argument)))
+}
+
+/// What one of these words stands for.
+pub(super) fn word<T: Clone + Send + Sync + 'static>(
+    words: impl IntoIterator<Item = &'static str>,
+    named: impl Fn(&str) -> Option<T> + Clone + Send + Sync + 'static,
+) -> impl TypedValueParser<Value = T> {
+    PossibleValuesParser::new(words).map(move |word| named(&word).expect("the parser knows all words"))
 }
 
 impl EngineArgs {
     /// The options of a proof with these arguments.
-    pub(super) fn options(&self, reference: &str) -> Options {
-        let mut options = Options::default().reference(Reference::named(reference).expect(KNOWN));
-        options.engines =
-            self.engine.iter().filter(|name| *name != ALL).map(|name| EngineName::named(name).expect(KNOWN)).collect();
-        if self.engine.iter().any(|name| name == ALL) {
-            options = options.every_engine();
+    pub(super) fn options(&self, reference: Reference) -> Options {
+        let mut options = Options::default().reference(reference);
+        options.settings = self.settings.settings.clone();
+        for which in &self.engine {
+            options = match which {
+                Which::All => options.every_engine(),
+                Which::One(engine) => options.engine(*engine),
+            };
         }
-        self.settings.set(&mut options);
         options.budget = self.budget;
         options.memory = Some(self.memory.bytes());
         options
@@ -102,46 +162,28 @@ impl EngineArgs {
 }
 
 impl SettingArgs {
-    /// Writes the settings given to the options of a proof.
-    fn set(&self, options: &mut Options) {
-        options.step = self.dt;
-        options.accuracy = self.accuracy;
-        options.sweeps = self.sweeps;
-        options.substeps = self.substeps;
-        options.route = self.route.as_deref().map(|name| Route::named(name).expect(KNOWN));
-        options.extrapolated = self.extrapolate;
-    }
-
-    /// The engine called `name` with these settings, else the scenario's, else its own.
+    /// An engine with these settings, else the scenario's, else its own.
     ///
     /// # Errors
     /// Those of settings that an engine cannot have.
-    pub(super) fn engine(&self, name: &str, scenario: &Scenario) -> Result<Box<dyn Engine>> {
-        let mut options = Options::default().engine(EngineName::named(name).expect(KNOWN));
-        self.set(&mut options);
-        Ok(options.set_engines(scenario)?.remove(0))
+    pub(super) fn engine(&self, engine: EngineName, scenario: &Scenario) -> Result<Box<dyn Engine>> {
+        let mut options = Options::default();
+        options.settings = self.settings.clone();
+        Ok(options.engine(engine).set_engines(scenario)?.remove(0))
     }
 
     /// The first option given. An analytic solver has none of them.
     pub(super) fn given(&self) -> Option<&'static str> {
-        let SettingArgs { dt, accuracy, sweeps, substeps, route, extrapolate } = self;
-        let options = [
-            ("--dt", dt.is_some()),
-            ("--accuracy", accuracy.is_some()),
-            ("--sweeps", sweeps.is_some()),
-            ("--substeps", substeps.is_some()),
-            ("--route", route.is_some()),
-            ("--extrapolate", extrapolate.is_some()),
-        ];
-        options.into_iter().find_map(|(option, is_given)| is_given.then_some(option))
+        self.first
     }
 }
 
 /// Names of all engines. An engine that this build lacks reports the feature it needs.
-pub(super) fn engine_names() -> Vec<&'static str> {
-    EngineName::ALL.map(EngineName::name).to_vec()
+pub(super) fn engine_names() -> impl Iterator<Item = &'static str> {
+    EngineName::ALL.into_iter().map(EngineName::name)
 }
 
-fn names_and_all() -> Vec<&'static str> {
-    [engine_names(), vec![ALL]].concat()
+/// An analytic side by name.
+pub(super) fn side() -> impl TypedValueParser<Value = Reference> {
+    word(Reference::ALL.map(Reference::name), Reference::named)
 }

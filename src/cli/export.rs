@@ -49,7 +49,8 @@ pub(super) struct Args {
 pub(super) fn export(args: &Args) -> Result<()> {
     output::apart(&[("--mjcf", &args.mjcf.clone().flatten()), ("--json", &args.json.clone().flatten())])?;
     let scenario = load(&args.file, &args.mode)?;
-    let (case, dt) = (&scenario.case, args.dt.or(scenario.dt).unwrap_or_else(|| usual_step(&scenario.case)));
+    let (case, dt) =
+        (&scenario.case, args.dt.or(scenario.engine.step.get()).unwrap_or_else(|| usual_step(&scenario.case)));
     if let Some(to) = &args.mjcf {
         let text = mjcf::mjcf(case, &AssurSolver, &scenario.name, dt).map_err(|error| explained(case, error))?;
         put(&text, to.as_deref(), &format!("{}.xml", scenario.name))?;

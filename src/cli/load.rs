@@ -105,8 +105,3 @@ fn of_mode(asked: &Asked, error: Error) -> Error {
     let is_asked = !asked.modes.is_empty() && error.place().is_none() && error.kind() != ErrorKind::Io;
     if is_asked { error.key("--mode") } else { error }
 }
-
-/// Names of the analytic solvers, the default first.
-pub(super) fn reference_names() -> Vec<&'static str> {
-    analytic::all().iter().map(|solver| solver.name()).collect()
-}

@@ -12,6 +12,7 @@ use crate::plain::errors;
 use crate::report::mutate as report;
 use lab::mutate::{Asked, End, Mutated, Party, all, mutate, named, tally};
 use linkage::error::{Error, ErrorKind, Result};
+use prover::proof::Reference;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -67,11 +68,11 @@ pub(super) fn run(args: &Args) -> u8 {
     if let Err(found) = output::apart(&[("--json", &args.json), ("--markdown", &args.markdown)]) {
         return output::exit(Err(found));
     }
-    let options = args.engine.options("assur");
-    if options.engines.len() > 1 {
+    let options = args.engine.options(Reference::Assur);
+    if options.engine_count() > 1 {
         let error = Error::new(
             ErrorKind::Input,
-            format!("found {} engines, but faults are planted in one", options.engines.len()),
+            format!("found {} engines, but faults are planted in one", options.engine_count()),
         );
         return output::exit(Err(error.key("--engine").help("give one engine")));
     }

@@ -3,6 +3,8 @@
 use std::fmt::Display;
 use std::str::FromStr;
 
+use scenario::engine::MOST_TIMES;
+
 type Parsed<T> = std::result::Result<T, String>;
 
 /// A finite number.
@@ -42,6 +44,12 @@ pub(super) fn count(text: &str) -> Parsed<usize> {
         Ok(0) | Err(_) => Err(EXPECTED.into()),
         Ok(count) => Ok(count),
     }
+}
+
+/// A number of extrapolations.
+pub(super) fn times(text: &str) -> Parsed<usize> {
+    let times = text.trim().parse().ok().filter(|times| *times <= MOST_TIMES);
+    times.ok_or_else(|| format!("expected a whole number from 0 to {MOST_TIMES}"))
 }
 
 /// A decimal number from a text.

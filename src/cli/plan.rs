@@ -2,15 +2,15 @@
 
 use std::path::PathBuf;
 
-use clap::builder::PossibleValuesParser;
-
-use super::load::{plain, reference_names};
+use super::engine_args::side;
+use super::load::plain;
 use super::{advice, number, output};
 use crate::report::plan as report;
 use analytic::range::explained;
 use design::diagram::plan::state_at;
 use design::diagram::{Plans, SingularPoint, draw};
 use linkage::error::{Error, ErrorKind, Result};
+use prover::proof::Reference;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -36,8 +36,8 @@ pub(super) struct Args {
     #[arg(long, value_name = "NAME", value_delimiter = ',')]
     only: Vec<String>,
     /// Analytic solver
-    #[arg(long, value_name = "SOLVER", default_value = "assur", value_parser = PossibleValuesParser::new(reference_names()))]
-    with: String,
+    #[arg(long, value_name = "SOLVER", default_value = "assur", value_parser = side())]
+    with: Reference,
     /// Draw kinematic diagram, velocity and acceleration plan to a file, or to standard output instead of the text with
     /// `-`
     #[arg(long, value_name = "FILE", value_parser = output::target, conflicts_with = "json")]
@@ -63,7 +63,7 @@ pub(super) fn plan(args: &Args) -> Result<()> {
             .help("leave out points that the plan does not need; `linkproof solve` has the numbers of all"));
     }
     let crank = args.crank_deg.map_or(case.crank().start, f64::to_radians);
-    let solver = analytic::named(&args.with).expect("the argument parser knows all names");
+    let solver = args.with.solver();
     let state = state_at(case, solver, crank).map_err(|error| explained(case, error))?;
     let plans = Plans::of(case, solver, &state, crank);
     let plans =

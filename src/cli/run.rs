@@ -74,8 +74,8 @@ fn prove_file(
 ) -> Result<(Scenario, Proof)> {
     standard_input::refuse_writing(file, args.write)?;
     let scenario = only(args.start.load_within(file, &args.grid, args.engine.memory.bytes())?, &args.only)?;
-    let options = args.engine.options(&args.reference);
-    let needed = memory::of_proof(&scenario.case, options.engines.len().max(1)) + memory::of_oracles(&scenario.oracles);
+    let options = args.engine.options(args.reference);
+    let needed = memory::of_proof(&scenario.case, options.engine_count()) + memory::of_oracles(&scenario.oracles);
     room.take(index, needed, || bar.hidden(|| args.engine.memory.tell(&scenario.case, needed)));
     if let Some(live) = live {
         bar.hidden(|| output::note(&format!("viewers can listen at {} from now on", live.address())));

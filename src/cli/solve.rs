@@ -2,16 +2,18 @@
 
 use std::path::PathBuf;
 
-use clap::builder::PossibleValuesParser;
+use clap::builder::TypedValueParser;
 
-use super::engine_args::{MemoryArgs, SettingArgs, engine_names};
+use super::engine_args::{MemoryArgs, SettingArgs, engine_names, word};
 use super::grid::GridArgs;
-use super::load::{StartArgs, only, reference_names};
+use super::load::{StartArgs, only};
 use super::output;
 use super::progress::Bar;
 use crate::report::table_csv;
 use analytic::range::explained;
 use linkage::error::{Error, ErrorKind, Result};
+use prover::engines::EngineName;
+use prover::proof::Reference;
 use prover::proof::memory;
 
 const EXAMPLES: &str = "\
@@ -35,8 +37,8 @@ pub(super) struct Args {
     #[arg(value_name = "FILE")]
     file: PathBuf,
     /// Solver: an analytic one or an engine
-    #[arg(long, value_name = "SOLVER", value_parser = PossibleValuesParser::new(solver_names()))]
-    with: String,
+    #[arg(long, value_name = "SOLVER", value_parser = With::parser())]
+    with: With,
     #[command(flatten)]
     grid: GridArgs,
     #[command(flatten)]
@@ -53,16 +55,26 @@ pub(super) struct Args {
     csv: PathBuf,
 }
 
-fn solver_names() -> Vec<&'static str> {
-    [reference_names(), engine_names()].concat()
+/// Who solves.
+#[derive(Clone, Copy, Debug)]
+enum With {
+    Side(Reference),
+    Engine(EngineName),
+}
+
+impl With {
+    fn parser() -> impl TypedValueParser<Value = With> {
+        let names = Reference::ALL.map(Reference::name).into_iter().chain(engine_names());
+        word(names, |name| Reference::named(name).map(With::Side).or_else(|| EngineName::named(name).map(With::Engine)))
+    }
 }
 
 pub(super) fn solve(args: &Args) -> Result<()> {
     let scenario = only(args.start.load(&args.file, &args.grid)?, &args.only)?;
     let case = &scenario.case.scene()?.case;
-    let engine = match analytic::named(&args.with) {
-        Some(_) => None,
-        None => Some(args.settings.engine(&args.with, &scenario)?),
+    let engine = match args.with {
+        With::Side(_) => None,
+        With::Engine(engine) => Some(args.settings.engine(engine, &scenario)?),
     };
     let runs = engine.as_ref().map_or(1, |engine| engine.settings().extrapolated + 1);
     let needed = memory::of_solution(case, runs);
@@ -70,12 +82,12 @@ pub(super) fn solve(args: &Args) -> Result<()> {
     args.memory.tell(case, needed);
     let mut bar = Bar::new(&scenario.name);
     let mut progress = |part| bar.at(part);
-    let trajectory = match (analytic::named(&args.with), engine) {
-        (Some(solver), _) => match args.settings.given() {
-            Some(option) => return Err(no_engine(&args.with, option)),
-            None => solver.solve_with(case, &mut progress).map_err(|error| explained(case, error))?,
-        },
-        (None, engine) => engine.expect("no analytic solver is an engine").solve_with(case, &mut progress)?,
+    let trajectory = match (args.with, args.settings.given()) {
+        (With::Side(side), Some(option)) => return Err(no_engine(side.name(), option)),
+        (With::Side(side), None) => {
+            side.solver().solve_with(case, &mut progress).map_err(|error| explained(case, error))?
+        }
+        (With::Engine(_), _) => engine.expect("it was made above").solve_with(case, &mut progress)?,
     };
     drop(bar);
     output::stream(&args.csv, |out| table_csv::solution(&trajectory, out))
@@ -84,5 +96,8 @@ pub(super) fn solve(args: &Args) -> Result<()> {
 /// The error for an engine's setting given to an analytic solver: it shows a misunderstanding, so it is not ignored.
 fn no_engine(solver: &str, option: &str) -> Error {
     Error::new(ErrorKind::Input, format!("{option} is a setting of an engine, but {solver} is analytic and has none"))
-        .help(format!("leave {option} out, or solve --with one of: {}", engine_names().join(", ")))
+        .help(format!(
+            "leave {option} out, or solve --with one of: {}",
+            EngineName::ALL.map(EngineName::name).join(", ")
+        ))
 }

@@ -11,7 +11,9 @@ use crate::report::tune as report;
 use lab::tune::{Candidate, Wish, by_work, tune};
 use linkage::engine::Engine;
 use linkage::error::{Advice, Error, Result};
-use scenario::{EngineKeys, Scenario, edit};
+use prover::proof::Reference;
+use scenario::EngineSettings;
+use scenario::{Scenario, edit};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -51,8 +53,8 @@ pub(super) fn run(args: &Args) -> Result<()> {
     standard_input::refuse_writing(&args.file, args.write)?;
     let scenario = plain(&args.file)?;
     let wish = Wish { within: args.within, channels: args.channel.clone() };
-    let mut options = args.engine.options("assur");
-    if options.engines.is_empty() {
+    let mut options = args.engine.options(Reference::Assur);
+    if options.settings.engines.is_free() {
         options = options.every_engine();
     }
     let mut bar = Bar::new(&scenario.name);
@@ -82,6 +84,6 @@ fn of_argument(error: Error) -> Error {
     }
 }
 
-fn best_keys(scenario: &Scenario, best: &Candidate) -> (Option<f64>, EngineKeys) {
+fn best_keys(scenario: &Scenario, best: &Candidate) -> EngineSettings {
     keys(scenario, best.engine, best.settings)
 }

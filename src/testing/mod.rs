@@ -61,7 +61,7 @@ pub trait AssertProven: Sized {
     /// use linkproof::{Options, Scenario, prove};
     ///
     /// # std::env::set_current_dir(env!("CARGO_MANIFEST_DIR"))?;
-    /// let scenario = Scenario::load("scenarios/pendulum.toml".as_ref())?;
+    /// let scenario = Scenario::load("scenarios/pendulum.toml")?;
     /// prove(&scenario, &Options::default())?.assert();
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```

@@ -53,7 +53,7 @@ fn texts(document: &roxmltree::Document) -> Vec<String> {
 #[test]
 fn pins_stand_where_the_solution_is() {
     for (name, degrees) in [("crank_rocker", 30.0), ("ov7_base", -120.0), ("class3_group", 200.0)] {
-        let case = Scenario::load(file(name).as_ref()).unwrap().case;
+        let case = Scenario::load(file(name)).unwrap().case;
         let state = state_at(&case, &AssurSolver, f64::to_radians(degrees)).unwrap();
         let text = svg(&[&file(name), "--crank-deg", &degrees.to_string()]);
         let document = roxmltree::Document::parse(&text).unwrap();
@@ -326,7 +326,7 @@ fn a_prismatic_pair_is_drawn_as_the_file_says() {
 /// In an animation, the numbers of links stand on the links; names of points that move would jump.
 #[test]
 fn numbers_ride_on_links_in_an_animation() {
-    let case = Scenario::load(file("crank_rocker").as_ref()).unwrap().case;
+    let case = Scenario::load(file("crank_rocker")).unwrap().case;
     let places = |degrees: f64| {
         let state = state_at(&case, &AssurSolver, f64::to_radians(degrees)).unwrap();
         let pose = |motion: &linkage::math::Motion| {

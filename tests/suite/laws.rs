@@ -4,7 +4,7 @@ use linkage::math::KeepNan;
 use std::path::Path;
 
 use analytic::{self, witness::momentum, witness::power};
-use design::export;
+use linkage::engine::Route;
 use linkage::error::ErrorKind;
 use linkage::trajectory::Stage;
 use prover::compare::residuals;
@@ -92,19 +92,18 @@ fn val_the_engine_agrees_by_every_route() {
         (RAMP, "from_s = 0.13\nto_s = 0.2\nstep_s = 0.01", 1.0),
         (RAMP, "from_s = 0\nto_s = 0.1\nstep_s = 0.01", 1.0),
     ] {
-        let mut scenario = swing(law, grid);
-        for (route, dt) in [("differences", 5e-4), ("native", 4e-5), ("probe", 5e-4)] {
+        let scenario = swing(law, grid);
+        for (route, dt) in [(Route::Differences, 5e-4), (Route::Native, 4e-5), (Route::Probe, 5e-4)] {
             // First order and slow: one law with a changing acceleration is enough.
-            if route == "native" && law != CYCLOIDAL {
+            if route == Route::Native && law != CYCLOIDAL {
                 continue;
             }
-            (scenario.engine.route, scenario.dt) = (Some(route.into()), Some(dt * part));
-            let proof = prove(&scenario, &Options::default()).unwrap();
+            let proof = prove(&scenario, &Options::default().route(route).step(dt * part)).unwrap();
             let wrong = proof.engine().channels.iter().filter(|channel| channel.verdict.word() != "agree");
             let wrong: Vec<_> = wrong
                 .map(|c| (c.residual.channel.to_string(), c.residual.max, c.bound, c.convergence.observed))
                 .collect();
-            assert_eq!(proof.verdict.word(), "agree", "{law} {route}: {:?} {wrong:?}", proof.verdict);
+            assert_eq!(proof.verdict.word(), "agree", "{law} {route:?}: {:?} {wrong:?}", proof.verdict);
         }
     }
 }
@@ -142,7 +141,7 @@ fn a_jump_of_the_acceleration_is_left_out() {
 fn what_knows_constant_speeds_only_refuses_by_name() {
     let case = shipped("cycloidal_start.toml").case;
     let unloaded = case.with(|parts| parts.loads.clear()).unwrap();
-    let error = export::mjcf::mjcf(&unloaded, analytic::all()[0], "swing", 1e-3).unwrap_err();
+    let error = design::export::mjcf::mjcf(&unloaded, analytic::all()[0], "swing", 1e-3).unwrap_err();
     assert_eq!(error.kind(), ErrorKind::Unsupported);
     assert!(error.message().contains("law \"cycloidal\""), "{error}");
     let table = swing(TABLE, "from_s = 0\nto_s = 0.2\nstep_s = 0.01").case;

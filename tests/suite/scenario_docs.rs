@@ -12,7 +12,10 @@ fn the_worked_example_is_a_scenario() {
     let blocks = section.split("```toml\n").skip(1).map(|rest| rest.split("```").next().unwrap());
     let scenario = Scenario::parse(&blocks.collect::<String>(), Path::new("four_bar.toml"));
     let scenario = scenario.unwrap_or_else(|error| panic!("{error}"));
-    assert_eq!((scenario.name.as_str(), scenario.case.grid.len(), scenario.dt), ("four_bar", 73, Some(1e-3)));
+    assert_eq!(
+        (scenario.name.as_str(), scenario.case.grid.len(), scenario.engine.step.get()),
+        ("four_bar", 73, Some(1e-3))
+    );
     // The rocker of the example's oracle, by the law of cosines.
     let value = scenario.oracles[0].series[0].points[0].value;
     assert_within!(

@@ -34,14 +34,18 @@ const STANDSTILL: f64 = 1e-12;
 /// Read the parts as fields, for example `case.mechanism`.
 /// Nothing changes them in place: [`Case::with`] and its like make another case and check it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Case(CaseParts, Vec<bool>);
+pub struct Case {
+    parts: CaseParts,
+    /// Whether each link can turn, as far as the joints tell.
+    turning: Vec<bool>,
+}
 
 impl Deref for Case {
     type Target = CaseParts;
 
     #[inline]
     fn deref(&self) -> &CaseParts {
-        &self.0
+        &self.parts
     }
 }
 
@@ -61,7 +65,7 @@ impl Case {
     pub fn new(parts: CaseParts) -> Result<Case> {
         check::all(&parts)?;
         let turning = turning::turning(&parts);
-        Ok(Case(parts, turning))
+        Ok(Case { parts, turning })
     }
 
     /// The case of these parts, without any check. For tests that plant a fault and ask which check finds it.
@@ -70,13 +74,18 @@ impl Case {
     #[must_use]
     pub fn unchecked(parts: CaseParts) -> Case {
         let turning = turning::turning(&parts);
-        Case(parts, turning)
+        Case { parts, turning }
+    }
+
+    /// The case of other parts, by which no link turns otherwise.
+    fn of_parts(&self, parts: CaseParts) -> Case {
+        Case { parts, turning: self.turning.clone() }
     }
 
     /// The parts. Change them and make a new case of them with [`Case::new`].
     #[must_use]
     pub fn into_parts(self) -> CaseParts {
-        self.0
+        self.parts
     }
 
     /// The same problem with some parts changed by `change`.
@@ -84,7 +93,7 @@ impl Case {
     /// # Errors
     /// Those of [`Case::new`].
     pub fn with(&self, change: impl FnOnce(&mut CaseParts)) -> Result<Case> {
-        let mut parts = self.0.clone();
+        let mut parts = self.parts.clone();
         change(&mut parts);
         Case::new(parts)
     }
@@ -95,13 +104,13 @@ impl Case {
     /// Those of [`Grid::check`].
     pub fn on(&self, grid: Grid) -> Result<Case> {
         check::grid(&grid, self.crank())?;
-        Ok(Case(CaseParts { grid, ..self.0.clone() }, self.1.clone()))
+        Ok(self.of_parts(CaseParts { grid, ..self.parts.clone() }))
     }
 
     /// The same problem with all channels of other stages wanted.
     #[must_use]
     pub fn wanting(&self, wanted: Wanted) -> Case {
-        Case(CaseParts { wanted, only: None, ..self.0.clone() }, self.1.clone())
+        self.of_parts(CaseParts { wanted, only: None, ..self.parts.clone() })
     }
 
     /// The same problem with only those of its channels wanted that `channels` has.
@@ -113,7 +122,7 @@ impl Case {
         let asked: BTreeSet<_> = channels.iter().map(key).collect();
         let all = case.channels();
         let own: Vec<Channel> = all.iter().filter(|channel| asked.contains(&key(channel))).cloned().collect();
-        case.0.only = (own.len() < all.len()).then_some(own);
+        case.parts.only = (own.len() < all.len()).then_some(own);
         case
     }
 
@@ -128,7 +137,7 @@ impl Case {
     /// The same problem with every drive in its nominal motion. Questions about crank angles refer to this motion.
     #[must_use]
     pub fn nominal(&self) -> Case {
-        Case(CaseParts { drives: self.drives.map(Drive::nominal), ..self.0.clone() }, self.1.clone())
+        self.of_parts(CaseParts { drives: self.drives.map(Drive::nominal), ..self.parts.clone() })
     }
 
     /// The same problem with the crank turning at its drive's top speed all the time.
@@ -136,7 +145,7 @@ impl Case {
     pub fn at_top_speed(&self) -> Case {
         let mut drives = self.drives.clone();
         *drives.crank_mut() = self.crank().at_top_speed();
-        Case(CaseParts { drives, ..self.0.clone() }, self.1.clone())
+        self.of_parts(CaseParts { drives, ..self.parts.clone() })
     }
 
     /// The wanted channels in the order of columns: links, points, joints, sliders, frame, drive, further drives.
@@ -269,7 +278,7 @@ impl Case {
     #[inline]
     #[must_use]
     pub fn can_turn(&self, link: usize) -> bool {
-        self.1[link]
+        self.turning[link]
     }
 
     /// Angular velocity of a link (rad/s) as far as it tells a sense of rotation.

@@ -24,14 +24,6 @@ const SETTLING_STEPS: i64 = 3;
 /// More steps than this are refused: they would take minutes, and most likely a unit is wrong.
 const MAX_STEPS: f64 = 2e7;
 
-/// Source of reactions and moments.
-enum Reader<'a> {
-    Nothing,
-    Differences(NewtonEuler),
-    Native(Native),
-    Probe(Probe<'a>),
-}
-
 /// Solves a case: see [`Solver::sweep`](linkage::solver::Solver::sweep).
 pub(super) fn sweep(engine: &Rapier, case: &Case, visit: Visit, progress: Progress) -> Result<()> {
     check_instants(case)?;
@@ -80,19 +72,31 @@ pub(super) fn sweep(engine: &Rapier, case: &Case, visit: Visit, progress: Progre
     })
 }
 
+fn check(settings: &Settings, steps: f64) -> Result<()> {
+    let wrong = |message: String, help: &str| Err(Error::new(ErrorKind::Input, message).help(help));
+    let Settings { resolution: step, sweeps, substeps, route: _, extrapolated: _ } = *settings;
+    if !(step > 0.0 && step.is_finite()) {
+        return wrong(format!("the engine's time step is {step} s"), "give a time step greater than zero");
+    }
+    if sweeps == 0 || substeps == 0 {
+        return wrong(
+            format!("the engine has {sweeps} sweeps and {substeps} substeps a step"),
+            "give at least one of each",
+        );
+    }
+    if !(steps <= MAX_STEPS) {
+        let message =
+            format!("a time step of {step:e} s needs {steps:.3e} steps for this grid, the limit is {MAX_STEPS:e}");
+        return Err(Error::new(ErrorKind::Input, message)
+            .help(Advice::LargerStep { to: None })
+            .or_help("give a shorter grid"));
+    }
+    Ok(())
+}
+
 /// Steps of a prescribed motion before the first instant; those after the last one are fewer.
 pub(super) fn overrun(settings: &Settings) -> i64 {
     Window::BEHIND + SETTLING_STEPS + Window::extra(settings.substeps)
-}
-
-/// Adds how far the run has come; the rows visited so far are valid.
-fn reached(error: Error, case: &Case, visited: Option<usize>) -> Error {
-    let (Some(row), ErrorKind::Numeric) = (visited, error.kind()) else { return error };
-    let until = match case.is_free() {
-        true => Reached::Time(case.grid.times[row]),
-        false => Reached::Input(case.told(case.grid.inputs[row])),
-    };
-    error.after(until)
 }
 
 struct Run<'a> {
@@ -110,6 +114,14 @@ struct Run<'a> {
     reader: Reader<'a>,
     /// Motor and loads, in a free motion.
     acting: Option<Acting>,
+}
+
+/// Source of reactions and moments.
+enum Reader<'a> {
+    Nothing,
+    Differences(NewtonEuler),
+    Native(Native),
+    Probe(Probe<'a>),
 }
 
 impl<'a> Run<'a> {
@@ -133,11 +145,7 @@ impl<'a> Run<'a> {
         let native = route == Some(Route::Native);
         let loading = if native { Loading::Read } else { Loading::Moving };
         let trees = if native { reporting() } else { vec![moving()] };
-        let worlds: Result<Vec<Guard>> = trees
-            .into_iter()
-            .map(|tree| Ok(Guard::new(case, engine.world_for(case, tree, loading)?, settings)))
-            .collect();
-        let worlds = worlds?;
+        let worlds = worlds_of(engine, case, trees, loading)?;
         let acting = if case.is_free() { Some(Acting::new(case, engine.precision, &worlds)?) } else { None };
         // One step lies before the beginning of a free motion.
         let reports_from = if acting.is_some() { start - 1 } else { start };
@@ -151,11 +159,8 @@ impl<'a> Run<'a> {
                 // correction.
                 // So a tiny step is not divided.
                 let engine = engine.set(Settings { substeps: 1, ..*settings });
-                let probed: Result<Vec<Guard>> = reporting()
-                    .into_iter()
-                    .map(|tree| Ok(Guard::new(case, engine.world_for(case, tree, Loading::Read)?, &engine.settings)))
-                    .collect();
-                Reader::Probe(Probe::new(case, probed?, probe_turn(engine.precision)))
+                let probed = worlds_of(&engine, case, reporting(), Loading::Read)?;
+                Reader::Probe(Probe::new(case, probed, probe_turn(engine.precision)))
             }
         };
         let window = Window::new(case, settings, start);
@@ -173,13 +178,12 @@ impl<'a> Run<'a> {
         })
     }
 
-    /// Gives all worlds of a free motion their start velocities.
-    fn begin(&mut self) -> Result<()> {
-        let Some(acting) = &mut self.acting else { return Ok(()) };
-        self.window = free::begin(self.case, acting, &mut self.worlds, &self.settings)?;
-        self.report();
-        self.report();
-        Ok(())
+    /// Prepares for a sample at `t` (s), and returns the last step that it needs.
+    fn aim(&mut self, t: f64) -> i64 {
+        let [first, last] = self.window.needs(t);
+        // In a free motion every step is needed to find motor and loads.
+        self.needed = if self.acting.is_some() { i64::MIN } else { first };
+        last
     }
 
     /// Drives all worlds backwards from the start to where they reverse.
@@ -196,6 +200,15 @@ impl<'a> Run<'a> {
             guard.drive_on(0.0, self.step);
         }
         self.take();
+        Ok(())
+    }
+
+    /// Gives all worlds of a free motion their start velocities.
+    fn begin(&mut self) -> Result<()> {
+        let Some(acting) = &mut self.acting else { return Ok(()) };
+        self.window = free::begin(self.case, acting, &mut self.worlds, &self.settings)?;
+        self.report();
+        self.report();
         Ok(())
     }
 
@@ -216,14 +229,6 @@ impl<'a> Run<'a> {
         }
         self.take();
         Ok(())
-    }
-
-    /// Prepares for a sample at `t` (s), and returns the last step that it needs.
-    fn aim(&mut self, t: f64) -> i64 {
-        let [first, last] = self.window.needs(t);
-        // In a free motion every step is needed to find motor and loads.
-        self.needed = if self.acting.is_some() { i64::MIN } else { first };
-        last
     }
 
     /// Stores the worlds' state after a step.
@@ -253,24 +258,18 @@ impl<'a> Run<'a> {
     }
 }
 
-fn check(settings: &Settings, steps: f64) -> Result<()> {
-    let wrong = |message: String, help: &str| Err(Error::new(ErrorKind::Input, message).help(help));
-    let Settings { resolution: step, sweeps, substeps, route: _, extrapolated: _ } = *settings;
-    if !(step > 0.0 && step.is_finite()) {
-        return wrong(format!("the engine's time step is {step} s"), "give a time step greater than zero");
-    }
-    if sweeps == 0 || substeps == 0 {
-        return wrong(
-            format!("the engine has {sweeps} sweeps and {substeps} substeps a step"),
-            "give at least one of each",
-        );
-    }
-    if !(steps <= MAX_STEPS) {
-        let message =
-            format!("a time step of {step:e} s needs {steps:.3e} steps for this grid, the limit is {MAX_STEPS:e}");
-        return Err(Error::new(ErrorKind::Input, message)
-            .help(Advice::LargerStep { to: None })
-            .or_help("give a shorter grid"));
-    }
-    Ok(())
+/// A world for every tree.
+fn worlds_of<'a>(engine: &Rapier, case: &'a Case, trees: Vec<Tree>, loading: Loading) -> Result<Vec<Guard<'a>>> {
+    let world = |tree| Ok(Guard::new(case, engine.world_for(case, tree, loading)?, &engine.settings));
+    trees.into_iter().map(world).collect()
+}
+
+/// Adds how far the run has come; the rows visited so far are valid.
+fn reached(error: Error, case: &Case, visited: Option<usize>) -> Error {
+    let (Some(row), ErrorKind::Numeric) = (visited, error.kind()) else { return error };
+    let until = match case.is_free() {
+        true => Reached::Time(case.grid.times[row]),
+        false => Reached::Input(case.told(case.grid.inputs[row])),
+    };
+    error.after(until)
 }

@@ -60,8 +60,14 @@ pub(super) struct Start<'a> {
     pub crank: f64,
     /// What the file requires of each group.
     pub starts: &'a [StartGroup],
-    /// Whether a group that cannot be decided is placed in one of its configurations, for a list of all of them.
-    pub lists: bool,
+    pub lists: Lists,
+}
+
+/// Whether the groups that a file does not decide are placed all the same, and listed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Lists {
+    No,
+    Undecided,
 }
 
 /// Largest step of the crank in which a configuration is followed (rad).
@@ -153,7 +159,7 @@ impl Start<'_> {
             };
             match group {
                 Some(group)
-                    if self.lists
+                    if self.lists == Lists::Undecided
                         && why.kind() == ErrorKind::Geometry
                         && undecided.iter().all(|before| before.group != group) =>
                 {

@@ -8,6 +8,7 @@ pub mod clearance;
 mod correction;
 mod draft;
 pub mod edit;
+pub mod engine;
 mod figure;
 pub mod formula;
 pub mod grid;
@@ -30,6 +31,7 @@ mod printed;
 pub mod reader;
 mod reduced;
 mod series;
+mod setting;
 mod settings;
 pub mod source;
 mod start;
@@ -45,16 +47,18 @@ pub use self::claim::Claim;
 pub use self::formula::{Formula, Formulas};
 pub use asked::{Asked, Undecided};
 pub use draft::Draft;
+pub use engine::{EngineName, EngineSettings};
 pub use figure::{Figure, FigureValue, OracleFigure};
 pub use instant::within;
 pub use oracle::{Oracle, OracleBasis};
 pub use parameters::{INPUTS, Parameter};
 pub use printed::{Printed, PrintedChannel};
 pub use series::{ExpectedCell, OraclePoint, OracleSeries, When};
-pub use settings::EngineKeys;
+pub use setting::{Origin, Setting};
 
 use std::path::{Path, PathBuf};
 
+use self::asked::Lists;
 use self::clearance::Question;
 use self::header::{NAME_HELP, is_name};
 use self::reader::{Faults, Table};
@@ -71,7 +75,7 @@ use linkage::mechanism::{StartGroup, Structure};
 /// use linkproof::Scenario;
 ///
 /// # std::env::set_current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))?;
-/// let scenario = Scenario::load("scenarios/crank_rocker.toml".as_ref())?;
+/// let scenario = Scenario::load("scenarios/crank_rocker.toml")?;
 /// assert_eq!(scenario.name, "crank_rocker");
 /// assert_eq!(scenario.case.mechanism.joints().len(), 4);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -90,10 +94,8 @@ pub struct Scenario {
     pub text: String,
     /// The problem, in SI.
     pub case: Case,
-    /// Step of the engine (s), if the scenario gives one.
-    pub dt: Option<f64>,
-    /// The other keys of the engine.
-    pub engine: EngineKeys,
+    /// Engines and their settings, as far as the scenario gives them.
+    pub engine: EngineSettings,
     /// Largest discretisation error of the engine, as a share of a channel's scale, at which agreement is still a
     /// proof.
     pub engine_rel: f64,
@@ -113,9 +115,9 @@ pub struct Scenario {
 ///
 /// # Errors
 /// [`ErrorKind::Io`] if the directory cannot be read.
-pub fn files_in(directory: &Path) -> Result<Vec<PathBuf>> {
-    let entries = std::fs::read_dir(directory).map_err(|error| {
-        Error::new(ErrorKind::Io, format!("the directory {} cannot be read: {error}", directory.display()))
+pub fn files_in(directory: impl AsRef<Path>) -> Result<Vec<PathBuf>> {
+    let entries = std::fs::read_dir(directory.as_ref()).map_err(|error| {
+        Error::new(ErrorKind::Io, format!("the directory {} cannot be read: {error}", directory.as_ref().display()))
     })?;
     let mut files: Vec<PathBuf> = entries
         .filter_map(|entry| entry.ok().map(|entry| entry.path()))
@@ -141,7 +143,7 @@ impl Scenario {
     ///
     /// # Errors
     /// [`ErrorKind::Io`] if a file cannot be read, else as [`Scenario::parse`].
-    pub fn load(path: &Path) -> Result<Scenario> {
+    pub fn load(path: impl AsRef<Path>) -> Result<Scenario> {
         Scenario::load_as(path, &Asked::default())
     }
 
@@ -151,8 +153,8 @@ impl Scenario {
     /// [`ErrorKind::Input`] for anything wrong in the text, [`ErrorKind::Geometry`] if the first pose cannot be
     /// taken, [`ErrorKind::Unsupported`] for what this version does not solve, [`ErrorKind::Io`] for a table that
     /// cannot be read; all with the place in the file and the key.
-    pub fn parse(text: &str, path: &Path) -> Result<Scenario> {
-        Ok(parse(text, path, &Asked::default(), false)?.0)
+    pub fn parse(text: &str, path: impl AsRef<Path>) -> Result<Scenario> {
+        Ok(parse(text, path.as_ref(), &Asked::default(), Lists::No)?.0)
     }
 
     /// Reads the scenario file at `path` with another start.
@@ -165,16 +167,16 @@ impl Scenario {
     /// # Errors
     /// Those of [`Scenario::load`], and [`ErrorKind::Input`] without a place in the file if a group, its mode or its
     /// number is not known.
-    pub fn load_as(path: &Path, asked: &Asked) -> Result<Scenario> {
-        Scenario::parse_as(&text_of(path)?, path, asked)
+    pub fn load_as(path: impl AsRef<Path>, asked: &Asked) -> Result<Scenario> {
+        Scenario::parse_as(&text_of(path.as_ref())?, path, asked)
     }
 
     /// The same from the text of the file.
     ///
     /// # Errors
     /// Those of [`Scenario::load_as`], except that the file cannot be read.
-    pub fn parse_as(text: &str, path: &Path, asked: &Asked) -> Result<Scenario> {
-        Ok(parse(text, path, asked, false)?.0)
+    pub fn parse_as(text: &str, path: impl AsRef<Path>, asked: &Asked) -> Result<Scenario> {
+        Ok(parse(text, path.as_ref(), asked, Lists::No)?.0)
     }
 
     /// As [`Scenario::load_as`], for a list of configurations: groups for which the file does not decide are placed in
@@ -182,16 +184,16 @@ impl Scenario {
     ///
     /// # Errors
     /// Those of [`Scenario::load_as`], except that nothing decides for a group.
-    pub fn load_to_list(path: &Path, asked: &Asked) -> Result<(Scenario, Vec<Undecided>)> {
-        Scenario::parse_to_list(&text_of(path)?, path, asked)
+    pub fn load_to_list(path: impl AsRef<Path>, asked: &Asked) -> Result<(Scenario, Vec<Undecided>)> {
+        Scenario::parse_to_list(&text_of(path.as_ref())?, path, asked)
     }
 
     /// The same from the text of the file.
     ///
     /// # Errors
     /// Those of [`Scenario::load_to_list`], except that the file cannot be read.
-    pub fn parse_to_list(text: &str, path: &Path, asked: &Asked) -> Result<(Scenario, Vec<Undecided>)> {
-        let (scenario, mut undecided) = parse(text, path, asked, true)?;
+    pub fn parse_to_list(text: &str, path: impl AsRef<Path>, asked: &Asked) -> Result<(Scenario, Vec<Undecided>)> {
+        let (scenario, mut undecided) = parse(text, path.as_ref(), asked, Lists::Undecided)?;
         undecided.sort_by_key(|undecided| undecided.group);
         Ok((scenario, undecided))
     }
@@ -215,8 +217,7 @@ impl Scenario {
             choices: case.modes.iter().map(|&mode| Choice { mode, nearest_m: None, next_m: None }).collect(),
             starts: vec![StartGroup::default(); case.structure.groups.len()],
             case,
-            dt: None,
-            engine: EngineKeys::default(),
+            engine: EngineSettings::default(),
             engine_rel: settings::ENGINE_REL,
             oracles: Vec::new(),
             formulas: Formulas::over(Vec::new()),
@@ -255,7 +256,7 @@ impl Scenario {
     }
 }
 
-fn parse(text: &str, path: &Path, asked: &Asked, lists: bool) -> Found {
+fn parse(text: &str, path: &Path, asked: &Asked, lists: Lists) -> Result<(Scenario, Vec<Undecided>)> {
     let plain = Source::new(path, text);
     let tree = plain.tree()?;
     let (parameters, fault) = parameter_table::read(
@@ -267,46 +268,52 @@ fn parse(text: &str, path: &Path, asked: &Asked, lists: bool) -> Found {
         return Err(fault);
     }
     let source = plain.with(parameters);
-    let found = Table::root(&source, &tree).read(|root| read(root, asked, lists));
-    found.map_err(|error| source.located(tree.get_ref(), error))?
-}
-
-/// What a file with another start gives: the scenario and the groups that are not decided, or an error of what was
-/// asked for, which has no place in the file.
-type Found = std::result::Result<(Scenario, Vec<Undecided>), Error>;
-
-fn read(root: &mut Table, asked: &Asked, lists: bool) -> Result<Found> {
-    let stated = Stated::read(root, asked)?;
-    root.sound_so_far()?;
-    let Stated { mechanism, crank: own_crank, .. } = stated;
-    let (Some(drives), Some(start)) = (stated.drives, stated.start) else {
+    let in_file = |error| source.located(tree.get_ref(), error);
+    let stated = Table::root(&source, &tree).read(|root| {
+        let stated = Stated::read(root, asked)?;
+        root.sound_so_far()?;
+        Ok(stated)
+    });
+    let mut stated = stated.map_err(in_file)?;
+    let structure = structure(&stated).map_err(in_file)?;
+    let (Some(drives), Some(start)) = (&stated.drives, &stated.start) else {
         unreachable!("what is missing has ended the reading");
     };
-    let crank = asked.crank.unwrap_or(own_crank);
-    masses::check(&mechanism, &drives)?;
-    masses::check_speeds(&mechanism, &drives)?;
-    let structure = Structure::of(&mechanism, &drives.joints())?;
-    let groups_asked = match asked.groups(&mechanism, &structure) {
-        Ok(groups) => groups,
-        Err(error) => return Ok(Err(error)),
+    // What is asked for has no place in the file.
+    let groups = asked.groups(&stated.mechanism, &structure)?;
+    let mechanism = &stated.mechanism;
+    let starts = start::groups(start, stated.groups, mechanism, &structure, &groups).map_err(in_file)?;
+    let placing =
+        asked::Start { mechanism, structure: &structure, drives, crank: stated.crank, starts: &starts, lists };
+    let placed = placing.placed(asked.crank.unwrap_or(stated.crank), &groups).map_err(|error| {
+        let own = group_of(mechanism, &structure, &error);
+        if groups.iter().any(|(index, _)| own == Some(*index)) { error } else { in_file(error) }
+    })?;
+    stated.groups = Vec::new();
+    finished(stated, structure, placed, &source, asked).map_err(in_file)
+}
+
+/// The structure of what a file states, whose masses and speeds make sense.
+fn structure(stated: &Stated) -> Result<Structure> {
+    let Stated { mechanism, drives: Some(drives), .. } = stated else {
+        unreachable!("what is missing has ended the reading");
     };
-    let starts = start::groups(&start, stated.groups, &mechanism, &structure, &groups_asked)?;
-    let placing = asked::Start {
-        mechanism: &mechanism,
-        structure: &structure,
-        drives: &drives,
-        crank: own_crank,
-        starts: &starts,
-        lists,
-    };
-    let placed = match placing.placed(crank, &groups_asked) {
-        Ok(placed) => placed,
-        Err(error)
-            if groups_asked.iter().any(|(index, _)| group_of(&mechanism, &structure, &error) == Some(*index)) =>
-        {
-            return Ok(Err(error));
-        }
-        Err(error) => return Err(error),
+    masses::check(mechanism, drives)?;
+    masses::check_speeds(mechanism, drives)?;
+    Structure::of(mechanism, &drives.joints())
+}
+
+/// The scenario of a mechanism that stands at its start, and the groups that are not decided.
+fn finished(
+    stated: Stated,
+    structure: Structure,
+    placed: asked::Placed,
+    source: &Source,
+    asked: &Asked,
+) -> Result<(Scenario, Vec<Undecided>)> {
+    let (own_crank, crank) = (stated.crank, asked.crank.unwrap_or(stated.crank));
+    let (mechanism, Some(drives)) = (stated.mechanism, stated.drives) else {
+        unreachable!("what is missing has ended the reading");
     };
     let (starts, choices, undecided) = (placed.starts, placed.choices, placed.undecided);
     let modes = choices.iter().map(|choice| choice.mode).collect();
@@ -320,8 +327,7 @@ fn read(root: &mut Table, asked: &Asked, lists: bool) -> Result<Found> {
     };
     let mut faults = Faults::none();
     let mut oracles = oracle::read(stated.oracles, &case, asked.memory, &mut faults);
-    let mut formulas =
-        self::formula::read(root.source().parameters.list().to_vec(), stated.formulas, &case, &mut faults);
+    let mut formulas = self::formula::read(source.parameters.list().to_vec(), stated.formulas, &case, &mut faults);
     faults.end()?;
     if !asked.set.is_empty() {
         // Published numbers belong to the file's own parameters.
@@ -342,9 +348,7 @@ fn read(root: &mut Table, asked: &Asked, lists: bool) -> Result<Found> {
             false => "take the numbers out, or give them at crank angles to which the drive comes",
         }));
     }
-    let source = root.source();
     let (path, text) = (source.path.to_path_buf(), source.text.to_string());
-    let (dt, engine) = stated.engine;
     let scenario = Scenario {
         name: stated.name,
         title: stated.title,
@@ -352,8 +356,7 @@ fn read(root: &mut Table, asked: &Asked, lists: bool) -> Result<Found> {
         path,
         text,
         case,
-        dt,
-        engine,
+        engine: stated.engine,
         engine_rel: stated.engine_rel,
         oracles,
         formulas,
@@ -361,5 +364,5 @@ fn read(root: &mut Table, asked: &Asked, lists: bool) -> Result<Found> {
         starts,
         choices,
     };
-    Ok(Ok((scenario, undecided)))
+    Ok((scenario, undecided))
 }

@@ -18,9 +18,11 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::parameters::{Parameters, arithmetic};
+use super::setting::{Origin, Setting};
 use super::source::Source;
+use super::words::suggested;
 use formula::Fault;
-use linkage::error::{Error, ErrorKind, Result};
+use linkage::error::{Error, ErrorKind, Place, Result};
 
 struct Entry<'a> {
     key: &'a str,
@@ -129,12 +131,26 @@ impl<'a> Table<'a> {
 
     /// An error of a kind about the value of `key`. `key` is the exact spelling, or a quantity's name without the unit.
     pub fn wrong(&self, kind: ErrorKind, key: &str, message: impl Into<String>) -> Error {
+        let (key, place) = self.spot(key);
+        Error::new(kind, message).key(key).at(place)
+    }
+
+    /// A setting whose value was read from `key`, if it was.
+    pub fn given<T>(&self, key: &str, value: Option<T>) -> Setting<T> {
+        value.map_or(Setting::Free, |value| {
+            let (key, place) = self.spot(key);
+            Setting::Given(value, Origin::Key(key, place))
+        })
+    }
+
+    /// Dotted path and place of the value of `key`; of the table if it is not there.
+    fn spot(&self, key: &str) -> (String, Place) {
         let with_unit = |entry: &&Entry| {
             self.used.contains(&entry.key) && entry.key.strip_prefix(key).is_some_and(|rest| rest.starts_with('_'))
         };
         let entry = self.entry(key).or_else(|| self.entries.iter().find(with_unit));
         let (key, span) = entry.map_or((key, self.span.clone()), |entry| (entry.key, entry.value.span()));
-        Error::new(kind, message).key(self.path_of(key)).at(self.source.place(span))
+        (self.path_of(key), self.source.place(span))
     }
 
     /// An error about a part of the text of `key`.
@@ -160,28 +176,12 @@ impl<'a> Table<'a> {
         self.wrong(ErrorKind::Input, entry.key, message)
     }
 
-    fn mistyped(&self, key: &str, value: &Spanned<DeValue>, needed: &str) -> Error {
+    fn mistyped(&self, key: &str, value: &Spanned<DeValue>, needed: Needed) -> Error {
         let found = found(self.source, value);
-        let error = Error::new(ErrorKind::Input, format!("found {found}, but {needed} is needed"))
-            .key(self.path_of(key))
-            .at(self.source.place(value.span()));
-        match (value.get_ref(), needed) {
-            (_, "a finite number") => error.help("write a decimal number; nan and inf stand for no quantity"),
-            (DeValue::Integer(_) | DeValue::Float(_), "text") => error.help("put the text in \"quotes\""),
-            (_, "a number") => error.help("write a decimal number, such as 12.5, without quotes"),
-            (_, "a whole number") => error.help("write a whole number, such as 3"),
-            (_, "true or false") => error.help("write `true` or `false`, without quotes"),
-            (_, "an array of numbers") => error.help("write numbers in brackets, such as [0, 0.1, 0.3]"),
-            (_, "an array of texts") => error.help("write texts in brackets, such as [\"ground\", \"crank\"]"),
-            (_, "text") => error.help("put a text in \"quotes\" there"),
-            (DeValue::Table(_), "an array of tables") => error.help(format!("write [[{}]]", self.path_of(key))),
-            (DeValue::Array(_), "a table") => error.help(format!("write [{}]", self.path_of(key))),
-            (_, "an array of tables") => error.help(format!("write a section [[{}]] for each", self.path_of(key))),
-            (_, "a table") => {
-                error.help("write keys with their values in braces, such as { x_mm = 0, y_mm = 0 }, or a section")
-            }
-            _ => error.help(format!("give {needed}")),
-        }
+        let path = self.path_of(key);
+        let help = needed.help(&path, value.get_ref());
+        let error = Error::new(ErrorKind::Input, format!("found {found}, but {} is needed", needed.words()));
+        error.key(path).at(self.source.place(value.span())).help(help)
     }
 
     fn entry(&self, key: &str) -> Option<&Entry<'a>> {
@@ -205,8 +205,26 @@ impl<'a> Table<'a> {
         let Some(value) = self.take(key) else { return Ok(None) };
         match value.get_ref().as_str() {
             Some(text) => Ok(Some(text.to_string())),
-            None => Err(self.noted(self.mistyped(key, value, "text"))),
+            None => Err(self.noted(self.mistyped(key, value, Needed::Text))),
         }
+    }
+
+    /// What a word of a list stands for, if the key is there; `what` names it in an error.
+    pub fn optional_word<T: Copy>(
+        &mut self,
+        key: &str,
+        what: &str,
+        all: &[T],
+        name: impl Fn(T) -> &'static str,
+    ) -> Result<Option<T>> {
+        let Some(word) = self.optional_string(key)? else { return Ok(None) };
+        let found = all.iter().find(|&&own| name(own) == word);
+        if found.is_none() {
+            let error = self.wrong(ErrorKind::Input, key, format!("there is no {what} called \"{word}\""));
+            let help = suggested(&word, all.iter().map(|&own| name(own)));
+            return self.instead(None, error.help(help));
+        }
+        Ok(found.copied())
     }
 
     /// Text.
@@ -222,7 +240,7 @@ impl<'a> Table<'a> {
         let integer = integer.and_then(|number| i64::from_str_radix(number.as_str(), number.radix()).ok());
         match integer {
             Some(integer) => Ok(Some(integer)),
-            None => self.instead(Some(1), self.mistyped(key, value, "a whole number")),
+            None => self.instead(Some(1), self.mistyped(key, value, Needed::WholeNumber)),
         }
     }
 
@@ -242,7 +260,7 @@ impl<'a> Table<'a> {
         let Some(value) = self.take(key) else { return Ok(None) };
         match value.get_ref().as_bool() {
             Some(found) => Ok(Some(found)),
-            None => self.instead(None, self.mistyped(key, value, "true or false")),
+            None => self.instead(None, self.mistyped(key, value, Needed::Boolean)),
         }
     }
 
@@ -273,7 +291,7 @@ impl<'a> Table<'a> {
         let value = self.take(key);
         let value = self.required(key, value)?;
         let Some(array) = value.get_ref().as_array() else {
-            return Err(self.noted(self.mistyped(key, value, "an array of numbers")));
+            return Err(self.noted(self.mistyped(key, value, Needed::Numbers)));
         };
         let number = |element| self.finite(key, element).or_else(|error| self.instead(1.0, error));
         array.iter().map(number).collect()
@@ -284,11 +302,11 @@ impl<'a> Table<'a> {
         let value = self.take(key);
         let value = self.required(key, value)?;
         let Some(array) = value.get_ref().as_array() else {
-            return Err(self.noted(self.mistyped(key, value, "an array of texts")));
+            return Err(self.noted(self.mistyped(key, value, Needed::Texts)));
         };
         let text = |element: &Spanned<DeValue>| match element.get_ref().as_str() {
             Some(text) => Ok(text.to_string()),
-            None => self.instead(String::new(), self.mistyped(key, element, "text")),
+            None => self.instead(String::new(), self.mistyped(key, element, Needed::Text)),
         };
         array.iter().map(text).collect()
     }
@@ -311,7 +329,7 @@ impl<'a> Table<'a> {
     pub fn tables(&mut self, key: &str) -> Result<Vec<Table<'a>>> {
         let Some(value) = self.take(key) else { return Ok(Vec::new()) };
         let Some(array) = value.get_ref().as_array() else {
-            return self.instead(Vec::new(), self.mistyped(key, value, "an array of tables"));
+            return self.instead(Vec::new(), self.mistyped(key, value, Needed::Tables));
         };
         let child = |(index, element): (usize, &'a Spanned<DeValue<'a>>)| {
             let path = match element.get_ref().get("name").and_then(|name| name.get_ref().as_str()) {
@@ -355,7 +373,7 @@ impl<'a> Table<'a> {
                 let child = Table { section: asked::section(&self.section, key, &self.asked), ..child };
                 Ok(child)
             }
-            _ => Err(self.mistyped(key, value, "a table")),
+            _ => Err(self.mistyped(key, value, Needed::Table)),
         }
     }
 
@@ -375,8 +393,58 @@ impl<'a> Table<'a> {
             }
             _ => None,
         };
-        let number: f64 = number.ok_or_else(|| self.mistyped(key, value, "a number"))?;
-        if number.is_finite() { Ok(number) } else { Err(self.mistyped(key, value, "a finite number")) }
+        let number: f64 = number.ok_or_else(|| self.mistyped(key, value, Needed::Number))?;
+        if number.is_finite() { Ok(number) } else { Err(self.mistyped(key, value, Needed::FiniteNumber)) }
+    }
+}
+
+/// What must stand at a key.
+#[derive(Clone, Copy)]
+enum Needed {
+    Text,
+    Texts,
+    Number,
+    FiniteNumber,
+    Numbers,
+    WholeNumber,
+    Boolean,
+    Table,
+    Tables,
+}
+
+impl Needed {
+    fn words(self) -> &'static str {
+        match self {
+            Needed::Text => "text",
+            Needed::Texts => "an array of texts",
+            Needed::Number => "a number",
+            Needed::FiniteNumber => "a finite number",
+            Needed::Numbers => "an array of numbers",
+            Needed::WholeNumber => "a whole number",
+            Needed::Boolean => "true or false",
+            Needed::Table => "a table",
+            Needed::Tables => "an array of tables",
+        }
+    }
+
+    /// How to correct what was found instead at a dotted path.
+    fn help(self, path: &str, found: &DeValue) -> String {
+        match (self, found) {
+            (Needed::Text, DeValue::Integer(_) | DeValue::Float(_)) => "put the text in \"quotes\"".into(),
+            (Needed::Text, _) => "put a text in \"quotes\" there".into(),
+            (Needed::Texts, _) => "write texts in brackets, such as [\"ground\", \"crank\"]".into(),
+            (Needed::Number, _) => "write a decimal number, such as 12.5, without quotes".into(),
+            (Needed::FiniteNumber, _) => "write a decimal number; nan and inf stand for no quantity".into(),
+            (Needed::Numbers, _) => "write numbers in brackets, such as [0, 0.1, 0.3]".into(),
+            (Needed::WholeNumber, _) => "write a whole number, such as 3".into(),
+            (Needed::Boolean, _) => "write `true` or `false`, without quotes".into(),
+            (Needed::Table, DeValue::Array(_)) => format!("write [{path}]"),
+            (Needed::Table, _) => {
+                "write keys with their values in braces, such as { x_mm = 0, y_mm = 0 }, or a section".into()
+            }
+            (Needed::Tables, DeValue::Table(_)) => format!("write [[{path}]]"),
+            (Needed::Tables, _) => format!("write a section [[{path}]] for each"),
+        }
     }
 }
 

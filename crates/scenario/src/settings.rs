@@ -1,10 +1,8 @@
-//! `[channels]`, `[engine]` and `[tolerances]`: the wanted channels, the engine's settings and the limits of judgement.
+//! `[channels]` and `[tolerances]`: the wanted channels and the limits of judgement.
 
-use super::reader::{Sign, Table};
-use super::unit::{ANGLE, TIME};
+use super::reader::Table;
 use super::words::{choice, nearest, suggestion};
 use linkage::case::Case;
-use linkage::drive::Drive;
 use linkage::error::{ErrorKind, Result};
 use linkage::trajectory::{Channel, Stage};
 
@@ -55,87 +53,6 @@ pub fn called(case: &Case, words: &[String]) -> std::result::Result<Vec<Channel>
         channels.extend(own);
     }
     Ok(channels)
-}
-
-/// Settings of the engine in a scenario, besides its step. What is missing is found by the proof, or the engine's
-/// default. The format itself knows no engine: names are looked up where engines are known.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct EngineKeys {
-    /// Name of the engine.
-    pub name: Option<String>,
-    /// Sweeps of the iteration in a step.
-    pub sweeps: Option<usize>,
-    /// Number of substeps into which the engine divides a step.
-    pub substeps: Option<usize>,
-    /// Route by which reactions and balancing moment are computed.
-    pub route: Option<String>,
-    /// How often the engine's state is extrapolated to step zero.
-    pub extrapolated: Option<usize>,
-}
-
-/// Step of the engine (s), if it is given, and its other keys. What is not given is found by the proof.
-pub fn engine(table: &mut Table, drive: &Drive) -> Result<(Option<f64>, EngineKeys)> {
-    let keys = EngineKeys {
-        name: table.optional_string("name")?,
-        sweeps: count(table, "sweeps")?,
-        substeps: count(table, "substeps")?,
-        route: table.optional_string("route")?,
-        extrapolated: times(table)?,
-    };
-    Ok((engine_step(table, drive)?, keys))
-}
-
-/// A whole number greater than zero.
-fn count(table: &mut Table, key: &str) -> Result<Option<usize>> {
-    let Some(number) = table.optional_integer(key)? else { return Ok(None) };
-    match usize::try_from(number) {
-        Ok(count) if count > 0 => Ok(Some(count)),
-        _ => {
-            let error = table.wrong(ErrorKind::Input, key, format!("found {number}, but an engine needs at least one"));
-            table.instead(None, error.help("give a whole number greater than zero"))
-        }
-    }
-}
-
-/// How often the state is extrapolated: `true` once, `false` not at all, or a number.
-fn times(table: &mut Table) -> Result<Option<usize>> {
-    let key = "extrapolated";
-    if table.is_boolean(key) {
-        return Ok(table.optional_boolean(key)?.map(usize::from));
-    }
-    let Some(number) = table.optional_integer(key)? else { return Ok(None) };
-    match usize::try_from(number) {
-        Ok(times) if times <= MOST_TIMES => Ok(Some(times)),
-        _ => {
-            let error = table.wrong(ErrorKind::Input, key, format!("found {number} extrapolations"));
-            table.instead(None, error.help(format!("give a whole number from 0 to {MOST_TIMES}, or true for 1")))
-        }
-    }
-}
-
-/// More extrapolations than this need steps too fine to run.
-const MOST_TIMES: usize = 8;
-
-/// Step of the engine (s), if it is given.
-fn engine_step(table: &mut Table, drive: &Drive) -> Result<Option<f64>> {
-    let time = table.optional_quantity("dt", &TIME, Sign::Positive)?;
-    let angle = table.optional_quantity("step", &ANGLE, Sign::NotZero)?;
-    table.finish()?;
-    let omega = drive.top_speed();
-    let dt = match (time, angle) {
-        (Some(dt), None) => dt,
-        (None, Some(angle)) => (angle / omega).abs(),
-        (Some(_), Some(_)) => {
-            let error = table.wrong(ErrorKind::Input, "step", "the engine's step is given twice");
-            return Err(error.help("keep either `dt` (a time) or `step` (a crank angle)"));
-        }
-        (None, None) => return Ok(None),
-    };
-    if dt.is_finite() && dt > 0.0 {
-        Ok(Some(dt))
-    } else {
-        Err(table.fault(format!("the engine's step would be {dt} s")).help("check the step and `drive.speed`"))
-    }
 }
 
 /// Default share for [`engine_rel`]: chosen, not derived.

@@ -2,9 +2,10 @@
 
 use super::asked::Asked;
 use super::clearance::Question;
+use super::engine::{self, EngineSettings};
 use super::header::{check_format, name};
 use super::reader::{Faults, Sign, Table};
-use super::settings::{self, ENGINE_REL, EngineKeys};
+use super::settings::{self, ENGINE_REL};
 use super::{clearance, grid, joints, links, loads, motion, start, unit};
 use linkage::case::Grid;
 use linkage::drive::{Drive, Drives, Load, MotionLaw};
@@ -32,7 +33,7 @@ pub struct Stated<'a> {
     pub grid: Grid,
     /// The section `[channels]` with its words.
     pub channels: Option<(Table<'a>, Vec<String>)>,
-    pub engine: (Option<f64>, EngineKeys),
+    pub engine: EngineSettings,
     pub engine_rel: f64,
     pub oracles: Vec<Table<'a>>,
     pub formulas: Vec<Table<'a>>,
@@ -96,8 +97,7 @@ impl<'a> Stated<'a> {
         let grid = grid
             .ok()
             .and_then(|mut grid| faults.read(&mut grid, |grid| grid::read(grid, &crank_drive, asked.without_grid)));
-        let engine =
-            engine.and_then(|mut table| faults.read(&mut table, |table| settings::engine(table, &crank_drive)));
+        let engine = engine.and_then(|mut table| faults.read(&mut table, |table| engine::read(table, &crank_drive)));
         root.part(faults.end());
         Ok(Stated {
             name: name.unwrap_or_default(),

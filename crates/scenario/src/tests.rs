@@ -56,7 +56,7 @@ fn ov7_base_is_read_whole() {
     assert_eq!(case.structure.formula(&case.mechanism), formula);
     assert_eq!((case.grid.len(), case.grid.inputs[90]), (361, -90f64.to_radians()));
     assert!(case.grid.times.iter().all(|&time| time >= 0.0));
-    assert_eq!((scenario.dt, &scenario.engine), (None, &EngineKeys::default()));
+    assert_eq!(scenario.engine, EngineSettings::default());
     let columns: Vec<usize> = scenario.oracles.iter().map(|oracle| oracle.series.len()).collect();
     // The last two are from a program of its own: a distance at the start, and one pose.
     assert_eq!(columns, [10, 10, 10, 7, 7, 7, 0, 84]);
@@ -82,7 +82,7 @@ fn crank_rocker_starts_where_two_circles_meet() {
     let crank = &scenario.case.mechanism.links()[1];
     let about_pivot = crank.inertia + crank.mass * crank.mass_centre.norm_squared();
     assert!((about_pivot - 2.6 * a.norm_squared() / 3.0).abs() < 1e-18, "I_O = m l^2 / 3");
-    assert_eq!((scenario.dt, scenario.engine_rel, scenario.case.grid.len()), (None, 1e-2, 361));
+    assert_eq!((scenario.engine.step.get(), scenario.engine_rel, scenario.case.grid.len()), (None, 1e-2, 361));
     let names: Vec<&str> = scenario.oracles.iter().map(|oracle| oracle.name.as_str()).collect();
     assert_eq!(
         names,
@@ -156,7 +156,7 @@ fn units_change_nothing_but_the_text() {
     ]);
     assert_eq!(other.case.mechanism, plain.case.mechanism);
     assert_eq!(other.case.start, plain.case.start);
-    assert!((other.dt.unwrap() - 1e-3).abs() < 1e-17);
+    assert!((other.engine.step.get().unwrap() - 1e-3).abs() < 1e-17);
     let by_time = edited(&[("from_deg = 0\nto_deg = 360\nstep_deg = 1", "from_s = 0\nto_s = 0.4\nstep_ms = 100")]);
     assert_eq!(by_time.case.grid.times, [0.0, 0.1, 0.2, 3.0 * 0.1, 0.4]);
     assert!((by_time.case.grid.inputs[1] - 78f64.to_radians()).abs() < 1e-15);

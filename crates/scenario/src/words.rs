@@ -50,6 +50,13 @@ pub fn suggestion<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>,
     }
 }
 
+/// The nearest candidate, if one is near, and the list of all.
+#[must_use]
+pub fn suggested<'a>(word: &str, candidates: impl Iterator<Item = &'a str> + Clone) -> String {
+    let near = nearest(word, candidates.clone()).map(|near| format!("did you mean \"{near}\"? "));
+    format!("{}choose one of {}", near.unwrap_or_default(), choice(candidates, "\""))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

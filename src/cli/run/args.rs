@@ -3,15 +3,14 @@
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
-use clap::builder::PossibleValuesParser;
-
-use crate::cli::engine_args::EngineArgs;
+use crate::cli::engine_args::{EngineArgs, side};
 use crate::cli::grid::GridArgs;
 use crate::cli::live::LiveArgs;
-use crate::cli::load::{StartArgs, reference_names};
+use crate::cli::load::StartArgs;
 use crate::cli::record_args::RecordArgs;
 use crate::cli::reports::Reports;
 use crate::cli::{html, number};
+use prover::proof::Reference;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -45,8 +44,8 @@ pub(in crate::cli) struct Args {
     #[arg(required = true, value_name = "FILE")]
     pub files: Vec<PathBuf>,
     /// Analytic solver that the engine is compared with; the other one checks it
-    #[arg(long, default_value = "assur", value_parser = PossibleValuesParser::new(reference_names()))]
-    pub reference: String,
+    #[arg(long, default_value = "assur", value_parser = side())]
+    pub reference: Reference,
     #[command(flatten)]
     pub engine: EngineArgs,
     #[command(flatten)]

@@ -185,7 +185,15 @@ fn an_engine_solves_with_the_settings_of_the_file_and_options_replace_them() {
     place.edited("ov7_base.toml", "set.toml", &[("[grid]\n", "[engine]\nsweeps = 7\n[grid]\n")]);
     assert!(solve("set.toml", "--sweeps 9") == solve("ov7_base.toml", "--sweeps 9"));
     place.edited("ov7_base.toml", "set.toml", &[("[grid]\n", "[engine]\nroute = \"guess\"\n[grid]\n")]);
-    place.refused("solve scenarios/set.toml --with rapier", &["no route", "guess", "probe"]);
+    place.refused("solve scenarios/set.toml --with rapier", &["no route", "guess", "probe", "set.toml"]);
+    // An engine that does not have the route says where it is asked for.
+    if cfg!(feature = "simbody") {
+        place.edited("ov7_base.toml", "set.toml", &[("[grid]\n", "[engine]\nroute = \"probe\"\n[grid]\n")]);
+        let words = ["set.toml:", "engine.route", "no route of engine simbody called \"probe\"", "native"];
+        place.refused("solve scenarios/set.toml --with simbody", &words);
+        let words = ["--route", "no route of engine simbody called \"probe\""];
+        place.refused("solve scenarios/ov7_base.toml --with simbody --route probe", &words);
+    }
 }
 
 #[test]

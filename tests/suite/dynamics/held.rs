@@ -14,7 +14,7 @@ use super::free::{column, energies, solve, twin, worst};
 use crate::common::{assert_within, shipped};
 
 fn parsed(text: &str) -> Case {
-    Scenario::parse(text, "held.toml".as_ref()).unwrap_or_else(|error| panic!("{error}")).case
+    Scenario::parse(text, "held.toml").unwrap_or_else(|error| panic!("{error}")).case
 }
 
 fn loaded(case: &Case, loads: &[Load]) -> Case {

@@ -4,7 +4,7 @@ use super::solve;
 use crate::common::{assert_within, rapiers};
 use linkage::case::Grid;
 use linkage::trajectory::Channel;
-use prover::engines::EngineName;
+use prover::engines::{EngineName, with_step};
 use prover::proof::{Options, prove};
 use scenario::Scenario;
 
@@ -17,7 +17,7 @@ fn with(text: &str, changes: &[(&str, &str)]) -> Scenario {
         assert_eq!(text.matches(from).count(), 1, "{from}");
         text.replace(from, to)
     });
-    Scenario::parse(&changed, "hanging.toml".as_ref()).unwrap_or_else(|error| panic!("{error}"))
+    Scenario::parse(&changed, "hanging.toml").unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// The crank and its pendulum alone.
@@ -95,7 +95,7 @@ fn regress_72_a_hanging_link_starts_with_its_own_speed() {
     ];
     for (name, scenario, speeds) in scenarios {
         for engine in rapiers() {
-            let engine = EngineName::named(engine).unwrap().with_step(1e-5).unwrap();
+            let engine = with_step(EngineName::named(engine).unwrap(), 1e-5).unwrap();
             let start = Grid::of_times(scenario.case.crank(), vec![0.0]);
             let found = solve(engine.as_ref(), &scenario.case.on(start).unwrap());
             for (link, speed) in ["pendulum", "second"].into_iter().zip(&speeds) {

@@ -8,7 +8,7 @@ use linkage::case::Case;
 use linkage::engine::{Engine, Hook, Kept, Route, Settings, Wrapped};
 use linkage::solver::State;
 use linkage::trajectory::Subject;
-use prover::engines::EngineName;
+use prover::engines::{EngineName, is_built, with_step};
 use syn::{Item, TraitItem};
 
 /// Changes nothing.
@@ -44,8 +44,8 @@ fn answers(engine: &dyn Engine, case: &Case) -> String {
 fn an_engine_in_a_wrapper_that_changes_nothing_is_that_engine() {
     for name in ["crank_rocker.toml", "double_pendulum.toml"] {
         let case = shipped(name).case;
-        for engine in EngineName::ALL.into_iter().filter(|engine| engine.is_built()) {
-            let engine = engine.with_step(2e-3).unwrap();
+        for engine in EngineName::ALL.into_iter().filter(|engine| is_built(*engine)) {
+            let engine = with_step(engine, 2e-3).unwrap();
             let settings = engine.settings();
             let other = Settings { resolution: 0.5 * settings.resolution, sweeps: 64, ..settings };
             let ways = [
@@ -73,7 +73,7 @@ fn an_engine_in_a_wrapper_that_changes_nothing_is_that_engine() {
 #[test]
 fn what_a_hook_changes_is_changed_once_in_every_way() {
     let case = shipped("crank_rocker.toml").case;
-    let engine = EngineName::Rapier.with_step(2e-3).unwrap();
+    let engine = with_step(EngineName::Rapier, 2e-3).unwrap();
     for extrapolated in [0, 2] {
         let way = Settings { extrapolated, sweeps: 64, ..engine.settings() };
         let kept = |engine: &dyn Engine| solve(Kept::new(engine).with(way).as_ref(), &case);

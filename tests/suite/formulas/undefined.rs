@@ -51,7 +51,7 @@ fn regress_undefined_constants_are_refused_at_every_door() {
             format!("[parameters]\nq = \"{operation}\"\n"),
             format!("[tolerances]\nengine_rel = \"0.01 + {operation}\"\n"),
         ] {
-            let error = Scenario::parse(&format!("{own}\n{section}"), "own.toml".as_ref()).expect_err(&section);
+            let error = Scenario::parse(&format!("{own}\n{section}"), "own.toml").expect_err(&section);
             assert!(error.to_string().contains(says), "{section}: {error}");
             let at = error.place().unwrap().span.start;
             assert!(at > own.len(), "{section}: {error}");

@@ -1,6 +1,6 @@
 //! The engine under loads, by every route.
 
-use design::export;
+use linkage::engine::Route;
 use linkage::error::ErrorKind;
 use prover::proof::{Options, prove};
 
@@ -13,9 +13,8 @@ fn val_the_press_agrees_by_every_route() {
     let cranks: Vec<f64> = (0..=36).map(|k| f64::from(10 * k).to_radians()).collect();
     let grid = linkage::case::Grid::of_inputs(scenario.case.crank(), cranks);
     scenario.case = scenario.case.on(grid).unwrap();
-    for route in ["differences", "native", "probe"] {
-        scenario.engine.route = Some(route.into());
-        let proof = prove(&scenario, &Options::default()).unwrap();
+    for route in Route::ALL {
+        let proof = prove(&scenario, &Options::default().route(route)).unwrap();
         let wrong = proof.engine().channels.iter().filter(|channel| channel.verdict.word() != "agree");
         let wrong: Vec<_> = wrong.map(|c| (c.residual.channel.to_string(), c.residual.max, c.bound)).collect();
         assert_eq!(proof.verdict.word(), "agree", "{route:?}: {:?} {wrong:?}", proof.verdict);
@@ -26,7 +25,7 @@ fn val_the_press_agrees_by_every_route() {
 fn what_mujoco_does_not_get_is_refused_by_name() {
     let case = shipped("loaded_slider.toml").case;
     let solver = analytic::named("assur").unwrap();
-    let error = export::mjcf::mjcf(&case, solver, "press", 1e-3).unwrap_err();
+    let error = design::export::mjcf::mjcf(&case, solver, "press", 1e-3).unwrap_err();
     assert_eq!(error.kind(), ErrorKind::Unsupported);
     assert!(error.message().contains("a load of type \"force\"") && error.way_out().is_some(), "{error}");
 }

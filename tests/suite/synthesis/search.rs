@@ -112,7 +112,7 @@ fn the_scenario_written_has_the_values_found() {
         text.starts_with("# one\n#\n# two\n# Left out") && text.contains("\n\nformat = 1\nname = \"recovered\"\n"),
         "{text}"
     );
-    let scenario = Scenario::parse(&text, "recovered.toml".as_ref()).unwrap();
+    let scenario = Scenario::parse(&text, "recovered.toml").unwrap();
     let links = scenario.case.mechanism.links();
     let length = |link: usize| (links[link].points[1].local - links[link].points[0].local).norm();
     assert_within!((length(1) - 0.031_235).abs(), 1e-15);
@@ -142,7 +142,7 @@ fn regress_what_holds_for_the_drawing_only_is_not_written() {
     let written = redraw::redrawn(&task, &format!("{text}{more}"), &values, "found").unwrap();
     assert!(!drawing.oracles.is_empty());
     // It loads anywhere, and says what is no longer there.
-    let found = Scenario::parse(&written, "elsewhere/found.toml".as_ref()).unwrap();
+    let found = Scenario::parse(&written, "elsewhere/found.toml").unwrap();
     assert!(found.oracles.is_empty() && found.formulas.list.is_empty() && found.source.is_none());
     let told = "# Left out of the drawing, because it holds for its own dimensions only: oracle, formula, source.\n";
     assert!(written.starts_with(&format!("# found\n{told}")), "{written}");

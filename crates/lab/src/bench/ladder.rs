@@ -9,6 +9,7 @@ use linkage::case::Case;
 use linkage::engine::{Engine, Route, Settings};
 use linkage::solver::Solver;
 use linkage::trajectory::Stage;
+use prover::engines::with_step;
 use prover::engines::{EngineName, usual_step};
 
 /// Steps of fixed-step engines over the usual one, the coarsest first.
@@ -88,7 +89,7 @@ pub(super) fn plan(case: &Case, options: &Options) -> Plan {
         false => options.engines.clone(),
     };
     let engines: Vec<Box<dyn Engine>> =
-        names.into_iter().filter_map(|name| name.with_step(usual_step(case)).ok()).collect();
+        names.into_iter().filter_map(|name| with_step(name, usual_step(case)).ok()).collect();
     let versions = engines.iter().map(|engine| (engine.name().to_string(), engine.version())).collect();
     let curves: Vec<(&dyn Engine, Settings)> = engines
         .iter()

@@ -16,9 +16,16 @@ use linkage::solver::Solver;
 use linkage::trajectory::{Channel, Trajectory};
 use linkage::work::{Count, PLACED, counted, limited};
 use prover::claims::Course;
+
 use prover::compare::overall;
-use prover::proof::{BUDGET, EngineProof, Engines, Entrant, Ledger, Options, SIDES, SideClaims, Sides, TRUE_SIDES};
+
+use prover::proof::{
+    BUDGET, EachSide, EngineProof, Engines, Entrant, Ledger, Options, Problem, Reference, SIDES, SideClaims, Sides,
+    TRUE_SIDES,
+};
+
 use scenario::{Formulas, Scenario};
+
 use std::collections::BTreeSet;
 
 /// What stands around an engine.
@@ -26,9 +33,9 @@ type Around<'a> = &'a dyn Fn(Box<dyn Engine>) -> Box<dyn Engine>;
 
 /// A scenario's proof without a fault, and what can be used again.
 pub(super) struct Stage<'a> {
-    pub(super) scenario: Scenario,
-    /// The scenario with the whole mechanism, where only part of it is wanted.
-    whole: &'a Scenario,
+    pub(super) scenario: &'a Scenario,
+    /// The part of its mechanism that is wanted.
+    case: Case,
     options: &'a Options,
     /// The analytic sides without a fault.
     sides: Sides,
@@ -50,18 +57,19 @@ impl<'a> Stage<'a> {
     /// # Errors
     /// Those of the proof.
     pub(super) fn new(scenario: &'a Scenario, options: &'a Options) -> Result<Self> {
-        let (whole, scenario) = (scenario, Scenario { case: scenario.case.scene()?.case, ..scenario.clone() });
+        let (case, whole) = (scenario.case.scene()?.case, &scenario.case);
+        let problem = Problem::of(scenario, &case);
         let allowed = options.budget.unwrap_or(BUDGET).larger(SIDES);
-        let of_sides = || Sides::of([&scenario, whole], TRUE_SIDES, options.reference, &mut Ledger::default());
+        let of_sides = || Sides::of(problem, whole, TRUE_SIDES, options.reference, &mut Ledger::default());
         let (sides, done) = counted(|| limited(allowed, of_sides).0);
         let sides = sides?;
         // Side 2 counts no groups; it places as many links.
         let placed = PLACED * 2.0 * done.of(Count::Groups) as f64 + done.of(Count::Intervals) as f64;
-        let right = AssurSolver.solve(&scenario.case)?;
+        let right = AssurSolver.solve(&case)?;
         let integration = sides.integration();
         let runs = OnceLock::new();
         let (work, verdict, engine) = ([placed, 0.0], "", "");
-        let mut stage = Stage { scenario, whole, options, sides, right, integration, runs, work, verdict, engine };
+        let mut stage = Stage { scenario, case, options, sides, right, integration, runs, work, verdict, engine };
         let proof = stage.engine(&stage.sides, &|own| stage.kept(own), true)?;
         let own_forces = proof.own_forces.as_ref().and_then(|own| own.search.as_ref());
         stage.work[1] = proof.search.iter().chain(own_forces).map(|own| own.effort).sum();
@@ -72,9 +80,14 @@ impl<'a> Stage<'a> {
 
     /// The engine's proof against these sides.
     fn engine(&self, sides: &Sides, around: Around, own_forces: bool) -> Result<EngineProof> {
-        let how = Engines { case: &self.scenario.case, around, own_forces };
-        let engines = self.options.chosen(&self.scenario)?;
-        let mut proofs = sides.engines(&self.scenario, &how, engines, (&mut Ledger::default(), &mut |_| {}))?;
+        let how = Engines { case: &self.case, around, own_forces };
+        let engines = self.options.chosen(&self.scenario.engine, &self.case)?;
+        let mut proofs = sides.engines(
+            Problem::of(self.scenario, &self.case),
+            &how,
+            engines,
+            (&mut Ledger::default(), &mut |_| {}),
+        )?;
         Ok(proofs.swap_remove(0))
     }
 
@@ -101,17 +114,17 @@ impl<'a> Stage<'a> {
 
     /// What side 1 has found, as formulas are judged by it.
     pub(super) fn on_course<T>(&self, then: &dyn Fn(&Course) -> Result<T>) -> Result<T> {
-        self.sides.on_course(&self.scenario.case, 0, then)
+        self.sides.on_course(&self.case, Reference::Assur, then)
     }
 
     /// What both sides say of formulas.
     pub(super) fn claimed(&self, formulas: &Formulas) -> Result<[SideClaims; 2]> {
-        self.sides.claimed(&self.scenario.case, formulas)
+        self.sides.claimed(&self.case, formulas)
     }
 
     /// What a fault changes in exact answers.
     pub(super) fn effect(&self, fault: Fault) -> Result<Effect> {
-        effect(&self.scenario.case, &self.right, &self.integration, fault)
+        effect(&self.case, &self.right, &self.integration, fault)
     }
 
     /// The proof with a fault in one party.
@@ -128,9 +141,9 @@ impl<'a> Stage<'a> {
     fn in_side(&self, fault: Fault, party: Party) -> Result<Outcome> {
         let wrong = planted_sides(fault);
         let mut entrants = TRUE_SIDES;
-        let index = usize::from(party == Party::Newton);
-        entrants[index] = Entrant { solver: &wrong[index][0], tight: &wrong[index][1] };
-        let sides = self.sides([&self.scenario, self.whole], entrants)?;
+        let side = if party == Party::Newton { Reference::Newton } else { Reference::Assur };
+        entrants[side] = Entrant { solver: &wrong[side][0], tight: &wrong[side][1] };
+        let sides = self.sides(&self.case, &self.scenario.case, entrants)?;
         let eyes = Eyes::default().sides(&sides, false);
         if eyes.is_decided() {
             return Ok(eyes.outcome());
@@ -173,20 +186,21 @@ impl<'a> Stage<'a> {
         Ok(last)
     }
 
-    fn sides(&self, scenarios: [&Scenario; 2], entrants: [Entrant; 2]) -> Result<Sides> {
-        Sides::of(scenarios, entrants, self.options.reference, &mut Ledger::default())
+    fn sides(&self, case: &Case, whole: &Case, entrants: EachSide<Entrant>) -> Result<Sides> {
+        let problem = Problem::of(self.scenario, case);
+        Sides::of(problem, whole, entrants, self.options.reference, &mut Ledger::default())
     }
 
     /// Whether a case differs in its instants only.
     fn is_late(&self, case: &Case) -> bool {
-        let right = &self.scenario.case;
+        let right = &self.case;
         case.grid != right.grid && case.on(right.grid.clone()).is_ok_and(|own| own == *right)
     }
 
     /// The fault in what all parties share: no party can contradict another, and what comes from outside is asked.
     fn in_all(&self, fault: Fault) -> Result<Outcome> {
         let case = match fault.kind.plant {
-            Plant::Case(change) => match change(&self.scenario.case, fault.size) {
+            Plant::Case(change) => match change(&self.case, fault.size) {
                 None => return Ok(Outcome::Refused("the case cannot be put together".into())),
                 // Whoever asks names the instants. What is wrong is when the sides take them to be.
                 Some(case) if self.is_late(&case) => None,
@@ -195,14 +209,11 @@ impl<'a> Stage<'a> {
             Plant::Answer(_) | Plant::Formula(_) => None,
         };
         let sides = match case {
-            Some(case) => {
-                let wrong = Scenario { case, ..self.scenario.clone() };
-                self.sides([&wrong, &wrong], TRUE_SIDES)?
-            }
+            Some(case) => self.sides(&case, &case, TRUE_SIDES)?,
             None => {
                 let wrong = planted_sides(fault);
-                let entrants = [0, 1].map(|side: usize| Entrant { solver: &wrong[side][0], tight: &wrong[side][1] });
-                self.sides([&self.scenario, self.whole], entrants)?
+                let entrants = EachSide::of(|side| Entrant { solver: &wrong[side][0], tight: &wrong[side][1] });
+                self.sides(&self.case, &self.scenario.case, entrants)?
             }
         };
         Ok(Eyes::default().sides(&sides, true).outcome())
@@ -215,10 +226,10 @@ fn kept_in(runs: &OnceLock<Kept>, engine: Box<dyn Engine>) -> Box<dyn Engine> {
 }
 
 /// Side 1 and side 2 with a fault, each as it is and with a tighter tolerance.
-fn planted_sides(fault: Fault) -> [[Planted<dyn Solver>; 2]; 2] {
+fn planted_sides(fault: Fault) -> EachSide<[Planted<dyn Solver>; 2]> {
     let planted = |inner: Box<dyn Solver>| Planted { hook: fault, inner };
-    [
+    EachSide::new(
         [planted(Box::new(AssurSolver)), planted(Box::new(TIGHT_ASSUR))],
         [planted(Box::new(NewtonSolver)), planted(Box::new(TIGHT_NEWTON))],
-    ]
+    )
 }

@@ -12,7 +12,7 @@ use linkage::work::{Count, counted};
 use super::outcome::{Group, Outcome, Party, Reached, rounded};
 use super::{Engines, Family, Setup};
 use prover::compare::{Check, Verdict, difference, scales};
-use prover::engines::EngineName;
+use prover::engines::{self, EngineName};
 use prover::proof::beside::{Deviation, Side, Sides, sides};
 use prover::proof::{EngineProof, Options, prove};
 use scenario::Scenario;
@@ -42,7 +42,7 @@ pub(super) fn key_of(family: &Family, dial: f64, sample: u64, seed: u64) -> Stri
 /// FNV-1a of what the result depends on: the program's version, its engines, and the case with what runs on it.
 fn key(family: &Family, setup: Option<&Setup>, seed: u64) -> String {
     let engines: Vec<String> =
-        built().map(|name| name.with_step(1.0).map_or_else(|_| String::new(), |own| own.version())).collect();
+        built().map(|name| engines::with_step(name, 1.0).map_or_else(|_| String::new(), |own| own.version())).collect();
     let text = format!("{} {} {seed} {engines:?} {setup:?}", env!("CARGO_PKG_VERSION"), family.name);
     fnv(&text)
 }
@@ -54,7 +54,7 @@ pub fn fnv(text: &str) -> String {
 }
 
 fn built() -> impl Iterator<Item = EngineName> {
-    EngineName::ALL.into_iter().filter(|name| name.is_built())
+    EngineName::ALL.into_iter().filter(|name| engines::is_built(*name))
 }
 
 /// An error as one line, with the input where it is.

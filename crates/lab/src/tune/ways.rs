@@ -15,15 +15,15 @@ const SUBSTEPS: [usize; 2] = [1, 2];
 pub(super) fn ways(engine: &dyn Engine, case: &Case, options: &Options) -> Vec<Settings> {
     let Settings { resolution, sweeps, substeps, route, extrapolated } = engine.settings();
     let forces = case.wanted.deepest() >= Stage::Reactions;
-    let routes: Vec<Route> = match forces && options.route.is_none() {
+    let routes: Vec<Route> = match forces && options.settings.route.is_free() {
         true => engine.routes().to_vec(),
         false => vec![route],
     };
-    let substeps = match (options.substeps, substeps) {
+    let substeps = match (options.settings.substeps.get(), substeps) {
         (None, 1..) if !engine.controls_error() => SUBSTEPS.to_vec(),
         (Some(_), _) | (None, _) => vec![substeps],
     };
-    let extrapolated = match options.extrapolated {
+    let extrapolated = match options.settings.extrapolated.get() {
         None if !engine.controls_error() => vec![1, 0],
         Some(_) | None => vec![extrapolated],
     };
@@ -40,7 +40,7 @@ pub(super) fn ways(engine: &dyn Engine, case: &Case, options: &Options) -> Vec<S
 
 /// Numbers of sweeps that are tried, in ascending order.
 pub(super) fn sweeps(engine: &dyn Engine, options: &Options) -> Vec<usize> {
-    match (options.sweeps, engine.settings().sweeps) {
+    match (options.settings.sweeps.get(), engine.settings().sweeps) {
         (None, 1..) => SWEEPS.to_vec(),
         (_, own) => vec![own],
     }

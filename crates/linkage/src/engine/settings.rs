@@ -1,5 +1,7 @@
 //! Settings of an engine.
 
+use std::fmt;
+
 use crate::case::Case;
 use crate::math::KeepNan;
 
@@ -32,6 +34,12 @@ impl Route {
     #[must_use]
     pub fn named(name: &str) -> Option<Route> {
         Route::ALL.into_iter().find(|route| route.name() == name)
+    }
+}
+
+impl fmt::Display for Route {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
     }
 }
 
@@ -88,7 +96,10 @@ mod tests {
     #[test]
     fn routes_are_found_by_their_names() {
         for route in Route::ALL {
-            assert_eq!(Route::named(route.name()), Some(route));
+            assert_eq!(
+                (Route::named(route.name()), format!("{route:>6}")),
+                (Some(route), format!("{:>6}", route.name()))
+            );
         }
         assert_eq!(Route::named("guess"), None);
     }

@@ -1,5 +1,7 @@
 //! The verdict: agree, disagree, expected or inconclusive.
 
+use std::fmt;
+
 use super::{Convergence, Residual};
 use crate::numbers::{error_in, fixed, percent};
 use crate::tolerance::{Basis, Part, Parts, Tolerance};
@@ -34,6 +36,13 @@ pub enum Verdict {
         /// What would decide it, as alternatives; empty where nothing is known to.
         advice: Vec<Advice>,
     },
+}
+
+impl fmt::Display for Verdict {
+    /// Its word.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.word())
+    }
 }
 
 impl Verdict {

@@ -1,9 +1,11 @@
 //! The analytic sides by themselves: each against numbers from outside, or against the other side where there are none.
 
 use super::checks;
+use super::each_side::EachSide;
 use super::entrants::TRUE_SIDES;
 use super::known::Known;
-use super::observe::{Observed, Watch, observe};
+use super::observe::{Watch, observe};
+use super::options::Reference;
 use super::sensitivity;
 use crate::compare::{Check, Verdict, difference, overall, scales};
 use linkage::case::Case;
@@ -66,90 +68,70 @@ pub struct Sides {
 /// If `truth` stands on another grid. A side that fails is part of the result.
 pub fn sides(case: &Case, truth: Option<&Trajectory>) -> Result<Sides> {
     let solve = |side: &dyn Solver| observe(case, side, Watch::Side, &mut |_| {}).map_err(Error::from);
-    let counted = TRUE_SIDES.map(|side| (side.solver, counted(|| solve(side.solver))));
-    let works = counted.each_ref().map(|(_, (_, work))| *work);
-    let found = counted.map(|(side, (own, _))| (side, own));
-    let names = found.each_ref().map(|(side, _)| side.name());
-    let solved = |index: usize| Some((TRUE_SIDES[index].tight, &found[index].1.as_ref().ok()?.trajectory));
-    let solved: Vec<(&dyn Solver, &Trajectory)> = (0..2).filter_map(solved).collect();
-    let failed = |index: usize, error: &Error| Side {
-        name: names[index],
+    let found = EachSide::of(|side| counted(|| solve(TRUE_SIDES[side].solver)));
+    let solved = |side: Reference| found[side].0.as_ref().ok();
+    let failed = |side: Reference, error: &Error| Side {
+        name: side.name(),
         deviations: Vec::new(),
         closure: None,
         balance: None,
-        work: works[index],
+        work: found[side].1,
         failure: Some(error.clone()),
     };
-    let (Some(&reference), Some(&other)) = (solved.first(), solved.last()) else {
-        let sides = [0, 1].map(|index| failed(index, found[index].1.as_ref().expect_err("no side has a trajectory")));
+    let Some(reference) = Reference::ALL.into_iter().find(|side| solved(*side).is_some()) else {
+        let error = |side: Reference| found[side].0.as_ref().expect_err("no side has a trajectory");
+        let sides = Reference::ALL.map(|side| failed(side, error(side)));
         let verdict = Verdict::open(sides[0].failure.as_ref().map_or("", Error::message));
         return Ok(Sides { sides, checks: Vec::new(), verdict, silent: 0, trajectory: None });
     };
-    let solver = found.iter().find(|(_, own)| own.is_ok()).expect("one side has a trajectory").0;
-    let mut known = Known::beside(case, [reference, other], &sensitivity::of(case, solver, reference.1)?)?;
-    let judged = |known: &Known| -> Result<[Vec<Deviation>; 2]> {
-        let mut all = [Vec::new(), Vec::new()];
-        for (index, (_, own)) in found.iter().enumerate() {
-            let against = match truth {
-                Some(truth) => Some(truth),
-                None => found[1 - index].1.as_ref().ok().map(|other| &other.trajectory),
-            };
-            if let (Ok(own), Some(against)) = (own, against) {
-                all[index] = deviations(against, &own.trajectory, known)?;
-            }
-        }
-        Ok(all)
+    let solver = TRUE_SIDES[reference].solver;
+    let trajectory = |side: Reference| solved(side).map(|own| &own.trajectory);
+    let own = trajectory(reference).expect("it has one");
+    // A side without a trajectory is known as the other one is.
+    let beside = EachSide::of(|side| {
+        trajectory(side).map_or((TRUE_SIDES[reference].tight, own), |own| (TRUE_SIDES[side].tight, own))
+    });
+    let mut known = Known::beside(case, reference, beside, &sensitivity::of(case, solver, own)?)?;
+    let judged = |known: &Known| {
+        EachSide::tried(|side| match (trajectory(side), truth.or_else(|| trajectory(side.other()))) {
+            (Some(own), Some(against)) => deviations(against, own, known),
+            _ => Ok(Vec::new()),
+        })
     };
     let mut deviating = judged(&known)?;
-    let sides_differ = match [0, 1].map(|side| found[side].1.as_ref().map(|own| &own.trajectory)) {
-        [Ok(first), Ok(second)] => checks::sides_differ([first, second], &known),
+    let sides_differ = match Reference::ALL.map(trajectory) {
+        [Some(first), Some(second)] => checks::sides_differ([first, second], &known),
         _ => false,
     };
-    if sides_differ || deviating.iter().flatten().any(|own| !(own.used <= 1.0)) {
+    if sides_differ || deviating.pair().into_iter().flatten().any(|own| !(own.used <= 1.0)) {
         known.measure(case, solver)?;
         deviating = judged(&known)?;
     }
-    let mut checks = Vec::new();
-    let mut verdict = None;
-    let [first, second] = found;
-    let [first, second] = match (first.1, second.1) {
-        (Ok(first), Ok(second)) => {
-            let observed = [(names[0], first), (names[1], second)];
-            checks = checks::of_sides(case, &observed, &known);
-            observed.map(|(_, own)| Ok(own))
-        }
-        other => [other.0, other.1],
+    let checks = match Reference::ALL.map(solved) {
+        [Some(first), Some(second)] => checks::of_sides(case, EachSide::new(first, second), &known),
+        _ => Vec::new(),
     };
     let size = case.mechanism.size();
-    let [of_first, of_second] = deviating;
-    let mut side = |index: usize, own: std::result::Result<Observed, Error>, deviations: Vec<Deviation>| match own {
+    let mut verdict = None;
+    let sides = Reference::ALL.map(|side| match &found[side].0 {
         Ok(own) => Side {
-            name: names[index],
-            deviations,
+            name: side.name(),
+            deviations: std::mem::take(&mut deviating[side]),
             closure: Some(own.closure() / size.larger(own.reach)),
             balance: (!own.power.is_empty()).then(|| own.two_ways()),
-            work: works[index],
+            work: found[side].1,
             failure: None,
         },
         Err(error) => {
-            verdict = Some(Verdict::open(format!("{} fails: {}", names[index], error.message())));
-            failed(index, &error)
+            verdict = Some(Verdict::open(format!("{} fails: {}", side.name(), error.message())));
+            failed(side, error)
         }
-    };
-    let trajectory = reference_of(&first, &second);
-    let sides = [side(0, first, of_first), side(1, second, of_second)];
+    });
     let verdict = overall(checks.iter().map(|check| &check.verdict).chain(&verdict));
     let beyond = sides.iter().flat_map(|side| &side.deviations).filter(|own| !(own.used <= 1.0)).count();
     let agrees = matches!(verdict, Verdict::Agree { .. } | Verdict::Expected { .. });
     let silent = if agrees && truth.is_some() { beyond } else { 0 };
-    Ok(Sides { sides, checks, verdict, silent, trajectory })
-}
-
-fn reference_of(
-    first: &std::result::Result<Observed, Error>,
-    second: &std::result::Result<Observed, Error>,
-) -> Option<Trajectory> {
-    [first, second].into_iter().find_map(|own| Some(own.as_ref().ok()?.trajectory.clone()))
+    Ok(Sides { sides, checks, verdict, silent, trajectory: Some(own.clone()) })
 }
 
 /// Every channel of a trajectory beside its truth.

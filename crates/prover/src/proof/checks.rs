@@ -1,8 +1,11 @@
 //! Checks besides the comparison of the two sides: closure, side against side, powers.
 
 use super::built::built;
+use super::each_side::EachSide;
 use super::known::{Known, of_condition};
 use super::observe::Observed;
+use super::options::Reference;
+use super::problem::Problem;
 use super::runs::Runs;
 use crate::compare::{Check, Convergence, difference};
 use crate::tolerance::{Basis, Origin, Tolerance};
@@ -11,7 +14,6 @@ use linkage::engine::{Engine, Route};
 use linkage::math::statistics::{ascending, share};
 use linkage::math::{KeepNan, largest_size};
 use linkage::trajectory::{Channel, ChannelKind, Stage, Trajectory, Unit};
-use scenario::Scenario;
 
 /// Wanted of an analytic side: closure of the joints, relative to the mechanism's size or its distance from the origin.
 /// The shipped mechanisms have 5e-16 at most.
@@ -28,11 +30,11 @@ pub(super) fn rounding(bound: f64, why: &'static str) -> Tolerance {
     Tolerance { bound, basis: Basis::Wanted(why) }
 }
 
-/// Checks on the two analytic sides, by name.
-pub(super) fn of_sides(case: &Case, sides: &[(&'static str, Observed); 2], known: &Known) -> Vec<Check> {
+/// Checks on the two analytic sides.
+pub(super) fn of_sides(case: &Case, sides: EachSide<&Observed>, known: &Known) -> Vec<Check> {
     let size = case.mechanism.size();
     let mut checks = Vec::new();
-    for (name, side) in sides {
+    for (name, side) in sides.iter().map(|(side, own)| (side.name(), own)) {
         let tolerance =
             rounding(CLOSURE, "positions are good to a few units in the last place of the largest coordinate");
         checks.push(Check::new(
@@ -44,11 +46,12 @@ pub(super) fn of_sides(case: &Case, sides: &[(&'static str, Observed); 2], known
     }
     checks.extend(between_sides(sides, known));
     for (name, side) in sides.iter().filter(|(_, side)| !side.power.is_empty()) {
+        let name = name.name();
         let tolerance = rounding(two_ways(side), "sums of a few forces and powers");
         let name = format!("balancing moment from equilibrium and from powers ({name})");
         checks.push(Check::new(name, side.two_ways(), tolerance, ""));
     }
-    for (name, side) in sides {
+    for (name, side) in sides.iter().map(|(side, own)| (side.name(), own)) {
         checks.extend(side.unbalance.map(|share| {
             let tolerance = rounding(two_ways(side), "sums of as many forces as there are links");
             Check::new(
@@ -106,8 +109,8 @@ pub struct Beyond {
 }
 
 /// Every channel in which the two sides differ by more than what is allowed: since when, and by how much.
-pub(super) fn beyond(sides: &[(&'static str, Observed); 2], known: &Known) -> Vec<Beyond> {
-    let [reference, other] = [0, 1].map(|side| &sides[side].1.trajectory);
+pub(super) fn beyond(sides: EachSide<&Observed>, known: &Known) -> Vec<Beyond> {
+    let [reference, other] = sides.into_pair().map(|own| &own.trajectory);
     let rows = ascending(reference.times());
     let errors = difference(reference, other).expect("both sides stand on one grid");
     let of = |worst: Worst| {
@@ -130,34 +133,35 @@ pub(super) fn sides_differ(sides: [&Trajectory; 2], known: &Known) -> bool {
     worst_instants(sides, known).iter().any(|worst| !(worst.used() <= 1.0))
 }
 
-fn between_sides(sides: &[(&'static str, Observed); 2], known: &Known) -> Vec<Check> {
-    let [reference, other] = [0, 1].map(|side| &sides[side].1.trajectory);
+fn between_sides(sides: EachSide<&Observed>, known: &Known) -> Vec<Check> {
+    let [reference, other] = sides.into_pair().map(|own| &own.trajectory);
     let all = worst_instants([reference, other], known);
+    let [first, second] = Reference::ALL;
     let of_stage = |stage: Stage| {
         let own = all.iter().filter(|worst| worst.channel.kind.stage == stage);
         let worst = own.max_by(|a, b| a.used().total_cmp(&b.used()))?;
         let why = "two solvers without a common equation, each good to the rounding of its poses and to the error of \
                    the integration that a tighter run shows";
         let tolerance = rounding(worst.allowed, why);
-        let check = Check::new(format!("{} against {}", sides[0].0, sides[1].0), worst.relative, tolerance, "");
+        let check = Check::new(format!("{} against {}", first.name(), second.name()), worst.relative, tolerance, "");
         Some(check.of(stage.name()).located(|| format!("in {} at {:.3}", worst.channel, reference.told(worst.row))))
     };
     Stage::ALL.into_iter().filter_map(of_stage).collect()
 }
 
 /// Checks on the engine, from its runs at double, single and half step.
-pub(super) fn of_engine(scenario: &Scenario, engine: &dyn Engine, runs: &Runs) -> Vec<Check> {
-    let mut checks = vec![closure(scenario, engine, runs)];
+pub(super) fn of_engine(problem: Problem, engine: &dyn Engine, runs: &Runs) -> Vec<Check> {
+    let mut checks = vec![closure(problem, engine, runs)];
     if !runs.single().power.is_empty() {
-        checks.push(power_balance(scenario, engine, runs));
+        checks.push(power_balance(problem, engine, runs));
     }
     checks
 }
 
 /// Opening of the engine's loops. In a closed loop it is zero, so the opening is itself an error. It must vanish with
 /// the step at the rate that the runs show.
-fn closure(scenario: &Scenario, engine: &dyn Engine, runs: &Runs) -> Check {
-    let size = scenario.case.mechanism.size();
+fn closure(problem: Problem, engine: &dyn Engine, runs: &Runs) -> Check {
+    let size = problem.case.mechanism.size();
     let kind = Channel::named("point.A.x_m").expect("the table has positions of points").kind;
     Vanishing {
         family: format!("closure of all joints ({})", engine.name()),
@@ -167,15 +171,15 @@ fn closure(scenario: &Scenario, engine: &dyn Engine, runs: &Runs) -> Check {
         noise: 1.0 / size,
         note: "an opening is all error: it must vanish as its runs say",
     }
-    .check(scenario, engine, runs)
+    .check(problem, engine, runs)
 }
 
 /// The engine's driving moment against the balance of powers of its own motion. Both belong to one motion, so their
 /// difference must vanish with the step.
-fn power_balance(scenario: &Scenario, engine: &dyn Engine, runs: &Runs) -> Check {
+fn power_balance(problem: Problem, engine: &dyn Engine, runs: &Runs) -> Check {
     let kind = Channel::named("drive.torque_N_m").expect("the table has the moment").kind;
     // Where no moment is more than rounding, the mechanism could have one all the same.
-    let scale = built(&scenario.case).unless(runs.single().moment, Unit::NewtonMetre);
+    let scale = built(problem.case).unless(runs.single().moment, Unit::NewtonMetre);
     let gaps = |run: &Observed| run.moment_gap().collect::<Vec<f64>>();
     let by_differences = engine.settings().route == Route::Differences;
     Vanishing {
@@ -193,7 +197,7 @@ fn power_balance(scenario: &Scenario, engine: &dyn Engine, runs: &Runs) -> Check
             false => "reactions and speeds come from the engine each by itself",
         },
     }
-    .check(scenario, engine, runs)
+    .check(problem, engine, runs)
 }
 
 /// A relative number of an engine's runs that would be zero for a perfect engine.
@@ -214,8 +218,8 @@ struct Vanishing<'a> {
 impl Vanishing<'_> {
     /// The number must not exceed the size that the runs predict for it. A part that does not vanish with the step is
     /// found as soon as it exceeds the safety factor's share of the part that does.
-    fn check(self, scenario: &Scenario, engine: &dyn Engine, runs: &Runs) -> Check {
-        let (case, resolution) = (&scenario.case, engine.settings().resolution);
+    fn check(self, problem: Problem, engine: &dyn Engine, runs: &Runs) -> Check {
+        let (case, resolution) = (problem.case, engine.settings().resolution);
         let noise = |engine: &dyn Engine| self.noise * engine.noise(case, self.kind);
         let [double, single, half] = [0, 1, 2].map(|k| (self.of)(&runs.resolutions[k]));
         let order = engine.formal_order(case, self.kind);
@@ -226,7 +230,7 @@ impl Vanishing<'_> {
         let parts = found.parts(noise(engine));
         let basis = found.tolerance(resolution, parts, noise_origin(engine)).basis;
         let basis = Basis::Noted(Box::new(basis), self.note);
-        Check::estimated(self.family, self.value, &found, parts, basis, scenario.engine_rel)
+        Check::estimated(self.family, self.value, &found, parts, basis, problem.engine_rel)
     }
 }
 

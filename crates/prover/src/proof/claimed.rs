@@ -4,6 +4,7 @@ use super::entrants::{Sides, TRUE_SIDES};
 use super::formulas::Judgement;
 use super::ledger::Ledger;
 use super::options::Reference;
+use super::problem::Problem;
 use crate::claims::{Cause, MOST_WORK, needed, telling};
 use crate::compare::{Check, Verdict};
 use crate::tolerance::Basis;
@@ -26,10 +27,9 @@ pub struct Claimed {
 /// Both sides on what is asked of a scenario.
 fn solved(scenario: &Scenario, asked: &[Channel]) -> Result<Sides> {
     let case = scenario.case.wanting_only(asked).scene()?.case;
-    let scene = Scenario { case, oracles: Vec::new(), ..scenario.clone() };
-    let mut ledger = Ledger::default();
-    let sides = Sides::of([&scene, scenario], TRUE_SIDES, Reference::Assur, &mut ledger);
-    sides.map_err(|error| explained(&scene.case, error))
+    let problem = Problem { oracles: &[], ..Problem::of(scenario, &case) };
+    let sides = Sides::of(problem, &scenario.case, TRUE_SIDES, Reference::Assur, &mut Ledger::default());
+    sides.map_err(|error| explained(&case, error))
 }
 
 /// Judges the formulas of a scenario. Only what they claim is solved, and what their derivatives need.

@@ -10,8 +10,9 @@ use super::observe::{Observed, Stopped, Watch};
 use super::options::Chosen;
 use super::order;
 use super::own_forces::{ForceFault, OwnForces};
+use super::problem::Problem;
 use super::runs::{Bank, FEWER, other_sweeps, rungs};
-use super::settle::{BUDGET, End, FIRST, Free, Search, Settling, too_much};
+use super::settle::{BUDGET, End, FIRST, Search, Settling, too_much};
 use crate::compare::{Check, Verdict, difference, overall};
 use crate::engines::coarse_step;
 use crate::numbers::error;
@@ -20,7 +21,7 @@ use linkage::engine::{Engine, Settings};
 use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::math::KeepNan;
 use linkage::trajectory::Trajectory;
-use scenario::Scenario;
+use scenario::EngineSettings;
 
 /// One engine's part of a proof.
 #[derive(Clone, Debug)]
@@ -64,7 +65,7 @@ impl EngineProof {
 
 /// Runs an engine on `case`, at the settings asked for or at those that it finds, and compares it with `reference`.
 pub(super) fn prove(
-    scenario: &Scenario,
+    problem: Problem,
     case: &Case,
     chosen: &Chosen,
     reference: &Observed,
@@ -73,16 +74,17 @@ pub(super) fn prove(
 ) -> Result<EngineProof> {
     let engine = chosen.engine.as_ref();
     let asked = engine.settings();
-    let judge = Judge::new(scenario, reference, known, asked);
+    let judge = Judge::new(problem, reference, known, asked);
     let mut bank = Bank::new(case, engine, Watch::Engine);
     // A step that cannot be is refused by the engine.
     let is_step = asked.resolution > 0.0 && asked.resolution.is_finite();
-    let searches = chosen.free.any() && !engine.controls_error() && is_step;
+    let given = chosen.given.clone().of_motion();
+    let searches = given.leaves_a_choice() && !engine.controls_error() && is_step;
     let why =
         if searches { "finds its settings, and its error from its own runs" } else { "its error from its own runs" };
     let found = ledger.done(engine.name(), why, || match searches {
         true => {
-            let search = Settling::new(&judge, &mut bank, engine, chosen.free, chosen.budget);
+            let search = Settling::new(&judge, &mut bank, engine, &given, chosen.budget);
             search.run(progress).map(|(judged, search)| (judged, Some(search)))
         }
         false => at_given(&judge, &mut bank, engine, (chosen.budget, progress)).map(|judged| (judged, None)),
@@ -133,7 +135,7 @@ pub(super) fn prove(
         failure: None,
     };
     let is_open = matches!(proof.verdict, Verdict::Inconclusive { .. });
-    if is_open && !chosen.free.step && !engine.controls_error() {
+    if is_open && !given.step.is_free() && !engine.controls_error() {
         let why = "the given step proves nothing: what a free one would";
         let advice =
             ledger.done(format!("{}, other settings", engine.name()), why, || tried(&judge, &mut bank, chosen));
@@ -212,8 +214,8 @@ fn tried(judge: &Judge, bank: &mut Bank, chosen: &Chosen) -> Advice {
     let case = bank.case;
     let engine = chosen.engine.at(coarse_step(case));
     let judge = judge.asking(engine.settings());
-    let free = Free { step: true, sweeps: true, extrapolated: true };
-    let found = Settling::new(&judge, bank, engine.as_ref(), free, chosen.budget).run(&mut |_| {});
+    let free = EngineSettings::default();
+    let found = Settling::new(&judge, bank, engine.as_ref(), &free, chosen.budget).run(&mut |_| {});
     let Ok((judged, search)) = found else { return Advice::FreeSettings };
     let Settings { resolution, sweeps, extrapolated, .. } = judged.info.settings;
     let outcome = match (&judged.verdict, search.end) {

@@ -3,12 +3,14 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::checks::{self, Beyond};
+use super::each_side::EachSide;
 use super::engines::{self, EngineProof};
 use super::formulas::Judgement;
 use super::known::Known;
 use super::ledger::Ledger;
 use super::observe::{Observed, Watch, observe};
 use super::options::{Chosen, Reference};
+use super::problem::Problem;
 use super::{figures, formulas, methods, oracle, sensitivity};
 use crate::claims::{self, Course, Judged, Outcome};
 use crate::compare::{Check, Verdict, overall};
@@ -19,7 +21,7 @@ use linkage::engine::Engine;
 use linkage::error::Result;
 use linkage::solver::Solver;
 use linkage::trajectory::{Channel, Trajectory};
-use scenario::{Figure, Formulas, Scenario};
+use scenario::{Figure, Formulas};
 
 /// What a side, by its name, says of the claims of every formula.
 pub type SideClaims = (&'static str, Vec<Vec<Judged>>);
@@ -40,8 +42,10 @@ pub struct Entrant<'a> {
 }
 
 /// Side 1 and side 2 as they are.
-pub const TRUE_SIDES: [Entrant<'static>; 2] =
-    [Entrant { solver: &AssurSolver, tight: &TIGHT_ASSUR }, Entrant { solver: &NewtonSolver, tight: &TIGHT_NEWTON }];
+pub const TRUE_SIDES: EachSide<Entrant<'static>> = EachSide::new(
+    Entrant { solver: &AssurSolver, tight: &TIGHT_ASSUR },
+    Entrant { solver: &NewtonSolver, tight: &TIGHT_NEWTON },
+);
 
 /// How engines take part.
 pub struct Engines<'a> {
@@ -62,48 +66,41 @@ impl<'a> Engines<'a> {
 
 /// The two analytic sides of a proof, observed and checked.
 pub struct Sides {
-    /// The reference first.
-    order: [usize; 2],
-    /// Side 1 and side 2 with their names.
-    pub(super) observed: [(&'static str, Observed); 2],
+    reference: Reference,
+    pub(super) observed: EachSide<Observed>,
     pub(super) known: Known,
     /// How strongly a motion under forces depends on them, by channel of the reference.
     pub(super) sensitivity: Vec<f64>,
     /// Checks on both, published numbers among them.
     pub checks: Vec<Check>,
-    /// Figures that formulas claim, by side 1 and side 2.
-    figures: [Vec<(Figure, Rounded)>; 2],
+    /// Figures that formulas claim.
+    figures: EachSide<Vec<(Figure, Rounded)>>,
     /// What formulas come to, if any claims something.
     pub(super) judgement: Option<Judgement>,
 }
 
 impl Sides {
-    /// Both sides on the scene of a scenario, the side called `reference` being the reference. The first scenario has
-    /// the scene as its case, the second the whole.
+    /// Both sides on a problem, whose case may be the scene of the `whole`.
     ///
     /// # Errors
     /// Those of the sides.
     pub fn of(
-        [scenario, whole]: [&Scenario; 2],
-        entrants: [Entrant; 2],
+        problem: Problem,
+        whole: &Case,
+        entrants: EachSide<Entrant>,
         reference: Reference,
         ledger: &mut Ledger,
     ) -> Result<Self> {
-        let case = &scenario.case;
-        let mut observed = |solver: &dyn Solver| -> Result<_> {
-            let why = if solver.name() == reference.name() { "the reference" } else { "checks the reference" };
-            let run = || observe(case, solver, Watch::Side, &mut |_| {});
-            Ok((solver.name(), ledger.done(solver.name(), why, run)?))
-        };
-        let [first, second] = entrants;
-        let sides = [observed(first.solver)?, observed(second.solver)?];
-        let order = if sides[0].0 == reference.name() { [0, 1] } else { [1, 0] };
-        let main = entrants[order[0]].solver;
-        let [own, beside] = order.map(|side| &sides[side].1.trajectory);
-        let tight = order.map(|side| entrants[side].tight);
+        let Problem { case, oracles, formulas: own_formulas, .. } = problem;
+        let sides = EachSide::tried(|side| {
+            let why = if side == reference { "the reference" } else { "checks the reference" };
+            ledger.done(side.name(), why, || observe(case, entrants[side].solver, Watch::Side, &mut |_| {}))
+        })?;
+        let main = entrants[reference].solver;
         let tighter = || -> Result<_> {
-            let sensitivity = sensitivity::of(case, main, own)?;
-            let known = Known::beside(case, [(tight[0], own), (tight[1], beside)], &sensitivity)?;
+            let sensitivity = sensitivity::of(case, main, &sides[reference].trajectory)?;
+            let beside = EachSide::of(|side| (entrants[side].tight, &sides[side].trajectory));
+            let known = Known::beside(case, reference, beside, &sensitivity)?;
             Ok((sensitivity, known))
         };
         let (sensitivity, mut known) = match case.is_free() {
@@ -113,42 +110,42 @@ impl Sides {
                 tighter()?
             }
         };
-        match checks::sides_differ([0, 1].map(|side| &sides[side].1.trajectory), &known) {
+        match checks::sides_differ(sides.pair().map(|own| &own.trajectory), &known) {
             true => ledger.done("condition of every pose", "the sides differ by more than usual", || {
-                known.measure(case, first.solver)
+                known.measure(case, entrants[Reference::Assur].solver)
             })?,
             false => ledger.skipped("condition of every pose", "the sides differ by usual rounding"),
         }
-        let mut checks = checks::of_sides(case, &sides, &known);
+        let mut checks = checks::of_sides(case, sides.each_ref(), &known);
         match methods::apply(case) {
             true => checks.extend(
                 ledger.done("published methods", "others than ours for its triad", || methods::checks(case, main))?,
             ),
             false => ledger.skipped("published methods", "there is no triad of class III"),
         }
-        match scenario.oracles.is_empty() {
+        match oracles.is_empty() {
             true => ledger.skipped("published numbers", "there are none of wanted channels"),
             false => {
-                let channels = sides[order[0]].1.trajectory.channels();
-                let integration = |side: usize, channel: &Channel| {
-                    let of = |index| known.integration(if order[0] == side { 0 } else { 1 }, index);
-                    channels.iter().position(|own| own == channel).map_or(0.0, of)
+                let channels = sides[reference].trajectory.channels();
+                let integration = |side: Reference, channel: &Channel| {
+                    let index = channels.iter().position(|own| own == channel);
+                    index.map_or(0.0, |index| known.integration(side, index))
                 };
-                let solvers = entrants.map(|entrant| entrant.solver);
-                let numbers = || oracle::checks(scenario, whole, solvers, &integration);
+                let solvers = EachSide::of(|side| entrants[side].solver);
+                let numbers = || oracle::checks(problem, whole, solvers, &integration);
                 checks.extend(ledger.done("published numbers", "solved at their own instants", numbers)?);
             }
         }
-        let mut own =
-            Sides { order, observed: sides, known, sensitivity, checks, figures: Default::default(), judgement: None };
-        match scenario.formulas.claims().next() {
+        let figures = EachSide::default();
+        let mut own = Sides { reference, observed: sides, known, sensitivity, checks, figures, judgement: None };
+        match own_formulas.claims().next() {
             None => ledger.skipped("formulas", "none claims a wanted channel"),
             Some(_) => {
                 let judged = ledger.done("formulas", "by value and by derivative, on both sides", || {
                     // As with published figures: means over a turn belong to the nominal motion.
-                    let (nominal, solvers) = (whole.clone().nominal(), entrants.map(|entrant| entrant.solver));
-                    own.figures = figures::claimed(&scenario.formulas, &nominal, solvers)?;
-                    own.judged(case, &scenario.formulas)
+                    let solvers = EachSide::of(|side| entrants[side].solver);
+                    own.figures = figures::claimed(own_formulas, &whole.nominal(), solvers)?;
+                    own.judged(case, own_formulas)
                 })?;
                 own.checks.extend(formulas::checks(&judged));
                 own.judgement = Some(judged);
@@ -168,11 +165,11 @@ impl Sides {
         let is_wrong = |all: &&Vec<Judged>| all.iter().any(|judged| judged.outcome() == Outcome::Wrong);
         for (own, other) in sides[0].1.iter().zip(&sides[1].1) {
             // The side that it contradicts, or both: the first of them.
-            let all = [own, other];
-            let Some(side) = all.iter().position(is_wrong) else { continue };
-            let name = &all[side][0].name;
+            let all = EachSide::new(own, other);
+            let Some((side, wrong)) = all.iter().find(|(_, own)| is_wrong(own)) else { continue };
+            let name = &wrong[0].name;
             let limit = claims::MOST_WORK.min(MOST_WORK.saturating_sub(work));
-            if all[side][0].without > 0 && limit > 0 {
+            if wrong[0].without > 0 && limit > 0 {
                 let (found, took) = self.on_course(case, side, |course| claims::undefined(formulas, name, course))?;
                 work += took;
                 let is_lost = found.as_ref().is_some_and(|own| own.is_all);
@@ -197,19 +194,18 @@ impl Sides {
     /// # Errors
     /// Those of [`claims::judge`].
     pub fn claimed(&self, case: &Case, formulas: &Formulas) -> Result<[SideClaims; 2]> {
-        let of = |side: usize| -> Result<_> {
-            Ok((self.observed[side].0, self.on_course(case, side, |course| claims::judge(formulas, course))?))
+        let of = |side: Reference| -> Result<_> {
+            Ok((side.name(), self.on_course(case, side, |course| claims::judge(formulas, course))?))
         };
-        Ok([of(0)?, of(1)?])
+        Ok(EachSide::tried(of)?.into_pair())
     }
 
     /// What one side found on a case, with how well it knows it.
-    pub fn on_course<T>(&self, case: &Case, side: usize, then: impl FnOnce(&Course) -> Result<T>) -> Result<T> {
-        let place = usize::from(self.order[0] != side);
-        let trajectory = &self.observed[side].1.trajectory;
+    pub fn on_course<T>(&self, case: &Case, side: Reference, then: impl FnOnce(&Course) -> Result<T>) -> Result<T> {
+        let trajectory = &self.observed[side].trajectory;
         let error = |column: usize, row: usize| {
             // Both sides have the same channels in the same order.
-            self.known.at(place, trajectory.channels()[column].kind.stage, column, row)
+            self.known.at(side, trajectory.channels()[column].kind.stage, column, row)
         };
         then(&Course::new(case, trajectory, &error).with_figures(&self.figures[side]))
     }
@@ -221,7 +217,7 @@ impl Sides {
 
     /// What was observed of the reference.
     pub(super) fn own(&self) -> &Observed {
-        &self.observed[self.order[0]].1
+        &self.observed[self.reference]
     }
 
     /// The reference's trajectory.
@@ -231,7 +227,7 @@ impl Sides {
 
     /// Error of the reference's integration, channel by channel, in their units; zeros in a prescribed motion.
     pub fn integration(&self) -> Vec<f64> {
-        (0..self.trajectory().channels().len()).map(|channel| self.known.integration(0, channel)).collect()
+        (0..self.trajectory().channels().len()).map(|channel| self.known.integration(self.reference, channel)).collect()
     }
 
     /// Largest error allowed to the reference over the run, channel by channel, in their units.
@@ -247,7 +243,7 @@ impl Sides {
 
     /// Every channel in which the two sides differ by more than is allowed.
     pub fn beyond(&self) -> Vec<Beyond> {
-        checks::beyond(&self.observed, &self.known)
+        checks::beyond(self.observed.each_ref(), &self.known)
     }
 
     /// Proofs of the engines against the reference.
@@ -256,19 +252,20 @@ impl Sides {
     /// Those of a case that does not fit the instants, and of an only engine that cannot start.
     pub fn engines(
         &self,
-        scenario: &Scenario,
+        problem: Problem,
         how: &Engines,
         engines: Vec<Chosen>,
         (ledger, progress): (&mut Ledger, &mut dyn FnMut(f64)),
     ) -> Result<Vec<EngineProof>> {
-        let case = how.case.on(scenario.case.grid.clone())?;
+        let case = how.case.on(problem.case.grid.clone())?;
         let count = engines.len() as f64;
         let mut proofs = Vec::with_capacity(engines.len());
         for (index, chosen) in engines.into_iter().enumerate() {
-            let chosen = chosen.with_engine(how.around, how.own_forces);
+            let chosen = chosen.with_engine(how.around);
+            let chosen = if how.own_forces { chosen } else { chosen.by_motion_alone() };
             let mut part = |part: f64| progress(SIDES + (1.0 - SIDES) * (index as f64 + part) / count);
             let told = (&mut *ledger, &mut part as &mut dyn FnMut(f64));
-            let mut proof = engines::prove(scenario, &case, &chosen, self.own(), &self.known, told)?;
+            let mut proof = engines::prove(problem, &case, &chosen, self.own(), &self.known, told)?;
             engines::tell_sensitivity(&mut proof, self.trajectory(), &self.sensitivity);
             proofs.push(proof);
         }

@@ -1,20 +1,21 @@
 //! The diagnosis of a proof that disagrees: its parties, and which of them is examined.
 
+use super::each_side::EachSide;
 use super::engines::EngineProof;
 use super::known::Known;
 use super::observe::Observed;
+use super::options::Reference;
 use crate::compare::{Verdict, largest_difference};
 use crate::diagnosis::{Diagnosis, Judged, Party, Question, Standing, diagnose, standing};
 use linkage::case::{Case, Grid};
-use linkage::solver::Solver;
 use linkage::trajectory::{Channel, Trajectory};
 
 /// Examines the party that stands alone; else the first engine that disagrees; else the side that is not the
 /// reference. `None` if no channel disagrees.
 pub(super) fn of(
     case: &Case,
-    main: &dyn Solver,
-    sides: &[(&'static str, Observed); 2],
+    main: Reference,
+    sides: &EachSide<Observed>,
     known: &Known,
     engines: &[EngineProof],
 ) -> Option<Diagnosis> {
@@ -26,8 +27,8 @@ pub(super) fn of(
     // Instants that are not judged are not explained.
     let keep = engine.map_or_else(|| vec![true; case.grid.len()], |engine| engine.kept.clone());
     let thin = |trajectory: &Trajectory| trajectory.at_rows(&keep);
-    let own = sides.each_ref().map(|(name, side)| (*name, thin(&side.trajectory)));
-    let case = &case.on(Grid::of_times(case.crank(), own[0].1.times().to_vec())).ok()?;
+    let own = EachSide::of(|side| thin(&sides[side].trajectory));
+    let case = &case.on(Grid::of_times(case.crank(), own[main].times().to_vec())).ok()?;
     let ran = engines.iter().filter(|engine| engine.failure.is_none());
     let ran: Vec<(&EngineProof, Trajectory)> =
         ran.filter_map(|engine| Some((engine, thin(engine.trajectory.as_ref()?)))).collect();
@@ -35,38 +36,32 @@ pub(super) fn of(
     // The bound is on the difference of the two.
     let halves: Vec<_> = between.iter().map(|judged| (judged.channel.clone(), judged.bound / 2.0)).collect();
     let mut parties: Vec<Party> =
-        own.iter().map(|(name, trajectory)| Party { name, trajectory, bounds: halves.clone() }).collect();
+        own.iter().map(|(side, trajectory)| Party { name: side.name(), trajectory, bounds: halves.clone() }).collect();
     parties.extend(ran.iter().map(|(engine, trajectory)| {
         let bounds = judged(engine).into_iter().map(|judged| (judged.channel, judged.bound)).collect();
         Party { name: engine.info.name, trajectory, bounds }
     }));
-    let [one, other] = match own[0].0 == main.name() {
-        true => [&own[0], &own[1]],
-        false => [&own[1], &own[0]],
-    };
     let alone = match standing(&parties) {
         Standing::Alone(name) => Some(name),
         Standing::Together | Standing::Camps(_) | Standing::Open(_) => None,
     };
-    let of_sides = |suspect: &(&'static str, Trajectory), right: &(&'static str, Trajectory)| {
-        let (reference, suspicious) = (&right.1, &suspect.1);
-        let solver = analytic::named(right.0).unwrap_or(main);
-        let (suspect, judged) = (suspect.0, &between[..]);
+    let of_side = |suspect: Reference| {
+        let (reference, suspicious) = (&own[suspect.other()], &own[suspect]);
+        let (solver, suspect, judged) = (suspect.other().solver(), suspect.name(), &between[..]);
         diagnose(&Question { suspect, reference, suspicious, judged, case, solver, step: None }, &parties)
     };
     match (alone, engine) {
-        (Some(name), _) if name == one.0 => of_sides(one, other),
-        (Some(name), _) if name == other.0 => of_sides(other, one),
-        (_, None) => of_sides(other, one),
+        (Some(name), _) if let Some(side) = Reference::named(&name) => of_side(side),
+        (_, None) => of_side(main.other()),
         (_, Some(engine)) => {
             let (_, suspicious) = ran.iter().find(|(own, _)| own.info.name == engine.info.name)?;
             let question = Question {
                 suspect: engine.info.name,
-                reference: &one.1,
+                reference: &own[main],
                 suspicious,
                 judged: &judged(engine),
                 case,
-                solver: main,
+                solver: main.solver(),
                 step: (!engine.info.controls_error).then_some((engine.info.settings.resolution, "step")),
             };
             diagnose(&question, &parties)
@@ -87,8 +82,8 @@ fn judged(engine: &EngineProof) -> Vec<Judged> {
 }
 
 /// Bounds on the difference of the two sides: what they know of their own numbers.
-fn side_bounds(sides: &[(&'static str, Observed); 2], known: &Known) -> Vec<Judged> {
-    let [one, other] = [0, 1].map(|side: usize| &sides[side].1.trajectory);
+fn side_bounds(sides: &EachSide<Observed>, known: &Known) -> Vec<Judged> {
+    let [one, other] = sides.pair().map(|own| &own.trajectory);
     let of = |(index, channel): (usize, &Channel)| {
         let gap = largest_difference(one.column(channel)?, other.column(channel)?, channel.kind.periodic);
         let bound = known.between(channel.kind.stage, index);
@@ -105,7 +100,7 @@ mod tests {
     use crate::diagnosis::{Cause, Plain, Slip};
     use crate::proof::observe::{Watch, observe};
     use crate::proof::{Options, prove};
-    use analytic::{AssurSolver, NewtonSolver};
+    use linkage::solver::Solver;
     use scenario::of_repository;
 
     /// The same observations with the opposite balancing moment in the trajectory.
@@ -132,14 +127,14 @@ mod tests {
         let seen = |solver: &dyn Solver| {
             observe(case, solver, Watch::Side, &mut |_| {}).unwrap_or_else(|stopped| panic!("{}", stopped.error))
         };
-        for wrong in ["assur", "newton"] {
-            let side = |name: &'static str, solver: &dyn Solver| match name == wrong {
-                true => (name, spoiled(seen(solver))),
-                false => (name, seen(solver)),
-            };
-            let sides = [side("assur", &AssurSolver), side("newton", &NewtonSolver)];
-            let known = Known::of(case, sides.each_ref().map(|(name, side)| (*name, &side.trajectory)), &[]).unwrap();
-            let found = of(case, &AssurSolver, &sides, &known, &right.engines).expect("the sides disagree");
+        for wrong in Reference::ALL {
+            let sides = EachSide::of(|side| match side == wrong {
+                true => spoiled(seen(side.solver())),
+                false => seen(side.solver()),
+            });
+            let known = Known::of(case, sides.pair().map(|side| &side.trajectory), &[]).unwrap();
+            let found = of(case, Reference::Assur, &sides, &known, &right.engines).expect("the sides disagree");
+            let wrong = wrong.name();
             assert_eq!((found.suspect.as_str(), &found.alone), (wrong, &Standing::Alone(wrong.into())));
             assert!(
                 matches!(found.cause, Some(Cause::Values { slip: Slip::Plain(Plain::Sign), .. })),

@@ -1,13 +1,15 @@
 //! Figures of a mechanism as the analytic sides find them.
 
+use super::each_side::EachSide;
+use super::options::Reference;
 use analytic::reduced::means::{self as reduced, Means};
 use formula::Rounded;
-use linkage::case::{Grid, Wanted};
+use linkage::case::{Case, Grid, Wanted};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::mechanism::Side;
 use linkage::solver::{Solver, State};
 use linkage::trajectory::Stage;
-use scenario::{Figure, Formulas, Scenario};
+use scenario::{Figure, Formulas};
 
 /// Relative error of a side's figures. Wanted, because rounding allows it in sums over thousands of poses.
 const KNOWN: f64 = 1e-11;
@@ -18,22 +20,23 @@ const KNOWN: f64 = 1e-11;
 /// Those of [`Measured::value`].
 pub(super) fn claimed(
     formulas: &Formulas,
-    scenario: &Scenario,
-    solvers: [&dyn Solver; 2],
-) -> Result<[Vec<(Figure, Rounded)>; 2]> {
+    case: &Case,
+    solvers: EachSide<&dyn Solver>,
+) -> Result<EachSide<Vec<(Figure, Rounded)>>> {
     let mut asked: Vec<Figure> = Vec::new();
     for (_, figure) in formulas.claims().flat_map(|(_, claim)| &claim.figures) {
         if !asked.contains(figure) {
             asked.push(*figure);
         }
     }
-    let mut sides = solvers.map(|solver| Measured::of(scenario, solver));
-    let mut found = [Vec::new(), Vec::new()];
+    let mut sides = EachSide::of(|side| Measured::of(case, solvers[side]));
+    let mut found = EachSide::<Vec<_>>::default();
     for figure in asked {
-        let values = [sides[0].value(figure)?, sides[1].value(figure)?];
-        let error = KNOWN * values[0].abs() + 2.0 * (values[0] - values[1]).abs();
-        for (found, value) in found.iter_mut().zip(values) {
-            found.push((figure, Rounded { value, error }));
+        let values = EachSide::tried(|side| sides[side].value(figure))?;
+        let [first, second] = values.into_pair();
+        let error = KNOWN * first.abs() + 2.0 * (first - second).abs();
+        for side in Reference::ALL {
+            found[side].push((figure, Rounded { value: values[side], error }));
         }
     }
     Ok(found)
@@ -41,15 +44,15 @@ pub(super) fn claimed(
 
 /// Figures computed by one analytic side. The means over a turn are computed once, if one is asked for.
 pub(super) struct Measured<'a> {
-    scenario: &'a Scenario,
+    case: &'a Case,
     solver: &'a dyn Solver,
     means: Option<Means>,
 }
 
 impl<'a> Measured<'a> {
-    /// A scenario in its nominal motion and a side; nothing is measured yet.
-    pub(super) fn of(scenario: &'a Scenario, solver: &'a dyn Solver) -> Self {
-        Measured { scenario, solver, means: None }
+    /// A case in its nominal motion and a side; nothing is measured yet.
+    pub(super) fn of(case: &'a Case, solver: &'a dyn Solver) -> Self {
+        Measured { case, solver, means: None }
     }
 
     /// A figure in SI.
@@ -69,7 +72,7 @@ impl<'a> Measured<'a> {
     fn means(&mut self) -> Result<Means> {
         let found = match self.means {
             Some(means) => means,
-            None => reduced::means_over_turn(&self.scenario.case, self.solver)?,
+            None => reduced::means_over_turn(self.case, self.solver)?,
         };
         self.means = Some(found);
         Ok(found)
@@ -77,7 +80,7 @@ impl<'a> Measured<'a> {
 
     /// Steady speeds of the crank and of the motor (rad/s).
     fn steady(&mut self) -> Result<[f64; 2]> {
-        let case = &self.scenario.case;
+        let case = self.case;
         // A scenario with this figure has one; a case that is changed afterwards may not.
         let no_motor = || Error::new(ErrorKind::Input, "the steady speed needs a motor, and the crank has none");
         let motor = case.crank().motor().ok_or_else(|| no_motor().help("add `[motor]`, or leave the figure out"))?;
@@ -93,7 +96,7 @@ impl<'a> Measured<'a> {
 
     /// Distance of two points at t = 0 by this side (m).
     fn distance(&self, ends: [Side; 2]) -> Result<f64> {
-        let base = &self.scenario.case;
+        let base = self.case;
         let grid = Grid::of_times(base.crank(), vec![0.0]);
         let case = base.on(grid)?.wanting(Wanted::of(&[Stage::Positions]));
         let mut distance = f64::NAN;

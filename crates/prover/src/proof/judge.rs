@@ -9,6 +9,7 @@ use super::checks;
 use super::doubt::Doubt;
 use super::known::Known;
 use super::observe::{Observed, Senses};
+use super::problem::Problem;
 use super::runs::Runs;
 use crate::compare::{
     Check, Convergence, Ladder, Residual, Verdict, largest_difference, overall, residuals_on, scales_beyond,
@@ -21,7 +22,6 @@ use linkage::math::statistics::half_range;
 use linkage::math::{KeepNan, largest_size};
 use linkage::solver::Provision;
 use linkage::trajectory::{CHANNELS, Channel, ChannelKind, Stage, Subject, Trajectory, Unit};
-use scenario::Scenario;
 
 /// What is known about an engine that was run.
 #[derive(Clone, Debug, PartialEq)]
@@ -102,7 +102,7 @@ impl Asks {
 
 /// What an engine's runs are judged by.
 pub(super) struct Judge<'a> {
-    pub(super) scenario: &'a Scenario,
+    pub(super) problem: Problem<'a>,
     /// The reference's trajectory.
     reference: &'a Trajectory,
     /// Scales of its channels.
@@ -187,12 +187,12 @@ impl Stand<'_> {
 }
 
 impl<'a> Judge<'a> {
-    pub(super) fn new(scenario: &'a Scenario, reference: &'a Observed, known: &'a Known, asked: Settings) -> Self {
+    pub(super) fn new(problem: Problem<'a>, reference: &'a Observed, known: &'a Known, asked: Settings) -> Self {
         let channels = reference.trajectory.channels().iter().enumerate();
         let errors: Vec<f64> = channels.map(|(index, channel)| known.error(channel.kind.stage, index)).collect();
-        let scales = scales_beyond(&errors, &reference.trajectory, &built(&scenario.case));
+        let scales = scales_beyond(&errors, &reference.trajectory, &built(problem.case));
         let Observed { trajectory: reference, senses, singular, .. } = reference;
-        Judge { scenario, reference, scales, senses, singular, known, asked, asks: Asks::All }
+        Judge { problem, reference, scales, senses, singular, known, asked, asks: Asks::All }
     }
 
     /// The same for a search that begins with other settings.
@@ -213,15 +213,15 @@ impl<'a> Judge<'a> {
     /// Judges an engine by its runs.
     pub(super) fn judge(&self, engine: &dyn Engine, mut runs: Runs) -> Result<Judged> {
         runs.other_sweeps.growth = self.growth(&runs);
-        let doubt = Doubt::of(&self.scenario.case, (self.senses, self.singular), &runs, engine.settings());
+        let doubt = Doubt::of(self.problem.case, (self.senses, self.singular), &runs, engine.settings());
         let late = self.after_the_beginning(engine)?;
         let channels = self.channels(engine, &runs, &doubt, late.as_ref())?;
         let checks = match self.asks {
-            Asks::All => checks::of_engine(self.scenario, engine, &runs),
+            Asks::All => checks::of_engine(self.problem, engine, &runs),
             Asks::OwnForces => Vec::new(),
         };
         let verdict = overall(channels.iter().map(|c| &c.verdict).chain(checks.iter().map(|c| &c.verdict)));
-        let case = late.as_ref().unwrap_or(&self.scenario.case);
+        let case = late.as_ref().unwrap_or(self.problem.case);
         let (too_coarse, kept) = (doubt.too_coarse(), self.kept(&doubt, Stage::Reactions, case));
         let [_, run, _] = runs.resolutions;
         let mut judged = Judged { info: describe(engine), channels, checks, verdict, run, too_coarse, kept };
@@ -238,7 +238,7 @@ impl<'a> Judge<'a> {
         let reference = self.reference;
         let times = reference.times();
         let span = 2.0 * half_range(times);
-        if !self.scenario.case.is_free() || !(span > 0.0) {
+        if !self.problem.case.is_free() || !(span > 0.0) {
             return false;
         }
         let of = |unit: Unit| reference.iter().filter(move |(channel, _)| channel.kind.unit == unit);
@@ -255,7 +255,7 @@ impl<'a> Judge<'a> {
         let Ladder { resolutions: [_, single, _], other_sweeps } = runs.ladder();
         let of = |(channel, scale): (&Channel, &f64)| {
             let (own, others) = single.column(channel).zip(other_sweeps.column(channel))?;
-            Some(others.growth(own, COUNTS * self.scenario.engine_rel * scale, channel.kind.periodic))
+            Some(others.growth(own, COUNTS * self.problem.engine_rel * scale, channel.kind.periodic))
         };
         let all = self.reference.channels().iter().zip(&self.scales);
         let speaks = |channel: &Channel| match self.asks {
@@ -282,7 +282,7 @@ impl<'a> Judge<'a> {
             if indices.is_empty() {
                 continue;
             }
-            let case = late.filter(|_| stage >= Stage::Accelerations).unwrap_or(&self.scenario.case);
+            let case = late.filter(|_| stage >= Stage::Accelerations).unwrap_or(self.problem.case);
             let keep = self.kept(doubt, stage, case);
             let left_out = keep.iter().filter(|&&kept| !kept).count();
             // The copies of many instants are made and dropped by few channels at a time.
@@ -319,13 +319,13 @@ impl<'a> Judge<'a> {
     /// The case without the instants of a beginning free motion at which second differences are carried back over
     /// several steps, if their rounding would leave accelerations or forces open; `None` if it does not.
     fn after_the_beginning(&self, engine: &dyn Engine) -> Result<Option<Case>> {
-        let case = &self.scenario.case;
+        let case = self.problem.case;
         let last = case.grid.times.iter().copied().fold(0.0, f64::larger);
         let begin = BEGINNING * 2.0 * engine.settings().resolution;
         if !case.is_free() || begin >= last {
             return Ok(None);
         }
-        let wanted = self.scenario.engine_rel;
+        let wanted = self.problem.engine_rel;
         let is_open = self.reference.channels().iter().zip(&self.scales).any(|(channel, scale)| {
             let noise = engine.noise(case, channel.kind);
             let stage = channel.kind.stage;
@@ -349,7 +349,7 @@ impl<'a> Judge<'a> {
         let basis = convergence.tolerance(resolution, parts, checks::noise_origin(engine)).basis;
         let verdict = match reference.times().is_empty() {
             true => Verdict::open("a drive or a loaded link reverses at every instant"),
-            false => Verdict::of_engine(&residual, &convergence, parts, self.scenario.engine_rel),
+            false => Verdict::of_engine(&residual, &convergence, parts, self.problem.engine_rel),
         };
         let verdict = verdict.from_settings(resolution, engine.controls_error(), sweeps);
         let [_, single, half] = ladder.resolutions;

@@ -7,7 +7,9 @@
 //! No bound on anything else is less than this.
 
 use super::dependence::Dependence;
+use super::each_side::EachSide;
 use super::observe::pose_of;
+use super::options::Reference;
 use crate::compare::{largest_difference, magnitudes_by};
 use analytic::range::conditions;
 use linkage::case::Case;
@@ -92,9 +94,10 @@ fn placed(case: &Case, groups: &[usize]) -> [f64; 2] {
 pub(super) struct Known {
     /// Size of the numbers in every channel, in its unit.
     magnitudes: Vec<f64>,
-    /// Error of the integration in every channel, in its unit, of the reference and of the other side; zeros for a
-    /// prescribed motion.
-    integration: [Vec<f64>; 2],
+    /// The side whose channels these are.
+    reference: Reference,
+    /// Error of each side's integration in every channel, in its unit; zeros for a prescribed motion.
+    integration: EachSide<Vec<f64>>,
     /// The groups that channels depend on.
     dependence: Dependence,
     /// Condition number of the pose at every instant, so far in a motion under forces, for every set of groups; empty
@@ -109,25 +112,29 @@ pub(super) struct Known {
 }
 
 impl Known {
-    /// What both sides' trajectories are known to, the reference's first. `sensitivity` is how strongly a motion under
+    /// What both sides' trajectories are known to, side 1 being the reference. `sensitivity` is how strongly a motion under
     /// forces depends on them, channel by channel: the rounding of the forces is felt by as much. Empty for a
     /// prescribed motion.
     ///
     /// # Errors
     /// Those of the tighter runs.
     #[cfg(test)]
-    pub(super) fn of(case: &Case, sides: [(&'static str, &Trajectory); 2], sensitivity: &[f64]) -> Result<Self> {
-        let tight = |name: &str| -> &dyn Solver {
-            if name == "assur" { &analytic::TIGHT_ASSUR } else { &analytic::TIGHT_NEWTON }
-        };
-        Known::beside(case, sides.map(|(name, trajectory)| (tight(name), trajectory)), sensitivity)
+    pub(super) fn of(case: &Case, [first, second]: [&Trajectory; 2], sensitivity: &[f64]) -> Result<Self> {
+        let sides: EachSide<(&dyn Solver, &Trajectory)> =
+            EachSide::new((&analytic::TIGHT_ASSUR, first), (&analytic::TIGHT_NEWTON, second));
+        Known::beside(case, Reference::Assur, sides, sensitivity)
     }
 
     /// The same, each trajectory with the side that makes the tighter run beside it.
     ///
     /// # Errors
     /// Those of the tighter runs.
-    pub(super) fn beside(case: &Case, sides: [(&dyn Solver, &Trajectory); 2], sensitivity: &[f64]) -> Result<Self> {
+    pub(super) fn beside(
+        case: &Case,
+        reference: Reference,
+        sides: EachSide<(&dyn Solver, &Trajectory)>,
+        sensitivity: &[f64],
+    ) -> Result<Self> {
         let integration = |(tight, trajectory): (&dyn Solver, &Trajectory)| -> Result<Vec<f64>> {
             if !case.is_free() {
                 return Ok(vec![0.0; trajectory.channels().len()]);
@@ -139,25 +146,25 @@ impl Known {
             let rounding = sensitivity.iter().map(|change| ULPS * f64::EPSILON * change);
             Ok(trajectory.iter().zip(tight.iter()).map(of).zip(rounding).map(|(error, more)| error + more).collect())
         };
-        let [reference, other] = sides;
-        let integration = [integration(reference)?, integration(other)?];
-        let dependence = Dependence::of(case, reference.1.channels());
-        let magnitudes = magnitudes_by(reference.1, &dependence.of, &|from, to| dependence.feeds(from, to));
+        let own = sides[reference].1;
+        let integration = EachSide::tried(|side| integration(sides[side]))?;
+        let dependence = Dependence::of(case, own.channels());
+        let magnitudes = magnitudes_by(own, &dependence.of, &|from, to| dependence.feeds(from, to));
         let turned = match case.is_free() {
             true => Vec::new(),
             false => case.grid.inputs.iter().map(|crank| crank.abs()).collect(),
         };
-        let is_angle = reference.1.channels().iter().map(|channel| channel.kind.unit == Unit::Radian).collect();
+        let is_angle = own.channels().iter().map(|channel| channel.kind.unit == Unit::Radian).collect();
         let of_sets: Vec<_> = dependence.sets.iter().map(|set| (lever(case, set), placed(case, set))).collect();
-        let own = reference.1.channels().iter().zip(&dependence.of).zip(&magnitudes);
+        let all = own.channels().iter().zip(&dependence.of).zip(&magnitudes);
         let lever_of = |((channel, &set), &magnitude): ((&Channel, &usize), &f64)| {
             let (lever, [places, arm]) = of_sets[set];
             // The numbers of coordinates have the distance from the origin in them already.
             let over = if channel.kind.unit == Unit::Metre { arm.larger(magnitude) } else { arm };
             lever.larger(places / over)
         };
-        let levers = own.map(lever_of).collect();
-        Ok(Known { magnitudes, integration, dependence, conditions: Vec::new(), levers, turned, is_angle })
+        let levers = all.map(lever_of).collect();
+        Ok(Known { reference, magnitudes, integration, dependence, conditions: Vec::new(), levers, turned, is_angle })
     }
 
     /// Measures the condition of every pose, for a trajectory whose errors exceed those of well conditioned poses.
@@ -193,9 +200,8 @@ impl Known {
         self.magnitudes[channel]
     }
 
-    /// Error of the integration in a channel of the reference (0) or of the other side (1), in its unit; zero in a
-    /// prescribed motion.
-    pub(super) fn integration(&self, side: usize, channel: usize) -> f64 {
+    /// Error of a side's integration in a channel, in its unit; zero in a prescribed motion.
+    pub(super) fn integration(&self, side: Reference, channel: usize) -> f64 {
         self.integration[side][channel]
     }
 
@@ -211,25 +217,26 @@ impl Known {
 
     /// Relative difference allowed between the sides in a channel of a stage at an instant.
     pub(super) fn apart(&self, stage: Stage, channel: usize, row: usize) -> f64 {
-        let integration = self.integration[0][channel] + self.integration[1][channel];
+        let [first, second] = self.integration.pair();
+        let integration = first[channel] + second[channel];
         self.rounding(stage, channel, row) + share(integration, self.magnitudes[channel])
     }
 
-    /// How far a number of the reference (0) or of the other side (1) is known, in the channel's unit.
-    pub(super) fn at(&self, side: usize, stage: Stage, channel: usize, row: usize) -> f64 {
+    /// How far a number of a side is known, in the channel's unit.
+    pub(super) fn at(&self, side: Reference, stage: Stage, channel: usize, row: usize) -> f64 {
         self.rounding(stage, channel, row) * self.magnitudes[channel] + self.integration[side][channel]
     }
 
     /// Largest difference allowed between the sides in a channel over the run, in the channel's unit.
     pub(super) fn between(&self, stage: Stage, channel: usize) -> f64 {
-        self.error(stage, channel) + self.integration[1][channel]
+        self.error(stage, channel) + self.integration[self.reference.other()][channel]
     }
 
     /// Largest error allowed to the reference in a channel over the run, in the channel's unit.
     pub(super) fn error(&self, stage: Stage, channel: usize) -> f64 {
         let rows = 0..self.conditions.len().max(self.turned.len()).max(1);
         let rounding = rows.map(|row| self.rounding(stage, channel, row)).fold(0.0, f64::larger);
-        rounding * self.magnitudes[channel] + self.integration[0][channel]
+        rounding * self.magnitudes[channel] + self.integration[self.reference][channel]
     }
 }
 
@@ -248,7 +255,7 @@ mod tests {
             let sides: [&dyn Solver; 2] = [&AssurSolver, &NewtonSolver];
             let [own, other] = sides.map(|side| side.solve(&case).unwrap());
             let sensitivity = vec![0.0; own.channels().len()];
-            let mut known = Known::of(&case, [("assur", &own), ("newton", &other)], &sensitivity).unwrap();
+            let mut known = Known::of(&case, [&own, &other], &sensitivity).unwrap();
             known.measure(&case, &AssurSolver).unwrap();
             let worst = |row: &Vec<f64>| row.iter().copied().fold(1.0, f64::larger);
             let all: Vec<f64> = known.conditions.iter().map(worst).collect();
@@ -266,11 +273,11 @@ mod tests {
         let sides: [&dyn Solver; 2] = [&AssurSolver, &NewtonSolver];
         let [own, other] = sides.map(|side| side.solve(&case).unwrap());
         let sensitivity = vec![0.0; own.channels().len()];
-        let known = Known::of(&case, [("assur", &own), ("newton", &other)], &sensitivity).unwrap();
+        let known = Known::of(&case, [&own, &other], &sensitivity).unwrap();
         let mut seen = 0;
         for (channel, kind) in own.channels().iter().map(|channel| channel.kind).enumerate() {
-            let [first, second] = [0, 1].map(|side| known.integration(side, channel));
-            let rounding = known.at(0, kind.stage, channel, 0) - first;
+            let [first, second] = Reference::ALL.map(|side| known.integration(side, channel));
+            let rounding = known.at(Reference::Assur, kind.stage, channel, 0) - first;
             let apart = known.apart(kind.stage, channel, 0) * known.magnitude(channel);
             let wanted = rounding + first + second;
             assert!((apart - wanted).abs() <= 1e-9 * wanted, "{}: {apart:e} {wanted:e}", own.channels()[channel]);
@@ -308,7 +315,7 @@ mod tests {
         let case = case.on(Grid::of_inputs(case.crank(), cranks)).unwrap().wanting(motion);
         let sides: [&dyn Solver; 2] = [&AssurSolver, &NewtonSolver];
         let [own, other] = sides.map(|side| side.solve(&case).unwrap());
-        let mut known = Known::of(&case, [("assur", &own), ("newton", &other)], &[]).unwrap();
+        let mut known = Known::of(&case, [&own, &other], &[]).unwrap();
         known.measure(&case, &AssurSolver).unwrap();
         for (index, channel) in own.channels().iter().enumerate() {
             let apart = known.apart(channel.kind.stage, index, 2);
@@ -363,7 +370,7 @@ mod tests {
             let case = row(count, from, &[85.0, 90.0, 95.0].map(f64::to_radians)).wanting(motion);
             let sides: [&dyn Solver; 2] = [&AssurSolver, &NewtonSolver];
             let [own, other] = sides.map(|side| side.solve(&case).unwrap());
-            let mut known = Known::of(&case, [("assur", &own), ("newton", &other)], &[]).unwrap();
+            let mut known = Known::of(&case, [&own, &other], &[]).unwrap();
             known.measure(&case, &AssurSolver).unwrap();
             for (index, channel) in own.channels().iter().enumerate() {
                 let (stage, values) = (channel.kind.stage, [&own, &other].map(|of| of.column(channel).unwrap()[1]));

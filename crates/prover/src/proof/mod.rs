@@ -7,6 +7,7 @@ pub mod claimed;
 mod dependence;
 mod dial;
 mod doubt;
+mod each_side;
 mod engines;
 mod entrants;
 mod examined;
@@ -29,6 +30,7 @@ mod parties;
 mod planted;
 #[cfg(test)]
 mod planted_forces;
+mod problem;
 mod room;
 mod rounded_instants;
 mod runs;
@@ -38,6 +40,7 @@ pub mod shifted;
 pub mod solved;
 mod stall;
 
+pub use each_side::EachSide;
 pub use engines::EngineProof;
 pub use entrants::{Engines, Entrant, SideClaims, Sides, TRUE_SIDES};
 pub use formulas::Judgement;
@@ -48,6 +51,7 @@ pub use ledger::Ledger;
 pub use options::{Options, Reference};
 pub use own_forces::{ForceFault, OwnForces};
 pub use parties::Dispute;
+pub use problem::Problem;
 pub use settle::BUDGET;
 pub use settle::{End, Search};
 
@@ -73,7 +77,7 @@ const DIAGNOSIS: f64 = 1.0;
 /// use linkproof::{Options, Scenario, prove};
 ///
 /// # std::env::set_current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))?;
-/// let scenario = Scenario::load("scenarios/pendulum.toml".as_ref())?;
+/// let scenario = Scenario::load("scenarios/pendulum.toml")?;
 /// let proof = prove(&scenario, &Options::default())?;
 /// println!("{}: {} by {}", proof.scenario, proof.verdict.word(), proof.engine().info.version);
 /// for channel in &proof.engine().channels {
@@ -133,7 +137,7 @@ impl Proof {
 /// use linkproof::{Options, Scenario, Verdict, prove};
 ///
 /// # std::env::set_current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))?;
-/// let scenario = Scenario::load("scenarios/crank_rocker.toml".as_ref())?;
+/// let scenario = Scenario::load("scenarios/crank_rocker.toml")?;
 /// let proof = prove(&scenario, &Options::default())?;
 /// assert!(matches!(proof.verdict, Verdict::Agree { .. }));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -170,7 +174,7 @@ pub fn prove_against(scenario: &Scenario, engine_case: &Case, options: &Options)
 /// use linkproof::{Scenario, solve};
 ///
 /// # std::env::set_current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))?;
-/// let scenario = Scenario::load("scenarios/crank_rocker.toml".as_ref())?;
+/// let scenario = Scenario::load("scenarios/crank_rocker.toml")?;
 /// let solution = solve(&scenario.case)?;
 /// let moment = solution.named("drive.torque_N_m").expect("every mechanism with a drive has it");
 /// assert_eq!(moment.len(), solution.times().len());
@@ -186,22 +190,22 @@ pub fn solve(case: &Case) -> Result<Trajectory> {
 /// The same, with the solvers' errors unchanged.
 fn joined(scenario: &Scenario, engine_case: &Case, options: &Options, progress: &mut dyn FnMut(f64)) -> Result<Proof> {
     let scene = scenario.case.scene()?;
-    let (whole, scenario) = (scenario, &Scenario { case: scene.case.clone(), ..scenario.clone() });
-    let case = &scenario.case;
+    let (whole, case) = (&scenario.case, &scene.case);
+    let problem = Problem::of(scenario, case);
     let main = options.reference.solver();
-    let engines = options.chosen(scenario)?;
+    let engines = options.chosen(&scenario.engine, case)?;
     memory::check(case, memory::of_proof(case, engines.len()), options.memory)?;
     memory::check_input("what [[oracle]] says", memory::of_oracles(&scenario.oracles), options.memory)?;
     let mut ledger = Ledger::default();
     let budget = options.budget.unwrap_or(settle::BUDGET);
     let (sides, _) =
-        limited(budget.larger(SIDES), || Sides::of([scenario, whole], TRUE_SIDES, options.reference, &mut ledger));
+        limited(budget.larger(SIDES), || Sides::of(problem, whole, TRUE_SIDES, options.reference, &mut ledger));
     let sides = sides?;
-    let engine_case = match &whole.case.only {
+    let engine_case = match &whole.only {
         Some(only) => engine_case.wanting_only(only).scene()?.case,
         None => engine_case.clone(),
     };
-    let proofs = sides.engines(scenario, &Engines::on(&engine_case), engines, (&mut ledger, progress))?;
+    let proofs = sides.engines(problem, &Engines::on(&engine_case), engines, (&mut ledger, progress))?;
     let own = sides.own();
     let disputes = match proofs.len() {
         1 => Vec::new(),
@@ -211,7 +215,7 @@ fn joined(scenario: &Scenario, engine_case: &Case, options: &Options, progress: 
     let verdict = overall([&analytic].into_iter().chain(proofs.iter().map(|proof| &proof.verdict)));
     let (diagnosis, diagnosis_is_cut) = match verdict {
         Verdict::Disagree { .. } => {
-            let examined = || examined::of(case, main, &sides.observed, &sides.known, &proofs);
+            let examined = || examined::of(case, options.reference, &sides.observed, &sides.known, &proofs);
             let (found, is_cut) =
                 limited(DIAGNOSIS * budget, || ledger.done("diagnosis", "something disagrees", examined));
             if is_cut {

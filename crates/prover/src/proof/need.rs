@@ -12,6 +12,15 @@ pub(super) const MOST_LEFT_OUT: f64 = 0.03;
 /// Need of a step that leaves out more, over what is wanted.
 const LEFT_OUT: f64 = 2.0;
 
+/// What is farthest from being conclusive.
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+pub(super) enum Of {
+    /// The bound of a channel or check.
+    Bound,
+    /// The instants that a step leaves out.
+    Instants,
+}
+
 /// How far a trial is from being conclusive.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 pub(super) struct Need {
@@ -19,6 +28,8 @@ pub(super) struct Need {
     pub(super) is_vague: bool,
     /// Largest bound over what is wanted.
     pub(super) share: f64,
+    /// What it is that needs it.
+    pub(super) of: Of,
 }
 
 impl Need {
@@ -38,7 +49,7 @@ impl Need {
 
     /// Whether all that is missing is a step that leaves out fewer instants.
     pub(super) fn is_of_instants(self) -> bool {
-        !self.is_vague && self.share == LEFT_OUT
+        !self.is_vague && self.of == Of::Instants
     }
 }
 
@@ -63,16 +74,16 @@ pub(super) fn need(judged: &Judged, wanted: f64) -> (Need, Blame) {
         Some((*parts, 1.0, convergence, &check.verdict))
     });
     // A step that leaves out many instants proves nothing about them.
-    let least = if judged.too_coarse > MOST_LEFT_OUT { LEFT_OUT } else { 0.0 };
+    let (least, of) = if judged.too_coarse > MOST_LEFT_OUT { (LEFT_OUT, Of::Instants) } else { (0.0, Of::Bound) };
     let none = Blame { part: Part::Discretisation, is_shared: false };
-    let mut worst = (Need { is_vague: false, share: least }, none);
+    let mut worst = (Need { is_vague: false, share: least, of }, none);
     for (parts, scale, convergence, verdict) in channels.chain(checks) {
         let share = share(parts.sum(), wanted * scale);
         let is_open = matches!(verdict, Verdict::Inconclusive { .. });
         // Open for another reason than its bound: no setting changes that.
         let is_vague = is_open && !convergence.is_trusted();
         let share = if is_open && !is_vague && share <= 1.0 { 0.0 } else { share.larger(0.0) };
-        let own = Need { is_vague, share: if share.is_nan() { f64::INFINITY } else { share } };
+        let own = Need { is_vague, share: if share.is_nan() { f64::INFINITY } else { share }, of: Of::Bound };
         if own > worst.0 {
             // Where no order is seen, the sweeps are to blame as soon as they leave a part that counts.
             let sweeps = is_vague && 10.0 * parts.iteration > parts.discretisation;

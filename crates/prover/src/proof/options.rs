@@ -1,11 +1,15 @@
 //! Options of a proof.
 
-use super::settle::{self, Free};
+use std::fmt;
+
+use super::settle;
 use crate::engines::{self, EngineName};
+use linkage::case::Case;
 use linkage::engine::{Engine, Route, Settings};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::solver::Solver;
 use scenario::Scenario;
+use scenario::{EngineSettings, Setting};
 
 /// An analytic side.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -33,6 +37,15 @@ impl Reference {
         Reference::ALL.into_iter().find(|side| side.name() == name)
     }
 
+    /// The other side.
+    #[must_use]
+    pub fn other(self) -> Reference {
+        match self {
+            Reference::Assur => Reference::Newton,
+            Reference::Newton => Reference::Assur,
+        }
+    }
+
     /// The solver of this side.
     #[must_use]
     pub fn solver(self) -> &'static dyn Solver {
@@ -41,6 +54,24 @@ impl Reference {
             Reference::Newton => &analytic::NewtonSolver,
         }
     }
+}
+
+impl fmt::Display for Reference {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+/// A method for each setting, which gives it.
+macro_rules! setters {
+    ($($(#[$doc:meta])* $name:ident: $kind:ty,)*) => {$(
+        $(#[$doc])*
+        #[must_use]
+        pub fn $name(mut self, value: $kind) -> Self {
+            self.settings.$name = Setting::of(value);
+            self
+        }
+    )*};
 }
 
 /// Options of a proof.
@@ -59,46 +90,38 @@ impl Reference {
 ///     .reference(Reference::Newton)
 ///     .route(Route::Probe)
 ///     .step(5e-4);
-/// assert_eq!(options.engines.len(), 2);
+/// assert_eq!(options.settings.engines.value().unwrap().len(), 2);
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Options {
     /// Analytic side whose trajectory is the reference; the other side checks it.
     pub reference: Reference,
-    /// Engines. If empty: the scenario's engine, or else the default one.
-    pub engines: Vec<EngineName>,
-    /// Time step (s) of engines with a fixed step.
-    pub step: Option<f64>,
-    /// Relative accuracy of engines that control their error.
-    pub accuracy: Option<f64>,
-    /// Sweeps of the iteration in a step.
-    pub sweeps: Option<usize>,
-    /// Number of substeps into which an engine divides a step.
-    pub substeps: Option<usize>,
-    /// Route by which reactions and balancing moment are computed.
-    pub route: Option<Route>,
-    /// How often the engine's state is extrapolated to step zero: 1 combines runs at the step and at half of it.
-    pub extrapolated: Option<usize>,
+    /// Engines and their settings; those that are free are the scenario's, or else found.
+    pub settings: EngineSettings,
     /// Work allowed for finding settings that are not given, in steps without sweeps; the default is enough for most.
     pub budget: Option<f64>,
     /// Memory allowed (bytes); by default 4e9. A run that is estimated to need more does not begin.
     pub memory: Option<f64>,
 }
 
-/// An engine with its settings, and those that the proof may change.
+/// An engine, what is given of its settings, and the work allowed for finding the others.
 pub struct Chosen {
     pub(crate) engine: Box<dyn Engine>,
-    pub(crate) free: Free,
-    /// What is free where the engine's own forces are judged besides; `None` if a route is given, which alone counts
-    /// then.
-    pub(crate) own_forces: Option<Free>,
+    /// A given route alone counts; where it is free, the engine's own forces are judged besides.
+    pub(crate) given: EngineSettings,
     pub(crate) budget: f64,
 }
 
 impl Chosen {
-    /// The same with `around` the engine, and with its own forces or without.
-    pub(crate) fn with_engine(self, around: &dyn Fn(Box<dyn Engine>) -> Box<dyn Engine>, own_forces: bool) -> Self {
-        Chosen { engine: around(self.engine), own_forces: self.own_forces.filter(|_| own_forces), ..self }
+    /// The same with `around` the engine.
+    pub(crate) fn with_engine(self, around: &dyn Fn(Box<dyn Engine>) -> Box<dyn Engine>) -> Self {
+        Chosen { engine: around(self.engine), ..self }
+    }
+
+    /// The same without the forces that the engine itself exerts.
+    pub(crate) fn by_motion_alone(mut self) -> Self {
+        self.given.route = Setting::of(self.engine.settings().route);
+        self
     }
 }
 
@@ -106,25 +129,23 @@ impl Options {
     /// Adds an engine.
     #[must_use]
     pub fn engine(mut self, engine: EngineName) -> Self {
-        self.engines.push(engine);
+        let mut engines = self.settings.engines.value().cloned().unwrap_or_default();
+        engines.push(engine);
+        self.settings.engines = Setting::of(engines);
         self
     }
 
     /// Options that give all settings of an engine. `None` if it is none of those that this project has.
     pub fn exactly(engine: &dyn Engine) -> Option<Self> {
-        let Settings { resolution, sweeps, substeps, route, extrapolated } = engine.settings();
-        let options = Options::default().engine(EngineName::named(engine.name())?).route(route);
-        let options = if sweeps > 0 { options.sweeps(sweeps) } else { options };
-        Some(match engine.controls_error() {
-            true => options.accuracy(resolution),
-            false => options.step(resolution).substeps(substeps).extrapolated(extrapolated),
-        })
+        let settings = EngineSettings::exactly(engine);
+        (!settings.engines.is_free()).then(|| Options { settings, ..Options::default() })
     }
 
     /// Adds every engine that this build has; they run side by side.
     #[must_use]
     pub fn every_engine(mut self) -> Self {
-        self.engines = EngineName::ALL.into_iter().filter(|engine| engine.is_built()).collect();
+        let built = EngineName::ALL.into_iter().filter(|engine| engines::is_built(*engine));
+        self.settings.engines = Setting::of(built.collect());
         self
     }
 
@@ -135,46 +156,19 @@ impl Options {
         self
     }
 
-    /// Sets the time step (s) of engines with a fixed step.
-    #[must_use]
-    pub fn step(mut self, step: f64) -> Self {
-        self.step = Some(step);
-        self
-    }
-
-    /// Sets the relative accuracy of engines that control their error.
-    #[must_use]
-    pub fn accuracy(mut self, accuracy: f64) -> Self {
-        self.accuracy = Some(accuracy);
-        self
-    }
-
-    /// Sets the sweeps of the iteration in a step.
-    #[must_use]
-    pub fn sweeps(mut self, sweeps: usize) -> Self {
-        self.sweeps = Some(sweeps);
-        self
-    }
-
-    /// Sets the number of substeps into which an engine divides a step.
-    #[must_use]
-    pub fn substeps(mut self, substeps: usize) -> Self {
-        self.substeps = Some(substeps);
-        self
-    }
-
-    /// Sets the route by which reactions and balancing moment are computed.
-    #[must_use]
-    pub fn route(mut self, route: Route) -> Self {
-        self.route = Some(route);
-        self
-    }
-
-    /// Sets how often the engine's state is extrapolated to step zero.
-    #[must_use]
-    pub fn extrapolated(mut self, times: usize) -> Self {
-        self.extrapolated = Some(times);
-        self
+    setters! {
+        /// Sets the time step (s) of engines with a fixed step.
+        step: f64,
+        /// Sets the relative accuracy of engines that control their error.
+        accuracy: f64,
+        /// Sets the sweeps of the iteration in a step.
+        sweeps: usize,
+        /// Sets the number of substeps into which an engine divides a step.
+        substeps: usize,
+        /// Sets the route by which reactions and balancing moment are computed.
+        route: Route,
+        /// Sets how often the engine's state is extrapolated to step zero.
+        extrapolated: usize,
     }
 
     /// Sets the work allowed for finding settings that are not given, in steps without sweeps.
@@ -191,99 +185,80 @@ impl Options {
         self
     }
 
+    /// Number of engines that run side by side.
+    #[must_use]
+    pub fn engine_count(&self) -> usize {
+        self.settings.engines.value().map_or(1, |engines| engines.len().max(1))
+    }
+
     /// The engines with their settings.
     ///
     /// # Errors
-    /// [`ErrorKind::Input`] if an engine or a route of the scenario is not known, or if a number cannot be a setting;
+    /// [`ErrorKind::Input`] if a number cannot be a setting, or if an engine does not have the route;
     /// [`ErrorKind::Unsupported`] for an engine that this build does not have.
     pub fn set_engines(&self, scenario: &Scenario) -> Result<Vec<Box<dyn Engine>>> {
-        let step = self.step.or(scenario.dt).unwrap_or_else(|| engines::usual_step(&scenario.case));
-        self.engines_at(scenario, step)
+        let chosen = self.chosen_at(&scenario.engine, engines::usual_step(&scenario.case))?;
+        Ok(chosen.into_iter().map(|chosen| chosen.engine).collect())
     }
 
-    /// The engines of a proof. Settings that neither the options nor the scenario give are free.
+    /// The engines of a proof of a case. Settings that neither the options nor those of its scenario, `own`, give are
+    /// free.
     ///
     /// # Errors
     /// Those of [`Options::set_engines`].
-    pub fn chosen(&self, scenario: &Scenario) -> Result<Vec<Chosen>> {
-        let given = self.step.or(scenario.dt);
-        let own = &scenario.engine;
-        let free = Free {
-            step: given.is_none(),
-            sweeps: self.sweeps.or(own.sweeps).is_none(),
-            // Extrapolation takes finer steps: a step that is given is kept to.
-            extrapolated: given.is_none() && self.extrapolated.or(own.extrapolated).is_none(),
-        };
-        let is_routed = self.route.is_some() || own.route.is_some();
-        // Runs at coarser steps can be extrapolated without a finer step than the one that is given.
-        let extrapolated = self.extrapolated.or(own.extrapolated).is_none();
-        let own_forces = (!is_routed).then_some(Free { extrapolated, ..free });
-        let budget = self.budget.unwrap_or(settle::BUDGET);
-        let engines = self.engines_at(scenario, given.unwrap_or_else(|| engines::coarse_step(&scenario.case)))?;
-        Ok(engines.into_iter().map(|engine| Chosen { engine, free, own_forces, budget }).collect())
+    pub fn chosen(&self, own: &EngineSettings, case: &Case) -> Result<Vec<Chosen>> {
+        self.chosen_at(own, engines::coarse_step(case))
     }
 
-    fn engines_at(&self, scenario: &Scenario, step: f64) -> Result<Vec<Box<dyn Engine>>> {
-        let own = &scenario.engine;
-        let chosen = match (self.engines.as_slice(), &own.name) {
-            ([], None) => vec![EngineName::Rapier.with_step(step)?],
-            ([], Some(name)) => vec![named(name, step).map_err(|error| error.key("engine.name"))?],
-            (names, _) => names.iter().map(|engine| engine.with_step(step)).collect::<Result<_>>()?,
+    /// The engines at a step (s), unless one is given.
+    fn chosen_at(&self, own: &EngineSettings, step: f64) -> Result<Vec<Chosen>> {
+        let given = self.settings.or(own);
+        let engines = given.engines.value().map_or(&[][..], Vec::as_slice);
+        let engines = if engines.is_empty() { &EngineName::ALL[..1] } else { engines };
+        let chosen = |&name: &EngineName| {
+            let engine = engines::with_step(name, given.step.get().unwrap_or(step));
+            let engine = engine.map_err(|error| given.engines.blamed(error))?;
+            let budget = self.budget.unwrap_or(settle::BUDGET);
+            Ok(Chosen { engine: set(engine, &given, engines.len() > 1)?, given: given.clone(), budget })
         };
-        let several = chosen.len() > 1;
-        chosen.into_iter().map(|engine| self.set(engine, scenario, several)).collect()
-    }
-
-    /// An engine with the settings asked for. With `several` engines side by side, an engine that does not know a route
-    /// keeps its own.
-    fn set(&self, engine: Box<dyn Engine>, scenario: &Scenario, several: bool) -> Result<Box<dyn Engine>> {
-        let (own, defaults) = (&scenario.engine, engine.settings());
-        let resolution = match engine.controls_error() {
-            true => self.accuracy.unwrap_or(defaults.resolution),
-            false => defaults.resolution,
-        };
-        let count = |asked: Option<usize>, own: Option<usize>, default: usize, what: &str| match asked.or(own) {
-            Some(0) => Err(Error::new(ErrorKind::Input, format!("found 0 {what}, but an engine needs at least one"))
-                .help("give a whole number greater than zero")),
-            // An engine that does not iterate does not use sweeps.
-            Some(_) if default == 0 => Ok(0),
-            Some(number) => Ok(number),
-            None => Ok(default),
-        };
-        let own_route = || own.route.as_deref().map(route_named).transpose();
-        let route = match self.route.map_or_else(own_route, |route| Ok(Some(route)))? {
-            Some(asked) if engine.routes().contains(&asked) => asked,
-            Some(asked) if !several => {
-                let offered = engine.routes().iter().map(|route| route.name());
-                return Err(unknown(&format!("route of engine {}", engine.name()), asked.name(), offered));
-            }
-            Some(_) | None => defaults.route,
-        };
-        let settings = Settings {
-            resolution,
-            sweeps: count(self.sweeps, own.sweeps, defaults.sweeps, "sweeps")?,
-            substeps: count(self.substeps, own.substeps, defaults.substeps, "substeps")?,
-            route,
-            extrapolated: self.extrapolated.or(own.extrapolated).unwrap_or(defaults.extrapolated),
-        };
-        Ok(if settings == defaults { engine } else { engine.with(settings) })
+        engines.iter().map(chosen).collect()
     }
 }
 
-fn route_named(name: &str) -> Result<Route> {
-    Route::named(name).ok_or_else(|| unknown("route to reactions", name, Route::ALL.iter().map(|route| route.name())))
-}
-
-/// The engine named in a scenario file.
-fn named(name: &str, step: f64) -> Result<Box<dyn Engine>> {
-    match EngineName::named(name) {
-        Some(engine) => engine.with_step(step),
-        None => Err(unknown("engine", name, EngineName::ALL.iter().map(|engine| engine.name()))),
-    }
-}
-
-fn unknown<'a>(what: &str, asked: &str, known: impl Iterator<Item = &'a str>) -> Error {
-    let known: Vec<&str> = known.collect();
-    Error::new(ErrorKind::Input, format!("there is no {what} called \"{asked}\""))
-        .help(format!("choose one of: {}", known.join(", ")))
+/// An engine with the settings that are given. With `several` engines side by side, an engine that does not know a route
+/// keeps its own.
+fn set(engine: Box<dyn Engine>, given: &EngineSettings, several: bool) -> Result<Box<dyn Engine>> {
+    let defaults = engine.settings();
+    let resolution = match engine.controls_error() {
+        true => given.accuracy.get().unwrap_or(defaults.resolution),
+        false => defaults.resolution,
+    };
+    let count = |own: &Setting<usize>, default: usize, what: &str| match own.get() {
+        Some(0) => {
+            let error = Error::new(ErrorKind::Input, format!("found 0 {what}, but an engine needs at least one"));
+            Err(own.blamed(error.help("give a whole number greater than zero")))
+        }
+        // An engine that does not iterate does not use sweeps.
+        Some(_) if default == 0 => Ok(0),
+        Some(number) => Ok(number),
+        None => Ok(default),
+    };
+    let route = match given.route.get() {
+        Some(asked) if engine.routes().contains(&asked) => asked,
+        Some(asked) if !several => {
+            let offered: Vec<&str> = engine.routes().iter().map(|route| route.name()).collect();
+            let message = format!("there is no route of engine {} called \"{}\"", engine.name(), asked.name());
+            let error = Error::new(ErrorKind::Input, message).help(format!("choose one of: {}", offered.join(", ")));
+            return Err(given.route.blamed(error));
+        }
+        Some(_) | None => defaults.route,
+    };
+    let settings = Settings {
+        resolution,
+        sweeps: count(&given.sweeps, defaults.sweeps, "sweeps")?,
+        substeps: count(&given.substeps, defaults.substeps, "substeps")?,
+        route,
+        extrapolated: given.extrapolated.get().unwrap_or(defaults.extrapolated),
+    };
+    Ok(if settings == defaults { engine } else { engine.with(settings) })
 }

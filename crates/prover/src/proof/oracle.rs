@@ -1,6 +1,9 @@
 //! Numbers of other sources against both analytic sides.
 
+use super::each_side::EachSide;
 use super::figures::Measured;
+use super::options::Reference;
+use super::problem::Problem;
 use super::rounded_instants::RoundedInstants;
 use super::shifted::TELLING;
 use crate::compare::{Check, Verdict, magnitudes, scales};
@@ -13,20 +16,20 @@ use linkage::math::angle::wrapped;
 use linkage::math::statistics::share;
 use linkage::solver::Solver;
 use linkage::trajectory::{Channel, Stage, Trajectory};
-use scenario::{ExpectedCell, FigureValue, Oracle, OracleBasis, OraclePoint, OracleSeries, Scenario, When};
+use scenario::{ExpectedCell, FigureValue, Oracle, OracleBasis, OraclePoint, OracleSeries, When};
 
 /// One check for every series and figure of an oracle and for each analytic side.
-/// Series are those of channels of the `scenario`, figures those of the `whole` mechanism.
+/// Series are those of channels of the problem's case, figures those of the `whole` mechanism.
 /// `integration` is the error of a side's integration in a channel, in its unit, for numbers of a motion under forces.
-pub fn checks(
-    scenario: &Scenario,
-    whole: &Scenario,
-    sides: [&dyn Solver; 2],
-    integration: &dyn Fn(usize, &Channel) -> f64,
+pub(super) fn checks(
+    problem: Problem,
+    whole: &Case,
+    sides: EachSide<&dyn Solver>,
+    integration: &dyn Fn(Reference, &Channel) -> f64,
 ) -> Result<Vec<Check>> {
-    let mut checks = of_series(scenario, sides, integration)?;
+    let mut checks = of_series(problem, sides, integration)?;
     // Where forces decide the true motion, means over a turn belong to the nominal motion.
-    checks.extend(of_figures(&whole.clone().nominal(), sides)?);
+    checks.extend(of_figures(problem.oracles, &whole.nominal(), sides)?);
     Ok(checks)
 }
 
@@ -42,27 +45,26 @@ type Side = (Trajectory, Vec<(Channel, [f64; 2])>);
 
 /// What both sides have found.
 struct Solved {
-    sides: [Side; 2],
+    sides: EachSide<Side>,
     rounded: RoundedInstants,
 }
 
 /// What both sides answer where an oracle's numbers hold.
 struct Answers<'a> {
-    solvers: [&'a dyn Solver; 2],
     /// In the nominal motion, in the order of crank angles; `None` if no number holds at one.
     nominal: Option<Solved>,
     /// In the motion itself, in the order of times; `None` if no number holds at one.
     timed: Option<Solved>,
     /// Error of a side's integration in a channel of the motion itself.
-    integration: &'a dyn Fn(usize, &Channel) -> f64,
+    integration: &'a dyn Fn(Reference, &Channel) -> f64,
 }
 
 impl<'a> Answers<'a> {
     fn of(
         case: &Case,
         series: &[&OracleSeries],
-        solvers: [&'a dyn Solver; 2],
-        integration: &'a dyn Fn(usize, &Channel) -> f64,
+        solvers: EachSide<&'a dyn Solver>,
+        integration: &'a dyn Fn(Reference, &Channel) -> f64,
     ) -> Result<Self> {
         let own = |series: &&OracleSeries| [Some(series.channel.clone()), series.y()].into_iter().flatten();
         let channels: Vec<Channel> = series.iter().flat_map(own).collect();
@@ -89,19 +91,19 @@ impl<'a> Answers<'a> {
                 Ok((many.as_ref().map_or(Ok(found), |many| solver.solve(many))?, sizes))
             };
             let points = series.iter().flat_map(|series| series.all());
-            let rounded = RoundedInstants::of(case, points, (at, by_crank), &channels, solvers[0])?;
-            Ok(Some(Solved { sides: [of(solvers[0])?, of(solvers[1])?], rounded }))
+            let rounded = RoundedInstants::of(case, points, (at, by_crank), &channels, solvers[Reference::Assur])?;
+            Ok(Some(Solved { sides: EachSide::tried(|side| of(solvers[side]))?, rounded }))
         };
         // Where forces decide the true motion, numbers at crank angles belong to the nominal motion.
         let nominal = solved(&case.nominal(), true)?;
-        Ok(Answers { solvers, nominal, timed: solved(case, false)?, integration })
+        Ok(Answers { nominal, timed: solved(case, false)?, integration })
     }
 
     /// What a side answers for a series.
-    fn of_series<'b>(&'b self, oracle: &Oracle, series: &OracleSeries, side: usize) -> Result<Answer<'b>> {
+    fn of_series<'b>(&'b self, oracle: &Oracle, series: &OracleSeries, side: Reference) -> Result<Answer<'b>> {
         let told = |solved: &'b Option<Solved>, integration: f64| -> Result<Option<Told<'b>>> {
             let Some(Solved { sides, rounded }) = solved else { return Ok(None) };
-            let [own, other] = [side, 1 - side].map(|side| Components::of(oracle, series, &sides[side].0));
+            let [own, other] = [side, side.other()].map(|side| Components::of(oracle, series, &sides[side].0));
             let (own, other) = (own?, other?);
             let (trajectory, sizes) = &sides[side];
             let sizes = sizes.iter().find(|(own, _)| *own == series.channel);
@@ -182,15 +184,15 @@ impl Answer<'_> {
 }
 
 fn of_series(
-    scenario: &Scenario,
-    solvers: [&dyn Solver; 2],
-    integration: &dyn Fn(usize, &Channel) -> f64,
+    problem: Problem,
+    solvers: EachSide<&dyn Solver>,
+    integration: &dyn Fn(Reference, &Channel) -> f64,
 ) -> Result<Vec<Check>> {
-    let all = || scenario.oracles.iter().flat_map(|oracle| oracle.series.iter().map(move |series| (oracle, series)));
+    let all = || problem.oracles.iter().flat_map(|oracle| oracle.series.iter().map(move |series| (oracle, series)));
     let series: Vec<&OracleSeries> = all().map(|(_, series)| series).collect();
-    let answers = Answers::of(&scenario.case, &series, solvers, integration)?;
+    let answers = Answers::of(problem.case, &series, solvers, integration)?;
     let mut checks = Vec::new();
-    for side in 0..2 {
+    for side in Reference::ALL {
         for (oracle, series) in all() {
             checks.extend(of_one(oracle, series, &answers, side)?);
         }
@@ -200,7 +202,7 @@ fn of_series(
 
 /// The checks of one series: one for all correct values together, and one for each value that is known to be wrong. If
 /// all values are known to be wrong, they have one check together.
-fn of_one(oracle: &Oracle, series: &OracleSeries, answers: &Answers, side: usize) -> Result<Vec<Check>> {
+fn of_one(oracle: &Oracle, series: &OracleSeries, answers: &Answers, side: Reference) -> Result<Vec<Check>> {
     let answer = answers.of_series(oracle, series, side)?;
     let against = |family: &str, point: &OraclePoint, origin: Origin| -> Check {
         let Found { deviation, bound, instant, .. } = answer.of(series, point);
@@ -208,7 +210,7 @@ fn of_one(oracle: &Oracle, series: &OracleSeries, answers: &Answers, side: usize
         let check = Check::new(family, deviation, tolerance, series.channel.kind.unit.symbol());
         check.located(|| format!("at {}", point.at))
     };
-    let [family, wrong] = [false, true].map(|wrong| family(oracle, wrong, answers.solvers[side].name()));
+    let [family, wrong] = [false, true].map(|wrong| family(oracle, wrong, side.name()));
     let corrected = |cell: &ExpectedCell| -> Check {
         let printed = against(&wrong, &cell.point, origin(oracle));
         against(&wrong, &cell.right, Origin::Recomputed).expected(&cell.finding, &printed)
@@ -301,21 +303,18 @@ impl<'a> Components<'a> {
     }
 }
 
-fn of_figures(scenario: &Scenario, solvers: [&dyn Solver; 2]) -> Result<Vec<Check>> {
-    let all = || scenario.oracles.iter().flat_map(|oracle| oracle.figures.iter().map(move |figure| (oracle, figure)));
-    let mut values = [Vec::new(), Vec::new()];
-    for (values, solver) in values.iter_mut().zip(solvers) {
-        let mut measured = Measured::of(scenario, solver);
-        for (_, figure) in all() {
-            values.push(measured.value(figure.figure)?);
-        }
-    }
+fn of_figures(oracles: &[Oracle], case: &Case, solvers: EachSide<&dyn Solver>) -> Result<Vec<Check>> {
+    let all = || oracles.iter().flat_map(|oracle| oracle.figures.iter().map(move |figure| (oracle, figure)));
+    let values: EachSide<Vec<f64>> = EachSide::tried(|side| -> Result<_> {
+        let mut measured = Measured::of(case, solvers[side]);
+        all().map(|(_, figure)| measured.value(figure.figure)).collect()
+    })?;
     let mut checks = Vec::new();
-    for (side, solver) in solvers.into_iter().enumerate() {
+    for side in Reference::ALL {
         for (index, (oracle, figure)) in all().enumerate() {
-            let [value, other] = [values[side][index], values[1 - side][index]];
+            let [value, other] = [values[side][index], values[side.other()][index]];
             let known = ULPS * f64::EPSILON * value.abs() + 2.0 * (value - other).abs();
-            let (family, unit) = (family(oracle, figure.wrong.is_some(), solver.name()), figure.figure.unit());
+            let (family, unit) = (family(oracle, figure.wrong.is_some(), side.name()), figure.figure.unit());
             let against = |number: &FigureValue, origin: Origin| {
                 let tolerance = tolerance(oracle, origin, (number.bound.larger(known), 0.0), number.digits);
                 Check::new(family.as_str(), (value - number.value).abs(), tolerance, unit)

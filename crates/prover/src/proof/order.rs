@@ -30,7 +30,7 @@ const NEGLIGIBLE: f64 = 0.01;
 /// # Errors
 /// Those of a run that is not numeric.
 pub(super) fn look(judge: &Judge, bank: &mut Bank, judged: &mut Judged) -> Result<bool, Stopped> {
-    let wanted = judge.scenario.engine_rel;
+    let wanted = judge.problem.engine_rel;
     // Second differences across a knot of a law of motion, where its third derivative jumps, have order 1 by
     // themselves.
     let is_smooth = bank.case.is_steady();

@@ -10,7 +10,7 @@ use super::judge::{ChannelProof, EngineInfo, Judge, Judged, describe};
 use super::observe::{Stopped, Watch};
 use super::options::Chosen;
 use super::runs::Bank;
-use super::settle::{Free, Search, Settling};
+use super::settle::{Search, Settling};
 use crate::compare::Verdict;
 use crate::engines::coarse_step;
 use crate::numbers::error;
@@ -18,6 +18,7 @@ use linkage::case::Case;
 use linkage::engine::{Engine, Route, Settings};
 use linkage::error::{Advice, Error, ErrorKind};
 use linkage::trajectory::{Stage, Trajectory};
+use scenario::Setting;
 
 /// Sweeps to begin with at the most, if the motion has needed as many.
 const ENOUGH: usize = 32;
@@ -45,7 +46,7 @@ impl OwnForces {
     /// Whether there is anything to judge: not where no force is wanted, where the route is given, and for an engine
     /// whose usual route is its own.
     pub(super) fn are_asked(judge: &Judge, chosen: &Chosen) -> bool {
-        chosen.own_forces.is_some() && judge.asking(judge.asked).of_own_forces().has_channels()
+        chosen.given.route.is_free() && judge.asking(judge.asked).of_own_forces().has_channels()
     }
 
     /// Judges the forces that the engine exerts, whose motion has needed `sweeps` and this work; `None` if they are not
@@ -57,7 +58,9 @@ impl OwnForces {
         (sweeps, effort): (usize, f64),
         progress: &mut dyn FnMut(f64),
     ) -> Option<OwnForces> {
-        let free = chosen.own_forces?;
+        if !chosen.given.route.is_free() {
+            return None;
+        }
         // Impulses are of a lower order than the motion, and need as many sweeps with the true masses.
         if effort > SHARE * chosen.budget {
             let told = format!(
@@ -75,7 +78,7 @@ impl OwnForces {
         let case = &case.wanting_only(&forces);
         let mut found: Option<OwnForces> = None;
         for &route in chosen.engine.own_routes(case) {
-            let own = by_route(judge, case, chosen, (free, route, sweeps.min(ENOUGH)), progress);
+            let own = by_route(judge, case, chosen, (route, sweeps.min(ENOUGH)), progress);
             let is_open = matches!(own.verdict, Verdict::Inconclusive { .. });
             // Of several open results, one with numbers tells more.
             let better = found.as_ref().is_none_or(|found| !is_open || found.failure.is_some());
@@ -147,23 +150,29 @@ fn by_route(
     judge: &Judge,
     case: &Case,
     chosen: &Chosen,
-    (free, route, sweeps): (Free, Route, usize),
+    (route, sweeps): (Route, usize),
     progress: &mut dyn FnMut(f64),
 ) -> OwnForces {
     let given = chosen.engine.settings();
     // A number of extrapolations that is given belongs to the given step.
-    let (step, finest) = match (free.step, free.extrapolated) {
+    let (step, finest) = match (chosen.given.step.is_free(), chosen.given.extrapolated.is_free()) {
         (true, _) => (coarse_step(case), 0.0),
         (false, true) => (coarser(given.resolution, coarse_step(case)), 0.5 * given.resolution),
         (false, false) => (given.resolution, 0.0),
     };
-    let free = Free { step: free.step || free.extrapolated, ..free };
-    let extrapolated = if free.extrapolated { 0 } else { given.extrapolated };
+    let mut asked = chosen.given.clone();
+    let extrapolated = match asked.extrapolated.is_free() {
+        true => {
+            asked.step = Setting::Free;
+            0
+        }
+        false => given.extrapolated,
+    };
     let engine = chosen.engine.with(Settings { resolution: step, route, extrapolated, ..given });
     let judge = judge.asking(engine.settings()).of_own_forces();
     let mut bank = Bank::new(case, engine.as_ref(), Watch::Senses);
     let search =
-        Settling::new(&judge, &mut bank, engine.as_ref(), free, SHARE * chosen.budget).conclusive(finest, sweeps);
+        Settling::new(&judge, &mut bank, engine.as_ref(), &asked, SHARE * chosen.budget).conclusive(finest, sweeps);
     match search.run(progress) {
         Ok((Judged { info, mut channels, mut verdict, run, .. }, search)) => {
             drop(bank);

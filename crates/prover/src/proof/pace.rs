@@ -39,12 +39,14 @@ impl Pace {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::proof::need::Of;
 
     /// Whether a search is given up in its last round, of rounds with work and need.
     fn given_up(rounds: &[(f64, f64)], budget: f64) -> bool {
         let mut pace = Pace::default();
-        let told =
-            rounds.iter().map(|&(effort, share)| pace.is_too_slow(effort, Need { is_vague: false, share }, budget));
+        let told = rounds
+            .iter()
+            .map(|&(effort, share)| pace.is_too_slow(effort, Need { is_vague: false, share, of: Of::Bound }, budget));
         let told: Vec<bool> = told.collect();
         let (last, before) = told.split_last().expect("there are rounds");
         assert!(!before.contains(&true), "{told:?}");

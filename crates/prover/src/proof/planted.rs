@@ -3,6 +3,7 @@
 
 use std::path::Path;
 
+use super::each_side::EachSide;
 use super::entrants::{Sides, TRUE_SIDES};
 use super::figures::Measured;
 use super::judge::ChannelProof;
@@ -10,13 +11,15 @@ use super::known::Known;
 use super::ledger::Ledger;
 use super::observe::{Observed, Watch, observe};
 use super::options::{Chosen, Reference};
-use super::settle::{self, Free};
+use super::problem::Problem;
+use super::settle;
 use super::{checks, engines, methods, oracle};
 use crate::compare::{Check, Verdict, magnitudes};
 use crate::proof::{EngineProof, Options, prove};
 use analytic::witness::triad::Triad;
 use analytic::{AssurSolver, NewtonSolver};
 use lab::specimens::spec::four_bar;
+
 use linkage::case::{Case, Grid, Wanted};
 use linkage::engine::{Engine, Hook, Route, Settings, Wrapped};
 use linkage::math::{Vec2, turned};
@@ -24,7 +27,7 @@ use linkage::mechanism::GROUND;
 use linkage::solver::{Solver, State};
 use linkage::trajectory::Channel;
 use rapier_twin::Rapier;
-use scenario::{Figure, Scenario};
+use scenario::{EngineSettings, Figure, Scenario};
 
 /// Step of the engines (s).
 const STEP: f64 = 1e-3;
@@ -75,7 +78,13 @@ fn assur(fault: Fault, size: f64) -> Wrapped<Everywhere, dyn Solver> {
 fn knowing(case: &Case) -> Known {
     let [first, second] = [seen(case, &AssurSolver), seen(case, &NewtonSolver)];
     let sensitivity = vec![0.0; first.trajectory.channels().len()];
-    Known::of(case, [("assur", &first.trajectory), ("newton", &second.trajectory)], &sensitivity).unwrap()
+    Known::of(case, [&first.trajectory, &second.trajectory], &sensitivity).unwrap()
+}
+
+/// The checks of published numbers.
+fn by_oracles(scenario: &Scenario, integration: &dyn Fn(Reference, &Channel) -> f64) -> Vec<Check> {
+    let problem = Problem::of(scenario, &scenario.case);
+    oracle::checks(problem, problem.case, EachSide::of(Reference::solver), integration).unwrap()
 }
 
 /// The check whose name begins with `name`.
@@ -123,8 +132,8 @@ fn every_check_of_the_two_sides_finds_three_times_its_bound_and_passes_a_fifth()
     ];
     for (name, fault, bound) in planted {
         for (share, word) in [(3.0, "disagree"), (0.2, "agree")] {
-            let sides = [("assur", seen(&case, &assur(fault, share * bound))), ("newton", other.clone())];
-            let found = checks::of_sides(&case, &sides, &known);
+            let wrong = seen(&case, &assur(fault, share * bound));
+            let found = checks::of_sides(&case, EachSide::new(&wrong, &other), &known);
             let check = named(&found, name);
             assert_eq!(check.verdict.word(), word, "{name} at {share}: {:e} of {:e}", check.value, check.bound);
         }
@@ -156,8 +165,9 @@ fn regress_a_driving_link_is_judged_by_its_own_numbers_near_a_dead_point() {
     let alpha = case.crank().top_speed().powi(2);
     let slower: Fault = |state, size| state.motions[1].alpha -= size;
     for (size, is_found) in [(0.0, false), (0.2e-11 * alpha, false), (3e-11 * alpha, true), (1.76 * alpha, true)] {
-        let sides = [("assur", truth.clone()), ("newton", seen(&case, &assur(slower, size)))];
-        assert_eq!(checks::sides_differ([0, 1].map(|side| &sides[side].1.trajectory), &known), is_found, "{size:e}");
+        let slow = seen(&case, &assur(slower, size));
+        let differ = checks::sides_differ([&truth.trajectory, &slow.trajectory], &known);
+        assert_eq!(differ, is_found, "{size:e}");
     }
     // What the dyad itself loses there is rounding.
     assert!(!checks::sides_differ([&truth.trajectory, &other.trajectory], &known));
@@ -180,7 +190,7 @@ fn what_is_not_a_number_at_one_instant_disagrees() {
     for (name, spoil) in spoiled {
         let mut side = truth.clone();
         spoil(&mut side);
-        let found = checks::of_sides(&case, &[("assur", side), ("newton", other.clone())], &known);
+        let found = checks::of_sides(&case, EachSide::new(&side, &other), &known);
         assert_eq!(named(&found, name).verdict.word(), "disagree", "{name}");
     }
     // A NaN that is in no channel still reaches the closure.
@@ -240,19 +250,37 @@ fn every_class_three_method_finds_a_wrong_group_and_stands_in_the_proof() {
     }
 }
 
-fn engine_proof(scenario: &Scenario, fault: Fault, size: f64) -> EngineProof {
-    engine_proven(scenario, fault, size, false, Free::default())
+/// What an engine may choose of its settings.
+#[derive(Clone, Copy, Debug)]
+enum Search {
+    None,
+    Everything,
 }
 
-fn engine_proven(scenario: &Scenario, fault: Fault, size: f64, grows: bool, free: Free) -> EngineProof {
+fn engine_proof(scenario: &Scenario, fault: Fault, size: f64) -> EngineProof {
+    engine_proven(scenario, fault, size, false, Search::None)
+}
+
+fn engine_proven(scenario: &Scenario, fault: Fault, size: f64, grows: bool, search: Search) -> EngineProof {
     let reference = seen(&scenario.case, &AssurSolver);
     let rapier = Rapier::all(STEP).into_iter().next().unwrap();
     let inner = Box::new(rapier) as Box<dyn Engine>;
     let engine: Box<dyn Engine> = Box::new(Wrapped { hook: Everywhere { fault, size, grows }, inner });
-    let chosen = Chosen { engine, free, own_forces: None, budget: settle::BUDGET };
+    let given = match search {
+        Search::None => EngineSettings::exactly(engine.as_ref()),
+        Search::Everything => EngineSettings::default(),
+    };
+    let chosen = Chosen { engine, given, budget: settle::BUDGET }.by_motion_alone();
     let known = knowing(&scenario.case);
-    engines::prove(scenario, &scenario.case, &chosen, &reference, &known, (&mut Ledger::default(), &mut |_| {}))
-        .unwrap()
+    engines::prove(
+        Problem::of(scenario, &scenario.case),
+        &scenario.case,
+        &chosen,
+        &reference,
+        &known,
+        (&mut Ledger::default(), &mut |_| {}),
+    )
+    .unwrap()
 }
 
 /// An opening that does not vanish with the step, and a moment that disagrees with its powers. Both are far below 1 %
@@ -302,9 +330,10 @@ fn regress_what_is_read_too_late_converges_at_another_order_and_disagrees() {
         // Something of the size of a jerk.
         state.motions.iter_mut().for_each(|motion| motion.alpha -= late * motion.omega.powi(3));
     };
-    let everything = Free { step: true, sweeps: true, extrapolated: true };
     // Five steps up to 8e-3 s still show the order of the crank-rocker, not that of the faster machine.
-    for (name, free) in [("crank_rocker", Free::default()), ("crank_rocker", everything), ("ov7_base", everything)] {
+    for (name, free) in
+        [("crank_rocker", Search::None), ("crank_rocker", Search::Everything), ("ov7_base", Search::Everything)]
+    {
         let scenario = parsed(name, &text(name));
         for (fault, late, of) in [(velocities, 0.5, "omega"), (accelerations, 0.25, "alpha")] {
             let proof = engine_proven(&scenario, fault, late * STEP, true, free);
@@ -326,9 +355,10 @@ fn a_side_is_known_by_its_own_integration() {
     let plain = text("crank_rocker_runup");
     let short = format!("{}[grid]\nfrom_s = 0\nto_s = 0.1\nstep_s = 0.05\n", &plain[..plain.find("[grid]").unwrap()]);
     let scenario = parsed("crank_rocker_runup", &short);
+    let problem = Problem::of(&scenario, &scenario.case);
     let known = |reference: Reference| {
-        let sides = Sides::of([&scenario; 2], TRUE_SIDES, reference, &mut Ledger::default()).unwrap();
-        [0, 1].map(|side| sides.on_course(&scenario.case, side, |course| Ok(course.crank(2).error)).unwrap())
+        let sides = Sides::of(problem, &scenario.case, TRUE_SIDES, reference, &mut Ledger::default()).unwrap();
+        Reference::ALL.map(|side| sides.on_course(&scenario.case, side, |course| Ok(course.crank(2).error)).unwrap())
     };
     let [by_first, by_second] = [known(Reference::Assur), known(Reference::Newton)];
     assert!((by_first[0] / by_first[1] - 1.0).abs() > 1e-3, "{by_first:?}");
@@ -345,8 +375,8 @@ fn what_the_sides_differ_by_is_told_in_times_of_what_is_allowed() {
     let place = truth.trajectory.channels().iter().position(|own| own.to_string() == "joint.O.fx_N").unwrap();
     let largest = magnitudes(&truth.trajectory)[place];
     let force: Fault = |state, size| state.forces[0].x += size;
-    let sides = [("assur", seen(&case, &assur(force, 3e-10 * largest))), ("newton", seen(&case, &NewtonSolver))];
-    let beyond = checks::beyond(&sides, &knowing(&case));
+    let [wrong, other] = [seen(&case, &assur(force, 3e-10 * largest)), seen(&case, &NewtonSolver)];
+    let beyond = checks::beyond(EachSide::new(&wrong, &other), &knowing(&case));
     let own = beyond.iter().find(|own| own.channel.to_string() == "joint.O.fx_N").unwrap();
     assert!((2.0..3.5).contains(&own.margin) && own.since.0 == case.grid.times[0], "{own:?}");
     assert!(beyond.iter().all(|own| own.channel.kind.subject != linkage::trajectory::Subject::Point), "{beyond:?}");
@@ -358,7 +388,7 @@ fn a_reversed_drive_has_the_reversed_steady_speed() {
     let speeds = |rpm: &str| {
         let text = text("crank_rocker").replace("speed_rpm = 130", rpm);
         let scenario = parsed("crank_rocker", &text[..text.find("[[oracle]]").unwrap()]);
-        let mut measured = Measured::of(&scenario, &AssurSolver);
+        let mut measured = Measured::of(&scenario.case, &AssurSolver);
         [Figure::SteadyCrankSpeed, Figure::SteadyMotorSpeed].map(|figure| measured.value(figure).unwrap())
     };
     let [forwards, backwards] = [speeds("speed_rpm = 130"), speeds("speed_rpm = -130")];
@@ -397,8 +427,7 @@ fn errors_of_an_engine_have_the_sign_of_its_fault() {
 #[test]
 fn an_oracle_finds_a_unit_of_its_last_digit() {
     let name = "crank_rocker";
-    let oracle_checks =
-        |text: &str| oracle::checks(&parsed(name, text), &parsed(name, text), analytic::all(), &|_, _| 0.0).unwrap();
+    let oracle_checks = |text: &str| by_oracles(&parsed(name, text), &|_, _| 0.0);
     assert!(oracle_checks(&text(name)).iter().all(|check| ["agree", "expected"].contains(&check.verdict.word())));
     let moved = [
         ("value = 50, digits = 9", "value = 50.000000001, digits = 9", "link.rocker.angle_deg"),
@@ -426,7 +455,7 @@ fn the_error_of_an_integration_adds_to_the_bound_of_numbers_at_times() {
     // Numbers at a crank angle, and at a time.
     let both = parsed("five_bar_on_a_spring", &text("five_bar_on_a_spring"));
     let bounds = |left: f64| {
-        let found = oracle::checks(&both, &both, analytic::all(), &|_, _| left).unwrap();
+        let found = by_oracles(&both, &|_, _| left);
         found.into_iter().map(|check| (check.family.contains(" s ("), check.bound)).collect::<Vec<_>>()
     };
     let narrow = bounds(0.0);
@@ -442,7 +471,6 @@ fn the_error_of_an_integration_adds_to_the_bound_of_numbers_at_times() {
 /// hundredth in that of a rocker that turns with it through change points, which is what still proves something there.
 #[test]
 fn a_fault_of_fixed_size_is_found_where_the_reference_is_zero() {
-    let everything = Free { step: true, sweeps: true, extrapolated: true };
     let cranks = include_str!("../../../../tests/suite/exact_zeros/parallel_cranks.toml");
     let zeros: [(&str, &str, &str, Fault, f64); 2] = [
         ("crank_rocker", &text("crank_rocker"), "crank", |state, size| state.motions[1].alpha += size, 1e-6),
@@ -455,7 +483,7 @@ fn a_fault_of_fixed_size_is_found_where_the_reference_is_zero() {
         let place = truth.channels().iter().position(|channel| channel.to_string() == own).unwrap();
         let natural = magnitudes(&truth)[place];
         for (size, word) in [(share * natural, "disagree"), (0.0, "agree")] {
-            let proof = engine_proven(&scenario, fault, size, false, everything);
+            let proof = engine_proven(&scenario, fault, size, false, Search::Everything);
             let found = proof.channels.iter().find(|channel| channel.residual.channel.to_string() == own).unwrap();
             assert_eq!(found.verdict.word(), word, "{own} at {size:e}: {found:?}");
         }
@@ -466,7 +494,6 @@ fn a_fault_of_fixed_size_is_found_where_the_reference_is_zero() {
 /// is found in a balanced rotor.
 #[test]
 fn a_fault_of_fixed_size_is_found_where_nothing_has_a_size() {
-    let everything = Free { step: true, sweeps: true, extrapolated: true };
     let mut rotor = four_bar([1.0, 0.3, 1.0, 1.0], true);
     rotor.links.truncate(1);
     rotor.pins.truncate(1);
@@ -480,7 +507,7 @@ fn a_fault_of_fixed_size_is_found_where_nothing_has_a_size() {
     ];
     for (own, fault) in zeros {
         for (size, word) in [(1e-6, "disagree"), (0.0, "agree")] {
-            let proof = engine_proven(&rotor, fault, size, false, everything);
+            let proof = engine_proven(&rotor, fault, size, false, Search::Everything);
             let found = proof.channels.iter().find(|channel| channel.residual.channel.to_string() == own).unwrap();
             assert_eq!(found.verdict.word(), word, "{own} at {size:e}: {found:?}");
             assert_eq!(proof.verdict.word(), word, "{own} at {size:e}");

@@ -4,7 +4,8 @@ use super::known::Known;
 use super::ledger::Ledger;
 use super::observe::{Watch, observe};
 use super::options::Chosen;
-use super::settle::{self, Free};
+use super::problem::Problem;
+use super::settle;
 use super::{EngineProof, ForceFault, engines, sensitivity};
 use crate::engines::coarse_step;
 use analytic::{AssurSolver, NewtonSolver};
@@ -13,6 +14,7 @@ use linkage::engine::{Engine, Hook, Route, Settings, Wrapped};
 use linkage::math::rotated;
 use linkage::solver::{Solver, State};
 use rapier_twin::{Build, Precision, Rapier};
+use scenario::EngineSettings;
 use scenario::of_repository;
 
 /// Effect of a fault on every state.
@@ -47,14 +49,21 @@ fn proven(name: &str, by: &'static [Route], fault: Fault) -> EngineProof {
     };
     let sides = [seen(&AssurSolver), seen(&NewtonSolver)];
     let sensitivity = sensitivity::of(case, &AssurSolver, &sides[0].trajectory).unwrap();
-    let both = [("assur", &sides[0].trajectory), ("newton", &sides[1].trajectory)];
+    let both = [&sides[0].trajectory, &sides[1].trajectory];
     let known = Known::of(case, both, &sensitivity).unwrap();
     let inner: Box<dyn Engine> = Box::new(Rapier::new(Build::Multibody, Precision::Double, coarse_step(case)));
-    let free = Free { step: true, sweeps: true, extrapolated: true };
     let hook = ByRoute { fault, by, route: inner.settings().route };
     let engine = Box::new(Wrapped { hook, inner });
-    let chosen = Chosen { engine, free, own_forces: Some(free), budget: settle::BUDGET };
-    engines::prove(&scenario, case, &chosen, &sides[0], &known, (&mut Ledger::default(), &mut |_| {})).unwrap()
+    let chosen = Chosen { engine, given: EngineSettings::default(), budget: settle::BUDGET };
+    engines::prove(
+        Problem::of(&scenario, case),
+        case,
+        &chosen,
+        &sides[0],
+        &known,
+        (&mut Ledger::default(), &mut |_| {}),
+    )
+    .unwrap()
 }
 
 const EXERTED: &[Route] = &[Route::Native, Route::Probe];

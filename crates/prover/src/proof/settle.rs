@@ -22,24 +22,7 @@ use super::runs::{Bank, FEWER, other_sweeps, rungs};
 use super::stall::{Next, Stall};
 use crate::compare::Verdict;
 use crate::tolerance::Part;
-
-/// Settings that a proof may choose.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-pub(crate) struct Free {
-    /// The time step.
-    pub(crate) step: bool,
-    /// The sweeps of the iteration.
-    pub(crate) sweeps: bool,
-    /// How often runs are extrapolated.
-    pub(crate) extrapolated: bool,
-}
-
-impl Free {
-    /// Whether there is anything to choose.
-    pub(crate) fn any(self) -> bool {
-        self.step || self.sweeps || self.extrapolated
-    }
-}
+use scenario::EngineSettings;
 
 /// How the settings of an engine were found.
 #[derive(Clone, Debug, PartialEq)]
@@ -153,7 +136,7 @@ struct Trial {
 pub(super) struct Settling<'a, 'b> {
     judge: &'a Judge<'a>,
     bank: &'a mut Bank<'b>,
-    free: Free,
+    given: &'a EngineSettings,
     /// Present settings; the step is the finest one of all runs.
     now: Settings,
     most_sweeps: usize,
@@ -180,22 +163,22 @@ impl<'a, 'b> Settling<'a, 'b> {
         judge: &'a Judge<'a>,
         bank: &'a mut Bank<'b>,
         engine: &dyn Engine,
-        free: Free,
+        given: &'a EngineSettings,
         budget: f64,
     ) -> Self {
         let mut now = engine.settings();
         let [first, most] = engine.sweeps(bank.case).unwrap_or([now.sweeps; 2]);
-        if free.sweeps {
+        if given.sweeps.is_free() {
             now.sweeps = first;
         }
         // The finest of the first three runs.
-        let times = if free.extrapolated { 0 } else { now.extrapolated };
+        let times = if given.extrapolated.is_free() { 0 } else { now.extrapolated };
         now.resolution *= 0.5f64.powi(times as i32 + 1);
         let coarsest = 2.0 * engine.settings().resolution;
         Settling {
             judge,
             bank,
-            free,
+            given,
             now,
             most_sweeps: most,
             coarsest,
@@ -213,10 +196,10 @@ impl<'a, 'b> Settling<'a, 'b> {
     /// `finest` (s), and with `sweeps` at least.
     pub(super) fn conclusive(mut self, finest: f64, sweeps: usize) -> Self {
         (self.aim, self.conclusive, self.finest, self.factor) = (1.0, true, finest, MORE_SWEEPS[1]);
-        if self.free.sweeps {
+        if self.given.sweeps.is_free() {
             self.now.sweeps = self.now.sweeps.max(sweeps);
         }
-        if self.free.step {
+        if self.given.step.is_free() {
             self.coarsest *= 4.0;
         }
         self
@@ -224,7 +207,7 @@ impl<'a, 'b> Settling<'a, 'b> {
 
     /// Whether there is no finer step to try.
     fn is_finest(&self) -> bool {
-        !self.free.step || 0.5 * self.now.resolution < 0.99 * self.finest
+        !self.given.step.is_free() || 0.5 * self.now.resolution < 0.99 * self.finest
     }
 
     /// Runs the engine until it is decided, or until nothing is left to try.
@@ -265,15 +248,19 @@ impl<'a, 'b> Settling<'a, 'b> {
                     self.near = trial.need.is_within(NEAR) || is_careful;
                     let is_slow = self.conclusive && pace.is_too_slow(self.bank.effort, trial.need, self.budget);
                     let thrift = self.bank.effort > THRIFT * self.budget;
-                    let blame = match stall.look_closer(trial.need, trial.blame.part, self.now.sweeps, self.free.sweeps)
-                    {
+                    let blame = match stall.look_closer(
+                        trial.need,
+                        trial.blame.part,
+                        self.now.sweeps,
+                        self.given.sweeps.is_free(),
+                    ) {
                         Next::Blames(part) => part,
                         Next::Returns(fewer) => {
                             self.now.sweeps = fewer;
                             Part::Discretisation
                         }
                     };
-                    if trial.need.is_of_instants() && self.free.step {
+                    if trial.need.is_of_instants() && self.given.step.is_free() {
                         self.leave_out_less(&trial.judged);
                     }
                     // A later round speaks for itself where it disagrees, or no longer does.
@@ -311,7 +298,7 @@ impl<'a, 'b> Settling<'a, 'b> {
             (Some(mut best), _) => {
                 // At a given step there is no finer run: its own estimate counts.
                 let is_over = matches!(end, End::Budget | End::Pace);
-                let is_cut = self.free.sweeps && is_over;
+                let is_cut = self.given.sweeps.is_free() && is_over;
                 if (!self.is_finest() || is_cut) && borne_out.is_empty() {
                     best.judged.doubt("no finer run bears it out", &Advice::SmallerStep { to: None });
                 }
@@ -342,7 +329,7 @@ impl<'a, 'b> Settling<'a, 'b> {
     /// Goes on at steps with room beside the dead points, if those of this round have none: they go through them, and
     /// fail or show no order. Returns whether it is so.
     fn makes_room(&mut self) -> bool {
-        let (case, engine) = (&self.judge.scenario.case, self.bank.engine(self.now));
+        let (case, engine) = (self.judge.problem.case, self.bank.engine(self.now));
         let most = *self.room.get_or_insert_with(|| room(case, engine.as_ref()));
         let is_cramped = 4.0 * self.now.resolution > most && !self.is_finest();
         if is_cramped {
@@ -363,20 +350,22 @@ impl<'a, 'b> Settling<'a, 'b> {
         let mut next = self.now;
         let factor = MORE_SWEEPS[usize::from(self.conclusive || self.near)];
         match blame {
-            Part::Iteration if self.free.sweeps && self.now.sweeps < self.most_sweeps => next.sweeps *= factor,
+            Part::Iteration if self.given.sweeps.is_free() && self.now.sweeps < self.most_sweeps => {
+                next.sweeps *= factor
+            }
             // At a given step only more sweeps are left, and too few of them spoil the order that the step shows.
             Part::Discretisation
-                if self.is_finest() && self.free.sweeps && self.now.sweeps < self.judge.asked.sweeps =>
+                if self.is_finest() && self.given.sweeps.is_free() && self.now.sweeps < self.judge.asked.sweeps =>
             {
                 next.sweeps *= factor;
             }
             // Coarser runs, extrapolated more often, have less rounding.
-            Part::Rounding if self.free.step && self.coarsest < COARSEST * self.judge.asked.resolution => {
+            Part::Rounding if self.given.step.is_free() && self.coarsest < COARSEST * self.judge.asked.resolution => {
                 self.coarsest = COARSEST * self.judge.asked.resolution;
                 return None;
             }
             // At a given step no coarser one is left to choose.
-            Part::Rounding | Part::Reference if self.free.step => return Some(End::Rounding),
+            Part::Rounding | Part::Reference if self.given.step.is_free() => return Some(End::Rounding),
             Part::Rounding | Part::Reference => return Some(End::Nothing),
             Part::Discretisation | Part::Iteration if !self.is_finest() => next.resolution *= 0.5,
             Part::Discretisation | Part::Iteration => return Some(End::Nothing),
@@ -396,7 +385,8 @@ impl<'a, 'b> Settling<'a, 'b> {
     /// Settings of all combinations that the finest run judges, the one extrapolated most often first.
     fn candidates(&self) -> Vec<Settings> {
         let asked = self.judge.asked;
-        let times = if self.free.extrapolated { 0..=MOST_TIMES } else { asked.extrapolated..=asked.extrapolated };
+        let times =
+            if self.given.extrapolated.is_free() { 0..=MOST_TIMES } else { asked.extrapolated..=asked.extrapolated };
         let at = |times: usize| Settings {
             resolution: self.now.resolution * 2f64.powi(times as i32 + 1),
             extrapolated: times,
@@ -404,7 +394,8 @@ impl<'a, 'b> Settling<'a, 'b> {
         };
         // A judgement takes steps of four times the finest one at least.
         let coarsest = self.coarsest.larger(4.0 * self.now.resolution);
-        let is_open = |settings: &Settings| !self.free.step || 2.0 * settings.resolution <= coarsest * 1.000_001;
+        let is_open =
+            |settings: &Settings| !self.given.step.is_free() || 2.0 * settings.resolution <= coarsest * 1.000_001;
         times.rev().map(at).filter(is_open).collect()
     }
 
@@ -442,7 +433,7 @@ impl<'a, 'b> Settling<'a, 'b> {
         // At first, what the sweeps leave is asked only where the step is not to blame.
         let settings = best.judged.info.settings;
         let engine = self.bank.engine(settings);
-        let share = if self.free.sweeps { self.factor } else { FEWER };
+        let share = if self.given.sweeps.is_free() { self.factor } else { FEWER };
         let others = other_sweeps(self.bank.case, engine.as_ref(), settings.sweeps, share);
         let disagrees = !best.judged.against().is_empty();
         let is_asking = is_long && !self.conclusive && !best.need.is_of_instants();
@@ -458,7 +449,8 @@ impl<'a, 'b> Settling<'a, 'b> {
         };
         // A third run tells how fast the sweeps converge, before they are multiplied; and whether they do, before
         // anything is disproven: sweeps that have hardly begun to converge differ little.
-        let is_asked = found.blame.part == Part::Iteration && !found.need.is_within(self.aim) && self.free.sweeps;
+        let is_asked =
+            found.blame.part == Part::Iteration && !found.need.is_within(self.aim) && self.given.sweeps.is_free();
         if others.len() < 2 || (!is_asked && found.judged.against().is_empty()) {
             return Ok(found);
         }
@@ -475,7 +467,7 @@ impl<'a, 'b> Settling<'a, 'b> {
     fn trial(&mut self, settings: Settings, others: &[usize], progress: &mut dyn FnMut(f64)) -> Result<Trial, Stopped> {
         let runs = self.bank.runs(settings, others, progress)?;
         let judged = self.judge.judge(self.bank.engine(settings).as_ref(), runs)?;
-        let (need, blame) = need(&judged, self.judge.scenario.engine_rel);
+        let (need, blame) = need(&judged, self.judge.problem.engine_rel);
         Ok(Trial { judged, need, blame })
     }
 }

@@ -5,6 +5,7 @@ use super::entrants::{Sides, TRUE_SIDES};
 use super::known::usual;
 use super::ledger::Ledger;
 use super::options::Reference;
+use super::problem::Problem;
 use crate::claims::{Course, needed};
 use crate::compare::{Check, magnitudes, magnitudes_by};
 use analytic::range::explained;
@@ -61,12 +62,12 @@ impl Solved {
     pub fn of<'a>(scenario: &Scenario, grid: Grid, claims: impl IntoIterator<Item = &'a Claim>) -> Result<Self> {
         let asked: Vec<Channel> = claims.into_iter().flat_map(|claim| asked(claim, &scenario.case)).collect();
         let case = scenario.case.on(grid)?.wanting_only(&asked).scene()?.case;
-        let formulas = Formulas::over(Vec::new());
-        let scene = Scenario { case, oracles: Vec::new(), formulas, ..scenario.clone() };
-        let sides = Sides::of([&scene, &scene], TRUE_SIDES, Reference::Assur, &mut Ledger::default())
-            .map_err(|error| explained(&scene.case, error))?;
+        let formulas = &Formulas::over(Vec::new());
+        let problem = Problem { oracles: &[], formulas, ..Problem::of(scenario, &case) };
+        let sides = Sides::of(problem, &case, TRUE_SIDES, Reference::Assur, &mut Ledger::default())
+            .map_err(|error| explained(&case, error))?;
         let least = vec![0.0; sides.trajectory().channels().len()];
-        Ok(Solved { case: scene.case, sides, least })
+        Ok(Solved { case, sides, least })
     }
 
     /// The same, where no channel is known better than all channels of the mechanism say: a few channels may be those
@@ -82,7 +83,7 @@ impl Solved {
     /// # Errors
     /// Those of `then`.
     pub fn on_course<T>(&self, then: impl FnOnce(&Course) -> Result<T>) -> Result<T> {
-        self.sides.on_course(&self.case, 0, |course| then(&course.known_at_least(&self.least)))
+        self.sides.on_course(&self.case, Reference::Assur, |course| then(&course.known_at_least(&self.least)))
     }
 
     /// The reference's numbers.

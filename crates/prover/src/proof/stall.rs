@@ -74,9 +74,10 @@ impl Stall {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::proof::need::Of;
 
     fn need(share: f64) -> Need {
-        Need { is_vague: false, share }
+        Need { is_vague: false, share, of: Of::Bound }
     }
 
     /// The rounds of a search: need, blame and sweeps, and what it does next.

@@ -1,21 +1,14 @@
 //! The table itself.
 
-use super::Kind::{
-    Choice, Integer, IntegerOrBoolean, Number, Numbers, Quantities, Quantity, Table, TableOrTables, Tables, Text, Texts,
+use super::key::Kind::{
+    Choice, Integer, Number, Numbers, Quantities, Quantity, Table, TableOrTables, Tables, Text, Texts,
 };
-use super::{Key, Kind, Section};
+use super::key::{Key, Kind, Section, needed, optional};
+use crate::engine::KEYS;
 use crate::unit::{
     ACCELERATION, ANGLE, ANGULAR_SPEED, DAMPING, FORCE, INERTIA, LENGTH, MASS, MOMENT, MOMENT_PER_SPEED, STIFFNESS,
     TIME, TORSIONAL_STIFFNESS,
 };
-
-const fn needed(name: &'static str, kind: Kind, meaning: &'static str) -> Key {
-    Key { name, kind, is_needed: true, meaning, default: "" }
-}
-
-const fn optional(name: &'static str, kind: Kind, meaning: &'static str, default: &'static str) -> Key {
-    Key { name, kind, is_needed: false, meaning, default }
-}
 
 const fn section(path: &'static str, keys: &'static [Key]) -> Section {
     Section { path, keys }
@@ -23,7 +16,7 @@ const fn section(path: &'static str, keys: &'static [Key]) -> Section {
 
 const ACCELERATIONS: Kind = Quantity(&[&ACCELERATION]);
 const ANGLES: Kind = Quantity(&[&ANGLE]);
-/// Values of an input: see [`unit::of_input`](crate::scenario::unit::of_input).
+/// Values of an input: see [`unit::of_input`](crate::unit::of_input).
 const INPUTS: Kind = Quantity(&[&ANGLE]);
 const INPUTS_OR_TIMES: Kind = Quantity(&[&ANGLE, &TIME]);
 const DAMPINGS_OR_SLOPES: Kind = Quantity(&[&DAMPING, &MOMENT_PER_SPEED]);
@@ -410,38 +403,7 @@ pub static SECTIONS: &[Section] = &[
         ],
     ),
     section("channels", &[needed("want", Texts, "stages, subjects or channels that are wanted")]),
-    section(
-        "engine",
-        &[
-            optional(
-                "dt",
-                TIMES,
-                "time step of engines with a fixed step; at most one of `dt` and `step`",
-                "found by `run`",
-            ),
-            optional("step", ANGLES, "the same as the angle that the crank turns through in a step", "found by `run`"),
-            optional("name", Text, "engine that judges unless another is asked for", "the first"),
-            optional("sweeps", Integer, "sweeps of the engine's iteration in a step", "found by `run`"),
-            optional(
-                "substeps",
-                Integer,
-                "number of parts into which the engine itself divides a step",
-                "the engine's",
-            ),
-            optional(
-                "route",
-                Choice(&["differences", "native", "probe"]),
-                "how reactions and balancing moment are obtained",
-                "the engine's, and its own forces beside it",
-            ),
-            optional(
-                "extrapolated",
-                IntegerOrBoolean,
-                "a number N from 0 to 8: runs at the step, at half of it, ..., at its 2^N-th part are combined, so that the N leading errors drop out; `true` is 1, `false` is 0",
-                "found by `run`; 0 where the step is given",
-            ),
-        ],
-    ),
+    section("engine", &KEYS),
     section(
         "tolerances",
         &[optional(

@@ -3,7 +3,7 @@
 use toml::Spanned;
 use toml::de::DeValue;
 
-use super::{Entry, Table, found};
+use super::{Entry, Needed, Table, found};
 use crate::unit::{Family, Unit};
 use crate::words::choice;
 use linkage::error::{Error, ErrorKind, Result};
@@ -102,7 +102,7 @@ impl<'a> Table<'a> {
         let (key, value) = (self.entries[at].key, self.entries[at].value);
         self.used.insert(key);
         let Some(array) = value.get_ref().as_array() else {
-            return self.instead(Some(vec![0.0]), self.mistyped(key, value, "an array of numbers"));
+            return self.instead(Some(vec![0.0]), self.mistyped(key, value, Needed::Numbers));
         };
         let si = |(index, element): (usize, &Spanned<DeValue>)| {
             let number =

@@ -1,0 +1,394 @@
+//! `[engine]`: engines by name, and their settings, given or free, from files and arguments to the proof.
+//!
+//! [`ROWS`] is the one place of a setting: reader, writer, argument, schema and documents follow from its row.
+
+use std::fmt;
+use std::ops::RangeInclusive;
+
+use super::keys::{Key, Kind, optional};
+use super::reader::{Sign, Table};
+use super::setting::Setting;
+use super::unit::{ANGLE, TIME};
+use linkage::drive::Drive;
+use linkage::engine::{Engine, Route, Settings};
+use linkage::error::{ErrorKind, Result};
+
+/// An engine by name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum EngineName {
+    /// Rapier in f64, the default: a spanning tree as a multibody, loops closed by impulse joints.
+    Rapier,
+    /// The same in single precision; needs the feature `f32`.
+    RapierF32,
+    /// Rapier in f64, every link a body of its own.
+    Impulse,
+    /// The same in single precision; needs the feature `f32`.
+    ImpulseF32,
+    /// Simbody; needs the feature `simbody`, and the library.
+    Simbody,
+}
+
+impl EngineName {
+    /// All engines, the default first, whether a build has them or not.
+    pub const ALL: [EngineName; 5] =
+        [EngineName::Rapier, EngineName::RapierF32, EngineName::Impulse, EngineName::ImpulseF32, EngineName::Simbody];
+
+    /// Name of the engine, as on the command line and in scenario files.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            EngineName::Rapier => "rapier",
+            EngineName::RapierF32 => "rapier-f32",
+            EngineName::Impulse => "impulse",
+            EngineName::ImpulseF32 => "impulse-f32",
+            EngineName::Simbody => "simbody",
+        }
+    }
+
+    /// The engine called `name`.
+    #[must_use]
+    pub fn named(name: &str) -> Option<EngineName> {
+        EngineName::ALL.into_iter().find(|engine| engine.name() == name)
+    }
+
+    /// Cargo feature that a build needs to have the engine; `None` if it always has it.
+    #[must_use]
+    pub fn feature(self) -> Option<&'static str> {
+        match self {
+            EngineName::Rapier | EngineName::Impulse => None,
+            EngineName::RapierF32 | EngineName::ImpulseF32 => Some("f32"),
+            EngineName::Simbody => Some("simbody"),
+        }
+    }
+}
+
+impl fmt::Display for EngineName {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+macro_rules! settings {
+    ($($(#[$doc:meta])* $name:ident: $kind:ty,)*) => {
+        /// Engines and their settings, as far as they are given.
+        #[derive(Clone, Debug, Default, PartialEq)]
+        pub struct EngineSettings {
+            $($(#[$doc])* pub $name: Setting<$kind>,)*
+        }
+
+        impl EngineSettings {
+            /// These settings, and those of `other` where these are free.
+            #[must_use]
+            pub fn or(&self, other: &EngineSettings) -> Self {
+                EngineSettings { $($name: self.$name.or(&other.$name).clone(),)* }
+            }
+        }
+    };
+}
+
+settings! {
+    /// Engines that judge.
+    engines: Vec<EngineName>,
+    /// Time step (s) of engines with a fixed step.
+    step: f64,
+    /// Relative accuracy of engines that control their error.
+    accuracy: f64,
+    /// Sweeps of the iteration in a step.
+    sweeps: usize,
+    /// Number of parts into which an engine divides a step.
+    substeps: usize,
+    /// Route by which reactions and balancing moment are computed.
+    route: Route,
+    /// How often the state is extrapolated to step zero: 1 combines runs at the step and at half of it.
+    extrapolated: usize,
+}
+
+/// The place of a setting of one kind.
+#[derive(Debug)]
+pub enum Slot<'a> {
+    /// Engines by name.
+    Engines(&'a mut Setting<Vec<EngineName>>),
+    /// A number greater than zero.
+    Positive(&'a mut Setting<f64>),
+    /// A whole number greater than zero.
+    Count(&'a mut Setting<usize>),
+    /// A route.
+    Route(&'a mut Setting<Route>),
+    /// A number of extrapolations.
+    Times(&'a mut Setting<usize>),
+}
+
+/// What a setting is called and means.
+#[derive(Debug)]
+pub struct Row {
+    /// Its keys in `[engine]`: none of a setting that is no matter of a file, two where it is stated in two ways.
+    pub keys: &'static [Key],
+    /// Its argument.
+    pub argument: &'static str,
+    /// What help calls the value of the argument.
+    pub value: &'static str,
+    /// What help says of the argument.
+    pub help: &'static str,
+    /// Its place.
+    pub slot: fn(&mut EngineSettings) -> Slot<'_>,
+}
+
+const TIMES: Kind = Kind::Quantity(&[&TIME]);
+const ANGLES: Kind = Kind::Quantity(&[&ANGLE]);
+
+/// More extrapolations than this need steps too fine to run.
+pub const MOST_TIMES: usize = 8;
+
+/// All settings.
+pub const ROWS: &[Row] = &[
+    Row {
+        keys: &[
+            optional(
+                "dt",
+                TIMES,
+                "time step of engines with a fixed step; at most one of `dt` and `step`",
+                "found by `run`",
+            ),
+            optional("step", ANGLES, "the same as the angle that the crank turns through in a step", "found by `run`"),
+        ],
+        argument: "--dt",
+        value: "S",
+        help: "Time step of the engine in seconds [default: the scenario's, else `run` finds it, and others take a \
+               quarter of a degree of the crank or less]",
+        slot: |own| Slot::Positive(&mut own.step),
+    },
+    Row {
+        keys: &[optional("name", Kind::Text, "engine that judges unless another is asked for", "the first")],
+        argument: "--engine",
+        value: "ENGINE",
+        help: "Engine, or `all` to run every one side by side. May be given several times [default: the scenario's, \
+               else the first]",
+        slot: |own| Slot::Engines(&mut own.engines),
+    },
+    Row {
+        keys: &[],
+        argument: "--accuracy",
+        value: "ACCURACY",
+        help: "Relative accuracy of an engine that chooses its own steps [default: its tightest]",
+        slot: |own| Slot::Positive(&mut own.accuracy),
+    },
+    Row {
+        keys: &[optional("sweeps", Kind::Integer, "sweeps of the engine's iteration in a step", "found by `run`")],
+        argument: "--sweeps",
+        value: "N",
+        help: "Sweeps of the engine's iteration in a step [default: the scenario's, else `run` finds them, and others \
+               take the engine's]",
+        slot: |own| Slot::Count(&mut own.sweeps),
+    },
+    Row {
+        keys: &[optional(
+            "substeps",
+            Kind::Integer,
+            "number of parts into which the engine itself divides a step",
+            "the engine's",
+        )],
+        argument: "--substeps",
+        value: "N",
+        help: "Number of substeps into which the engine divides a step",
+        slot: |own| Slot::Count(&mut own.substeps),
+    },
+    Row {
+        keys: &[optional(
+            "route",
+            Kind::Choice(&["differences", "native", "probe"]),
+            "how reactions and balancing moment are obtained",
+            "the engine's, and its own forces beside it",
+        )],
+        argument: "--route",
+        value: "ROUTE",
+        help: "Route by which reactions and balancing moment are computed",
+        slot: |own| Slot::Route(&mut own.route),
+    },
+    Row {
+        keys: &[optional(
+            "extrapolated",
+            Kind::IntegerOrBoolean,
+            "a number N from 0 to 8: runs at the step, at half of it, ..., at its 2^N-th part are combined, so that the N leading errors drop out; `true` is 1, `false` is 0",
+            "found by `run`; 0 where the step is given",
+        )],
+        argument: "--extrapolate",
+        value: "TIMES",
+        help: "Combine runs at the step and at halves of it, so that the leading errors cancel: once if no number is \
+               given [default: the scenario's, else `run` finds it unless the step is given, and others do not \
+               extrapolate]",
+        slot: |own| Slot::Times(&mut own.extrapolated),
+    },
+];
+
+/// The keys of `[engine]`, in the order of their rows.
+pub static KEYS: [Key; COUNT] = {
+    let mut all = [ROWS[0].keys[0]; COUNT];
+    let (mut row, mut at) = (0, 0);
+    while row < ROWS.len() {
+        let mut own = 0;
+        while own < ROWS[row].keys.len() {
+            all[at] = ROWS[row].keys[own];
+            (own, at) = (own + 1, at + 1);
+        }
+        row += 1;
+    }
+    all
+};
+
+const COUNT: usize = {
+    let (mut row, mut count) = (0, 0);
+    while row < ROWS.len() {
+        (row, count) = (row + 1, count + ROWS[row].keys.len());
+    }
+    count
+};
+
+impl EngineSettings {
+    /// All settings of an engine, given.
+    #[must_use]
+    pub fn exactly(engine: &dyn Engine) -> Self {
+        let Settings { resolution, sweeps, substeps, route, extrapolated } = engine.settings();
+        let is_stepped = !engine.controls_error();
+        EngineSettings {
+            engines: Setting::from(EngineName::named(engine.name()).map(|name| vec![name])),
+            step: Setting::from(is_stepped.then_some(resolution)),
+            accuracy: Setting::from((!is_stepped).then_some(resolution)),
+            sweeps: Setting::from((sweeps > 0).then_some(sweeps)),
+            substeps: Setting::from(is_stepped.then_some(substeps)),
+            route: Setting::of(route),
+            extrapolated: Setting::from(is_stepped.then_some(extrapolated)),
+        }
+    }
+
+    /// The settings of a search for those of a motion. Extrapolation takes finer steps: a step that is given is kept to.
+    #[must_use]
+    pub fn of_motion(mut self) -> Self {
+        if !self.step.is_free() && self.extrapolated.is_free() {
+            self.extrapolated = Setting::of(0);
+        }
+        self
+    }
+
+    /// Whether a search has anything to choose.
+    #[must_use]
+    pub fn leaves_a_choice(&self) -> bool {
+        self.step.is_free() || self.sweeps.is_free() || self.extrapolated.is_free()
+    }
+}
+
+/// What the section says.
+pub fn read(table: &mut Table, drive: &Drive) -> Result<EngineSettings> {
+    let mut own = EngineSettings::default();
+    let (time, angle) = (
+        table.optional_quantity("dt", &TIME, Sign::Positive)?,
+        table.optional_quantity("step", &ANGLE, Sign::NotZero)?,
+    );
+    for row in ROWS {
+        let Some(key) = row.keys.first().map(|key| key.name) else { continue };
+        match (row.slot)(&mut own) {
+            // The step is stated in two ways, which are read above.
+            Slot::Positive(_) => {}
+            Slot::Engines(engines) => {
+                let engine = table.optional_word(key, "engine", &EngineName::ALL, EngineName::name)?;
+                *engines = table.given(key, engine.map(|engine| vec![engine]));
+            }
+            Slot::Count(number) => *number = whole(table, key, 1..=usize::MAX)?,
+            Slot::Route(route) => {
+                let found = table.optional_word(key, "route to reactions", &Route::ALL, Route::name)?;
+                *route = table.given(key, found);
+            }
+            Slot::Times(times) if table.is_boolean(key) => {
+                let found = table.optional_boolean(key)?.map(usize::from);
+                *times = table.given(key, found);
+            }
+            Slot::Times(times) => *times = whole(table, key, 0..=MOST_TIMES)?,
+        }
+    }
+    table.finish()?;
+    let omega = drive.top_speed();
+    own.step = match (time, angle) {
+        (Some(dt), None) => table.given("dt", Some(dt)),
+        (None, Some(angle)) => table.given("step", Some((angle / omega).abs())),
+        (Some(_), Some(_)) => {
+            let error = table.wrong(ErrorKind::Input, "step", "the engine's step is given twice");
+            return Err(error.help("keep either `dt` (a time) or `step` (a crank angle)"));
+        }
+        (None, None) => Setting::Free,
+    };
+    match own.step.get() {
+        Some(dt) if !(dt.is_finite() && dt > 0.0) => {
+            let error = table.fault(format!("the engine's step would be {dt} s"));
+            Err(error.help("check the step and `drive.speed`"))
+        }
+        _ => Ok(own),
+    }
+}
+
+/// A whole number of a range; one without an end begins at one.
+fn whole(table: &mut Table, key: &str, range: RangeInclusive<usize>) -> Result<Setting<usize>> {
+    let Some(number) = table.optional_integer(key)? else { return Ok(Setting::Free) };
+    if let Some(count) = usize::try_from(number).ok().filter(|count| range.contains(count)) {
+        return Ok(table.given(key, Some(count)));
+    }
+    let (message, help) = match *range.end() {
+        usize::MAX => (
+            format!("found {number}, but an engine needs at least one"),
+            "give a whole number greater than zero".into(),
+        ),
+        most => {
+            (format!("found {number} extrapolations"), format!("give a whole number from 0 to {most}, or true for 1"))
+        }
+    };
+    let error = table.wrong(ErrorKind::Input, key, message);
+    table.instead(Setting::Free, error.help(help))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Origin, Scenario, of_repository};
+
+    fn with(section: &str) -> Result<Scenario> {
+        let Scenario { text, path, .. } = of_repository("scenarios/pendulum.toml");
+        Scenario::parse(&text.replacen("[grid]", &format!("[engine]\n{section}\n[grid]"), 1), &path)
+    }
+
+    #[test]
+    fn a_setting_knows_the_line_that_gives_it() {
+        let given = with("substeps = 2\nroute = \"native\"").unwrap().engine;
+        let Setting::Given(Route::Native, Origin::Key(key, place)) = &given.route else { panic!("{given:?}") };
+        assert_eq!((key.as_str(), &place.text[place.span.clone()]), ("engine.route", "\"native\""));
+        assert!(given.step.is_free() && given.substeps.get() == Some(2));
+    }
+
+    #[test]
+    fn a_misspelt_engine_or_route_is_refused_at_its_line_with_the_nearest_and_all_others() {
+        for (section, key, near) in
+            [("name = \"rapir\"", "engine.name", "rapier"), ("route = \"natve\"", "engine.route", "native")]
+        {
+            let error = with(section).unwrap_err();
+            let place = error.place().unwrap();
+            assert_eq!(
+                (error.scenario_key(), &place.text[place.span.clone()]),
+                (Some(key), &section[section.find('"').unwrap()..])
+            );
+            let help = error.way_out().unwrap();
+            assert!(help.starts_with(&format!("did you mean \"{near}\"? choose one of ")), "{help}");
+        }
+    }
+
+    #[test]
+    fn what_is_given_twice_counts_where_it_is_asked_for_last() {
+        let file = EngineSettings { sweeps: Setting::of(7), substeps: Setting::of(2), ..EngineSettings::default() };
+        let asked = EngineSettings { sweeps: Setting::of(9), ..EngineSettings::default() };
+        let both = asked.or(&file);
+        assert_eq!((both.sweeps.get(), both.substeps.get(), both.step.get()), (Some(9), Some(2), None));
+    }
+
+    #[test]
+    fn a_step_that_is_given_is_kept_to() {
+        let given = EngineSettings { step: Setting::of(1e-3), ..EngineSettings::default() }.of_motion();
+        assert!(!given.extrapolated.is_free() && given.leaves_a_choice());
+        assert!(EngineSettings::default().of_motion().extrapolated.is_free());
+    }
+}
