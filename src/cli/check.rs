@@ -11,27 +11,8 @@ use crate::scenario::formula::{fault_of_claim, refused};
 use crate::scenario::{Claim, Scenario};
 use linkage::error::{Error, ErrorKind, Result};
 
-const EXAMPLES: &str = "\
-Examples:
-  linkproof new --shipped      write the files that the examples name
-  linkproof check scenarios/formulas/slider_crank_centric.toml           every [[formula]] of a file
-  linkproof check scenarios/formulas/slider_crank_centric.toml --verbose  each of them, by value and by derivative
-  linkproof check scenarios/crank_rocker.toml 'phi*180/pi' --channel link.crank.angle_deg
-  linkproof check scenarios/scotch_yoke.toml 'r*cos(phi)' --set r_mm=80 --channel point.A.x_m
-  linkproof check mine.toml 'atan2(u, v)' --let 'u=a*sin(phi)' --let 'v=d - a*cos(phi)' --set a_mm=30 --set d_mm=80 \\
-      --channel link.guide.angle_rad
-  linkproof check mine.toml 'r*w^2*(cos(phi) + r/l*cos(2*phi))' --set r=0.05 --set l=0.2 --set w_rpm=300 \\
-      --channel point.B.ax_m_s2 --error 0.4 --json -
-
-phi is the crank angle in rad as the scenario states it, t the time in s; pi, sin cos tan asin acos atan atan2(y, x) \
-sqrt abs exp ln are known. The value counts in the channel's unit. -x^2 is -(x^2). --set a_mm=30 makes `a` known in \
-SI (0.03) and `a_mm` as the plain number. Judged by value, and by first and second derivative where the mechanism has \
-channels for them, at every instant of the grid and against both analytic sides: `linkproof docs formulas`.
-
-Exit codes: 0 right, 1 wrong, 2 bad input, 3 nothing proven.";
-
 #[derive(Debug, clap::Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = include_str!("help/check.txt").trim_ascii_end())]
 pub(super) struct Args {
     /// Scenario file; `-` for standard input
     #[arg(required = true, value_name = "FILE")]

@@ -13,21 +13,8 @@ use linkage::error::{Error, ErrorKind, Result};
 use workshop::clearance::{Clearance, Question, course, find};
 use workshop::diagram::draw;
 
-const EXAMPLES: &str = "\
-Examples:
-  linkproof new --shipped      write the files that the examples name
-  linkproof clearance scenarios/crankcase.toml
-  linkproof clearance scenarios/crankcase.toml --svg swept.svg        outlines, housing and swept areas
-  linkproof clearance scenarios/crankcase.toml --csv distances.csv    every distance at the instants of the grid
-  linkproof clearance scenarios/crankcase.toml --json -
-
-Every distance holds for the whole range of the grid, not for its instants only: `linkproof docs clearance` says how. \
-Outlines and housing are in the scenario's section [clearance].
-
-Exit codes: 0 all clear, 1 links collide or are nearer than wanted, 2 bad input or usage, 3 a part of the range is not proven.";
-
 #[derive(Debug, clap::Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = include_str!("help/clearance.txt").trim_ascii_end())]
 pub(super) struct Args {
     /// Scenario files with a section `[clearance]`; `-` for standard input
     #[arg(required = true, value_name = "FILE")]

@@ -20,31 +20,8 @@ use crate::tables::{self, Held};
 use crate::versus::{How, Party, compare as compared};
 use linkage::error::{Error, ErrorKind, Result};
 
-const EXAMPLES: &str = "\
-Examples:
-  linkproof new --shipped      write the files that the examples name
-  linkproof compare scenarios/crank_rocker.toml mine.csv            a table whose columns are named as channels
-  linkproof compare scenarios/crank_rocker.toml mine.csv --map 't=time_s' --map 'phi3*180/pi=link.rocker.angle_deg'
-  linkproof compare scenarios/crank_rocker.toml mine.csv --map mine.map.toml --rel 1e-3 --abs point.B.x_mm=0.01
-  linkproof compare scenarios/crank_rocker.toml mine.csv --rel-value 0.05 --abs drive.torque_N_m=0.1   5 % of each value
-  linkproof compare scenarios/crank_rocker.toml recordings/crank_rocker.mcap --side reference
-  linkproof compare old.mcap new.mcap --rel 1e-9                    two recordings, side by side
-  linkproof compare one.csv other.parquet --interpolate --rel 1e-4  two tables at the instants of the second
-  linkproof compare scenarios/crank_rocker.toml mine.toml --json -  two models of one mechanism
-  linkproof compare scenarios/crank_rocker.toml mine.csv --junit out.xml --markdown out.md   for reports of tests
-
-Each of A and B is a scenario (.toml), which is solved by both analytic sides at the instants of the other, a recording \
-(.mcap), or a table: text with separated columns, or Parquet. A column named as a channel with its unit needs no \
-mapping, nor do t_s, t, time (in s), time_ms, crank_deg and crank_rad. --map reads EXPR=CHANNEL: an arithmetic over \
-columns, so that sign, factor, offset and unit are written as they are; a name with other signs stands in backquotes. \
-Bounds are what digits, rounding and the analytic sides leave open, plus what --rel, --rel-value and --abs allow, of \
-these the largest. Empty cells, -, NA, null and none are left out and counted; nan and inf are no agreement. \
-`linkproof docs compare` says more.
-
-Exit codes: 0 they agree, 1 they disagree, 2 bad input, 3 nothing proven.";
-
 #[derive(Debug, clap::Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = include_str!("help/compare.txt").trim_ascii_end())]
 pub(super) struct Args {
     /// Scenario, recording or table that B is held against
     #[arg(value_name = "A")]

@@ -11,18 +11,8 @@ use analytic::range::explained;
 use linkage::error::Result;
 use workshop::diagram::{Course, MotionDiagram, draw};
 
-const EXAMPLES: &str = "\
-Examples:
-  linkproof new --shipped      write the files that the examples name
-  linkproof diagram scenarios/crank_rocker.toml --channel point.B.x_m
-  linkproof diagram scenarios/ov7_base.toml --channel link.rocker_87.angle_rad --svg needle.svg
-  linkproof diagram scenarios/crank_rocker.toml --channel link.rocker.angle_rad --csv points.csv
-
-Chords of the displacement give the velocity at the middles of the divisions, chords of that the acceleration at their ends; \
-backwards, the exact velocity and acceleration at the middles are summed up.";
-
 #[derive(Debug, clap::Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = include_str!("help/diagram.txt").trim_ascii_end())]
 pub(super) struct Args {
     /// Scenario file; `-` for standard input
     #[arg(value_name = "FILE")]

@@ -17,25 +17,12 @@ use linkage::math::Vec2;
 use media::Medium;
 use subject::{Drawn, Wish};
 
-const EXAMPLES: &str = "\
-Examples:
-  linkproof new --shipped      write the files that the examples name
-  linkproof draw scenarios/crank_rocker.toml -o crank_rocker.svg
-  linkproof draw scenarios/rotary_engine.toml --crank-deg 60 --loads -o engine.png
-  linkproof draw scenarios/ov7_base.toml --each-mode -o modes.svg      all configurations, with the names that `mode` takes
-  linkproof draw scenarios/class3_group.toml --traces -o moving.gif    one turn; or .webp, without loss
-  linkproof draw scenarios/scotch_yoke.toml scenarios/quick_return.toml --dimensions -o both.svg
-
-What cannot be assembled is drawn as far as it goes: dashed where a link has no certain place, with the gap of every joint \
-that stays open. A file with mistakes is drawn without what they concern; all of them are told. The picture is written then \
-too, and the exit code is 2.";
-
 /// Room of a picture that stands alone, and of one among others (mm).
 const ALONE: [f64; 2] = [150.0, 120.0];
 const AMONG: [f64; 2] = [100.0, 96.0];
 
 #[derive(Debug, clap::Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = include_str!("help/draw.txt").trim_ascii_end())]
 pub(super) struct Args {
     /// Scenario files; `-` for standard input
     #[arg(required = true, value_name = "FILE")]

@@ -11,17 +11,8 @@ use linkage::case::Grid;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::work::limited;
 
-const EXAMPLES: &str = "\
-Examples:
-  linkproof new --shipped      write the files that the examples name
-  linkproof inspect scenarios/crank_rocker.toml
-  linkproof inspect scenarios/ov7_base.toml --json -
-  linkproof inspect scenarios/fourth_class.toml --modes --at-crank-deg 70   all configurations of its groups
-  linkproof inspect scenarios/ov7_base.toml --modes --mode rod_23,rocker_43=left   those of later groups in another mode
-  linkproof inspect scenarios/crank_rocker.toml --range                      how far it turns, dead and extreme positions";
-
 #[derive(Debug, clap::Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = include_str!("help/inspect.txt").trim_ascii_end())]
 pub(super) struct Args {
     /// Scenario file; `-` for standard input
     #[arg(value_name = "FILE")]

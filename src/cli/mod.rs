@@ -47,27 +47,9 @@ use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser, Subcommand};
 
-const EXAMPLES: &str = "\
-Examples:
-  linkproof new four-bar                                a mechanism of your own: four_bar.toml
-  linkproof draw four_bar.toml -o four_bar.svg          look at it
-  linkproof run four_bar.toml --html four_bar.html      prove it, and see it move
-  linkproof new --shipped                               the files of all examples
-  linkproof list                                        what scenarios there are
-  linkproof run scenarios/crank_rocker.toml             one of those files
-  linkproof run scenarios/*.toml --no-record --json -   prove all, as JSON
-  linkproof compare scenarios/crank_rocker.toml recordings/crank_rocker.mcap --rel 0.01   tables too
-  linkproof view recordings/crank_rocker.mcap --with foxglove   see it move; in Rerun without the option
-  linkproof solve scenarios/ov7_base.toml --with assur --crank-deg 0:-360:-30
-  linkproof tune scenarios/crank_rocker.toml --within 1e-3 --engine rapier --channel positions
-  linkproof mutate scenarios/crank_rocker.toml --no-sizes --kind load   does the proof see faults?
-  linkproof inspect scenarios/ov7_base.toml             links, joints, Assur groups
-
-Exit codes: 0 all agree, 1 something disagrees, 2 bad input or usage, 3 nothing proven either way.";
-
 /// Builds planar mechanisms twice, analytically and as a Rapier multibody, and proves that the two agree.
 #[derive(Debug, Parser)]
-#[command(name = "linkproof", version, after_help = EXAMPLES)]
+#[command(name = "linkproof", version, after_help = include_str!("help/linkproof.txt").trim_ascii_end())]
 struct Cli {
     #[command(subcommand)]
     command: Command,

@@ -12,23 +12,8 @@ use crate::mutate::{Asked, End, Mutated, Party, all, mutate, named, tally};
 use crate::report::{errors, mutate as report};
 use linkage::error::{Error, ErrorKind, Result};
 
-const EXAMPLES: &str = "\
-Examples:
-  linkproof new --shipped      write the files that the examples name
-  linkproof mutate --list                                                       all kinds of faults
-  linkproof mutate scenarios/crank_rocker.toml --kind mass-heaviest --no-sizes  one kind, in every party
-  linkproof mutate scenarios/quick_return.toml --kind force --party assur       one family, in side 1 only
-  linkproof mutate scenarios/quick_return.toml --party trunk --kind gravity-sign   in what all share: who outside sees it?
-  linkproof mutate scenarios/formulas/yoke_drive.toml --party formulas          mistakes in the formulas of a file
-  linkproof mutate scenarios/loaded_slider.toml --kind spring-twice --json -    for a script
-
-Every fault stands alone, in an otherwise correct proof at default settings; one of each kind in every exact formula. \
-A fault that changes no exact answer is not counted: side 1 is solved with it and without it.
-
-Exit codes: 0 no fault in one party or formula escapes, 1 some escape, 2 bad input or usage, 3 none escapes, but some prove nothing either way, or none was planted.";
-
 #[derive(Debug, clap::Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = include_str!("help/mutate.txt").trim_ascii_end())]
 pub(super) struct Args {
     /// Scenario files; `-` for standard input
     #[arg(required_unless_present = "list", value_name = "FILE")]
@@ -74,8 +59,7 @@ pub(super) fn run(args: &Args) -> u8 {
         );
         return output::exit(Err(error.key("--engine").help("give one engine")));
     }
-    let party = |name: &String| Party::ALL.into_iter().find(|party| party.name() == name);
-    let parties = args.party.iter().filter_map(party).collect();
+    let parties = args.party.iter().filter_map(|name| Party::named(name)).collect();
     let asked = Asked { kinds: args.kind.clone(), parties, with_sizes: !args.no_sizes, jobs: args.jobs, options };
     let (mut found, mut failures) = (Vec::new(), Vec::new());
     for file in &args.files {

@@ -7,19 +7,8 @@ use crate::scenario::templates::{self, TEMPLATES, Template};
 use crate::scenario::{Scenario, shipped};
 use linkage::error::{Error, ErrorKind, Result};
 
-const EXAMPLES: &str = "\
-Examples:
-  linkproof new                                   the templates, one line each
-  linkproof new four-bar                          write four_bar.toml
-  linkproof new four-bar -o mine.toml --set crank_mm=30 --set coupler_mm=110
-  linkproof new jansen -o -                       to standard output
-  linkproof new --shipped                         write scenarios/, catalogues/ and findings that help and documents name
-
-A mechanism that cannot be assembled, or does not turn, is written nevertheless: its lengths are corrected in the file. \
-The message says how far it goes, and the exit code is 2.";
-
 #[derive(Debug, clap::Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = include_str!("help/new.txt").trim_ascii_end())]
 pub(super) struct Args {
     /// Mechanism to begin with; without one, the templates are listed
     #[arg(value_name = "TEMPLATE")]

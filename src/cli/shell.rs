@@ -12,28 +12,15 @@ use clap_mangen::Man;
 use super::output;
 use linkage::error::{Error, ErrorKind, Result};
 
-const COMPLETIONS: &str = "\
-Examples:
-  linkproof completions bash > ~/.local/share/bash-completion/completions/linkproof
-  linkproof completions zsh > ~/.zfunc/_linkproof                where `fpath` has ~/.zfunc
-  linkproof completions fish > ~/.config/fish/completions/linkproof.fish
-
-They hold from the next shell on.";
-
-const MAN: &str = "\
-Examples:
-  linkproof man | man -l -                           the page of linkproof itself
-  linkproof man -o ~/.local/share/man/man1           a page for each command too: man linkproof-run";
-
 #[derive(Debug, clap::Args)]
-#[command(after_help = COMPLETIONS)]
+#[command(after_help = include_str!("help/completions.txt").trim_ascii_end())]
 pub(super) struct CompletionArgs {
     /// Shell that completes
     shell: Shell,
 }
 
 #[derive(Debug, clap::Args)]
-#[command(after_help = MAN)]
+#[command(after_help = include_str!("help/man.txt").trim_ascii_end())]
 pub(super) struct ManArgs {
     /// Directory for the pages of linkproof and of all its commands; it is made if it is missing [default: the page of
     /// linkproof, to standard output]

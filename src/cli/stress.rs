@@ -11,23 +11,11 @@ use crate::report::stress as report;
 use crate::stress::{FAMILIES, Family, Job, Outcome, jobs, run_all};
 use linkage::error::{Error, ErrorKind, Result};
 
-const EXAMPLES: &str = "\
-Examples:
-  linkproof stress speed change_point --quick --out stress    a few points of two families
-  linkproof stress speed --out stress                         all points; those that stand in stress/ are not run again
-  linkproof stress step --quick --out stress --jobs 1         one point at a time, with the same bytes
-  linkproof stress length_ratio --quick --out stress --page stress/page.md   a page with tables and maps besides
-
-Without a family all of them are run: half a minute with --quick, some minutes without; begun again, a run goes on where it was. \
-Every family turns one dial. In the directory there is one JSON, one CSV and one SVG map for each. A point that stands in the \
-JSON is run again only if the program's version or the point's inputs have changed; to have all made anew, remove the file.
-Exit codes: 0 no silent wrong number and no panic, 1 one of them, 2 bad input or usage.";
-
 /// Seed of random mechanisms by default.
 const SEED: u64 = 1;
 
 #[derive(Debug, clap::Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = include_str!("help/stress.txt").trim_ascii_end())]
 pub(super) struct Args {
     /// Families; all if none is given
     #[arg(value_name = "FAMILY", value_parser = PossibleValuesParser::new(FAMILIES.iter().map(|family| family.name)))]

@@ -20,30 +20,20 @@ use linkage::trajectory::Channel;
 /// Channels of which figures are shown; the others are counted.
 const SHOWN: usize = 20;
 
-/// What was done with the file of accepted figures.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Deed {
-    /// The file was judged by, and left as it is.
-    Checked,
-    /// There was none; it was written.
-    Written,
-    /// It was written anew.
-    Renewed,
-    /// Nothing has moved, and it was left as it is.
-    Kept,
-    /// The proof does not agree: nothing was written.
-    Refused,
-}
-
-impl Deed {
-    fn word(self) -> &'static str {
-        match self {
-            Deed::Checked => "checked",
-            Deed::Written => "written",
-            Deed::Renewed => "renewed",
-            Deed::Kept => "kept",
-            Deed::Refused => "refused",
-        }
+linkage::words! {
+    /// What was done with the file of accepted figures.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Deed: word {
+        /// The file was judged by, and left as it is.
+        Checked = "checked",
+        /// There was none; it was written.
+        Written = "written",
+        /// It was written anew.
+        Renewed = "renewed",
+        /// Nothing has moved, and it was left as it is.
+        Kept = "kept",
+        /// The proof does not agree: nothing was written.
+        Refused = "refused",
     }
 }
 

@@ -12,17 +12,19 @@ use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::Vec2;
 use workshop::clearance::{Clearance, Course, Meeting, PairClearance, Question};
 
-/// How a question is answered.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Standing {
-    /// All pairs are clear, by as much as wanted, all the way.
-    Clear,
-    /// A pair collides.
-    Collides,
-    /// No pair collides, but one is nearer than wanted.
-    TooNear,
-    /// Nothing was found, but parts of the range are not proven.
-    Open,
+linkage::words! {
+    /// How a question is answered.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub(crate) enum Standing: word {
+        /// All pairs are clear, by as much as wanted, all the way.
+        Clear = "clear",
+        /// A pair collides.
+        Collides = "collides",
+        /// No pair collides, but one is nearer than wanted.
+        TooNear = "too near",
+        /// Nothing was found, but parts of the range are not proven.
+        Open = "not proven",
+    }
 }
 
 /// How a question is answered.
@@ -35,17 +37,6 @@ pub(crate) fn standing(found: &Clearance) -> Standing {
         Standing::Open
     } else {
         Standing::Clear
-    }
-}
-
-impl Standing {
-    fn word(self) -> &'static str {
-        match self {
-            Standing::Clear => "clear",
-            Standing::Collides => "collides",
-            Standing::TooNear => "too near",
-            Standing::Open => "not proven",
-        }
     }
 }
 

@@ -1,34 +1,15 @@
 //! What came of a point.
 
-/// Quantities that a map shows together.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Group {
-    /// Positions and angles.
-    Positions,
-    /// Velocities and accelerations.
-    Rates,
-    /// Reactions and balancing moment.
-    Forces,
-}
-
-impl Group {
-    /// All groups, in order.
-    pub const ALL: [Group; 3] = [Group::Positions, Group::Rates, Group::Forces];
-
-    /// Name in files and reports.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Group::Positions => "positions",
-            Group::Rates => "rates",
-            Group::Forces => "forces",
-        }
-    }
-
-    /// The group called `name`.
-    #[must_use]
-    pub fn named(name: &str) -> Option<Group> {
-        Group::ALL.into_iter().find(|group| group.name() == name)
+linkage::words! {
+    /// Quantities that a map shows together.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+    pub enum Group: name {
+        /// Positions and angles.
+        Positions = "positions",
+        /// Velocities and accelerations.
+        Rates = "rates",
+        /// Reactions and balancing moment.
+        Forces = "forces",
     }
 }
 

@@ -59,63 +59,65 @@ impl Shape {
     }
 }
 
-/// What a mark stands for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Role {
-    /// Centre line of a fixed guide.
-    Axis,
-    /// Hatching: the side of a line that belongs to the ground.
-    Hatch,
-    /// Rail of a fixed guide.
-    Rail,
-    /// Wall of a fixed cylinder.
-    Bore,
-    /// Pivot on the ground: its triangle, the line that it stands on, and the hatching below.
-    Pivot,
-    /// Stroke across a guide at a point of the ground that is no pivot.
-    Stop,
-    /// A link of three and more places that are not on a line.
-    Plate,
-    /// A link of two places, or of several on a line.
-    Bar,
-    /// Says that a bar does not end at the pin in its middle.
-    Weld,
-    /// Slot of a moving link, in which a block slides.
-    Slot,
-    /// Cylinder of a moving link, in which a piston slides.
-    Cylinder,
-    /// Block on a guide.
-    Block,
-    /// Piston, and its rings.
-    Piston,
-    /// Zigzag of a spring.
-    Spring,
-    /// Cup, rod and piston of a damper.
-    Damper,
-    /// Spiral of a torsional spring.
-    TorsionSpring,
-    /// Drum of a torsional damper.
-    TorsionDamper,
-    /// Revolute pair.
-    Pin,
-    /// Ring around a pin that joins one link more; two rings, two links more.
-    CoincidentPin,
-    /// Mass centre: its circle.
-    MassCentre,
-    /// Mass centre: two of its quarters.
-    MassQuarter,
-    /// Named point of a link that is no joint.
-    Tracer,
-    /// Arrow in the sense in which a drive turns its link: the arc.
-    Drive,
-    /// Arrow in the sense in which a drive turns its link: the head.
-    DriveHead,
-    /// A motor: a circle, with the letter M beside it as [`Lettering::Motor`](crate::Lettering::Motor).
-    Motor,
-    /// Arrow of a force or a moment: its line.
-    Load,
-    /// Arrow of a force or a moment: its head.
-    LoadHead,
+linkage::words! {
+    /// What a mark stands for.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+    pub enum Role: name {
+        /// Centre line of a fixed guide.
+        Axis = "axis",
+        /// Hatching: the side of a line that belongs to the ground.
+        Hatch = "hatch",
+        /// Rail of a fixed guide.
+        Rail = "rail",
+        /// Wall of a fixed cylinder.
+        Bore = "bore",
+        /// Pivot on the ground: its triangle, the line that it stands on, and the hatching below.
+        Pivot = "pivot",
+        /// Stroke across a guide at a point of the ground that is no pivot.
+        Stop = "stop",
+        /// A link of three and more places that are not on a line.
+        Plate = "plate",
+        /// A link of two places, or of several on a line.
+        Bar = "bar",
+        /// Says that a bar does not end at the pin in its middle.
+        Weld = "weld",
+        /// Slot of a moving link, in which a block slides.
+        Slot = "slot",
+        /// Cylinder of a moving link, in which a piston slides.
+        Cylinder = "cylinder",
+        /// Block on a guide.
+        Block = "block",
+        /// Piston, and its rings.
+        Piston = "piston",
+        /// Zigzag of a spring.
+        Spring = "spring",
+        /// Cup, rod and piston of a damper.
+        Damper = "damper",
+        /// Spiral of a torsional spring.
+        TorsionSpring = "torsion-spring",
+        /// Drum of a torsional damper.
+        TorsionDamper = "torsion-damper",
+        /// Revolute pair.
+        Pin = "pin",
+        /// Ring around a pin that joins one link more; two rings, two links more.
+        CoincidentPin = "coincident-pin",
+        /// Mass centre: its circle.
+        MassCentre = "mass-centre",
+        /// Mass centre: two of its quarters.
+        MassQuarter = "mass-quarter",
+        /// Named point of a link that is no joint.
+        Tracer = "tracer",
+        /// Arrow in the sense in which a drive turns its link: the arc.
+        Drive = "drive",
+        /// Arrow in the sense in which a drive turns its link: the head.
+        DriveHead = "drive-head",
+        /// A motor: a circle, with the letter M beside it as [`Lettering::Motor`](crate::Lettering::Motor).
+        Motor = "motor",
+        /// Arrow of a force or a moment: its line.
+        Load = "load",
+        /// Arrow of a force or a moment: its head.
+        LoadHead = "load-head",
+    }
 }
 
 /// The colour of a line.
@@ -202,40 +204,6 @@ impl Role {
             Role::Motor => look(Ink::Text, Fill::None, 0.4, Layer::Signs),
             Role::Load => look(Ink::Load, Fill::None, 0.6, Layer::Signs),
             Role::LoadHead => look(Ink::Load, Fill::Ink, 0.1, Layer::Signs),
-        }
-    }
-
-    /// Name, for classes and identifiers: lower-case letters and `-`.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Role::Axis => "axis",
-            Role::Hatch => "hatch",
-            Role::Rail => "rail",
-            Role::Bore => "bore",
-            Role::Pivot => "pivot",
-            Role::Stop => "stop",
-            Role::Plate => "plate",
-            Role::Bar => "bar",
-            Role::Weld => "weld",
-            Role::Slot => "slot",
-            Role::Cylinder => "cylinder",
-            Role::Block => "block",
-            Role::Piston => "piston",
-            Role::Spring => "spring",
-            Role::Damper => "damper",
-            Role::TorsionSpring => "torsion-spring",
-            Role::TorsionDamper => "torsion-damper",
-            Role::Pin => "pin",
-            Role::CoincidentPin => "coincident-pin",
-            Role::MassCentre => "mass-centre",
-            Role::MassQuarter => "mass-quarter",
-            Role::Tracer => "tracer",
-            Role::Drive => "drive",
-            Role::DriveHead => "drive-head",
-            Role::Motor => "motor",
-            Role::Load => "load",
-            Role::LoadHead => "load-head",
         }
     }
 }

@@ -18,6 +18,7 @@ pub mod mechanism;
 pub mod quiet;
 pub mod solver;
 pub mod trajectory;
+mod words;
 pub mod work;
 
 pub use error::{Error, ErrorKind, Result};
