@@ -273,7 +273,7 @@ pub fn json(paths: [&Path; 2], comparison: &Comparison, tell: Tell) -> String {
     };
     let cause = |own: &Explained| {
         json!({
-            "channels": own.of, "cause": cause_of(own), "left_over_share": own.left, "but_for_t_s": own.but, "diagnosis": diagnosis::row(&own.diagnosis),
+            "channels": own.of, "cause": cause_of(own), "left_over_share": own.left, "but_for_t_s": own.but, "diagnosis": diagnosis::Row::of(&own.diagnosis),
         })
     };
     let pair = |pair: &Pair| {
