@@ -1,6 +1,5 @@
 //! What has become of accepted figures, as text and as JSON.
 
-use std::fmt::Write;
 use std::path::Path;
 
 use serde_json::{Value, json};
@@ -65,7 +64,7 @@ pub(crate) fn text(item: &Item) -> String {
         changes(comparison, &mut text);
     }
     if item.without_figures() > 0 {
-        let _ = writeln!(text, "{} have no finite bound and no figures.", channels(item.without_figures()));
+        say!(text, "{} have no finite bound and no figures.", channels(item.without_figures()));
     }
     text
 }
@@ -142,19 +141,19 @@ fn changes(comparison: &Comparison, text: &mut String) {
             let bounds = format!("{:.1e}", moved.bounds());
             table.add_row([moved.channel.clone(), figure(moved.figure), accepted, found, by, bound, bounds]);
         }
-        let _ = writeln!(text, "\n{}", trimmed(&table));
+        say!(text, "\n{}", trimmed(&table));
     }
     if worst.len() > SHOWN {
-        let _ = writeln!(text, "... and {} more channels; the JSON has all of them.", worst.len() - SHOWN);
+        say!(text, "... and {} more channels; the JSON has all of them.", worst.len() - SHOWN);
     }
     for (word, names) in [("new", &comparison.new), ("gone", &comparison.gone)] {
         if !names.is_empty() {
-            let _ = writeln!(text, "\n{word}: {}", listed(names));
+            say!(text, "\n{word}: {}", listed(names));
         }
     }
     for other in comparison.wider.iter().take(SHOWN).chain(comparison.looser.iter().take(SHOWN)) {
         let (channel, unit) = (&other.channel, unit(&other.channel));
-        let _ = writeln!(text, "\n{channel}: its bound was {:.1e} {unit}, now {:.1e}", other.accepted, other.found);
+        say!(text, "\n{channel}: its bound was {:.1e} {unit}, now {:.1e}", other.accepted, other.found);
     }
 }
 

@@ -1,7 +1,5 @@
 //! Clearance: smallest distances, first collision, swept areas.
 
-use std::fmt::Write;
-
 use serde_json::{Value, json};
 
 use super::cells::{table, trimmed};
@@ -60,9 +58,9 @@ fn names<'a>(asked: &'a Question, pair: &PairClearance) -> [&'a str; 2] {
 pub(crate) fn text(scenario: &Scenario, asked: &Question, found: &Clearance) -> String {
     let mut text = String::new();
     let [from, to] = found.range.map(degrees);
-    let _ = writeln!(text, "{}: {}\n\nclearance over crank angles {from} to {to} deg\n", scenario.name, scenario.title);
+    say!(text, "{}: {}\n\nclearance over crank angles {from} to {to} deg\n", scenario.name, scenario.title);
     if found.pairs.is_empty() {
-        let _ = writeln!(text, "no two bodies can meet: all links are joined, and there is no housing\n");
+        say!(text, "no two bodies can meet: all links are joined, and there is no housing\n");
     } else {
         let header = ["bodies", "", "smallest mm", "at crank deg", "nearest points mm", "", "first contact at deg"];
         let mut table = table(header, &[2, 3, 6]);
@@ -74,8 +72,8 @@ pub(crate) fn text(scenario: &Scenario, asked: &Question, found: &Clearance) -> 
             let row = [millimetres(smallest.distance), degrees(smallest.crank), one, two, contact];
             table.add_row([first, second].map(String::from).into_iter().chain(row));
         }
-        let _ = writeln!(text, "{}\n", trimmed(&table));
-        let _ = writeln!(text, "no distance is smaller by more than {} mm", significant(1e3 * found.tolerance));
+        say!(text, "{}\n", trimmed(&table));
+        say!(text, "no distance is smaller by more than {} mm", significant(1e3 * found.tolerance));
     }
     let swept: Vec<_> = found.swept.iter().collect();
     if !swept.is_empty() {
@@ -86,23 +84,19 @@ pub(crate) fn text(scenario: &Scenario, asked: &Question, found: &Clearance) -> 
             let name = asked.bodies[*body].name.clone();
             areas.add_row([name, of(area.value), of(area.error()), of(area.least), of(area.most)]);
         }
-        let _ = writeln!(text, "{}\n", trimmed(&areas));
+        say!(text, "{}\n", trimmed(&areas));
         if let Some((body, area)) = found.swept.iter().find(|(_, area)| area.error() > asked.area * area.value) {
             let (name, share) = (&asked.bodies[*body].name, area.error() / area.value);
-            let _ = writeln!(
-                text,
-                "the area of {name} is known to {} only: the work allowed is done",
-                numbers::percent(share)
-            );
+            say!(text, "the area of {name} is known to {} only: the work allowed is done", numbers::percent(share));
         }
     }
     for &[from, to] in &found.open {
         let why = "the mechanism is singular there, or the work allowed is done";
-        let _ = writeln!(text, "not proven from {} to {} deg: {why}", degrees(from), degrees(to));
+        say!(text, "not proven from {} to {} deg: {why}", degrees(from), degrees(to));
     }
     let said = |text: &mut String, what: &str, (pair, meeting): (&PairClearance, Meeting)| {
         let ([one, two], crank) = (names(asked, pair), degrees(meeting.cranks[1]));
-        let _ = writeln!(text, "{what}: {one} and {two} at crank angle {crank} deg, place {} mm", place(meeting.place));
+        say!(text, "{what}: {one} and {two} at crank angle {crank} deg, place {} mm", place(meeting.place));
     };
     if let Some(first) = found.first_collision() {
         said(&mut text, "first collision", first);
@@ -111,7 +105,7 @@ pub(crate) fn text(scenario: &Scenario, asked: &Question, found: &Clearance) -> 
         said(&mut text, &format!("first nearer than the {} mm wanted", millimetres(wanted)), first);
     }
     let work = found.work;
-    let _ = writeln!(
+    say!(
         text,
         "{}: {} poses and {} distances of convex parts; for areas {} poses and {} tests of squares\n",
         standing(found).word(),

@@ -1,7 +1,5 @@
 //! Mechanisms found in closed form.
 
-use std::fmt::Write;
-
 use serde_json::json;
 
 use super::pretty::pretty;
@@ -21,16 +19,18 @@ pub(crate) struct Told {
 /// A crank-rocker with a rocker of the given length (m).
 pub(crate) fn crank_rocker(found: &CrankRocker, rocker: f64) -> Told {
     let mut text = String::from("crank-rocker from two extreme positions\n");
-    let _ = writeln!(
+    say!(
         text,
         "  crank OA      {:.15} m\n  coupler AB    {:.15} m\n  rocker CB     {:.15} m",
-        found.crank, found.coupler, rocker
+        found.crank,
+        found.coupler,
+        rocker
     );
     for (name, extreme) in [("stretched", found.stretched), ("folded", found.folded)] {
         let [crank, rocker] = [extreme.crank, extreme.rocker].map(|angle| fixed_in(angle.to_degrees(), 9, "deg"));
-        let _ = writeln!(text, "  {name:13} crank {crank}, rocker {rocker}");
+        say!(text, "  {name:13} crank {crank}, rocker {rocker}");
     }
-    let _ = writeln!(
+    say!(
         text,
         "  transmission  {:.4} deg at least, at crank {}\n  time ratio    {:.6}\n  mode          {}",
         found.transmission.to_degrees(),
@@ -50,16 +50,11 @@ pub(crate) fn crank_rocker(found: &CrankRocker, rocker: f64) -> Told {
 /// A slider-crank.
 pub(crate) fn slider_crank(found: &SliderCrank) -> Told {
     let mut text = String::from("slider-crank from stroke and offset\n");
-    let _ = writeln!(text, "  crank         {:.15} m\n  rod           {:.15} m", found.crank, found.rod);
+    say!(text, "  crank         {:.15} m\n  rod           {:.15} m", found.crank, found.rod);
     for (name, [crank, place]) in [("farthest", found.far), ("nearest", found.near)] {
-        let _ = writeln!(
-            text,
-            "  {name:13} crank {}, slider {}",
-            fixed_in(crank.to_degrees(), 9, "deg"),
-            fixed_in(place, 12, "m")
-        );
+        say!(text, "  {name:13} crank {}, slider {}", fixed_in(crank.to_degrees(), 9, "deg"), fixed_in(place, 12, "m"));
     }
-    let _ = writeln!(
+    say!(
         text,
         "  pressure      {:.4} deg at most between rod and slider's line\n  time ratio    {:.6}",
         found.pressure.to_degrees(),

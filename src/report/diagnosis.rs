@@ -1,7 +1,5 @@
 //! Diagnoses in words, and as JSON.
 
-use std::fmt::Write;
-
 use serde::Serialize;
 
 use super::pretty::rows;
@@ -24,7 +22,7 @@ const NAMED: usize = 3;
 pub fn text(diagnosis: &Diagnosis) -> String {
     let mut text = format!("Diagnosis of {}:", diagnosis.suspect);
     let mut line = |what: &str, told: String| {
-        let _ = write!(text, "\n  {what:<10}{told}");
+        put!(text, "\n  {what:<10}{told}");
     };
     line("alone", standing(&diagnosis.alone));
     if let Some(first) = diagnosis.since.first() {
@@ -82,10 +80,10 @@ fn since(diagnosis: &Diagnosis, first: &Since) -> String {
         format!("t = {} s, crank angle {} deg, first in {}", fixed(time, 6), fixed(crank, 3), names(&together));
     if let Some(next) = diagnosis.since.get(together.len()) {
         let (time, crank) = (next.time, next.crank.to_degrees());
-        let _ = write!(told, "; from {} s, {} deg, in {}", fixed(time, 6), fixed(crank, 3), next.channel);
+        put!(told, "; from {} s, {} deg, in {}", fixed(time, 6), fixed(crank, 3), next.channel);
         let more = diagnosis.since.len() - together.len() - 1;
         if more > 0 {
-            let _ = write!(told, " and later in {more} more");
+            put!(told, " and later in {more} more");
         }
     }
     told

@@ -1,7 +1,5 @@
 //! Outcomes as Markdown: the comment to a pull request. The verdict first, then what stands in its way.
 
-use std::fmt::Write;
-
 use super::outcomes::{Entry, Outcome, Outcomes};
 
 /// Reasons that are written out for one scenario; the others are counted.
@@ -18,11 +16,11 @@ pub fn text(outcomes: &Outcomes) -> String {
         parts.into_iter().filter(|(count, _)| *count > 0).map(|(count, word)| format!("{count} {word}")).collect();
     let plural = if entries.len() == 1 { "" } else { "s" };
     let mut text = format!("**linkproof**: {} {}{plural}, {}\n\n", entries.len(), outcomes.noun, parts.join(", "));
-    let _ = write!(text, "| {} ", outcomes.noun);
+    put!(text, "| {} ", outcomes.noun);
     text += "| verdict | agree | expected | disagree | open |\n|---|---|---|---|---|---|\n";
     for entry in entries {
         let of = |is: fn(&Outcome) -> bool| entry.cases.iter().filter(|case| is(&case.outcome)).count();
-        let _ = writeln!(
+        say!(
             text,
             "| {} | {} | {} | {} | {} | {} |",
             cell(&entry.name),
@@ -54,15 +52,15 @@ fn reasons(entry: &Entry, text: &mut String) {
         return;
     }
     let title = if entry.title.is_empty() { String::new() } else { format!(": {}", line(&entry.title)) };
-    let _ = writeln!(text, "\n### {}{title}\n", line(&entry.name));
+    say!(text, "\n### {}{title}\n", line(&entry.name));
     if let Some(error) = &entry.error {
-        let _ = writeln!(text, "- {}", line(error));
+        say!(text, "- {}", line(error));
     }
     for (case, reason) in all.iter().take(REASONS) {
-        let _ = writeln!(text, "- `{}` ({}): {}", case.name, case.by, line(reason));
+        say!(text, "- `{}` ({}): {}", case.name, case.by, line(reason));
     }
     if all.len() > REASONS {
-        let _ = writeln!(text, "- ... and {} more", all.len() - REASONS);
+        say!(text, "- ... and {} more", all.len() - REASONS);
     }
 }
 

@@ -1,6 +1,23 @@
 //! Presentation of the results of every command, as text and as JSON: pure functions of data, without files, clock or
 //! terminal.
 
+/// Adds a line to a text.
+macro_rules! say {
+    ($text:expr, $($told:tt)*) => {{
+        use std::fmt::Write as _;
+        // A text takes whatever is written to it.
+        let _ = writeln!($text, $($told)*);
+    }};
+}
+
+/// Adds to the last line of a text.
+macro_rules! put {
+    ($text:expr, $($told:tt)*) => {{
+        use std::fmt::Write as _;
+        let _ = write!($text, $($told)*);
+    }};
+}
+
 pub(crate) mod accept;
 pub(crate) mod bearings;
 pub(crate) mod bench;

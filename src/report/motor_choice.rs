@@ -1,7 +1,6 @@
 //! A motor chosen from a catalogue.
 
 use std::f64::consts::TAU;
-use std::fmt::Write;
 
 use serde_json::json;
 
@@ -27,9 +26,8 @@ fn line(choice: &Choice) -> [f64; 2] {
 pub(crate) fn text(scenario: &Scenario, choice: &Choice) -> String {
     let (motor, geared) = (&choice.motor, &choice.geared);
     let [at_rest, slope] = line(choice);
-    let mut text = String::new();
-    let _ = writeln!(text, "{}: {}\n", scenario.name, scenario.title);
-    let _ = writeln!(
+    let mut text = format!("{}: {}\n\n", scenario.name, scenario.title);
+    say!(
         text,
         "power\n  peak      {:.6} N m at {}, times {:.6} rad/s: {:.6} kW\n  asked     {:.6} kW with an efficiency of {}",
         choice.peak.1,
@@ -39,7 +37,7 @@ pub(crate) fn text(scenario: &Scenario, choice: &Choice) -> String {
         choice.asked / 1e3,
         geared.efficiency
     );
-    let _ = writeln!(
+    say!(
         text,
         "motor\n  {}: {} kW, {:.0} rpm, synchronous {:.0} rpm, rated torque {:.4} N m\n  ratio     {:.6} ({:.0} rpm to {:.4} rpm)",
         motor.name,
@@ -52,7 +50,7 @@ pub(crate) fn text(scenario: &Scenario, choice: &Choice) -> String {
         rpm(choice.wanted)
     );
     let share = |torque: f64| torque / motor.rated_torque();
-    let _ = writeln!(
+    say!(
         text,
         "on the motor's shaft\n  mean      {:.4} N m, {:.3} of the rated torque\n  peak      {:.4} N m, {:.3} of it, without what inertia carries",
         choice.mean_torque(),
@@ -62,11 +60,11 @@ pub(crate) fn text(scenario: &Scenario, choice: &Choice) -> String {
     );
     if let Some(breakdown) = motor.breakdown {
         let holds = if share(choice.peak_torque()) < breakdown { "above the peak" } else { "BELOW THE PEAK" };
-        let _ = writeln!(text, "  breakdown {:.4} N m, {breakdown} of it: {holds}", breakdown * motor.rated_torque());
+        say!(text, "  breakdown {:.4} N m, {breakdown} of it: {holds}", breakdown * motor.rated_torque());
     }
     let off = |omega: f64| 100.0 * (omega / choice.wanted - 1.0);
     let mean = choice.regime.mean_speed.abs();
-    let _ = writeln!(
+    say!(
         text,
         "steady speed\n  averaged  crank {:.6} rad/s ({:+.2} % of the wanted), motor {:.4} rad/s\n  periodic  crank {mean:.6} rad/s ({:+.2} %), \
          non-uniformity {:.4}",
@@ -76,7 +74,7 @@ pub(crate) fn text(scenario: &Scenario, choice: &Choice) -> String {
         off(mean),
         choice.regime.non_uniformity()
     );
-    let _ = writeln!(
+    say!(
         text,
         "\nFor the scenario:\n\n[motor] # {}, {} kW, {:.0} rpm\nlaw = \"linear\"\ntorque_at_rest_N_m = {at_rest:?}\nslope_N_m_s = {slope:?}\nratio = {:?}\nefficiency = {:?}",
         motor.name,

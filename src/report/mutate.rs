@@ -1,7 +1,5 @@
 //! Planted faults: which were found, by what, and which escape.
 
-use std::fmt::Write;
-
 use serde_json::{Value, json};
 
 use super::cells::{table, trimmed};
@@ -12,26 +10,22 @@ use linkage::math::KeepNan;
 /// The result as text, the verdict first.
 pub(crate) fn text(found: &[Mutated]) -> String {
     let tally = tally(found);
-    let mut text = String::new();
-    let _ = writeln!(text, "{}\n", headline(&tally));
+    let mut text = format!("{}\n\n", headline(&tally));
     for one in found.iter().filter(|one| !one.instead.is_empty()) {
         let (name, instead) = (&one.scenario, one.instead.join(", "));
         let formulas = if one.formulas == 0 { "; no formula of it claims an exact value" } else { "" };
-        let _ = writeln!(
-            text,
-            "{name}: no fault of the kinds asked for changes anything; kinds that would: {instead}{formulas}\n"
-        );
+        say!(text, "{name}: no fault of the kinds asked for changes anything; kinds that would: {instead}{formulas}\n");
     }
-    let _ = writeln!(text, "{}\n", scenarios(found));
-    let _ = writeln!(text, "{}\n", kinds(found));
-    let _ = writeln!(text, "{LEGEND}\n");
+    say!(text, "{}\n", scenarios(found));
+    say!(text, "{}\n", kinds(found));
+    say!(text, "{LEGEND}\n");
     for (title, lines) in [("Not found in one party:", not_found(found)), ("Open in the trunk:", open(&tally))] {
         if !lines.is_empty() {
-            let _ = writeln!(text, "{title}");
+            say!(text, "{title}");
             lines.iter().for_each(|line| {
-                let _ = writeln!(text, "  {line}");
+                say!(text, "  {line}");
             });
-            let _ = writeln!(text);
+            text.push('\n');
         }
     }
     text
@@ -56,7 +50,7 @@ fn headline(tally: &Tally) -> String {
     };
     let mut line = format!("{word}  {} kinds", kinds.len());
     if *planted != Share::default() || *formulas == Share::default() {
-        let _ = write!(
+        put!(
             line,
             "; {} of {} faults in one party found ({}), {} inconclusive, {} escaped; {} change nothing",
             planted.found(),
@@ -68,7 +62,7 @@ fn headline(tally: &Tally) -> String {
         );
     }
     if !trunk_kinds.is_empty() {
-        let _ = write!(
+        put!(
             line,
             "; in the trunk {} of {} kinds are found from outside ({})",
             trunk_found.len(),
@@ -77,7 +71,7 @@ fn headline(tally: &Tally) -> String {
         );
     }
     if *formulas != Share::default() {
-        let _ = write!(
+        put!(
             line,
             "\nformulas: {} of {} mistakes found ({}), {} inconclusive, {} escaped; {} change nothing",
             formulas.found(),
@@ -278,7 +272,7 @@ fn place(kind: &Kind) -> &'static str {
 pub fn kinds_markdown() -> String {
     let mut text = String::from("| kind | family | where | size | what is wrong |\n|---|---|---|---|---|\n");
     for kind in all() {
-        let _ = writeln!(text, "| {} |", described(kind).join(" | "));
+        say!(text, "| {} |", described(kind).join(" | "));
     }
     text
 }
@@ -288,12 +282,12 @@ pub(crate) fn markdown(found: &[Mutated]) -> String {
     let tally = tally(found);
     let mut text = format!("{}.\n\n| {} |\n|{}\n", headline(&tally), KIND_HEADER.join(" | "), "---|".repeat(9));
     for (kind, own) in all().filter_map(|kind| Some((kind, of_kind(found, kind)?))) {
-        let _ = writeln!(text, "| {} |", cells(kind, &own).join(" | "));
+        say!(text, "| {} |", cells(kind, &own).join(" | "));
     }
     for (title, lines) in [("Not found in one party:", not_found(found)), ("Open in the trunk:", open(&tally))] {
-        let _ = writeln!(text, "\n{title}\n");
+        say!(text, "\n{title}\n");
         lines.iter().for_each(|line| {
-            let _ = writeln!(text, "- {line}");
+            say!(text, "- {line}");
         });
     }
     text

@@ -1,7 +1,6 @@
 //! How far a mechanism can be followed: limits, singular and extreme positions, transmission angles.
 
 use std::f64::consts::TAU;
-use std::fmt::Write;
 
 use serde_json::{Value, json};
 
@@ -15,20 +14,19 @@ const EXTREMES: usize = 8;
 
 /// The range as text.
 pub(crate) fn text(scenario: &Scenario, range: &Range) -> String {
-    let mut text = String::new();
-    let _ = writeln!(text, "{}: {}", scenario.name, scenario.title);
-    let _ = writeln!(text, "crank      {}", extent(range));
+    let mut text = format!("{}: {}\n", scenario.name, scenario.title);
+    say!(text, "crank      {}", extent(range));
     if let Some(four_bar) = &range.four_bar {
         let [frame, driver, coupler, output] = four_bar.lengths;
-        let _ = writeln!(text, "four-bar   {}", four_bar.of_type.name());
-        let _ = writeln!(
+        say!(text, "four-bar   {}", four_bar.of_type.name());
+        say!(
             text,
             "           frame {frame:.6} m, driving link {driver:.6} m, coupler {coupler:.6} m, output link {output:.6} m"
         );
     }
-    let _ = writeln!(text, "\n{}", singularities(scenario, range));
-    let _ = writeln!(text, "Groups, nearest to a singular pose:\n{}", groups(scenario, range));
-    let _ = writeln!(text, "\nLinks:\n{}", links(scenario, range));
+    say!(text, "\n{}", singularities(scenario, range));
+    say!(text, "Groups, nearest to a singular pose:\n{}", groups(scenario, range));
+    say!(text, "\nLinks:\n{}", links(scenario, range));
     text
 }
 

@@ -1,8 +1,6 @@
 //! What an engineer needs besides the verdict to act on it: why something disagrees or is open, what was not judged, and
 //! which printed numbers are known to be wrong.
 
-use std::fmt::Write;
-
 use super::diagnosis;
 use super::own_forces;
 use super::style::wrapped;
@@ -47,20 +45,20 @@ pub(super) fn reasons(proof: &Proof, tell: Tell, width: Option<usize>, most: usi
     open.sort_by_key(|(_, verdict)| matches!(verdict, Verdict::Inconclusive { .. }));
     for (name, verdict) in open.iter().take(most) {
         let reason = format!("{name}: {}", verdict.reason(tell).unwrap_or_default());
-        let _ = writeln!(text, "\n{}", wrapped(&reason, width, 2));
+        say!(text, "\n{}", wrapped(&reason, width, 2));
     }
     if open.len() > most {
-        let _ = writeln!(text, "\n... and {} more ({})", open.len() - most, tell(&Advice::AllResults));
+        say!(text, "\n... and {} more ({})", open.len() - most, tell(&Advice::AllResults));
     }
 }
 
 /// The diagnosis of a disagreement.
 pub(super) fn diagnosed(proof: &Proof, width: Option<usize>, text: &mut String) {
     if let (Some(found), Verdict::Disagree { .. }) = (&proof.diagnosis, &proof.verdict) {
-        let _ = writeln!(text, "\n{}", wrapped(&diagnosis::text(found), width, diagnosis::INDENT));
+        say!(text, "\n{}", wrapped(&diagnosis::text(found), width, diagnosis::INDENT));
     }
     if proof.diagnosis_is_cut {
-        let _ = writeln!(text, "\n{}", wrapped(diagnosis::CUT, width, diagnosis::INDENT));
+        say!(text, "\n{}", wrapped(diagnosis::CUT, width, diagnosis::INDENT));
     }
 }
 
@@ -82,7 +80,7 @@ pub(super) fn expected(proof: &Proof, tell: Tell, text: &mut String) {
     let place = |finding: &str| tell(&Advice::Text(format!("docs/findings.md#{finding}")));
     let told: Vec<String> = findings.iter().map(|(finding, _)| place(finding)).collect();
     // One a line: a command that is broken cannot be copied.
-    let _ = writeln!(text, "\n{count} checks disagree as expected, see\n  {}", told.join(",\n  "));
+    say!(text, "\n{count} checks disagree as expected, see\n  {}", told.join(",\n  "));
 }
 
 /// How many instants are not judged, and of what.
@@ -103,6 +101,6 @@ pub(super) fn left_out(proof: &Proof, width: Option<usize>, text: &mut String) {
             quantities.join(", ").replace('_', " "),
             engine.info.name
         );
-        let _ = writeln!(text, "\n{}", wrapped(&told, width, 2));
+        say!(text, "\n{}", wrapped(&told, width, 2));
     }
 }

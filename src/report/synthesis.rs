@@ -1,7 +1,5 @@
 //! Reports on a motion and its timing: text, JSON, picture.
 
-use std::fmt::Write;
-
 use serde_json::json;
 
 use super::cells::table;
@@ -50,11 +48,10 @@ pub(crate) fn summary(task: &Task, achieved: &Achieved) -> String {
 /// The motion and its timing as text.
 pub(crate) fn text(story: &Story) -> String {
     let (task, achieved) = (story.task, story.achieved);
-    let mut text = String::new();
-    let _ = writeln!(text, "{}: {}\n", task.name, task.title);
+    let mut text = format!("{}: {}\n\n", task.name, task.title);
     if let Some((found, values)) = story.search {
         let [drawn, assembled] = found.candidates;
-        let _ = writeln!(
+        say!(
             text,
             "{drawn} random candidates, {assembled} of them assembled near the limits; cost {}, refined {} (worst of the refined {})\n",
             numbers::significant(found.random_cost, 4),
@@ -74,7 +71,7 @@ pub(crate) fn text(story: &Story) -> String {
                 show(variable.bounds[1]),
             ]);
         }
-        let _ = writeln!(text, "{dimensions}\n");
+        say!(text, "{dimensions}\n");
     }
     let header = ["from deg", "to deg", "sense", "displacement %", "motion %", "wrong way %", "level %", "ends at deg"];
     let mut phases = table(header, &[0, 1, 3, 4, 5, 6, 7]);
@@ -91,8 +88,8 @@ pub(crate) fn text(story: &Story) -> String {
             done.end.map_or("-".into(), |end| numbers::fixed(end.to_degrees(), 2)),
         ]);
     }
-    let _ = writeln!(text, "{phases}\n\n{}", summary(task, achieved));
-    let _ = writeln!(
+    say!(text, "{phases}\n\n{}", summary(task, achieved));
+    say!(
         text,
         "A dwell ends where the output leaves the middle of its extremes by {} % of the stroke, a motion at its extreme position.",
         100.0 * BAND

@@ -1,7 +1,5 @@
 //! Proofs as text for the terminal.
 
-use std::fmt::Write;
-
 use comfy_table::Table;
 
 use super::brief;
@@ -26,7 +24,7 @@ pub fn proof(proof: &Proof, tell: Tell, width: Option<usize>) -> String {
     brief::worst(proof, width, &mut text);
     text.push('\n');
     let mut line = |what: &str, told: &str| {
-        let _ = writeln!(text, "{}", wrapped(&format!("{what:<11}{told}"), width, 11));
+        say!(text, "{}", wrapped(&format!("{what:<11}{told}"), width, 11));
     };
     line("title", &proof.title);
     line("structure", &proof.formula);
@@ -41,19 +39,19 @@ pub fn proof(proof: &Proof, tell: Tell, width: Option<usize>) -> String {
     }
     match proof.engines.as_slice() {
         [only] => {
-            let _ = writeln!(
+            say!(
                 text,
                 "\nEngine against reference, the worst channel of each quantity:\n{}",
                 trimmed(&channels(&only.channels, width))
             );
         }
         several => {
-            let _ = writeln!(
+            say!(
                 text,
                 "\nSide by side, the largest error over its scale (and its bound):\n{}",
                 trimmed(&engines::table(several, width))
             );
-            let _ = writeln!(text, "\n{}", wrapped(&engines::disputes(proof), width, 2));
+            say!(text, "\n{}", wrapped(&engines::disputes(proof), width, 2));
         }
     }
     for engine in &proof.engines {
@@ -61,7 +59,7 @@ pub fn proof(proof: &Proof, tell: Tell, width: Option<usize>) -> String {
     }
     reasons::left_out(proof, width, &mut text);
     let all: Vec<&Check> = proof.all_checks().collect();
-    let _ = writeln!(text, "\nChecks:\n{}", trimmed(&checks(&all, width)));
+    say!(text, "\nChecks:\n{}", trimmed(&checks(&all, width)));
     reasons::expected(proof, tell, &mut text);
     reasons::reasons(proof, tell, width, REASONS, &mut text);
     reasons::diagnosed(proof, width, &mut text);
@@ -87,22 +85,22 @@ fn own_section(engine: &EngineProof, several: bool, width: Option<usize>, text: 
         Some(error) => {
             let (name, why) = (engine.info.name, error.message());
             let told = format!("Forces as {name} itself exerts them (route {route}) are not judged: {why}");
-            let _ = writeln!(text, "\n{}", wrapped(&told, width, 2));
+            say!(text, "\n{}", wrapped(&told, width, 2));
         }
         None if several => {
             let (name, how) = (engine.info.name, own_forces::line(own));
             let told = format!("Forces as {name} itself exerts them (route {route}): {how}");
-            let _ = writeln!(text, "\n{}", wrapped(&told, width, 2));
+            say!(text, "\n{}", wrapped(&told, width, 2));
         }
         None => {
             let source = format!("The forces above: {}.", own_forces::source(engine));
             let told = format!("{source}\nForces as the engine itself exerts them, by {}", own_how(own));
-            let _ = writeln!(text, "\n{}", wrapped(&told, width, 2));
-            let _ = writeln!(text, "{}", trimmed(&channels(&own.channels, width)));
+            say!(text, "\n{}", wrapped(&told, width, 2));
+            say!(text, "{}", trimmed(&channels(&own.channels, width)));
         }
     }
     if let Some(fault) = engine.force_fault() {
-        let _ = writeln!(text, "\n{}", wrapped(own_forces::sentence(fault), width, 2));
+        say!(text, "\n{}", wrapped(own_forces::sentence(fault), width, 2));
     }
 }
 

@@ -1,6 +1,5 @@
 //! The cheapest settings of an engine that keep a wanted error.
 
-use std::fmt::Write;
 use std::path::Path;
 
 use serde_json::json;
@@ -50,26 +49,25 @@ pub(crate) fn text(scenario: &Scenario, found: &Tuning, within: f64, section: &S
             numbers::fixed(candidate.price / found.best.price, 2),
         ]);
     }
-    let mut text = String::new();
-    let _ = writeln!(text, "{}: {}\n", scenario.name, scenario.title);
-    let _ = writeln!(
+    let mut text = format!("{}: {}\n\n", scenario.name, scenario.title);
+    say!(
         text,
         "The cheapest settings within {} of every channel's scale:\n{}\n",
         numbers::error(within),
         trimmed(&table)
     );
     for (name, error) in &found.too_coarse {
-        let _ = match error.is_finite() {
-            true => writeln!(text, "{name} does not meet it: its smallest error was {}.", numbers::error(*error)),
+        match error.is_finite() {
+            true => say!(text, "{name} does not meet it: its smallest error was {}.", numbers::error(*error)),
             false => {
-                writeln!(text, "{name} does not run it with any settings: {} says why.", (hints.why)(name))
+                say!(text, "{name} does not run it with any settings: {} says why.", (hints.why)(name))
             }
         };
     }
     for name in &found.too_dear {
-        let _ = writeln!(text, "{name} costs more than the cheapest.");
+        say!(text, "{name} costs more than the cheapest.");
     }
-    let _ = writeln!(
+    say!(
         text,
         "{}: error {} measured against the reference, {} expected from its own runs; {} runs.",
         found.best.engine,
@@ -77,28 +75,28 @@ pub(crate) fn text(scenario: &Scenario, found: &Tuning, within: f64, section: &S
         numbers::error(found.predicted),
         found.runs
     );
-    let _ = match found.best.is_proven {
+    match found.best.is_proven {
         true if found.cheapest.price < found.best.price => {
             let Settings { resolution, sweeps, .. } = found.cheapest.settings;
             let (share, name) = (found.cheapest.price / found.best.price, found.cheapest.engine);
-            writeln!(
+            say!(
                 text,
                 "A proof at these settings agrees. {name} at {} with {sweeps} sweeps meets the error for {share:.2} \
                  of the price, but proves less.",
                 numbers::significant(resolution, 4)
             )
         }
-        true => writeln!(text, "A proof at these settings agrees."),
-        false => writeln!(text, "A proof at these settings leaves something open: take finer ones for a proof."),
+        true => say!(text, "A proof at these settings agrees."),
+        false => say!(text, "A proof at these settings leaves something open: take finer ones for a proof."),
     };
     if found.is_spent {
-        let _ = writeln!(text, "The work that was allowed is done: there may be cheaper settings.");
+        say!(text, "The work that was allowed is done: there may be cheaper settings.");
     }
     let Section { text: section, file, is_written } = section;
     let place = file.display();
-    let _ = match is_written {
-        true => writeln!(text, "\nWritten to {place}:\n\n{section}"),
-        false => writeln!(text, "\nFor {place} (or let {} put it there):\n\n{section}", hints.write),
+    match is_written {
+        true => say!(text, "\nWritten to {place}:\n\n{section}"),
+        false => say!(text, "\nFor {place} (or let {} put it there):\n\n{section}", hints.write),
     };
     text
 }

@@ -1,7 +1,5 @@
 //! Findings of a page in words: why the verdict is what it is, and what else was found.
 
-use std::fmt::Write;
-
 use super::markup::escaped;
 use crate::compare::Verdict;
 use crate::proof::Proof;
@@ -37,7 +35,7 @@ pub(super) fn why(proof: &Proof, tell: Tell) -> String {
 pub(super) fn others(proof: &Proof, tell: Tell) -> String {
     let mut told = String::new();
     if proof.engines.len() > 1 {
-        let _ = writeln!(told, "Engines and reference against each other: {}\n", engines::disputes(proof));
+        say!(told, "Engines and reference against each other: {}\n", engines::disputes(proof));
     }
     // What does not decide the verdict may be open beside an agreement.
     if agrees(proof) {
@@ -46,7 +44,7 @@ pub(super) fn others(proof: &Proof, tell: Tell) -> String {
     let all = grouped(proof, tell);
     write(&all, if agrees(proof) { 0 } else { FIRST }..MOST, &mut told);
     if all.len() > MOST {
-        let _ = writeln!(told, "\nOf {} more, the channels and the table of checks below tell why.", all.len() - MOST);
+        say!(told, "\nOf {} more, the channels and the table of checks below tell why.", all.len() - MOST);
     }
     reasons::left_out(proof, None, &mut told);
     reasons::expected(proof, tell, &mut told);
@@ -64,10 +62,10 @@ fn agrees(proof: &Proof) -> bool {
 fn faults(proof: &Proof, told: &mut String) {
     for engine in &proof.engines {
         if let (Some(error), 1) = (&engine.failure, proof.engines.len()) {
-            let _ = writeln!(told, "{} failed: {}\n", engine.info.name, error.message());
+            say!(told, "{} failed: {}\n", engine.info.name, error.message());
         }
         if let Some(fault) = engine.force_fault() {
-            let _ = writeln!(told, "{}\n", own_forces::sentence(fault));
+            say!(told, "{}\n", own_forces::sentence(fault));
         }
     }
 }
@@ -78,7 +76,7 @@ fn write(all: &[Reason], which: std::ops::Range<usize>, told: &mut String) {
             1 => String::new(),
             count => format!(" (and {} more alike)", count - 1),
         };
-        let _ = writeln!(told, "\n{}{more}", reason.told);
+        say!(told, "\n{}{more}", reason.told);
     }
 }
 

@@ -1,7 +1,6 @@
 //! What a page says in words: verdict, structure, settings.
 
 use std::collections::BTreeMap;
-use std::fmt::Write;
 
 use super::markup::escaped;
 use crate::compare::Verdict;
@@ -68,16 +67,14 @@ pub(super) fn structure(proof: &Proof) -> String {
     let (mechanism, structure) = (&case.mechanism, &case.structure);
     let mut out = format!("<p><code>{}</code></p>\n", escaped(&proof.formula));
     let mobility = structure.mobility;
-    let _ =
-        writeln!(out, "<p>Mobility {mobility} by counting. Groups in the order in which they are solved:</p>\n<ol>");
+    say!(out, "<p>Mobility {mobility} by counting. Groups in the order in which they are solved:</p>\n<ol>");
     for &(link, joint) in &structure.drivers {
-        let _ =
-            writeln!(out, "<li>driving link {} at {}</li>", link_name(mechanism, link), joint_name(mechanism, joint));
+        say!(out, "<li>driving link {} at {}</li>", link_name(mechanism, link), joint_name(mechanism, joint));
     }
     for (group, mode) in structure.groups.iter().zip(&case.modes) {
         let joints =
             |all: &[usize]| all.iter().map(|&joint| joint_name(mechanism, joint)).collect::<Vec<_>>().join(", ");
-        let _ = writeln!(
+        say!(
             out,
             "<li>{}: class {}, order {}, {}, mode {}; inner joints {}; outer joints {}</li>",
             escaped(&group.names(mechanism)),

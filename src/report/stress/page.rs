@@ -1,7 +1,5 @@
 //! The page of the documentation: all families with their tables and maps.
 
-use std::fmt::Write;
-
 use super::summary::{Tally, cells, names};
 use crate::stress::{Family, Outcome};
 
@@ -26,7 +24,7 @@ pub(crate) fn page(families: &[(&Family, Vec<&Outcome>)], command: &str, maps: &
         tally.verdict()
     );
     for (family, outcomes) in families {
-        let _ = write!(
+        put!(
             text,
             "\n## {}\n\n{}.\nDial: {}.\n\n| | agrees at | not | positions | rates | forces | over bound | widest bound |\n|---|---|---|---|---|---|---|---|\n",
             family.name,
@@ -35,15 +33,12 @@ pub(crate) fn page(families: &[(&Family, Vec<&Outcome>)], command: &str, maps: &
         );
         for name in names(outcomes) {
             let [agrees, others, positions, rates, forces, used, widest] = cells(outcomes, name);
-            let _ = writeln!(
-                text,
-                "| {name} | {agrees} | {others} | {positions} | {rates} | {forces} | {used} | {widest} |"
-            );
+            say!(text, "| {name} | {agrees} | {others} | {positions} | {rates} | {forces} | {used} | {widest} |");
         }
         for own in outcomes.iter().filter(|own| !own.refused.is_empty()) {
-            let _ = writeln!(text, "\nAt {}: {}.", super::summary::dial(own.dial), own.refused);
+            say!(text, "\nAt {}: {}.", super::summary::dial(own.dial), own.refused);
         }
-        let _ = writeln!(text, "\n![{}]({maps}/{}.svg)", family.name, family.name);
+        say!(text, "\n![{}]({maps}/{}.svg)", family.name, family.name);
     }
     text
 }

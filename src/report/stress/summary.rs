@@ -1,7 +1,6 @@
 //! Stability as text, verdict first: where every solver and engine holds to, and what does not.
 
 use std::collections::BTreeMap;
-use std::fmt::Write;
 
 use linkage::math::KeepNan;
 
@@ -72,9 +71,9 @@ impl Tally {
 pub(crate) fn text(families: &[(&Family, Vec<&Outcome>)]) -> String {
     let mut text = String::new();
     let tally = Tally::of(families.iter().flat_map(|(_, all)| all.iter().copied()));
-    let _ = writeln!(text, "{}.\n", tally.verdict());
+    say!(text, "{}.\n", tally.verdict());
     for (family, outcomes) in families {
-        let _ = writeln!(text, "{}: {}\ndial: {}\n{}", family.name, family.title, family.dial, body(outcomes));
+        say!(text, "{}: {}\ndial: {}\n{}", family.name, family.title, family.dial, body(outcomes));
     }
     text
 }
@@ -88,11 +87,11 @@ pub(super) fn body(outcomes: &[&Outcome]) -> String {
         let [agrees, others, positions, rates, forces, used, widest] = cells(outcomes, name);
         found.add_row([name.to_string(), agrees, others, positions, rates, forces, used, widest]);
         for (word, at, why) in told(outcomes, name) {
-            let _ = writeln!(reasons, "  {name} {word} at {at}: {why}");
+            say!(reasons, "  {name} {word} at {at}: {why}");
         }
     }
     for (at, why) in refused(outcomes) {
-        let _ = writeln!(reasons, "  no mechanism at {at}: {why}");
+        say!(reasons, "  no mechanism at {at}: {why}");
     }
     format!("{found}\n{reasons}")
 }
