@@ -35,8 +35,6 @@ pub(super) fn bearings(args: &Args) -> Result<()> {
     let scenario = plain(&args.file)?.nominal();
     let peaks = bearings::over_range(&scenario.case).map_err(|error| explained(&scenario.case, error))?;
     let journals = Journals { lever_mm: args.lever_mm, stress_mpa: args.stress_mpa };
-    match &args.json {
-        Some(to) => output::write(&report::json(journals, &scenario, &peaks), to),
-        None => output::print(&report::text(journals, &scenario, &peaks)),
-    }
+    let json = || report::json(journals, &scenario, &peaks);
+    output::either(&args.json, json, || report::text(journals, &scenario, &peaks))
 }

@@ -1,6 +1,5 @@
 //! `linkproof bench`.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -89,11 +88,7 @@ pub(super) fn run(args: &Args) -> Result<()> {
     for engine in &options.engines {
         engine.with_step(1.0)?;
     }
-    fs::create_dir_all(&args.out).map_err(|error| {
-        Error::new(ErrorKind::Io, format!("{} cannot be made: {error}", args.out.display()))
-            .key("--out")
-            .help("give a directory that may be made or written to")
-    })?;
+    output::make_directory(&args.out, "--out", "give a directory that may be made or written to")?;
     let endings = || Axis::ALL.map(|axis| format!("{}.svg", axis.name())).into_iter().chain(["csv".into()]);
     let places = scenarios.iter().flat_map(|own| endings().map(|ending| place(args, &own.name, &ending)));
     output::may_make(&places.chain([args.out.join(TOTAL)]).collect::<Vec<_>>())?;

@@ -58,27 +58,21 @@ fn step(text: &str) -> std::result::Result<(String, String), String> {
 }
 
 /// Judges, reports, and says how it ended.
-pub(super) fn check(args: &Args) -> u8 {
-    let answer = || -> Result<u8> {
-        let scenario = asked(args)?;
-        let found = claimed::judge(&scenario)?;
-        if let Some(to) = &args.json {
-            output::write(&report::json(&scenario, &found, advice::told), to)?;
-        }
-        if !output::is_said(&args.json) {
-            let width = terminal::columns();
-            terminal::print(&match (args.quiet, args.verbose) {
-                (true, _) => format!("{}\n", report::verdict_line(&scenario, &found)),
-                (_, true) => report::text(&scenario, &found, advice::told, width),
-                _ => report::brief(&scenario, &found, advice::told, width),
-            })?;
-        }
-        Ok(exit_code::of(&found.verdict))
-    };
-    answer().unwrap_or_else(|error| {
-        output::show(&error);
-        exit_code::BAD_INPUT
-    })
+pub(super) fn check(args: &Args) -> Result<u8> {
+    let scenario = asked(args)?;
+    let found = claimed::judge(&scenario)?;
+    if let Some(to) = &args.json {
+        output::write(&report::json(&scenario, &found, advice::told), to)?;
+    }
+    if !output::is_said(&args.json) {
+        let width = terminal::columns();
+        terminal::print(&match (args.quiet, args.verbose) {
+            (true, _) => format!("{}\n", report::verdict_line(&scenario, &found)),
+            (_, true) => report::text(&scenario, &found, advice::told, width),
+            _ => report::brief(&scenario, &found, advice::told, width),
+        })?;
+    }
+    Ok(exit_code::of(&found.verdict))
 }
 
 /// The scenario with the formulas that are asked about.

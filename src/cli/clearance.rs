@@ -33,11 +33,10 @@ pub(super) struct Args {
 }
 
 /// Answers for every file. A bad file does not stop the others.
-pub(super) fn clearance(args: &Args) -> u8 {
+pub(super) fn clearance(args: &Args) -> Result<u8> {
     if (args.svg.is_some() || args.csv.is_some()) && args.files.len() > 1 {
         let message = format!("{} scenarios are given, but a drawing or table is of one", args.files.len());
-        output::show(&Error::new(ErrorKind::Input, message).help("give one scenario, or write --json"));
-        return exit_code::BAD_INPUT;
+        return Err(Error::new(ErrorKind::Input, message).help("give one scenario, or write --json"));
     }
     let mut worst = exit_code::AGREE;
     let mut documents = Vec::new();
@@ -59,13 +58,10 @@ pub(super) fn clearance(args: &Args) -> u8 {
             }
         }
     }
-    if let Some(to) = &args.json
-        && let Err(error) = output::write(&report::json(documents), to)
-    {
-        output::show(&error);
-        worst = exit_code::BAD_INPUT;
+    if let Some(to) = &args.json {
+        output::write(&report::json(documents), to)?;
     }
-    worst
+    Ok(worst)
 }
 
 fn question(scenario: &Scenario) -> &Question {

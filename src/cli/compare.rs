@@ -118,41 +118,35 @@ fn size(text: &str) -> std::result::Result<Allowed, String> {
 }
 
 /// Compares, reports, and says how it ended.
-pub(super) fn compare(args: &Args) -> u8 {
-    let answer = || -> Result<u8> {
-        let [first, second] = [&args.first, &args.second].map(|path| Some(path.clone()));
-        args.reports.check(&[("A", &first), ("B", &second), ("--write-map", &args.write_map)])?;
-        check_parties(args)?;
-        let mut mapping = mapping(&args.map, "--map")?;
-        mapping.allowed.extend(args.rel.iter().chain(&args.rel_value).chain(&args.abs).cloned());
-        let first_mapping = mapping_of_first(args, &mapping)?;
-        let second = party(args, &args.second, &args.first, &mapping)?;
-        let first = party(args, &args.first, &args.second, &first_mapping)?;
-        if let Some(to) = &args.write_map {
-            output::write(&mapping.text(), to)?;
-        }
-        let how = How {
-            allowed: mapping.allowed,
-            by_crank: args.by.map(|by| matches!(by, By::Crank)),
-            interpolates: args.interpolate,
-            side: args.side.clone(),
-            only: args.only.clone(),
-            memory: Some(args.memory.bytes()),
-        };
-        let paths = [args.first.as_path(), args.second.as_path()];
-        let found = compared([first, second], paths, &how)?;
-        let outcomes = Outcomes::of_comparison(paths, &found, advice::told);
-        if !args.reports.takes_output() {
-            let how = [args.verbose, args.quiet];
-            terminal::print(&report::text(paths, &found, how, advice::told, terminal::columns()))?;
-        }
-        let written = args.reports.write(|| report::json(paths, &found, advice::told), &outcomes);
-        Ok(graver(exit_code::of(&found.verdict), written))
+pub(super) fn compare(args: &Args) -> Result<u8> {
+    let [first, second] = [&args.first, &args.second].map(|path| Some(path.clone()));
+    args.reports.check(&[("A", &first), ("B", &second), ("--write-map", &args.write_map)])?;
+    check_parties(args)?;
+    let mut mapping = mapping(&args.map, "--map")?;
+    mapping.allowed.extend(args.rel.iter().chain(&args.rel_value).chain(&args.abs).cloned());
+    let first_mapping = mapping_of_first(args, &mapping)?;
+    let second = party(args, &args.second, &args.first, &mapping)?;
+    let first = party(args, &args.first, &args.second, &first_mapping)?;
+    if let Some(to) = &args.write_map {
+        output::write(&mapping.text(), to)?;
+    }
+    let how = How {
+        allowed: mapping.allowed,
+        by_crank: args.by.map(|by| matches!(by, By::Crank)),
+        interpolates: args.interpolate,
+        side: args.side.clone(),
+        only: args.only.clone(),
+        memory: Some(args.memory.bytes()),
     };
-    answer().unwrap_or_else(|error| {
-        output::show(&error);
-        exit_code::BAD_INPUT
-    })
+    let paths = [args.first.as_path(), args.second.as_path()];
+    let found = compared([first, second], paths, &how)?;
+    let outcomes = Outcomes::of_comparison(paths, &found, advice::told);
+    if !args.reports.takes_output() {
+        let how = [args.verbose, args.quiet];
+        terminal::print(&report::text(paths, &found, how, advice::told, terminal::columns()))?;
+    }
+    let written = args.reports.write(|| report::json(paths, &found, advice::told), &outcomes);
+    Ok(graver(exit_code::of(&found.verdict), written))
 }
 
 /// Refuses options that mean nothing for these parties.

@@ -49,8 +49,5 @@ pub(super) fn diagram(args: &Args) -> Result<()> {
     if let Some(to) = &args.csv {
         return output::write(&report::points(&diagram), to);
     }
-    match &args.json {
-        Some(to) => output::write(&report::json(&scenario, &diagram), to),
-        None => output::print(&report::text(&scenario, &diagram)),
-    }
+    output::either(&args.json, || report::json(&scenario, &diagram), || report::text(&scenario, &diagram))
 }

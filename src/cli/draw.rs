@@ -75,17 +75,6 @@ fn picture(text: &str) -> std::result::Result<PathBuf, String> {
     Ok(path)
 }
 
-pub(super) fn draw(args: &Args) -> u8 {
-    match drawn(args) {
-        Ok(true) => exit_code::AGREE,
-        Ok(false) => exit_code::BAD_INPUT,
-        Err(error) => {
-            output::show(&error);
-            exit_code::BAD_INPUT
-        }
-    }
-}
-
 /// Refuses options that mean nothing for the medium.
 fn fits(args: &Args, medium: Medium) -> Result<()> {
     let refused = |option: &str, message: &str, help: &str| {
@@ -107,8 +96,8 @@ fn fits(args: &Args, medium: Medium) -> Result<()> {
     }
 }
 
-/// Draws and writes. Whether everything could be assembled; what could not is told on standard error.
-fn drawn(args: &Args) -> Result<bool> {
+/// Draws and writes. What could not be assembled is told on standard error, and by the exit code.
+pub(super) fn draw(args: &Args) -> Result<u8> {
     let medium = Medium::of(&args.output).map_err(|message| Error::new(ErrorKind::Input, message).key("--output"))?;
     fits(args, medium)?;
     let frames = if medium.moves() { args.frames.map_or(48, |count| count as usize) } else { 1 };
@@ -149,7 +138,8 @@ fn drawn(args: &Args) -> Result<bool> {
     for note in all.iter().filter_map(|own| own.note.as_ref()) {
         output::note(note);
     }
-    Ok(all.iter().all(|own| own.faults().next().is_none()))
+    let is_whole = all.iter().all(|own| own.faults().next().is_none());
+    Ok(if is_whole { exit_code::AGREE } else { exit_code::BAD_INPUT })
 }
 
 /// Title and subtitle of a sheet.

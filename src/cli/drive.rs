@@ -72,7 +72,7 @@ pub(super) fn drive(args: &Args) -> Result<()> {
 
 fn driven(args: &Args, scenario: &Scenario) -> Result<()> {
     if let Some(file) = &args.choice.catalogue {
-        return motor_choice::choose(&args.choice, file, scenario, args.json.as_deref());
+        return motor_choice::choose(&args.choice, file, scenario, &args.json);
     }
     let model = Model::of(&scenario.case)?;
     let targets = [&args.run_up, &args.json, &args.svg];

@@ -61,18 +61,11 @@ pub(super) fn inspect(args: &Args) -> Result<()> {
         true => Some(limited(args.budget.unwrap_or(BUDGET), || analytic::range::Range::of(case)).0?),
         false => None,
     };
-    match &args.json {
-        Some(to) => {
-            let modes = modes.as_ref().map(|(crank, all)| (*crank, all.as_slice()));
-            output::write(&report::json(&scenario, modes, &undecided, range.as_ref()), to)
-        }
-        None => {
-            let text = match (modes, range) {
-                (Some((crank, modes)), _) => modes::text(&scenario, crank, &modes, &undecided),
-                (None, Some(range)) => range::text(&scenario, &range),
-                (None, None) => report::text(&scenario),
-            };
-            output::print(&text)
-        }
-    }
+    let modes = modes.as_ref().map(|(crank, all)| (*crank, all.as_slice()));
+    let text = || match (modes, &range) {
+        (Some((crank, modes)), _) => modes::text(&scenario, crank, modes, &undecided),
+        (None, Some(range)) => range::text(&scenario, range),
+        (None, None) => report::text(&scenario),
+    };
+    output::either(&args.json, || report::json(&scenario, modes, &undecided, range.as_ref()), text)
 }

@@ -8,7 +8,7 @@ use super::engine_args::EngineArgs;
 use super::load::plain;
 use super::progress::Bar;
 use super::{advice, exit_code, output, standard_input};
-use crate::mutate::{Asked, End, Mutated, Party, all, mutate, named, tally};
+use crate::mutate::{Asked, End, Party, all, mutate, named, tally};
 use crate::report::{errors, mutate as report};
 use linkage::error::{Error, ErrorKind, Result};
 
@@ -44,20 +44,15 @@ pub(super) struct Args {
 }
 
 /// Plants faults in every file's proof. A bad file does not stop the others.
-pub(super) fn run(args: &Args) -> u8 {
+pub(super) fn run(args: &Args) -> Result<u8> {
     if args.list {
-        return output::exit(output::print(&report::list()));
+        return output::print(&report::list()).map(|()| exit_code::AGREE);
     }
-    if let Err(found) = output::apart(&[("--json", &args.json), ("--markdown", &args.markdown)]) {
-        return output::exit(Err(found));
-    }
+    output::apart(&[("--json", &args.json), ("--markdown", &args.markdown)])?;
     let options = args.engine.options("assur");
     if options.engines.len() > 1 {
-        let error = Error::new(
-            ErrorKind::Input,
-            format!("found {} engines, but faults are planted in one", options.engines.len()),
-        );
-        return output::exit(Err(error.key("--engine").help("give one engine")));
+        let message = format!("found {} engines, but faults are planted in one", options.engines.len());
+        return Err(Error::new(ErrorKind::Input, message).key("--engine").help("give one engine"));
     }
     let parties = args.party.iter().filter_map(|name| Party::named(name)).collect();
     let asked = Asked { kinds: args.kind.clone(), parties, with_sizes: !args.no_sizes, jobs: args.jobs, options };
@@ -75,29 +70,21 @@ pub(super) fn run(args: &Args) -> u8 {
             }
         }
     }
-    match written(args, &found, &failures) {
-        Ok(()) if failures.is_empty() => exit(&found),
-        Ok(()) => exit_code::BAD_INPUT,
-        Err(error) => output::exit(Err(error)),
-    }
-}
-
-fn written(args: &Args, found: &[Mutated], failures: &[(String, String)]) -> Result<()> {
     if !output::is_said(&args.json) {
-        output::print(&report::text(found))?;
+        output::print(&report::text(&found))?;
     }
     if let Some(to) = &args.json {
-        output::write(&report::json(found, failures), to)?;
+        output::write(&report::json(&found, &failures), to)?;
     }
-    args.markdown.as_ref().map_or(Ok(()), |to| output::write(&report::markdown(found), to))
-}
-
-fn exit(found: &[Mutated]) -> u8 {
-    match tally(found).end() {
+    if let Some(to) = &args.markdown {
+        output::write(&report::markdown(&found), to)?;
+    }
+    Ok(match tally(&found).end() {
+        _ if !failures.is_empty() => exit_code::BAD_INPUT,
         End::AllFound => exit_code::AGREE,
         End::NoneEscapes | End::TrunkOpen | End::Nothing => exit_code::INCONCLUSIVE,
         End::SomeEscape => exit_code::DISAGREE,
-    }
+    })
 }
 
 /// A kind or family by name.

@@ -35,12 +35,13 @@ fn target(text: &str) -> std::result::Result<PathBuf, String> {
     output::writable(text.into())
 }
 
-pub(super) fn new(args: &Args) -> u8 {
+pub(super) fn new(args: &Args) -> Result<u8> {
     match (&args.template, &args.shipped) {
-        (Some(name), _) => begin(name, args).unwrap_or_else(|error| output::exit(Err(error))),
-        (None, Some(directory)) => output::exit(ship(directory, args.force)),
-        (None, None) => output::exit(output::print(&list())),
+        (Some(name), _) => return begin(name, args),
+        (None, Some(directory)) => ship(directory, args.force)?,
+        (None, None) => output::print(&list())?,
     }
+    Ok(exit_code::AGREE)
 }
 
 /// The templates, one line each.

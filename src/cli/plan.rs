@@ -66,8 +66,6 @@ pub(super) fn plan(args: &Args) -> Result<()> {
     if let Some(to) = &args.svg {
         return output::write(&draw::plans(&plans, &scenario.name, &scenario.title), to);
     }
-    match &args.json {
-        Some(to) => output::write(&report::json(&scenario, &plans, &singular, advice::told), to),
-        None => output::print(&report::text(&scenario, is_free, &plans, &singular, advice::told)),
-    }
+    let json = || report::json(&scenario, &plans, &singular, advice::told);
+    output::either(&args.json, json, || report::text(&scenario, is_free, &plans, &singular, advice::told))
 }

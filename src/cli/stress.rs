@@ -38,21 +38,10 @@ pub(super) struct Args {
 }
 
 /// Runs what is open, writes everything, and returns the exit code.
-pub(super) fn run(args: &Args) -> u8 {
-    match stress(args) {
-        Ok(code) => code,
-        Err(error) => output::exit(Err(error)),
-    }
-}
-
-fn stress(args: &Args) -> Result<u8> {
+pub(super) fn run(args: &Args) -> Result<u8> {
     let chosen = |family: &&Family| args.families.is_empty() || args.families.iter().any(|name| name == family.name);
     let families: Vec<&'static Family> = FAMILIES.iter().filter(chosen).collect();
-    std::fs::create_dir_all(&args.out).map_err(|error| {
-        Error::new(ErrorKind::Io, format!("{} cannot be made: {error}", args.out.display()))
-            .key("--out")
-            .help("name a directory, or a place where one can be made")
-    })?;
+    output::make_directory(&args.out, "--out", "name a directory, or a place where one can be made")?;
     let mut all: Vec<Job> = Vec::new();
     for &family in &families {
         let kept = files::text(&json_of(&args.out, family)).map_err(|error| {
@@ -124,11 +113,7 @@ fn write_json(args: &Args, family: &'static Family, jobs: &[Job]) -> Result<()> 
 fn write_page(args: &Args, to: &Path, found: &[(&Family, Vec<&Outcome>)]) -> Result<()> {
     let stem = to.file_stem().and_then(|stem| stem.to_str()).unwrap_or("stress");
     let maps = to.with_file_name(stem);
-    std::fs::create_dir_all(&maps).map_err(|error| {
-        Error::new(ErrorKind::Io, format!("{} cannot be made: {error}", maps.display()))
-            .key("--page")
-            .help("name a file in a directory that may be written to")
-    })?;
+    output::make_directory(&maps, "--page", "name a file in a directory that may be written to")?;
     for (family, outcomes) in found {
         output::make(&report::map(family, outcomes)?, &maps.join(format!("{}.svg", family.name)))?;
     }

@@ -59,65 +59,82 @@ impl Shape {
     }
 }
 
-linkage::words! {
-    /// What a mark stands for.
-    #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-    pub enum Role: name {
-        /// Centre line of a fixed guide.
-        Axis = "axis",
-        /// Hatching: the side of a line that belongs to the ground.
-        Hatch = "hatch",
-        /// Rail of a fixed guide.
-        Rail = "rail",
-        /// Wall of a fixed cylinder.
-        Bore = "bore",
-        /// Pivot on the ground: its triangle, the line that it stands on, and the hatching below.
-        Pivot = "pivot",
-        /// Stroke across a guide at a point of the ground that is no pivot.
-        Stop = "stop",
-        /// A link of three and more places that are not on a line.
-        Plate = "plate",
-        /// A link of two places, or of several on a line.
-        Bar = "bar",
-        /// Says that a bar does not end at the pin in its middle.
-        Weld = "weld",
-        /// Slot of a moving link, in which a block slides.
-        Slot = "slot",
-        /// Cylinder of a moving link, in which a piston slides.
-        Cylinder = "cylinder",
-        /// Block on a guide.
-        Block = "block",
-        /// Piston, and its rings.
-        Piston = "piston",
-        /// Zigzag of a spring.
-        Spring = "spring",
-        /// Cup, rod and piston of a damper.
-        Damper = "damper",
-        /// Spiral of a torsional spring.
-        TorsionSpring = "torsion-spring",
-        /// Drum of a torsional damper.
-        TorsionDamper = "torsion-damper",
-        /// Revolute pair.
-        Pin = "pin",
-        /// Ring around a pin that joins one link more; two rings, two links more.
-        CoincidentPin = "coincident-pin",
-        /// Mass centre: its circle.
-        MassCentre = "mass-centre",
-        /// Mass centre: two of its quarters.
-        MassQuarter = "mass-quarter",
-        /// Named point of a link that is no joint.
-        Tracer = "tracer",
-        /// Arrow in the sense in which a drive turns its link: the arc.
-        Drive = "drive",
-        /// Arrow in the sense in which a drive turns its link: the head.
-        DriveHead = "drive-head",
-        /// A motor: a circle, with the letter M beside it as [`Lettering::Motor`](crate::Lettering::Motor).
-        Motor = "motor",
-        /// Arrow of a force or a moment: its line.
-        Load = "load",
-        /// Arrow of a force or a moment: its head.
-        LoadHead = "load-head",
-    }
+/// The roles with their names and looks in one table: ink, fill, width of the line, layer.
+macro_rules! roles {
+    ($($(#[$meaning:meta])* $role:ident = $name:literal: $ink:ident, $fill:ident, $width:literal, $layer:ident;)*) => {
+        linkage::words! {
+            /// What a mark stands for.
+            #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+            pub enum Role: name { $($(#[$meaning])* $role = $name,)* }
+        }
+
+        impl Role {
+            /// How marks of this role are drawn.
+            #[must_use]
+            pub fn look(self) -> Look {
+                match self {
+                    $(Role::$role => Look { ink: Ink::$ink, fill: Fill::$fill, width: $width, layer: Layer::$layer },)*
+                }
+            }
+        }
+    };
+}
+
+roles! {
+    /// Centre line of a fixed guide.
+    Axis = "axis": Quiet, None, 0.2, Ground;
+    /// Hatching: the side of a line that belongs to the ground.
+    Hatch = "hatch": Text, None, 0.25, Ground;
+    /// Rail of a fixed guide.
+    Rail = "rail": Text, None, 0.5, Ground;
+    /// Wall of a fixed cylinder.
+    Bore = "bore": Text, None, 0.5, Ground;
+    /// Pivot on the ground: its triangle, the line that it stands on, and the hatching below.
+    Pivot = "pivot": Text, Tint, 0.35, Blocks;
+    /// Stroke across a guide at a point of the ground that is no pivot.
+    Stop = "stop": Text, None, 0.4, Ground;
+    /// A link of three and more places that are not on a line.
+    Plate = "plate": Link, Tint, 0.9, Links;
+    /// A link of two places, or of several on a line.
+    Bar = "bar": Link, None, 1.1, Links;
+    /// Says that a bar does not end at the pin in its middle.
+    Weld = "weld": Link, Ink, 0.2, Links;
+    /// Slot of a moving link, in which a block slides.
+    Slot = "slot": Link, Paper, 0.6, Links;
+    /// Cylinder of a moving link, in which a piston slides.
+    Cylinder = "cylinder": Link, Paper, 0.6, Links;
+    /// Block on a guide.
+    Block = "block": Link, Paper, 0.7, Blocks;
+    /// Piston, and its rings.
+    Piston = "piston": Link, Paper, 0.7, Blocks;
+    /// Zigzag of a spring.
+    Spring = "spring": Load, None, 0.4, Stretched;
+    /// Cup, rod and piston of a damper.
+    Damper = "damper": Load, None, 0.4, Stretched;
+    /// Spiral of a torsional spring.
+    TorsionSpring = "torsion-spring": Load, None, 0.4, Stretched;
+    /// Drum of a torsional damper.
+    TorsionDamper = "torsion-damper": Load, None, 0.4, Stretched;
+    /// Revolute pair.
+    Pin = "pin": Text, Paper, 0.5, Joints;
+    /// Ring around a pin that joins one link more; two rings, two links more.
+    CoincidentPin = "coincident-pin": Text, None, 0.35, Joints;
+    /// Mass centre: its circle.
+    MassCentre = "mass-centre": Quiet, Paper, 0.3, Stretched;
+    /// Mass centre: two of its quarters.
+    MassQuarter = "mass-quarter": Quiet, Ink, 0.1, Stretched;
+    /// Named point of a link that is no joint.
+    Tracer = "tracer": Link, None, 0.5, Joints;
+    /// Arrow in the sense in which a drive turns its link: the arc.
+    Drive = "drive": Text, None, 0.4, Signs;
+    /// Arrow in the sense in which a drive turns its link: the head.
+    DriveHead = "drive-head": Text, Ink, 0.1, Signs;
+    /// A motor: a circle, with the letter M beside it as [`Lettering::Motor`](crate::Lettering::Motor).
+    Motor = "motor": Text, None, 0.4, Signs;
+    /// Arrow of a force or a moment: its line.
+    Load = "load": Load, None, 0.6, Signs;
+    /// Arrow of a force or a moment: its head.
+    LoadHead = "load-head": Load, Ink, 0.1, Signs;
 }
 
 /// The colour of a line.
@@ -174,38 +191,6 @@ pub struct Look {
     pub width: f64,
     /// Where it lies.
     pub layer: Layer,
-}
-
-impl Role {
-    /// How marks of this role are drawn.
-    #[must_use]
-    pub fn look(self) -> Look {
-        let look = |ink, fill, width, layer| Look { ink, fill, width, layer };
-        match self {
-            Role::Axis => look(Ink::Quiet, Fill::None, 0.2, Layer::Ground),
-            Role::Hatch => look(Ink::Text, Fill::None, 0.25, Layer::Ground),
-            Role::Rail | Role::Bore => look(Ink::Text, Fill::None, 0.5, Layer::Ground),
-            Role::Pivot => look(Ink::Text, Fill::Tint, 0.35, Layer::Blocks),
-            Role::Stop => look(Ink::Text, Fill::None, 0.4, Layer::Ground),
-            Role::Plate => look(Ink::Link, Fill::Tint, 0.9, Layer::Links),
-            Role::Bar => look(Ink::Link, Fill::None, 1.1, Layer::Links),
-            Role::Weld => look(Ink::Link, Fill::Ink, 0.2, Layer::Links),
-            Role::Slot | Role::Cylinder => look(Ink::Link, Fill::Paper, 0.6, Layer::Links),
-            Role::Block | Role::Piston => look(Ink::Link, Fill::Paper, 0.7, Layer::Blocks),
-            Role::Spring | Role::Damper => look(Ink::Load, Fill::None, 0.4, Layer::Stretched),
-            Role::TorsionSpring | Role::TorsionDamper => look(Ink::Load, Fill::None, 0.4, Layer::Stretched),
-            Role::Pin => look(Ink::Text, Fill::Paper, 0.5, Layer::Joints),
-            Role::CoincidentPin => look(Ink::Text, Fill::None, 0.35, Layer::Joints),
-            Role::MassCentre => look(Ink::Quiet, Fill::Paper, 0.3, Layer::Stretched),
-            Role::MassQuarter => look(Ink::Quiet, Fill::Ink, 0.1, Layer::Stretched),
-            Role::Tracer => look(Ink::Link, Fill::None, 0.5, Layer::Joints),
-            Role::Drive => look(Ink::Text, Fill::None, 0.4, Layer::Signs),
-            Role::DriveHead => look(Ink::Text, Fill::Ink, 0.1, Layer::Signs),
-            Role::Motor => look(Ink::Text, Fill::None, 0.4, Layer::Signs),
-            Role::Load => look(Ink::Load, Fill::None, 0.6, Layer::Signs),
-            Role::LoadHead => look(Ink::Load, Fill::Ink, 0.1, Layer::Signs),
-        }
-    }
 }
 
 /// A shape and what it stands for.
