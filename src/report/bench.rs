@@ -2,10 +2,10 @@
 
 use serde_json::{Value, json};
 
-use super::cells::table;
+use super::cells::{csv, distinct, table};
 use super::pretty::pretty;
 use crate::bench::{Axis, Bench, Errors, Outcome, Party, Point, front};
-use linkage::error::{Error, ErrorKind, Result};
+use linkage::error::Result;
 use linkage::trajectory::Stage;
 
 /// Names and values that describe machine and build.
@@ -101,9 +101,8 @@ pub(crate) fn text(bench: &Bench) -> String {
 /// All points as CSV, with the machine's description in lines that begin with `#`.
 ///
 /// # Errors
-/// [`ErrorKind::Io`] if the table cannot be written.
+/// [`ErrorKind::Io`](linkage::ErrorKind::Io) if the table cannot be written.
 pub(crate) fn rows(bench: &Bench, machine: &Machine) -> Result<String> {
-    let failed = |error: csv::Error| Error::new(ErrorKind::Io, format!("the table cannot be written: {error}"));
     let mut text = String::new();
     for (name, value) in machine {
         say!(text, "# {name}: {value}");
@@ -123,8 +122,7 @@ pub(crate) fn rows(bench: &Bench, machine: &Machine) -> Result<String> {
     }
     header.extend(counts.iter().cloned());
     header.extend(["seconds", "all_seconds", "failure", "without"].map(String::from));
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    writer.write_record(&header).map_err(failed)?;
+    let mut rows = vec![header];
     let fronts = fronts(bench);
     for (index, point) in bench.points.iter().enumerate() {
         let mut row = vec![
@@ -157,21 +155,14 @@ pub(crate) fn rows(bench: &Bench, machine: &Machine) -> Result<String> {
             Outcome::Failed(reason) => [reason.clone(), String::new()],
             Outcome::Answered(run) => [&run.failed, &run.without].map(|all| joined(all)),
         });
-        writer.write_record(&row).map_err(failed)?;
+        rows.push(row);
     }
-    let bytes = writer.into_inner().map_err(|error| failed(error.into_error().into()))?;
-    Ok(text + &String::from_utf8(bytes).expect("names and numbers are text"))
+    Ok(text + &csv(rows)?)
 }
 
 /// Names of everything that was counted, in the order of its first appearance.
 fn counts(bench: &Bench) -> Vec<String> {
-    let mut names: Vec<String> = Vec::new();
-    for (name, _) in bench.points.iter().filter_map(Point::run).flat_map(|run| &run.effort.0) {
-        if !names.contains(name) {
-            names.push(name.clone());
-        }
-    }
-    names
+    distinct(bench.points.iter().filter_map(Point::run).flat_map(|run| &run.effort.0).map(|(name, _)| name.clone()))
 }
 
 /// The front over time of every stage.

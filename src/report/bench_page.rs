@@ -1,7 +1,8 @@
 //! The page of documentation that holds work-precision results: Markdown, made anew by one command.
 
 use super::bench::{Machine, error, fastest, ratio, short};
-use super::bench_plot::{gaps, reasons};
+use super::bench_plot::{gaps, programs, reasons};
+use super::cells::distinct;
 use super::markdown::foreign;
 use crate::bench::{Axis, Bench, CLEAR, Party, Point, front};
 use linkage::trajectory::Stage;
@@ -29,13 +30,8 @@ pub(crate) fn page(benches: &[Bench], machine: &Machine, command: &str, pictures
         "Machine: {}.\n",
         machine.iter().map(|(name, value)| format!("{name}: {value}")).collect::<Vec<_>>().join("; ")
     );
-    let mut versions: Vec<String> = Vec::new();
-    for (name, version) in benches.iter().flat_map(|bench| &bench.versions) {
-        let told = format!("{name}: {}", foreign(version));
-        if !versions.contains(&told) {
-            versions.push(told);
-        }
-    }
+    let versions = benches.iter().flat_map(|bench| &bench.versions);
+    let versions = distinct(versions.map(|(name, version)| format!("{name}: {}", foreign(version))));
     say!(text, "Versions: {}.\n", versions.join("; "));
     for bench in benches {
         scenario(&mut text, bench, pictures);
@@ -59,13 +55,7 @@ fn scenario(text: &mut String, bench: &Bench, pictures: &str) {
     say!(text, "|---|{}", "---|".repeat(stages.len()));
     let floors = bench.stages.iter().map(|&stage| format!("{:.0e}", bench.floor.errors[stage as usize]));
     say!(text, "| floor | {} |", floors.collect::<Vec<_>>().join(" | "));
-    let mut programs: Vec<&str> = Vec::new();
-    for point in &bench.points {
-        if !programs.contains(&point.program.as_str()) {
-            programs.push(&point.program);
-        }
-    }
-    for program in programs {
+    for program in programs(bench) {
         let cells = bench.stages.iter().map(|&stage| cell(bench, program, stage));
         say!(text, "| {program} | {} |", cells.collect::<Vec<_>>().join(" | "));
     }

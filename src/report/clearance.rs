@@ -2,11 +2,11 @@
 
 use serde_json::{Value, json};
 
-use super::cells::{table, trimmed};
+use super::cells::{csv, table, trimmed};
 use super::pretty::pretty;
 use crate::numbers;
 use crate::scenario::Scenario;
-use linkage::error::{Error, ErrorKind, Result};
+use linkage::error::{Error, Result};
 use linkage::math::Vec2;
 use workshop::clearance::{Clearance, Course, Meeting, PairClearance, Question};
 
@@ -183,17 +183,13 @@ pub(crate) fn json(scenarios: Vec<Value>) -> String {
 /// Distances of all pairs at the instants of a grid, as CSV with 17 significant digits.
 ///
 /// # Errors
-/// [`ErrorKind::Io`] if the table cannot be written.
+/// [`ErrorKind::Io`](linkage::ErrorKind::Io) if the table cannot be written.
 pub(crate) fn distances(asked: &Question, times: &[f64], course: &Course) -> Result<String> {
-    let failed = |error: csv::Error| Error::new(ErrorKind::Io, format!("the table cannot be written: {error}"));
-    let mut writer = csv::Writer::from_writer(Vec::new());
     let name = |&[a, b]: &[usize; 2]| format!("{}.{}.distance_m", asked.bodies[a].name, asked.bodies[b].name);
     let header = ["t_s", "crank_rad"].map(String::from).into_iter().chain(asked.pairs.iter().map(name));
-    writer.write_record(header).map_err(failed)?;
-    for ((t, crank), row) in times.iter().zip(&course.cranks).zip(&course.rows) {
+    let rows = times.iter().zip(&course.cranks).zip(&course.rows).map(|((t, crank), row)| {
         let values = [*t, *crank].into_iter().chain(row.iter().copied());
-        writer.write_record(values.map(|value| format!("{value:.16e}"))).map_err(failed)?;
-    }
-    let bytes = writer.into_inner().map_err(|error| failed(error.into_error().into()))?;
-    Ok(String::from_utf8(bytes).expect("names and numbers are text"))
+        values.map(|value| format!("{value:.16e}")).collect()
+    });
+    csv([header.collect::<Vec<_>>()].into_iter().chain(rows))
 }

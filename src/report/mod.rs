@@ -41,6 +41,7 @@ pub(crate) mod film;
 pub(crate) mod html;
 pub(crate) mod inspect;
 pub mod json;
+mod judged;
 pub mod junit;
 pub(crate) mod layout;
 pub(crate) mod lists;

@@ -2,14 +2,9 @@
 
 use super::cells::used;
 use crate::numbers;
-use crate::proof::{ChannelProof, EngineProof, ForceFault, OwnForces};
+use crate::proof::{EngineProof, ForceFault, OwnForces};
 use linkage::solver::Provision;
 use linkage::trajectory::Stage;
-
-/// Name of a channel as the engine itself exerts it.
-pub(super) fn name(channel: &ChannelProof) -> String {
-    format!("{} as the engine exerts it", channel.residual.channel)
-}
 
 /// Name of all of them.
 pub(super) fn of_all(engine: &EngineProof, several: bool) -> String {

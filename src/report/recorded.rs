@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 
 use super::json;
-use super::own_forces;
+use super::judged::{self, Sort};
 use super::tell::Tell;
 use crate::compare::Verdict;
-use crate::proof::{ChannelProof, EngineProof, Proof};
+use crate::proof::{EngineProof, Proof};
 use crate::record::{Level, LogEntry};
 use linkage::math::KeepNan;
 
@@ -55,20 +55,11 @@ pub(crate) fn log(proof: &Proof, tell: Tell) -> Vec<LogEntry> {
         level: level(&proof.verdict),
         text: format!("{}: {}", proof.scenario, proof.verdict.word()),
     }];
-    let named = |channel: &ChannelProof| channel.residual.channel.to_string();
-    let channels = proof.engines.iter().flat_map(|engine| &engine.channels).map(|own| (named(own), own));
-    let own_forces = proof.engines.iter().flat_map(|engine| &engine.own_forces).flat_map(|own| &own.channels);
-    for (name, channel) in channels.chain(own_forces.map(|own| (own_forces::name(own), own))) {
-        if let Some(why) = why(&channel.verdict) {
-            let text = format!("{name}: {why}");
-            log.push(LogEntry { time: channel.residual.worst_time, level: level(&channel.verdict), text });
-        }
-    }
-    for check in proof.all_checks() {
-        if let Some(why) = why(&check.verdict) {
-            let text = format!("{}: {why}", check.name());
-            log.push(LogEntry { time: start, level: level(&check.verdict), text });
-        }
-    }
+    let mut all = judged::of(proof);
+    all.sort_by_key(|own| [Sort::Channel, Sort::OwnForce, Sort::Check].iter().position(|sort| *sort == own.sort));
+    log.extend(all.into_iter().filter_map(|own| {
+        let text = format!("{}: {}", own.name, why(own.verdict)?);
+        Some(LogEntry { time: own.worst.unwrap_or(start), level: level(own.verdict), text })
+    }));
     log
 }

@@ -3,7 +3,7 @@
 use comfy_table::Table;
 
 use super::brief;
-use super::cells::{fitted, share, trimmed, used};
+use super::cells::{distinct, fitted, share, trimmed, used};
 use super::engines;
 use super::own_forces;
 use super::reasons::{self, count};
@@ -189,15 +189,9 @@ fn family_word<'a>(family: impl Iterator<Item = &'a Check> + Clone) -> &'static 
 fn channels(channels: &[ChannelProof], width: Option<usize>) -> Table {
     let header = ["quantity", "worst channel", "crank deg", "error", "of scale", "bound", "order", "verdict"];
     let mut table = fitted(header, &[2, 3, 4, 5, 6], width);
-    let mut seen: Vec<&str> = Vec::new();
-    for first in channels {
-        let quantity = first.residual.channel.kind.quantity;
-        if seen.contains(&quantity) {
-            continue;
-        }
-        seen.push(quantity);
+    for quantity in distinct(channels.iter().map(|own| own.residual.channel.kind.quantity)) {
         let family = || channels.iter().filter(|c| c.residual.channel.kind.quantity == quantity);
-        let worst = family().max_by(|a, b| used(a).total_cmp(&used(b))).unwrap_or(first);
+        let Some(worst) = family().max_by(|a, b| used(a).total_cmp(&used(b))) else { continue };
         let residual = &worst.residual;
         table.add_row([
             format!("{quantity} ({})", family().count()),
@@ -219,17 +213,12 @@ fn order(observed: f64) -> String {
 
 fn checks(checks: &[&Check], width: Option<usize>) -> Table {
     let mut table = fitted(["check", "numbers", "worst", "bound", "basis", "verdict"], &[1, 2, 3], width);
-    let mut seen: Vec<&str> = Vec::new();
-    for first in checks {
-        if seen.contains(&first.family.as_str()) {
-            continue;
-        }
-        seen.push(&first.family);
-        let family = || checks.iter().copied().filter(|check| check.family == first.family);
-        let worst = family().max_by(|a, b| a.used().total_cmp(&b.used())).unwrap_or(first);
+    for name in distinct(checks.iter().map(|check| check.family.as_str())) {
+        let family = || checks.iter().copied().filter(|check| check.family == name);
+        let Some(worst) = family().max_by(|a, b| a.used().total_cmp(&b.used())) else { continue };
         let detail = if worst.detail.is_empty() { String::new() } else { format!(", worst in {}", worst.detail) };
         table.add_row([
-            format!("{}{detail}", first.family),
+            format!("{name}{detail}"),
             family().count().to_string(),
             numbers::error_in(worst.value, worst.unit),
             numbers::error_in(worst.bound, worst.unit),

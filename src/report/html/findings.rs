@@ -83,7 +83,8 @@ fn write(all: &[Reason], which: std::ops::Range<usize>, told: &mut String) {
 /// The reasons of all verdicts, those that say the same once; what disagrees first.
 fn grouped(proof: &Proof, tell: Tell) -> Vec<Reason> {
     let is_told = |verdict: &Verdict| matches!(verdict, Verdict::Disagree { .. } | Verdict::Inconclusive { .. });
-    let mut told: Vec<(String, &Verdict)> = reasons::verdicts(proof).filter(|(_, verdict)| is_told(verdict)).collect();
+    let mut told = reasons::verdicts(proof);
+    told.retain(|(_, verdict)| is_told(verdict));
     told.sort_by_key(|(_, verdict)| matches!(verdict, Verdict::Inconclusive { .. }));
     let mut all: Vec<Reason> = Vec::new();
     for (name, verdict) in told {

@@ -6,7 +6,8 @@ use super::markup::escaped;
 use crate::compare::Verdict;
 use crate::numbers::{error_in, fixed, significant};
 use crate::proof::Proof;
-use crate::report::{brief, own_forces, style, text};
+use crate::report::judged::{self, Judged, Sort};
+use crate::report::{brief, style, text};
 use linkage::mechanism::Mechanism;
 
 /// Longest scenario that is shown (bytes).
@@ -38,27 +39,23 @@ pub(super) fn sentence(proof: &Proof) -> String {
 
 /// Checks, and forces as engines themselves exert them, as rows of a table; what uses most of its bound first.
 pub(super) fn checks(proof: &Proof) -> String {
-    let mut rows: Vec<(f64, String)> = Vec::new();
-    let mut add = |name: &str, value: f64, bound: f64, unit: &str, how: &str, verdict: &Verdict| {
-        let cells = [escaped(name), error_in(value, unit), error_in(bound, unit), escaped(how)];
-        let cells: String = cells.iter().map(|cell| format!("<td>{cell}</td>")).collect();
-        let word = verdict.word();
-        let share = if bound > 0.0 { value / bound } else { f64::from(value > 0.0) };
-        rows.push((share, format!("<tr>{cells}<td class=\"{word}\">{word}</td></tr>\n")));
+    let share = |own: &Judged| if own.bound > 0.0 { own.value / own.bound } else { f64::from(own.value > 0.0) };
+    let mut all = judged::of(proof);
+    all.retain(|own| own.sort != Sort::Channel);
+    // Of those that use as much, checks stand first.
+    all.sort_by_key(|own| own.sort != Sort::Check);
+    all.sort_by(|a, b| share(b).total_cmp(&share(a)));
+    let row = |own: Judged| {
+        let name = match own.engine {
+            Some(engine) if own.sort == Sort::OwnForce => format!("{} ({})", own.name, engine.info.name),
+            _ => own.name,
+        };
+        let [value, bound] = [own.value, own.bound].map(|number| error_in(number, own.unit));
+        let cells = [escaped(&name), value, bound, escaped(&own.basis.to_string())];
+        let (cells, word) = (cells.map(|cell| format!("<td>{cell}</td>")).concat(), own.verdict.word());
+        format!("<tr>{cells}<td class=\"{word}\">{word}</td></tr>\n")
     };
-    for check in proof.all_checks() {
-        let how = check.basis.to_string();
-        add(&check.name(), check.value, check.bound, check.unit, &how, &check.verdict);
-    }
-    for (engine, own) in proof.engines.iter().flat_map(|own| own.own_forces.iter().map(move |forces| (own, forces))) {
-        for channel in &own.channels {
-            let name = format!("{} ({})", own_forces::name(channel), engine.info.name);
-            let (value, unit) = (channel.residual.max, channel.residual.channel.kind.unit.symbol());
-            add(&name, value, channel.bound, unit, &channel.basis.to_string(), &channel.verdict);
-        }
-    }
-    rows.sort_by(|a, b| b.0.total_cmp(&a.0));
-    rows.into_iter().map(|(_, row)| row).collect()
+    all.into_iter().map(row).collect()
 }
 
 /// Mobility, driving links and groups, links and joints.

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use linkage::math::KeepNan;
 
-use super::super::cells::table;
+use super::super::cells::{distinct, table};
 use crate::stress::{Family, Group, Outcome};
 
 /// Counts over all points.
@@ -98,13 +98,7 @@ pub(super) fn body(outcomes: &[&Outcome]) -> String {
 
 /// Names of all parties, in the order in which they come.
 pub(super) fn names<'a>(outcomes: &[&'a Outcome]) -> Vec<&'a str> {
-    let mut names: Vec<&str> = Vec::new();
-    for party in outcomes.iter().flat_map(|own| &own.parties) {
-        if !names.contains(&party.name.as_str()) {
-            names.push(&party.name);
-        }
-    }
-    names
+    distinct(outcomes.iter().flat_map(|own| &own.parties).map(|party| party.name.as_str()))
 }
 
 /// Where a party agrees, where not, its largest errors where it agrees, and there the largest share of a bound and the
