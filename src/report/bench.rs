@@ -53,14 +53,12 @@ pub(crate) fn fastest<'a>(
 pub(crate) fn text(bench: &Bench) -> String {
     let mut text = format!("{}: {}\n\n", bench.scenario[0], bench.scenario[1]);
     let failed = bench.points.iter().filter(|point| point.run().is_none()).count();
+    let (settings, instants, reference) = (bench.points.len(), bench.instants, &bench.floor.reference);
     say!(
         text,
-        "{} settings on {} instants, {failed} failed; times over that of side 1 (assur). Reference: {}.\n\
-         The fronts: what nothing beats, then what no engine and no peer beats.",
-        bench.points.len(),
-        bench.instants,
-        bench.floor.reference
+        "{settings} settings on {instants} instants, {failed} failed; times over that of side 1 (assur). Reference: {reference}."
     );
+    say!(text, "The fronts: what nothing beats, then what no engine and no peer beats.");
     for &stage in &bench.stages {
         let floor = bench.floor.errors[stage as usize];
         say!(text, "\n{}: the reference is known to {floor:.1e}", stage.name());

@@ -3,6 +3,7 @@
 use super::bench::{Machine, error, fastest, ratio, short};
 use super::bench_plot::{gaps, programs, reasons};
 use super::cells::distinct;
+use super::html::filled;
 use super::markdown::foreign;
 use crate::bench::{Axis, Bench, CLEAR, Party, Point, front};
 use linkage::trajectory::Stage;
@@ -14,22 +15,9 @@ const REASONS: usize = 6;
 
 /// The page. `command` made it; `pictures` is the directory of the diagrams as seen from the page.
 pub(crate) fn page(benches: &[Bench], machine: &Machine, command: &str, pictures: &str) -> String {
-    let mut text = format!(
-        "# Run time against error\n\n\
-         Made by one command; do not edit it by hand:\n\n```sh\n{command}\n```\n\n\
-         - *Error*: largest difference to the reference over all instants and channels of a stage, over each channel's scale.\n\
-         - *Time*: shortest of several runs, over that of side 1 (`assur`) at its usual accuracy in the same command.\n\
-         \x20 Peers measure themselves, without building the model and without writing ([peers](peers.md)).\n\
-         - *Floor*: the reference's own error. Points less than {CLEAR} times above it are marked.\n\
-         - *Front*: what nothing else beats in time and error.\n\
-         - A cell has the times at which a program reaches errors of 1e-3, 1e-6 and 1e-9 with the best of its settings; a dash: never.\n\
-         - Raw numbers of every setting, with exact counts of work, are in the CSV and JSON files that the command writes.\n\n"
-    );
-    say!(
-        text,
-        "Machine: {}.\n",
-        machine.iter().map(|(name, value)| format!("{name}: {value}")).collect::<Vec<_>>().join("; ")
-    );
+    let mut text = filled(include_str!("bench_page.md"), &[("command", command), ("clear", &CLEAR.to_string())]);
+    let machine: Vec<String> = machine.iter().map(|(name, value)| format!("{name}: {value}")).collect();
+    say!(text, "Machine: {}.\n", machine.join("; "));
     let versions = benches.iter().flat_map(|bench| &bench.versions);
     let versions = distinct(versions.map(|(name, version)| format!("{name}: {}", foreign(version))));
     say!(text, "Versions: {}.\n", versions.join("; "));

@@ -104,11 +104,10 @@ pub(crate) fn text(scenario: &Scenario, asked: &Question, found: &Clearance) -> 
     if let (Some(wanted), Some(first)) = (asked.wanted, found.first_too_near()) {
         said(&mut text, &format!("first nearer than the {} mm wanted", millimetres(wanted)), first);
     }
-    let work = found.work;
+    let (word, work) = (standing(found).word(), found.work);
     say!(
         text,
-        "{}: {} poses and {} distances of convex parts; for areas {} poses and {} tests of squares\n",
-        standing(found).word(),
+        "{word}: {} poses and {} distances of convex parts; for areas {} poses and {} tests of squares\n",
         work.poses,
         work.distances,
         work.positions,

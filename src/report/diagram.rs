@@ -24,14 +24,8 @@ pub(crate) fn text(scenario: &Scenario, diagram: &MotionDiagram) -> String {
         let [first, second] =
             found.orders.map(|order| order.map_or_else(|| "-".into(), |order| numbers::fixed(order, 2)));
         let with = |value: f64| format!("{} {unit}", significant(value));
-        say!(
-            text,
-            "  {:34} {:>20} {:>20} {:>12.3} % {first:>6} {second:>6}",
-            found.method.words(),
-            with(found.largest),
-            with(found.rms),
-            found.share * 100.0
-        );
+        let ([largest, rms], share) = ([found.largest, found.rms].map(with), 100.0 * found.share);
+        say!(text, "  {:34} {largest:>20} {rms:>20} {share:>12.3} % {first:>6} {second:>6}", found.method.words());
     }
     let n = diagram.divisions;
     say!(text, "\norders: of the rms error, from {n} to {} and from {} to {} divisions", 2 * n, 2 * n, 4 * n);

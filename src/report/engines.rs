@@ -60,13 +60,8 @@ pub(super) fn disputes(proof: &Proof) -> String {
     let open = proof.disputes.iter().filter(|dispute| dispute.odd.is_none());
     if let Some(first) = open.clone().next() {
         let pairs: Vec<String> = first.pairs.iter().map(|[a, b]| format!("{a} and {b}")).collect();
-        say!(
-            text,
-            "In {} channels no single one stands alone, first in {}: {} differ.",
-            open.count(),
-            first.channel,
-            pairs.join(", ")
-        );
+        let (count, channel, pairs) = (open.count(), &first.channel, pairs.join(", "));
+        say!(text, "In {count} channels no single one stands alone, first in {channel}: {pairs} differ.");
     }
     text.truncate(text.trim_end().len());
     text

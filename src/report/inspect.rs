@@ -31,13 +31,11 @@ pub(crate) fn text(scenario: &Scenario) -> String {
             "fixed".to_string()
         } else {
             let at = format!("at {}", fixed_in(pose.angle.to_degrees(), 3, "deg"));
+            let [mass, inertia] = [link.mass, link.inertia].map(|value| significant(value, SHOWN));
             if link.mass == 0.0 {
                 format!("massless, {at}")
             } else {
-                {
-                    let [mass, inertia] = [link.mass, link.inertia].map(|value| significant(value, SHOWN));
-                    format!("m = {mass} kg, J = {inertia} kg m^2, {at}")
-                }
+                format!("m = {mass} kg, J = {inertia} kg m^2, {at}")
             }
         };
         say!(text, "  {:14} points {:14} {body}", link.name, points.join(" "));
@@ -52,15 +50,12 @@ pub(crate) fn text(scenario: &Scenario) -> String {
     for ((group, &mode), choice) in structure.groups.iter().zip(&case.modes).zip(&scenario.choices) {
         let transmission = transmission_sine(mechanism, group, &case.start)
             .map_or_else(String::new, |sine| format!(", transmission angle {:.2} deg", sine.abs().asin().to_degrees()));
+        let (class, order, pairs, mode, from) =
+            (group.class, group.order(), group.pairs(), mode.name(), from_rough_place(choice));
         say!(
             text,
-            "  {:28} class {}, order {}, {}, mode {}{transmission}{}",
-            group.names(mechanism),
-            group.class,
-            group.order(),
-            group.pairs(),
-            mode.name(),
-            from_rough_place(choice)
+            "  {:28} class {class}, order {order}, {pairs}, mode {mode}{transmission}{from}",
+            group.names(mechanism)
         );
     }
     text

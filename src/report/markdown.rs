@@ -1,5 +1,6 @@
 //! Outcomes as Markdown: the comment to a pull request. The verdict first, then what stands in its way.
 
+use super::cells::marked;
 use super::outcomes::{Entry, Outcome, Outcomes};
 
 /// Reasons that are written out for one scenario; the others are counted.
@@ -19,17 +20,18 @@ pub fn text(outcomes: &Outcomes) -> String {
     put!(text, "| {} ", outcomes.noun);
     text += "| verdict | agree | expected | disagree | open |\n|---|---|---|---|---|---|\n";
     for entry in entries {
-        let of = |is: fn(&Outcome) -> bool| entry.cases.iter().filter(|case| is(&case.outcome)).count();
-        say!(
-            text,
-            "| {} | {} | {} | {} | {} | {} |",
-            cell(&entry.name),
-            if entry.verdict == "agree" { "agree".into() } else { format!("**{}**", entry.verdict) },
-            of(|outcome| *outcome == Outcome::Agrees),
-            of(|outcome| matches!(outcome, Outcome::Expected(_))),
-            of(|outcome| matches!(outcome, Outcome::Disagrees(_))),
-            of(|outcome| matches!(outcome, Outcome::Open(_))),
-        );
+        let mut counts = [0; 4];
+        for case in &entry.cases {
+            counts[match case.outcome {
+                Outcome::Agrees => 0,
+                Outcome::Expected(_) => 1,
+                Outcome::Disagrees(_) => 2,
+                Outcome::Open(_) => 3,
+            }] += 1;
+        }
+        let verdict = if entry.verdict == "agree" { "agree".into() } else { format!("**{}**", entry.verdict) };
+        let counts = counts.map(|count| count.to_string());
+        say!(text, "{}", marked(&[&[cell(&entry.name), verdict], &counts[..]].concat()));
     }
     for entry in entries {
         reasons(entry, &mut text);

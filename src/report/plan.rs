@@ -33,28 +33,13 @@ pub(crate) fn text(
     for plan in [&plans.velocity, &plans.acceleration] {
         let (word, symbol, unit) = (plan.quantity.word(), plan.quantity.symbol(), plan.quantity.unit());
         say!(text, "\n{word} plan   pole {}, mu_{symbol} = {} ({unit})/mm", plan.quantity.pole(), plan.scale);
-        say!(
-            text,
-            "  {:10} {:10} {:>10} {:>11} {:>11} {:>8}  meaning",
-            "vector",
-            "from, to",
-            unit,
-            format!("x, {unit}"),
-            format!("y, {unit}"),
-            "mm"
-        );
+        let [x, y] = ["x", "y"].map(|axis| format!("{axis}, {unit}"));
+        say!(text, "  vector     from, to   {unit:>10} {x:>11} {y:>11}       mm  meaning");
         for vector in &plan.vectors {
-            say!(
-                text,
-                "  {:10} {:10} {:>10} {:>11} {:>11} {:>8.2}  {}",
-                vector.name,
-                format!("{}, {}", vector.from, vector.to),
-                significant(vector.value.norm()),
-                significant(vector.value.x),
-                significant(vector.value.y),
-                plan.paper(vector),
-                vector.meaning
-            );
+            let (ends, value) = (format!("{}, {}", vector.from, vector.to), vector.value);
+            let [size, x, y] = [value.norm(), value.x, value.y].map(significant);
+            let (name, paper, meaning) = (&vector.name, plan.paper(vector), &vector.meaning);
+            say!(text, "  {name:10} {ends:10} {size:>10} {x:>11} {y:>11} {paper:>8.2}  {meaning}");
         }
     }
     for found in singular {

@@ -34,12 +34,11 @@ fn extent(range: &Range) -> String {
     match range.extent {
         Extent::FullTurn(1) => "turns fully".into(),
         Extent::FullTurn(turns) => format!("turns fully; the mechanism is back at its first pose after {turns} turns"),
-        Extent::Limited([from, to]) => format!(
-            "from {} to {} deg, {} deg in all",
-            degrees(from.crank, range),
-            degrees(to.crank, range),
-            numbers::fixed((to.crank - from.crank).to_degrees(), 6)
-        ),
+        Extent::Limited([from, to]) => {
+            let span = numbers::fixed((to.crank - from.crank).to_degrees(), 6);
+            let [from, to] = [from, to].map(|end| degrees(end.crank, range));
+            format!("from {from} to {to} deg, {span} deg in all")
+        }
     }
 }
 
@@ -88,14 +87,8 @@ fn groups(scenario: &Scenario, range: &Range) -> String {
             Some(worst) => (numbers::fixed(worst.value, 4), degrees(worst.crank, range)),
             None => ("without bound".into(), degrees(crank, range)),
         };
-        table.add_row([
-            names(scenario, index),
-            numbers::fixed(value, 6),
-            transmission,
-            degrees(crank, range),
-            condition,
-            at,
-        ]);
+        let (least, crank) = (numbers::fixed(value, 6), degrees(crank, range));
+        table.add_row([names(scenario, index), least, transmission, crank, condition, at]);
     }
     trimmed(&table)
 }
@@ -106,13 +99,8 @@ fn links(scenario: &Scenario, range: &Range) -> String {
         // For a link that rotates fully, the interval of its angle has no meaning.
         let end = |at: At| if link.turns == 0 { numbers::fixed(at.value.to_degrees(), 6) } else { "-".into() };
         let [least, most] = link.angles.map(end);
-        table.add_row([
-            scenario.case.mechanism.links()[link.link].name.clone(),
-            motion(link),
-            least,
-            most,
-            positions(&link.extremes, range),
-        ]);
+        let name = scenario.case.mechanism.links()[link.link].name.clone();
+        table.add_row([name, motion(link), least, most, positions(&link.extremes, range)]);
     }
     trimmed(&table)
 }

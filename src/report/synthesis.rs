@@ -31,17 +31,13 @@ fn stroke(task: &Task, achieved: &Achieved) -> String {
 
 /// The main figures, in two lines.
 pub(crate) fn summary(task: &Task, achieved: &Achieved) -> String {
+    let angle = |angle: f64| format!(", smallest transmission angle {:.2} deg", angle.to_degrees());
+    let (stroke, angle) = (stroke(task, achieved), achieved.transmission.map_or(String::new(), angle));
+    let [unrest, wrong] = [achieved.unrest(task), achieved.wrong()].map(|share| 100.0 * share);
+    let [late, short] = [achieved.late(task), achieved.short(task)].map(f64::to_degrees);
     format!(
-        "Stroke {}{}. Largest motion in a dwell {:.3} % of the stroke,\n\
-         largest way in a wrong sense {:.3} %. Extreme positions within {:.2} deg of the table, dwells short by {:.2} deg at most.",
-        stroke(task, achieved),
-        achieved
-            .transmission
-            .map_or(String::new(), |angle| format!(", smallest transmission angle {:.2} deg", angle.to_degrees())),
-        100.0 * achieved.unrest(task),
-        100.0 * achieved.wrong(),
-        achieved.late(task).to_degrees(),
-        achieved.short(task).to_degrees()
+        "Stroke {stroke}{angle}. Largest motion in a dwell {unrest:.3} % of the stroke,\n\
+         largest way in a wrong sense {wrong:.3} %. Extreme positions within {late:.2} deg of the table, dwells short by {short:.2} deg at most."
     )
 }
 
@@ -51,12 +47,11 @@ pub(crate) fn text(story: &Story) -> String {
     let mut text = format!("{}: {}\n\n", task.name, task.title);
     if let Some((found, values)) = story.search {
         let [drawn, assembled] = found.candidates;
+        let worst = found.refined.last().copied().unwrap_or(f64::NAN);
+        let [cost, refined, worst] = [found.random_cost, found.cost, worst].map(|cost| numbers::significant(cost, 4));
         say!(
             text,
-            "{drawn} random candidates, {assembled} of them assembled near the limits; cost {}, refined {} (worst of the refined {})\n",
-            numbers::significant(found.random_cost, 4),
-            numbers::significant(found.cost, 4),
-            numbers::significant(found.refined.last().copied().unwrap_or(f64::NAN), 4)
+            "{drawn} random candidates, {assembled} of them assembled near the limits; cost {cost}, refined {refined} (worst of the refined {worst})\n"
         );
         let mut dimensions = table(["dimension", "value", "from", "to"], &[1, 2, 3]);
         for (variable, &value) in task.variables.iter().zip(values) {
@@ -64,12 +59,9 @@ pub(crate) fn text(story: &Story) -> String {
                 true => numbers::fixed_in(value.to_degrees(), 4, "deg"),
                 false => numbers::fixed_in(value * 1e3, 3, "mm"),
             };
-            dimensions.add_row([
-                variable.name.clone(),
-                show(value),
-                show(variable.bounds[0]),
-                show(variable.bounds[1]),
-            ]);
+            let [from, to] = variable.bounds;
+            let shown = [value, from, to].map(show);
+            dimensions.add_row(std::iter::once(variable.name.clone()).chain(shown));
         }
         say!(text, "{dimensions}\n");
     }

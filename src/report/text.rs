@@ -39,18 +39,12 @@ pub fn proof(proof: &Proof, tell: Tell, width: Option<usize>) -> String {
     }
     match proof.engines.as_slice() {
         [only] => {
-            say!(
-                text,
-                "\nEngine against reference, the worst channel of each quantity:\n{}",
-                trimmed(&channels(&only.channels, width))
-            );
+            let table = trimmed(&channels(&only.channels, width));
+            say!(text, "\nEngine against reference, the worst channel of each quantity:\n{table}");
         }
         several => {
-            say!(
-                text,
-                "\nSide by side, the largest error over its scale (and its bound):\n{}",
-                trimmed(&engines::table(several, width))
-            );
+            let table = trimmed(&engines::table(several, width));
+            say!(text, "\nSide by side, the largest error over its scale (and its bound):\n{table}");
             say!(text, "\n{}", wrapped(&engines::disputes(proof), width, 2));
         }
     }

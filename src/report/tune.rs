@@ -50,12 +50,8 @@ pub(crate) fn text(scenario: &Scenario, found: &Tuning, within: f64, section: &S
         ]);
     }
     let mut text = format!("{}: {}\n\n", scenario.name, scenario.title);
-    say!(
-        text,
-        "The cheapest settings within {} of every channel's scale:\n{}\n",
-        numbers::error(within),
-        trimmed(&table)
-    );
+    let (within, table) = (numbers::error(within), trimmed(&table));
+    say!(text, "The cheapest settings within {within} of every channel's scale:\n{table}\n");
     for (name, error) in &found.too_coarse {
         match error.is_finite() {
             true => say!(text, "{name} does not meet it: its smallest error was {}.", numbers::error(*error)),
@@ -67,24 +63,19 @@ pub(crate) fn text(scenario: &Scenario, found: &Tuning, within: f64, section: &S
     for name in &found.too_dear {
         say!(text, "{name} costs more than the cheapest.");
     }
+    let ([error, expected], runs) = ([found.best.verified, found.predicted].map(numbers::error), found.runs);
+    let engine = found.best.engine;
     say!(
         text,
-        "{}: error {} measured against the reference, {} expected from its own runs; {} runs.",
-        found.best.engine,
-        numbers::error(found.best.verified),
-        numbers::error(found.predicted),
-        found.runs
+        "{engine}: error {error} measured against the reference, {expected} expected from its own runs; {runs} runs."
     );
     match found.best.is_proven {
         true if found.cheapest.price < found.best.price => {
             let Settings { resolution, sweeps, .. } = found.cheapest.settings;
             let (share, name) = (found.cheapest.price / found.best.price, found.cheapest.engine);
-            say!(
-                text,
-                "A proof at these settings agrees. {name} at {} with {sweeps} sweeps meets the error for {share:.2} \
-                 of the price, but proves less.",
-                numbers::significant(resolution, 4)
-            )
+            let step = numbers::significant(resolution, 4);
+            put!(text, "A proof at these settings agrees. {name} at {step} with {sweeps} sweeps meets the error for ");
+            say!(text, "{share:.2} of the price, but proves less.")
         }
         true => say!(text, "A proof at these settings agrees."),
         false => say!(text, "A proof at these settings leaves something open: take finer ones for a proof."),

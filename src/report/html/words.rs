@@ -28,13 +28,8 @@ pub(super) fn verdict(proof: &Proof) -> String {
 pub(super) fn sentence(proof: &Proof) -> String {
     let engine = if proof.engines.len() == 1 { "Engine" } else { "Engines" };
     let parties: Vec<&str> = proof.engines.iter().map(|engine| engine.info.name).collect();
-    escaped(&format!(
-        "{} Reference: {}. {engine}: {}; {}.",
-        text::sentence(&proof.verdict, proof),
-        proof.reference,
-        parties.join(", "),
-        brief::resolution(proof)
-    ))
+    let (judged, parties, at) = (text::sentence(&proof.verdict, proof), parties.join(", "), brief::resolution(proof));
+    escaped(&format!("{judged} Reference: {}. {engine}: {parties}; {at}.", proof.reference))
 }
 
 /// Checks, and forces as engines themselves exert them, as rows of a table; what uses most of its bound first.
@@ -71,17 +66,10 @@ pub(super) fn structure(proof: &Proof) -> String {
     for (group, mode) in structure.groups.iter().zip(&case.modes) {
         let joints =
             |all: &[usize]| all.iter().map(|&joint| joint_name(mechanism, joint)).collect::<Vec<_>>().join(", ");
-        say!(
-            out,
-            "<li>{}: class {}, order {}, {}, mode {}; inner joints {}; outer joints {}</li>",
-            escaped(&group.names(mechanism)),
-            group.class,
-            group.order(),
-            escaped(&group.pairs().to_string()),
-            escaped(mode.name()),
-            joints(&group.inner),
-            joints(&group.outer)
-        );
+        let [inner, outer] = [&group.inner, &group.outer].map(|all| joints(all));
+        let (links, class, order, pairs) = (group.names(mechanism), group.class, group.order(), group.pairs());
+        let head = escaped(&format!("{links}: class {class}, order {order}, {pairs}, mode {}", mode.name()));
+        say!(out, "<li>{head}; inner joints {inner}; outer joints {outer}</li>");
     }
     out.push_str("</ol>\n");
     out + &links(mechanism) + &joints(mechanism)
@@ -107,11 +95,8 @@ fn links(mechanism: &Mechanism) -> String {
             .collect();
         let [mass, inertia] = [link.mass, link.inertia].map(|own| significant(own, 5));
         let swatch = format!("<span class=\"swatch k{number}\" aria-hidden=\"true\"></span>");
-        format!(
-            "<tr><td>{swatch}{number}</td><td>{}</td><td>{}</td><td>{mass}</td><td>{inertia}</td></tr>\n",
-            escaped(&link.name),
-            points.join(", ")
-        )
+        let (name, points) = (escaped(&link.name), points.join(", "));
+        format!("<tr><td>{swatch}{number}</td><td>{name}</td><td>{points}</td><td>{mass}</td><td>{inertia}</td></tr>\n")
     });
     table("Links", &["no.", "link", "points (mm, its frame)", "mass kg", "inertia kg m²"], rows.collect())
 }
@@ -119,11 +104,8 @@ fn links(mechanism: &Mechanism) -> String {
 fn joints(mechanism: &Mechanism) -> String {
     let rows = mechanism.joints().iter().map(|joint| {
         let [first, second] = [joint.first, joint.second].map(|side| link_name(mechanism, side.link));
-        format!(
-            "<tr><td>{}</td><td>{}</td><td>{first}</td><td>{second}</td></tr>\n",
-            escaped(&joint.name),
-            joint.kind.name()
-        )
+        let (name, kind) = (escaped(&joint.name), joint.kind.name());
+        format!("<tr><td>{name}</td><td>{kind}</td><td>{first}</td><td>{second}</td></tr>\n")
     });
     table("Joints", &["joint", "kind", "first link", "second link"], rows.collect())
 }
