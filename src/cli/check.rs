@@ -7,6 +7,7 @@ use super::load::StartArgs;
 use super::{advice, exit_code, number, output, terminal};
 use crate::proof::claimed;
 use crate::report::check as report;
+use crate::report::style::Detail;
 use crate::scenario::formula::{fault_of_claim, refused};
 use crate::scenario::{Claim, Scenario};
 use linkage::error::{Error, ErrorKind, Result};
@@ -66,10 +67,10 @@ pub(super) fn check(args: &Args) -> Result<u8> {
     }
     if !output::is_said(&args.json) {
         let width = terminal::columns();
-        terminal::print(&match (args.quiet, args.verbose) {
-            (true, _) => format!("{}\n", report::verdict_line(&scenario, &found)),
-            (_, true) => report::text(&scenario, &found, advice::told, width),
-            _ => report::brief(&scenario, &found, advice::told, width),
+        terminal::print(&match Detail::asked(args.quiet, args.verbose) {
+            Detail::Verdict => format!("{}\n", report::verdict_line(&scenario, &found)),
+            Detail::Whole => report::text(&scenario, &found, advice::told, width),
+            Detail::Short => report::brief(&scenario, &found, advice::told, width),
         })?;
     }
     Ok(exit_code::of(&found.verdict))

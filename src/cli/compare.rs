@@ -14,6 +14,7 @@ use super::{advice, exit_code, output, standard_input, terminal};
 use crate::proof::memory;
 use crate::record;
 use crate::report::outcomes::Outcomes;
+use crate::report::style::Detail;
 use crate::report::versus as report;
 use crate::scenario::mapping::{Allowed, Mapped, Mapping, Size};
 use crate::tables::{self, Held};
@@ -142,8 +143,8 @@ pub(super) fn compare(args: &Args) -> Result<u8> {
     let found = compared([first, second], paths, &how)?;
     let outcomes = Outcomes::of_comparison(paths, &found, advice::told);
     if !args.reports.takes_output() {
-        let how = [args.verbose, args.quiet];
-        terminal::print(&report::text(paths, &found, how, advice::told, terminal::columns()))?;
+        let detail = Detail::asked(args.quiet, args.verbose);
+        terminal::print(&report::text(paths, &found, detail, advice::told, terminal::columns()))?;
     }
     let written = args.reports.write(|| report::json(paths, &found, advice::told), &outcomes);
     Ok(graver(exit_code::of(&found.verdict), written))

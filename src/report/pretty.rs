@@ -26,4 +26,4 @@ macro_rules! rows {
         }
     )*};
 }
-pub(super) use rows;
+pub(in crate::report) use rows;

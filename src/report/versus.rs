@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 use super::cells::{flush, trimmed};
 use super::diagnosis;
 use super::pretty::pretty;
-use super::style;
+use super::style::{self, Detail};
 use super::tell::Tell;
 use crate::claims::Cause;
 use crate::compare::Verdict;
@@ -23,17 +23,17 @@ const NOTHING: f64 = 1e-4;
 const NAMED: usize = 3;
 
 /// The report in lines of at most `width` columns: the verdict, the channels that use most of their bounds, and why
-/// others are off. All channels if `all`; the verdicts alone if `quiet`.
+/// others are off.
 #[must_use]
-pub fn text(paths: [&Path; 2], comparison: &Comparison, [all, quiet]: [bool; 2], tell: Tell, width: usize) -> String {
+pub fn text(paths: [&Path; 2], comparison: &Comparison, detail: Detail, tell: Tell, width: usize) -> String {
     let mut text = String::new();
     for pair in &comparison.pairs {
-        if !text.is_empty() && !quiet {
+        if !text.is_empty() && detail != Detail::Verdict {
             text.push('\n');
         }
         say!(text, "{}", style::wrapped(&sentence(paths, pair), Some(width), 2));
-        if !quiet {
-            put!(text, "{}", of_pair(pair, all, tell, width));
+        if detail != Detail::Verdict {
+            put!(text, "{}", of_pair(pair, detail == Detail::Whole, tell, width));
         }
     }
     text

@@ -13,6 +13,7 @@ use crate::cli::{advice, output, standard_input, terminal};
 use crate::proof::{EngineProof, Entry, Proof};
 use crate::report::closing::Closing;
 use crate::report::outcomes::Outcomes;
+use crate::report::style::Detail;
 use crate::report::{brief, explain, json, recorded, residuals, text};
 use crate::scenario::Scenario;
 use linkage::error::{Error, Result};
@@ -107,10 +108,10 @@ impl<'a> Session<'a> {
         if !self.reports() {
             return Ok(());
         }
-        terminal::print(&match (args.quiet, args.verbose) {
-            (true, _) => format!("{}\n", brief::verdict_line(proof)),
-            (_, true) => text::proof(proof, advice::told, terminal::width()),
-            _ => brief::proof(proof, advice::told, terminal::columns()),
+        terminal::print(&match Detail::asked(args.quiet, args.verbose) {
+            Detail::Verdict => format!("{}\n", brief::verdict_line(proof)),
+            Detail::Whole => text::proof(proof, advice::told, terminal::width()),
+            Detail::Short => brief::proof(proof, advice::told, terminal::columns()),
         })?;
         if args.explain {
             output::print(&format!("\n{}", explain::text(proof, &[recording_told(args)])))?;

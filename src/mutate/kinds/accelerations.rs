@@ -1,44 +1,22 @@
 //! Second derivatives that are answered.
 
 use super::kind::kinds;
-use super::touch::{arm, floating, moving_guide, turner};
+use super::touch::{floating, moving_guide, on_arm, turner};
+use linkage::case::Case;
 use linkage::math::turned;
+use linkage::solver::State;
 
 kinds! { Acceleration, Answer:
-    "centripetal-missing": "the last turning link's acceleration lacks its centripetal part", |at, state, _| {
-        let link = turner(at.case);
-        let arm = arm(at.case, state, link);
-        let motion = &mut state.motions[link];
-        (arm.norm() > 0.0).then(|| motion.acceleration += arm * (motion.omega * motion.omega))
-    };
-    "centripetal-sign": "the centripetal part of the last turning link's acceleration points outwards", |at, state, _| {
-        let link = turner(at.case);
-        let arm = arm(at.case, state, link);
-        let motion = &mut state.motions[link];
-        (arm.norm() > 0.0).then(|| motion.acceleration += arm * (2.0 * motion.omega * motion.omega))
-    };
-    "tangential-missing": "the last turning link's acceleration lacks its tangential part", |at, state, _| {
-        let link = turner(at.case);
-        let arm = arm(at.case, state, link);
-        let motion = &mut state.motions[link];
-        (arm.norm() > 0.0).then(|| motion.acceleration -= turned(arm) * motion.alpha)
-    };
-    "coriolis-missing": "a slider's acceleration on a moving guide lacks Coriolis' part", |at, state, _| {
-        let joint = at.case.mechanism.joints()[moving_guide(at.case)?].clone();
-        let [_, speed, _] = state.slide(&joint)?;
-        let guide = &state.motions[joint.first.link];
-        let axis = guide.arm(joint.axis_on(joint.first.link)?);
-        let part = turned(axis) * (2.0 * guide.omega * speed);
-        state.motions[joint.second.link].acceleration -= part;
-    };
-    "coriolis-half": "Coriolis' part of a slider on a moving guide is omega v instead of 2 omega v", |at, state, _| {
-        let joint = at.case.mechanism.joints()[moving_guide(at.case)?].clone();
-        let [_, speed, _] = state.slide(&joint)?;
-        let guide = &state.motions[joint.first.link];
-        let axis = guide.arm(joint.axis_on(joint.first.link)?);
-        let part = turned(axis) * (guide.omega * speed);
-        state.motions[joint.second.link].acceleration -= part;
-    };
+    "centripetal-missing": "the last turning link's acceleration lacks its centripetal part",
+        |at, state, _| on_arm(at.case, state, |motion, arm| motion.acceleration += arm * (motion.omega * motion.omega));
+    "centripetal-sign": "the centripetal part of the last turning link's acceleration points outwards",
+        |at, state, _| on_arm(at.case, state, |motion, arm| motion.acceleration += arm * (2.0 * motion.omega * motion.omega));
+    "tangential-missing": "the last turning link's acceleration lacks its tangential part",
+        |at, state, _| on_arm(at.case, state, |motion, arm| motion.acceleration -= turned(arm) * motion.alpha);
+    "coriolis-missing": "a slider's acceleration on a moving guide lacks Coriolis' part",
+        |at, state, _| without_coriolis(at.case, state, 1.0);
+    "coriolis-half": "Coriolis' part of a slider on a moving guide is omega v instead of 2 omega v",
+        |at, state, _| without_coriolis(at.case, state, 0.5);
     "alpha" (1e-2): "the angular acceleration of the last turning link is larger by a share",
         |at, state, size| state.motions[turner(at.case)].alpha *= 1.0 + size;
     "alpha-sign": "the angular acceleration of the last turning link is counted clockwise",
@@ -62,4 +40,14 @@ kinds! { Acceleration, Answer:
     };
     "acceleration-x-dropped": "the last moving frame's frame has no acceleration along x",
         |at, state, _| state.motions[floating(at.case)].acceleration.x = 0.0;
+}
+
+/// Takes a share of Coriolis' part from the acceleration of a slider on a moving guide.
+fn without_coriolis(case: &Case, state: &mut State, share: f64) -> Option<()> {
+    let joint = case.mechanism.joints()[moving_guide(case)?].clone();
+    let [_, speed, _] = state.slide(&joint)?;
+    let guide = &state.motions[joint.first.link];
+    let part = turned(guide.arm(joint.axis_on(joint.first.link)?)) * (2.0 * guide.omega * speed);
+    state.motions[joint.second.link].acceleration -= part * share;
+    Some(())
 }

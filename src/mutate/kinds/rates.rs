@@ -1,7 +1,7 @@
 //! First derivatives that are answered.
 
 use super::kind::kinds;
-use super::touch::{arm, crank, floating, moving_guide, turner};
+use super::touch::{crank, floating, moving_guide, on_arm, turner};
 use linkage::math::{rotated, turned};
 
 kinds! { Rate, Answer:
@@ -17,12 +17,8 @@ kinds! { Rate, Answer:
         let (last, first) = (turner(at.case), crank(at.case));
         (last != first).then(|| state.motions[last].omega -= state.motions[first].omega)
     };
-    "velocity-half-arm": "half a length in a velocity: v = v0 + omega x r / 2", |at, state, _| {
-        let link = turner(at.case);
-        let arm = arm(at.case, state, link);
-        let motion = &mut state.motions[link];
-        (arm.norm() > 0.0).then(|| motion.velocity -= turned(arm) * (0.5 * motion.omega))
-    };
+    "velocity-half-arm": "half a length in a velocity: v = v0 + omega x r / 2",
+        |at, state, _| on_arm(at.case, state, |motion, arm| motion.velocity -= turned(arm) * (0.5 * motion.omega));
     "velocity-x-dropped": "the x component of the last moving frame's velocity is dropped", |at, state, _| {
         let motion = &mut state.motions[floating(at.case)];
         let centre = turned(motion.arm(at.case.mechanism.links()[floating(at.case)].mass_centre)) * motion.omega;
