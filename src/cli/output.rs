@@ -84,10 +84,7 @@ pub(super) fn write_bytes(bytes: &[u8], to: &Path) -> Result<()> {
 
 /// Lets `fill` write piece by piece to a file that the caller named, or to standard output for `-`.
 pub(super) fn stream(to: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<()> {
-    match is_standard(to) {
-        true => printed(fill),
-        false => put(&Target::Named(to), to, None, fill),
-    }
+    if is_standard(to) { printed(fill) } else { put(&Target::Named(to), to, None, fill) }
 }
 
 /// Writes text with its seal to a file whose name the program made up. What is there is replaced if its seal is

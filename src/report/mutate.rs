@@ -101,6 +101,7 @@ fn scenarios(found: &[Mutated]) -> String {
 }
 
 /// What came of one kind in all scenarios.
+#[derive(Default)]
 struct OfKind {
     sides: Share,
     engine: Share,
@@ -117,14 +118,7 @@ fn of_kind(found: &[Mutated], kind: &Kind) -> Option<OfKind> {
     if own.is_empty() {
         return None;
     }
-    let mut all = OfKind {
-        sides: Share::default(),
-        engine: Share::default(),
-        trunk: Share::default(),
-        formulas: Share::default(),
-        margin: f64::INFINITY,
-        size: [None; 2],
-    };
+    let mut all = OfKind { margin: f64::INFINITY, ..OfKind::default() };
     for mutant in own {
         let (share, size) = match mutant.party {
             Party::Assur | Party::Newton => (&mut all.sides, Some(&mut all.size[0])),

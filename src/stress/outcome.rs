@@ -29,7 +29,7 @@ pub struct Reached {
 }
 
 /// One solver or engine at a point.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Party {
     /// Its name.
     pub name: String,
@@ -66,23 +66,7 @@ pub struct Party {
 impl Party {
     /// One that has no numbers, with the reason.
     pub(super) fn failed(name: &str, why: &str) -> Party {
-        Party {
-            name: name.into(),
-            against: String::new(),
-            reached: Vec::new(),
-            closure: None,
-            balance: None,
-            verdict: "fails".into(),
-            why: why.into(),
-            step: None,
-            sweeps: None,
-            extrapolated: None,
-            steps: None,
-            runs: None,
-            work: None,
-            done: Vec::new(),
-            silent: 0,
-        }
+        Party { name: name.into(), verdict: "fails".into(), why: why.into(), ..Party::default() }
     }
 }
 

@@ -81,13 +81,9 @@ impl<'a> Session<'a> {
             self.failed(file, &error);
             None
         });
-        if let Err(error) = self.page(&scenario, &proof) {
-            self.failed(file, &error);
-        }
         let layout = recording.as_ref().and_then(Recorded::layout);
-        if let Err(error) = self.show_live(&scenario, &proof, layout) {
-            self.failed(file, &error);
-        }
+        let tried = [self.page(&scenario, &proof), self.show_live(&scenario, &proof, layout)];
+        tried.into_iter().filter_map(Result::err).for_each(|error| self.failed(file, &error));
         if self.tells() && self.args.files.len() > 1 {
             self.print("\n");
         }
@@ -175,10 +171,7 @@ impl<'a> Session<'a> {
         }
         let written = self.args.reports.write(|| self.document.text(), &self.outcomes);
         if let (Some(live), Some(told)) = (self.live, self.live_told.take()) {
-            let tell = || match self.reports() {
-                true => self.print(&told),
-                false => output::note(told.trim()),
-            };
+            let tell = || if self.reports() { self.print(&told) } else { output::note(told.trim()) };
             if let Err(error) = live.serve(tell) {
                 output::show(&error);
                 self.worst = exit_code::BAD_INPUT;
