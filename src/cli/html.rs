@@ -57,7 +57,11 @@ impl Pages {
         let beside = Beside { given: &scenario.text, settings, reduced: reduced(scenario) };
         let page = html::page(proof, &beside, advice::told);
         let path = self.place(&scenario.name)?;
-        if self.is_directory { output::make(&page, &path)? } else { output::write(&page, &path)? }
+        if self.is_directory {
+            output::make(&page, &path)?
+        } else {
+            output::write(&page, &path)?
+        }
         Ok(path)
     }
 
