@@ -45,7 +45,8 @@ mod view;
 
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
+use linkage::error::Result;
 use output::End;
 
 /// Builds planar mechanisms twice, analytically and as a Rapier multibody, and proves that the two agree.
@@ -119,13 +120,21 @@ commands! {
     /// List scenarios, or the available channels and solvers
     List(list::Args) = list::list,
     /// Write the completions of a shell
-    Completions(shell::CompletionArgs) = shell::completions,
+    Completions(shell::CompletionArgs) = completions,
     /// Write the manual: the page of linkproof, or the pages of all commands
-    Man(shell::ManArgs) = shell::man,
+    Man(shell::ManArgs) = man,
     /// Show a page of the documents
     Docs(docs::Args) = docs::docs,
     /// Write the format of scenario files as a JSON Schema, by which editors complete and check keys
     Schema(schema::Args) = schema::schema,
+}
+
+fn completions(args: &shell::CompletionArgs) -> Result<()> {
+    shell::completions(args, Cli::command())
+}
+
+fn man(args: &shell::ManArgs) -> Result<()> {
+    shell::man(args, Cli::command())
 }
 
 /// Runs the command line and returns its exit code.
@@ -141,7 +150,6 @@ mod tests {
     use std::path::{Path, PathBuf};
 
     use super::*;
-    use clap::CommandFactory;
 
     #[test]
     fn arguments_are_consistent() {

@@ -5,11 +5,11 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use clap::{Command, CommandFactory};
+use clap::Command;
 use clap_complete::Shell;
 use clap_mangen::Man;
 
-use super::{Cli, output};
+use super::output;
 use linkage::error::{Error, ErrorKind, Result};
 
 #[derive(Debug, clap::Args)]
@@ -29,16 +29,16 @@ pub(super) struct ManArgs {
 }
 
 /// Writes the completions of a shell to standard output.
-pub(super) fn completions(args: &CompletionArgs) -> Result<()> {
+pub(super) fn completions(args: &CompletionArgs, mut command: Command) -> Result<()> {
     let mut text = Vec::new();
-    clap_complete::generate(args.shell, &mut Cli::command(), "linkproof", &mut text);
+    clap_complete::generate(args.shell, &mut command, "linkproof", &mut text);
     output::print(&String::from_utf8_lossy(&text))
 }
 
 /// Writes one page to standard output, or all of them to a directory.
-pub(super) fn man(args: &ManArgs) -> Result<()> {
+pub(super) fn man(args: &ManArgs, command: Command) -> Result<()> {
     // Without it both ways give the same page.
-    let mut command = Cli::command().disable_help_subcommand(true);
+    let mut command = command.disable_help_subcommand(true);
     command.build();
     let Some(directory) = &args.output else {
         let mut page = Vec::new();

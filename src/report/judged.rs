@@ -3,7 +3,6 @@
 
 use crate::compare::Verdict;
 use crate::proof::{ChannelProof, EngineProof, Proof};
-use crate::tolerance::Basis;
 
 /// What is judged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,7 +25,8 @@ pub(super) struct Judged<'a> {
     pub(super) value: f64,
     pub(super) bound: f64,
     pub(super) unit: &'static str,
-    pub(super) basis: &'a Basis,
+    /// Why the bound is what it is.
+    pub(super) basis: String,
     pub(super) verdict: &'a Verdict,
     /// Instant (s) at which a channel is worst.
     pub(super) worst: Option<f64>,
@@ -70,7 +70,7 @@ fn channel<'a>(sort: Sort, engine: &'a EngineProof, own: &'a ChannelProof) -> Ju
         value,
         bound: *bound,
         unit,
-        basis,
+        basis: basis.to_string(),
         verdict,
         worst: Some(residual.worst_time),
     }
@@ -85,7 +85,7 @@ fn checks<'a>(engine: Option<&'a EngineProof>, proof: &'a Proof, all: &mut Vec<J
         value: check.value,
         bound: check.bound,
         unit: check.unit,
-        basis: &check.basis,
+        basis: check.basis.to_string(),
         verdict: &check.verdict,
         worst: None,
     }));

@@ -46,7 +46,7 @@ pub(super) fn checks(proof: &Proof) -> String {
             _ => own.name,
         };
         let [value, bound] = [own.value, own.bound].map(|number| error_in(number, own.unit));
-        let cells = [escaped(&name), value, bound, escaped(&own.basis.to_string())];
+        let cells = [escaped(&name), value, bound, escaped(&own.basis)];
         let (cells, word) = (cells.map(|cell| format!("<td>{cell}</td>")).concat(), own.verdict.word());
         format!("<tr>{cells}<td class=\"{word}\">{word}</td></tr>\n")
     };
