@@ -50,11 +50,13 @@
 //! SI units and world axes (x right, y up, angles counter-clockwise from +x) everywhere; other units exist
 //! only in scenario files and carry their suffix there.
 
+#[doc(hidden)]
+#[macro_use]
+pub mod plain;
+
 #[cfg(feature = "command")]
 #[doc(hidden)]
 pub mod cli;
-#[doc(hidden)]
-pub mod plain;
 #[cfg(feature = "command")]
 #[doc(hidden)]
 pub mod report;

@@ -14,23 +14,8 @@ use prover::proof::{Proof, Reference, memory, prove_with};
 use scenario::Scenario;
 use scenario::accepted::{self, beside};
 
-const EXAMPLES: &str = "\
-Examples:
-  linkproof new --shipped      write the files that the examples name
-  linkproof accept scenarios/crank_rocker.toml             prove it, and keep its figures beside it
-  linkproof accept --check scenarios/crank_rocker.toml     judge it by the figures kept: for CI
-  linkproof accept --check scenarios/crank_rocker.toml --json -   what has moved, for a script
-  linkproof accept scenarios/crank_rocker.toml --dt 2e-2 --unproven   though the proof is open
-
-The file is called as the scenario, with `.accepted` in place of `.toml`; commit it. \
-Figures are values at five instants, the least, the greatest and the root mean square of every channel of the reference. \
-One has moved if it differs by more than both bounds, the one kept and the present one, allow: `linkproof docs testing`. \
-What has not moved stays as it stands in the file.
-
-Exit codes: 0 as accepted, 1 a figure is moved, new or gone or the proof disagrees, 2 bad input or usage, 3 inconclusive.";
-
 #[derive(Debug, clap::Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = include_str!("help/accept.txt").trim_ascii_end())]
 pub(super) struct Args {
     /// Scenario files
     #[arg(required = true, value_name = "FILE")]

@@ -9,17 +9,8 @@ use analytic::range::explained;
 use design::bearings;
 use linkage::error::{Error, ErrorKind, Result};
 
-const EXAMPLES: &str = "\
-Examples:
-  linkproof new --shipped      write the files that the examples name
-  linkproof bearings scenarios/crank_rocker.toml
-  linkproof bearings scenarios/ov7_new_tabulated.toml --lever-mm 10 --stress-mpa 200
-  linkproof bearings scenarios/compressor.toml --json -
-
-The smallest journal carries the reaction F at the lever l in bending: d = cbrt(32 F l / (pi sigma)).";
-
 #[derive(Debug, clap::Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = include_str!("help/bearings.txt").trim_ascii_end())]
 pub(super) struct Args {
     /// Scenario file; `-` for standard input
     #[arg(value_name = "FILE")]
@@ -44,8 +35,6 @@ pub(super) fn bearings(args: &Args) -> Result<()> {
     let scenario = plain(&args.file)?.nominal();
     let peaks = bearings::over_range(&scenario.case).map_err(|error| explained(&scenario.case, error))?;
     let journals = Journals { lever_mm: args.lever_mm, stress_mpa: args.stress_mpa };
-    match &args.json {
-        Some(to) => output::write(&report::json(journals, &scenario, &peaks), to),
-        None => output::print(&report::text(journals, &scenario, &peaks)),
-    }
+    let json = || report::json(journals, &scenario, &peaks);
+    output::either(&args.json, json, || report::text(journals, &scenario, &peaks))
 }

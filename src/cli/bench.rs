@@ -1,6 +1,5 @@
 //! `linkproof bench`.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -21,26 +20,13 @@ use prover::engines::with_step;
 use prover::engines::{EngineName, usual_step};
 use scenario::{Scenario, files_in};
 
-const EXAMPLES: &str = "\
-Examples:
-  linkproof new --shipped      write the files that the examples name
-  linkproof bench scenarios/crank_rocker.toml --out bench --quick     in seconds
-  linkproof bench scenarios/five_bar.toml --out bench --quick --only positions --engine rapier
-
-All scenarios, beside another program, with a page:
-  linkproof bench scenarios/*.toml --out bench --page bench.md --peer mine='python3 mine.py'
-
-Writes NAME.time.svg, NAME.solutions.svg, NAME.inner.svg and NAME.csv of every scenario, and bench.json, to the directory. \
-Times are ratios to that of side 1 in the same command; they may differ from run to run, errors and counts do not. \
-`linkproof docs peers` tells how any other program is put on the diagrams.";
-
 /// Name of the file with the numbers of all scenarios.
 const TOTAL: &str = "bench.json";
 /// Longest time of one call of a peer (s).
 const LIMIT: f64 = 60.0;
 
 #[derive(Debug, clap::Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = include_str!("help/bench.txt").trim_ascii_end())]
 pub(super) struct Args {
     /// Scenario files; `-` for standard input
     #[arg(value_name = "FILE", required = true)]
@@ -98,11 +84,7 @@ pub(super) fn run(args: &Args) -> Result<()> {
     for engine in &options.engines {
         with_step(*engine, 1.0)?;
     }
-    fs::create_dir_all(&args.out).map_err(|error| {
-        Error::new(ErrorKind::Io, format!("{} cannot be made: {error}", args.out.display()))
-            .key("--out")
-            .help("give a directory that may be made or written to")
-    })?;
+    output::make_directory(&args.out, "--out", "give a directory that may be made or written to")?;
     let endings = || Axis::ALL.map(|axis| format!("{}.svg", axis.name())).into_iter().chain(["csv".into()]);
     let places = scenarios.iter().flat_map(|own| endings().map(|ending| place(args, &own.name, &ending)));
     output::may_make(&places.chain([args.out.join(TOTAL)]).collect::<Vec<_>>())?;

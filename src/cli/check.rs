@@ -5,33 +5,16 @@ use std::path::PathBuf;
 use super::grid::GridArgs;
 use super::load::StartArgs;
 use super::{advice, exit_code, number, output, terminal};
+use crate::plain::style::Detail;
 use crate::report::check as report;
 use linkage::error::{Error, ErrorKind, Result};
 use prover::proof::claimed;
 use scenario::formula::{fault_of_claim, refused};
+
 use scenario::{Claim, Scenario};
 
-const EXAMPLES: &str = "\
-Examples:
-  linkproof new --shipped      write the files that the examples name
-  linkproof check scenarios/formulas/slider_crank_centric.toml           every [[formula]] of a file
-  linkproof check scenarios/formulas/slider_crank_centric.toml --verbose  each of them, by value and by derivative
-  linkproof check scenarios/crank_rocker.toml 'phi*180/pi' --channel link.crank.angle_deg
-  linkproof check scenarios/scotch_yoke.toml 'r*cos(phi)' --set r_mm=80 --channel point.A.x_m
-  linkproof check mine.toml 'atan2(u, v)' --let 'u=a*sin(phi)' --let 'v=d - a*cos(phi)' --set a_mm=30 --set d_mm=80 \\
-      --channel link.guide.angle_rad
-  linkproof check mine.toml 'r*w^2*(cos(phi) + r/l*cos(2*phi))' --set r=0.05 --set l=0.2 --set w_rpm=300 \\
-      --channel point.B.ax_m_s2 --error 0.4 --json -
-
-phi is the crank angle in rad as the scenario states it, t the time in s; pi, sin cos tan asin acos atan atan2(y, x) \
-sqrt abs exp ln are known. The value counts in the channel's unit. -x^2 is -(x^2). --set a_mm=30 makes `a` known in \
-SI (0.03) and `a_mm` as the plain number. Judged by value, and by first and second derivative where the mechanism has \
-channels for them, at every instant of the grid and against both analytic sides: `linkproof docs formulas`.
-
-Exit codes: 0 right, 1 wrong, 2 bad input, 3 nothing proven.";
-
 #[derive(Debug, clap::Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = include_str!("help/check.txt").trim_ascii_end())]
 pub(super) struct Args {
     /// Scenario file; `-` for standard input
     #[arg(required = true, value_name = "FILE")]
@@ -77,27 +60,21 @@ fn step(text: &str) -> std::result::Result<(String, String), String> {
 }
 
 /// Judges, reports, and says how it ended.
-pub(super) fn check(args: &Args) -> u8 {
-    let answer = || -> Result<u8> {
-        let scenario = asked(args)?;
-        let found = claimed::judge(&scenario)?;
-        if let Some(to) = &args.json {
-            output::write(&report::json(&scenario, &found, advice::told), to)?;
-        }
-        if !output::is_said(&args.json) {
-            let width = terminal::columns();
-            terminal::print(&match (args.quiet, args.verbose) {
-                (true, _) => format!("{}\n", report::verdict_line(&scenario, &found)),
-                (_, true) => report::text(&scenario, &found, advice::told, width),
-                _ => report::brief(&scenario, &found, advice::told, width),
-            })?;
-        }
-        Ok(exit_code::of(&found.verdict))
-    };
-    answer().unwrap_or_else(|error| {
-        output::show(&error);
-        exit_code::BAD_INPUT
-    })
+pub(super) fn check(args: &Args) -> Result<u8> {
+    let scenario = asked(args)?;
+    let found = claimed::judge(&scenario)?;
+    if let Some(to) = &args.json {
+        output::write(&report::json(&scenario, &found, advice::told), to)?;
+    }
+    if !output::is_said(&args.json) {
+        let width = terminal::columns();
+        terminal::print(&match Detail::asked(args.quiet, args.verbose) {
+            Detail::Verdict => format!("{}\n", report::verdict_line(&scenario, &found)),
+            Detail::Whole => report::text(&scenario, &found, advice::told, width),
+            Detail::Short => report::brief(&scenario, &found, advice::told, width),
+        })?;
+    }
+    Ok(exit_code::of(&found.verdict))
 }
 
 /// The scenario with the formulas that are asked about.

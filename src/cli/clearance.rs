@@ -14,21 +14,8 @@ use linkage::error::{Error, ErrorKind, Result};
 use scenario::Scenario;
 use scenario::clearance::Question;
 
-const EXAMPLES: &str = "\
-Examples:
-  linkproof new --shipped      write the files that the examples name
-  linkproof clearance scenarios/crankcase.toml
-  linkproof clearance scenarios/crankcase.toml --svg swept.svg        outlines, housing and swept areas
-  linkproof clearance scenarios/crankcase.toml --csv distances.csv    every distance at the instants of the grid
-  linkproof clearance scenarios/crankcase.toml --json -
-
-Every distance holds for the whole range of the grid, not for its instants only: `linkproof docs clearance` says how. \
-Outlines and housing are in the scenario's section [clearance].
-
-Exit codes: 0 all clear, 1 links collide or are nearer than wanted, 2 bad input or usage, 3 a part of the range is not proven.";
-
 #[derive(Debug, clap::Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = include_str!("help/clearance.txt").trim_ascii_end())]
 pub(super) struct Args {
     /// Scenario files with a section `[clearance]`; `-` for standard input
     #[arg(required = true, value_name = "FILE")]
@@ -47,11 +34,10 @@ pub(super) struct Args {
 }
 
 /// Answers for every file. A bad file does not stop the others.
-pub(super) fn clearance(args: &Args) -> u8 {
+pub(super) fn clearance(args: &Args) -> Result<u8> {
     if (args.svg.is_some() || args.csv.is_some()) && args.files.len() > 1 {
         let message = format!("{} scenarios are given, but a drawing or table is of one", args.files.len());
-        output::show(&Error::new(ErrorKind::Input, message).help("give one scenario, or write --json"));
-        return exit_code::BAD_INPUT;
+        return Err(Error::new(ErrorKind::Input, message).help("give one scenario, or write --json"));
     }
     let mut worst = exit_code::AGREE;
     let mut documents = Vec::new();
@@ -73,13 +59,10 @@ pub(super) fn clearance(args: &Args) -> u8 {
             }
         }
     }
-    if let Some(to) = &args.json
-        && let Err(error) = output::write(&report::json(documents), to)
-    {
-        output::show(&error);
-        worst = exit_code::BAD_INPUT;
+    if let Some(to) = &args.json {
+        output::write(&report::json(documents), to)?;
     }
-    worst
+    Ok(worst)
 }
 
 fn question(scenario: &Scenario) -> &Question {

@@ -11,6 +11,7 @@ use super::load::StartArgs;
 use super::number::not_negative;
 use super::reports::Reports;
 use super::{advice, exit_code, output, standard_input, terminal};
+use crate::plain::style::Detail;
 use crate::report::outcomes::Outcomes;
 use crate::report::versus as report;
 use linkage::error::{Error, ErrorKind, Result};
@@ -19,31 +20,8 @@ use prover::tables::{self, Held};
 use prover::versus::{How, Party, compare as compared};
 use scenario::mapping::{Allowed, Mapped, Mapping, Size};
 
-const EXAMPLES: &str = "\
-Examples:
-  linkproof new --shipped      write the files that the examples name
-  linkproof compare scenarios/crank_rocker.toml mine.csv            a table whose columns are named as channels
-  linkproof compare scenarios/crank_rocker.toml mine.csv --map 't=time_s' --map 'phi3*180/pi=link.rocker.angle_deg'
-  linkproof compare scenarios/crank_rocker.toml mine.csv --map mine.map.toml --rel 1e-3 --abs point.B.x_mm=0.01
-  linkproof compare scenarios/crank_rocker.toml mine.csv --rel-value 0.05 --abs drive.torque_N_m=0.1   5 % of each value
-  linkproof compare scenarios/crank_rocker.toml recordings/crank_rocker.mcap --side reference
-  linkproof compare old.mcap new.mcap --rel 1e-9                    two recordings, side by side
-  linkproof compare one.csv other.parquet --interpolate --rel 1e-4  two tables at the instants of the second
-  linkproof compare scenarios/crank_rocker.toml mine.toml --json -  two models of one mechanism
-  linkproof compare scenarios/crank_rocker.toml mine.csv --junit out.xml --markdown out.md   for reports of tests
-
-Each of A and B is a scenario (.toml), which is solved by both analytic sides at the instants of the other, a recording \
-(.mcap), or a table: text with separated columns, or Parquet. A column named as a channel with its unit needs no \
-mapping, nor do t_s, t, time (in s), time_ms, crank_deg and crank_rad. --map reads EXPR=CHANNEL: an arithmetic over \
-columns, so that sign, factor, offset and unit are written as they are; a name with other signs stands in backquotes. \
-Bounds are what digits, rounding and the analytic sides leave open, plus what --rel, --rel-value and --abs allow, of \
-these the largest. Empty cells, -, NA, null and none are left out and counted; nan and inf are no agreement. \
-`linkproof docs compare` says more.
-
-Exit codes: 0 they agree, 1 they disagree, 2 bad input, 3 nothing proven.";
-
 #[derive(Debug, clap::Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = include_str!("help/compare.txt").trim_ascii_end())]
 pub(super) struct Args {
     /// Scenario, recording or table that B is held against
     #[arg(value_name = "A")]
@@ -140,41 +118,35 @@ fn size(text: &str) -> std::result::Result<Allowed, String> {
 }
 
 /// Compares, reports, and says how it ended.
-pub(super) fn compare(args: &Args) -> u8 {
-    let answer = || -> Result<u8> {
-        let [first, second] = [&args.first, &args.second].map(|path| Some(path.clone()));
-        args.reports.check(&[("A", &first), ("B", &second), ("--write-map", &args.write_map)])?;
-        check_parties(args)?;
-        let mut mapping = mapping(&args.map, "--map")?;
-        mapping.allowed.extend(args.rel.iter().chain(&args.rel_value).chain(&args.abs).cloned());
-        let first_mapping = mapping_of_first(args, &mapping)?;
-        let second = party(args, &args.second, &args.first, &mapping)?;
-        let first = party(args, &args.first, &args.second, &first_mapping)?;
-        if let Some(to) = &args.write_map {
-            output::write(&mapping.text(), to)?;
-        }
-        let how = How {
-            allowed: mapping.allowed,
-            by_crank: args.by.map(|by| matches!(by, By::Crank)),
-            interpolates: args.interpolate,
-            side: args.side.clone(),
-            only: args.only.clone(),
-            memory: Some(args.memory.bytes()),
-        };
-        let paths = [args.first.as_path(), args.second.as_path()];
-        let found = compared([first, second], paths, &how)?;
-        let outcomes = Outcomes::of_comparison(paths, &found, advice::told);
-        if !args.reports.takes_output() {
-            let how = [args.verbose, args.quiet];
-            terminal::print(&report::text(paths, &found, how, advice::told, terminal::columns()))?;
-        }
-        let written = args.reports.write(|| report::json(paths, &found, advice::told), &outcomes);
-        Ok(graver(exit_code::of(&found.verdict), written))
+pub(super) fn compare(args: &Args) -> Result<u8> {
+    let [first, second] = [&args.first, &args.second].map(|path| Some(path.clone()));
+    args.reports.check(&[("A", &first), ("B", &second), ("--write-map", &args.write_map)])?;
+    check_parties(args)?;
+    let mut mapping = mapping(&args.map, "--map")?;
+    mapping.allowed.extend(args.rel.iter().chain(&args.rel_value).chain(&args.abs).cloned());
+    let first_mapping = mapping_of_first(args, &mapping)?;
+    let second = party(args, &args.second, &args.first, &mapping)?;
+    let first = party(args, &args.first, &args.second, &first_mapping)?;
+    if let Some(to) = &args.write_map {
+        output::write(&mapping.text(), to)?;
+    }
+    let how = How {
+        allowed: mapping.allowed,
+        by_crank: args.by.map(|by| matches!(by, By::Crank)),
+        interpolates: args.interpolate,
+        side: args.side.clone(),
+        only: args.only.clone(),
+        memory: Some(args.memory.bytes()),
     };
-    answer().unwrap_or_else(|error| {
-        output::show(&error);
-        exit_code::BAD_INPUT
-    })
+    let paths = [args.first.as_path(), args.second.as_path()];
+    let found = compared([first, second], paths, &how)?;
+    let outcomes = Outcomes::of_comparison(paths, &found, advice::told);
+    if !args.reports.takes_output() {
+        let detail = Detail::asked(args.quiet, args.verbose);
+        terminal::print(&report::text(paths, &found, detail, advice::told, terminal::columns()))?;
+    }
+    let written = args.reports.write(|| report::json(paths, &found, advice::told), &outcomes);
+    Ok(graver(exit_code::of(&found.verdict), written))
 }
 
 /// Refuses options that mean nothing for these parties.

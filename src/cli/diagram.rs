@@ -11,18 +11,8 @@ use design::diagram::{Course, MotionDiagram, draw};
 use linkage::error::Result;
 use prover::proof::Reference;
 
-const EXAMPLES: &str = "\
-Examples:
-  linkproof new --shipped      write the files that the examples name
-  linkproof diagram scenarios/crank_rocker.toml --channel point.B.x_m
-  linkproof diagram scenarios/ov7_base.toml --channel link.rocker_87.angle_rad --svg needle.svg
-  linkproof diagram scenarios/crank_rocker.toml --channel link.rocker.angle_rad --csv points.csv
-
-Chords of the displacement give the velocity at the middles of the divisions, chords of that the acceleration at their ends; \
-backwards, the exact velocity and acceleration at the middles are summed up.";
-
 #[derive(Debug, clap::Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = include_str!("help/diagram.txt").trim_ascii_end())]
 pub(super) struct Args {
     /// Scenario file; `-` for standard input
     #[arg(value_name = "FILE")]
@@ -59,8 +49,5 @@ pub(super) fn diagram(args: &Args) -> Result<()> {
     if let Some(to) = &args.csv {
         return output::write(&report::points(&diagram), to);
     }
-    match &args.json {
-        Some(to) => output::write(&report::json(&scenario, &diagram), to),
-        None => output::print(&report::text(&scenario, &diagram)),
-    }
+    output::either(&args.json, || report::json(&scenario, &diagram), || report::text(&scenario, &diagram))
 }

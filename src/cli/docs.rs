@@ -4,15 +4,8 @@ use super::output;
 use linkage::error::{Error, ErrorKind, Result};
 use scenario::words::suggestion;
 
-const EXAMPLES: &str = "\
-Examples:
-  linkproof docs                                 the pages
-  linkproof docs scenario                        the format of scenario files, key by key
-  linkproof docs scenario#what-goes-wrong-and-what-the-message-says
-  linkproof docs formulas                        how formulas are written and judged";
-
 #[derive(Debug, clap::Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = include_str!("help/docs.txt").trim_ascii_end())]
 pub(super) struct Args {
     /// Page, or one section of it; without one, the pages are listed
     #[arg(value_name = "PAGE[#SECTION]")]

@@ -16,25 +16,12 @@ use media::Medium;
 use prover::proof::Reference;
 use subject::{Drawn, Wish};
 
-const EXAMPLES: &str = "\
-Examples:
-  linkproof new --shipped      write the files that the examples name
-  linkproof draw scenarios/crank_rocker.toml -o crank_rocker.svg
-  linkproof draw scenarios/rotary_engine.toml --crank-deg 60 --loads -o engine.png
-  linkproof draw scenarios/ov7_base.toml --each-mode -o modes.svg      all configurations, with the names that `mode` takes
-  linkproof draw scenarios/class3_group.toml --traces -o moving.gif    one turn; or .webp, without loss
-  linkproof draw scenarios/scotch_yoke.toml scenarios/quick_return.toml --dimensions -o both.svg
-
-What cannot be assembled is drawn as far as it goes: dashed where a link has no certain place, with the gap of every joint \
-that stays open. A file with mistakes is drawn without what they concern; all of them are told. The picture is written then \
-too, and the exit code is 2.";
-
 /// Room of a picture that stands alone, and of one among others (mm).
 const ALONE: [f64; 2] = [150.0, 120.0];
 const AMONG: [f64; 2] = [100.0, 96.0];
 
 #[derive(Debug, clap::Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = include_str!("help/draw.txt").trim_ascii_end())]
 pub(super) struct Args {
     /// Scenario files; `-` for standard input
     #[arg(required = true, value_name = "FILE")]
@@ -87,17 +74,6 @@ fn picture(text: &str) -> std::result::Result<PathBuf, String> {
     Ok(path)
 }
 
-pub(super) fn draw(args: &Args) -> u8 {
-    match drawn(args) {
-        Ok(true) => exit_code::AGREE,
-        Ok(false) => exit_code::BAD_INPUT,
-        Err(error) => {
-            output::show(&error);
-            exit_code::BAD_INPUT
-        }
-    }
-}
-
 /// Refuses options that mean nothing for the medium.
 fn fits(args: &Args, medium: Medium) -> Result<()> {
     let refused = |option: &str, message: &str, help: &str| {
@@ -119,8 +95,8 @@ fn fits(args: &Args, medium: Medium) -> Result<()> {
     }
 }
 
-/// Draws and writes. Whether everything could be assembled; what could not is told on standard error.
-fn drawn(args: &Args) -> Result<bool> {
+/// Draws and writes. What could not be assembled is told on standard error, and by the exit code.
+pub(super) fn draw(args: &Args) -> Result<u8> {
     let medium = Medium::of(&args.output).map_err(|message| Error::new(ErrorKind::Input, message).key("--output"))?;
     fits(args, medium)?;
     let frames = if medium.moves() { args.frames.map_or(48, |count| count as usize) } else { 1 };
@@ -161,7 +137,8 @@ fn drawn(args: &Args) -> Result<bool> {
     for note in all.iter().filter_map(|own| own.note.as_ref()) {
         output::note(note);
     }
-    Ok(all.iter().all(|own| own.faults().next().is_none()))
+    let is_whole = all.iter().all(|own| own.faults().next().is_none());
+    Ok(if is_whole { exit_code::AGREE } else { exit_code::BAD_INPUT })
 }
 
 /// Title and subtitle of a sheet.

@@ -17,24 +17,8 @@ use design::flywheel::Flywheel;
 use linkage::error::{Error, ErrorKind, Result};
 use scenario::Scenario;
 
-const EXAMPLES: &str = "\
-Examples:
-  linkproof new --shipped      write the files that the examples name
-  linkproof drive scenarios/crank_rocker.toml
-  linkproof drive scenarios/crank_rocker.toml --non-uniformity 0.02
-  linkproof drive scenarios/crank_rocker.toml --step-deg 5 --table
-  linkproof drive scenarios/crank_rocker.toml --svg graphs.svg
-  linkproof drive scenarios/crank_rocker.toml --step-deg 1 --json drive.json
-  linkproof drive scenarios/crank_rocker.toml --catalogue catalogues/motors.toml --efficiency 0.92   choose a motor
-  linkproof drive scenarios/crank_rocker.toml --run-up run_up.csv --seconds 0.5 --points 500
-
-The mechanism is reduced to its crank: moment of inertia I* = sum of m (v / omega)^2 + J (omega_k / omega)^2, moment of resistance from the \
-powers of gravity and loads. With a `[motor]` section: the steady speed and time constant of the averaged model, the steady motion of the true one from \
-omega^2 / 2 dI*/dphi + I* domega/dt = M, its coefficient of non-uniformity (fastest - slowest) / mean over time, and the flywheel on the \
-crank's shaft for a wanted one. A run-up begins at the start of the scenario.";
-
 #[derive(Debug, clap::Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = include_str!("help/drive.txt").trim_ascii_end())]
 pub(super) struct Args {
     /// Scenario file; `-` for standard input
     #[arg(value_name = "FILE")]
@@ -88,7 +72,7 @@ pub(super) fn drive(args: &Args) -> Result<()> {
 
 fn driven(args: &Args, scenario: &Scenario) -> Result<()> {
     if let Some(file) = &args.choice.catalogue {
-        return motor_choice::choose(&args.choice, file, scenario, args.json.as_deref());
+        return motor_choice::choose(&args.choice, file, scenario, &args.json);
     }
     let model = Model::of(&scenario.case)?;
     let targets = [&args.run_up, &args.json, &args.svg];

@@ -11,19 +11,8 @@ use design::export::{first_state, mjcf};
 use linkage::error::Result;
 use prover::engines::usual_step;
 
-const EXAMPLES: &str = "\
-Examples:
-  linkproof new --shipped      write the files that the examples name
-  linkproof export scenarios/crank_rocker.toml --mjcf              write crank_rocker.xml
-  linkproof export scenarios/compressor.toml --mjcf compressor.mjcf --dt 1e-4
-  linkproof export scenarios/ov7_base.toml --mjcf - | head
-  linkproof export scenarios/crank_rocker.toml --json -            the case as numbers, for any other program
-  python -m mujoco.viewer --mjcf=crank_rocker.xml                  look at it; load the keyframe \"start\" to set it going
-
-`linkproof docs mjcf` tells what is in the model and how exactly MuJoCo simulates it, `linkproof docs peers` what is in the JSON.";
-
 #[derive(Debug, clap::Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = include_str!("help/export.txt").trim_ascii_end())]
 pub(super) struct Args {
     /// Scenario file; `-` for standard input
     #[arg(value_name = "FILE")]

@@ -33,10 +33,7 @@ impl Pages {
     /// What is in the way.
     pub(super) fn of(to: &Path, scenarios: usize) -> Result<Pages> {
         let is_directory = scenarios > 1 || to.is_dir() || to.as_os_str().to_string_lossy().ends_with('/');
-        let tried = match is_directory {
-            true => files::may_fill(to),
-            false => files::may_write(to),
-        };
+        let tried = if is_directory { files::may_fill(to) } else { files::may_write(to) };
         let wrong = |found: String| {
             let what = if is_directory { "pages cannot be written to" } else { "the page cannot be written to" };
             Error::new(ErrorKind::Io, format!("{what} {}: {found}", to.display()))
@@ -60,9 +57,10 @@ impl Pages {
         let beside = Beside { given: &scenario.text, settings, reduced: reduced(scenario) };
         let page = html::page(proof, &beside, advice::told);
         let path = self.place(&scenario.name)?;
-        match self.is_directory {
-            true => output::make(&page, &path)?,
-            false => output::write(&page, &path)?,
+        if self.is_directory {
+            output::make(&page, &path)?
+        } else {
+            output::write(&page, &path)?
         }
         Ok(path)
     }

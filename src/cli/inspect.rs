@@ -11,17 +11,8 @@ use linkage::work::limited;
 use prover::proof::BUDGET;
 use scenario::Asked;
 
-const EXAMPLES: &str = "\
-Examples:
-  linkproof new --shipped      write the files that the examples name
-  linkproof inspect scenarios/crank_rocker.toml
-  linkproof inspect scenarios/ov7_base.toml --json -
-  linkproof inspect scenarios/fourth_class.toml --modes --at-crank-deg 70   all configurations of its groups
-  linkproof inspect scenarios/ov7_base.toml --modes --mode rod_23,rocker_43=left   those of later groups in another mode
-  linkproof inspect scenarios/crank_rocker.toml --range                      how far it turns, dead and extreme positions";
-
 #[derive(Debug, clap::Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = include_str!("help/inspect.txt").trim_ascii_end())]
 pub(super) struct Args {
     /// Scenario file; `-` for standard input
     #[arg(value_name = "FILE")]
@@ -70,18 +61,11 @@ pub(super) fn inspect(args: &Args) -> Result<()> {
         true => Some(limited(args.budget.unwrap_or(BUDGET), || analytic::range::Range::of(case)).0?),
         false => None,
     };
-    match &args.json {
-        Some(to) => {
-            let modes = modes.as_ref().map(|(crank, all)| (*crank, all.as_slice()));
-            output::write(&report::json(&scenario, modes, &undecided, range.as_ref()), to)
-        }
-        None => {
-            let text = match (modes, range) {
-                (Some((crank, modes)), _) => modes::text(&scenario, crank, &modes, &undecided),
-                (None, Some(range)) => range::text(&scenario, &range),
-                (None, None) => report::text(&scenario),
-            };
-            output::print(&text)
-        }
-    }
+    let modes = modes.as_ref().map(|(crank, all)| (*crank, all.as_slice()));
+    let text = || match (modes, &range) {
+        (Some((crank, modes)), _) => modes::text(&scenario, crank, modes, &undecided),
+        (None, Some(range)) => range::text(&scenario, range),
+        (None, None) => report::text(&scenario),
+    };
+    output::either(&args.json, || report::json(&scenario, modes, &undecided, range.as_ref()), text)
 }

@@ -8,17 +8,8 @@ use crate::report::lists;
 use linkage::error::Result;
 use scenario::{self, Scenario};
 
-const EXAMPLES: &str = "\
-Examples:
-  linkproof new --shipped      write the files that the examples name
-  linkproof list                 the scenarios in scenarios/
-  linkproof list scenarios/formulas    those of another directory
-  linkproof list --channels      every channel, its unit and meaning
-  linkproof list --channels scenarios/crank_rocker.toml   those of one scenario, by name
-  linkproof list --solvers       analytic solvers and engines";
-
 #[derive(Debug, clap::Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = include_str!("help/list.txt").trim_ascii_end())]
 pub(super) struct Args {
     /// Directory of scenario files [default: scenarios]; with --channels a scenario file
     #[arg(value_name = "DIR")]

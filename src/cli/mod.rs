@@ -46,121 +46,102 @@ mod view;
 use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser, Subcommand};
-
-const EXAMPLES: &str = "\
-Examples:
-  linkproof new four-bar                                a mechanism of your own: four_bar.toml
-  linkproof draw four_bar.toml -o four_bar.svg          look at it
-  linkproof run four_bar.toml --html four_bar.html      prove it, and see it move
-  linkproof new --shipped                               the files of all examples
-  linkproof list                                        what scenarios there are
-  linkproof run scenarios/crank_rocker.toml             one of those files
-  linkproof run scenarios/*.toml --no-record --json -   prove all, as JSON
-  linkproof compare scenarios/crank_rocker.toml recordings/crank_rocker.mcap --rel 0.01   tables too
-  linkproof view recordings/crank_rocker.mcap --with foxglove   see it move; in Rerun without the option
-  linkproof solve scenarios/ov7_base.toml --with assur --crank-deg 0:-360:-30
-  linkproof tune scenarios/crank_rocker.toml --within 1e-3 --engine rapier --channel positions
-  linkproof mutate scenarios/crank_rocker.toml --no-sizes --kind load   does the proof see faults?
-  linkproof inspect scenarios/ov7_base.toml             links, joints, Assur groups
-
-Exit codes: 0 all agree, 1 something disagrees, 2 bad input or usage, 3 nothing proven either way.";
+use linkage::error::Result;
+use output::End;
 
 /// Builds planar mechanisms twice, analytically and as a Rapier multibody, and proves that the two agree.
 #[derive(Debug, Parser)]
-#[command(name = "linkproof", version, after_help = EXAMPLES)]
+#[command(name = "linkproof", version, after_help = include_str!("help/linkproof.txt").trim_ascii_end())]
 struct Cli {
     #[command(subcommand)]
     command: Command,
 }
 
-#[derive(Debug, Subcommand)]
-enum Command {
+/// The commands: what each is for, its arguments, and what runs it.
+macro_rules! commands {
+    ($($(#[$about:meta])* $name:ident($args:ty) = $run:path,)*) => {
+        #[derive(Debug, Subcommand)]
+        enum Command {
+            $($(#[$about])* $name($args),)*
+        }
+
+        impl Command {
+            fn run(&self) -> u8 {
+                match self {
+                    $(Command::$name(args) => $run(args).code(),)*
+                }
+            }
+        }
+    };
+}
+
+commands! {
     /// Write a mechanism to begin with: a commented scenario, with dimensions as options
-    New(new::Args),
+    New(new::Args) = new::new,
     /// Solve scenarios both ways, compare, check, record, and say whether the two sides agree
-    Run(Box<run::Args>),
+    Run(Box<run::Args>) = run::run,
     /// Keep the figures of proven scenarios in files beside them, and judge later runs by these, within their bounds
-    Accept(accept::Args),
+    Accept(accept::Args) = accept::run,
     /// Judge formulas over the whole motion, by value and by derivative, against both analytic sides
-    Check(check::Args),
+    Check(check::Args) = check::check,
     /// Hold a table, a recording or another scenario against a scenario, or two of them against each other
-    Compare(compare::Args),
+    Compare(compare::Args) = compare::compare,
     /// Solve a scenario with one solver and write the solution as CSV, one row per instant
-    Solve(solve::Args),
+    Solve(solve::Args) = solve::solve,
     /// Find the cheapest settings of an engine that meet a wanted error, by measurement
-    Tune(tune::Args),
+    Tune(tune::Args) = tune::run,
     /// Turn one dial at a time until numbers are lost: where every solver and engine holds to, with maps of stability
-    Stress(stress::Args),
+    Stress(stress::Args) = stress::run,
     /// Plant faults in one party of a proof, or in what all share, and say which are found
-    Mutate(mutate::Args),
+    Mutate(mutate::Args) = mutate::run,
     /// Measure run time against error of every solver, engine and setting, and of other programs: diagrams and numbers
-    Bench(bench::Args),
+    Bench(bench::Args) = bench::run,
     /// Show the structure of a mechanism: links, joints, mobility, driving link and Assur groups; its configurations;
     /// its range of motion
-    Inspect(inspect::Args),
+    Inspect(inspect::Args) = inspect::inspect,
     /// Largest reactions over the range of the grid, and the smallest journals that carry them
-    Bearings(bearings::Args),
+    Bearings(bearings::Args) = bearings::bearings,
     /// Smallest distances of links from each other and from a housing over the whole turn, first collision, swept areas
-    Clearance(clearance::Args),
+    Clearance(clearance::Args) = clearance::clearance,
     /// The mechanism reduced to its crank, its steady motion under its motor, flywheel and run-up; choice of a motor
-    Drive(drive::Args),
+    Drive(drive::Args) = drive::drive,
     /// Velocity and acceleration plans at one crank angle, as a table, as JSON or drawn to scale
-    Plan(plan::Args),
+    Plan(plan::Args) = plan::plan,
     /// Draw mechanisms, also those that cannot be assembled yet, and all configurations: SVG, PNG, animated GIF and WebP
-    Draw(draw::Args),
+    Draw(draw::Args) = draw::draw,
     /// Velocity and acceleration from a displacement by the chord method, and back, with their errors
-    Diagram(diagram::Args),
+    Diagram(diagram::Args) = diagram::diagram,
     /// Find dimensions for a wanted motion: crank-rocker and slider-crank in closed form, any linkage by search
-    Synthesize(synthesize::Args),
+    Synthesize(synthesize::Args) = synthesize::synthesize,
     /// Write a mechanism for another program: MuJoCo's MJCF, or JSON
-    Export(export::Args),
+    Export(export::Args) = export::export,
     /// Show a recording: in Rerun, seen from above beside plots of both sides, or with a layout for Foxglove
-    View(view::Args),
+    View(view::Args) = view::view,
     /// List scenarios, or the available channels and solvers
-    List(list::Args),
+    List(list::Args) = list::list,
     /// Write the completions of a shell
-    Completions(shell::CompletionArgs),
+    Completions(shell::CompletionArgs) = completions,
     /// Write the manual: the page of linkproof, or the pages of all commands
-    Man(shell::ManArgs),
+    Man(shell::ManArgs) = man,
     /// Show a page of the documents
-    Docs(docs::Args),
+    Docs(docs::Args) = docs::docs,
     /// Write the format of scenario files as a JSON Schema, by which editors complete and check keys
-    Schema(schema::Args),
+    Schema(schema::Args) = schema::schema,
+}
+
+fn completions(args: &shell::CompletionArgs) -> Result<()> {
+    shell::completions(args, Cli::command())
+}
+
+fn man(args: &shell::ManArgs) -> Result<()> {
+    shell::man(args, Cli::command())
 }
 
 /// Runs the command line and returns its exit code.
 #[must_use]
 pub fn main() -> ExitCode {
     panics::silence(prover::engines::panic_is_caught);
-    let cli = Cli::parse();
-    let code = match cli.command {
-        Command::New(args) => new::new(&args),
-        Command::Run(args) => run::run(&args),
-        Command::Accept(args) => accept::run(&args),
-        Command::Check(args) => check::check(&args),
-        Command::Compare(args) => compare::compare(&args),
-        Command::Solve(args) => output::exit(solve::solve(&args)),
-        Command::Tune(args) => output::exit(tune::run(&args)),
-        Command::Stress(args) => stress::run(&args),
-        Command::Mutate(args) => mutate::run(&args),
-        Command::Bench(args) => output::exit(bench::run(&args)),
-        Command::Inspect(args) => output::exit(inspect::inspect(&args)),
-        Command::Bearings(args) => output::exit(bearings::bearings(&args)),
-        Command::Clearance(args) => clearance::clearance(&args),
-        Command::Drive(args) => output::exit(drive::drive(&args)),
-        Command::Plan(args) => output::exit(plan::plan(&args)),
-        Command::Draw(args) => draw::draw(&args),
-        Command::Diagram(args) => output::exit(diagram::diagram(&args)),
-        Command::Synthesize(args) => output::exit(synthesize::synthesize(&args)),
-        Command::Export(args) => output::exit(export::export(&args)),
-        Command::View(args) => output::exit(view::view(&args)),
-        Command::List(args) => output::exit(list::list(&args)),
-        Command::Completions(args) => output::exit(shell::completions(&args, Cli::command())),
-        Command::Man(args) => output::exit(shell::man(&args, Cli::command())),
-        Command::Docs(args) => output::exit(docs::docs(&args)),
-        Command::Schema(args) => output::exit(schema::schema(&args)),
-    };
-    ExitCode::from(code)
+    ExitCode::from(Cli::parse().command.run())
 }
 
 #[cfg(test)]

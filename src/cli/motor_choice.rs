@@ -24,7 +24,7 @@ pub(super) struct Args {
 }
 
 /// Chooses a motor and reports it.
-pub(super) fn choose(args: &Args, file: &Path, scenario: &Scenario, json_to: Option<&Path>) -> Result<()> {
+pub(super) fn choose(args: &Args, file: &Path, scenario: &Scenario, json_to: &Option<PathBuf>) -> Result<()> {
     let mut motors = catalogue::load(file)?;
     if let Some(rpm) = args.synchronous_rpm {
         motors.retain(|motor| (motor.synchronous_speed * 60.0 / TAU - rpm).abs() < 0.5);
@@ -37,8 +37,5 @@ pub(super) fn choose(args: &Args, file: &Path, scenario: &Scenario, json_to: Opt
     }
     let own = scenario.case.crank().motor().map_or(1.0, |motor| motor.efficiency);
     let choice = Choice::of(&scenario.case, &motors, args.efficiency.unwrap_or(own))?;
-    match json_to {
-        Some(to) => output::write(&report::json(scenario, &choice), to),
-        None => output::print(&report::text(scenario, &choice)),
-    }
+    output::either(json_to, || report::json(scenario, &choice), || report::text(scenario, &choice))
 }

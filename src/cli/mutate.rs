@@ -10,27 +10,12 @@ use super::progress::Bar;
 use super::{advice, exit_code, output, standard_input};
 use crate::plain::errors;
 use crate::report::mutate as report;
-use lab::mutate::{Asked, End, Mutated, Party, all, mutate, named, tally};
+use lab::mutate::{Asked, End, Party, all, mutate, named, tally};
 use linkage::error::{Error, ErrorKind, Result};
 use prover::proof::Reference;
 
-const EXAMPLES: &str = "\
-Examples:
-  linkproof new --shipped      write the files that the examples name
-  linkproof mutate --list                                                       all kinds of faults
-  linkproof mutate scenarios/crank_rocker.toml --kind mass-heaviest --no-sizes  one kind, in every party
-  linkproof mutate scenarios/quick_return.toml --kind force --party assur       one family, in side 1 only
-  linkproof mutate scenarios/quick_return.toml --party trunk --kind gravity-sign   in what all share: who outside sees it?
-  linkproof mutate scenarios/formulas/yoke_drive.toml --party formulas          mistakes in the formulas of a file
-  linkproof mutate scenarios/loaded_slider.toml --kind spring-twice --json -    for a script
-
-Every fault stands alone, in an otherwise correct proof at default settings; one of each kind in every exact formula. \
-A fault that changes no exact answer is not counted: side 1 is solved with it and without it.
-
-Exit codes: 0 no fault in one party or formula escapes, 1 some escape, 2 bad input or usage, 3 none escapes, but some prove nothing either way, or none was planted.";
-
 #[derive(Debug, clap::Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = include_str!("help/mutate.txt").trim_ascii_end())]
 pub(super) struct Args {
     /// Scenario files; `-` for standard input
     #[arg(required_unless_present = "list", value_name = "FILE")]
@@ -61,23 +46,17 @@ pub(super) struct Args {
 }
 
 /// Plants faults in every file's proof. A bad file does not stop the others.
-pub(super) fn run(args: &Args) -> u8 {
+pub(super) fn run(args: &Args) -> Result<u8> {
     if args.list {
-        return output::exit(output::print(&report::list()));
+        return output::print(&report::list()).map(|()| exit_code::AGREE);
     }
-    if let Err(found) = output::apart(&[("--json", &args.json), ("--markdown", &args.markdown)]) {
-        return output::exit(Err(found));
-    }
+    output::apart(&[("--json", &args.json), ("--markdown", &args.markdown)])?;
     let options = args.engine.options(Reference::Assur);
     if options.engine_count() > 1 {
-        let error = Error::new(
-            ErrorKind::Input,
-            format!("found {} engines, but faults are planted in one", options.engine_count()),
-        );
-        return output::exit(Err(error.key("--engine").help("give one engine")));
+        let message = format!("found {} engines, but faults are planted in one", options.engine_count());
+        return Err(Error::new(ErrorKind::Input, message).key("--engine").help("give one engine"));
     }
-    let party = |name: &String| Party::ALL.into_iter().find(|party| party.name() == name);
-    let parties = args.party.iter().filter_map(party).collect();
+    let parties = args.party.iter().filter_map(|name| Party::named(name)).collect();
     let asked = Asked { kinds: args.kind.clone(), parties, with_sizes: !args.no_sizes, jobs: args.jobs, options };
     let (mut found, mut failures) = (Vec::new(), Vec::new());
     for file in &args.files {
@@ -93,29 +72,21 @@ pub(super) fn run(args: &Args) -> u8 {
             }
         }
     }
-    match written(args, &found, &failures) {
-        Ok(()) if failures.is_empty() => exit(&found),
-        Ok(()) => exit_code::BAD_INPUT,
-        Err(error) => output::exit(Err(error)),
-    }
-}
-
-fn written(args: &Args, found: &[Mutated], failures: &[(String, String)]) -> Result<()> {
     if !output::is_said(&args.json) {
-        output::print(&report::text(found))?;
+        output::print(&report::text(&found))?;
     }
     if let Some(to) = &args.json {
-        output::write(&report::json(found, failures), to)?;
+        output::write(&report::json(&found, &failures), to)?;
     }
-    args.markdown.as_ref().map_or(Ok(()), |to| output::write(&report::markdown(found), to))
-}
-
-fn exit(found: &[Mutated]) -> u8 {
-    match tally(found).end() {
+    if let Some(to) = &args.markdown {
+        output::write(&report::markdown(&found), to)?;
+    }
+    Ok(match tally(&found).end() {
+        _ if !failures.is_empty() => exit_code::BAD_INPUT,
         End::AllFound => exit_code::AGREE,
         End::NoneEscapes | End::TrunkOpen | End::Nothing => exit_code::INCONCLUSIVE,
         End::SomeEscape => exit_code::DISAGREE,
-    }
+    })
 }
 
 /// A kind or family by name.

@@ -8,19 +8,8 @@ use linkage::error::{Error, ErrorKind, Result};
 use scenario::Scenario;
 use scenario::templates::{self, TEMPLATES, Template};
 
-const EXAMPLES: &str = "\
-Examples:
-  linkproof new                                   the templates, one line each
-  linkproof new four-bar                          write four_bar.toml
-  linkproof new four-bar -o mine.toml --set crank_mm=30 --set coupler_mm=110
-  linkproof new jansen -o -                       to standard output
-  linkproof new --shipped                         write scenarios/, catalogues/ and findings that help and documents name
-
-A mechanism that cannot be assembled, or does not turn, is written nevertheless: its lengths are corrected in the file. \
-The message says how far it goes, and the exit code is 2.";
-
 #[derive(Debug, clap::Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = include_str!("help/new.txt").trim_ascii_end())]
 pub(super) struct Args {
     /// Mechanism to begin with; without one, the templates are listed
     #[arg(value_name = "TEMPLATE")]
@@ -47,12 +36,13 @@ fn target(text: &str) -> std::result::Result<PathBuf, String> {
     output::writable(text.into())
 }
 
-pub(super) fn new(args: &Args) -> u8 {
+pub(super) fn new(args: &Args) -> Result<u8> {
     match (&args.template, &args.shipped) {
-        (Some(name), _) => begin(name, args).unwrap_or_else(|error| output::exit(Err(error))),
-        (None, Some(directory)) => output::exit(ship(directory, args.force)),
-        (None, None) => output::exit(output::print(&list())),
+        (Some(name), _) => return begin(name, args),
+        (None, Some(directory)) => ship(directory, args.force)?,
+        (None, None) => output::print(&list())?,
     }
+    Ok(exit_code::AGREE)
 }
 
 /// The templates, one line each.

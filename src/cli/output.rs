@@ -4,7 +4,7 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use super::advice;
+use super::{advice, exit_code};
 use crate::plain::errors;
 use files::{self, Target};
 use linkage::error::{Error, ErrorKind, Result};
@@ -84,10 +84,7 @@ pub(super) fn write_bytes(bytes: &[u8], to: &Path) -> Result<()> {
 
 /// Lets `fill` write piece by piece to a file that the caller named, or to standard output for `-`.
 pub(super) fn stream(to: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<()> {
-    match is_standard(to) {
-        true => printed(fill),
-        false => put(&Target::Named(to), to, None, fill),
-    }
+    if is_standard(to) { printed(fill) } else { put(&Target::Named(to), to, None, fill) }
 }
 
 /// Writes text with its seal to a file whose name the program made up. What is there is replaced if its seal is
@@ -140,15 +137,58 @@ fn printed(fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<()> {
     }
 }
 
-/// Shows the error of a command and returns its exit code.
+/// What a command comes to: nothing more to say, or an exit code of its own.
+pub(super) trait End {
+    /// The exit code.
+    fn code(self) -> u8;
+}
+
+impl End for () {
+    fn code(self) -> u8 {
+        exit_code::AGREE
+    }
+}
+
+impl End for u8 {
+    fn code(self) -> u8 {
+        self
+    }
+}
+
+impl<T: End> End for Result<T> {
+    fn code(self) -> u8 {
+        self.map_or_else(|error| exit(Err(error)), End::code)
+    }
+}
+
+/// Shows the error of a command, or of a part of it, and returns the exit code.
 pub(super) fn exit(result: Result<()>) -> u8 {
     match result {
-        Ok(()) => super::exit_code::AGREE,
+        Ok(()) => exit_code::AGREE,
         Err(error) => {
             show(&error);
-            super::exit_code::BAD_INPUT
+            exit_code::BAD_INPUT
         }
     }
+}
+
+/// Writes one of two forms: the first to a file that is asked for, else the second to standard output.
+pub(super) fn either(
+    to: &Option<PathBuf>,
+    first: impl FnOnce() -> String,
+    second: impl FnOnce() -> String,
+) -> Result<()> {
+    match to {
+        Some(to) => write(&first(), to),
+        None => print(&second()),
+    }
+}
+
+/// Makes a directory for results; `option` names it.
+pub(super) fn make_directory(path: &Path, option: &str, help: &str) -> Result<()> {
+    fs::create_dir_all(path).map_err(|error| {
+        Error::new(ErrorKind::Io, format!("{} cannot be made: {error}", path.display())).key(option).help(help)
+    })
 }
 
 /// Shows a line on standard error.

@@ -12,19 +12,8 @@ use design::diagram::{Plans, SingularPoint, draw};
 use linkage::error::{Error, ErrorKind, Result};
 use prover::proof::Reference;
 
-const EXAMPLES: &str = "\
-Examples:
-  linkproof new --shipped      write the files that the examples name
-  linkproof plan scenarios/crank_rocker.toml --crank-deg 70
-  linkproof plan scenarios/fourth_class.toml --svg plans.svg      drawn to scale, at the start
-  linkproof plan scenarios/ov7_base.toml --only 7,9 --svg needle.svg   two points of many
-  linkproof plan scenarios/ov7_base.toml --crank-deg -120 --with newton --json -
-
-Letters: a, b, ... are the points A, B, ..., s2 the mass centre of link 2, n1, n2, ... ends of normal parts; a3 is the point of \
-link 3 under A, which slides on it, k1, k2, ... ends of Coriolis parts; points of the ground lie in the pole (p of velocities, π of accelerations).";
-
 #[derive(Debug, clap::Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = include_str!("help/plan.txt").trim_ascii_end())]
 pub(super) struct Args {
     /// Scenario file; `-` for standard input
     #[arg(value_name = "FILE")]
@@ -77,8 +66,6 @@ pub(super) fn plan(args: &Args) -> Result<()> {
     if let Some(to) = &args.svg {
         return output::write(&draw::plans(&plans, &scenario.name, &scenario.title), to);
     }
-    match &args.json {
-        Some(to) => output::write(&report::json(&scenario, &plans, &singular, advice::told), to),
-        None => output::print(&report::text(&scenario, is_free, &plans, &singular, advice::told)),
-    }
+    let json = || report::json(&scenario, &plans, &singular, advice::told);
+    output::either(&args.json, json, || report::text(&scenario, is_free, &plans, &singular, advice::told))
 }

@@ -22,21 +22,12 @@ use session::Session;
 pub(super) use args::Args;
 
 /// Proves every file. A bad file does not stop the others from being proven.
-pub(super) fn run(args: &Args) -> u8 {
+pub(super) fn run(args: &Args) -> Result<u8> {
     // The default directory need not be there if nothing is recorded.
-    let found = args.record.target(args.live.is_on()).and_then(|()| args.reports.check(&[("--html", &args.html)]));
-    if let Err(found) = found {
-        return output::exit(Err(found));
-    }
-    let live = match args.live.start(&args.files) {
-        Ok(live) => live,
-        Err(found) => return output::exit(Err(found)),
-    };
-    let pages = args.html.as_deref().map(|to| Pages::of(to, args.files.len())).transpose();
-    let pages = match pages {
-        Ok(pages) => pages,
-        Err(found) => return output::exit(Err(found)),
-    };
+    args.record.target(args.live.is_on())?;
+    args.reports.check(&[("--html", &args.html)])?;
+    let live = args.live.start(&args.files)?;
+    let pages = args.html.as_deref().map(|to| Pages::of(to, args.files.len())).transpose()?;
     let mut session = Session::of(args, pages, live.as_ref());
     let what = match args.files.as_slice() {
         [only] => only.file_stem().map_or(String::new(), |stem| stem.to_string_lossy().into_owned()),
@@ -50,7 +41,7 @@ pub(super) fn run(args: &Args) -> u8 {
         bar.hidden(|| session.take(file, proven));
     });
     drop(bar);
-    session.end()
+    Ok(session.end())
 }
 
 /// Number of files that are proven at a time. A file that is given twice and written is read again when it is written.

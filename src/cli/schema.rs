@@ -6,15 +6,8 @@ use super::output;
 use crate::report::schema;
 use linkage::error::Result;
 
-const EXAMPLES: &str = "\
-Examples:
-  linkproof schema                             to standard output
-  linkproof schema -o scenario.schema.json     to a file
-An editor with Taplo (Even Better TOML) completes and checks keys of a scenario that begins with
-  #:schema scenario.schema.json";
-
 #[derive(Debug, clap::Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = include_str!("help/schema.txt").trim_ascii_end())]
 pub(super) struct Args {
     /// Write the schema to this file
     #[arg(short, long, value_name = "FILE", default_value = "-", value_parser = output::target)]

@@ -12,28 +12,15 @@ use clap_mangen::Man;
 use super::output;
 use linkage::error::{Error, ErrorKind, Result};
 
-const COMPLETIONS: &str = "\
-Examples:
-  linkproof completions bash > ~/.local/share/bash-completion/completions/linkproof
-  linkproof completions zsh > ~/.zfunc/_linkproof                where `fpath` has ~/.zfunc
-  linkproof completions fish > ~/.config/fish/completions/linkproof.fish
-
-They hold from the next shell on.";
-
-const MAN: &str = "\
-Examples:
-  linkproof man | man -l -                           the page of linkproof itself
-  linkproof man -o ~/.local/share/man/man1           a page for each command too: man linkproof-run";
-
 #[derive(Debug, clap::Args)]
-#[command(after_help = COMPLETIONS)]
+#[command(after_help = include_str!("help/completions.txt").trim_ascii_end())]
 pub(super) struct CompletionArgs {
     /// Shell that completes
     shell: Shell,
 }
 
 #[derive(Debug, clap::Args)]
-#[command(after_help = MAN)]
+#[command(after_help = include_str!("help/man.txt").trim_ascii_end())]
 pub(super) struct ManArgs {
     /// Directory for the pages of linkproof and of all its commands; it is made if it is missing [default: the page of
     /// linkproof, to standard output]
@@ -50,16 +37,14 @@ pub(super) fn completions(args: &CompletionArgs, mut command: Command) -> Result
 
 /// Writes one page to standard output, or all of them to a directory.
 pub(super) fn man(args: &ManArgs, command: Command) -> Result<()> {
+    // Without it both ways give the same page.
+    let mut command = command.disable_help_subcommand(true);
+    command.build();
     let Some(directory) = &args.output else {
         let mut page = Vec::new();
-        // As for the directory: both pages are the same.
-        let mut command = command.disable_help_subcommand(true);
-        command.build();
         Man::new(command).render(&mut page).map_err(|error| failed(Path::new("-"), &error))?;
         return output::print(&String::from_utf8_lossy(&page));
     };
-    let mut command = command.disable_help_subcommand(true);
-    command.build();
     let mut all = Vec::new();
     let made = fs::create_dir_all(directory).and_then(|()| pages(&command, &mut all));
     made.map_err(|error| failed(directory, &error))?;

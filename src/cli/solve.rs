@@ -16,22 +16,8 @@ use prover::engines::EngineName;
 use prover::proof::Reference;
 use prover::proof::memory;
 
-const EXAMPLES: &str = "\
-Examples:
-  linkproof new --shipped      write the files that the examples name
-  linkproof solve scenarios/crank_rocker.toml --with assur
-  linkproof solve scenarios/ov7_base.toml --with newton --crank-deg 0:-360:-30 --csv table.csv
-  linkproof solve scenarios/crank_rocker.toml --with rapier --dt 1e-4 --times 0:0.46:0.01
-  linkproof solve scenarios/ov7_base.toml --with rapier --sweeps 4096 --extrapolate   other settings of the engine
-  linkproof solve scenarios/crank_rocker.toml --with newton --crank-deg 0,12.5,70:90:5   single values and ranges
-  linkproof solve scenarios/crank_rocker.toml --with assur --mode coupler,rocker=right
-  linkproof solve scenarios/ov7_base.toml --with assur --only point.9.positions   one point; nothing beyond it is solved
-  linkproof solve scenarios/crank_rocker_runup.toml --with assur --start-crank-deg 90 --times 0,0.01,0.1
-
-Columns: t_s, crank_rad, then link.NAME, point.NAME, joint.NAME and drive channels (`linkproof list --channels`).";
-
 #[derive(Debug, clap::Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = include_str!("help/solve.txt").trim_ascii_end())]
 pub(super) struct Args {
     /// Scenario file; `-` for standard input
     #[arg(value_name = "FILE")]

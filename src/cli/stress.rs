@@ -11,23 +11,11 @@ use files;
 use lab::stress::{FAMILIES, Family, Job, Outcome, jobs, run_all};
 use linkage::error::{Error, ErrorKind, Result};
 
-const EXAMPLES: &str = "\
-Examples:
-  linkproof stress speed change_point --quick --out stress    a few points of two families
-  linkproof stress speed --out stress                         all points; those that stand in stress/ are not run again
-  linkproof stress step --quick --out stress --jobs 1         one point at a time, with the same bytes
-  linkproof stress length_ratio --quick --out stress --page stress/page.md   a page with tables and maps besides
-
-Without a family all of them are run: half a minute with --quick, some minutes without; begun again, a run goes on where it was. \
-Every family turns one dial. In the directory there is one JSON, one CSV and one SVG map for each. A point that stands in the \
-JSON is run again only if the program's version or the point's inputs have changed; to have all made anew, remove the file.
-Exit codes: 0 no silent wrong number and no panic, 1 one of them, 2 bad input or usage.";
-
 /// Seed of random mechanisms by default.
 const SEED: u64 = 1;
 
 #[derive(Debug, clap::Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = include_str!("help/stress.txt").trim_ascii_end())]
 pub(super) struct Args {
     /// Families; all if none is given
     #[arg(value_name = "FAMILY", value_parser = PossibleValuesParser::new(FAMILIES.iter().map(|family| family.name)))]
@@ -50,21 +38,10 @@ pub(super) struct Args {
 }
 
 /// Runs what is open, writes everything, and returns the exit code.
-pub(super) fn run(args: &Args) -> u8 {
-    match stress(args) {
-        Ok(code) => code,
-        Err(error) => output::exit(Err(error)),
-    }
-}
-
-fn stress(args: &Args) -> Result<u8> {
+pub(super) fn run(args: &Args) -> Result<u8> {
     let chosen = |family: &&Family| args.families.is_empty() || args.families.iter().any(|name| name == family.name);
     let families: Vec<&'static Family> = FAMILIES.iter().filter(chosen).collect();
-    std::fs::create_dir_all(&args.out).map_err(|error| {
-        Error::new(ErrorKind::Io, format!("{} cannot be made: {error}", args.out.display()))
-            .key("--out")
-            .help("name a directory, or a place where one can be made")
-    })?;
+    output::make_directory(&args.out, "--out", "name a directory, or a place where one can be made")?;
     let mut all: Vec<Job> = Vec::new();
     for &family in &families {
         let kept = files::text(&json_of(&args.out, family)).map_err(|error| {
@@ -136,11 +113,7 @@ fn write_json(args: &Args, family: &'static Family, jobs: &[Job]) -> Result<()> 
 fn write_page(args: &Args, to: &Path, found: &[(&Family, Vec<&Outcome>)]) -> Result<()> {
     let stem = to.file_stem().and_then(|stem| stem.to_str()).unwrap_or("stress");
     let maps = to.with_file_name(stem);
-    std::fs::create_dir_all(&maps).map_err(|error| {
-        Error::new(ErrorKind::Io, format!("{} cannot be made: {error}", maps.display()))
-            .key("--page")
-            .help("name a file in a directory that may be written to")
-    })?;
+    output::make_directory(&maps, "--page", "name a file in a directory that may be written to")?;
     for (family, outcomes) in found {
         output::make(&report::map(family, outcomes)?, &maps.join(format!("{}.svg", family.name)))?;
     }

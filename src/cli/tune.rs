@@ -15,20 +15,8 @@ use prover::proof::Reference;
 use scenario::EngineSettings;
 use scenario::{Scenario, edit};
 
-const EXAMPLES: &str = "\
-Examples:
-  linkproof new --shipped      write the files that the examples name
-  linkproof tune scenarios/crank_rocker.toml --within 1e-4            every engine and route
-  linkproof tune scenarios/crank_rocker.toml --within 1e-4 --engine rapier --route differences
-  linkproof tune scenarios/ov7_base.toml --within 1e-3 --channel positions --channel joint.A.fx_N
-  linkproof tune scenarios/crank_rocker.toml --within 1e-5 --engine all
-  linkproof tune scenarios/compressor.toml --within 1e-4 --write      change the scenario's [engine] section
-
-The error is a share of each channel's scale, half its range over the run. Prices are work: steps, sweeps, readings and worlds with their \
-costs as once measured on crank_rocker. They do not depend on the machine, and the same input gives the same settings.";
-
 #[derive(Debug, clap::Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = include_str!("help/tune.txt").trim_ascii_end())]
 pub(super) struct Args {
     /// Scenario file; `-` for standard input
     #[arg(value_name = "FILE")]

@@ -10,16 +10,6 @@ use crate::report::{film, layout, plotjuggler};
 use lab::outside;
 use linkage::error::{Error, ErrorKind, Result};
 
-const EXAMPLES: &str = "\
-Examples:
-  linkproof view recordings/crank_rocker.mcap                  in Rerun: writes crank_rocker.rrd beside it, and opens it
-  linkproof view recordings/crank_rocker.mcap -o turn.rrd      only write it, to send it to a colleague
-  linkproof view recordings/crank_rocker.mcap --with foxglove  write the layout again, and say how to open both
-  linkproof view recordings/crank_rocker.mcap --with plotjuggler   a layout that reads the recording by itself
-  linkproof view turn.mcap --python ~/rerun/bin/python         the Python that has rerun-sdk
-
-`linkproof docs recording` tells what each viewer shows.";
-
 /// Viewers that have a way of their own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Viewer {
@@ -32,7 +22,7 @@ enum Viewer {
 }
 
 #[derive(Debug, clap::Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = include_str!("help/view.txt").trim_ascii_end())]
 pub(super) struct Args {
     /// Recording (MCAP) that `linkproof run` has written
     #[arg(value_name = "FILE")]

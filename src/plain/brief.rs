@@ -1,7 +1,5 @@
 //! The short report of a proof: the verdict in one line, the channels that are worst, and whatever is needed to act.
 
-use std::fmt::Write;
-
 use super::cells::{flush, trimmed, used};
 use super::engines;
 use super::own_forces;
@@ -67,17 +65,17 @@ pub fn proof(proof: &Proof, tell: Tell, width: usize) -> String {
     let mut text = format!("{}\n", verdict_line(proof));
     worst(proof, width, &mut text);
     if proof.engines.len() > 1 {
-        let _ = writeln!(text, "\n{}", style::wrapped(&engines::disputes(proof), width, 2));
+        say!(text, "\n{}", style::wrapped(&engines::disputes(proof), width, 2));
     }
     for engine in &proof.engines {
         if let Some(own) = &engine.own_forces
             && let Some(error) = &own.failure
         {
             let told = format!("Forces as {} itself exerts them are not judged: {}", engine.info.name, error.message());
-            let _ = writeln!(text, "\n{}", style::wrapped(&told, width, 2));
+            say!(text, "\n{}", style::wrapped(&told, width, 2));
         }
         if let Some(fault) = engine.force_fault() {
-            let _ = writeln!(text, "\n{}", style::wrapped(own_forces::sentence(fault), width, 2));
+            say!(text, "\n{}", style::wrapped(own_forces::sentence(fault), width, 2));
         }
     }
     // What is open beside an agreement takes nothing from it.
@@ -143,7 +141,7 @@ pub fn worst(proof: &Proof, width: Option<usize>, text: &mut String) {
             unit.into(),
         ]);
     }
-    let _ = writeln!(text, "\n{}", trimmed(&table));
+    say!(text, "\n{}", trimmed(&table));
 }
 
 /// Value of a channel at an instant of the grid.

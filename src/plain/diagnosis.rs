@@ -1,9 +1,10 @@
-//! Diagnoses in words, and as JSON.
+//! Diagnoses in words.
 
 use std::fmt::Write;
 
 use linkage::trajectory::{Channel, Stage};
 use prover::diagnosis::{Arm, Axis, Cause, Change, Diagnosis, How, Nature, Over, Part, Plain, Since, Slip, Standing};
+
 use prover::numbers::{fixed, significant};
 
 /// Column at which the text of a line begins.
@@ -21,7 +22,7 @@ const NAMED: usize = 3;
 pub fn text(diagnosis: &Diagnosis) -> String {
     let mut text = format!("Diagnosis of {}:", diagnosis.suspect);
     let mut line = |what: &str, told: String| {
-        let _ = write!(text, "\n  {what:<10}{told}");
+        put!(text, "\n  {what:<10}{told}");
     };
     line("alone", standing(&diagnosis.alone));
     if let Some(first) = diagnosis.since.first() {
@@ -79,10 +80,10 @@ fn since(diagnosis: &Diagnosis, first: &Since) -> String {
         format!("t = {} s, crank angle {} deg, first in {}", fixed(time, 6), fixed(crank, 3), names(&together));
     if let Some(next) = diagnosis.since.get(together.len()) {
         let (time, crank) = (next.time, next.crank.to_degrees());
-        let _ = write!(told, "; from {} s, {} deg, in {}", fixed(time, 6), fixed(crank, 3), next.channel);
+        put!(told, "; from {} s, {} deg, in {}", fixed(time, 6), fixed(crank, 3), next.channel);
         let more = diagnosis.since.len() - together.len() - 1;
         if more > 0 {
-            let _ = write!(told, " and later in {more} more");
+            put!(told, " and later in {more} more");
         }
     }
     told

@@ -1,7 +1,5 @@
 //! Several engines side by side, and the one that disagrees with all others.
 
-use std::fmt::Write;
-
 use comfy_table::Table;
 
 use super::cells::{self, share, used};
@@ -44,7 +42,7 @@ pub fn disputes(proof: &Proof) -> String {
     let mut text = String::new();
     for engine in &proof.engines {
         if let Some(error) = &engine.failure {
-            let _ = writeln!(text, "{} failed: {}", engine.info.name, error.message());
+            say!(text, "{} failed: {}", engine.info.name, error.message());
         }
     }
     if proof.disputes.is_empty() {
@@ -56,20 +54,14 @@ pub fn disputes(proof: &Proof) -> String {
     for party in parties {
         let alone = proof.disputes.iter().filter(|dispute| dispute.odd == Some(party));
         if let Some(first) = alone.clone().next() {
-            let _ =
-                writeln!(text, "The odd one out in {} channels is {party}, first in {}.", alone.count(), first.channel);
+            say!(text, "The odd one out in {} channels is {party}, first in {}.", alone.count(), first.channel);
         }
     }
     let open = proof.disputes.iter().filter(|dispute| dispute.odd.is_none());
     if let Some(first) = open.clone().next() {
         let pairs: Vec<String> = first.pairs.iter().map(|[a, b]| format!("{a} and {b}")).collect();
-        let _ = writeln!(
-            text,
-            "In {} channels no single one stands alone, first in {}: {} differ.",
-            open.count(),
-            first.channel,
-            pairs.join(", ")
-        );
+        let (count, channel, pairs) = (open.count(), &first.channel, pairs.join(", "));
+        say!(text, "In {count} channels no single one stands alone, first in {channel}: {pairs} differ.");
     }
     text.truncate(text.trim_end().len());
     text

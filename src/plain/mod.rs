@@ -1,10 +1,28 @@
 //! A proof, its diagnosis and an error as plain text: what a failed test shows, and what every report has in common.
 
+/// Adds a line to a text.
+macro_rules! say {
+    ($text:expr, $($told:tt)*) => {{
+        use std::fmt::Write as _;
+        // A text takes whatever is written to it.
+        let _ = writeln!($text, $($told)*);
+    }};
+}
+
+/// Adds to the last line of a text.
+macro_rules! put {
+    ($text:expr, $($told:tt)*) => {{
+        use std::fmt::Write as _;
+        let _ = write!($text, $($told)*);
+    }};
+}
+
 pub mod brief;
 pub mod cells;
 pub mod diagnosis;
 pub mod engines;
 pub mod errors;
+pub mod judged;
 pub mod own_forces;
 pub mod reasons;
 pub mod style;

@@ -4,12 +4,8 @@ use super::cells::used;
 use linkage::solver::Provision;
 use linkage::trajectory::Stage;
 use prover::numbers;
-use prover::proof::{ChannelProof, EngineProof, ForceFault, OwnForces};
 
-/// Name of a channel as the engine itself exerts it.
-pub fn name(channel: &ChannelProof) -> String {
-    format!("{} as the engine exerts it", channel.residual.channel)
-}
+use prover::proof::{EngineProof, ForceFault, OwnForces};
 
 /// Name of all of them.
 pub fn of_all(engine: &EngineProof, several: bool) -> String {

@@ -6,6 +6,29 @@ use textwrap::{Options, WordSplitter, wrap};
 
 use prover::compare::Verdict;
 
+/// How much a report tells.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Detail {
+    /// The verdict, in one line.
+    Verdict,
+    /// What is needed to act.
+    Short,
+    /// Everything.
+    Whole,
+}
+
+impl Detail {
+    /// That of the options `--quiet` and `--verbose`.
+    #[must_use]
+    pub fn asked(quiet: bool, verbose: bool) -> Detail {
+        match (quiet, verbose) {
+            (true, _) => Detail::Verdict,
+            (false, true) => Detail::Whole,
+            (false, false) => Detail::Short,
+        }
+    }
+}
+
 /// Columns of a report that goes to a file or a pipe.
 pub const COLUMNS: usize = 80;
 

@@ -1,6 +1,5 @@
 //! What has become of accepted figures, as text and as JSON.
 
-use std::fmt::Write;
 use std::path::Path;
 
 use serde_json::{Value, json};
@@ -20,30 +19,20 @@ use scenario::accepted::Accepted;
 /// Channels of which figures are shown; the others are counted.
 const SHOWN: usize = 20;
 
-/// What was done with the file of accepted figures.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Deed {
-    /// The file was judged by, and left as it is.
-    Checked,
-    /// There was none; it was written.
-    Written,
-    /// It was written anew.
-    Renewed,
-    /// Nothing has moved, and it was left as it is.
-    Kept,
-    /// The proof does not agree: nothing was written.
-    Refused,
-}
-
-impl Deed {
-    fn word(self) -> &'static str {
-        match self {
-            Deed::Checked => "checked",
-            Deed::Written => "written",
-            Deed::Renewed => "renewed",
-            Deed::Kept => "kept",
-            Deed::Refused => "refused",
-        }
+linkage::words! {
+    /// What was done with the file of accepted figures.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Deed: word {
+        /// The file was judged by, and left as it is.
+        Checked = "checked",
+        /// There was none; it was written.
+        Written = "written",
+        /// It was written anew.
+        Renewed = "renewed",
+        /// Nothing has moved, and it was left as it is.
+        Kept = "kept",
+        /// The proof does not agree: nothing was written.
+        Refused = "refused",
     }
 }
 
@@ -75,7 +64,7 @@ pub(crate) fn text(item: &Item) -> String {
         changes(comparison, &mut text);
     }
     if item.without_figures() > 0 {
-        let _ = writeln!(text, "{} have no finite bound and no figures.", channels(item.without_figures()));
+        say!(text, "{} have no finite bound and no figures.", channels(item.without_figures()));
     }
     text
 }
@@ -152,19 +141,19 @@ fn changes(comparison: &Comparison, text: &mut String) {
             let bounds = format!("{:.1e}", moved.bounds());
             table.add_row([moved.channel.clone(), figure(moved.figure), accepted, found, by, bound, bounds]);
         }
-        let _ = writeln!(text, "\n{}", trimmed(&table));
+        say!(text, "\n{}", trimmed(&table));
     }
     if worst.len() > SHOWN {
-        let _ = writeln!(text, "... and {} more channels; the JSON has all of them.", worst.len() - SHOWN);
+        say!(text, "... and {} more channels; the JSON has all of them.", worst.len() - SHOWN);
     }
     for (word, names) in [("new", &comparison.new), ("gone", &comparison.gone)] {
         if !names.is_empty() {
-            let _ = writeln!(text, "\n{word}: {}", listed(names));
+            say!(text, "\n{word}: {}", listed(names));
         }
     }
     for other in comparison.wider.iter().take(SHOWN).chain(comparison.looser.iter().take(SHOWN)) {
         let (channel, unit) = (&other.channel, unit(&other.channel));
-        let _ = writeln!(text, "\n{channel}: its bound was {:.1e} {unit}, now {:.1e}", other.accepted, other.found);
+        say!(text, "\n{channel}: its bound was {:.1e} {unit}, now {:.1e}", other.accepted, other.found);
     }
 }
 

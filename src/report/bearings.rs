@@ -1,7 +1,5 @@
 //! Largest reactions over the range of the grid, and the smallest journals that carry them.
 
-use std::fmt::Write;
-
 use serde_json::json;
 
 use super::pretty::pretty;
@@ -41,14 +39,13 @@ pub(crate) fn text(journals: Journals, scenario: &Scenario, peaks: &Peaks) -> St
         }
         table.add_row(row);
     }
-    let mut text = String::new();
-    let _ = writeln!(text, "{}: {}\n\n{}\n", scenario.name, scenario.title, trimmed(&table));
+    let mut text = format!("{}: {}\n\n{}\n\n", scenario.name, scenario.title, trimmed(&table));
     for (name, peak, unit) in
         [("shaking force", peaks.shaking_force, "N"), ("balancing moment", peaks.balancing_moment, "N m")]
     {
-        let _ = writeln!(text, "largest {name:16} {:.6} {unit} at {} deg", peak.value, degrees(peak));
+        say!(text, "largest {name:16} {:.6} {unit} at {} deg", peak.value, degrees(peak));
     }
-    let _ = writeln!(text, "\njournals: lever {} mm, bending stress {} MPa", journals.lever_mm, journals.stress_mpa);
+    say!(text, "\njournals: lever {} mm, bending stress {} MPa", journals.lever_mm, journals.stress_mpa);
     text
 }
 

@@ -1,13 +1,11 @@
 //! Points of a work-precision diagram as text, CSV and JSON.
 
-use std::fmt::Write;
-
 use serde_json::{Value, json};
 
 use super::pretty::pretty;
-use crate::plain::cells::table;
+use crate::plain::cells::{csv, distinct, table};
 use lab::bench::{Axis, Bench, Errors, Outcome, Party, Point, front};
-use linkage::error::{Error, ErrorKind, Result};
+use linkage::error::Result;
 use linkage::trajectory::Stage;
 
 /// Names and values that describe machine and build.
@@ -53,20 +51,17 @@ pub(crate) fn fastest<'a>(
 
 /// The fronts as text: who is best at which error.
 pub(crate) fn text(bench: &Bench) -> String {
-    let mut text = String::new();
-    let _ = writeln!(text, "{}: {}\n", bench.scenario[0], bench.scenario[1]);
+    let mut text = format!("{}: {}\n\n", bench.scenario[0], bench.scenario[1]);
     let failed = bench.points.iter().filter(|point| point.run().is_none()).count();
-    let _ = writeln!(
+    let (settings, instants, reference) = (bench.points.len(), bench.instants, &bench.floor.reference);
+    say!(
         text,
-        "{} settings on {} instants, {failed} failed; times over that of side 1 (assur). Reference: {}.\n\
-         The fronts: what nothing beats, then what no engine and no peer beats.",
-        bench.points.len(),
-        bench.instants,
-        bench.floor.reference
+        "{settings} settings on {instants} instants, {failed} failed; times over that of side 1 (assur). Reference: {reference}."
     );
+    say!(text, "The fronts: what nothing beats, then what no engine and no peer beats.");
     for &stage in &bench.stages {
         let floor = bench.floor.errors[stage as usize];
-        let _ = writeln!(text, "\n{}: the reference is known to {floor:.1e}", stage.name());
+        say!(text, "\n{}: the reference is known to {floor:.1e}", stage.name());
         let mut rows = table(["error", "time", "solutions", "program", "settings"], &[0, 1, 2]);
         let sides = front(&bench.points, stage, Axis::Time, floor, &|_| true);
         let others = front(&bench.points, stage, Axis::Time, floor, &|point| point.party != Party::Side);
@@ -82,21 +77,21 @@ pub(crate) fn text(bench: &Bench) -> String {
                 point.told(),
             ]);
         }
-        let _ = writeln!(text, "{rows}");
+        say!(text, "{rows}");
         for within in DECADES {
             let other = fastest(bench, stage, within, &|point| point.party != Party::Side);
             let told = other.and_then(|point| Some(format!("{} {}", short(ratio(bench, point)?), point.program)));
-            let _ = writeln!(text, "  other programs at {within:e}: {}", told.unwrap_or_else(|| "none".into()));
+            say!(text, "  other programs at {within:e}: {}", told.unwrap_or_else(|| "none".into()));
         }
     }
     for (reason, times) in super::bench_plot::reasons(bench) {
-        let _ = writeln!(text, "\nfailed {times} times: {reason}");
+        say!(text, "\nfailed {times} times: {reason}");
     }
     for (gap, times) in super::bench_plot::gaps(bench) {
-        let _ = writeln!(text, "\njudged in part {times} times: {gap}");
+        say!(text, "\njudged in part {times} times: {gap}");
     }
     if bench.left_out > 0 {
-        let _ = writeln!(text, "\n{} finer settings were not run: the work that was allowed is done.", bench.left_out);
+        say!(text, "\n{} finer settings were not run: the work that was allowed is done.", bench.left_out);
     }
     text
 }
@@ -104,19 +99,18 @@ pub(crate) fn text(bench: &Bench) -> String {
 /// All points as CSV, with the machine's description in lines that begin with `#`.
 ///
 /// # Errors
-/// [`ErrorKind::Io`] if the table cannot be written.
+/// [`ErrorKind::Io`](linkage::ErrorKind::Io) if the table cannot be written.
 pub(crate) fn rows(bench: &Bench, machine: &Machine) -> Result<String> {
-    let failed = |error: csv::Error| Error::new(ErrorKind::Io, format!("the table cannot be written: {error}"));
     let mut text = String::new();
     for (name, value) in machine {
-        let _ = writeln!(text, "# {name}: {value}");
+        say!(text, "# {name}: {value}");
     }
     for (name, version) in &bench.versions {
-        let _ = writeln!(text, "# {name}: {version}");
+        say!(text, "# {name}: {version}");
     }
-    let _ = writeln!(text, "# reference: {}; its error: {}", bench.floor.reference, bench.floor.basis);
+    say!(text, "# reference: {}; its error: {}", bench.floor.reference, bench.floor.basis);
     for &stage in &bench.stages {
-        let _ = writeln!(text, "# floor of {}: {:e}", stage.name(), bench.floor.errors[stage as usize]);
+        say!(text, "# floor of {}: {:e}", stage.name(), bench.floor.errors[stage as usize]);
     }
     let counts = counts(bench);
     let mut header: Vec<String> =
@@ -126,8 +120,7 @@ pub(crate) fn rows(bench: &Bench, machine: &Machine) -> Result<String> {
     }
     header.extend(counts.iter().cloned());
     header.extend(["seconds", "all_seconds", "failure", "without"].map(String::from));
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    writer.write_record(&header).map_err(failed)?;
+    let mut rows = vec![header];
     let fronts = fronts(bench);
     for (index, point) in bench.points.iter().enumerate() {
         let mut row = vec![
@@ -160,21 +153,14 @@ pub(crate) fn rows(bench: &Bench, machine: &Machine) -> Result<String> {
             Outcome::Failed(reason) => [reason.clone(), String::new()],
             Outcome::Answered(run) => [&run.failed, &run.without].map(|all| joined(all)),
         });
-        writer.write_record(&row).map_err(failed)?;
+        rows.push(row);
     }
-    let bytes = writer.into_inner().map_err(|error| failed(error.into_error().into()))?;
-    Ok(text + &String::from_utf8(bytes).expect("names and numbers are text"))
+    Ok(text + &csv(rows)?)
 }
 
 /// Names of everything that was counted, in the order of its first appearance.
 fn counts(bench: &Bench) -> Vec<String> {
-    let mut names: Vec<String> = Vec::new();
-    for (name, _) in bench.points.iter().filter_map(Point::run).flat_map(|run| &run.effort.0) {
-        if !names.contains(name) {
-            names.push(name.clone());
-        }
-    }
-    names
+    distinct(bench.points.iter().filter_map(Point::run).flat_map(|run| &run.effort.0).map(|(name, _)| name.clone()))
 }
 
 /// The front over time of every stage.

@@ -1,10 +1,10 @@
 //! The page of documentation that holds work-precision results: Markdown, made anew by one command.
 
-use std::fmt::Write;
-
 use super::bench::{Machine, error, fastest, ratio, short};
-use super::bench_plot::{gaps, reasons};
+use super::bench_plot::{gaps, programs, reasons};
+use super::html::filled;
 use super::markdown::foreign;
+use crate::plain::cells::distinct;
 use lab::bench::{Axis, Bench, CLEAR, Party, Point, front};
 use linkage::trajectory::Stage;
 
@@ -15,32 +15,12 @@ const REASONS: usize = 6;
 
 /// The page. `command` made it; `pictures` is the directory of the diagrams as seen from the page.
 pub(crate) fn page(benches: &[Bench], machine: &Machine, command: &str, pictures: &str) -> String {
-    let mut text = String::new();
-    let _ = writeln!(
-        text,
-        "# Run time against error\n\n\
-         Made by one command; do not edit it by hand:\n\n```sh\n{command}\n```\n\n\
-         - *Error*: largest difference to the reference over all instants and channels of a stage, over each channel's scale.\n\
-         - *Time*: shortest of several runs, over that of side 1 (`assur`) at its usual accuracy in the same command.\n\
-         \x20 Peers measure themselves, without building the model and without writing ([peers](peers.md)).\n\
-         - *Floor*: the reference's own error. Points less than {CLEAR} times above it are marked.\n\
-         - *Front*: what nothing else beats in time and error.\n\
-         - A cell has the times at which a program reaches errors of 1e-3, 1e-6 and 1e-9 with the best of its settings; a dash: never.\n\
-         - Raw numbers of every setting, with exact counts of work, are in the CSV and JSON files that the command writes.\n"
-    );
-    let _ = writeln!(
-        text,
-        "Machine: {}.\n",
-        machine.iter().map(|(name, value)| format!("{name}: {value}")).collect::<Vec<_>>().join("; ")
-    );
-    let mut versions: Vec<String> = Vec::new();
-    for (name, version) in benches.iter().flat_map(|bench| &bench.versions) {
-        let told = format!("{name}: {}", foreign(version));
-        if !versions.contains(&told) {
-            versions.push(told);
-        }
-    }
-    let _ = writeln!(text, "Versions: {}.\n", versions.join("; "));
+    let mut text = filled(include_str!("bench_page.md"), &[("command", command), ("clear", &CLEAR.to_string())]);
+    let machine: Vec<String> = machine.iter().map(|(name, value)| format!("{name}: {value}")).collect();
+    say!(text, "Machine: {}.\n", machine.join("; "));
+    let versions = benches.iter().flat_map(|bench| &bench.versions);
+    let versions = distinct(versions.map(|(name, version)| format!("{name}: {}", foreign(version))));
+    say!(text, "Versions: {}.\n", versions.join("; "));
     for bench in benches {
         scenario(&mut text, bench, pictures);
     }
@@ -51,42 +31,36 @@ pub(crate) fn page(benches: &[Bench], machine: &Machine, command: &str, pictures
 fn scenario(text: &mut String, bench: &Bench, pictures: &str) {
     let [name, title] = &bench.scenario;
     let failed = bench.points.iter().filter(|point| point.run().is_none()).count();
-    let _ = writeln!(text, "## {name}\n\n{}.\n", foreign(title));
-    let _ = writeln!(
+    say!(text, "## {name}\n\n{}.\n", foreign(title));
+    say!(
         text,
         "{} settings on {} instants, {failed} failed. [Diagram]({pictures}{name}.time.svg), [numbers]({pictures}{name}.csv).\n",
         bench.points.len(),
         bench.instants
     );
     let stages: Vec<&str> = bench.stages.iter().map(|stage| stage.name()).collect();
-    let _ = writeln!(text, "| | {} |", stages.join(" | "));
-    let _ = writeln!(text, "|---|{}", "---|".repeat(stages.len()));
+    say!(text, "| | {} |", stages.join(" | "));
+    say!(text, "|---|{}", "---|".repeat(stages.len()));
     let floors = bench.stages.iter().map(|&stage| format!("{:.0e}", bench.floor.errors[stage as usize]));
-    let _ = writeln!(text, "| floor | {} |", floors.collect::<Vec<_>>().join(" | "));
-    let mut programs: Vec<&str> = Vec::new();
-    for point in &bench.points {
-        if !programs.contains(&point.program.as_str()) {
-            programs.push(&point.program);
-        }
-    }
-    for program in programs {
+    say!(text, "| floor | {} |", floors.collect::<Vec<_>>().join(" | "));
+    for program in programs(bench) {
         let cells = bench.stages.iter().map(|&stage| cell(bench, program, stage));
-        let _ = writeln!(text, "| {program} | {} |", cells.collect::<Vec<_>>().join(" | "));
+        say!(text, "| {program} | {} |", cells.collect::<Vec<_>>().join(" | "));
     }
     text.push('\n');
     for &stage in &bench.stages {
         let of_others = told(bench, stage, &|point| point.party != Party::Side);
-        let _ = writeln!(text, "- Front of {}: {}.", stage.name(), told(bench, stage, &|_| true));
-        let _ = writeln!(text, "  Of engines and peers: {}.", if of_others.is_empty() { "none" } else { &of_others });
+        say!(text, "- Front of {}: {}.", stage.name(), told(bench, stage, &|_| true));
+        say!(text, "  Of engines and peers: {}.", if of_others.is_empty() { "none" } else { &of_others });
     }
     for (reason, times) in reasons(bench).into_iter().take(REASONS) {
-        let _ = writeln!(text, "- Failed {times} times: {}", foreign(&reason));
+        say!(text, "- Failed {times} times: {}", foreign(&reason));
     }
     for (gap, times) in gaps(bench).into_iter().take(REASONS) {
-        let _ = writeln!(text, "- Judged in part {times} times: {}", foreign(&gap));
+        say!(text, "- Judged in part {times} times: {}", foreign(&gap));
     }
     if bench.left_out > 0 {
-        let _ = writeln!(text, "- {} finer settings were not run: the work allowed was done.", bench.left_out);
+        say!(text, "- {} finer settings were not run: the work allowed was done.", bench.left_out);
     }
     text.push('\n');
 }

@@ -9,6 +9,7 @@ use plotters::prelude::{
 };
 use plotters::style::IntoFont;
 
+use crate::plain::cells::distinct;
 use lab::bench::{Axis, Bench, CLEAR, Party, Point, front};
 use linkage::math::KeepNan;
 use linkage::trajectory::Stage;
@@ -112,18 +113,12 @@ fn colour(bench: &Bench, program: &str) -> RGBColor {
         return *colour;
     }
     let others = programs(bench).into_iter().filter(|name| KNOWN.iter().all(|(known, _)| known != name));
-    OTHERS[others.take_while(|name| name != program).count() % OTHERS.len()]
+    OTHERS[others.take_while(|name| *name != program).count() % OTHERS.len()]
 }
 
 /// Programs in the order in which they first stand in the table.
-fn programs(bench: &Bench) -> Vec<String> {
-    let mut found: Vec<String> = Vec::new();
-    for point in &bench.points {
-        if !found.contains(&point.program) {
-            found.push(point.program.clone());
-        }
-    }
-    found
+pub(super) fn programs(bench: &Bench) -> Vec<&str> {
+    distinct(bench.points.iter().map(|point| point.program.as_str()))
 }
 
 fn panel(area: &Area, bench: &Bench, stage: Stage, axis: Axis, [left, right]: [f64; 2]) -> Drawn {
@@ -167,7 +162,7 @@ fn panel(area: &Area, bench: &Bench, stage: Stage, axis: Axis, [left, right]: [f
     chart.draw_series(dashes).map_err(told)?;
     for program in programs(bench) {
         let own = |point: &Point| point.program == program;
-        let paint = colour(bench, &program);
+        let paint = colour(bench, program);
         let place = |index: &usize| {
             let point = &bench.points[*index];
             Some((cost(bench, axis, point)?, shown(point.error(stage)?.max)))
@@ -241,7 +236,7 @@ fn legend(area: &Area, bench: &Bench) -> Drawn {
     };
     for program in programs(bench) {
         let own = || bench.points.iter().filter(|point| point.program == program);
-        let paint = colour(bench, &program);
+        let paint = colour(bench, program);
         let sample = EmptyElement::at((36, y))
             + PathElement::new(vec![(-18, 0), (18, 0)], paint.stroke_width(2))
             + Circle::new((0, 0), 3, paint.filled());

@@ -2,7 +2,6 @@
 
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet};
-use std::fmt::Write;
 
 use serde_json::{Value, json};
 
@@ -148,13 +147,13 @@ fn reasons(lines: &[Line], claimed: &Claimed, tell: Tell, width: usize, text: &m
     let told = |line: &&Line| line.rank().0 > 0 && !is_consequence(&wrong, line);
     let causes = causes(claimed);
     for line in lines.iter().filter(told) {
-        let _ = writeln!(text, "\n{}", wrapped(&reason(line, tell), Some(width), INDENT));
+        say!(text, "\n{}", wrapped(&reason(line, tell), Some(width), INDENT));
         if line.judged.order > 0 {
             continue;
         }
         let undefined = claimed.judgement.undefined(&line.judged.name);
         if let Some(undefined) = undefined {
-            let _ = writeln!(text, "{}", wrapped(&format!("  but    {undefined}."), Some(width), INDENT));
+            say!(text, "{}", wrapped(&format!("  but    {undefined}."), Some(width), INDENT));
         }
         let told = match causes.get(line.judged.name.as_str()) {
             Some(Some(found)) if claimed.judgement.unsought.contains(&line.judged.name) => {
@@ -173,11 +172,11 @@ fn reasons(lines: &[Line], claimed: &Claimed, tell: Tell, width: usize, text: &m
             Some(None) => "  cause  none that is simple: no single slip, offset, factor or term explains it.".into(),
             None => continue,
         };
-        let _ = writeln!(text, "{}", wrapped(&told, Some(width), INDENT));
+        say!(text, "{}", wrapped(&told, Some(width), INDENT));
     }
     for check in &claimed.checks {
         if let Some(reason) = check.verdict.reason(tell) {
-            let _ = writeln!(text, "\n{}", wrapped(&format!("{}: {reason}", check.name()), Some(width), 2));
+            say!(text, "\n{}", wrapped(&format!("{}: {reason}", check.name()), Some(width), 2));
         }
     }
 }

@@ -1,29 +1,31 @@
 //! Clearance: smallest distances, first collision, swept areas.
 
-use std::fmt::Write;
-
 use serde_json::{Value, json};
 
 use super::pretty::pretty;
-use crate::plain::cells::{table, trimmed};
-use design::clearance::{Clearance, Course, Meeting, PairClearance};
-use linkage::error::{Error, ErrorKind, Result};
+use crate::plain::cells::{csv, table, trimmed};
+use linkage::error::{Error, Result};
 use linkage::math::Vec2;
 use prover::numbers;
+
 use scenario::Scenario;
+
+use design::clearance::{Clearance, Course, Meeting, PairClearance};
 use scenario::clearance::Question;
 
-/// How a question is answered.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Standing {
-    /// All pairs are clear, by as much as wanted, all the way.
-    Clear,
-    /// A pair collides.
-    Collides,
-    /// No pair collides, but one is nearer than wanted.
-    TooNear,
-    /// Nothing was found, but parts of the range are not proven.
-    Open,
+linkage::words! {
+    /// How a question is answered.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub(crate) enum Standing: word {
+        /// All pairs are clear, by as much as wanted, all the way.
+        Clear = "clear",
+        /// A pair collides.
+        Collides = "collides",
+        /// No pair collides, but one is nearer than wanted.
+        TooNear = "too near",
+        /// Nothing was found, but parts of the range are not proven.
+        Open = "not proven",
+    }
 }
 
 /// How a question is answered.
@@ -36,17 +38,6 @@ pub(crate) fn standing(found: &Clearance) -> Standing {
         Standing::Open
     } else {
         Standing::Clear
-    }
-}
-
-impl Standing {
-    fn word(self) -> &'static str {
-        match self {
-            Standing::Clear => "clear",
-            Standing::Collides => "collides",
-            Standing::TooNear => "too near",
-            Standing::Open => "not proven",
-        }
     }
 }
 
@@ -70,9 +61,9 @@ fn names<'a>(asked: &'a Question, pair: &PairClearance) -> [&'a str; 2] {
 pub(crate) fn text(scenario: &Scenario, asked: &Question, found: &Clearance) -> String {
     let mut text = String::new();
     let [from, to] = found.range.map(degrees);
-    let _ = writeln!(text, "{}: {}\n\nclearance over crank angles {from} to {to} deg\n", scenario.name, scenario.title);
+    say!(text, "{}: {}\n\nclearance over crank angles {from} to {to} deg\n", scenario.name, scenario.title);
     if found.pairs.is_empty() {
-        let _ = writeln!(text, "no two bodies can meet: all links are joined, and there is no housing\n");
+        say!(text, "no two bodies can meet: all links are joined, and there is no housing\n");
     } else {
         let header = ["bodies", "", "smallest mm", "at crank deg", "nearest points mm", "", "first contact at deg"];
         let mut table = table(header, &[2, 3, 6]);
@@ -84,8 +75,8 @@ pub(crate) fn text(scenario: &Scenario, asked: &Question, found: &Clearance) -> 
             let row = [millimetres(smallest.distance), degrees(smallest.crank), one, two, contact];
             table.add_row([first, second].map(String::from).into_iter().chain(row));
         }
-        let _ = writeln!(text, "{}\n", trimmed(&table));
-        let _ = writeln!(text, "no distance is smaller by more than {} mm", significant(1e3 * found.tolerance));
+        say!(text, "{}\n", trimmed(&table));
+        say!(text, "no distance is smaller by more than {} mm", significant(1e3 * found.tolerance));
     }
     let swept: Vec<_> = found.swept.iter().collect();
     if !swept.is_empty() {
@@ -96,23 +87,19 @@ pub(crate) fn text(scenario: &Scenario, asked: &Question, found: &Clearance) -> 
             let name = asked.bodies[*body].name.clone();
             areas.add_row([name, of(area.value), of(area.error()), of(area.least), of(area.most)]);
         }
-        let _ = writeln!(text, "{}\n", trimmed(&areas));
+        say!(text, "{}\n", trimmed(&areas));
         if let Some((body, area)) = found.swept.iter().find(|(_, area)| area.error() > asked.area * area.value) {
             let (name, share) = (&asked.bodies[*body].name, area.error() / area.value);
-            let _ = writeln!(
-                text,
-                "the area of {name} is known to {} only: the work allowed is done",
-                numbers::percent(share)
-            );
+            say!(text, "the area of {name} is known to {} only: the work allowed is done", numbers::percent(share));
         }
     }
     for &[from, to] in &found.open {
         let why = "the mechanism is singular there, or the work allowed is done";
-        let _ = writeln!(text, "not proven from {} to {} deg: {why}", degrees(from), degrees(to));
+        say!(text, "not proven from {} to {} deg: {why}", degrees(from), degrees(to));
     }
     let said = |text: &mut String, what: &str, (pair, meeting): (&PairClearance, Meeting)| {
         let ([one, two], crank) = (names(asked, pair), degrees(meeting.cranks[1]));
-        let _ = writeln!(text, "{what}: {one} and {two} at crank angle {crank} deg, place {} mm", place(meeting.place));
+        say!(text, "{what}: {one} and {two} at crank angle {crank} deg, place {} mm", place(meeting.place));
     };
     if let Some(first) = found.first_collision() {
         said(&mut text, "first collision", first);
@@ -120,11 +107,10 @@ pub(crate) fn text(scenario: &Scenario, asked: &Question, found: &Clearance) -> 
     if let (Some(wanted), Some(first)) = (asked.wanted, found.first_too_near()) {
         said(&mut text, &format!("first nearer than the {} mm wanted", millimetres(wanted)), first);
     }
-    let work = found.work;
-    let _ = writeln!(
+    let (word, work) = (standing(found).word(), found.work);
+    say!(
         text,
-        "{}: {} poses and {} distances of convex parts; for areas {} poses and {} tests of squares\n",
-        standing(found).word(),
+        "{word}: {} poses and {} distances of convex parts; for areas {} poses and {} tests of squares\n",
         work.poses,
         work.distances,
         work.positions,
@@ -199,17 +185,13 @@ pub(crate) fn json(scenarios: Vec<Value>) -> String {
 /// Distances of all pairs at the instants of a grid, as CSV with 17 significant digits.
 ///
 /// # Errors
-/// [`ErrorKind::Io`] if the table cannot be written.
+/// [`ErrorKind::Io`](linkage::ErrorKind::Io) if the table cannot be written.
 pub(crate) fn distances(asked: &Question, times: &[f64], course: &Course) -> Result<String> {
-    let failed = |error: csv::Error| Error::new(ErrorKind::Io, format!("the table cannot be written: {error}"));
-    let mut writer = csv::Writer::from_writer(Vec::new());
     let name = |&[a, b]: &[usize; 2]| format!("{}.{}.distance_m", asked.bodies[a].name, asked.bodies[b].name);
     let header = ["t_s", "crank_rad"].map(String::from).into_iter().chain(asked.pairs.iter().map(name));
-    writer.write_record(header).map_err(failed)?;
-    for ((t, crank), row) in times.iter().zip(&course.cranks).zip(&course.rows) {
+    let rows = times.iter().zip(&course.cranks).zip(&course.rows).map(|((t, crank), row)| {
         let values = [*t, *crank].into_iter().chain(row.iter().copied());
-        writer.write_record(values.map(|value| format!("{value:.16e}"))).map_err(failed)?;
-    }
-    let bytes = writer.into_inner().map_err(|error| failed(error.into_error().into()))?;
-    Ok(String::from_utf8(bytes).expect("names and numbers are text"))
+        values.map(|value| format!("{value:.16e}")).collect()
+    });
+    csv([header.collect::<Vec<_>>()].into_iter().chain(rows))
 }

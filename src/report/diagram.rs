@@ -1,7 +1,5 @@
 //! Velocity and acceleration by the chord method, and their errors.
 
-use std::fmt::Write;
-
 use serde_json::json;
 
 use super::pretty::pretty;
@@ -13,32 +11,24 @@ use scenario::Scenario;
 /// The diagram as text: the largest and the mean error of every method.
 pub(crate) fn text(scenario: &Scenario, diagram: &MotionDiagram) -> String {
     let mut text = String::new();
-    let _ =
-        writeln!(text, "{}: {} over one turn in {} divisions", scenario.name, diagram.course.0[0], diagram.divisions);
+    say!(text, "{}: {} over one turn in {} divisions", scenario.name, diagram.course.0[0], diagram.divisions);
     for (which, channel) in diagram.course.0.iter().enumerate() {
         let half = significant(diagram.half_range(which));
-        let _ = writeln!(text, "  {:28} half range {half:>10} {}", channel.to_string(), channel.kind.unit);
+        say!(text, "  {:28} half range {half:>10} {}", channel.to_string(), channel.kind.unit);
     }
     let header = ["largest error", "rms", "of half range", "order", "order"];
     let [largest, rms, share, first, second] = header;
-    let _ = writeln!(text, "\n  {:34} {largest:>20} {rms:>20} {share:>14} {first:>6} {second:>6}", "method");
+    say!(text, "\n  {:34} {largest:>20} {rms:>20} {share:>14} {first:>6} {second:>6}", "method");
     for found in &diagram.found {
         let unit = diagram.course.0[found.method.gives()].kind.unit.symbol();
         let [first, second] =
             found.orders.map(|order| order.map_or_else(|| "-".into(), |order| numbers::fixed(order, 2)));
         let with = |value: f64| format!("{} {unit}", significant(value));
-        let _ = writeln!(
-            text,
-            "  {:34} {:>20} {:>20} {:>12.3} % {first:>6} {second:>6}",
-            found.method.words(),
-            with(found.largest),
-            with(found.rms),
-            found.share * 100.0
-        );
+        let ([largest, rms], share) = ([found.largest, found.rms].map(with), 100.0 * found.share);
+        say!(text, "  {:34} {largest:>20} {rms:>20} {share:>12.3} % {first:>6} {second:>6}", found.method.words());
     }
     let n = diagram.divisions;
-    let _ =
-        writeln!(text, "\norders: of the rms error, from {n} to {} and from {} to {} divisions", 2 * n, 2 * n, 4 * n);
+    say!(text, "\norders: of the rms error, from {n} to {} and from {} to {} divisions", 2 * n, 2 * n, 4 * n);
     text
 }
 
@@ -51,8 +41,7 @@ pub(crate) fn points(diagram: &MotionDiagram) -> String {
         for (&row, value) in found.rows.iter().zip(&found.values) {
             let numbers = [diagram.cranks[row], diagram.times[row], *value, diagram.exact[which][row]];
             let numbers = numbers.map(|number| format!("{number:.16e}")).join(",");
-            let _ =
-                writeln!(text, "{},{},{numbers}", found.method.words(), quoted(&diagram.course.0[which].to_string()));
+            say!(text, "{},{},{numbers}", found.method.words(), quoted(&diagram.course.0[which].to_string()));
         }
     }
     text

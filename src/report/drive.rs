@@ -1,7 +1,5 @@
 //! A mechanism reduced to its crank, its steady motion under its motor, its flywheel.
 
-use std::fmt::Write;
-
 use serde_json::{Value, json};
 
 use super::pretty::pretty;
@@ -35,50 +33,48 @@ pub(crate) struct Found {
 
 /// The drive as text; with `by_angle` also the table by crank angle.
 pub(crate) fn text(scenario: &Scenario, found: &Found, by_angle: bool) -> String {
-    let mut text = String::new();
-    let _ = writeln!(text, "{}: {}\n", scenario.name, scenario.title);
+    let mut text = format!("{}: {}\n\n", scenario.name, scenario.title);
     let names = [("reduced moment of inertia", "kg m^2"), ("reduced moment of resistance", "N m")];
     let means = [found.means.inertia, found.means.resistance * scenario.case.crank().sense()];
     for (((name, unit), mean), extremes) in names.into_iter().zip(means).zip(&found.extremes) {
         let end = |(crank, value): (f64, f64)| {
             format!("{} at {}", fixed_in(value, 9, unit), fixed_in(crank.to_degrees(), 4, "deg"))
         };
-        let _ = writeln!(text, "{name}\n  mean      {}", fixed_in(mean, 9, unit));
-        let _ = writeln!(text, "  least     {}\n  greatest  {}", end(extremes.least), end(extremes.greatest));
+        say!(text, "{name}\n  mean      {}", fixed_in(mean, 9, unit));
+        say!(text, "  least     {}\n  greatest  {}", end(extremes.least), end(extremes.greatest));
     }
     if found.added > 0.0 {
-        let _ = writeln!(text, "motor and reducer on the crank\n  inertia   {:.9} kg m^2", found.added);
+        say!(text, "motor and reducer on the crank\n  inertia   {:.9} kg m^2", found.added);
     }
     match &found.steady {
         None => text.push_str("no motor: add a `[motor]` section to learn the steady motion\n"),
         Some(([crank, motor], regime)) => {
-            let _ = writeln!(text, "averaged model\n  crank     {crank:.6} rad/s\n  motor     {motor:.6} rad/s");
+            say!(text, "averaged model\n  crank     {crank:.6} rad/s\n  motor     {motor:.6} rad/s");
             match &found.averaged {
                 Some(averaged) => {
-                    let _ = writeln!(text, "  time constant {:.9} s", averaged.time_constant);
+                    say!(text, "  time constant {:.9} s", averaged.time_constant);
                 }
                 None => text.push_str("  time constant: none, the motor's law is not one straight line from rest on\n"),
             }
-            let _ = writeln!(text, "steady motion\n{}", of_regime(regime));
+            say!(text, "steady motion\n{}", of_regime(regime));
         }
     }
     if let Some((wanted, flywheel)) = &found.flywheel {
-        let _ = writeln!(text, "flywheel for a non-uniformity of {wanted}\n  inertia   {:.9} kg m^2", flywheel.inertia);
-        let _ = writeln!(text, "{}", of_regime(&flywheel.regime));
+        say!(text, "flywheel for a non-uniformity of {wanted}\n  inertia   {:.9} kg m^2", flywheel.inertia);
+        say!(text, "{}", of_regime(&flywheel.regime));
     }
     if by_angle {
-        let _ = writeln!(text, "\n{}", angles(found));
+        say!(text, "\n{}", angles(found));
     }
     text
 }
 
 fn of_regime(regime: &Regime) -> String {
     let at = |at: &At| format!("{} at {}", fixed_in(at.omega, 9, "rad/s"), fixed_in(at.crank.to_degrees(), 4, "deg"));
-    let mut text = String::new();
-    let _ = writeln!(text, "  mean      {:.10} rad/s, period {:.13} s", regime.mean_speed, regime.period);
-    let _ = writeln!(text, "  at start  {:.10} rad/s", regime.start_speed);
-    let _ = writeln!(text, "  slowest   {}\n  fastest   {}", at(&regime.slowest), at(&regime.fastest));
-    let _ = write!(text, "  non-uniformity {:.6}", regime.non_uniformity());
+    let mut text = format!("  mean      {:.10} rad/s, period {:.13} s\n", regime.mean_speed, regime.period);
+    say!(text, "  at start  {:.10} rad/s", regime.start_speed);
+    say!(text, "  slowest   {}\n  fastest   {}", at(&regime.slowest), at(&regime.fastest));
+    put!(text, "  non-uniformity {:.6}", regime.non_uniformity());
     text
 }
 

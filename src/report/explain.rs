@@ -1,7 +1,5 @@
 //! What a proof has done, how often and why, and what it did not need.
 
-use std::fmt::Write;
-
 use linkage::case::{Case, LeftOut};
 use linkage::trajectory::Stage;
 use linkage::work::Work;
@@ -11,20 +9,19 @@ use prover::proof::{Entry, Proof};
 #[must_use]
 pub fn text(proof: &Proof, further: &[Entry]) -> String {
     let case = &proof.scene.case;
-    let mut text = String::new();
-    let _ = writeln!(text, "{}: what ran, how often, and why", proof.scenario);
-    let _ = writeln!(text, "asked      {}", asked(case));
-    let _ = writeln!(text, "left out   {}\n", left_out(&proof.scene.left_out));
+    let mut text = format!("{}: what ran, how often, and why\n", proof.scenario);
+    say!(text, "asked      {}", asked(case));
+    say!(text, "left out   {}\n", left_out(&proof.scene.left_out));
     let entries = || proof.work.iter().chain(further);
-    let _ = writeln!(text, "Ran:");
+    say!(text, "Ran:");
     for entry in entries() {
         if let Some(work) = &entry.work {
-            let _ = writeln!(text, "  {}: {}\n      {}", entry.part, entry.why, counts(work));
+            say!(text, "  {}: {}\n      {}", entry.part, entry.why, counts(work));
         }
     }
-    let _ = writeln!(text, "Skipped:");
+    say!(text, "Skipped:");
     for (part, why) in skipped(case, entries()) {
-        let _ = writeln!(text, "  {part}: {why}");
+        say!(text, "  {part}: {why}");
     }
     text
 }

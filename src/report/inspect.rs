@@ -1,7 +1,5 @@
 //! The structure of a mechanism: links, joints, mobility, driving link and Assur groups.
 
-use std::fmt::Write;
-
 use serde_json::{Value, json};
 
 use super::pretty::pretty;
@@ -21,49 +19,43 @@ pub(crate) fn text(scenario: &Scenario) -> String {
     let case = &scenario.case;
     let (mechanism, structure) = (&case.mechanism, &case.structure);
     let (links, joints) = (mechanism.links().len() - 1, mechanism.joints().len());
-    let mut text = String::new();
-    let _ = writeln!(text, "{}: {}", scenario.name, scenario.title);
+    let mut text = format!("{}: {}\n", scenario.name, scenario.title);
     if let Some(source) = &scenario.source {
-        let _ = writeln!(text, "source     {source}");
+        say!(text, "source     {source}");
     }
-    let _ = writeln!(text, "mobility   W = 3*{links} - 2*{joints} = {}", structure.mobility);
-    let _ = writeln!(text, "structure  {}\n\nlinks", structure.formula(mechanism));
+    say!(text, "mobility   W = 3*{links} - 2*{joints} = {}", structure.mobility);
+    say!(text, "structure  {}\n\nlinks", structure.formula(mechanism));
     for (index, (link, pose)) in mechanism.links().iter().zip(&case.start.0).enumerate() {
         let points: Vec<&str> = link.points.iter().map(|point| point.name.as_str()).collect();
         let body = if index == GROUND {
             "fixed".to_string()
         } else {
             let at = format!("at {}", fixed_in(pose.angle.to_degrees(), 3, "deg"));
+            let [mass, inertia] = [link.mass, link.inertia].map(|value| significant(value, SHOWN));
             if link.mass == 0.0 {
                 format!("massless, {at}")
             } else {
-                {
-                    let [mass, inertia] = [link.mass, link.inertia].map(|value| significant(value, SHOWN));
-                    format!("m = {mass} kg, J = {inertia} kg m^2, {at}")
-                }
+                format!("m = {mass} kg, J = {inertia} kg m^2, {at}")
             }
         };
-        let _ = writeln!(text, "  {:14} points {:14} {body}", link.name, points.join(" "));
+        say!(text, "  {:14} points {:14} {body}", link.name, points.join(" "));
     }
-    let _ = writeln!(text, "\njoints");
+    say!(text, "\njoints");
     for joint in mechanism.joints() {
         let [first, second] = ends(mechanism, joint);
         let driven = if joint.name == mechanism.joints()[case.crank().joint].name { ", driven" } else { "" };
-        let _ = writeln!(text, "  {:14} {}, {first} - {second}{driven}", joint.name, joint.kind.name());
+        say!(text, "  {:14} {}, {first} - {second}{driven}", joint.name, joint.kind.name());
     }
-    let _ = writeln!(text, "\ngroups at the start (crank {})", fixed_in(case.crank().start.to_degrees(), 3, "deg"));
+    say!(text, "\ngroups at the start (crank {})", fixed_in(case.crank().start.to_degrees(), 3, "deg"));
     for ((group, &mode), choice) in structure.groups.iter().zip(&case.modes).zip(&scenario.choices) {
         let transmission = transmission_sine(mechanism, group, &case.start)
             .map_or_else(String::new, |sine| format!(", transmission angle {:.2} deg", sine.abs().asin().to_degrees()));
-        let _ = writeln!(
+        let (class, order, pairs, mode, from) =
+            (group.class, group.order(), group.pairs(), mode.name(), from_rough_place(choice));
+        say!(
             text,
-            "  {:28} class {}, order {}, {}, mode {}{transmission}{}",
-            group.names(mechanism),
-            group.class,
-            group.order(),
-            group.pairs(),
-            mode.name(),
-            from_rough_place(choice)
+            "  {:28} class {class}, order {order}, {pairs}, mode {mode}{transmission}{from}",
+            group.names(mechanism)
         );
     }
     text

@@ -12,24 +12,18 @@ use linkage::math::KeepNan;
 use prover::numbers::significant;
 use recording::{Kind, Reel, Told};
 
-/// A name of the protocol. Viewers offer the names that they know.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Dialect {
-    /// Current Foxglove.
-    Sdk,
-    /// Lichtblick, and the open-source Foxglove Studio.
-    WebSocket,
+linkage::words! {
+    /// A name of the protocol. Viewers offer the names that they know.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub(crate) enum Dialect: name {
+        /// Current Foxglove.
+        Sdk = "foxglove.sdk.v1",
+        /// Lichtblick, and the open-source Foxglove Studio.
+        WebSocket = "foxglove.websocket.v1",
+    }
 }
 
 impl Dialect {
-    /// The name in the handshake.
-    pub(crate) fn name(self) -> &'static str {
-        match self {
-            Dialect::Sdk => "foxglove.sdk.v1",
-            Dialect::WebSocket => "foxglove.websocket.v1",
-        }
-    }
-
     /// The best of the names that a viewer offers, separated by commas.
     pub(crate) fn of(offered: &str) -> Option<Dialect> {
         let is_offered = |own: &Dialect| offered.split(',').any(|name| name.trim() == own.name());

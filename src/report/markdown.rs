@@ -1,8 +1,7 @@
 //! Outcomes as Markdown: the comment to a pull request. The verdict first, then what stands in its way.
 
-use std::fmt::Write;
-
 use super::outcomes::{Entry, Outcome, Outcomes};
+use crate::plain::cells::marked;
 
 /// Reasons that are written out for one scenario; the others are counted.
 const REASONS: usize = 10;
@@ -18,20 +17,21 @@ pub fn text(outcomes: &Outcomes) -> String {
         parts.into_iter().filter(|(count, _)| *count > 0).map(|(count, word)| format!("{count} {word}")).collect();
     let plural = if entries.len() == 1 { "" } else { "s" };
     let mut text = format!("**linkproof**: {} {}{plural}, {}\n\n", entries.len(), outcomes.noun, parts.join(", "));
-    let _ = write!(text, "| {} ", outcomes.noun);
+    put!(text, "| {} ", outcomes.noun);
     text += "| verdict | agree | expected | disagree | open |\n|---|---|---|---|---|---|\n";
     for entry in entries {
-        let of = |is: fn(&Outcome) -> bool| entry.cases.iter().filter(|case| is(&case.outcome)).count();
-        let _ = writeln!(
-            text,
-            "| {} | {} | {} | {} | {} | {} |",
-            cell(&entry.name),
-            if entry.verdict == "agree" { "agree".into() } else { format!("**{}**", entry.verdict) },
-            of(|outcome| *outcome == Outcome::Agrees),
-            of(|outcome| matches!(outcome, Outcome::Expected(_))),
-            of(|outcome| matches!(outcome, Outcome::Disagrees(_))),
-            of(|outcome| matches!(outcome, Outcome::Open(_))),
-        );
+        let mut counts = [0; 4];
+        for case in &entry.cases {
+            counts[match case.outcome {
+                Outcome::Agrees => 0,
+                Outcome::Expected(_) => 1,
+                Outcome::Disagrees(_) => 2,
+                Outcome::Open(_) => 3,
+            }] += 1;
+        }
+        let verdict = if entry.verdict == "agree" { "agree".into() } else { format!("**{}**", entry.verdict) };
+        let counts = counts.map(|count| count.to_string());
+        say!(text, "{}", marked(&[&[cell(&entry.name), verdict], &counts[..]].concat()));
     }
     for entry in entries {
         reasons(entry, &mut text);
@@ -54,15 +54,15 @@ fn reasons(entry: &Entry, text: &mut String) {
         return;
     }
     let title = if entry.title.is_empty() { String::new() } else { format!(": {}", line(&entry.title)) };
-    let _ = writeln!(text, "\n### {}{title}\n", line(&entry.name));
+    say!(text, "\n### {}{title}\n", line(&entry.name));
     if let Some(error) = &entry.error {
-        let _ = writeln!(text, "- {}", line(error));
+        say!(text, "- {}", line(error));
     }
     for (case, reason) in all.iter().take(REASONS) {
-        let _ = writeln!(text, "- `{}` ({}): {}", case.name, case.by, line(reason));
+        say!(text, "- `{}` ({}): {}", case.name, case.by, line(reason));
     }
     if all.len() > REASONS {
-        let _ = writeln!(text, "- ... and {} more", all.len() - REASONS);
+        say!(text, "- ... and {} more", all.len() - REASONS);
     }
 }
 

@@ -1,7 +1,5 @@
 //! All real configurations of the groups at one crank angle.
 
-use std::fmt::Write;
-
 use serde_json::{Value, json};
 
 use analytic::modes::Modes;
@@ -34,25 +32,24 @@ fn open<'a>(scenario: &Scenario, all: &[Modes], undecided: &'a [Undecided], inde
 /// The configurations as text. `undecided`: groups for which the scenario does not decide.
 pub(crate) fn text(scenario: &Scenario, crank: f64, all: &[Modes], undecided: &[Undecided]) -> String {
     let mechanism = &scenario.case.mechanism;
-    let mut text = String::new();
-    let _ = writeln!(text, "{} at crank angle {}", scenario.name, fixed_in(crank.to_degrees(), 4, "deg"));
+    let mut text = format!("{} at crank angle {}\n", scenario.name, fixed_in(crank.to_degrees(), 4, "deg"));
     for (index, (group, found)) in scenario.case.structure.groups.iter().zip(all).enumerate() {
         let names = group.names(mechanism);
         let open = open(scenario, all, undecided, index);
-        let _ = match &found.unknown {
-            None => writeln!(text, "\n{names}: {} real configurations", found.modes.len()),
-            Some(why) => writeln!(text, "\n{names}: only the followed one is shown; {why}"),
+        match &found.unknown {
+            None => say!(text, "\n{names}: {} real configurations", found.modes.len()),
+            Some(why) => say!(text, "\n{names}: only the followed one is shown; {why}"),
         };
-        let _ = match &open {
-            None => Ok(()),
-            Some(Open::Undecided(why)) => writeln!(text, "  not decided by the scenario: {why}"),
-            Some(Open::After(names, number)) => writeln!(text, "  for configuration {number} of {names}"),
+        match &open {
+            None => {}
+            Some(Open::Undecided(why)) => say!(text, "  not decided by the scenario: {why}"),
+            Some(Open::After(names, number)) => say!(text, "  for configuration {number} of {names}"),
         };
         for (number, mode) in found.modes.iter().enumerate() {
             let name =
                 if mode.mode == AssemblyMode::Followed { String::new() } else { format!(", {}", mode.mode.name()) };
             let followed = if mode.is_followed && open.is_none() { ", followed by the scenario" } else { "" };
-            let _ = writeln!(text, "  {}{name}{followed}", number + 1);
+            say!(text, "  {}{name}{followed}", number + 1);
             for (k, (&link, pose)) in group.links.iter().zip(&mode.poses).enumerate() {
                 let omega = mode
                     .omegas
@@ -65,7 +62,7 @@ pub(crate) fn text(scenario: &Scenario, crank: f64, all: &[Modes], undecided: &[
                 });
                 let points: Vec<String> = points.collect();
                 let angle = fixed(pose.angle.to_degrees(), 5);
-                let _ = writeln!(text, "    {:14} {angle:>11} deg {omega:<18}   {} m", link.name, points.join(", "));
+                say!(text, "    {:14} {angle:>11} deg {omega:<18}   {} m", link.name, points.join(", "));
             }
         }
     }

@@ -1,7 +1,6 @@
 //! A motor chosen from a catalogue.
 
 use std::f64::consts::TAU;
-use std::fmt::Write;
 
 use serde_json::json;
 
@@ -27,64 +26,38 @@ fn line(choice: &Choice) -> [f64; 2] {
 pub(crate) fn text(scenario: &Scenario, choice: &Choice) -> String {
     let (motor, geared) = (&choice.motor, &choice.geared);
     let [at_rest, slope] = line(choice);
-    let mut text = String::new();
-    let _ = writeln!(text, "{}: {}\n", scenario.name, scenario.title);
-    let _ = writeln!(
+    let mut text = format!("{}: {}\n\n", scenario.name, scenario.title);
+    let (at, peak) = (fixed_in(choice.peak.0.to_degrees(), 4, "deg"), choice.peak.1);
+    let ([power, asked], wanted) = ([choice.power, choice.asked].map(|own| own / 1e3), choice.wanted);
+    say!(text, "power\n  peak      {peak:.6} N m at {at}, times {wanted:.6} rad/s: {power:.6} kW");
+    say!(text, "  asked     {asked:.6} kW with an efficiency of {}", geared.efficiency);
+    let [rated, synchronous, turning] = [motor.rated_speed, motor.synchronous_speed, wanted].map(rpm);
+    let (name, kilowatts, torque) = (&motor.name, motor.power / 1e3, motor.rated_torque());
+    say!(
         text,
-        "power\n  peak      {:.6} N m at {}, times {:.6} rad/s: {:.6} kW\n  asked     {:.6} kW with an efficiency of {}",
-        choice.peak.1,
-        fixed_in(choice.peak.0.to_degrees(), 4, "deg"),
-        choice.wanted,
-        choice.power / 1e3,
-        choice.asked / 1e3,
-        geared.efficiency
+        "motor\n  {name}: {kilowatts} kW, {rated:.0} rpm, synchronous {synchronous:.0} rpm, rated torque {torque:.4} N m"
     );
-    let _ = writeln!(
-        text,
-        "motor\n  {}: {} kW, {:.0} rpm, synchronous {:.0} rpm, rated torque {:.4} N m\n  ratio     {:.6} ({:.0} rpm to {:.4} rpm)",
-        motor.name,
-        motor.power / 1e3,
-        rpm(motor.rated_speed),
-        rpm(motor.synchronous_speed),
-        motor.rated_torque(),
-        geared.ratio,
-        rpm(motor.rated_speed),
-        rpm(choice.wanted)
-    );
+    say!(text, "  ratio     {:.6} ({rated:.0} rpm to {turning:.4} rpm)", geared.ratio);
     let share = |torque: f64| torque / motor.rated_torque();
-    let _ = writeln!(
-        text,
-        "on the motor's shaft\n  mean      {:.4} N m, {:.3} of the rated torque\n  peak      {:.4} N m, {:.3} of it, without what inertia carries",
-        choice.mean_torque(),
-        share(choice.mean_torque()),
-        choice.peak_torque(),
-        share(choice.peak_torque())
-    );
+    let [mean, peak] = [choice.mean_torque(), choice.peak_torque()];
+    say!(text, "on the motor's shaft\n  mean      {mean:.4} N m, {:.3} of the rated torque", share(mean));
+    say!(text, "  peak      {peak:.4} N m, {:.3} of it, without what inertia carries", share(peak));
     if let Some(breakdown) = motor.breakdown {
         let holds = if share(choice.peak_torque()) < breakdown { "above the peak" } else { "BELOW THE PEAK" };
-        let _ = writeln!(text, "  breakdown {:.4} N m, {breakdown} of it: {holds}", breakdown * motor.rated_torque());
+        say!(text, "  breakdown {:.4} N m, {breakdown} of it: {holds}", breakdown * motor.rated_torque());
     }
     let off = |omega: f64| 100.0 * (omega / choice.wanted - 1.0);
     let mean = choice.regime.mean_speed.abs();
-    let _ = writeln!(
+    let (averaged, geared_up) = (choice.averaged, choice.averaged * geared.ratio);
+    let [off_averaged, off_mean, unrest] = [off(averaged), off(mean), choice.regime.non_uniformity()];
+    say!(
         text,
-        "steady speed\n  averaged  crank {:.6} rad/s ({:+.2} % of the wanted), motor {:.4} rad/s\n  periodic  crank {mean:.6} rad/s ({:+.2} %), \
-         non-uniformity {:.4}",
-        choice.averaged,
-        off(choice.averaged),
-        choice.averaged * geared.ratio,
-        off(mean),
-        choice.regime.non_uniformity()
+        "steady speed\n  averaged  crank {averaged:.6} rad/s ({off_averaged:+.2} % of the wanted), motor {geared_up:.4} rad/s"
     );
-    let _ = writeln!(
-        text,
-        "\nFor the scenario:\n\n[motor] # {}, {} kW, {:.0} rpm\nlaw = \"linear\"\ntorque_at_rest_N_m = {at_rest:?}\nslope_N_m_s = {slope:?}\nratio = {:?}\nefficiency = {:?}",
-        motor.name,
-        motor.power / 1e3,
-        rpm(motor.rated_speed),
-        geared.ratio,
-        geared.efficiency
-    );
+    say!(text, "  periodic  crank {mean:.6} rad/s ({off_mean:+.2} %), non-uniformity {unrest:.4}");
+    say!(text, "\nFor the scenario:\n\n[motor] # {name}, {kilowatts} kW, {rated:.0} rpm\nlaw = \"linear\"");
+    say!(text, "torque_at_rest_N_m = {at_rest:?}\nslope_N_m_s = {slope:?}");
+    say!(text, "ratio = {:?}\nefficiency = {:?}", geared.ratio, geared.efficiency);
     text
 }
 

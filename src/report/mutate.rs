@@ -1,37 +1,32 @@
 //! Planted faults: which were found, by what, and which escape.
 
-use std::fmt::Write;
-
 use serde_json::{Value, json};
 
 use super::pretty::pretty;
-use crate::plain::cells::{table, trimmed};
+use crate::plain::cells::{marked, table, trimmed};
+
 use lab::mutate::{End, Kind, Mutant, Mutated, Outcome, Party, Share, Sight, Spoiled, Tally, all, tally};
 use linkage::math::KeepNan;
 
 /// The result as text, the verdict first.
 pub(crate) fn text(found: &[Mutated]) -> String {
     let tally = tally(found);
-    let mut text = String::new();
-    let _ = writeln!(text, "{}\n", headline(&tally));
+    let mut text = format!("{}\n\n", headline(&tally));
     for one in found.iter().filter(|one| !one.instead.is_empty()) {
         let (name, instead) = (&one.scenario, one.instead.join(", "));
         let formulas = if one.formulas == 0 { "; no formula of it claims an exact value" } else { "" };
-        let _ = writeln!(
-            text,
-            "{name}: no fault of the kinds asked for changes anything; kinds that would: {instead}{formulas}\n"
-        );
+        say!(text, "{name}: no fault of the kinds asked for changes anything; kinds that would: {instead}{formulas}\n");
     }
-    let _ = writeln!(text, "{}\n", scenarios(found));
-    let _ = writeln!(text, "{}\n", kinds(found));
-    let _ = writeln!(text, "{LEGEND}\n");
+    say!(text, "{}\n", scenarios(found));
+    say!(text, "{}\n", kinds(found));
+    say!(text, "{LEGEND}\n");
     for (title, lines) in [("Not found in one party:", not_found(found)), ("Open in the trunk:", open(&tally))] {
         if !lines.is_empty() {
-            let _ = writeln!(text, "{title}");
+            say!(text, "{title}");
             lines.iter().for_each(|line| {
-                let _ = writeln!(text, "  {line}");
+                say!(text, "  {line}");
             });
-            let _ = writeln!(text);
+            text.push('\n');
         }
     }
     text
@@ -56,39 +51,25 @@ fn headline(tally: &Tally) -> String {
     };
     let mut line = format!("{word}  {} kinds", kinds.len());
     if *planted != Share::default() || *formulas == Share::default() {
-        let _ = write!(
-            line,
-            "; {} of {} faults in one party found ({}), {} inconclusive, {} escaped; {} change nothing",
-            planted.found(),
-            planted.real(),
-            percent(planted.found(), planted.real()),
-            planted.inconclusive,
-            planted.escaped,
-            planted.equivalent,
-        );
+        put!(line, "; {}", of_share(planted, "faults in one party"));
     }
     if !trunk_kinds.is_empty() {
-        let _ = write!(
-            line,
-            "; in the trunk {} of {} kinds are found from outside ({})",
-            trunk_found.len(),
-            trunk_kinds.len(),
-            percent(trunk_found.len(), trunk_kinds.len())
-        );
+        let [found, all] = [trunk_found.len(), trunk_kinds.len()];
+        put!(line, "; in the trunk {found} of {all} kinds are found from outside ({})", percent(found, all));
     }
     if *formulas != Share::default() {
-        let _ = write!(
-            line,
-            "\nformulas: {} of {} mistakes found ({}), {} inconclusive, {} escaped; {} change nothing",
-            formulas.found(),
-            formulas.real(),
-            percent(formulas.found(), formulas.real()),
-            formulas.inconclusive,
-            formulas.escaped,
-            formulas.equivalent,
-        );
+        put!(line, "\nformulas: {}", of_share(formulas, "mistakes"));
     }
     line
+}
+
+/// What came of faults, or of mistakes.
+fn of_share(share: &Share, what: &str) -> String {
+    let Share { inconclusive, escaped, equivalent, .. } = share;
+    let ([found, real], part) = ([share.found(), share.real()], percent(share.found(), share.real()));
+    format!(
+        "{found} of {real} {what} found ({part}), {inconclusive} inconclusive, {escaped} escaped; {equivalent} change nothing"
+    )
 }
 
 fn percent(part: usize, whole: usize) -> String {
@@ -112,24 +93,16 @@ fn scenarios(found: &[Mutated]) -> String {
     let mut table = table(header, &[2, 3, 4, 5, 6, 7, 8, 9, 10]);
     for one in found {
         let Tally { planted, trunk, formulas, .. } = tally(std::slice::from_ref(one));
-        table.add_row([
-            one.scenario.clone(),
-            one.verdict.to_string(),
-            planted.real().to_string(),
-            planted.found().to_string(),
-            planted.inconclusive.to_string(),
-            planted.escaped.to_string(),
-            planted.equivalent.to_string(),
-            trunk.real().to_string(),
-            trunk.found().to_string(),
-            formulas.real().to_string(),
-            formulas.found().to_string(),
-        ]);
+        let Share { inconclusive, escaped, equivalent, .. } = planted;
+        let of_trunk = [trunk.real(), trunk.found(), formulas.real(), formulas.found()];
+        let counts = [planted.real(), planted.found(), inconclusive, escaped, equivalent].into_iter().chain(of_trunk);
+        table.add_row([one.scenario.clone(), one.verdict.to_string()].into_iter().chain(counts.map(|n| n.to_string())));
     }
     trimmed(&table)
 }
 
 /// What came of one kind in all scenarios.
+#[derive(Default)]
 struct OfKind {
     sides: Share,
     engine: Share,
@@ -146,14 +119,7 @@ fn of_kind(found: &[Mutated], kind: &Kind) -> Option<OfKind> {
     if own.is_empty() {
         return None;
     }
-    let mut all = OfKind {
-        sides: Share::default(),
-        engine: Share::default(),
-        trunk: Share::default(),
-        formulas: Share::default(),
-        margin: f64::INFINITY,
-        size: [None; 2],
-    };
+    let mut all = OfKind { margin: f64::INFINITY, ..OfKind::default() };
     for mutant in own {
         let (share, size) = match mutant.party {
             Party::Assur | Party::Newton => (&mut all.sides, Some(&mut all.size[0])),
@@ -278,7 +244,7 @@ fn place(kind: &Kind) -> &'static str {
 pub fn kinds_markdown() -> String {
     let mut text = String::from("| kind | family | where | size | what is wrong |\n|---|---|---|---|---|\n");
     for kind in all() {
-        let _ = writeln!(text, "| {} |", described(kind).join(" | "));
+        say!(text, "{}", marked(&described(kind)));
     }
     text
 }
@@ -286,14 +252,14 @@ pub fn kinds_markdown() -> String {
 /// What came of all kinds as a table in Markdown, with the figures above it and what was not found below.
 pub(crate) fn markdown(found: &[Mutated]) -> String {
     let tally = tally(found);
-    let mut text = format!("{}.\n\n| {} |\n|{}\n", headline(&tally), KIND_HEADER.join(" | "), "---|".repeat(9));
+    let mut text = format!("{}.\n\n{}\n|{}\n", headline(&tally), marked(&KIND_HEADER), "---|".repeat(9));
     for (kind, own) in all().filter_map(|kind| Some((kind, of_kind(found, kind)?))) {
-        let _ = writeln!(text, "| {} |", cells(kind, &own).join(" | "));
+        say!(text, "{}", marked(&cells(kind, &own)));
     }
     for (title, lines) in [("Not found in one party:", not_found(found)), ("Open in the trunk:", open(&tally))] {
-        let _ = writeln!(text, "\n{title}\n");
+        say!(text, "\n{title}\n");
         lines.iter().for_each(|line| {
-            let _ = writeln!(text, "- {line}");
+            say!(text, "- {line}");
         });
     }
     text

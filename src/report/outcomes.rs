@@ -3,11 +3,13 @@
 use std::path::Path;
 
 use super::versus;
-use crate::plain::own_forces;
+use crate::plain::judged::{self, Judged, Sort};
 use crate::plain::tell::Tell;
 use linkage::error::{Advice, Error};
 use prover::compare::Verdict;
+
 use prover::proof::Proof;
+
 use prover::versus::{Comparison, Pair};
 
 /// One channel or check.
@@ -86,27 +88,12 @@ impl Outcomes {
 
     /// Adds a proof: every channel of every engine, and every check.
     pub fn add(&mut self, proof: &Proof) {
-        let mut cases = Vec::new();
-        let tell = self.tell;
-        let mut add = |by: &str, name: String, verdict: &Verdict| cases.push(Case::of(by, name, verdict, tell));
-        for check in &proof.checks {
-            add(SIDES, check.name(), &check.verdict);
-        }
-        for engine in &proof.engines {
-            let by = engine.info.name;
-            for channel in &engine.channels {
-                add(by, channel.residual.channel.to_string(), &channel.verdict);
-            }
-            for channel in engine.own_forces.iter().flat_map(|own| &own.channels) {
-                // Forces of an engine's own that prove nothing take nothing from the verdict.
-                if !matches!(channel.verdict, Verdict::Inconclusive { .. }) {
-                    add(by, own_forces::name(channel), &channel.verdict);
-                }
-            }
-            for check in &engine.checks {
-                add(by, check.name(), &check.verdict);
-            }
-        }
+        // Forces of an engine's own that prove nothing take nothing from the verdict.
+        let is_left_out =
+            |own: &Judged| own.sort == Sort::OwnForce && matches!(own.verdict, Verdict::Inconclusive { .. });
+        let judged = judged::of(proof).into_iter().filter(|own| !is_left_out(own));
+        let by = |own: &Judged| own.engine.map_or(SIDES, |engine| engine.info.name);
+        let cases = judged.map(|own| Case::of(by(&own), own.name, own.verdict, self.tell)).collect();
         let failures = proof.engines.iter().filter_map(|engine| engine.failure.as_ref());
         let error = failures.map(|error| error.message().to_string()).next();
         let (name, title) = (proof.scenario.clone(), proof.title.clone());

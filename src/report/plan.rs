@@ -1,7 +1,5 @@
 //! Velocity and acceleration plans at one crank angle.
 
-use std::fmt::Write;
-
 use serde_json::json;
 
 use super::pretty::pretty;
@@ -22,69 +20,47 @@ pub(crate) fn text(
     singular: &[Result<SingularPoint>],
     tell: Tell,
 ) -> String {
-    let mut text = String::new();
-    let _ = writeln!(text, "{} at crank angle {}", scenario.name, fixed_in(plans.crank.to_degrees(), 4, "deg"));
+    let mut text = format!("{} at crank angle {}\n", scenario.name, fixed_in(plans.crank.to_degrees(), 4, "deg"));
     if is_free {
         let speed = significant(scenario.case.crank().top_speed());
-        let _ = writeln!(
-            text,
-            "the motion is free: these plans are of the nominal motion, the crank turning at {speed} rad/s"
-        );
+        say!(text, "the motion is free: these plans are of the nominal motion, the crank turning at {speed} rad/s");
     }
-    let _ = writeln!(text, "kinematic diagram   mu_l = {} m/mm", plans.scheme.scale);
+    say!(text, "kinematic diagram   mu_l = {} m/mm", plans.scheme.scale);
     for link in &plans.scheme.links {
         let (omega, alpha) = (significant(link.omega), significant(link.alpha));
-        let _ =
-            writeln!(text, "  {} {:14} omega {omega:>10} rad/s   alpha {alpha:>10} rad/s^2", link.number, link.name);
+        say!(text, "  {} {:14} omega {omega:>10} rad/s   alpha {alpha:>10} rad/s^2", link.number, link.name);
     }
     for plan in [&plans.velocity, &plans.acceleration] {
         let (word, symbol, unit) = (plan.quantity.word(), plan.quantity.symbol(), plan.quantity.unit());
-        let _ =
-            writeln!(text, "\n{word} plan   pole {}, mu_{symbol} = {} ({unit})/mm", plan.quantity.pole(), plan.scale);
-        let _ = writeln!(
-            text,
-            "  {:10} {:10} {:>10} {:>11} {:>11} {:>8}  meaning",
-            "vector",
-            "from, to",
-            unit,
-            format!("x, {unit}"),
-            format!("y, {unit}"),
-            "mm"
-        );
+        say!(text, "\n{word} plan   pole {}, mu_{symbol} = {} ({unit})/mm", plan.quantity.pole(), plan.scale);
+        let [x, y] = ["x", "y"].map(|axis| format!("{axis}, {unit}"));
+        say!(text, "  vector     from, to   {unit:>10} {x:>11} {y:>11}       mm  meaning");
         for vector in &plan.vectors {
-            let _ = writeln!(
-                text,
-                "  {:10} {:10} {:>10} {:>11} {:>11} {:>8.2}  {}",
-                vector.name,
-                format!("{}, {}", vector.from, vector.to),
-                significant(vector.value.norm()),
-                significant(vector.value.x),
-                significant(vector.value.y),
-                plan.paper(vector),
-                vector.meaning
-            );
+            let (ends, value) = (format!("{}, {}", vector.from, vector.to), vector.value);
+            let [size, x, y] = [value.norm(), value.x, value.y].map(significant);
+            let (name, paper, meaning) = (&vector.name, plan.paper(vector), &vector.meaning);
+            say!(text, "  {name:10} {ends:10} {size:>10} {x:>11} {y:>11} {paper:>8.2}  {meaning}");
         }
     }
     for found in singular {
-        let _ = match found {
+        match found {
             Ok(point) => singular_text(&mut text, &scenario.case, point),
-            Err(error) => writeln!(text, "\nsingular point: {}", error.line_by(tell)),
+            Err(error) => say!(text, "\nsingular point: {}", error.line_by(tell)),
         };
     }
     text
 }
 
-fn singular_text(text: &mut String, case: &Case, point: &SingularPoint) -> std::fmt::Result {
+fn singular_text(text: &mut String, case: &Case, point: &SingularPoint) {
     let shown = |v: linkage::math::Vec2| format!("({}, {})", significant(v.x), significant(v.y));
-    writeln!(text, "\nsingular point of the class IV group   S = {} at {} m", point.lines(), shown(point.at))?;
-    writeln!(text, "  v_S {} m/s on both base links", shown(point.velocity))?;
+    say!(text, "\nsingular point of the class IV group   S = {} at {} m", point.lines(), shown(point.at));
+    say!(text, "  v_S {} m/s on both base links", shown(point.velocity));
     let [first, second] = point.accelerations;
-    writeln!(text, "  a_S {} m/s^2 on the first, {} m/s^2 on the second", shown(first), shown(second))?;
+    say!(text, "  a_S {} m/s^2 on the first, {} m/s^2 on the second", shown(first), shown(second));
     for (link, omega, alpha) in point.links {
         let (name, omega, alpha) = (&case.mechanism.links()[link].name, significant(omega), significant(alpha));
-        writeln!(text, "  {link} {name:14} omega {omega:>10} rad/s   alpha {alpha:>10} rad/s^2")?;
+        say!(text, "  {link} {name:14} omega {omega:>10} rad/s   alpha {alpha:>10} rad/s^2");
     }
-    Ok(())
 }
 
 /// The plans as JSON, schema 1. Arguments as in [`text`].

@@ -1,7 +1,6 @@
 //! How far a mechanism can be followed: limits, singular and extreme positions, transmission angles.
 
 use std::f64::consts::TAU;
-use std::fmt::Write;
 
 use serde_json::{Value, json};
 
@@ -15,20 +14,19 @@ const EXTREMES: usize = 8;
 
 /// The range as text.
 pub(crate) fn text(scenario: &Scenario, range: &Range) -> String {
-    let mut text = String::new();
-    let _ = writeln!(text, "{}: {}", scenario.name, scenario.title);
-    let _ = writeln!(text, "crank      {}", extent(range));
+    let mut text = format!("{}: {}\n", scenario.name, scenario.title);
+    say!(text, "crank      {}", extent(range));
     if let Some(four_bar) = &range.four_bar {
         let [frame, driver, coupler, output] = four_bar.lengths;
-        let _ = writeln!(text, "four-bar   {}", four_bar.of_type.name());
-        let _ = writeln!(
+        say!(text, "four-bar   {}", four_bar.of_type.name());
+        say!(
             text,
             "           frame {frame:.6} m, driving link {driver:.6} m, coupler {coupler:.6} m, output link {output:.6} m"
         );
     }
-    let _ = writeln!(text, "\n{}", singularities(scenario, range));
-    let _ = writeln!(text, "Groups, nearest to a singular pose:\n{}", groups(scenario, range));
-    let _ = writeln!(text, "\nLinks:\n{}", links(scenario, range));
+    say!(text, "\n{}", singularities(scenario, range));
+    say!(text, "Groups, nearest to a singular pose:\n{}", groups(scenario, range));
+    say!(text, "\nLinks:\n{}", links(scenario, range));
     text
 }
 
@@ -36,12 +34,11 @@ fn extent(range: &Range) -> String {
     match range.extent {
         Extent::FullTurn(1) => "turns fully".into(),
         Extent::FullTurn(turns) => format!("turns fully; the mechanism is back at its first pose after {turns} turns"),
-        Extent::Limited([from, to]) => format!(
-            "from {} to {} deg, {} deg in all",
-            degrees(from.crank, range),
-            degrees(to.crank, range),
-            numbers::fixed((to.crank - from.crank).to_degrees(), 6)
-        ),
+        Extent::Limited([from, to]) => {
+            let span = numbers::fixed((to.crank - from.crank).to_degrees(), 6);
+            let [from, to] = [from, to].map(|end| degrees(end.crank, range));
+            format!("from {from} to {to} deg, {span} deg in all")
+        }
     }
 }
 
@@ -90,14 +87,8 @@ fn groups(scenario: &Scenario, range: &Range) -> String {
             Some(worst) => (numbers::fixed(worst.value, 4), degrees(worst.crank, range)),
             None => ("without bound".into(), degrees(crank, range)),
         };
-        table.add_row([
-            names(scenario, index),
-            numbers::fixed(value, 6),
-            transmission,
-            degrees(crank, range),
-            condition,
-            at,
-        ]);
+        let (least, crank) = (numbers::fixed(value, 6), degrees(crank, range));
+        table.add_row([names(scenario, index), least, transmission, crank, condition, at]);
     }
     trimmed(&table)
 }
@@ -108,13 +99,8 @@ fn links(scenario: &Scenario, range: &Range) -> String {
         // For a link that rotates fully, the interval of its angle has no meaning.
         let end = |at: At| if link.turns == 0 { numbers::fixed(at.value.to_degrees(), 6) } else { "-".into() };
         let [least, most] = link.angles.map(end);
-        table.add_row([
-            scenario.case.mechanism.links()[link.link].name.clone(),
-            motion(link),
-            least,
-            most,
-            positions(&link.extremes, range),
-        ]);
+        let name = scenario.case.mechanism.links()[link.link].name.clone();
+        table.add_row([name, motion(link), least, most, positions(&link.extremes, range)]);
     }
     trimmed(&table)
 }

@@ -3,11 +3,13 @@
 use std::collections::BTreeMap;
 
 use super::json;
-use crate::plain::own_forces;
+use crate::plain::judged::{self, Sort};
 use crate::plain::tell::Tell;
 use linkage::math::KeepNan;
 use prover::compare::Verdict;
-use prover::proof::{ChannelProof, EngineProof, Proof};
+
+use prover::proof::{EngineProof, Proof};
+
 use recording::{Level, LogEntry};
 
 /// Versions, settings and verdict, by name.
@@ -55,20 +57,11 @@ pub(crate) fn log(proof: &Proof, tell: Tell) -> Vec<LogEntry> {
         level: level(&proof.verdict),
         text: format!("{}: {}", proof.scenario, proof.verdict.word()),
     }];
-    let named = |channel: &ChannelProof| channel.residual.channel.to_string();
-    let channels = proof.engines.iter().flat_map(|engine| &engine.channels).map(|own| (named(own), own));
-    let own_forces = proof.engines.iter().flat_map(|engine| &engine.own_forces).flat_map(|own| &own.channels);
-    for (name, channel) in channels.chain(own_forces.map(|own| (own_forces::name(own), own))) {
-        if let Some(why) = why(&channel.verdict) {
-            let text = format!("{name}: {why}");
-            log.push(LogEntry { time: channel.residual.worst_time, level: level(&channel.verdict), text });
-        }
-    }
-    for check in proof.all_checks() {
-        if let Some(why) = why(&check.verdict) {
-            let text = format!("{}: {why}", check.name());
-            log.push(LogEntry { time: start, level: level(&check.verdict), text });
-        }
-    }
+    let mut all = judged::of(proof);
+    all.sort_by_key(|own| [Sort::Channel, Sort::OwnForce, Sort::Check].iter().position(|sort| *sort == own.sort));
+    log.extend(all.into_iter().filter_map(|own| {
+        let text = format!("{}: {}", own.name, why(own.verdict)?);
+        Some(LogEntry { time: own.worst.unwrap_or(start), level: level(own.verdict), text })
+    }));
     log
 }

@@ -1,7 +1,5 @@
 //! How a run-up ended.
 
-use std::fmt::Write;
-
 use analytic::reduced::{End, RunUp};
 use prover::numbers;
 
@@ -16,7 +14,7 @@ pub(crate) fn text(run_up: &RunUp) -> String {
         }
     };
     if let Some(residual) = run_up.power_residual() {
-        let _ = write!(text, "; motor against reactions: {} of the largest moment", numbers::error(residual));
+        put!(text, "; motor against reactions: {} of the largest moment", numbers::error(residual));
     }
     text.push_str("\n\n");
     text

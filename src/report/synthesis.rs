@@ -1,7 +1,5 @@
 //! Reports on a motion and its timing: text, JSON, picture.
 
-use std::fmt::Write;
-
 use serde_json::json;
 
 use super::pretty::pretty;
@@ -33,33 +31,27 @@ fn stroke(task: &Task, achieved: &Achieved) -> String {
 
 /// The main figures, in two lines.
 pub(crate) fn summary(task: &Task, achieved: &Achieved) -> String {
+    let angle = |angle: f64| format!(", smallest transmission angle {:.2} deg", angle.to_degrees());
+    let (stroke, angle) = (stroke(task, achieved), achieved.transmission.map_or(String::new(), angle));
+    let [unrest, wrong] = [achieved.unrest(task), achieved.wrong()].map(|share| 100.0 * share);
+    let [late, short] = [achieved.late(task), achieved.short(task)].map(f64::to_degrees);
     format!(
-        "Stroke {}{}. Largest motion in a dwell {:.3} % of the stroke,\n\
-         largest way in a wrong sense {:.3} %. Extreme positions within {:.2} deg of the table, dwells short by {:.2} deg at most.",
-        stroke(task, achieved),
-        achieved
-            .transmission
-            .map_or(String::new(), |angle| format!(", smallest transmission angle {:.2} deg", angle.to_degrees())),
-        100.0 * achieved.unrest(task),
-        100.0 * achieved.wrong(),
-        achieved.late(task).to_degrees(),
-        achieved.short(task).to_degrees()
+        "Stroke {stroke}{angle}. Largest motion in a dwell {unrest:.3} % of the stroke,\n\
+         largest way in a wrong sense {wrong:.3} %. Extreme positions within {late:.2} deg of the table, dwells short by {short:.2} deg at most."
     )
 }
 
 /// The motion and its timing as text.
 pub(crate) fn text(story: &Story) -> String {
     let (task, achieved) = (story.task, story.achieved);
-    let mut text = String::new();
-    let _ = writeln!(text, "{}: {}\n", task.name, task.title);
+    let mut text = format!("{}: {}\n\n", task.name, task.title);
     if let Some((found, values)) = story.search {
         let [drawn, assembled] = found.candidates;
-        let _ = writeln!(
+        let worst = found.refined.last().copied().unwrap_or(f64::NAN);
+        let [cost, refined, worst] = [found.random_cost, found.cost, worst].map(|cost| numbers::significant(cost, 4));
+        say!(
             text,
-            "{drawn} random candidates, {assembled} of them assembled near the limits; cost {}, refined {} (worst of the refined {})\n",
-            numbers::significant(found.random_cost, 4),
-            numbers::significant(found.cost, 4),
-            numbers::significant(found.refined.last().copied().unwrap_or(f64::NAN), 4)
+            "{drawn} random candidates, {assembled} of them assembled near the limits; cost {cost}, refined {refined} (worst of the refined {worst})\n"
         );
         let mut dimensions = table(["dimension", "value", "from", "to"], &[1, 2, 3]);
         for (variable, &value) in task.variables.iter().zip(values) {
@@ -67,14 +59,11 @@ pub(crate) fn text(story: &Story) -> String {
                 true => numbers::fixed_in(value.to_degrees(), 4, "deg"),
                 false => numbers::fixed_in(value * 1e3, 3, "mm"),
             };
-            dimensions.add_row([
-                variable.name.clone(),
-                show(value),
-                show(variable.bounds[0]),
-                show(variable.bounds[1]),
-            ]);
+            let [from, to] = variable.bounds;
+            let shown = [value, from, to].map(show);
+            dimensions.add_row(std::iter::once(variable.name.clone()).chain(shown));
         }
-        let _ = writeln!(text, "{dimensions}\n");
+        say!(text, "{dimensions}\n");
     }
     let header = ["from deg", "to deg", "sense", "displacement %", "motion %", "wrong way %", "level %", "ends at deg"];
     let mut phases = table(header, &[0, 1, 3, 4, 5, 6, 7]);
@@ -91,8 +80,8 @@ pub(crate) fn text(story: &Story) -> String {
             done.end.map_or("-".into(), |end| numbers::fixed(end.to_degrees(), 2)),
         ]);
     }
-    let _ = writeln!(text, "{phases}\n\n{}", summary(task, achieved));
-    let _ = writeln!(
+    say!(text, "{phases}\n\n{}", summary(task, achieved));
+    say!(
         text,
         "A dwell ends where the output leaves the middle of its extremes by {} % of the stroke, a motion at its extreme position.",
         100.0 * BAND

@@ -1,11 +1,9 @@
 //! Proofs as text for the terminal.
 
-use std::fmt::Write;
-
 use comfy_table::Table;
 
 use crate::plain::brief;
-use crate::plain::cells::{fitted, share, trimmed, used};
+use crate::plain::cells::{distinct, fitted, share, trimmed, used};
 use crate::plain::engines;
 use crate::plain::own_forces;
 use crate::plain::reasons::{self, count};
@@ -26,7 +24,7 @@ pub fn proof(proof: &Proof, tell: Tell, width: Option<usize>) -> String {
     brief::worst(proof, width, &mut text);
     text.push('\n');
     let mut line = |what: &str, told: &str| {
-        let _ = writeln!(text, "{}", wrapped(&format!("{what:<11}{told}"), width, 11));
+        say!(text, "{}", wrapped(&format!("{what:<11}{told}"), width, 11));
     };
     line("title", &proof.title);
     line("structure", &proof.formula);
@@ -41,19 +39,13 @@ pub fn proof(proof: &Proof, tell: Tell, width: Option<usize>) -> String {
     }
     match proof.engines.as_slice() {
         [only] => {
-            let _ = writeln!(
-                text,
-                "\nEngine against reference, the worst channel of each quantity:\n{}",
-                trimmed(&channels(&only.channels, width))
-            );
+            let table = trimmed(&channels(&only.channels, width));
+            say!(text, "\nEngine against reference, the worst channel of each quantity:\n{table}");
         }
         several => {
-            let _ = writeln!(
-                text,
-                "\nSide by side, the largest error over its scale (and its bound):\n{}",
-                trimmed(&engines::table(several, width))
-            );
-            let _ = writeln!(text, "\n{}", wrapped(&engines::disputes(proof), width, 2));
+            let table = trimmed(&engines::table(several, width));
+            say!(text, "\nSide by side, the largest error over its scale (and its bound):\n{table}");
+            say!(text, "\n{}", wrapped(&engines::disputes(proof), width, 2));
         }
     }
     for engine in &proof.engines {
@@ -61,7 +53,7 @@ pub fn proof(proof: &Proof, tell: Tell, width: Option<usize>) -> String {
     }
     reasons::left_out(proof, width, &mut text);
     let all: Vec<&Check> = proof.all_checks().collect();
-    let _ = writeln!(text, "\nChecks:\n{}", trimmed(&checks(&all, width)));
+    say!(text, "\nChecks:\n{}", trimmed(&checks(&all, width)));
     reasons::expected(proof, tell, &mut text);
     reasons::reasons(proof, tell, width, REASONS, &mut text);
     reasons::diagnosed(proof, width, &mut text);
@@ -87,22 +79,22 @@ fn own_section(engine: &EngineProof, several: bool, width: Option<usize>, text: 
         Some(error) => {
             let (name, why) = (engine.info.name, error.message());
             let told = format!("Forces as {name} itself exerts them (route {route}) are not judged: {why}");
-            let _ = writeln!(text, "\n{}", wrapped(&told, width, 2));
+            say!(text, "\n{}", wrapped(&told, width, 2));
         }
         None if several => {
             let (name, how) = (engine.info.name, own_forces::line(own));
             let told = format!("Forces as {name} itself exerts them (route {route}): {how}");
-            let _ = writeln!(text, "\n{}", wrapped(&told, width, 2));
+            say!(text, "\n{}", wrapped(&told, width, 2));
         }
         None => {
             let source = format!("The forces above: {}.", own_forces::source(engine));
             let told = format!("{source}\nForces as the engine itself exerts them, by {}", own_how(own));
-            let _ = writeln!(text, "\n{}", wrapped(&told, width, 2));
-            let _ = writeln!(text, "{}", trimmed(&channels(&own.channels, width)));
+            say!(text, "\n{}", wrapped(&told, width, 2));
+            say!(text, "{}", trimmed(&channels(&own.channels, width)));
         }
     }
     if let Some(fault) = engine.force_fault() {
-        let _ = writeln!(text, "\n{}", wrapped(own_forces::sentence(fault), width, 2));
+        say!(text, "\n{}", wrapped(own_forces::sentence(fault), width, 2));
     }
 }
 
@@ -191,15 +183,9 @@ fn family_word<'a>(family: impl Iterator<Item = &'a Check> + Clone) -> &'static 
 fn channels(channels: &[ChannelProof], width: Option<usize>) -> Table {
     let header = ["quantity", "worst channel", "crank deg", "error", "of scale", "bound", "order", "verdict"];
     let mut table = fitted(header, &[2, 3, 4, 5, 6], width);
-    let mut seen: Vec<&str> = Vec::new();
-    for first in channels {
-        let quantity = first.residual.channel.kind.quantity;
-        if seen.contains(&quantity) {
-            continue;
-        }
-        seen.push(quantity);
+    for quantity in distinct(channels.iter().map(|own| own.residual.channel.kind.quantity)) {
         let family = || channels.iter().filter(|c| c.residual.channel.kind.quantity == quantity);
-        let worst = family().max_by(|a, b| used(a).total_cmp(&used(b))).unwrap_or(first);
+        let Some(worst) = family().max_by(|a, b| used(a).total_cmp(&used(b))) else { continue };
         let residual = &worst.residual;
         table.add_row([
             format!("{quantity} ({})", family().count()),
@@ -221,17 +207,12 @@ fn order(observed: f64) -> String {
 
 fn checks(checks: &[&Check], width: Option<usize>) -> Table {
     let mut table = fitted(["check", "numbers", "worst", "bound", "basis", "verdict"], &[1, 2, 3], width);
-    let mut seen: Vec<&str> = Vec::new();
-    for first in checks {
-        if seen.contains(&first.family.as_str()) {
-            continue;
-        }
-        seen.push(&first.family);
-        let family = || checks.iter().copied().filter(|check| check.family == first.family);
-        let worst = family().max_by(|a, b| a.used().total_cmp(&b.used())).unwrap_or(first);
+    for name in distinct(checks.iter().map(|check| check.family.as_str())) {
+        let family = || checks.iter().copied().filter(|check| check.family == name);
+        let Some(worst) = family().max_by(|a, b| a.used().total_cmp(&b.used())) else { continue };
         let detail = if worst.detail.is_empty() { String::new() } else { format!(", worst in {}", worst.detail) };
         table.add_row([
-            format!("{}{detail}", first.family),
+            format!("{name}{detail}"),
             family().count().to_string(),
             numbers::error_in(worst.value, worst.unit),
             numbers::error_in(worst.bound, worst.unit),

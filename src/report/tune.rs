@@ -1,6 +1,5 @@
 //! The cheapest settings of an engine that keep a wanted error.
 
-use std::fmt::Write;
 use std::path::Path;
 
 use serde_json::json;
@@ -50,55 +49,45 @@ pub(crate) fn text(scenario: &Scenario, found: &Tuning, within: f64, section: &S
             numbers::fixed(candidate.price / found.best.price, 2),
         ]);
     }
-    let mut text = String::new();
-    let _ = writeln!(text, "{}: {}\n", scenario.name, scenario.title);
-    let _ = writeln!(
-        text,
-        "The cheapest settings within {} of every channel's scale:\n{}\n",
-        numbers::error(within),
-        trimmed(&table)
-    );
+    let mut text = format!("{}: {}\n\n", scenario.name, scenario.title);
+    let (within, table) = (numbers::error(within), trimmed(&table));
+    say!(text, "The cheapest settings within {within} of every channel's scale:\n{table}\n");
     for (name, error) in &found.too_coarse {
-        let _ = match error.is_finite() {
-            true => writeln!(text, "{name} does not meet it: its smallest error was {}.", numbers::error(*error)),
+        match error.is_finite() {
+            true => say!(text, "{name} does not meet it: its smallest error was {}.", numbers::error(*error)),
             false => {
-                writeln!(text, "{name} does not run it with any settings: {} says why.", (hints.why)(name))
+                say!(text, "{name} does not run it with any settings: {} says why.", (hints.why)(name))
             }
         };
     }
     for name in &found.too_dear {
-        let _ = writeln!(text, "{name} costs more than the cheapest.");
+        say!(text, "{name} costs more than the cheapest.");
     }
-    let _ = writeln!(
+    let ([error, expected], runs) = ([found.best.verified, found.predicted].map(numbers::error), found.runs);
+    let engine = found.best.engine;
+    say!(
         text,
-        "{}: error {} measured against the reference, {} expected from its own runs; {} runs.",
-        found.best.engine,
-        numbers::error(found.best.verified),
-        numbers::error(found.predicted),
-        found.runs
+        "{engine}: error {error} measured against the reference, {expected} expected from its own runs; {runs} runs."
     );
-    let _ = match found.best.is_proven {
+    match found.best.is_proven {
         true if found.cheapest.price < found.best.price => {
             let Settings { resolution, sweeps, .. } = found.cheapest.settings;
             let (share, name) = (found.cheapest.price / found.best.price, found.cheapest.engine);
-            writeln!(
-                text,
-                "A proof at these settings agrees. {name} at {} with {sweeps} sweeps meets the error for {share:.2} \
-                 of the price, but proves less.",
-                numbers::significant(resolution, 4)
-            )
+            let step = numbers::significant(resolution, 4);
+            put!(text, "A proof at these settings agrees. {name} at {step} with {sweeps} sweeps meets the error for ");
+            say!(text, "{share:.2} of the price, but proves less.")
         }
-        true => writeln!(text, "A proof at these settings agrees."),
-        false => writeln!(text, "A proof at these settings leaves something open: take finer ones for a proof."),
+        true => say!(text, "A proof at these settings agrees."),
+        false => say!(text, "A proof at these settings leaves something open: take finer ones for a proof."),
     };
     if found.is_spent {
-        let _ = writeln!(text, "The work that was allowed is done: there may be cheaper settings.");
+        say!(text, "The work that was allowed is done: there may be cheaper settings.");
     }
     let Section { text: section, file, is_written } = section;
     let place = file.display();
-    let _ = match is_written {
-        true => writeln!(text, "\nWritten to {place}:\n\n{section}"),
-        false => writeln!(text, "\nFor {place} (or let {} put it there):\n\n{section}", hints.write),
+    match is_written {
+        true => say!(text, "\nWritten to {place}:\n\n{section}"),
+        false => say!(text, "\nFor {place} (or let {} put it there):\n\n{section}", hints.write),
     };
     text
 }

@@ -1,6 +1,5 @@
 //! Comparisons of two parties as text and JSON.
 
-use std::fmt::Write;
 use std::path::Path;
 
 use serde_json::{Value, json};
@@ -9,12 +8,15 @@ use super::diagnosis_json;
 use super::pretty::pretty;
 use crate::plain::cells::{flush, trimmed};
 use crate::plain::diagnosis;
-use crate::plain::style;
+use crate::plain::style::{self, Detail};
 use crate::plain::tell::Tell;
 use linkage::math::KeepNan;
 use prover::claims::Cause;
+
 use prover::compare::Verdict;
+
 use prover::numbers;
+
 use prover::versus::{Compared, Comparison, Contradiction, Explained, Pair, Row};
 
 /// Channels of agreeing pairs that a short report shows.
@@ -25,17 +27,17 @@ const NOTHING: f64 = 1e-4;
 const NAMED: usize = 3;
 
 /// The report in lines of at most `width` columns: the verdict, the channels that use most of their bounds, and why
-/// others are off. All channels if `all`; the verdicts alone if `quiet`.
+/// others are off.
 #[must_use]
-pub fn text(paths: [&Path; 2], comparison: &Comparison, [all, quiet]: [bool; 2], tell: Tell, width: usize) -> String {
+pub fn text(paths: [&Path; 2], comparison: &Comparison, detail: Detail, tell: Tell, width: usize) -> String {
     let mut text = String::new();
     for pair in &comparison.pairs {
-        if !text.is_empty() && !quiet {
+        if !text.is_empty() && detail != Detail::Verdict {
             text.push('\n');
         }
-        let _ = writeln!(text, "{}", style::wrapped(&sentence(paths, pair), Some(width), 2));
-        if !quiet {
-            let _ = write!(text, "{}", of_pair(pair, all, tell, width));
+        say!(text, "{}", style::wrapped(&sentence(paths, pair), Some(width), 2));
+        if detail != Detail::Verdict {
+            put!(text, "{}", of_pair(pair, detail == Detail::Whole, tell, width));
         }
     }
     text
@@ -56,18 +58,18 @@ fn of_pair(pair: &Pair, all: bool, tell: Tell, width: usize) -> String {
     let more = order.len() - shown;
     if more > 0 {
         let is_fine = order[shown..].iter().all(|own| rank(own) <= 1.0);
-        let _ = write!(told, "\nand {more} more{}", if is_fine { ", all within their bounds" } else { "" });
+        put!(told, "\nand {more} more{}", if is_fine { ", all within their bounds" } else { "" });
     }
     told += &notes(pair);
-    let _ = writeln!(text, "\n{told}");
+    say!(text, "\n{told}");
     let paragraph = |text: &mut String, told: &str| {
-        let _ = writeln!(text, "\n{}", style::wrapped(told, Some(width), 2));
+        say!(text, "\n{}", style::wrapped(told, Some(width), 2));
     };
     for own in order.iter().filter(|own| matches!(own.verdict, Verdict::Inconclusive { .. })).take(SHOWN) {
         paragraph(&mut text, &format!("{}: {}", own.claim.text, own.verdict.reason(tell).unwrap_or_default()));
     }
     for explained in &pair.causes {
-        let _ = writeln!(text, "\n{}", cause(pair, explained, width));
+        say!(text, "\n{}", cause(pair, explained, width));
     }
     if pair.channels.iter().any(|own| looks_like_a_simulation(pair, own)) {
         paragraph(&mut text, SIMULATION);
@@ -158,18 +160,18 @@ fn word(verdict: &Verdict) -> &'static str {
 fn notes(pair: &Pair) -> String {
     let mut text = String::new();
     if pair.unshared > 0 {
-        let _ = write!(text, "\nleft out: {} instants of the second that the first does not have", pair.unshared);
+        put!(text, "\nleft out: {} instants of the second that the first does not have", pair.unshared);
     }
     let missing: usize = pair.channels.iter().map(|own| own.missing).max().unwrap_or(0);
     if missing > pair.unshared {
         let count = missing - pair.unshared;
-        let _ = write!(text, "\nleft out: up to {count} instants of a channel at which nothing was measured");
+        put!(text, "\nleft out: up to {count} instants of a channel at which nothing was measured");
     }
     let (what, factor, unit) = if pair.by_crank { ("angle", 1f64.to_degrees(), "deg") } else { ("time", 1.0, "s") };
     if let Some(Contradiction { rows: [one, other], at, channel, values }) = &pair.contradiction {
         let at = numbers::significant(factor * at, 6);
         let [first, second] = numbers::beside(*values, 0.0);
-        let _ = write!(
+        put!(
             text,
             "\nrows {} and {} hold at the same {what}, {at} {unit}, and contradict each other: {channel} is {first} and \
              {second}",
@@ -179,12 +181,11 @@ fn notes(pair: &Pair) -> String {
     }
     if let Some((row, [from, to])) = pair.turns_back {
         let [from, to] = [from, to].map(|at| numbers::significant(factor * at, 6));
-        let _ =
-            write!(text, "\nthe {what} jumps back in row {}, from {from} to {to} {unit}: has it begun anew?", row + 1);
+        put!(text, "\nthe {what} jumps back in row {}, from {from} to {to} {unit}: has it begun anew?", row + 1);
     }
     for (side, which) in ["first", "second"].into_iter().enumerate() {
         if !pair.alone[side].is_empty() {
-            let _ = write!(text, "\nonly in the {which}: {}", some(&pair.alone[side]));
+            put!(text, "\nonly in the {which}: {}", some(&pair.alone[side]));
         }
     }
     text
@@ -202,7 +203,7 @@ fn cause(pair: &Pair, explained: &Explained, width: usize) -> String {
     let Explained { of, diagnosis: found, left, .. } = explained;
     let mut text = style::wrapped(&format!("{}:", some(of)), Some(width), 2);
     let mut line = |what: &str, told: &str| {
-        let _ = write!(text, "\n{}", style::wrapped(&format!("  {what:<8}{told}"), Some(width), 10));
+        put!(text, "\n{}", style::wrapped(&format!("  {what:<8}{told}"), Some(width), 10));
     };
     if let Some(since) = pair.since(of) {
         let [time, crank] = [numbers::fixed(since.time, 6), numbers::fixed(since.crank.to_degrees(), 3)];
@@ -274,7 +275,7 @@ pub fn json(paths: [&Path; 2], comparison: &Comparison, tell: Tell) -> String {
     };
     let cause = |own: &Explained| {
         json!({
-            "channels": own.of, "cause": cause_of(own), "left_over_share": own.left, "but_for_t_s": own.but, "diagnosis": diagnosis_json::row(&own.diagnosis),
+            "channels": own.of, "cause": cause_of(own), "left_over_share": own.left, "but_for_t_s": own.but, "diagnosis": diagnosis_json::Row::of(&own.diagnosis),
         })
     };
     let pair = |pair: &Pair| {

@@ -59,63 +59,82 @@ impl Shape {
     }
 }
 
-/// What a mark stands for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Role {
+/// The roles with their names and looks in one table: ink, fill, width of the line, layer.
+macro_rules! roles {
+    ($($(#[$meaning:meta])* $role:ident = $name:literal: $ink:ident, $fill:ident, $width:literal, $layer:ident;)*) => {
+        linkage::words! {
+            /// What a mark stands for.
+            #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+            pub enum Role: name { $($(#[$meaning])* $role = $name,)* }
+        }
+
+        impl Role {
+            /// How marks of this role are drawn.
+            #[must_use]
+            pub fn look(self) -> Look {
+                match self {
+                    $(Role::$role => Look { ink: Ink::$ink, fill: Fill::$fill, width: $width, layer: Layer::$layer },)*
+                }
+            }
+        }
+    };
+}
+
+roles! {
     /// Centre line of a fixed guide.
-    Axis,
+    Axis = "axis": Quiet, None, 0.2, Ground;
     /// Hatching: the side of a line that belongs to the ground.
-    Hatch,
+    Hatch = "hatch": Text, None, 0.25, Ground;
     /// Rail of a fixed guide.
-    Rail,
+    Rail = "rail": Text, None, 0.5, Ground;
     /// Wall of a fixed cylinder.
-    Bore,
+    Bore = "bore": Text, None, 0.5, Ground;
     /// Pivot on the ground: its triangle, the line that it stands on, and the hatching below.
-    Pivot,
+    Pivot = "pivot": Text, Tint, 0.35, Blocks;
     /// Stroke across a guide at a point of the ground that is no pivot.
-    Stop,
+    Stop = "stop": Text, None, 0.4, Ground;
     /// A link of three and more places that are not on a line.
-    Plate,
+    Plate = "plate": Link, Tint, 0.9, Links;
     /// A link of two places, or of several on a line.
-    Bar,
+    Bar = "bar": Link, None, 1.1, Links;
     /// Says that a bar does not end at the pin in its middle.
-    Weld,
+    Weld = "weld": Link, Ink, 0.2, Links;
     /// Slot of a moving link, in which a block slides.
-    Slot,
+    Slot = "slot": Link, Paper, 0.6, Links;
     /// Cylinder of a moving link, in which a piston slides.
-    Cylinder,
+    Cylinder = "cylinder": Link, Paper, 0.6, Links;
     /// Block on a guide.
-    Block,
+    Block = "block": Link, Paper, 0.7, Blocks;
     /// Piston, and its rings.
-    Piston,
+    Piston = "piston": Link, Paper, 0.7, Blocks;
     /// Zigzag of a spring.
-    Spring,
+    Spring = "spring": Load, None, 0.4, Stretched;
     /// Cup, rod and piston of a damper.
-    Damper,
+    Damper = "damper": Load, None, 0.4, Stretched;
     /// Spiral of a torsional spring.
-    TorsionSpring,
+    TorsionSpring = "torsion-spring": Load, None, 0.4, Stretched;
     /// Drum of a torsional damper.
-    TorsionDamper,
+    TorsionDamper = "torsion-damper": Load, None, 0.4, Stretched;
     /// Revolute pair.
-    Pin,
+    Pin = "pin": Text, Paper, 0.5, Joints;
     /// Ring around a pin that joins one link more; two rings, two links more.
-    CoincidentPin,
+    CoincidentPin = "coincident-pin": Text, None, 0.35, Joints;
     /// Mass centre: its circle.
-    MassCentre,
+    MassCentre = "mass-centre": Quiet, Paper, 0.3, Stretched;
     /// Mass centre: two of its quarters.
-    MassQuarter,
+    MassQuarter = "mass-quarter": Quiet, Ink, 0.1, Stretched;
     /// Named point of a link that is no joint.
-    Tracer,
+    Tracer = "tracer": Link, None, 0.5, Joints;
     /// Arrow in the sense in which a drive turns its link: the arc.
-    Drive,
+    Drive = "drive": Text, None, 0.4, Signs;
     /// Arrow in the sense in which a drive turns its link: the head.
-    DriveHead,
+    DriveHead = "drive-head": Text, Ink, 0.1, Signs;
     /// A motor: a circle, with the letter M beside it as [`Lettering::Motor`](crate::Lettering::Motor).
-    Motor,
+    Motor = "motor": Text, None, 0.4, Signs;
     /// Arrow of a force or a moment: its line.
-    Load,
+    Load = "load": Load, None, 0.6, Signs;
     /// Arrow of a force or a moment: its head.
-    LoadHead,
+    LoadHead = "load-head": Load, Ink, 0.1, Signs;
 }
 
 /// The colour of a line.
@@ -172,72 +191,6 @@ pub struct Look {
     pub width: f64,
     /// Where it lies.
     pub layer: Layer,
-}
-
-impl Role {
-    /// How marks of this role are drawn.
-    #[must_use]
-    pub fn look(self) -> Look {
-        let look = |ink, fill, width, layer| Look { ink, fill, width, layer };
-        match self {
-            Role::Axis => look(Ink::Quiet, Fill::None, 0.2, Layer::Ground),
-            Role::Hatch => look(Ink::Text, Fill::None, 0.25, Layer::Ground),
-            Role::Rail | Role::Bore => look(Ink::Text, Fill::None, 0.5, Layer::Ground),
-            Role::Pivot => look(Ink::Text, Fill::Tint, 0.35, Layer::Blocks),
-            Role::Stop => look(Ink::Text, Fill::None, 0.4, Layer::Ground),
-            Role::Plate => look(Ink::Link, Fill::Tint, 0.9, Layer::Links),
-            Role::Bar => look(Ink::Link, Fill::None, 1.1, Layer::Links),
-            Role::Weld => look(Ink::Link, Fill::Ink, 0.2, Layer::Links),
-            Role::Slot | Role::Cylinder => look(Ink::Link, Fill::Paper, 0.6, Layer::Links),
-            Role::Block | Role::Piston => look(Ink::Link, Fill::Paper, 0.7, Layer::Blocks),
-            Role::Spring | Role::Damper => look(Ink::Load, Fill::None, 0.4, Layer::Stretched),
-            Role::TorsionSpring | Role::TorsionDamper => look(Ink::Load, Fill::None, 0.4, Layer::Stretched),
-            Role::Pin => look(Ink::Text, Fill::Paper, 0.5, Layer::Joints),
-            Role::CoincidentPin => look(Ink::Text, Fill::None, 0.35, Layer::Joints),
-            Role::MassCentre => look(Ink::Quiet, Fill::Paper, 0.3, Layer::Stretched),
-            Role::MassQuarter => look(Ink::Quiet, Fill::Ink, 0.1, Layer::Stretched),
-            Role::Tracer => look(Ink::Link, Fill::None, 0.5, Layer::Joints),
-            Role::Drive => look(Ink::Text, Fill::None, 0.4, Layer::Signs),
-            Role::DriveHead => look(Ink::Text, Fill::Ink, 0.1, Layer::Signs),
-            Role::Motor => look(Ink::Text, Fill::None, 0.4, Layer::Signs),
-            Role::Load => look(Ink::Load, Fill::None, 0.6, Layer::Signs),
-            Role::LoadHead => look(Ink::Load, Fill::Ink, 0.1, Layer::Signs),
-        }
-    }
-
-    /// Name, for classes and identifiers: lower-case letters and `-`.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Role::Axis => "axis",
-            Role::Hatch => "hatch",
-            Role::Rail => "rail",
-            Role::Bore => "bore",
-            Role::Pivot => "pivot",
-            Role::Stop => "stop",
-            Role::Plate => "plate",
-            Role::Bar => "bar",
-            Role::Weld => "weld",
-            Role::Slot => "slot",
-            Role::Cylinder => "cylinder",
-            Role::Block => "block",
-            Role::Piston => "piston",
-            Role::Spring => "spring",
-            Role::Damper => "damper",
-            Role::TorsionSpring => "torsion-spring",
-            Role::TorsionDamper => "torsion-damper",
-            Role::Pin => "pin",
-            Role::CoincidentPin => "coincident-pin",
-            Role::MassCentre => "mass-centre",
-            Role::MassQuarter => "mass-quarter",
-            Role::Tracer => "tracer",
-            Role::Drive => "drive",
-            Role::DriveHead => "drive-head",
-            Role::Motor => "motor",
-            Role::Load => "load",
-            Role::LoadHead => "load-head",
-        }
-    }
 }
 
 /// A shape and what it stands for.

@@ -55,10 +55,7 @@ pub fn text_from(from: impl Read) -> io::Result<String> {
 /// # Errors
 /// Those of [`read_text`]; also if it is no regular file.
 pub fn read_named(path: &Path) -> io::Result<String> {
-    match fs::metadata(path)?.is_file() {
-        true => read_text(path),
-        false => Err(io::Error::other("it is no regular file")),
-    }
+    if fs::metadata(path)?.is_file() { read_text(path) } else { Err(io::Error::other("it is no regular file")) }
 }
 
 /// The text of a file whose name the program made up; `None` if there is no such file.

@@ -36,7 +36,7 @@ fn key(node: Node) -> Key {
 }
 
 /// Formulas over common inputs.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Graph {
     pub(crate) nodes: Vec<Node>,
     /// The values of nodes that no input enters.
@@ -54,16 +54,7 @@ impl Graph {
     /// A graph with inputs of these names, as many more `unnamed`, and `pi`.
     #[must_use]
     pub fn new(inputs: &[&str], unnamed: usize) -> Self {
-        let mut graph = Graph {
-            nodes: Vec::new(),
-            constants: Vec::new(),
-            known: BTreeMap::new(),
-            names: BTreeMap::new(),
-            derivatives: BTreeMap::new(),
-            inputs: inputs.len() + unnamed,
-            renamed: Vec::new(),
-            is_meanwhile: false,
-        };
+        let mut graph = Graph { inputs: inputs.len() + unnamed, ..Graph::default() };
         for (index, name) in inputs.iter().enumerate() {
             let id = graph.put(Node::Input(index));
             graph.name(name, id);

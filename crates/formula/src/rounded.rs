@@ -97,10 +97,7 @@ impl Rounded {
             Operator::Over => {
                 let value = a.value / b.value;
                 let least = b.value.abs() - b.error;
-                let error = match least > 0.0 {
-                    true => (a.error + value.abs() * b.error) / least,
-                    false => f64::INFINITY,
-                };
+                let error = if least > 0.0 { (a.error + value.abs() * b.error) / least } else { f64::INFINITY };
                 Rounded::of(value, error, HALF).or_tiny(a.value == 0.0)
             }
             Operator::Power => power(a, b),

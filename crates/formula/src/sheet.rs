@@ -20,7 +20,7 @@ enum Part {
 }
 
 /// Formulas of a derivation, part by part, and their values at some instants.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Sheet {
     parts: Vec<Part>,
     /// The parts of every formula, each before its arguments.
@@ -68,16 +68,7 @@ impl Sheet {
     #[must_use]
     pub fn new(names: &[&str], inputs: Vec<Vec<Rounded>>) -> Self {
         let values = vec![Vec::new(); inputs.len()];
-        let mut own = Sheet {
-            parts: Vec::new(),
-            formulas: Vec::new(),
-            names: BTreeMap::new(),
-            inputs,
-            values,
-            changed: Vec::new(),
-            change: 0,
-            operations: 0,
-        };
+        let mut own = Sheet { inputs, values, ..Sheet::default() };
         for (index, name) in names.iter().enumerate() {
             own.put_named(name, Part::Input(index));
         }

@@ -22,10 +22,7 @@ use linkage::trajectory::Trajectory;
 /// How the numbers were found, in words.
 #[must_use]
 pub fn method(case: &Case) -> &'static str {
-    match are_all_rrr(case) {
-        true => "closed form in double-double",
-        false => "all equations in double-double",
-    }
+    if are_all_rrr(case) { "closed form in double-double" } else { "all equations in double-double" }
 }
 
 /// All channels of a case on its grid, rounded to doubles at the end.
@@ -36,10 +33,7 @@ pub fn method(case: &Case) -> &'static str {
 /// [`Geometry`](linkage::ErrorKind::Geometry) where the mechanism cannot be assembled or is singular, with the crank
 /// angle.
 pub fn solve(case: &Case) -> Result<Trajectory> {
-    match are_all_rrr(case) {
-        true => dyads::solve(case),
-        false => whole::solve(case),
-    }
+    if are_all_rrr(case) { dyads::solve(case) } else { whole::solve(case) }
 }
 
 fn are_all_rrr(case: &Case) -> bool {

@@ -74,33 +74,19 @@ fn series(angle: Long) -> (Long, Long) {
     (sums[1], sums[0])
 }
 
-impl Add for Long {
-    type Output = Long;
-    fn add(self, other: Long) -> Long {
-        Long(self.0.add_accurate(other.0))
-    }
+/// The operators, each by a function of the library.
+macro_rules! operators {
+    ($($operator:ident::$name:ident = $own:ident,)*) => {$(
+        impl $operator for Long {
+            type Output = Long;
+            fn $name(self, other: Long) -> Long {
+                Long(self.0.$own(other.0))
+            }
+        }
+    )*};
 }
 
-impl Sub for Long {
-    type Output = Long;
-    fn sub(self, other: Long) -> Long {
-        Long(self.0.sub_accurate(other.0))
-    }
-}
-
-impl Mul for Long {
-    type Output = Long;
-    fn mul(self, other: Long) -> Long {
-        Long(self.0.mul(other.0))
-    }
-}
-
-impl Div for Long {
-    type Output = Long;
-    fn div(self, other: Long) -> Long {
-        Long(self.0.div(other.0))
-    }
-}
+operators! { Add::add = add_accurate, Sub::sub = sub_accurate, Mul::mul = mul, Div::div = div, }
 
 impl Neg for Long {
     type Output = Long;

@@ -29,12 +29,12 @@ pub struct Place {
     pub other: Option<String>,
 }
 
-/// `NAME.mcap` in the directory, or `NAME-2.mcap`, `NAME-3.mcap`, ...: the first that is free, or that holds the
-/// recording of the same scenario with the same settings.
+/// Where the recording of a run goes: `NAME.mcap` in the directory, or `NAME-2.mcap`, ... if that is one of another
+/// run. `text` is the scenario's, and `metadata` as in [`Recording`](super::Recording).
 ///
 /// # Errors
-/// [`ErrorKind::Io`] if there are a thousand recordings of other runs.
-pub(super) fn place(directory: &Path, name: &str, text: &str, metadata: &BTreeMap<String, String>) -> Result<Place> {
+/// [`ErrorKind::Io`](linkage::ErrorKind::Io) if there are a thousand recordings of other runs.
+pub fn place(directory: &Path, name: &str, text: &str, metadata: &BTreeMap<String, String>) -> Result<Place> {
     let mut other = None;
     for number in 1..=MOST {
         let path = match number {

@@ -60,7 +60,11 @@ struct Found {
     parts: usize,
 }
 
-pub(super) fn film(path: &Path) -> Result<Film> {
+/// Reads a recording as a moving picture.
+///
+/// # Errors
+/// Those of [`load`](super::load); [`ErrorKind::Input`](linkage::ErrorKind::Input) if it has no picture.
+pub fn film(path: &Path) -> Result<Film> {
     let bytes = read::bytes(path)?;
     let sides = read::of_bytes(&bytes, path)?;
     let damaged = |error: McapError| {

@@ -50,70 +50,20 @@ mod view;
 pub mod viewers;
 mod write;
 
-pub use beside::Place;
-pub use film::{Film, Part};
-pub use numbers::Numbers;
+pub use beside::{Place, place};
+pub use film::{Film, Part, film};
+pub use numbers::{Numbers, numbers};
 pub use recording::{Level, LogEntry, Recording, Show, Side};
 #[cfg(feature = "live")]
-pub use reel::{Reel, Told};
+pub use reel::{Reel, Told, reel};
 #[cfg(feature = "live")]
 pub use sink::Kind;
-pub use view::{Line, Plot, View};
+pub use view::{Line, Plot, View, view};
+pub use write::write;
 
 use linkage::error::Result;
 use linkage::trajectory::Trajectory;
-use std::collections::BTreeMap;
 use std::path::Path;
-
-/// Writes a recording to `path`, by way of a temporary file. So only a complete recording replaces an older one.
-///
-/// # Errors
-/// [`ErrorKind::Io`](linkage::ErrorKind::Io) with the path if a file cannot be written;
-/// [`ErrorKind::Input`](linkage::ErrorKind::Input) if a side's name is empty, taken or contains `/`, or if a time of a
-/// grid is not finite.
-pub fn write(recording: &Recording, path: &Path) -> Result<()> {
-    write::write(recording, path)
-}
-
-/// What a viewer should show first of a recording; `None` if it has no positions.
-#[must_use]
-pub fn view(recording: &Recording) -> Option<View> {
-    view::view(recording)
-}
-
-/// Everything that the recording's file would hold for viewers, in memory, to be played to them.
-///
-/// # Errors
-/// Those of [`write()`], except that no file is written.
-#[cfg(feature = "live")]
-pub fn reel(recording: &Recording) -> Result<Reel> {
-    reel::reel(recording)
-}
-
-/// Reads a recording as a moving picture.
-///
-/// # Errors
-/// Those of [`load`]; [`ErrorKind::Input`](linkage::ErrorKind::Input) if it has no picture.
-pub fn film(path: &Path) -> Result<Film> {
-    film::film(path)
-}
-
-/// Reads which numbers a recording has.
-///
-/// # Errors
-/// Those of [`load`].
-pub fn numbers(path: &Path) -> Result<Numbers> {
-    numbers::numbers(path)
-}
-
-/// Where the recording of a run goes: `NAME.mcap` in the directory, or `NAME-2.mcap`, ... if that is one of another
-/// run. `text` is the scenario's, and `metadata` as in [`Recording`].
-///
-/// # Errors
-/// [`ErrorKind::Io`](linkage::ErrorKind::Io) if there are a thousand recordings of other runs.
-pub fn place(directory: &Path, name: &str, text: &str, metadata: &BTreeMap<String, String>) -> Result<Place> {
-    beside::place(directory, name, text, metadata)
-}
 
 /// Reads every side of a recording, in the order in which they were recorded.
 ///

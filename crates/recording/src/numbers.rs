@@ -19,7 +19,11 @@ pub struct Numbers {
     pub plots: Vec<Plot>,
 }
 
-pub(super) fn numbers(path: &Path) -> Result<Numbers> {
+/// Reads which numbers a recording has.
+///
+/// # Errors
+/// Those of [`load`](super::load).
+pub fn numbers(path: &Path) -> Result<Numbers> {
     let bytes = read::bytes(path)?;
     let sides = read::of_bytes(&bytes, path)?;
     let mut topics = BTreeSet::new();

@@ -42,7 +42,11 @@ struct Entry {
     end: usize,
 }
 
-pub(super) fn reel(recording: &Recording) -> Result<Reel> {
+/// Everything that the recording's file would hold for viewers, in memory, to be played to them.
+///
+/// # Errors
+/// Those of [`write`](super::write()), except that no file is written.
+pub fn reel(recording: &Recording) -> Result<Reel> {
     check(recording)?;
     let poured = as_shown(recording, |recording, drawn| {
         let slow = recording.show.slow;

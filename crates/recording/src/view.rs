@@ -53,8 +53,9 @@ pub struct Line {
     pub side: Option<usize>,
 }
 
-/// The view of a recording; `None` if it has no positions.
-pub(super) fn view(recording: &Recording) -> Option<View> {
+/// What a viewer should show first of a recording; `None` if it has no positions.
+#[must_use]
+pub fn view(recording: &Recording) -> Option<View> {
     as_shown(recording, |recording, drawn| {
         let scene = drawn.scene.as_ref()?;
         let links = scene.links();

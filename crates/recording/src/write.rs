@@ -17,8 +17,14 @@ use std::path::Path;
 /// Longest log time (s), a third of what 64 bits hold in nanoseconds.
 const LONGEST: f64 = 3e9;
 
+/// Writes a recording to `path`, by way of a temporary file. So only a complete recording replaces an older one.
+///
+/// # Errors
+/// [`ErrorKind::Io`](linkage::ErrorKind::Io) with the path if a file cannot be written;
+/// [`ErrorKind::Input`](linkage::ErrorKind::Input) if a side's name is empty, taken or contains `/`, or if a time of a
+/// grid is not finite.
 #[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the MCAP library")]
-pub(super) fn write(recording: &Recording, path: &Path) -> Result<()> {
+pub fn write(recording: &Recording, path: &Path) -> Result<()> {
     check(recording)?;
     files::replace(&Target::Made(path, &is_ours), |file| fill(recording, file.try_clone()?)).map_err(|error| {
         let what = format!("the recording {}", path.display());

@@ -12,33 +12,8 @@ use crate::cli::reports::Reports;
 use crate::cli::{html, number};
 use prover::proof::Reference;
 
-const EXAMPLES: &str = "\
-Examples:
-  linkproof new --shipped      write the files that the examples name
-  linkproof run scenarios/crank_rocker.toml
-  linkproof run scenarios/crank_rocker.toml --dt 1e-4          this step of the engine, not one that the run finds
-  linkproof run mine.toml --write                              keep the settings that the run has found in the file
-  linkproof run scenarios/crank_rocker.toml --verbose          every quantity and every check
-  linkproof run scenarios/*.toml --no-record --quiet           one line for each file
-  linkproof run scenarios/*.toml --reference newton            the other analytic side as reference
-  linkproof run scenarios/crank_rocker.toml --engine all       every engine side by side, and who stands alone
-  linkproof run scenarios/ov7_base.toml --sweeps 4096 --extrapolate   other settings of the engine
-  linkproof run scenarios/fourth_class.toml --no-record --mode link_2,link_3,link_4,link_5=2   another configuration
-  linkproof run scenarios/crank_rocker.toml --no-record --start-crank-deg 90 --crank-deg 90:450:2   another start and grid
-  linkproof run scenarios/crank_rocker_runup.toml --no-record --times 0,0.01,0.05,0.1   only these instants
-  linkproof run scenarios/crank_rocker.toml --slow 20 --record-forces   a recording to look at, twenty times slower
-  linkproof run scenarios/crank_rocker.toml --live             move it in Foxglove or Lichtblick until Ctrl-C
-  linkproof run scenarios/*.toml --no-record --json out.json   no recording, results for a script
-  linkproof run scenarios/*.toml --no-record --junit out.xml --markdown out.md   for reports of tests, and a comment
-  linkproof run scenarios/crank_rocker.toml --no-record --html crank_rocker.html   a page to look at, in any browser
-  linkproof run scenarios/*.toml --no-record --html pages/     a page for each
-  linkproof run mine.toml --set a_mm=30                        another number for a parameter of the file
-  linkproof run scenarios/ov7_base.toml --no-record --only point.9.positions --explain   one point, and what that takes
-
-Exit codes: 0 all agree, 1 something disagrees, 2 bad input or usage, 3 nothing proven either way.";
-
 #[derive(Debug, clap::Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = include_str!("../help/run.txt").trim_ascii_end())]
 pub(in crate::cli) struct Args {
     /// Scenario files; `-` for standard input
     #[arg(required = true, value_name = "FILE")]

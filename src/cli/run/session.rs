@@ -11,6 +11,8 @@ use crate::cli::live::Live;
 use crate::cli::record_args::Recorded;
 use crate::cli::{advice, output, standard_input, terminal};
 use crate::plain::brief;
+
+use crate::plain::style::Detail;
 use crate::report::closing::Closing;
 use crate::report::outcomes::Outcomes;
 use crate::report::{explain, json, recorded, residuals, text};
@@ -81,13 +83,9 @@ impl<'a> Session<'a> {
             self.failed(file, &error);
             None
         });
-        if let Err(error) = self.page(&scenario, &proof) {
-            self.failed(file, &error);
-        }
         let layout = recording.as_ref().and_then(Recorded::layout);
-        if let Err(error) = self.show_live(&scenario, &proof, layout) {
-            self.failed(file, &error);
-        }
+        let tried = [self.page(&scenario, &proof), self.show_live(&scenario, &proof, layout)];
+        tried.into_iter().filter_map(Result::err).for_each(|error| self.failed(file, &error));
         if self.tells() && self.args.files.len() > 1 {
             self.print("\n");
         }
@@ -108,10 +106,10 @@ impl<'a> Session<'a> {
         if !self.reports() {
             return Ok(());
         }
-        terminal::print(&match (args.quiet, args.verbose) {
-            (true, _) => format!("{}\n", brief::verdict_line(proof)),
-            (_, true) => text::proof(proof, advice::told, terminal::width()),
-            _ => brief::proof(proof, advice::told, terminal::columns()),
+        terminal::print(&match Detail::asked(args.quiet, args.verbose) {
+            Detail::Verdict => format!("{}\n", brief::verdict_line(proof)),
+            Detail::Whole => text::proof(proof, advice::told, terminal::width()),
+            Detail::Short => brief::proof(proof, advice::told, terminal::columns()),
         })?;
         if args.explain {
             output::print(&format!("\n{}", explain::text(proof, &[recording_told(args)])))?;
@@ -175,10 +173,7 @@ impl<'a> Session<'a> {
         }
         let written = self.args.reports.write(|| self.document.text(), &self.outcomes);
         if let (Some(live), Some(told)) = (self.live, self.live_told.take()) {
-            let tell = || match self.reports() {
-                true => self.print(&told),
-                false => output::note(told.trim()),
-            };
+            let tell = || if self.reports() { self.print(&told) } else { output::note(told.trim()) };
             if let Err(error) = live.serve(tell) {
                 output::show(&error);
                 self.worst = exit_code::BAD_INPUT;

@@ -48,10 +48,7 @@ impl Target {
                 return Ok(());
             }
         }
-        match &self.json {
-            Some(to) => output::write(&told.json, to),
-            None => output::print(&told.text),
-        }
+        output::either(&self.json, || told.json.clone(), || told.text.clone())
     }
 }
 

@@ -6,18 +6,8 @@ mod target;
 
 use linkage::error::Result;
 
-const EXAMPLES: &str = "\
-Examples:
-  linkproof new --shipped      write the files that the examples name
-  linkproof synthesize crank-rocker --pivot-mm 150,15 --rocker-mm 250 --extreme-deg 50 --swing-deg 32 -o rocker.toml
-  linkproof synthesize slider-crank --stroke-mm 100 --offset-mm 30 --time-ratio 1.2 -o slider.toml
-  linkproof synthesize search scenarios/ov7_drives/sinker_task.toml -o sinker.toml --svg sinker.svg
-  linkproof synthesize check scenarios/ov7_drives/sinker_task.toml scenarios/ov7_drives/sinker.toml
-
-What is found is written as a scenario, which `linkproof run` then proves. `linkproof docs synthesis` describes methods and files.";
-
 #[derive(Debug, clap::Args)]
-#[command(after_help = EXAMPLES)]
+#[command(after_help = include_str!("../help/synthesize.txt").trim_ascii_end())]
 pub(super) struct Args {
     #[command(subcommand)]
     command: Command,

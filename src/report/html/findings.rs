@@ -1,7 +1,5 @@
 //! Findings of a page in words: why the verdict is what it is, and what else was found.
 
-use std::fmt::Write;
-
 use super::markup::escaped;
 use crate::plain::tell::Tell;
 use crate::plain::{engines, own_forces, reasons};
@@ -37,7 +35,7 @@ pub(super) fn why(proof: &Proof, tell: Tell) -> String {
 pub(super) fn others(proof: &Proof, tell: Tell) -> String {
     let mut told = String::new();
     if proof.engines.len() > 1 {
-        let _ = writeln!(told, "Engines and reference against each other: {}\n", engines::disputes(proof));
+        say!(told, "Engines and reference against each other: {}\n", engines::disputes(proof));
     }
     // What does not decide the verdict may be open beside an agreement.
     if agrees(proof) {
@@ -46,7 +44,7 @@ pub(super) fn others(proof: &Proof, tell: Tell) -> String {
     let all = grouped(proof, tell);
     write(&all, if agrees(proof) { 0 } else { FIRST }..MOST, &mut told);
     if all.len() > MOST {
-        let _ = writeln!(told, "\nOf {} more, the channels and the table of checks below tell why.", all.len() - MOST);
+        say!(told, "\nOf {} more, the channels and the table of checks below tell why.", all.len() - MOST);
     }
     reasons::left_out(proof, None, &mut told);
     reasons::expected(proof, tell, &mut told);
@@ -64,10 +62,10 @@ fn agrees(proof: &Proof) -> bool {
 fn faults(proof: &Proof, told: &mut String) {
     for engine in &proof.engines {
         if let (Some(error), 1) = (&engine.failure, proof.engines.len()) {
-            let _ = writeln!(told, "{} failed: {}\n", engine.info.name, error.message());
+            say!(told, "{} failed: {}\n", engine.info.name, error.message());
         }
         if let Some(fault) = engine.force_fault() {
-            let _ = writeln!(told, "{}\n", own_forces::sentence(fault));
+            say!(told, "{}\n", own_forces::sentence(fault));
         }
     }
 }
@@ -78,14 +76,15 @@ fn write(all: &[Reason], which: std::ops::Range<usize>, told: &mut String) {
             1 => String::new(),
             count => format!(" (and {} more alike)", count - 1),
         };
-        let _ = writeln!(told, "\n{}{more}", reason.told);
+        say!(told, "\n{}{more}", reason.told);
     }
 }
 
 /// The reasons of all verdicts, those that say the same once; what disagrees first.
 fn grouped(proof: &Proof, tell: Tell) -> Vec<Reason> {
     let is_told = |verdict: &Verdict| matches!(verdict, Verdict::Disagree { .. } | Verdict::Inconclusive { .. });
-    let mut told: Vec<(String, &Verdict)> = reasons::verdicts(proof).filter(|(_, verdict)| is_told(verdict)).collect();
+    let mut told = reasons::verdicts(proof);
+    told.retain(|(_, verdict)| is_told(verdict));
     told.sort_by_key(|(_, verdict)| matches!(verdict, Verdict::Inconclusive { .. }));
     let mut all: Vec<Reason> = Vec::new();
     for (name, verdict) in told {

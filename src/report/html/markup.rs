@@ -28,7 +28,7 @@ pub(super) fn contained(json: &str) -> String {
 }
 
 /// A template with its `{{slots}}` filled. What is filled in is not looked at again.
-pub(super) fn filled(template: &str, slots: &[(&str, &str)]) -> String {
+pub(in crate::report) fn filled(template: &str, slots: &[(&str, &str)]) -> String {
     let mut parts = template.split("{{");
     let mut out = parts.next().unwrap_or_default().to_string();
     for part in parts {

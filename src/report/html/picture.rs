@@ -1,7 +1,5 @@
 //! The mechanism as SVG, at the first instant. The script moves the links.
 
-use std::fmt::Write;
-
 use super::markup::escaped;
 use super::placed::Placed;
 use drawing::palette;
@@ -32,22 +30,15 @@ pub(super) fn drawn(sketch: &Sketch, placed: &Placed, view: [f64; 4], row: usize
     let order = sketch.in_order();
     let is_ground = |link: usize| link == GROUND;
     let ground = |mark: &Mark| mark.role.look().layer == Layer::Ground;
-    let _ = writeln!(
-        out,
-        "<g class=\"ground\">{}</g>",
-        group(&order, sketch, placed, row, &|link, mark| { is_ground(link) && ground(mark) })
-    );
-    let _ = writeln!(
-        out,
-        "<g class=\"reference\">{}</g>",
-        group(&order, sketch, placed, row, &|link, mark| { !(is_ground(link) && ground(mark)) })
-    );
+    let of = |has: &dyn Fn(usize, &Mark) -> bool| group(&order, sketch, placed, row, has);
+    say!(out, "<g class=\"ground\">{}</g>", of(&|link, mark| is_ground(link) && ground(mark)));
+    say!(out, "<g class=\"reference\">{}</g>", of(&|link, mark| !(is_ground(link) && ground(mark))));
     let moves = |link: usize, mark: &Mark| {
         let layer = mark.role.look().layer;
         let is_body = matches!(layer, Layer::Links | Layer::Blocks) || mark.role.name() == "pin";
         is_body && !is_ground(link)
     };
-    let _ = writeln!(out, "<g class=\"engine\">{}</g>", group(&order, sketch, placed, row, &moves));
+    say!(out, "<g class=\"engine\">{}</g>", of(&moves));
     out.push_str(
         "<g id=\"stretched\"></g>\n<g id=\"arrows\"></g>\n<g id=\"loads\"></g>\n<g id=\"load-numbers\"></g>\n<g id=\"names\"></g>\n<g id=\"scales\"></g>\n</svg>",
     );
@@ -71,8 +62,7 @@ fn group(
             }
             let place = transform(placed.pose(row, link), sketch.unit);
             let name = escaped(&placed.mechanism.links()[link].name);
-            let _ =
-                write!(out, "\n<g class=\"k{link}\" data-link=\"{link}\" data-name=\"{name}\" transform=\"{place}\">");
+            put!(out, "\n<g class=\"k{link}\" data-link=\"{link}\" data-name=\"{name}\" transform=\"{place}\">");
             open = Some(link);
         }
         out.push_str(&element(mark, sketch.unit));

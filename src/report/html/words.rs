@@ -1,14 +1,16 @@
 //! What a page says in words: verdict, structure, settings.
 
 use std::collections::BTreeMap;
-use std::fmt::Write;
 
 use super::markup::escaped;
-use crate::plain::{brief, own_forces, style};
+use crate::plain::judged::{self, Judged, Sort};
+use crate::plain::{brief, style};
 use crate::report::text;
 use linkage::mechanism::Mechanism;
 use prover::compare::Verdict;
+
 use prover::numbers::{error_in, fixed, significant};
+
 use prover::proof::Proof;
 
 /// Longest scenario that is shown (bytes).
@@ -29,38 +31,29 @@ pub(super) fn verdict(proof: &Proof) -> String {
 pub(super) fn sentence(proof: &Proof) -> String {
     let engine = if proof.engines.len() == 1 { "Engine" } else { "Engines" };
     let parties: Vec<&str> = proof.engines.iter().map(|engine| engine.info.name).collect();
-    escaped(&format!(
-        "{} Reference: {}. {engine}: {}; {}.",
-        text::sentence(&proof.verdict, proof),
-        proof.reference,
-        parties.join(", "),
-        brief::resolution(proof)
-    ))
+    let (judged, parties, at) = (text::sentence(&proof.verdict, proof), parties.join(", "), brief::resolution(proof));
+    escaped(&format!("{judged} Reference: {}. {engine}: {parties}; {at}.", proof.reference))
 }
 
 /// Checks, and forces as engines themselves exert them, as rows of a table; what uses most of its bound first.
 pub(super) fn checks(proof: &Proof) -> String {
-    let mut rows: Vec<(f64, String)> = Vec::new();
-    let mut add = |name: &str, value: f64, bound: f64, unit: &str, how: &str, verdict: &Verdict| {
-        let cells = [escaped(name), error_in(value, unit), error_in(bound, unit), escaped(how)];
-        let cells: String = cells.iter().map(|cell| format!("<td>{cell}</td>")).collect();
-        let word = verdict.word();
-        let share = if bound > 0.0 { value / bound } else { f64::from(value > 0.0) };
-        rows.push((share, format!("<tr>{cells}<td class=\"{word}\">{word}</td></tr>\n")));
+    let share = |own: &Judged| if own.bound > 0.0 { own.value / own.bound } else { f64::from(own.value > 0.0) };
+    let mut all = judged::of(proof);
+    all.retain(|own| own.sort != Sort::Channel);
+    // Of those that use as much, checks stand first.
+    all.sort_by_key(|own| own.sort != Sort::Check);
+    all.sort_by(|a, b| share(b).total_cmp(&share(a)));
+    let row = |own: Judged| {
+        let name = match own.engine {
+            Some(engine) if own.sort == Sort::OwnForce => format!("{} ({})", own.name, engine.info.name),
+            _ => own.name,
+        };
+        let [value, bound] = [own.value, own.bound].map(|number| error_in(number, own.unit));
+        let cells = [escaped(&name), value, bound, escaped(&own.basis)];
+        let (cells, word) = (cells.map(|cell| format!("<td>{cell}</td>")).concat(), own.verdict.word());
+        format!("<tr>{cells}<td class=\"{word}\">{word}</td></tr>\n")
     };
-    for check in proof.all_checks() {
-        let how = check.basis.to_string();
-        add(&check.name(), check.value, check.bound, check.unit, &how, &check.verdict);
-    }
-    for (engine, own) in proof.engines.iter().flat_map(|own| own.own_forces.iter().map(move |forces| (own, forces))) {
-        for channel in &own.channels {
-            let name = format!("{} ({})", own_forces::name(channel), engine.info.name);
-            let (value, unit) = (channel.residual.max, channel.residual.channel.kind.unit.symbol());
-            add(&name, value, channel.bound, unit, &channel.basis.to_string(), &channel.verdict);
-        }
-    }
-    rows.sort_by(|a, b| b.0.total_cmp(&a.0));
-    rows.into_iter().map(|(_, row)| row).collect()
+    all.into_iter().map(row).collect()
 }
 
 /// Mobility, driving links and groups, links and joints.
@@ -69,26 +62,17 @@ pub(super) fn structure(proof: &Proof) -> String {
     let (mechanism, structure) = (&case.mechanism, &case.structure);
     let mut out = format!("<p><code>{}</code></p>\n", escaped(&proof.formula));
     let mobility = structure.mobility;
-    let _ =
-        writeln!(out, "<p>Mobility {mobility} by counting. Groups in the order in which they are solved:</p>\n<ol>");
+    say!(out, "<p>Mobility {mobility} by counting. Groups in the order in which they are solved:</p>\n<ol>");
     for &(link, joint) in &structure.drivers {
-        let _ =
-            writeln!(out, "<li>driving link {} at {}</li>", link_name(mechanism, link), joint_name(mechanism, joint));
+        say!(out, "<li>driving link {} at {}</li>", link_name(mechanism, link), joint_name(mechanism, joint));
     }
     for (group, mode) in structure.groups.iter().zip(&case.modes) {
         let joints =
             |all: &[usize]| all.iter().map(|&joint| joint_name(mechanism, joint)).collect::<Vec<_>>().join(", ");
-        let _ = writeln!(
-            out,
-            "<li>{}: class {}, order {}, {}, mode {}; inner joints {}; outer joints {}</li>",
-            escaped(&group.names(mechanism)),
-            group.class,
-            group.order(),
-            escaped(&group.pairs().to_string()),
-            escaped(mode.name()),
-            joints(&group.inner),
-            joints(&group.outer)
-        );
+        let [inner, outer] = [&group.inner, &group.outer].map(|all| joints(all));
+        let (links, class, order, pairs) = (group.names(mechanism), group.class, group.order(), group.pairs());
+        let head = escaped(&format!("{links}: class {class}, order {order}, {pairs}, mode {}", mode.name()));
+        say!(out, "<li>{head}; inner joints {inner}; outer joints {outer}</li>");
     }
     out.push_str("</ol>\n");
     out + &links(mechanism) + &joints(mechanism)
@@ -114,11 +98,8 @@ fn links(mechanism: &Mechanism) -> String {
             .collect();
         let [mass, inertia] = [link.mass, link.inertia].map(|own| significant(own, 5));
         let swatch = format!("<span class=\"swatch k{number}\" aria-hidden=\"true\"></span>");
-        format!(
-            "<tr><td>{swatch}{number}</td><td>{}</td><td>{}</td><td>{mass}</td><td>{inertia}</td></tr>\n",
-            escaped(&link.name),
-            points.join(", ")
-        )
+        let (name, points) = (escaped(&link.name), points.join(", "));
+        format!("<tr><td>{swatch}{number}</td><td>{name}</td><td>{points}</td><td>{mass}</td><td>{inertia}</td></tr>\n")
     });
     table("Links", &["no.", "link", "points (mm, its frame)", "mass kg", "inertia kg m²"], rows.collect())
 }
@@ -126,11 +107,8 @@ fn links(mechanism: &Mechanism) -> String {
 fn joints(mechanism: &Mechanism) -> String {
     let rows = mechanism.joints().iter().map(|joint| {
         let [first, second] = [joint.first, joint.second].map(|side| link_name(mechanism, side.link));
-        format!(
-            "<tr><td>{}</td><td>{}</td><td>{first}</td><td>{second}</td></tr>\n",
-            escaped(&joint.name),
-            joint.kind.name()
-        )
+        let (name, kind) = (escaped(&joint.name), joint.kind.name());
+        format!("<tr><td>{name}</td><td>{kind}</td><td>{first}</td><td>{second}</td></tr>\n")
     });
     table("Joints", &["joint", "kind", "first link", "second link"], rows.collect())
 }

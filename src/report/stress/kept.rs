@@ -3,6 +3,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::super::pretty::rows;
 use super::summary::WORDS;
 use lab::stress::{Family, Group, Outcome, Party, Reached, fnv};
 
@@ -18,16 +19,49 @@ struct Document {
     points: Vec<Point>,
 }
 
-#[derive(Serialize, Deserialize)]
-struct Point {
-    dial: f64,
-    sample: u64,
-    key: String,
-    #[serde(default, skip_serializing_if = "String::is_empty")]
-    refused: String,
-    parties: Vec<Row>,
-    #[serde(default)]
-    digest: String,
+rows! {
+    #[derive(Deserialize)]
+    struct Point = |own: &Outcome| {} {
+        dial: f64 = own.dial,
+        sample: u64 = own.sample,
+        key: String = own.key.clone(),
+        #[serde(default, skip_serializing_if = "String::is_empty")]
+        refused: String = own.refused.clone(),
+        parties: Vec<Row> = own.parties.iter().map(Row::of).collect(),
+        #[serde(default)]
+        digest: String = String::new(),
+    }
+
+    #[derive(Deserialize)]
+    struct Row = |own: &Party| {} {
+        name: String = own.name.clone(),
+        verdict: String = own.verdict.clone(),
+        #[serde(default, skip_serializing_if = "String::is_empty")]
+        why: String = own.why.clone(),
+        #[serde(default, skip_serializing_if = "String::is_empty")]
+        against: String = own.against.clone(),
+        groups: Vec<Cell> = own.reached.iter().map(Cell::of).collect(),
+        closure: Option<f64> = own.closure.and_then(finite),
+        balance: Option<f64> = own.balance.and_then(finite),
+        step_s: Option<f64> = own.step,
+        sweeps: Option<usize> = own.sweeps,
+        extrapolated: Option<usize> = own.extrapolated,
+        steps: Option<f64> = own.steps,
+        runs: Option<usize> = own.runs,
+        work: Option<f64> = own.work,
+        #[serde(default)]
+        done: Vec<(String, u64)> = own.done.clone(),
+        silent: usize = own.silent,
+    }
+
+    #[derive(Deserialize)]
+    struct Cell = |own: &Reached| {} {
+        group: String = own.group.name().into(),
+        error: Option<f64> = finite(own.error),
+        bound: Option<f64> = finite(own.bound),
+        channel: String = own.channel.clone(),
+        used: Option<f64> = finite(own.used),
+    }
 }
 
 impl Point {
@@ -39,54 +73,15 @@ impl Point {
     }
 }
 
-#[derive(Serialize, Deserialize)]
-struct Row {
-    name: String,
-    verdict: String,
-    #[serde(default, skip_serializing_if = "String::is_empty")]
-    why: String,
-    #[serde(default, skip_serializing_if = "String::is_empty")]
-    against: String,
-    groups: Vec<Cell>,
-    closure: Option<f64>,
-    balance: Option<f64>,
-    step_s: Option<f64>,
-    sweeps: Option<usize>,
-    extrapolated: Option<usize>,
-    steps: Option<f64>,
-    runs: Option<usize>,
-    work: Option<f64>,
-    #[serde(default)]
-    done: Vec<(String, u64)>,
-    silent: usize,
-}
-
-#[derive(Serialize, Deserialize)]
-struct Cell {
-    group: String,
-    error: Option<f64>,
-    bound: Option<f64>,
-    channel: String,
-    used: Option<f64>,
-}
-
 /// The results of a family, in the order given.
 pub(crate) fn json<'a>(family: &Family, seed: u64, outcomes: impl Iterator<Item = &'a Outcome>) -> String {
-    let point = |own: &Outcome| Point {
-        dial: own.dial,
-        sample: own.sample,
-        key: own.key.clone(),
-        refused: own.refused.clone(),
-        parties: own.parties.iter().map(row).collect(),
-        digest: String::new(),
-    };
     let document = Document {
         schema: SCHEMA,
         family: family.name.into(),
         dial: family.dial.into(),
         title: family.title.into(),
         seed,
-        points: outcomes.map(|own| point(own).sealed()).collect(),
+        points: outcomes.map(|own| Point::of(own).sealed()).collect(),
     };
     serde_json::to_string_pretty(&document).expect("texts and numbers can be written") + "\n"
 }
@@ -115,33 +110,6 @@ pub(crate) fn is_kept(bytes: &[u8], family: &Family) -> bool {
 
 fn finite(value: f64) -> Option<f64> {
     value.is_finite().then_some(value)
-}
-
-fn row(own: &Party) -> Row {
-    let cell = |own: &Reached| Cell {
-        group: own.group.name().into(),
-        error: finite(own.error),
-        bound: finite(own.bound),
-        channel: own.channel.clone(),
-        used: finite(own.used),
-    };
-    Row {
-        name: own.name.clone(),
-        verdict: own.verdict.clone(),
-        why: own.why.clone(),
-        against: own.against.clone(),
-        groups: own.reached.iter().map(cell).collect(),
-        closure: own.closure.and_then(finite),
-        balance: own.balance.and_then(finite),
-        step_s: own.step,
-        sweeps: own.sweeps,
-        extrapolated: own.extrapolated,
-        steps: own.steps,
-        runs: own.runs,
-        work: own.work,
-        done: own.done.clone(),
-        silent: own.silent,
-    }
 }
 
 fn party(own: Row) -> Option<Party> {

@@ -1,11 +1,10 @@
 //! Stability as text, verdict first: where every solver and engine holds to, and what does not.
 
 use std::collections::BTreeMap;
-use std::fmt::Write;
 
 use linkage::math::KeepNan;
 
-use crate::plain::cells::table;
+use crate::plain::cells::{distinct, table};
 use lab::stress::{Family, Group, Outcome};
 
 /// Counts over all points.
@@ -72,9 +71,9 @@ impl Tally {
 pub(crate) fn text(families: &[(&Family, Vec<&Outcome>)]) -> String {
     let mut text = String::new();
     let tally = Tally::of(families.iter().flat_map(|(_, all)| all.iter().copied()));
-    let _ = writeln!(text, "{}.\n", tally.verdict());
+    say!(text, "{}.\n", tally.verdict());
     for (family, outcomes) in families {
-        let _ = writeln!(text, "{}: {}\ndial: {}\n{}", family.name, family.title, family.dial, body(outcomes));
+        say!(text, "{}: {}\ndial: {}\n{}", family.name, family.title, family.dial, body(outcomes));
     }
     text
 }
@@ -88,24 +87,18 @@ pub(super) fn body(outcomes: &[&Outcome]) -> String {
         let [agrees, others, positions, rates, forces, used, widest] = cells(outcomes, name);
         found.add_row([name.to_string(), agrees, others, positions, rates, forces, used, widest]);
         for (word, at, why) in told(outcomes, name) {
-            let _ = writeln!(reasons, "  {name} {word} at {at}: {why}");
+            say!(reasons, "  {name} {word} at {at}: {why}");
         }
     }
     for (at, why) in refused(outcomes) {
-        let _ = writeln!(reasons, "  no mechanism at {at}: {why}");
+        say!(reasons, "  no mechanism at {at}: {why}");
     }
     format!("{found}\n{reasons}")
 }
 
 /// Names of all parties, in the order in which they come.
 pub(super) fn names<'a>(outcomes: &[&'a Outcome]) -> Vec<&'a str> {
-    let mut names: Vec<&str> = Vec::new();
-    for party in outcomes.iter().flat_map(|own| &own.parties) {
-        if !names.contains(&party.name.as_str()) {
-            names.push(&party.name);
-        }
-    }
-    names
+    distinct(outcomes.iter().flat_map(|own| &own.parties).map(|party| party.name.as_str()))
 }
 
 /// Where a party agrees, where not, its largest errors where it agrees, and there the largest share of a bound and the

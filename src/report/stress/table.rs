@@ -1,7 +1,8 @@
 //! A family as CSV: one row for every group of channels of every party at every point.
 
+use crate::plain::cells::csv;
 use lab::stress::{Family, Outcome};
-use linkage::error::{Error, ErrorKind, Result};
+use linkage::error::Result;
 
 const HEADER: [&str; 21] = [
     "family",
@@ -30,11 +31,9 @@ const HEADER: [&str; 21] = [
 /// The table. Errors and bounds are shares of the channel's scale; empty cells are numbers that do not exist.
 ///
 /// # Errors
-/// [`ErrorKind::Io`] if the table cannot be written.
+/// [`ErrorKind::Io`](linkage::ErrorKind::Io) if the table cannot be written.
 pub(crate) fn rows<'a>(family: &Family, outcomes: impl Iterator<Item = &'a Outcome>) -> Result<String> {
-    let failed = |error: csv::Error| Error::new(ErrorKind::Io, format!("the table cannot be written: {error}"));
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    writer.write_record(HEADER).map_err(failed)?;
+    let mut rows = vec![HEADER.map(String::from).to_vec()];
     let some = |value: Option<f64>| value.map_or_else(String::new, |value| format!("{value:e}"));
     let count = |value: Option<usize>| value.map_or_else(String::new, |value| value.to_string());
     for own in outcomes {
@@ -44,7 +43,7 @@ pub(crate) fn rows<'a>(family: &Family, outcomes: impl Iterator<Item = &'a Outco
             row.extend(["", "refused"].map(String::from));
             row.resize(HEADER.len() - 1, String::new());
             row.push(own.refused.clone());
-            writer.write_record(&row).map_err(failed)?;
+            rows.push(row);
         }
         for party in &own.parties {
             let tail = [
@@ -72,11 +71,9 @@ pub(crate) fn rows<'a>(family: &Family, outcomes: impl Iterator<Item = &'a Outco
                 cells.push(std::array::from_fn(|_| String::new()));
             }
             for cell in cells {
-                let own = [party.name.clone(), party.verdict.clone()];
-                writer.write_record(head.iter().chain(&own).chain(&cell).chain(&tail)).map_err(failed)?;
+                rows.push([&head[..], &[party.name.clone(), party.verdict.clone()], &cell, &tail].concat());
             }
         }
     }
-    let bytes = writer.into_inner().map_err(|error| failed(error.into_error().into()))?;
-    Ok(String::from_utf8(bytes).expect("names and numbers are text"))
+    csv(rows)
 }

@@ -81,35 +81,22 @@ fn help(all: &[Channel], name: &str) -> String {
     format!("allowed here: {}", names.join(", "))
 }
 
-/// Derivation of one diagram from another.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Method {
-    /// Velocity from chords of the displacement.
-    ChordVelocity,
-    /// Acceleration from chords of that velocity.
-    ChordAcceleration,
-    /// Displacement by graphical integration of the velocity.
-    IntegratedDisplacement,
-    /// Velocity by graphical integration of the acceleration.
-    IntegratedVelocity,
+linkage::words! {
+    /// Derivation of one diagram from another.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Method: words {
+        /// Velocity from chords of the displacement.
+        ChordVelocity = "velocity by chords",
+        /// Acceleration from chords of that velocity.
+        ChordAcceleration = "acceleration by chords of chords",
+        /// Displacement by graphical integration of the velocity.
+        IntegratedDisplacement = "displacement by integration",
+        /// Velocity by graphical integration of the acceleration.
+        IntegratedVelocity = "velocity by integration",
+    }
 }
 
 impl Method {
-    /// All methods.
-    pub const ALL: [Method; 4] =
-        [Method::ChordVelocity, Method::ChordAcceleration, Method::IntegratedDisplacement, Method::IntegratedVelocity];
-
-    /// The method in words.
-    #[must_use]
-    pub fn words(self) -> &'static str {
-        match self {
-            Method::ChordVelocity => "velocity by chords",
-            Method::ChordAcceleration => "acceleration by chords of chords",
-            Method::IntegratedDisplacement => "displacement by integration",
-            Method::IntegratedVelocity => "velocity by integration",
-        }
-    }
-
     /// Index of its result: 0 displacement, 1 velocity, 2 acceleration.
     #[must_use]
     pub fn gives(self) -> usize {

@@ -7,28 +7,20 @@ use linkage::error::{Error, ErrorKind, Result};
 /// Largest number of phases per turn: ten degrees each.
 const MOST_PHASES: usize = 36;
 
-/// Motion of the output in a phase.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Sense {
-    /// The output is at rest.
-    Dwell,
-    /// The output moves forward.
-    Forward,
-    /// The output moves back.
-    Back,
+linkage::words! {
+    /// Motion of the output in a phase.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Sense: name {
+        /// The output is at rest.
+        Dwell = "dwell",
+        /// The output moves forward.
+        Forward = "forward",
+        /// The output moves back.
+        Back = "back",
+    }
 }
 
 impl Sense {
-    /// Name, as used in files.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Sense::Dwell => "dwell",
-            Sense::Forward => "forward",
-            Sense::Back => "back",
-        }
-    }
-
     /// +1 forward, -1 back, 0 at rest.
     #[inline]
     #[must_use]

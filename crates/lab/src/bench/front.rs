@@ -3,31 +3,20 @@
 use super::point::Point;
 use linkage::trajectory::Stage;
 
-/// What a point costs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Axis {
-    /// Shortest time.
-    Time,
-    /// Solutions of the whole mechanism.
-    Solutions,
-    /// Inner work: sweeps, factorisations, iterations.
-    Inner,
+linkage::words! {
+    /// What a point costs.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Axis: name {
+        /// Shortest time.
+        Time = "time",
+        /// Solutions of the whole mechanism.
+        Solutions = "solutions",
+        /// Inner work: sweeps, factorisations, iterations.
+        Inner = "inner",
+    }
 }
 
 impl Axis {
-    /// All axes.
-    pub const ALL: [Axis; 3] = [Axis::Time, Axis::Solutions, Axis::Inner];
-
-    /// Last part of file names.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Axis::Time => "time",
-            Axis::Solutions => "solutions",
-            Axis::Inner => "inner",
-        }
-    }
-
     /// Cost of a point along the axis: seconds, or a count.
     #[must_use]
     pub fn of(self, point: &Point) -> Option<f64> {

@@ -84,10 +84,7 @@ pub(super) struct Plan {
 /// until its share is used.
 pub(super) fn plan(case: &Case, options: &Options) -> Plan {
     let mut points = sides(case, options);
-    let names = match options.engines.is_empty() {
-        true => EngineName::ALL.to_vec(),
-        false => options.engines.clone(),
-    };
+    let names = if options.engines.is_empty() { EngineName::ALL.to_vec() } else { options.engines.clone() };
     let engines: Vec<Box<dyn Engine>> =
         names.into_iter().filter_map(|name| with_step(name, usual_step(case)).ok()).collect();
     let versions = engines.iter().map(|engine| (engine.name().to_string(), engine.version())).collect();

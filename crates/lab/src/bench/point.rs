@@ -5,26 +5,16 @@ use linkage::engine::Settings;
 use linkage::math::KeepNan;
 use linkage::trajectory::Stage;
 
-/// Whose way it is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Party {
-    /// An analytic side.
-    Side,
-    /// An engine of this build.
-    Engine,
-    /// Another program.
-    Peer,
-}
-
-impl Party {
-    /// Name in tables.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Party::Side => "side",
-            Party::Engine => "engine",
-            Party::Peer => "peer",
-        }
+linkage::words! {
+    /// Whose way it is.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Party: name {
+        /// An analytic side.
+        Side = "side",
+        /// An engine of this build.
+        Engine = "engine",
+        /// Another program.
+        Peer = "peer",
     }
 }
 

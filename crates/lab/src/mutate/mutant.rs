@@ -3,37 +3,24 @@
 use super::kinds::{Kind, Plant};
 use super::seen::Outcome;
 
-/// Who gets a fault.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Party {
-    /// Side 1.
-    Assur,
-    /// Side 2.
-    Newton,
-    /// The engine.
-    Engine,
-    /// All of them alike: what they share is wrong.
-    All,
-    /// The formulas that are judged.
-    Formulas,
+linkage::words! {
+    /// Who gets a fault.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+    pub enum Party: name {
+        /// Side 1.
+        Assur = "assur",
+        /// Side 2.
+        Newton = "newton",
+        /// The engine.
+        Engine = "engine",
+        /// All of them alike: what they share is wrong.
+        All = "trunk",
+        /// The formulas that are judged.
+        Formulas = "formulas",
+    }
 }
 
 impl Party {
-    /// All parties.
-    pub const ALL: [Party; 5] = [Party::Assur, Party::Newton, Party::Engine, Party::All, Party::Formulas];
-
-    /// Name, as on the command line.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Party::Assur => "assur",
-            Party::Newton => "newton",
-            Party::Engine => "engine",
-            Party::All => "trunk",
-            Party::Formulas => "formulas",
-        }
-    }
-
     /// Whether it can have a fault of a kind.
     #[must_use]
     pub fn takes(self, kind: &Kind) -> bool {

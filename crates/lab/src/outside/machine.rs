@@ -8,10 +8,7 @@ pub fn machine() -> Vec<(&'static str, String)> {
     let unknown = || "unknown".to_string();
     let info = fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
     let models: BTreeSet<&str> = info.lines().filter(|line| line.starts_with("model name")).filter_map(value).collect();
-    let cpu = match models.is_empty() {
-        true => unknown(),
-        false => models.into_iter().collect::<Vec<_>>().join(", "),
-    };
+    let cpu = if models.is_empty() { unknown() } else { models.into_iter().collect::<Vec<_>>().join(", ") };
     let release = fs::read_to_string("/etc/os-release").unwrap_or_default();
     let system = release.lines().find_map(|line| line.strip_prefix("PRETTY_NAME=")).map(|name| name.trim_matches('"'));
     let kernel = fs::read_to_string("/proc/sys/kernel/osrelease").unwrap_or_default();

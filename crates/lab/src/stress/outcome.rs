@@ -1,34 +1,15 @@
 //! What came of a point.
 
-/// Quantities that a map shows together.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Group {
-    /// Positions and angles.
-    Positions,
-    /// Velocities and accelerations.
-    Rates,
-    /// Reactions and balancing moment.
-    Forces,
-}
-
-impl Group {
-    /// All groups, in order.
-    pub const ALL: [Group; 3] = [Group::Positions, Group::Rates, Group::Forces];
-
-    /// Name in files and reports.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Group::Positions => "positions",
-            Group::Rates => "rates",
-            Group::Forces => "forces",
-        }
-    }
-
-    /// The group called `name`.
-    #[must_use]
-    pub fn named(name: &str) -> Option<Group> {
-        Group::ALL.into_iter().find(|group| group.name() == name)
+linkage::words! {
+    /// Quantities that a map shows together.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+    pub enum Group: name {
+        /// Positions and angles.
+        Positions = "positions",
+        /// Velocities and accelerations.
+        Rates = "rates",
+        /// Reactions and balancing moment.
+        Forces = "forces",
     }
 }
 
@@ -48,7 +29,7 @@ pub struct Reached {
 }
 
 /// One solver or engine at a point.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Party {
     /// Its name.
     pub name: String,
@@ -85,23 +66,7 @@ pub struct Party {
 impl Party {
     /// One that has no numbers, with the reason.
     pub(super) fn failed(name: &str, why: &str) -> Party {
-        Party {
-            name: name.into(),
-            against: String::new(),
-            reached: Vec::new(),
-            closure: None,
-            balance: None,
-            verdict: "fails".into(),
-            why: why.into(),
-            step: None,
-            sweeps: None,
-            extrapolated: None,
-            steps: None,
-            runs: None,
-            work: None,
-            done: Vec::new(),
-            silent: 0,
-        }
+        Party { name: name.into(), verdict: "fails".into(), why: why.into(), ..Party::default() }
     }
 }
 

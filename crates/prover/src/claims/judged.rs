@@ -56,7 +56,7 @@ pub enum Outcome {
 }
 
 /// A formula judged by value, or by a derivative.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Judged {
     /// Name of the formula.
     pub name: String,
@@ -105,13 +105,7 @@ impl Judged {
             unit: if order == 0 { claim.unit() } else { "" },
             order,
             claimed: formula.error.is_some(),
-            judged: 0,
-            lost: 0,
-            undefined: 0,
-            without: 0,
-            since: None,
-            worst: None,
-            scale: 0.0,
+            ..Judged::default()
         }
     }
 

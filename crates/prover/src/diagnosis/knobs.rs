@@ -62,33 +62,15 @@ impl Knob {
             (1e3 * given, How::Times(1e3, "as g for kg, or m for mm")),
             (1e-3 * given, How::Times(1e-3, "as kg for g, or mm for m")),
         ];
-        Knob {
-            part,
-            given,
-            unit,
-            plain,
-            nudge: 1e-3 * given,
-            moves_nothing: true,
-            is_centre: false,
-            is_far: false,
-            turn,
-        }
+        let nudge = 1e-3 * given;
+        Knob { part, given, unit, plain, nudge, moves_nothing: true, is_centre: false, is_far: false, turn }
     }
 
     /// A place or an angle, whose size has no meaning; `natural` is what it is measured by.
     fn place(part: Part, given: f64, natural: f64, unit: &'static str, turn: Turn) -> Knob {
         let plain = if given == 0.0 { Vec::new() } else { vec![(-given, How::Reversed)] };
-        Knob {
-            part,
-            given,
-            unit,
-            plain,
-            nudge: 1e-4 * natural,
-            moves_nothing: false,
-            is_centre: false,
-            is_far: false,
-            turn,
-        }
+        let nudge = 1e-4 * natural;
+        Knob { part, given, unit, plain, nudge, moves_nothing: false, is_centre: false, is_far: false, turn }
     }
 
     fn also(mut self, plain: impl IntoIterator<Item = (f64, How)>) -> Knob {

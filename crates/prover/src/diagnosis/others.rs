@@ -62,10 +62,7 @@ fn alike(one: &Channel, other: &Channel) -> bool {
 /// The two components of a vector, where its magnitude stands in the place of one.
 fn magnitude(question: &Question, one: &Wrong) -> Option<[Channel; 2]> {
     let suffix = one.channel.kind.suffix;
-    let other = match suffix.contains('y') {
-        true => suffix.replacen('y', "x", 1),
-        false => suffix.replacen('x', "y", 1),
-    };
+    let other = if suffix.contains('y') { suffix.replacen('y', "x", 1) } else { suffix.replacen('x', "y", 1) };
     let other = Channel::named(&format!("{}.{other}", one.channel.subject()))?;
     let across = question.reference.column(&other)?;
     let sizes: Vec<f64> = one.right.iter().zip(across).map(|(a, b)| a.hypot(*b)).collect();

@@ -36,55 +36,40 @@ const G: f64 = 9.806_65;
 /// A pound-force (N).
 const POUND: f64 = 4.448_221_615_260_5;
 
+/// Lengths in other units.
+const LENGTHS: [Mistaken; 6] = [MILLIMETRES, FROM_MILLIMETRES, CENTIMETRES, FROM_CENTIMETRES, INCHES, FEET];
+/// Forces in other units.
+const FORCES: [Mistaken; 4] = [THOUSANDFOLD, THOUSANDTH, KILOPONDS, FROM_KILOPONDS];
+
 /// Units that are taken for the unit of a channel, the likeliest first.
-fn mistaken(unit: Unit) -> &'static [Mistaken] {
-    match unit {
-        Unit::Radian => &[DEGREES, TWICE_CONVERTED, TURNS],
-        Unit::RadianPerSecond => &[
-            DEGREES,
-            TWICE_CONVERTED,
-            (30.0 / PI, "revolutions per minute instead of rad/s"),
-            (PI / 30.0, "rad/s taken for revolutions per minute"),
-            TURNS,
-            PER_MINUTE,
-            FROM_MINUTE,
-        ],
-        Unit::RadianPerSecondSquared => &[DEGREES, TWICE_CONVERTED, TURNS],
-        Unit::Metre => &[MILLIMETRES, FROM_MILLIMETRES, CENTIMETRES, FROM_CENTIMETRES, INCHES, FEET],
-        Unit::MetrePerSecond => &[
-            MILLIMETRES,
-            FROM_MILLIMETRES,
-            CENTIMETRES,
-            FROM_CENTIMETRES,
-            INCHES,
-            FEET,
-            PER_MINUTE,
-            FROM_MINUTE,
-            (3.6, "km/h instead of m/s"),
-        ],
-        Unit::MetrePerSecondSquared => &[
-            MILLIMETRES,
-            FROM_MILLIMETRES,
-            CENTIMETRES,
-            FROM_CENTIMETRES,
-            INCHES,
-            FEET,
-            (1.0 / G, "multiples of standard gravity instead of m/s^2"),
-        ],
-        Unit::Newton => {
-            &[THOUSANDFOLD, THOUSANDTH, KILOPONDS, FROM_KILOPONDS, (1.0 / POUND, "pounds-force instead of newtons")]
-        }
-        Unit::NewtonMetre => &[
-            THOUSANDFOLD,
-            THOUSANDTH,
-            KILOPONDS,
-            FROM_KILOPONDS,
-            (1e2, "N cm instead of N m"),
-            (1e-2, "N m taken for N cm"),
-            (1.0 / (POUND * 0.3048), "pound-feet instead of N m"),
-            (1.0 / (POUND * 0.0254), "pound-inches instead of N m"),
-        ],
-    }
+fn mistaken(unit: Unit) -> Vec<Mistaken> {
+    let (first, rest): (&[Mistaken], &[Mistaken]) = match unit {
+        Unit::Radian | Unit::RadianPerSecondSquared => (&[DEGREES, TWICE_CONVERTED, TURNS], &[]),
+        Unit::RadianPerSecond => (
+            &[DEGREES, TWICE_CONVERTED],
+            &[
+                (30.0 / PI, "revolutions per minute instead of rad/s"),
+                (PI / 30.0, "rad/s taken for revolutions per minute"),
+                TURNS,
+                PER_MINUTE,
+                FROM_MINUTE,
+            ],
+        ),
+        Unit::Metre => (&LENGTHS, &[]),
+        Unit::MetrePerSecond => (&LENGTHS, &[PER_MINUTE, FROM_MINUTE, (3.6, "km/h instead of m/s")]),
+        Unit::MetrePerSecondSquared => (&LENGTHS, &[(1.0 / G, "multiples of standard gravity instead of m/s^2")]),
+        Unit::Newton => (&FORCES, &[(1.0 / POUND, "pounds-force instead of newtons")]),
+        Unit::NewtonMetre => (
+            &FORCES,
+            &[
+                (1e2, "N cm instead of N m"),
+                (1e-2, "N m taken for N cm"),
+                (1.0 / (POUND * 0.3048), "pound-feet instead of N m"),
+                (1.0 / (POUND * 0.0254), "pound-inches instead of N m"),
+            ],
+        ),
+    };
+    [first, rest].concat()
 }
 
 /// A disagreeing channel with its values.
@@ -139,7 +124,7 @@ pub(super) fn wrong<'a>(question: &'a Question) -> Vec<Wrong<'a>> {
 /// Slips without a free number, the simplest first.
 fn plain(wrong: &[Wrong]) -> Vec<Slip> {
     let mut slips: Vec<Slip> = Plain::ALL.iter().map(|&plain| Slip::Plain(plain)).collect();
-    for &(factor, told) in wrong.iter().flat_map(|wrong| mistaken(wrong.channel.kind.unit)) {
+    for (factor, told) in wrong.iter().flat_map(|wrong| mistaken(wrong.channel.kind.unit)) {
         let slip = Slip::Unit { factor, told };
         if !slips.contains(&slip) {
             slips.push(slip);

@@ -1,5 +1,6 @@
 //! Axes with round numbers.
 
+use drawing::paper::document::document;
 use drawing::paper::figure::{Figure, Style, Type, solid, words};
 use drawing::paper::scale::{factor, round_up};
 use drawing::paper::style::{BLACK, GREY};
@@ -7,6 +8,35 @@ use linkage::math::{KeepNan, Vec2};
 
 /// Style of a grid line.
 pub const GRID: Style = solid("#c8c8c8", 0.15);
+
+/// Margins of a sheet (mm).
+const MARGIN: f64 = 12.0;
+
+/// A sheet of diagrams below each other, with a title and notes above: `gap` below the notes, room on the left of all and
+/// between two of them (mm).
+pub fn stacked(
+    title: &str,
+    notes: &[String],
+    gap: f64,
+    panels: impl Iterator<Item = Figure>,
+    [left, between]: [f64; 2],
+) -> String {
+    let mut sheet = Figure::default();
+    sheet.text(Vec2::new(MARGIN, -MARGIN - 4.0), title, Type { bold: true, ..words(5.0) });
+    let mut top = -MARGIN - 10.0;
+    for note in notes {
+        sheet.text(Vec2::new(MARGIN, top), note.as_str(), words(3.2));
+        top -= 4.6;
+    }
+    top -= gap;
+    for figure in panels {
+        let [low, high] = figure.bounds();
+        sheet.add(&figure, Vec2::new(MARGIN + left, top - high.y));
+        top -= high.y - low.y + between;
+    }
+    let [low, high] = sheet.bounds();
+    document(&sheet, [(high.x + MARGIN).ceil(), (MARGIN - low.y).ceil()], title)
+}
 
 /// A vertical axis between two round values.
 #[derive(Clone, Copy, Debug)]

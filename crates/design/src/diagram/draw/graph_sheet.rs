@@ -1,8 +1,7 @@
 //! The sheet of graphs over the crank angle, arranged vertically.
 
-use super::axes::{Axis, GRID, frame};
+use super::axes::{Axis, GRID, frame, stacked};
 use crate::diagram::graphs::{Graph, Graphs};
-use drawing::paper::document::document;
 use drawing::paper::figure::{Figure, Style, Type, scripted, solid, words};
 use drawing::paper::style::{COLOURS, significant};
 use linkage::math::{KeepNan, Vec2};
@@ -12,9 +11,8 @@ const LONG: f64 = 180.0;
 /// Largest height of a graph, and distance between two graphs (mm).
 const HIGH: f64 = 56.0;
 const BETWEEN: f64 = 6.0;
-/// Left margin, for the numbers of the axis, and the other margins (mm).
+/// Room on the left for the numbers of the axis (mm).
 const LEFT: f64 = 22.0;
-const MARGIN: f64 = 12.0;
 /// Room above and below a curve for the text at its extremes, as a share of its range.
 const ROOM: f64 = 0.2;
 /// Closer to an end of the axis than this (mm), the text at an extreme starts or ends there.
@@ -25,22 +23,8 @@ const MEAN: Style = Style { colour: COLOURS[1], width: 0.3, dash: "2 1.2" };
 /// The graphs as an SVG document; `title` is written above them.
 #[must_use]
 pub fn graphs(graphs: &Graphs, title: &str) -> String {
-    let mut sheet = Figure::default();
-    sheet.text(Vec2::new(MARGIN, -MARGIN - 4.0), title, Type { bold: true, ..words(5.0) });
-    let mut top = -MARGIN - 10.0;
-    for note in &graphs.notes {
-        sheet.text(Vec2::new(MARGIN, top), note.as_str(), words(3.2));
-        top -= 4.6;
-    }
-    top -= 3.0;
-    for graph in &graphs.graphs {
-        let figure = panel(graph, graphs.period);
-        let [low, high] = figure.bounds();
-        sheet.add(&figure, Vec2::new(MARGIN + LEFT, top - high.y));
-        top -= high.y - low.y + BETWEEN;
-    }
-    let [low, high] = sheet.bounds();
-    document(&sheet, [(high.x + MARGIN).ceil(), (MARGIN - low.y).ceil()], title)
+    let panels = graphs.graphs.iter().map(|graph| panel(graph, graphs.period));
+    stacked(title, &graphs.notes, 3.0, panels, [LEFT, BETWEEN])
 }
 
 /// One graph; the lower left corner of its frame is the origin.

@@ -1,8 +1,7 @@
 //! The sheet of motion diagrams: displacement, velocity and acceleration over the crank angle, arranged vertically.
 
-use super::axes::{Axis, GRID, frame};
+use super::axes::{Axis, GRID, frame, stacked};
 use crate::diagram::motion::{Found, Method, MotionDiagram};
-use drawing::paper::document::document;
 use drawing::paper::figure::{Figure, Style, Type, solid, sub, words};
 use drawing::paper::style::{BLACK, COLOURS, significant};
 use linkage::math::{KeepNan, Vec2};
@@ -12,9 +11,8 @@ const LONG: f64 = 180.0;
 /// Largest height of a diagram, and distance between two diagrams (mm).
 const HIGH: f64 = 60.0;
 const BETWEEN: f64 = 10.0;
-/// Left margin, for the numbers of the axis, and the other margins (mm).
+/// Room on the left for the numbers of the axis (mm).
 const LEFT: f64 = 28.0;
-const MARGIN: f64 = 12.0;
 /// Font size of the legend, and distance of its lines (mm).
 const TEXT: f64 = 3.3;
 const LINE: f64 = 5.0;
@@ -24,22 +22,11 @@ const POINTS: usize = 361;
 /// The diagrams as an SVG document; `title` is written above them.
 #[must_use]
 pub fn motion(diagram: &MotionDiagram, title: &str) -> String {
-    let mut sheet = Figure::default();
-    sheet.text(Vec2::new(MARGIN, -MARGIN - 4.0), title, Type { bold: true, ..words(5.0) });
-    let line = format!(
+    let note = format!(
         "chord method and graphical integration, {} divisions of the turn; errors as shares of half the range of the exact curve",
         diagram.divisions
     );
-    sheet.text(Vec2::new(MARGIN, -MARGIN - 10.0), line, words(3.2));
-    let mut top = -MARGIN - 18.0;
-    for which in 0..3 {
-        let figure = panel(diagram, which);
-        let [low, high] = figure.bounds();
-        sheet.add(&figure, Vec2::new(MARGIN + LEFT, top - high.y));
-        top -= high.y - low.y + BETWEEN;
-    }
-    let [low, high] = sheet.bounds();
-    document(&sheet, [(high.x + MARGIN).ceil(), (MARGIN - low.y).ceil()], title)
+    stacked(title, &[note], 3.4, (0..3).map(|which| panel(diagram, which)), [LEFT, BETWEEN])
 }
 
 /// One diagram; the lower left corner of its frame is the origin.

@@ -2,39 +2,27 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::kind::{Family, Kind};
+use super::kind::kinds;
 use super::touch::parts;
 use linkage::case::{Case, Grid};
 use linkage::drive::{Drive, DriveMotion, MotionLaw};
 use prover::diagnosis::{at_speed, driven, reassembled};
 
-const OF: Family = Family::Drive;
-
-pub(super) const KINDS: &[Kind] = &[
-    Kind::case(OF, "start-angle", "the crank starts at another angle (rad)", |case, size| {
-        started(case, 0, |start| start + size)
-    })
-    .sized(1e-2),
-    Kind::case(OF, "start-degrees", "the crank's start angle in degrees is taken for radians", |case, _| {
-        started(case, 0, f64::to_degrees)
-    }),
-    Kind::case(OF, "start-radians", "the crank's start angle is converted to radians twice", |case, _| {
-        started(case, 0, f64::to_radians)
-    }),
-    Kind::case(OF, "start-sense", "the crank's start angle is counted clockwise", |case, _| {
-        started(case, 0, |start| -start)
-    }),
-    Kind::case(OF, "start-from-y", "the crank's angle is measured from the y axis", |case, _| {
-        started(case, 0, |start| start + PI / 2.0)
-    }),
-    Kind::case(OF, "speed", "the drive is faster by a share of its speed", |case, size| faster(case, 0, 1.0 + size))
-        .sized(1e-2),
-    Kind::case(OF, "speed-reversed", "the drive turns the other way", |case, _| faster(case, 0, -1.0)),
-    Kind::case(OF, "speed-rpm", "the speed in rad/s is taken for rpm", |case, _| faster(case, 0, PI / 30.0)),
-    Kind::case(OF, "speed-hertz", "the speed in rad/s is taken for revolutions per second", |case, _| {
-        faster(case, 0, TAU)
-    }),
-    Kind::case(OF, "law-constant", "a speed that changes is taken for the constant top speed", |case, _| {
+kinds! { Drive, Case:
+    "start-angle" (1e-2): "the crank starts at another angle (rad)",
+        |case, size| started(case, 0, |start| start + size);
+    "start-degrees": "the crank's start angle in degrees is taken for radians",
+        |case, _| started(case, 0, f64::to_degrees);
+    "start-radians": "the crank's start angle is converted to radians twice",
+        |case, _| started(case, 0, f64::to_radians);
+    "start-sense": "the crank's start angle is counted clockwise", |case, _| started(case, 0, |start| -start);
+    "start-from-y": "the crank's angle is measured from the y axis",
+        |case, _| started(case, 0, |start| start + PI / 2.0);
+    "speed" (1e-2): "the drive is faster by a share of its speed", |case, size| faster(case, 0, 1.0 + size);
+    "speed-reversed": "the drive turns the other way", |case, _| faster(case, 0, -1.0);
+    "speed-rpm": "the speed in rad/s is taken for rpm", |case, _| faster(case, 0, PI / 30.0);
+    "speed-hertz": "the speed in rad/s is taken for revolutions per second", |case, _| faster(case, 0, TAU);
+    "law-constant": "a speed that changes is taken for the constant top speed", |case, _| {
         if case.is_free() || case.crank().constant_speed().is_some() {
             return None;
         }
@@ -43,50 +31,42 @@ pub(super) const KINDS: &[Kind] = &[
             DriveMotion::Prescribed { law: own, .. } => *own = law.clone(),
             DriveMotion::Free { .. } => {}
         })
-    }),
-    Kind::case(OF, "initial-speed", "the free crank starts faster by a share of its nominal speed", |case, size| {
+    };
+    "initial-speed" (1e-2): "the free crank starts faster by a share of its nominal speed", |case, size| {
         let nominal = case.crank().top_speed();
         initial(case, |speed| speed + size * nominal)
-    })
-    .sized(1e-2),
-    Kind::case(OF, "initial-speed-missing", "the free crank starts from rest", |case, _| {
+    };
+    "initial-speed-missing": "the free crank starts from rest", |case, _| {
         (case.crank().initial_speed() != 0.0).then_some(())?;
         initial(case, |_| 0.0)
-    }),
-    Kind::case(OF, "initial-speed-reversed", "the free crank starts the other way", |case, _| {
+    };
+    "initial-speed-reversed": "the free crank starts the other way", |case, _| {
         (case.crank().initial_speed() != 0.0).then_some(())?;
         initial(case, |speed| -speed)
-    }),
-    Kind::case(OF, "free-held", "a free crank turns with its nominal speed all the time", |case, _| {
+    };
+    "free-held": "a free crank turns with its nominal speed all the time", |case, _| {
         (case.crank().is_free() && case.drives.iter().count() == 1).then_some(())?;
         turned(case, 0, |drive| *drive = drive.nominal())
-    }),
-    Kind::case(OF, "second-angle", "the last driving link starts at another angle (rad)", |case, size| {
+    };
+    "second-angle" (1e-2): "the last driving link starts at another angle (rad)", |case, size| {
         let last = case.drives.further().len();
         (last > 0).then_some(())?;
         started(case, last, |start| start + size)
-    })
-    .sized(1e-2),
-    Kind::case(OF, "second-reversed", "the last driving link turns the other way", |case, _| {
+    };
+    "second-reversed": "the last driving link turns the other way", |case, _| {
         let last = case.drives.further().len();
         (last > 0).then_some(())?;
         faster(case, last, -1.0)
-    }),
-    Kind::case(OF, "second-speed", "the last driving link is faster by a share of its speed", |case, size| {
+    };
+    "second-speed" (1e-2): "the last driving link is faster by a share of its speed", |case, size| {
         let last = case.drives.further().len();
         (last > 0).then_some(())?;
         faster(case, last, 1.0 + size)
-    })
-    .sized(1e-2),
-    Kind::case(OF, "late", "every instant is taken later by a share of a radian of the crank", |case, size| {
-        shifted(case, size)
-    })
-    .sized(1e-3),
-    Kind::case(OF, "clock", "the clock goes slow: time is counted in units larger by a share", |case, size| {
-        scaled(case, 1.0 - size)
-    })
-    .sized(1e-3),
-];
+    };
+    "late" (1e-3): "every instant is taken later by a share of a radian of the crank", |case, size| shifted(case, size);
+    "clock" (1e-3): "the clock goes slow: time is counted in units larger by a share",
+        |case, size| scaled(case, 1.0 - size);
+}
 
 /// The case with one drive changed.
 fn turned(case: &Case, index: usize, change: impl Fn(&mut Drive)) -> Option<Case> {

@@ -1,59 +1,36 @@
 //! Reactions and moments that are answered.
 
-use super::kind::{Family, Kind};
+use super::kind::kinds;
 use super::touch::{crank, crank_pin, output, slider};
 use linkage::math::{Vec2, cross, rotated};
 use linkage::mechanism::Joint;
 
-const OF: Family = Family::Force;
-
-pub(super) const KINDS: &[Kind] = &[
-    Kind::answer(OF, "reaction", "the reaction in the last joint is larger by a share", |_, state, size| {
-        state.forces.last_mut().map(|force| *force *= 1.0 + size)
-    })
-    .sized(1e-2),
-    Kind::answer(
-        OF,
-        "reaction-sign",
-        "the reaction in the last joint is that of the second link on the first",
-        |_, state, _| state.forces.last_mut().map(|force| *force *= -1.0),
-    ),
-    Kind::answer(OF, "reaction-axes", "x and y of the reaction in the last joint are exchanged", |_, state, _| {
-        state.forces.last_mut().map(|force| *force = Vec2::new(force.y, force.x))
-    }),
-    Kind::answer(OF, "reaction-frame", "the reaction in the crank's pin is in the crank's frame", |at, state, _| {
+kinds! { Force, Answer:
+    "reaction" (1e-2): "the reaction in the last joint is larger by a share",
+        |_, state, size| state.forces.last_mut().map(|force| *force *= 1.0 + size);
+    "reaction-sign": "the reaction in the last joint is that of the second link on the first",
+        |_, state, _| state.forces.last_mut().map(|force| *force *= -1.0);
+    "reaction-axes": "x and y of the reaction in the last joint are exchanged",
+        |_, state, _| state.forces.last_mut().map(|force| *force = Vec2::new(force.y, force.x));
+    "reaction-frame": "the reaction in the crank's pin is in the crank's frame", |at, state, _| {
         let direction = state.motions[crank(at.case)].direction;
         let force = &mut state.forces[crank_pin(at.case)];
         *force = rotated(Vec2::new(direction.x, -direction.y), *force);
-        Some(())
-    }),
-    Kind::answer(
-        OF,
-        "reaction-component",
-        "of the reaction in the crank's pin only the part across the next link is left",
+    };
+    "reaction-component": "of the reaction in the crank's pin only the part across the next link is left",
         |at, state, _| {
             let pin = crank_pin(at.case);
             (pin != at.case.crank().joint).then_some(())?;
             let along = state.motions[at.case.mechanism.joints()[pin].other(crank(at.case)).link].direction;
             let force = &mut state.forces[pin];
             *force -= along * along.dot(force);
-            Some(())
-        },
-    ),
-    Kind::answer(
-        OF,
-        "pivot-component",
-        "the crank's pivot has only the part of the pin's reaction across the next link",
+        };
+    "pivot-component": "the crank's pivot has only the part of the pin's reaction across the next link",
         |at, state, _| {
             let dropped = dropped(at.case, state)?;
             state.forces[at.case.crank().joint] -= dropped;
-            Some(())
-        },
-    ),
-    Kind::answer(
-        OF,
-        "moment-component",
-        "the balancing moment is that of one component of the reaction in the crank's pin",
+        };
+    "moment-component": "the balancing moment is that of one component of the reaction in the crank's pin",
         |at, state, _| {
             let dropped = dropped(at.case, state)?;
             let pin = at.case.mechanism.joints()[crank_pin(at.case)].on(crank(at.case))?;
@@ -61,94 +38,54 @@ pub(super) const KINDS: &[Kind] = &[
             let motion = &state.motions[crank(at.case)];
             let arm = motion.arm(pin) - motion.arm(own);
             state.torques[0] -= cross(arm, dropped);
-            Some(())
-        },
-    ),
-    Kind::answer(
-        OF,
-        "reaction-without-weight",
-        "the reaction in the crank's pivot lacks the crank's weight",
-        |at, state, _| {
-            let weight = at.case.gravity * at.case.mechanism.links()[crank(at.case)].mass;
-            (weight.norm() > 0.0).then(|| state.forces[at.case.crank().joint] += weight)
-        },
-    ),
-    Kind::answer(
-        OF,
-        "reaction-without-inertia",
-        "the reaction in the crank's pivot lacks the crank's inertia force",
-        |at, state, _| {
-            let link = &at.case.mechanism.links()[crank(at.case)];
-            let force = state.motions[crank(at.case)].point_acceleration(link.mass_centre) * link.mass;
-            (link.mass > 0.0).then(|| state.forces[at.case.crank().joint] -= force)
-        },
-    ),
-    Kind::answer(OF, "reaction-x-dropped", "the reaction in the last joint has no x component", |_, state, _| {
-        state.forces.last_mut().map(|force| force.x = 0.0)
-    }),
-    Kind::answer(OF, "reaction-instant", "the reaction in the last joint is doubled at one instant", |at, state, _| {
+        };
+    "reaction-without-weight": "the reaction in the crank's pivot lacks the crank's weight", |at, state, _| {
+        let weight = at.case.gravity * at.case.mechanism.links()[crank(at.case)].mass;
+        (weight.norm() > 0.0).then(|| state.forces[at.case.crank().joint] += weight)
+    };
+    "reaction-without-inertia": "the reaction in the crank's pivot lacks the crank's inertia force", |at, state, _| {
+        let link = &at.case.mechanism.links()[crank(at.case)];
+        let force = state.motions[crank(at.case)].point_acceleration(link.mass_centre) * link.mass;
+        (link.mass > 0.0).then(|| state.forces[at.case.crank().joint] -= force)
+    };
+    "reaction-x-dropped": "the reaction in the last joint has no x component",
+        |_, state, _| state.forces.last_mut().map(|force| force.x = 0.0);
+    "reaction-instant": "the reaction in the last joint is doubled at one instant", |at, state, _| {
         let factor = if at.row == at.case.grid.len() / 2 { 2.0 } else { 1.0 };
         state.forces.last_mut().map(|force| *force *= factor)
-    }),
-    Kind::answer(OF, "reactions-kilo", "all forces are in kilonewtons", |_, state, _| {
-        state.forces.iter_mut().for_each(|force| *force *= 1e-3);
-        Some(())
-    }),
-    Kind::answer(
-        OF,
-        "reactions-exchanged",
-        "the reactions in the first and the last joint are exchanged",
-        |_, state, _| {
-            let last = state.forces.len() - 1;
-            (last > 0).then(|| state.forces.swap(0, last))
-        },
-    ),
-    Kind::answer(OF, "guide-moment-missing", "the moment in the first slider is missing", |at, state, _| {
-        state.moments[slider(at.case)?] = 0.0;
-        Some(())
-    }),
-    Kind::answer(OF, "guide-moment-sign", "the moment in the first slider has the wrong sign", |at, state, _| {
-        state.moments[slider(at.case)?] *= -1.0;
-        Some(())
-    }),
-    Kind::answer(
-        OF,
-        "guide-moment-point",
-        "the moment in the first slider is about the place on the guide",
-        |at, state, _| {
-            let index = slider(at.case)?;
-            let arm = span(&at.case.mechanism.joints()[index], state);
-            state.moments[index] += cross(arm, state.forces[index]);
-            Some(())
-        },
-    ),
-    Kind::answer(OF, "last-guide-moment", "the moment in the last slider is missing", |at, state, _| {
+    };
+    "reactions-kilo": "all forces are in kilonewtons",
+        |_, state, _| state.forces.iter_mut().for_each(|force| *force *= 1e-3);
+    "reactions-exchanged": "the reactions in the first and the last joint are exchanged", |_, state, _| {
+        let last = state.forces.len() - 1;
+        (last > 0).then(|| state.forces.swap(0, last))
+    };
+    "guide-moment-missing": "the moment in the first slider is missing",
+        |at, state, _| state.moments[slider(at.case)?] = 0.0;
+    "guide-moment-sign": "the moment in the first slider has the wrong sign",
+        |at, state, _| state.moments[slider(at.case)?] *= -1.0;
+    "guide-moment-point": "the moment in the first slider is about the place on the guide", |at, state, _| {
+        let index = slider(at.case)?;
+        let arm = span(&at.case.mechanism.joints()[index], state);
+        state.moments[index] += cross(arm, state.forces[index]);
+    };
+    "last-guide-moment": "the moment in the last slider is missing", |at, state, _| {
         let last = at.case.mechanism.joints().iter().rposition(Joint::slides)?;
         state.moments[last] = 0.0;
-        Some(())
-    }),
-    Kind::answer(OF, "moment", "the balancing moment is larger by a share", |at, state, size| {
-        has_moment(at.case).then(|| state.torques[0] *= 1.0 + size)
-    })
-    .sized(1e-2),
-    Kind::answer(OF, "moment-sign", "the balancing moment is that of the crank on the drive", |at, state, _| {
-        has_moment(at.case).then(|| state.torques[0] *= -1.0)
-    }),
-    Kind::answer(
-        OF,
-        "moment-wrong-point",
-        "the balancing moment is taken about the crank's mass centre",
-        |at, state, _| {
-            has_moment(at.case).then_some(())?;
-            let link = &at.case.mechanism.links()[crank(at.case)];
-            let own = at.case.mechanism.joints()[at.case.crank().joint].on(crank(at.case))?;
-            let motion = &state.motions[crank(at.case)];
-            let arm = motion.arm(link.mass_centre) - motion.arm(own);
-            state.torques[0] += cross(arm, state.forces[at.case.crank().joint]);
-            Some(())
-        },
-    ),
-    Kind::answer(OF, "moment-without-weight", "the balancing moment lacks the crank's weight", |at, state, _| {
+    };
+    "moment" (1e-2): "the balancing moment is larger by a share",
+        |at, state, size| has_moment(at.case).then(|| state.torques[0] *= 1.0 + size);
+    "moment-sign": "the balancing moment is that of the crank on the drive",
+        |at, state, _| has_moment(at.case).then(|| state.torques[0] *= -1.0);
+    "moment-wrong-point": "the balancing moment is taken about the crank's mass centre", |at, state, _| {
+        has_moment(at.case).then_some(())?;
+        let link = &at.case.mechanism.links()[crank(at.case)];
+        let own = at.case.mechanism.joints()[at.case.crank().joint].on(crank(at.case))?;
+        let motion = &state.motions[crank(at.case)];
+        let arm = motion.arm(link.mass_centre) - motion.arm(own);
+        state.torques[0] += cross(arm, state.forces[at.case.crank().joint]);
+    };
+    "moment-without-weight": "the balancing moment lacks the crank's weight", |at, state, _| {
         has_moment(at.case).then_some(())?;
         let link = &at.case.mechanism.links()[crank(at.case)];
         let own = at.case.mechanism.joints()[at.case.crank().joint].on(crank(at.case))?;
@@ -157,17 +94,12 @@ pub(super) const KINDS: &[Kind] = &[
         let moment = cross(arm, at.case.gravity) * link.mass;
         state.torques[0] += moment;
         (link.mass > 0.0 && at.case.gravity.norm() > 0.0).then_some(())
-    }),
-    Kind::answer(
-        OF,
-        "moments-exchanged",
-        "the moments of the first and the last drive are exchanged",
-        |at, state, _| {
-            let last = state.torques.len() - 1;
-            (last > 0 && !at.case.is_free()).then(|| state.torques.swap(0, last))
-        },
-    ),
-    Kind::answer(OF, "force-output", "the reaction on the last link lacks the link's inertia force", |at, state, _| {
+    };
+    "moments-exchanged": "the moments of the first and the last drive are exchanged", |at, state, _| {
+        let last = state.torques.len() - 1;
+        (last > 0 && !at.case.is_free()).then(|| state.torques.swap(0, last))
+    };
+    "force-output": "the reaction on the last link lacks the link's inertia force", |at, state, _| {
         let (link, joints) = (output(at.case), at.case.mechanism.joints());
         let joint = joints.iter().position(|joint| joint.on(link).is_some())?;
         let own = &at.case.mechanism.links()[link];
@@ -175,8 +107,8 @@ pub(super) const KINDS: &[Kind] = &[
         let sign = if joints[joint].second.link == link { 1.0 } else { -1.0 };
         state.forces[joint] -= force * sign;
         (own.mass > 0.0).then_some(())
-    }),
-];
+    };
+}
 
 /// Whether the first drive has a moment that is answered.
 fn has_moment(case: &linkage::case::Case) -> bool {

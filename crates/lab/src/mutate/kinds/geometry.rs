@@ -1,80 +1,45 @@
 //! Lengths, guides and configurations.
 
-use super::kind::{Family, Kind};
+use super::kind::kinds;
 use super::touch::{coupler, crank, ends, move_places, moving_guide, output, placed, slider};
 use linkage::case::Case;
 use linkage::math::{Vec2, rotated, turned, unit};
 use linkage::mechanism::{GROUND, JointKind};
 use prover::diagnosis::others;
 
-const OF: Family = Family::Geometry;
-
-pub(super) const KINDS: &[Kind] = &[
-    Kind::case(
-        OF,
-        "coupler-longer",
-        "the first link that is not driven is longer by a share of its length",
-        |case, size| stretched(case, coupler(case)?, 1.0 + size),
-    )
-    .sized(1e-2),
-    Kind::case(OF, "crank-longer", "the crank is longer by a share of its length", |case, size| {
-        stretched(case, crank(case), 1.0 + size)
-    })
-    .sized(1e-2),
-    Kind::case(OF, "crank-half", "the crank has half its length", |case, _| stretched(case, crank(case), 0.5)),
-    Kind::case(OF, "output-longer", "the last link is longer by a share of its length", |case, size| {
-        stretched(case, output(case), 1.0 + size)
-    })
-    .sized(1e-2),
-    Kind::case(
-        OF,
-        "pivot-aside",
-        "the last pivot of the ground is moved along x by a share of the size",
-        |case, size| pivot(case, |place, long| place + Vec2::new(size * long, 0.0)),
-    )
-    .sized(1e-2),
-    Kind::case(OF, "pivot-up", "the last pivot of the ground is moved along y by a share of the size", |case, size| {
-        pivot(case, |place, long| place + Vec2::new(0.0, size * long))
-    })
-    .sized(1e-2),
-    Kind::case(OF, "pivot-mirrored", "the last pivot of the ground has y with the wrong sign", |case, _| {
-        pivot(case, |place, _| Vec2::new(place.x, -place.y))
-    }),
-    Kind::case(
-        OF,
-        "point-mirrored",
-        "a place on a link with three places is on the wrong side of the link",
-        |case, _| {
-            let joints = case.mechanism.joints();
-            let off = |link: usize| joints.iter().filter_map(move |joint| joint.on(link)).find(|place| place.y != 0.0);
-            let link = (1..case.mechanism.links().len()).find(|&link| off(link).is_some())?;
-            let wrong = off(link)?;
-            let mirrored = move |place: Vec2| if place == wrong { Vec2::new(place.x, -place.y) } else { place };
-            placed(case, |links, joints| move_places(links, joints, link, mirrored))
-        },
-    ),
-    Kind::case(OF, "guide-turned", "the axis of the first slider is turned by an angle", |case, size| {
-        guided(case, slider(case)?, |axis| rotated(unit(size), axis), 0.0)
-    })
-    .sized(1e-2),
-    Kind::case(
-        OF,
-        "guide-aside",
-        "the guide of the first slider is moved across by a share of the size",
-        |case, size| guided(case, slider(case)?, |axis| axis, size * case.mechanism.size()),
-    )
-    .sized(1e-2),
-    Kind::case(OF, "moving-guide-aside", "a guide that moves is moved across by a share of the size", |case, size| {
-        guided(case, moving_guide(case)?, |axis| axis, size * case.mechanism.size())
-    })
-    .sized(1e-2),
-    Kind::case(OF, "branch", "the first group that has another configuration is in that one", |case, _| {
-        others(case).into_iter().next().map(|(_, other)| other)
-    }),
-    Kind::case(OF, "last-branch", "the last group that has another configuration is in that one", |case, _| {
-        others(case).into_iter().next_back().map(|(_, other)| other)
-    }),
-];
+kinds! { Geometry, Case:
+    "coupler-longer" (1e-2): "the first link that is not driven is longer by a share of its length",
+        |case, size| stretched(case, coupler(case)?, 1.0 + size);
+    "crank-longer" (1e-2): "the crank is longer by a share of its length",
+        |case, size| stretched(case, crank(case), 1.0 + size);
+    "crank-half": "the crank has half its length", |case, _| stretched(case, crank(case), 0.5);
+    "output-longer" (1e-2): "the last link is longer by a share of its length",
+        |case, size| stretched(case, output(case), 1.0 + size);
+    "pivot-aside" (1e-2): "the last pivot of the ground is moved along x by a share of the size",
+        |case, size| pivot(case, |place, long| place + Vec2::new(size * long, 0.0));
+    "pivot-up" (1e-2): "the last pivot of the ground is moved along y by a share of the size",
+        |case, size| pivot(case, |place, long| place + Vec2::new(0.0, size * long));
+    "pivot-mirrored": "the last pivot of the ground has y with the wrong sign",
+        |case, _| pivot(case, |place, _| Vec2::new(place.x, -place.y));
+    "point-mirrored": "a place on a link with three places is on the wrong side of the link", |case, _| {
+        let joints = case.mechanism.joints();
+        let off = |link: usize| joints.iter().filter_map(move |joint| joint.on(link)).find(|place| place.y != 0.0);
+        let link = (1..case.mechanism.links().len()).find(|&link| off(link).is_some())?;
+        let wrong = off(link)?;
+        let mirrored = move |place: Vec2| if place == wrong { Vec2::new(place.x, -place.y) } else { place };
+        placed(case, |links, joints| move_places(links, joints, link, mirrored))
+    };
+    "guide-turned" (1e-2): "the axis of the first slider is turned by an angle",
+        |case, size| guided(case, slider(case)?, |axis| rotated(unit(size), axis), 0.0);
+    "guide-aside" (1e-2): "the guide of the first slider is moved across by a share of the size",
+        |case, size| guided(case, slider(case)?, |axis| axis, size * case.mechanism.size());
+    "moving-guide-aside" (1e-2): "a guide that moves is moved across by a share of the size",
+        |case, size| guided(case, moving_guide(case)?, |axis| axis, size * case.mechanism.size());
+    "branch": "the first group that has another configuration is in that one",
+        |case, _| others(case).into_iter().next().map(|(_, other)| other);
+    "last-branch": "the last group that has another configuration is in that one",
+        |case, _| others(case).into_iter().next_back().map(|(_, other)| other);
+}
 
 /// All places on a link moved away from the first one by a factor.
 fn stretched(case: &Case, link: usize, factor: f64) -> Option<Case> {

@@ -4,65 +4,32 @@ use linkage::case::Case;
 use linkage::solver::State;
 use prover::claims::Kind as Slip;
 
-/// What a fault is in.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Family {
-    /// Lengths, guides and configurations.
-    Geometry,
-    /// Angles and speeds of driving links, and instants.
-    Drive,
-    /// Gravity, masses, mass centres and moments of inertia.
-    Mass,
-    /// Loads, springs and dampers.
-    Load,
-    /// Motor and reducer.
-    Motor,
-    /// Positions and angles that are answered.
-    Position,
-    /// First derivatives.
-    Rate,
-    /// Second derivatives.
-    Acceleration,
-    /// Reactions and moments.
-    Force,
-    /// What only one comparison sees.
-    Judgement,
-    /// Formulas of the scenario, and what they claim.
-    Formula,
-}
-
-impl Family {
-    /// All families.
-    pub const ALL: [Family; 11] = [
-        Family::Geometry,
-        Family::Drive,
-        Family::Mass,
-        Family::Load,
-        Family::Motor,
-        Family::Position,
-        Family::Rate,
-        Family::Acceleration,
-        Family::Force,
-        Family::Judgement,
-        Family::Formula,
-    ];
-
-    /// Name in tables.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Family::Geometry => "geometry",
-            Family::Drive => "drive",
-            Family::Mass => "mass",
-            Family::Load => "load",
-            Family::Motor => "motor",
-            Family::Position => "position",
-            Family::Rate => "rate",
-            Family::Acceleration => "acceleration",
-            Family::Force => "force",
-            Family::Judgement => "judgement",
-            Family::Formula => "formula",
-        }
+linkage::words! {
+    /// What a fault is in.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+    pub enum Family: name {
+        /// Lengths, guides and configurations.
+        Geometry = "geometry",
+        /// Angles and speeds of driving links, and instants.
+        Drive = "drive",
+        /// Gravity, masses, mass centres and moments of inertia.
+        Mass = "mass",
+        /// Loads, springs and dampers.
+        Load = "load",
+        /// Motor and reducer.
+        Motor = "motor",
+        /// Positions and angles that are answered.
+        Position = "position",
+        /// First derivatives.
+        Rate = "rate",
+        /// Second derivatives.
+        Acceleration = "acceleration",
+        /// Reactions and moments.
+        Force = "force",
+        /// What only one comparison sees.
+        Judgement = "judgement",
+        /// Formulas of the scenario, and what they claim.
+        Formula = "formula",
     }
 }
 
@@ -115,28 +82,41 @@ pub struct Kind {
 }
 
 impl Kind {
-    /// A fault in the case, of a fixed size.
-    pub(super) const fn case(
-        family: Family,
-        name: &'static str,
-        says: &'static str,
-        change: fn(&Case, f64) -> Option<Case>,
-    ) -> Kind {
-        Kind { name, says, family, size: None, plant: Plant::Case(change) }
-    }
-
-    /// A fault in an answer, of a fixed size.
-    pub(super) const fn answer(
-        family: Family,
-        name: &'static str,
-        says: &'static str,
-        change: fn(At, &mut State, f64) -> Option<()>,
-    ) -> Kind {
-        Kind { name, says, family, size: None, plant: Plant::Answer(change) }
-    }
-
     /// The same with a size that can be made smaller.
     pub(super) const fn sized(self, size: f64) -> Kind {
         Kind { size: Some(size), ..self }
     }
 }
+
+/// What a change has to say of itself.
+pub(super) trait Told<T> {
+    /// What it comes to; `None` where there was nothing to change.
+    fn told(self) -> Option<T>;
+}
+
+impl<T> Told<T> for Option<T> {
+    fn told(self) -> Option<T> {
+        self
+    }
+}
+
+impl Told<()> for () {
+    fn told(self) -> Option<()> {
+        Some(())
+    }
+}
+
+/// The table of a family: `"name": "what is wrong", |..| how it is planted;`, the name followed by the size at first
+/// where it can be made smaller.
+macro_rules! kinds {
+    ($family:ident, $plant:ident: $($name:literal $(($size:literal))?: $says:literal, |$($given:pat_param),*| $change:expr;)*) => {
+        pub(super) const KINDS: &[super::kind::Kind] = &[$(super::kind::Kind {
+            name: $name,
+            says: $says,
+            family: super::kind::Family::$family,
+            size: None,
+            plant: super::kind::Plant::$plant(|$($given),*| super::kind::Told::told($change)),
+        }$(.sized($size))?),*];
+    };
+}
+pub(super) use kinds;

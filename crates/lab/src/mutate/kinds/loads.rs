@@ -2,81 +2,60 @@
 
 use std::f64::consts::TAU;
 
-use super::kind::{Family, Kind};
+use super::kind::kinds;
 use super::touch::parts;
 use linkage::case::Case;
 use linkage::drive::load::{Acts, LoadSort};
 use linkage::drive::{Course, Drive, Load};
 
-const OF: Family = Family::Load;
-
-pub(super) const KINDS: &[Kind] = &[
-    Kind::case(OF, "load-missing", "the first load is missing", |case, _| times(case, 0, 0.0)),
-    Kind::case(OF, "last-load-missing", "the last load is missing", |case, _| {
-        times(case, case.loads.len().checked_sub(1)?, 0.0)
-    }),
-    Kind::case(OF, "load-size", "the first load is larger by a share", |case, size| times(case, 0, 1.0 + size))
-        .sized(1e-2),
+kinds! { Load, Case:
+    "load-missing": "the first load is missing", |case, _| times(case, 0, 0.0);
+    "last-load-missing": "the last load is missing", |case, _| times(case, case.loads.len().checked_sub(1)?, 0.0);
+    "load-size" (1e-2): "the first load is larger by a share", |case, size| times(case, 0, 1.0 + size);
     // Not of a spring: one that pushes where it should pull drives a free motion to infinity, and no file can say it.
-    Kind::case(OF, "load-sign", "the first load that can, but no spring, acts the other way", |case, _| {
+    "load-sign": "the first load that can, but no spring, acts the other way", |case, _| {
         let springs = [LoadSort::Spring, LoadSort::TorsionSpring];
         let others = (0..case.loads.len()).filter(|&index| !springs.contains(&case.loads[index].nature().sort));
         others.filter_map(|index| times(case, index, -1.0)).next()
-    }),
-    Kind::case(OF, "load-twice", "the first load is counted twice", |case, _| times(case, 0, 2.0)),
-    Kind::case(OF, "load-by-ratio", "the first load is divided by the reducer's ratio once more", |case, _| {
+    };
+    "load-twice": "the first load is counted twice", |case, _| times(case, 0, 2.0);
+    "load-by-ratio": "the first load is divided by the reducer's ratio once more", |case, _| {
         let ratio = case.drives.iter().find_map(Drive::motor)?.ratio;
         (ratio != 1.0).then(|| times(case, 0, 1.0 / ratio))?
-    }),
-    Kind::case(OF, "load-other-link", "the first moment acts on the link before its own", |case, _| {
-        changed(case, &|load| {
-            if let Load::Resistance { link: link @ 2.., moment } = load {
-                return Some(Load::Resistance { link: link - 1, moment: *moment });
-            }
-            let Load::Moment { link: link @ 2.., moment, acts } = load else { return None };
-            Some(Load::Moment { link: link - 1, moment: moment.clone(), acts: *acts })
-        })
-    }),
-    Kind::case(OF, "load-place", "the first force acts at the mass centre", |case, _| {
-        changed(case, &|load| {
+    };
+    "load-other-link": "the first moment acts on the link before its own", |case, _| changed(case, &|load| {
+        if let Load::Resistance { link: link @ 2.., moment } = load {
+            return Some(Load::Resistance { link: link - 1, moment: *moment });
+        }
+        let Load::Moment { link: link @ 2.., moment, acts } = load else { return None };
+        Some(Load::Moment { link: link - 1, moment: moment.clone(), acts: *acts })
+    });
+    "load-place": "the first force acts at the mass centre", |case, _| changed(case, &|load| {
+        let Load::Force { at, force, follows } = load else { return None };
+        let centre = case.mechanism.links()[at.link].mass_centre;
+        let at = linkage::mechanism::Side { link: at.link, local: centre };
+        Some(Load::Force { at, force: force.clone(), follows: *follows })
+    });
+    "load-components": "x and y of the first force are exchanged", |case, _| changed(case, &|load| {
+        let Load::Force { at, force: [x, y], follows } = load else { return None };
+        Some(Load::Force { at: *at, force: [y.clone(), x.clone()], follows: *follows })
+    });
+    "load-frame": "a force in world axes is taken in the link's axes, or the other way round",
+        |case, _| changed(case, &|load| {
             let Load::Force { at, force, follows } = load else { return None };
-            let centre = case.mechanism.links()[at.link].mass_centre;
-            let at = linkage::mechanism::Side { link: at.link, local: centre };
-            Some(Load::Force { at, force: force.clone(), follows: *follows })
-        })
-    }),
-    Kind::case(OF, "load-components", "x and y of the first force are exchanged", |case, _| {
-        changed(case, &|load| {
-            let Load::Force { at, force: [x, y], follows } = load else { return None };
-            Some(Load::Force { at: *at, force: [y.clone(), x.clone()], follows: *follows })
-        })
-    }),
-    Kind::case(
-        OF,
-        "load-frame",
-        "a force in world axes is taken in the link's axes, or the other way round",
-        |case, _| {
-            changed(case, &|load| {
-                let Load::Force { at, force, follows } = load else { return None };
-                Some(Load::Force { at: *at, force: force.clone(), follows: !follows })
-            })
-        },
-    ),
-    Kind::case(OF, "load-one-sense", "a resistance acts in one sense whatever the motion", |case, _| {
-        changed(case, &|load| {
-            let Load::Resistance { link, moment } = load else { return None };
-            Some(Load::Moment { link: *link, moment: Course::Constant(-moment), acts: Acts::Always })
-        })
-    }),
-    Kind::case(OF, "load-always", "a moment that acts for one sense of rotation acts always", |case, _| {
-        changed(case, &|load| {
-            let Load::Moment { link, moment, acts: Acts::Clockwise | Acts::CounterClockwise } = load else {
-                return None;
-            };
-            Some(Load::Moment { link: *link, moment: moment.clone(), acts: Acts::Always })
-        })
-    }),
-    Kind::case(OF, "load-mean", "a load over the crank angle is taken at its value at angle zero", |case, _| {
+            Some(Load::Force { at: *at, force: force.clone(), follows: !follows })
+        });
+    "load-one-sense": "a resistance acts in one sense whatever the motion", |case, _| changed(case, &|load| {
+        let Load::Resistance { link, moment } = load else { return None };
+        Some(Load::Moment { link: *link, moment: Course::Constant(-moment), acts: Acts::Always })
+    });
+    "load-always": "a moment that acts for one sense of rotation acts always", |case, _| changed(case, &|load| {
+        let Load::Moment { link, moment, acts: Acts::Clockwise | Acts::CounterClockwise } = load else {
+            return None;
+        };
+        Some(Load::Moment { link: *link, moment: moment.clone(), acts: Acts::Always })
+    });
+    "load-mean": "a load over the crank angle is taken at its value at angle zero", |case, _| {
         let at_zero = |course: &Course| Course::Constant(course.at(0.0));
         changed(case, &|load| {
             load.nature().courses.iter().any(|course| course.knots().is_some()).then_some(())?;
@@ -86,36 +65,27 @@ pub(super) const KINDS: &[Kind] = &[
             let Load::Force { at, force, follows } = load else { return None };
             Some(Load::Force { at: *at, force: force.each_ref().map(at_zero), follows: *follows })
         })
-    }),
-    Kind::case(OF, "spring-missing", "the first spring is missing", |case, _| times(case, sprung(case)?, 0.0)),
-    Kind::case(OF, "spring-twice", "the first spring is counted twice", |case, _| times(case, sprung(case)?, 2.0)),
-    Kind::case(OF, "spring-stiffness", "the first spring is stiffer by a share", |case, size| {
-        times(case, sprung(case)?, 1.0 + size)
-    })
-    .sized(1e-2),
-    Kind::case(OF, "spring-free-length", "the first spring has no free length", |case, _| {
-        changed(case, &|load| {
-            let Load::Spring { ends, stiffness, free_length } = load else { return None };
-            (*free_length != 0.0).then_some(Load::Spring { ends: *ends, stiffness: *stiffness, free_length: 0.0 })
-        })
-    }),
-    Kind::case(OF, "spring-free-angle", "a torsion spring is free one turn further on", |case, _| {
-        changed(case, &|load| {
-            let &Load::TorsionSpring { links, stiffness, free_angle } = load else { return None };
-            Some(Load::TorsionSpring { links, stiffness, free_angle: free_angle + TAU })
-        })
-    }),
-    Kind::case(OF, "damper-missing", "the first damper is missing", |case, _| times(case, damped(case)?, 0.0)),
-    Kind::case(OF, "damper-sign", "the first damper drives", |case, _| times(case, damped(case)?, -1.0)),
-    Kind::case(OF, "damper", "the first damper is stronger by a share", |case, size| {
-        times(case, damped(case)?, 1.0 + size)
-    })
-    .sized(1e-2),
-    Kind::case(OF, "damper-degrees", "a torsion damper's speed is in degrees per second", |case, _| {
+    };
+    "spring-missing": "the first spring is missing", |case, _| times(case, sprung(case)?, 0.0);
+    "spring-twice": "the first spring is counted twice", |case, _| times(case, sprung(case)?, 2.0);
+    "spring-stiffness" (1e-2): "the first spring is stiffer by a share",
+        |case, size| times(case, sprung(case)?, 1.0 + size);
+    "spring-free-length": "the first spring has no free length", |case, _| changed(case, &|load| {
+        let Load::Spring { ends, stiffness, free_length } = load else { return None };
+        (*free_length != 0.0).then_some(Load::Spring { ends: *ends, stiffness: *stiffness, free_length: 0.0 })
+    });
+    "spring-free-angle": "a torsion spring is free one turn further on", |case, _| changed(case, &|load| {
+        let &Load::TorsionSpring { links, stiffness, free_angle } = load else { return None };
+        Some(Load::TorsionSpring { links, stiffness, free_angle: free_angle + TAU })
+    });
+    "damper-missing": "the first damper is missing", |case, _| times(case, damped(case)?, 0.0);
+    "damper-sign": "the first damper drives", |case, _| times(case, damped(case)?, -1.0);
+    "damper" (1e-2): "the first damper is stronger by a share", |case, size| times(case, damped(case)?, 1.0 + size);
+    "damper-degrees": "a torsion damper's speed is in degrees per second", |case, _| {
         let index = of_sort(case, &[LoadSort::TorsionDamper])?;
         times(case, index, 1f64.to_degrees())
-    }),
-];
+    };
+}
 
 /// One load times a factor.
 fn times(case: &Case, index: usize, factor: f64) -> Option<Case> {

@@ -1,119 +1,73 @@
 //! Gravity, masses, mass centres and moments of inertia.
 
-use super::kind::{Family, Kind};
+use super::kind::kinds;
 use super::touch::{crank, ends, heaviest, output, parts, with};
 use linkage::case::Case;
 use linkage::math::Vec2;
 use linkage::mechanism::Link;
 
-const OF: Family = Family::Mass;
-
-pub(super) const KINDS: &[Kind] = &[
-    Kind::case(OF, "gravity-missing", "there is no gravity", |case, _| gravity(case, |_| Vec2::zeros())),
-    Kind::case(OF, "gravity-sign", "gravity points the other way", |case, _| gravity(case, |own| -own)),
-    Kind::case(OF, "gravity-axis", "x and y of gravity are exchanged", |case, _| {
-        gravity(case, |own| Vec2::new(own.y, own.x))
-    }),
-    Kind::case(OF, "gravity-size", "gravity is larger by a share, as 9.81 for 9.80665", |case, size| {
-        gravity(case, |own| own * (1.0 + size))
-    })
-    .sized(3.4e-4),
-    Kind::case(OF, "gravity-mm", "gravity is in mm/s^2", |case, _| gravity(case, |own| own * 1e3)),
-    Kind::case(OF, "mass-missing", "the heaviest link has no mass", |case, _| {
-        on(case, heaviest(case), |link| link.mass = 1e-12)
-    }),
-    Kind::case(OF, "mass-heaviest", "the heaviest link is heavier by a share", |case, size| {
-        on(case, heaviest(case), |link| link.mass *= 1.0 + size)
-    })
-    .sized(1e-2),
-    Kind::case(OF, "mass-grams", "the mass of the heaviest link in kilograms is taken for grams", |case, _| {
-        on(case, heaviest(case), |link| link.mass *= 1e-3)
-    }),
-    Kind::case(OF, "mass-crank", "the crank is heavier by a share", |case, size| {
-        on(case, massive(case, crank(case)), |link| link.mass *= 1.0 + size)
-    })
-    .sized(1e-2),
-    Kind::case(OF, "mass-output", "the last link is heavier by a share", |case, size| {
-        on(case, massive(case, output(case)), |link| link.mass *= 1.0 + size)
-    })
-    .sized(1e-2),
-    Kind::case(OF, "masses-exchanged", "the masses of the first and the last link are exchanged", |case, _| {
+kinds! { Mass, Case:
+    "gravity-missing": "there is no gravity", |case, _| gravity(case, |_| Vec2::zeros());
+    "gravity-sign": "gravity points the other way", |case, _| gravity(case, |own| -own);
+    "gravity-axis": "x and y of gravity are exchanged", |case, _| gravity(case, |own| Vec2::new(own.y, own.x));
+    "gravity-size" (3.4e-4): "gravity is larger by a share, as 9.81 for 9.80665",
+        |case, size| gravity(case, |own| own * (1.0 + size));
+    "gravity-mm": "gravity is in mm/s^2", |case, _| gravity(case, |own| own * 1e3);
+    "mass-missing": "the heaviest link has no mass", |case, _| on(case, heaviest(case), |link| link.mass = 1e-12);
+    "mass-heaviest" (1e-2): "the heaviest link is heavier by a share",
+        |case, size| on(case, heaviest(case), |link| link.mass *= 1.0 + size);
+    "mass-grams": "the mass of the heaviest link in kilograms is taken for grams",
+        |case, _| on(case, heaviest(case), |link| link.mass *= 1e-3);
+    "mass-crank" (1e-2): "the crank is heavier by a share",
+        |case, size| on(case, massive(case, crank(case)), |link| link.mass *= 1.0 + size);
+    "mass-output" (1e-2): "the last link is heavier by a share",
+        |case, size| on(case, massive(case, output(case)), |link| link.mass *= 1.0 + size);
+    "masses-exchanged": "the masses of the first and the last link are exchanged", |case, _| {
         let last = output(case);
         let [first, other] = [1, last].map(|link| case.mechanism.links()[link].mass);
         (last > 1 && first != other).then_some(())?;
         with(case, |links, _| (links[1].mass, links[last].mass) = (other, first))
-    }),
-    Kind::case(OF, "inertia-missing", "the last link with a moment of inertia has none", |case, _| {
-        on(case, turning(case), |link| link.inertia = 0.0)
-    }),
-    Kind::case(
-        OF,
-        "inertia",
-        "the moment of inertia of the last link that has one is larger by a share",
-        |case, size| on(case, turning(case), |link| link.inertia *= 1.0 + size),
-    )
-    .sized(1e-2),
-    Kind::case(OF, "inertia-crank", "the moment of inertia of the crank is larger by a share", |case, size| {
+    };
+    "inertia-missing": "the last link with a moment of inertia has none",
+        |case, _| on(case, turning(case), |link| link.inertia = 0.0);
+    "inertia" (1e-2): "the moment of inertia of the last link that has one is larger by a share",
+        |case, size| on(case, turning(case), |link| link.inertia *= 1.0 + size);
+    "inertia-crank" (1e-1): "the moment of inertia of the crank is larger by a share", |case, size| {
         let link = crank(case);
         (case.mechanism.links()[link].inertia > 0.0).then_some(())?;
         on(case, Some(link), |link| link.inertia *= 1.0 + size)
-    })
-    .sized(1e-1),
-    Kind::case(OF, "inertia-twice", "the moment of inertia of the last link that has one is doubled", |case, _| {
-        on(case, turning(case), |link| link.inertia *= 2.0)
-    }),
-    Kind::case(
-        OF,
-        "inertia-about-joint",
-        "a moment of inertia is that about a joint, m l^2 / 3 for m l^2 / 12",
-        |case, _| {
-            let link = (1..case.mechanism.links().len()).rev().find(|&link| steiner(case, link) > 0.0)?;
-            let more = steiner(case, link);
-            on(case, Some(link), |link| link.inertia += more)
-        },
-    ),
-    Kind::case(OF, "inertias-missing", "no link has a moment of inertia", |case, _| {
+    };
+    "inertia-twice": "the moment of inertia of the last link that has one is doubled",
+        |case, _| on(case, turning(case), |link| link.inertia *= 2.0);
+    "inertia-about-joint": "a moment of inertia is that about a joint, m l^2 / 3 for m l^2 / 12", |case, _| {
+        let link = (1..case.mechanism.links().len()).rev().find(|&link| steiner(case, link) > 0.0)?;
+        let more = steiner(case, link);
+        on(case, Some(link), |link| link.inertia += more)
+    };
+    "inertias-missing": "no link has a moment of inertia", |case, _| {
         case.mechanism.links().iter().any(|link| link.inertia > 0.0).then_some(())?;
         with(case, |links, _| links.iter_mut().for_each(|link| link.inertia = 0.0))
-    }),
-    Kind::case(OF, "inertia-cm2", "a moment of inertia in kg m^2 is taken for kg cm^2", |case, _| {
-        on(case, turning(case), |link| link.inertia *= 1e-4)
-    }),
-    Kind::case(
-        OF,
-        "centre-along",
-        "the mass centre of the heaviest link is off along x by a share of its extent",
-        |case, size| on(case, heaviest(case), |link| link.mass_centre.x += size * link.extent()),
-    )
-    .sized(1e-2),
-    Kind::case(
-        OF,
-        "centre-across",
-        "the mass centre of the heaviest link is off along y by a share of its extent",
-        |case, size| on(case, heaviest(case), |link| link.mass_centre.y += size * link.extent()),
-    )
-    .sized(1e-2),
-    Kind::case(
-        OF,
-        "centre-at-joint",
-        "the mass centre of the heaviest link that has it elsewhere is at its frame",
-        |case, _| on(case, off_frame(case), |link| link.mass_centre = Vec2::zeros()),
-    ),
-    Kind::case(OF, "centre-half", "the mass centre of a link is half as far from its frame", |case, _| {
-        on(case, off_frame(case), |link| link.mass_centre *= 0.5)
-    }),
-    Kind::case(OF, "centre-mirrored", "the mass centre of a link is on the other side of its frame", |case, _| {
-        on(case, off_frame(case), |link| link.mass_centre *= -1.0)
-    }),
-    Kind::case(OF, "centre-other-end", "the mass centre of a link is measured from its other end", |case, _| {
+    };
+    "inertia-cm2": "a moment of inertia in kg m^2 is taken for kg cm^2",
+        |case, _| on(case, turning(case), |link| link.inertia *= 1e-4);
+    "centre-along" (1e-2): "the mass centre of the heaviest link is off along x by a share of its extent",
+        |case, size| on(case, heaviest(case), |link| link.mass_centre.x += size * link.extent());
+    "centre-across" (1e-2): "the mass centre of the heaviest link is off along y by a share of its extent",
+        |case, size| on(case, heaviest(case), |link| link.mass_centre.y += size * link.extent());
+    "centre-at-joint": "the mass centre of the heaviest link that has it elsewhere is at its frame",
+        |case, _| on(case, off_frame(case), |link| link.mass_centre = Vec2::zeros());
+    "centre-half": "the mass centre of a link is half as far from its frame",
+        |case, _| on(case, off_frame(case), |link| link.mass_centre *= 0.5);
+    "centre-mirrored": "the mass centre of a link is on the other side of its frame",
+        |case, _| on(case, off_frame(case), |link| link.mass_centre *= -1.0);
+    "centre-other-end": "the mass centre of a link is measured from its other end", |case, _| {
         let link = (1..case.mechanism.links().len()).rev().find(|&link| measured(case, link).is_some())?;
         let centre = measured(case, link)?;
         on(case, Some(link), |link| link.mass_centre = centre)
-    }),
-    Kind::case(OF, "centre-mm", "the mass centre of a link in metres is taken for millimetres", |case, _| {
-        on(case, off_frame(case), |link| link.mass_centre *= 1e-3)
-    }),
-];
+    };
+    "centre-mm": "the mass centre of a link in metres is taken for millimetres",
+        |case, _| on(case, off_frame(case), |link| link.mass_centre *= 1e-3);
+}
 
 fn gravity(case: &Case, to: impl Fn(Vec2) -> Vec2) -> Option<Case> {
     (case.gravity.norm() > 0.0).then_some(())?;

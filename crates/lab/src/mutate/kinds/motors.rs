@@ -1,46 +1,34 @@
 //! Motor and reducer of a free crank.
 
-use super::kind::{Family, Kind};
+use super::kind::kinds;
 use super::touch::parts;
 use linkage::case::Case;
 use linkage::drive::{Motor, ShaftInertia};
 
-const OF: Family = Family::Motor;
-
-pub(super) const KINDS: &[Kind] = &[
-    Kind::case(OF, "motor-size", "the motor is stronger by a share", |case, size| {
-        of(case, |motor| motor.law = motor.law.scaled(1.0 + size))
-    })
-    .sized(1e-2),
-    Kind::case(OF, "motor-missing", "the motor exerts nothing", |case, _| {
-        of(case, |motor| motor.law = motor.law.scaled(0.0))
-    }),
-    Kind::case(OF, "motor-reversed", "the motor drives the other way", |case, _| {
-        of(case, |motor| motor.law = motor.law.scaled(-1.0))
-    }),
-    Kind::case(OF, "motor-without-ratio", "the motor's torque is not multiplied by the ratio", |case, _| {
-        geared(case, |motor| motor.law = motor.law.scaled(1.0 / motor.ratio))
-    }),
-    Kind::case(OF, "motor-ratio-twice", "the motor's torque is multiplied by the ratio twice", |case, _| {
-        geared(case, |motor| motor.law = motor.law.scaled(motor.ratio))
-    }),
-    Kind::case(OF, "motor-ratio", "the reducer's ratio is larger by a share", |case, size| {
-        of(case, |motor| motor.ratio *= 1.0 + size)
-    })
-    .sized(1e-2),
-    Kind::case(OF, "motor-lossless", "the reducer's efficiency is not counted", |case, _| {
+kinds! { Motor, Case:
+    "motor-size" (1e-2): "the motor is stronger by a share",
+        |case, size| of(case, |motor| motor.law = motor.law.scaled(1.0 + size));
+    "motor-missing": "the motor exerts nothing", |case, _| of(case, |motor| motor.law = motor.law.scaled(0.0));
+    "motor-reversed": "the motor drives the other way", |case, _| of(case, |motor| motor.law = motor.law.scaled(-1.0));
+    "motor-without-ratio": "the motor's torque is not multiplied by the ratio",
+        |case, _| geared(case, |motor| motor.law = motor.law.scaled(1.0 / motor.ratio));
+    "motor-ratio-twice": "the motor's torque is multiplied by the ratio twice",
+        |case, _| geared(case, |motor| motor.law = motor.law.scaled(motor.ratio));
+    "motor-ratio" (1e-2): "the reducer's ratio is larger by a share",
+        |case, size| of(case, |motor| motor.ratio *= 1.0 + size);
+    "motor-lossless": "the reducer's efficiency is not counted", |case, _| {
         (case.crank().moving_motor()?.efficiency < 1.0).then_some(())?;
         of(case, |motor| motor.efficiency = 1.0)
-    }),
-    Kind::case(OF, "rotor-missing", "the inertia of rotor and reducer is missing", |case, _| {
+    };
+    "rotor-missing": "the inertia of rotor and reducer is missing", |case, _| {
         (case.crank().moving_motor()?.inertia_on_crank() > 0.0).then_some(())?;
         of(case, |motor| motor.inertia = ShaftInertia::default())
-    }),
-    Kind::case(OF, "rotor-ratio", "the rotor's inertia is reduced by the ratio instead of its square", |case, _| {
+    };
+    "rotor-ratio": "the rotor's inertia is reduced by the ratio instead of its square", |case, _| {
         (case.crank().moving_motor()?.inertia.rotor > 0.0).then_some(())?;
         geared(case, |motor| motor.inertia.rotor /= motor.ratio)
-    }),
-];
+    };
+}
 
 fn of(case: &Case, change: impl Fn(&mut Motor)) -> Option<Case> {
     case.crank().is_free().then_some(())?;

@@ -1,133 +1,65 @@
 //! First derivatives that are answered.
 
-use super::kind::{Family, Kind};
-use super::touch::{arm, crank, floating, moving_guide, turner};
+use super::kind::kinds;
+use super::touch::{crank, floating, moving_guide, on_arm, turner};
 use linkage::math::{rotated, turned};
 
-const OF: Family = Family::Rate;
-
-pub(super) const KINDS: &[Kind] = &[
-    Kind::answer(
-        OF,
-        "omega",
-        "the angular velocity of the last turning link is larger by a share",
-        |at, state, size| {
-            state.motions[turner(at.case)].omega *= 1.0 + size;
-            Some(())
-        },
-    )
-    .sized(1e-2),
-    Kind::answer(
-        OF,
-        "omega-sign",
-        "the angular velocity of the last turning link is counted clockwise",
-        |at, state, _| {
-            state.motions[turner(at.case)].omega *= -1.0;
-            Some(())
-        },
-    ),
-    Kind::answer(
-        OF,
-        "omega-degrees",
-        "the angular velocity of the last turning link is in degrees per second",
-        |at, state, _| {
-            let omega = &mut state.motions[turner(at.case)].omega;
-            *omega = omega.to_degrees();
-            Some(())
-        },
-    ),
-    Kind::answer(
-        OF,
-        "omega-relative",
-        "the angular velocity of the last turning link is that relative to the crank",
-        |at, state, _| {
-            let (last, first) = (turner(at.case), crank(at.case));
-            (last != first).then(|| state.motions[last].omega -= state.motions[first].omega)
-        },
-    ),
-    Kind::answer(OF, "velocity-half-arm", "half a length in a velocity: v = v0 + omega x r / 2", |at, state, _| {
-        let link = turner(at.case);
-        let arm = arm(at.case, state, link);
-        let motion = &mut state.motions[link];
-        (arm.norm() > 0.0).then(|| motion.velocity -= turned(arm) * (0.5 * motion.omega))
-    }),
-    Kind::answer(
-        OF,
-        "velocity-x-dropped",
-        "the x component of the last moving frame's velocity is dropped",
-        |at, state, _| {
-            let motion = &mut state.motions[floating(at.case)];
-            let centre = turned(motion.arm(at.case.mechanism.links()[floating(at.case)].mass_centre)) * motion.omega;
-            motion.velocity.x = -centre.x;
-            Some(())
-        },
-    ),
-    Kind::answer(
-        OF,
-        "velocity-y-dropped",
-        "the y component of the last moving frame's velocity is dropped",
-        |at, state, _| {
-            let motion = &mut state.motions[floating(at.case)];
-            let centre = turned(motion.arm(at.case.mechanism.links()[floating(at.case)].mass_centre)) * motion.omega;
-            motion.velocity.y = -centre.y;
-            Some(())
-        },
-    ),
-    Kind::answer(OF, "velocity", "the velocity of the last moving frame is larger by a share", |at, state, size| {
-        state.motions[floating(at.case)].velocity *= 1.0 + size;
-        Some(())
-    })
-    .sized(1e-2),
-    Kind::answer(
-        OF,
-        "velocity-frame",
-        "the velocity of the last moving frame is in its own frame, not in the world",
-        |at, state, _| {
-            let motion = &mut state.motions[floating(at.case)];
-            let back = linkage::math::Vec2::new(motion.direction.x, -motion.direction.y);
-            motion.velocity = rotated(back, motion.velocity);
-            Some(())
-        },
-    ),
-    Kind::answer(
-        OF,
-        "stale-velocities",
-        "velocities are those of a moment before: a share of a radian of the crank",
+kinds! { Rate, Answer:
+    "omega" (1e-2): "the angular velocity of the last turning link is larger by a share",
+        |at, state, size| state.motions[turner(at.case)].omega *= 1.0 + size;
+    "omega-sign": "the angular velocity of the last turning link is counted clockwise",
+        |at, state, _| state.motions[turner(at.case)].omega *= -1.0;
+    "omega-degrees": "the angular velocity of the last turning link is in degrees per second", |at, state, _| {
+        let omega = &mut state.motions[turner(at.case)].omega;
+        *omega = omega.to_degrees();
+    };
+    "omega-relative": "the angular velocity of the last turning link is that relative to the crank", |at, state, _| {
+        let (last, first) = (turner(at.case), crank(at.case));
+        (last != first).then(|| state.motions[last].omega -= state.motions[first].omega)
+    };
+    "velocity-half-arm": "half a length in a velocity: v = v0 + omega x r / 2",
+        |at, state, _| on_arm(at.case, state, |motion, arm| motion.velocity -= turned(arm) * (0.5 * motion.omega));
+    "velocity-x-dropped": "the x component of the last moving frame's velocity is dropped", |at, state, _| {
+        let motion = &mut state.motions[floating(at.case)];
+        let centre = turned(motion.arm(at.case.mechanism.links()[floating(at.case)].mass_centre)) * motion.omega;
+        motion.velocity.x = -centre.x;
+    };
+    "velocity-y-dropped": "the y component of the last moving frame's velocity is dropped", |at, state, _| {
+        let motion = &mut state.motions[floating(at.case)];
+        let centre = turned(motion.arm(at.case.mechanism.links()[floating(at.case)].mass_centre)) * motion.omega;
+        motion.velocity.y = -centre.y;
+    };
+    "velocity" (1e-2): "the velocity of the last moving frame is larger by a share",
+        |at, state, size| state.motions[floating(at.case)].velocity *= 1.0 + size;
+    "velocity-frame": "the velocity of the last moving frame is in its own frame, not in the world", |at, state, _| {
+        let motion = &mut state.motions[floating(at.case)];
+        let back = linkage::math::Vec2::new(motion.direction.x, -motion.direction.y);
+        motion.velocity = rotated(back, motion.velocity);
+    };
+    "stale-velocities" (1e-2): "velocities are those of a moment before: a share of a radian of the crank",
         |at, state, size| {
             let before = size / at.case.crank().top_speed().abs();
             for motion in state.motions.iter_mut().skip(1) {
                 motion.velocity -= motion.acceleration * before;
                 motion.omega -= motion.alpha * before;
             }
-            Some(())
-        },
-    )
-    .sized(1e-2),
-    Kind::answer(OF, "velocity-guide", "a slider's velocity lacks that of its moving guide", |at, state, _| {
+        };
+    "velocity-guide": "a slider's velocity lacks that of its moving guide", |at, state, _| {
         let joint = &at.case.mechanism.joints()[moving_guide(at.case)?];
         let place = state.motions[joint.second.link].point(joint.second.local);
         let lead = state.motions[joint.first.link].velocity_at(place);
         state.motions[joint.second.link].velocity -= lead;
-        Some(())
-    }),
-    Kind::answer(OF, "velocities-reversed", "all velocities are those of the motion backwards", |_, state, _| {
-        for motion in state.motions.iter_mut().skip(1) {
+    };
+    "velocities-reversed": "all velocities are those of the motion backwards",
+        |_, state, _| for motion in state.motions.iter_mut().skip(1) {
             motion.velocity *= -1.0;
             motion.omega *= -1.0;
-        }
-        Some(())
-    }),
-    Kind::answer(
-        OF,
-        "velocity-instant",
-        "the last moving frame's velocity is off at one instant by a share of its size",
+        };
+    "velocity-instant" (1e-2): "the last moving frame's velocity is off at one instant by a share of its size",
         |at, state, size| {
             if at.row == at.case.grid.len() / 3 {
                 let speed = at.case.mechanism.size() * at.case.crank().top_speed();
                 state.motions[floating(at.case)].velocity.x += size * speed;
             }
-            Some(())
-        },
-    )
-    .sized(1e-2),
-];
+        };
+}

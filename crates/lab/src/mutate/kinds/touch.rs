@@ -1,7 +1,7 @@
 //! What faults are planted on, and how parts of a case are changed.
 
 use linkage::case::{Case, CaseParts};
-use linkage::math::Vec2;
+use linkage::math::{Motion, Vec2};
 use linkage::mechanism::{GROUND, Joint, Link};
 use linkage::solver::State;
 use prover::diagnosis::{changed, reassembled};
@@ -109,6 +109,13 @@ pub(super) fn crank_pin(case: &Case) -> usize {
         .map(|(index, _)| index)
         .find(|&index| index != own)
         .unwrap_or(own)
+}
+
+/// Changes the motion of the last turning link, given its arm; `None` where that has no length.
+pub(super) fn on_arm(case: &Case, state: &mut State, change: impl FnOnce(&mut Motion, Vec2)) -> Option<()> {
+    let link = turner(case);
+    let arm = arm(case, state, link);
+    (arm.norm() > 0.0).then(|| change(&mut state.motions[link], arm))
 }
 
 /// World vector from the frame of a link to its last place of a joint; its mass centre if that is at the frame.

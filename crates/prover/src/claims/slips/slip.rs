@@ -15,80 +15,39 @@ pub struct Slip {
     pub everywhere: bool,
 }
 
-/// Kinds of slips, the simplest first.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Kind {
-    /// A sign.
-    Sign,
-    /// Another branch of a square root or of an inverse function.
-    Branch,
-    /// Degrees for radians, turns a minute, millimetres, and the like.
-    Unit,
-    /// Sine for cosine, and the like.
-    Function,
-    /// A square, a root, or their absence.
-    Power,
-    /// A derivative by the crank angle for one by time.
-    PerRadian,
-    /// A derivative by time for one by the crank angle, or a power for a moment.
-    PerSecond,
-    /// Another of the names.
-    Name,
-    /// Two names exchanged.
-    Exchanged,
-    /// A term too many.
-    Term,
-    /// A reference angle that is a quarter or half a turn off.
-    Reference,
-    /// A factor or divisor that is a small number.
-    Factor,
-    /// A product for a quotient, or for a power.
-    Operator,
-    /// Parentheses that are missing, or in another place.
-    Parentheses,
-    /// A number, or the value of a parameter.
-    Value,
-}
-
-impl Kind {
-    /// All kinds, the simplest first.
-    pub const ALL: [Kind; 15] = [
-        Kind::Sign,
-        Kind::Branch,
-        Kind::Unit,
-        Kind::Function,
-        Kind::Power,
-        Kind::PerRadian,
-        Kind::PerSecond,
-        Kind::Name,
-        Kind::Exchanged,
-        Kind::Term,
-        Kind::Reference,
-        Kind::Factor,
-        Kind::Operator,
-        Kind::Parentheses,
-        Kind::Value,
-    ];
-
-    /// The kind in words.
-    #[must_use]
-    pub fn words(self) -> &'static str {
-        match self {
-            Kind::Sign => "a sign",
-            Kind::Branch => "another branch",
-            Kind::Function => "another function",
-            Kind::Power => "a power",
-            Kind::Factor => "a factor",
-            Kind::Unit => "a unit",
-            Kind::Reference => "another reference angle",
-            Kind::Name => "another quantity",
-            Kind::Term => "a term too many",
-            Kind::Exchanged => "two quantities exchanged",
-            Kind::Operator => "a product for a quotient",
-            Kind::Parentheses => "parentheses",
-            Kind::Value => "a value",
-            Kind::PerRadian => "per radian of the crank in place of per second",
-            Kind::PerSecond => "per second in place of per radian of the crank",
-        }
+linkage::words! {
+    /// Kinds of slips, the simplest first.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+    pub enum Kind: words {
+        /// A sign.
+        Sign = "a sign",
+        /// Another branch of a square root or of an inverse function.
+        Branch = "another branch",
+        /// Degrees for radians, turns a minute, millimetres, and the like.
+        Unit = "a unit",
+        /// Sine for cosine, and the like.
+        Function = "another function",
+        /// A square, a root, or their absence.
+        Power = "a power",
+        /// A derivative by the crank angle for one by time.
+        PerRadian = "per radian of the crank in place of per second",
+        /// A derivative by time for one by the crank angle, or a power for a moment.
+        PerSecond = "per second in place of per radian of the crank",
+        /// Another of the names.
+        Name = "another quantity",
+        /// Two names exchanged.
+        Exchanged = "two quantities exchanged",
+        /// A term too many.
+        Term = "a term too many",
+        /// A reference angle that is a quarter or half a turn off.
+        Reference = "another reference angle",
+        /// A factor or divisor that is a small number.
+        Factor = "a factor",
+        /// A product for a quotient, or for a power.
+        Operator = "a product for a quotient",
+        /// Parentheses that are missing, or in another place.
+        Parentheses = "parentheses",
+        /// A number, or the value of a parameter.
+        Value = "a value",
     }
 }
