@@ -6,7 +6,7 @@ use analytic::NewtonSolver;
 use linkage::case::Grid;
 use linkage::solver::Solver;
 use linkage::trajectory::{Stage, Trajectory};
-use linkproof::bench::{Answer, Axis, Bench, CLEAR, Effort, Options, Party, Peer, Way, bench, front};
+use linkproof::bench::{Answer, Axis, Bench, CLEAR, Effort, Options, Party, Peer, Point, Way, bench, front};
 use linkproof::engines::EngineName;
 use linkproof::scenario::Scenario;
 
@@ -104,12 +104,12 @@ fn sides_keep_their_accuracy() {
 /// Changes an answer.
 type Change = Box<dyn Fn(&mut Answer)>;
 
-/// A peer whose answer is that of side 2, changed by a function.
-struct Planted(Trajectory, Change);
+/// A peer of this name whose answer is that of side 2, changed by a function.
+struct Planted(String, Trajectory, Change);
 
 impl Peer for Planted {
     fn name(&self) -> &str {
-        "planted"
+        &self.0
     }
 
     fn ways(&self) -> Result<Vec<Way>, String> {
@@ -117,11 +117,11 @@ impl Peer for Planted {
     }
 
     fn run(&self, _: &Way) -> Result<Answer, String> {
-        let columns = self.0.iter().map(|(channel, values)| (channel.to_string(), values.to_vec()));
-        let columns = std::iter::once(("t_s".to_string(), self.0.times().to_vec())).chain(columns).collect();
+        let columns = self.1.iter().map(|(channel, values)| (channel.to_string(), values.to_vec()));
+        let columns = std::iter::once(("t_s".to_string(), self.1.times().to_vec())).chain(columns).collect();
         let effort = Effort(vec![("steps".into(), 7)]);
         let mut answer = Answer { version: "planted 1".into(), columns, seconds: vec![0.5, 0.25], effort };
-        (self.1)(&mut answer);
+        (self.2)(&mut answer);
         Ok(answer)
     }
 }
@@ -130,13 +130,13 @@ impl Peer for Planted {
 fn answers_that_are_none_are_failures_with_a_reason() {
     let scenario = few("crank_rocker.toml");
     let exact = NewtonSolver.solve(&scenario.case).unwrap();
-    let with = |change: Change| {
-        let found = measured(&scenario, &[&Planted(exact.clone(), change)]);
-        found.points.into_iter().find(|point| point.party == Party::Peer).unwrap()
+    // One measurement for all of them.
+    let with = |changes: Vec<Change>| -> Vec<Point> {
+        let planted = |(index, change)| Planted(format!("planted {index}"), exact.clone(), change);
+        let peers: Vec<Planted> = changes.into_iter().enumerate().map(planted).collect();
+        let peers: Vec<&dyn Peer> = peers.iter().map(|peer| peer as &dyn Peer).collect();
+        measured(&scenario, &peers).points.into_iter().filter(|point| point.party == Party::Peer).collect()
     };
-    let good = with(Box::new(|_| {}));
-    assert!(Stage::ALL.iter().all(|&stage| good.error(stage).unwrap().max < 1e-9 && good.failure(stage).is_none()));
-    assert_eq!((good.seconds(), good.run().unwrap().effort.solutions()), (Some(0.25), Some(7)));
     let of = |name: &'static str, change: fn(&mut Vec<f64>)| -> Change {
         Box::new(move |answer| change(&mut answer.columns.iter_mut().find(|(own, _)| own == name).unwrap().1))
     };
@@ -148,20 +148,28 @@ fn answers_that_are_none_are_failures_with_a_reason() {
         (of("t_s", |times| times.truncate(2)), "2 instants"),
         (Box::new(|answer| answer.seconds = vec![f64::NAN, -1.0, 0.0]), "no time"),
     ];
-    for (change, reason) in whole {
-        let point = with(change);
+    let (whole, reasons): (Vec<Change>, Vec<&str>) = whole.into_iter().unzip();
+    let others: [Change; 4] = [
+        Box::new(|_| {}),
+        of("joint.B.fx_N", |values| values[2] = f64::NAN),
+        of("joint.B.fx_N", |values| values.truncate(1)),
+        Box::new(|answer| answer.columns.retain(|(name, _)| !name.starts_with("joint."))),
+    ];
+    let points = with(others.into_iter().chain(whole).collect());
+    let [good, nan, short, silent] = [0, 1, 2, 3].map(|index| &points[index]);
+    assert!(Stage::ALL.iter().all(|&stage| good.error(stage).unwrap().max < 1e-9 && good.failure(stage).is_none()));
+    assert_eq!((good.seconds(), good.run().unwrap().effort.solutions()), (Some(0.25), Some(7)));
+    for (point, reason) in points[4..].iter().zip(&reasons) {
         assert!(point.run().is_none(), "{reason}");
         let told = point.failure(Stage::Velocities).unwrap();
         assert!(told.contains(reason), "{reason}: {told}");
     }
+    assert_eq!(points.len(), 4 + reasons.len());
     // What concerns one stage leaves the others.
-    let nan = with(of("joint.B.fx_N", |values| values[2] = f64::NAN));
     assert!(nan.failure(Stage::Reactions).unwrap().contains("joint.B.fx_N is NaN"));
     assert!(nan.error(Stage::Positions).is_some() && nan.error(Stage::Reactions).is_none());
-    let short = with(of("joint.B.fx_N", |values| values.truncate(1)));
     assert!(short.failure(Stage::Reactions).is_some() && short.error(Stage::Positions).is_some());
     // A stage that a peer does not have at all is none of its failures.
-    let silent = with(Box::new(|answer| answer.columns.retain(|(name, _)| !name.starts_with("joint."))));
     assert!(silent.error(Stage::Reactions).is_none() && silent.failure(Stage::Reactions).is_none());
 }
 
@@ -170,21 +178,22 @@ fn answers_that_are_none_are_failures_with_a_reason() {
 fn a_peer_without_some_channels_is_judged_in_the_others_and_told() {
     let scenario = few("crank_rocker.toml");
     let exact = NewtonSolver.solve(&scenario.case).unwrap();
-    let with = |more: f64| {
+    let with = |more: f64| -> Planted {
         let change = move |answer: &mut Answer| {
             answer.columns.retain(|(name, _)| !name.starts_with("joint.B."));
             let (_, values) = answer.columns.iter_mut().find(|(name, _)| name == "joint.C.fx_N").unwrap();
             values.iter_mut().for_each(|value| *value *= 1.0 + more);
         };
-        let found = measured(&scenario, &[&Planted(exact.clone(), Box::new(change))]);
-        found.points.into_iter().find(|point| point.party == Party::Peer).unwrap()
+        Planted(format!("planted {more}"), exact.clone(), Box::new(change))
     };
-    let right = with(0.0);
+    let found = measured(&scenario, &[&with(0.0), &with(1e-3)]);
+    let mut peers = found.points.iter().filter(|point| point.party == Party::Peer);
+    let [right, wrong] = [(); 2].map(|()| peers.next().unwrap());
     assert_eq!(
         (right.without(Stage::Reactions), right.failure(Stage::Reactions)),
         (Some("joint.B.fx_N and 1 more"), None)
     );
     assert!(right.error(Stage::Reactions).unwrap().max < 1e-9 && right.without(Stage::Positions).is_none());
     // What it gives is still judged.
-    assert!(with(1e-3).error(Stage::Reactions).unwrap().max > 1e-4);
+    assert!(wrong.error(Stage::Reactions).unwrap().max > 1e-4);
 }

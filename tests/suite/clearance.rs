@@ -15,7 +15,7 @@ use workshop::clearance::{Body, Clearance, Outline, Question, course, find};
 
 use crate::common::sketch::Random;
 use crate::common::specimens::specimen;
-use crate::common::{assert_within, shipped, states};
+use crate::common::{assert_within, draws, shipped, states};
 
 /// Instants of the brute force.
 const FINE: usize = 800;
@@ -191,9 +191,8 @@ fn shipped_mechanisms_against_brute_force() {
 
 #[test]
 fn random_mechanisms_against_brute_force() {
-    let count = if std::env::var_os("LINKPROOF_NIGHTLY").is_some() { 150 } else { 30 };
     let (mut seen, mut used) = (Seen::default(), 0);
-    for index in 0..count {
+    for index in 0..draws(20) as u64 {
         let own = specimen(29, index, &mut BTreeMap::new());
         let text = own.toml(false);
         let case = Scenario::parse(&text, Path::new("specimen.toml")).unwrap_or_else(|error| panic!("{error}")).case;

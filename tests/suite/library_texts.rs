@@ -41,10 +41,9 @@ fn without_tests(code: &str) -> &str {
 
 /// String literals of a source text with their line numbers, counted from 1, and the rest of the text without comments.
 fn literals(code: &str) -> (Vec<(usize, String)>, String) {
-    let (mut found, mut code_alone) = (Vec::new(), String::new());
+    let (mut found, mut code_alone, mut line) = (Vec::new(), String::new(), 1);
     let mut rest = code;
     while let Some(first) = rest.chars().next() {
-        let line = code[..code.len() - rest.len()].matches('\n').count() + 1;
         let hashes = rest[1.min(rest.len())..].bytes().take_while(|&byte| byte == b'#').count();
         let raw = first == 'r' && rest[1 + hashes..].starts_with('"') && !code_alone.ends_with(char::is_alphanumeric);
         let length = if rest.starts_with("//") {
@@ -67,7 +66,9 @@ fn literals(code: &str) -> (Vec<(usize, String)>, String) {
             code_alone.push(first);
             first.len_utf8()
         };
-        rest = &rest[length.min(rest.len())..];
+        let (passed, after) = rest.split_at(length.min(rest.len()));
+        line += passed.matches('\n').count();
+        rest = after;
     }
     (found, code_alone)
 }

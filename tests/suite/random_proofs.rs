@@ -3,6 +3,7 @@
 use std::cell::Cell;
 use std::path::Path;
 
+use crate::common::draws;
 use crate::common::higher::{Among, FAMILIES, mechanism};
 use crate::common::random::{SORTS, for_each_of};
 use crate::common::sketch::Random;
@@ -14,19 +15,19 @@ use linkproof::scenario::Scenario;
 /// order. The run with fewer sweeps shows it.
 #[test]
 fn regress_random_chains_of_rrr_dyads_never_disagree() {
-    never_disagree(&SORTS[..1], 3);
+    never_disagree(&SORTS[..1], draws(6));
 }
 
 /// The same with all kinds of dyads. Of sixty chains of up to three, one keeps an error of first order in slide speeds,
-/// which vanishes with 8192 sweeps.
+/// which vanishes with 8192 sweeps. Fifteen have every kind alone, and chains of every length.
 #[test]
 fn regress_random_mechanisms_with_sliders_never_disagree() {
-    never_disagree(&SORTS, 3);
+    never_disagree(&SORTS, draws(15));
 }
 
-fn never_disagree(sorts: &[[bool; 3]], most: usize) {
+fn never_disagree(sorts: &[[bool; 3]], count: usize) {
     let [proven, open, refused] = [const { Cell::new(0) }; 3];
-    for_each_of(sorts, most, 60, |sample| {
+    for_each_of(sorts, 3, count as u32, |sample| {
         let mut scenario = sample.scenario.clone();
         scenario.dt = Some(0.005 / scenario.case.crank().at(0.0).omega.abs());
         match prove(&scenario, &Options::default()) {
@@ -64,21 +65,26 @@ fn never_disagree(sorts: &[[bool; 3]], most: usize) {
         Ok(())
     });
     println!("{} agree, {} inconclusive, {} refused", proven.get(), open.get(), refused.get());
-    assert!(proven.get() >= 30, "only {} of 60 mechanisms are proven, {} are left open", proven.get(), open.get());
+    let (proven, open) = (proven.get(), open.get());
+    assert!(2 * proven >= count, "only {proven} of {count} mechanisms are proven, {open} are left open");
 }
 
-/// A few of every family of higher groups in each surrounding. Before the error of the sweeps was counted, three of
-/// these disagreed falsely in velocities.
+/// Work allowed to a proof, in steps: what is not decided by then is inconclusive, and no less right.
+const WORK: f64 = 2e4;
+
+/// Every family of higher groups, its surroundings in turn; by night each of them. Before the error of the sweeps was
+/// counted, three of these disagreed falsely in velocities.
 #[test]
 fn regress_random_higher_groups_never_disagree() {
     let mut counts = std::collections::BTreeMap::new();
     for (index, family) in FAMILIES.iter().enumerate() {
         let mut random = Random::from_seed(30 + index as u8);
-        for among in [Among::Alone, Among::Alone, Among::BehindADyad, Among::CarryingADyad] {
-            let (spec, _) = mechanism(&mut random, family, among);
-            let Ok(mut scenario) = spec.scenario() else { continue };
+        let all = [Among::Alone, Among::BehindADyad, Among::CarryingADyad, Among::Alone];
+        for among in (0..draws(1).min(all.len())).map(|k| all[(index + k) % all.len()]) {
+            let mut drawn = std::iter::repeat_with(|| mechanism(&mut random, family, among).0.scenario()).take(100);
+            let mut scenario = drawn.find_map(Result::ok).expect("a mechanism that can be assembled");
             scenario.dt = Some(0.005 / scenario.case.crank().at(0.0).omega.abs());
-            let word = match prove(&scenario, &Options::default()) {
+            let word = match prove(&scenario, &Options::default().budget(WORK)) {
                 Ok(proof) => {
                     for channel in &proof.engine().channels {
                         let wrong = channel.verdict.word() == "disagree";
@@ -86,9 +92,7 @@ fn regress_random_higher_groups_never_disagree() {
                         assert!(
                             !wrong,
                             "{family:?} {among:?}: {used:.2} {:?} {:?}\n{}",
-                            channel.residual,
-                            channel.parts,
-                            spec.toml()
+                            channel.residual, channel.parts, scenario.text
                         );
                     }
                     proof.verdict.word()
@@ -100,7 +104,7 @@ fn regress_random_higher_groups_never_disagree() {
         }
     }
     println!("{counts:?}");
-    assert!(counts["agree"] >= FAMILIES.len(), "{counts:?}");
+    assert!(4 * counts["agree"] >= counts.values().sum::<usize>(), "{counts:?}");
 }
 
 /// Symptom: reactions disagree by 80 % at an instant a ten-thousandth of a degree before the rocker reverses. Cause:

@@ -8,9 +8,9 @@ use linkproof::engines::EngineName;
 use linkproof::proof::{End, Options, Proof, prove, prove_against};
 use linkproof::scenario::Scenario;
 
-use crate::common::shipped;
 use crate::common::spec::four_bar;
 use crate::common::specimens::specimen;
+use crate::common::{draws, shipped};
 
 fn parsed(text: &str) -> Scenario {
     Scenario::parse(text, Path::new("settling.toml")).unwrap_or_else(|error| panic!("{error}"))
@@ -28,11 +28,12 @@ fn numbers(proof: &Proof) -> Vec<(f64, f64, String)> {
     proof.engine().channels.iter().map(of).collect()
 }
 
-/// Random correct mechanisms of both motions, with masses over four decades, without any setting.
+/// Random correct mechanisms of all ten kinds of shape, with masses over four decades, without any setting.
 #[test]
 fn random_mechanisms_end_in_agreement_by_themselves() {
     let mut open = Vec::new();
-    for index in 0..20 {
+    let count = draws(10) as u64;
+    for index in 0..count {
         let own = specimen(11, index, &mut Default::default());
         let proof = proven(&parsed(&own.toml(false)));
         let word = proof.verdict.word();
@@ -41,8 +42,8 @@ fn random_mechanisms_end_in_agreement_by_themselves() {
             open.push((index, format!("{:?}", proof.verdict)));
         }
     }
-    // What the engine cannot decide within the work allowed: one in twenty at most.
-    assert!(open.len() <= 1, "{open:?}");
+    // What the engine cannot decide within the work allowed: one in ten at most.
+    assert!(10 * open.len() as u64 <= count, "{open:?}");
 }
 
 #[test]
@@ -155,10 +156,12 @@ fn regress_a_long_run_up_is_known_to_the_error_of_its_integration() {
         text[from..].lines().next().unwrap().to_string()
     });
     let long = parsed(&text.replace(&to, "to_s = 5").replace(&step, "step_s = 0.01"));
-    let proof = prove(&long, &Options::default().engine(EngineName::Rapier)).unwrap();
-    assert_eq!(proof.verdict.word(), "agree", "{:?}", proof.verdict);
+    // The engine is not asked: what it would have to step through is long.
+    let proof = prove(&long, &Options::default().engine(EngineName::Rapier).budget(1e4)).unwrap();
+    assert_ne!(proof.verdict.word(), "disagree", "{:?}", proof.verdict);
     let positions = proof.checks.iter().find(|check| check.name() == "assur against newton, positions").unwrap();
     // A pose is good to 1e-15 of the size here.
+    assert_eq!(positions.verdict.word(), "agree", "{positions:?}");
     assert!(positions.value > 1e-13 && positions.bound > 1e-12 && positions.bound < 1e-9, "{positions:?}");
 }
 

@@ -24,7 +24,7 @@ fn all_engines_stand_side_by_side() {
     }
     assert!(run["disputes"].is_null());
 
-    let report = place.ok("run scenarios/crank_rocker.toml --engine rapier --engine impulse --no-record -v");
+    let report = place.ok("run scenarios/crank_rocker.toml --engine rapier --engine impulse --dt 2e-3 --no-record -v");
     for word in ["Side by side", "rapier ", "impulse ", "No two of them differ by more than both may be wrong"] {
         assert!(report.contains(word), "{word}: {report}");
     }

@@ -6,6 +6,8 @@ use linkage::mechanism::Mechanism;
 use linkage::solver::Solver;
 use linkage::trajectory::Stage;
 
+use crate::common::by_night;
+
 /// Scenario, place in its text, what stands there instead, and the words that must name it.
 type Fault = (&'static str, &'static str, &'static str, &'static str);
 
@@ -183,6 +185,10 @@ fn faults_in_every_shipped_scenario_are_named() {
         .collect();
     names.sort();
     for name in names {
+        // It costs ten times as much as all others, and is the first of its benchmark with more bars.
+        if name == "n_four_bar_2" && !by_night() {
+            continue;
+        }
         let case = parsed(&name, &text(&name)).case;
         let mut add = |what: &str, wrong: &Case, expected: &str| {
             let grid = Grid::of_times(wrong.crank(), case.grid.times.clone());

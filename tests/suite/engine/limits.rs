@@ -27,7 +27,7 @@ fn regress_40_steps_that_are_too_large_prove_nothing() {
     let scenario = shipped("crank_rocker.toml");
     for engine in stepping(1e-3) {
         for step in [0.05, 0.02, 0.01] {
-            let options = Options::default().engine(EngineName::named(engine.name()).unwrap()).step(step);
+            let options = Options::default().engine(EngineName::named(engine.name()).unwrap()).step(step).budget(1e5);
             match prove(&scenario, &options) {
                 Ok(proof) => {
                     assert_eq!(proof.verdict.word(), "inconclusive", "{step}: {:?}", proof.verdict);
@@ -60,7 +60,7 @@ fn regress_41_a_pose_that_cannot_be_assembled_is_an_error_with_its_crank_angle()
     spec.start = 0.5;
     spec.grid = (0.5, 0.05, 60);
     let case = spec.scenario().unwrap().case;
-    for step in [1e-2, 1e-3, 1e-4] {
+    for step in [1e-2, 1e-3] {
         for engine in linkproof::engines::all(step) {
             assert_helpful(&engine.solve(&case).unwrap_err());
         }
@@ -78,7 +78,7 @@ fn regress_41_a_pose_that_cannot_be_assembled_is_an_error_with_its_crank_angle()
 #[test]
 fn regress_42_a_slider_out_of_reach_is_an_error_with_its_crank_angle() {
     let case = short_rod();
-    for step in [1e-2, 1e-3, 1e-4] {
+    for step in [1e-2, 1e-3] {
         for engine in linkproof::engines::all(step) {
             assert_helpful(&engine.solve(&case).unwrap_err());
         }

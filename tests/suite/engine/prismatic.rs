@@ -28,7 +28,7 @@ fn lighter(case: &Case) -> Case {
 #[test]
 fn regress_50_all_sorts_of_sliders_converge_with_the_formal_order() {
     for sample in sliders::all() {
-        for case in [sample.case.clone(), swapped(&sample.case), lighter(&sample.case)] {
+        for case in [sample.case.clone(), lighter(&swapped(&sample.case))] {
             has_formal_order(&case, linkproof::engines::named("rapier", 1e-3).into_iter(), &NewtonSolver);
         }
         has_formal_order(&sample.case, linkproof::engines::named("impulse", 2e-3).into_iter(), &NewtonSolver);

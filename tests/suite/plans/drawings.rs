@@ -1,6 +1,6 @@
 //! Drawings of plans: well formed, complete, true to scale, legible.
 
-use linkage::math::Vec2;
+use linkage::math::{KeepNan, Vec2};
 use workshop::diagram::draw;
 
 use super::{Named, REVOLUTE, SLIDERS, all, degrees_of, plans};
@@ -77,10 +77,19 @@ fn letters_can_be_read() {
                 let gap = (centre - other).abs() - half - size;
                 assert!(gap.x > 0.0 || gap.y > 0.0, "{name} at {degrees}: letters at {centre:?} and {other:?}");
             }
+            // Shares of the line at which it enters the box and leaves it, along each axis.
             let inside = |[a, b]: &[Vec2; 2]| {
-                (0..=400)
-                    .map(|k| a + (b - a) * (f64::from(k) / 400.0) - centre)
-                    .any(|d| d.x.abs() < half.x && d.y.abs() < half.y)
+                let [mut from, mut to] = [0.0f64, 1.0];
+                for axis in 0..2 {
+                    let (start, way) = (a[axis] - centre[axis], b[axis] - a[axis]);
+                    if way == 0.0 {
+                        to = if start.abs() < half[axis] { to } else { -1.0 };
+                        continue;
+                    }
+                    let ends = [-half[axis], half[axis]].map(|edge| (edge - start) / way);
+                    (from, to) = (from.larger(ends[0].smaller(ends[1])), to.smaller(ends[0].larger(ends[1])));
+                }
+                from < to
             };
             let is_crossed = arrows.iter().any(inside);
             if is_crossed {

@@ -10,6 +10,7 @@ use linkproof::scenario::Scenario;
 use linkproof::{Options, Proof, Verdict, prove};
 
 use crate::common::damage::{Damaged, damaged};
+use crate::common::draws;
 use crate::common::entries;
 use crate::common::many::{each, number};
 
@@ -69,14 +70,11 @@ fn shortened(mut scenario: Scenario) -> Option<Scenario> {
     Some(scenario)
 }
 
-/// A quick share of them; by night 10 000. `LINKPROOF_BAD_FROM` and `LINKPROOF_BAD_SCENARIOS` choose some by number,
+/// A quick share of them. `LINKPROOF_BAD_FROM` and `LINKPROOF_BAD_SCENARIOS` choose some by number,
 /// `LINKPROOF_BAD_TO` names a directory that they are written to.
 #[test]
 fn bad_scenarios_end_with_a_message_and_a_place() {
-    let count = match std::env::var_os("LINKPROOF_NIGHTLY") {
-        Some(_) => number("LINKPROOF_BAD_SCENARIOS").unwrap_or(10_000),
-        None => 300,
-    };
+    let count = number("LINKPROOF_BAD_SCENARIOS").unwrap_or(draws(100) as u64);
     let found = each(number("LINKPROOF_BAD_FROM").unwrap_or(0), count, |index| {
         let bad = damaged(1, index);
         if let Some(directory) = std::env::var_os("LINKPROOF_BAD_TO") {

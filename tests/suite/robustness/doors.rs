@@ -13,14 +13,14 @@ use assert_cmd::cargo::CommandCargoExt;
 use linkage::mechanism::is_unseen;
 
 use crate::cli::tools::Place;
+use crate::common::draws;
 use crate::common::hostile::{Attack, DOORS, Good, OLDER, attack};
 use crate::common::many::{each, number};
 
 /// Seed of all attacks.
 const SEED: u64 = 1;
-/// Attacks of an ordinary run, as many at each door; by night 10 000 in all.
+/// Attacks of an ordinary run, as many at each door.
 const FEW: u64 = 16 * DOORS.len() as u64;
-const MANY: u64 = 10_000;
 /// Memory (kB) and processor time (s) that a command may take. Two threads take the time twice as fast.
 const MEMORY: u64 = 2_000_000;
 const SECONDS: u64 = 60;
@@ -136,7 +136,7 @@ fn ending(own: &Attack) -> Result<(i32, f64), String> {
 /// `LINKPROOF_HOSTILE_FROM` and `LINKPROOF_HOSTILE` choose some by number.
 #[test]
 fn hostile_inputs_end_in_little_time_and_memory_and_change_no_file_of_others() {
-    let usual = if std::env::var_os("LINKPROOF_NIGHTLY").is_some() { MANY } else { FEW };
+    let usual = draws(FEW as usize) as u64;
     let (from, count) = (number("LINKPROOF_HOSTILE_FROM").unwrap_or(0), number("LINKPROOF_HOSTILE").unwrap_or(usual));
     let found = each(from, count, |index| {
         let own = attack(SEED, index, &GOOD);

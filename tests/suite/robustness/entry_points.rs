@@ -2,11 +2,10 @@
 
 use proptest::prelude::*;
 
-use crate::common::{damage::damaged, entries};
+use crate::common::{damage::damaged, draws, entries};
 
 fn config(cases: u32) -> ProptestConfig {
-    let more = if std::env::var_os("LINKPROOF_NIGHTLY").is_some() { 50 } else { 1 };
-    ProptestConfig { cases: cases * more, failure_persistence: None, ..ProptestConfig::default() }
+    ProptestConfig { cases: draws(cases as usize) as u32, failure_persistence: None, ..ProptestConfig::default() }
 }
 
 proptest! {
@@ -37,7 +36,7 @@ proptest! {
 
 #[test]
 fn damaged_texts_are_scenarios_or_errors_with_their_places() {
-    for index in 0..200 {
+    for index in 0..draws(60) as u64 {
         let damaged = damaged(7, index);
         entries::scenario(&damaged.text);
     }

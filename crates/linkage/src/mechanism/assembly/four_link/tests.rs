@@ -105,7 +105,7 @@ fn check(tally: &Tally, cases: usize) {
 
 /// Whether to run the many groups that take minutes, as `.ci/nightly` does.
 fn many() -> bool {
-    std::env::var_os("LINKPROOF_NIGHTLY").is_some()
+    std::env::var_os("LINKPROOF_DRAWS").is_some()
 }
 
 #[test]
