@@ -10,6 +10,8 @@ use scenario::Scenario;
 
 use crate::common::by_night;
 
+use crate::common::by_night;
+
 const TEXT: &str = include_str!("../../scenarios/crank_rocker.toml");
 
 fn scenario(text: &str) -> Scenario {

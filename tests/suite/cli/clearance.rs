@@ -32,7 +32,13 @@ fn the_crankcase_is_clear_and_says_so() {
 #[test]
 fn a_collision_is_an_outcome() {
     let place = Place::new();
-    place.edited("crankcase.toml", "longer.toml", &[("x_mm = 130,", "x_mm = 132,")]);
+    // Swept areas are no matter here, and cost most.
+    let rough = |wanted: &str| format!("wanted_mm = {wanted}\narea_rel = 0.01");
+    place.edited(
+        "crankcase.toml",
+        "longer.toml",
+        &[("x_mm = 130,", "x_mm = 132,"), ("wanted_mm = 0.4", &rough("0.4"))],
+    );
     let outcome = place.run("clearance scenarios/longer.toml --json out.json");
     assert_eq!((outcome.code, outcome.stderr.as_str()), (1, ""));
     assert!(outcome.stdout.contains("first collision: piston and head at crank angle"), "{}", outcome.stdout);
@@ -44,7 +50,7 @@ fn a_collision_is_an_outcome() {
     let height = 40.0 * crank.sin() + (132.0f64.powi(2) - (40.0 * crank.cos()).powi(2)).sqrt() + 30.0;
     assert_within!((height - 201.0).abs(), 1e-6, "{first}");
     // Only too near: no collision, but less than wanted.
-    place.edited("crankcase.toml", "near.toml", &[("wanted_mm = 0.4", "wanted_mm = 0.6")]);
+    place.edited("crankcase.toml", "near.toml", &[("wanted_mm = 0.4", &rough("0.6"))]);
     let outcome = place.run("clearance scenarios/near.toml");
     assert_eq!(outcome.code, 1, "{}", outcome.stdout);
     assert!(

@@ -3,7 +3,7 @@
 use std::fs;
 
 use super::tools::{Place, Table};
-use crate::common::assert_within;
+use crate::common::{assert_within, shipped};
 
 const SOLVERS: [&str; 3] = ["assur", "newton", "rapier"];
 const ON_LINKS: &str = "angle_rad omega_rad_s alpha_rad_s2 x_m y_m vx_m_s vy_m_s ax_m_s2 ay_m_s2";
@@ -26,6 +26,11 @@ fn header(links: &[&str], points: &[&str], joints: &[&str]) -> Vec<String> {
     names
 }
 
+/// The columns of a table that are documented, in its order.
+fn documented(header: &[String], names: &[String]) -> Vec<String> {
+    header.iter().filter(|own| names.contains(own)).cloned().collect()
+}
+
 #[test]
 fn columns_are_named_and_ordered_as_promised_for_every_solver() {
     let place = Place::new();
@@ -35,10 +40,11 @@ fn columns_are_named_and_ordered_as_promised_for_every_solver() {
     let ov7 = header(&links, &["2", "3", "5", "7", "9"], &joints);
     for solver in SOLVERS {
         let table = Table::of(&place.ok(&format!("solve scenarios/crank_rocker.toml --with {solver}")));
-        assert_eq!(table.header, crank_rocker, "{solver}");
+        assert_eq!(documented(&table.header, &crank_rocker), crank_rocker, "{solver}");
+        assert_eq!(table.header.len(), 2 + shipped("crank_rocker.toml").case.channels().len(), "{solver}");
         assert_eq!(table.rows.len(), 361, "one row a grid point");
         let few = format!("solve scenarios/ov7_base.toml --with {solver} --crank-deg 0:-10:-5");
-        assert_eq!(Table::of(&place.ok(&few)).header, ov7, "{solver}");
+        assert_eq!(documented(&Table::of(&place.ok(&few)).header, &ov7), ov7, "{solver}");
     }
 }
 
