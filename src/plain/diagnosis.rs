@@ -1,6 +1,5 @@
 //! Diagnoses in words.
 
-
 use linkage::trajectory::{Channel, Stage};
 use prover::diagnosis::{Arm, Axis, Cause, Change, Diagnosis, How, Nature, Over, Part, Plain, Since, Slip, Standing};
 

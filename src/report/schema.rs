@@ -50,7 +50,7 @@ fn of_key(key: &Key, path: &str) -> Value {
     let list = |items: Value| json!({ "type": "array", "items": items });
     let mut value = match key.kind {
         Kind::Text => json!({ "type": "string" }),
-        Kind::Choice(words) => json!({ "enum": words }),
+        Kind::Choice(words) => json!({ "enum": words() }),
         Kind::Texts => list(json!({ "type": "string" })),
         Kind::Number | Kind::Quantity(_) => number(),
         Kind::Numbers | Kind::Quantities(_) => list(number()),

@@ -478,7 +478,7 @@ fn oracles() {
         bad!("channel = \"point.B.x_mm\"" => "channel = \"point.B.x_mm\", expect = [{ crank_deg = 90, finding = \"x\" }]",
             INPUT, at "expect", key "oracle[1].columns.Bx_mm.expect[1]", ["`right` is missing"]),
         bad!("source = \"a number\"" => "source = \"a number\"\nbasis = \"guessed\"", INPUT, at "basis", key "oracle[2].basis",
-            ["cannot be \"guessed\"", "\"published\""]),
+            ["\"guessed\" is no way to know numbers", "\"published\""]),
         bad!("figures = [" => "file = \"table.csv\"\nfigures = [", INPUT, at "[[oracle]]\nsource = \"a figure\"",
             key "oracle[3]", ["exactly one of"]),
     ]);

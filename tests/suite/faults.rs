@@ -10,7 +10,7 @@ use scenario::Scenario;
 
 use crate::common::by_night;
 
-use crate::common::by_night;
+
 
 const TEXT: &str = include_str!("../../scenarios/crank_rocker.toml");
 

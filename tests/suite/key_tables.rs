@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use scenario::keys::{Key, Kind, SECTIONS, Section, section};
+use scenario::keys::{Key, Kind, Section, section, sections};
 
 const DOCUMENT: &str = include_str!("../../docs/scenario.md");
 const BEGIN: &str = "<!-- keys of ";
@@ -13,7 +13,7 @@ fn kind(key: &Key) -> String {
     let word = |word: &&str| format!("`\"{word}\"`");
     match key.kind {
         Kind::Text => "text".into(),
-        Kind::Choice(words) => words.iter().map(word).collect::<Vec<_>>().join(", "),
+        Kind::Choice(words) => words().iter().map(word).collect::<Vec<_>>().join(", "),
         Kind::Texts => "list of texts".into(),
         Kind::Number | Kind::Quantity(_) => "number".into(),
         Kind::Numbers | Kind::Quantities(_) => "list of numbers".into(),
@@ -75,7 +75,7 @@ fn the_tables_of_keys_in_the_document_are_current() {
 fn every_section_has_a_table_in_the_document() {
     let (_, paths) = renewed(DOCUMENT);
     let names = |section: &Section| section.keys.iter().map(|key| key.name).collect::<Vec<_>>();
-    for own in SECTIONS.iter().filter(|own| own.path != "ground") {
+    for own in sections().filter(|own| own.path != "ground") {
         let is_shown = paths.iter().any(|path| section(path).is_some_and(|shown| names(shown) == names(own)));
         assert!(is_shown, "docs/scenario.md has no `{BEGIN}`{}` -->`", own.path);
     }
@@ -89,10 +89,10 @@ fn every_word_is_explained() {
         .map(|part| part.split_once(END).map_or(part, |(_, after)| after))
         .flat_map(|part| part.split("```").step_by(2))
         .collect();
-    for own in SECTIONS {
+    for own in sections() {
         for key in own.keys {
             let Kind::Choice(words) = key.kind else { continue };
-            for word in words {
+            for word in words() {
                 assert!(outside.contains(word), "{}.{}: \"{word}\"", own.path, key.name);
             }
         }

@@ -6,7 +6,8 @@ pub mod question;
 pub use outline::{Flaw, MOST_CORNERS, Outline};
 pub use question::{Body, Question};
 
-use super::links::{NAME_HELP, place};
+use super::keys::key::{Key, Kind, Section, needed, optional};
+use super::links::{NAME_HELP, PLACE, place};
 use super::reader::{Sign, Table};
 use super::unit::LENGTH;
 use super::words::suggestion;
@@ -14,6 +15,69 @@ use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::{GROUND, Link, Mechanism, Point, is_sound_name};
 use question::pairs;
+
+const RADIUS: Key = optional(
+    "radius",
+    Kind::LENGTHS,
+    "radius of the rounding: positive of a line, not negative of a polygon or of a part of the housing",
+    "that of the section; of a polygon 0",
+);
+const CORNERS: Key = optional(
+    "corners",
+    Kind::Tables,
+    "places, three or more: a polygon with its interior, convex or not, in either sense",
+    "a line",
+);
+const LINE: Key = optional(
+    "line",
+    Kind::Tables,
+    "places: capsules from place to place; a single one is a disc",
+    "through the link's points, if there are no corners",
+);
+
+/// What is told of the keys that are read here.
+pub const SECTIONS: &[Section] = &[
+    Section {
+        path: "clearance",
+        keys: &[
+            optional(
+                "radius",
+                Kind::LENGTHS,
+                "radius, positive, of the capsules between the points of every link that has no outline of its own",
+                "every link needs an outline of its own",
+            ),
+            optional("wanted", Kind::LENGTHS, "distance that no pair may fall to", "only collisions count"),
+            optional(
+                "tolerance",
+                Kind::LENGTHS,
+                "error that a smallest distance may have",
+                "a millionth of the mechanism's size",
+            ),
+            optional(
+                "area_rel",
+                Kind::Number,
+                "error that a swept area may have, as a share of it; from 1e-5 to 1",
+                "5e-3",
+            ),
+            optional("outlines", Kind::Table, "outlines of links by name", "capsules between the points"),
+            optional("housing", Kind::Tables, "parts of the housing", "none"),
+            optional("ignore", Kind::Tables, "pairs that cannot meet, because they lie in different planes", "none"),
+        ],
+    },
+    Section { path: "clearance.outlines.*", keys: &[CORNERS, LINE, RADIUS] },
+    Section { path: "clearance.outlines.*.corners", keys: PLACE },
+    Section { path: "clearance.outlines.*.line", keys: PLACE },
+    Section {
+        path: "clearance.housing",
+        keys: &[needed("name", Kind::Text, "name, unique, not that of a link"), CORNERS, LINE, RADIUS],
+    },
+    Section { path: "clearance.housing.corners", keys: PLACE },
+    Section { path: "clearance.housing.line", keys: PLACE },
+    Section {
+        path: "clearance.ignore",
+        keys: &[needed("bodies", Kind::Texts, "the two that cannot meet; `\"housing\"` stands for all its parts")],
+    },
+];
 
 /// Share of a swept area that its error may have, unless the file says otherwise.
 const AREA: f64 = 5e-3;

@@ -5,7 +5,7 @@
 use std::fmt;
 use std::ops::RangeInclusive;
 
-use super::keys::{Key, Kind, optional};
+use super::keys::key::{Key, Kind, Section, optional};
 use super::reader::{Sign, Table};
 use super::setting::Setting;
 use super::unit::{ANGLE, TIME};
@@ -195,7 +195,7 @@ pub const ROWS: &[Row] = &[
     Row {
         keys: &[optional(
             "route",
-            Kind::Choice(&["differences", "native", "probe"]),
+            Kind::Choice(|| Route::ALL.map(Route::name).to_vec()),
             "how reactions and balancing moment are obtained",
             "the engine's, and its own forces beside it",
         )],
@@ -221,7 +221,7 @@ pub const ROWS: &[Row] = &[
 ];
 
 /// The keys of `[engine]`, in the order of their rows.
-pub static KEYS: [Key; COUNT] = {
+const KEYS: [Key; COUNT] = {
     let mut all = [ROWS[0].keys[0]; COUNT];
     let (mut row, mut at) = (0, 0);
     while row < ROWS.len() {
@@ -234,6 +234,9 @@ pub static KEYS: [Key; COUNT] = {
     }
     all
 };
+
+/// What is told of the keys that are read here.
+pub const SECTIONS: &[Section] = &[Section { path: "engine", keys: &KEYS }];
 
 const COUNT: usize = {
     let (mut row, mut count) = (0, 0);
@@ -289,12 +292,14 @@ pub fn read(table: &mut Table, drive: &Drive) -> Result<EngineSettings> {
             // The step is stated in two ways, which are read above.
             Slot::Positive(_) => {}
             Slot::Engines(engines) => {
-                let engine = table.optional_word(key, "engine", &EngineName::ALL, EngineName::name)?;
+                let engine =
+                    table.optional_choice(key, "is no engine", &EngineName::ALL.map(|own| (own.name(), own)))?;
                 *engines = table.given(key, engine.map(|engine| vec![engine]));
             }
             Slot::Count(number) => *number = whole(table, key, 1..=usize::MAX)?,
             Slot::Route(route) => {
-                let found = table.optional_word(key, "route to reactions", &Route::ALL, Route::name)?;
+                let found =
+                    table.optional_choice(key, "is no route to reactions", &Route::ALL.map(|own| (own.name(), own)))?;
                 *route = table.given(key, found);
             }
             Slot::Times(times) if table.is_boolean(key) => {
@@ -373,7 +378,7 @@ mod tests {
                 (Some(key), &section[section.find('"').unwrap()..])
             );
             let help = error.way_out().unwrap();
-            assert!(help.starts_with(&format!("did you mean \"{near}\"? choose one of ")), "{help}");
+            assert!(help.starts_with(&format!("did you mean \"{near}\"? allowed here: ")), "{help}");
         }
     }
 

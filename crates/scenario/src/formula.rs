@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::claim::Claim;
+use super::keys::key::{Kind, Section, needed, optional};
 use super::parameters::{INPUTS, Parameter, fault_of_name};
 use super::reader::{Faults, Sign, Table};
 use super::unit;
@@ -13,6 +14,34 @@ use std::ops::Range;
 use linkage::case::Case;
 use linkage::error::{Error, ErrorKind, Place, Result};
 use linkage::math::KeepNan;
+
+/// What is told of the keys that are read here.
+pub const SECTIONS: &[Section] = &[Section {
+    path: "formula",
+    keys: &[
+        needed("name", Kind::Text, "letters, digits and `_`; formulas after it may use it"),
+        needed(
+            "expression",
+            Kind::Text,
+            "arithmetic of numbers, `phi`, `t`, `pi`, parameters (in SI, or by their keys as plain numbers) and formulas before it",
+        ),
+        optional(
+            "channel",
+            Kind::Text,
+            "what it claims: a channel, with the unit of its name (`link.rocker.angle_deg`, `point.B.x_mm`, `joint.B.f_N`), or an arithmetic of channels; also what is reduced to the crank",
+            "none: a step of a derivation",
+        ),
+        optional("source", Kind::Text, "where it comes from", "none"),
+        optional("from", Kind::INPUTS, "first crank angle for which it is claimed", "the whole run"),
+        optional("to", Kind::INPUTS, "last crank angle for which it is claimed", "the whole run"),
+        optional(
+            "error",
+            Kind::Number,
+            "error that it is claimed to have, in the unit of the channel: for series and approximations",
+            "none: it is exact",
+        ),
+    ],
+}];
 
 /// The crank's angular velocity, as a diagnosis names it.
 pub const OMEGA: &str = "omega_crank";

@@ -2,11 +2,34 @@
 
 use std::cmp::Ordering;
 
+use super::keys::key::{Kind, Section, optional};
 use super::reader::{Sign, Table};
 use super::unit::{self, ANGLE, Family, TIME};
 use linkage::case::Grid;
 use linkage::drive::Drive;
 use linkage::error::{ErrorKind, Result};
+
+/// What is told of the keys that are read here.
+pub const SECTIONS: &[Section] = &[Section {
+    path: "grid",
+    keys: &[
+        optional(
+            "from",
+            Kind::INPUTS_OR_TIMES,
+            "first crank angle, or first time from the start",
+            "given with `to` and `step`",
+        ),
+        optional("to", Kind::INPUTS_OR_TIMES, "last one, in the same kind of unit", "given with `from`"),
+        optional("step", Kind::INPUTS_OR_TIMES, "distance of instants; may be negative", "given with `from`"),
+        optional(
+            "angles",
+            Kind::LIST_OF_ANGLES,
+            "crank angles, one by one, in any order; not for a free motion",
+            "a range",
+        ),
+        optional("times", Kind::LIST_OF_TIMES, "times, one by one, in any order", "a range"),
+    ],
+}];
 
 /// Largest number of points of a range.
 pub const MOST: usize = 1_000_000;

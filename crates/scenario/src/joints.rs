@@ -2,13 +2,62 @@
 
 use std::f64::consts::FRAC_PI_2;
 
+use super::keys::key::{Kind, Section, needed, optional};
 use super::links::{NAME_HELP, is_somewhere};
 use super::reader::{Faults, Sign, Table};
 use super::unit::ANGLE;
-use super::words::suggestion;
+use super::words::{Words, names, suggestion};
 use linkage::error::{ErrorKind, Result};
 use linkage::math::{Vec2, unit};
 use linkage::mechanism::{Guise, Joint, JointKind, Link, Side, is_sound_name};
+
+/// Types of joints, each with its reader.
+const TYPES: Words<fn(&mut Table) -> Result<(JointKind, Option<Guise>)>> =
+    &[("revolute", revolute), ("prismatic", prismatic)];
+
+/// What is told of the keys that are read here.
+pub const SECTIONS: &[Section] = &[Section {
+    path: "joints",
+    keys: &[
+        needed("name", Kind::Text, "name, unique"),
+        needed("type", Kind::Choice(|| names(TYPES)), "kind of joint"),
+        needed(
+            "links",
+            Kind::Texts,
+            "first and second link; `\"ground\"` is the frame. The reaction of the joint is what the first exerts on the second",
+        ),
+        optional(
+            "point",
+            Kind::Text,
+            "revolute: the joint is at the point of this name, on both links",
+            "the joint's name",
+        ),
+        optional(
+            "points",
+            Kind::Texts,
+            "prismatic: `[\"G\", \"B\"]`, a point of the first link and one of the second; the line through the first point along the axis passes through the second point",
+            "required of a prismatic joint",
+        ),
+        optional(
+            "axis",
+            Kind::ANGLES,
+            "prismatic: direction of sliding in the frame of the first link",
+            "required of a prismatic joint",
+        ),
+        optional(
+            "second_axis",
+            Kind::ANGLES,
+            "prismatic: the same direction in the frame of the second link; it fixes the angle of the second link to the first",
+            "0: along its x axis",
+        ),
+        optional(
+            "drawn",
+            Kind::Choice(|| Guise::ALL.map(Guise::name).to_vec()),
+            "prismatic: what pictures show, a piston in a cylinder, or a block on rails or in a slot; nothing is calculated from it",
+            "guessed from names and places: docs/draw.md",
+        ),
+    ],
+}];
 
 /// The joints, in the order of the file, but those with mistakes and those at points that are nowhere.
 pub fn read(tables: Vec<Table>, links: &[Link], faults: &mut Faults) -> Vec<Joint> {
@@ -108,26 +157,19 @@ fn guided(table: &mut Table) -> Result<Places> {
 
 /// The kind of a joint, and what it is drawn as if the file says so.
 fn kind(table: &mut Table) -> Result<(JointKind, Option<Guise>)> {
-    match table.string("type")?.as_str() {
-        "revolute" => Ok((JointKind::Revolute, None)),
-        "prismatic" => {
-            let first = table.quantity("axis", &ANGLE, Sign::Any)?;
-            let second = table.optional_quantity("second_axis", &ANGLE, Sign::Any)?.unwrap_or(0.0);
-            Ok((JointKind::Prismatic { axes: [first, second].map(direction) }, drawn(table)?))
-        }
-        other => Err(table
-            .wrong(ErrorKind::Input, "type", format!("\"{other}\" is no type of joint"))
-            .help(suggestion(other, ["revolute", "prismatic"], "\""))),
-    }
+    table.choice("type", "is no type of joint", TYPES)?(table)
 }
 
-fn drawn(table: &mut Table) -> Result<Option<Guise>> {
-    let Some(name) = table.optional_string("drawn")? else { return Ok(None) };
-    if let Some(guise) = Guise::ALL.into_iter().find(|guise| guise.name() == name) {
-        return Ok(Some(guise));
-    }
-    let error = table.wrong(ErrorKind::Input, "drawn", format!("a prismatic pair is not drawn as \"{name}\""));
-    table.instead(None, error.help(suggestion(&name, Guise::ALL.map(Guise::name), "\"")))
+fn revolute(_: &mut Table) -> Result<(JointKind, Option<Guise>)> {
+    Ok((JointKind::Revolute, None))
+}
+
+fn prismatic(table: &mut Table) -> Result<(JointKind, Option<Guise>)> {
+    let first = table.quantity("axis", &ANGLE, Sign::Any)?;
+    let second = table.optional_quantity("second_axis", &ANGLE, Sign::Any)?.unwrap_or(0.0);
+    let guises = Guise::ALL.map(|guise| (guise.name(), guise));
+    let drawn = table.optional_choice("drawn", "is not how a prismatic pair is drawn", &guises)?;
+    Ok((JointKind::Prismatic { axes: [first, second].map(direction) }, drawn))
 }
 
 /// Unit vector at `angle` (rad). Along the axes of the frame it has no rounding of pi, so that a vertical guide is

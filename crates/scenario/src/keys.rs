@@ -1,16 +1,36 @@
-//! Every key of scenario files: what editors are told of the format. The readers decide what is read; tests hold this
-//! table to the keys that they ask for, and the document of the format to this table.
+//! Every key of scenario files: what editors are told of the format. Each stands beside its reader, which decides what is
+//! read; tests hold the two together, and the document of the format to them.
 
-mod key;
-mod table;
+pub mod key;
 #[cfg(test)]
 mod tests;
 
-pub use key::{Key, Kind, Section, needed, optional};
-pub use table::SECTIONS;
+pub use key::{Key, Kind, Section};
+
+use super::{clearance, engine, formula, grid, joints, links, loads, motion, motor, oracle, settings, start, stated};
+
+/// All sections.
+pub fn sections() -> impl Iterator<Item = &'static Section> {
+    let all = [
+        stated::SECTIONS,
+        links::SECTIONS,
+        joints::SECTIONS,
+        motion::SECTIONS,
+        motor::SECTIONS,
+        loads::SECTIONS,
+        start::SECTIONS,
+        grid::SECTIONS,
+        settings::SECTIONS,
+        engine::SECTIONS,
+        clearance::SECTIONS,
+        oracle::SECTIONS,
+        formula::SECTIONS,
+    ];
+    all.into_iter().flatten()
+}
 
 /// The section with a path.
 #[must_use]
 pub fn section(path: &str) -> Option<&'static Section> {
-    SECTIONS.iter().find(|section| section.path == path)
+    sections().find(|section| section.path == path)
 }

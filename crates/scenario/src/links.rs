@@ -2,12 +2,54 @@
 
 use std::collections::BTreeSet;
 
+use super::keys::key::{Key, Kind, Section, needed, optional};
 use super::reader::{Faults, Sign, Table};
 use super::unit::{ANGLE, INERTIA, LENGTH, MASS};
 use super::words::suggestion;
 use linkage::error::{ErrorKind, Result};
 use linkage::math::{Vec2, unit};
 use linkage::mechanism::{Link, Point, is_sound_name};
+
+/// A place: coordinates, or distance and direction from an earlier point.
+pub const PLACE: &[Key] = &[
+    optional("x", Kind::LENGTHS, "coordinate along x", "given with `y`, in place of `from`"),
+    optional("y", Kind::LENGTHS, "coordinate along y", "given with `x`"),
+    optional("from", Kind::Text, "point that stands earlier in the same table", "given in place of `x` and `y`"),
+    optional("length", Kind::LENGTHS, "distance from that point", "given with `from`"),
+    optional(
+        "angle",
+        Kind::ANGLES,
+        "direction from that point, counted from the x axis of the link; for ground points, from the x axis of the world",
+        "given with `from`",
+    ),
+];
+
+/// What is told of the keys that are read here.
+pub const SECTIONS: &[Section] = &[
+    Section { path: "ground", keys: &[needed("points", Kind::Table, "fixed points by name")] },
+    Section { path: "ground.points.*", keys: PLACE },
+    Section {
+        path: "links.*",
+        keys: &[
+            needed("points", Kind::Table, "points in the link's own frame by name, at least one"),
+            optional("mass", Kind::MASSES, "mass, not negative", "none: a massless link"),
+            optional(
+                "mass_centre",
+                Kind::Table,
+                "place of the mass centre in the link's frame; may refer to any point of the link",
+                "required with a mass, refused without",
+            ),
+            optional(
+                "inertia",
+                Kind::INERTIAS,
+                "moment of inertia about the mass centre, not negative; needs a mass",
+                "0",
+            ),
+        ],
+    },
+    Section { path: "links.*.points.*", keys: PLACE },
+    Section { path: "links.*.mass_centre", keys: PLACE },
+];
 
 /// The place of a point that has none because of a mistake.
 const NOWHERE: Vec2 = Vec2::new(f64::NAN, f64::NAN);

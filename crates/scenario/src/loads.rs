@@ -1,13 +1,109 @@
 //! `[[loads]]`: forces, moments, springs and dampers.
 
 use super::joints::link;
+use super::keys::key::{Kind, Section, needed, optional};
 use super::reader::{Faults, Sign, Table};
 use super::unit::{ANGLE, DAMPING, FORCE, Family, LENGTH, MOMENT, MOMENT_PER_SPEED, STIFFNESS, TORSIONAL_STIFFNESS};
-use super::words::suggestion;
+use super::words::{Words, names, suggestion};
 use linkage::drive::{Acts, Course, Load, LoadSort};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::mechanism::{GROUND, Mechanism, Side};
 use std::f64::consts::TAU;
+
+const ACTS: Words<Acts> =
+    &[("always", Acts::Always), ("counter-clockwise", Acts::CounterClockwise), ("clockwise", Acts::Clockwise)];
+
+/// Whether a force turns with its link.
+const FRAMES: Words<bool> = &[("world", false), ("link", true)];
+
+/// Whether a table is a curve without kinks.
+const INTERPOLATIONS: Words<bool> = &[("linear", false), ("smooth", true)];
+
+/// What is told of the keys that are read here.
+pub const SECTIONS: &[Section] = &[
+    Section {
+        path: "loads",
+        keys: &[
+            needed("type", Kind::Choice(|| LoadSort::ALL.iter().map(|sort| sort.name()).collect()), "kind of load"),
+            optional("link", Kind::Text, "the loaded link", "required by the type"),
+            optional("point", Kind::Text, "the loaded point of that link", "required by the type"),
+            optional(
+                "links",
+                Kind::Texts,
+                "the two links that a spring or damper joins; one may be `\"ground\"`",
+                "required by the type",
+            ),
+            optional("points", Kind::Texts, "a point of each of them", "required by the type"),
+            optional(
+                "moment",
+                Kind::MOMENTS,
+                "moment, counter-clockwise positive; of a resistance its size, not negative",
+                "required by the type, or a table",
+            ),
+            optional(
+                "acts",
+                Kind::Choice(|| names(ACTS)),
+                "of a moment: the sense of rotation of the link in which it acts",
+                "`\"always\"`",
+            ),
+            optional("x", Kind::FORCES, "force along x", "required by the type, or a table"),
+            optional("y", Kind::FORCES, "force along y", "required by the type, or a table"),
+            optional(
+                "frame",
+                Kind::Choice(|| names(FRAMES)),
+                "axes of a force: those of the world, or of the link, turning with it",
+                "`\"world\"`",
+            ),
+            optional(
+                "force",
+                Kind::FORCES,
+                "size of a force against the motion of the point, not negative",
+                "required by the type",
+            ),
+            optional(
+                "stiffness",
+                Kind::STIFFNESSES_OR_TORSIONAL,
+                "stiffness of a spring, not negative",
+                "required by the type",
+            ),
+            optional(
+                "free_length",
+                Kind::LENGTHS,
+                "length of the spring without force, not negative",
+                "required by the type",
+            ),
+            optional("free_angle", Kind::ANGLES, "twist of the spring without moment", "required by the type"),
+            optional("damping", Kind::DAMPINGS_OR_SLOPES, "damping, not negative", "required by the type"),
+            optional(
+                "table",
+                Kind::Tables,
+                "the load over the crank angle: crank angles ascending, within one period",
+                "the constants",
+            ),
+            optional(
+                "interpolation",
+                Kind::Choice(|| names(INTERPOLATIONS)),
+                "of the table: straight lines, which do not overshoot, or a periodic cubic spline with continuous second derivatives",
+                "`\"linear\"`",
+            ),
+            optional(
+                "turns",
+                Kind::Integer,
+                "turns of the crank after which the table repeats; 2 for a four-stroke engine",
+                "1",
+            ),
+        ],
+    },
+    Section {
+        path: "loads.table",
+        keys: &[
+            needed("crank", Kind::INPUTS, "crank angle"),
+            optional("moment", Kind::MOMENTS, "moment there", "of a moment"),
+            optional("x", Kind::FORCES, "force along x there", "of a force"),
+            optional("y", Kind::FORCES, "force along y there", "of a force"),
+        ],
+    },
+];
 
 /// Reads the keys of a load.
 type Reader = fn(&mut Table, &Mechanism) -> Result<Load>;
@@ -34,11 +130,8 @@ pub fn read(tables: Vec<Table>, mechanism: &Mechanism, faults: &mut Faults) -> V
 }
 
 fn load(table: &mut Table, mechanism: &Mechanism) -> Result<Load> {
-    let kind = table.string("type")?;
-    let Some(sort) = LoadSort::named(&kind) else {
-        let error = table.wrong(ErrorKind::Input, "type", format!("\"{kind}\" is no type of load"));
-        return Err(error.help(suggestion(&kind, LoadSort::ALL.iter().map(|sort| sort.name()), "\"")));
-    };
+    let sorts: Vec<_> = LoadSort::ALL.iter().map(|&sort| (sort.name(), sort)).collect();
+    let sort = table.choice("type", "is no type of load", &sorts)?;
     let load = reader(sort)(table, mechanism)?;
     table.finish()?;
     Ok(load)
@@ -53,16 +146,7 @@ fn resistance(table: &mut Table, mechanism: &Mechanism) -> Result<Load> {
 fn moment(table: &mut Table, mechanism: &Mechanism) -> Result<Load> {
     let name = table.string("link")?;
     let [moment] = courses(table, ["moment"], &MOMENT)?;
-    let acts = match table.optional_string("acts")?.as_deref() {
-        None | Some("always") => Acts::Always,
-        Some("counter-clockwise") => Acts::CounterClockwise,
-        Some("clockwise") => Acts::Clockwise,
-        Some(other) => {
-            let message = format!("\"{other}\" does not say when the moment acts");
-            let known = ["always", "counter-clockwise", "clockwise"];
-            return Err(table.wrong(ErrorKind::Input, "acts", message).help(suggestion(other, known, "\"")));
-        }
-    };
+    let acts = table.optional_choice("acts", "does not say when the moment acts", ACTS)?.unwrap_or(Acts::Always);
     let link = match acts {
         Acts::Always => moving(table, &name, mechanism)?,
         Acts::CounterClockwise | Acts::Clockwise => turning(table, &name, mechanism)?,
@@ -73,14 +157,7 @@ fn moment(table: &mut Table, mechanism: &Mechanism) -> Result<Load> {
 fn force(table: &mut Table, mechanism: &Mechanism) -> Result<Load> {
     let point = (table.string("link")?, table.string("point")?);
     let force = courses(table, ["x", "y"], &FORCE)?;
-    let follows = match table.optional_string("frame")?.as_deref() {
-        None | Some("world") => false,
-        Some("link") => true,
-        Some(other) => {
-            let error = table.wrong(ErrorKind::Input, "frame", format!("\"{other}\" is no frame of a force"));
-            return Err(error.help(suggestion(other, ["world", "link"], "\"")));
-        }
-    };
+    let follows = table.optional_choice("frame", "is no frame of a force", FRAMES)?.unwrap_or(false);
     let at = loaded_point(table, mechanism, point)?;
     Ok(Load::Force { at, force, follows })
 }
@@ -128,9 +205,10 @@ fn torsion_damper(table: &mut Table, mechanism: &Mechanism) -> Result<Load> {
 fn courses<const N: usize>(table: &mut Table, names: [&str; N], family: &'static Family) -> Result<[Course; N]> {
     let rows = table.tables("table")?;
     let constants = names.map(|name| table.optional_quantity(name, family, Sign::Any));
-    let (interpolation, turns) = (table.optional_string("interpolation")?, table.optional_integer("turns")?);
+    let smooth = table.optional_choice("interpolation", "is no interpolation", INTERPOLATIONS)?;
+    let turns = table.optional_integer("turns")?;
     if !table.has("table") {
-        for (key, is_given) in [("interpolation", interpolation.is_some()), ("turns", turns.is_some())] {
+        for (key, is_given) in [("interpolation", smooth.is_some()), ("turns", turns.is_some())] {
             if is_given {
                 let message = "this belongs to a table over the crank angle, but there is none";
                 return Err(table.wrong(ErrorKind::Input, key, message).help("add `table`, or leave the key out"));
@@ -152,7 +230,7 @@ fn courses<const N: usize>(table: &mut Table, names: [&str; N], family: &'static
         }
     }
     let mut points: [Vec<(f64, f64)>; N] = names.map(|_| Vec::new());
-    let (smooth, turns) = (is_smooth(table, interpolation)?, period(table, turns)?);
+    let (smooth, turns) = (smooth.unwrap_or(false), period(table, turns)?);
     for mut row in rows {
         let read = row.read(|row| {
             let crank = row.quantity("crank", &ANGLE, Sign::Any)?;
@@ -199,18 +277,6 @@ fn period(table: &Table, turns: Option<i64>) -> Result<u32> {
             Err(table
                 .wrong(ErrorKind::Input, "turns", message)
                 .help("write 2 for a four-stroke engine, else leave it out"))
-        }
-    }
-}
-
-fn is_smooth(table: &Table, interpolation: Option<String>) -> Result<bool> {
-    match interpolation.as_deref() {
-        None | Some("linear") => Ok(false),
-        Some("smooth") => Ok(true),
-        Some(other) => {
-            let message = format!("\"{other}\" is no interpolation");
-            let error = table.wrong(ErrorKind::Input, "interpolation", message);
-            Err(error.help(suggestion(other, ["linear", "smooth"], "\"")))
         }
     }
 }

@@ -2,14 +2,68 @@
 
 use std::sync::Arc;
 
+use super::keys::key::{Kind, Section, needed, optional};
 use super::motor;
 use super::reader::{Faults, Sign, Table};
 use super::unit::{self, ACCELERATION, ANGLE, TIME};
-use super::words::suggestion;
+use super::words::{Words, names, suggestion};
 use linkage::drive::{Drive, DriveMotion, Drives, Input, InputValue, MotionLaw};
 use linkage::error::{ErrorKind, Result};
 use linkage::math::{Piecewise, Vec2};
 use linkage::mechanism::{GROUND, JointKind, Mechanism, Side};
+
+/// What is told of the keys that are read here.
+pub const SECTIONS: &[Section] = &[
+    Section {
+        path: "drive",
+        keys: &[
+            needed("joint", Kind::Text, "revolute joint between the ground and the driving link"),
+            optional("law", Kind::Choice(|| names(LAWS)), "crank angle over time; below", "`\"constant\"`"),
+            optional("zero", Kind::INPUTS, "world direction from which the crank angle is measured", "0"),
+            optional(
+                "motion",
+                Kind::Choice(|| vec!["prescribed", "free"]),
+                "`\"free\"`: forces determine the motion, see below",
+                "`\"prescribed\"`",
+            ),
+            optional("initial_speed", Kind::SPEEDS, "of a free link: its angular velocity at t = 0", "0"),
+            optional(
+                "through",
+                Kind::Choice(|| vec!["smooth"]),
+                "the mechanism passes change points on the branch on which velocities go on; see below",
+                "a change point is an error; a free motion passes it",
+            ),
+            optional(
+                "start",
+                Kind::ANGLES,
+                "of every drive but the first: its angle at t = 0",
+                "required there, refused on the first",
+            ),
+            optional(
+                "speed",
+                Kind::SPEEDS,
+                "angular velocity, counter-clockwise positive, not zero",
+                "required but of the laws `\"cycloidal\"` and `\"table\"`",
+            ),
+            optional("time", Kind::TIMES, "duration of a ramp, or of a cycloidal law", "required of these laws"),
+            optional("to", Kind::INPUTS, "last crank angle of a cycloidal law", "required of this law"),
+            optional(
+                "points",
+                Kind::Tables,
+                "points of a table, two or more: times ascending from 0, the first angle that of the start",
+                "required of the law `\"table\"`",
+            ),
+        ],
+    },
+    Section {
+        path: "drive.points",
+        keys: &[needed("time", Kind::TIMES, "time"), needed("angle", Kind::INPUTS, "crank angle at that time")],
+    },
+    Section {
+        path: "gravity",
+        keys: &[needed("x", Kind::ACCELERATIONS, "along x"), needed("y", Kind::ACCELERATIONS, "along y")],
+    },
+];
 
 /// The drives of the mechanism: the crank, with `start` as its angle at t = 0 (rad) and with the motor, and further
 /// drives, which state their own start. `None` after a mistake.
@@ -152,23 +206,18 @@ fn through(table: &mut Table) -> Result<bool> {
     }
 }
 
-/// A law: its name in scenario files, and its reader, which gets the input at t = 0.
-type Law = (&'static str, fn(&mut Table, InputValue) -> Result<MotionLaw>);
-
-const LAWS: [Law; 4] = [("constant", constant), ("ramp", ramp), ("cycloidal", cycloidal), ("table", points)];
+/// Laws, each with its reader, which gets the input at t = 0.
+const LAWS: Words<fn(&mut Table, InputValue) -> Result<MotionLaw>> =
+    &[("constant", constant), ("ramp", ramp), ("cycloidal", cycloidal), ("table", points)];
 
 fn law(table: &mut Table, start: InputValue) -> Result<MotionLaw> {
     let mut of_laws =
         [unit::of_input(start.input)[0].keys("to"), TIME.keys("time"), vec!["points".into()]].into_iter().flatten();
-    let kind = match of_laws.any(|key| table.has(&key)) {
-        true => table.string("law")?,
-        false => table.optional_string("law")?.unwrap_or_else(|| "constant".into()),
-    };
-    let Some((_, law)) = LAWS.iter().find(|(name, _)| *name == kind) else {
-        let error = table.wrong(ErrorKind::Input, "law", format!("\"{kind}\" is no law of motion"));
-        return Err(error.help(suggestion(&kind, LAWS.map(|(name, _)| name), "\"")));
-    };
-    law(table, start)
+    if table.has("law") || of_laws.any(|key| table.has(&key)) {
+        return table.choice("law", "is no law of motion", LAWS)?(table, start);
+    }
+    table.optional_string("law")?;
+    constant(table, start)
 }
 
 fn constant(table: &mut Table, start: InputValue) -> Result<MotionLaw> {

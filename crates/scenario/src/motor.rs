@@ -1,24 +1,58 @@
 //! `[motor]`: the motor's law and the reducer behind it.
 
+use super::keys::key::{Kind, Section, needed, optional};
 use super::reader::{Sign, Table};
 use super::unit::{ANGULAR_SPEED, INERTIA, MOMENT, MOMENT_PER_SPEED};
-use super::words::suggestion;
+use super::words::{Words, names};
 use linkage::drive::{Motor, MotorLaw, ShaftInertia};
 use linkage::error::{ErrorKind, Result};
 
-/// A law: its name in scenario files, and its reader.
-type Law = (&'static str, fn(&mut Table) -> Result<MotorLaw>);
+/// What is told of the keys that are read here.
+pub const SECTIONS: &[Section] = &[
+    Section {
+        path: "motor",
+        keys: &[
+            needed("law", Kind::Choice(|| names(LAWS)), "torque over the motor's own speed"),
+            needed("ratio", Kind::Number, "speed of the motor over that of the crank; 1 without a reducer"),
+            optional(
+                "efficiency",
+                Kind::Number,
+                "share of the power that the reducer transmits, above 0 and at most 1, the same in both directions",
+                "1",
+            ),
+            optional("torque", Kind::MOMENTS, "constant law: the torque, positive", "required of this law"),
+            optional("torque_at_rest", Kind::MOMENTS, "linear law: torque at rest, positive", "required of this law"),
+            optional("slope", Kind::SLOPES, "linear law: change with the speed, negative", "required of this law"),
+            optional("breakdown_torque", Kind::MOMENTS, "Kloss: largest torque", "required of this law"),
+            optional("synchronous_speed", Kind::SPEEDS, "Kloss: synchronous speed", "required of this law"),
+            optional("breakdown_slip", Kind::Number, "Kloss: slip at breakdown, or", "the speed is given"),
+            optional("breakdown_speed", Kind::SPEEDS, "Kloss: speed at breakdown", "the slip is given"),
+            optional("points", Kind::Tables, "table: two or more, speeds ascending", "required of this law"),
+            optional("rotor_inertia", Kind::INERTIAS, "moment of inertia of the rotor about its shaft", "0"),
+            optional("input_inertia", Kind::INERTIAS, "of the reducer's input shaft, which turns with the motor", "0"),
+            optional("intermediate_inertia", Kind::INERTIAS, "of its intermediate shaft", "0"),
+            optional(
+                "intermediate_ratio",
+                Kind::Number,
+                "speed of the intermediate shaft over that of the crank",
+                "required with its inertia",
+            ),
+            optional("output_inertia", Kind::INERTIAS, "of its output shaft, which turns with the crank", "0"),
+        ],
+    },
+    Section {
+        path: "motor.points",
+        keys: &[needed("speed", Kind::SPEEDS, "speed of the motor"), needed("torque", Kind::MOMENTS, "its torque")],
+    },
+];
 
-const LAWS: [Law; 4] = [("constant", constant), ("linear", linear), ("kloss", kloss), ("table", points)];
+/// Laws, each with its reader.
+const LAWS: Words<fn(&mut Table) -> Result<MotorLaw>> =
+    &[("constant", constant), ("linear", linear), ("kloss", kloss), ("table", points)];
 
 /// The motor.
 pub fn read(table: &mut Table) -> Result<Motor> {
-    let kind = table.string("law")?;
-    let Some((_, law)) = LAWS.iter().find(|(name, _)| *name == kind) else {
-        let error = table.wrong(ErrorKind::Input, "law", format!("\"{kind}\" is no law of a motor"));
-        return Err(error.help(suggestion(&kind, LAWS.map(|(name, _)| name), "\"")));
-    };
-    let law = law(table)?;
+    let law = table.choice("law", "is no law of a motor", LAWS)?(table)?;
     let ratio = table.number("ratio")?;
     if ratio <= 0.0 {
         let error = table.wrong(ErrorKind::Input, "ratio", format!("found {ratio}, but a ratio of speeds is positive"));

@@ -4,13 +4,126 @@ use super::correction::{Correction, number};
 use super::figure::Figure;
 use super::figure::{self, OracleFigure};
 use super::instant;
+use super::keys::key::{Key, Kind, Section, needed, optional};
 use super::printed::{Printed, PrintedChannel};
 use super::reader::{Faults, Table};
 use super::series::{ExpectedCell, Known, OraclePoint, OracleSeries, When};
 use super::table_file;
-use super::words::suggestion;
 use linkage::case::Case;
 use linkage::error::{ErrorKind, Result};
+
+const NUMBER: &[Key] = &[
+    needed("value", Kind::Number, "the number, in the printed unit"),
+    needed("digits", Kind::Integer, "number of printed decimals"),
+];
+
+const FINDING: Key = optional(
+    "finding",
+    Kind::Text,
+    "anchor of the section of `docs/findings.md` that says why the number is wrong",
+    "the number is right",
+);
+const RIGHT: Key =
+    optional("right", Kind::Table, "what is right instead, in the printed unit", "required with `finding`");
+const VALUE: Key = needed("value", Kind::Number, "the number, in the unit of the name");
+const DIGITS: Key = needed("digits", Kind::Integer, "number of printed decimals");
+const CRANK: Key = optional("crank", Kind::INPUTS, "crank angle", "a time is given");
+const AT_TIME: Key = optional("time", Kind::TIMES, "time", "a crank angle is given");
+
+/// What is told of the keys that are read here.
+pub const SECTIONS: &[Section] = &[
+    Section {
+        path: "oracle",
+        keys: &[
+            needed("source", Kind::Text, "author, title, table"),
+            optional("name", Kind::Text, "name for reports", "none"),
+            optional(
+                "basis",
+                Kind::Choice(|| OracleBasis::ALL.map(OracleBasis::word).to_vec()),
+                "how the numbers are known: printed in the source, computed anew from what it gives, or a formula from given data",
+                "`\"published\"`",
+            ),
+            optional("values", Kind::Tables, "numbers at one instant", "one of `file`, `values` and `figures`"),
+            optional("figures", Kind::Tables, "figures of the mechanism", "one of `file`, `values` and `figures`"),
+            optional(
+                "file",
+                Kind::Text,
+                "path of a table, relative to the scenario's directory",
+                "one of `file`, `values` and `figures`",
+            ),
+            CRANK,
+            optional(
+                "crank",
+                Kind::Text,
+                "column of the crank angles of the file, as this scenario measures them (ends in `_deg` or `_rad`)",
+                "with `file`: the other column is given",
+            ),
+            AT_TIME,
+            optional(
+                "time",
+                Kind::Text,
+                "column of the times of the file (ends in `_s` or `_ms`)",
+                "with `file`: the other column is given",
+            ),
+            optional("columns", Kind::Table, "what the columns of the table are, by name", "required with `file`"),
+            optional(
+                "digits",
+                Kind::Integer,
+                "number of decimals of the table, where trailing zeros are not printed",
+                "the printed ones",
+            ),
+            optional(
+                "slack",
+                Kind::Number,
+                "known error of the published numbers, in their printed unit, added to their bounds",
+                "0",
+            ),
+            optional("why", Kind::Text, "the reason for it", "required with `slack`"),
+        ],
+    },
+    Section {
+        path: "oracle.values",
+        keys: &[
+            needed("channel", Kind::Text, "channel, with the printed unit as its ending"),
+            VALUE,
+            DIGITS,
+            FINDING,
+            RIGHT,
+        ],
+    },
+    Section { path: "oracle.values.right", keys: NUMBER },
+    Section {
+        path: "oracle.figures",
+        keys: &[
+            needed("figure", Kind::Text, "which figure"),
+            optional("points", Kind::Texts, "the two points of a distance", "required of a distance"),
+            VALUE,
+            DIGITS,
+            FINDING,
+            RIGHT,
+        ],
+    },
+    Section { path: "oracle.figures.right", keys: NUMBER },
+    Section {
+        path: "oracle.columns.*",
+        keys: &[
+            needed("channel", Kind::Text, "channel, with the printed unit as its ending"),
+            optional("offset", Kind::LENGTHS_OR_ANGLES, "printed = channel + offset; for coordinates and angles", "0"),
+            optional("expect", Kind::Tables, "cells known to be wrong, by crank angle or time as the table", "none"),
+            FINDING,
+            RIGHT,
+        ],
+    },
+    Section { path: "oracle.columns.*.expect", keys: &[CRANK, AT_TIME, FINDING, RIGHT] },
+    Section { path: "oracle.columns.*.expect.right", keys: NUMBER },
+    Section {
+        path: "oracle.columns.*.right",
+        keys: &[
+            needed("values", Kind::Numbers, "one for every row"),
+            needed("digits", Kind::Integer, "number of printed decimals"),
+        ],
+    },
+];
 
 /// Numbers of one source.
 #[derive(Clone, Debug, PartialEq)]
@@ -68,11 +181,8 @@ impl OracleBasis {
 
     /// Reads the key `basis`; published if the key is missing.
     fn read(table: &mut Table) -> Result<Self> {
-        let Some(word) = table.optional_string("basis")? else { return Ok(OracleBasis::Published) };
-        Self::ALL.into_iter().find(|basis| basis.word() == word).ok_or_else(|| {
-            let error = table.wrong(ErrorKind::Input, "basis", format!("numbers cannot be \"{word}\""));
-            error.help(suggestion(&word, Self::ALL.map(Self::word), "\""))
-        })
+        let words = Self::ALL.map(|basis| (basis.word(), basis));
+        Ok(table.optional_choice("basis", "is no way to know numbers", &words)?.unwrap_or(OracleBasis::Published))
     }
 }
 

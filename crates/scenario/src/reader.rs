@@ -209,22 +209,25 @@ impl<'a> Table<'a> {
         }
     }
 
-    /// What a word of a list stands for, if the key is there; `what` names it in an error.
-    pub fn optional_word<T: Copy>(
-        &mut self,
-        key: &str,
-        what: &str,
-        all: &[T],
-        name: impl Fn(T) -> &'static str,
-    ) -> Result<Option<T>> {
+    /// What the word of a key stands for, if the key is there; `wrong` says what another word is.
+    pub fn optional_choice<T: Copy>(&mut self, key: &str, wrong: &str, words: &[(&str, T)]) -> Result<Option<T>> {
         let Some(word) = self.optional_string(key)? else { return Ok(None) };
-        let found = all.iter().find(|&&own| name(own) == word);
+        let found = words.iter().find(|(own, _)| *own == word).map(|(_, meant)| *meant);
         if found.is_none() {
-            let error = self.wrong(ErrorKind::Input, key, format!("there is no {what} called \"{word}\""));
-            let help = suggested(&word, all.iter().map(|&own| name(own)));
-            return self.instead(None, error.help(help));
+            let known: Vec<&str> = words.iter().map(|(own, _)| *own).collect();
+            let error = self.wrong(ErrorKind::Input, key, format!("\"{word}\" {wrong}"));
+            return self.instead(None, error.help(suggested(&word, &known)));
         }
-        Ok(found.copied())
+        Ok(found)
+    }
+
+    /// What the word of a key stands for.
+    pub fn choice<T: Copy>(&mut self, key: &str, wrong: &str, words: &[(&str, T)]) -> Result<T> {
+        let found = self.optional_choice(key, wrong, words)?;
+        match self.faults.last() {
+            Some(error) if found.is_none() && self.has(key) => Err(error.clone()),
+            _ => self.required(key, found),
+        }
     }
 
     /// Text.

@@ -1,10 +1,25 @@
 //! `[channels]` and `[tolerances]`: the wanted channels and the limits of judgement.
 
+use super::keys::key::{Kind, Section, needed, optional};
 use super::reader::Table;
 use super::words::{choice, nearest, suggestion};
 use linkage::case::Case;
 use linkage::error::{ErrorKind, Result};
 use linkage::trajectory::{Channel, Stage};
+
+/// What is told of the keys that are read here.
+pub const SECTIONS: &[Section] = &[
+    Section { path: "channels", keys: &[needed("want", Kind::Texts, "stages, subjects or channels that are wanted")] },
+    Section {
+        path: "tolerances",
+        keys: &[optional(
+            "engine_rel",
+            Kind::Number,
+            "largest bound on the engine's error, as a share of a channel's scale, at which agreement still proves something; between 0 and 1",
+            "1e-2",
+        )],
+    },
+];
 
 /// The words of `[channels]`; there is one at least.
 pub fn wanted(table: &mut Table) -> Result<Vec<String>> {

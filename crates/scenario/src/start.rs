@@ -1,13 +1,58 @@
 //! `[[start.groups]]`: the assembly mode in which each Assur group starts, and the same from the command line.
 
 use super::joints::link;
+use super::keys::key::{Kind, Section, needed, optional};
 use super::reader::{Faults, Sign, Table};
 use super::unit::LENGTH;
-use super::words::suggestion;
+use super::words::{Words, names, suggestion};
 use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::math::Vec2;
 use linkage::mechanism::pose::SidePoint;
 use linkage::mechanism::{AssemblyMode, Group, GroupKind, Mechanism, Side, StartGroup, Structure};
+
+const MODES: Words<AssemblyMode> = &[
+    ("left", AssemblyMode::Left),
+    ("right", AssemblyMode::Right),
+    ("ahead", AssemblyMode::Ahead),
+    ("behind", AssemblyMode::Behind),
+];
+
+/// What is told of the keys that are read here.
+pub const SECTIONS: &[Section] = &[
+    Section {
+        path: "start",
+        keys: &[
+            needed("crank", Kind::INPUTS, "crank angle at t = 0, of the first drive"),
+            optional("groups", Kind::Tables, "one table for each Assur group", "none: a mechanism without groups"),
+        ],
+    },
+    Section {
+        path: "start.groups",
+        keys: &[
+            needed("links", Kind::Texts, "all links of the group"),
+            optional(
+                "mode",
+                Kind::Choice(|| names(MODES)),
+                "which of a dyad's two configurations; below. RPP and PRP dyads have one, and need no table",
+                "by `near`",
+            ),
+            optional(
+                "near",
+                Kind::TableOrTables,
+                "approximate position in the world of one point of the group; or an array of several such tables",
+                "by `mode`",
+            ),
+        ],
+    },
+    Section {
+        path: "start.groups.near",
+        keys: &[
+            needed("point", Kind::Text, "a point of the group"),
+            needed("x", Kind::LENGTHS, "coordinate along x in the world"),
+            needed("y", Kind::LENGTHS, "coordinate along y in the world"),
+        ],
+    },
+];
 
 /// A table of `[[start.groups]]` as it stands there.
 pub struct Stated<'a> {
@@ -134,17 +179,7 @@ pub fn asked(text: &str, mechanism: &Mechanism, structure: &Structure) -> Result
 }
 
 fn mode(table: &mut Table) -> Result<Option<AssemblyMode>> {
-    match table.optional_string("mode")?.as_deref() {
-        None => Ok(None),
-        Some("left") => Ok(Some(AssemblyMode::Left)),
-        Some("right") => Ok(Some(AssemblyMode::Right)),
-        Some("ahead") => Ok(Some(AssemblyMode::Ahead)),
-        Some("behind") => Ok(Some(AssemblyMode::Behind)),
-        Some(other) => {
-            let error = table.wrong(ErrorKind::Input, "mode", format!("\"{other}\" is no assembly mode"));
-            table.instead(None, error.help(suggestion(other, ["left", "right", "ahead", "behind"], "\"")))
-        }
-    }
+    table.optional_choice("mode", "is no assembly mode", MODES)
 }
 
 /// The assembly modes of a group of this kind that can be asked for by name.

@@ -50,11 +50,20 @@ pub fn suggestion<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>,
     }
 }
 
-/// The nearest candidate, if one is near, and the list of all.
+/// Words of a key, each with what it stands for.
+pub type Words<T> = &'static [(&'static str, T)];
+
+/// The words alone.
 #[must_use]
-pub fn suggested<'a>(word: &str, candidates: impl Iterator<Item = &'a str> + Clone) -> String {
-    let near = nearest(word, candidates.clone()).map(|near| format!("did you mean \"{near}\"? "));
-    format!("{}choose one of {}", near.unwrap_or_default(), choice(candidates, "\""))
+pub fn names<T>(words: Words<T>) -> Vec<&'static str> {
+    words.iter().map(|(word, _)| *word).collect()
+}
+
+/// The nearest of a few words, if one is near, and all of them.
+#[must_use]
+pub fn suggested(word: &str, words: &[&str]) -> String {
+    let near = nearest(word, words.iter().copied()).map(|near| format!("did you mean \"{near}\"? "));
+    format!("{}allowed here: {}", near.unwrap_or_default(), choice(words.iter().copied(), "\""))
 }
 
 #[cfg(test)]

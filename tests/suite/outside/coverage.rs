@@ -73,6 +73,7 @@ fn every_key_unit_and_word_of_a_mechanism_its_drives_motor_and_loads_has_numbers
             if let Kind::Choice(words) = key.kind {
                 let has = |word: &&&str| found.contains(&(key.name.into(), (**word).into()));
                 // A default need not be written.
+                let words = words();
                 let said = words.iter().filter(|word| !has(word) && !key.default.contains(&format!("\"{word}\"")));
                 missing.extend(said.map(|word| format!("{path}: {} = {word:?}", key.name)));
             }

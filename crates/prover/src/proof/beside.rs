@@ -1,11 +1,10 @@
 //! The analytic sides by themselves: each against numbers from outside, or against the other side where there are none.
 
 use super::checks;
-use super::each_side::EachSide;
+use super::each_side::{EachSide, Reference};
 use super::entrants::TRUE_SIDES;
 use super::known::Known;
 use super::observe::{Watch, observe};
-use super::options::Reference;
 use super::sensitivity;
 use crate::compare::{Check, Verdict, difference, overall, scales};
 use linkage::case::Case;

@@ -1,10 +1,9 @@
 //! Checks besides the comparison of the two sides: closure, side against side, powers.
 
 use super::built::built;
-use super::each_side::EachSide;
+use super::each_side::{EachSide, Reference};
 use super::known::{Known, of_condition};
 use super::observe::Observed;
-use super::options::Reference;
 use super::problem::Problem;
 use super::runs::Runs;
 use crate::compare::{Check, Convergence, difference};

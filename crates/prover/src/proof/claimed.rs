@@ -1,9 +1,9 @@
 //! Formulas alone: both analytic sides and what formulas claim of them, without an engine.
 
+use super::each_side::Reference;
 use super::entrants::{Sides, TRUE_SIDES};
 use super::formulas::Judgement;
 use super::ledger::Ledger;
-use super::options::Reference;
 use super::problem::Problem;
 use crate::claims::{Cause, MOST_WORK, needed, telling};
 use crate::compare::{Check, Verdict};

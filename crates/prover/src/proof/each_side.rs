@@ -1,8 +1,60 @@
-//! One of something for each analytic side.
+//! The analytic sides, and one of something for each of them.
 
+use std::fmt;
 use std::ops::{Index, IndexMut};
 
-use super::options::Reference;
+use linkage::solver::Solver;
+
+/// An analytic side.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Reference {
+    /// Side 1: Assur groups, dyads in closed form.
+    #[default]
+    Assur,
+    /// Side 2: the whole mechanism by Newton and Lagrange multipliers.
+    Newton,
+}
+
+impl Reference {
+    /// Both sides, the default first.
+    pub const ALL: [Reference; 2] = [Reference::Assur, Reference::Newton];
+
+    /// Name, as on the command line.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        self.solver().name()
+    }
+
+    /// The side called `name`.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Reference> {
+        Reference::ALL.into_iter().find(|side| side.name() == name)
+    }
+
+    /// The other side.
+    #[must_use]
+    pub fn other(self) -> Reference {
+        match self {
+            Reference::Assur => Reference::Newton,
+            Reference::Newton => Reference::Assur,
+        }
+    }
+
+    /// The solver of this side.
+    #[must_use]
+    pub fn solver(self) -> &'static dyn Solver {
+        match self {
+            Reference::Assur => &analytic::AssurSolver,
+            Reference::Newton => &analytic::NewtonSolver,
+        }
+    }
+}
+
+impl fmt::Display for Reference {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
 
 /// One of each analytic side, found by the side.
 #[derive(Clone, Copy, Debug, Default)]

@@ -3,13 +3,13 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::checks::{self, Beyond};
-use super::each_side::EachSide;
+use super::each_side::{EachSide, Reference};
 use super::engines::{self, EngineProof};
 use super::formulas::Judgement;
 use super::known::Known;
 use super::ledger::Ledger;
 use super::observe::{Observed, Watch, observe};
-use super::options::{Chosen, Reference};
+use super::options::Chosen;
 use super::problem::Problem;
 use super::{figures, formulas, methods, oracle, sensitivity};
 use crate::claims::{self, Course, Judged, Outcome};

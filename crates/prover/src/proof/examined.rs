@@ -1,10 +1,9 @@
 //! The diagnosis of a proof that disagrees: its parties, and which of them is examined.
 
-use super::each_side::EachSide;
+use super::each_side::{EachSide, Reference};
 use super::engines::EngineProof;
 use super::known::Known;
 use super::observe::Observed;
-use super::options::Reference;
 use crate::compare::{Verdict, largest_difference};
 use crate::diagnosis::{Diagnosis, Judged, Party, Question, Standing, diagnose, standing};
 use linkage::case::{Case, Grid};

@@ -1,7 +1,6 @@
 //! Figures of a mechanism as the analytic sides find them.
 
-use super::each_side::EachSide;
-use super::options::Reference;
+use super::each_side::{EachSide, Reference};
 use analytic::reduced::means::{self as reduced, Means};
 use formula::Rounded;
 use linkage::case::{Case, Grid, Wanted};

@@ -7,9 +7,8 @@
 //! No bound on anything else is less than this.
 
 use super::dependence::Dependence;
-use super::each_side::EachSide;
+use super::each_side::{EachSide, Reference};
 use super::observe::pose_of;
-use super::options::Reference;
 use crate::compare::{largest_difference, magnitudes_by};
 use analytic::range::conditions;
 use linkage::case::Case;

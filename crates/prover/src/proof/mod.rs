@@ -41,6 +41,7 @@ pub mod solved;
 mod stall;
 
 pub use each_side::EachSide;
+pub use each_side::Reference;
 pub use engines::EngineProof;
 pub use entrants::{Engines, Entrant, SideClaims, Sides, TRUE_SIDES};
 pub use formulas::Judgement;
@@ -48,7 +49,7 @@ pub use formulas::checks as formula_checks;
 pub use judge::{ChannelProof, EngineInfo};
 pub use ledger::Entry;
 pub use ledger::Ledger;
-pub use options::{Options, Reference};
+pub use options::Options;
 pub use own_forces::{ForceFault, OwnForces};
 pub use parties::Dispute;
 pub use problem::Problem;

@@ -1,66 +1,12 @@
 //! Options of a proof.
 
-use std::fmt;
-
+use super::each_side::Reference;
 use super::settle;
 use crate::engines::{self, EngineName};
 use linkage::case::Case;
 use linkage::engine::{Engine, Route, Settings};
 use linkage::error::{Error, ErrorKind, Result};
-use linkage::solver::Solver;
-use scenario::Scenario;
-use scenario::{EngineSettings, Setting};
-
-/// An analytic side.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Reference {
-    /// Side 1: Assur groups, dyads in closed form.
-    #[default]
-    Assur,
-    /// Side 2: the whole mechanism by Newton and Lagrange multipliers.
-    Newton,
-}
-
-impl Reference {
-    /// Both sides, the default first.
-    pub const ALL: [Reference; 2] = [Reference::Assur, Reference::Newton];
-
-    /// Name, as on the command line.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        self.solver().name()
-    }
-
-    /// The side called `name`.
-    #[must_use]
-    pub fn named(name: &str) -> Option<Reference> {
-        Reference::ALL.into_iter().find(|side| side.name() == name)
-    }
-
-    /// The other side.
-    #[must_use]
-    pub fn other(self) -> Reference {
-        match self {
-            Reference::Assur => Reference::Newton,
-            Reference::Newton => Reference::Assur,
-        }
-    }
-
-    /// The solver of this side.
-    #[must_use]
-    pub fn solver(self) -> &'static dyn Solver {
-        match self {
-            Reference::Assur => &analytic::AssurSolver,
-            Reference::Newton => &analytic::NewtonSolver,
-        }
-    }
-}
-
-impl fmt::Display for Reference {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(self.name())
-    }
-}
+use scenario::{EngineSettings, Scenario, Setting};
 
 /// A method for each setting, which gives it.
 macro_rules! setters {

@@ -1,8 +1,7 @@
 //! Numbers of other sources against both analytic sides.
 
-use super::each_side::EachSide;
+use super::each_side::{EachSide, Reference};
 use super::figures::Measured;
-use super::options::Reference;
 use super::problem::Problem;
 use super::rounded_instants::RoundedInstants;
 use super::shifted::TELLING;

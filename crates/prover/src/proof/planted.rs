@@ -3,14 +3,14 @@
 
 use std::path::Path;
 
-use super::each_side::EachSide;
+use super::each_side::{EachSide, Reference};
 use super::entrants::{Sides, TRUE_SIDES};
 use super::figures::Measured;
 use super::judge::ChannelProof;
 use super::known::Known;
 use super::ledger::Ledger;
 use super::observe::{Observed, Watch, observe};
-use super::options::{Chosen, Reference};
+use super::options::Chosen;
 use super::problem::Problem;
 use super::settle;
 use super::{checks, engines, methods, oracle};

@@ -1,10 +1,10 @@
 //! A scenario solved by both analytic sides at instants of somebody else, without engines.
 
 use super::dependence::Dependence;
+use super::each_side::Reference;
 use super::entrants::{Sides, TRUE_SIDES};
 use super::known::usual;
 use super::ledger::Ledger;
-use super::options::Reference;
 use super::problem::Problem;
 use crate::claims::{Course, needed};
 use crate::compare::{Check, magnitudes, magnitudes_by};

@@ -1,6 +1,9 @@
 //! What is told of a section and of a key.
 
-use crate::unit::Family;
+use crate::unit::{
+    ACCELERATION, ANGLE, ANGULAR_SPEED, DAMPING, FORCE, Family, INERTIA, LENGTH, MASS, MOMENT, MOMENT_PER_SPEED,
+    STIFFNESS, TIME, TORSIONAL_STIFFNESS,
+};
 
 /// A table of a scenario file.
 #[derive(Debug)]
@@ -32,7 +35,7 @@ pub enum Kind {
     /// Text.
     Text,
     /// One of these words.
-    Choice(&'static [&'static str]),
+    Choice(fn() -> Vec<&'static str>),
     /// A list of texts.
     Texts,
     /// A number, or an arithmetic of parameters.
@@ -63,6 +66,28 @@ pub const fn needed(name: &'static str, kind: Kind, meaning: &'static str) -> Ke
 /// A key that may be left out, and what holds then.
 pub const fn optional(name: &'static str, kind: Kind, meaning: &'static str, default: &'static str) -> Key {
     Key { name, kind, is_needed: false, meaning, default }
+}
+
+/// Kinds of quantities.
+impl Kind {
+    pub(crate) const ACCELERATIONS: Kind = Kind::Quantity(&[&ACCELERATION]);
+    pub(crate) const ANGLES: Kind = Kind::Quantity(&[&ANGLE]);
+    /// Values of an input: see [`unit::of_input`](crate::unit::of_input).
+    pub(crate) const INPUTS: Kind = Kind::Quantity(&[&ANGLE]);
+    pub(crate) const INPUTS_OR_TIMES: Kind = Kind::Quantity(&[&ANGLE, &TIME]);
+    pub(crate) const DAMPINGS_OR_SLOPES: Kind = Kind::Quantity(&[&DAMPING, &MOMENT_PER_SPEED]);
+    pub(crate) const FORCES: Kind = Kind::Quantity(&[&FORCE]);
+    pub(crate) const INERTIAS: Kind = Kind::Quantity(&[&INERTIA]);
+    pub(crate) const LENGTHS: Kind = Kind::Quantity(&[&LENGTH]);
+    pub(crate) const LENGTHS_OR_ANGLES: Kind = Kind::Quantity(&[&LENGTH, &ANGLE]);
+    pub(crate) const MASSES: Kind = Kind::Quantity(&[&MASS]);
+    pub(crate) const MOMENTS: Kind = Kind::Quantity(&[&MOMENT]);
+    pub(crate) const SLOPES: Kind = Kind::Quantity(&[&MOMENT_PER_SPEED]);
+    pub(crate) const SPEEDS: Kind = Kind::Quantity(&[&ANGULAR_SPEED]);
+    pub(crate) const STIFFNESSES_OR_TORSIONAL: Kind = Kind::Quantity(&[&STIFFNESS, &TORSIONAL_STIFFNESS]);
+    pub(crate) const TIMES: Kind = Kind::Quantity(&[&TIME]);
+    pub(crate) const LIST_OF_ANGLES: Kind = Kind::Quantities(&ANGLE);
+    pub(crate) const LIST_OF_TIMES: Kind = Kind::Quantities(&TIME);
 }
 
 impl Key {

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-use super::{SECTIONS, Section, section};
+use super::{Section, section, sections};
 use crate::reader::asked;
 use crate::{Scenario, files_in};
 
@@ -65,7 +65,7 @@ fn asked_by_readers() -> BTreeMap<String, BTreeSet<String>> {
 fn every_key_that_a_reader_asks_for_is_in_the_table() {
     for (path, keys) in asked_by_readers() {
         let Some(section) = section(&path) else {
-            let is_named = SECTIONS.iter().any(|own| own.path.strip_suffix(".*") == Some(path.as_str()));
+            let is_named = sections().any(|own| own.path.strip_suffix(".*") == Some(path.as_str()));
             assert!(is_named || path == "parameters", "there is no section `{path}`");
             continue;
         };
@@ -80,9 +80,9 @@ fn every_key_of_the_table_is_asked_for() {
     let asked = asked_by_readers();
     let names = |section: &Section| section.keys.iter().map(|key| key.name).collect::<Vec<_>>();
     let mut never = Vec::new();
-    for section in SECTIONS {
+    for section in sections() {
         // Places and printed numbers stand in several sections and have one reader.
-        let alike = || SECTIONS.iter().filter(|other| names(other) == names(section));
+        let alike = || sections().filter(|other| names(other) == names(section));
         for spelling in section.keys.iter().flat_map(super::Key::spellings) {
             if !alike().any(|own| asked.get(own.path).is_some_and(|keys| keys.contains(&spelling))) {
                 never.push(format!("{}.{spelling}", section.path));
