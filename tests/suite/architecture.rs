@@ -52,15 +52,16 @@ const CRATES: &[(&str, &str, &str, &str)] = &[
 
 /// Rooms of the crates that have inner walls, and what they may use of their own crate.
 const ROOMS: &[(&str, &str)] = &[
-    ("linkage::case", "drive error math mechanism trajectory"),
-    ("linkage::drive", "math mechanism"),
+    ("linkage::case", "drive error input math mechanism trajectory"),
+    ("linkage::drive", "input math mechanism"),
     ("linkage::engine", "case error math solver trajectory work"),
-    ("linkage::error", ""),
+    ("linkage::error", "input"),
+    ("linkage::input", ""),
     ("linkage::math", ""),
-    ("linkage::mechanism", "error math"),
+    ("linkage::mechanism", "error input math"),
     ("linkage::solver", "case error math mechanism trajectory"),
     ("linkage::quiet", ""),
-    ("linkage::trajectory", "error"),
+    ("linkage::trajectory", "error input"),
     ("linkage::work", "error"),
     ("analytic::assur", "motion"),
     ("analytic::assur_solver", "assur motion reduced"),

@@ -10,8 +10,6 @@ use scenario::Scenario;
 
 use crate::common::by_night;
 
-
-
 const TEXT: &str = include_str!("../../scenarios/crank_rocker.toml");
 
 fn scenario(text: &str) -> Scenario {

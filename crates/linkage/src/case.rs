@@ -15,7 +15,8 @@ use std::ops::Deref;
 
 use crate::Result;
 use crate::drive::load::sense_of;
-use crate::drive::{Action, Drive, Input, InputValue, Load, Motor, Senses, Setting, Wrench};
+use crate::drive::{Action, Drive, InputState, Load, Motor, Senses, Setting, Wrench};
+use crate::input::{Input, InputValue};
 use crate::math::{KeepNan, Motion, Vec2};
 use crate::mechanism::Side;
 use crate::trajectory::{CHANNELS, Channel, OfLink, Reading, Stage, Subject};
@@ -169,21 +170,6 @@ impl Case {
         self.subjects().flat_map(rows).collect()
     }
 
-    /// The joints whose reactions are wanted, by themselves or as part of the force on the frame.
-    #[must_use]
-    pub fn wanted_reactions(&self) -> Vec<usize> {
-        let (joints, seats) = (self.mechanism.joints(), self.seats());
-        let is_wanted = |joint: &usize| match &self.only {
-            None => self.wanted.deepest() >= Stage::Reactions,
-            Some(only) => only.iter().any(|own| match seats.of(own) {
-                Some(Seat::Joint(at)) => at == *joint && own.kind.stage >= Stage::Reactions,
-                Some(Seat::Frame) => true,
-                Some(Seat::Link(_) | Seat::Point(_) | Seat::Drive(_)) | None => false,
-            }),
-        };
-        (0..joints.len()).filter(is_wanted).collect()
-    }
-
     /// Whether the angle of a link is wanted.
     #[must_use]
     pub fn wants_angles(&self) -> bool {
@@ -207,8 +193,22 @@ impl Case {
     #[inline]
     #[must_use]
     pub fn input_in(&self, motions: &[Motion], angles: &[f64]) -> f64 {
+        self.state_in(motions, angles).value
+    }
+
+    /// The input with its rate and acceleration in a state of the mechanism. Arguments as in [`Case::each_load`].
+    #[inline]
+    #[must_use]
+    pub fn state_in(&self, motions: &[Motion], angles: &[f64]) -> InputState {
         let drive = self.crank();
-        drive.state_in(&motions[drive.link], angles[drive.link]).value
+        let motion = &motions[drive.link];
+        match drive.input {
+            Input::Angle => InputState {
+                value: drive.from_world(angles[drive.link]),
+                rate: motion.omega,
+                acceleration: motion.alpha,
+            },
+        }
     }
 
     /// A step of the input over which links move as far as while a driving link turns by `turn` (rad).

@@ -11,7 +11,7 @@ use std::ops::Range;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use crate::drive::InputValue;
+use crate::input::InputValue;
 
 /// Result of every fallible operation of this crate.
 pub type Result<T> = std::result::Result<T, Error>;
@@ -342,7 +342,7 @@ impl std::error::Error for Error {}
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::drive::Input;
+    use crate::input::Input;
 
     #[test]
     fn an_error_is_as_small_as_a_pointer() {

@@ -1,6 +1,6 @@
 //! Planar mechanisms, and the interfaces that their solvers and engines share.
 //!
-//! Links, joints and Assur groups are in [`mechanism`], drives and loads in [`drive`].
+//! Links, joints and Assur groups are in [`mechanism`], drives and loads in [`drive`], what an input measures in [`input`].
 //! [`case`] has the problem as every solver receives it, [`trajectory`] the result that every solver returns.
 //! [`solver`] and [`engine`] have the traits of solvers and engines, [`work`] counts what they do.
 //!
@@ -13,6 +13,7 @@ pub mod error;
 #[cfg(any(test, feature = "fixtures"))]
 #[doc(hidden)]
 pub mod fixtures;
+pub mod input;
 pub mod math;
 pub mod mechanism;
 pub mod quiet;

@@ -5,9 +5,10 @@ use std::fmt;
 
 use super::world::{LinkFrame, World, masses, opening};
 use linkage::case::Case;
-use linkage::drive::{Drive, DriveMotion, InputValue, Wrench};
+use linkage::drive::{Drive, DriveMotion, Wrench};
 use linkage::engine::Settings;
 use linkage::error::{Advice, Error, ErrorKind, Result};
+use linkage::input::InputValue;
 use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::{LinkPose, Side};
 use linkage::quiet::guarded;

@@ -2,8 +2,8 @@
 
 use super::{messages, raw, schema};
 use files;
-use linkage::drive::Input;
 use linkage::error::{Error, ErrorKind, Result};
+use linkage::input::Input;
 use linkage::trajectory::{Channel, Trajectory};
 use mcap::{McapError, Message};
 use std::collections::{BTreeMap, HashMap};

@@ -3,7 +3,7 @@
 //! Every field has presence (proto3 `optional`). A channel that was not computed is not declared either: some viewers show
 //! a field that is absent as zero.
 
-use linkage::drive::Input;
+use linkage::input::Input;
 use linkage::trajectory::{CHANNELS, ChannelKind, Subject, Unit};
 use prost::Message;
 use prost::encoding::{WireType, decode_key, double, encode_key, float, skip_field};

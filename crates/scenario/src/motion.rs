@@ -7,8 +7,9 @@ use super::motor;
 use super::reader::{Faults, Sign, Table};
 use super::unit::{self, ACCELERATION, ANGLE, TIME};
 use super::words::{Words, names, suggestion};
-use linkage::drive::{Drive, DriveMotion, Drives, Input, InputValue, MotionLaw};
+use linkage::drive::{Drive, DriveMotion, Drives, MotionLaw};
 use linkage::error::{ErrorKind, Result};
+use linkage::input::{Input, InputValue};
 use linkage::math::{Piecewise, Vec2};
 use linkage::mechanism::{GROUND, JointKind, Mechanism, Side};
 

@@ -5,8 +5,8 @@ use std::fmt;
 use super::printed::{self, PrintedChannel};
 use super::reader::Table;
 use super::words::suggestion;
-use linkage::drive::Input;
 use linkage::error::{ErrorKind, Result};
+use linkage::input::Input;
 use linkage::trajectory::{CHANNELS, Channel};
 
 /// Values of one channel.

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use linkage::drive::Input;
+use linkage::input::Input;
 
 /// One unit of a family.
 #[derive(Debug, PartialEq)]

@@ -6,8 +6,6 @@ use prover::proof::{Options, prove_against};
 
 use crate::common::by_night;
 
-
-
 /// Scenario, place in its text, what stands there instead, and the words that must name it.
 type Fault = (&'static str, &'static str, &'static str, &'static str);
 

@@ -11,8 +11,8 @@ use super::march::{MOST_EMPTY, Pace, Place, Stop, march};
 use super::side::Side;
 use super::step::Step;
 use linkage::case::Case;
-use linkage::drive::InputValue;
 use linkage::error::{Error, ErrorKind, Result};
+use linkage::input::InputValue;
 use linkage::solver::{Progress, State, Visit, check_instants};
 
 /// Largest number of free driving links.

@@ -10,7 +10,8 @@
 //! 3.3).
 
 use super::system::System;
-use linkage::drive::{Drive, Input};
+use linkage::drive::Drive;
+use linkage::input::Input;
 use linkage::math::{Vec2, turned};
 use linkage::mechanism::{Joint, JointKind, Side};
 

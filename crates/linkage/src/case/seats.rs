@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::Case;
 use crate::mechanism::Side;
-use crate::trajectory::{Channel, Subject};
+use crate::trajectory::{Channel, Stage, Subject};
 
 /// Where in a mechanism the subject of a channel sits. It says what its numbers depend on and what they tell about.
 /// A new subject sits on one of these: see [`Case::seats`].
@@ -51,6 +51,21 @@ impl Case {
             _ => (Subject::Motor, index, self.mechanism.joints()[drive.joint].name.as_str()),
         });
         links.chain(points).chain(joints).chain(sliders).chain(frame).chain(moved)
+    }
+
+    /// The joints whose reactions are wanted, by themselves or as part of the force on the frame.
+    #[must_use]
+    pub fn wanted_reactions(&self) -> Vec<usize> {
+        let (joints, seats) = (self.mechanism.joints(), self.seats());
+        let is_wanted = |joint: &usize| match &self.only {
+            None => self.wanted.deepest() >= Stage::Reactions,
+            Some(only) => only.iter().any(|own| match seats.of(own) {
+                Some(Seat::Joint(at)) => at == *joint && own.kind.stage >= Stage::Reactions,
+                Some(Seat::Frame) => true,
+                Some(Seat::Link(_) | Seat::Point(_) | Seat::Drive(_)) | None => false,
+            }),
+        };
+        (0..joints.len()).filter(is_wanted).collect()
     }
 
     /// Where everything that has channels sits.

@@ -1,7 +1,7 @@
 //! A driving link and its motion.
 
-use super::{Input, InputState, InputValue, MotionLaw, Motor};
-use crate::math::Motion;
+use super::{InputState, MotionLaw, Motor};
+use crate::input::{Input, InputValue};
 
 /// What moves a driving link.
 #[derive(Clone, Debug, PartialEq)]
@@ -243,18 +243,6 @@ impl Drive {
     #[must_use]
     pub fn told(&self, value: f64) -> InputValue {
         self.input.at(value)
-    }
-
-    /// Input, rate and second rate in a state: `motion` is that of the driving link, `angle` the angle of its frame
-    /// (rad, turns kept).
-    #[inline]
-    #[must_use]
-    pub fn state_in(&self, motion: &Motion, angle: f64) -> InputState {
-        match self.input {
-            Input::Angle => {
-                InputState { value: self.from_world(angle), rate: motion.omega, acceleration: motion.alpha }
-            }
-        }
     }
 }
 

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use crate::math::{Piecewise, root};
 
-/// An input with its rate and acceleration: rad, rad/s, rad/s^2 of an angle. What it measures: [`Input`](super::Input).
+/// An input with its rate and acceleration: rad, rad/s, rad/s^2 of an angle. What it measures: [`Input`](crate::input::Input).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct InputState {
     /// Its value as the scenario states it. Of an angle: from the drive's zero direction, counter-clockwise, turns counted.

@@ -19,8 +19,8 @@ pub use structure::{Group, GroupKind, Structure};
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
-use crate::drive::Input;
 use crate::error::{Error, ErrorKind, Result};
+use crate::input::Input;
 use crate::math::{KeepNan, Vec2, cross, rotated};
 
 /// Index of the ground (frame) in [`Mechanism::links`].

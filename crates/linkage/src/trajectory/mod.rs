@@ -10,8 +10,8 @@ pub use reading::{OfDrive, OfFrame, OfJoint, OfLink, OfPoint, OfSlider, Reading}
 pub use subject::Subject;
 pub use unit::Unit;
 
-use crate::drive::{Input, InputValue};
 use crate::error::{Error, ErrorKind, Result};
+use crate::input::{Input, InputValue};
 
 /// Values of several channels on a common grid.
 #[derive(Clone, Debug, PartialEq)]

@@ -5,8 +5,9 @@ use crate::compare::{Check, Verdict};
 use analytic::witness::triad::class_change::ClassChange;
 use analytic::witness::triad::{Reactions, Triad, assur_point, cramer, linear_system};
 use linkage::case::Case;
-use linkage::drive::{Input, InputState};
+use linkage::drive::InputState;
 use linkage::error::{Error, ErrorKind, Result};
+use linkage::input::Input;
 use linkage::math::statistics::share;
 use linkage::math::{KeepNan, Vec2, cross};
 use linkage::solver::{Solver, State};
@@ -205,7 +206,7 @@ fn crank_of(case: &Case, row: usize, state: &State) -> InputState {
     if !case.is_free() {
         return InputState { value: case.grid.inputs[row], ..drive.at(case.grid.times[row]) };
     }
-    drive.state_in(&state.motions[drive.link], state.angles[drive.link])
+    case.state_in(&state.motions, &state.angles)
 }
 
 #[cfg(test)]

@@ -5,15 +5,19 @@ use super::rapier::prelude::{
     GenericJoint, GenericJointBuilder, IntegrationParameters, JointAxesMask, JointAxis, MotorModel, RigidBodyBuilder,
     SpringCoefficients, Vector,
 };
-use super::{RIGID_MOTOR, Real, real};
-use linkage::drive::{Drive, Input};
+use super::{Real, real};
+use linkage::drive::Drive;
 use linkage::engine::Settings;
+use linkage::input::Input;
 use linkage::math::Vec2;
 use linkage::mechanism::{Joint, JointKind, Link};
 
 /// Joint frequency (Hz): rigid down to rounding.
 /// The default, 1e6 Hz, adds 6 % to the closure gap at a step of 1e-5 s.
 const JOINT_FREQUENCY: f64 = 1e12;
+
+/// Damping of the velocity motor (N m s/rad) that holds a prescribed speed to rounding.
+pub(super) const RIGID_MOTOR: f64 = 1e30;
 
 /// Rapier's vector.
 pub(super) fn vector(of: Vec2) -> Vector {

@@ -21,9 +21,6 @@ use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::Vec2;
 use linkage::mechanism::{GROUND, Joint, LinkPose};
 
-/// Damping of the velocity motor (N m s/rad) that holds a prescribed speed to rounding.
-const RIGID_MOTOR: f64 = 1e30;
-
 /// Links of a tree from which a free motion has a multibody for every link that hangs on the ground.
 /// A row of the sweeps costs as much as the multibodies of its two links have coordinates, whether they move these
 /// links or not: a chain of ten four-bars takes 0.6 of the time.

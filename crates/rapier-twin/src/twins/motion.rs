@@ -1,7 +1,7 @@
 //! Sets and reads poses and velocities, and does the step itself.
 
 use super::rapier::prelude::{JointAxesMask, Multibody, PhysicsWorld, Pose, Rotation};
-use super::{Place, RIGID_MOTOR, Twin, joints, real, wide};
+use super::{Place, Twin, joints, real, wide};
 use crate::tree::{Tree, coordinate};
 use crate::world::{LinkAngle, LinkFrame, World};
 use linkage::drive::Wrench;
@@ -121,7 +121,7 @@ impl World for Twin {
         // Beyond a radian no speed would be held anyway.
         let omega = if self.multibodies.is_empty() && turn.abs() < 1.0 { turn.tan() / self.substep() } else { omega };
         let joint = self.world.impulse_joints.get_mut(motor.handle, true).expect("the motor exists");
-        joint.data.set_motor_velocity(motor.axis, real(omega * motor.sense), real(RIGID_MOTOR));
+        joint.data.set_motor_velocity(motor.axis, real(omega * motor.sense), real(joints::RIGID_MOTOR));
     }
 
     fn set_motor(&mut self, drive: usize, target: f64, damping: f64) {

@@ -13,8 +13,8 @@ mod window;
 
 use crate::assur::groups::{Clearance, OutOfReach, Plan};
 use linkage::case::Case;
-use linkage::drive::InputValue;
 use linkage::error::{Error, ErrorKind};
+use linkage::input::InputValue;
 use linkage::math::{KeepNan, Motion};
 use window::Window;
 

@@ -112,7 +112,7 @@ fn drives_together_are_what_is_solved() {
     let free = |joint: usize, motor: Option<Motor>| {
         let motion = DriveMotion::Free { initial_speed: 0.0, nominal_speed: 1.0, motor };
         Drive {
-            input: crate::drive::Input::Angle,
+            input: crate::input::Input::Angle,
             joint,
             link: joint + 1,
             zero: 0.0,

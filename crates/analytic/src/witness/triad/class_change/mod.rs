@@ -30,8 +30,8 @@ mod chain;
 use super::Triad;
 use chain::{Chain, Grounded, Place, along};
 use linkage::case::Case;
-use linkage::drive::Input;
 use linkage::error::{Advice, Error, ErrorKind, Result};
+use linkage::input::Input;
 use linkage::math::{KeepNan, Vec2, cross, root, rotated, turned, unit};
 use linkage::mechanism::GROUND;
 

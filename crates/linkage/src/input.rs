@@ -4,8 +4,6 @@
 use std::f64::consts::TAU;
 use std::fmt;
 
-use crate::trajectory::Unit;
-
 /// What an input measures. Its values are in SI units, as the scenario counts them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Input {
@@ -36,9 +34,9 @@ impl Input {
 
     /// SI unit of its values.
     #[must_use]
-    pub const fn unit(self) -> Unit {
+    pub const fn unit(self) -> &'static str {
         match self {
-            Input::Angle => Unit::Radian,
+            Input::Angle => "rad",
         }
     }
 
@@ -115,6 +113,6 @@ mod tests {
             ("crank angle 180.0000 deg".into(), "crank angle 180.0 deg".into())
         );
         assert_eq!(input.read(input.shown(0.75)), 0.75);
-        assert!(input.key().ends_with(input.unit().suffix()) && input.shown_in().1.ends_with(input.shown_in().0));
+        assert!(input.key().ends_with(input.unit()) && input.shown_in().1.ends_with(input.shown_in().0));
     }
 }
