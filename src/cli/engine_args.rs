@@ -119,7 +119,7 @@ impl FromArgMatches for SettingArgs {
 
 /// The argument of a row; `None` for that of the engines, which commands have in their own ways.
 fn argument(row: &'static Row) -> Option<Arg> {
-    let own = Arg::new(row.argument).long(&row.argument[2..]).value_name(row.value).help(row.help);
+    let own = Arg::new(row.argument).long(row.argument).value_name(row.value).help(row.help);
     Some(match (row.slot)(&mut EngineSettings::default()) {
         Slot::Engines(_) => return None,
         Slot::Positive(_) => own.value_parser(number::positive).allow_hyphen_values(true),
@@ -173,8 +173,8 @@ impl SettingArgs {
     }
 
     /// The first option given. An analytic solver has none of them.
-    pub(super) fn given(&self) -> Option<&'static str> {
-        self.first
+    pub(super) fn given(&self) -> Option<String> {
+        self.first.map(|name| format!("--{name}"))
     }
 }
 

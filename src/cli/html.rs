@@ -10,7 +10,6 @@ use crate::report::html::{self, Beside};
 use analytic::range::explained;
 use analytic::reduced::Model;
 use design::diagram::Graphs;
-use files;
 use linkage::error::{Error, ErrorKind, Result};
 use prover::proof::Proof;
 use scenario::Scenario;

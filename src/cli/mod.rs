@@ -45,9 +45,13 @@ mod view;
 
 use std::process::ExitCode;
 
-use clap::{CommandFactory, Parser, Subcommand};
+use crate::plain::style::wrapped;
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use linkage::error::Result;
 use output::End;
+
+/// Most columns of help.
+const WIDEST: usize = 100;
 
 /// Builds planar mechanisms twice, analytically and as a Rapier multibody, and proves that the two agree.
 #[derive(Debug, Parser)]
@@ -59,16 +63,19 @@ struct Cli {
 
 /// The commands: what each is for, its arguments, and what runs it.
 macro_rules! commands {
-    ($($(#[$about:meta])* $name:ident($args:ty) = $run:path,)*) => {
+    ($($group:literal { $($(#[$about:meta])* $name:ident($args:ty) = $run:path,)* })*) => {
         #[derive(Debug, Subcommand)]
         enum Command {
-            $($(#[$about])* $name($args),)*
+            $($($(#[$about])* $name($args),)*)*
         }
 
         impl Command {
+            /// Commands by what one comes for.
+            const GROUPS: &[(&str, &[&str])] = &[$(($group, &[$(stringify!($name)),*])),*];
+
             fn run(&self) -> u8 {
                 match self {
-                    $(Command::$name(args) => $run(args).code(),)*
+                    $($(Command::$name(args) => $run(args).code(),)*)*
                 }
             }
         }
@@ -76,57 +83,85 @@ macro_rules! commands {
 }
 
 commands! {
-    /// Write a mechanism to begin with: a commented scenario, with dimensions as options
-    New(new::Args) = new::new,
-    /// Solve scenarios both ways, compare, check, record, and say whether the two sides agree
-    Run(Box<run::Args>) = run::run,
-    /// Keep the figures of proven scenarios in files beside them, and judge later runs by these, within their bounds
-    Accept(accept::Args) = accept::run,
-    /// Judge formulas over the whole motion, by value and by derivative, against both analytic sides
-    Check(check::Args) = check::check,
-    /// Hold a table, a recording or another scenario against a scenario, or two of them against each other
-    Compare(compare::Args) = compare::compare,
-    /// Solve a scenario with one solver and write the solution as CSV, one row per instant
-    Solve(solve::Args) = solve::solve,
-    /// Find the cheapest settings of an engine that meet a wanted error, by measurement
-    Tune(tune::Args) = tune::run,
-    /// Turn one dial at a time until numbers are lost: where every solver and engine holds to, with maps of stability
-    Stress(stress::Args) = stress::run,
-    /// Plant faults in one party of a proof, or in what all share, and say which are found
-    Mutate(mutate::Args) = mutate::run,
-    /// Measure run time against error of every solver, engine and setting, and of other programs: diagrams and numbers
-    Bench(bench::Args) = bench::run,
-    /// Show the structure of a mechanism: links, joints, mobility, driving link and Assur groups; its configurations;
-    /// its range of motion
-    Inspect(inspect::Args) = inspect::inspect,
-    /// Largest reactions over the range of the grid, and the smallest journals that carry them
-    Bearings(bearings::Args) = bearings::bearings,
-    /// Smallest distances of links from each other and from a housing over the whole turn, first collision, swept areas
-    Clearance(clearance::Args) = clearance::clearance,
-    /// The mechanism reduced to its crank, its steady motion under its motor, flywheel and run-up; choice of a motor
-    Drive(drive::Args) = drive::drive,
-    /// Velocity and acceleration plans at one crank angle, as a table, as JSON or drawn to scale
-    Plan(plan::Args) = plan::plan,
-    /// Draw mechanisms, also those that cannot be assembled yet, and all configurations: SVG, PNG, animated GIF and WebP
-    Draw(draw::Args) = draw::draw,
-    /// Velocity and acceleration from a displacement by the chord method, and back, with their errors
-    Diagram(diagram::Args) = diagram::diagram,
-    /// Find dimensions for a wanted motion: crank-rocker and slider-crank in closed form, any linkage by search
-    Synthesize(synthesize::Args) = synthesize::synthesize,
-    /// Write a mechanism for another program: MuJoCo's MJCF, or JSON
-    Export(export::Args) = export::export,
-    /// Show a recording: in Rerun, seen from above beside plots of both sides, or with a layout for Foxglove
-    View(view::Args) = view::view,
-    /// List scenarios, or the available channels and solvers
-    List(list::Args) = list::list,
-    /// Write the completions of a shell
-    Completions(shell::CompletionArgs) = completions,
-    /// Write the manual: the page of linkproof, or the pages of all commands
-    Man(shell::ManArgs) = man,
-    /// Show a page of the documents
-    Docs(docs::Args) = docs::docs,
-    /// Write the format of scenario files as a JSON Schema, by which editors complete and check keys
-    Schema(schema::Args) = schema::schema,
+    "Prove" {
+        /// Write a mechanism to begin with: a commented scenario, with dimensions as options
+        New(new::Args) = new::new,
+        /// Solve scenarios both ways, compare, check, record, and say whether the two sides agree
+        Run(Box<run::Args>) = run::run,
+        /// Keep the figures of proven scenarios in files beside them, and judge later runs by these, within their bounds
+        Accept(accept::Args) = accept::run,
+        /// Judge formulas over the whole motion, by value and by derivative, against both analytic sides
+        Check(check::Args) = check::check,
+        /// Hold a table, a recording or another scenario against a scenario, or two of them against each other
+        Compare(compare::Args) = compare::compare,
+        /// Solve a scenario with one solver and write the solution as CSV, one row per instant
+        Solve(solve::Args) = solve::solve,
+    }
+    "Look" {
+        /// Show the structure of a mechanism: links, joints, mobility, driving link and Assur groups; its configurations;
+        /// its range of motion
+        Inspect(inspect::Args) = inspect::inspect,
+        /// Draw mechanisms, also those that cannot be assembled yet, and all configurations: SVG, PNG, animated GIF and WebP
+        Draw(draw::Args) = draw::draw,
+        /// Velocity and acceleration plans at one crank angle, as a table, as JSON or drawn to scale
+        Plan(plan::Args) = plan::plan,
+        /// Velocity and acceleration from a displacement by the chord method, and back, with their errors
+        Diagram(diagram::Args) = diagram::diagram,
+        /// Show a recording: in Rerun, seen from above beside plots of both sides, or with a layout for Foxglove
+        View(view::Args) = view::view,
+        /// List scenarios, or the available channels and solvers
+        List(list::Args) = list::list,
+    }
+    "Design" {
+        /// Largest reactions over the range of the grid, and the smallest journals that carry them
+        Bearings(bearings::Args) = bearings::bearings,
+        /// Smallest distances of links from each other and from a housing over the whole turn, first collision, swept areas
+        Clearance(clearance::Args) = clearance::clearance,
+        /// The mechanism reduced to its crank, its steady motion under its motor, flywheel and run-up; choice of a motor
+        Drive(drive::Args) = drive::drive,
+        /// Find dimensions for a wanted motion: crank-rocker and slider-crank in closed form, any linkage by search
+        Synthesize(synthesize::Args) = synthesize::synthesize,
+        /// Write a mechanism for another program: MuJoCo's MJCF, or JSON
+        Export(export::Args) = export::export,
+    }
+    "Study" {
+        /// Find the cheapest settings of an engine that meet a wanted error, by measurement
+        Tune(tune::Args) = tune::run,
+        /// Turn one dial at a time until numbers are lost: where every solver and engine holds to, with maps of stability
+        Stress(stress::Args) = stress::run,
+        /// Plant faults in one party of a proof, or in what all share, and say which are found
+        Mutate(mutate::Args) = mutate::run,
+        /// Measure run time against error of every solver, engine and setting, and of other programs: diagrams and numbers
+        Bench(bench::Args) = bench::run,
+    }
+    "Help" {
+        /// Show a page of the documents
+        Docs(docs::Args) = docs::docs,
+        /// Write the format of scenario files as a JSON Schema, by which editors complete and check keys
+        Schema(schema::Args) = schema::schema,
+        /// Write the completions of a shell
+        Completions(shell::CompletionArgs) = completions,
+        /// Write the manual: the page of linkproof, or the pages of all commands
+        Man(shell::ManArgs) = man,
+    }
+}
+
+/// The command line with its commands listed by what one comes for.
+fn command() -> clap::Command {
+    let command = Cli::command();
+    let mut listed = String::new();
+    for (group, names) in Command::GROUPS {
+        listed += &format!("\n\n{group}:");
+        for name in *names {
+            let name = name.to_lowercase();
+            let about = command.find_subcommand(&name).and_then(clap::Command::get_about);
+            let row = format!("  {name:<13}{}", about.map(ToString::to_string).unwrap_or_default());
+            listed += &format!("\n{}", wrapped(&row, Some(terminal::columns().min(WIDEST)), 15));
+        }
+    }
+    command.help_template(format!(
+        "{{about-with-newline}}\n{{usage-heading}} {{usage}}{listed}\n\nOptions:\n{{options}}{{after-help}}"
+    ))
 }
 
 fn completions(args: &shell::CompletionArgs) -> Result<()> {
@@ -141,7 +176,8 @@ fn man(args: &shell::ManArgs) -> Result<()> {
 #[must_use]
 pub fn main() -> ExitCode {
     panics::silence(prover::engines::panic_is_caught);
-    ExitCode::from(Cli::parse().command.run())
+    let cli = Cli::from_arg_matches(&command().get_matches()).unwrap_or_else(|error| error.exit());
+    ExitCode::from(cli.command.run())
 }
 
 #[cfg(test)]

@@ -69,7 +69,7 @@ pub(super) fn solve(args: &Args) -> Result<()> {
     let mut bar = Bar::new(&scenario.name);
     let mut progress = |part| bar.at(part);
     let trajectory = match (args.with, args.settings.given()) {
-        (With::Side(side), Some(option)) => return Err(no_engine(side.name(), option)),
+        (With::Side(side), Some(option)) => return Err(no_engine(side.name(), &option)),
         (With::Side(side), None) => {
             side.solver().solve_with(case, &mut progress).map_err(|error| explained(case, error))?
         }

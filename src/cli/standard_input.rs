@@ -5,7 +5,6 @@ use std::path::Path;
 use std::sync::OnceLock;
 
 use super::output;
-use files;
 use linkage::error::{Error, ErrorKind, Result};
 
 /// What stands for standard input in place of a path.

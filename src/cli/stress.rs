@@ -7,7 +7,6 @@ use clap::builder::PossibleValuesParser;
 use super::progress::Bar;
 use super::{exit_code, number, output};
 use crate::report::stress as report;
-use files;
 use lab::stress::{FAMILIES, Family, Job, Outcome, jobs, run_all};
 use linkage::error::{Error, ErrorKind, Result};
 

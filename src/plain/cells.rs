@@ -2,7 +2,6 @@
 
 use comfy_table::{CellAlignment, ColumnConstraint, ContentArrangement, Table, Width, presets};
 
-use linkage::error::{Error, ErrorKind, Result};
 use prover::compare::Verdict;
 use prover::numbers;
 use prover::proof::ChannelProof;
@@ -33,18 +32,6 @@ pub fn distinct<T: PartialEq>(all: impl IntoIterator<Item = T>) -> Vec<T> {
 /// A row of a table in Markdown, without a newline.
 pub fn marked<T: AsRef<str>>(cells: &[T]) -> String {
     format!("| {} |", cells.iter().map(AsRef::as_ref).collect::<Vec<_>>().join(" | "))
-}
-
-/// A table of texts as CSV, its header first.
-///
-/// # Errors
-/// [`ErrorKind::Io`] if it cannot be written.
-pub fn csv<R: IntoIterator<Item = String>>(rows: impl IntoIterator<Item = R>) -> Result<String> {
-    let failed = |error: ::csv::Error| Error::new(ErrorKind::Io, format!("the table cannot be written: {error}"));
-    let mut writer = ::csv::Writer::from_writer(Vec::new());
-    rows.into_iter().try_for_each(|row| writer.write_record(row.into_iter()).map_err(failed))?;
-    let bytes = writer.into_inner().map_err(|error| failed(error.into_error().into()))?;
-    Ok(String::from_utf8(bytes).expect("names and numbers are text"))
 }
 
 /// Fewest columns of a text that is broken.

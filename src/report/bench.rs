@@ -3,7 +3,8 @@
 use serde_json::{Value, json};
 
 use super::pretty::pretty;
-use crate::plain::cells::{csv, distinct, table};
+use super::table_csv::csv;
+use crate::plain::cells::{distinct, table};
 use lab::bench::{Axis, Bench, Errors, Outcome, Party, Point, front};
 use linkage::error::Result;
 use linkage::trajectory::Stage;

@@ -3,7 +3,8 @@
 use serde_json::{Value, json};
 
 use super::pretty::pretty;
-use crate::plain::cells::{csv, table, trimmed};
+use super::table_csv::csv;
+use crate::plain::cells::{table, trimmed};
 use linkage::error::{Error, Result};
 use linkage::math::Vec2;
 use prover::numbers;

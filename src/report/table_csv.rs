@@ -5,6 +5,20 @@ use std::io::{Error, Result, Write};
 use analytic::reduced::RunUp;
 use linkage::trajectory::Trajectory;
 
+/// A table of texts as CSV, its header first.
+///
+/// # Errors
+/// [`Io`](linkage::error::ErrorKind::Io) if it cannot be written.
+pub(crate) fn csv<R: IntoIterator<Item = String>>(rows: impl IntoIterator<Item = R>) -> linkage::error::Result<String> {
+    let failed = |error: csv::Error| {
+        linkage::error::Error::new(linkage::error::ErrorKind::Io, format!("the table cannot be written: {error}"))
+    };
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    rows.into_iter().try_for_each(|row| writer.write_record(row).map_err(failed))?;
+    let bytes = writer.into_inner().map_err(|error| failed(error.into_error().into()))?;
+    Ok(String::from_utf8(bytes).expect("names and numbers are text"))
+}
+
 /// Writes time, crank angle, then all channels of a solution.
 ///
 /// # Errors

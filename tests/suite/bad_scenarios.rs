@@ -26,7 +26,7 @@ struct Bad<'a> {
 fn parse(text: &str, table: &str) -> Result<Scenario, Error> {
     let directory = tempfile::tempdir().unwrap();
     std::fs::write(directory.path().join("table.csv"), table).unwrap();
-    Scenario::parse(text, &directory.path().join("scenario.toml"))
+    Scenario::parse(text, directory.path().join("scenario.toml"))
 }
 
 fn line_of(text: &str, marker: &str) -> usize {

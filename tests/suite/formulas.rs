@@ -18,7 +18,7 @@ use prover::proof::claimed::{Claimed, judge};
 use scenario::{Formulas, Scenario, files_in};
 
 fn files() -> Vec<PathBuf> {
-    files_in(&Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/formulas")).unwrap()
+    files_in(Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/formulas")).unwrap()
 }
 
 fn load(path: &Path) -> Scenario {

@@ -47,7 +47,7 @@ fn the_gallery_has_every_mechanism() {
     let top = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut count = 0;
     for folder in ["crates/scenario/src/templates", "scenarios", "scenarios/formulas"] {
-        for path in files_in(&top.join(folder)).unwrap() {
+        for path in files_in(top.join(folder)).unwrap() {
             let file = format!("(../{folder}/{})", path.file_name().unwrap().to_string_lossy());
             let title = Scenario::load(&path).unwrap_or_else(|error| panic!("{error}")).title;
             let row = page.lines().find(|line| line.contains(&file)).unwrap_or_else(|| panic!("no row of {file}"));

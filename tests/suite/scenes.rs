@@ -45,7 +45,7 @@ fn subjects_keep_their_values(case: &Case, about: &str) {
 
 #[test]
 fn subjects_of_shipped_scenarios_keep_their_values() {
-    let files = files_in(&Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios")).unwrap();
+    let files = files_in(Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios")).unwrap();
     for file in files {
         let scenario = Scenario::load(&file).unwrap();
         subjects_keep_their_values(&scenario.case, &scenario.name);

@@ -32,7 +32,7 @@ fn the_committed_schema_is_current() {
 fn every_scenario_of_the_repository_fits() {
     let (validator, mut count) = (validator(), 0);
     for directory in ["scenarios", "scenarios/formulas", "scenarios/variants60", "tests/suite/bad_scenarios"] {
-        for path in files_in(&Path::new(env!("CARGO_MANIFEST_DIR")).join(directory)).unwrap() {
+        for path in files_in(Path::new(env!("CARGO_MANIFEST_DIR")).join(directory)).unwrap() {
             let text = std::fs::read_to_string(&path).unwrap();
             let faults: Vec<String> = validator.iter_errors(&read(&text)).map(|fault| fault.to_string()).collect();
             assert!(faults.is_empty(), "{}: {faults:?}", path.display());

@@ -19,7 +19,7 @@ use scenario::Scenario;
 use scenario::mapping::{Mapped, Mapping};
 
 fn scenario(name: &str) -> Scenario {
-    Scenario::load(&Path::new("scenarios").join(format!("{name}.toml"))).unwrap()
+    Scenario::load(Path::new("scenarios").join(format!("{name}.toml"))).unwrap()
 }
 
 /// What an analytic side finds for a scenario, all channels.

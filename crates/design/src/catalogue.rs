@@ -3,7 +3,6 @@
 use std::path::Path;
 
 use crate::motor::CatalogueMotor;
-use files;
 use linkage::error::{Error, ErrorKind, Result};
 use scenario::header::check_format;
 use scenario::reader::{Sign, Table};

@@ -4,7 +4,6 @@
 use std::path::Path;
 
 use crate::task::{Effort, Entry, Output, Phase, Place, Sense, Task, Timing, Variable};
-use files;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::{Vec2, unit};
 use linkage::mechanism::{GROUND, Mechanism};

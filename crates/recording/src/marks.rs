@@ -57,7 +57,6 @@ impl Brush {
                 pose: pose(Vec2::zeros(), z - 0.5 * self.step, 0.0),
                 points: fan(&outline).into_iter().map(|corner| point(corner, 0.0)).collect(),
                 color: Some(colour([red, green, blue, opacity])),
-                ..Default::default()
             });
         }
         entity.lines.push(LinePrimitive {

@@ -113,11 +113,5 @@ fn line(entry: &LogEntry, name: &str, nanoseconds: u64) -> Log {
         Level::Warning => LogLevel::Warning,
         Level::Error => LogLevel::Error,
     };
-    Log {
-        timestamp: stamp(nanoseconds),
-        level: level as i32,
-        message: entry.text.clone(),
-        name: name.into(),
-        ..Default::default()
-    }
+    Log { timestamp: stamp(nanoseconds), level: level as i32, message: entry.text.clone(), name: name.into() }
 }

@@ -1,7 +1,6 @@
 //! From an MCAP file back to trajectories.
 
 use super::{messages, raw, schema};
-use files;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::input::Input;
 use linkage::trajectory::{Channel, Trajectory};

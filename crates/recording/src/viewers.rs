@@ -383,7 +383,7 @@ mod tests {
             parent_frame_id,
             child_frame_id,
             translation: size,
-            rotation: pose.unwrap().orientation,
+            rotation: Some(Quaternion { x: 0.1, y: 0.2, z: 0.3, w: 0.4 }),
         };
         let frames = FrameTransforms { transforms: vec![transform] };
         let log = Log { timestamp, level: LogLevel::Warning as i32, message: "message".into(), name: "name".into() };

@@ -10,7 +10,6 @@ use toml_edit::Value;
 use super::header::check_format;
 use super::reader::Table;
 use super::source::Source;
-use files;
 use linkage::error::{Error, ErrorKind, Result};
 
 /// Figures of a reference that were accepted, or that a run has found.

@@ -151,7 +151,7 @@ pub const ROWS: &[Row] = &[
             ),
             optional("step", ANGLES, "the same as the angle that the crank turns through in a step", "found by `run`"),
         ],
-        argument: "--dt",
+        argument: "dt",
         value: "S",
         help: "Time step of the engine in seconds [default: the scenario's, else `run` finds it, and others take a \
                quarter of a degree of the crank or less]",
@@ -159,7 +159,7 @@ pub const ROWS: &[Row] = &[
     },
     Row {
         keys: &[optional("name", Kind::Text, "engine that judges unless another is asked for", "the first")],
-        argument: "--engine",
+        argument: "engine",
         value: "ENGINE",
         help: "Engine, or `all` to run every one side by side. May be given several times [default: the scenario's, \
                else the first]",
@@ -167,14 +167,14 @@ pub const ROWS: &[Row] = &[
     },
     Row {
         keys: &[],
-        argument: "--accuracy",
+        argument: "accuracy",
         value: "ACCURACY",
         help: "Relative accuracy of an engine that chooses its own steps [default: its tightest]",
         slot: |own| Slot::Positive(&mut own.accuracy),
     },
     Row {
         keys: &[optional("sweeps", Kind::Integer, "sweeps of the engine's iteration in a step", "found by `run`")],
-        argument: "--sweeps",
+        argument: "sweeps",
         value: "N",
         help: "Sweeps of the engine's iteration in a step [default: the scenario's, else `run` finds them, and others \
                take the engine's]",
@@ -187,7 +187,7 @@ pub const ROWS: &[Row] = &[
             "number of parts into which the engine itself divides a step",
             "the engine's",
         )],
-        argument: "--substeps",
+        argument: "substeps",
         value: "N",
         help: "Number of substeps into which the engine divides a step",
         slot: |own| Slot::Count(&mut own.substeps),
@@ -199,7 +199,7 @@ pub const ROWS: &[Row] = &[
             "how reactions and balancing moment are obtained",
             "the engine's, and its own forces beside it",
         )],
-        argument: "--route",
+        argument: "route",
         value: "ROUTE",
         help: "Route by which reactions and balancing moment are computed",
         slot: |own| Slot::Route(&mut own.route),
@@ -211,7 +211,7 @@ pub const ROWS: &[Row] = &[
             "a number N from 0 to 8: runs at the step, at half of it, ..., at its 2^N-th part are combined, so that the N leading errors drop out; `true` is 1, `false` is 0",
             "found by `run`; 0 where the step is given",
         )],
-        argument: "--extrapolate",
+        argument: "extrapolate",
         value: "TIMES",
         help: "Combine runs at the step and at halves of it, so that the leading errors cancel: once if no number is \
                given [default: the scenario's, else `run` finds it unless the step is given, and others do not \

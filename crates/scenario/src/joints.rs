@@ -11,9 +11,11 @@ use linkage::error::{ErrorKind, Result};
 use linkage::math::{Vec2, unit};
 use linkage::mechanism::{Guise, Joint, JointKind, Link, Side, is_sound_name};
 
+/// Reads what a type of joints needs: the kind, and how it is drawn.
+type ReadJoint = fn(&mut Table) -> Result<(JointKind, Option<Guise>)>;
+
 /// Types of joints, each with its reader.
-const TYPES: Words<fn(&mut Table) -> Result<(JointKind, Option<Guise>)>> =
-    &[("revolute", revolute), ("prismatic", prismatic)];
+const TYPES: Words<ReadJoint> = &[("revolute", revolute), ("prismatic", prismatic)];
 
 /// What is told of the keys that are read here.
 pub const SECTIONS: &[Section] = &[Section {

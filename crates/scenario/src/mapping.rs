@@ -5,7 +5,6 @@ use std::path::Path;
 use super::reader::Table;
 use super::source::Source;
 use super::words::suggestion;
-use files;
 use formula::Fault;
 use linkage::error::{Error, ErrorKind, Place, Result};
 

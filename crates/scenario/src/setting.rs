@@ -51,7 +51,7 @@ impl<T> Setting<T> {
     pub fn blamed(&self, error: Error) -> Error {
         match self {
             Setting::Given(_, Origin::Key(key, place)) => error.key(key.as_str()).at(place.clone()),
-            Setting::Given(_, Origin::Argument(name)) => error.key(*name),
+            Setting::Given(_, Origin::Argument(name)) => error.key(format!("--{name}")),
             Setting::Given(_, Origin::Code) | Setting::Free => error,
         }
     }

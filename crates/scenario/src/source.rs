@@ -10,7 +10,6 @@ use toml::de::{DeTable, DeValue};
 
 use super::parameters::Parameters;
 use super::{hostile, malformed};
-use files;
 use linkage::error::{Error, ErrorKind, Place, Result};
 
 /// The text of the scenario file at `path`.

@@ -13,7 +13,6 @@ use super::series::{ExpectedCell, Known, OraclePoint, OracleSeries, When};
 use super::source::Source;
 use super::words::suggestion;
 use columns::{Records, Twice};
-use files;
 use formula::Rounded;
 use linkage::case::Case;
 use linkage::error::{Advice, Error, ErrorKind, Place, Result};

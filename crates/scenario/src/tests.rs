@@ -14,7 +14,7 @@ fn scenarios() -> PathBuf {
 }
 
 fn load(name: &str) -> Scenario {
-    Scenario::load(&scenarios().join(name)).unwrap_or_else(|error| panic!("{error}"))
+    Scenario::load(scenarios().join(name)).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// World position of a named point in the first pose (m).
@@ -181,7 +181,7 @@ fn cells_known_to_be_wrong_keep_their_finding() {
     let text = include_str!("../../../scenarios/crank_rocker.toml").to_string()
         + "[[oracle]]\nsource = \"t\"\nfile = \"table.csv\"\ncrank = \"turn_rad\"\n[oracle.columns]\n\
            B = { channel = \"link.rocker.angle_deg\", offset_deg = 2.5, expect = [{ crank_rad = 0.5, finding = \"misprint\", right = { value = 7.125, digits = 3 } }] }\n";
-    let scenario = Scenario::parse(&text, &directory.path().join("x.toml")).unwrap_or_else(|error| panic!("{error}"));
+    let scenario = Scenario::parse(&text, directory.path().join("x.toml")).unwrap_or_else(|error| panic!("{error}"));
     let oracle = scenario.oracles.last().unwrap();
     assert_eq!((oracle.name.as_str(), oracle.series[0].name.as_str()), ("table.csv", "B"));
     let expected = &oracle.series[0].expected;
@@ -257,7 +257,7 @@ fn damaged(text: &str, damages: &[Damage]) -> String {
 }
 
 fn check(text: &str) -> std::result::Result<(), TestCaseError> {
-    if let Err(error) = Scenario::parse(text, &scenarios().join("damaged.toml")) {
+    if let Err(error) = Scenario::parse(text, scenarios().join("damaged.toml")) {
         let Some(place) = error.place() else { return Err(TestCaseError::fail(format!("{error} has no place"))) };
         prop_assert!(place.text.get(place.span.clone()).is_some(), "{error} points outside its file");
     }

@@ -1,6 +1,6 @@
 //! A family as CSV: one row for every group of channels of every party at every point.
 
-use crate::plain::cells::csv;
+use super::super::table_csv::csv;
 use lab::stress::{Family, Outcome};
 use linkage::error::Result;
 

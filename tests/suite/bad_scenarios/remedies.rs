@@ -90,7 +90,7 @@ fn names(says: &str, key: &str) -> bool {
 /// sections of one first name, the first two files are enough.
 fn for_each_key(mut look: impl FnMut(&Path, &str, &Key) -> Option<String>) {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let all = ["scenarios", "scenarios/formulas"].map(|directory| files_in(&root.join(directory)).unwrap());
+    let all = ["scenarios", "scenarios/formulas"].map(|directory| files_in(root.join(directory)).unwrap());
     let (mut seen, mut tried, mut wrong) = (BTreeMap::new(), 0, Vec::new());
     for path in all.concat() {
         let text = std::fs::read_to_string(&path).unwrap();

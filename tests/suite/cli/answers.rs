@@ -25,7 +25,7 @@ use crate::common::assert_within;
 use crate::common::spec::four_bar;
 
 fn scenario(place: &Place, name: &str) -> Scenario {
-    Scenario::load(&place.path(&format!("scenarios/{name}.toml"))).unwrap()
+    Scenario::load(place.path(&format!("scenarios/{name}.toml"))).unwrap()
 }
 
 fn point(at: Vec2) -> Value {

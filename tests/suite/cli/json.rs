@@ -158,7 +158,7 @@ fn every_number_of_the_json_is_the_proof_s_own() {
     for name in ["crank_rocker", "compressor_runup"] {
         let path = format!("scenarios/{name}.toml");
         let json = place.run(&format!("run {path} --no-record --json -")).json();
-        let scenario = Scenario::load(&Path::new(env!("CARGO_MANIFEST_DIR")).join(&path)).unwrap();
+        let scenario = Scenario::load(Path::new(env!("CARGO_MANIFEST_DIR")).join(&path)).unwrap();
         let proof = prove(&scenario, &Options::default()).unwrap();
         proven(name, &json["runs"][0], &proof);
     }

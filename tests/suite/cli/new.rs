@@ -18,7 +18,7 @@ fn every_template_is_proven_for_its_whole_motion() {
         let file = format!("{}.toml", template.scenario_name());
         assert!(said.starts_with(&format!("{file}: {}", template.title())), "{said}");
         let text = fs::read_to_string(place.path(&file)).unwrap();
-        let scenario = Scenario::parse(&text, &place.path(&file)).unwrap_or_else(|error| panic!("{error}"));
+        let scenario = Scenario::parse(&text, place.path(&file)).unwrap_or_else(|error| panic!("{error}"));
         assert_eq!((scenario.name, scenario.title), (template.scenario_name(), template.title()));
         if scenario.case.crank().is_free() {
             assert_eq!(template.name, "pendulum");

@@ -4,7 +4,7 @@ use std::fs;
 
 use assert_cmd::Command;
 
-use super::tools::Place;
+use super::tools::{Place, listed};
 
 /// Scenarios that agree, one with a wrong published number, and one with an open step.
 const FILES: [&str; 7] = [
@@ -174,10 +174,12 @@ fn colours_are_only_where_somebody_sees_them() {
 fn completions_and_manual_name_every_command() {
     let place = Place::new();
     let help = place.ok("--help");
-    let listed = help.split("Commands:").nth(1).unwrap().split("Options:").next().unwrap();
-    let is_name = |line: &&str| line.starts_with("  ") && !line.starts_with("   ");
-    let names: Vec<&str> = listed.lines().filter(is_name).filter_map(|line| line.split_whitespace().next()).collect();
+    let names: Vec<&str> = listed(&help).collect();
     assert!(names.len() > 15 && names.contains(&"run") && names.contains(&"man"), "{names:?}");
+    let groups = ["Prove:", "Look:", "Design:", "Study:"].map(|group| help.find(&format!("\n{group}\n")).unwrap());
+    assert!(
+        groups.is_sorted() && groups[0] < help.find("  run ").unwrap() && help.find("  bench ").unwrap() > groups[3]
+    );
     for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
         let text = place.ok(&format!("completions {shell}"));
         for name in &names {

@@ -120,3 +120,11 @@ impl Table {
         self.rows.iter().map(|row| row[at].parse().unwrap()).collect()
     }
 }
+
+/// The commands that a help lists: what goes on in a second line stands further to the right, arguments begin with a sign.
+pub fn listed(help: &str) -> impl Iterator<Item = &str> {
+    let above = help.split("\nOptions:").next().unwrap_or_default().lines();
+    above
+        .filter_map(|line| line.strip_prefix("  ")?.split(' ').next())
+        .filter(|word| word.starts_with(|first: char| first.is_ascii_lowercase()))
+}

@@ -12,7 +12,7 @@ use std::sync::LazyLock;
 use assert_cmd::cargo::CommandCargoExt;
 use linkage::mechanism::is_unseen;
 
-use crate::cli::tools::Place;
+use crate::cli::tools::{Place, listed};
 use crate::common::draws;
 use crate::common::hostile::{Attack, DOORS, Good, OLDER, attack};
 use crate::common::many::{each, number};
@@ -199,13 +199,8 @@ fn arguments(place: &Place, command: &str, found: &mut Vec<(String, String, Stri
         let name = line.split([' ', '=', '[']).find(|word| word.starts_with("--")).unwrap();
         found.push((command.into(), name.into(), value.split('>').next().unwrap().into()));
     }
-    let indent = |line: &str| line.len() - line.trim_start().len();
-    let commands = help.lines().skip_while(|line| *line != "Commands:").skip(1).take_while(|line| !line.is_empty());
-    for line in commands.filter(|line| indent(line) == 2) {
-        match line.split_whitespace().next().unwrap() {
-            "help" => {}
-            own => arguments(place, format!("{command} {own}").trim(), found),
-        }
+    for own in listed(&help).filter(|own| *own != "help") {
+        arguments(place, format!("{command} {own}").trim(), found);
     }
 }
 

@@ -26,7 +26,7 @@ fn measured(task: &str, scenario: Scenario) -> (Task, Achieved) {
 }
 
 fn designed(name: &str) -> (Task, Achieved) {
-    measured(name, Scenario::load(&top().join(format!("{name}.toml"))).unwrap())
+    measured(name, Scenario::load(top().join(format!("{name}.toml"))).unwrap())
 }
 
 /// Largest motion in a dwell and largest travel in a wrong direction (shares of the stroke), distance of extreme
@@ -65,7 +65,7 @@ fn the_designed_drives_keep_their_timing() {
 #[test]
 fn both_sides_agree_on_the_designed_drives() {
     for (name, _) in STATED {
-        let scenario = Scenario::load(&top().join(format!("{name}.toml"))).unwrap();
+        let scenario = Scenario::load(top().join(format!("{name}.toml"))).unwrap();
         let proof = prove(&scenario, &Options::default()).unwrap();
         assert!(matches!(proof.verdict, Verdict::Agree { .. }), "{name}: {:?}", proof.verdict);
     }

@@ -134,7 +134,7 @@ fn instants_beyond_a_law_are_refused_and_rounded_ones_are_not() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/outside/scenarios/cycloidal_press.toml");
     let press = fs::read_to_string(path).unwrap().replace("time_ms = 400", "time_ms = 400.06");
     fs::write(place.path("press.toml"), press.split("[[oracle]]").next().unwrap()).unwrap();
-    let press = linkproof::Scenario::load(&place.path("press.toml")).unwrap();
+    let press = linkproof::Scenario::load(place.path("press.toml")).unwrap();
     let end = press.case.crank().end().unwrap();
     assert!((end - 0.400_06).abs() < 1e-12, "{end}");
     let of = |late: f64| {

@@ -44,7 +44,7 @@ fn path(name: &str) -> std::path::PathBuf {
 }
 
 fn parsed(name: &str, text: &str) -> Scenario {
-    Scenario::parse(text, &path(name)).unwrap_or_else(|error| panic!("{error}"))
+    Scenario::parse(text, path(name)).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// A fault of the same size in all states.

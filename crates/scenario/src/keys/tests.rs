@@ -47,7 +47,7 @@ fn asked_by_readers() -> BTreeMap<String, BTreeSet<String>> {
     let top = &Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     asked::forget();
     for directory in ["scenarios", "scenarios/formulas", "scenarios/variants60"] {
-        for path in files_in(&top.join(directory)).unwrap() {
+        for path in files_in(top.join(directory)).unwrap() {
             Scenario::load(&path).unwrap_or_else(|error| panic!("{error}"));
         }
     }
