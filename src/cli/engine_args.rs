@@ -167,8 +167,7 @@ impl SettingArgs {
     /// # Errors
     /// Those of settings that an engine cannot have.
     pub(super) fn engine(&self, engine: EngineName, scenario: &Scenario) -> Result<Box<dyn Engine>> {
-        let mut options = Options::default();
-        options.settings = self.settings.clone();
+        let options = Options { settings: self.settings.clone(), ..Options::default() };
         Ok(options.engine(engine).set_engines(scenario)?.remove(0))
     }
 

@@ -245,6 +245,9 @@ fn nothing_writes_past_the_one_place_for_the_rule() {
                 open.push(path);
                 continue;
             }
+            if path.extension().is_none_or(|extension| extension != "rs") {
+                continue;
+            }
             let text = fs::read_to_string(&path).unwrap();
             let code = text.split("#[cfg(test)]").next().unwrap();
             let writes = ["fs::write(", "File::create", "OpenOptions", "File::options", "fs::copy(", "fs::rename("];
