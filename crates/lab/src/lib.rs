@@ -1,6 +1,6 @@
 //! The laboratory: what is studied about the prover, and what a proof does not need.
 //!
-//! - [`bench`]: work against error of every solver and engine.
+//! - [`mod@bench`]: work against error of every solver and engine.
 //! - [`stress`], [`specimens`]: families of hard mechanisms, and random ones.
 //! - [`mutate`]: faults planted in one party, and who finds them.
 //! - [`tune`]: engine settings by their price.
