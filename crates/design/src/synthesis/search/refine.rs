@@ -3,10 +3,11 @@
 use std::cell::RefCell;
 
 use chacha20::ChaCha8Rng;
+use chacha20::rand_core::SeedableRng;
 use cobyla::{RhoBeg, minimize};
-use rand::{RngExt, SeedableRng};
 
 use super::candidate::{Candidate, free_zero, values};
+use super::even;
 use crate::synthesis::evaluate::Evaluator;
 use crate::synthesis::rating::Rater;
 use crate::task::Task;
@@ -89,9 +90,9 @@ fn evolve(bench: &mut Bench, zero: Option<usize>, evaluations: usize, number: us
     for _ in 0..evaluations {
         child.copy_from_slice(&bench.best);
         for (index, share) in child.iter_mut().enumerate() {
-            if rng.random::<f64>() < CHANGED {
+            if even(&mut rng) < CHANGED {
                 // Approximately normal: four uniform numbers, of variance 1 / 3 in total.
-                let normal = (0..4).map(|_| rng.random::<f64>() - 0.5).sum::<f64>() * 3f64.sqrt();
+                let normal = (0..4).map(|_| even(&mut rng) - 0.5).sum::<f64>() * 3f64.sqrt();
                 *share += step * normal;
                 if zero != Some(index) {
                     *share = share.clamp(0.0, 1.0);
