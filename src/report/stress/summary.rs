@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use linkage::math::KeepNan;
 
+use super::super::chart::label as dial;
 use crate::plain::cells::{distinct, table};
 use lab::stress::{Family, Group, Outcome};
 
@@ -155,11 +156,6 @@ fn stretches(by_dial: &[(f64, usize)], wanted: usize) -> String {
     let one =
         |[from, to]: &[f64; 2]| if from == to { dial(*from) } else { format!("{} .. {}", dial(*from), dial(*to)) };
     found.iter().map(one).collect::<Vec<_>>().join(", ")
-}
-
-/// A value of the dial.
-pub(super) fn dial(value: f64) -> String {
-    if (0.01..1e5).contains(&value) { format!("{value}") } else { format!("{value:e}") }
 }
 
 /// Where a party does not agree, with the reason at the first of these points, by verdict.
