@@ -28,7 +28,7 @@ const CRATES: &[(&str, &str, &str, &str)] = &[
         "lab",
         "crates/lab",
         "analytic columns files formula linkage precise prover scenario",
-        "chacha20 csv serde_json tempfile",
+        "chacha20 csv serde serde_json tempfile",
     ),
     ("precise", "crates/precise", "linkage", "qd"),
     (
@@ -143,7 +143,7 @@ const HOMES: &[(&str, &str)] = &[
     // Other programs are run in one room. `testing` gives an exit code.
     ("Command", "linkproof::cli lab::outside"),
     ("process", "linkproof::cli lab::outside linkproof::testing"),
-    ("serde", "linkproof::report"),
+    ("serde", "lab::stress linkproof::report"),
     ("base64", "linkproof::report"),
     ("strsim", "scenario"),
     ("serde_json", "lab::outside linkproof::report"),

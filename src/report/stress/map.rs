@@ -8,7 +8,7 @@ use crate::plain::cells::distinct;
 use drawing::paper::document::document;
 use drawing::paper::figure::{Figure, Style, solid, width, words};
 use drawing::paper::style::{BLACK, GREY, colour};
-use lab::stress::{Family, Group, Outcome};
+use lab::stress::{End, Family, Group, Outcome};
 use linkage::math::{KeepNan, Vec2};
 
 /// Size of a panel, and height of the head with the legend (mm).
@@ -35,12 +35,12 @@ pub(crate) fn map(family: &Family, outcomes: &[&Outcome]) -> String {
     document(&sheet, [PANEL[0], HEAD + PANEL[1] * Group::ALL.len() as f64], &title)
 }
 
-fn filling(verdict: &str) -> Filling {
+fn filling(verdict: End) -> Filling {
     match verdict {
-        "agree" => Filling::Full,
-        "disagree" => Filling::Crossed,
-        "fails" => Filling::Cross,
-        _ => Filling::Hollow,
+        End::Agree => Filling::Full,
+        End::Inconclusive => Filling::Hollow,
+        End::Disagree => Filling::Crossed,
+        End::Fails => Filling::Cross,
     }
 }
 
@@ -58,9 +58,7 @@ fn legend(title: &str, names: &[&str]) -> Figure {
         write(&mut figure, &mut x, -13.0, name);
     }
     let mut x = 6.0;
-    for (verdict, text) in
-        [("agree", "agrees"), ("inconclusive", "inconclusive"), ("disagree", "disagrees"), ("fails", "fails")]
-    {
+    for (verdict, text) in End::ALL.into_iter().zip(["agrees", "inconclusive", "disagrees", "fails"]) {
         mark(&mut figure, Vec2::new(x, -19.5), MARK, 0, filling(verdict));
         x += 3.0;
         write(&mut figure, &mut x, -19.5, text);
@@ -94,14 +92,14 @@ fn panel(family: &Family, outcomes: &[&Outcome], names: &[&str], group: Group) -
             // Several samples stand side by side.
             let dial = own.dial * (1.0 + 0.004 * own.sample as f64);
             let Some(reached) = party.reached.iter().find(|own| own.group == group) else {
-                if party.verdict == "fails" {
+                if party.verdict == End::Fails {
                     marks.push((chart.at([dial, FAILED[1]]) + Vec2::new(ASIDE * number as f64, 0.0), Filling::Cross));
                 }
                 lines.push(Default::default());
                 continue;
             };
             let [error, bound] = [reached.error, reached.bound].map(|value| chart.at([dial, clipped(value)]));
-            marks.push((error, filling(&party.verdict)));
+            marks.push((error, filling(party.verdict)));
             if let ([errors, bounds], 0) = (lines.last_mut().expect("there is one"), own.sample) {
                 errors.push(error);
                 bounds.push(bound);
