@@ -152,8 +152,7 @@ fn put(args: &Args, found: &Bench, machine: &report::Machine) -> Result<()> {
     let place = |end: &str| place(args, &found.scenario[0], end);
     output::make(&report::rows(found, machine)?, &place("csv"))?;
     for axis in Axis::ALL {
-        let drawn = bench_plot::drawing(found, axis).map_err(|message| Error::new(ErrorKind::Numeric, message))?;
-        if let Some(text) = drawn {
+        if let Some(text) = bench_plot::drawing(found, axis) {
             output::make(&text, &place(&format!("{}.svg", axis.name())))?;
         }
     }

@@ -2,9 +2,9 @@
 
 use std::any::Any;
 use std::collections::BTreeMap;
+use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Condvar, Mutex, MutexGuard, PoisonError, mpsc};
+use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 
 use linkage::error::{Error, ErrorKind, Result};
 
@@ -84,40 +84,22 @@ pub(super) fn side_by_side<T, R: Send>(
         room.pass(index);
         result.unwrap_or_else(|panic| Err(panicked(panic.as_ref())))
     };
-    if threads <= 1 || items.len() <= 1 {
-        for (index, item) in items.iter().enumerate() {
-            give(index, item, done(index));
-            room.give_back(index);
-        }
-        return;
-    }
-    let next = AtomicUsize::new(0);
-    std::thread::scope(|scope| {
-        let (tell, told) = mpsc::channel();
-        for _ in 0..threads.min(items.len()) {
-            let (tell, next, done) = (tell.clone(), &next, &done);
-            scope.spawn(move || {
-                loop {
-                    let index = next.fetch_add(1, Ordering::Relaxed);
-                    // The receiver lives as long as this scope.
-                    if index >= items.len() || tell.send((index, done(index))).is_err() {
-                        return;
-                    }
-                }
-            });
-        }
-        drop(tell);
-        let mut waiting = BTreeMap::new();
-        let mut due = 0;
-        for (index, result) in told {
+    let mut waiting = BTreeMap::new();
+    let mut due = 0;
+    linkage::threads::side_by_side(
+        items.len(),
+        threads,
+        |index, tell| tell(done(index)),
+        |index, result| {
             waiting.insert(index, result);
             while let Some(result) = waiting.remove(&due) {
                 give(due, &items[due], result);
                 room.give_back(due);
                 due += 1;
             }
-        }
-    });
+            ControlFlow::Continue(())
+        },
+    );
 }
 
 /// A panic as an error. Its place is on standard error already.
@@ -130,6 +112,7 @@ fn panicked(panic: &(dyn Any + Send)) -> Error {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::sync::atomic::{AtomicUsize, Ordering};
     use std::time::Duration;
 
     fn results(threads: usize, most: f64, work: impl Fn(usize, &Room) -> Result<usize> + Sync) -> Vec<Result<usize>> {

@@ -6,7 +6,6 @@ mod session;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::thread::available_parallelism;
 
 use super::html::Pages;
 use super::jobs::{Room, side_by_side};
@@ -15,6 +14,7 @@ use super::load::only;
 use super::progress::Shared;
 use super::{output, standard_input};
 use linkage::error::Result;
+use linkage::threads::cores;
 use prover::proof::{Proof, memory, prove_with};
 use scenario::Scenario;
 use session::Session;
@@ -50,7 +50,7 @@ fn threads(args: &Args) -> usize {
     let is_new = |file: &PathBuf| seen.insert(fs::canonicalize(file).unwrap_or_else(|_| file.clone()));
     match args.write && !args.files.iter().all(is_new) {
         true => 1,
-        false => args.jobs.or_else(|| available_parallelism().ok()).map_or(1, usize::from),
+        false => args.jobs.map_or_else(cores, usize::from),
     }
 }
 

@@ -9,6 +9,7 @@ use super::{exit_code, number, output};
 use crate::report::stress as report;
 use lab::stress::{FAMILIES, Family, Job, Outcome, jobs, run_all};
 use linkage::error::{Error, ErrorKind, Result};
+use linkage::threads::cores;
 
 /// Seed of random mechanisms by default.
 const SEED: u64 = 1;
@@ -58,13 +59,13 @@ pub(super) fn run(args: &Args) -> Result<u8> {
         write_json(args, family, &all)?;
     }
     let (total, open) = (all.len(), all.iter().filter(|job| job.outcome.is_none()).count());
-    let bar = std::sync::Mutex::new(Bar::new("stress"));
+    let mut bar = Bar::new("stress");
     let done = |jobs: &[Job], index: usize, finished: usize| -> Result<()> {
         let began = total - open;
-        bar.lock().expect("nothing panics in between").at((finished - began) as f64 / open.max(1) as f64);
+        bar.at((finished - began) as f64 / open.max(1) as f64);
         write_json(args, jobs[index].family, jobs)
     };
-    let threads = args.jobs.unwrap_or_else(|| std::thread::available_parallelism().map_or(1, usize::from));
+    let threads = args.jobs.unwrap_or_else(cores);
     let all = run_all(all, args.seed, threads, done)?;
     drop(bar);
     let found: Vec<(&Family, Vec<&Outcome>)> =
@@ -73,7 +74,7 @@ pub(super) fn run(args: &Args) -> Result<u8> {
         let place = |extension: &str| args.out.join(format!("{}.{extension}", family.name));
         let rows = report::rows(family, outcomes.iter().copied())?;
         output::make_by(rows.as_bytes(), &place("csv"), &|old| first_line(old) == first_line(rows.as_bytes()))?;
-        output::make(&report::map(family, outcomes)?, &place("svg"))?;
+        output::make(&report::map(family, outcomes), &place("svg"))?;
     }
     if let Some(to) = &args.page {
         write_page(args, to, &found)?;
@@ -114,7 +115,7 @@ fn write_page(args: &Args, to: &Path, found: &[(&Family, Vec<&Outcome>)]) -> Res
     let maps = to.with_file_name(stem);
     output::make_directory(&maps, "--page", "name a file in a directory that may be written to")?;
     for (family, outcomes) in found {
-        output::make(&report::map(family, outcomes)?, &maps.join(format!("{}.svg", family.name)))?;
+        output::make(&report::map(family, outcomes), &maps.join(format!("{}.svg", family.name)))?;
     }
     let quick = if args.quick { " --quick" } else { "" };
     let command = format!("linkproof stress{quick} --out DIR --page {}", to.display());

@@ -7,6 +7,7 @@ pub(crate) mod bench;
 pub(crate) mod bench_page;
 pub(crate) mod bench_plot;
 pub(crate) mod case_json;
+mod chart;
 pub(crate) mod check;
 pub(crate) mod clearance;
 pub(crate) mod closed_form;

@@ -28,7 +28,7 @@ const CRATES: &[(&str, &str, &str, &str)] = &[
         "lab",
         "crates/lab",
         "analytic columns files formula linkage precise prover scenario",
-        "chacha20 csv serde_json tempfile",
+        "chacha20 csv serde serde_json tempfile",
     ),
     ("precise", "crates/precise", "linkage", "qd"),
     (
@@ -46,7 +46,7 @@ const CRATES: &[(&str, &str, &str, &str)] = &[
         "linkproof",
         "",
         "analytic columns design drawing files formula lab linkage prover recording scenario",
-        "annotate-snippets anstream anstyle base64 clap clap_complete clap_mangen comfy-table csv ctrlc include_dir indicatif libtest-mimic plotters quick-xml serde serde_json terminal_size textwrap tungstenite",
+        "annotate-snippets anstream anstyle base64 clap clap_complete clap_mangen comfy-table csv ctrlc include_dir indicatif libtest-mimic quick-xml serde serde_json terminal_size textwrap tungstenite",
     ),
 ];
 
@@ -54,13 +54,14 @@ const CRATES: &[(&str, &str, &str, &str)] = &[
 const ROOMS: &[(&str, &str)] = &[
     ("linkage::case", "drive error input math mechanism trajectory"),
     ("linkage::drive", "input math mechanism"),
-    ("linkage::engine", "case error math solver trajectory work"),
+    ("linkage::engine", "case error math solver threads trajectory work"),
     ("linkage::error", "input"),
     ("linkage::input", ""),
     ("linkage::math", ""),
     ("linkage::mechanism", "error input math"),
     ("linkage::solver", "case error math mechanism trajectory"),
     ("linkage::quiet", ""),
+    ("linkage::threads", "work"),
     ("linkage::trajectory", "error input"),
     ("linkage::work", "error"),
     ("analytic::assur", "motion"),
@@ -139,11 +140,10 @@ const HOMES: &[(&str, &str)] = &[
     ("toml", "scenario"),
     ("toml_edit", "design::redraw scenario"),
     ("comfy_table", "linkproof::plain linkproof::report"),
-    ("plotters", "linkproof::report"),
     // Other programs are run in one room. `testing` gives an exit code.
     ("Command", "linkproof::cli lab::outside"),
     ("process", "linkproof::cli lab::outside linkproof::testing"),
-    ("serde", "linkproof::report"),
+    ("serde", "lab::stress linkproof::report"),
     ("base64", "linkproof::report"),
     ("strsim", "scenario"),
     ("serde_json", "lab::outside linkproof::report"),

@@ -10,5 +10,6 @@ pub mod bench;
 pub mod mutate;
 pub mod outside;
 pub mod specimens;
+mod steps;
 pub mod stress;
 pub mod tune;

@@ -2,7 +2,7 @@
 //!
 //! Links, joints and Assur groups are in [`mechanism`], drives and loads in [`drive`], what an input measures in [`input`].
 //! [`case`] has the problem as every solver receives it, [`trajectory`] the result that every solver returns.
-//! [`solver`] and [`engine`] have the traits of solvers and engines, [`work`] counts what they do.
+//! [`solver`] and [`engine`] have the traits of solvers and engines, [`work`] counts what they do, [`threads`] does it side by side.
 //!
 //! SI units and world axes (x right, y up, angles counter-clockwise from +x) everywhere.
 
@@ -18,6 +18,7 @@ pub mod math;
 pub mod mechanism;
 pub mod quiet;
 pub mod solver;
+pub mod threads;
 pub mod trajectory;
 pub mod work;
 

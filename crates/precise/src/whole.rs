@@ -36,7 +36,7 @@ pub fn solve(case: &Case) -> Result<Trajectory> {
     let (mut frames, mut time) = (at_start(case), 0.0);
     for row in case.grid.ascending() {
         let to = case.grid.times[row];
-        let steps = ((to - time) * whole.task.speed.abs() / STEP).ceil().max_one();
+        let steps = (((to - time) * whole.task.speed.abs() / STEP).ceil() as usize).max(1);
         for step in 1..=steps {
             let at = if step == steps { to } else { time + (to - time) * step as f64 / steps as f64 };
             let settled = if step == steps { SETTLED } else { NEAR };
@@ -49,17 +49,6 @@ pub fn solve(case: &Case) -> Result<Trajectory> {
     }
     let instants: Vec<Snapshot> = instants.into_iter().map(|instant| instant.expect("every row is visited")).collect();
     trajectory(case, &instants)
-}
-
-/// A number of steps, at least one.
-trait Steps {
-    fn max_one(self) -> usize;
-}
-
-impl Steps for f64 {
-    fn max_one(self) -> usize {
-        (self as usize).max(1)
-    }
 }
 
 struct Whole<'a> {
@@ -75,10 +64,6 @@ struct System {
 }
 
 impl System {
-    fn of(unknowns: usize) -> System {
-        System { rows: vec![vec![Long::ZERO; unknowns]; unknowns], right: vec![Long::ZERO; unknowns] }
-    }
-
     /// Gaussian elimination with the largest pivot of each column; `None` if it is singular.
     fn solved(mut self) -> Option<Vec<Long>> {
         let count = self.right.len();
@@ -119,8 +104,10 @@ fn column(link: usize) -> usize {
 }
 
 impl Whole<'_> {
-    fn unknowns(&self) -> usize {
-        3 * (self.case.mechanism.links().len() - 1)
+    /// Three unknowns of every moving link.
+    fn empty(&self) -> System {
+        let unknowns = column(self.case.mechanism.links().len());
+        System { rows: vec![vec![Long::ZERO; unknowns]; unknowns], right: vec![Long::ZERO; unknowns] }
     }
 
     /// Writes the change of `normal . (point of the link)` to a row, times `sign`.
@@ -143,49 +130,40 @@ impl Whole<'_> {
     /// Coefficients of all equations in a pose: those of the joints, then that of the drive. With them the gaps of the pose, or
     /// the parts of the second derivatives that go with the squares of the speeds, on the other side.
     fn system(&self, frames: &[Frame], what: What) -> System {
-        let mut system = System::of(self.unknowns());
+        let mut system = self.empty();
         for (index, joint) in self.case.mechanism.joints().iter().enumerate() {
-            let sides = [joint.first, joint.second].map(|side| (&frames[side.link], side));
-            let arms = sides.map(|(frame, side)| frame.arm(side.local));
-            let gap = sides[1].0.origin + arms[1] - sides[0].0.origin - arms[0];
             let [first, second] = [joint.first.link, joint.second.link];
+            let sides = [&frames[first], &frames[second]];
+            let arms = [sides[0].arm(joint.first.local), sides[1].arm(joint.second.local)];
+            let gap = sides[1].origin + arms[1] - sides[0].origin - arms[0];
             let (one, two) = (Long::ONE, Long::of(2.0));
-            let squares =
-                arms[0] * (sides[0].0.omega * sides[0].0.omega) - arms[1] * (sides[1].0.omega * sides[1].0.omega);
+            let squares = arms[0] * (sides[0].omega * sides[0].omega) - arms[1] * (sides[1].omega * sides[1].omega);
             let first_row = self.case.mechanism.rows(index).start;
             let rows = [first_row, first_row + 1];
+            // The place of the second link less that of the first, along a direction.
+            let mut apart = |row: usize, normal: Vector, turning: Long| {
+                self.put(&mut system.rows[row], second, arms[1], normal, one);
+                self.put(&mut system.rows[row], first, arms[0], normal, -one);
+                system.right[row] = match what {
+                    What::Gaps(_) => -normal.dot(gap),
+                    What::Rates => Long::ZERO,
+                    What::Squares => turning - normal.dot(squares),
+                };
+            };
             match joint.kind {
                 JointKind::Revolute => {
-                    for (k, normal) in [Vector::X, Vector::X.turned()].into_iter().enumerate() {
-                        let row = &mut system.rows[rows[k]];
-                        self.put(row, second, arms[1], normal, one);
-                        self.put(row, first, arms[0], normal, -one);
-                        system.right[rows[k]] = match what {
-                            What::Gaps(_) => -normal.dot(gap),
-                            What::Rates => Long::ZERO,
-                            What::Squares => -normal.dot(squares),
-                        };
-                    }
+                    apart(rows[0], Vector::X, Long::ZERO);
+                    apart(rows[1], Vector::X.turned(), Long::ZERO);
                 }
                 JointKind::Prismatic { axes } => {
-                    let axes = [0, 1].map(|k| sides[k].0.arm(axes[k]));
+                    let axes = [0, 1].map(|k| sides[k].arm(axes[k]));
                     let normal = axes[0].turned();
-                    let row = &mut system.rows[rows[0]];
-                    self.put(row, second, arms[1], normal, one);
-                    self.put(row, first, arms[0], normal, -one);
                     // The normal turns with the first link.
-                    self.put_turn(row, first, -axes[0].dot(gap));
-                    let omega = sides[0].0.omega;
-                    let speed = |k: usize| sides[k].0.velocity + arms[k].turned() * sides[k].0.omega;
-                    system.right[rows[0]] = match what {
-                        What::Gaps(_) => -normal.dot(gap),
-                        What::Rates => Long::ZERO,
-                        What::Squares => {
-                            let turning =
-                                two * omega * axes[0].dot(speed(1) - speed(0)) + omega * omega * normal.dot(gap);
-                            turning - normal.dot(squares)
-                        }
-                    };
+                    let omega = sides[0].omega;
+                    let speed = |k: usize| sides[k].velocity + arms[k].turned() * sides[k].omega;
+                    let turning = two * omega * axes[0].dot(speed(1) - speed(0)) + omega * omega * normal.dot(gap);
+                    apart(rows[0], normal, turning);
+                    self.put_turn(&mut system.rows[rows[0]], first, -axes[0].dot(gap));
                     self.put_turn(&mut system.rows[rows[1]], second, one);
                     self.put_turn(&mut system.rows[rows[1]], first, -one);
                     system.right[rows[1]] = match what {
@@ -195,7 +173,7 @@ impl Whole<'_> {
                 }
             }
         }
-        let last = self.unknowns() - 1;
+        let last = system.right.len() - 1;
         self.put_turn(&mut system.rows[last], self.task.link, Long::ONE);
         system.right[last] = match what {
             What::Gaps(angle) => {
@@ -267,7 +245,7 @@ impl Whole<'_> {
 
     /// Equilibrium of all links: two forces and a moment about the world's origin each.
     fn forces(&self, instant: &mut Snapshot) -> Option<()> {
-        let mut system = System::of(self.unknowns());
+        let mut system = self.empty();
         let joints = self.case.mechanism.joints();
         for (index, joint) in joints.iter().enumerate() {
             let unknowns = self.case.mechanism.rows(index);
@@ -281,7 +259,7 @@ impl Whole<'_> {
                 }
             }
         }
-        let last = self.unknowns() - 1;
+        let last = system.right.len() - 1;
         system.rows[column(self.task.link) + 2][last] = Long::ONE;
         for link in 1..self.case.mechanism.links().len() {
             let (force, moment) = instant.inertia(self.case, link);

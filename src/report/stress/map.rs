@@ -1,237 +1,121 @@
 //! The map of a family: errors and bounds of all parties over the dial, as SVG.
 //!
-//! Colours are told apart in grey too, every party has a mark of its own, and a verdict is the mark's filling.
+//! Every party has a colour and a mark of its own, and a verdict is the mark's filling.
 
-use plotters::coord::Shift;
-use plotters::prelude::*;
-
+use super::super::chart::{Chart, DASHED, Filling, decades, mark};
 use super::summary::names;
-use lab::stress::{Family, Group, Outcome, Party};
-use linkage::error::{Error, ErrorKind, Result};
-use linkage::math::KeepNan;
+use crate::plain::cells::distinct;
+use drawing::paper::document::document;
+use drawing::paper::figure::{Figure, Style, solid, width, words};
+use drawing::paper::style::{BLACK, GREY, colour};
+use lab::stress::{End, Family, Group, Outcome};
+use linkage::math::{KeepNan, Vec2};
 
-/// Size of a sheet (px): width, height of a panel, of the head with the legend, and of the strip of failures.
-const WIDE: u32 = 820;
-const HIGH: u32 = 250;
-const HEAD: u32 = 92;
+/// Size of a panel, and height of the head with the legend (mm).
+const PANEL: [f64; 2] = [217.0, 72.0];
+const HEAD: f64 = 24.0;
 /// Smallest and largest number on the axis of errors. What is beyond stands at the edge.
 const ERRORS: [f64; 2] = [1e-17, 1e3];
-/// Where the strip of failures lies.
-const FAILED: f64 = 1e5;
-const TOP: f64 = 1e6;
-/// Size of a mark (px).
-const MARK: i32 = 5;
-/// Colours after Okabe and Ito, dark and light ones in turn.
-const COLOURS: [RGBColor; 6] = [
-    RGBColor(0, 0, 0),
-    RGBColor(86, 180, 233),
-    RGBColor(213, 94, 0),
-    RGBColor(0, 114, 178),
-    RGBColor(230, 159, 0),
-    RGBColor(0, 158, 115),
-];
+/// Where the strip of failures begins, its middle, and its upper end.
+const FAILED: [f64; 3] = [1e4, 1e5, 1e6];
+/// Size of a mark, and distance of the marks of two parties that fail at one point (mm).
+const MARK: f64 = 1.3;
+const ASIDE: f64 = 0.8;
+/// Font size of the legend (mm).
+const LETTER: f64 = 3.4;
 
 /// The map. Panels are positions, rates and forces.
-///
-/// # Errors
-/// [`ErrorKind::Io`] if it cannot be drawn.
-pub(crate) fn map(family: &Family, outcomes: &[&Outcome]) -> Result<String> {
-    let mut text = String::new();
-    drawn(&mut text, family, outcomes)
-        .map_err(|error| Error::new(ErrorKind::Io, format!("the map of {} cannot be drawn: {error}", family.name)))?;
-    Ok(text)
-}
-
-type Drawn = std::result::Result<(), Box<dyn std::error::Error>>;
-
-fn drawn(text: &mut String, family: &Family, outcomes: &[&Outcome]) -> Drawn {
-    let groups = Group::ALL;
-    let size = (WIDE, HEAD + HIGH * groups.len() as u32);
-    let root = SVGBackend::with_string(text, size).into_drawing_area();
-    root.fill(&WHITE)?;
-    let (head, body) = root.split_vertically(HEAD);
+pub(crate) fn map(family: &Family, outcomes: &[&Outcome]) -> String {
     let names = names(outcomes);
-    legend(&head, family, &names)?;
-    for (panel, group) in body.split_evenly((groups.len(), 1)).iter().zip(groups) {
-        draw(&root, panel, family, outcomes, &names, group)?;
+    let title = format!("{}: {}", family.name, family.title);
+    let mut sheet = legend(&title, &names);
+    for (row, group) in Group::ALL.into_iter().enumerate() {
+        sheet.add(&panel(family, outcomes, &names, group), Vec2::new(0.0, -HEAD - row as f64 * PANEL[1]));
     }
-    root.present()?;
-    Ok(())
+    document(&sheet, [PANEL[0], HEAD + PANEL[1] * Group::ALL.len() as f64], &title)
 }
 
-fn legend<B: DrawingBackend>(area: &DrawingArea<B, Shift>, family: &Family, names: &[&str]) -> Drawn
-where
-    B::ErrorType: 'static,
-{
-    let font = ("sans-serif", 13).into_font();
-    area.draw(&Text::new(format!("{}: {}", family.name, family.title), (12, 10), ("sans-serif", 15).into_font()))?;
-    for (k, name) in names.iter().enumerate() {
-        let x = 20 + 150 * k as i32;
-        mark(area, (x, 44), k, "agree")?;
-        area.draw(&Text::new((*name).to_string(), (x + 12, 37), font.clone()))?;
+fn filling(verdict: End) -> Filling {
+    match verdict {
+        End::Agree => Filling::Full,
+        End::Inconclusive => Filling::Hollow,
+        End::Disagree => Filling::Crossed,
+        End::Fails => Filling::Cross,
     }
-    for (k, (verdict, words)) in
-        [("agree", "agrees"), ("inconclusive", "inconclusive"), ("disagree", "disagrees"), ("fails", "fails")]
-            .into_iter()
-            .enumerate()
-    {
-        let x = 20 + 110 * k as i32;
-        mark(area, (x, 70), 0, verdict)?;
-        area.draw(&Text::new(words, (x + 12, 63), font.clone()))?;
-    }
-    area.draw(&PathElement::new([(470, 70), (500, 70)], BLACK))?;
-    area.draw(&Text::new("error", (506, 63), font.clone()))?;
-    dashes(area, (570, 70), (600, 70), BLACK)?;
-    area.draw(&Text::new("bound", (606, 63), font))?;
-    Ok(())
 }
 
-/// Short strokes from one point to another (px).
-fn dashes<B: DrawingBackend>(area: &DrawingArea<B, Shift>, from: (i32, i32), to: (i32, i32), colour: RGBColor) -> Drawn
-where
-    B::ErrorType: 'static,
-{
-    const STROKE: f64 = 4.0;
-    let (dx, dy) = (f64::from(to.0 - from.0), f64::from(to.1 - from.1));
-    let length = dx.hypot(dy);
-    let at = |along: f64| {
-        let share = (along / length).smaller(1.0);
-        (from.0 + (dx * share).round() as i32, from.1 + (dy * share).round() as i32)
+fn legend(title: &str, names: &[&str]) -> Figure {
+    let mut figure = Figure::default();
+    figure.text(Vec2::new(4.0, -6.0), title, words(4.2));
+    let write = |figure: &mut Figure, x: &mut f64, y: f64, text: &str| {
+        figure.text(Vec2::new(*x, y - 1.2), text, words(LETTER));
+        *x += width(text, LETTER) + 9.0;
     };
-    let mut along = 0.0;
-    while along < length {
-        area.draw(&PathElement::new([at(along), at(along + STROKE)], colour.stroke_width(1)))?;
-        along += 2.0 * STROKE;
+    let mut x = 6.0;
+    for (number, name) in names.iter().enumerate() {
+        mark(&mut figure, Vec2::new(x, -13.0), MARK, number, Filling::Full);
+        x += 3.0;
+        write(&mut figure, &mut x, -13.0, name);
     }
-    Ok(())
+    let mut x = 6.0;
+    for (verdict, text) in End::ALL.into_iter().zip(["agrees", "inconclusive", "disagrees", "fails"]) {
+        mark(&mut figure, Vec2::new(x, -19.5), MARK, 0, filling(verdict));
+        x += 3.0;
+        write(&mut figure, &mut x, -19.5, text);
+    }
+    for (style, text) in [(solid(BLACK, 0.3), "error"), (Style { colour: BLACK, ..DASHED }, "bound")] {
+        figure.line([Vec2::new(x, -19.5), Vec2::new(x + 9.0, -19.5)], style);
+        x += 11.0;
+        write(&mut figure, &mut x, -19.5, text);
+    }
+    figure
 }
 
-/// The mark of a party (px): its shape by number, its filling by verdict.
-fn mark<B: DrawingBackend>(area: &DrawingArea<B, Shift>, (x, y): (i32, i32), party: usize, verdict: &str) -> Drawn
-where
-    B::ErrorType: 'static,
-{
-    let colour = COLOURS[party % COLOURS.len()];
-    let corners: Vec<(i32, i32)> = match party % 5 {
-        1 => vec![(-1, -1), (1, -1), (1, 1), (-1, 1)],
-        2 => vec![(0, -1), (1, 1), (-1, 1)],
-        3 => vec![(0, -1), (1, 0), (0, 1), (-1, 0)],
-        4 => vec![(-1, -1), (1, -1), (0, 1)],
-        _ => Vec::new(),
-    };
-    let corners: Vec<(i32, i32)> = corners.iter().map(|(dx, dy)| (x + MARK * dx, y + MARK * dy)).collect();
-    let cross = |area: &DrawingArea<B, Shift>| -> Drawn {
-        for slope in [1, -1] {
-            area.draw(&PathElement::new(
-                [(x - MARK, y - slope * MARK), (x + MARK, y + slope * MARK)],
-                colour.stroke_width(2),
-            ))?;
-        }
-        Ok(())
-    };
-    if verdict == "fails" {
-        return cross(area);
-    }
-    let fill = if verdict == "agree" { colour } else { WHITE };
-    if corners.is_empty() {
-        area.draw(&Circle::new((x, y), MARK, fill.filled()))?;
-        area.draw(&Circle::new((x, y), MARK, colour.stroke_width(1)))?;
-    } else {
-        area.draw(&Polygon::new(corners.clone(), fill.filled()))?;
-        area.draw(&PathElement::new([corners.clone(), vec![corners[0]]].concat(), colour.stroke_width(1)))?;
-    }
-    if verdict == "disagree" { cross(area) } else { Ok(()) }
-}
-
-/// A panel. The chart tells its pixels as those of the whole sheet, `root`.
-fn draw<B: DrawingBackend>(
-    root: &DrawingArea<B, Shift>,
-    panel: &DrawingArea<B, Shift>,
-    family: &Family,
-    outcomes: &[&Outcome],
-    names: &[&str],
-    group: Group,
-) -> Drawn
-where
-    B::ErrorType: 'static,
-{
+fn panel(family: &Family, outcomes: &[&Outcome], names: &[&str], group: Group) -> Figure {
     let dials = || outcomes.iter().map(|own| own.dial);
     let (low, high) = (dials().fold(f64::INFINITY, f64::smaller), dials().fold(0.0, f64::larger));
     let wide = if high > low { (high / low).powf(0.04) } else { 2.0 };
-    let (low, high) = (low / wide, high * wide);
-    let mut chart = ChartBuilder::on(panel)
-        .margin_right(16)
-        .margin_top(6)
-        .x_label_area_size(42)
-        .y_label_area_size(76)
-        .build_cartesian_2d((low..high).log_scale(), (ERRORS[0]..TOP).log_scale())?;
-    // Where the dial spans less than a decade, its own values are written below the axis.
-    let narrow = high / low < 10.0;
-    let number = |value: &f64| if narrow { String::new() } else { super::summary::dial(rounded(*value)) };
-    let error = |value: &f64| if *value > ERRORS[1] { String::new() } else { format!("{value:.0e}") };
-    chart
-        .configure_mesh()
-        .light_line_style(TRANSPARENT)
-        .bold_line_style(RGBColor(225, 225, 225))
-        .x_desc(family.dial)
-        .y_desc(format!("{}: error / scale", group.name()))
-        .x_label_formatter(&number)
-        .y_label_formatter(&error)
-        .x_labels(14)
-        .y_labels(8)
-        .label_style(("sans-serif", 12))
-        .axis_desc_style(("sans-serif", 13))
-        .draw()?;
-    chart.draw_series([PathElement::new(
-        [(low, ERRORS[1] * 10.0), (high, ERRORS[1] * 10.0)],
-        RGBColor(150, 150, 150),
-    )])?;
-    let area = chart.plotting_area();
-    let mut written: Vec<f64> = Vec::new();
-    for dial in dials().filter(|_| narrow) {
-        if !written.contains(&dial) {
-            written.push(dial);
-            let (x, y) = area.map_coordinate(&(dial, ERRORS[0]));
-            root.draw(&PathElement::new([(x, y), (x, y + 5)], BLACK))?;
-            root.draw(&Text::new(super::summary::dial(dial), (x - 4, y + 7), ("sans-serif", 12).into_font()))?;
-        }
-    }
-    let place = |dial: f64, error: f64| {
-        let clipped = if error.is_nan() { ERRORS[1] } else { error.clamp(ERRORS[0] * 3.0, ERRORS[1]) };
-        area.map_coordinate(&(dial, clipped))
-    };
-    for (index, name) in names.iter().enumerate() {
-        let colour = COLOURS[index % COLOURS.len()];
-        let party = |own: &Outcome| -> Option<Party> { own.parties.iter().find(|party| party.name == *name).cloned() };
-        let mut before: Option<[(i32, i32); 2]> = None;
+    let along = [low / wide, high * wide];
+    let mut chart = Chart::new(PANEL, [along, [ERRORS[0], FAILED[2]]]);
+    // Where the dial spans less than a decade, its own values stand below the axis.
+    let numbers = if along[1] / along[0] < 10.0 { distinct(dials()) } else { decades(along, 13) };
+    chart.axes([&numbers, &decades(ERRORS, 7)], &format!("{}: error over the scale", group.name()), family.dial);
+    chart.level(FAILED[0], solid(GREY, 0.3));
+    let clipped = |error: f64| if error.is_nan() { ERRORS[1] } else { error.clamp(3.0 * ERRORS[0], ERRORS[1]) };
+    let mut is_empty = true;
+    for (number, name) in names.iter().enumerate() {
+        // Where a party has numbers, its errors and its bounds are lines.
+        let mut lines: Vec<[Vec<Vec2>; 2]> = vec![Default::default()];
         let mut marks = Vec::new();
         for own in outcomes {
-            let Some(party) = party(own) else { continue };
+            let Some(party) = own.parties.iter().find(|party| party.name == *name) else { continue };
             // Several samples stand side by side.
             let dial = own.dial * (1.0 + 0.004 * own.sample as f64);
             let Some(reached) = party.reached.iter().find(|own| own.group == group) else {
-                if party.verdict == "fails" {
-                    let (x, y) = area.map_coordinate(&(dial, FAILED));
-                    marks.push(((x + 3 * index as i32, y), "fails".to_string()));
+                if party.verdict == End::Fails {
+                    marks.push((chart.at([dial, FAILED[1]]) + Vec2::new(ASIDE * number as f64, 0.0), Filling::Cross));
                 }
-                before = None;
+                lines.push(Default::default());
                 continue;
             };
-            let here = [place(dial, reached.error), place(dial, reached.bound)];
-            if let (Some(last), 0) = (before, own.sample) {
-                root.draw(&PathElement::new([last[0], here[0]], colour.stroke_width(1)))?;
-                dashes(root, last[1], here[1], colour)?;
+            let [error, bound] = [reached.error, reached.bound].map(|value| chart.at([dial, clipped(value)]));
+            marks.push((error, filling(party.verdict)));
+            if let ([errors, bounds], 0) = (lines.last_mut().expect("there is one"), own.sample) {
+                errors.push(error);
+                bounds.push(bound);
             }
-            marks.push((here[0], party.verdict.clone()));
-            before = (own.sample == 0).then_some(here).or(before);
         }
-        for (at, verdict) in marks {
-            mark(root, at, index, &verdict)?;
+        for [errors, bounds] in lines.into_iter().filter(|[errors, _]| errors.len() > 1) {
+            chart.figure.shape(errors, false, None, solid(colour(number), 0.3));
+            chart.figure.shape(bounds, false, None, Style { colour: colour(number), ..DASHED });
+        }
+        is_empty &= marks.is_empty();
+        for (at, filling) in marks {
+            mark(&mut chart.figure, at, MARK, number, filling);
         }
     }
-    Ok(())
-}
-
-fn rounded(value: f64) -> f64 {
-    format!("{value:.3e}").parse().unwrap_or(value)
+    if is_empty {
+        chart.empty("no solver and no engine has numbers here");
+    }
+    chart.figure
 }

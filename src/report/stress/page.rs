@@ -1,5 +1,6 @@
 //! The page of the documentation: all families with their tables and maps.
 
+use super::super::chart::label;
 use super::super::html::filled;
 use super::summary::{Tally, cells, names};
 use crate::plain::cells::marked;
@@ -22,7 +23,7 @@ pub(crate) fn page(families: &[(&Family, Vec<&Outcome>)], command: &str, maps: &
             say!(text, "{}", marked(&row));
         }
         for own in outcomes.iter().filter(|own| !own.refused.is_empty()) {
-            say!(text, "\nAt {}: {}.", super::summary::dial(own.dial), own.refused);
+            say!(text, "\nAt {}: {}.", label(own.dial), own.refused);
         }
         say!(text, "\n![{}]({maps}/{}.svg)", family.name, family.name);
     }

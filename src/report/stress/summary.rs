@@ -4,8 +4,9 @@ use std::collections::BTreeMap;
 
 use linkage::math::KeepNan;
 
+use super::super::chart::label as dial;
 use crate::plain::cells::{distinct, table};
-use lab::stress::{Family, Group, Outcome};
+use lab::stress::{End, Family, Group, Outcome};
 
 /// Counts over all points.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -16,18 +17,10 @@ pub(crate) struct Tally {
     pub(crate) refused: usize,
     /// Points at which something panicked.
     pub(crate) panics: usize,
-    /// Results of solvers and engines by verdict: agree, inconclusive, disagree, fails.
-    pub(crate) verdicts: [usize; 4],
+    /// Results of solvers and engines by verdict, in the order of [`End::ALL`].
+    pub(crate) verdicts: [usize; End::ALL.len()],
     /// Channels beyond their bound that no verdict tells of.
     pub(crate) silent: usize,
-}
-
-/// Verdicts in the order of [`Tally::verdicts`].
-pub(super) const WORDS: [&str; 4] = ["agree", "inconclusive", "disagree", "fails"];
-
-fn rank(word: &str) -> usize {
-    // Cases of families have no numbers that are known to be wrong, so that no verdict is `expected`.
-    WORDS.iter().position(|own| *own == word).unwrap_or_else(|| unreachable!("{word} is no verdict of a point"))
 }
 
 impl Tally {
@@ -39,7 +32,7 @@ impl Tally {
             tally.panics += usize::from(own.refused == "panic");
             tally.refused += usize::from(!own.refused.is_empty());
             for party in &own.parties {
-                tally.verdicts[rank(&party.verdict)] += 1;
+                tally.verdicts[party.verdict as usize] += 1;
                 tally.silent += party.silent;
             }
         }
@@ -104,17 +97,16 @@ pub(super) fn names<'a>(outcomes: &[&'a Outcome]) -> Vec<&'a str> {
 /// Where a party agrees, where not, its largest errors where it agrees, and there the largest share of a bound and the
 /// widest bound of a worst channel.
 pub(super) fn cells(outcomes: &[&Outcome], name: &str) -> [String; 7] {
-    let mut by_dial: Vec<(f64, usize)> = Vec::new();
+    let mut by_dial: Vec<(f64, End)> = Vec::new();
     let mut largest: BTreeMap<Group, f64> = BTreeMap::new();
     let (mut used, mut widest): (f64, f64) = (0.0, 0.0);
     for own in outcomes {
         let Some(party) = own.parties.iter().find(|party| party.name == name) else { continue };
-        let rank = rank(&party.verdict);
         match by_dial.last_mut().filter(|(dial, _)| *dial == own.dial) {
-            Some((_, worst)) => *worst = rank.max(*worst),
-            None => by_dial.push((own.dial, rank)),
+            Some((_, worst)) => *worst = party.verdict.max(*worst),
+            None => by_dial.push((own.dial, party.verdict)),
         }
-        if rank == 0 {
+        if party.verdict == End::Agree {
             for own in &party.reached {
                 let most = largest.entry(own.group).or_insert(0.0);
                 *most = most.larger(own.error);
@@ -123,43 +115,27 @@ pub(super) fn cells(outcomes: &[&Outcome], name: &str) -> [String; 7] {
             }
         }
     }
-    let stretches = |wanted: usize| stretches(&by_dial, wanted);
-    let others: Vec<String> = (1..WORDS.len())
-        .filter_map(|rank| {
-            let at = stretches(rank);
-            (!at.is_empty()).then(|| format!("{} {at}", WORDS[rank]))
-        })
-        .collect();
+    let stretches = |wanted: End| stretches(&by_dial, wanted);
+    let others = End::ALL[1..].iter().map(|&end| (end.word(), stretches(end))).filter(|(_, at)| !at.is_empty());
+    let others: Vec<String> = others.map(|(word, at)| format!("{word} {at}")).collect();
     let error = |group: Group| largest.get(&group).map_or_else(String::new, |error| format!("{error:.1e}"));
     let [positions, rates, forces] = Group::ALL.map(error);
     let [used, widest] = [used, widest].map(|value| match largest.is_empty() {
         true => String::new(),
         false => format!("{value:.1e}"),
     });
-    [stretches(0), others.join("; "), positions, rates, forces, used, widest]
+    [stretches(End::Agree), others.join("; "), positions, rates, forces, used, widest]
 }
 
 /// Neighbouring values of the dial with one verdict, as `1 .. 100`.
-fn stretches(by_dial: &[(f64, usize)], wanted: usize) -> String {
-    let mut found: Vec<[f64; 2]> = Vec::new();
-    let mut last = false;
-    for &(dial, rank) in by_dial {
-        let is = rank == wanted;
-        match found.last_mut().filter(|_| is && last) {
-            Some(own) => own[1] = dial,
-            None if is => found.push([dial; 2]),
-            None => {}
-        }
-        last = is;
-    }
-    let one =
-        |[from, to]: &[f64; 2]| if from == to { dial(*from) } else { format!("{} .. {}", dial(*from), dial(*to)) };
-    found.iter().map(one).collect::<Vec<_>>().join(", ")
-}
-
-/// A value of the dial.
-pub(super) fn dial(value: f64) -> String {
-    if (0.01..1e5).contains(&value) { format!("{value}") } else { format!("{value:e}") }
+fn stretches(by_dial: &[(f64, End)], wanted: End) -> String {
+    let same = by_dial.chunk_by(|one, next| one.1 == next.1).filter(|own| own[0].1 == wanted);
+    let one = |own: &[(f64, End)]| match own {
+        [(only, _)] => dial(*only),
+        [(from, _), .., (to, _)] => format!("{} .. {}", dial(*from), dial(*to)),
+        [] => String::new(),
+    };
+    same.map(one).collect::<Vec<_>>().join(", ")
 }
 
 /// Where a party does not agree, with the reason at the first of these points, by verdict.
@@ -167,8 +143,8 @@ fn told(outcomes: &[&Outcome], name: &str) -> Vec<(&'static str, String, String)
     let mut found: Vec<(&'static str, String, String)> = Vec::new();
     for own in outcomes {
         let Some(party) = own.parties.iter().find(|party| party.name == name) else { continue };
-        let word = WORDS[rank(&party.verdict)];
-        if word != WORDS[0] && !found.iter().any(|(known, ..)| *known == word) {
+        let word = party.verdict.word();
+        if party.verdict != End::Agree && !found.iter().any(|(known, ..)| *known == word) {
             found.push((word, dial(own.dial), party.why.clone()));
         }
     }

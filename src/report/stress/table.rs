@@ -4,36 +4,16 @@ use super::super::table_csv::csv;
 use lab::stress::{Family, Outcome};
 use linkage::error::Result;
 
-const HEADER: [&str; 21] = [
-    "family",
-    "dial",
-    "sample",
-    "party",
-    "verdict",
-    "group",
-    "error",
-    "bound",
-    "channel",
-    "used",
-    "closure",
-    "balance",
-    "step_s",
-    "sweeps",
-    "extrapolated",
-    "steps",
-    "work",
-    "done",
-    "silent",
-    "against",
-    "why",
-];
+const HEADER: &str = "family dial sample party verdict group error bound channel used closure balance step_s sweeps \
+                      extrapolated steps work done silent against why";
 
 /// The table. Errors and bounds are shares of the channel's scale; empty cells are numbers that do not exist.
 ///
 /// # Errors
 /// [`ErrorKind::Io`](linkage::ErrorKind::Io) if the table cannot be written.
 pub(crate) fn rows<'a>(family: &Family, outcomes: impl Iterator<Item = &'a Outcome>) -> Result<String> {
-    let mut rows = vec![HEADER.map(String::from).to_vec()];
+    let header: Vec<String> = HEADER.split(' ').map(String::from).collect();
+    let (columns, mut rows) = (header.len(), vec![header]);
     let some = |value: Option<f64>| value.map_or_else(String::new, |value| format!("{value:e}"));
     let count = |value: Option<usize>| value.map_or_else(String::new, |value| value.to_string());
     for own in outcomes {
@@ -41,7 +21,7 @@ pub(crate) fn rows<'a>(family: &Family, outcomes: impl Iterator<Item = &'a Outco
         if !own.refused.is_empty() {
             let mut row: Vec<String> = head.clone().into();
             row.extend(["", "refused"].map(String::from));
-            row.resize(HEADER.len() - 1, String::new());
+            row.resize(columns - 1, String::new());
             row.push(own.refused.clone());
             rows.push(row);
         }
@@ -71,7 +51,7 @@ pub(crate) fn rows<'a>(family: &Family, outcomes: impl Iterator<Item = &'a Outco
                 cells.push(std::array::from_fn(|_| String::new()));
             }
             for cell in cells {
-                rows.push([&head[..], &[party.name.clone(), party.verdict.clone()], &cell, &tail].concat());
+                rows.push([&head[..], &[party.name.clone(), party.verdict.word().into()], &cell, &tail].concat());
             }
         }
     }

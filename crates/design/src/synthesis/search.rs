@@ -10,9 +10,6 @@
 mod candidate;
 mod refine;
 
-use std::num::NonZero;
-use std::sync::atomic::{AtomicUsize, Ordering};
-
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::{Rng, SeedableRng};
 
@@ -21,6 +18,7 @@ use super::rating::Rater;
 use crate::task::Task;
 use candidate::{Candidate, free_zero, of_share, values};
 use linkage::error::{Error, ErrorKind, Result};
+use linkage::threads::{cores, made};
 
 /// Equal parts of the turn on which the cost of random candidates is computed.
 const COARSE: usize = 72;
@@ -63,17 +61,14 @@ pub struct Found {
 /// Those of [`Task::check`]; [`ErrorKind::Numeric`] if no candidate can be assembled over the whole turn.
 pub fn search(task: &Task, threads: usize, progress: &mut dyn FnMut(f64)) -> Result<Found> {
     task.check()?;
-    let threads = match threads {
-        0 => std::thread::available_parallelism().map_or(1, NonZero::get),
-        threads => threads.min(MOST_THREADS),
-    };
+    let threads = if threads == 0 { cores() } else { threads.min(MOST_THREADS) };
     let effort = task.effort;
     let blocks: Vec<usize> = (0..effort.candidates.div_ceil(BLOCK)).collect();
     let (mut kept, mut assembled) = (Vec::new(), 0);
     let rounds = blocks.chunks(ROUND);
     let count = rounds.len();
     for (round, blocks) in rounds.enumerate() {
-        let found = side_by_side(threads, blocks, |&block| Random::new(task).block(block))?;
+        let found = made(blocks, threads, |&block| Random::new(task).block(block), |_| {});
         for (best, own) in found {
             kept.extend(best);
             assembled += own;
@@ -85,7 +80,7 @@ pub fn search(task: &Task, threads: usize, progress: &mut dyn FnMut(f64)) -> Res
     let mut refined = Vec::new();
     let total = kept.len();
     for chunk in kept.chunks(ROUND) {
-        refined.extend(side_by_side(threads, chunk, |candidate| refine::refine(task, candidate))?);
+        refined.extend(made(chunk, threads, |candidate| refine::refine(task, candidate), |_| {}));
         progress(RANDOM_SHARE + (1.0 - RANDOM_SHARE) * refined.len() as f64 / total as f64);
     }
     let count = refined.len();
@@ -99,30 +94,6 @@ pub fn search(task: &Task, threads: usize, progress: &mut dyn FnMut(f64)) -> Res
         candidates: [effort.candidates, assembled],
         refined: refined.iter().map(|candidate| candidate.cost).collect(),
     })
-}
-
-/// What `work` makes of every item, in their order, by so many threads: each takes the next item that is left.
-fn side_by_side<T: Sync, R: Send>(threads: usize, items: &[T], work: impl Fn(&T) -> R + Sync) -> Result<Vec<R>> {
-    let next = AtomicUsize::new(0);
-    let take = || {
-        let mine =
-            std::iter::from_fn(|| Some(next.fetch_add(1, Ordering::Relaxed)).filter(|&index| index < items.len()));
-        mine.map(|index| (index, work(&items[index]))).collect::<Vec<_>>()
-    };
-    let mut made = std::thread::scope(|scope| {
-        let start = |_| std::thread::Builder::new().spawn_scoped(scope, take);
-        let threads: Vec<_> = (1..threads.min(items.len())).map(start).collect::<std::io::Result<_>>()?;
-        let mut made = take();
-        for thread in threads {
-            made.extend(thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)));
-        }
-        Ok(made)
-    })
-    .map_err(|error: std::io::Error| {
-        Error::new(ErrorKind::Io, format!("threads cannot be started: {error}")).help("ask for fewer threads")
-    })?;
-    made.sort_unstable_by_key(|&(index, _)| index);
-    Ok(made.into_iter().map(|(_, made)| made).collect())
 }
 
 fn none(task: &Task) -> Error {

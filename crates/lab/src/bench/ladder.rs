@@ -2,15 +2,15 @@
 
 use super::options::Options;
 use super::peer::Way;
-use super::point::Party;
+use super::point::{Outcome, Party, Point};
+use crate::steps::work_of_run;
 use analytic::reduced::ACCURACY;
 use analytic::{AssurAt, NewtonAt};
 use linkage::case::Case;
 use linkage::engine::{Engine, Route, Settings};
 use linkage::solver::Solver;
 use linkage::trajectory::Stage;
-use prover::engines::with_step;
-use prover::engines::{EngineName, usual_step};
+use prover::engines::{EngineName, usual_step, with_step};
 
 /// Steps of fixed-step engines over the usual one, the coarsest first.
 const STEPS: [f64; 10] = [16.0, 8.0, 4.0, 2.0, 1.0, 0.5, 0.25, 0.125, 0.0625, 0.03125];
@@ -35,41 +35,30 @@ pub(super) enum Runner {
     Peer(usize, Way),
 }
 
-/// A way that is to be measured.
+/// A way that is to be measured: its point, which has failed until it has run.
 pub(super) struct Planned {
-    pub(super) program: String,
-    pub(super) party: Party,
-    pub(super) way: String,
-    pub(super) resolution: String,
-    pub(super) settings: Option<Settings>,
-    pub(super) is_usual: bool,
+    pub(super) point: Point,
     pub(super) runner: Runner,
 }
 
 impl Planned {
-    /// A peer's own way.
-    pub(super) fn of_peer(index: usize, name: &str, way: Way) -> Self {
-        Planned {
-            program: name.to_string(),
-            party: Party::Peer,
-            way: way.name.clone(),
-            resolution: way.resolution.clone(),
-            settings: None,
-            is_usual: false,
-            runner: Runner::Peer(index, way),
-        }
+    fn new(program: &str, party: Party, resolution: String, runner: Runner) -> Self {
+        let (program, way) = (program.to_string(), String::new());
+        let outcome = Outcome::Failed("it was not run".into());
+        Planned { point: Point { program, party, way, resolution, settings: None, is_usual: false, outcome }, runner }
     }
 
-    fn of_side(solver: Box<dyn Solver>, accuracy: Option<f64>, is_usual: bool) -> Self {
-        Planned {
-            program: solver.name().to_string(),
-            party: Party::Side,
-            way: String::new(),
-            resolution: accuracy.map_or_else(String::new, |accuracy| format!("accuracy {accuracy:e}")),
-            settings: None,
-            is_usual,
-            runner: Runner::Side(solver),
-        }
+    /// A peer's own way.
+    pub(super) fn of_peer(index: usize, name: &str, way: Way) -> Self {
+        let words = way.name.clone();
+        let mut planned = Planned::new(name, Party::Peer, way.resolution.clone(), Runner::Peer(index, way));
+        planned.point.way = words;
+        planned
+    }
+
+    fn of_side(solver: Box<dyn Solver>, accuracy: Option<f64>) -> Self {
+        let resolution = accuracy.map_or_else(String::new, |accuracy| format!("accuracy {accuracy:e}"));
+        Planned::new(solver.name(), Party::Side, resolution, Runner::Side(solver))
     }
 }
 
@@ -106,18 +95,14 @@ pub(super) fn plan(case: &Case, options: &Options) -> Plan {
                 left_out += 1;
                 continue;
             }
-            points.push(Planned {
-                program: engine.name().to_string(),
-                party: Party::Engine,
-                way: told(engine, &settings, case),
-                resolution: match engine.controls_error() {
-                    true => format!("accuracy {resolution:e}"),
-                    false => format!("step {resolution:.3e} s"),
-                },
-                settings: Some(settings),
-                is_usual: false,
-                runner: Runner::Engine(engine.with(settings)),
-            });
+            let resolution = match engine.controls_error() {
+                true => format!("accuracy {resolution:e}"),
+                false => format!("step {resolution:.3e} s"),
+            };
+            let runner = Runner::Engine(engine.with(settings));
+            let mut planned = Planned::new(engine.name(), Party::Engine, resolution, runner);
+            (planned.point.way, planned.point.settings) = (told(engine, &settings, case), Some(settings));
+            points.push(planned);
         }
     }
     Plan { points, left_out, versions }
@@ -125,13 +110,13 @@ pub(super) fn plan(case: &Case, options: &Options) -> Plan {
 
 fn sides(case: &Case, options: &Options) -> Vec<Planned> {
     let make = |accuracy: f64| -> [Box<dyn Solver>; 2] { [Box::new(AssurAt(accuracy)), Box::new(NewtonAt(accuracy))] };
-    let [first, second] = make(ACCURACY);
     let told = case.is_free().then_some(ACCURACY);
-    let mut points = vec![Planned::of_side(first, told, true), Planned::of_side(second, told, true)];
+    let mut points: Vec<Planned> = make(ACCURACY).map(|side| Planned::of_side(side, told)).into();
+    points.iter_mut().for_each(|own| own.point.is_usual = true);
     if case.is_free() {
         let accuracies = if options.is_quick { &SIDES[2..3] } else { &SIDES[..] };
         for &accuracy in accuracies {
-            points.extend(make(accuracy).map(|side| Planned::of_side(side, Some(accuracy), false)));
+            points.extend(make(accuracy).map(|side| Planned::of_side(side, Some(accuracy))));
         }
     }
     points
@@ -156,12 +141,9 @@ fn curves(engine: &dyn Engine, case: &Case, options: &Options) -> Vec<Settings> 
     let mut curves = Vec::new();
     for &route in &routes {
         for &sweeps in &sweeps {
-            for &extrapolated in times {
-                // Probes and impulses are read from single runs, or from two: the rest brings nothing that is new.
-                if route == Route::Differences || extrapolated < 2 {
-                    curves.push(Settings { sweeps, route, extrapolated, ..own });
-                }
-            }
+            // Probes and impulses are read from single runs, or from two: the rest brings nothing that is new.
+            let worth = times.iter().filter(|&&times| route == Route::Differences || times < 2);
+            curves.extend(worth.map(|&extrapolated| Settings { sweeps, route, extrapolated, ..own }));
         }
     }
     curves
@@ -176,25 +158,13 @@ fn resolutions(engine: &dyn Engine, usual: f64, options: &Options) -> Vec<f64> {
     }
 }
 
-/// Work of a run, in steps without sweeps. That of an engine that chooses its own steps is not known.
+/// Work of a run with its probes, in steps without sweeps.
 fn work(case: &Case, engine: &dyn Engine, settings: &Settings) -> f64 {
-    if engine.controls_error() {
-        return 0.0;
-    }
-    let runs = 2f64.powi(settings.extrapolated as i32 + 1) - 1.0;
     let probes = match settings.route {
-        Route::Probe => case.grid.len() as f64 * settings.work() * settings.resolution,
-        Route::Differences | Route::Native => 0.0,
+        Route::Probe if !engine.controls_error() => case.grid.len() as f64 * settings.work() * settings.resolution,
+        Route::Probe | Route::Differences | Route::Native => 0.0,
     };
-    span(case) * runs * settings.work() + probes * (settings.extrapolated + 1) as f64
-}
-
-fn span(case: &Case) -> f64 {
-    let times = &case.grid.times;
-    let ends = times
-        .iter()
-        .fold([0.0f64; 2], |[first, last], &t| [if t < first { t } else { first }, if t > last { t } else { last }]);
-    ends[1] - ends[0]
+    work_of_run(case, engine, settings) + probes * (settings.extrapolated + 1) as f64
 }
 
 /// The settings besides the resolution, in words.

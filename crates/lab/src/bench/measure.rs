@@ -39,39 +39,31 @@ impl Desk<'_> {
     /// All points. Versions that peers tell are added to `versions`.
     pub(super) fn measure(
         &self,
-        planned: &[Planned],
+        mut planned: Vec<Planned>,
         rounds: usize,
         progress: &mut dyn FnMut(f64),
         versions: &mut Vec<(String, String)>,
     ) -> Vec<Point> {
-        let all = (rounds * planned.len()).max(1) as f64;
-        let mut points: Vec<Point> = Vec::new();
+        let (count, all) = (planned.len(), (rounds * planned.len()).max(1) as f64);
         for round in 0..rounds {
-            for (index, way) in planned.iter().enumerate() {
-                progress((round * planned.len() + index) as f64 / all);
-                match round {
-                    0 => {
-                        let outcome = self.first(way, versions);
-                        points.push(Point {
-                            program: way.program.clone(),
-                            party: way.party,
-                            way: way.way.clone(),
-                            resolution: way.resolution.clone(),
-                            settings: way.settings,
-                            is_usual: way.is_usual,
-                            outcome: outcome.map_or_else(|reason| Outcome::Failed(short(&reason)), Outcome::Answered),
-                        });
+            for (index, Planned { point, runner }) in planned.iter_mut().enumerate() {
+                progress((round * count + index) as f64 / all);
+                match &mut point.outcome {
+                    Outcome::Answered(run) if round > 0 => self.again(runner, round, run),
+                    Outcome::Answered(_) | Outcome::Failed(_) if round > 0 => {}
+                    outcome => {
+                        let found = self.first(runner, versions);
+                        *outcome = found.map_or_else(|reason| Outcome::Failed(short(&reason)), Outcome::Answered);
                     }
-                    _ => self.again(way, round, &mut points[index]),
                 }
             }
         }
-        points
+        planned.into_iter().map(|own| own.point).collect()
     }
 
-    fn first(&self, way: &Planned, versions: &mut Vec<(String, String)>) -> Result<Run, String> {
+    fn first(&self, runner: &Runner, versions: &mut Vec<(String, String)>) -> Result<Run, String> {
         let told = |error: Error| error.to_string();
-        match &way.runner {
+        match runner {
             Runner::Side(solver) => self.own(solver.as_ref()).map_err(told),
             Runner::Engine(engine) => self.own(engine.as_ref()).map_err(told),
             Runner::Peer(index, way) => {
@@ -87,10 +79,9 @@ impl Desk<'_> {
     }
 
     /// One more round of what answered.
-    fn again(&self, way: &Planned, round: usize, point: &mut Point) {
-        let Outcome::Answered(run) = &mut point.outcome else { return };
+    fn again(&self, runner: &Runner, round: usize, run: &mut Run) {
         let is_long = run.seconds.iter().any(|&seconds| seconds > LONG);
-        match &way.runner {
+        match runner {
             Runner::Side(_) | Runner::Engine(_) | Runner::Peer(..) if is_long && round >= FEW => {}
             Runner::Side(solver) => run.seconds.extend(self.timed(solver.as_ref()).map(|(seconds, ..)| seconds)),
             Runner::Engine(engine) => run.seconds.extend(self.timed(engine.as_ref()).map(|(seconds, ..)| seconds)),

@@ -78,7 +78,7 @@ pub fn bench(
     }
     let rounds = options.rounds();
     let desk = measure::Desk { case, reference: &reference, floor: &floor, peers, clock };
-    let points = desk.measure(&found, rounds, progress, &mut versions);
+    let points = desk.measure(found, rounds, progress, &mut versions);
     let own = |point: &&Point| point.party == Party::Side && point.is_usual && point.program == "assur";
     let unit = points.iter().find(own).and_then(Point::seconds).unwrap_or(f64::NAN);
     let times = &case.grid.times;

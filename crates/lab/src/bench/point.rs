@@ -114,11 +114,7 @@ impl Point {
     /// Way and resolution in words.
     #[must_use]
     pub fn told(&self) -> String {
-        [self.way.as_str(), self.resolution.as_str()]
-            .iter()
-            .filter(|part| !part.is_empty())
-            .copied()
-            .collect::<Vec<_>>()
-            .join(", ")
+        let comma = if self.way.is_empty() || self.resolution.is_empty() { "" } else { ", " };
+        format!("{}{comma}{}", self.way, self.resolution)
     }
 }

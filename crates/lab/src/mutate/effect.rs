@@ -2,22 +2,23 @@
 
 use super::kinds::{At, Plant};
 use super::planted::{Fault, Planted};
+use super::stage::Stage;
 use analytic::AssurSolver;
 use linkage::case::Case;
 use linkage::error::Result;
 use linkage::math::KeepNan;
 use linkage::math::statistics::share;
 use linkage::solver::{Solver, State};
-use linkage::trajectory::{Stage, Trajectory};
+use linkage::trajectory::Stage as Of;
 use prover::compare::magnitudes;
 
 /// Change, relative to the largest number of a quantity, that is rounding: of a case solved once more with other
 /// numbers, which follow from each other. It is a tenth and less of what the two sides are allowed to differ by.
-pub(super) fn rounding(stage: Stage) -> f64 {
+pub(super) fn rounding(stage: Of) -> f64 {
     match stage {
-        Stage::Positions => 1e-13,
-        Stage::Velocities | Stage::Accelerations => 1e-12,
-        Stage::Reactions | Stage::BalancingMoment => 1e-11,
+        Of::Positions => 1e-13,
+        Of::Velocities | Of::Accelerations => 1e-12,
+        Of::Reactions | Of::BalancingMoment => 1e-11,
     }
 }
 
@@ -35,7 +36,7 @@ pub(super) enum Effect {
 }
 
 /// Whether a case has a part that a fault is in.
-pub(super) fn has_part(case: &Case, fault: Fault) -> Result<bool> {
+fn has_part(case: &Case, fault: Fault) -> Result<bool> {
     match fault.kind.plant {
         Plant::Case(change) => Ok(change(case, fault.size).is_some()),
         Plant::Answer(change) => {
@@ -52,24 +53,24 @@ pub(super) fn has_part(case: &Case, fault: Fault) -> Result<bool> {
     }
 }
 
-/// What a fault changes in the exact answers of side 1, whose right ones are `right`, and known to `integration` where
-/// forces decide the motion (channel by channel, in their units).
-pub(super) fn effect(case: &Case, right: &Trajectory, integration: &[f64], fault: Fault) -> Result<Effect> {
-    if !has_part(case, fault)? {
-        return Ok(Effect::None);
+impl Stage<'_> {
+    /// What a fault changes in the exact answers of side 1.
+    pub(super) fn effect(&self, fault: Fault) -> Result<Effect> {
+        if !has_part(&self.case, fault)? {
+            return Ok(Effect::None);
+        }
+        let Ok(wrong) = Planted { hook: fault, inner: Box::new(AssurSolver) }.solve(&self.case) else {
+            return Ok(Effect::Unsolved);
+        };
+        let (mut largest, mut beyond) = (0.0f64, false);
+        let known = magnitudes(&self.right).into_iter().zip(&self.integration);
+        for ((channel, ours), ((size, error), (_, theirs))) in self.right.iter().zip(known.zip(wrong.iter())) {
+            // Whole turns count here.
+            let change = ours.iter().zip(theirs).fold(0.0f64, |most, (a, b)| most.larger((a - b).abs()));
+            let relative = share(change, size);
+            largest = largest.larger(relative);
+            beyond |= !(relative <= rounding(channel.kind.stage) + share(*error, size));
+        }
+        Ok(if beyond { Effect::Changes(largest) } else { Effect::Equivalent(largest) })
     }
-    let Ok(wrong) = Planted { hook: fault, inner: Box::new(AssurSolver) }.solve(case) else {
-        return Ok(Effect::Unsolved);
-    };
-    let sizes = magnitudes(right);
-    let (mut largest, mut beyond) = (0.0f64, false);
-    let known = sizes.iter().zip(integration);
-    for ((channel, ours), ((size, error), (_, theirs))) in right.iter().zip(known.zip(wrong.iter())) {
-        // Whole turns count here.
-        let change = ours.iter().zip(theirs).fold(0.0f64, |most, (a, b)| most.larger((a - b).abs()));
-        let relative = share(change, *size);
-        largest = largest.larger(relative);
-        beyond |= !(relative <= rounding(channel.kind.stage) + share(*error, *size));
-    }
-    Ok(if beyond { Effect::Changes(largest) } else { Effect::Equivalent(largest) })
 }

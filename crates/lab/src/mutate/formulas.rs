@@ -12,8 +12,8 @@ use linkage::error::Result;
 use linkage::math::KeepNan;
 use linkage::math::statistics::share;
 use linkage::trajectory::{Channel, Stage as Of};
-use prover::claims::planted;
-use prover::proof::{Judgement, formula_checks};
+use prover::claims::{Course, planted};
+use prover::proof::{Judgement, Reference, formula_checks};
 use scenario::{Claim, Formula, Formulas};
 
 /// Work of an operation of a formula at an instant, in steps of an engine's four-bar.
@@ -26,6 +26,12 @@ pub(super) struct Planting {
 }
 
 impl Stage<'_> {
+    /// Names of the formulas that both sides judge.
+    fn judged_formulas(&self) -> BTreeSet<&str> {
+        let judged = self.sides.judgement().into_iter().flat_map(|own| &own.sides[0].1);
+        judged.filter_map(|all| Some(all.first()?.name.as_str())).collect()
+    }
+
     /// Indices of the formulas that claim an exact value, and of the steps that they use. What is claimed with an
     /// error stays right within it.
     pub(super) fn formulas(&self) -> Vec<usize> {
@@ -48,7 +54,7 @@ impl Stage<'_> {
     pub(super) fn work_of_formulas(&self) -> f64 {
         let formulas = &self.scenario.formulas;
         let nodes: Vec<Id> = formulas.claims().map(|(formula, _)| formula.id).collect();
-        let operations = Program::of(&formulas.graph, &nodes).len() * self.cranks().len();
+        let operations = Program::of(&formulas.graph, &nodes).len() * self.case.grid.len();
         // By value and twice by derivative.
         OPERATION * 2.0 * 6.0 * operations as f64
     }
@@ -95,7 +101,7 @@ impl Stage<'_> {
         // The unit of its name stays, as `deg`.
         let unit = name.strip_prefix(&format!("{}.", claimed.channel.subject()))?;
         let is_si = unit == claimed.channel.kind.suffix;
-        let all = self.channels();
+        let all = self.right.channels();
         let first = all.iter().position(|channel| *channel == claimed.channel)?;
         let other = all[first..].iter().chain(all).find(|other| is_meant(&claimed.channel, other))?;
         let suffix = if other.kind == claimed.channel.kind { unit } else { other.kind.suffix };
@@ -106,7 +112,7 @@ impl Stage<'_> {
     /// What a mistake changes: in a value that is claimed, or in what is claimed.
     pub(super) fn formula_effect(&self, own: &Planting) -> Result<Effect> {
         let right = &self.scenario.formulas;
-        self.on_course(&|course| {
+        self.sides.on_course(&self.case, Reference::Assur, &|course: &Course| {
             let [ours, theirs] = [right, &own.formulas].map(|formulas| course.given(formulas));
             let (mut largest, mut beyond, mut unsolved) = (0.0f64, false, false);
             let judged = self.judged_formulas();
@@ -132,7 +138,7 @@ impl Stage<'_> {
                     compare(ours, theirs);
                 } else {
                     let holds = |claim: &Claim| -> Result<Vec<Rounded>> {
-                        let all = course.values(claim)?.into_iter().zip(self.cranks());
+                        let all = course.values(claim)?.into_iter().zip(self.right.inputs());
                         Ok(all.filter(|(_, crank)| formula.holds_at(**crank)).map(|(value, _)| value).collect())
                     };
                     compare(&holds(claim)?, &holds(claimed)?);
@@ -148,7 +154,7 @@ impl Stage<'_> {
 
     /// What both sides make of it.
     pub(super) fn formula_outcome(&self, own: &Planting) -> Outcome {
-        let judged = self.claimed(&own.formulas).map(|sides| {
+        let judged = self.sides.claimed(&self.case, &own.formulas).map(|sides| {
             let judgement = Judgement::of(sides);
             let checks = formula_checks(&judgement);
             Eyes::default().formulas(&judgement, &checks).outcome()

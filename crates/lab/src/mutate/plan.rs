@@ -1,8 +1,5 @@
 //! Which faults are planted where, and all of them at once.
 
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::mpsc;
-
 use super::effect::Effect;
 use super::formulas;
 use super::kinds::{self, Family, Kind, Mistake, Plant};
@@ -12,6 +9,7 @@ use super::planted::Fault;
 use super::seen::Outcome;
 use super::stage::Stage;
 use linkage::error::{Advice, Error, ErrorKind, Result};
+use linkage::threads::{cores, made};
 use prover::proof::{BUDGET, Options};
 use scenario::Scenario;
 
@@ -57,33 +55,16 @@ pub fn mutate(scenario: &Scenario, asked: &Asked, progress: &mut dyn FnMut(f64))
     }
     let kinds = asked.kinds();
     allowed(&stage, &kinds, asked)?;
-    let next = AtomicUsize::new(0);
-    let cores = std::thread::available_parallelism().map_or(1, usize::from);
-    let threads = if asked.jobs == 0 { cores } else { asked.jobs };
-    let (tell, told) = mpsc::channel();
-    let mut found: Vec<Option<Result<Planting>>> = kinds.iter().map(|_| None).collect();
-    std::thread::scope(|scope| {
-        for _ in 0..threads.min(kinds.len()) {
-            let (tell, next, kinds, stage) = (tell.clone(), &next, &kinds, &stage);
-            scope.spawn(move || {
-                while let Some(kind) = kinds.get(next.fetch_add(1, Ordering::Relaxed)) {
-                    let _ = tell.send((kind.name, of_kind(stage, kind, asked)));
-                }
-            });
-        }
-        drop(tell);
-        for (count, (name, planting)) in told.into_iter().enumerate() {
-            let index = kinds.iter().position(|kind| kind.name == name).expect("the kind is one of these");
-            found[index] = Some(planting);
-            progress((count + 1) as f64 / kinds.len() as f64);
-        }
-    });
+    let threads = if asked.jobs == 0 { cores() } else { asked.jobs };
+    let done = |count: usize| progress(count as f64 / kinds.len() as f64);
+    let found = made(&kinds, threads, |kind| of_kind(&stage, kind, asked), done);
     let (mut mutants, mut without) = (Vec::new(), Vec::new());
     for (kind, planting) in kinds.iter().zip(found) {
-        match planting.expect("every kind was planted")? {
-            Planting::Nowhere => without.push(kind.name),
-            Planting::Done(own) => mutants.extend(own),
+        let planted = planting?;
+        if planted.is_empty() {
+            without.push(kind.name);
         }
+        mutants.extend(planted);
     }
     let is_real = |mutant: &Mutant| !matches!(mutant.outcome, Outcome::Equivalent(_));
     let instead = if mutants.iter().any(is_real) { Vec::new() } else { families(&stage)? };
@@ -153,12 +134,6 @@ fn fault(kind: &'static Kind) -> Fault {
     Fault { kind, size: kind.size.unwrap_or(1.0) }
 }
 
-/// What came of one kind.
-enum Planting {
-    Nowhere,
-    Done(Vec<Mutant>),
-}
-
 /// A mistake in every formula that has a place for it, with what it changes; if `only_real`, the first that changes
 /// something.
 fn spoiled(
@@ -182,7 +157,7 @@ fn spoiled(
     Ok(all)
 }
 
-fn in_formulas(stage: &Stage, kind: &'static Kind, mistake: Mistake, asked: &Asked) -> Result<Planting> {
+fn in_formulas(stage: &Stage, kind: &'static Kind, mistake: Mistake, asked: &Asked) -> Result<Vec<Mutant>> {
     let found = |index: usize, size: f64| {
         stage.planting(kind, mistake, index, size).is_some_and(|own| stage.formula_outcome(&own).is_found())
     };
@@ -197,17 +172,18 @@ fn in_formulas(stage: &Stage, kind: &'static Kind, mistake: Mistake, asked: &Ask
         let smallest = sized.map(|(size, margin)| smallest(size, margin, &|size| found(index, size)));
         mutants.push(Mutant { kind, party: Party::Formulas, formula: Some(own.what), outcome, effect, smallest });
     }
-    Ok(if mutants.is_empty() { Planting::Nowhere } else { Planting::Done(mutants) })
+    Ok(mutants)
 }
 
-fn of_kind(stage: &Stage, kind: &'static Kind, asked: &Asked) -> Result<Planting> {
+/// What came of one kind: nothing where the scenario has no part for it.
+fn of_kind(stage: &Stage, kind: &'static Kind, asked: &Asked) -> Result<Vec<Mutant>> {
     if let Plant::Formula(mistake) = kind.plant {
         return in_formulas(stage, kind, mistake, asked);
     }
     let fault = fault(kind);
     let effect = stage.effect(fault)?;
     let change = match effect {
-        Effect::None => return Ok(Planting::Nowhere),
+        Effect::None => return Ok(Vec::new()),
         Effect::Unsolved => None,
         Effect::Equivalent(change) | Effect::Changes(change) => Some(change),
     };
@@ -222,5 +198,5 @@ fn of_kind(stage: &Stage, kind: &'static Kind, asked: &Asked) -> Result<Planting
         let smallest = outcome.margin().filter(|_| sized).map(|margin| smallest(fault.size, margin, &is_found));
         Mutant { kind, party, formula: None, outcome, effect: change, smallest }
     };
-    Ok(Planting::Done(parties.map(one).collect()))
+    Ok(parties.map(one).collect())
 }

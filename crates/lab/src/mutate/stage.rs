@@ -2,7 +2,6 @@
 
 use std::sync::OnceLock;
 
-use super::effect::{Effect, effect};
 use super::kinds::Plant;
 use super::mutant::Party;
 use super::planted::{Fault, Planted};
@@ -13,20 +12,13 @@ use linkage::engine::{Engine, Kept};
 use linkage::error::Result;
 use linkage::math::KeepNan;
 use linkage::solver::Solver;
-use linkage::trajectory::{Channel, Trajectory};
+use linkage::trajectory::Trajectory;
 use linkage::work::{Count, PLACED, counted, limited};
-use prover::claims::Course;
-
 use prover::compare::overall;
-
 use prover::proof::{
-    BUDGET, EachSide, EngineProof, Engines, Entrant, Ledger, Options, Problem, Reference, SIDES, SideClaims, Sides,
-    TRUE_SIDES,
+    BUDGET, EachSide, EngineProof, Engines, Entrant, Ledger, Options, Problem, Reference, SIDES, Sides, TRUE_SIDES,
 };
-
-use scenario::{Formulas, Scenario};
-
-use std::collections::BTreeSet;
+use scenario::Scenario;
 
 /// What stands around an engine.
 type Around<'a> = &'a dyn Fn(Box<dyn Engine>) -> Box<dyn Engine>;
@@ -35,13 +27,14 @@ type Around<'a> = &'a dyn Fn(Box<dyn Engine>) -> Box<dyn Engine>;
 pub(super) struct Stage<'a> {
     pub(super) scenario: &'a Scenario,
     /// The part of its mechanism that is wanted.
-    case: Case,
+    pub(super) case: Case,
     options: &'a Options,
     /// The analytic sides without a fault.
-    sides: Sides,
-    /// Exact answers of side 1, and the error of its integration, channel by channel.
-    right: Trajectory,
-    integration: Vec<f64>,
+    pub(super) sides: Sides,
+    /// Exact answers of side 1, and the error of its integration where forces decide the motion, channel by channel, in
+    /// their units.
+    pub(super) right: Trajectory,
+    pub(super) integration: Vec<f64>,
     /// The engine's runs without a fault.
     runs: OnceLock<Kept>,
     /// Work of both sides, and of the engine, without a fault (in steps of an engine's four-bar).
@@ -70,7 +63,7 @@ impl<'a> Stage<'a> {
         let runs = OnceLock::new();
         let (work, verdict, engine) = ([placed, 0.0], "", "");
         let mut stage = Stage { scenario, case, options, sides, right, integration, runs, work, verdict, engine };
-        let proof = stage.engine(&stage.sides, &|own| stage.kept(own), true)?;
+        let proof = stage.engine(&stage.sides, &|own| kept_in(&stage.runs, own), true)?;
         let own_forces = proof.own_forces.as_ref().and_then(|own| own.search.as_ref());
         stage.work[1] = proof.search.iter().chain(own_forces).map(|own| own.effort).sum();
         let verdict = stage.sides.verdict();
@@ -91,42 +84,6 @@ impl<'a> Stage<'a> {
         Ok(proofs.swap_remove(0))
     }
 
-    /// The engine whose runs are kept for all proofs of this scenario.
-    fn kept(&self, engine: Box<dyn Engine>) -> Box<dyn Engine> {
-        kept_in(&self.runs, engine)
-    }
-
-    /// Names of the formulas that both sides judge.
-    pub(super) fn judged_formulas(&self) -> BTreeSet<&str> {
-        let judged = self.sides.judgement().into_iter().flat_map(|own| &own.sides[0].1);
-        judged.filter_map(|all| Some(all.first()?.name.as_str())).collect()
-    }
-
-    /// The channels that the sides have solved.
-    pub(super) fn channels(&self) -> &[Channel] {
-        self.right.channels()
-    }
-
-    /// Crank angles of all instants (rad).
-    pub(super) fn cranks(&self) -> &[f64] {
-        self.right.inputs()
-    }
-
-    /// What side 1 has found, as formulas are judged by it.
-    pub(super) fn on_course<T>(&self, then: &dyn Fn(&Course) -> Result<T>) -> Result<T> {
-        self.sides.on_course(&self.case, Reference::Assur, then)
-    }
-
-    /// What both sides say of formulas.
-    pub(super) fn claimed(&self, formulas: &Formulas) -> Result<[SideClaims; 2]> {
-        self.sides.claimed(&self.case, formulas)
-    }
-
-    /// What a fault changes in exact answers.
-    pub(super) fn effect(&self, fault: Fault) -> Result<Effect> {
-        effect(&self.case, &self.right, &self.integration, fault)
-    }
-
     /// The proof with a fault in one party.
     pub(super) fn proven(&self, fault: Fault, party: Party) -> Outcome {
         let outcome = match party {
@@ -139,16 +96,13 @@ impl<'a> Stage<'a> {
     }
 
     fn in_side(&self, fault: Fault, party: Party) -> Result<Outcome> {
-        let wrong = planted_sides(fault);
-        let mut entrants = TRUE_SIDES;
         let side = if party == Party::Newton { Reference::Newton } else { Reference::Assur };
-        entrants[side] = Entrant { solver: &wrong[side][0], tight: &wrong[side][1] };
-        let sides = self.sides(&self.case, &self.scenario.case, entrants)?;
+        let sides = self.planted(fault, &[side])?;
         let eyes = Eyes::default().sides(&sides, false);
         if eyes.is_decided() {
             return Ok(eyes.outcome());
         }
-        self.judged(&sides, &|own| self.kept(own))
+        self.judged(&sides, &|own| kept_in(&self.runs, own))
     }
 
     fn in_engine(&self, fault: Fault) -> Result<Outcome> {
@@ -157,7 +111,9 @@ impl<'a> Stage<'a> {
             match fault.kind.plant {
                 Plant::Case(_) => kept_in(&runs, Box::new(Planted { hook: fault, inner: own })),
                 // Its runs are right; what it says of them is wrong.
-                Plant::Answer(_) | Plant::Formula(_) => Box::new(Planted { hook: fault, inner: self.kept(own) }),
+                Plant::Answer(_) | Plant::Formula(_) => {
+                    Box::new(Planted { hook: fault, inner: kept_in(&self.runs, own) })
+                }
             }
         };
         self.judged(&self.sides, &around)
@@ -166,7 +122,7 @@ impl<'a> Stage<'a> {
     /// The engine's own part of a proof in which what it answers has a fault.
     #[cfg(test)]
     pub(super) fn engine_proof(&self, fault: Fault) -> Result<EngineProof> {
-        self.engine(&self.sides, &|own| Box::new(Planted { hook: fault, inner: self.kept(own) }), false)
+        self.engine(&self.sides, &|own| Box::new(Planted { hook: fault, inner: kept_in(&self.runs, own) }), false)
     }
 
     /// The engine against these sides. Its own forces are asked where its motion and their forces agree: no verdict on
@@ -184,6 +140,20 @@ impl<'a> Stage<'a> {
             }
         }
         Ok(last)
+    }
+
+    /// The sides, of which some have a fault.
+    fn planted(&self, fault: Fault, faulty: &[Reference]) -> Result<Sides> {
+        let planted = |inner: Box<dyn Solver>| Planted { hook: fault, inner };
+        let wrong = EachSide::new(
+            [planted(Box::new(AssurSolver)), planted(Box::new(TIGHT_ASSUR))],
+            [planted(Box::new(NewtonSolver)), planted(Box::new(TIGHT_NEWTON))],
+        );
+        let mut entrants = TRUE_SIDES;
+        for &side in faulty {
+            entrants[side] = Entrant { solver: &wrong[side][0], tight: &wrong[side][1] };
+        }
+        self.sides(&self.case, &self.scenario.case, entrants)
     }
 
     fn sides(&self, case: &Case, whole: &Case, entrants: EachSide<Entrant>) -> Result<Sides> {
@@ -210,11 +180,7 @@ impl<'a> Stage<'a> {
         };
         let sides = match case {
             Some(case) => self.sides(&case, &case, TRUE_SIDES)?,
-            None => {
-                let wrong = planted_sides(fault);
-                let entrants = EachSide::of(|side| Entrant { solver: &wrong[side][0], tight: &wrong[side][1] });
-                self.sides(&self.case, &self.scenario.case, entrants)?
-            }
+            None => self.planted(fault, &Reference::ALL)?,
         };
         Ok(Eyes::default().sides(&sides, true).outcome())
     }
@@ -223,13 +189,4 @@ impl<'a> Stage<'a> {
 /// The engine with the runs that are kept; they are those of the first engine that comes.
 fn kept_in(runs: &OnceLock<Kept>, engine: Box<dyn Engine>) -> Box<dyn Engine> {
     runs.get_or_init(|| Kept::new(engine.as_ref())).with(engine.settings())
-}
-
-/// Side 1 and side 2 with a fault, each as it is and with a tighter tolerance.
-fn planted_sides(fault: Fault) -> EachSide<[Planted<dyn Solver>; 2]> {
-    let planted = |inner: Box<dyn Solver>| Planted { hook: fault, inner };
-    EachSide::new(
-        [planted(Box::new(AssurSolver)), planted(Box::new(TIGHT_ASSUR))],
-        [planted(Box::new(NewtonSolver)), planted(Box::new(TIGHT_NEWTON))],
-    )
 }

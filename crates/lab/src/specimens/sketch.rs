@@ -6,7 +6,7 @@ use chacha20::rand_core::{Rng, SeedableRng};
 use linkage::math::{KeepNan, Vec2, rotated, unit};
 use linkage::mechanism::LinkPose;
 
-use super::spec::{Body, Guide, Other, Pin, Spec};
+use super::spec::{Body, Guide, Pin, Spec};
 
 /// Source of random numbers.
 pub struct Random(ChaCha20Rng);
@@ -90,23 +90,8 @@ impl<'a> Sketch<'a> {
         let start = random.angle();
         let speed = random.number(0.5, 30.0) * if random.yes() { 1.0 } else { -1.0 };
         let (zero, gravity, guides_first) = (random.angle(), random.vector(0.0, 10.0), random.yes());
-        let spec = Spec {
-            ground: Vec::new(),
-            links: Vec::new(),
-            pins: Vec::new(),
-            guides: Vec::new(),
-            guides_first,
-            speed,
-            zero,
-            start,
-            gravity,
-            loads: Vec::new(),
-            dyads: Vec::new(),
-            starts: Vec::new(),
-            grid: (start - 0.3, 0.05, 12),
-            dt: Some(1e-3),
-            other: Other::default(),
-        };
+        let grid = (start - 0.3, 0.05, 12);
+        let spec = Spec { guides_first, speed, zero, start, gravity, grid, dt: Some(1e-3), ..Spec::default() };
         let mut sketch = Sketch { random, spec, poses: vec![LinkPose::GROUND], turning: vec![0], joints: 0 };
         let pivot = sketch.random.vector(0.0, 0.5);
         let crank_link = sketch.link(pivot);

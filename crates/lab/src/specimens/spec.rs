@@ -89,7 +89,7 @@ pub struct Dyad {
 }
 
 /// A whole scenario, in SI.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Spec {
     /// Points of the ground (m).
     pub ground: Vec<(String, Vec2)>,
@@ -235,15 +235,11 @@ impl Spec {
 
     /// The mirror image about the x axis: places, angles, senses, gravity and assembly modes.
     pub fn mirrored(&self) -> Spec {
-        let mut other = self.clone();
-        let points = other.links.iter_mut().flat_map(|body| &mut body.points).chain(&mut other.ground);
-        points.for_each(|(_, at)| at.y = -at.y);
-        other.links.iter_mut().filter_map(|body| body.mass.as_mut()).for_each(|(_, centre, _)| centre.y = -centre.y);
+        let mut other = self.with_places(|at| Vec2::new(at.x, -at.y));
         (other.zero, other.start, other.speed) = (-self.zero, -self.start, -self.speed);
         (other.grid.0, other.grid.1) = (-self.grid.0, -self.grid.1);
         other.gravity.y = -self.gravity.y;
         other.guides.iter_mut().flat_map(|guide| &mut guide.axes).for_each(|axis| *axis = -*axis);
-        other.near_points().for_each(|at| at.y = -at.y);
         // Left and right of a line are exchanged. Ahead and behind are measured along axes, which are mirrored too.
         other.dyads.iter_mut().for_each(|dyad| dyad.left = !dyad.left);
         other
@@ -251,14 +247,20 @@ impl Spec {
 
     /// The same mechanism with all lengths times `factor`, masses unchanged. Sections of text keep their numbers.
     pub fn larger(&self, factor: f64) -> Spec {
-        let mut other = self.clone();
-        let points = other.links.iter_mut().flat_map(|body| &mut body.points).chain(&mut other.ground);
-        points.for_each(|(_, at)| *at *= factor);
-        for (_, centre, inertia) in other.links.iter_mut().filter_map(|body| body.mass.as_mut()) {
-            *centre *= factor;
+        let mut other = self.with_places(|at| at * factor);
+        for (_, _, inertia) in other.links.iter_mut().filter_map(|body| body.mass.as_mut()) {
             *inertia *= factor * factor;
         }
-        other.near_points().for_each(|at| *at *= factor);
+        other
+    }
+
+    /// The same with other places of all points and mass centres.
+    fn with_places(&self, to: impl Fn(Vec2) -> Vec2) -> Spec {
+        let mut other = self.clone();
+        let points = other.links.iter_mut().flat_map(|body| &mut body.points).chain(&mut other.ground);
+        points.for_each(|(_, at)| *at = to(*at));
+        other.links.iter_mut().filter_map(|body| body.mass.as_mut()).for_each(|(_, centre, _)| *centre = to(*centre));
+        other.near_points().for_each(|at| *at = to(*at));
         other
     }
 
@@ -303,17 +305,11 @@ pub fn four_bar([base, crank, coupler, rocker]: [f64; 4], left: bool) -> Spec {
             pin("B", "coupler", "rocker"),
             pin("C", "ground", "rocker"),
         ],
-        guides: Vec::new(),
-        guides_first: false,
         speed: 10.0,
-        zero: 0.0,
-        start: 0.0,
         gravity: Vec2::new(0.0, -9.81),
-        loads: Vec::new(),
         dyads: vec![Dyad { links: ["coupler".into(), "rocker".into()], left }],
-        starts: Vec::new(),
         grid: (0.0, std::f64::consts::PI / 36.0, 72),
         dt: Some(1e-3),
-        other: Other::default(),
+        ..Spec::default()
     }
 }

@@ -13,7 +13,7 @@ mod work;
 
 pub use families::{FAMILIES, named};
 pub use family::{Engines, Family, Setup, WORK};
-pub use outcome::{Group, Outcome, Party, Reached};
+pub use outcome::{End, Group, Outcome, Party, Reached};
 pub use point::fnv;
 pub use point::run;
 pub use work::{Job, jobs, run_all};

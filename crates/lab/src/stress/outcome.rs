@@ -1,8 +1,12 @@
-//! What came of a point.
+//! What came of a point, in the words and the order in which it is kept as JSON. Numbers that are not finite are `null`
+//! there and are read back as infinite.
+
+use serde::{Deserialize, Deserializer, Serialize};
 
 linkage::words! {
     /// Quantities that a map shows together.
-    #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+    #[serde(rename_all = "lowercase")]
     pub enum Group: name {
         /// Positions and angles.
         Positions = "positions",
@@ -13,39 +17,67 @@ linkage::words! {
     }
 }
 
+linkage::words! {
+    /// How a solver or an engine ends at a point, the best first.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+    #[serde(rename_all = "lowercase")]
+    pub enum End: word {
+        /// It agrees.
+        Agree = "agree",
+        /// Nothing is proven either way.
+        Inconclusive = "inconclusive",
+        /// It disagrees.
+        Disagree = "disagree",
+        /// It has no numbers.
+        #[default]
+        Fails = "fails",
+    }
+}
+
 /// The worst channel of a group.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Reached {
     /// The group.
     pub group: Group,
     /// Largest error, as a share of the channel's scale: half its range over the run.
+    #[serde(deserialize_with = "number")]
     pub error: f64,
     /// Bound of that channel, as the same share.
+    #[serde(deserialize_with = "number")]
     pub bound: f64,
     /// The channel.
     pub channel: String,
     /// Largest error over bound of any channel of the group.
+    #[serde(deserialize_with = "number")]
     pub used: f64,
 }
 
+fn number<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
+    Ok(Option::deserialize(from)?.unwrap_or(f64::INFINITY))
+}
+
 /// One solver or engine at a point.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Party {
     /// Its name.
     pub name: String,
+    /// How it ends.
+    pub verdict: End,
+    /// Reason of a verdict other than agreement.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub why: String,
     /// What its errors are against, in words; empty if it has none.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
     pub against: String,
     /// Groups of channels, in order; none if it failed.
+    #[serde(rename = "groups")]
     pub reached: Vec<Reached>,
     /// Largest opening of a joint over the mechanism's size.
     pub closure: Option<f64>,
     /// Balancing moment from reactions less that from powers, over the moments in the balance.
     pub balance: Option<f64>,
-    /// `agree`, `disagree`, `inconclusive`, or `fails`.
-    pub verdict: String,
-    /// Reason of a verdict other than agreement.
-    pub why: String,
     /// Step (s) of the run that is judged.
+    #[serde(rename = "step_s")]
     pub step: Option<f64>,
     /// Its sweeps.
     pub sweeps: Option<usize>,
@@ -58,6 +90,7 @@ pub struct Party {
     /// Work of that search, in steps without sweeps.
     pub work: Option<f64>,
     /// What was counted, in the order of [`Count::ALL`](linkage::work::Count::ALL): a side's run, all runs of an engine.
+    #[serde(default)]
     pub done: Vec<(String, u64)>,
     /// Channels beyond their bound although the verdict agrees: wrong numbers that nobody is told of.
     pub silent: usize,
@@ -66,12 +99,12 @@ pub struct Party {
 impl Party {
     /// One that has no numbers, with the reason.
     pub(super) fn failed(name: &str, why: &str) -> Party {
-        Party { name: name.into(), verdict: "fails".into(), why: why.into(), ..Party::default() }
+        Party { name: name.into(), why: why.into(), ..Party::default() }
     }
 }
 
 /// A point, done.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Outcome {
     /// Value of the dial.
     pub dial: f64,
@@ -80,6 +113,7 @@ pub struct Outcome {
     /// Identifies the program, the family's inputs and the case: a result with another key is made anew.
     pub key: String,
     /// Why there is no case, if there is none.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
     pub refused: String,
     /// The sides and engines.
     pub parties: Vec<Party>,

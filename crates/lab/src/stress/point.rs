@@ -9,7 +9,7 @@ use linkage::math::statistics::share;
 use linkage::trajectory::{Channel, Stage, Trajectory};
 use linkage::work::{Count, counted};
 
-use super::outcome::{Group, Outcome, Party, Reached, rounded};
+use super::outcome::{End, Group, Outcome, Party, Reached, rounded};
 use super::{Engines, Family, Setup};
 use prover::compare::{Check, Verdict, difference, scales};
 use prover::engines::{self, EngineName};
@@ -99,7 +99,7 @@ fn of_side(side: &Side, all: &Sides, against: &str) -> Party {
         reached: reached(&side.deviations),
         closure: side.closure.map(rounded),
         balance: side.balance.map(rounded),
-        verdict: all.verdict.word().into(),
+        verdict: end(&all.verdict),
         why: reason(&all.verdict),
         done: side.work.iter().map(|(what, times)| (what.name().into(), times)).collect(),
         silent: if all.silent > 0 { beyond } else { 0 },
@@ -159,7 +159,7 @@ fn of_proof(case: &Case, proof: &EngineProof, whole: &Verdict, truth: Option<(&T
         reached: reached(&deviations),
         closure: check("closure"),
         balance: check("driving moment"),
-        verdict: whole.word().into(),
+        verdict: end(whole),
         why: reason(whole),
         step: fixed(settings.resolution),
         sweeps: Some(settings.sweeps),
@@ -212,6 +212,15 @@ fn reached(deviations: &[Deviation]) -> Vec<Reached> {
         })
     };
     Group::ALL.into_iter().filter_map(of).collect()
+}
+
+/// A verdict as it is counted. Cases of families have no numbers that are known to be wrong: none is expected.
+fn end(verdict: &Verdict) -> End {
+    match verdict {
+        Verdict::Agree { .. } | Verdict::Expected { .. } => End::Agree,
+        Verdict::Disagree { .. } => End::Disagree,
+        Verdict::Inconclusive { .. } => End::Inconclusive,
+    }
 }
 
 /// The reason of a verdict, without advice: what helps depends on who asks.

@@ -1,11 +1,11 @@
 //! All points of some families, side by side on all cores.
 
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::ops::ControlFlow;
 
 use super::Family;
 use super::outcome::Outcome;
 use super::point::{key_of, run};
+use linkage::threads::side_by_side;
 
 /// A point that is to be done, or is done already.
 #[derive(Clone, Debug)]
@@ -34,43 +34,29 @@ pub fn jobs(family: &'static Family, quick: bool, seed: u64, kept: &[Outcome]) -
     all.filter_map(job).collect()
 }
 
-/// Does what is open, on `threads` cores. `done` is called after each point with all jobs as they stand and the number
+/// Does what is open, on so many threads. `done` is called after each point with all jobs as they stand and the number
 /// of those that are finished; an error that it returns ends the work.
 ///
 /// # Errors
 /// Those of `done`.
-pub fn run_all<E: Send>(
-    jobs: Vec<Job>,
+pub fn run_all<E>(
+    mut jobs: Vec<Job>,
     seed: u64,
     threads: usize,
-    done: impl Fn(&[Job], usize, usize) -> Result<(), E> + Sync,
+    mut done: impl FnMut(&[Job], usize, usize) -> Result<(), E>,
 ) -> Result<Vec<Job>, E> {
     let open: Vec<usize> = (0..jobs.len()).filter(|&index| jobs[index].outcome.is_none()).collect();
-    let (next, all, failed) = (AtomicUsize::new(0), Mutex::new(jobs), Mutex::new(None));
-    std::thread::scope(|scope| {
-        for _ in 0..threads.max(1).min(open.len()) {
-            scope.spawn(|| {
-                loop {
-                    let taken = next.fetch_add(1, Ordering::Relaxed);
-                    let Some(&index) = open.get(taken) else { return };
-                    let (family, dial, sample) = {
-                        let jobs = all.lock().expect("no point panics while it holds the list");
-                        (jobs[index].family, jobs[index].dial, jobs[index].sample)
-                    };
-                    let outcome = run(family, dial, sample, seed);
-                    let mut jobs = all.lock().expect("no point panics while it holds the list");
-                    jobs[index].outcome = Some(outcome);
-                    let finished = jobs.iter().filter(|job| job.outcome.is_some()).count();
-                    if let Err(error) = done(&jobs, index, finished) {
-                        *failed.lock().expect("nothing panics in between") = Some(error);
-                        next.store(open.len(), Ordering::Relaxed);
-                    }
-                }
-            });
-        }
+    let points: Vec<_> = open.iter().map(|&index| (jobs[index].family, jobs[index].dial, jobs[index].sample)).collect();
+    let (mut finished, mut failed) = (jobs.len() - open.len(), None);
+    let work = |index: usize, tell: &mut dyn FnMut(Outcome)| {
+        let (family, dial, sample) = points[index];
+        tell(run(family, dial, sample, seed));
+    };
+    side_by_side(open.len(), threads, work, |index, outcome| {
+        jobs[open[index]].outcome = Some(outcome);
+        finished += 1;
+        failed = done(&jobs, open[index], finished).err();
+        if failed.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     });
-    match failed.into_inner().expect("nothing panics in between") {
-        Some(error) => Err(error),
-        None => Ok(all.into_inner().expect("no point panics while it holds the list")),
-    }
+    failed.map_or(Ok(jobs), Err)
 }

@@ -6,6 +6,7 @@ use std::f64::consts::PI;
 use super::candidate::{Candidate, Measured, Price};
 use super::search::{Found, largest_step};
 use super::ways::{sweeps, ways};
+use crate::steps::work_of_run;
 use linkage::case::Case;
 use linkage::engine::{Engine, Kept, Settings};
 use linkage::error::{ErrorKind, Result};
@@ -213,7 +214,7 @@ impl Bench<'_> {
     /// One run; an engine that fails has an infinite error.
     pub(super) fn measure(&mut self, engine: &dyn Engine, settings: Settings) -> Measured {
         let failed = |price: f64| Measured { error: f64::INFINITY, worst: String::new(), price };
-        self.effort += self.work(engine, settings);
+        self.effort += work_of_run(self.case, engine, &settings);
         if self.effort > self.budget {
             self.is_spent = true;
             return failed(f64::INFINITY);
@@ -245,17 +246,6 @@ impl Bench<'_> {
         }
         // An engine without a wanted channel does not meet the wish.
         if seen < self.wanted.len() { failed(price) } else { Measured { error, worst, price } }
-    }
-
-    /// Work of a run, in steps without sweeps. That of an engine that chooses its own steps is not known.
-    fn work(&self, engine: &dyn Engine, settings: Settings) -> f64 {
-        if engine.controls_error() {
-            return 0.0;
-        }
-        let times = &self.case.grid.times;
-        let [first, last] = times.iter().fold([0.0f64; 2], |[first, last], &t| [first.smaller(t), last.larger(t)]);
-        let runs = 2f64.powi(settings.extrapolated as i32 + 1) - 1.0;
-        (last - first) * runs * settings.work()
     }
 
     /// Error that is expected from the engine's own runs.

@@ -1,10 +1,10 @@
 //! What a run costs, by the work that its settings mean: the same on every machine and in every run, so that no clock
 //! decides what is found.
 
+use crate::steps::span;
 use linkage::case::Case;
 use linkage::engine::{Engine, Route};
 use linkage::error::Result;
-use linkage::math::KeepNan;
 use linkage::mechanism::Tree;
 use linkage::work::{Count, counted};
 use prover::engines::EngineName;
@@ -83,8 +83,7 @@ pub fn price_of(case: &Case, engine: &dyn Engine) -> f64 {
         true => Tree::covering(&case.mechanism, &case.wanted_reactions()).len() as f64,
         false => 1.0,
     };
-    let end = |of: fn(f64, f64) -> f64| case.grid.times.iter().copied().fold(0.0, of);
-    let (span, instants) = (end(f64::larger) - end(f64::smaller), case.grid.len() as f64);
+    let (span, instants) = (span(case), case.grid.len() as f64);
     let substep = costs.substep + costs.sweep * settings.sweeps as f64;
     let step = costs.step + settings.substeps as f64 * substep;
     let tiny = (costs.step + substep) * costs.tiny;

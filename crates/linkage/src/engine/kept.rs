@@ -1,14 +1,14 @@
 //! An engine that remembers its runs.
 
-use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError, mpsc};
+use std::ops::ControlFlow;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use super::{Engine, Extrapolated, Rows, Settings, StandIn};
 use crate::case::Case;
 use crate::error::{Error, Result};
 use crate::solver::{Progress, Provision, Solver, State, Visit};
+use crate::threads::{cores, side_by_side};
 use crate::trajectory::Channel;
-use crate::work::{self, Work, counted};
 
 /// An engine that makes every run once, and hands out the states it has kept when the run is asked for again.
 /// Engines made from it by [`Engine::with`] share its runs, extrapolated ones too.
@@ -77,35 +77,13 @@ impl Kept {
         // The longest run first, so that no core waits for it at the end.
         missing.sort_by(|a, b| b.work().total_cmp(&a.work()));
         let whole: f64 = missing.iter().map(Settings::work).sum();
-        let threads = std::thread::available_parallelism().map_or(1, usize::from).min(missing.len());
-        let next = AtomicUsize::new(0);
-        let (tell, told) = mpsc::channel::<(usize, f64)>();
-        let done = Mutex::new(Work::NONE);
-        std::thread::scope(|scope| {
-            for _ in 0..threads {
-                let (tell, next, missing, done) = (tell.clone(), &next, &missing, &done);
-                scope.spawn(move || {
-                    loop {
-                        let index = next.fetch_add(1, Ordering::Relaxed);
-                        let Some(&settings) = missing.get(index) else { return };
-                        // Nobody may listen any more; the run goes on.
-                        let mut told = |part| {
-                            let _ = tell.send((index, part));
-                        };
-                        let (_, work) = counted(|| self.run(case, settings, &mut told));
-                        let mut done = done.lock().unwrap_or_else(PoisonError::into_inner);
-                        *done = done.and(&work);
-                    }
-                });
-            }
-            drop(tell);
-            let mut parts = vec![0.0f64; missing.len()];
-            for (index, part) in told {
-                parts[index] = part;
-                progress(missing.iter().zip(&parts).map(|(run, part)| run.work() * part).sum::<f64>() / whole);
-            }
+        let mut parts = vec![0.0f64; missing.len()];
+        let work = |index: usize, tell: Progress| drop(self.run(case, missing[index], tell));
+        side_by_side(missing.len(), cores(), work, |index, part| {
+            parts[index] = part;
+            progress(missing.iter().zip(&parts).map(|(run, part)| run.work() * part).sum::<f64>() / whole);
+            ControlFlow::Continue(())
         });
-        work::add(&done.into_inner().unwrap_or_else(PoisonError::into_inner));
     }
 
     /// Forgets the runs whose settings are not wanted any more.

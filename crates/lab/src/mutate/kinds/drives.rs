@@ -23,49 +23,34 @@ kinds! { Drive, Case:
     "speed-rpm": "the speed in rad/s is taken for rpm", |case, _| faster(case, 0, PI / 30.0);
     "speed-hertz": "the speed in rad/s is taken for revolutions per second", |case, _| faster(case, 0, TAU);
     "law-constant": "a speed that changes is taken for the constant top speed", |case, _| {
-        if case.is_free() || case.crank().constant_speed().is_some() {
-            return None;
-        }
-        let law = MotionLaw::ConstantSpeed(case.crank().top_speed());
-        turned(case, 0, |drive| match &mut drive.motion {
-            DriveMotion::Prescribed { law: own, .. } => *own = law.clone(),
-            DriveMotion::Free { .. } => {}
+        (!case.is_free() && case.crank().constant_speed().is_none()).then_some(())?;
+        turned(case, 0, |drive| if let DriveMotion::Prescribed { law, .. } = &mut drive.motion {
+            *law = MotionLaw::ConstantSpeed(law.top_speed());
         })
     };
     "initial-speed" (1e-2): "the free crank starts faster by a share of its nominal speed", |case, size| {
         let nominal = case.crank().top_speed();
         initial(case, |speed| speed + size * nominal)
     };
-    "initial-speed-missing": "the free crank starts from rest", |case, _| {
-        (case.crank().initial_speed() != 0.0).then_some(())?;
-        initial(case, |_| 0.0)
-    };
-    "initial-speed-reversed": "the free crank starts the other way", |case, _| {
-        (case.crank().initial_speed() != 0.0).then_some(())?;
-        initial(case, |speed| -speed)
-    };
+    "initial-speed-missing": "the free crank starts from rest", |case, _| initial(case, |_| 0.0);
+    "initial-speed-reversed": "the free crank starts the other way", |case, _| initial(case, |speed| -speed);
     "free-held": "a free crank turns with its nominal speed all the time", |case, _| {
         (case.crank().is_free() && case.drives.iter().count() == 1).then_some(())?;
         turned(case, 0, |drive| *drive = drive.nominal())
     };
-    "second-angle" (1e-2): "the last driving link starts at another angle (rad)", |case, size| {
-        let last = case.drives.further().len();
-        (last > 0).then_some(())?;
-        started(case, last, |start| start + size)
-    };
-    "second-reversed": "the last driving link turns the other way", |case, _| {
-        let last = case.drives.further().len();
-        (last > 0).then_some(())?;
-        faster(case, last, -1.0)
-    };
-    "second-speed" (1e-2): "the last driving link is faster by a share of its speed", |case, size| {
-        let last = case.drives.further().len();
-        (last > 0).then_some(())?;
-        faster(case, last, 1.0 + size)
-    };
+    "second-angle" (1e-2): "the last driving link starts at another angle (rad)",
+        |case, size| started(case, last(case)?, |start| start + size);
+    "second-reversed": "the last driving link turns the other way", |case, _| faster(case, last(case)?, -1.0);
+    "second-speed" (1e-2): "the last driving link is faster by a share of its speed",
+        |case, size| faster(case, last(case)?, 1.0 + size);
     "late" (1e-3): "every instant is taken later by a share of a radian of the crank", |case, size| shifted(case, size);
     "clock" (1e-3): "the clock goes slow: time is counted in units larger by a share",
         |case, size| scaled(case, 1.0 - size);
+}
+
+/// The last driving link after the crank.
+fn last(case: &Case) -> Option<usize> {
+    Some(case.drives.further().len()).filter(|last| *last > 0)
 }
 
 /// The case with one drive changed.
@@ -78,10 +63,7 @@ fn turned(case: &Case, index: usize, change: impl Fn(&mut Drive)) -> Option<Case
 
 fn started(case: &Case, index: usize, to: impl Fn(f64) -> f64) -> Option<Case> {
     let old = case.drives.get(index)?.start;
-    let new = to(old);
-    if new == old {
-        return None;
-    }
+    let new = Some(to(old)).filter(|new| *new != old)?;
     parts(case, |parts| {
         driven(parts, index, |drive| drive.start = new);
         reassembled(parts)
@@ -101,9 +83,12 @@ fn faster(case: &Case, index: usize, factor: f64) -> Option<Case> {
 
 fn initial(case: &Case, to: impl Fn(f64) -> f64) -> Option<Case> {
     case.crank().is_free().then_some(())?;
-    turned(case, 0, |drive| match &mut drive.motion {
-        DriveMotion::Prescribed { .. } => {}
-        DriveMotion::Free { initial_speed, .. } => *initial_speed = to(*initial_speed),
+    let old = case.crank().initial_speed();
+    let new = Some(to(old)).filter(|new| *new != old)?;
+    turned(case, 0, |drive| {
+        if let DriveMotion::Free { initial_speed, .. } = &mut drive.motion {
+            *initial_speed = new;
+        }
     })
 }
 

@@ -2,8 +2,10 @@
 
 use super::kind::kinds;
 use super::touch::{crank, crank_pin, output, slider};
+use linkage::case::Case;
 use linkage::math::{Vec2, cross, rotated};
 use linkage::mechanism::Joint;
+use linkage::solver::State;
 
 kinds! { Force, Answer:
     "reaction" (1e-2): "the reaction in the last joint is larger by a share",
@@ -34,10 +36,7 @@ kinds! { Force, Answer:
         |at, state, _| {
             let dropped = dropped(at.case, state)?;
             let pin = at.case.mechanism.joints()[crank_pin(at.case)].on(crank(at.case))?;
-            let own = at.case.mechanism.joints()[at.case.crank().joint].on(crank(at.case))?;
-            let motion = &state.motions[crank(at.case)];
-            let arm = motion.arm(pin) - motion.arm(own);
-            state.torques[0] -= cross(arm, dropped);
+            state.torques[0] -= cross(crank_arm(at.case, state, pin)?, dropped);
         };
     "reaction-without-weight": "the reaction in the crank's pivot lacks the crank's weight", |at, state, _| {
         let weight = at.case.gravity * at.case.mechanism.links()[crank(at.case)].mass;
@@ -66,8 +65,9 @@ kinds! { Force, Answer:
         |at, state, _| state.moments[slider(at.case)?] *= -1.0;
     "guide-moment-point": "the moment in the first slider is about the place on the guide", |at, state, _| {
         let index = slider(at.case)?;
-        let arm = span(&at.case.mechanism.joints()[index], state);
-        state.moments[index] += cross(arm, state.forces[index]);
+        let joint = &at.case.mechanism.joints()[index];
+        let [first, second] = [joint.first, joint.second].map(|side| state.motions[side.link].point(side.local));
+        state.moments[index] += cross(second - first, state.forces[index]);
     };
     "last-guide-moment": "the moment in the last slider is missing", |at, state, _| {
         let last = at.case.mechanism.joints().iter().rposition(Joint::slides)?;
@@ -79,20 +79,14 @@ kinds! { Force, Answer:
         |at, state, _| has_moment(at.case).then(|| state.torques[0] *= -1.0);
     "moment-wrong-point": "the balancing moment is taken about the crank's mass centre", |at, state, _| {
         has_moment(at.case).then_some(())?;
-        let link = &at.case.mechanism.links()[crank(at.case)];
-        let own = at.case.mechanism.joints()[at.case.crank().joint].on(crank(at.case))?;
-        let motion = &state.motions[crank(at.case)];
-        let arm = motion.arm(link.mass_centre) - motion.arm(own);
+        let arm = crank_arm(at.case, state, at.case.mechanism.links()[crank(at.case)].mass_centre)?;
         state.torques[0] += cross(arm, state.forces[at.case.crank().joint]);
     };
     "moment-without-weight": "the balancing moment lacks the crank's weight", |at, state, _| {
         has_moment(at.case).then_some(())?;
         let link = &at.case.mechanism.links()[crank(at.case)];
-        let own = at.case.mechanism.joints()[at.case.crank().joint].on(crank(at.case))?;
-        let motion = &state.motions[crank(at.case)];
-        let arm = motion.arm(link.mass_centre) - motion.arm(own);
-        let moment = cross(arm, at.case.gravity) * link.mass;
-        state.torques[0] += moment;
+        let arm = crank_arm(at.case, state, link.mass_centre)?;
+        state.torques[0] += cross(arm, at.case.gravity) * link.mass;
         (link.mass > 0.0 && at.case.gravity.norm() > 0.0).then_some(())
     };
     "moments-exchanged": "the moments of the first and the last drive are exchanged", |at, state, _| {
@@ -111,20 +105,21 @@ kinds! { Force, Answer:
 }
 
 /// Whether the first drive has a moment that is answered.
-fn has_moment(case: &linkage::case::Case) -> bool {
+fn has_moment(case: &Case) -> bool {
     case.crank().has_moment()
 }
 
+/// World vector from the crank's pivot to a place on the crank.
+fn crank_arm(case: &Case, state: &State, place: Vec2) -> Option<Vec2> {
+    let pivot = case.mechanism.joints()[case.crank().joint].on(crank(case))?;
+    let motion = &state.motions[crank(case)];
+    Some(motion.arm(place) - motion.arm(pivot))
+}
+
 /// The part of the reaction in the crank's pin along the next link, as it acts on the crank.
-fn dropped(case: &linkage::case::Case, state: &linkage::solver::State) -> Option<Vec2> {
+fn dropped(case: &Case, state: &State) -> Option<Vec2> {
     let (pin, own) = (crank_pin(case), case.crank().joint);
     (pin != own && has_moment(case)).then_some(())?;
     let along = state.motions[case.mechanism.joints()[pin].other(crank(case)).link].direction;
     Some(along * along.dot(&state.forces[pin]))
-}
-
-/// World vector from the place on the second link to that on the first.
-fn span(joint: &Joint, state: &linkage::solver::State) -> Vec2 {
-    let [first, second] = [joint.first, joint.second].map(|side| state.motions[side.link].point(side.local));
-    second - first
 }

@@ -83,13 +83,13 @@ pub struct Kind {
 
 impl Kind {
     /// The same with a size that can be made smaller.
-    pub(super) const fn sized(self, size: f64) -> Kind {
+    pub(in crate::mutate) const fn sized(self, size: f64) -> Kind {
         Kind { size: Some(size), ..self }
     }
 }
 
 /// What a change has to say of itself.
-pub(super) trait Told<T> {
+pub(in crate::mutate) trait Told<T> {
     /// What it comes to; `None` where there was nothing to change.
     fn told(self) -> Option<T>;
 }
@@ -110,13 +110,13 @@ impl Told<()> for () {
 /// where it can be made smaller.
 macro_rules! kinds {
     ($family:ident, $plant:ident: $($name:literal $(($size:literal))?: $says:literal, |$($given:pat_param),*| $change:expr;)*) => {
-        pub(super) const KINDS: &[super::kind::Kind] = &[$(super::kind::Kind {
+        pub(super) const KINDS: &[$crate::mutate::kinds::Kind] = &[$($crate::mutate::kinds::Kind {
             name: $name,
             says: $says,
-            family: super::kind::Family::$family,
+            family: $crate::mutate::kinds::Family::$family,
             size: None,
-            plant: super::kind::Plant::$plant(|$($given),*| super::kind::Told::told($change)),
+            plant: $crate::mutate::kinds::Plant::$plant(|$($given),*| $crate::mutate::kinds::Told::told($change)),
         }$(.sized($size))?),*];
     };
 }
-pub(super) use kinds;
+pub(in crate::mutate) use kinds;

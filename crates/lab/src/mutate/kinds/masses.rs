@@ -33,9 +33,8 @@ kinds! { Mass, Case:
     "inertia" (1e-2): "the moment of inertia of the last link that has one is larger by a share",
         |case, size| on(case, turning(case), |link| link.inertia *= 1.0 + size);
     "inertia-crank" (1e-1): "the moment of inertia of the crank is larger by a share", |case, size| {
-        let link = crank(case);
-        (case.mechanism.links()[link].inertia > 0.0).then_some(())?;
-        on(case, Some(link), |link| link.inertia *= 1.0 + size)
+        let has = Some(crank(case)).filter(|&link| case.mechanism.links()[link].inertia > 0.0);
+        on(case, has, |link| link.inertia *= 1.0 + size)
     };
     "inertia-twice": "the moment of inertia of the last link that has one is doubled",
         |case, _| on(case, turning(case), |link| link.inertia *= 2.0);

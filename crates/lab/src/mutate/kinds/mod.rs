@@ -14,6 +14,9 @@ mod positions;
 mod rates;
 mod touch;
 
+pub(super) use kind::Told;
+#[cfg(test)]
+pub(super) use kind::kinds;
 pub use kind::{At, Family, Kind, Mistake, Plant};
 
 /// All kinds, family by family.

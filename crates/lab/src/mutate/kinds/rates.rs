@@ -2,7 +2,9 @@
 
 use super::kind::kinds;
 use super::touch::{crank, floating, moving_guide, on_arm, turner};
-use linkage::math::{rotated, turned};
+use linkage::case::Case;
+use linkage::math::{Vec2, rotated, turned};
+use linkage::solver::State;
 
 kinds! { Rate, Answer:
     "omega" (1e-2): "the angular velocity of the last turning link is larger by a share",
@@ -19,21 +21,15 @@ kinds! { Rate, Answer:
     };
     "velocity-half-arm": "half a length in a velocity: v = v0 + omega x r / 2",
         |at, state, _| on_arm(at.case, state, |motion, arm| motion.velocity -= turned(arm) * (0.5 * motion.omega));
-    "velocity-x-dropped": "the x component of the last moving frame's velocity is dropped", |at, state, _| {
-        let motion = &mut state.motions[floating(at.case)];
-        let centre = turned(motion.arm(at.case.mechanism.links()[floating(at.case)].mass_centre)) * motion.omega;
-        motion.velocity.x = -centre.x;
-    };
-    "velocity-y-dropped": "the y component of the last moving frame's velocity is dropped", |at, state, _| {
-        let motion = &mut state.motions[floating(at.case)];
-        let centre = turned(motion.arm(at.case.mechanism.links()[floating(at.case)].mass_centre)) * motion.omega;
-        motion.velocity.y = -centre.y;
-    };
+    "velocity-x-dropped": "the x component of the last moving frame's velocity is dropped",
+        |at, state, _| state.motions[floating(at.case)].velocity.x = -about_frame(at.case, state).x;
+    "velocity-y-dropped": "the y component of the last moving frame's velocity is dropped",
+        |at, state, _| state.motions[floating(at.case)].velocity.y = -about_frame(at.case, state).y;
     "velocity" (1e-2): "the velocity of the last moving frame is larger by a share",
         |at, state, size| state.motions[floating(at.case)].velocity *= 1.0 + size;
     "velocity-frame": "the velocity of the last moving frame is in its own frame, not in the world", |at, state, _| {
         let motion = &mut state.motions[floating(at.case)];
-        let back = linkage::math::Vec2::new(motion.direction.x, -motion.direction.y);
+        let back = Vec2::new(motion.direction.x, -motion.direction.y);
         motion.velocity = rotated(back, motion.velocity);
     };
     "stale-velocities" (1e-2): "velocities are those of a moment before: a share of a radian of the crank",
@@ -62,4 +58,11 @@ kinds! { Rate, Answer:
                 state.motions[floating(at.case)].velocity.x += size * speed;
             }
         };
+}
+
+/// Velocity of the last moving frame's mass centre as the link turns about the frame.
+fn about_frame(case: &Case, state: &State) -> Vec2 {
+    let link = floating(case);
+    let motion = &state.motions[link];
+    turned(motion.arm(case.mechanism.links()[link].mass_centre)) * motion.omega
 }

@@ -1,0 +1,143 @@
+//! Work on several things side by side. No result depends on the number of threads.
+
+use std::ops::ControlFlow;
+use std::panic::resume_unwind;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::mpsc;
+use std::thread;
+
+use crate::work;
+
+/// Number of cores of this machine; 1 where it is not known.
+#[must_use]
+pub fn cores() -> usize {
+    thread::available_parallelism().map_or(1, usize::from)
+}
+
+/// Does `work` on every index below `count`, on so many threads at most: each takes the next index that is left.
+/// Work tells what it likes, as often as it likes, and `hear` hears it on the calling thread, with the index. Where
+/// `hear` breaks, no further work is begun. What the work [counts](work) is counted by the calling thread.
+///
+/// With one thread, and where the system starts none, the calling thread does the work.
+///
+/// # Panics
+/// As the work does, after all that is in hand is done.
+pub fn side_by_side<M: Send>(
+    count: usize,
+    threads: usize,
+    work: impl Fn(usize, &mut dyn FnMut(M)) + Sync,
+    mut hear: impl FnMut(usize, M) -> ControlFlow<()>,
+) {
+    let next = AtomicUsize::new(0);
+    let take = |tell: &mut dyn FnMut(usize, M)| {
+        loop {
+            let index = next.fetch_add(1, Ordering::Relaxed);
+            if index >= count {
+                return;
+            }
+            work(index, &mut |message| tell(index, message));
+        }
+    };
+    let mut heard = |index: usize, message: M| {
+        let go_on = hear(index, message);
+        if go_on.is_break() {
+            next.store(count, Ordering::Relaxed);
+        }
+        go_on
+    };
+    let threads = if threads.min(count) > 1 { threads.min(count) } else { 0 };
+    thread::scope(|scope| {
+        let (tell, told) = mpsc::channel();
+        let start = |_| {
+            let tell = tell.clone();
+            // After a break nobody listens.
+            let all = || take(&mut move |index, message| drop(tell.send((index, message))));
+            thread::Builder::new().spawn_scoped(scope, || work::counted(all).1).ok()
+        };
+        let started: Vec<_> = (0..threads).filter_map(start).collect();
+        drop(tell);
+        let _ = told.into_iter().try_for_each(|(index, message)| heard(index, message));
+        for thread in started {
+            work::add(&thread.join().unwrap_or_else(|panic| resume_unwind(panic)));
+        }
+    });
+    take(&mut |index, message| {
+        let _ = heard(index, message);
+    });
+}
+
+/// What `work` makes of every item, in their order, on so many threads. `done` receives the number of those that are
+/// finished.
+///
+/// # Panics
+/// As the work does.
+pub fn made<T: Sync, R: Send>(
+    items: &[T],
+    threads: usize,
+    work: impl Fn(&T) -> R + Sync,
+    mut done: impl FnMut(usize),
+) -> Vec<R> {
+    let mut made: Vec<Option<R>> = items.iter().map(|_| None).collect();
+    let mut finished = 0;
+    let work = |index: usize, tell: &mut dyn FnMut(R)| tell(work(&items[index]));
+    side_by_side(items.len(), threads, work, |index, result| {
+        made[index] = Some(result);
+        finished += 1;
+        done(finished);
+        ControlFlow::Continue(())
+    });
+    made.into_iter().map(|own| own.expect("all are done")).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::work::{Count, Tally, counted};
+    use std::time::Duration;
+
+    #[test]
+    fn results_come_in_order_and_work_is_counted_whatever_the_number_of_threads() {
+        let items: Vec<u64> = (0..20).collect();
+        for threads in [0, 1, 2, 7, 100] {
+            let mut finished = Vec::new();
+            let work = |&item: &u64| {
+                // The first ones take longest.
+                thread::sleep(Duration::from_millis(20 - item));
+                Tally::default().one(Count::Steps);
+                item * item
+            };
+            let (squares, work) = counted(|| made(&items, threads, work, |count| finished.push(count)));
+            assert_eq!(squares, items.iter().map(|item| item * item).collect::<Vec<_>>());
+            assert_eq!(work.of(Count::Steps), 20, "{threads}");
+            assert_eq!(finished, (1..=20).collect::<Vec<_>>());
+        }
+    }
+
+    #[test]
+    fn after_a_break_no_further_work_is_begun() {
+        for threads in [1, 3] {
+            let begun = AtomicUsize::new(0);
+            let work = |index: usize, tell: &mut dyn FnMut(usize)| {
+                begun.fetch_add(1, Ordering::Relaxed);
+                thread::sleep(Duration::from_millis(5));
+                tell(index);
+            };
+            let mut heard = 0;
+            side_by_side(1000, threads, work, |_, _| {
+                heard += 1;
+                if heard == 2 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            });
+            assert_eq!(heard, 2);
+            assert!(begun.into_inner() < 500, "{threads}");
+        }
+    }
+
+    #[test]
+    fn a_panic_is_that_of_the_work() {
+        for threads in [1, 3] {
+            let work = |&item: &u64| assert!(item != 4, "item four");
+            let panic = std::panic::catch_unwind(|| made(&[1, 2, 3, 4, 5], threads, work, |_| {}));
+            assert_eq!(panic.unwrap_err().downcast_ref::<&str>(), Some(&"item four"));
+        }
+    }
+}

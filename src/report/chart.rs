@@ -1,0 +1,132 @@
+//! A diagram with two logarithmic axes on paper, and the marks of the parties in it.
+
+use drawing::paper::figure::{Figure, Style, Type, solid, words};
+use drawing::paper::style::{GREY, colour};
+use linkage::math::Vec2;
+
+/// Room between a cell and the frame of its diagram (mm): on the left, on the right, above, below.
+const ROOM: [f64; 4] = [17.0, 5.0, 9.0, 12.0];
+const GRID: Style = solid("#d4d4d4", 0.15);
+/// Thin strokes.
+pub(super) const DASHED: Style = Style { dash: "1.6 1.2", ..solid(GREY, 0.3) };
+/// Font size of numbers (mm).
+pub(super) const SMALL: f64 = 3.0;
+
+/// How a mark is filled.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Filling {
+    /// With its colour.
+    Full,
+    /// Not at all.
+    Hollow,
+    /// With a cross.
+    Crossed,
+    /// A cross stands for the mark.
+    Cross,
+}
+
+/// A diagram. The upper left corner of its cell is the origin.
+pub(super) struct Chart {
+    pub(super) figure: Figure,
+    /// Lower left corner of the frame, and its size (mm).
+    low: Vec2,
+    size: Vec2,
+    /// First and last value of both axes.
+    ends: [[f64; 2]; 2],
+}
+
+impl Chart {
+    /// An empty one in a cell of this size (mm), with first and last value of both axes.
+    pub(super) fn new([width, height]: [f64; 2], ends: [[f64; 2]; 2]) -> Self {
+        let [left, right, above, below] = ROOM;
+        let size = Vec2::new(width - left - right, height - above - below);
+        Chart { figure: Figure::default(), low: Vec2::new(left, below - height), size, ends }
+    }
+
+    /// Where a pair of values lies on the paper.
+    pub(super) fn at(&self, place: [f64; 2]) -> Vec2 {
+        let share = |axis: usize| {
+            let [low, high] = self.ends[axis].map(f64::log10);
+            (place[axis].log10() - low) / (high - low)
+        };
+        self.low + Vec2::new(share(0), share(1)).component_mul(&self.size)
+    }
+
+    /// A band between two values of the upright axis.
+    pub(super) fn band(&mut self, [from, to]: [f64; 2], fill: &'static str) {
+        let [left, right] = self.ends[0];
+        let corners = [[left, from], [right, from], [right, to], [left, to]].map(|place| self.at(place));
+        self.figure.shape(corners.to_vec(), true, Some((fill, 1.0)), solid(fill, 0.0));
+    }
+
+    /// A line across at a value of the upright axis.
+    pub(super) fn level(&mut self, value: f64, style: Style) {
+        let ends = self.ends[0].map(|end| self.at([end, value]));
+        self.figure.line(ends, style);
+    }
+
+    /// Grid lines with their numbers, what is shown, above, and the name of the axis below; the frame.
+    pub(super) fn axes(&mut self, [along, up]: [&[f64]; 2], title: &str, below: &str) {
+        let [low, high] = [0, 1].map(|end| self.at([self.ends[0][end], self.ends[1][end]]));
+        for &value in along {
+            let x = self.at([value, self.ends[1][0]]).x;
+            self.figure.line([Vec2::new(x, low.y), Vec2::new(x, high.y)], GRID);
+            self.figure.text(Vec2::new(x, low.y - 4.0), label(value), Type { anchor: "middle", ..words(SMALL) });
+        }
+        for &value in up {
+            self.level(value, GRID);
+            let y = self.at([self.ends[0][0], value]).y;
+            self.figure.text(Vec2::new(low.x - 1.5, y - 1.0), label(value), Type { anchor: "end", ..words(SMALL) });
+        }
+        let corners = [low, Vec2::new(high.x, low.y), high, Vec2::new(low.x, high.y)];
+        self.figure.shape(corners.to_vec(), true, None, solid(GREY, 0.25));
+        self.figure.text(Vec2::new(low.x, high.y + 2.0), title, Type { bold: true, ..words(3.6) });
+        let middle = Vec2::new((low.x + high.x) / 2.0, low.y - 9.0);
+        self.figure.text(middle, below, Type { anchor: "middle", ..words(3.2) });
+    }
+
+    /// Says in the middle of the frame why there is nothing in it.
+    pub(super) fn empty(&mut self, why: &str) {
+        let middle = self.low + self.size / 2.0;
+        self.figure.text(middle, format!("nothing to draw: {why}"), Type { anchor: "middle", ..words(3.6) });
+    }
+}
+
+/// Powers of ten between two values, every second, third ... of them if there are more than `most`.
+pub(super) fn decades([low, high]: [f64; 2], most: i32) -> Vec<f64> {
+    let (first, last) = (low.log10().ceil() as i32, high.log10().floor() as i32);
+    let every = (last - first) / most + 1;
+    // Read from text, so that 1e-5 is the double nearest to it.
+    let power = |power: i32| format!("1e{power}").parse().ok();
+    (first..=last).filter(|power| power % every == 0).filter_map(power).collect()
+}
+
+/// A number of an axis.
+pub(super) fn label(value: f64) -> String {
+    if (0.01..1e5).contains(&value) { format!("{value}") } else { format!("{value:e}") }
+}
+
+/// The mark of a party, `size` (mm) from its middle to its edge: its colour and its shape by number, its filling.
+pub(super) fn mark(figure: &mut Figure, at: Vec2, size: f64, party: usize, filling: Filling) {
+    let paint = colour(party);
+    let corners: &[[f64; 2]] = match party % 5 {
+        1 => &[[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]],
+        2 => &[[0.0, 1.2], [1.1, -0.9], [-1.1, -0.9]],
+        3 => &[[0.0, -1.3], [1.3, 0.0], [0.0, 1.3], [-1.3, 0.0]],
+        4 => &[[0.0, -1.2], [1.1, 0.9], [-1.1, 0.9]],
+        _ => &[],
+    };
+    let around = |[x, y]: [f64; 2]| at + Vec2::new(x, y) * size;
+    // Marks that overlap are told apart by a white edge.
+    let (fill, edge) = if filling == Filling::Full { (paint, "#ffffff") } else { ("#ffffff", paint) };
+    if filling != Filling::Cross && corners.is_empty() {
+        figure.disc(at, size, fill, solid(edge, 0.2));
+    } else if filling != Filling::Cross {
+        figure.shape(corners.iter().copied().map(around).collect(), true, Some((fill, 1.0)), solid(edge, 0.2));
+    }
+    if matches!(filling, Filling::Cross | Filling::Crossed) {
+        for slope in [1.0, -1.0] {
+            figure.line([[-1.0, -slope], [1.0, slope]].map(around), solid(paint, 0.4));
+        }
+    }
+}
