@@ -5,7 +5,7 @@ use super::keys::key::{Kind, Section, needed, optional};
 use super::reader::{Faults, Sign, Table};
 use super::unit::{ANGLE, DAMPING, FORCE, Family, LENGTH, MOMENT, MOMENT_PER_SPEED, STIFFNESS, TORSIONAL_STIFFNESS};
 use super::words::{Words, names, suggestion};
-use linkage::drive::{Acts, Course, Load, LoadSort};
+use linkage::drive::{Acts, Course, Load};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::mechanism::{GROUND, Mechanism, Side};
 use std::f64::consts::TAU;
@@ -24,7 +24,7 @@ pub const SECTIONS: &[Section] = &[
     Section {
         path: "loads",
         keys: &[
-            needed("type", Kind::Choice(|| LoadSort::ALL.iter().map(|sort| sort.name()).collect()), "kind of load"),
+            needed("type", Kind::Choice(|| names(SORTS)), "kind of load"),
             optional("link", Kind::Text, "the loaded link", "required by the type"),
             optional("point", Kind::Text, "the loaded point of that link", "required by the type"),
             optional(
@@ -105,21 +105,17 @@ pub const SECTIONS: &[Section] = &[
     },
 ];
 
-/// Reads the keys of a load.
-type Reader = fn(&mut Table, &Mechanism) -> Result<Load>;
-
-fn reader(sort: LoadSort) -> Reader {
-    match sort {
-        LoadSort::Resistance => resistance,
-        LoadSort::Moment => moment,
-        LoadSort::Force => force,
-        LoadSort::ResistingForce => resisting_force,
-        LoadSort::Spring => spring,
-        LoadSort::Damper => damper,
-        LoadSort::TorsionSpring => torsion_spring,
-        LoadSort::TorsionDamper => torsion_damper,
-    }
-}
+/// Sorts of loads, each with its reader. The name is that of [`Load::sort`].
+const SORTS: Words<fn(&mut Table, &Mechanism) -> Result<Load>> = &[
+    ("resistance", resistance),
+    ("moment", moment),
+    ("force", force),
+    ("resisting_force", resisting_force),
+    ("spring", spring),
+    ("damper", damper),
+    ("torsion_spring", torsion_spring),
+    ("torsion_damper", torsion_damper),
+];
 
 /// Largest number of crank turns after which a table may repeat.
 const MOST_TURNS: i64 = 1000;
@@ -130,9 +126,7 @@ pub fn read(tables: Vec<Table>, mechanism: &Mechanism, faults: &mut Faults) -> V
 }
 
 fn load(table: &mut Table, mechanism: &Mechanism) -> Result<Load> {
-    let sorts: Vec<_> = LoadSort::ALL.iter().map(|&sort| (sort.name(), sort)).collect();
-    let sort = table.choice("type", "is no type of load", &sorts)?;
-    let load = reader(sort)(table, mechanism)?;
+    let load = table.choice("type", "is no type of load", SORTS)?(table, mechanism)?;
     table.finish()?;
     Ok(load)
 }
