@@ -2,7 +2,7 @@
 
 use super::printed::{MOST_DIGITS, Printed};
 use super::reader::Table;
-use linkage::error::{ErrorKind, Result};
+use linkage::error::Result;
 
 /// `value` and `digits` of a number in the scenario itself. TOML does not keep the printed text.
 pub(super) fn number(entry: &mut Table) -> Result<Printed> {
@@ -55,7 +55,7 @@ pub(super) fn check_apart(entry: &Table, printed: &Printed, right: &Printed) -> 
         right.value, right.digits, printed.value, printed.digits
     );
     let help = "give the right number with more decimals, or take `finding` and `right` out if the printed one holds";
-    Err(entry.wrong(ErrorKind::Input, "right", message).help(help))
+    entry.refuse("right", message, help)
 }
 
 /// The count of printed decimals under the key `digits`.
@@ -63,12 +63,10 @@ pub(super) fn digits(entry: &mut Table) -> Result<i32> {
     let digits = entry.integer("digits")?;
     match i32::try_from(digits) {
         Ok(digits) if digits.abs() <= MOST_DIGITS => Ok(digits),
-        _ => Err(entry
-            .wrong(
-                ErrorKind::Input,
-                "digits",
-                format!("found {digits}, but no number is printed with as many decimals"),
-            )
-            .help(format!("give the count of printed decimals, from {} to {MOST_DIGITS}", -MOST_DIGITS))),
+        _ => entry.refuse(
+            "digits",
+            format!("found {digits}, but no number is printed with as many decimals"),
+            format!("give the count of printed decimals, from {} to {MOST_DIGITS}", -MOST_DIGITS),
+        ),
     }
 }

@@ -1,12 +1,12 @@
 //! Where the numbers of an oracle hold: at a crank angle, or at a time.
 
-use super::reader::{Sign, Table};
+use super::reader::Table;
 use super::series::When;
-use super::unit::{self, ANGLE, TIME, Unit};
+use super::unit::{ANGLE, TIME, Unit};
 use formula::Rounded;
 use linkage::case::{Case, Grid};
 use linkage::drive::Drive;
-use linkage::error::{ErrorKind, Result};
+use linkage::error::Result;
 use linkage::math::KeepNan;
 
 /// Share of the last instant by which a time may lie beyond it: the rounding of a number in other units.
@@ -16,18 +16,16 @@ const HELP: &str = "a number holds at a crank angle (of the nominal motion, wher
 
 /// The instant of a table under `crank` or `time` with a unit.
 pub fn read(table: &mut Table, case: &Case) -> Result<When> {
-    let crank = table.optional_quantity("crank", unit::of_input(case.crank().input)[0], Sign::Any)?;
-    let time = table.optional_quantity("time", &TIME, Sign::Any)?;
+    let crank = table.optional_si("crank")?;
+    let time = table.optional_si("time")?;
     match (crank, time) {
         (Some(crank), None) => Ok(When::Crank(crank)),
         (None, Some(time)) => {
-            checked(case, end(case), time)
-                .map_err(|message| table.wrong(ErrorKind::Input, "time", message).help(TIME_HELP))?;
+            checked(case, end(case), time).or_else(|message| table.refuse("time", message, TIME_HELP))?;
             Ok(When::Time(time))
         }
         (Some(_), Some(_)) => {
-            let message = "a crank angle and a time are both given";
-            Err(table.wrong(ErrorKind::Input, "time", message).help(format!("keep one of the two: {HELP}")))
+            table.refuse("time", "a crank angle and a time are both given", format!("keep one of the two: {HELP}"))
         }
         (None, None) => Err(table.lacks(&["crank_deg", "crank_rad", "time_s", "time_ms"], HELP)),
     }
@@ -52,9 +50,7 @@ impl Rows {
             (None, Some(column)) => ("time", column, true),
             (Some(_), Some(_)) => {
                 let message = "a column of crank angles and one of times are both named";
-                return Err(table
-                    .wrong(ErrorKind::Input, "time", message)
-                    .help(format!("keep one of the two: {HELP}")));
+                return table.refuse("time", message, format!("keep one of the two: {HELP}"));
             }
             (None, None) => return Err(table.lacks(&["crank", "time"], COLUMN_HELP)),
         };
@@ -64,10 +60,7 @@ impl Rows {
         };
         match units.iter().find(|unit| column.ends_with(&format!("_{}", unit.suffix))) {
             Some(unit) => Ok(Rows { column, key, unit, is_time }),
-            None => {
-                let message = format!("column \"{column}\" does not say its unit");
-                Err(table.wrong(ErrorKind::Input, key, message).help(help))
-            }
+            None => table.refuse(key, format!("column \"{column}\" does not say its unit"), help),
         }
     }
 

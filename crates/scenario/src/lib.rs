@@ -267,7 +267,7 @@ fn parse(text: &str, path: &Path, asked: &Asked, lists: Lists) -> Result<(Scenar
     if let Some(fault) = fault {
         return Err(fault);
     }
-    let source = plain.with(parameters);
+    let source = plain.with(parameters, keys::rows);
     let in_file = |error| source.located(tree.get_ref(), error);
     let stated = Table::root(&source, &tree).read(|root| {
         let stated = Stated::read(root, asked)?;

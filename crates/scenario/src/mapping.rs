@@ -201,8 +201,11 @@ fn read(root: &mut Table) -> Result<Mapping> {
         for name in at.keys() {
             let mapped = line(&mut at, &name)?;
             if mapped.instant().is_none() {
-                let error = at.wrong(ErrorKind::Input, &name, format!("rows do not hold at `{name}`"));
-                return Err(error.help(suggestion(&name, INSTANTS.map(|(name, ..)| name), "`")));
+                return at.refuse(
+                    &name,
+                    format!("rows do not hold at `{name}`"),
+                    suggestion(&name, INSTANTS.map(|(name, ..)| name), "`"),
+                );
             }
             mapping.at.push(mapped);
         }
@@ -223,8 +226,11 @@ fn read(root: &mut Table) -> Result<Mapping> {
             {
                 let Some(number) = entry.optional_number(key)? else { continue };
                 if number < 0.0 {
-                    let error = entry.wrong(ErrorKind::Input, key, format!("found {number}"));
-                    return Err(error.help("a difference that is allowed is zero or more"));
+                    return entry.refuse(
+                        key,
+                        format!("found {number}"),
+                        "a difference that is allowed is zero or more",
+                    );
                 }
                 mapping.allowed.push(Allowed { of: of.clone(), size: size(number) });
             }

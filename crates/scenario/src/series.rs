@@ -5,7 +5,7 @@ use std::fmt;
 use super::printed::{self, PrintedChannel};
 use super::reader::Table;
 use super::words::suggestion;
-use linkage::error::{ErrorKind, Result};
+use linkage::error::Result;
 use linkage::input::Input;
 use linkage::trajectory::{CHANNELS, Channel};
 
@@ -136,8 +136,7 @@ impl Known<'_> {
         let name = table.string("channel")?;
         let found = PrintedChannel::named(&name).filter(|found| self.channels.contains(&found.channel));
         let Some(found) = found else {
-            let message = format!("the mechanism has no channel \"{name}\"");
-            return Err(table.wrong(ErrorKind::Input, "channel", message).help(self.help(&name)));
+            return table.refuse("channel", format!("the mechanism has no channel \"{name}\""), self.help(&name));
         };
         let stage = found.channel.kind.stage;
         if self.wanted.contains(&found.channel) {
@@ -145,7 +144,7 @@ impl Known<'_> {
         }
         let message = format!("this channel is one of the {}, which `channels.want` leaves out", stage.name());
         let help = format!("add \"{}\" to `want`, or take the published numbers out", stage.name());
-        Err(table.wrong(ErrorKind::Input, "channel", message).help(help))
+        table.refuse("channel", message, help)
     }
 
     fn help(&self, name: &str) -> String {

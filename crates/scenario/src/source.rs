@@ -8,6 +8,7 @@ use std::sync::Arc;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use super::keys::key::Key;
 use super::parameters::Parameters;
 use super::{hostile, malformed};
 use linkage::error::{Error, ErrorKind, Place, Result};
@@ -28,6 +29,8 @@ pub struct Source<'a> {
     pub text: &'a str,
     /// Parameters that its numbers may use.
     pub parameters: Parameters,
+    /// The rows of the table of keys for a section, by its path; none of files that are no scenarios.
+    pub rows: fn(&str) -> &'static [Key],
     /// The text once more, for places.
     shared: Arc<str>,
 }
@@ -35,12 +38,12 @@ pub struct Source<'a> {
 impl<'a> Source<'a> {
     /// A file without parameters.
     pub fn new(path: &'a Path, text: &'a str) -> Self {
-        Source { path, text, parameters: Parameters::default(), shared: text.into() }
+        Source { path, text, parameters: Parameters::default(), rows: |_| &[], shared: text.into() }
     }
 
-    /// The same file with parameters.
-    pub fn with(self, parameters: Parameters) -> Self {
-        Source { parameters, ..self }
+    /// The same file with parameters, whose sections have these rows.
+    pub fn with(self, parameters: Parameters, rows: fn(&str) -> &'static [Key]) -> Self {
+        Source { parameters, rows, ..self }
     }
 
     /// Place of a byte range.

@@ -91,7 +91,7 @@ fn series(
     let cells = single_cells(table, instants, &printed, case)?;
     if whole.is_some() && !cells.is_empty() {
         let message = "a column that is wrong as a whole has no single cells that are";
-        return Err(table.wrong(ErrorKind::Input, "expect", message).help("keep either `expect` or `finding`"));
+        return table.refuse("expect", message, "keep either `expect` or `finding`");
     }
     table.finish()?;
     let point = |row: usize, number: &Printed, slack: f64| OraclePoint {
@@ -144,8 +144,11 @@ fn single_cells(
                 When::Crank(_) => ("crank", "crank angle"),
                 When::Time(_) => ("time", "time"),
             };
-            let error = expect.wrong(ErrorKind::Input, key, format!("the table has no row with this {what}"));
-            return Err(error.help(format!("give a {what} that stands in the table")));
+            return expect.refuse(
+                key,
+                format!("the table has no row with this {what}"),
+                format!("give a {what} that stands in the table"),
+            );
         };
         let Some(correction) = Correction::read(&mut expect, &printed[row])? else {
             return Err(expect.fault("`finding` is missing").help("say which finding calls the cell wrong"));
@@ -165,9 +168,7 @@ fn whole_column(table: &mut Table, printed: &[Printed]) -> Result<Option<(String
     right.finish()?;
     if values.len() != printed.len() {
         let message = format!("found {} right values for the column's {} rows", values.len(), printed.len());
-        return Err(right
-            .wrong(ErrorKind::Input, "values", message)
-            .help("give one value for every row, in their order"));
+        return right.refuse("values", message, "give one value for every row, in their order");
     }
     let right: Vec<Printed> = values.into_iter().map(|value| Printed::with_digits(value, digits)).collect();
     printed.iter().zip(&right).try_for_each(|(printed, right)| check_apart(table, printed, right))?;
@@ -188,9 +189,11 @@ fn slack(oracle: &mut Table) -> Result<f64> {
     if slack > 0.0 && !why.trim().is_empty() {
         return Ok(slack);
     }
-    Err(oracle
-        .wrong(ErrorKind::Input, "slack", format!("found {slack}, explained by \"{why}\""))
-        .help("give a positive number and the reason why the published numbers are as far off"))
+    oracle.refuse(
+        "slack",
+        format!("found {slack}, explained by \"{why}\""),
+        "give a positive number and the reason why the published numbers are as far off",
+    )
 }
 
 /// Printed values minus the channel, in SI; zero if it is not given.
