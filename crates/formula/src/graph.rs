@@ -3,10 +3,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::domain::undefined;
-use crate::fault::Fault;
-use crate::function::Function;
 use crate::rounded::Rounded;
-use crate::tree::{Operator, Shape, Tree};
+use crate::tree::{Fault, Function, Operator, Shape, Tree};
 
 /// A node of a [`Graph`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]

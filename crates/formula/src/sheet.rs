@@ -3,9 +3,8 @@
 
 use std::collections::BTreeMap;
 
-use crate::function::Function;
 use crate::rounded::Rounded;
-use crate::tree::{Operator, Shape, Tree};
+use crate::tree::{Function, Operator, Shape, Tree};
 
 /// What stands at a place. Arguments have smaller indices.
 #[derive(Clone, Copy, Debug)]

@@ -1,7 +1,6 @@
 //! Figures of a mechanism: lengths as solved, and quantities over a turn.
 
-use super::correction::{Correction, number};
-use super::printed::Printed;
+use super::printed::{Correction, Printed, number};
 use super::reader::Table;
 use super::unit::{LENGTH, Unit};
 use super::words::suggestion;

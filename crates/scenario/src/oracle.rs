@@ -1,13 +1,11 @@
 //! `[[oracle]]`: numbers that the mechanism must reproduce, each with the bound that its digits give.
 
-use super::correction::{Correction, number};
 use super::figure::Figure;
 use super::figure::{self, OracleFigure};
-use super::instant;
 use super::keys::key::{Key, Kind, Section, needed, optional};
-use super::printed::{Printed, PrintedChannel};
+use super::printed::{Correction, Printed, PrintedChannel, number};
 use super::reader::{Faults, Table};
-use super::series::{ExpectedCell, Known, OraclePoint, OracleSeries, When};
+use super::series::{ExpectedCell, Known, OraclePoint, OracleSeries, When, instant};
 use super::table_file;
 use linkage::case::Case;
 use linkage::error::Result;
@@ -192,7 +190,7 @@ fn oracle(table: &mut Table, known: &Known, case: &Case, inline: &mut usize) -> 
 
 /// Numbers at one instant, written in the scenario itself.
 fn values(table: &mut Table, known: &Known, case: &Case) -> Result<Vec<OracleSeries>> {
-    let at = instant::read(table, case)?;
+    let at = instant(table, case)?;
     let mut series = Vec::new();
     for mut entry in table.tables("values")? {
         let own = entry.read(|entry| value(entry, at, known)).map(Some);
