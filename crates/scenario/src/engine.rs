@@ -301,11 +301,8 @@ pub fn read(table: &mut Table, drive: &Drive) -> Result<EngineSettings> {
         (Some(dt), None) => table.given("dt", Some(dt)),
         (None, Some(angle)) => table.given("step", Some((angle / omega).abs())),
         (Some(_), Some(_)) => {
-            return table.refuse(
-                "step",
-                "the engine's step is given twice",
-                "keep either `dt` (a time) or `step` (a crank angle)",
-            );
+            let help = "keep either `dt` (a time) or `step` (a crank angle)";
+            return table.refuse("step", "the engine's step is given twice", help);
         }
         (None, None) => Setting::Free,
     };

@@ -67,11 +67,8 @@ fn joint(table: &mut Table, links: &[Link], before: &[Joint]) -> Result<Joint> {
     }
     if before.iter().any(|joint| joint.name == name) {
         let message = format!("two joints are called \"{name}\"");
-        return table.refuse(
-            "name",
-            message,
-            "give every joint its own name; two joints on one pin share the point instead: `point = \"...\"`",
-        );
+        let help = "give every joint its own name; two joints on one pin share the point instead: `point = \"...\"`";
+        return table.refuse("name", message, help);
     }
     let (kind, drawn) = kind(table)?;
     let pair = table.strings("links")?;

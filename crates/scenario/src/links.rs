@@ -90,25 +90,16 @@ fn fill(table: &mut Table, link: &mut Link) -> Result<()> {
     let centre = table.part(centre);
     table.finish()?;
     if mass.is_none() && inertia.is_some() {
-        return table.refuse(
-            "inertia",
-            "the link has a moment of inertia but no mass",
-            "add `mass_kg`, or leave out the inertia",
-        );
+        let help = "add `mass_kg`, or leave out the inertia";
+        return table.refuse("inertia", "the link has a moment of inertia but no mass", help);
     }
     if mass.is_none() && centre.is_some() {
-        return table.refuse(
-            "mass_centre",
-            "the link has a mass centre but no mass",
-            "add `mass_kg` (0 is allowed), or leave out the mass centre",
-        );
+        let help = "add `mass_kg` (0 is allowed), or leave out the mass centre";
+        return table.refuse("mass_centre", "the link has a mass centre but no mass", help);
     }
     if mass.is_some() && centre.is_none() {
-        return table.refuse(
-            "mass",
-            "the link has a mass but no mass centre",
-            "add `mass_centre = { x_mm = ..., y_mm = ... }`, in the link's frame",
-        );
+        let help = "add `mass_centre = { x_mm =..., y_mm =... }`, in the link's frame";
+        return table.refuse("mass", "the link has a mass but no mass centre", help);
     }
     link.mass = mass.unwrap_or(0.0);
     link.mass_centre = centre.unwrap_or_else(Vec2::zeros);

@@ -120,11 +120,8 @@ fn drive(table: &mut Table, mechanism: &Mechanism, before: &[Drive], start: f64)
             format!("joint \"{name}\" joins \"{}\" and \"{}\", not a link and the ground", names[0], names[1]);
         let hinges = mechanism.joints().iter().filter(|joint| joint.on(GROUND).is_some() && joint.is_pin());
         let hinges: Vec<&str> = hinges.map(|joint| joint.name.as_str()).collect();
-        return table.unsupported(
-            "joint",
-            message,
-            format!("drive a link that is hinged to the ground: {}", choice(hinges, "\"")),
-        );
+        let help = format!("drive a link that is hinged to the ground: {}", choice(hinges, "\""));
+        return table.unsupported("joint", message, help);
     };
     let drive = Drive { input, joint: index, link, zero, start, motion, through };
     if joint.on(GROUND).is_none() && !drive.is_free() {
@@ -160,11 +157,10 @@ fn motion(table: &mut Table, law: MotionLaw) -> Result<DriveMotion> {
             table.refuse("initial_speed", "the link is given a speed at t = 0, but its motion is prescribed", help)
         }
         None | Some("prescribed") => Ok(DriveMotion::Prescribed { law, motor: None }),
-        Some(other) => table.refuse(
-            "motion",
-            format!("\"{other}\" is no sort of motion"),
-            suggestion(other, ["prescribed", "free"], "\""),
-        ),
+        Some(other) => {
+            let help = suggestion(other, ["prescribed", "free"], "\"");
+            table.refuse("motion", format!("\"{other}\" is no sort of motion"), help)
+        }
     }
 }
 
@@ -178,11 +174,10 @@ fn through(table: &mut Table) -> Result<bool> {
             let help = "write `through = \"smooth\"` for the branch on which they go on, or take the key out";
             table.unsupported("through", message, help)
         }
-        Some(other) => table.refuse(
-            "through",
-            format!("\"{other}\" is no way through a change point"),
-            "write `through = \"smooth\"` for the branch on which velocities go on, or take the key out",
-        ),
+        Some(other) => {
+            let help = "write `through = \"smooth\"` for the branch on which velocities go on, or take the key out";
+            table.refuse("through", format!("\"{other}\" is no way through a change point"), help)
+        }
     }
 }
 

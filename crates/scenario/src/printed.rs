@@ -202,11 +202,10 @@ pub(super) fn digits(entry: &mut Table) -> Result<i32> {
     let digits = entry.integer("digits")?;
     match i32::try_from(digits) {
         Ok(digits) if digits.abs() <= MOST_DIGITS => Ok(digits),
-        _ => entry.refuse(
-            "digits",
-            format!("found {digits}, but no number is printed with as many decimals"),
-            format!("give the count of printed decimals, from {} to {MOST_DIGITS}", -MOST_DIGITS),
-        ),
+        _ => {
+            let help = format!("give the count of printed decimals, from {} to {MOST_DIGITS}", -MOST_DIGITS);
+            entry.refuse("digits", format!("found {digits}, but no number is printed with as many decimals"), help)
+        }
     }
 }
 

@@ -142,11 +142,8 @@ fn single_cells(
                 When::Crank(_) => ("crank", "crank angle"),
                 When::Time(_) => ("time", "time"),
             };
-            return expect.refuse(
-                key,
-                format!("the table has no row with this {what}"),
-                format!("give a {what} that stands in the table"),
-            );
+            let help = format!("give a {what} that stands in the table");
+            return expect.refuse(key, format!("the table has no row with this {what}"), help);
         };
         let Some(correction) = Correction::read(&mut expect, &printed[row])? else {
             return Err(expect.fault("`finding` is missing").help("say which finding calls the cell wrong"));
@@ -187,11 +184,8 @@ fn slack(oracle: &mut Table) -> Result<f64> {
     if slack > 0.0 && !why.trim().is_empty() {
         return Ok(slack);
     }
-    oracle.refuse(
-        "slack",
-        format!("found {slack}, explained by \"{why}\""),
-        "give a positive number and the reason why the published numbers are as far off",
-    )
+    let help = "give a positive number and the reason why the published numbers are as far off";
+    oracle.refuse("slack", format!("found {slack}, explained by \"{why}\""), help)
 }
 
 /// Printed values minus the channel, in SI; zero if it is not given.
