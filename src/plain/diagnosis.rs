@@ -270,7 +270,7 @@ fn part(part: &Part) -> String {
         Part::Length(one, other, link) => format!("distance of {one} and {other} on {link}"),
         Part::MassCentre(link) => format!("mass centre of {link}"),
         Part::MassCentreAlong(link, along) => format!("mass centre of {link}, {}", axis(along)),
-        Part::Load(number, sort) => format!("load {number}, {}", sort.name().replace('_', " ")),
+        Part::Load(number, sort) => format!("load {number}, {}", sort.replace('_', " ")),
         Part::Free(number) => format!("free length of load {number}, spring"),
         Part::Configuration(group) => format!("another configuration of {group}"),
         Part::Speed(joint) => format!("speed of the drive at {joint}"),

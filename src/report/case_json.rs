@@ -1,10 +1,11 @@
 //! A case as JSON, for other programs: everything that it takes to solve it, in SI units. docs/peers.md lists the keys.
 
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
 use super::pretty::pretty;
 use linkage::case::Case;
-use linkage::drive::{Acts, Course, Drive, DriveMotion, Load, MotionLaw, Motor, MotorLaw};
+use linkage::drive::load::{Acts, Part};
+use linkage::drive::{Course, Drive, DriveMotion, Load, MotionLaw, Motor, MotorLaw, On};
 use linkage::math::Vec2;
 use linkage::mechanism::Side;
 use linkage::solver::State;
@@ -16,7 +17,7 @@ const FORMAT: u32 = 1;
 pub(crate) fn text(name: &str, case: &Case, start: &State) -> String {
     let links = case.mechanism.links().iter().zip(&start.motions).zip(&start.angles);
     let links = links.map(|((link, motion), angle)| {
-        let points: serde_json::Map<String, Value> =
+        let points: Map<String, Value> =
             link.points.iter().map(|point| (point.name.clone(), pair(point.local))).collect();
         json!({
             "name": link.name, "mass_kg": link.mass, "inertia_kg_m2": link.inertia,
@@ -114,32 +115,25 @@ fn course(course: &Course) -> Value {
 }
 
 fn load(case: &Case, load: &Load) -> Value {
-    let link = |index: usize| name(case, index);
-    let both = |ends: &[Side; 2]| ends.map(|end| side(case, end));
-    let sort = load.sort();
-    match load {
-        Load::Resistance { link: own, moment } => json!({ "type": sort, "link": link(*own), "moment_N_m": moment }),
-        Load::Moment { link: own, moment, acts } => {
-            let acts = match acts {
-                Acts::Always => "always",
-                Acts::CounterClockwise => "counter_clockwise",
-                Acts::Clockwise => "clockwise",
-            };
-            json!({ "type": sort, "link": link(*own), "moment_N_m": course(moment), "acts": acts })
-        }
-        Load::Force { at, force, follows } => json!({
-            "type": sort, "at": side(case, *at), "force_N": force.each_ref().map(course), "follows": follows,
-        }),
-        Load::ResistingForce { at, force } => json!({ "type": sort, "at": side(case, *at), "force_N": force }),
-        Load::Spring { ends, stiffness, free_length } => json!({
-            "type": sort, "ends": both(ends), "stiffness_N_m": stiffness, "free_length_m": free_length,
-        }),
-        Load::Damper { ends, damping } => json!({ "type": sort, "ends": both(ends), "damping_N_s_m": damping }),
-        Load::TorsionSpring { links, stiffness, free_angle } => json!({
-            "type": sort, "links": links.map(link), "stiffness_N_m_rad": stiffness, "free_angle_rad": free_angle,
-        }),
-        Load::TorsionDamper { links, damping } => {
-            json!({ "type": sort, "links": links.map(link), "damping_N_m_s_rad": damping })
-        }
+    let (place, on) = match load.nature().on {
+        On::Link(link) => ("link", json!(name(case, link))),
+        On::Links(links) => ("links", json!(links.map(|link| name(case, link)))),
+        On::Point(at) => ("at", side(case, at)),
+        On::Points(ends) => ("ends", json!(ends.map(|end| side(case, end)))),
+    };
+    let mut all = Map::from_iter([("type".into(), json!(load.sort())), (place.into(), on)]);
+    for part in load.clone().parts() {
+        let (name, value) = match part {
+            Part::Link(_) | Part::Point(_) => continue,
+            Part::Number { role: _, name, value } => (name, json!(value)),
+            Part::Courses { name, values: [one] } => (name, course(one)),
+            Part::Courses { name, values } => (name, values.iter().map(course).collect()),
+            Part::Acts(Acts::Always) => ("acts", json!("always")),
+            Part::Acts(Acts::CounterClockwise) => ("acts", json!("counter_clockwise")),
+            Part::Acts(Acts::Clockwise) => ("acts", json!("clockwise")),
+            Part::Follows(follows) => ("follows", json!(follows)),
+        };
+        all.insert(name.into(), value);
     }
+    Value::Object(all)
 }

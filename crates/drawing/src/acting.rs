@@ -1,7 +1,7 @@
 //! What loads and gravity do at one state of a case.
 
 use linkage::case::Case;
-use linkage::drive::Load;
+use linkage::drive::{Load, On};
 use linkage::math::{Motion, Vec2};
 use linkage::mechanism::Side;
 
@@ -47,16 +47,14 @@ pub struct Tension {
 #[must_use]
 pub fn tensions(case: &Case, motions: &[Motion], angles: &[f64]) -> Vec<Tension> {
     let of = |(load, own): (usize, &Load)| {
-        let first = match own {
-            Load::Spring { ends, .. } | Load::Damper { ends, .. } => {
+        let first = match own.nature().on {
+            On::Points(ends) => {
                 let [start, end] = ends.map(|end| motions[end.link].point(end.local));
                 let span = end - start;
                 Some(if span.norm() > 0.0 { span.normalize() } else { Vec2::zeros() })
             }
-            Load::TorsionSpring { .. } | Load::TorsionDamper { .. } => None,
-            Load::Resistance { .. } | Load::Moment { .. } | Load::Force { .. } | Load::ResistingForce { .. } => {
-                return None;
-            }
+            On::Links(_) => None,
+            On::Link(_) | On::Point(_) => return None,
         };
         let mut size = None;
         case.each_action(load, motions, angles, |action| {

@@ -1,7 +1,7 @@
 //! What acts on a mechanism: drives, motors, forces, moments, torsional springs and dampers.
 
 use super::mark::{Mark, Role};
-use linkage::drive::{Drive, Load, LoadSort};
+use linkage::drive::{Drive, Load, On};
 use linkage::math::{KeepNan, Vec2, turned, unit};
 use linkage::mechanism::{GROUND, Mechanism, Side};
 use std::f64::consts::{PI, TAU};
@@ -28,8 +28,6 @@ const DRUM: f64 = 5.4;
 pub struct LoadSign {
     /// Number of the load in its case.
     pub load: usize,
-    /// Its sort.
-    pub sort: LoadSort,
     /// Where it is drawn: for a force the point on which it acts, for a moment a pin of the link.
     pub at: Side,
 }
@@ -57,44 +55,33 @@ fn place_between(mechanism: &Mechanism, links: [usize; 2]) -> Side {
 
 /// The arrow of a load; `None` for springs and dampers, which have symbols of their own.
 pub fn of_load(mechanism: &Mechanism, number: usize, load: &Load) -> Option<LoadSign> {
-    let at = match *load {
-        Load::Resistance { link, .. } | Load::Moment { link, .. } => Side { link, local: place_of(mechanism, link) },
-        Load::Force { at, .. } | Load::ResistingForce { at, .. } => at,
-        Load::Spring { .. } | Load::Damper { .. } | Load::TorsionSpring { .. } | Load::TorsionDamper { .. } => {
-            return None;
-        }
-    };
-    Some(LoadSign { load: number, sort: load.nature().sort, at })
+    match load.nature().on {
+        On::Link(link) => Some(LoadSign { load: number, at: Side { link, local: place_of(mechanism, link) } }),
+        On::Point(at) => Some(LoadSign { load: number, at }),
+        On::Points(_) | On::Links(_) => None,
+    }
 }
 
 /// The symbol of a torsional spring or damper, and its link; `None` for other loads.
 pub fn twisted(mechanism: &Mechanism, load: &Load, u: f64) -> Option<(usize, Vec<Mark>)> {
-    match *load {
-        Load::TorsionSpring { links, .. } => {
-            let Side { link, local } = place_between(mechanism, links);
-            let step = |k: usize| {
-                let share = k as f64 / STEPS as f64;
-                local + unit(TURNS * TAU * share) * ((SPIRAL[0] + (SPIRAL[1] - SPIRAL[0]) * share) * u)
-            };
-            Some((link, vec![Mark::line(Role::TorsionSpring, (0..=STEPS).map(step).collect::<Vec<_>>())]))
-        }
-        Load::TorsionDamper { links, .. } => {
-            let Side { link, local } = place_between(mechanism, links);
-            let (from, sweep) = (-0.75 * PI, 1.5 * PI);
-            let vane = [DRUM - 1.0, DRUM + 1.0].map(|radius| local + unit(PI / 4.0) * (radius * u));
-            let ends = [from, from + sweep].map(|angle| {
-                Mark::line(Role::TorsionDamper, [DRUM - 1.0, DRUM].map(|radius| local + unit(angle) * (radius * u)))
-            });
-            let mut marks = vec![
-                Mark::arc(Role::TorsionDamper, local, DRUM * u, [from, sweep]),
-                Mark::line(Role::TorsionDamper, vane),
-            ];
-            marks.extend(ends);
-            Some((link, marks))
-        }
-        Load::Resistance { .. } | Load::Moment { .. } | Load::Force { .. } | Load::ResistingForce { .. } => None,
-        Load::Spring { .. } | Load::Damper { .. } => None,
+    let On::Links(links) = load.nature().on else { return None };
+    let Side { link, local } = place_between(mechanism, links);
+    if !load.is_viscous() {
+        let step = |k: usize| {
+            let share = k as f64 / STEPS as f64;
+            local + unit(TURNS * TAU * share) * ((SPIRAL[0] + (SPIRAL[1] - SPIRAL[0]) * share) * u)
+        };
+        return Some((link, vec![Mark::line(Role::TorsionSpring, (0..=STEPS).map(step).collect::<Vec<_>>())]));
     }
+    let (from, sweep) = (-0.75 * PI, 1.5 * PI);
+    let vane = [DRUM - 1.0, DRUM + 1.0].map(|radius| local + unit(PI / 4.0) * (radius * u));
+    let ends = [from, from + sweep].map(|angle| {
+        Mark::line(Role::TorsionDamper, [DRUM - 1.0, DRUM].map(|radius| local + unit(angle) * (radius * u)))
+    });
+    let mut marks =
+        vec![Mark::arc(Role::TorsionDamper, local, DRUM * u, [from, sweep]), Mark::line(Role::TorsionDamper, vane)];
+    marks.extend(ends);
+    Some((link, marks))
 }
 
 /// The arrow in the sense of a drive, in the frame of the driven link, and the circle of its motor.

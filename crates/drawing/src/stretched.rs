@@ -1,7 +1,7 @@
 //! Springs and dampers: drawings that reach from one point to another, whatever their distance.
 
 use super::mark::{Mark, Role};
-use linkage::drive::Load;
+use linkage::drive::{Load, On};
 use linkage::math::Vec2;
 use linkage::mechanism::Side;
 
@@ -42,14 +42,8 @@ impl Stretched {
 pub fn of_loads(loads: &[Load], unit: f64) -> Vec<Stretched> {
     let mut all: Vec<Stretched> = Vec::new();
     for (load, own) in loads.iter().enumerate() {
-        let (role, ends) = match *own {
-            Load::Spring { ends, .. } => (Role::Spring, ends),
-            Load::Damper { ends, .. } => (Role::Damper, ends),
-            Load::Resistance { .. } | Load::Moment { .. } | Load::Force { .. } | Load::ResistingForce { .. } => {
-                continue;
-            }
-            Load::TorsionSpring { .. } | Load::TorsionDamper { .. } => continue,
-        };
+        let On::Points(ends) = own.nature().on else { continue };
+        let role = if own.is_viscous() { Role::Damper } else { Role::Spring };
         all.push(Stretched { role, load, ends, width: WIDTH * unit, marks: Vec::new() });
     }
     let same = |a: &Stretched, b: &Stretched| a.ends == b.ends || a.ends == [b.ends[1], b.ends[0]];

@@ -1,7 +1,7 @@
 //! Derivatives by the rules of calculus.
 
-use crate::function::Function;
 use crate::graph::{Graph, Id, Node};
+use crate::tree::Function;
 use crate::tree::Operator::{Minus, Over, Plus, Power, Times};
 
 impl Graph {

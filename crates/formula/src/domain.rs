@@ -2,10 +2,8 @@
 
 use std::fmt::Write;
 
-use crate::fault::Fault;
-use crate::function::Function;
 use crate::rounded::Rounded;
-use crate::tree::{Operator, Shape, Tree};
+use crate::tree::{Fault, Function, Operator, Shape, Tree};
 
 impl Tree {
     /// Its value, where `of` gives the values of names.

@@ -3,23 +3,55 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::domain::undefined;
-use crate::fault::Fault;
-use crate::function::Function;
 use crate::rounded::Rounded;
-use crate::tree::{Operator, Shape, Tree};
+use crate::tree::{Fault, Function, Operator, Shape, Tree};
 
 /// A node of a [`Graph`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Id(pub(crate) u32);
 
-/// What a node does. Its arguments stand before it.
+/// What a node does. Its arguments stand before it, each at a place `P`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Node {
+pub(crate) enum Node<P = Id> {
     Input(usize),
     Number(Rounded),
-    Negative(Id),
-    Pair(Operator, Id, Id),
-    Call(Function, Id, Id),
+    Negative(P),
+    Pair(Operator, P, P),
+    Call(Function, P, P),
+}
+
+impl<P: Copy> Node<P> {
+    /// The same with other places.
+    pub(crate) fn map<Q>(self, to: impl Fn(P) -> Q) -> Node<Q> {
+        match self {
+            Node::Input(input) => Node::Input(input),
+            Node::Number(number) => Node::Number(number),
+            Node::Negative(part) => Node::Negative(to(part)),
+            Node::Pair(operator, left, right) => Node::Pair(operator, to(left), to(right)),
+            Node::Call(function, first, second) => Node::Call(function, to(first), to(second)),
+        }
+    }
+
+    /// Where its arguments stand; the only one twice.
+    pub(crate) fn parts(self) -> Option<[P; 2]> {
+        match self {
+            Node::Input(_) | Node::Number(_) => None,
+            Node::Negative(part) => Some([part; 2]),
+            Node::Pair(_, left, right) | Node::Call(_, left, right) => Some([left, right]),
+        }
+    }
+
+    /// Its value, where `at` gives those of its arguments. An input that is not there has none.
+    #[inline]
+    pub(crate) fn value(self, inputs: &[Rounded], at: impl Fn(P) -> Rounded) -> Rounded {
+        match self {
+            Node::Input(input) => inputs.get(input).copied().unwrap_or(Rounded::UNDEFINED),
+            Node::Number(number) => number,
+            Node::Negative(part) => at(part).negative(),
+            Node::Pair(operator, left, right) => Rounded::pair(operator, at(left), at(right)),
+            Node::Call(function, first, second) => Rounded::call(function, [at(first), at(second)]),
+        }
+    }
 }
 
 /// A node as a key: numbers by their bits.
@@ -197,11 +229,7 @@ impl Graph {
         let mut needed: BTreeSet<Id> = nodes.iter().copied().filter(|id| !is_done(*id)).collect();
         let mut next: Vec<Id> = needed.iter().copied().collect();
         while let Some(id) = next.pop() {
-            let parts = match self.node(id) {
-                Node::Input(_) | Node::Number(_) => continue,
-                Node::Negative(part) => [part, part],
-                Node::Pair(_, left, right) | Node::Call(_, left, right) => [left, right],
-            };
+            let Some(parts) = self.node(id).parts() else { continue };
             next.extend(parts.into_iter().filter(|part| !is_done(*part) && needed.insert(*part)));
         }
         // Arguments stand before what they are arguments of.
@@ -242,21 +270,14 @@ impl Graph {
     }
 
     fn folded(&self, node: Node) -> Option<Rounded> {
-        let of = |id: Id| self.constant_of(id);
-        match node {
-            Node::Input(_) => None,
-            Node::Number(number) => Some(number),
-            Node::Negative(part) => of(part).map(Rounded::negative),
-            Node::Pair(operator, left, right) => Some(Rounded::pair(operator, of(left)?, of(right)?)),
-            Node::Call(function, first, second) => Some(Rounded::call(function, [of(first)?, of(second)?])),
-        }
+        let is_known = node.parts().is_none_or(|parts| parts.iter().all(|&part| self.constant_of(part).is_some()));
+        let of = |part| self.constant_of(part).unwrap_or(Rounded::UNDEFINED);
+        (is_known && !matches!(node, Node::Input(_))).then(|| node.value(&[], of))
     }
 
     fn exact(&self, id: Id) -> Option<f64> {
-        match self.node(id) {
-            Node::Number(Rounded { value, error: 0.0 }) => Some(value),
-            Node::Number(_) | Node::Input(_) | Node::Negative(_) | Node::Pair(..) | Node::Call(..) => None,
-        }
+        let is_exact = |number: &Rounded| matches!(self.node(id), Node::Number(_)) && number.error == 0.0;
+        self.constant_of(id).filter(is_exact).map(|number| number.value)
     }
 
     pub(crate) fn whole(&mut self, value: f64) -> Id {

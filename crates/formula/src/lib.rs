@@ -20,8 +20,6 @@
 
 mod derivative;
 mod domain;
-mod fault;
-mod function;
 mod graph;
 mod parse;
 mod products;
@@ -32,11 +30,9 @@ mod sheet;
 mod tests;
 mod tree;
 
-pub use fault::Fault;
-pub use function::Function;
 pub use graph::{Graph, Id};
 pub use products::{Product, Products, information};
 pub use program::Program;
 pub use rounded::Rounded;
 pub use sheet::{Sheet, Target};
-pub use tree::{Operator, Shape, Tree};
+pub use tree::{Fault, Function, Operator, Shape, Tree};

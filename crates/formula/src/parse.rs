@@ -7,9 +7,7 @@ use winnow::error::{ErrMode, ParserError};
 use winnow::stream::{LocatingSlice, Location, Stream};
 use winnow::{ModalResult, Parser};
 
-use crate::fault::Fault;
-use crate::function::Function;
-use crate::tree::{Operator, Shape, Tree};
+use crate::tree::{Fault, Function, Operator, Shape, Tree};
 
 /// Longest text of a formula (bytes): a notebook page has some thousand.
 const LONGEST: usize = 20_000;

@@ -8,7 +8,7 @@ use crate::rounded::Rounded;
 #[derive(Clone, Debug)]
 pub struct Program {
     /// What changes with the inputs, each with the place of its value.
-    steps: Vec<(usize, Node)>,
+    steps: Vec<(usize, Node<usize>)>,
     /// Where the results of the nodes asked for stand.
     results: Vec<usize>,
     values: Vec<Rounded>,
@@ -20,29 +20,24 @@ impl Program {
     #[must_use]
     pub fn of(graph: &Graph, nodes: &[Id]) -> Self {
         let needed = graph.needed(nodes);
-        let place_of = |id: Id| Id(needed.binary_search(&id).expect("arguments are needed too") as u32);
+        let place_of = |id: Id| needed.binary_search(&id).expect("arguments are needed too");
         let (mut steps, mut values) = (Vec::new(), Vec::new());
         for &id in &needed {
-            let node = match graph.node(id) {
-                node @ (Node::Input(_) | Node::Number(_)) => node,
-                Node::Negative(part) => Node::Negative(place_of(part)),
-                Node::Pair(operator, left, right) => Node::Pair(operator, place_of(left), place_of(right)),
-                Node::Call(function, first, second) => Node::Call(function, place_of(first), place_of(second)),
-            };
+            let node = graph.node(id).map(place_of);
             let constant = graph.constants[id.0 as usize];
             if constant.is_none() {
                 steps.push((values.len(), node));
             }
             values.push(constant.unwrap_or(Rounded::UNDEFINED));
         }
-        let results = nodes.iter().map(|id| place_of(*id).0 as usize).collect();
+        let results = nodes.iter().map(|&id| place_of(id)).collect();
         Program { steps, results, values, answers: vec![Rounded::exact(0.0); nodes.len()] }
     }
 
     /// The values of the nodes, in the order in which they were asked for. An input that is not there is NaN.
     pub fn run(&mut self, inputs: &[Rounded]) -> &[Rounded] {
         for &(place, node) in &self.steps {
-            self.values[place] = value(node, &self.values, inputs);
+            self.values[place] = node.value(inputs, |part| self.values[part]);
         }
         for (answer, &result) in self.answers.iter_mut().zip(&self.results) {
             *answer = self.values[result];
@@ -66,17 +61,5 @@ impl Program {
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.steps.is_empty()
-    }
-}
-
-#[inline]
-fn value(node: Node, values: &[Rounded], inputs: &[Rounded]) -> Rounded {
-    let at = |id: Id| values[id.0 as usize];
-    match node {
-        Node::Input(input) => inputs.get(input).copied().unwrap_or(Rounded::UNDEFINED),
-        Node::Number(number) => number,
-        Node::Negative(part) => at(part).negative(),
-        Node::Pair(operator, left, right) => Rounded::pair(operator, at(left), at(right)),
-        Node::Call(function, first, second) => Rounded::call(function, [at(first), at(second)]),
     }
 }

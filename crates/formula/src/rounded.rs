@@ -1,7 +1,6 @@
 //! A number, and how far it may be from the exact one.
 
-use crate::function::Function;
-use crate::tree::Operator;
+use crate::tree::{Function, Operator};
 
 /// A number with a bound on its error. Every operation passes the errors of its arguments on and adds its own rounding.
 ///

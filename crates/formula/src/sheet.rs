@@ -3,20 +3,16 @@
 
 use std::collections::BTreeMap;
 
-use crate::function::Function;
+use crate::graph::Node;
 use crate::rounded::Rounded;
 use crate::tree::{Operator, Shape, Tree};
 
 /// What stands at a place. Arguments have smaller indices.
 #[derive(Clone, Copy, Debug)]
 enum Part {
-    Input(usize),
-    Number(Rounded),
     /// A name, by the place of what it stands for.
     Named(usize),
-    Negative(usize),
-    Pair(Operator, usize, usize),
-    Call(Function, usize, usize),
+    Own(Node<usize>),
 }
 
 /// Formulas of a derivation, part by part, and their values at some instants.
@@ -70,7 +66,7 @@ impl Sheet {
         let values = vec![Vec::new(); inputs.len()];
         let mut own = Sheet { inputs, values, ..Sheet::default() };
         for (index, name) in names.iter().enumerate() {
-            own.put_named(name, Part::Input(index));
+            own.put_named(name, Node::Input(index));
         }
         own.constant("pi", Rounded::nearly(std::f64::consts::PI));
         own
@@ -78,7 +74,7 @@ impl Sheet {
 
     /// Gives a number a name.
     pub fn constant(&mut self, name: &str, number: Rounded) {
-        self.put_named(name, Part::Number(number));
+        self.put_named(name, Node::Number(number));
     }
 
     /// Adds a formula, which those after it may use by its name. `None` if it uses a name that is not known.
@@ -90,8 +86,8 @@ impl Sheet {
         Some(())
     }
 
-    fn put_named(&mut self, name: &str, part: Part) {
-        let place = self.put(part);
+    fn put_named(&mut self, name: &str, part: Node<usize>) {
+        let place = self.put(Part::Own(part));
         self.names.insert(name.into(), place);
     }
 
@@ -99,20 +95,17 @@ impl Sheet {
         let own = order.len();
         order.push(0);
         let part = match &tree.shape {
-            Shape::Number(value) => Part::Number(Rounded::decimal(*value)),
+            Shape::Number(value) => Part::Own(Node::Number(Rounded::decimal(*value))),
             Shape::Name(name) => Part::Named(*self.names.get(name)?),
-            Shape::Negative(inner) => Part::Negative(self.read(inner, order)?),
+            Shape::Negative(inner) => Part::Own(Node::Negative(self.read(inner, order)?)),
             Shape::Pair(operator, parts) => {
                 let left = self.read(&parts[0], order)?;
-                Part::Pair(*operator, left, self.read(&parts[1], order)?)
+                Part::Own(Node::Pair(*operator, left, self.read(&parts[1], order)?))
             }
             Shape::Call(function, parts) => {
                 let first = self.read(&parts[0], order)?;
-                let second = match parts.get(1) {
-                    Some(second) => self.read(second, order)?,
-                    None => first,
-                };
-                Part::Call(*function, first, second)
+                let second = parts.get(1).map_or(Some(first), |second| self.read(second, order))?;
+                Part::Own(Node::Call(*function, first, second))
             }
         };
         let place = self.put(part);
@@ -134,12 +127,8 @@ impl Sheet {
     #[inline]
     fn evaluated(&self, part: Part, instant: usize, at: impl Fn(usize) -> Rounded) -> Rounded {
         match part {
-            Part::Input(input) => self.inputs[instant].get(input).copied().unwrap_or(Rounded::exact(f64::NAN)),
-            Part::Number(number) => number,
             Part::Named(place) => at(place),
-            Part::Negative(place) => at(place).negative(),
-            Part::Pair(operator, left, right) => Rounded::pair(operator, at(left), at(right)),
-            Part::Call(function, first, second) => Rounded::call(function, [at(first), at(second)]),
+            Part::Own(node) => node.value(&self.inputs[instant], at),
         }
     }
 
@@ -159,12 +148,11 @@ impl Sheet {
     /// Places of the arguments of a part; none for names and numbers.
     #[must_use]
     pub fn arguments(&self, place: usize) -> Vec<usize> {
-        match self.parts[place] {
-            Part::Input(_) | Part::Number(_) | Part::Named(_) => Vec::new(),
-            Part::Negative(part) => vec![part],
-            Part::Pair(_, left, right) => vec![left, right],
-            Part::Call(_, first, second) if first == second => vec![first],
-            Part::Call(_, first, second) => vec![first, second],
+        let Part::Own(node) = self.parts[place] else { return Vec::new() };
+        match node.parts() {
+            None => Vec::new(),
+            Some([first, second]) if first == second && !matches!(node, Node::Pair(..)) => vec![first],
+            Some(both) => both.to_vec(),
         }
     }
 
@@ -208,9 +196,8 @@ impl Sheet {
             let is_marked = |part: usize| part >= first && self.changed[part].0 == self.change;
             let depends = places.contains(&place)
                 || match self.parts[place] {
-                    Part::Input(_) | Part::Number(_) => false,
-                    Part::Named(part) | Part::Negative(part) => is_marked(part),
-                    Part::Pair(_, left, right) | Part::Call(_, left, right) => is_marked(left) || is_marked(right),
+                    Part::Named(part) => is_marked(part),
+                    Part::Own(node) => node.parts().is_some_and(|parts| parts.into_iter().any(is_marked)),
                 };
             if depends {
                 self.changed[place].0 = self.change;

@@ -17,9 +17,10 @@ use crate::input::InputValue;
 pub type Result<T> = std::result::Result<T, Error>;
 
 /// Kind of error. It decides the exit code and nothing else.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ErrorKind {
     /// The scenario or an argument is wrong.
+    #[default]
     Input,
     /// The mechanism cannot take the requested pose.
     Geometry,
@@ -95,7 +96,7 @@ impl fmt::Display for Reached {
 #[derive(Clone, Debug)]
 pub struct Error(Box<Inner>);
 
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 struct Inner {
     kind: ErrorKind,
     message: String,
@@ -116,21 +117,7 @@ impl Error {
     /// New error of this kind. `message` says what was asked and what was found.
     #[must_use]
     pub fn new(kind: ErrorKind, message: impl Into<String>) -> Self {
-        Error(Box::new(Inner {
-            kind,
-            message: message.into(),
-            key: None,
-            place: None,
-            time: None,
-            input: None,
-            part: None,
-            residual: None,
-            reached: None,
-            out_of_reach: false,
-            advice: Vec::new(),
-            further: Vec::new(),
-            left_out: 0,
-        }))
+        Error(Box::new(Inner { kind, message: message.into(), ..Inner::default() }))
     }
 
     /// Sets the remedy; replaces an earlier one.

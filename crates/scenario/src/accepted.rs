@@ -82,12 +82,11 @@ fn read(root: &mut Table, name: &str) -> Result<Accepted> {
     if scenario != name {
         let message = format!("these are accepted figures of \"{scenario}\", not of \"{name}\"");
         let help = "move the file to its own scenario; if the scenario was renamed, change the name here too";
-        return Err(root.wrong(ErrorKind::Input, "scenario", message).help(help));
+        return root.refuse("scenario", message, help);
     }
     let verdict = root.string("verdict")?;
     if !["agree", "disagree", "inconclusive"].contains(&verdict.as_str()) {
-        let error = root.wrong(ErrorKind::Input, "verdict", format!("\"{verdict}\" is no verdict"));
-        return Err(error.help("write agree, disagree or inconclusive"));
+        return root.refuse("verdict", format!("\"{verdict}\" is no verdict"), "write agree, disagree or inconclusive");
     }
     let instants = root.integer("instants")?;
     let instants = usize::try_from(instants).map_err(|_| {
@@ -105,14 +104,12 @@ fn kept(mut table: Table, count: usize) -> Result<Kept> {
     let name = table.string("name")?;
     let bound = table.number("bound")?;
     if bound < 0.0 {
-        let error = table.wrong(ErrorKind::Input, "bound", format!("the bound {bound:e} is negative"));
-        return Err(error.help("accept the figures anew"));
+        return table.refuse("bound", format!("the bound {bound:e} is negative"), "accept the figures anew");
     }
     let at = table.numbers("at")?;
     if at.len() != count {
-        let message = format!("{} values are kept for {count} instants", at.len());
         let help = "give one value for each of `times_s`, or accept the figures anew";
-        return Err(table.wrong(ErrorKind::Input, "at", message).help(help));
+        return table.refuse("at", format!("{} values are kept for {count} instants", at.len()), help);
     }
     let (least, greatest) = (table.number("least")?, table.number("greatest")?);
     let rms = table.optional_number("rms")?;
@@ -126,10 +123,7 @@ fn twice(root: &Table, channels: &[Kept]) -> Result<()> {
     names.sort_unstable();
     match names.windows(2).find(|pair| pair[0] == pair[1]) {
         None => Ok(()),
-        Some(pair) => {
-            let message = format!("the channel {} stands twice", pair[0]);
-            Err(root.wrong(ErrorKind::Input, "channels", message).help("delete one of the two"))
-        }
+        Some(pair) => root.refuse("channels", format!("the channel {} stands twice", pair[0]), "delete one of the two"),
     }
 }
 

@@ -16,67 +16,47 @@ use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::{GROUND, Link, Mechanism, Point, is_sound_name};
 use question::pairs;
 
-const RADIUS: Key = optional(
-    "radius",
-    Kind::LENGTHS,
-    "radius of the rounding: positive of a line, not negative of a polygon or of a part of the housing",
-    "that of the section; of a polygon 0",
-);
-const CORNERS: Key = optional(
-    "corners",
-    Kind::Tables,
-    "places, three or more: a polygon with its interior, convex or not, in either sense",
-    "a line",
-);
-const LINE: Key = optional(
-    "line",
-    Kind::Tables,
-    "places: capsules from place to place; a single one is a disc",
-    "through the link's points, if there are no corners",
-);
+const RADIUS: Key = optional("radius", Kind::LENGTHS, "that of the section; of a polygon 0")
+    .of(Sign::NotNegative)
+    .means("radius of the rounding: positive of a line, not negative of a polygon or of a part of the housing");
+const CORNERS: Key = optional("corners", Kind::Tables, "a line")
+    .means("places, three or more: a polygon with its interior, convex or not, in either sense");
+const LINE: Key = optional("line", Kind::Tables, "through the link's points, if there are no corners")
+    .means("places: capsules from place to place; a single one is a disc");
 
 /// What is told of the keys that are read here.
 pub const SECTIONS: &[Section] = &[
-    Section {
-        path: "clearance",
-        keys: &[
-            optional(
-                "radius",
-                Kind::LENGTHS,
-                "radius, positive, of the capsules between the points of every link that has no outline of its own",
-                "every link needs an outline of its own",
-            ),
-            optional("wanted", Kind::LENGTHS, "distance that no pair may fall to", "only collisions count"),
-            optional(
-                "tolerance",
-                Kind::LENGTHS,
-                "error that a smallest distance may have",
-                "a millionth of the mechanism's size",
-            ),
-            optional(
-                "area_rel",
-                Kind::Number,
-                "error that a swept area may have, as a share of it; from 1e-5 to 1",
-                "5e-3",
-            ),
-            optional("outlines", Kind::Table, "outlines of links by name", "capsules between the points"),
-            optional("housing", Kind::Tables, "parts of the housing", "none"),
-            optional("ignore", Kind::Tables, "pairs that cannot meet, because they lie in different planes", "none"),
-        ],
-    },
-    Section { path: "clearance.outlines.*", keys: &[CORNERS, LINE, RADIUS] },
-    Section { path: "clearance.outlines.*.corners", keys: PLACE },
-    Section { path: "clearance.outlines.*.line", keys: PLACE },
-    Section {
-        path: "clearance.housing",
-        keys: &[needed("name", Kind::Text, "name, unique, not that of a link"), CORNERS, LINE, RADIUS],
-    },
-    Section { path: "clearance.housing.corners", keys: PLACE },
-    Section { path: "clearance.housing.line", keys: PLACE },
-    Section {
-        path: "clearance.ignore",
-        keys: &[needed("bodies", Kind::Texts, "the two that cannot meet; `\"housing\"` stands for all its parts")],
-    },
+    Section::at("clearance").with(&[
+        optional("radius", Kind::LENGTHS, "every link needs an outline of its own").of(Sign::Positive).means(
+            "radius, positive, of the capsules between the points of every link that has no outline of \
+                        its own",
+        ),
+        optional("wanted", Kind::LENGTHS, "only collisions count")
+            .of(Sign::NotNegative)
+            .means("distance that no pair may fall to"),
+        optional("tolerance", Kind::LENGTHS, "a millionth of the mechanism's size")
+            .of(Sign::Positive)
+            .means("error that a smallest distance may have"),
+        optional("area_rel", Kind::Number, "5e-3")
+            .means("error that a swept area may have, as a share of it; from 1e-5 to 1"),
+        optional("outlines", Kind::Table, "capsules between the points").means("outlines of links by name"),
+        optional("housing", Kind::Tables, "none").means("parts of the housing"),
+        optional("ignore", Kind::Tables, "none").means("pairs that cannot meet, because they lie in different planes"),
+    ]),
+    Section::at("clearance.outlines.*").with(&[CORNERS, LINE, RADIUS]),
+    Section::at("clearance.outlines.*.corners").with(PLACE),
+    Section::at("clearance.outlines.*.line").with(PLACE),
+    Section::at("clearance.housing").with(&[
+        needed("name", Kind::Text).means("name, unique, not that of a link"),
+        CORNERS,
+        LINE,
+        RADIUS,
+    ]),
+    Section::at("clearance.housing.corners").with(PLACE),
+    Section::at("clearance.housing.line").with(PLACE),
+    Section::at("clearance.ignore").with(&[
+        needed("bodies", Kind::Texts).means("the two that cannot meet; `\"housing\"` stands for all its parts")
+    ]),
 ];
 
 /// Share of a swept area that its error may have, unless the file says otherwise.
@@ -93,16 +73,14 @@ const HOUSING: &str = "housing";
 
 /// The question that a file asks about clearance.
 pub fn read(table: &mut Table, mechanism: &Mechanism) -> Result<Question> {
-    let radius = table.optional_quantity("radius", &LENGTH, Sign::Positive)?;
-    let wanted = table.optional_quantity("wanted", &LENGTH, Sign::NotNegative)?;
-    let tolerance = table.optional_quantity("tolerance", &LENGTH, Sign::Positive)?;
+    let radius = table.optional_si("radius")?;
+    let wanted = table.optional_si("wanted")?;
+    let tolerance = table.optional_si("tolerance")?;
     let size = mechanism.size();
     if tolerance.is_some_and(|tolerance| tolerance < FINEST * size) {
         let message =
             format!("distances are found to {:.1e} m and no better: {FINEST:e} of the mechanism's size", FINEST * size);
-        return Err(table
-            .wrong(ErrorKind::Input, "tolerance", message)
-            .help("give a larger tolerance, or leave it out"));
+        return table.refuse("tolerance", message, "give a larger tolerance, or leave it out");
     }
     let area = area(table)?;
     let (outlines, housing) = (table.optional_table("outlines")?, table.tables("housing")?);
@@ -111,7 +89,7 @@ pub fn read(table: &mut Table, mechanism: &Mechanism) -> Result<Question> {
     let mut bodies = links(table, outlines, radius, mechanism)?;
     if housing.len() > MOST_PARTS {
         let message = format!("found {} parts of the housing, but at most {MOST_PARTS} are handled", housing.len());
-        return Err(table.wrong(ErrorKind::Input, HOUSING, message).help("leave out parts that no link comes near"));
+        return table.refuse(HOUSING, message, "leave out parts that no link comes near");
     }
     for part in housing {
         let body = wall(part, mechanism, &bodies)?;
@@ -189,6 +167,7 @@ fn default(table: &Table, points: &[Point], radius: f64) -> Result<Outline> {
 fn of_link(mut table: Table, default_radius: Option<f64>, link: &Link) -> Result<Outline> {
     let drawn = drawn(&mut table, &link.points)?;
     let solid = matches!(drawn, Some(("corners", _)));
+    // A line without a radius has no interior.
     let sign = if solid { Sign::NotNegative } else { Sign::Positive };
     let radius = table.optional_quantity("radius", &LENGTH, sign)?;
     table.finish()?;
@@ -212,17 +191,14 @@ fn of_link(mut table: Table, default_radius: Option<f64>, link: &Link) -> Result
 fn wall(mut table: Table, mechanism: &Mechanism, before: &[Body]) -> Result<Body> {
     let name = table.string("name")?;
     if !is_sound_name(&name) {
-        let message = format!("\"{name}\" cannot be the name of a part of the housing");
-        return Err(table.wrong(ErrorKind::Input, "name", message).help(NAME_HELP));
+        return table.refuse("name", format!("\"{name}\" cannot be the name of a part of the housing"), NAME_HELP);
     }
     if name == HOUSING || before.iter().any(|body| body.name == name) {
         let message = format!("\"{name}\" is taken");
-        return Err(table
-            .wrong(ErrorKind::Input, "name", message)
-            .help("give every part a name of its own; \"housing\" stands for all parts"));
+        return table.refuse("name", message, "give every part a name of its own; \"housing\" stands for all parts");
     }
     let drawn = drawn(&mut table, &mechanism.links()[GROUND].points)?;
-    let radius = table.optional_quantity("radius", &LENGTH, Sign::NotNegative)?.unwrap_or(0.0);
+    let radius = table.optional_si("radius")?.unwrap_or(0.0);
     table.finish()?;
     let outline = match drawn {
         Some(("corners", corners)) => {
@@ -247,8 +223,7 @@ fn drawn(table: &mut Table, known: &[Point]) -> Result<Option<(&'static str, Vec
             continue;
         }
         if found.is_some() {
-            let error = table.wrong(ErrorKind::Input, key, "`corners` and `line` are both given");
-            return Err(error.help("keep one of the two"));
+            return table.refuse(key, "`corners` and `line` are both given", "keep one of the two");
         }
         if places.len() > MOST_CORNERS {
             return Err(flawed(table, key, Flaw::Many(places.len())));
@@ -291,9 +266,8 @@ fn ignore(mut table: Table, bodies: &[Body]) -> Result<Vec<[usize; 2]>> {
     let names = table.strings("bodies")?;
     table.finish()?;
     let [first, second] = &names[..] else {
-        let message = format!("found {} names, but a pair has two", names.len());
         let help = "write `{ bodies = [\"crank\", \"rocker\"] }`";
-        return Err(table.wrong(ErrorKind::Input, "bodies", message).help(help));
+        return table.refuse("bodies", format!("found {} names, but a pair has two", names.len()), help);
     };
     let numbers = |name: &str| -> Result<Vec<usize>> {
         let is_named = |body: &Body| body.name == name || (name == HOUSING && !body.moves());
@@ -301,7 +275,7 @@ fn ignore(mut table: Table, bodies: &[Body]) -> Result<Vec<[usize; 2]>> {
         if found.is_empty() {
             let message = format!("there is no link and no part of the housing \"{name}\"");
             let known = bodies.iter().map(|body| body.name.as_str());
-            return Err(table.wrong(ErrorKind::Input, "bodies", message).help(suggestion(name, known, "\"")));
+            return table.refuse("bodies", message, suggestion(name, known, "\""));
         }
         Ok(found)
     };

@@ -7,7 +7,7 @@ use super::links::is_somewhere;
 use super::reader::Table;
 use super::source::{Source, text_of};
 use super::stated::Stated;
-use super::{parameter_table, start};
+use super::{keys, parameter_table, start};
 use linkage::drive::{Drive, Load, MotionLaw};
 use linkage::error::{Error, Result};
 use linkage::math::Vec2;
@@ -59,7 +59,7 @@ impl Draft {
         let tree = plain.tree()?;
         let table = Table::root(&plain, &tree).optional_table("parameters").unwrap_or_default();
         let (parameters, fault) = parameter_table::read(table, &asked.set, asked.adds_parameters)?;
-        let source = plain.with(parameters);
+        let source = plain.with(parameters, keys::rows);
         let found = Table::root(&source, &tree).read_on(|root| read(root, asked));
         let (draft, mistakes) = found.map_err(|error| source.located(tree.get_ref(), error))?;
         // A parameter may be the cause of all others.

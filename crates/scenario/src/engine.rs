@@ -8,7 +8,6 @@ use std::ops::RangeInclusive;
 use super::keys::key::{Key, Kind, Section, optional};
 use super::reader::{Sign, Table};
 use super::setting::Setting;
-use super::unit::{ANGLE, TIME};
 use linkage::drive::Drive;
 use linkage::engine::{Engine, Route, Settings};
 use linkage::error::{ErrorKind, Result};
@@ -133,9 +132,6 @@ pub struct Row {
     pub slot: fn(&mut EngineSettings) -> Slot<'_>,
 }
 
-const TIMES: Kind = Kind::Quantity(&[&TIME]);
-const ANGLES: Kind = Kind::Quantity(&[&ANGLE]);
-
 /// More extrapolations than this need steps too fine to run.
 pub const MOST_TIMES: usize = 8;
 
@@ -143,13 +139,12 @@ pub const MOST_TIMES: usize = 8;
 pub const ROWS: &[Row] = &[
     Row {
         keys: &[
-            optional(
-                "dt",
-                TIMES,
-                "time step of engines with a fixed step; at most one of `dt` and `step`",
-                "found by `run`",
-            ),
-            optional("step", ANGLES, "the same as the angle that the crank turns through in a step", "found by `run`"),
+            optional("dt", Kind::TIMES, "found by `run`")
+                .of(Sign::Positive)
+                .means("time step of engines with a fixed step; at most one of `dt` and `step`"),
+            optional("step", Kind::ANGLES, "found by `run`")
+                .of(Sign::NotZero)
+                .means("the same as the angle that the crank turns through in a step"),
         ],
         argument: "dt",
         value: "S",
@@ -158,7 +153,7 @@ pub const ROWS: &[Row] = &[
         slot: |own| Slot::Positive(&mut own.step),
     },
     Row {
-        keys: &[optional("name", Kind::Text, "engine that judges unless another is asked for", "the first")],
+        keys: &[optional("name", Kind::Text, "the first").means("engine that judges unless another is asked for")],
         argument: "engine",
         value: "ENGINE",
         help: "Engine, or `all` to run every one side by side. May be given several times [default: the scenario's, \
@@ -173,7 +168,7 @@ pub const ROWS: &[Row] = &[
         slot: |own| Slot::Positive(&mut own.accuracy),
     },
     Row {
-        keys: &[optional("sweeps", Kind::Integer, "sweeps of the engine's iteration in a step", "found by `run`")],
+        keys: &[optional("sweeps", Kind::Integer, "found by `run`").means("sweeps of the engine's iteration in a step")],
         argument: "sweeps",
         value: "N",
         help: "Sweeps of the engine's iteration in a step [default: the scenario's, else `run` finds them, and others \
@@ -181,12 +176,8 @@ pub const ROWS: &[Row] = &[
         slot: |own| Slot::Count(&mut own.sweeps),
     },
     Row {
-        keys: &[optional(
-            "substeps",
-            Kind::Integer,
-            "number of parts into which the engine itself divides a step",
-            "the engine's",
-        )],
+        keys: &[optional("substeps", Kind::Integer, "the engine's")
+            .means("number of parts into which the engine itself divides a step")],
         argument: "substeps",
         value: "N",
         help: "Number of substeps into which the engine divides a step",
@@ -196,20 +187,18 @@ pub const ROWS: &[Row] = &[
         keys: &[optional(
             "route",
             Kind::Choice(|| Route::ALL.map(Route::name).to_vec()),
-            "how reactions and balancing moment are obtained",
             "the engine's, and its own forces beside it",
-        )],
+        )
+        .means("how reactions and balancing moment are obtained")],
         argument: "route",
         value: "ROUTE",
         help: "Route by which reactions and balancing moment are computed",
         slot: |own| Slot::Route(&mut own.route),
     },
     Row {
-        keys: &[optional(
-            "extrapolated",
-            Kind::IntegerOrBoolean,
-            "a number N from 0 to 8: runs at the step, at half of it, ..., at its 2^N-th part are combined, so that the N leading errors drop out; `true` is 1, `false` is 0",
-            "found by `run`; 0 where the step is given",
+        keys: &[optional("extrapolated", Kind::IntegerOrBoolean, "found by `run`; 0 where the step is given").means(
+            "a number N from 0 to 8: runs at the step, at half of it, ..., at its 2^N-th part are combined, \
+                    so that the N leading errors drop out; `true` is 1, `false` is 0",
         )],
         argument: "extrapolate",
         value: "TIMES",
@@ -236,7 +225,7 @@ const KEYS: [Key; COUNT] = {
 };
 
 /// What is told of the keys that are read here.
-pub const SECTIONS: &[Section] = &[Section { path: "engine", keys: &KEYS }];
+pub const SECTIONS: &[Section] = &[Section::at("engine").with(&KEYS)];
 
 const COUNT: usize = {
     let (mut row, mut count) = (0, 0);
@@ -282,10 +271,7 @@ impl EngineSettings {
 /// What the section says.
 pub fn read(table: &mut Table, drive: &Drive) -> Result<EngineSettings> {
     let mut own = EngineSettings::default();
-    let (time, angle) = (
-        table.optional_quantity("dt", &TIME, Sign::Positive)?,
-        table.optional_quantity("step", &ANGLE, Sign::NotZero)?,
-    );
+    let (time, angle) = (table.optional_si("dt")?, table.optional_si("step")?);
     for row in ROWS {
         let Some(key) = row.keys.first().map(|key| key.name) else { continue };
         match (row.slot)(&mut own) {
@@ -315,8 +301,8 @@ pub fn read(table: &mut Table, drive: &Drive) -> Result<EngineSettings> {
         (Some(dt), None) => table.given("dt", Some(dt)),
         (None, Some(angle)) => table.given("step", Some((angle / omega).abs())),
         (Some(_), Some(_)) => {
-            let error = table.wrong(ErrorKind::Input, "step", "the engine's step is given twice");
-            return Err(error.help("keep either `dt` (a time) or `step` (a crank angle)"));
+            let help = "keep either `dt` (a time) or `step` (a crank angle)";
+            return table.refuse("step", "the engine's step is given twice", help);
         }
         (None, None) => Setting::Free,
     };

@@ -1,12 +1,11 @@
 //! Figures of a mechanism: lengths as solved, and quantities over a turn.
 
-use super::correction::{Correction, number};
-use super::printed::Printed;
+use super::printed::{Correction, Printed, number};
 use super::reader::Table;
 use super::unit::{LENGTH, Unit};
 use super::words::suggestion;
 use linkage::case::Case;
-use linkage::error::{ErrorKind, Result};
+use linkage::error::Result;
 use linkage::mechanism::Side;
 
 /// One figure with the number it must have.
@@ -113,7 +112,7 @@ pub(super) fn read(table: &mut Table, case: &Case) -> Result<Vec<OracleFigure>> 
     }
     if figures.is_empty() {
         let names = suggestion("", names(), "\"");
-        return Err(table.wrong(ErrorKind::Input, "figures", "there is no figure").help(names));
+        return table.refuse("figures", "there is no figure", names);
     }
     Ok(figures)
 }
@@ -124,12 +123,11 @@ fn one(entry: &mut Table, case: &Case) -> Result<OracleFigure> {
         Some((_, figure)) => (*figure, String::new()),
         None if OF_POINTS.contains(&name.as_str()) => distance(entry, case)?,
         None => {
-            let error = entry.wrong(ErrorKind::Input, "figure", format!("there is no figure \"{name}\""));
-            return Err(error.help(suggestion(&name, names(), "\"")));
+            return entry.refuse("figure", format!("there is no figure \"{name}\""), suggestion(&name, names(), "\""));
         }
     };
     if let Some((message, help)) = figure.lacks(case) {
-        return Err(entry.wrong(ErrorKind::Input, "figure", message).help(help));
+        return entry.refuse("figure", message, help);
     }
     let printed = number(entry)?;
     let correction = Correction::read(entry, &printed)?;
@@ -154,7 +152,7 @@ fn distance(entry: &mut Table, case: &Case) -> Result<(Figure, String)> {
     let names = entry.strings("points")?;
     let [first, second] = names.as_slice() else {
         let message = format!("a distance lies between two points, found {}", names.len());
-        return Err(entry.wrong(ErrorKind::Input, "points", message).help("write `points = [\"A\", \"B\"]`"));
+        return entry.refuse("points", message, "write `points = [\"A\", \"B\"]`");
     };
     let places = [places(entry, case, first)?, places(entry, case, second)?];
     // On one link a distance is only what the file states. So it is measured between two links, where the solver must
@@ -165,7 +163,7 @@ fn distance(entry: &mut Table, case: &Case) -> Result<(Figure, String)> {
         let message =
             format!("the distance of {} stands in the file: only one link has both points", names.join(" and "));
         let help = "name points whose distance follows from how the links stand together";
-        return Err(entry.wrong(ErrorKind::Input, "points", message).help(help));
+        return entry.refuse("points", message, help);
     };
     Ok((Figure::Distance([first, second]), names.join(" ")))
 }
@@ -180,8 +178,7 @@ fn places(entry: &Table, case: &Case, name: &str) -> Result<Vec<Side>> {
     let places: Vec<Side> = links().filter_map(on).collect();
     if places.is_empty() {
         let names = links().flat_map(|(_, body)| body.points.iter().map(|point| point.name.as_str()));
-        let error = entry.wrong(ErrorKind::Input, "points", format!("the mechanism has no point \"{name}\""));
-        return Err(error.help(suggestion(name, names, "\"")));
+        return entry.refuse("points", format!("the mechanism has no point \"{name}\""), suggestion(name, names, "\""));
     }
     Ok(places)
 }

@@ -5,8 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::claim::Claim;
 use super::keys::key::{Kind, Section, needed, optional};
 use super::parameters::{INPUTS, Parameter, fault_of_name};
-use super::reader::{Faults, Sign, Table};
-use super::unit;
+use super::reader::{Faults, Table};
 use super::words::suggestion;
 use formula::{Fault, Graph, Id, Rounded, Tree};
 use std::ops::Range;
@@ -16,32 +15,22 @@ use linkage::error::{Error, ErrorKind, Place, Result};
 use linkage::math::KeepNan;
 
 /// What is told of the keys that are read here.
-pub const SECTIONS: &[Section] = &[Section {
-    path: "formula",
-    keys: &[
-        needed("name", Kind::Text, "letters, digits and `_`; formulas after it may use it"),
-        needed(
-            "expression",
-            Kind::Text,
-            "arithmetic of numbers, `phi`, `t`, `pi`, parameters (in SI, or by their keys as plain numbers) and formulas before it",
-        ),
-        optional(
-            "channel",
-            Kind::Text,
-            "what it claims: a channel, with the unit of its name (`link.rocker.angle_deg`, `point.B.x_mm`, `joint.B.f_N`), or an arithmetic of channels; also what is reduced to the crank",
-            "none: a step of a derivation",
-        ),
-        optional("source", Kind::Text, "where it comes from", "none"),
-        optional("from", Kind::INPUTS, "first crank angle for which it is claimed", "the whole run"),
-        optional("to", Kind::INPUTS, "last crank angle for which it is claimed", "the whole run"),
-        optional(
-            "error",
-            Kind::Number,
-            "error that it is claimed to have, in the unit of the channel: for series and approximations",
-            "none: it is exact",
-        ),
-    ],
-}];
+pub const SECTIONS: &[Section] = &[Section::at("formula").with(&[
+    needed("name", Kind::Text).means("letters, digits and `_`; formulas after it may use it"),
+    needed("expression", Kind::Text).means(
+        "arithmetic of numbers, `phi`, `t`, `pi`, parameters (in SI, or by their keys as plain numbers) \
+                    and formulas before it",
+    ),
+    optional("channel", Kind::Text, "none: a step of a derivation").means(
+        "what it claims: a channel, with the unit of its name (`link.rocker.angle_deg`, `point.B.x_mm`, \
+                    `joint.B.f_N`), or an arithmetic of channels; also what is reduced to the crank",
+    ),
+    optional("source", Kind::Text, "none").means("where it comes from"),
+    optional("from", Kind::ANGLES, "the whole run").means("first crank angle for which it is claimed"),
+    optional("to", Kind::ANGLES, "the whole run").means("last crank angle for which it is claimed"),
+    optional("error", Kind::Number, "none: it is exact")
+        .means("error that it is claimed to have, in the unit of the channel: for series and approximations"),
+])];
 
 /// The crank's angular velocity, as a diagnosis names it.
 pub const OMEGA: &str = "omega_crank";
@@ -309,19 +298,16 @@ fn formula(table: &mut Table, formulas: &mut Formulas, case: &Case) -> Result<()
     let text = table.string("expression")?;
     let claimed = table.optional_string("channel")?;
     let source = table.optional_string("source")?;
-    let valid = [
-        table.optional_quantity("from", &unit::ANGLE, Sign::Any)?,
-        table.optional_quantity("to", &unit::ANGLE, Sign::Any)?,
-    ];
+    let valid = [table.optional_si("from")?, table.optional_si("to")?];
     let error = table.optional_number("error")?;
     if let Some((key, message, help)) = fault_of_claim(valid, error) {
-        return Err(table.wrong(ErrorKind::Input, key, message).help(help));
+        return table.refuse(key, message, help);
     }
     if claimed.is_none() {
         let of_claim = ["from_deg", "to_deg", "from_rad", "to_rad", "error"];
         if let Some(key) = of_claim.into_iter().find(|key| table.has(key)) {
             let message = format!("`{key}` belongs to a claim, and this formula claims nothing");
-            return Err(table.wrong(ErrorKind::Input, key, message).help("add `channel`, or take it out"));
+            return table.refuse(key, message, "add `channel`, or take it out");
         }
     }
     let formula = formulas.add(&name, &text).map_err(|fault| table.fault_in("expression", &fault))?;

@@ -4,32 +4,21 @@ use std::cmp::Ordering;
 
 use super::keys::key::{Kind, Section, optional};
 use super::reader::{Sign, Table};
-use super::unit::{self, ANGLE, Family, TIME};
+use super::unit::{Family, TIME};
 use linkage::case::Grid;
 use linkage::drive::Drive;
-use linkage::error::{ErrorKind, Result};
+use linkage::error::Result;
 
 /// What is told of the keys that are read here.
-pub const SECTIONS: &[Section] = &[Section {
-    path: "grid",
-    keys: &[
-        optional(
-            "from",
-            Kind::INPUTS_OR_TIMES,
-            "first crank angle, or first time from the start",
-            "given with `to` and `step`",
-        ),
-        optional("to", Kind::INPUTS_OR_TIMES, "last one, in the same kind of unit", "given with `from`"),
-        optional("step", Kind::INPUTS_OR_TIMES, "distance of instants; may be negative", "given with `from`"),
-        optional(
-            "angles",
-            Kind::LIST_OF_ANGLES,
-            "crank angles, one by one, in any order; not for a free motion",
-            "a range",
-        ),
-        optional("times", Kind::LIST_OF_TIMES, "times, one by one, in any order", "a range"),
-    ],
-}];
+pub const SECTIONS: &[Section] = &[Section::at("grid").with(&[
+    optional("from", Kind::ANGLES_OR_TIMES, "given with `to` and `step`")
+        .means("first crank angle, or first time from the start"),
+    optional("to", Kind::ANGLES_OR_TIMES, "given with `from`").means("last one, in the same kind of unit"),
+    optional("step", Kind::ANGLES_OR_TIMES, "given with `from`").means("distance of instants; may be negative"),
+    optional("angles", Kind::LIST_OF_ANGLES, "a range")
+        .means("crank angles, one by one, in any order; not for a free motion"),
+    optional("times", Kind::LIST_OF_TIMES, "a range").means("times, one by one, in any order"),
+])];
 
 /// Largest number of points of a range.
 pub const MOST: usize = 1_000_000;
@@ -79,42 +68,30 @@ pub fn listed(values: Vec<f64>) -> std::result::Result<Vec<f64>, String> {
     }
 }
 
-/// Keys of a grid that lists its values.
-const LISTS: [(&str, &Family); 2] = [("angles", &ANGLE), ("times", &TIME)];
-
-const BY_TIME: &str = "give the grid by time (`from_s`, `to_s`, `step_s`, or a list `times_s`)";
-
 /// The grid of a scenario, by crank angle or by time: a range or a list. An empty one if it is not wanted: it is read,
 /// but not checked against the drive.
 pub fn read(table: &mut Table, drive: &Drive, is_replaced: bool) -> Result<Grid> {
     let mut lists = Vec::new();
-    for (base, family) in LISTS {
-        lists.extend(table.optional_quantities(base, family)?.map(|values| (base, family, values)));
+    for key in ["angles", "times"] {
+        lists.extend(table.optional_si_list(key)?.map(|(family, values)| (key, family, values)));
     }
-    let families = [unit::of_input(drive.input)[0], &TIME];
-    let ranged = table.quantity_in("from", &families, Sign::Any)?;
+    let ranged = table.optional_si_of("from")?;
     let (family, points) = match (ranged, lists.as_slice()) {
-        (None, [(base, family, values)]) => {
-            let points = listed(values.clone()).map_err(|message| {
-                table
-                    .wrong(ErrorKind::Input, base, message)
-                    .help("give every instant once, for example `times_s = [0, 0.1, 0.3]`")
-            })?;
-            (*family, points)
+        (None, [(key, family, values)]) => {
+            let help = "give every instant once, for example `times_s = [0, 0.1, 0.3]`";
+            (*family, listed(values.clone()).or_else(|message| table.refuse(key, message, help))?)
         }
-        (Some((family, from)), []) => {
-            let family = families[family];
-            (family, ranged_points(table, family, from)?)
-        }
+        (Some((family, from)), []) => (family, ranged_points(table, family, from)?),
         (None, []) => {
             let keys = ["from_deg", "from_rad", "from_s", "from_ms", "angles_deg", "angles_rad", "times_s", "times_ms"];
-            return Err(table.lacks(&keys, "a grid goes by crank angle (`from_deg`, `to_deg`, `step_deg`) or by time (`from_s`, `to_s`, `step_s`), \
-                 or lists its values (`angles_deg`, `times_s`)"));
+            let help = "a grid goes by crank angle (`from_deg`, `to_deg`, `step_deg`) or by time (`from_s`, `to_s`, \
+                        `step_s`), or lists its values (`angles_deg`, `times_s`)";
+            return Err(table.lacks(&keys, help));
         }
-        (_, [.., (base, _, _)]) => {
-            let message = "the grid is given twice";
-            let help = "keep one of: a range (`from`, `to`, `step`), a list of crank angles (`angles`), a list of times (`times`)";
-            return Err(table.wrong(ErrorKind::Input, base, message).help(help));
+        (_, [.., (key, _, _)]) => {
+            let help = "keep one of: a range (`from`, `to`, `step`), a list of crank angles (`angles`), a list of times \
+                        (`times`)";
+            return table.refuse(key, "the grid is given twice", help);
         }
     };
     table.finish()?;
@@ -124,7 +101,7 @@ pub fn read(table: &mut Table, drive: &Drive, is_replaced: bool) -> Result<Grid>
     let by_input = !std::ptr::eq(family, &TIME);
     let grid = if by_input { Grid::of_inputs(drive, points) } else { Grid::of_times(drive, points) };
     let help = match by_input && drive.is_free() {
-        true => BY_TIME,
+        true => "give the grid by time (`from_s`, `to_s`, `step_s`, or a list `times_s`)",
         false => "check the unit and size of the grid and of `drive.speed`",
     };
     grid.check(drive).map_err(|message| table.fault(message).help(help))?;
@@ -134,9 +111,8 @@ pub fn read(table: &mut Table, drive: &Drive, is_replaced: bool) -> Result<Grid>
 fn ranged_points(table: &mut Table, family: &'static Family, from: f64) -> Result<Vec<f64>> {
     let to = table.quantity("to", family, Sign::Any)?;
     let step = table.quantity("step", family, Sign::NotZero)?;
-    range(from, to, step).map_err(|message| {
-        table.wrong(ErrorKind::Input, "step", message).help("check `from`, `to` and the size and sign of `step`")
-    })
+    let help = "check `from`, `to` and the size and sign of `step`";
+    range(from, to, step).or_else(|message| table.refuse("step", message, help))
 }
 
 #[cfg(test)]

@@ -4,8 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use super::keys::key::{Kind, Section, needed, optional};
 use super::links::{NAME_HELP, is_somewhere};
-use super::reader::{Faults, Sign, Table};
-use super::unit::ANGLE;
+use super::reader::{Faults, Table};
 use super::words::{Words, names, suggestion};
 use linkage::error::{ErrorKind, Result};
 use linkage::math::{Vec2, unit};
@@ -18,48 +17,35 @@ type ReadJoint = fn(&mut Table) -> Result<(JointKind, Option<Guise>)>;
 const TYPES: Words<ReadJoint> = &[("revolute", revolute), ("prismatic", prismatic)];
 
 /// What is told of the keys that are read here.
-pub const SECTIONS: &[Section] = &[Section {
-    path: "joints",
-    keys: &[
-        needed("name", Kind::Text, "name, unique"),
-        needed("type", Kind::Choice(|| names(TYPES)), "kind of joint"),
-        needed(
-            "links",
-            Kind::Texts,
-            "first and second link; `\"ground\"` is the frame. The reaction of the joint is what the first exerts on the second",
-        ),
-        optional(
-            "point",
-            Kind::Text,
-            "revolute: the joint is at the point of this name, on both links",
-            "the joint's name",
-        ),
-        optional(
-            "points",
-            Kind::Texts,
-            "prismatic: `[\"G\", \"B\"]`, a point of the first link and one of the second; the line through the first point along the axis passes through the second point",
-            "required of a prismatic joint",
-        ),
-        optional(
-            "axis",
-            Kind::ANGLES,
-            "prismatic: direction of sliding in the frame of the first link",
-            "required of a prismatic joint",
-        ),
-        optional(
-            "second_axis",
-            Kind::ANGLES,
-            "prismatic: the same direction in the frame of the second link; it fixes the angle of the second link to the first",
-            "0: along its x axis",
-        ),
-        optional(
-            "drawn",
-            Kind::Choice(|| Guise::ALL.map(Guise::name).to_vec()),
-            "prismatic: what pictures show, a piston in a cylinder, or a block on rails or in a slot; nothing is calculated from it",
-            "guessed from names and places: docs/draw.md",
-        ),
-    ],
-}];
+pub const SECTIONS: &[Section] = &[Section::at("joints").with(&[
+    needed("name", Kind::Text).means("name, unique"),
+    needed("type", Kind::Choice(|| names(TYPES))).means("kind of joint"),
+    needed("links", Kind::Texts).means(
+        "first and second link; `\"ground\"` is the frame. The reaction of the joint is what the first \
+                    exerts on the second",
+    ),
+    optional("point", Kind::Text, "the joint's name")
+        .means("revolute: the joint is at the point of this name, on both links"),
+    optional("points", Kind::Texts, "required of a prismatic joint").means(
+        "prismatic: `[\"G\", \"B\"]`, a point of the first link and one of the second; the line through \
+                    the first point along the axis passes through the second point",
+    ),
+    optional("axis", Kind::ANGLES, "required of a prismatic joint")
+        .means("prismatic: direction of sliding in the frame of the first link"),
+    optional("second_axis", Kind::ANGLES, "0: along its x axis").means(
+        "prismatic: the same direction in the frame of the second link; it fixes the angle of the second \
+                    link to the first",
+    ),
+    optional(
+        "drawn",
+        Kind::Choice(|| Guise::ALL.map(Guise::name).to_vec()),
+        "guessed from names and places: docs/draw.md",
+    )
+    .means(
+        "prismatic: what pictures show, a piston in a cylinder, or a block on rails or in a slot; nothing \
+                    is calculated from it",
+    ),
+])];
 
 /// The joints, in the order of the file, but those with mistakes and those at points that are nowhere.
 pub fn read(tables: Vec<Table>, links: &[Link], faults: &mut Faults) -> Vec<Joint> {
@@ -77,14 +63,12 @@ pub fn read(tables: Vec<Table>, links: &[Link], faults: &mut Faults) -> Vec<Join
 fn joint(table: &mut Table, links: &[Link], before: &[Joint]) -> Result<Joint> {
     let name = table.string("name")?;
     if !is_sound_name(&name) {
-        let message = format!("\"{name}\" cannot be the name of a joint");
-        return Err(table.wrong(ErrorKind::Input, "name", message).help(NAME_HELP));
+        return table.refuse("name", format!("\"{name}\" cannot be the name of a joint"), NAME_HELP);
     }
     if before.iter().any(|joint| joint.name == name) {
         let message = format!("two joints are called \"{name}\"");
-        return Err(table
-            .wrong(ErrorKind::Input, "name", message)
-            .help("give every joint its own name; two joints on one pin share the point instead: `point = \"...\"`"));
+        let help = "give every joint its own name; two joints on one pin share the point instead: `point = \"...\"`";
+        return table.refuse("name", message, help);
     }
     let (kind, drawn) = kind(table)?;
     let pair = table.strings("links")?;
@@ -92,21 +76,19 @@ fn joint(table: &mut Table, links: &[Link], before: &[Joint]) -> Result<Joint> {
     table.finish()?;
     let [first, second] = &pair[..] else {
         let message = format!("found {} links, but a joint has two", pair.len());
-        return Err(table.wrong(ErrorKind::Input, "links", message).help("write `links = [\"ground\", \"crank\"]`"));
+        return table.refuse("links", message, "write `links = [\"ground\", \"crank\"]`");
     };
     let (first, second) = (link(table, first, links)?, link(table, second, links)?);
     if first == second {
         let message = format!("it joins \"{}\" with itself", links[first].name);
-        return Err(table.wrong(ErrorKind::Input, "links", message).help("name two different links"));
+        return table.refuse("links", message, "name two different links");
     }
     if let Some(other) = before.iter().find(|joint| joint.on(first).is_some() && joint.on(second).is_some()) {
         let message = format!(
             "joint \"{}\" joins \"{}\" and \"{}\" already; two joints lock two links together",
             other.name, links[first].name, links[second].name
         );
-        return Err(table
-            .wrong(ErrorKind::Input, "links", message)
-            .help("make the two one link with all their points, or join other links"));
+        return table.refuse("links", message, "make the two one link with all their points, or join other links");
     }
     let side = |link: usize, point: &str| -> Result<Side> {
         let points = &links[link].points;
@@ -149,9 +131,7 @@ fn guided(table: &mut Table) -> Result<Places> {
     let names = table.strings("points")?;
     let [first, second] = &names[..] else {
         let message = format!("found {} points, but a guide takes two", names.len());
-        return Err(table.wrong(ErrorKind::Input, "points", message).help(
-            "write `points = [\"O\", \"B\"]`: a point of the first link on the guide's line, and the point of the second that slides along it",
-        ));
+        return table.refuse("points", message, "write `points = [\"O\", \"B\"]`: a point of the first link on the guide's line, and the point of the second that slides along it");
     };
     let rule = "`points` names a point of the first link and one of the second";
     Ok(Places { names: [first.clone(), second.clone()], key: "points", rule })
@@ -167,8 +147,8 @@ fn revolute(_: &mut Table) -> Result<(JointKind, Option<Guise>)> {
 }
 
 fn prismatic(table: &mut Table) -> Result<(JointKind, Option<Guise>)> {
-    let first = table.quantity("axis", &ANGLE, Sign::Any)?;
-    let second = table.optional_quantity("second_axis", &ANGLE, Sign::Any)?.unwrap_or(0.0);
+    let first = table.si("axis")?;
+    let second = table.optional_si("second_axis")?.unwrap_or(0.0);
     let guises = Guise::ALL.map(|guise| (guise.name(), guise));
     let drawn = table.optional_choice("drawn", "is not how a prismatic pair is drawn", &guises)?;
     Ok((JointKind::Prismatic { axes: [first, second].map(direction) }, drawn))

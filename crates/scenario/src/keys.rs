@@ -29,6 +29,11 @@ pub fn sections() -> impl Iterator<Item = &'static Section> {
     all.into_iter().flatten()
 }
 
+/// The keys of the section with a path; none if there is no such section.
+pub(crate) fn rows(path: &str) -> &'static [Key] {
+    section(path).map_or(&[], |section| section.keys)
+}
+
 /// The section with a path.
 #[must_use]
 pub fn section(path: &str) -> Option<&'static Section> {

@@ -5,7 +5,6 @@ pub mod accepted;
 mod asked;
 mod claim;
 pub mod clearance;
-mod correction;
 mod draft;
 pub mod edit;
 pub mod engine;
@@ -13,8 +12,6 @@ mod figure;
 pub mod formula;
 pub mod grid;
 pub mod header;
-mod hostile;
-mod instant;
 pub mod joints;
 pub mod keys;
 mod links;
@@ -49,11 +46,10 @@ pub use asked::{Asked, Undecided};
 pub use draft::Draft;
 pub use engine::{EngineName, EngineSettings};
 pub use figure::{Figure, FigureValue, OracleFigure};
-pub use instant::within;
 pub use oracle::{Oracle, OracleBasis};
 pub use parameters::{INPUTS, Parameter};
 pub use printed::{Printed, PrintedChannel};
-pub use series::{ExpectedCell, OraclePoint, OracleSeries, When};
+pub use series::{ExpectedCell, OraclePoint, OracleSeries, When, within};
 pub use setting::{Origin, Setting};
 
 use std::path::{Path, PathBuf};
@@ -267,7 +263,7 @@ fn parse(text: &str, path: &Path, asked: &Asked, lists: Lists) -> Result<(Scenar
     if let Some(fault) = fault {
         return Err(fault);
     }
-    let source = plain.with(parameters);
+    let source = plain.with(parameters, keys::rows);
     let in_file = |error| source.located(tree.get_ref(), error);
     let stated = Table::root(&source, &tree).read(|root| {
         let stated = Stated::read(root, asked)?;

@@ -4,51 +4,38 @@ use std::collections::BTreeSet;
 
 use super::keys::key::{Key, Kind, Section, needed, optional};
 use super::reader::{Faults, Sign, Table};
-use super::unit::{ANGLE, INERTIA, LENGTH, MASS};
 use super::words::suggestion;
-use linkage::error::{ErrorKind, Result};
+use linkage::error::Result;
 use linkage::math::{Vec2, unit};
 use linkage::mechanism::{Link, Point, is_sound_name};
 
 /// A place: coordinates, or distance and direction from an earlier point.
 pub const PLACE: &[Key] = &[
-    optional("x", Kind::LENGTHS, "coordinate along x", "given with `y`, in place of `from`"),
-    optional("y", Kind::LENGTHS, "coordinate along y", "given with `x`"),
-    optional("from", Kind::Text, "point that stands earlier in the same table", "given in place of `x` and `y`"),
-    optional("length", Kind::LENGTHS, "distance from that point", "given with `from`"),
-    optional(
-        "angle",
-        Kind::ANGLES,
-        "direction from that point, counted from the x axis of the link; for ground points, from the x axis of the world",
-        "given with `from`",
+    optional("x", Kind::LENGTHS, "given with `y`, in place of `from`").means("coordinate along x"),
+    optional("y", Kind::LENGTHS, "given with `x`").means("coordinate along y"),
+    optional("from", Kind::Text, "given in place of `x` and `y`").means("point that stands earlier in the same table"),
+    optional("length", Kind::LENGTHS, "given with `from`").of(Sign::NotNegative).means("distance from that point"),
+    optional("angle", Kind::ANGLES, "given with `from`").means(
+        "direction from that point, counted from the x axis of the link; for ground points, from the x axis \
+                of the world",
     ),
 ];
 
 /// What is told of the keys that are read here.
 pub const SECTIONS: &[Section] = &[
-    Section { path: "ground", keys: &[needed("points", Kind::Table, "fixed points by name")] },
-    Section { path: "ground.points.*", keys: PLACE },
-    Section {
-        path: "links.*",
-        keys: &[
-            needed("points", Kind::Table, "points in the link's own frame by name, at least one"),
-            optional("mass", Kind::MASSES, "mass, not negative", "none: a massless link"),
-            optional(
-                "mass_centre",
-                Kind::Table,
-                "place of the mass centre in the link's frame; may refer to any point of the link",
-                "required with a mass, refused without",
-            ),
-            optional(
-                "inertia",
-                Kind::INERTIAS,
-                "moment of inertia about the mass centre, not negative; needs a mass",
-                "0",
-            ),
-        ],
-    },
-    Section { path: "links.*.points.*", keys: PLACE },
-    Section { path: "links.*.mass_centre", keys: PLACE },
+    Section::at("ground").with(&[needed("points", Kind::Table).means("fixed points by name")]),
+    Section::at("ground.points.*").with(PLACE),
+    Section::at("links.*").with(&[
+        needed("points", Kind::Table).means("points in the link's own frame by name, at least one"),
+        optional("mass", Kind::MASSES, "none: a massless link").of(Sign::NotNegative).means("mass, not negative"),
+        optional("mass_centre", Kind::Table, "required with a mass, refused without")
+            .means("place of the mass centre in the link's frame; may refer to any point of the link"),
+        optional("inertia", Kind::INERTIAS, "0")
+            .of(Sign::NotNegative)
+            .means("moment of inertia about the mass centre, not negative; needs a mass"),
+    ]),
+    Section::at("links.*.points.*").with(PLACE),
+    Section::at("links.*.mass_centre").with(PLACE),
 ];
 
 /// The place of a point that has none because of a mistake.
@@ -97,25 +84,22 @@ fn fill(table: &mut Table, link: &mut Link) -> Result<()> {
     table.part(named);
     link.points = named_points(table)?;
     let points = &link.points;
-    let mass = table.optional_quantity("mass", &MASS, Sign::NotNegative)?;
-    let inertia = table.optional_quantity("inertia", &INERTIA, Sign::NotNegative)?;
+    let mass = table.optional_si("mass")?;
+    let inertia = table.optional_si("inertia")?;
     let centre = table.optional_table("mass_centre")?.map(|centre| place(centre, points)).transpose();
     let centre = table.part(centre);
     table.finish()?;
     if mass.is_none() && inertia.is_some() {
-        return Err(table
-            .wrong(ErrorKind::Input, "inertia", "the link has a moment of inertia but no mass")
-            .help("add `mass_kg`, or leave out the inertia"));
+        let help = "add `mass_kg`, or leave out the inertia";
+        return table.refuse("inertia", "the link has a moment of inertia but no mass", help);
     }
     if mass.is_none() && centre.is_some() {
-        return Err(table
-            .wrong(ErrorKind::Input, "mass_centre", "the link has a mass centre but no mass")
-            .help("add `mass_kg` (0 is allowed), or leave out the mass centre"));
+        let help = "add `mass_kg` (0 is allowed), or leave out the mass centre";
+        return table.refuse("mass_centre", "the link has a mass centre but no mass", help);
     }
     if mass.is_some() && centre.is_none() {
-        return Err(table
-            .wrong(ErrorKind::Input, "mass", "the link has a mass but no mass centre")
-            .help("add `mass_centre = { x_mm = ..., y_mm = ... }`, in the link's frame"));
+        let help = "add `mass_centre = { x_mm =..., y_mm =... }`, in the link's frame";
+        return table.refuse("mass", "the link has a mass but no mass centre", help);
     }
     link.mass = mass.unwrap_or(0.0);
     link.mass_centre = centre.unwrap_or_else(Vec2::zeros);
@@ -152,21 +136,20 @@ pub fn place(mut table: Table, known: &[Point]) -> Result<Vec2> {
 }
 
 fn place_of(table: &mut Table, known: &[Point]) -> Result<Vec2> {
-    let mut polar = [LENGTH.keys("length"), ANGLE.keys("angle")].into_iter().flatten();
-    let from = match polar.any(|key| table.has(&key)) {
+    let from = match table.has_si("length") || table.has_si("angle") {
         true => Some(table.string("from")?),
         false => table.optional_string("from")?,
     };
     let place = match from {
-        None => Vec2::new(table.quantity("x", &LENGTH, Sign::Any)?, table.quantity("y", &LENGTH, Sign::Any)?),
+        None => Vec2::new(table.si("x")?, table.si("y")?),
         Some(from) => {
             let names = known.iter().map(|point| point.name.as_str());
             let Some(origin) = known.iter().find(|point| point.name == from) else {
                 let message = format!("no point \"{from}\" stands before this one");
-                return Err(table.wrong(ErrorKind::Input, "from", message).help(suggestion(&from, names, "\"")));
+                return table.refuse("from", message, suggestion(&from, names, "\""));
             };
-            let length = table.quantity("length", &LENGTH, Sign::NotNegative)?;
-            let angle = table.quantity("angle", &ANGLE, Sign::Any)?;
+            let length = table.si("length")?;
+            let angle = table.si("angle")?;
             origin.local + unit(angle) * length
         }
     };

@@ -5,7 +5,7 @@ use super::keys::key::{Kind, Section, needed, optional};
 use super::reader::{Faults, Sign, Table};
 use super::unit::{ANGLE, DAMPING, FORCE, Family, LENGTH, MOMENT, MOMENT_PER_SPEED, STIFFNESS, TORSIONAL_STIFFNESS};
 use super::words::{Words, names, suggestion};
-use linkage::drive::{Acts, Course, Load, LoadSort};
+use linkage::drive::{Acts, Course, Load};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::mechanism::{GROUND, Mechanism, Side};
 use std::f64::consts::TAU;
@@ -21,105 +21,57 @@ const INTERPOLATIONS: Words<bool> = &[("linear", false), ("smooth", true)];
 
 /// What is told of the keys that are read here.
 pub const SECTIONS: &[Section] = &[
-    Section {
-        path: "loads",
-        keys: &[
-            needed("type", Kind::Choice(|| LoadSort::ALL.iter().map(|sort| sort.name()).collect()), "kind of load"),
-            optional("link", Kind::Text, "the loaded link", "required by the type"),
-            optional("point", Kind::Text, "the loaded point of that link", "required by the type"),
-            optional(
-                "links",
-                Kind::Texts,
-                "the two links that a spring or damper joins; one may be `\"ground\"`",
-                "required by the type",
-            ),
-            optional("points", Kind::Texts, "a point of each of them", "required by the type"),
-            optional(
-                "moment",
-                Kind::MOMENTS,
-                "moment, counter-clockwise positive; of a resistance its size, not negative",
-                "required by the type, or a table",
-            ),
-            optional(
-                "acts",
-                Kind::Choice(|| names(ACTS)),
-                "of a moment: the sense of rotation of the link in which it acts",
-                "`\"always\"`",
-            ),
-            optional("x", Kind::FORCES, "force along x", "required by the type, or a table"),
-            optional("y", Kind::FORCES, "force along y", "required by the type, or a table"),
-            optional(
-                "frame",
-                Kind::Choice(|| names(FRAMES)),
-                "axes of a force: those of the world, or of the link, turning with it",
-                "`\"world\"`",
-            ),
-            optional(
-                "force",
-                Kind::FORCES,
-                "size of a force against the motion of the point, not negative",
-                "required by the type",
-            ),
-            optional(
-                "stiffness",
-                Kind::STIFFNESSES_OR_TORSIONAL,
-                "stiffness of a spring, not negative",
-                "required by the type",
-            ),
-            optional(
-                "free_length",
-                Kind::LENGTHS,
-                "length of the spring without force, not negative",
-                "required by the type",
-            ),
-            optional("free_angle", Kind::ANGLES, "twist of the spring without moment", "required by the type"),
-            optional("damping", Kind::DAMPINGS_OR_SLOPES, "damping, not negative", "required by the type"),
-            optional(
-                "table",
-                Kind::Tables,
-                "the load over the crank angle: crank angles ascending, within one period",
-                "the constants",
-            ),
-            optional(
-                "interpolation",
-                Kind::Choice(|| names(INTERPOLATIONS)),
-                "of the table: straight lines, which do not overshoot, or a periodic cubic spline with continuous second derivatives",
-                "`\"linear\"`",
-            ),
-            optional(
-                "turns",
-                Kind::Integer,
-                "turns of the crank after which the table repeats; 2 for a four-stroke engine",
-                "1",
-            ),
-        ],
-    },
-    Section {
-        path: "loads.table",
-        keys: &[
-            needed("crank", Kind::INPUTS, "crank angle"),
-            optional("moment", Kind::MOMENTS, "moment there", "of a moment"),
-            optional("x", Kind::FORCES, "force along x there", "of a force"),
-            optional("y", Kind::FORCES, "force along y there", "of a force"),
-        ],
-    },
+    Section::at("loads").with(&[
+        needed("type", Kind::Choice(|| names(SORTS))).means("kind of load"),
+        optional("link", Kind::Text, "required by the type").means("the loaded link"),
+        optional("point", Kind::Text, "required by the type").means("the loaded point of that link"),
+        optional("links", Kind::Texts, "required by the type")
+            .means("the two links that a spring or damper joins; one may be `\"ground\"`"),
+        optional("points", Kind::Texts, "required by the type").means("a point of each of them"),
+        optional("moment", Kind::MOMENTS, "required by the type, or a table")
+            .means("moment, counter-clockwise positive; of a resistance its size, not negative"),
+        optional("acts", Kind::Choice(|| names(ACTS)), "`\"always\"`")
+            .means("of a moment: the sense of rotation of the link in which it acts"),
+        optional("x", Kind::FORCES, "required by the type, or a table").means("force along x"),
+        optional("y", Kind::FORCES, "required by the type, or a table").means("force along y"),
+        optional("frame", Kind::Choice(|| names(FRAMES)), "`\"world\"`")
+            .means("axes of a force: those of the world, or of the link, turning with it"),
+        optional("force", Kind::FORCES, "required by the type")
+            .means("size of a force against the motion of the point, not negative"),
+        optional("stiffness", Kind::STIFFNESSES_OR_TORSIONAL, "required by the type")
+            .means("stiffness of a spring, not negative"),
+        optional("free_length", Kind::LENGTHS, "required by the type")
+            .means("length of the spring without force, not negative"),
+        optional("free_angle", Kind::ANGLES, "required by the type").means("twist of the spring without moment"),
+        optional("damping", Kind::DAMPINGS_OR_SLOPES, "required by the type").means("damping, not negative"),
+        optional("table", Kind::Tables, "the constants")
+            .means("the load over the crank angle: crank angles ascending, within one period"),
+        optional("interpolation", Kind::Choice(|| names(INTERPOLATIONS)), "`\"linear\"`").means(
+            "of the table: straight lines, which do not overshoot, or a periodic cubic spline with \
+                        continuous second derivatives",
+        ),
+        optional("turns", Kind::Integer, "1")
+            .means("turns of the crank after which the table repeats; 2 for a four-stroke engine"),
+    ]),
+    Section::at("loads.table").with(&[
+        needed("crank", Kind::ANGLES).means("crank angle"),
+        optional("moment", Kind::MOMENTS, "of a moment").means("moment there"),
+        optional("x", Kind::FORCES, "of a force").means("force along x there"),
+        optional("y", Kind::FORCES, "of a force").means("force along y there"),
+    ]),
 ];
 
-/// Reads the keys of a load.
-type Reader = fn(&mut Table, &Mechanism) -> Result<Load>;
-
-fn reader(sort: LoadSort) -> Reader {
-    match sort {
-        LoadSort::Resistance => resistance,
-        LoadSort::Moment => moment,
-        LoadSort::Force => force,
-        LoadSort::ResistingForce => resisting_force,
-        LoadSort::Spring => spring,
-        LoadSort::Damper => damper,
-        LoadSort::TorsionSpring => torsion_spring,
-        LoadSort::TorsionDamper => torsion_damper,
-    }
-}
+/// Sorts of loads, each with its reader. The name is that of [`Load::sort`].
+const SORTS: Words<fn(&mut Table, &Mechanism) -> Result<Load>> = &[
+    ("resistance", resistance),
+    ("moment", moment),
+    ("force", force),
+    ("resisting_force", resisting_force),
+    ("spring", spring),
+    ("damper", damper),
+    ("torsion_spring", torsion_spring),
+    ("torsion_damper", torsion_damper),
+];
 
 /// Largest number of crank turns after which a table may repeat.
 const MOST_TURNS: i64 = 1000;
@@ -130,9 +82,7 @@ pub fn read(tables: Vec<Table>, mechanism: &Mechanism, faults: &mut Faults) -> V
 }
 
 fn load(table: &mut Table, mechanism: &Mechanism) -> Result<Load> {
-    let sorts: Vec<_> = LoadSort::ALL.iter().map(|&sort| (sort.name(), sort)).collect();
-    let sort = table.choice("type", "is no type of load", &sorts)?;
-    let load = reader(sort)(table, mechanism)?;
+    let load = table.choice("type", "is no type of load", SORTS)?(table, mechanism)?;
     table.finish()?;
     Ok(load)
 }

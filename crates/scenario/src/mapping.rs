@@ -50,14 +50,22 @@ pub enum Size {
     OfValue(f64),
 }
 
+/// Keys of differences that are allowed, each with its kind, in the order of the kinds.
+const SIZES: [(&str, fn(f64) -> Size); 3] =
+    [("abs", Size::Absolute), ("rel", Size::Relative), ("rel_value", Size::OfValue)];
+
 impl Size {
     /// Its kind, from 0: in units, of the scale, of each value.
     #[must_use]
     pub fn kind(self) -> usize {
+        self.parts().0
+    }
+
+    fn parts(self) -> (usize, f64) {
         match self {
-            Size::Absolute(_) => 0,
-            Size::Relative(_) => 1,
-            Size::OfValue(_) => 2,
+            Size::Absolute(number) => (0, number),
+            Size::Relative(number) => (1, number),
+            Size::OfValue(number) => (2, number),
         }
     }
 }
@@ -170,16 +178,12 @@ impl Mapping {
         section("channels", &self.channels);
         let mut tolerances = toml_edit::Table::new();
         for Allowed { of, size } in &self.allowed {
-            let (key, number) = match *size {
-                Size::Absolute(number) => ("abs", number),
-                Size::Relative(number) => ("rel", number),
-                Size::OfValue(number) => ("rel_value", number),
-            };
+            let (kind, number) = size.parts();
             let entry = tolerances.entry(of.as_deref().unwrap_or(ALL)).or_insert_with(|| {
                 toml_edit::Item::Value(toml_edit::Value::InlineTable(toml_edit::InlineTable::new()))
             });
             if let Some(table) = entry.as_inline_table_mut() {
-                table.insert(key, number.into());
+                table.insert(SIZES[kind].0, number.into());
             }
         }
         if !tolerances.is_empty() {
@@ -201,8 +205,8 @@ fn read(root: &mut Table) -> Result<Mapping> {
         for name in at.keys() {
             let mapped = line(&mut at, &name)?;
             if mapped.instant().is_none() {
-                let error = at.wrong(ErrorKind::Input, &name, format!("rows do not hold at `{name}`"));
-                return Err(error.help(suggestion(&name, INSTANTS.map(|(name, ..)| name), "`")));
+                let help = suggestion(&name, INSTANTS.map(|(name, ..)| name), "`");
+                return at.refuse(&name, format!("rows do not hold at `{name}`"), help);
             }
             mapping.at.push(mapped);
         }
@@ -218,13 +222,11 @@ fn read(root: &mut Table) -> Result<Mapping> {
         for mut entry in tolerances.all_tables()? {
             let name = entry.name().to_string();
             let of = (name != ALL).then_some(name);
-            for (key, size) in
-                [("abs", Size::Absolute as fn(f64) -> Size), ("rel", Size::Relative), ("rel_value", Size::OfValue)]
-            {
+            for (key, size) in SIZES {
                 let Some(number) = entry.optional_number(key)? else { continue };
                 if number < 0.0 {
-                    let error = entry.wrong(ErrorKind::Input, key, format!("found {number}"));
-                    return Err(error.help("a difference that is allowed is zero or more"));
+                    let help = "a difference that is allowed is zero or more";
+                    return entry.refuse(key, format!("found {number}"), help);
                 }
                 mapping.allowed.push(Allowed { of: of.clone(), size: size(number) });
             }

@@ -5,65 +5,42 @@ use std::sync::Arc;
 use super::keys::key::{Kind, Section, needed, optional};
 use super::motor;
 use super::reader::{Faults, Sign, Table};
-use super::unit::{self, ACCELERATION, ANGLE, TIME};
-use super::words::{Words, names, suggestion};
+use super::words::{Words, choice, names, suggestion};
 use linkage::drive::{Drive, DriveMotion, Drives, MotionLaw};
-use linkage::error::{ErrorKind, Result};
-use linkage::input::{Input, InputValue};
+use linkage::error::Result;
+use linkage::input::InputValue;
 use linkage::math::{Piecewise, Vec2};
 use linkage::mechanism::{GROUND, JointKind, Mechanism, Side};
 
 /// What is told of the keys that are read here.
 pub const SECTIONS: &[Section] = &[
-    Section {
-        path: "drive",
-        keys: &[
-            needed("joint", Kind::Text, "revolute joint between the ground and the driving link"),
-            optional("law", Kind::Choice(|| names(LAWS)), "crank angle over time; below", "`\"constant\"`"),
-            optional("zero", Kind::INPUTS, "world direction from which the crank angle is measured", "0"),
-            optional(
-                "motion",
-                Kind::Choice(|| vec!["prescribed", "free"]),
-                "`\"free\"`: forces determine the motion, see below",
-                "`\"prescribed\"`",
-            ),
-            optional("initial_speed", Kind::SPEEDS, "of a free link: its angular velocity at t = 0", "0"),
-            optional(
-                "through",
-                Kind::Choice(|| vec!["smooth"]),
-                "the mechanism passes change points on the branch on which velocities go on; see below",
-                "a change point is an error; a free motion passes it",
-            ),
-            optional(
-                "start",
-                Kind::ANGLES,
-                "of every drive but the first: its angle at t = 0",
-                "required there, refused on the first",
-            ),
-            optional(
-                "speed",
-                Kind::SPEEDS,
-                "angular velocity, counter-clockwise positive, not zero",
-                "required but of the laws `\"cycloidal\"` and `\"table\"`",
-            ),
-            optional("time", Kind::TIMES, "duration of a ramp, or of a cycloidal law", "required of these laws"),
-            optional("to", Kind::INPUTS, "last crank angle of a cycloidal law", "required of this law"),
-            optional(
-                "points",
-                Kind::Tables,
-                "points of a table, two or more: times ascending from 0, the first angle that of the start",
-                "required of the law `\"table\"`",
-            ),
-        ],
-    },
-    Section {
-        path: "drive.points",
-        keys: &[needed("time", Kind::TIMES, "time"), needed("angle", Kind::INPUTS, "crank angle at that time")],
-    },
-    Section {
-        path: "gravity",
-        keys: &[needed("x", Kind::ACCELERATIONS, "along x"), needed("y", Kind::ACCELERATIONS, "along y")],
-    },
+    Section::at("drive").with(&[
+        needed("joint", Kind::Text).means("revolute joint between the ground and the driving link"),
+        optional("law", Kind::Choice(|| names(LAWS)), "`\"constant\"`").means("crank angle over time; below"),
+        optional("zero", Kind::ANGLES, "0").means("world direction from which the crank angle is measured"),
+        optional("motion", Kind::Choice(|| vec!["prescribed", "free"]), "`\"prescribed\"`")
+            .means("`\"free\"`: forces determine the motion, see below"),
+        optional("initial_speed", Kind::SPEEDS, "0").means("of a free link: its angular velocity at t = 0"),
+        optional("through", Kind::Choice(|| vec!["smooth"]), "a change point is an error; a free motion passes it")
+            .means("the mechanism passes change points on the branch on which velocities go on; see below"),
+        optional("start", Kind::ANGLES, "required there, refused on the first")
+            .means("of every drive but the first: its angle at t = 0"),
+        optional("speed", Kind::SPEEDS, "required but of the laws `\"cycloidal\"` and `\"table\"`")
+            .of(Sign::NotZero)
+            .means("angular velocity, counter-clockwise positive, not zero"),
+        optional("time", Kind::TIMES, "required of these laws")
+            .of(Sign::Positive)
+            .means("duration of a ramp, or of a cycloidal law"),
+        optional("to", Kind::ANGLES, "required of this law").means("last crank angle of a cycloidal law"),
+        optional("points", Kind::Tables, "required of the law `\"table\"`")
+            .means("points of a table, two or more: times ascending from 0, the first angle that of the start"),
+    ]),
+    Section::at("drive.points").with(&[
+        needed("time", Kind::TIMES).of(Sign::NotNegative).means("time"),
+        needed("angle", Kind::ANGLES).means("crank angle at that time"),
+    ]),
+    Section::at("gravity")
+        .with(&[needed("x", Kind::ACCELERATIONS).means("along x"), needed("y", Kind::ACCELERATIONS).means("along y")]),
 ];
 
 /// The drives of the mechanism: the crank, with `start` as its angle at t = 0 (rad) and with the motor, and further
@@ -79,7 +56,7 @@ pub fn drives(
     let count = tables.len();
     for (index, mut table) in tables.into_iter().enumerate() {
         let own = |table: &mut Table| {
-            let start = if index == 0 { start } else { table.quantity("start", &ANGLE, Sign::Any)? };
+            let start = if index == 0 { start } else { table.si("start")? };
             let drive = drive(table, mechanism, &drives, start)?;
             check_beside(table, &drive, &drives)?;
             Ok(drive)
@@ -105,11 +82,11 @@ fn check_beside(table: &Table, drive: &Drive, before: &[Drive]) -> Result<()> {
     // Several drives are coupled by the crank angle, which determines the time only at constant speeds.
     if all().any(|drive| drive.constant_speed().is_none()) {
         let message = "one of several drives has a speed that changes";
-        return Err(table.wrong(ErrorKind::Unsupported, "law", message).help("give all drives constant speeds"));
+        return table.unsupported("law", message, "give all drives constant speeds");
     }
     if all().any(|drive| drive.through) {
         let message = "change points are passed with one drive only, and there are several";
-        return Err(table.wrong(ErrorKind::Unsupported, "through", message).help("take the key out"));
+        return table.unsupported("through", message, "take the key out");
     }
     Ok(())
 }
@@ -121,18 +98,16 @@ fn drive(table: &mut Table, mechanism: &Mechanism, before: &[Drive], start: f64)
     let kind = known.map(|index| mechanism.joints()[index].kind);
     let input = kind.and_then(JointKind::input).unwrap_or_default();
     let law = law(table, input.at(start))?;
-    let zero = table.optional_quantity("zero", unit::of_input(input)[0], Sign::Any)?.unwrap_or(0.0);
-    let motion = motion(table, law, input)?;
+    let zero = table.optional_si("zero")?.unwrap_or(0.0);
+    let motion = motion(table, law)?;
     let through = through(table)?;
     table.finish()?;
     let Some(index) = known else {
         let names = mechanism.joints().iter().map(|joint| joint.name.as_str());
-        let error = table.wrong(ErrorKind::Input, "joint", format!("there is no joint \"{name}\""));
-        return Err(error.help(suggestion(&name, names, "\"")));
+        return table.refuse("joint", format!("there is no joint \"{name}\""), suggestion(&name, names, "\""));
     };
     if before.iter().any(|other| other.joint == index) {
-        let message = "this joint is driven already";
-        return Err(table.wrong(ErrorKind::Input, "joint", message).help("give every drive a joint of its own"));
+        return table.refuse("joint", "this joint is driven already", "give every drive a joint of its own");
     }
     let joint = &mechanism.joints()[index];
     let hangs_on = |side: Side| side.link == GROUND || before.iter().any(|drive| drive.link == side.link);
@@ -145,33 +120,31 @@ fn drive(table: &mut Table, mechanism: &Mechanism, before: &[Drive], start: f64)
             format!("joint \"{name}\" joins \"{}\" and \"{}\", not a link and the ground", names[0], names[1]);
         let hinges = mechanism.joints().iter().filter(|joint| joint.on(GROUND).is_some() && joint.is_pin());
         let hinges: Vec<&str> = hinges.map(|joint| joint.name.as_str()).collect();
-        return Err(table
-            .wrong(ErrorKind::Unsupported, "joint", message)
-            .help(format!("drive a link that is hinged to the ground: {}", super::words::choice(hinges, "\""))));
+        let help = format!("drive a link that is hinged to the ground: {}", choice(hinges, "\""));
+        return table.unsupported("joint", message, help);
     };
     let drive = Drive { input, joint: index, link, zero, start, motion, through };
     if joint.on(GROUND).is_none() && !drive.is_free() {
         let message = format!("joint \"{name}\" hangs on a moving link, but the motion of its link is prescribed");
         let help = "only a free link may hang on a moving one: write `motion = \"free\"`, or drive a link that is hinged to the ground";
-        return Err(table.wrong(ErrorKind::Unsupported, "joint", message).help(help));
+        return table.unsupported("joint", message, help);
     }
     if joint.kind.input().is_none() {
         let message = format!("joint \"{name}\" is {}, but the crank turns", joint.kind.name());
         let help = "drive a link that is hinged to the ground by a revolute joint";
-        return Err(table.wrong(ErrorKind::Unsupported, "joint", message).help(help));
+        return table.unsupported("joint", message, help);
     }
     Ok(drive)
 }
 
 /// Whether the link follows `law`, or is free from t = 0 on with `law` as its nominal motion.
-fn motion(table: &mut Table, law: MotionLaw, input: Input) -> Result<DriveMotion> {
-    let initial = table.optional_quantity("initial_speed", unit::of_input(input)[1], Sign::Any)?;
+fn motion(table: &mut Table, law: MotionLaw) -> Result<DriveMotion> {
+    let initial = table.optional_si("initial_speed")?;
     match table.optional_string("motion")?.as_deref() {
         Some("free") => {
             let Some(nominal_speed) = law.constant() else {
-                let message = "the motion is free, but a law is given";
                 let help = "forces decide a free motion: give its nominal speed only (`speed_rpm`)";
-                return Err(table.wrong(ErrorKind::Input, "law", message).help(help));
+                return table.refuse("law", "the motion is free, but a law is given", help);
             };
             Ok(DriveMotion::Free { initial_speed: initial.unwrap_or(0.0), nominal_speed, motor: None })
         }
@@ -180,14 +153,14 @@ fn motion(table: &mut Table, law: MotionLaw, input: Input) -> Result<DriveMotion
             "a link with a speed at t = 0 moves freely: write `motion = \"free\"`, or take `initial_speed` out",
         )),
         Some("prescribed") if initial.is_some() => {
-            let message = "the link is given a speed at t = 0, but its motion is prescribed";
             let help = "write `motion = \"free\"` to leave it to its motor and the loads, or take the key out";
-            Err(table.wrong(ErrorKind::Input, "initial_speed", message).help(help))
+            table.refuse("initial_speed", "the link is given a speed at t = 0, but its motion is prescribed", help)
         }
         None | Some("prescribed") => Ok(DriveMotion::Prescribed { law, motor: None }),
-        Some(other) => Err(table
-            .wrong(ErrorKind::Input, "motion", format!("\"{other}\" is no sort of motion"))
-            .help(suggestion(other, ["prescribed", "free"], "\""))),
+        Some(other) => {
+            let help = suggestion(other, ["prescribed", "free"], "\"");
+            table.refuse("motion", format!("\"{other}\" is no sort of motion"), help)
+        }
     }
 }
 
@@ -199,11 +172,12 @@ fn through(table: &mut Table) -> Result<bool> {
         Some("jump") => {
             let message = "on the other branch velocities jump at a change point, which takes infinite forces";
             let help = "write `through = \"smooth\"` for the branch on which they go on, or take the key out";
-            Err(table.wrong(ErrorKind::Unsupported, "through", message).help(help))
+            table.unsupported("through", message, help)
         }
-        Some(other) => Err(table
-            .wrong(ErrorKind::Input, "through", format!("\"{other}\" is no way through a change point"))
-            .help("write `through = \"smooth\"` for the branch on which velocities go on, or take the key out")),
+        Some(other) => {
+            let help = "write `through = \"smooth\"` for the branch on which velocities go on, or take the key out";
+            table.refuse("through", format!("\"{other}\" is no way through a change point"), help)
+        }
     }
 }
 
@@ -212,32 +186,28 @@ const LAWS: Words<fn(&mut Table, InputValue) -> Result<MotionLaw>> =
     &[("constant", constant), ("ramp", ramp), ("cycloidal", cycloidal), ("table", points)];
 
 fn law(table: &mut Table, start: InputValue) -> Result<MotionLaw> {
-    let mut of_laws =
-        [unit::of_input(start.input)[0].keys("to"), TIME.keys("time"), vec!["points".into()]].into_iter().flatten();
-    if table.has("law") || of_laws.any(|key| table.has(&key)) {
+    if table.has("law") || table.has("points") || table.has_si("to") || table.has_si("time") {
         return table.choice("law", "is no law of motion", LAWS)?(table, start);
     }
     table.optional_string("law")?;
     constant(table, start)
 }
 
-fn constant(table: &mut Table, start: InputValue) -> Result<MotionLaw> {
-    Ok(MotionLaw::ConstantSpeed(table.quantity("speed", unit::of_input(start.input)[1], Sign::NotZero)?))
+fn constant(table: &mut Table, _: InputValue) -> Result<MotionLaw> {
+    Ok(MotionLaw::ConstantSpeed(table.si("speed")?))
 }
 
-fn ramp(table: &mut Table, start: InputValue) -> Result<MotionLaw> {
-    let speed = table.quantity("speed", unit::of_input(start.input)[1], Sign::NotZero)?;
-    Ok(MotionLaw::Ramp { speed, time: table.quantity("time", &TIME, Sign::Positive)? })
+fn ramp(table: &mut Table, _: InputValue) -> Result<MotionLaw> {
+    let speed = table.si("speed")?;
+    Ok(MotionLaw::Ramp { speed, time: table.si("time")? })
 }
 
 fn cycloidal(table: &mut Table, start: InputValue) -> Result<MotionLaw> {
-    let rise = table.quantity("to", unit::of_input(start.input)[0], Sign::Any)? - start.value;
-    let time = table.quantity("time", &TIME, Sign::Positive)?;
+    let rise = table.si("to")? - start.value;
+    let time = table.si("time")?;
     if rise == 0.0 {
         let message = "the crank is to stay where it starts";
-        return Err(table
-            .wrong(ErrorKind::Input, "to", message)
-            .help("give a crank angle other than that of the start"));
+        return table.refuse("to", message, "give a crank angle other than that of the start");
     }
     Ok(MotionLaw::Cycloidal { rise, time })
 }
@@ -248,8 +218,8 @@ fn points(table: &mut Table, start: InputValue) -> Result<MotionLaw> {
     let mut points: Vec<(f64, f64)> = Vec::new();
     for mut point in table.tables("points")? {
         let read = point.read(|point| {
-            let time = point.quantity("time", &TIME, Sign::NotNegative)?;
-            let gone = point.quantity("angle", unit::of_input(input)[0], Sign::Any)? - start;
+            let time = point.si("time")?;
+            let gone = point.si("angle")? - start;
             point.finish()?;
             Ok((time, gone))
         });
@@ -272,15 +242,14 @@ fn points(table: &mut Table, start: InputValue) -> Result<MotionLaw> {
     }
     if points.len() < 2 || points.iter().all(|&(_, gone)| gone == 0.0) {
         let help = "write `points = [{ time_s = 0, angle_deg = 0 }, { time_s = 0.5, angle_deg = 90 }]`";
-        let message = "a table of angles needs two points or more that are not all one angle";
-        return Err(table.wrong(ErrorKind::Input, "points", message).help(help));
+        return table.refuse("points", "a table of angles needs two points or more that are not all one angle", help);
     }
     Ok(MotionLaw::Table(Arc::new(Piecewise::clamped_spline(&points, [0.0; 2]))))
 }
 
 /// Acceleration of gravity (m/s^2).
 pub fn gravity(table: &mut Table) -> Result<Vec2> {
-    let (x, y) = (table.quantity("x", &ACCELERATION, Sign::Any)?, table.quantity("y", &ACCELERATION, Sign::Any)?);
+    let (x, y) = (table.si("x")?, table.si("y")?);
     table.finish()?;
     Ok(Vec2::new(x, y))
 }

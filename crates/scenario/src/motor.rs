@@ -9,41 +9,33 @@ use linkage::error::{ErrorKind, Result};
 
 /// What is told of the keys that are read here.
 pub const SECTIONS: &[Section] = &[
-    Section {
-        path: "motor",
-        keys: &[
-            needed("law", Kind::Choice(|| names(LAWS)), "torque over the motor's own speed"),
-            needed("ratio", Kind::Number, "speed of the motor over that of the crank; 1 without a reducer"),
-            optional(
-                "efficiency",
-                Kind::Number,
-                "share of the power that the reducer transmits, above 0 and at most 1, the same in both directions",
-                "1",
-            ),
-            optional("torque", Kind::MOMENTS, "constant law: the torque, positive", "required of this law"),
-            optional("torque_at_rest", Kind::MOMENTS, "linear law: torque at rest, positive", "required of this law"),
-            optional("slope", Kind::SLOPES, "linear law: change with the speed, negative", "required of this law"),
-            optional("breakdown_torque", Kind::MOMENTS, "Kloss: largest torque", "required of this law"),
-            optional("synchronous_speed", Kind::SPEEDS, "Kloss: synchronous speed", "required of this law"),
-            optional("breakdown_slip", Kind::Number, "Kloss: slip at breakdown, or", "the speed is given"),
-            optional("breakdown_speed", Kind::SPEEDS, "Kloss: speed at breakdown", "the slip is given"),
-            optional("points", Kind::Tables, "table: two or more, speeds ascending", "required of this law"),
-            optional("rotor_inertia", Kind::INERTIAS, "moment of inertia of the rotor about its shaft", "0"),
-            optional("input_inertia", Kind::INERTIAS, "of the reducer's input shaft, which turns with the motor", "0"),
-            optional("intermediate_inertia", Kind::INERTIAS, "of its intermediate shaft", "0"),
-            optional(
-                "intermediate_ratio",
-                Kind::Number,
-                "speed of the intermediate shaft over that of the crank",
-                "required with its inertia",
-            ),
-            optional("output_inertia", Kind::INERTIAS, "of its output shaft, which turns with the crank", "0"),
-        ],
-    },
-    Section {
-        path: "motor.points",
-        keys: &[needed("speed", Kind::SPEEDS, "speed of the motor"), needed("torque", Kind::MOMENTS, "its torque")],
-    },
+    Section::at("motor").with(&[
+        needed("law", Kind::Choice(|| names(LAWS))).means("torque over the motor's own speed"),
+        needed("ratio", Kind::Number).means("speed of the motor over that of the crank; 1 without a reducer"),
+        optional("efficiency", Kind::Number, "1").means(
+            "share of the power that the reducer transmits, above 0 and at most 1, the same in both \
+                        directions",
+        ),
+        optional("torque", Kind::MOMENTS, "required of this law").means("constant law: the torque, positive"),
+        optional("torque_at_rest", Kind::MOMENTS, "required of this law").means("linear law: torque at rest, positive"),
+        optional("slope", Kind::SLOPES, "required of this law").means("linear law: change with the speed, negative"),
+        optional("breakdown_torque", Kind::MOMENTS, "required of this law").means("Kloss: largest torque"),
+        optional("synchronous_speed", Kind::SPEEDS, "required of this law").means("Kloss: synchronous speed"),
+        optional("breakdown_slip", Kind::Number, "the speed is given").means("Kloss: slip at breakdown, or"),
+        optional("breakdown_speed", Kind::SPEEDS, "the slip is given").means("Kloss: speed at breakdown"),
+        optional("points", Kind::Tables, "required of this law").means("table: two or more, speeds ascending"),
+        optional("rotor_inertia", Kind::INERTIAS, "0").means("moment of inertia of the rotor about its shaft"),
+        optional("input_inertia", Kind::INERTIAS, "0")
+            .means("of the reducer's input shaft, which turns with the motor"),
+        optional("intermediate_inertia", Kind::INERTIAS, "0").means("of its intermediate shaft"),
+        optional("intermediate_ratio", Kind::Number, "required with its inertia")
+            .means("speed of the intermediate shaft over that of the crank"),
+        optional("output_inertia", Kind::INERTIAS, "0").means("of its output shaft, which turns with the crank"),
+    ]),
+    Section::at("motor.points").with(&[
+        needed("speed", Kind::SPEEDS).means("speed of the motor"),
+        needed("torque", Kind::MOMENTS).means("its torque"),
+    ]),
 ];
 
 /// Laws, each with its reader.

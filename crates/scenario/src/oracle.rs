@@ -1,128 +1,88 @@
 //! `[[oracle]]`: numbers that the mechanism must reproduce, each with the bound that its digits give.
 
-use super::correction::{Correction, number};
 use super::figure::Figure;
 use super::figure::{self, OracleFigure};
-use super::instant;
 use super::keys::key::{Key, Kind, Section, needed, optional};
-use super::printed::{Printed, PrintedChannel};
+use super::printed::{Correction, Printed, PrintedChannel, number};
 use super::reader::{Faults, Table};
-use super::series::{ExpectedCell, Known, OraclePoint, OracleSeries, When};
+use super::series::{ExpectedCell, Known, OraclePoint, OracleSeries, When, instant};
 use super::table_file;
 use linkage::case::Case;
-use linkage::error::{ErrorKind, Result};
+use linkage::error::Result;
 
 const NUMBER: &[Key] = &[
-    needed("value", Kind::Number, "the number, in the printed unit"),
-    needed("digits", Kind::Integer, "number of printed decimals"),
+    needed("value", Kind::Number).means("the number, in the printed unit"),
+    needed("digits", Kind::Integer).means("number of printed decimals"),
 ];
 
-const FINDING: Key = optional(
-    "finding",
-    Kind::Text,
-    "anchor of the section of `docs/findings.md` that says why the number is wrong",
-    "the number is right",
-);
+const FINDING: Key = optional("finding", Kind::Text, "the number is right")
+    .means("anchor of the section of `docs/findings.md` that says why the number is wrong");
 const RIGHT: Key =
-    optional("right", Kind::Table, "what is right instead, in the printed unit", "required with `finding`");
-const VALUE: Key = needed("value", Kind::Number, "the number, in the unit of the name");
-const DIGITS: Key = needed("digits", Kind::Integer, "number of printed decimals");
-const CRANK: Key = optional("crank", Kind::INPUTS, "crank angle", "a time is given");
-const AT_TIME: Key = optional("time", Kind::TIMES, "time", "a crank angle is given");
+    optional("right", Kind::Table, "required with `finding`").means("what is right instead, in the printed unit");
+const VALUE: Key = needed("value", Kind::Number).means("the number, in the unit of the name");
+const DIGITS: Key = needed("digits", Kind::Integer).means("number of printed decimals");
+const CRANK: Key = optional("crank", Kind::ANGLES, "a time is given").means("crank angle");
+const AT_TIME: Key = optional("time", Kind::TIMES, "a crank angle is given").means("time");
 
 /// What is told of the keys that are read here.
 pub const SECTIONS: &[Section] = &[
-    Section {
-        path: "oracle",
-        keys: &[
-            needed("source", Kind::Text, "author, title, table"),
-            optional("name", Kind::Text, "name for reports", "none"),
-            optional(
-                "basis",
-                Kind::Choice(|| OracleBasis::ALL.map(OracleBasis::word).to_vec()),
-                "how the numbers are known: printed in the source, computed anew from what it gives, or a formula from given data",
-                "`\"published\"`",
-            ),
-            optional("values", Kind::Tables, "numbers at one instant", "one of `file`, `values` and `figures`"),
-            optional("figures", Kind::Tables, "figures of the mechanism", "one of `file`, `values` and `figures`"),
-            optional(
-                "file",
-                Kind::Text,
-                "path of a table, relative to the scenario's directory",
-                "one of `file`, `values` and `figures`",
-            ),
-            CRANK,
-            optional(
-                "crank",
-                Kind::Text,
-                "column of the crank angles of the file, as this scenario measures them (ends in `_deg` or `_rad`)",
-                "with `file`: the other column is given",
-            ),
-            AT_TIME,
-            optional(
-                "time",
-                Kind::Text,
-                "column of the times of the file (ends in `_s` or `_ms`)",
-                "with `file`: the other column is given",
-            ),
-            optional("columns", Kind::Table, "what the columns of the table are, by name", "required with `file`"),
-            optional(
-                "digits",
-                Kind::Integer,
-                "number of decimals of the table, where trailing zeros are not printed",
-                "the printed ones",
-            ),
-            optional(
-                "slack",
-                Kind::Number,
-                "known error of the published numbers, in their printed unit, added to their bounds",
-                "0",
-            ),
-            optional("why", Kind::Text, "the reason for it", "required with `slack`"),
-        ],
-    },
-    Section {
-        path: "oracle.values",
-        keys: &[
-            needed("channel", Kind::Text, "channel, with the printed unit as its ending"),
-            VALUE,
-            DIGITS,
-            FINDING,
-            RIGHT,
-        ],
-    },
-    Section { path: "oracle.values.right", keys: NUMBER },
-    Section {
-        path: "oracle.figures",
-        keys: &[
-            needed("figure", Kind::Text, "which figure"),
-            optional("points", Kind::Texts, "the two points of a distance", "required of a distance"),
-            VALUE,
-            DIGITS,
-            FINDING,
-            RIGHT,
-        ],
-    },
-    Section { path: "oracle.figures.right", keys: NUMBER },
-    Section {
-        path: "oracle.columns.*",
-        keys: &[
-            needed("channel", Kind::Text, "channel, with the printed unit as its ending"),
-            optional("offset", Kind::LENGTHS_OR_ANGLES, "printed = channel + offset; for coordinates and angles", "0"),
-            optional("expect", Kind::Tables, "cells known to be wrong, by crank angle or time as the table", "none"),
-            FINDING,
-            RIGHT,
-        ],
-    },
-    Section { path: "oracle.columns.*.expect", keys: &[CRANK, AT_TIME, FINDING, RIGHT] },
-    Section { path: "oracle.columns.*.expect.right", keys: NUMBER },
-    Section {
-        path: "oracle.columns.*.right",
-        keys: &[
-            needed("values", Kind::Numbers, "one for every row"),
-            needed("digits", Kind::Integer, "number of printed decimals"),
-        ],
-    },
+    Section::at("oracle").with(&[
+        needed("source", Kind::Text).means("author, title, table"),
+        optional("name", Kind::Text, "none").means("name for reports"),
+        optional("basis", Kind::Choice(|| OracleBasis::ALL.map(OracleBasis::word).to_vec()), "`\"published\"`").means(
+            "how the numbers are known: printed in the source, computed anew from what it gives, or a \
+                        formula from given data",
+        ),
+        optional("values", Kind::Tables, "one of `file`, `values` and `figures`").means("numbers at one instant"),
+        optional("figures", Kind::Tables, "one of `file`, `values` and `figures`").means("figures of the mechanism"),
+        optional("file", Kind::Text, "one of `file`, `values` and `figures`")
+            .means("path of a table, relative to the scenario's directory"),
+        CRANK,
+        optional("crank", Kind::Text, "with `file`: the other column is given").means(
+            "column of the crank angles of the file, as this scenario measures them (ends in `_deg` or \
+                        `_rad`)",
+        ),
+        AT_TIME,
+        optional("time", Kind::Text, "with `file`: the other column is given")
+            .means("column of the times of the file (ends in `_s` or `_ms`)"),
+        optional("columns", Kind::Table, "required with `file`").means("what the columns of the table are, by name"),
+        optional("digits", Kind::Integer, "the printed ones")
+            .means("number of decimals of the table, where trailing zeros are not printed"),
+        optional("slack", Kind::Number, "0")
+            .means("known error of the published numbers, in their printed unit, added to their bounds"),
+        optional("why", Kind::Text, "required with `slack`").means("the reason for it"),
+    ]),
+    Section::at("oracle.values").with(&[
+        needed("channel", Kind::Text).means("channel, with the printed unit as its ending"),
+        VALUE,
+        DIGITS,
+        FINDING,
+        RIGHT,
+    ]),
+    Section::at("oracle.values.right").with(NUMBER),
+    Section::at("oracle.figures").with(&[
+        needed("figure", Kind::Text).means("which figure"),
+        optional("points", Kind::Texts, "required of a distance").means("the two points of a distance"),
+        VALUE,
+        DIGITS,
+        FINDING,
+        RIGHT,
+    ]),
+    Section::at("oracle.figures.right").with(NUMBER),
+    Section::at("oracle.columns.*").with(&[
+        needed("channel", Kind::Text).means("channel, with the printed unit as its ending"),
+        optional("offset", Kind::LENGTHS_OR_ANGLES, "0")
+            .means("printed = channel + offset; for coordinates and angles"),
+        optional("expect", Kind::Tables, "none").means("cells known to be wrong, by crank angle or time as the table"),
+        FINDING,
+        RIGHT,
+    ]),
+    Section::at("oracle.columns.*.expect").with(&[CRANK, AT_TIME, FINDING, RIGHT]),
+    Section::at("oracle.columns.*.expect.right").with(NUMBER),
+    Section::at("oracle.columns.*.right").with(&[
+        needed("values", Kind::Numbers).means("one for every row"),
+        needed("digits", Kind::Integer).means("number of printed decimals"),
+    ]),
 ];
 
 /// Numbers of one source.
@@ -230,14 +190,14 @@ fn oracle(table: &mut Table, known: &Known, case: &Case, inline: &mut usize) -> 
 
 /// Numbers at one instant, written in the scenario itself.
 fn values(table: &mut Table, known: &Known, case: &Case) -> Result<Vec<OracleSeries>> {
-    let at = instant::read(table, case)?;
+    let at = instant(table, case)?;
     let mut series = Vec::new();
     for mut entry in table.tables("values")? {
         let own = entry.read(|entry| value(entry, at, known)).map(Some);
         series.extend(table.part(own));
     }
     if series.is_empty() {
-        return Err(table.wrong(ErrorKind::Input, "values", "there is no value").help(VALUE_HELP));
+        return table.refuse("values", "there is no value", VALUE_HELP);
     }
     Ok(series)
 }

@@ -51,7 +51,7 @@ fn own(table: &mut Table, key: &str, before: &Parameters) -> Result<Parameter> {
     let parameter = Parameter::new(key, table.number_with(key, before)?);
     let faulty = parameter.names().find_map(|(name, _)| fault_of_name(name));
     match faulty.or_else(|| twice(before, &parameter)) {
-        Some((message, help)) => Err(table.wrong(ErrorKind::Input, key, message).help(help)),
+        Some((message, help)) => table.refuse(key, message, help),
         None => Ok(parameter),
     }
 }

@@ -3,13 +3,13 @@
 //!
 //! A table that is read by [`Table::read`] tells all mistakes of its keys and values at once.
 
-#[cfg(test)]
-pub mod asked;
 mod quantity;
 mod several;
 
-pub use quantity::Sign;
+pub use super::keys::key::Sign;
 pub use several::Faults;
+#[cfg(test)]
+pub use several::asked;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
@@ -17,12 +17,13 @@ use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use super::keys::key::Key;
 use super::parameters::{Parameters, arithmetic};
 use super::setting::{Origin, Setting};
 use super::source::Source;
 use super::words::suggested;
 use formula::Fault;
-use linkage::error::{Error, ErrorKind, Place, Result};
+use linkage::error::{Advice, Error, ErrorKind, Place, Result};
 
 struct Entry<'a> {
     key: &'a str,
@@ -50,18 +51,24 @@ pub struct Table<'a> {
     settled: Vec<String>,
     /// Spellings of each key that is missing, and the way out.
     missing: Vec<(Vec<String>, Option<&'static str>)>,
-    /// Keys that lead here, with `*` for names: for the test of the table of keys.
-    #[cfg(test)]
+    /// Keys that lead here, with `*` for names: its section in the table of keys.
     section: String,
+    /// The rows of that section.
+    rows: &'static [Key],
 }
 
 impl<'a> Table<'a> {
     /// Reader of the whole file.
     pub fn root(source: &'a Source<'a>, tree: &'a Spanned<DeTable<'a>>) -> Self {
-        Table::new(source, String::new(), String::new(), 0..0, tree.get_ref())
+        Table::new(source, [String::new(), String::new(), String::new()], 0..0, tree.get_ref())
     }
 
-    fn new(source: &'a Source<'a>, name: String, path: String, span: Range<usize>, table: &'a DeTable<'a>) -> Self {
+    fn new(
+        source: &'a Source<'a>,
+        [name, path, section]: [String; 3],
+        span: Range<usize>,
+        table: &'a DeTable<'a>,
+    ) -> Self {
         let mut entries: Vec<Entry> = table
             .iter()
             .map(|(key, value)| Entry { key: key.get_ref().as_ref(), key_span: key.span(), value })
@@ -83,8 +90,8 @@ impl<'a> Table<'a> {
             unknown_names: Vec::new(),
             settled: Vec::new(),
             missing: Vec::new(),
-            #[cfg(test)]
-            section: String::new(),
+            rows: (source.rows)(&section),
+            section,
         }
     }
 
@@ -135,6 +142,16 @@ impl<'a> Table<'a> {
         Error::new(kind, message).key(key).at(place)
     }
 
+    /// Refuses the value of `key`, as [`Table::wrong`], with the way out.
+    pub fn refuse<T>(&self, key: &str, message: impl Into<String>, help: impl Into<Advice>) -> Result<T> {
+        Err(self.wrong(ErrorKind::Input, key, message).help(help))
+    }
+
+    /// The same for what this version does not support.
+    pub fn unsupported<T>(&self, key: &str, message: impl Into<String>, help: impl Into<Advice>) -> Result<T> {
+        Err(self.wrong(ErrorKind::Unsupported, key, message).help(help))
+    }
+
     /// A setting whose value was read from `key`, if it was.
     pub fn given<T>(&self, key: &str, value: Option<T>) -> Setting<T> {
         value.map_or(Setting::Free, |value| {
@@ -162,26 +179,24 @@ impl<'a> Table<'a> {
     }
 
     fn fault_at(&self, key: &str, value: &Spanned<DeValue>, fault: &Fault) -> Error {
-        let (span, text) = (value.span(), value.get_ref().as_str().unwrap_or_default());
-        let error = Error::new(ErrorKind::Input, fault.message.clone()).key(self.path_of(key)).help(fault.help.clone());
+        let (mut span, text) = (value.span(), value.get_ref().as_str().unwrap_or_default());
         // The text stands there as it is, unless it has escapes.
-        let Some(offset) = self.source.text[span.clone()].find(text) else { return error.at(self.source.place(span)) };
-        let start = span.start + offset;
-        // What is missing at the end is shown at the last sign.
-        let (from, to) = (fault.at.start.min(text.len().saturating_sub(1)), fault.at.end);
-        error.at(self.source.place(start + from..start + to.max(from)))
+        if let Some(offset) = self.source.text[span.clone()].find(text) {
+            let start = span.start + offset;
+            // What is missing at the end is shown at the last sign.
+            let (from, to) = (fault.at.start.min(text.len().saturating_sub(1)), fault.at.end);
+            span = start + from..start + to.max(from);
+        }
+        self.wrong_at(key, span, fault.message.clone()).help(fault.help.clone())
     }
 
-    fn wrong_entry(&self, entry: &Entry, message: impl Into<String>) -> Error {
-        self.wrong(ErrorKind::Input, entry.key, message)
+    fn wrong_at(&self, key: &str, span: Range<usize>, message: impl Into<String>) -> Error {
+        Error::new(ErrorKind::Input, message).key(self.path_of(key)).at(self.source.place(span))
     }
 
     fn mistyped(&self, key: &str, value: &Spanned<DeValue>, needed: Needed) -> Error {
-        let found = found(self.source, value);
-        let path = self.path_of(key);
-        let help = needed.help(&path, value.get_ref());
-        let error = Error::new(ErrorKind::Input, format!("found {found}, but {} is needed", needed.words()));
-        error.key(path).at(self.source.place(value.span())).help(help)
+        let message = format!("found {}, but {} is needed", found(self.source, value), needed.words());
+        self.wrong_at(key, value.span(), message).help(needed.help(&self.path_of(key), value.get_ref()))
     }
 
     fn entry(&self, key: &str) -> Option<&Entry<'a>> {
@@ -200,13 +215,26 @@ impl<'a> Table<'a> {
         value.ok_or_else(|| self.missing(&[key.to_string()]))
     }
 
+    /// What `read` makes of the value of `key`, if the key is there; in place of another value, `stand_in`, or nothing
+    /// more is read.
+    fn scalar<T>(
+        &mut self,
+        key: &str,
+        needed: Needed,
+        stand_in: Option<Option<T>>,
+        read: impl Fn(&'a DeValue<'a>) -> Option<T>,
+    ) -> Result<Option<T>> {
+        let Some(value) = self.take(key) else { return Ok(None) };
+        match (read(value.get_ref()), stand_in) {
+            (Some(found), _) => Ok(Some(found)),
+            (None, Some(stand_in)) => self.instead(stand_in, self.mistyped(key, value, needed)),
+            (None, None) => Err(self.noted(self.mistyped(key, value, needed))),
+        }
+    }
+
     /// Text, if the key is there.
     pub fn optional_string(&mut self, key: &str) -> Result<Option<String>> {
-        let Some(value) = self.take(key) else { return Ok(None) };
-        match value.get_ref().as_str() {
-            Some(text) => Ok(Some(text.to_string())),
-            None => Err(self.noted(self.mistyped(key, value, Needed::Text))),
-        }
+        self.scalar(key, Needed::Text, None, |value| value.as_str().map(ToString::to_string))
     }
 
     /// What the word of a key stands for, if the key is there; `wrong` says what another word is.
@@ -238,13 +266,9 @@ impl<'a> Table<'a> {
 
     /// Whole number, if the key is there.
     pub fn optional_integer(&mut self, key: &str) -> Result<Option<i64>> {
-        let Some(value) = self.take(key) else { return Ok(None) };
-        let integer = value.get_ref().as_integer();
-        let integer = integer.and_then(|number| i64::from_str_radix(number.as_str(), number.radix()).ok());
-        match integer {
-            Some(integer) => Ok(Some(integer)),
-            None => self.instead(Some(1), self.mistyped(key, value, Needed::WholeNumber)),
-        }
+        self.scalar(key, Needed::WholeNumber, Some(Some(1)), |value| {
+            value.as_integer().and_then(|number| i64::from_str_radix(number.as_str(), number.radix()).ok())
+        })
     }
 
     /// Whole number.
@@ -260,11 +284,7 @@ impl<'a> Table<'a> {
 
     /// `true` or `false`, if the key is there.
     pub fn optional_boolean(&mut self, key: &str) -> Result<Option<bool>> {
-        let Some(value) = self.take(key) else { return Ok(None) };
-        match value.get_ref().as_bool() {
-            Some(found) => Ok(Some(found)),
-            None => self.instead(None, self.mistyped(key, value, Needed::Boolean)),
-        }
+        self.scalar(key, Needed::Boolean, Some(None), DeValue::as_bool)
     }
 
     /// Finite number without a unit, if the key is there.
@@ -289,29 +309,34 @@ impl<'a> Table<'a> {
         self.finite(key, value).or_else(|error| self.instead(1.0, error))
     }
 
-    /// Array of finite numbers without a unit.
-    pub fn numbers(&mut self, key: &str) -> Result<Vec<f64>> {
+    /// What `read` makes of the elements of an array.
+    fn elements<T>(
+        &mut self,
+        key: &str,
+        needed: Needed,
+        mut read: impl FnMut(&mut Self, &'a Spanned<DeValue<'a>>) -> Result<T>,
+    ) -> Result<Vec<T>> {
         let value = self.take(key);
         let value = self.required(key, value)?;
         let Some(array) = value.get_ref().as_array() else {
-            return Err(self.noted(self.mistyped(key, value, Needed::Numbers)));
+            return Err(self.noted(self.mistyped(key, value, needed)));
         };
-        let number = |element| self.finite(key, element).or_else(|error| self.instead(1.0, error));
-        array.iter().map(number).collect()
+        array.iter().map(|element| read(self, element)).collect()
+    }
+
+    /// Array of finite numbers without a unit.
+    pub fn numbers(&mut self, key: &str) -> Result<Vec<f64>> {
+        self.elements(key, Needed::Numbers, |own, element| {
+            own.finite(key, element).or_else(|error| own.instead(1.0, error))
+        })
     }
 
     /// Array of text.
     pub fn strings(&mut self, key: &str) -> Result<Vec<String>> {
-        let value = self.take(key);
-        let value = self.required(key, value)?;
-        let Some(array) = value.get_ref().as_array() else {
-            return Err(self.noted(self.mistyped(key, value, Needed::Texts)));
-        };
-        let text = |element: &Spanned<DeValue>| match element.get_ref().as_str() {
+        self.elements(key, Needed::Texts, |own, element| match element.get_ref().as_str() {
             Some(text) => Ok(text.to_string()),
-            None => self.instead(String::new(), self.mistyped(key, element, Needed::Text)),
-        };
-        array.iter().map(text).collect()
+            None => own.instead(String::new(), own.mistyped(key, element, Needed::Text)),
+        })
     }
 
     /// Table, if the key is there.
@@ -371,10 +396,10 @@ impl<'a> Table<'a> {
     fn child(&self, key: &str, path: String, value: &'a Spanned<DeValue<'a>>) -> Result<Table<'a>> {
         match value.get_ref() {
             DeValue::Table(table) => {
-                let child = Table::new(self.source, key.to_string(), path, value.span(), table);
-                #[cfg(test)]
-                let child = Table { section: asked::section(&self.section, key, &self.asked), ..child };
-                Ok(child)
+                // A key that was not asked for by its name is a name itself.
+                let own = if self.asked.iter().any(|own| own == key) { key } else { "*" };
+                let section = if self.section.is_empty() { own.into() } else { format!("{}.{own}", self.section) };
+                Ok(Table::new(self.source, [key.into(), path, section], value.span(), table))
             }
             _ => Err(self.mistyped(key, value, Needed::Table)),
         }
@@ -432,22 +457,23 @@ impl Needed {
 
     /// How to correct what was found instead at a dotted path.
     fn help(self, path: &str, found: &DeValue) -> String {
-        match (self, found) {
-            (Needed::Text, DeValue::Integer(_) | DeValue::Float(_)) => "put the text in \"quotes\"".into(),
-            (Needed::Text, _) => "put a text in \"quotes\" there".into(),
-            (Needed::Texts, _) => "write texts in brackets, such as [\"ground\", \"crank\"]".into(),
-            (Needed::Number, _) => "write a decimal number, such as 12.5, without quotes".into(),
-            (Needed::FiniteNumber, _) => "write a decimal number; nan and inf stand for no quantity".into(),
-            (Needed::Numbers, _) => "write numbers in brackets, such as [0, 0.1, 0.3]".into(),
-            (Needed::WholeNumber, _) => "write a whole number, such as 3".into(),
-            (Needed::Boolean, _) => "write `true` or `false`, without quotes".into(),
-            (Needed::Table, DeValue::Array(_)) => format!("write [{path}]"),
+        let help = match (self, found) {
+            (Needed::Text, DeValue::Integer(_) | DeValue::Float(_)) => "put the text in \"quotes\"",
+            (Needed::Text, _) => "put a text in \"quotes\" there",
+            (Needed::Texts, _) => "write texts in brackets, such as [\"ground\", \"crank\"]",
+            (Needed::Number, _) => "write a decimal number, such as 12.5, without quotes",
+            (Needed::FiniteNumber, _) => "write a decimal number; nan and inf stand for no quantity",
+            (Needed::Numbers, _) => "write numbers in brackets, such as [0, 0.1, 0.3]",
+            (Needed::WholeNumber, _) => "write a whole number, such as 3",
+            (Needed::Boolean, _) => "write `true` or `false`, without quotes",
+            (Needed::Table, DeValue::Array(_)) => return format!("write [{path}]"),
             (Needed::Table, _) => {
-                "write keys with their values in braces, such as { x_mm = 0, y_mm = 0 }, or a section".into()
+                "write keys with their values in braces, such as { x_mm = 0, y_mm = 0 }, or a section"
             }
-            (Needed::Tables, DeValue::Table(_)) => format!("write [[{path}]]"),
-            (Needed::Tables, _) => format!("write a section [[{path}]] for each"),
-        }
+            (Needed::Tables, DeValue::Table(_)) => return format!("write [[{path}]]"),
+            (Needed::Tables, _) => return format!("write a section [[{path}]] for each"),
+        };
+        help.into()
     }
 }
 

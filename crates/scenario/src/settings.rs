@@ -4,21 +4,16 @@ use super::keys::key::{Kind, Section, needed, optional};
 use super::reader::Table;
 use super::words::{choice, nearest, suggestion};
 use linkage::case::Case;
-use linkage::error::{ErrorKind, Result};
+use linkage::error::Result;
 use linkage::trajectory::{Channel, Stage};
 
 /// What is told of the keys that are read here.
 pub const SECTIONS: &[Section] = &[
-    Section { path: "channels", keys: &[needed("want", Kind::Texts, "stages, subjects or channels that are wanted")] },
-    Section {
-        path: "tolerances",
-        keys: &[optional(
-            "engine_rel",
-            Kind::Number,
-            "largest bound on the engine's error, as a share of a channel's scale, at which agreement still proves something; between 0 and 1",
-            "1e-2",
-        )],
-    },
+    Section::at("channels").with(&[needed("want", Kind::Texts).means("stages, subjects or channels that are wanted")]),
+    Section::at("tolerances").with(&[optional("engine_rel", Kind::Number, "1e-2").means(
+        "largest bound on the engine's error, as a share of a channel's scale, at which agreement still \
+                    proves something; between 0 and 1",
+    )]),
 ];
 
 /// The words of `[channels]`; there is one at least.
@@ -29,15 +24,14 @@ pub fn wanted(table: &mut Table) -> Result<Vec<String>> {
     if names.is_empty() {
         let help =
             format!("name at least one, or leave the section out to get all; {}", suggestion("", stages(), "\""));
-        return Err(table.wrong(ErrorKind::Input, "want", "nothing is wanted").help(help));
+        return table.refuse("want", "nothing is wanted", help);
     }
     Ok(names)
 }
 
 /// The case with the channels wanted that the words of `[channels]` ask for.
 pub fn wanting(table: &Table, names: &[String], case: Case) -> Result<Case> {
-    let channels =
-        called(&case, names).map_err(|(message, help)| table.wrong(ErrorKind::Input, "want", message).help(help))?;
+    let channels = called(&case, names).or_else(|(message, help)| table.refuse("want", message, help))?;
     Ok(case.wanting_only(&channels))
 }
 
@@ -81,5 +75,5 @@ pub fn engine_rel(table: &mut Table) -> Result<f64> {
         return Ok(share);
     }
     let message = format!("found {share}, but this is a share of a channel's scale");
-    Err(table.wrong(ErrorKind::Input, "engine_rel", message).help("give a number between 0 and 1, such as 1e-2"))
+    table.refuse("engine_rel", message, "give a number between 0 and 1, such as 1e-2")
 }

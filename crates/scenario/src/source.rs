@@ -8,9 +8,25 @@ use std::sync::Arc;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use super::keys::key::Key;
+use super::malformed;
 use super::parameters::Parameters;
-use super::{hostile, malformed};
 use linkage::error::{Error, ErrorKind, Place, Result};
+use linkage::mechanism::{LONGEST_NAME, is_unseen};
+
+/// Longest text (characters).
+const LONGEST_TEXT: usize = 10_000;
+
+/// Most signs that begin a value or a table, dots of decimals included. A value takes some 200 bytes once it is read,
+/// whatever its length in the file: the memory is told before it is taken.
+const MOST_VALUES: usize = 2_000_000;
+
+/// Most parts of a file: tables, such as points, links, joints, loads and formulas. Costs grow with the square of their
+/// number in several places; with so many they are seconds. Published numbers do not count.
+const MOST_PARTS: usize = 30_000;
+const UNCOUNTED: &str = "oracle";
+
+const UNSEEN_HELP: &str = "take out line breaks, control characters and changes of the writing direction";
 
 /// The text of the scenario file at `path`.
 pub fn text_of(path: &Path) -> Result<String> {
@@ -28,6 +44,8 @@ pub struct Source<'a> {
     pub text: &'a str,
     /// Parameters that its numbers may use.
     pub parameters: Parameters,
+    /// The rows of the table of keys for a section, by its path; none of files that are no scenarios.
+    pub rows: fn(&str) -> &'static [Key],
     /// The text once more, for places.
     shared: Arc<str>,
 }
@@ -35,12 +53,12 @@ pub struct Source<'a> {
 impl<'a> Source<'a> {
     /// A file without parameters.
     pub fn new(path: &'a Path, text: &'a str) -> Self {
-        Source { path, text, parameters: Parameters::default(), shared: text.into() }
+        Source { path, text, parameters: Parameters::default(), rows: |_| &[], shared: text.into() }
     }
 
-    /// The same file with parameters.
-    pub fn with(self, parameters: Parameters) -> Self {
-        Source { parameters, ..self }
+    /// The same file with parameters, whose sections have these rows.
+    pub fn with(self, parameters: Parameters, rows: fn(&str) -> &'static [Key]) -> Self {
+        Source { parameters, rows, ..self }
     }
 
     /// Place of a byte range.
@@ -53,10 +71,10 @@ impl<'a> Source<'a> {
     /// # Errors
     /// [`ErrorKind::Input`] with the place, for what is no TOML, and for what no text of a file may hold.
     pub fn tree(&self) -> Result<Spanned<DeTable<'a>>> {
-        hostile::check_size(&|span| self.place(span), self.text)?;
+        self.check_size()?;
         let tree = DeTable::parse(self.text)
             .map_err(|error| malformed::no_toml(self.text, &|span| self.place(span), &error))?;
-        hostile::check(&|span| self.place(span), tree.get_ref())?;
+        self.check_table(tree.get_ref(), "", &mut 0)?;
         Ok(tree)
     }
 
@@ -69,6 +87,66 @@ impl<'a> Source<'a> {
             let span = error.scenario_key().map_or(0..0, |key| locate(tree, key));
             error.at(self.place(span))
         })
+    }
+
+    /// Checks that the text can be read without taking up the memory: how many values it may have at most.
+    fn check_size(&self) -> Result<()> {
+        let mut signs = self.text.bytes().enumerate().filter(|(_, byte)| b",=[{.".contains(byte));
+        let Some((at, _)) = signs.nth(MOST_VALUES) else { return Ok(()) };
+        let message = format!("the file has more than {MOST_VALUES} values (signs `,` `=` `[` `{{` `.`)");
+        Err(Error::new(ErrorKind::Input, message)
+            .at(self.place(at..at + 1))
+            .help("divide it, or take a coarser grid; long columns of published numbers belong in a table (`file`)"))
+    }
+
+    /// Checks all keys and texts of a table. No file may hold letters that a reader does not see, or texts of any length.
+    ///
+    /// Titles, sources and names go into reports, tables, drawings and recordings. A line break there would forge a line
+    /// of a report, an escape character would command a terminal, and a change of direction would show another name than
+    /// the one that is meant.
+    fn check_table(&self, table: &DeTable, path: &str, parts: &mut usize) -> Result<()> {
+        for (key, value) in table {
+            let name: &str = key.get_ref();
+            let wrong = if name.contains(is_unseen) {
+                Some(("a key holds a letter that is not seen".to_string(), UNSEEN_HELP))
+            } else if name.chars().count() > LONGEST_NAME {
+                Some((format!("a key has more than {LONGEST_NAME} letters"), "give it a shorter name"))
+            } else {
+                None
+            };
+            if let Some((message, help)) = wrong {
+                let error = Error::new(ErrorKind::Input, message).at(self.place(key.span())).help(help);
+                return Err(if path.is_empty() { error } else { error.key(path) });
+            }
+            let path = if path.is_empty() { name.to_string() } else { format!("{path}.{name}") };
+            self.check_value(value, &path, parts)?;
+        }
+        Ok(())
+    }
+
+    #[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the TOML parser")]
+    fn check_value(&self, value: &Spanned<DeValue>, path: &str, parts: &mut usize) -> Result<()> {
+        let (message, help) = match value.get_ref() {
+            DeValue::String(text) if text.contains(is_unseen) => {
+                ("the text holds a letter that is not seen".into(), UNSEEN_HELP)
+            }
+            DeValue::String(text) if text.chars().count() > LONGEST_TEXT => {
+                (format!("the text has more than {LONGEST_TEXT} letters"), "shorten it")
+            }
+            DeValue::Table(_) if *parts >= MOST_PARTS => {
+                let parts = "points, links, joints, loads, formulas and other tables";
+                (format!("the file has more than {MOST_PARTS} parts ({parts})"), "divide it into several files")
+            }
+            DeValue::Table(own) => {
+                *parts += usize::from(!path.starts_with(UNCOUNTED));
+                return self.check_table(own, path, parts);
+            }
+            DeValue::Array(array) => {
+                return array.iter().try_for_each(|element| self.check_value(element, path, parts));
+            }
+            _ => return Ok(()),
+        };
+        Err(Error::new(ErrorKind::Input, message).key(path).at(self.place(value.span())).help(help))
     }
 }
 

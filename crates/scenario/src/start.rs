@@ -2,8 +2,7 @@
 
 use super::joints::link;
 use super::keys::key::{Kind, Section, needed, optional};
-use super::reader::{Faults, Sign, Table};
-use super::unit::LENGTH;
+use super::reader::{Faults, Table};
 use super::words::{Words, names, suggestion};
 use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::math::Vec2;
@@ -19,39 +18,24 @@ const MODES: Words<AssemblyMode> = &[
 
 /// What is told of the keys that are read here.
 pub const SECTIONS: &[Section] = &[
-    Section {
-        path: "start",
-        keys: &[
-            needed("crank", Kind::INPUTS, "crank angle at t = 0, of the first drive"),
-            optional("groups", Kind::Tables, "one table for each Assur group", "none: a mechanism without groups"),
-        ],
-    },
-    Section {
-        path: "start.groups",
-        keys: &[
-            needed("links", Kind::Texts, "all links of the group"),
-            optional(
-                "mode",
-                Kind::Choice(|| names(MODES)),
-                "which of a dyad's two configurations; below. RPP and PRP dyads have one, and need no table",
-                "by `near`",
-            ),
-            optional(
-                "near",
-                Kind::TableOrTables,
-                "approximate position in the world of one point of the group; or an array of several such tables",
-                "by `mode`",
-            ),
-        ],
-    },
-    Section {
-        path: "start.groups.near",
-        keys: &[
-            needed("point", Kind::Text, "a point of the group"),
-            needed("x", Kind::LENGTHS, "coordinate along x in the world"),
-            needed("y", Kind::LENGTHS, "coordinate along y in the world"),
-        ],
-    },
+    Section::at("start").with(&[
+        needed("crank", Kind::ANGLES).means("crank angle at t = 0, of the first drive"),
+        optional("groups", Kind::Tables, "none: a mechanism without groups").means("one table for each Assur group"),
+    ]),
+    Section::at("start.groups").with(&[
+        needed("links", Kind::Texts).means("all links of the group"),
+        optional("mode", Kind::Choice(|| names(MODES)), "by `near`")
+            .means("which of a dyad's two configurations; below. RPP and PRP dyads have one, and need no table"),
+        optional("near", Kind::TableOrTables, "by `mode`").means(
+            "approximate position in the world of one point of the group; or an array of several such \
+                        tables",
+        ),
+    ]),
+    Section::at("start.groups.near").with(&[
+        needed("point", Kind::Text).means("a point of the group"),
+        needed("x", Kind::LENGTHS).means("coordinate along x in the world"),
+        needed("y", Kind::LENGTHS).means("coordinate along y in the world"),
+    ]),
 ];
 
 /// A table of `[[start.groups]]` as it stands there.
@@ -120,7 +104,7 @@ fn group(
         return Err(unknown_group(&table, &links, mechanism, structure));
     };
     if before[index].is_some() {
-        return Err(table.wrong(ErrorKind::Input, "links", "this group is given twice").help("keep one of the two"));
+        return table.refuse("links", "this group is given twice", "keep one of the two");
     }
     let group = &structure.groups[index];
     if let Some(asked) = mode
@@ -205,7 +189,7 @@ fn foreign_mode(table: &Table, asked: AssemblyMode, group: &Group) -> Error {
 fn rough_place(mut table: Table) -> Result<(Table, String, Vec2)> {
     let (name, place) = table.read(|table| {
         let name = table.string("point")?;
-        let place = Vec2::new(table.quantity("x", &LENGTH, Sign::Any)?, table.quantity("y", &LENGTH, Sign::Any)?);
+        let place = Vec2::new(table.si("x")?, table.si("y")?);
         table.finish()?;
         Ok((name, place))
     })?;
@@ -230,7 +214,7 @@ fn side_point(
                 }
             });
             let message = format!("no link of the group has a point \"{name}\"");
-            Err(table.wrong(ErrorKind::Input, "point", message).help(suggestion(&name, names, "\"")))
+            table.refuse("point", message, suggestion(&name, names, "\""))
         }
     }
 }

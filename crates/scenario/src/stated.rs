@@ -5,9 +5,9 @@ use super::clearance::Question;
 use super::engine::{self, EngineSettings};
 use super::header::{check_format, name};
 use super::keys::key::{Kind, Section, needed, optional};
-use super::reader::{Faults, Sign, Table};
+use super::reader::{Faults, Table};
 use super::settings::{self, ENGINE_REL};
-use super::{clearance, grid, joints, links, loads, motion, start, unit};
+use super::{clearance, grid, joints, links, loads, motion, start};
 use linkage::case::Grid;
 use linkage::drive::{Drive, Drives, Load, MotionLaw};
 use linkage::error::Result;
@@ -15,36 +15,29 @@ use linkage::math::Vec2;
 use linkage::mechanism::{Joint, Link, Mechanism};
 
 /// What is told of the keys that are read here.
-pub const SECTIONS: &[Section] = &[Section {
-    path: "",
-    keys: &[
-        needed("format", Kind::Integer, "version of this format: 1"),
-        needed("name", Kind::Text, "short name for file names: `a`-`z`, `0`-`9`, `_`"),
-        needed("title", Kind::Text, "one line for the reader"),
-        optional("source", Kind::Text, "where the dimensions come from", "none"),
-        optional("parameters", Kind::Table, "numbers with names, for other numbers and for formulas", "none"),
-        needed("ground", Kind::Table, "the frame"),
-        needed("links", Kind::Table, "moving links by name"),
-        needed("joints", Kind::Tables, "joints"),
-        needed("drive", Kind::TableOrTables, "what moves the driving links; the first is the crank"),
-        optional("motor", Kind::Table, "the motor behind the crank", "none"),
-        optional("gravity", Kind::Table, "acceleration of gravity", "none"),
-        optional("loads", Kind::Tables, "forces, moments, springs and dampers", "none"),
-        needed("start", Kind::Table, "pose at t = 0"),
-        needed("grid", Kind::Table, "the instants of results"),
-        optional("channels", Kind::Table, "the results that are wanted", "all"),
-        optional("engine", Kind::Table, "settings of the engine", "found by `run`"),
-        optional("tolerances", Kind::Table, "at what bound agreement still proves something", "its defaults"),
-        optional("oracle", Kind::Tables, "numbers that the mechanism must reproduce", "none"),
-        optional(
-            "clearance",
-            Kind::Table,
-            "outlines of links and a housing: do they meet, and how near are they?",
-            "none",
-        ),
-        optional("formula", Kind::Tables, "formulas as they were derived, and what they claim to be", "none"),
-    ],
-}];
+pub const SECTIONS: &[Section] = &[Section::at("").with(&[
+    needed("format", Kind::Integer).means("version of this format: 1"),
+    needed("name", Kind::Text).means("short name for file names: `a`-`z`, `0`-`9`, `_`"),
+    needed("title", Kind::Text).means("one line for the reader"),
+    optional("source", Kind::Text, "none").means("where the dimensions come from"),
+    optional("parameters", Kind::Table, "none").means("numbers with names, for other numbers and for formulas"),
+    needed("ground", Kind::Table).means("the frame"),
+    needed("links", Kind::Table).means("moving links by name"),
+    needed("joints", Kind::Tables).means("joints"),
+    needed("drive", Kind::TableOrTables).means("what moves the driving links; the first is the crank"),
+    optional("motor", Kind::Table, "none").means("the motor behind the crank"),
+    optional("gravity", Kind::Table, "none").means("acceleration of gravity"),
+    optional("loads", Kind::Tables, "none").means("forces, moments, springs and dampers"),
+    needed("start", Kind::Table).means("pose at t = 0"),
+    needed("grid", Kind::Table).means("the instants of results"),
+    optional("channels", Kind::Table, "all").means("the results that are wanted"),
+    optional("engine", Kind::Table, "found by `run`").means("settings of the engine"),
+    optional("tolerances", Kind::Table, "its defaults").means("at what bound agreement still proves something"),
+    optional("oracle", Kind::Tables, "none").means("numbers that the mechanism must reproduce"),
+    optional("clearance", Kind::Table, "none")
+        .means("outlines of links and a housing: do they meet, and how near are they?"),
+    optional("formula", Kind::Tables, "none").means("formulas as they were derived, and what they claim to be"),
+])];
 
 /// The sections of a file. Those that need the whole case are still tables. What has a mistake is left out, or stands
 /// for itself as nothing does.
@@ -108,7 +101,7 @@ impl<'a> Stated<'a> {
         if let Some(start) = &mut start {
             let own = |start: &mut Table<'a>| {
                 groups = start.tables("groups")?;
-                let crank = start.quantity("crank", &unit::ANGLE, Sign::Any)?;
+                let crank = start.si("crank")?;
                 start.finish()?;
                 Ok(crank)
             };

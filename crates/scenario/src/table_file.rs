@@ -4,12 +4,10 @@ use std::borrow::Cow;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use super::correction::{Correction, check_apart, digits, finding};
-use super::instant;
 use super::malformed::has_decimal_comma;
-use super::printed::{Printed, PrintedChannel};
+use super::printed::{Correction, Printed, PrintedChannel, check_apart, digits, finding};
 use super::reader::{Sign, Table};
-use super::series::{ExpectedCell, Known, OraclePoint, OracleSeries, When};
+use super::series::{self, ExpectedCell, Known, OraclePoint, OracleSeries, When, instant};
 use super::source::Source;
 use super::words::suggestion;
 use columns::{Records, Twice};
@@ -41,7 +39,7 @@ pub fn read(oracle: &mut Table, known: &Known, case: &Case) -> Result<(String, V
     let source = Source::new(&path, &text);
     let rows = Rows::read(&source).map_err(|error| error.key(oracle.path_of("file")))?;
 
-    let from = instant::Rows::read(oracle)?;
+    let from = series::Rows::read(oracle)?;
     let mut columns = oracle.table("columns")?;
     let needed = rows.records.len() as f64 * (OF_ROW + OF_NUMBER * columns.keys().len() as f64);
     let most = known.memory.unwrap_or(MOST);
@@ -91,7 +89,7 @@ fn series(
     let cells = single_cells(table, instants, &printed, case)?;
     if whole.is_some() && !cells.is_empty() {
         let message = "a column that is wrong as a whole has no single cells that are";
-        return Err(table.wrong(ErrorKind::Input, "expect", message).help("keep either `expect` or `finding`"));
+        return table.refuse("expect", message, "keep either `expect` or `finding`");
     }
     table.finish()?;
     let point = |row: usize, number: &Printed, slack: f64| OraclePoint {
@@ -132,7 +130,7 @@ fn single_cells(
 ) -> Result<Vec<(usize, Correction)>> {
     let mut cells = Vec::new();
     for mut expect in table.tables("expect")? {
-        let at = instant::read(&mut expect, case)?;
+        let at = instant(&mut expect, case)?;
         let is_same = |(row, _): &(When, f64)| match (*row, at) {
             (When::Crank(own), When::Crank(asked)) | (When::Time(own), When::Time(asked)) => {
                 (own - asked).abs() <= SAME
@@ -144,8 +142,8 @@ fn single_cells(
                 When::Crank(_) => ("crank", "crank angle"),
                 When::Time(_) => ("time", "time"),
             };
-            let error = expect.wrong(ErrorKind::Input, key, format!("the table has no row with this {what}"));
-            return Err(error.help(format!("give a {what} that stands in the table")));
+            let help = format!("give a {what} that stands in the table");
+            return expect.refuse(key, format!("the table has no row with this {what}"), help);
         };
         let Some(correction) = Correction::read(&mut expect, &printed[row])? else {
             return Err(expect.fault("`finding` is missing").help("say which finding calls the cell wrong"));
@@ -165,9 +163,7 @@ fn whole_column(table: &mut Table, printed: &[Printed]) -> Result<Option<(String
     right.finish()?;
     if values.len() != printed.len() {
         let message = format!("found {} right values for the column's {} rows", values.len(), printed.len());
-        return Err(right
-            .wrong(ErrorKind::Input, "values", message)
-            .help("give one value for every row, in their order"));
+        return right.refuse("values", message, "give one value for every row, in their order");
     }
     let right: Vec<Printed> = values.into_iter().map(|value| Printed::with_digits(value, digits)).collect();
     printed.iter().zip(&right).try_for_each(|(printed, right)| check_apart(table, printed, right))?;
@@ -188,9 +184,8 @@ fn slack(oracle: &mut Table) -> Result<f64> {
     if slack > 0.0 && !why.trim().is_empty() {
         return Ok(slack);
     }
-    Err(oracle
-        .wrong(ErrorKind::Input, "slack", format!("found {slack}, explained by \"{why}\""))
-        .help("give a positive number and the reason why the published numbers are as far off"))
+    let help = "give a positive number and the reason why the published numbers are as far off";
+    oracle.refuse("slack", format!("found {slack}, explained by \"{why}\""), help)
 }
 
 /// Printed values minus the channel, in SI; zero if it is not given.
@@ -277,14 +272,14 @@ impl<'a> Rows<'a> {
     }
 
     /// Where the rows hold, and by how much that may be off because it was rounded.
-    fn instants(&self, column: usize, from: &instant::Rows, case: &Case) -> Result<Vec<(When, f64)>> {
+    fn instants(&self, column: usize, from: &series::Rows, case: &Case) -> Result<Vec<(When, f64)>> {
         let cells: Vec<columns::Cell> = self.cells(column).map(|cell| cell.number()).collect::<Result<_>>()?;
         let numbers = columns::numbers(&cells);
         let is_chosen = columns::chosen(&numbers, from.are_degrees());
-        let end = instant::end(case);
+        let end = series::end(case);
         let of = |(cell, printed): (Cell, Rounded)| {
             let printed = if is_chosen { Rounded::exact(printed.value) } else { printed };
-            let wrong = |message| Error::new(ErrorKind::Input, message).at(cell.place()).help(instant::TIME_HELP);
+            let wrong = |message| Error::new(ErrorKind::Input, message).at(cell.place()).help(series::TIME_HELP);
             from.instant(case, end, printed).map_err(wrong)
         };
         self.cells(column).zip(numbers).map(of).collect()

@@ -2,8 +2,6 @@
 
 use std::f64::consts::{PI, TAU};
 
-use linkage::input::Input;
-
 /// One unit of a family.
 #[derive(Debug, PartialEq)]
 pub struct Unit {
@@ -91,13 +89,6 @@ pub static TORSIONAL_STIFFNESS: Family = Family { noun: "a torsional stiffness",
 pub static MASS_PER_LENGTH: Family = Family { noun: "a mass per length", units: &[si("kg_per_m")], most: 1e20 };
 /// Powers.
 pub static POWER: Family = Family { noun: "a power", units: &[si("W"), Unit::new("kW", 1e3, 1.0)], most: 1e20 };
-
-/// The units in which an input is written, and those of its rate.
-pub fn of_input(input: Input) -> [&'static Family; 2] {
-    match input {
-        Input::Angle => [&ANGLE, &ANGULAR_SPEED],
-    }
-}
 
 /// All families.
 pub static ALL: [&Family; 15] = [

@@ -68,7 +68,7 @@ pub(super) fn of(case: &Case, sketch: &Sketch, placed: &Placed, rows: &[usize], 
 /// A load in words, with its links and points.
 fn name(mechanism: &Mechanism, load: &Load) -> String {
     let link = |link: usize| mechanism.links()[link].name.as_str();
-    let sort = load.nature().sort.name().replace('_', " ");
+    let sort = load.sort().replace('_', " ");
     let (points, links) = (load.points(), load.links());
     match (points.as_slice(), links.as_slice()) {
         ([at], _) => match point(mechanism, *at) {

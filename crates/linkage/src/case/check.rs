@@ -4,10 +4,10 @@ use std::f64::consts::TAU;
 
 use super::grid::Grid;
 use super::parts::CaseParts;
-use crate::drive::{Course, Drive, DriveMotion, Load, MotionLaw, Motor, MotorLaw};
+use crate::drive::{Drive, DriveMotion, MotionLaw, Motor, MotorLaw};
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::{KeepNan, unit};
-use crate::mechanism::{AssemblyMode, GROUND, GroupKind, LinkPose, Mechanism, Side, Structure};
+use crate::mechanism::{AssemblyMode, GROUND, GroupKind, LinkPose, Mechanism, Structure};
 
 /// Largest opening of a joint in a start pose, as a share of the farthest place in it.
 /// First poses of all shipped scenarios leave less than 1e-15 (`tests/suite/start.rs`).
@@ -177,40 +177,16 @@ fn structure(parts: &CaseParts) -> Result<()> {
 fn loads(parts: &CaseParts) -> Result<()> {
     for (index, load) in parts.loads.iter().enumerate() {
         let fault = |message: String| Err(wrong("loads", format!("load {index}, a {}: {message}", load.sort())));
-        let (links, sound) = of_load(load);
+        let links = load.links();
         let count = parts.mechanism.links().len();
         if let Some(link) = links.iter().find(|&&link| link >= count) {
             return fault(format!("it acts on link {link}, but there are {count} links"));
         }
-        if !sound {
+        if !load.is_sound() {
             return fault(format!("a number is not finite, or negative where it must not be: {load:?}"));
         }
     }
     Ok(())
-}
-
-/// The links that a load acts on, and whether its numbers are valid.
-fn of_load(load: &Load) -> (Vec<usize>, bool) {
-    let finite = |side: &Side| side.local.iter().all(|value| value.is_finite());
-    let course = |course: &Course| match course {
-        Course::Constant(value) => value.is_finite(),
-        Course::Table { function, turns } => *turns > 0 && function.knots().iter().all(|knot| knot.is_finite()),
-    };
-    let ends = |ends: &[Side; 2]| ends.map(|end| end.link).to_vec();
-    match load {
-        Load::Resistance { link, moment } => (vec![*link], *moment >= 0.0 && moment.is_finite()),
-        Load::Moment { link, moment, acts: _ } => (vec![*link], course(moment)),
-        Load::Force { at, force, follows: _ } => (vec![at.link], finite(at) && force.iter().all(course)),
-        Load::ResistingForce { at, force } => (vec![at.link], finite(at) && *force >= 0.0 && force.is_finite()),
-        Load::Spring { ends: sides, stiffness, free_length } => {
-            (ends(sides), sides.iter().all(finite) && stiffness.is_finite() && free_length.is_finite())
-        }
-        Load::Damper { ends: sides, damping } => (ends(sides), sides.iter().all(finite) && damping.is_finite()),
-        Load::TorsionSpring { links, stiffness, free_angle } => {
-            (links.to_vec(), stiffness.is_finite() && free_angle.is_finite())
-        }
-        Load::TorsionDamper { links, damping } => (links.to_vec(), damping.is_finite()),
-    }
 }
 
 /// Checks that every link has a place, that all joints are closed there and that the driving links have their start

@@ -39,6 +39,15 @@ impl Course {
         }
     }
 
+    /// Whether its numbers are finite, and a table has a period.
+    #[must_use]
+    pub fn is_sound(&self) -> bool {
+        match self {
+            Course::Constant(value) => value.is_finite(),
+            Course::Table { function, turns } => *turns > 0 && function.knots().iter().all(|knot| knot.is_finite()),
+        }
+    }
+
     /// The same course times `factor`.
     #[must_use]
     pub fn times(&self, factor: f64) -> Self {

@@ -1,25 +1,19 @@
-//! Loads on links other than gravity and inertia. What each does to the links is written here only.
+//! Loads on links other than gravity and inertia.
+//!
+//! A sort of load is in this file only: its variant, what it does to the links ([`Load::act`]), what it depends on
+//! ([`Load::nature`]) and what it is made of ([`Load::parts`]). The rest asks for these.
+//! How a file says it is in the reader of scenarios.
 
-mod amount;
-mod links;
-mod sort;
+mod change;
+mod parts;
+mod state;
 
-pub use sort::LoadSort;
+pub use parts::{Acts, Nature, On, Part, Role, Senses};
+pub use state::{Action, Setting, Wrench};
 
 use super::course::Course;
-use crate::math::{Motion, Vec2, angle, cross};
-use crate::mechanism::{LinkPose, Side};
-
-/// The sense of rotation of the link for which a moment acts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Acts {
-    /// For every motion of the link.
-    Always,
-    /// While the link turns counter-clockwise, not at standstill.
-    CounterClockwise,
-    /// While the link turns clockwise, not at standstill.
-    Clockwise,
-}
+use crate::math::{Motion, Vec2};
+use crate::mechanism::Side;
 
 /// A load on one link, or between two.
 #[derive(Clone, Debug, PartialEq)]
@@ -96,117 +90,16 @@ pub enum Load {
     },
 }
 
-/// The motion whose sense a load depends on. Its law changes where that motion reverses, so that nobody integrates over
-/// such an instant. It need not jump there: see [`Load::jump`].
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Senses {
-    /// The load does not depend on a sense of motion.
-    Nothing,
-    /// On the sense of rotation of a link.
-    Link(usize),
-    /// On the sense of motion of a point.
-    Point(Side),
-}
-
-/// The sort of a load and the quantities it depends on: see [`Load::nature`].
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Nature<'a> {
-    /// The sort.
-    pub sort: LoadSort,
-    /// The motion whose sense it depends on.
-    pub senses: Senses,
-    /// Whether it depends on the size of speeds, not only on their senses.
-    pub is_viscous: bool,
-    /// The two links whose [`Setting::twist`] it depends on.
-    pub twist: Option<[usize; 2]>,
-    /// Its quantities that may depend on the crank angle.
-    pub courses: &'a [Course],
-}
-
-/// The state that loads depend on. Slices have one entry per link.
-#[derive(Clone, Copy, Debug)]
-pub struct Setting<'a> {
-    /// Motions of all links. Loads do not use the accelerations.
-    pub motions: &'a [Motion],
-    /// Angles of all links (rad), turns kept. Only torsional springs use them.
-    pub angles: &'a [f64],
-    /// Poses at t = 0.
-    pub start: &'a [LinkPose],
-    /// Crank angle (rad, as the scenario states it). Only tables use it.
-    pub crank: f64,
-}
-
-impl Setting<'_> {
-    /// Twist between two links (rad): see [`Load::TorsionSpring`].
-    #[must_use]
-    pub fn twist(&self, [first, second]: [usize; 2]) -> f64 {
-        let begun = self.start[second].angle - self.start[first].angle;
-        self.angles[second] - self.angles[first] - begun + angle::wrapped(begun)
-    }
-}
-
-/// Action of a load on one link.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Action {
-    /// The link.
-    pub link: usize,
-    /// Force (N, world axes).
-    pub force: Vec2,
-    /// World place at which the force acts (m).
-    pub place: Vec2,
-    /// Additional moment besides that of the force (N m), counter-clockwise positive.
-    pub moment: f64,
-}
-
-impl Action {
-    /// Only a moment (N m, counter-clockwise positive), no force.
-    #[must_use]
-    pub fn of_moment(link: usize, moment: f64) -> Self {
-        Action { link, force: Vec2::zeros(), place: Vec2::zeros(), moment }
-    }
-
-    /// Moment of force and moment together about a world point (N m).
-    #[inline]
-    #[must_use]
-    pub fn about(&self, pole: Vec2) -> f64 {
-        cross(self.place - pole, self.force) + self.moment
-    }
-
-    /// Power on a link with this motion (W).
-    #[inline]
-    #[must_use]
-    pub fn power(&self, motion: &Motion) -> f64 {
-        self.force.dot(&motion.velocity_at(self.place)) + self.moment * motion.omega
-    }
-}
-
-/// Resultant of all loads on a link.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Wrench {
-    /// Force (N, world axes) at the link's mass centre.
-    pub force: Vec2,
-    /// Moment about the mass centre (N m), counter-clockwise positive.
-    pub moment: f64,
-}
-
-impl Wrench {
-    /// No load.
-    pub const ZERO: Wrench = Wrench { force: Vec2::new(0.0, 0.0), moment: 0.0 };
-}
-
 impl Load {
     /// Calls `put` with the action of the load on each of its links, the ground included.
     #[inline]
     pub fn act(&self, setting: &Setting, put: &mut impl FnMut(Action)) {
         let motions = setting.motions;
         match self {
-            &Load::Resistance { link, .. } => {
-                put(Action::of_moment(link, self.moment_in(motions[link].omega, setting.crank)));
-            }
             Load::Moment { link, moment, acts: Acts::Always } => {
                 put(Action::of_moment(*link, moment.at(setting.crank)));
             }
-            &Load::Moment { link, .. } => {
+            &(Load::Resistance { link, .. } | Load::Moment { link, .. }) => {
                 put(Action::of_moment(link, self.moment_in(motions[link].omega, setting.crank)));
             }
             Load::Force { at, force: [x, y], follows } => {
@@ -246,46 +139,75 @@ impl Load {
         }
     }
 
-    /// The sort of the load and the quantities it depends on.
+    /// What the load is called, where it acts, and the quantities it depends on.
     /// Code that must know a load's variant asks this where it can.
     #[inline]
     #[must_use]
     pub fn nature(&self) -> Nature<'_> {
-        let plain = |sort| Nature { sort, senses: Senses::Nothing, is_viscous: false, twist: None, courses: &[] };
+        let plain =
+            |sort, on| Nature { sort, on, senses: Senses::Nothing, is_viscous: false, twist: None, courses: &[] };
         match self {
             &Load::Resistance { link, moment: _ } => {
-                Nature { senses: Senses::Link(link), ..plain(LoadSort::Resistance) }
+                Nature { senses: Senses::Link(link), ..plain("resistance", On::Link(link)) }
             }
             Load::Moment { link, moment, acts } => {
                 let senses = match acts {
                     Acts::Always => Senses::Nothing,
                     Acts::CounterClockwise | Acts::Clockwise => Senses::Link(*link),
                 };
-                Nature { senses, courses: std::slice::from_ref(moment), ..plain(LoadSort::Moment) }
+                Nature { senses, courses: std::slice::from_ref(moment), ..plain("moment", On::Link(*link)) }
             }
-            Load::Force { at: _, force, follows: _ } => Nature { courses: force, ..plain(LoadSort::Force) },
+            Load::Force { at, force, follows: _ } => Nature { courses: force, ..plain("force", On::Point(*at)) },
             &Load::ResistingForce { at, force: _ } => {
-                Nature { senses: Senses::Point(at), ..plain(LoadSort::ResistingForce) }
+                Nature { senses: Senses::Point(at), ..plain("resisting_force", On::Point(at)) }
             }
-            Load::Spring { ends: _, stiffness: _, free_length: _ } => plain(LoadSort::Spring),
-            Load::Damper { ends: _, damping: _ } => Nature { is_viscous: true, ..plain(LoadSort::Damper) },
+            &Load::Spring { ends, stiffness: _, free_length: _ } => plain("spring", On::Points(ends)),
+            &Load::Damper { ends, damping: _ } => Nature { is_viscous: true, ..plain("damper", On::Points(ends)) },
             &Load::TorsionSpring { links, stiffness: _, free_angle: _ } => {
-                Nature { twist: Some(links), ..plain(LoadSort::TorsionSpring) }
+                Nature { twist: Some(links), ..plain("torsion_spring", On::Links(links)) }
             }
-            Load::TorsionDamper { links: _, damping: _ } => {
-                Nature { is_viscous: true, ..plain(LoadSort::TorsionDamper) }
+            &Load::TorsionDamper { links, damping: _ } => {
+                Nature { is_viscous: true, ..plain("torsion_damper", On::Links(links)) }
             }
         }
     }
 
-    /// The points that it acts on; none of a moment.
-    #[must_use]
-    pub fn points(&self) -> Vec<Side> {
+    /// Everything that the load is made of, to be read or changed; what it acts on first.
+    pub fn parts(&mut self) -> Vec<Part<'_>> {
+        fn amount<'a>(name: &'static str, value: &'a mut f64) -> Part<'a> {
+            Part::Number { role: Role::Amount, name, value }
+        }
+        fn size<'a>(name: &'static str, value: &'a mut f64) -> Part<'a> {
+            Part::Number { role: Role::Size, name, value }
+        }
         match self {
-            Load::Force { at, .. } | Load::ResistingForce { at, .. } => vec![*at],
-            Load::Spring { ends, .. } | Load::Damper { ends, .. } => ends.to_vec(),
-            Load::Resistance { .. } | Load::Moment { .. } => Vec::new(),
-            Load::TorsionSpring { .. } | Load::TorsionDamper { .. } => Vec::new(),
+            Load::Resistance { link, moment } => vec![Part::Link(link), size("moment_N_m", moment)],
+            Load::Moment { link, moment, acts } => {
+                let values = std::slice::from_mut(moment);
+                vec![Part::Link(link), Part::Courses { name: "moment_N_m", values }, Part::Acts(acts)]
+            }
+            Load::Force { at, force, follows } => {
+                vec![Part::Point(at), Part::Courses { name: "force_N", values: force }, Part::Follows(follows)]
+            }
+            Load::ResistingForce { at, force } => vec![Part::Point(at), size("force_N", force)],
+            Load::Spring { ends: [first, second], stiffness, free_length } => vec![
+                Part::Point(first),
+                Part::Point(second),
+                amount("stiffness_N_m", stiffness),
+                Part::Number { role: Role::Rest { unit: "m" }, name: "free_length_m", value: free_length },
+            ],
+            Load::Damper { ends: [first, second], damping } => {
+                vec![Part::Point(first), Part::Point(second), amount("damping_N_s_m", damping)]
+            }
+            Load::TorsionSpring { links: [first, second], stiffness, free_angle } => vec![
+                Part::Link(first),
+                Part::Link(second),
+                amount("stiffness_N_m_rad", stiffness),
+                Part::Number { role: Role::Rest { unit: "rad" }, name: "free_angle_rad", value: free_angle },
+            ],
+            Load::TorsionDamper { links: [first, second], damping } => {
+                vec![Part::Link(first), Part::Link(second), amount("damping_N_m_s_rad", damping)]
+            }
         }
     }
 
@@ -309,22 +231,22 @@ impl Load {
     }
 
     /// Moment (N m) of a load with a [sensed link](Load::sensed_link) while that link turns in the sense of `omega`,
-    /// at the crank angle
-    /// `crank` (rad). Zero for other loads.
+    /// at the crank angle `crank` (rad). Zero for other loads, and at standstill.
     #[inline]
     #[must_use]
     pub fn moment_in(&self, omega: f64, crank: f64) -> f64 {
         let [turns_forward, turns_back] = [omega > 0.0, omega < 0.0];
-        match self {
-            Load::Resistance { moment, .. } if turns_forward => -moment,
-            Load::Resistance { moment, .. } if turns_back => *moment,
-            Load::Moment { moment, acts: Acts::CounterClockwise, .. } if turns_forward => moment.at(crank),
-            Load::Moment { moment, acts: Acts::Clockwise, .. } if turns_back => moment.at(crank),
-            Load::Resistance { .. } | Load::Moment { .. } => 0.0,
-            Load::Force { .. } | Load::ResistingForce { .. } => 0.0,
-            Load::Spring { .. } | Load::Damper { .. } => 0.0,
-            Load::TorsionSpring { .. } | Load::TorsionDamper { .. } => 0.0,
+        if let Load::Resistance { moment, .. } = self {
+            let back = if turns_back { *moment } else { 0.0 };
+            return if turns_forward { -moment } else { back };
         }
+        let Load::Moment { moment, acts, .. } = self else { return 0.0 };
+        let is_on = match acts {
+            Acts::Always => false,
+            Acts::CounterClockwise => turns_forward,
+            Acts::Clockwise => turns_back,
+        };
+        if is_on { moment.at(crank) } else { 0.0 }
     }
 
     /// Force (N) of a load with a [sensed point](Load::sensed_point) while that point moves in the direction `way`: a unit
@@ -332,12 +254,7 @@ impl Load {
     #[inline]
     #[must_use]
     pub fn force_in(&self, way: Vec2) -> Vec2 {
-        match *self {
-            Load::ResistingForce { force, .. } => way * -force,
-            Load::Resistance { .. } | Load::Moment { .. } | Load::Force { .. } => Vec2::zeros(),
-            Load::Spring { .. } | Load::Damper { .. } => Vec2::zeros(),
-            Load::TorsionSpring { .. } | Load::TorsionDamper { .. } => Vec2::zeros(),
-        }
+        if let Load::ResistingForce { force, .. } = self { way * -force } else { Vec2::zeros() }
     }
 
     /// By how much the load jumps where the motion that it senses reverses, at the crank angle `crank` (rad): N m, or N
@@ -363,12 +280,7 @@ impl Load {
     #[inline]
     #[must_use]
     pub fn resistance(&self) -> Option<(usize, f64)> {
-        match *self {
-            Load::Resistance { link, moment } => Some((link, moment)),
-            Load::Moment { .. } | Load::Force { .. } | Load::ResistingForce { .. } => None,
-            Load::Spring { .. } | Load::Damper { .. } => None,
-            Load::TorsionSpring { .. } | Load::TorsionDamper { .. } => None,
-        }
+        if let &Load::Resistance { link, moment } = self { Some((link, moment)) } else { None }
     }
 
     /// Whether the load depends on the size of speeds, not only on their senses.
@@ -391,7 +303,7 @@ impl Load {
     /// Name of the load's sort in scenario files.
     #[must_use]
     pub fn sort(&self) -> &'static str {
-        self.nature().sort.name()
+        self.nature().sort
     }
 }
 

@@ -12,6 +12,6 @@ pub use branch::Branch;
 pub use course::Course;
 pub use driven::{Drive, DriveMotion};
 pub use drives::Drives;
-pub use load::{Action, Acts, Load, LoadSort, Nature, Senses, Setting, Wrench};
+pub use load::{Action, Acts, Load, Nature, On, Senses, Setting, Wrench};
 pub use motion::{InputState, MotionLaw};
 pub use motor::{Motor, MotorLaw, ShaftInertia};

@@ -96,36 +96,16 @@ impl Advice {
     #[must_use]
     pub fn from_settings(self, resolution: f64, controls_error: bool, sweeps: usize) -> Self {
         let (half, double) = (rounded(resolution / 2.0), rounded(resolution * 2.0));
-        match self {
-            Advice::SmallerStep { .. } | Advice::TighterAccuracy { .. } if controls_error => {
-                Advice::TighterAccuracy { to: half }
-            }
-            Advice::LargerStep { .. } | Advice::LooserAccuracy { .. } if controls_error => {
-                Advice::LooserAccuracy { to: double }
-            }
-            Advice::SmallerStep { .. } => Advice::SmallerStep { to: Some(half) },
-            Advice::LargerStep { .. } => Advice::LargerStep { to: Some(double) },
-            Advice::MoreSweeps { .. } => Advice::MoreSweeps { to: Some(2 * sweeps) },
-            // These contain no number of an engine's settings.
-            other @ (Advice::Text(_)
-            | Advice::TighterAccuracy { .. }
-            | Advice::LooserAccuracy { .. }
-            | Advice::FreeSettings
-            | Advice::MoreWork { .. }
-            | Advice::FewerInstants
-            | Advice::MoreMemory { .. }
-            | Advice::DoublePrecision
-            | Advice::OtherEngine
-            | Advice::OtherRoute { .. }
-            | Advice::OtherReference { .. }
-            | Advice::OtherSolver { .. }
-            | Advice::ShortenGrid
-            | Advice::LookAtRange
-            | Advice::Configuration { .. }
-            | Advice::SolutionTable
-            | Advice::OtherChannel { .. }
-            | Advice::WeakerWish
-            | Advice::AllResults) => other,
+        let is_finer = matches!(self, Advice::SmallerStep { .. } | Advice::TighterAccuracy { .. });
+        let is_coarser = matches!(self, Advice::LargerStep { .. } | Advice::LooserAccuracy { .. });
+        match (is_finer, is_coarser) {
+            (true, _) if controls_error => Advice::TighterAccuracy { to: half },
+            (_, true) if controls_error => Advice::LooserAccuracy { to: double },
+            _ if matches!(self, Advice::SmallerStep { .. }) => Advice::SmallerStep { to: Some(half) },
+            _ if matches!(self, Advice::LargerStep { .. }) => Advice::LargerStep { to: Some(double) },
+            _ if matches!(self, Advice::MoreSweeps { .. }) => Advice::MoreSweeps { to: Some(2 * sweeps) },
+            // The others contain no number of an engine's settings.
+            _ => self,
         }
     }
 

@@ -1,6 +1,5 @@
 //! The simple causes that a diagnosis can name. Their wording is in the room of reports.
 
-use linkage::drive::LoadSort;
 use linkage::trajectory::{Channel, Stage};
 
 /// What explains a disagreement.
@@ -184,7 +183,7 @@ pub enum Part {
     /// One coordinate of a link's mass centre.
     MassCentreAlong(String, Axis),
     /// A load: its number in the file, from 1, and its sort.
-    Load(usize, LoadSort),
+    Load(usize, &'static str),
     /// Length of a spring without force, or its twist without moment: the load's number in the file, from 1.
     Free(usize),
     /// Configuration of a group of links.

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use super::cause::{Axis, How, Part};
 use super::configurations::reassembled;
 use linkage::case::{Case, CaseParts, Grid};
-use linkage::drive::{Drive, DriveMotion, Load, MotionLaw, Motor, ShaftInertia};
+use linkage::drive::{Drive, DriveMotion, MotionLaw, Motor, ShaftInertia};
 use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::{Joint, Link, Mechanism};
 
@@ -147,7 +147,7 @@ fn share(part: Part, scale: fn(&mut Link, f64)) -> Knob {
 }
 
 fn load(case: &Case, index: usize) -> Knob {
-    let sort = case.loads[index].nature().sort;
+    let sort = case.loads[index].sort();
     let turn: Turn = Box::new(move |parts, factor| {
         let own = parts.loads.remove(index).times(factor)?;
         parts.loads.splice(index..index, own);
@@ -165,20 +165,10 @@ fn load(case: &Case, index: usize) -> Knob {
 
 /// The length or twist of a spring at which it exerts nothing.
 fn free(case: &Case, index: usize) -> Option<Knob> {
-    let (given, unit) = match &case.loads[index] {
-        Load::Spring { free_length, .. } => (*free_length, "m"),
-        Load::TorsionSpring { free_angle, .. } => (*free_angle, "rad"),
-        Load::Resistance { .. } | Load::Moment { .. } | Load::Force { .. } | Load::ResistingForce { .. } => {
-            return None;
-        }
-        Load::Damper { .. } | Load::TorsionDamper { .. } => return None,
-    };
+    let mut load = case.loads[index].clone();
+    let (&mut given, unit) = load.rest()?;
     let turn: Turn = Box::new(move |parts, value| {
-        if let Load::Spring { free_length: own, .. } | Load::TorsionSpring { free_angle: own, .. } =
-            &mut parts.loads[index]
-        {
-            *own = value;
-        }
+        *parts.loads[index].rest()?.0 = value;
         Some(())
     });
     let natural = if unit == "m" { case.mechanism.size() } else { 1.0 };

@@ -121,34 +121,17 @@ fn masses(case: &Case) -> Vec<(Change, Make)> {
 fn loads(case: &Case) -> Vec<(Change, Make)> {
     let mut found: Vec<(Change, Make)> = Vec::new();
     for (number, load) in case.loads.iter().enumerate() {
-        for (end, side) in places_of(&mut load.clone()).into_iter().enumerate() {
+        for (end, side) in load.points().into_iter().enumerate() {
             let link = &case.mechanism.links()[side.link];
             for point in link.points.iter().filter(|point| point.local != side.local) {
                 let at = point.local;
-                let make: Make = Box::new(move |case| {
-                    case.with(|parts| {
-                        if let Some(side) = places_of(&mut parts.loads[number]).into_iter().nth(end) {
-                            side.local = at;
-                        }
-                    })
-                    .ok()
-                });
-                let part = Part::Load(number + 1, load.nature().sort);
+                let make: Make = Box::new(move |case| case.with(|parts| parts.loads[number].put_point(end, at)).ok());
+                let part = Part::Load(number + 1, load.sort());
                 found.push((Change { part, how: How::AtPoint(point.name.clone()) }, make));
             }
         }
     }
     found
-}
-
-/// The places at which a load acts.
-fn places_of(load: &mut Load) -> Vec<&mut Side> {
-    match load {
-        Load::Force { at, .. } | Load::ResistingForce { at, .. } => vec![at],
-        Load::Spring { ends, .. } | Load::Damper { ends, .. } => ends.iter_mut().collect(),
-        Load::Resistance { .. } | Load::Moment { .. } => Vec::new(),
-        Load::TorsionSpring { .. } | Load::TorsionDamper { .. } => Vec::new(),
-    }
 }
 
 /// A link's weight times a factor, as a load.

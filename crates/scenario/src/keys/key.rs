@@ -27,6 +27,8 @@ pub struct Key {
     pub meaning: &'static str,
     /// What holds without it; empty of a key that must be there.
     pub default: &'static str,
+    /// The values that a quantity may have.
+    pub sign: Sign,
 }
 
 /// What stands at a key.
@@ -49,7 +51,7 @@ pub enum Kind {
     /// A number whose key ends in a unit of one of these families.
     Quantity(&'static [&'static Family]),
     /// A list of such numbers.
-    Quantities(&'static Family),
+    Quantities(&'static [&'static Family]),
     /// A table: the section with the path of the key.
     Table,
     /// An array of tables.
@@ -58,23 +60,51 @@ pub enum Kind {
     TableOrTables,
 }
 
+impl Section {
+    pub(crate) const fn at(path: &'static str) -> Section {
+        Section { path, keys: &[] }
+    }
+
+    pub(crate) const fn with(self, keys: &'static [Key]) -> Section {
+        Section { keys, ..self }
+    }
+}
+
 /// A key that must be there.
-pub const fn needed(name: &'static str, kind: Kind, meaning: &'static str) -> Key {
-    Key { name, kind, is_needed: true, meaning, default: "" }
+pub(crate) const fn needed(name: &'static str, kind: Kind) -> Key {
+    Key { name, kind, is_needed: true, meaning: "", default: "", sign: Sign::Any }
 }
 
 /// A key that may be left out, and what holds then.
-pub const fn optional(name: &'static str, kind: Kind, meaning: &'static str, default: &'static str) -> Key {
-    Key { name, kind, is_needed: false, meaning, default }
+pub(crate) const fn optional(name: &'static str, kind: Kind, default: &'static str) -> Key {
+    Key { is_needed: false, default, ..needed(name, kind) }
+}
+
+impl Key {
+    pub(crate) const fn means(self, meaning: &'static str) -> Key {
+        Key { meaning, ..self }
+    }
+
+    /// The values that a quantity may have.
+    pub(crate) const fn of(self, sign: Sign) -> Key {
+        Key { sign, ..self }
+    }
+
+    /// The spellings of the key, units included.
+    #[must_use]
+    pub fn spellings(&self) -> Vec<String> {
+        match self.kind.families() {
+            [] => vec![self.name.into()],
+            families => families.iter().flat_map(|family| family.keys(self.name)).collect(),
+        }
+    }
 }
 
 /// Kinds of quantities.
 impl Kind {
     pub(crate) const ACCELERATIONS: Kind = Kind::Quantity(&[&ACCELERATION]);
     pub(crate) const ANGLES: Kind = Kind::Quantity(&[&ANGLE]);
-    /// Values of an input: see [`unit::of_input`](crate::unit::of_input).
-    pub(crate) const INPUTS: Kind = Kind::Quantity(&[&ANGLE]);
-    pub(crate) const INPUTS_OR_TIMES: Kind = Kind::Quantity(&[&ANGLE, &TIME]);
+    pub(crate) const ANGLES_OR_TIMES: Kind = Kind::Quantity(&[&ANGLE, &TIME]);
     pub(crate) const DAMPINGS_OR_SLOPES: Kind = Kind::Quantity(&[&DAMPING, &MOMENT_PER_SPEED]);
     pub(crate) const FORCES: Kind = Kind::Quantity(&[&FORCE]);
     pub(crate) const INERTIAS: Kind = Kind::Quantity(&[&INERTIA]);
@@ -86,27 +116,44 @@ impl Kind {
     pub(crate) const SPEEDS: Kind = Kind::Quantity(&[&ANGULAR_SPEED]);
     pub(crate) const STIFFNESSES_OR_TORSIONAL: Kind = Kind::Quantity(&[&STIFFNESS, &TORSIONAL_STIFFNESS]);
     pub(crate) const TIMES: Kind = Kind::Quantity(&[&TIME]);
-    pub(crate) const LIST_OF_ANGLES: Kind = Kind::Quantities(&ANGLE);
-    pub(crate) const LIST_OF_TIMES: Kind = Kind::Quantities(&TIME);
+    pub(crate) const LIST_OF_ANGLES: Kind = Kind::Quantities(&[&ANGLE]);
+    pub(crate) const LIST_OF_TIMES: Kind = Kind::Quantities(&[&TIME]);
+
+    /// The families of a quantity; none of anything else.
+    pub(crate) const fn families(self) -> &'static [&'static Family] {
+        if let Kind::Quantity(families) | Kind::Quantities(families) = self { families } else { &[] }
+    }
 }
 
-impl Key {
-    /// The spellings of the key, units included.
-    #[must_use]
-    pub fn spellings(&self) -> Vec<String> {
-        match self.kind {
-            Kind::Quantity(families) => families.iter().flat_map(|family| family.keys(self.name)).collect(),
-            Kind::Quantities(family) => family.keys(self.name),
-            Kind::Text
-            | Kind::Choice(_)
-            | Kind::Texts
-            | Kind::Number
-            | Kind::Numbers
-            | Kind::Integer
-            | Kind::IntegerOrBoolean
-            | Kind::Table
-            | Kind::Tables
-            | Kind::TableOrTables => vec![self.name.into()],
+/// The values that a quantity may have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sign {
+    /// Any finite number.
+    Any,
+    /// Zero or positive.
+    NotNegative,
+    /// Greater than zero.
+    Positive,
+    /// Less than zero.
+    Negative,
+    /// Anything but zero.
+    NotZero,
+}
+
+impl Sign {
+    /// The rule that a value breaks, and how to correct it.
+    pub(crate) fn broken_by(self, value: f64) -> Option<(&'static str, &'static str)> {
+        match self {
+            Sign::NotNegative if value < 0.0 => Some(("must not be negative", "give zero or a positive number")),
+            Sign::Positive if value <= 0.0 => Some(("must be positive", "give a number greater than zero")),
+            Sign::Negative if value >= 0.0 => Some(("must be negative", "give a number less than zero")),
+            Sign::NotZero if value == 0.0 => Some(("must not be zero", "give a positive or a negative number")),
+            Sign::Any | Sign::NotNegative | Sign::Positive | Sign::Negative | Sign::NotZero => None,
         }
+    }
+
+    /// A number that is allowed.
+    pub(crate) fn stand_in(self) -> f64 {
+        if self == Sign::Negative { -1.0 } else { 1.0 }
     }
 }

@@ -3,48 +3,53 @@
 use toml::Spanned;
 use toml::de::DeValue;
 
-use super::{Entry, Needed, Table, found};
+use super::{Entry, Needed, Sign, Table, found};
+use crate::keys::key::Key;
 use crate::unit::{Family, Unit};
 use crate::words::choice;
 use linkage::error::{Error, ErrorKind, Result};
 
+/// A quantity's family, the index of its entry, and its unit.
+type Spelled = (&'static Family, usize, &'static Unit);
+
 /// Smallest size of a quantity in SI whose products with others, and their squares, are numbers.
 const SMALLEST: f64 = 1e-100;
 
-/// The values that a quantity may have.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub enum Sign {
-    /// Any finite number.
-    Any,
-    /// Zero or positive.
-    NotNegative,
-    /// Greater than zero.
-    Positive,
-    /// Less than zero.
-    Negative,
-    /// Anything but zero.
-    NotZero,
-}
-
-impl Sign {
-    /// The rule that a value breaks, and how to correct it.
-    fn broken_by(self, value: f64) -> Option<(&'static str, &'static str)> {
-        match self {
-            Sign::NotNegative if value < 0.0 => Some(("must not be negative", "give zero or a positive number")),
-            Sign::Positive if value <= 0.0 => Some(("must be positive", "give a number greater than zero")),
-            Sign::Negative if value >= 0.0 => Some(("must be negative", "give a number less than zero")),
-            Sign::NotZero if value == 0.0 => Some(("must not be zero", "give a positive or a negative number")),
-            Sign::Any | Sign::NotNegative | Sign::Positive | Sign::Negative | Sign::NotZero => None,
-        }
-    }
-
-    /// A number that is allowed.
-    fn stand_in(self) -> f64 {
-        if self == Sign::Negative { -1.0 } else { 1.0 }
-    }
-}
-
 impl<'a> Table<'a> {
+    /// The row of a quantity in the table of keys, which has its units and its sign.
+    fn row(&self, key: &str) -> &'static Key {
+        let is_own = |row: &&Key| row.name == key && !row.kind.families().is_empty();
+        self.rows.iter().find(is_own).unwrap_or_else(|| panic!("section `{}` has no quantity `{key}`", self.section))
+    }
+
+    /// Whether a quantity is there, under one of its spellings.
+    pub fn has_si(&self, key: &str) -> bool {
+        self.row(key).spellings().iter().any(|spelling| self.has(spelling))
+    }
+
+    /// A quantity in SI, as its row tells; `None` if it is not there.
+    pub fn optional_si(&mut self, key: &str) -> Result<Option<f64>> {
+        Ok(self.optional_si_of(key)?.map(|(_, value)| value))
+    }
+
+    /// The same with the family that it is of.
+    pub fn optional_si_of(&mut self, key: &str) -> Result<Option<(&'static Family, f64)>> {
+        let row = self.row(key);
+        self.quantity_in(key, row.kind.families(), row.sign)
+    }
+
+    /// A list of quantities in SI, as its row tells, and the family that they are of; `None` if it is not there.
+    pub fn optional_si_list(&mut self, key: &str) -> Result<Option<(&'static Family, Vec<f64>)>> {
+        let family = self.row(key).kind.families()[0];
+        Ok(self.optional_quantities(key, family)?.map(|values| (family, values)))
+    }
+
+    /// A quantity in SI, as its row tells.
+    pub fn si(&mut self, key: &str) -> Result<f64> {
+        let row = self.row(key);
+        self.quantity(key, row.kind.families()[0], row.sign)
+    }
+
     /// Quantity under one of the spellings of `base` in `family`, in SI; `None` if there is none.
     pub fn optional_quantity(&mut self, base: &str, family: &'static Family, sign: Sign) -> Result<Option<f64>> {
         Ok(self.quantity_in(base, &[family], sign)?.map(|(_, value)| value))
@@ -59,25 +64,23 @@ impl<'a> Table<'a> {
         if self.goes_on { Ok(sign.stand_in()) } else { Err(error) }
     }
 
-    /// Quantity of one of several families: the index of its family, and its value in SI.
-    pub fn quantity_in(
+    /// Quantity of one of several families: its family, and its value in SI.
+    fn quantity_in(
         &mut self,
         base: &str,
         families: &[&'static Family],
         sign: Sign,
-    ) -> Result<Option<(usize, f64)>> {
-        let (index, at, unit) = match self.spelled(base, families) {
+    ) -> Result<Option<(&'static Family, f64)>> {
+        let (family, at, unit) = match self.spelled(base, families) {
             Ok(None) => return Ok(None),
             Ok(Some(found)) => found,
             // Of several families nobody knows which one is meant.
             Err(error) if families.len() > 1 => return Err(self.noted(error)),
-            Err(error) => return self.instead(Some((0, sign.stand_in())), error),
+            Err(error) => return self.instead(Some((families[0], sign.stand_in())), error),
         };
         self.used.insert(self.entries[at].key);
-        match self.allowed(at, unit, families[index], sign) {
-            Ok(value) => Ok(Some((index, value))),
-            Err(error) => self.instead(Some((index, sign.stand_in())), error),
-        }
+        let value = self.allowed(at, unit, family, sign).or_else(|error| self.instead(sign.stand_in(), error))?;
+        Ok(Some((family, value)))
     }
 
     /// The number of an entry in SI, if it is one of those that are allowed.
@@ -85,15 +88,14 @@ impl<'a> Table<'a> {
         let entry = &self.entries[at];
         let number = self.finite(entry.key, entry.value)?;
         if let Some((rule, way_out)) = sign.broken_by(number) {
-            let found = found(self.source, entry.value);
-            let message = format!("found {found}, but {} {rule} here", family.noun);
-            return Err(self.wrong_entry(entry, message).help(way_out));
+            let message = format!("found {}, but {} {rule} here", found(self.source, entry.value), family.noun);
+            return self.refuse(entry.key, message, way_out);
         }
         self.in_range(entry.key, entry.value, unit.to_si(number), family)
     }
 
     /// Array of quantities under one of the spellings of `base` in `family`, in SI; `None` if there is none.
-    pub fn optional_quantities(&mut self, base: &str, family: &'static Family) -> Result<Option<Vec<f64>>> {
+    fn optional_quantities(&mut self, base: &str, family: &'static Family) -> Result<Option<Vec<f64>>> {
         let (at, unit) = match self.spelled(base, &[family]) {
             Ok(None) => return Ok(None),
             Ok(Some((_, at, unit))) => (at, unit),
@@ -119,24 +121,19 @@ impl<'a> Table<'a> {
             return Ok(si);
         }
         let Family { noun, units, most } = family;
-        let message = format!(
-            "found {}, but {noun} is zero or of a size from {SMALLEST:e} to {most:e} {}",
-            found(self.source, value),
-            units[0].suffix
-        );
-        let error = Error::new(ErrorKind::Input, message).key(self.path_of(key)).at(self.source.place(value.span()));
-        Err(error.help("check the unit and the exponent"))
+        let (found, unit) = (found(self.source, value), units[0].suffix);
+        let message = format!("found {found}, but {noun} is zero or of a size from {SMALLEST:e} to {most:e} {unit}");
+        Err(self.wrong_at(key, value.span(), message).help("check the unit and the exponent"))
     }
 
-    /// The one entry that spells `base` in a unit of the families: index of its family, its own index, and the unit.
-    /// All spellings are recorded as asked for.
-    fn spelled(&mut self, base: &str, families: &[&'static Family]) -> Result<Option<(usize, usize, &'static Unit)>> {
+    /// The one entry that spells `base` in a unit of the families: its family, its own index, and the unit. All
+    /// spellings are recorded as asked for.
+    fn spelled(&mut self, base: &str, families: &[&'static Family]) -> Result<Option<Spelled>> {
         let spellings: Vec<String> = families.iter().flat_map(|family| family.keys(base)).collect();
         let mut present: Vec<usize> =
             spellings.iter().filter_map(|spelling| self.places.get(spelling.as_str()).copied()).collect();
         present.sort_unstable();
-        let (first, second) = (present.first().copied(), present.get(1).copied());
-        let Some(at) = first else {
+        let Some(&at) = present.first() else {
             let wrong = self.misspelt_unit(base, families[0], &spellings);
             self.asked.extend_from_slice(&spellings);
             let Some((key, error)) = wrong else { return Ok(None) };
@@ -145,15 +142,13 @@ impl<'a> Table<'a> {
             return Err(error);
         };
         let key = self.entries[at].key;
-        if let Some(second) = second.map(|second| &self.entries[second]) {
-            let error = self
-                .wrong_entry(second, format!("`{key}` and `{}` are both given", second.key))
-                .help("keep one of the two");
+        if let Some(second) = present.get(1).map(|&second| &self.entries[second]) {
             self.asked.extend(spellings);
-            return Err(error);
+            let message = format!("`{key}` and `{}` are both given", second.key);
+            return self.refuse(second.key, message, "keep one of the two");
         }
-        let unit = |(index, family): (usize, &&'static Family)| Some((index, at, family.unit_of(base, key)?));
-        let found = families.iter().enumerate().find_map(unit).expect("the key is one of the spellings");
+        let unit = |&family: &&'static Family| Some((family, at, family.unit_of(base, key)?));
+        let found = families.iter().find_map(unit).expect("the key is one of the spellings");
         self.settled.extend_from_slice(&spellings);
         self.asked.extend(spellings);
         Ok(Some(found))
@@ -165,11 +160,14 @@ impl<'a> Table<'a> {
         let is_number =
             |entry: &&Entry| !matches!(entry.value.get_ref(), DeValue::Table(_)) && !self.used.contains(&entry.key);
         if let Some(entry) = self.entry(base).filter(is_number) {
-            return Some((entry.key, self.wrong_entry(entry, format!("`{base}` carries no unit")).help(help)));
+            return Some((
+                entry.key,
+                self.wrong(ErrorKind::Input, base, format!("`{base}` carries no unit")).help(help),
+            ));
         }
         let prefixed = |entry: &&Entry| entry.key.strip_prefix(base).is_some_and(|rest| rest.starts_with('_'));
         let entry = self.entries.iter().filter(is_number).find(prefixed)?;
         let message = format!("`{}` does not end in a unit that {} has here", entry.key, family.noun);
-        Some((entry.key, self.wrong_entry(entry, message).help(help)))
+        Some((entry.key, self.wrong(ErrorKind::Input, entry.key, message).help(help)))
     }
 }

@@ -201,7 +201,7 @@ impl<'a> Table<'a> {
     /// Ends the reading. A key that nobody asked for is an error that names the nearest known key.
     pub fn finish(&mut self) -> Result<()> {
         #[cfg(test)]
-        super::asked::put(&self.section, &self.asked);
+        asked::put(&self.section, &self.asked);
         self.pair_missing();
         let unknown: Vec<&Entry> = self.entries.iter().filter(|entry| self.is_unknown(entry)).collect();
         let asked = || self.asked.iter().map(String::as_str);
@@ -237,5 +237,31 @@ impl<'a> Table<'a> {
             }
         }
         Ok(sound)
+    }
+}
+
+/// Which keys readers have asked for, by section: for the test of the table of keys.
+#[cfg(test)]
+pub mod asked {
+    use std::cell::RefCell;
+    use std::collections::{BTreeMap, BTreeSet};
+
+    thread_local! {
+        static ASKED: RefCell<BTreeMap<String, BTreeSet<String>>> = const { RefCell::new(BTreeMap::new()) };
+    }
+
+    /// Adds what was asked for in a section.
+    pub fn put(section: &str, asked: &[String]) {
+        ASKED.with_borrow_mut(|all| all.entry(section.into()).or_default().extend(asked.iter().cloned()));
+    }
+
+    /// Forgets all.
+    pub fn forget() {
+        ASKED.with_borrow_mut(BTreeMap::clear);
+    }
+
+    /// All that was asked for since.
+    pub fn all() -> BTreeMap<String, BTreeSet<String>> {
+        ASKED.with_borrow(Clone::clone)
     }
 }

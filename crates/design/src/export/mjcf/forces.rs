@@ -78,30 +78,22 @@ pub(super) fn forces(model: &Model) -> Result<Forces> {
             };
             found.actuators.push(Actuator { name: name.clone(), target, bias, range: None });
         };
-        match load {
-            Load::Resistance { .. } | Load::ResistingForce { .. } => {}
-            Load::Moment { link, moment, .. } => {
-                put(Target::Sum(turning(&[(*link, 1.0)])), [constant(moment), 0.0, 0.0]);
-            }
-            Load::Force { at, force: [x, y], follows } => {
-                put(Target::Place(*at, Vec2::new(constant(x), constant(y)), *follows), [1.0, 0.0, 0.0]);
-            }
-            &Load::Spring { ends, stiffness, free_length } => {
-                found.tendons.push(Tendon { name, ends, stiffness, free_length, damping: 0.0 });
-            }
-            &Load::Damper { ends, damping } => {
-                found.tendons.push(Tendon { name, ends, stiffness: 0.0, free_length: 0.0, damping });
-            }
-            &Load::TorsionSpring { links: [first, second], stiffness, free_angle } => {
-                // A tendon's length is the difference of the angles as the poses have them; the twist begins in
-                // (-pi, pi].
-                let begun = model.case.start.0[second].angle - model.case.start.0[first].angle;
-                let free = free_angle + begun - angle::wrapped(begun);
-                put(Target::Sum(turning(&[(second, 1.0), (first, -1.0)])), [stiffness * free, -stiffness, 0.0]);
-            }
-            &Load::TorsionDamper { links: [first, second], damping } => {
-                put(Target::Sum(turning(&[(second, 1.0), (first, -1.0)])), [0.0, 0.0, -damping]);
-            }
+        // Resistances are frictions; other sorts are refused before.
+        if let Load::Moment { link, moment, .. } = load {
+            put(Target::Sum(turning(&[(*link, 1.0)])), [constant(moment), 0.0, 0.0]);
+        } else if let Load::Force { at, force: [x, y], follows } = load {
+            put(Target::Place(*at, Vec2::new(constant(x), constant(y)), *follows), [1.0, 0.0, 0.0]);
+        } else if let &Load::Spring { ends, stiffness, free_length } = load {
+            found.tendons.push(Tendon { name, ends, stiffness, free_length, damping: 0.0 });
+        } else if let &Load::Damper { ends, damping } = load {
+            found.tendons.push(Tendon { name, ends, stiffness: 0.0, free_length: 0.0, damping });
+        } else if let &Load::TorsionSpring { links: [first, second], stiffness, free_angle } = load {
+            // A tendon's length is the difference of the angles as the poses have them; the twist begins in (-pi, pi].
+            let begun = model.case.start.0[second].angle - model.case.start.0[first].angle;
+            let free = free_angle + begun - angle::wrapped(begun);
+            put(Target::Sum(turning(&[(second, 1.0), (first, -1.0)])), [stiffness * free, -stiffness, 0.0]);
+        } else if let &Load::TorsionDamper { links: [first, second], damping } = load {
+            put(Target::Sum(turning(&[(second, 1.0), (first, -1.0)])), [0.0, 0.0, -damping]);
         }
     }
     Ok(found)

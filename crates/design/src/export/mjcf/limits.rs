@@ -17,14 +17,13 @@ pub(super) fn check(load: &Load) -> Result<()> {
     if load.courses().any(|course| course.knots().is_some()) {
         return Err(refused(format!("a load of type \"{sort}\" with a table over the crank angle"), ALONE));
     }
-    match load {
-        Load::Moment { acts: Acts::CounterClockwise | Acts::Clockwise, .. } => {
-            Err(refused(format!("a load of type \"{sort}\" that acts in one sense of rotation only"), ALONE))
-        }
-        Load::ResistingForce { .. } => Err(refused(format!("a load of type \"{sort}\""), ALONE)),
-        Load::Resistance { .. } | Load::Moment { .. } | Load::Force { .. } | Load::Spring { .. } => Ok(()),
-        Load::Damper { .. } | Load::TorsionSpring { .. } | Load::TorsionDamper { .. } => Ok(()),
+    if let Load::Moment { acts: Acts::CounterClockwise | Acts::Clockwise, .. } = load {
+        return Err(refused(format!("a load of type \"{sort}\" that acts in one sense of rotation only"), ALONE));
     }
+    let has_words = matches!(load, Load::Resistance { .. } | Load::Moment { .. } | Load::Force { .. })
+        || matches!(load, Load::Spring { .. } | Load::Damper { .. })
+        || matches!(load, Load::TorsionSpring { .. } | Load::TorsionDamper { .. });
+    if has_words { Ok(()) } else { Err(refused(format!("a load of type \"{sort}\""), ALONE)) }
 }
 
 /// Checks that a drive can be written.

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use super::kind::kinds;
 use super::touch::parts;
 use linkage::case::Case;
-use linkage::drive::load::{Acts, LoadSort};
+use linkage::drive::load::Acts;
 use linkage::drive::{Course, Drive, Load};
 
 kinds! { Load, Case:
@@ -14,8 +14,7 @@ kinds! { Load, Case:
     "load-size" (1e-2): "the first load is larger by a share", |case, size| times(case, 0, 1.0 + size);
     // Not of a spring: one that pushes where it should pull drives a free motion to infinity, and no file can say it.
     "load-sign": "the first load that can, but no spring, acts the other way", |case, _| {
-        let springs = [LoadSort::Spring, LoadSort::TorsionSpring];
-        let others = (0..case.loads.len()).filter(|&index| !springs.contains(&case.loads[index].nature().sort));
+        let others = (0..case.loads.len()).filter(|&index| !is_spring(&case.loads[index]));
         others.filter_map(|index| times(case, index, -1.0)).next()
     };
     "load-twice": "the first load is counted twice", |case, _| times(case, 0, 2.0);
@@ -82,7 +81,7 @@ kinds! { Load, Case:
     "damper-sign": "the first damper drives", |case, _| times(case, damped(case)?, -1.0);
     "damper" (1e-2): "the first damper is stronger by a share", |case, size| times(case, damped(case)?, 1.0 + size);
     "damper-degrees": "a torsion damper's speed is in degrees per second", |case, _| {
-        let index = of_sort(case, &[LoadSort::TorsionDamper])?;
+        let index = case.loads.iter().position(|load| matches!(load, Load::TorsionDamper { .. }))?;
         times(case, index, 1f64.to_degrees())
     };
 }
@@ -105,14 +104,14 @@ fn changed(case: &Case, change: &dyn Fn(&Load) -> Option<Load>) -> Option<Case> 
     })
 }
 
+fn is_spring(load: &Load) -> bool {
+    matches!(load, Load::Spring { .. } | Load::TorsionSpring { .. })
+}
+
 fn sprung(case: &Case) -> Option<usize> {
-    of_sort(case, &[LoadSort::Spring, LoadSort::TorsionSpring])
+    case.loads.iter().position(is_spring)
 }
 
 fn damped(case: &Case) -> Option<usize> {
-    of_sort(case, &[LoadSort::Damper, LoadSort::TorsionDamper])
-}
-
-fn of_sort(case: &Case, sorts: &[LoadSort]) -> Option<usize> {
-    case.loads.iter().position(|load| sorts.contains(&load.nature().sort))
+    case.loads.iter().position(|load| matches!(load, Load::Damper { .. } | Load::TorsionDamper { .. }))
 }

@@ -1,6 +1,7 @@
 use std::f64::consts::PI;
 
 use super::*;
+use crate::mechanism::LinkPose;
 
 /// The ground, and a link at (3, 0) m turned by 90 degrees, moving with (0, 2) m/s and `omega`.
 fn motions(omega: f64) -> [Motion; 2] {

@@ -1,0 +1,100 @@
+//! What follows from the parts of a load: where it acts, and the same load elsewhere or of another amount.
+
+use super::{Acts, Load, On, Part, Role};
+use crate::drive::Course;
+use crate::math::Vec2;
+use crate::mechanism::Side;
+
+impl Load {
+    /// The links that the load acts on, and on whose motion it depends: one or two, by their numbers.
+    #[must_use]
+    pub fn links(&self) -> Vec<usize> {
+        match self.nature().on {
+            On::Link(link) => vec![link],
+            On::Point(at) => vec![at.link],
+            On::Points(ends) => ends.map(|end| end.link).to_vec(),
+            On::Links(links) => links.to_vec(),
+        }
+    }
+
+    /// The points that it acts on; none of a moment.
+    #[must_use]
+    pub fn points(&self) -> Vec<Side> {
+        match self.nature().on {
+            On::Point(at) => vec![at],
+            On::Points(ends) => ends.to_vec(),
+            On::Link(_) | On::Links(_) => Vec::new(),
+        }
+    }
+
+    /// The same load on other links: `number` gives the new number of each of [`Load::links`].
+    #[must_use]
+    pub fn on_links(&self, number: impl Fn(usize) -> usize) -> Load {
+        let mut load = self.clone();
+        for part in load.parts() {
+            match part {
+                Part::Link(link) | Part::Point(Side { link, .. }) => *link = number(*link),
+                Part::Number { .. } | Part::Courses { .. } | Part::Acts(_) | Part::Follows(_) => {}
+            }
+        }
+        load
+    }
+
+    /// Moves the point of this number among [`Load::points`] to another place of its link (m).
+    pub fn put_point(&mut self, number: usize, local: Vec2) {
+        let mut points = self.parts().into_iter().filter_map(|part| match part {
+            Part::Point(side) => Some(side),
+            Part::Link(_) | Part::Number { .. } | Part::Courses { .. } | Part::Acts(_) | Part::Follows(_) => None,
+        });
+        if let Some(side) = points.nth(number) {
+            side.local = local;
+        }
+    }
+
+    /// The number at which it vanishes, a free length or angle, with its unit (m or rad).
+    pub fn rest(&mut self) -> Option<(&mut f64, &'static str)> {
+        self.parts().into_iter().find_map(|part| match part {
+            Part::Number { role: Role::Rest { unit }, name: _, value } => Some((value, unit)),
+            Part::Number { .. } | Part::Courses { .. } => None,
+            Part::Link(_) | Part::Point(_) | Part::Acts(_) | Part::Follows(_) => None,
+        })
+    }
+
+    /// Whether all its numbers are finite, and none is negative that must not be.
+    #[must_use]
+    pub fn is_sound(&self) -> bool {
+        self.clone().parts().into_iter().all(|part| match part {
+            Part::Point(side) => side.local.iter().all(|value| value.is_finite()),
+            Part::Number { role, name: _, value } => value.is_finite() && (role != Role::Size || *value >= 0.0),
+            Part::Courses { name: _, values } => values.iter().all(Course::is_sound),
+            Part::Link(_) | Part::Acts(_) | Part::Follows(_) => true,
+        })
+    }
+
+    /// Loads that together act as this one times `factor`: none for 0; a negative factor turns the load round.
+    /// Of a spring or damper the stiffness or damping is multiplied, not its free length or angle.
+    /// `None` where no loads act so: a resisting force cannot drive.
+    #[must_use]
+    pub fn times(&self, factor: f64) -> Option<Vec<Load>> {
+        if factor == 0.0 {
+            return Some(Vec::new());
+        }
+        if let (&Load::Resistance { link, moment }, true) = (self, factor < 0.0) {
+            // What resists, turned round, drives: a moment for either sense.
+            let acting = |acts, moment| Load::Moment { link, moment: Course::Constant(moment), acts };
+            let size = -factor * moment;
+            return Some(vec![acting(Acts::CounterClockwise, size), acting(Acts::Clockwise, -size)]);
+        }
+        let mut load = self.clone();
+        for part in load.parts() {
+            match part {
+                Part::Number { role: Role::Size, .. } if factor < 0.0 => return None,
+                Part::Number { role: Role::Size | Role::Amount, name: _, value } => *value *= factor,
+                Part::Courses { name: _, values } => values.iter_mut().for_each(|own| *own = own.times(factor)),
+                Part::Number { role: Role::Rest { .. }, .. } => {}
+                Part::Link(_) | Part::Point(_) | Part::Acts(_) | Part::Follows(_) => {}
+            }
+        }
+        Some(vec![load])
+    }
+}

@@ -1,0 +1,75 @@
+//! What loads are given, and what they do to links.
+
+use crate::math::{Motion, Vec2, angle, cross};
+use crate::mechanism::LinkPose;
+
+/// The state that loads depend on. Slices have one entry per link.
+#[derive(Clone, Copy, Debug)]
+pub struct Setting<'a> {
+    /// Motions of all links. Loads do not use the accelerations.
+    pub motions: &'a [Motion],
+    /// Angles of all links (rad), turns kept. Only torsional springs use them.
+    pub angles: &'a [f64],
+    /// Poses at t = 0.
+    pub start: &'a [LinkPose],
+    /// Crank angle (rad, as the scenario states it). Only tables use it.
+    pub crank: f64,
+}
+
+impl Setting<'_> {
+    /// Twist between two links (rad): see [`Load::TorsionSpring`](super::Load::TorsionSpring).
+    #[must_use]
+    pub fn twist(&self, [first, second]: [usize; 2]) -> f64 {
+        let begun = self.start[second].angle - self.start[first].angle;
+        self.angles[second] - self.angles[first] - begun + angle::wrapped(begun)
+    }
+}
+
+/// Action of a load on one link.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Action {
+    /// The link.
+    pub link: usize,
+    /// Force (N, world axes).
+    pub force: Vec2,
+    /// World place at which the force acts (m).
+    pub place: Vec2,
+    /// Additional moment besides that of the force (N m), counter-clockwise positive.
+    pub moment: f64,
+}
+
+impl Action {
+    /// Only a moment (N m, counter-clockwise positive), no force.
+    #[must_use]
+    pub fn of_moment(link: usize, moment: f64) -> Self {
+        Action { link, force: Vec2::zeros(), place: Vec2::zeros(), moment }
+    }
+
+    /// Moment of force and moment together about a world point (N m).
+    #[inline]
+    #[must_use]
+    pub fn about(&self, pole: Vec2) -> f64 {
+        cross(self.place - pole, self.force) + self.moment
+    }
+
+    /// Power on a link with this motion (W).
+    #[inline]
+    #[must_use]
+    pub fn power(&self, motion: &Motion) -> f64 {
+        self.force.dot(&motion.velocity_at(self.place)) + self.moment * motion.omega
+    }
+}
+
+/// Resultant of all loads on a link.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Wrench {
+    /// Force (N, world axes) at the link's mass centre.
+    pub force: Vec2,
+    /// Moment about the mass centre (N m), counter-clockwise positive.
+    pub moment: f64,
+}
+
+impl Wrench {
+    /// No load.
+    pub const ZERO: Wrench = Wrench { force: Vec2::new(0.0, 0.0), moment: 0.0 };
+}
