@@ -7,7 +7,7 @@
 //! A step knows the accelerations of the step before. The error is of first order, as that of the whole step is.
 //! It decays from step to step, because no added mass is larger than the whole: M' / (M + M') is below 1.
 
-use super::bare::to_link;
+use super::masses::added;
 use super::tree::Tree;
 use super::window::Window;
 use linkage::case::Case;
@@ -26,7 +26,7 @@ impl Added {
     /// The added masses in a world with this tree; `None` if no link needs one.
     pub(super) fn of(case: &Case, tree: &Tree) -> Option<Self> {
         let links = 0..case.mechanism.links().len();
-        let masses: Vec<[f64; 2]> = links.map(|link| to_link(case, link, tree)).collect();
+        let masses: Vec<[f64; 2]> = links.map(|link| added(case, link, tree)).collect();
         let accelerations = vec![[0.0; 3]; masses.len()];
         masses.iter().flatten().any(|&mass| mass > 0.0).then_some(Added { masses, accelerations })
     }

@@ -1,8 +1,7 @@
 //! Rapier as an engine and as a solver: its answers to the two traits.
 
-use super::build::{Build, Precision};
 use super::newton_euler::NewtonEuler;
-use super::rapier::Rapier;
+use super::rapier::{Build, Precision, Rapier};
 use super::tree::Tree;
 use super::{noise, run};
 use linkage::case::Case;

@@ -1,12 +1,12 @@
 //! Motor and loads of a free motion. They are set again before every step, from the engine's own state.
 
 use super::added::Added;
-use super::build::Precision;
 use super::guard::Guard;
+use super::rapier::Precision;
 use super::window::Window;
 use linkage::case::Case;
 use linkage::drive::load::sense_of;
-use linkage::drive::{Branch, Load, Wrench};
+use linkage::drive::{Branch, Drive, Load, Wrench};
 use linkage::engine::Settings;
 use linkage::engine::bodies::check_inertias;
 use linkage::error::Result;
@@ -270,7 +270,7 @@ fn settle(case: &Case, worlds: &mut [Guard], step: f64) -> Result<()> {
     let fastest = case.drives.iter().fold(0.0f64, |most, drive| most.larger(drive.initial_speed().abs()));
     for guard in worlds {
         guard.set_step(if fastest > 0.0 { SETTLING_TURN / fastest } else { SETTLING_TURN * step });
-        guard.drive_from_start();
+        guard.drive(Drive::initial_speed);
         guard.set_stabilised(true);
         guard.place(&case.start.0);
         guard.step(0.0)?;

@@ -5,10 +5,9 @@
 //! The share of the differences alone is therefore computed and subtracted.
 //! It follows from the Newton-Euler equations with the engine's own accelerations.
 
-use super::bare;
+use super::masses::{added, masses, masses_with_flywheels};
 use super::newton_euler::NewtonEuler;
 use super::tree::Tree;
-use super::world::{masses, masses_with_flywheels};
 use linkage::case::Case;
 use linkage::error::Result;
 use linkage::solver::State;
@@ -33,7 +32,7 @@ impl Ghost {
         if case.is_free() {
             // Loads in the world already take away the effect of added masses.
             for (link, extra) in extra.iter_mut().enumerate() {
-                let [mass, inertia] = bare::to_link(case, link, &tree);
+                let [mass, inertia] = added(case, link, &tree);
                 extra[0] -= mass;
                 extra[1] -= inertia;
             }

@@ -3,7 +3,10 @@
 
 use std::fmt;
 
-use super::world::{LinkFrame, World, masses, opening};
+use super::masses::{Loading, masses};
+use super::rapier::Rapier;
+use super::tree::Tree;
+use super::world::{LinkFrame, World, opening};
 use linkage::case::Case;
 use linkage::drive::{Drive, DriveMotion, Wrench};
 use linkage::engine::Settings;
@@ -98,26 +101,10 @@ impl<'a> Guard<'a> {
         self.world.as_ref()
     }
 
-    /// Sets all drives to their speeds at `t`.
-    pub(super) fn drive(&mut self, t: f64) {
+    /// Sets all drives to the speeds (rad/s) that `speed` gives them.
+    pub(super) fn drive(&mut self, speed: impl Fn(&Drive) -> f64) {
         for (index, drive) in self.case.drives.iter().enumerate() {
-            self.world.set_drive(index, drive.at(t).rate);
-        }
-    }
-
-    /// Sets the speeds that take all drives from their angles at time `from` (s) to those at time `to` (s).
-    /// `to` is one step later or earlier.
-    pub(super) fn drive_on(&mut self, from: f64, to: f64) {
-        for (index, drive) in self.case.drives.iter().enumerate() {
-            self.world.set_drive(index, drive.step_speed(from, to));
-        }
-    }
-
-    /// Sets all drives to their speeds at t = 0.
-    /// Free links get their initial speeds, the others those of their laws.
-    pub(super) fn drive_from_start(&mut self) {
-        for (index, drive) in self.case.drives.iter().enumerate() {
-            self.world.set_drive(index, drive.initial_speed());
+            self.world.set_drive(index, speed(drive));
         }
     }
 
@@ -252,6 +239,20 @@ impl<'a> Guard<'a> {
     }
 }
 
+/// A supervised world for every tree.
+///
+/// # Errors
+/// [`ErrorKind::Unsupported`] if Rapier refuses a joint.
+pub(super) fn guards<'a>(
+    engine: &Rapier,
+    case: &'a Case,
+    trees: Vec<Tree>,
+    loading: Loading,
+) -> Result<Vec<Guard<'a>>> {
+    let world = |tree| Ok(Guard::new(case, engine.world_for(case, tree, loading)?, &engine.settings));
+    trees.into_iter().map(world).collect()
+}
+
 /// When and where a step failed.
 #[derive(Clone, Copy)]
 struct Moment {
@@ -292,9 +293,8 @@ fn panicked(place: Moment, cause: &(dyn std::any::Any + Send)) -> Error {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tree::Tree;
     use crate::world::LinkAngle;
-    use crate::{Build, Precision, Rapier};
+    use crate::{Build, Precision};
     use linkage::fixtures::{four_bar, turning};
     use linkage::math::{rotated, unit};
 

@@ -5,19 +5,19 @@
 //! The transient of the first steps has therefore decayed before anything is read.
 
 mod added;
-mod bare;
 mod branch;
-mod build;
 mod double;
 mod engine;
 mod free;
 mod ghost;
 mod guard;
+mod masses;
 mod native;
 pub mod newton_euler;
 mod noise;
 mod probe;
 mod rapier;
+mod reactions;
 mod ring;
 mod run;
 #[cfg(feature = "f32")]
@@ -26,6 +26,5 @@ mod steer;
 mod window;
 pub mod world;
 
-pub use build::{Build, Precision};
 pub use linkage::mechanism::spanning_tree as tree;
-pub use rapier::Rapier;
+pub use rapier::{Build, Precision, Rapier};

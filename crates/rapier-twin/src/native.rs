@@ -77,9 +77,6 @@ impl Native {
         }
         let drives = 3 * self.reporters.len();
         state.torques.copy_from_slice(&self.row[drives..]);
-        match &mut self.ghost {
-            Some(ghost) => ghost.take_off(case, state, t),
-            None => Ok(()),
-        }
+        self.ghost.as_mut().map_or(Ok(()), |ghost| ghost.take_off(case, state, t))
     }
 }

@@ -1,8 +1,7 @@
 //! Bounds on the rounding noise in the engine's results.
 
-use super::build::Build;
 use super::probe::probe_turn;
-use super::rapier::Rapier;
+use super::rapier::{Build, Rapier};
 use super::window::first_steps;
 use linkage::case::Case;
 use linkage::engine::Route;

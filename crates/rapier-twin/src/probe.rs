@@ -7,10 +7,10 @@
 //! The same with h / 2 gives 2 y(h / 2) - y(h).
 //! Only poses come from the trajectory: no velocity, no acceleration.
 
-use super::build::Precision;
 use super::ghost::Ghost;
 use super::guard::Guard;
 use super::native::reporters;
+use super::rapier::Precision;
 use super::window::Window;
 use super::world::World;
 use linkage::case::Case;
@@ -27,6 +27,7 @@ pub(super) struct Probe<'a> {
     step: f64,
     reporters: Vec<Option<usize>>,
     ghost: Option<Ghost>,
+    /// Poses before the tiny step and after it.
     poses: [Vec<LinkPose>; 2],
     tally: Tally,
 }
@@ -37,8 +38,8 @@ impl<'a> Probe<'a> {
         let cuts: Vec<&[usize]> = worlds.iter().map(|guard| guard.world().tree().cut.as_slice()).collect();
         let reporters = reporters(case, &cuts);
         let speed = case.drives.top_speed();
-        let poses = [Vec::new(), Vec::new()];
-        Probe { reporters, step: turn / speed, ghost: Ghost::of(case, false), worlds, poses, tally: Tally::default() }
+        let (poses, tally) = ([Vec::new(), Vec::new()], Tally::default());
+        Probe { reporters, step: turn / speed, ghost: Ghost::of(case, false), worlds, poses, tally }
     }
 
     /// Fills in the reactions and moments of a state. Its motion is that of the window at `t` (s).
@@ -48,39 +49,24 @@ impl<'a> Probe<'a> {
         state.torques.fill(0.0);
         for index in 0..self.worlds.len() {
             for (step, share, settling) in [(self.step, -1.0, 2), (0.5 * self.step, 2.0, 1)] {
-                self.tiny_step(case, window, index, (t, step, settling), state)?;
+                self.tally.one(Count::Probes);
+                let ([before, now], guard) = (&mut self.poses, &mut self.worlds[index]);
+                window.poses(case, t, step, before);
+                window.poses(case, t, 0.0, now);
+                guard.set_step(step);
+                guard.load(state);
+                guard.drive(|drive| drive.at(t - step).rate);
+                for _ in 0..settling {
+                    guard.place(before);
+                    guard.step(t)?;
+                }
+                guard.place(now);
+                guard.drive(|drive| drive.at(t).rate);
+                guard.step(t)?;
                 self.add(index, share, state);
             }
         }
-        match &mut self.ghost {
-            Some(ghost) => ghost.take_off(case, state, t),
-            None => Ok(()),
-        }
-    }
-
-    fn tiny_step(
-        &mut self,
-        case: &Case,
-        window: &Window,
-        index: usize,
-        (t, step, settling): (f64, f64, usize),
-        state: &State,
-    ) -> Result<()> {
-        self.tally.one(Count::Probes);
-        let guard = &mut self.worlds[index];
-        guard.set_step(step);
-        guard.load(state);
-        let [before, now] = &mut self.poses;
-        window.poses(case, t, step, before);
-        window.poses(case, t, 0.0, now);
-        guard.drive(t - step);
-        for _ in 0..settling {
-            guard.place(before);
-            guard.step(t)?;
-        }
-        guard.place(now);
-        guard.drive(t);
-        guard.step(t)
+        self.ghost.as_mut().map_or(Ok(()), |ghost| ghost.take_off(case, state, t))
     }
 
     /// Adds `share` times the reports of a world.

@@ -1,23 +1,16 @@
 //! One run: worlds in parallel in simulated time, and what is read from them.
 
 use super::branch::Branches;
-use super::build::Build;
 use super::free::{self, Acting};
 use super::guard::Guard;
-use super::native::Native;
-use super::newton_euler::NewtonEuler;
-use super::probe::Probe;
-use super::probe::probe_turn;
 use super::rapier::Rapier;
-use super::tree::Tree;
+use super::reactions::Reactions;
 use super::window::Window;
-use super::world::Loading;
 use linkage::case::Case;
-use linkage::engine::{Route, Settings};
+use linkage::engine::Settings;
 use linkage::error::{Advice, Error, ErrorKind, Reached, Result};
 use linkage::math::KeepNan;
 use linkage::solver::{Progress, State, Visit, check_instants};
-use linkage::trajectory::Stage;
 
 /// Steps until the transient of a start or of a reversal falls below rounding (one is enough; the rest is margin).
 const SETTLING_STEPS: i64 = 3;
@@ -33,19 +26,13 @@ pub(super) fn sweep(engine: &Rapier, case: &Case, visit: Visit, progress: Progre
     let begin = (case.grid.times[first].smaller(0.0) / step).floor();
     let end = (case.grid.times[last] / step).floor();
     check(&engine.settings, end - begin)?;
-    let start = match case.is_free() {
-        true => 0,
-        false => begin as i64 - overrun(&engine.settings),
-    };
+    let start = if case.is_free() { 0 } else { begin as i64 - overrun(&engine.settings) };
     let total = (end as i64 + Window::AHEAD - start) as f64;
     let mut visited = None;
     let mut run = Run::new(engine, case, start)?;
     run.aim(case.grid.times[first]);
     let go = || {
-        match run.acting {
-            None => run.back_up()?,
-            Some(_) => run.begin()?,
-        }
+        run.begin(start)?;
         let (mut state, mut branches) = (State::at_rest(case), Branches::of(case));
         for row in rows {
             let t = case.grid.times[row];
@@ -58,7 +45,7 @@ pub(super) fn sweep(engine: &Rapier, case: &Case, visit: Visit, progress: Progre
             }
             run.window.sample(case, t, &mut state);
             branches.check(case, &state, t)?;
-            run.read(&mut state, t)?;
+            run.reactions.solve(case, &run.window, &mut state, t)?;
             visit(row, &state)?;
             visited = Some(row);
         }
@@ -104,78 +91,25 @@ struct Run<'a> {
     settings: Settings,
     /// Whether all drives turn with constant speeds, which are set only once.
     steady: bool,
-    step: f64,
-    start: i64,
     /// The first world moves the mechanism. The others only report joints that the first does not.
     worlds: Vec<Guard<'a>>,
     window: Window,
     /// First step that the window needs for the next sample.
     needed: i64,
-    reader: Reader<'a>,
+    reactions: Reactions<'a>,
     /// Motor and loads, in a free motion.
     acting: Option<Acting>,
 }
 
-/// Source of reactions and moments.
-enum Reader<'a> {
-    Nothing,
-    Differences(NewtonEuler),
-    Native(Native),
-    Probe(Probe<'a>),
-}
-
 impl<'a> Run<'a> {
     fn new(engine: &Rapier, case: &'a Case, start: i64) -> Result<Self> {
-        let settings = &engine.settings;
-        let route = (case.wanted.deepest() >= Stage::Reactions).then_some(settings.route);
-        let mechanism = &case.mechanism;
-        let moving = || match engine.build {
-            Build::Multibody => Tree::of(mechanism),
-            Build::Impulse => Tree::none(mechanism),
-        };
-        let reporting = || match engine.build {
-            Build::Multibody => Tree::covering(mechanism, &case.wanted_reactions()),
-            Build::Impulse => vec![Tree::none(mechanism)],
-        };
-        if let (true, Some(Route::Probe)) = (case.is_free(), route) {
-            let message = "the motion is free, but a probe needs prescribed speeds";
-            return Err(Error::new(ErrorKind::Unsupported, message)
-                .help(Advice::OtherRoute { routes: &["differences", "native"] }));
-        }
-        let native = route == Some(Route::Native);
-        let loading = if native { Loading::Read } else { Loading::Moving };
-        let trees = if native { reporting() } else { vec![moving()] };
-        let worlds = worlds_of(engine, case, trees, loading)?;
-        let acting = if case.is_free() { Some(Acting::new(case, engine.precision, &worlds)?) } else { None };
+        let is_free = case.is_free();
         // One step lies before the beginning of a free motion.
-        let reports_from = if acting.is_some() { start - 1 } else { start };
-        let reader = match route {
-            None => Reader::Nothing,
-            Some(Route::Differences) => Reader::Differences(NewtonEuler::new(case)),
-            Some(Route::Native) => Reader::Native(Native::new(case, &worlds, settings, reports_from)),
-            Some(Route::Probe) => {
-                // A world placed in a pose has no gap to correct in its first substep.
-                // In the second substep it corrects the gap of the first, and the impulses would contain all of that
-                // correction.
-                // So a tiny step is not divided.
-                let engine = engine.set(Settings { substeps: 1, ..*settings });
-                let probed = worlds_of(&engine, case, reporting(), Loading::Read)?;
-                Reader::Probe(Probe::new(case, probed, probe_turn(engine.precision)))
-            }
-        };
-        let window = Window::new(case, settings, start);
-        Ok(Run {
-            case,
-            steady: case.is_steady(),
-            step: settings.resolution,
-            settings: *settings,
-            start,
-            worlds,
-            window,
-            needed: i64::MIN,
-            reader,
-            acting,
-        })
+        let (reactions, worlds) = Reactions::of(engine, case, if is_free { start - 1 } else { start })?;
+        let acting = if is_free { Some(Acting::new(case, engine.precision, &worlds)?) } else { None };
+        let (settings, steady) = (engine.settings, case.is_steady());
+        let window = Window::new(case, &settings, start);
+        Ok(Run { case, settings, steady, worlds, window, needed: i64::MIN, reactions, acting })
     }
 
     /// Prepares for a sample at `t` (s), and returns the last step that it needs.
@@ -186,44 +120,44 @@ impl<'a> Run<'a> {
         last
     }
 
-    /// Drives all worlds backwards from the start to where they reverse.
-    fn back_up(&mut self) -> Result<()> {
+    /// Gives all worlds of a free motion their start velocities. Other worlds are driven backwards from t = 0 to step
+    /// `start`, where they reverse.
+    fn begin(&mut self, start: i64) -> Result<()> {
+        if let Some(acting) = &mut self.acting {
+            self.window = free::begin(self.case, acting, &mut self.worlds, &self.settings)?;
+            // One report for the step before the beginning, and one for the beginning.
+            self.report();
+            self.report();
+            return Ok(());
+        }
+        let step = self.settings.resolution;
         for guard in &mut self.worlds {
-            guard.drive_on(0.0, -self.step);
-            for step in (self.start..0).rev() {
-                let (from, to) = ((step + 1) as f64 * self.step, step as f64 * self.step);
+            guard.drive(|drive| drive.step_speed(0.0, -step));
+            for number in (start..0).rev() {
+                let (from, to) = ((number + 1) as f64 * step, number as f64 * step);
                 if !self.steady {
-                    guard.drive_on(from, to);
+                    guard.drive(|drive| drive.step_speed(from, to));
                 }
                 guard.step(to)?;
             }
-            guard.drive_on(0.0, self.step);
+            guard.drive(|drive| drive.step_speed(0.0, step));
         }
         self.take();
         Ok(())
     }
 
-    /// Gives all worlds of a free motion their start velocities.
-    fn begin(&mut self) -> Result<()> {
-        let Some(acting) = &mut self.acting else { return Ok(()) };
-        self.window = free::begin(self.case, acting, &mut self.worlds, &self.settings)?;
-        self.report();
-        self.report();
-        Ok(())
-    }
-
     fn step(&mut self) -> Result<()> {
-        let step = self.window.newest() + 1;
+        let number = self.window.newest() + 1;
+        let [from, to] = [number - 1, number].map(|number| number as f64 * self.settings.resolution);
         if let Some(acting) = &mut self.acting {
-            acting.act(self.case, &self.window, &mut self.worlds, [step - 1, step].map(|step| step as f64 * self.step));
+            acting.act(self.case, &self.window, &mut self.worlds, [from, to]);
         }
         for guard in &mut self.worlds {
-            let (from, to) = ((step - 1) as f64 * self.step, step as f64 * self.step);
             if !self.steady && self.acting.is_none() {
-                guard.drive_on(from, to);
+                guard.drive(|drive| drive.step_speed(from, to));
             }
             guard.step(to)?;
-            if step == 0 {
+            if number == 0 {
                 guard.check_start()?;
             }
         }
@@ -242,26 +176,8 @@ impl<'a> Run<'a> {
     }
 
     fn report(&mut self) {
-        if let Reader::Native(native) = &mut self.reader {
-            native.push(&self.worlds, self.acting.as_ref().map_or(0.0, Acting::direct));
-        }
+        self.reactions.keep(&self.worlds, self.acting.as_ref().map_or(0.0, Acting::direct));
     }
-
-    /// Fills in the reactions and moments of a state whose motion is known.
-    fn read(&mut self, state: &mut State, t: f64) -> Result<()> {
-        match &mut self.reader {
-            Reader::Nothing => Ok(()),
-            Reader::Differences(statics) => statics.solve(self.case, state, t),
-            Reader::Native(native) => native.solve(self.case, state, t),
-            Reader::Probe(probe) => probe.solve(self.case, &self.window, state, t),
-        }
-    }
-}
-
-/// A world for every tree.
-fn worlds_of<'a>(engine: &Rapier, case: &'a Case, trees: Vec<Tree>, loading: Loading) -> Result<Vec<Guard<'a>>> {
-    let world = |tree| Ok(Guard::new(case, engine.world_for(case, tree, loading)?, &engine.settings));
-    trees.into_iter().map(world).collect()
 }
 
 /// Adds how far the run has come; the rows visited so far are valid.

@@ -2,13 +2,10 @@
 
 use std::f64::consts::TAU;
 
-use super::bare;
 use super::tree::Tree;
-use linkage::case::Case;
 use linkage::drive::Wrench;
-use linkage::engine::bodies::stand_in;
 use linkage::math::{KeepNan, Vec2, cross, rotated};
-use linkage::mechanism::{GROUND, Joint, Link, LinkPose, Side};
+use linkage::mechanism::{Joint, LinkPose, Side};
 
 /// What is known of a link's angle (rad, counter-clockwise positive).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -176,105 +173,6 @@ pub trait World {
 
     /// Driving moment on the drive's link (N m), from the motor's impulse in the last step.
     fn torque(&self, drive: usize) -> f64;
-}
-
-/// Additional moment of inertia of driving links, in units of all masses times the square of the mechanism's size.
-/// A link with prescribed speed may have any moment of inertia: it affects neither motion nor reactions.
-/// It affects the driving moment only where the speed changes, and is subtracted there
-/// ([`Ghost`](super::ghost::Ghost)).
-/// With a large one, the drives' rows hardly depend on those of the loops, and the sweeps converge.
-/// On a four-bar whose coupler is thirteen times as heavy as its crank, 32 sweeps then do what 1024 do without it.
-/// Ten times as much gives no further gain.
-const FLYWHEEL: f64 = 1.0;
-
-/// Moment of inertia of a slender rod over its mass and the square of its length.
-const ROD: f64 = 1.0 / 12.0;
-
-/// Mass (kg) and moment of inertia (kg m^2) of every link in Rapier, without flywheels.
-/// Rapier cannot move a body without them.
-/// Under a prescribed speed the motion does not depend on the masses.
-/// There a link has at least the mean mass, and the moment of inertia of a rod of it: where neighbours differ much, the
-/// sweeps hardly converge.
-/// What they add to the reactions is subtracted again ([`Ghost`](super::ghost::Ghost)).
-/// In a free motion the crank also carries rotor and gearbox. Stand-ins depend on the world's tree there, and loads
-/// take away what they do ([`added`](super::added)).
-pub(super) fn masses(case: &Case, tree: &Tree) -> Vec<[f64; 2]> {
-    let mut masses = bare_masses(case, tree);
-    if case.is_free() {
-        return masses;
-    }
-    let moving = &case.mechanism.links()[1..];
-    let mean = moving.iter().map(|link| link.mass).sum::<f64>() / moving.len() as f64;
-    let size = case.mechanism.size();
-    for ([mass, inertia], link) in masses.iter_mut().zip(case.mechanism.links()).skip(1) {
-        let length = if link.extent() > 0.0 { link.extent() } else { size };
-        (*mass, *inertia) = (mass.larger(mean), inertia.larger(ROD * mean * length * length));
-    }
-    masses
-}
-
-/// The same with nothing added to links that have both.
-fn bare_masses(case: &Case, tree: &Tree) -> Vec<[f64; 2]> {
-    let of = |(index, link): (usize, &Link)| {
-        let [mass, inertia] = if case.is_free() { bare::to_link(case, index, tree) } else { stand_in(case, index) };
-        [link.mass + mass, link.inertia + inertia]
-    };
-    let mut masses: Vec<[f64; 2]> = case.mechanism.links().iter().enumerate().map(of).collect();
-    masses[GROUND] = [0.0; 2];
-    masses[case.crank().link][1] += case.crank().moving_inertia();
-    masses
-}
-
-/// Masses of a world that only moves, under prescribed speeds: the same for every link, with the moment of inertia of a
-/// rod of the link's extent.
-/// The motion does not depend on them, but the sweeps do: with masses of very different size they hardly converge.
-fn even_masses(case: &Case) -> Vec<[f64; 2]> {
-    let size = case.mechanism.size();
-    let of = |link: &Link| {
-        let extent = link.extent();
-        let length = if extent > 0.0 { extent } else { size };
-        [1.0, ROD * length * length]
-    };
-    let mut masses: Vec<[f64; 2]> = case.mechanism.links().iter().map(of).collect();
-    masses[GROUND] = [0.0; 2];
-    masses
-}
-
-/// What a world is for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Loading {
-    /// It only moves: under prescribed speeds it has [`even_masses`].
-    Moving,
-    /// Its forces are read, and what stand-ins add is taken off.
-    Read,
-    /// Its forces are read as they are.
-    Bare,
-}
-
-/// Masses of a world.
-pub(super) fn world_masses(case: &Case, tree: &Tree, loading: Loading) -> Vec<[f64; 2]> {
-    match loading {
-        Loading::Moving if !case.is_free() => with_flywheels(case, even_masses(case)),
-        Loading::Moving | Loading::Read => masses_with_flywheels(case, tree),
-        Loading::Bare => with_flywheels(case, bare_masses(case, tree)),
-    }
-}
-
-/// The links' own masses, with flywheels on the driving links whose speed is prescribed.
-pub(super) fn masses_with_flywheels(case: &Case, tree: &Tree) -> Vec<[f64; 2]> {
-    with_flywheels(case, masses(case, tree))
-}
-
-fn with_flywheels(case: &Case, mut masses: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
-    if case.is_free() {
-        return masses;
-    }
-    let total: f64 = masses.iter().map(|[mass, _]| mass).sum();
-    let size = case.mechanism.size();
-    for drive in &case.drives {
-        masses[drive.link][1] += FLYWHEEL * total * size * size;
-    }
-    masses
 }
 
 /// Opening of a joint (m) between links with the given frames.

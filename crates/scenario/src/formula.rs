@@ -26,8 +26,8 @@ pub const SECTIONS: &[Section] = &[Section::at("formula").with(&[
                     `joint.B.f_N`), or an arithmetic of channels; also what is reduced to the crank",
     ),
     optional("source", Kind::Text, "none").means("where it comes from"),
-    optional("from", Kind::ANGLES, "the whole run").means("first crank angle for which it is claimed"),
-    optional("to", Kind::ANGLES, "the whole run").means("last crank angle for which it is claimed"),
+    optional("from", Kind::INPUTS, "the whole run").means("first crank angle for which it is claimed"),
+    optional("to", Kind::INPUTS, "the whole run").means("last crank angle for which it is claimed"),
     optional("error", Kind::Number, "none: it is exact")
         .means("error that it is claimed to have, in the unit of the channel: for series and approximations"),
 ])];

@@ -90,6 +90,18 @@ pub static MASS_PER_LENGTH: Family = Family { noun: "a mass per length", units: 
 /// Powers.
 pub static POWER: Family = Family { noun: "a power", units: &[si("W"), Unit::new("kW", 1e3, 1.0)], most: 1e20 };
 
+/// The units in which inputs are written, whatever they measure.
+pub static INPUTS: [&Family; 1] = [&ANGLE];
+/// The same, or times.
+pub static INPUTS_OR_TIMES: [&Family; 2] = [&ANGLE, &TIME];
+
+/// The units in which an input is written, and those of its rate.
+pub fn of_input(input: Input) -> [&'static Family; 2] {
+    match input {
+        Input::Angle => [&ANGLE, &ANGULAR_SPEED],
+    }
+}
+
 /// All families.
 pub static ALL: [&Family; 15] = [
     &LENGTH,

@@ -6,11 +6,10 @@ use std::rc::Rc;
 use linkproof_simbody::{Act, Run, Settings};
 
 use super::model::Linkage;
-use super::stopped::stopped;
 use linkage::case::Case;
 use linkage::drive::Wrench;
 use linkage::engine::bodies::check_inertias;
-use linkage::error::{Error, ErrorKind, Result};
+use linkage::error::Result;
 use linkage::solver::State;
 
 /// Starts the run of a free motion at t = 0.
@@ -19,21 +18,20 @@ use linkage::solver::State;
 /// Those of [`check_inertias`], and whatever prevents Simbody from starting.
 pub(super) fn start(case: &Case, settings: Settings) -> Result<(Linkage, Run)> {
     check_inertias(case, "Simbody")?;
-    let wrong = |message: String| Error::new(ErrorKind::Input, format!("Simbody cannot take the mechanism: {message}"));
     // A model driven at the initial speeds gives the rates of all other links.
-    let driven = Linkage::new(case, 1.0, None).map_err(wrong)?;
-    let told = |failure| stopped(case, &driven, 1.0, &failure);
+    let driven = Linkage::new(case, 1.0, None)?;
+    let told = |failure| driven.stopped(case, &failure);
     let rates: Vec<f64> = {
         let mut run = driven.model.run(settings).map_err(told)?;
         run.read(false).map_err(told)?.bodies.iter().map(|body| body.rate).collect()
     };
-    let linkage = Linkage::new(case, 1.0, Some(&rates)).map_err(wrong)?;
+    let linkage = Linkage::new(case, 1.0, Some(&rates))?;
     let setting_off = Rc::new(RefCell::new(vec![0.0; case.mechanism.links().len()]));
     let begin = || {
         linkage
             .model
             .run_under(settings, Some(acting(case, &linkage, Rc::clone(&setting_off))))
-            .map_err(|failure| stopped(case, &linkage, 1.0, &failure))
+            .map_err(|failure| linkage.stopped(case, &failure))
     };
     let mut run = begin()?;
     if !case.loads.iter().any(|load| load.sensed_link().is_some()) {
@@ -41,7 +39,7 @@ pub(super) fn start(case: &Case, settings: Settings) -> Result<(Linkage, Run)> {
     }
     // Links at rest start in the sense in which they are accelerated without the loads that need that sense.
     let mut state = State::at_rest(case);
-    let found = run.read(false).map_err(|failure| stopped(case, &linkage, 1.0, &failure))?;
+    let found = run.read(false).map_err(|failure| linkage.stopped(case, &failure))?;
     linkage.motion(&found.bodies, &mut state);
     for (sense, motion) in setting_off.borrow_mut().iter_mut().zip(&state.motions) {
         *sense = motion.alpha;

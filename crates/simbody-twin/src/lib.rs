@@ -8,7 +8,6 @@
 mod free;
 mod model;
 mod noise;
-mod stopped;
 
 use linkproof_simbody::{Failure, Run};
 
@@ -21,7 +20,6 @@ use linkage::solver::{Progress, Provision, Solver, State, Visit, check_instants}
 use linkage::trajectory::{Channel, ChannelKind, Stage};
 use linkage::work::{Count, Tally};
 use model::Linkage;
-use stopped::stopped;
 
 /// Largest opening of the start pose as a share of the mechanism's size.
 /// It is far more than rounding, and too small to matter.
@@ -66,9 +64,8 @@ impl Simbody {
         if case.is_free() {
             return free::start(case, settings);
         }
-        let linkage = Linkage::new(case, sense, None)
-            .map_err(|message| Error::new(ErrorKind::Input, format!("Simbody cannot take the mechanism: {message}")))?;
-        let run = linkage.model.run(settings).map_err(|failure| stopped(case, &linkage, sense, &failure))?;
+        let linkage = Linkage::new(case, sense, None)?;
+        let run = linkage.model.run(settings).map_err(|failure| linkage.stopped(case, &failure))?;
         Ok((linkage, run))
     }
 
@@ -177,31 +174,28 @@ impl Solver for Simbody {
                 continue;
             }
             let (linkage, mut run) = self.start(case, sense)?;
+            let stopped = |failure: Failure| linkage.stopped(case, &failure);
             for &row in rows {
                 let t = case.grid.times[row];
                 let before = run.steps();
                 let advanced = run.advance(t.abs());
                 tally.many(Count::Steps, run.steps() - before);
-                advanced.map_err(|failure| stopped(case, &linkage, sense, &failure))?;
+                advanced.map_err(stopped)?;
                 if reactions && !others.loads.is_empty() {
-                    let found = run.read(false).map_err(|failure| stopped(case, &linkage, sense, &failure))?;
+                    let found = run.read(false).map_err(stopped)?;
                     linkage.motion(&found.bodies, &mut state);
                     others.loads_on(&state.motions, &state.angles, &mut wrenches);
                     let loads: Vec<[f64; 3]> = linkage.loads(&wrenches).collect();
-                    run.load(&loads).map_err(|failure| stopped(case, &linkage, sense, &failure))?;
+                    run.load(&loads).map_err(stopped)?;
                 }
-                let found = run.read(reactions).map_err(|failure| stopped(case, &linkage, sense, &failure))?;
+                let found = run.read(reactions).map_err(stopped)?;
                 // Written so that NaN also stops the run.
                 if !found.loops.iter().all(|closed| closed.gap <= 2.0 * tolerance(case)) {
                     let gaps: Vec<f64> = found.loops.iter().map(|closed| closed.gap).collect();
-                    // Written so that NaN counts as the largest.
-                    let widest = gaps
-                        .iter()
-                        .copied()
-                        .fold(0.0, |most: f64, gap| if most.is_nan() || gap <= most { most } else { gap });
+                    let widest = gaps.iter().copied().fold(0.0, f64::larger);
                     let message = "a loop is open by more than its tolerance".into();
                     let failure = Failure { message, time: Some(t.abs()), gaps };
-                    let error = stopped(case, &linkage, sense, &failure);
+                    let error = stopped(failure);
                     return Err(error.beyond(widest, 2.0 * tolerance(case), "m"));
                 }
                 linkage.motion(&found.bodies, &mut state);

@@ -1,10 +1,11 @@
 //! A mechanism as a Simbody model: the tree of bodies, the joints that close loops, and the prescribed motion.
 
-use linkproof_simbody::{Body, BodyState, Closing, Inertia, Joint, Law, LoopState, Model};
+use linkproof_simbody::{Body, BodyState, Closing, Failure, Inertia, Joint, Law, LoopState, Model};
 
 use linkage::case::Case;
 use linkage::drive::{Drive, Load, Wrench};
 use linkage::engine::bodies::stand_in;
+use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::{Vec2, cross};
 use linkage::mechanism;
 use linkage::mechanism::spanning_tree::{Branch, Tree, coordinate};
@@ -29,11 +30,14 @@ impl Linkage {
     /// Drives then turn the other way and resistance acts with the motion; all else is the same.
     ///
     /// # Errors
-    /// The text of a number that Simbody cannot take.
+    /// [`ErrorKind::Input`] for a number that Simbody cannot take.
     ///
     /// In a free motion, `rates` are those of all bodies' coordinates at t = 0.
     /// Without them, free links turn with their initial speeds, like prescribed ones.
-    pub(super) fn new(case: &Case, sense: f64, rates: Option<&[f64]>) -> Result<Self, String> {
+    pub(super) fn new(case: &Case, sense: f64, rates: Option<&[f64]>) -> Result<Self> {
+        let wrong = |failure: Failure| {
+            Error::new(ErrorKind::Input, format!("Simbody cannot take the mechanism: {}", failure.message))
+        };
         let mechanism = &case.mechanism;
         let driven: Vec<usize> = case.drives.iter().map(|drive| drive.joint).collect();
         let tree = Tree::with(mechanism, &driven);
@@ -58,7 +62,7 @@ impl Linkage {
                     .and_then(|drive| law(case, branch, drive, rates.is_some()))
                     .map(|rate| Law { rate: sense * rate }),
             };
-            numbers[branch.link] = model.add(body).map_err(|failure| failure.message)?;
+            numbers[branch.link] = model.add(body).map_err(wrong)?;
             twists.push(found.keeps_angle().then_some(child - parent));
         }
         for &cut in &tree.cut {
@@ -66,7 +70,7 @@ impl Linkage {
             let sides = [first, second];
             let closing =
                 Closing { bodies: sides.map(|side| numbers[side.link]), places: sides.map(|side| side.local.into()) };
-            model.close(closing).map_err(|failure| failure.message)?;
+            model.close(closing).map_err(wrong)?;
         }
         Ok(Linkage { model, tree, sense, twists })
     }
@@ -119,6 +123,25 @@ impl Linkage {
         for (&joint, closed) in self.tree.cut.iter().zip(loops) {
             state.forces[joint] = closed.force.into();
         }
+    }
+
+    /// The failure of a run as an error with the case's time, crank angle and joint.
+    pub(super) fn stopped(&self, case: &Case, failure: &Failure) -> Error {
+        let t = failure.time.unwrap_or(0.0) * self.sense;
+        let at = case.told(case.crank().at(t).value);
+        // Written so that NaN counts as the largest.
+        let widest = failure.gaps.iter().zip(&self.tree.cut).reduce(|a, b| if a.0 >= b.0 { a } else { b });
+        let gap = widest.map_or(String::new(), |(gap, &joint)| {
+            format!(", joint \"{}\" open by {gap:.3e} m", case.mechanism.joints()[joint].name)
+        });
+        let message = format!("Simbody stopped at t = {t:.6} s, {at}{gap}: {}", failure.message);
+        let mut error = Error::new(ErrorKind::Numeric, message).at_time(t).at_input(at);
+        if let Some((_, &joint)) = widest {
+            error = error.of_joint(&case.mechanism.joints()[joint].name);
+        }
+        error
+            .help("check that the pose can be assembled there")
+            .or_help("shorten the grid to the crank angles before the dead point")
     }
 }
 

@@ -65,41 +65,27 @@ impl RawBody {
     }
 }
 
-/// `linkproof_loop`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct RawLoop {
-    first: usize,
-    second: usize,
-    on_first: [f64; 2],
-    on_second: [f64; 2],
-}
-
-impl RawLoop {
-    pub(crate) fn of(closing: &Closing) -> Self {
-        let ([first, second], [on_first, on_second]) = (closing.bodies, closing.places);
-        RawLoop { first, second, on_first, on_second }
-    }
-}
-
 /// `linkproof_run`, whose contents only C++ uses.
 #[repr(C)]
 struct RawRun {
     private: [u8; 0],
 }
 
+/// `linkproof_act`.
+type Callback = unsafe extern "C" fn(*mut c_void, *const BodyState, *mut f64);
+
 // The `safe` functions cannot be misused with the given types.
 unsafe extern "C" {
     fn linkproof_simbody_new(
         bodies: *const RawBody,
         body_count: usize,
-        loops: *const RawLoop,
+        loops: *const Closing,
         loop_count: usize,
         gravity: &[f64; 2],
         accuracy: f64,
         tolerance: f64,
         time_scale: f64,
-        act: Option<unsafe extern "C" fn(*mut c_void, *const BodyState, *mut f64)>,
+        act: Option<Callback>,
         user: *mut c_void,
         run: &mut *mut RawRun,
         text: *mut c_char,
@@ -196,7 +182,7 @@ pub struct Run {
 impl Run {
     pub(crate) fn start(
         bodies: &[RawBody],
-        loops: &[RawLoop],
+        loops: &[Closing],
         gravity: [f64; 2],
         settings: Settings,
         act: Option<Act>,
@@ -204,10 +190,7 @@ impl Run {
         let mut raw = ptr::null_mut();
         let mut kept = act.map(|act| Box::new(Acting { act, count: bodies.len() }));
         let user = kept.as_mut().map_or(ptr::null_mut(), |kept| ptr::from_mut(kept.as_mut()).cast());
-        let call: Option<unsafe extern "C" fn(*mut c_void, *const BodyState, *mut f64)> = match kept {
-            Some(_) => Some(acting),
-            None => None,
-        };
+        let call = kept.is_some().then_some(acting as Callback);
         told(|text, size| {
             let Settings { accuracy, tolerance, time_scale, .. } = settings;
             // SAFETY: pointers and counts are those of slices that outlive the call, and the shim copies what it keeps.
@@ -239,12 +222,6 @@ impl Run {
         // A free mobilizer without inertia is not an error in Simbody, but it has no finite acceleration.
         run.read(false)?;
         Ok(run)
-    }
-
-    /// Time of the state (s).
-    #[must_use]
-    pub fn time(&self) -> f64 {
-        self.time
     }
 
     /// Integrates to exactly `time` (s). After a failure the run cannot be used any more.
@@ -352,7 +329,7 @@ mod tests {
     fn both_sides_of_the_boundary_have_the_same_structures() {
         let mut sizes = [0; 4];
         linkproof_simbody_sizes(&mut sizes);
-        let own = [size_of::<RawBody>(), size_of::<RawLoop>(), size_of::<BodyState>(), size_of::<LoopState>()];
+        let own = [size_of::<RawBody>(), size_of::<Closing>(), size_of::<BodyState>(), size_of::<LoopState>()];
         assert_eq!(sizes, own);
     }
 }

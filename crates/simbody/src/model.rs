@@ -1,6 +1,6 @@
 //! The description of a linkage, checked before any part of it reaches C++.
 
-use crate::ffi::{Act, RawBody, RawLoop, Run};
+use crate::ffi::{Act, RawBody, Run};
 use crate::parts::{Body, Closing, Failure, Inertia, Joint, Settings};
 
 /// A planar linkage.
@@ -8,7 +8,7 @@ use crate::parts::{Body, Closing, Failure, Inertia, Joint, Settings};
 pub struct Model {
     gravity: [f64; 2],
     bodies: Vec<RawBody>,
-    loops: Vec<RawLoop>,
+    loops: Vec<Closing>,
 }
 
 impl Model {
@@ -59,7 +59,7 @@ impl Model {
         if !closing.places.as_flattened().iter().all(|place| place.is_finite()) {
             return wrong("it holds a number that is not finite");
         }
-        self.loops.push(RawLoop::of(&closing));
+        self.loops.push(closing);
         Ok(number)
     }
 

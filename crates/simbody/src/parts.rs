@@ -74,7 +74,8 @@ pub struct Body {
     pub law: Option<Law>,
 }
 
-/// A revolute joint between two bodies that are in the tree already. It closes a loop.
+/// A revolute joint between two bodies that are in the tree already. It closes a loop. The memory layout is that of C.
+#[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Closing {
     /// First and second body.

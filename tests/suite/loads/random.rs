@@ -4,6 +4,7 @@ use linkage::math::KeepNan;
 
 use analytic::{self, witness::momentum, witness::power};
 use linkage::case::Case;
+use linkage::drive::Load;
 use linkage::trajectory::Stage;
 use prover::compare::residuals;
 use scenario::Scenario;
@@ -31,6 +32,9 @@ fn reactions_balance_powers_and_momentum_on_both_sides() {
     for_each(128, |sample| {
         let scenario = loaded(&mut random.borrow_mut(), &sample.scenario);
         let case = &scenario.case;
+        // A load is called what its file calls it.
+        let said = scenario.text.split("[[loads]]\ntype = \"").skip(1).map(|load| load.split('"').next().unwrap());
+        assert_eq!(case.loads.iter().map(Load::sort).collect::<Vec<_>>(), said.collect::<Vec<_>>());
         for load in &case.loads {
             *sorts.borrow_mut().entry(load.sort()).or_insert(0) += 1;
         }
@@ -58,7 +62,7 @@ fn reactions_balance_powers_and_momentum_on_both_sides() {
         }
         Ok(())
     });
-    assert!(sorts.borrow().len() == 8 && sorts.borrow().values().all(|&count| count > 30), "{:?}", sorts.borrow());
+    assert!(sorts.borrow().values().all(|&count| count > 30), "{:?}", sorts.borrow());
 }
 
 #[test]

@@ -323,8 +323,9 @@ impl<'a> PoseSolver<'a> {
             links.for_each(|(link, angle)| *angle = turns.angle(link));
         }
         self.turn(self.crank);
-        for (drive, &angle) in self.case.drives.iter().zip(&self.inputs) {
-            self.state.angles[drive.link] = angle;
+        for (drive, &input) in self.case.drives.iter().zip(&self.inputs) {
+            let angle = &mut self.state.angles[drive.link];
+            *angle = drive.link_angle(input).unwrap_or(*angle);
         }
         &self.state
     }

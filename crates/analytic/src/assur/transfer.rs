@@ -188,8 +188,9 @@ impl<'a> TransferSide<'a> {
     /// Angles of all links, turns kept.
     fn find_angles(&mut self, driving: &[f64]) {
         self.state.angles.iter_mut().zip(self.turns.angles()).for_each(|(angle, found)| *angle = found);
-        for (drive, &angle) in self.case.drives.iter().zip(driving) {
-            self.state.angles[drive.link] = angle;
+        for (drive, &input) in self.case.drives.iter().zip(driving) {
+            let angle = &mut self.state.angles[drive.link];
+            *angle = drive.link_angle(input).unwrap_or(*angle);
         }
     }
 

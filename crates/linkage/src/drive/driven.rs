@@ -239,6 +239,16 @@ impl Drive {
         coordinate - self.zero
     }
 
+    /// Angle of the driving link's frame (rad, turns kept) at the coordinate of [`Drive::world_angle`]; `None` where the
+    /// drive does not turn the link.
+    #[inline]
+    #[must_use]
+    pub fn link_angle(&self, coordinate: f64) -> Option<f64> {
+        match self.input {
+            Input::Angle => Some(coordinate),
+        }
+    }
+
     /// The input at `value`, as messages say it.
     #[must_use]
     pub fn told(&self, value: f64) -> InputValue {

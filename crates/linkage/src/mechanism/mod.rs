@@ -219,6 +219,14 @@ impl Joint {
         if self.first.link == link { self.second } else { self.first }
     }
 
+    /// The pose of `link`, one of the joint's, that a drive gives to it: the joint's coordinate is `coordinate`, counted
+    /// as [`Drive::world_angle`](crate::drive::Drive::world_angle) does, and its other link stands in the pose `base`.
+    #[must_use]
+    pub fn driven(&self, link: usize, base: &LinkPose, coordinate: f64) -> LinkPose {
+        let local = self.on(link).expect("the driven joint is on the driving link");
+        LinkPose::through(local, base.point(self.other(link).local), coordinate)
+    }
+
     /// Where the joint's reaction acts on `link`, by the side that is known there: a pin's two places are the same
     /// point, and that of other joints is the place on the second link.
     #[must_use]

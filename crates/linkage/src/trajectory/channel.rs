@@ -2,8 +2,7 @@
 
 use std::fmt;
 
-use super::reading::{OfDrive, OfFrame, OfJoint, OfLink, OfPoint, OfSlider, Reading};
-use super::subject::Subject;
+use super::reading::{OfDrive, OfFrame, OfJoint, OfLink, OfPoint, OfSlider, Reading, Subject};
 use super::unit::Unit;
 
 /// How far a solver must compute for a channel. Each stage needs the ones before it.

@@ -2,12 +2,10 @@
 
 pub mod channel;
 mod reading;
-mod subject;
 mod unit;
 
 pub use channel::{CHANNELS, Channel, ChannelKind, Stage};
-pub use reading::{OfDrive, OfFrame, OfJoint, OfLink, OfPoint, OfSlider, Reading};
-pub use subject::Subject;
+pub use reading::{OfDrive, OfFrame, OfJoint, OfLink, OfPoint, OfSlider, Reading, Subject};
 pub use unit::Unit;
 
 use crate::error::{Error, ErrorKind, Result};

@@ -1,7 +1,6 @@
 //! Rapier's worlds, written once for both precisions.
 //! This module is compiled against `rapier2d-f64` and against `rapier2d`.
 
-mod frame;
 mod joints;
 mod motion;
 mod reading;
@@ -12,9 +11,10 @@ use rapier::prelude::{
     GenericJoint, ImpulseJointHandle, JointAxis, MultibodyJointHandle, PhysicsWorld, RigidBodyBuilder, RigidBodyHandle,
 };
 
+use crate::masses::{Loading, world_masses};
 use crate::steer::steered;
 use crate::tree::Tree;
-use crate::world::{LinkAngle, LinkFrame, Loading, world_masses};
+use crate::world::{LinkAngle, LinkFrame};
 use linkage::case::Case;
 use linkage::engine::Settings;
 use linkage::error::{Error, ErrorKind, Result};
@@ -39,7 +39,7 @@ struct Cut {
     /// those of the joint itself.
     steered: Option<(usize, Vec2)>,
     /// Where the joint was at the start of the last substep.
-    start: frame::Frame,
+    start: joints::Frame,
 }
 
 /// The motor of a drive. It stands on the ground, also where its link hangs on a moving one: it gives the link its speed
@@ -154,7 +154,7 @@ impl Twin {
             };
             let handle = world.impulse_joints.insert(bodies[order[0]], bodies[order[1]], between, true);
             let steered = steered.map(|(order, axis)| (order[0], axis));
-            Cut { joint, index, handle, steered, start: frame::Frame::default() }
+            Cut { joint, index, handle, steered, start: joints::Frame::default() }
         });
         let cuts = cuts.collect();
         let motors = case.drives.iter().map(|drive| {

@@ -1,6 +1,6 @@
 //! Converts impulses to forces.
 
-use super::frame::Frame;
+use super::joints::Frame;
 use super::{Twin, wide};
 use crate::world::World;
 use linkage::math::{Vec2, cross, rotated, turned};

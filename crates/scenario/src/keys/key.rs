@@ -1,8 +1,8 @@
 //! What is told of a section and of a key.
 
 use crate::unit::{
-    ACCELERATION, ANGLE, ANGULAR_SPEED, DAMPING, FORCE, Family, INERTIA, LENGTH, MASS, MOMENT, MOMENT_PER_SPEED,
-    STIFFNESS, TIME, TORSIONAL_STIFFNESS,
+    ACCELERATION, ANGLE, ANGULAR_SPEED, DAMPING, FORCE, Family, INERTIA, INPUTS, INPUTS_OR_TIMES, LENGTH, MASS, MOMENT,
+    MOMENT_PER_SPEED, STIFFNESS, TIME, TORSIONAL_STIFFNESS,
 };
 
 /// A table of a scenario file.
@@ -104,7 +104,9 @@ impl Key {
 impl Kind {
     pub(crate) const ACCELERATIONS: Kind = Kind::Quantity(&[&ACCELERATION]);
     pub(crate) const ANGLES: Kind = Kind::Quantity(&[&ANGLE]);
-    pub(crate) const ANGLES_OR_TIMES: Kind = Kind::Quantity(&[&ANGLE, &TIME]);
+    /// Values of an input: see [`unit::of_input`](crate::unit::of_input).
+    pub(crate) const INPUTS: Kind = Kind::Quantity(&INPUTS);
+    pub(crate) const INPUTS_OR_TIMES: Kind = Kind::Quantity(&INPUTS_OR_TIMES);
     pub(crate) const DAMPINGS_OR_SLOPES: Kind = Kind::Quantity(&[&DAMPING, &MOMENT_PER_SPEED]);
     pub(crate) const FORCES: Kind = Kind::Quantity(&[&FORCE]);
     pub(crate) const INERTIAS: Kind = Kind::Quantity(&[&INERTIA]);

@@ -58,9 +58,7 @@ pub fn first_choices(
     let mut pose = Pose(vec![LinkPose::GROUND; mechanism.links().len()]);
     for (&(link, joint), &angle) in structure.drivers.iter().zip(drive_angles) {
         let joint = &mechanism.joints()[joint];
-        let base = joint.other(link);
-        let local = joint.on(link).expect("the driven joint is on the driving link");
-        pose.0[link] = LinkPose::through(local, pose.0[base.link].point(base.local), angle);
+        pose.0[link] = joint.driven(link, &pose.0[joint.other(link).link], angle);
     }
     let mut choices = Vec::with_capacity(structure.groups.len());
     for (group, wanted) in structure.groups.iter().zip(wanted) {

@@ -1,0 +1,134 @@
+//! Masses of links in Rapier: their own, and what Rapier needs beyond them.
+
+use super::tree::Tree;
+use linkage::case::Case;
+use linkage::engine::bodies::stand_in;
+use linkage::math::KeepNan;
+use linkage::mechanism::{GROUND, Joint, Link};
+
+/// Mass added to a link without any, as a share of the mean mass.
+/// What is light is taken away quickly: the error of a first guess decays with this share from step to step.
+const SHARE: f64 = 0.1;
+/// Moment of inertia of a slender rod over its mass and the square of its length.
+const ROD: f64 = 1.0 / 12.0;
+
+/// Distance of a mass centre from all joints of its link, as a share of the link's extent, from which on a point mass
+/// makes the mass matrix of a multibody regular.
+const OFF_JOINTS: f64 = 1e-2;
+
+/// Additional moment of inertia of driving links, in units of all masses times the square of the mechanism's size.
+/// A link with prescribed speed may have any moment of inertia: it affects neither motion nor reactions.
+/// It affects the driving moment only where the speed changes, and is subtracted there
+/// ([`Ghost`](super::ghost::Ghost)).
+/// With a large one, the drives' rows hardly depend on those of the loops, and the sweeps converge.
+/// On a four-bar whose coupler is thirteen times as heavy as its crank, 32 sweeps then do what 1024 do without it.
+/// Ten times as much gives no further gain.
+const FLYWHEEL: f64 = 1.0;
+
+/// Mass (kg) and moment of inertia (kg m^2) of every link in Rapier, without flywheels.
+/// Rapier cannot move a body without them.
+/// Under a prescribed speed the motion does not depend on the masses.
+/// There a link has at least the mean mass, and the moment of inertia of a rod of it: where neighbours differ much, the
+/// sweeps hardly converge.
+/// What they add to the reactions is subtracted again ([`Ghost`](super::ghost::Ghost)).
+/// In a free motion the crank also carries rotor and gearbox. Stand-ins depend on the world's tree there, and loads
+/// take away what they do ([`Added`](super::added::Added)).
+pub(super) fn masses(case: &Case, tree: &Tree) -> Vec<[f64; 2]> {
+    let mut masses = bare_masses(case, tree);
+    if case.is_free() {
+        return masses;
+    }
+    let moving = &case.mechanism.links()[1..];
+    let mean = moving.iter().map(|link| link.mass).sum::<f64>() / moving.len() as f64;
+    for ([mass, inertia], link) in masses.iter_mut().zip(case.mechanism.links()).skip(1) {
+        let length = length(case, link);
+        (*mass, *inertia) = (mass.larger(mean), inertia.larger(ROD * mean * length * length));
+    }
+    masses
+}
+
+/// The same with nothing added to links that have both.
+fn bare_masses(case: &Case, tree: &Tree) -> Vec<[f64; 2]> {
+    let of = |(index, link): (usize, &Link)| {
+        let [mass, inertia] = if case.is_free() { added(case, index, tree) } else { stand_in(case, index) };
+        [link.mass + mass, link.inertia + inertia]
+    };
+    let mut masses: Vec<[f64; 2]> = case.mechanism.links().iter().enumerate().map(of).collect();
+    masses[GROUND] = [0.0; 2];
+    masses[case.crank().link][1] += case.crank().moving_inertia();
+    masses
+}
+
+/// Masses of a world that only moves, under prescribed speeds: the same for every link, with the moment of inertia of a
+/// rod of the link's extent.
+/// The motion does not depend on them, but the sweeps do: with masses of very different size they hardly converge.
+fn even_masses(case: &Case) -> Vec<[f64; 2]> {
+    let of = |link: &Link| [1.0, ROD * length(case, link) * length(case, link)];
+    let mut masses: Vec<[f64; 2]> = case.mechanism.links().iter().map(of).collect();
+    masses[GROUND] = [0.0; 2];
+    masses
+}
+
+/// What a world is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Loading {
+    /// It only moves: under prescribed speeds it has [`even_masses`].
+    Moving,
+    /// Its forces are read, and what stand-ins add is taken off.
+    Read,
+    /// Its forces are read as they are.
+    Bare,
+}
+
+/// Masses of a world.
+pub(super) fn world_masses(case: &Case, tree: &Tree, loading: Loading) -> Vec<[f64; 2]> {
+    match loading {
+        Loading::Moving if !case.is_free() => with_flywheels(case, even_masses(case)),
+        Loading::Moving | Loading::Read => masses_with_flywheels(case, tree),
+        Loading::Bare => with_flywheels(case, bare_masses(case, tree)),
+    }
+}
+
+/// The links' own masses, with flywheels on the driving links whose speed is prescribed.
+pub(super) fn masses_with_flywheels(case: &Case, tree: &Tree) -> Vec<[f64; 2]> {
+    with_flywheels(case, masses(case, tree))
+}
+
+fn with_flywheels(case: &Case, mut masses: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
+    if case.is_free() {
+        return masses;
+    }
+    let total: f64 = masses.iter().map(|[mass, _]| mass).sum();
+    let size = case.mechanism.size();
+    for drive in &case.drives {
+        masses[drive.link][1] += FLYWHEEL * total * size * size;
+    }
+    masses
+}
+
+/// Mass (kg) and moment of inertia (kg m^2) that a link of a free motion gets in addition; 0 where it needs none.
+/// What it needs depends on whether it is in the tree of the world.
+pub(super) fn added(case: &Case, link: usize, tree: &Tree) -> [f64; 2] {
+    if link == GROUND {
+        return [0.0; 2];
+    }
+    let (own, size) = (&case.mechanism.links()[link], case.mechanism.size());
+    let rotor = if link == case.crank().link { case.crank().moving_inertia() } else { 0.0 };
+    let moving = &case.mechanism.links()[1..];
+    let total: f64 = moving.iter().map(|link| link.mass).sum::<f64>() + case.crank().moving_inertia() / (size * size);
+    let mean = if total > 0.0 { total / moving.len() as f64 } else { 1.0 };
+    let mass = if own.mass > 0.0 { 0.0 } else { SHARE * mean };
+    let extent = length(case, own);
+    let turned_by = |joint: &Joint| joint.on(link).filter(|_| !joint.keeps_angle());
+    let arms = case.mechanism.joints().iter().filter_map(turned_by).map(|place| (place - own.mass_centre).norm());
+    let separate = tree.branches.iter().all(|branch| branch.link != link);
+    let off = !separate && own.mass > 0.0 && arms.fold(f64::INFINITY, f64::smaller) > OFF_JOINTS * extent;
+    let is_enough = own.inertia + rotor > 0.0 || off;
+    [mass, if is_enough { 0.0 } else { ROD * (own.mass + mass) * extent * extent }]
+}
+
+/// Length (m) of the rod that a link without a moment of inertia is taken for.
+fn length(case: &Case, link: &Link) -> f64 {
+    let extent = link.extent();
+    if extent > 0.0 { extent } else { case.mechanism.size() }
+}

@@ -1,0 +1,89 @@
+//! Where a run takes reactions and moments from.
+
+use super::guard::{Guard, guards};
+use super::masses::Loading;
+use super::native::Native;
+use super::newton_euler::NewtonEuler;
+use super::probe::{Probe, probe_turn};
+use super::rapier::{Build, Rapier};
+use super::tree::Tree;
+use super::window::Window;
+use linkage::case::Case;
+use linkage::engine::{Route, Settings};
+use linkage::error::{Advice, Error, ErrorKind, Result};
+use linkage::solver::State;
+use linkage::trajectory::Stage;
+
+/// Source of reactions and moments.
+pub(super) enum Reactions<'a> {
+    /// None are wanted.
+    Unwanted,
+    Differences(NewtonEuler),
+    Native(Native),
+    Probe(Probe<'a>),
+}
+
+impl<'a> Reactions<'a> {
+    /// The source that the engine's settings name, and the worlds of the run. The first one moves the mechanism. The
+    /// others only report joints that the first does not. Reports begin with step `from`.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Unsupported`] for a probe of a free motion, or if Rapier refuses a joint.
+    pub(super) fn of(engine: &Rapier, case: &'a Case, from: i64) -> Result<(Self, Vec<Guard<'a>>)> {
+        let mechanism = &case.mechanism;
+        let moving = || match engine.build {
+            Build::Multibody => guards(engine, case, vec![Tree::of(mechanism)], Loading::Moving),
+            Build::Impulse => guards(engine, case, vec![Tree::none(mechanism)], Loading::Moving),
+        };
+        let reporting = |engine: &Rapier| match engine.build {
+            Build::Multibody => {
+                guards(engine, case, Tree::covering(mechanism, &case.wanted_reactions()), Loading::Read)
+            }
+            Build::Impulse => guards(engine, case, vec![Tree::none(mechanism)], Loading::Read),
+        };
+        if case.wanted.deepest() < Stage::Reactions {
+            return Ok((Reactions::Unwanted, moving()?));
+        }
+        match engine.settings.route {
+            Route::Differences => Ok((Reactions::Differences(NewtonEuler::new(case)), moving()?)),
+            Route::Native => {
+                let worlds = reporting(engine)?;
+                Ok((Reactions::Native(Native::new(case, &worlds, &engine.settings, from)), worlds))
+            }
+            Route::Probe if case.is_free() => {
+                let message = "the motion is free, but a probe needs prescribed speeds";
+                let help = Advice::OtherRoute { routes: &["differences", "native"] };
+                Err(Error::new(ErrorKind::Unsupported, message).help(help))
+            }
+            Route::Probe => {
+                // A world placed in a pose has no gap to correct in its first substep.
+                // In the second substep it corrects the gap of the first, and the impulses would contain all of that
+                // correction.
+                // So a tiny step is not divided.
+                let undivided = engine.set(Settings { substeps: 1, ..engine.settings });
+                let probe = Probe::new(case, reporting(&undivided)?, probe_turn(engine.precision));
+                Ok((Reactions::Probe(probe), moving()?))
+            }
+        }
+    }
+
+    /// Keeps what the worlds report after a step. `direct` is the moment (N m) that the crank's motor had as a load.
+    pub(super) fn keep(&mut self, worlds: &[Guard], direct: f64) {
+        if let Reactions::Native(native) = self {
+            native.push(worlds, direct);
+        }
+    }
+
+    /// Fills in the reactions and moments of a state whose motion is that of the window at `t` (s).
+    ///
+    /// # Errors
+    /// [`ErrorKind::Numeric`] where they are not determined, or a probe fails.
+    pub(super) fn solve(&mut self, case: &Case, window: &Window, state: &mut State, t: f64) -> Result<()> {
+        match self {
+            Reactions::Unwanted => Ok(()),
+            Reactions::Differences(statics) => statics.solve(case, state, t),
+            Reactions::Native(native) => native.solve(case, state, t),
+            Reactions::Probe(probe) => probe.solve(case, window, state, t),
+        }
+    }
+}
