@@ -2,8 +2,7 @@
 
 use super::edits;
 use super::places::at_every_place;
-use super::slip::{Kind, Slip};
-use super::tried::{Mended, Tried};
+use super::slip::{Kind, Mended, Slip, Tried};
 use crate::claims::dimension::Dimensions;
 use crate::claims::trial::Trial;
 use formula::{Function, Operator, Shape, Tree};

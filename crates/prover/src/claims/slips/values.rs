@@ -8,8 +8,7 @@ use std::collections::BTreeSet;
 
 use super::edits;
 use super::places::{at_every_place, numbered, replaced};
-use super::slip::{Kind, Slip};
-use super::tried::{Mended, Tried};
+use super::slip::{Kind, Mended, Slip, Tried};
 use crate::claims::trial::Trial;
 use formula::{Operator, Shape, Tree, information};
 use linkage::math::KeepNan;
