@@ -1,7 +1,7 @@
 //! Slips at one place of a formula: what may have been meant by a part.
 
-use super::slip::Kind;
 use super::rules::with_slips;
+use super::slip::Kind;
 use formula::Operator::{Minus, Over, Plus, Power, Times};
 use formula::{Shape, Tree};
 use scenario::Parameter;
