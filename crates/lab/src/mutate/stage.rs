@@ -15,13 +15,12 @@ use linkage::math::KeepNan;
 use linkage::solver::Solver;
 use linkage::trajectory::{Channel, Trajectory};
 use linkage::work::{Count, PLACED, counted, limited};
-use prover::claims::Course;
+use prover::claims::{Course, Judged};
 
 use prover::compare::overall;
 
 use prover::proof::{
-    BUDGET, EachSide, EngineProof, Engines, Entrant, Ledger, Options, Problem, Reference, SIDES, SideClaims, Sides,
-    TRUE_SIDES,
+    BUDGET, EachSide, EngineProof, Engines, Entrant, Ledger, Options, Problem, Reference, SIDES, Sides, TRUE_SIDES,
 };
 
 use scenario::{Formulas, Scenario};
@@ -98,7 +97,7 @@ impl<'a> Stage<'a> {
 
     /// Names of the formulas that both sides judge.
     pub(super) fn judged_formulas(&self) -> BTreeSet<&str> {
-        let judged = self.sides.judgement().into_iter().flat_map(|own| &own.sides[0].1);
+        let judged = self.sides.judgement().into_iter().flat_map(|own| &own.sides[Reference::Assur]);
         judged.filter_map(|all| Some(all.first()?.name.as_str())).collect()
     }
 
@@ -118,7 +117,7 @@ impl<'a> Stage<'a> {
     }
 
     /// What both sides say of formulas.
-    pub(super) fn claimed(&self, formulas: &Formulas) -> Result<[SideClaims; 2]> {
+    pub(super) fn claimed(&self, formulas: &Formulas) -> Result<EachSide<Vec<Vec<Judged>>>> {
         self.sides.claimed(&self.case, formulas)
     }
 

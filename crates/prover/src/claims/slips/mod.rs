@@ -56,13 +56,9 @@ pub(super) fn tried(trial: &mut Trial, dimensions: &Dimensions) -> Tried {
                     let [(_, right)] = change;
                     let right = filled(&right, &own.tree, trial.sheet.places(index));
                     let changed = vec![(index, replaced(&own.tree, number, &right))];
-                    let standing = dimensions.standing(&changed, index, [part, &right]);
-                    trial.sheet.count(dimensions.work());
-                    let Some(is_sound) = standing else { continue };
-                    let (written, right) = (part.to_string(), right.to_string());
-                    let slip = Slip { formula: own.name.clone(), kind, written, right, everywhere: false };
-                    let rank = (!is_sound, false, index != trial.index, kind);
-                    tried.put(trial, Mended { changed, slip, rank, left: f64::INFINITY, among: 0 });
+                    let (formula, written) = (own.name.clone(), part.to_string());
+                    let slip = Slip { formula, kind, written, right: right.to_string(), everywhere: false };
+                    tried.put_standing(trial, dimensions, &changed, [part, &right], slip);
                 }
             });
         }
