@@ -8,7 +8,7 @@ use super::{advice, exit_code, number, output, terminal};
 use crate::plain::style::Detail;
 use crate::report::check as report;
 use linkage::error::{Error, ErrorKind, Result};
-use prover::proof::claimed;
+use prover::proof::solved;
 use scenario::formula::{fault_of_claim, refused};
 
 use scenario::{Claim, Scenario};
@@ -62,7 +62,7 @@ fn step(text: &str) -> std::result::Result<(String, String), String> {
 /// Judges, reports, and says how it ended.
 pub(super) fn check(args: &Args) -> Result<u8> {
     let scenario = asked(args)?;
-    let found = claimed::judge(&scenario)?;
+    let found = solved::judge(&scenario)?;
     if let Some(to) = &args.json {
         output::write(&report::json(&scenario, &found, advice::told), to)?;
     }

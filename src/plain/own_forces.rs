@@ -5,7 +5,7 @@ use linkage::solver::Provision;
 use linkage::trajectory::Stage;
 use prover::numbers;
 
-use prover::proof::{EngineProof, ForceFault, OwnForces};
+use prover::proof::{EngineProof, ForceFault};
 
 /// Name of all of them.
 pub fn of_all(engine: &EngineProof, several: bool) -> String {
@@ -26,7 +26,7 @@ pub fn source(engine: &EngineProof) -> &str {
 }
 
 /// Verdict, and the channel that uses most of its bound.
-pub fn line(own: &OwnForces) -> String {
+pub fn line(own: &EngineProof) -> String {
     let Some(worst) = own.channels.iter().max_by(|a, b| used(a).total_cmp(&used(b))) else { return "none".into() };
     let (residual, unit) = (&worst.residual, worst.residual.channel.kind.unit);
     let [error, bound] = [residual.max, worst.bound].map(|value| numbers::error_in(value, unit.symbol()));

@@ -12,7 +12,8 @@ use crate::plain::tell::Tell;
 use prover::claims::{At, CUT, Cause, Judged, Missing, Outcome, Term, WORDS};
 use prover::compare::Verdict;
 use prover::numbers::{beside, error, fixed, fixed_in, with_unit};
-use prover::proof::claimed::Claimed;
+use prover::proof::Reference;
+use prover::proof::solved::Claimed;
 use scenario::{Formula, Scenario};
 
 /// Claims that the short report shows with their values.
@@ -54,14 +55,15 @@ impl Line<'_> {
 }
 
 fn lines<'a>(scenario: &'a Scenario, claimed: &'a Claimed) -> Vec<Line<'a>> {
-    let [first, second] = &claimed.judgement.sides;
+    let [first, second] = claimed.judgement.sides.pair();
+    let [one, two] = Reference::ALL.map(Reference::name);
     let mut lines = Vec::new();
     let formulas: BTreeMap<&str, &Formula> =
         scenario.formulas.list.iter().map(|formula| (formula.name.as_str(), formula)).collect();
-    for (own, other) in first.1.iter().zip(&second.1) {
+    for (own, other) in first.iter().zip(second) {
         let formula = formulas.get(own[0].name.as_str()).expect("only the scenario's formulas are judged");
         for (own, other) in own.iter().zip(other) {
-            let [own, other] = [(first.0, own), (second.0, other)].map(|(side, judged)| Line { side, formula, judged });
+            let [own, other] = [(one, own), (two, other)].map(|(side, judged)| Line { side, formula, judged });
             let worse = other.rank().0 > own.rank().0;
             lines.push(if worse { other } else { own });
         }
@@ -190,7 +192,7 @@ fn sentence(lines: &[Line], claimed: &Claimed) -> String {
     let claims = lines.iter().filter(|line| line.judged.order == 0).count();
     let instants = lines.iter().map(|line| line.judged.judged).max().unwrap_or(0);
     let plural = |count: usize, word: &str| format!("{count} {word}{}", if count == 1 { "" } else { "s" });
-    let [first, second] = [0, 1].map(|side| claimed.judgement.sides[side].0);
+    let [first, second] = Reference::ALL.map(Reference::name);
     let wrong = lines.iter().filter(|line| line.rank().0 == 2);
     let mut names: Vec<&str> = wrong.map(|line| line.judged.name.as_str()).collect();
     names.dedup();
@@ -294,12 +296,12 @@ pub fn json(scenario: &Scenario, claimed: &Claimed, tell: Tell) -> String {
     let causes = causes(claimed);
     let formulas: BTreeMap<&str, &Formula> =
         scenario.formulas.list.iter().map(|formula| (formula.name.as_str(), formula)).collect();
-    let of = |(side, all): &(&'static str, Vec<Vec<Judged>>)| -> Vec<Value> {
+    let of = |(side, all): (Reference, &Vec<Vec<Judged>>)| -> Vec<Value> {
         let judged = all.iter().flatten();
         let row = |judged: &Judged| {
             let formula = formulas.get(judged.name.as_str());
             json!({
-                "side": side, "formula": judged.name, "expression": formula.map(|formula| formula.text.as_str()),
+                "side": side.name(), "formula": judged.name, "expression": formula.map(|formula| formula.text.as_str()),
                 "source": formula.and_then(|formula| formula.source.as_deref()), "claim": judged.claim,
                 "unit": judged.unit, "derivative": judged.order, "claimed_error": formula.and_then(|own| own.error),
                 "verdict": match judged.outcome() {

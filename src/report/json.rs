@@ -13,7 +13,7 @@ use linkage::solver::Provision;
 use linkage::work::Work;
 use prover::compare::{Check, Verdict};
 
-use prover::proof::{ChannelProof, Dispute, End, EngineInfo, EngineProof, Entry, ForceFault, OwnForces, Proof, Search};
+use prover::proof::{ChannelProof, Dispute, End, EngineInfo, EngineProof, Entry, ForceFault, Proof, Search};
 
 /// Words by name.
 type Words = BTreeMap<&'static str, String>;
@@ -109,7 +109,7 @@ rows! {
         failure: Option<String> = proof.failure.as_ref().map(|error| error.message().to_string()),
     }
 
-    struct OwnForcesRow = |engine: &EngineProof, own: &OwnForces, tell: Tell| {
+    struct OwnForcesRow = |engine: &EngineProof, own: &EngineProof, tell: Tell| {
         let info = &own.info;
     } {
         route: &'static str = info.settings.route.name(),

@@ -11,7 +11,7 @@ use crate::plain::style::wrapped;
 use crate::plain::tell::Tell;
 use prover::compare::{Check, Verdict};
 use prover::numbers;
-use prover::proof::{ChannelProof, End, EngineInfo, EngineProof, OwnForces, Proof, Search};
+use prover::proof::{ChannelProof, End, EngineInfo, EngineProof, Proof, Search};
 
 /// Number of reasons that are shown in full; the others are only counted.
 const REASONS: usize = 5;
@@ -99,7 +99,7 @@ fn own_section(engine: &EngineProof, several: bool, width: Option<usize>, text: 
 }
 
 /// Route, settings and work.
-fn own_how(own: &OwnForces) -> String {
+fn own_how(own: &EngineProof) -> String {
     let settings = &own.info.settings;
     let told = own.info.told.iter().find(|(name, _)| *name == "reactions");
     let told = told.map_or_else(|| settings.route.name().to_string(), |(_, told)| told.clone());

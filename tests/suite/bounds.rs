@@ -11,7 +11,7 @@ use std::path::Path;
 
 use linkage::math::KeepNan;
 use linkproof::{Options, Proof, Scenario, prove};
-use prover::proof::claimed::judge;
+use prover::proof::solved::judge;
 
 const TABLE: &str = include_str!("bounds/parts.txt");
 /// Largest ratio of two numbers that are the same but for noise.
@@ -73,7 +73,7 @@ fn proven(sample: &Sample) -> Proof {
 /// What sides and formulas know where no engine comes: the bound of every claim where it uses most of it.
 fn claimed(sample: &Sample, all: &mut Numbers) {
     let found = judge(&scenario(sample)).unwrap_or_else(|error| panic!("{}: {error}", sample.0));
-    for (side, judged) in &found.judgement.sides {
+    for (side, judged) in found.judgement.sides.iter() {
         for own in judged.iter().flatten() {
             let what = format!("claim ({side}), {}, derivative {}", own.claim, own.order);
             all.insert((sample.0.into(), what), vec![own.worst.map_or(0.0, |worst| worst.bound)]);

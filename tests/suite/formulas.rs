@@ -14,7 +14,7 @@ mod wrong_input;
 use std::path::{Path, PathBuf};
 
 use prover::claims::Outcome;
-use prover::proof::claimed::{Claimed, judge};
+use prover::proof::solved::{Claimed, judge};
 use scenario::{Formulas, Scenario, files_in};
 
 fn files() -> Vec<PathBuf> {

@@ -6,7 +6,7 @@ use linkage::engine::{Engine, Route};
 use linkage::math::{KeepNan, Vec2};
 use linkage::trajectory::{Channel, Stage, Subject};
 use prover::engines::EngineName;
-use prover::proof::{Options, OwnForces, Proof, prove};
+use prover::proof::{EngineProof, Options, Proof, prove};
 use rapier_twin::{Build, Precision, Rapier};
 use scenario::Scenario;
 
@@ -16,7 +16,7 @@ fn proven(scenario: &Scenario, options: &Options) -> Proof {
     prove(scenario, options).unwrap_or_else(|error| panic!("{error}"))
 }
 
-fn own(proof: &Proof) -> &OwnForces {
+fn own(proof: &Proof) -> &EngineProof {
     proof.engine().own_forces.as_ref().expect("own forces are judged")
 }
 

@@ -2,6 +2,8 @@
 
 use std::f64::consts::{PI, TAU};
 
+use linkage::input::Input;
+
 /// One unit of a family.
 #[derive(Debug, PartialEq)]
 pub struct Unit {

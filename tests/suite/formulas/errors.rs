@@ -2,7 +2,7 @@
 //! and no cause is made up.
 
 use prover::claims::{Cause, MOST_WORK};
-use prover::proof::claimed::Claimed;
+use prover::proof::solved::Claimed;
 use scenario::{Claim, Formulas, Scenario};
 
 use super::{files, is_named, is_wrong, judged, load};

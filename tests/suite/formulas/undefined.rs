@@ -1,6 +1,7 @@
 //! What is undefined is neither right nor read over, at whatever door it comes in.
 
 use prover::claims::Outcome;
+use prover::proof::Reference;
 use scenario::Scenario;
 
 use crate::cli::tools::Place;
@@ -87,8 +88,8 @@ fn operations_that_leave_their_domain_on_the_way_disagree_with_their_place() {
             scenario.formulas.add(name, text).unwrap().claim = Some(claim.clone());
         }
         let found = super::judged(&scenario);
-        for side in &found.judgement.sides {
-            let outcomes: Vec<Outcome> = side.1.iter().map(|orders| orders[0].outcome()).collect();
+        for (_, all) in found.judgement.sides.iter() {
+            let outcomes: Vec<Outcome> = all.iter().map(|orders| orders[0].outcome()).collect();
             assert_eq!(outcomes, [Outcome::Wrong, Outcome::Right], "{text}");
         }
         let undefined = found.judgement.undefined("formula").unwrap();
@@ -108,7 +109,7 @@ fn poles_between_instants_and_poles_that_rounding_hides() {
         scenario.formulas.add("formula", text).unwrap().claim = Some(claim.clone());
         let found = super::judged(&scenario);
         assert!(found.judgement.undefined("formula").is_none(), "{text}");
-        found.judgement.sides[0].1[0][0].clone()
+        found.judgement.sides[Reference::Assur][0][0].clone()
     };
     // Instants stand at whole degrees; this divisor crosses zero between 57 and 58.
     let crossing = outcome("phi*180/pi*(phi - 1)/(phi - 1)");
@@ -130,7 +131,7 @@ fn overflow_proves_nothing() {
     let formula = scenario.formulas.add("formula", "phi*180/pi + 0*exp(1000*phi)").unwrap();
     formula.claim = Some(claim);
     let found = super::judged(&scenario);
-    let outcome = found.judgement.sides[0].1[0][0].outcome();
+    let outcome = found.judgement.sides[Reference::Assur][0][0].outcome();
     assert!(matches!(outcome, Outcome::Open { .. }), "{outcome:?}");
 }
 

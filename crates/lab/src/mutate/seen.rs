@@ -111,7 +111,7 @@ impl Eyes {
         }
         if let Some(own) = &proof.own_forces
             && let Some(trajectory) = &own.trajectory
-            && own.adds().is_some()
+            && proof.added().is_some()
         {
             self.channels(&own.channels, reference, trajectory, &[], &format!("{name}'s own forces"));
         }

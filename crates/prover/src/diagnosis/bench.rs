@@ -3,14 +3,14 @@
 use std::cell::Cell;
 use std::rc::Rc;
 
-use super::question::Question;
+use super::question::{Judged, Question};
 use super::slips::KNOWN;
 use crate::compare::{differences, magnitudes};
 use linkage::case::{Case, Grid};
 use linkage::math::statistics::ascending;
 use linkage::math::{KeepNan, largest_size};
 use linkage::solver::Solver;
-use linkage::trajectory::{Channel, Stage, Trajectory};
+use linkage::trajectory::{Channel, Stage};
 
 /// A channel that counts.
 pub(super) struct Column {
@@ -61,9 +61,7 @@ impl Misfit {
     pub(super) fn plus(&self, factor: f64, other: &Misfit) -> Misfit {
         Misfit(self.0.iter().zip(&other.0).map(|(a, b)| a + factor * b).collect())
     }
-}
 
-impl Misfit {
     /// The amounts of `effect` that, added to this, keep everything within its bound; `None` if there are none. Least
     /// squares do not give them: errors of a suspect are not random.
     pub(super) fn kept_by(&self, effect: &Misfit) -> Option<[f64; 2]> {
@@ -90,7 +88,7 @@ impl<'a> Bench<'a> {
         let of_rows = |values: &[f64]| rows.iter().map(|&row| values[row]).collect::<Vec<f64>>();
         let case = question.case.on(Grid { times: of_rows(&grid.times), inputs: of_rows(&grid.inputs) }).ok()?;
         let sizes = magnitudes(question.reference);
-        let column = |judged: &super::question::Judged| {
+        let column = |judged: &Judged| {
             let place = question.reference.channels().iter().position(|own| *own == judged.channel)?;
             Some(Column {
                 channel: judged.channel.clone(),
@@ -121,22 +119,17 @@ impl<'a> Bench<'a> {
 
     /// What a changed case leaves. `None` if it cannot be solved, or no more may be.
     pub(super) fn tried(&self, case: &Case) -> Option<Misfit> {
-        let found = self.solved(case)?;
-        self.misfit(|column| found.column(&column.channel).map(<[f64]>::to_vec))
+        self.tried_in(case, None)
     }
 
     /// The same, with the changed case taken in the channels of one stage only, or in all of them.
     pub(super) fn tried_in(&self, case: &Case, stage: Option<Stage>) -> Option<Misfit> {
-        let found = self.solved(case)?;
+        self.left.set(self.left.get().checked_sub(1)?);
+        let found = self.solver.solve(case).ok()?;
         self.misfit(|column| match stage.is_none_or(|stage| column.channel.kind.stage == stage) {
             true => found.column(&column.channel).map(<[f64]>::to_vec),
             false => Some(column.right.clone()),
         })
-    }
-
-    fn solved(&self, case: &Case) -> Option<Trajectory> {
-        self.left.set(self.left.get().checked_sub(1)?);
-        self.solver.solve(case).ok()
     }
 
     fn misfit(&self, expected: impl Fn(&Column) -> Option<Vec<f64>>) -> Option<Misfit> {
@@ -166,9 +159,7 @@ impl<'a> Bench<'a> {
         let explained = columns().filter(|(column, (before, after))| column.disagrees && counts(**before, **after));
         explained.map(|(column, _)| column.channel.clone()).collect()
     }
-}
 
-impl Bench<'_> {
     /// How much a hypothesis that leaves `misfit` changes agreeing channels, in shares of their bounds. Of hypotheses
     /// that explain as much, the one that claims least is the simplest.
     pub(super) fn claim(&self, start: &Misfit, misfit: &Misfit) -> f64 {
@@ -214,6 +205,7 @@ pub(super) fn early(question: &Question) -> Vec<usize> {
     in_order(rows)
 }
 
+/// What the suspect has more than the reference, by row.
 fn gaps(question: &Question, channel: &Channel) -> Option<Vec<f64>> {
     let (right, found) = (question.reference.column(channel)?, question.suspicious.column(channel)?);
     Some(differences(right, found, channel.kind.periodic))

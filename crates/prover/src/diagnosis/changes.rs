@@ -51,47 +51,48 @@ pub(super) fn found(question: &Question) -> (Vec<Found>, usize) {
     candidates.extend(late);
     let solved = spent + most - left.get();
     candidates.sort_by(|a, b| {
-        let most = b.explained.len().cmp(&a.explained.len());
-        most.then(a.rank.cmp(&b.rank)).then((a.claim * CLAIMED).round().total_cmp(&(b.claim * CLAIMED).round()))
+        let most = b.found.explained.len().cmp(&a.found.explained.len());
+        most.then(a.found.rank.cmp(&b.found.rank))
+            .then((a.claim * CLAIMED).round().total_cmp(&(b.claim * CLAIMED).round()))
     });
-    let mut found = Vec::new();
+    let mut all = Vec::new();
     let confirming = Rc::new(Cell::new(WHOLE));
     let Some(full) = Bench::new(question, &whole, confirming) else { return (Vec::new(), solved) };
     let begin = full.start();
     for candidate in candidates.into_iter().take(CONFIRMED) {
-        let misfit = (candidate.make)(&full.case).and_then(|case| full.tried_in(&case, candidate.stage));
+        let misfit = (candidate.make)(&full.case).and_then(|case| full.tried_in(&case, candidate.stage()));
         let Some(misfit) = misfit else { continue };
-        let (mut cause, mut explained) = (candidate.cause, full.explained(&begin, &misfit));
+        let mut found = Found { explained: full.explained(&begin, &misfit), ..candidate.found };
         if let Some((knob, values)) = candidate.number.filter(|_| !misfit.fits())
             && let Some((value, better)) = confirmed(&knob, values, &full, &misfit)
         {
-            cause = Cause::Case(Change { part: knob.part.clone(), how: knob.told(value) });
-            explained = full.explained(&begin, &better);
+            let cause = Cause::Case(Change { part: knob.part.clone(), how: knob.told(value) });
+            found = Found { cause, explained: full.explained(&begin, &better), ..found };
         }
-        let is_sure = match &cause {
+        let is_sure = match &found.cause {
             Cause::Case(change) => is_sure(change, begin.worst()),
             Cause::Values { .. } => true,
         };
-        if !explained.is_empty() && is_sure {
-            found.push(Found { cause, rank: candidate.rank, explained });
+        if !found.explained.is_empty() && is_sure {
+            all.push(found);
         }
     }
-    (found, solved)
+    (all, solved)
 }
 
 /// The drive that is turned by as much as values are late: at constant speed that is the same.
 fn turned(tries: &Tries, known: &[Candidate], late: &[Candidate]) -> Option<Candidate> {
     let case = &tries.thin.case;
-    let by = late.iter().find_map(|one| match one.cause {
+    let by = late.iter().find_map(|one| match one.found.cause {
         Cause::Values { slip: Slip::Late { by, stage: None, .. }, .. } => Some(by),
         Cause::Values { .. } | Cause::Case(_) => None,
     })?;
     let speed = case.crank().constant_speed().filter(|_| case.is_steady() && case.drives.further().is_empty())?;
     let is_turn = |part: &Part| matches!(part, Part::StartAngle(_));
-    let is_known = known.iter().any(|one| matches!(&one.cause, Cause::Case(change) if is_turn(&change.part)));
+    let is_known = known.iter().any(|one| matches!(&one.found.cause, Cause::Case(change) if is_turn(&change.part)));
     let knob = knobs::all(case).into_iter().find(|knob| is_turn(&knob.part)).filter(|_| !is_known)?;
     let value = knob.given - speed * by;
     let misfit = tries.of(&|case| knob.at(case, value))?;
-    let cause = Cause::Case(Change { part: knob.part.clone(), how: knob.told(value) });
-    tries.candidate(&misfit, Rank::Number, cause, Box::new(move |case| knob.at(case, value)))
+    let change = Change { part: knob.part.clone(), how: knob.told(value) };
+    tries.candidate(&misfit, Rank::Number, change, Box::new(move |case| knob.at(case, value)))
 }

@@ -3,7 +3,7 @@
 
 use super::cause::{Arm, Over, Slip};
 use super::question::{Found, Question, Rank};
-use super::slips::{Wrong, wrong};
+use super::slips::Wrong;
 use linkage::math::{KeepNan, largest_size};
 use linkage::trajectory::{Channel, OfFrame, OfSlider, Reading, Trajectory, Unit};
 
@@ -13,8 +13,7 @@ const ROUNDED: f64 = 1e-12;
 const WIDEST: usize = 3;
 
 /// Every rule with the channels that it explains.
-pub(super) fn found(question: &Question) -> Vec<Found> {
-    let wrong = wrong(question);
+pub(super) fn found(question: &Question, wrong: &[Wrong]) -> Vec<Found> {
     let mut causes = Vec::new();
     let mut put =
         |slip: Slip, rank: Rank, explained: Vec<Channel>| causes.push(Found::of_values(slip, rank, explained));
@@ -34,7 +33,7 @@ pub(super) fn found(question: &Question) -> Vec<Found> {
             put(Slip::NoCoriolis(joint.name.clone()), Rank::Change, explained);
         }
     }
-    for one in &wrong {
+    for one in wrong {
         if let Some(arm) = arm(question, one) {
             let rank = if matches!(arm, Arm::Constant(_)) { Rank::Fitted } else { Rank::Change };
             put(Slip::About(arm), rank, vec![one.channel.clone()]);

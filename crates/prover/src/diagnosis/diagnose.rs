@@ -61,9 +61,10 @@ pub fn diagnose(question: &Question, parties: &[Party]) -> Option<Diagnosis> {
         return None;
     }
     let (of_case, solved) = changes::found(question);
-    let mut found = slips::found(question);
-    found.extend(others::found(question));
-    found.extend(derived::found(question));
+    let off = slips::wrong(question);
+    let mut found = slips::found(&off);
+    found.extend(others::found(question, &off));
+    found.extend(derived::found(question, &off));
     found.extend(of_case);
     // A number is found for a part of the channels more easily than for all: that is no evidence.
     found.retain(|one| one.explained.len() == wrong.len() || !has_number(&one.cause));
@@ -79,7 +80,7 @@ pub fn diagnose(question: &Question, parties: &[Party]) -> Option<Diagnosis> {
     let says_more = |one: &Found| one.rank != Rank::Fitted || first.as_ref().is_some_and(|own| own.rank != Rank::Slip);
     let also = named.filter(|one| one.explained == explained && says_more(one)).map(|one| one.cause);
     let also = also.take(MENTIONED).collect();
-    let nature = if left_over.is_empty() { None } else { nature(question) };
+    let nature = if left_over.is_empty() { None } else { nature(question, &off) };
     Some(Diagnosis {
         suspect: question.suspect.to_string(),
         alone: standing(parties),

@@ -12,6 +12,17 @@ use linkage::mechanism::{Joint, Link, Mechanism};
 /// Makes the parts those of another value; `None` where there is no such case.
 type Turn = Box<dyn Fn(&mut CaseParts, f64) -> Option<()>>;
 
+/// Where a part shows while the motion is prescribed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Shows {
+    /// In reactions and moments alone.
+    Forces,
+    /// In the motion.
+    Motion,
+    /// In forces, and in places of mass centres.
+    Centres,
+}
+
 /// A part of a case that one number changes.
 pub(super) struct Knob {
     pub(super) part: Part,
@@ -22,10 +33,7 @@ pub(super) struct Knob {
     pub(super) plain: Vec<(f64, How)>,
     /// Change of the value that shows its effect.
     pub(super) nudge: f64,
-    /// Whether reactions and moments are all that it changes where the motion is prescribed.
-    pub(super) moves_nothing: bool,
-    /// Whether it may show in places of mass centres only.
-    pub(super) is_centre: bool,
+    pub(super) shows: Shows,
     /// Whether a first approximation tells nothing about values far away.
     pub(super) is_far: bool,
     turn: Turn,
@@ -34,9 +42,7 @@ pub(super) struct Knob {
 impl Knob {
     /// The case with another value of this part.
     pub(super) fn at(&self, case: &Case, value: f64) -> Option<Case> {
-        let mut parts = case.clone().into_parts();
-        (self.turn)(&mut parts, value)?;
-        Case::new(parts).ok()
+        remade(case, |parts| (self.turn)(parts, value))
     }
 
     /// How the part is different at a value.
@@ -46,31 +52,34 @@ impl Knob {
 
     /// The value with a number of significant digits; angles in degrees.
     pub(super) fn significant(&self, value: f64, digits: usize) -> f64 {
-        match self.unit {
-            "rad" => significant(value.to_degrees(), digits).to_radians(),
-            _ => significant(value, digits),
-        }
+        significant_in(self.unit == "rad", value, digits)
     }
 
     /// A part that counts as `given` and may be multiplied.
-    fn amount(part: Part, given: f64, unit: &'static str, turn: Turn) -> Knob {
-        let plain = vec![
-            (0.0, How::Missing),
-            (-given, How::Reversed),
-            (2.0 * given, How::Twice),
-            (given / 2.0, How::Half),
-            (1e3 * given, How::Times(1e3, "as g for kg, or m for mm")),
-            (1e-3 * given, How::Times(1e-3, "as kg for g, or mm for m")),
-        ];
-        let nudge = 1e-3 * given;
-        Knob { part, given, unit, plain, nudge, moves_nothing: true, is_centre: false, is_far: false, turn }
+    fn amount(
+        part: Part,
+        given: f64,
+        unit: &'static str,
+        turn: impl Fn(&mut CaseParts, f64) -> Option<()> + 'static,
+    ) -> Knob {
+        let plain =
+            vec![(0.0, How::Missing), (-given, How::Reversed), (2.0 * given, How::Twice), (given / 2.0, How::Half)];
+        let (nudge, turn) = (1e-3 * given, Box::new(turn));
+        let knob = Knob { part, given, unit, plain, nudge, shows: Shows::Forces, is_far: false, turn };
+        knob.times([(1e3, "as g for kg, or m for mm"), (1e-3, "as kg for g, or mm for m")])
     }
 
     /// A place or an angle, whose size has no meaning; `natural` is what it is measured by.
-    fn place(part: Part, given: f64, natural: f64, unit: &'static str, turn: Turn) -> Knob {
+    fn place(
+        part: Part,
+        given: f64,
+        natural: f64,
+        unit: &'static str,
+        turn: impl Fn(&mut CaseParts, f64) -> Option<()> + 'static,
+    ) -> Knob {
         let plain = if given == 0.0 { Vec::new() } else { vec![(-given, How::Reversed)] };
-        let nudge = 1e-4 * natural;
-        Knob { part, given, unit, plain, nudge, moves_nothing: false, is_centre: false, is_far: false, turn }
+        let (nudge, turn) = (1e-4 * natural, Box::new(turn));
+        Knob { part, given, unit, plain, nudge, shows: Shows::Motion, is_far: false, turn }
     }
 
     fn also(mut self, plain: impl IntoIterator<Item = (f64, How)>) -> Knob {
@@ -78,9 +87,14 @@ impl Knob {
         self
     }
 
-    fn moving(mut self) -> Knob {
-        self.moves_nothing = false;
-        self
+    /// Also multiplied by numbers with a meaning.
+    fn times(self, factors: impl IntoIterator<Item = (f64, &'static str)>) -> Knob {
+        let given = self.given;
+        self.also(factors.into_iter().map(|(factor, told)| (factor * given, How::Times(factor, told))))
+    }
+
+    fn moving(self) -> Knob {
+        Knob { shows: Shows::Motion, ..self }
     }
 }
 
@@ -89,11 +103,10 @@ pub(super) fn all(case: &Case) -> Vec<Knob> {
     let mut knobs = Vec::new();
     let gravity = case.gravity;
     if gravity.norm() > 0.0 {
-        let turn: Turn = Box::new(move |parts, value| {
+        knobs.push(Knob::amount(Part::Gravity, gravity.norm(), "m/s^2", move |parts, value| {
             parts.gravity = gravity * (value / gravity.norm());
             Some(())
-        });
-        knobs.push(Knob::amount(Part::Gravity, gravity.norm(), "m/s^2", turn));
+        }));
     }
     knobs.extend((0..case.loads.len()).map(|index| load(case, index)));
     knobs.extend((0..case.loads.len()).filter_map(|index| free(case, index)));
@@ -107,7 +120,7 @@ pub(super) fn all(case: &Case) -> Vec<Knob> {
         knobs.push(share(Part::Inertias, |link, factor| link.inertia *= factor));
     }
     for (index, link) in moving().filter(|(_, link)| link.mass > 0.0) {
-        let turn: Turn = Box::new(move |parts, mass| changed(parts, |links, _| links[index].mass = mass));
+        let turn = move |parts: &mut CaseParts, mass| changed(parts, |links, _| links[index].mass = mass);
         knobs.push(Knob::amount(Part::Mass(link.name.clone()), link.mass, "kg", turn));
     }
     for (index, link) in moving().filter(|(_, link)| link.inertia > 0.0) {
@@ -126,6 +139,13 @@ pub(super) fn all(case: &Case) -> Vec<Knob> {
     knobs
 }
 
+/// The case with other parts; `None` where there is none.
+pub(super) fn remade(case: &Case, change: impl FnOnce(&mut CaseParts) -> Option<()>) -> Option<Case> {
+    let mut parts = case.clone().into_parts();
+    change(&mut parts)?;
+    Case::new(parts).ok()
+}
+
 /// Changes links and joints. The structure stays what it is.
 pub fn changed(parts: &mut CaseParts, change: impl FnOnce(&mut [Link], &mut [Joint])) -> Option<()> {
     let (mut links, mut joints) = (parts.mechanism.links().to_vec(), parts.mechanism.joints().to_vec());
@@ -141,43 +161,42 @@ pub fn changed(parts: &mut CaseParts, change: impl FnOnce(&mut [Link], &mut [Joi
 }
 
 fn share(part: Part, scale: fn(&mut Link, f64)) -> Knob {
-    let turn: Turn =
-        Box::new(move |parts, factor| changed(parts, |links, _| links.iter_mut().for_each(|link| scale(link, factor))));
-    Knob::amount(part, 1.0, "", turn)
+    Knob::amount(part, 1.0, "", move |parts, factor| {
+        changed(parts, |links, _| links.iter_mut().for_each(|link| scale(link, factor)))
+    })
 }
 
 fn load(case: &Case, index: usize) -> Knob {
     let sort = case.loads[index].sort();
-    let turn: Turn = Box::new(move |parts, factor| {
+    let ratio = case.drives.iter().find_map(Drive::motor).map(|motor| motor.ratio).filter(|ratio| *ratio != 1.0);
+    let turn = move |parts: &mut CaseParts, factor| {
         let own = parts.loads.remove(index).times(factor)?;
         parts.loads.splice(index..index, own);
         Some(())
-    });
-    let ratio = case.drives.iter().find_map(Drive::motor).map(|motor| motor.ratio);
-    let by_ratio = ratio.into_iter().filter(|ratio| *ratio != 1.0).flat_map(|ratio| {
+    };
+    Knob::amount(Part::Load(index + 1, sort), 1.0, "", turn).times(ratio.into_iter().flat_map(|ratio| {
         [
-            (1.0 / ratio, How::Times(1.0 / ratio, "divided by the reducer's ratio once more")),
-            (ratio, How::Times(ratio, "multiplied by the reducer's ratio once more")),
+            (1.0 / ratio, "divided by the reducer's ratio once more"),
+            (ratio, "multiplied by the reducer's ratio once more"),
         ]
-    });
-    Knob::amount(Part::Load(index + 1, sort), 1.0, "", turn).also(by_ratio)
+    }))
 }
 
 /// The length or twist of a spring at which it exerts nothing.
 fn free(case: &Case, index: usize) -> Option<Knob> {
     let mut load = case.loads[index].clone();
     let (&mut given, unit) = load.rest()?;
-    let turn: Turn = Box::new(move |parts, value| {
+    let turn = move |parts: &mut CaseParts, value| {
         *parts.loads[index].rest()?.0 = value;
         Some(())
-    });
+    };
     let natural = if unit == "m" { case.mechanism.size() } else { 1.0 };
     let knob = Knob::place(Part::Free(index + 1), given, natural, unit, turn);
-    Some(Knob { moves_nothing: true, ..knob }.also([(0.0, How::Missing)]))
+    Some(Knob { shows: Shows::Forces, ..knob }.also([(0.0, How::Missing)]))
 }
 
 fn inertia(case: &Case, index: usize, link: &Link) -> Knob {
-    let turn: Turn = Box::new(move |parts, inertia| changed(parts, |links, _| links[index].inertia = inertia));
+    let turn = move |parts: &mut CaseParts, inertia| changed(parts, |links, _| links[index].inertia = inertia);
     let about = case.mechanism.joints().iter().filter_map(|joint| {
         let arm = (joint.on(index)? - link.mass_centre).norm_squared();
         (arm > 0.0).then(|| (link.inertia + link.mass * arm, How::AboutJoint(joint.name.clone())))
@@ -186,12 +205,11 @@ fn inertia(case: &Case, index: usize, link: &Link) -> Knob {
 }
 
 fn mass_centre(index: usize, link: &Link, axis: Axis) -> Knob {
-    let given = along(link.mass_centre, axis);
-    let turn: Turn = Box::new(move |parts, value| {
-        changed(parts, |links, _| *along_mut(&mut links[index].mass_centre, axis) = value)
-    });
+    let turn =
+        move |parts: &mut CaseParts, value| changed(parts, |links, _| links[index].mass_centre[axis as usize] = value);
     let part = Part::MassCentreAlong(link.name.clone(), axis);
-    Knob { is_centre: true, ..Knob::place(part, given, link.extent(), "m", turn) }
+    let knob = Knob::place(part, link.mass_centre[axis as usize], link.extent(), "m", turn);
+    Knob { shows: Shows::Centres, ..knob }
 }
 
 /// Places of joints on links, each once.
@@ -213,13 +231,13 @@ fn places(case: &Case) -> Vec<(usize, usize)> {
 fn place(case: &Case, joint: usize, link: usize, axis: Axis) -> Knob {
     let own = &case.mechanism.joints()[joint];
     let old = own.on(link).expect("the joint is on the link");
-    let turn: Turn = Box::new(move |parts, value| {
+    let turn = move |parts: &mut CaseParts, value| {
         let mut new = old;
-        *along_mut(&mut new, axis) = value;
+        new[axis as usize] = value;
         moved(parts, link, old, new)
-    });
+    };
     let part = Part::Place(own.name.clone(), case.mechanism.links()[link].name.clone(), axis);
-    Knob::place(part, along(old, axis), case.mechanism.size(), "m", turn)
+    Knob::place(part, old[axis as usize], case.mechanism.size(), "m", turn)
 }
 
 /// Moves a place of a link, with every joint and point that is there.
@@ -245,7 +263,7 @@ fn lengths(case: &Case) -> Vec<Knob> {
             if !(arm.x.abs().smaller(arm.y.abs()) > 1e-9 * arm.norm()) {
                 continue;
             }
-            let turn: Turn = Box::new(move |parts, length| moved(parts, link, old, from + arm * (length / arm.norm())));
+            let turn = move |parts: &mut CaseParts, length| moved(parts, link, old, from + arm * (length / arm.norm()));
             let name = |place: &(usize, usize)| case.mechanism.joints()[place.0].name.clone();
             let part = Part::Length(name(one), name(other), case.mechanism.links()[link].name.clone());
             let knob = Knob::place(part, arm.norm(), case.mechanism.size(), "m", turn);
@@ -258,25 +276,24 @@ fn lengths(case: &Case) -> Vec<Knob> {
 /// What is driven, by a law or by its speed at the start.
 fn of_drive(case: &Case, index: usize, drive: &Drive) -> Vec<Knob> {
     let joint = case.mechanism.joints()[drive.joint].name.clone();
-    let start: Turn = Box::new(move |parts, value| {
+    let start = move |parts: &mut CaseParts, value| {
         driven(parts, index, |drive| drive.start = value);
         reassembled(parts)
-    });
+    };
     let quarter = [PI / 2.0, -PI / 2.0, PI]
         .map(|by| (drive.start + by, How::Instead { found: drive.start + by, given: drive.start, unit: "rad" }));
     let angle = Knob::place(Part::StartAngle(joint.clone()), drive.start, 1.0, "rad", start).also(quarter);
-    let speed: Turn = Box::new(move |parts, value| {
+    let speed = move |parts: &mut CaseParts, value| {
         driven(parts, index, |drive| match &mut drive.motion {
             DriveMotion::Prescribed { law, .. } => *law = at_speed(law, value),
             DriveMotion::Free { initial_speed, .. } => *initial_speed = value,
         });
         Some(())
-    });
+    };
     let given = if drive.is_free() { drive.initial_speed() } else { drive.top_speed() };
     let part = if drive.is_free() { Part::InitialSpeed(joint) } else { Part::Speed(joint) };
     let units = [(30.0 / PI, "as rpm for rad/s"), (PI / 30.0, "as rad/s for rpm"), (PI / 180.0, "as rad/s for deg/s")];
-    let mut speed = Knob::amount(part, given, "rad/s", speed).moving();
-    speed.plain.extend(units.map(|(factor, told)| (factor * given, How::Times(factor, told))));
+    let mut speed = Knob::amount(part, given, "rad/s", speed).moving().times(units);
     if given == 0.0 {
         (speed.plain, speed.nudge) = (Vec::new(), 1e-3 * drive.top_speed());
     } else if !drive.is_free() {
@@ -289,17 +306,9 @@ fn of_drive(case: &Case, index: usize, drive: &Drive) -> Vec<Knob> {
 
 /// Changes one drive, and the crank angles of the grid with it.
 pub fn driven(parts: &mut CaseParts, index: usize, change: impl FnOnce(&mut Drive)) {
-    let (mut change, mut number) = (Some(change), 0);
-    parts.drives = parts.drives.map(|drive| {
-        let mut own = drive.clone();
-        if number == index
-            && let Some(change) = change.take()
-        {
-            change(&mut own);
-        }
-        number += 1;
-        own
-    });
+    let (mut own, mut numbers) = (parts.drives[index].clone(), 0..);
+    change(&mut own);
+    parts.drives = parts.drives.map(|drive| if numbers.next() == Some(index) { &own } else { drive }.clone());
     parts.grid = Grid::of_times(parts.drives.crank(), parts.grid.times.clone());
 }
 
@@ -317,56 +326,35 @@ pub fn at_speed(law: &MotionLaw, speed: f64) -> MotionLaw {
 /// The motor that moves the crank: its moment, and the inertia of its shafts.
 fn motor(case: &Case) -> Vec<Knob> {
     let Some(motor) = case.crank().moving_motor() else { return Vec::new() };
-    let of_motor = |change: fn(&mut Motor, f64)| -> Turn {
-        Box::new(move |parts, factor| {
+    let of_motor = |part: Part, change: fn(&mut Motor, f64)| {
+        let turn = move |parts: &mut CaseParts, factor| {
             let drive = parts.drives.crank_mut();
             let mut motor = drive.moving_motor()?.clone();
             change(&mut motor, factor);
             *drive = drive.with_motor(Some(motor));
             Some(())
-        })
+        };
+        Knob::amount(part, 1.0, "", turn).moving()
     };
     let (ratio, efficiency) = (motor.ratio, motor.efficiency);
-    let moment = of_motor(|motor, factor| motor.law = motor.law.scaled(factor));
-    let mut moment = Knob::amount(Part::MotorMoment, 1.0, "", moment).moving();
+    let mut moment = of_motor(Part::MotorMoment, |motor, factor| motor.law = motor.law.scaled(factor));
     if efficiency < 1.0 {
-        moment.plain.extend([
-            (1.0 / efficiency, How::Times(1.0 / efficiency, "without the efficiency")),
-            (efficiency, How::Times(efficiency, "with the efficiency twice")),
-            (
-                1.0 / (efficiency * efficiency),
-                How::Times(1.0 / (efficiency * efficiency), "divided by the efficiency instead of multiplied"),
-            ),
+        moment = moment.times([
+            (1.0 / efficiency, "without the efficiency"),
+            (efficiency, "with the efficiency twice"),
+            (1.0 / (efficiency * efficiency), "divided by the efficiency instead of multiplied"),
         ]);
     }
-    moment.plain.extend([
-        (1.0 / ratio, How::Times(1.0 / ratio, "without the reducer's ratio")),
-        (ratio, How::Times(ratio, "with the reducer's ratio twice")),
-    ]);
-    let mut knobs = vec![moment];
+    let by_ratio = [(1.0 / ratio, "without the reducer's ratio"), (ratio, "with the reducer's ratio twice")];
+    let mut knobs = vec![moment.times(by_ratio)];
     if motor.inertia_on_crank() > 0.0 {
-        let inertia = of_motor(|motor, factor| {
+        knobs.push(of_motor(Part::RotorInertia, |motor, factor| {
             let own = &mut motor.inertia;
             let ShaftInertia { rotor, input, intermediate, intermediate_ratio: _, output } = own;
             [rotor, input, intermediate, output].into_iter().for_each(|part| *part *= factor);
-        });
-        knobs.push(Knob::amount(Part::RotorInertia, 1.0, "", inertia).moving());
+        }));
     }
     knobs
-}
-
-fn along(vector: Vec2, axis: Axis) -> f64 {
-    match axis {
-        Axis::X => vector.x,
-        Axis::Y => vector.y,
-    }
-}
-
-fn along_mut(vector: &mut Vec2, axis: Axis) -> &mut f64 {
-    match axis {
-        Axis::X => &mut vector.x,
-        Axis::Y => &mut vector.y,
-    }
 }
 
 /// Largest of the sizes of the knob's value and its nudge: what a relative change is measured by.
@@ -377,4 +365,9 @@ pub(super) fn natural(knob: &Knob) -> f64 {
 /// A number with so many significant digits.
 pub(super) fn significant(value: f64, digits: usize) -> f64 {
     format!("{value:.*e}", digits - 1).parse().unwrap_or(value)
+}
+
+/// The same; angles in degrees.
+pub(super) fn significant_in(is_angle: bool, value: f64, digits: usize) -> f64 {
+    if is_angle { significant(value.to_degrees(), digits).to_radians() } else { significant(value, digits) }
 }

@@ -38,9 +38,9 @@ pub(super) fn late(question: &Question, bench: &Bench, start: &Misfit) -> Vec<Ca
     }
     let search = Search { question, bench, start };
     let mut found: Vec<Candidate> = stages.into_iter().filter_map(|stage| search.late_in(stage)).collect();
-    if found.iter().all(|one| one.stage.is_some()) {
+    if found.iter().all(|one| one.stage().is_some()) {
         // Forces that jump lead a search astray; by what one stage is late, all may be.
-        let all = found.iter().find_map(|one| search.late_by(one.cause.clone()));
+        let all = found.iter().find_map(|one| search.late_by(&one.found.cause));
         found.extend(all);
     }
     found.extend(search.clock());
@@ -89,8 +89,8 @@ impl Search<'_, '_> {
     }
 
     /// All channels, by what those of one stage are late.
-    fn late_by(&self, cause: Cause) -> Option<Candidate> {
-        let Cause::Values { slip: Slip::Late { by, steps, .. }, .. } = cause else { return None };
+    fn late_by(&self, cause: &Cause) -> Option<Candidate> {
+        let &Cause::Values { slip: Slip::Late { by, steps, .. }, .. } = cause else { return None };
         let misfit = self.bench.tried(&shifted(&self.bench.case, by)?)?;
         self.late_candidate(&misfit, by, steps, None)
     }
@@ -194,11 +194,7 @@ impl Search<'_, '_> {
     }
 
     fn candidate(&self, misfit: &Misfit, rank: Rank, slip: Slip, make: Make) -> Option<Candidate> {
-        let explained = self.bench.explained(self.start, misfit);
-        let stage = if let Slip::Late { stage, .. } = slip { stage } else { None };
-        let cause = Cause::Values { slip, channels: explained.clone() };
-        let claim = self.bench.claim(self.start, misfit);
-        (!explained.is_empty()).then_some(Candidate { rank, cause, make, stage, explained, claim, number: None })
+        Candidate::of(self.bench, [self.start, misfit], rank, |channels| Cause::Values { slip, channels }, make)
     }
 }
 

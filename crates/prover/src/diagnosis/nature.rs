@@ -1,7 +1,7 @@
 //! What an error without a simple cause looks like: one that grows with time, a smooth and small one, noise.
 
 use super::question::Question;
-use super::slips::{Wrong, wrong};
+use super::slips::Wrong;
 use crate::compare::{differences, scales};
 use linkage::math::statistics::{ascending, rms};
 use linkage::math::{KeepNan, largest_size};
@@ -27,7 +27,7 @@ const SMALL: f64 = 0.02;
 const ORDER: [f64; 2] = [0.15, 0.5];
 
 /// What the differences of all disagreeing channels look like, if that is the same.
-pub(super) fn nature(question: &Question) -> Option<Nature> {
+pub(super) fn nature(question: &Question, wrong: &[Wrong]) -> Option<Nature> {
     let rows = ascending(question.reference.times());
     if rows.len() < 2 * PARTS {
         return None;
@@ -37,7 +37,7 @@ pub(super) fn nature(question: &Question) -> Option<Nature> {
         let place = question.reference.channels().iter().position(|own| own == one.channel);
         place.map_or(0.0, |place| scales[place])
     };
-    let all: Vec<(Vec<f64>, f64)> = wrong(question)
+    let all: Vec<(Vec<f64>, f64)> = wrong
         .iter()
         .map(|one| {
             let gaps = differences(one.right, one.found, one.channel.kind.periodic);

@@ -3,8 +3,8 @@
 use std::rc::Rc;
 
 use super::bench::{Bench, Misfit};
-use super::cause::{Cause, Change, How};
-use super::knobs::{self, Knob, natural};
+use super::cause::{Change, How};
+use super::knobs::{self, Knob, Shows, natural};
 use super::question::Rank;
 use super::tries::{Candidate, Tries};
 use linkage::math::KeepNan;
@@ -33,7 +33,11 @@ fn guesses(tries: &Tries) -> Vec<Guess> {
     let mut found = Vec::new();
     for (place, knob) in knobs::all(&bench.case).into_iter().enumerate() {
         // Where the motion is prescribed, what moves nothing explains no motion, and what moves something shows in it.
-        let is_idle = if moved { knob.moves_nothing } else { !knob.moves_nothing && shows && !knob.is_centre };
+        let is_idle = match knob.shows {
+            Shows::Forces => moved,
+            Shows::Motion => !moved && shows,
+            Shows::Centres => false,
+        };
         if !tries.is_free && is_idle {
             continue;
         }
@@ -53,7 +57,9 @@ fn guesses(tries: &Tries) -> Vec<Guess> {
 
 /// Whether a place is not guessed far away: a mechanism of such dimensions hardly moves, and to find that out takes long.
 fn is_likely(guess: &Guess) -> bool {
-    guess.knob.moves_nothing || guess.knob.is_far || (guess.value - guess.knob.given).abs() <= natural(&guess.knob)
+    guess.knob.shows == Shows::Forces
+        || guess.knob.is_far
+        || (guess.value - guess.knob.given).abs() <= natural(&guess.knob)
 }
 
 /// Parts of the case with another value.
@@ -131,9 +137,8 @@ fn is_plain(how: &How) -> bool {
 }
 
 fn of_knob(tries: &Tries, misfit: &Misfit, knob: &Rc<Knob>, value: f64, how: How, rank: Rank) -> Option<Candidate> {
-    let cause = Cause::Case(Change { part: knob.part.clone(), how });
-    let knob = knob.clone();
-    tries.candidate(misfit, rank, cause, Box::new(move |case| knob.at(case, value)))
+    let (change, knob) = (Change { part: knob.part.clone(), how }, knob.clone());
+    tries.candidate(misfit, rank, change, Box::new(move |case| knob.at(case, value)))
 }
 
 /// The value of a knob that leaves nothing beyond its bound, with as few digits as can be, and the middle of all such

@@ -2,7 +2,7 @@
 
 use super::cause::Slip;
 use super::question::{Found, Question, Rank};
-use super::slips::{Wrong, settled, wrong};
+use super::slips::{Wrong, settled};
 use crate::compare::differences;
 use linkage::math::statistics::half_range;
 use linkage::trajectory::{Channel, Unit};
@@ -14,8 +14,7 @@ const TELLING: f64 = 5.0;
 const FEW: usize = 16;
 
 /// Every channel with the values of others: of one, or of two that changed places, or the difference of two.
-pub(super) fn found(question: &Question) -> Vec<Found> {
-    let wrong = wrong(question);
+pub(super) fn found(question: &Question, wrong: &[Wrong]) -> Vec<Found> {
     let mut causes = Vec::new();
     let mut put =
         |slip: Slip, rank: Rank, explained: Vec<Channel>| causes.push(Found::of_values(slip, rank, explained));

@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use super::cause::{Plain, Slip};
-use super::knobs::significant;
+use super::knobs::significant_in;
 use super::question::{Found, Judged, Question, Rank};
 use crate::compare::{differences, magnitudes};
 use linkage::math::angle::wrapped;
@@ -85,22 +85,20 @@ pub(super) struct Wrong<'a> {
 
 /// Every slip with the channels that it explains. A slip with a number that was fitted counts only where it explains
 /// all of them: for one channel a number can always be found.
-pub(super) fn found(question: &Question) -> Vec<Found> {
-    let wrong = wrong(question);
+pub(super) fn found(wrong: &[Wrong]) -> Vec<Found> {
     let mut causes = Vec::new();
-    for slip in plain(&wrong) {
+    for slip in plain(wrong) {
         let explained: Vec<Channel> =
             wrong.iter().filter(|wrong| wrong.is_explained_by(&slip)).map(|wrong| wrong.channel.clone()).collect();
         if !explained.is_empty() {
             causes.push(Found::of_values(slip, Rank::Slip, explained));
         }
     }
-    let angle = wrong.iter().all(|wrong| wrong.channel.kind.unit == Unit::Radian);
-    let explains_all = |slip: &Slip| wrong.iter().all(|wrong| wrong.is_explained_by(slip));
-    for slip in fitted(&wrong) {
-        if explains_all(&slip) {
-            let slip = (2..=9).map(|digits| with_digits(&slip, digits, angle)).find(explains_all).unwrap_or(slip);
-            let explained: Vec<Channel> = wrong.iter().map(|wrong| wrong.channel.clone()).collect();
+    for Fitted { slip, number, is_angle } in fitted(wrong) {
+        let explains_all = |number: f64| wrong.iter().all(|wrong| wrong.is_explained_by(&slip(number)));
+        if explains_all(number) {
+            let slip = slip(settled(number, is_angle, &explains_all));
+            let explained = wrong.iter().map(|wrong| wrong.channel.clone()).collect();
             causes.push(Found::of_values(slip, Rank::Fitted, explained));
         }
     }
@@ -146,52 +144,42 @@ fn lonely(wrong: &[Wrong]) -> Option<f64> {
 /// Fewest instants of which one may be off by itself.
 const MANY: usize = 8;
 
+/// A slip with a number, which has its digits in degrees if it is an angle.
+struct Fitted {
+    slip: fn(f64) -> Slip,
+    number: f64,
+    is_angle: bool,
+}
+
 /// Slips whose number comes from the channel that is farthest beyond its bound.
-fn fitted(wrong: &[Wrong]) -> Vec<Slip> {
+fn fitted(wrong: &[Wrong]) -> Vec<Fitted> {
     let far = |one: &Wrong| largest_size(&differences(one.right, one.found, one.channel.kind.periodic)) / one.bound;
     let Some(worst) = wrong.iter().max_by(|a, b| far(a).total_cmp(&far(b))) else { return Vec::new() };
     let gaps = differences(worst.right, worst.found, worst.channel.kind.periodic);
     let squares: f64 = worst.right.iter().map(|value| value * value).sum();
     let products: f64 = worst.right.iter().zip(worst.found).map(|(right, found)| right * found).sum();
     let same_unit = wrong.iter().all(|one| one.channel.kind.unit == worst.channel.kind.unit);
+    let is_angle = same_unit && worst.channel.kind.unit == Unit::Radian;
     let mut slips = Vec::new();
     // Over one or two instants anything is an offset and a factor.
     if gaps.len() >= FEWEST {
         if same_unit {
             let mean = |gaps: &[f64]| gaps.iter().sum::<f64>() / gaps.len() as f64;
-            slips.push(Slip::Offset(mean(&gaps)));
+            slips.push(Fitted { slip: Slip::Offset, number: mean(&gaps), is_angle });
             let negative: Vec<f64> = worst.right.iter().map(|value| -value).collect();
-            let mirrored = mean(&differences(&negative, worst.found, worst.channel.kind.periodic));
-            slips.extend((mirrored.abs() > worst.bound).then_some(Slip::Mirrored(mirrored)));
+            let number = mean(&differences(&negative, worst.found, worst.channel.kind.periodic));
+            slips.extend((number.abs() > worst.bound).then_some(Fitted { slip: Slip::Mirrored, number, is_angle }));
         }
         if squares > 0.0 {
-            slips.push(Slip::Factor(products / squares));
+            slips.push(Fitted { slip: Slip::Factor, number: products / squares, is_angle: false });
         }
     }
     slips
 }
 
-/// The same slip with so many digits of its number; angles in degrees.
-fn with_digits(slip: &Slip, digits: usize, angle: bool) -> Slip {
-    match slip {
-        Slip::Factor(factor) => Slip::Factor(significant(*factor, digits)),
-        Slip::Offset(by) => Slip::Offset(shortened(*by, digits, angle)),
-        Slip::Mirrored(by) => Slip::Mirrored(shortened(*by, digits, angle)),
-        Slip::Instead(_) | Slip::Opposite(_) | Slip::Exchanged(_) | Slip::Between { .. } => slip.clone(),
-        Slip::Magnitude(_) | Slip::Differences { .. } | Slip::NoCoriolis(_) | Slip::About(_) => slip.clone(),
-        Slip::Plain(_) | Slip::Unit { .. } | Slip::Outlier(_) => slip.clone(),
-        Slip::Late { .. } | Slip::Clock { .. } => slip.clone(),
-    }
-}
-
-/// A number with so many digits; angles in degrees.
-fn shortened(by: f64, digits: usize, angle: bool) -> f64 {
-    if angle { significant(by.to_degrees(), digits).to_radians() } else { significant(by, digits) }
-}
-
 /// A fitted number with as few digits as still do.
 pub(super) fn settled(by: f64, angle: bool, is_it: &dyn Fn(f64) -> bool) -> f64 {
-    (2..=9).map(|digits| shortened(by, digits, angle)).find(|by| is_it(*by)).unwrap_or(by)
+    (2..=9).map(|digits| significant_in(angle, by, digits)).find(|by| is_it(*by)).unwrap_or(by)
 }
 
 /// Fewest instants from which a number is fitted.

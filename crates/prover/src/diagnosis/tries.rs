@@ -3,9 +3,9 @@
 use std::rc::Rc;
 
 use super::bench::{Bench, Misfit};
-use super::cause::Cause;
+use super::cause::{Cause, Change, Slip};
 use super::knobs::Knob;
-use super::question::Rank;
+use super::question::{Found, Rank};
 use linkage::case::Case;
 use linkage::trajectory::{Channel, Stage};
 
@@ -13,16 +13,35 @@ pub(super) type Make = Box<dyn Fn(&Case) -> Option<Case>>;
 
 /// A change that explains something at the instants of a bench.
 pub(super) struct Candidate {
-    pub(super) rank: Rank,
-    pub(super) cause: Cause,
+    pub(super) found: Found,
     /// How it is solved on any grid.
     pub(super) make: Make,
-    pub(super) stage: Option<Stage>,
-    pub(super) explained: Vec<Channel>,
     /// How much it changes in agreeing channels, in shares of their bounds.
     pub(super) claim: f64,
     /// For a value that was found: its part, the value, and the middle of the values that would do.
     pub(super) number: Option<(Rc<Knob>, [f64; 2])>,
+}
+
+impl Candidate {
+    /// A change that leaves `misfit` of what is left by the reference, `start`; `None` if it explains nothing.
+    pub(super) fn of(
+        bench: &Bench,
+        [start, misfit]: [&Misfit; 2],
+        rank: Rank,
+        cause: impl FnOnce(Vec<Channel>) -> Cause,
+        make: Make,
+    ) -> Option<Self> {
+        let (explained, claim) = (bench.explained(start, misfit), bench.claim(start, misfit));
+        let is_any = !explained.is_empty();
+        let found = Found { cause: cause(explained.clone()), rank, explained };
+        is_any.then_some(Candidate { found, make, claim, number: None })
+    }
+
+    /// The stage whose channels alone it is about; `None` for all.
+    pub(super) fn stage(&self) -> Option<Stage> {
+        let Cause::Values { slip: Slip::Late { stage, .. }, .. } = &self.found.cause else { return None };
+        *stage
+    }
 }
 
 /// The instants on which changes are tried. A free motion is followed for a short time first: later it may depend on
@@ -40,18 +59,15 @@ pub(super) struct Tries<'a> {
 impl Tries<'_> {
     /// What a change leaves. A free motion that it does not explain for a short time is not followed further.
     pub(super) fn of(&self, make: &dyn Fn(&Case) -> Option<Case>) -> Option<Misfit> {
-        if self.is_free && !self.first.tried(&make(&self.first.case)?)?.fits() {
-            return None;
-        }
-        if self.is_free && !self.soon.tried(&make(&self.soon.case)?)?.fits() {
-            return None;
+        for bench in [&self.first, &self.soon].into_iter().filter(|_| self.is_free) {
+            if !bench.tried(&make(&bench.case)?)?.fits() {
+                return None;
+            }
         }
         self.thin.tried(&make(&self.thin.case)?)
     }
 
-    pub(super) fn candidate(&self, misfit: &Misfit, rank: Rank, cause: Cause, make: Make) -> Option<Candidate> {
-        let (explained, claim) =
-            (self.thin.explained(&self.starts[1], misfit), self.thin.claim(&self.starts[1], misfit));
-        (!explained.is_empty()).then_some(Candidate { rank, cause, make, stage: None, explained, claim, number: None })
+    pub(super) fn candidate(&self, misfit: &Misfit, rank: Rank, change: Change, make: Make) -> Option<Candidate> {
+        Candidate::of(&self.thin, [&self.starts[1], misfit], rank, |_| Cause::Case(change), make)
     }
 }

@@ -2,9 +2,9 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::cause::{Cause, Change, How, Part};
+use super::cause::{Change, How, Part};
 use super::configurations::others;
-use super::knobs::changed;
+use super::knobs::{changed, remade};
 use super::question::Rank;
 use super::tries::{Candidate, Make, Tries};
 use linkage::case::Case;
@@ -52,7 +52,7 @@ pub(super) fn whole_changes(tries: &Tries) -> Vec<Candidate> {
     all.extend(mass_centres(case));
     let tried = all.into_iter().filter_map(|(change, make)| {
         let misfit = tries.of(&make)?;
-        tries.candidate(&misfit, Rank::Change, Cause::Case(change), make)
+        tries.candidate(&misfit, Rank::Change, change, make)
     });
     tried.collect()
 }
@@ -85,11 +85,8 @@ fn mass_centres(case: &Case) -> Vec<(Change, Make)> {
                 continue;
             }
             seen.push(at);
-            let make: Make = Box::new(move |case| {
-                let mut parts = case.clone().into_parts();
-                changed(&mut parts, |links, _| links[index].mass_centre = at)?;
-                Case::new(parts).ok()
-            });
+            let make: Make =
+                Box::new(move |case| remade(case, |parts| changed(parts, |links, _| links[index].mass_centre = at)));
             found.push((Change { part: Part::MassCentre(link.name.clone()), how }, make));
         }
     }
@@ -149,7 +146,6 @@ fn without_inertia_forces(case: &Case, of: &[usize]) -> Option<Case> {
 
 /// The case without some links' masses and moments of inertia.
 fn without_masses(case: &Case, of: &[usize]) -> Option<Case> {
-    let mut parts = case.clone().into_parts();
-    changed(&mut parts, |links, _| of.iter().for_each(|&link| (links[link].mass, links[link].inertia) = (0.0, 0.0)))?;
-    Case::new(parts).ok()
+    let gone = |links: &mut [Link]| of.iter().for_each(|&link| (links[link].mass, links[link].inertia) = (0.0, 0.0));
+    remade(case, |parts| changed(parts, |links, _| gone(links)))
 }

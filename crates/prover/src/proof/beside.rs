@@ -5,7 +5,6 @@ use super::each_side::{EachSide, Reference};
 use super::entrants::TRUE_SIDES;
 use super::known::Known;
 use super::observe::{Watch, observe};
-use super::sensitivity;
 use crate::compare::{Check, Verdict, difference, overall, scales};
 use linkage::case::Case;
 use linkage::error::{Error, Result};
@@ -90,7 +89,7 @@ pub fn sides(case: &Case, truth: Option<&Trajectory>) -> Result<Sides> {
     let beside = EachSide::of(|side| {
         trajectory(side).map_or((TRUE_SIDES[reference].tight, own), |own| (TRUE_SIDES[side].tight, own))
     });
-    let mut known = Known::beside(case, reference, beside, &sensitivity::of(case, solver, own)?)?;
+    let mut known = Known::beside(case, reference, solver, beside)?;
     let judged = |known: &Known| {
         EachSide::tried(|side| match (trajectory(side), truth.or_else(|| trajectory(side.other()))) {
             (Some(own), Some(against)) => deviations(against, own, known),

@@ -1,6 +1,5 @@
 //! Checks besides the comparison of the two sides: closure, side against side, powers.
 
-use super::built::built;
 use super::each_side::{EachSide, Reference};
 use super::known::{Known, of_condition};
 use super::observe::Observed;
@@ -178,7 +177,7 @@ fn closure(problem: Problem, engine: &dyn Engine, runs: &Runs) -> Check {
 fn power_balance(problem: Problem, engine: &dyn Engine, runs: &Runs) -> Check {
     let kind = Channel::named("drive.torque_N_m").expect("the table has the moment").kind;
     // Where no moment is more than rounding, the mechanism could have one all the same.
-    let scale = built(problem.case).unless(runs.single().moment, Unit::NewtonMetre);
+    let scale = problem.built().unless(runs.single().moment, Unit::NewtonMetre);
     let gaps = |run: &Observed| run.moment_gap().collect::<Vec<f64>>();
     let by_differences = engine.settings().route == Route::Differences;
     Vanishing {

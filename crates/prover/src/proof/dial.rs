@@ -1,6 +1,6 @@
 //! One factor on every bound, to see how close a proof is to its bounds.
 
-use super::{OwnForces, Proof, parties};
+use super::{EngineProof, Proof, parties};
 use crate::compare::{Check, Verdict, overall};
 use crate::numbers::error;
 
@@ -11,25 +11,7 @@ impl Proof {
     /// Residuals stay as they are. Inconclusive verdicts stay too: their bounds decide nothing, with any factor.
     #[must_use]
     pub fn with_bounds_scaled(mut self, dial: f64) -> Self {
-        for engine in &mut self.engines {
-            for channel in &mut engine.channels {
-                judge(&mut channel.verdict, channel.residual.max, &mut channel.bound, dial);
-            }
-            engine.checks.iter_mut().for_each(|check| scale(check, dial));
-            if let Some(own) = &mut engine.own_forces {
-                for channel in &mut own.channels {
-                    judge(&mut channel.verdict, channel.residual.max, &mut channel.bound, dial);
-                }
-                if own.failure.is_none() {
-                    own.verdict = overall(own.channels.iter().map(|channel| &channel.verdict));
-                }
-            }
-            let channels = engine.channels.iter().map(|channel| &channel.verdict);
-            let channels = channels.chain(engine.own_forces.iter().filter_map(OwnForces::adds));
-            if engine.failure.is_none() {
-                engine.verdict = overall(channels.chain(engine.checks.iter().map(|check| &check.verdict)));
-            }
-        }
+        self.engines.iter_mut().for_each(|engine| scale_engine(engine, dial));
         self.checks.iter_mut().for_each(|check| scale(check, dial));
         if self.engines.len() > 1 {
             self.disputes = parties::disputes(self.reference, &self.reference_trajectory, &self.engines);
@@ -40,6 +22,19 @@ impl Proof {
         self.diagnosis = self.diagnosis.filter(|_| dial == 1.0);
         self.diagnosis_is_cut &= dial == 1.0;
         self
+    }
+}
+
+fn scale_engine(engine: &mut EngineProof, dial: f64) {
+    for channel in &mut engine.channels {
+        judge(&mut channel.verdict, channel.residual.max, &mut channel.bound, dial);
+    }
+    engine.checks.iter_mut().for_each(|check| scale(check, dial));
+    engine.own_forces.iter_mut().for_each(|own| scale_engine(own, dial));
+    if engine.failure.is_none() {
+        let channels = engine.channels.iter().map(|channel| &channel.verdict);
+        let all = channels.chain(engine.added()).chain(engine.checks.iter().map(|check| &check.verdict));
+        engine.verdict = overall(all);
     }
 }
 

@@ -30,16 +30,17 @@ const STANDSTILL: f64 = 1e-9;
 /// Number of instants that may be left out whatever the step: the two ends of a motion.
 const ENDS: usize = 2;
 
-/// The doubtful instants of an engine's runs.
-pub(super) struct Doubt {
-    /// Whether rates are doubtful, by row of the grid.
-    rates: Vec<bool>,
-    /// Whether accelerations are.
-    accelerations: Vec<bool>,
-    /// Whether forces are.
-    forces: Vec<bool>,
-    /// Whether a finer step would help, by row.
-    by_step: Vec<bool>,
+/// What is doubtful in an engine's runs, by row of the grid.
+pub(super) struct Doubt(Vec<Doubtful>);
+
+/// What is doubtful at an instant.
+#[derive(Clone, Copy, Default)]
+struct Doubtful {
+    rates: bool,
+    accelerations: bool,
+    forces: bool,
+    /// Whether a finer step would help.
+    by_step: bool,
 }
 
 impl Doubt {
@@ -49,29 +50,19 @@ impl Doubt {
         let Settings { resolution, route, extrapolated, .. } = settings;
         let times = &case.grid.times;
         let reach = STEPS * 2.0 * resolution;
-        let mut doubt = Doubt {
-            rates: vec![false; times.len()],
-            accelerations: vec![false; times.len()],
-            forces: vec![false; times.len()],
-            by_step: vec![false; times.len()],
-        };
-        for (row, &t) in times.iter().enumerate() {
+        let mut all = vec![Doubtful::default(); times.len()];
+        for (row, (&t, own)) in times.iter().zip(&mut all).enumerate() {
             let (turns, is_singular) = (drive_turns(case, t, reach), singular.get(row) == Some(&true));
             if turns || is_singular {
-                for list in [&mut doubt.rates, &mut doubt.accelerations, &mut doubt.forces] {
-                    list[row] = true;
-                }
                 // In the very instant no step helps.
-                doubt.by_step[row] = turns && !drive_turns(case, t, 0.0);
+                let by_step = turns && !drive_turns(case, t, 0.0);
+                *own = Doubtful { rates: true, accelerations: true, forces: true, by_step };
             }
             let against = |run: &Senses| {
-                let jumping =
-                    senses.of(row).iter().zip(run.of(row)).zip(senses.jumps(row)).filter(|(_, jumps)| **jumps);
-                jumping.into_iter().any(|((a, b), _)| against(*a, *b))
+                let mut all = senses.of(row).iter().zip(run.of(row)).zip(senses.jumps(row));
+                all.any(|((a, b), jumps)| *jumps && against(*a, *b))
             };
-            if runs.resolutions.iter().any(|run| against(&run.senses)) {
-                doubt.forces[row] = true;
-            }
+            own.forces |= runs.resolutions.iter().any(|run| against(&run.senses));
         }
         let own = route != Route::Differences;
         let jumps = match (case.is_free(), own && extrapolated > 0) {
@@ -81,30 +72,30 @@ impl Doubt {
         };
         if let Some(reach) = jumps {
             for t in reversals(times, senses) {
-                for (row, _) in times.iter().enumerate().filter(|(_, own)| (*own - t).abs() <= reach) {
-                    (doubt.forces[row], doubt.by_step[row]) = (true, true);
-                    doubt.accelerations[row] |= case.is_free();
+                for (_, own) in times.iter().zip(&mut all).filter(|(own, _)| (*own - t).abs() <= reach) {
+                    (own.forces, own.by_step) = (true, true);
+                    own.accelerations |= case.is_free();
                 }
             }
         }
-        doubt
+        Doubt(all)
     }
 
     /// Whether a channel of a stage is judged, by row.
     pub(super) fn keeps(&self, stage: Stage) -> Vec<bool> {
-        let out = match stage {
-            Stage::Positions => return vec![true; self.rates.len()],
-            Stage::Velocities => &self.rates,
-            Stage::Accelerations => &self.accelerations,
-            Stage::Reactions | Stage::BalancingMoment => &self.forces,
+        let is_out = |own: &Doubtful| match stage {
+            Stage::Positions => false,
+            Stage::Velocities => own.rates,
+            Stage::Accelerations => own.accelerations,
+            Stage::Reactions | Stage::BalancingMoment => own.forces,
         };
-        out.iter().map(|out| !out).collect()
+        self.0.iter().map(|own| !is_out(own)).collect()
     }
 
     /// Share of instants that are left out and would not be with a finer step.
     pub(super) fn too_coarse(&self) -> f64 {
-        let out = self.by_step.iter().filter(|&&out| out).count().saturating_sub(ENDS);
-        out as f64 / self.by_step.len().max(1) as f64
+        let out = self.0.iter().filter(|own| own.by_step).count().saturating_sub(ENDS);
+        out as f64 / self.0.len().max(1) as f64
     }
 }
 

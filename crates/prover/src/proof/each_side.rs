@@ -77,7 +77,7 @@ impl<T> EachSide<T> {
     }
 
     /// Every side and what it has.
-    pub(crate) fn iter(&self) -> impl Iterator<Item = (Reference, &T)> {
+    pub fn iter(&self) -> impl Iterator<Item = (Reference, &T)> {
         Reference::ALL.into_iter().zip(&self.0)
     }
 
@@ -87,7 +87,8 @@ impl<T> EachSide<T> {
     }
 
     /// What side 1 and side 2 have.
-    pub(crate) fn pair(&self) -> [&T; 2] {
+    #[must_use]
+    pub fn pair(&self) -> [&T; 2] {
         self.0.each_ref()
     }
 

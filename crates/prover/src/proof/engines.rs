@@ -1,67 +1,25 @@
 //! One engine against the reference: at the settings asked for, or at those that it finds.
 
-use std::fmt::Write;
 use std::sync::Arc;
 
-use super::judge::{ChannelProof, EngineInfo, Judge, Judged, describe};
+use super::engine_proof::EngineProof;
+use super::judge::{Judge, Judged, describe};
 use super::known::Known;
 use super::ledger::Ledger;
 use super::observe::{Observed, Stopped, Watch};
 use super::options::Chosen;
-use super::order;
-use super::own_forces::{ForceFault, OwnForces};
 use super::problem::Problem;
 use super::runs::{Bank, FEWER, other_sweeps, rungs};
-use super::settle::{BUDGET, End, FIRST, Search, Settling, too_much};
-use crate::compare::{Check, Verdict, difference, overall};
+use super::settle::{BUDGET, End, FIRST, Settling, too_much};
+use super::{order, own_forces};
+use crate::compare::{Verdict, difference, overall};
 use crate::engines::coarse_step;
 use crate::numbers::error;
 use linkage::case::Case;
 use linkage::engine::{Engine, Settings};
-use linkage::error::{Advice, Error, ErrorKind, Result};
+use linkage::error::{Advice, ErrorKind, Result};
 use linkage::math::KeepNan;
-use linkage::trajectory::Trajectory;
 use scenario::EngineSettings;
-
-/// One engine's part of a proof.
-#[derive(Clone, Debug)]
-pub struct EngineProof {
-    /// The engine.
-    pub info: EngineInfo,
-    /// How its settings were found; `None` if all were given, or if the engine failed.
-    pub search: Option<Search>,
-    /// Channels, in the order of columns; none if the engine failed.
-    pub channels: Vec<ChannelProof>,
-    /// Checks on the engine alone.
-    pub checks: Vec<Check>,
-    /// Forces as the engine itself exerts them, where the others follow from its motion.
-    pub own_forces: Option<OwnForces>,
-    /// Verdict on channels, checks and own forces together.
-    pub verdict: Verdict,
-    /// Its trajectory: all instants, or those before it failed.
-    pub trajectory: Option<Trajectory>,
-    /// Engine minus reference; `None` if the engine failed.
-    pub errors: Option<Trajectory>,
-    /// Whether all channels are judged at an instant, by row of the grid; empty if the engine failed.
-    pub kept: Vec<bool>,
-    /// Why there is no comparison.
-    pub failure: Option<Error>,
-}
-
-impl EngineProof {
-    /// Which of the two judgements of the forces disagrees; `None` if neither does, or if there is only one, or if the
-    /// other one is open or the motion itself disagrees, so that nothing follows.
-    #[must_use]
-    pub fn force_fault(&self) -> Option<ForceFault> {
-        self.own_forces.as_ref()?.fault(&self.channels)
-    }
-
-    /// The verdicts on channels and checks, and that on all of them.
-    fn verdicts_mut(&mut self) -> impl Iterator<Item = &mut Verdict> {
-        let channels = self.channels.iter_mut().map(|channel| &mut channel.verdict);
-        channels.chain(self.checks.iter_mut().map(|check| &mut check.verdict)).chain([&mut self.verdict])
-    }
-}
 
 /// Runs an engine on `case`, at the settings asked for or at those that it finds, and compares it with `reference`.
 pub(super) fn prove(
@@ -107,33 +65,12 @@ pub(super) fn prove(
                     (Verdict::Inconclusive { reason, advice }, None)
                 }
             };
-            return Ok(EngineProof {
-                info: describe(engine),
-                search: None,
-                channels: Vec::new(),
-                checks: Vec::new(),
-                own_forces: None,
-                verdict,
-                trajectory: kept.map(|kept| *kept),
-                errors: None,
-                kept: Vec::new(),
-                failure,
-            });
+            let bare = EngineProof::bare(describe(engine), verdict);
+            return Ok(EngineProof { trajectory: kept.map(|kept| *kept), failure, ..bare });
         }
     };
     let Judged { info, channels, checks, verdict, run, too_coarse: _, kept } = judged;
-    let mut proof = EngineProof {
-        info,
-        search,
-        channels,
-        checks,
-        own_forces: None,
-        verdict,
-        trajectory: None,
-        errors: None,
-        kept,
-        failure: None,
-    };
+    let mut proof = EngineProof { search, channels, checks, kept, ..EngineProof::bare(info, verdict) };
     let is_open = matches!(proof.verdict, Verdict::Inconclusive { .. });
     if is_open && !given.step.is_free() && !engine.controls_error() {
         let why = "the given step proves nothing: what a free one would";
@@ -152,16 +89,16 @@ pub(super) fn prove(
     // Its runs are dropped before others are made.
     drop(bank);
     let trajectory = Arc::unwrap_or_clone(run).trajectory;
-    let motion = (proof.info.settings.sweeps, proof.search.as_ref().map_or(0.0, |search| search.effort));
     let part = format!("{}, own forces", engine.name());
-    match OwnForces::are_asked(&judge, chosen) {
+    match own_forces::are_asked(&judge, chosen) {
         true => {
-            let own = || OwnForces::judged(&judge, case, chosen, motion, &mut |part| progress(0.7 + 0.3 * part));
-            proof.own_forces = ledger.done(part, "what it exerts itself, beside what follows from its motion", own);
+            let own = || own_forces::judged(&judge, case, chosen, &proof, &mut |part| progress(0.7 + 0.3 * part));
+            let why = "what it exerts itself, beside what follows from its motion";
+            proof.own_forces = ledger.done(part, why, own).map(Box::new);
         }
         false => ledger.skipped(part, "no force is wanted, or its forces are read by its own route"),
     }
-    if let Some(verdict) = proof.own_forces.as_ref().and_then(OwnForces::adds) {
+    if let Some(verdict) = proof.added() {
         proof.verdict = overall([&proof.verdict, verdict]);
     }
     proof.errors = Some(difference(&reference.trajectory, &trajectory)?);
@@ -232,24 +169,4 @@ fn tried(judge: &Judge, bank: &mut Bank, chosen: &Chosen) -> Advice {
         "leave the step to the proof: it takes {} s and {sweeps} sweeps, {combined}, and {outcome}",
         error(resolution)
     ))
-}
-
-/// Adds to an inconclusive verdict how strongly the motion depends on the forces that cause it: `sensitivity`, channel
-/// by channel of the reference.
-pub(super) fn tell_sensitivity(proof: &mut EngineProof, reference: &Trajectory, sensitivity: &[f64]) {
-    for (channel, &change) in reference.channels().iter().zip(sensitivity) {
-        let own = proof.channels.iter_mut().find(|own| own.residual.channel == *channel);
-        if let Some(own) = own
-            && own.residual.scale > 0.0
-        {
-            let share = change / own.residual.scale;
-            own.sensitivity = Some(share);
-            if let Verdict::Inconclusive { reason, .. } = &mut own.verdict {
-                let _ = write!(
-                    reason,
-                    "; a millionth more of gravity and motor torque changes the channel by {share:.2} millionths of its scale"
-                );
-            }
-        }
-    }
 }

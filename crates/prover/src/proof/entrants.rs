@@ -4,14 +4,14 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::checks::{self, Beyond};
 use super::each_side::{EachSide, Reference};
-use super::engines::{self, EngineProof};
+use super::engine_proof::EngineProof;
 use super::formulas::Judgement;
 use super::known::Known;
 use super::ledger::Ledger;
 use super::observe::{Observed, Watch, observe};
 use super::options::Chosen;
 use super::problem::Problem;
-use super::{figures, formulas, methods, oracle, sensitivity};
+use super::{engines, figures, formulas, methods, oracle};
 use crate::claims::{self, Course, Judged, Outcome};
 use crate::compare::{Check, Verdict, overall};
 use analytic::{AssurSolver, NewtonSolver, TIGHT_ASSUR, TIGHT_NEWTON};
@@ -22,9 +22,6 @@ use linkage::error::Result;
 use linkage::solver::Solver;
 use linkage::trajectory::{Channel, Trajectory};
 use scenario::{Figure, Formulas};
-
-/// What a side, by its name, says of the claims of every formula.
-pub type SideClaims = (&'static str, Vec<Vec<Judged>>);
 
 /// Share of the progress that the analytic sides are given.
 const SIDES: f64 = 0.1;
@@ -69,8 +66,6 @@ pub struct Sides {
     reference: Reference,
     pub(super) observed: EachSide<Observed>,
     pub(super) known: Known,
-    /// How strongly a motion under forces depends on them, by channel of the reference.
-    pub(super) sensitivity: Vec<f64>,
     /// Checks on both, published numbers among them.
     pub checks: Vec<Check>,
     /// Figures that formulas claim.
@@ -97,13 +92,9 @@ impl Sides {
             ledger.done(side.name(), why, || observe(case, entrants[side].solver, Watch::Side, &mut |_| {}))
         })?;
         let main = entrants[reference].solver;
-        let tighter = || -> Result<_> {
-            let sensitivity = sensitivity::of(case, main, &sides[reference].trajectory)?;
-            let beside = EachSide::of(|side| (entrants[side].tight, &sides[side].trajectory));
-            let known = Known::beside(case, reference, beside, &sensitivity)?;
-            Ok((sensitivity, known))
-        };
-        let (sensitivity, mut known) = match case.is_free() {
+        let beside = EachSide::of(|side| (entrants[side].tight, &sides[side].trajectory));
+        let tighter = || Known::beside(case, reference, main, beside);
+        let mut known = match case.is_free() {
             true => ledger.done("tighter integration", "shows the error that both sides share", tighter)?,
             false => {
                 ledger.skipped("integration", "the motion is prescribed");
@@ -137,7 +128,7 @@ impl Sides {
             }
         }
         let figures = EachSide::default();
-        let mut own = Sides { reference, observed: sides, known, sensitivity, checks, figures, judgement: None };
+        let mut own = Sides { reference, observed: sides, known, checks, figures, judgement: None };
         match own_formulas.claims().next() {
             None => ledger.skipped("formulas", "none claims a wanted channel"),
             Some(_) => {
@@ -163,9 +154,9 @@ impl Sides {
         let (mut causes, mut undefined) = (Vec::new(), BTreeMap::new());
         let (mut unsought, mut work) = (BTreeSet::new(), 0);
         let is_wrong = |all: &&Vec<Judged>| all.iter().any(|judged| judged.outcome() == Outcome::Wrong);
-        for (own, other) in sides[0].1.iter().zip(&sides[1].1) {
+        for index in 0..sides[Reference::Assur].len() {
             // The side that it contradicts, or both: the first of them.
-            let all = EachSide::new(own, other);
+            let all = EachSide::of(|side| &sides[side][index]);
             let Some((side, wrong)) = all.iter().find(|(_, own)| is_wrong(own)) else { continue };
             let name = &wrong[0].name;
             let limit = claims::MOST_WORK.min(MOST_WORK.saturating_sub(work));
@@ -193,11 +184,8 @@ impl Sides {
     ///
     /// # Errors
     /// Those of [`claims::judge`].
-    pub fn claimed(&self, case: &Case, formulas: &Formulas) -> Result<[SideClaims; 2]> {
-        let of = |side: Reference| -> Result<_> {
-            Ok((side.name(), self.on_course(case, side, |course| claims::judge(formulas, course))?))
-        };
-        Ok(EachSide::tried(of)?.into_pair())
+    pub fn claimed(&self, case: &Case, formulas: &Formulas) -> Result<EachSide<Vec<Vec<Judged>>>> {
+        EachSide::tried(|side| self.on_course(case, side, |course| claims::judge(formulas, course)))
     }
 
     /// What one side found on a case, with how well it knows it.
@@ -266,7 +254,7 @@ impl Sides {
             let mut part = |part: f64| progress(SIDES + (1.0 - SIDES) * (index as f64 + part) / count);
             let told = (&mut *ledger, &mut part as &mut dyn FnMut(f64));
             let mut proof = engines::prove(problem, &case, &chosen, self.own(), &self.known, told)?;
-            engines::tell_sensitivity(&mut proof, self.trajectory(), &self.sensitivity);
+            proof.tell_sensitivity(self.trajectory(), &self.known.sensitivity);
             proofs.push(proof);
         }
         if let [EngineProof { failure: Some(error), trajectory: None, .. }] = proofs.as_slice() {

@@ -1,7 +1,7 @@
 //! The diagnosis of a proof that disagrees: its parties, and which of them is examined.
 
 use super::each_side::{EachSide, Reference};
-use super::engines::EngineProof;
+use super::engine_proof::EngineProof;
 use super::known::Known;
 use super::observe::Observed;
 use crate::compare::{Verdict, largest_difference};
@@ -131,7 +131,7 @@ mod tests {
                 true => spoiled(seen(side.solver())),
                 false => seen(side.solver()),
             });
-            let known = Known::of(case, sides.pair().map(|side| &side.trajectory), &[]).unwrap();
+            let known = Known::of(case, sides.pair().map(|side| &side.trajectory)).unwrap();
             let found = of(case, Reference::Assur, &sides, &known, &right.engines).expect("the sides disagree");
             let wrong = wrong.name();
             assert_eq!((found.suspect.as_str(), &found.alone), (wrong, &Standing::Alone(wrong.into())));

@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::each_side::{EachSide, Reference};
 use crate::claims::{At, CUT, Cause, Judged, Outcome, Undefined, WORDS};
 use crate::compare::{Check, Verdict};
 use crate::numbers::{fixed, significant};
@@ -10,8 +11,8 @@ use crate::tolerance::{Basis, Tolerance};
 /// What formulas come to.
 #[derive(Clone, Debug)]
 pub struct Judgement {
-    /// The sides' names, and what they say of every claim: by value, then by derivative.
-    pub sides: [(&'static str, Vec<Vec<Judged>>); 2],
+    /// What the sides say of every claim: by value, then by derivative.
+    pub sides: EachSide<Vec<Vec<Judged>>>,
     /// The formulas that are wrong by name, each with the cause if it is a simple one.
     pub causes: Vec<(String, Option<Cause>)>,
     /// Those of them that somewhere have no value by name, each with the operation that has none.
@@ -24,7 +25,7 @@ pub struct Judgement {
 
 impl Judgement {
     /// What both sides say; why a formula is wrong is not sought.
-    pub fn of(sides: [(&'static str, Vec<Vec<Judged>>); 2]) -> Self {
+    pub fn of(sides: EachSide<Vec<Vec<Judged>>>) -> Self {
         Judgement { sides, causes: Vec::new(), undefined: BTreeMap::new(), unsought: BTreeSet::new(), work: 0 }
     }
 
@@ -52,7 +53,7 @@ pub fn checks(judgement: &Judgement) -> Vec<Check> {
             Some((name.as_str(), words))
         })
         .collect();
-    let of_side = |(side, all): &(&'static str, Vec<Vec<Judged>>)| -> Vec<Check> {
+    let of_side = |(side, all): (Reference, &Vec<Vec<Judged>>)| -> Vec<Check> {
         let words = |judged: &Judged| {
             let undefined = judgement.undefined(&judged.name).filter(|_| judged.order == 0).map(ToString::to_string);
             let all: Vec<String> = undefined.into_iter().chain(causes.get(judged.name.as_str()).cloned()).collect();
@@ -64,7 +65,7 @@ pub fn checks(judgement: &Judgement) -> Vec<Check> {
 }
 
 /// The check of a judged formula; `why` says why it is wrong, where that is known.
-fn check(side: &str, judged: &Judged, why: &str) -> Check {
+fn check(side: Reference, judged: &Judged, why: &str) -> Check {
     let (value, bound) = judged.worst.map_or((0.0, 0.0), |worst| (worst.difference.abs(), worst.bound));
     let tolerance = Tolerance { bound, basis: Basis::Formula { claimed: judged.claimed } };
     let mut check = Check::new(format!("formulas ({side})"), value, tolerance, judged.unit).of(name(judged));
@@ -102,7 +103,7 @@ fn place(since: &At) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::proof::claimed::judge;
+    use crate::proof::solved::judge;
     use scenario::{Claim, of_repository};
 
     /// Below 0.5 rad the formula has no value, but its rates have one, and are wrong by something else.

@@ -4,7 +4,6 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use super::built::built;
 use super::checks;
 use super::doubt::Doubt;
 use super::known::Known;
@@ -190,7 +189,7 @@ impl<'a> Judge<'a> {
     pub(super) fn new(problem: Problem<'a>, reference: &'a Observed, known: &'a Known, asked: Settings) -> Self {
         let channels = reference.trajectory.channels().iter().enumerate();
         let errors: Vec<f64> = channels.map(|(index, channel)| known.error(channel.kind.stage, index)).collect();
-        let scales = scales_beyond(&errors, &reference.trajectory, &built(problem.case));
+        let scales = scales_beyond(&errors, &reference.trajectory, &problem.built());
         let Observed { trajectory: reference, senses, singular, .. } = reference;
         Judge { problem, reference, scales, senses, singular, known, asked, asks: Asks::All }
     }

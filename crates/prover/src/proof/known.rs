@@ -9,6 +9,7 @@
 use super::dependence::Dependence;
 use super::each_side::{EachSide, Reference};
 use super::observe::pose_of;
+use super::sensitivity;
 use crate::compare::{largest_difference, magnitudes_by};
 use analytic::range::conditions;
 use linkage::case::Case;
@@ -95,6 +96,9 @@ pub(super) struct Known {
     magnitudes: Vec<f64>,
     /// The side whose channels these are.
     reference: Reference,
+    /// How strongly a motion under forces depends on them, channel by channel: the rounding of the forces is felt by as
+    /// much. Empty for a prescribed motion.
+    pub(super) sensitivity: Vec<f64>,
     /// Error of each side's integration in every channel, in its unit; zeros for a prescribed motion.
     integration: EachSide<Vec<f64>>,
     /// The groups that channels depend on.
@@ -111,29 +115,29 @@ pub(super) struct Known {
 }
 
 impl Known {
-    /// What both sides' trajectories are known to, side 1 being the reference. `sensitivity` is how strongly a motion under
-    /// forces depends on them, channel by channel: the rounding of the forces is felt by as much. Empty for a
-    /// prescribed motion.
+    /// What both sides' trajectories are known to, side 1 being the reference.
     ///
     /// # Errors
     /// Those of the tighter runs.
     #[cfg(test)]
-    pub(super) fn of(case: &Case, [first, second]: [&Trajectory; 2], sensitivity: &[f64]) -> Result<Self> {
+    pub(super) fn of(case: &Case, [first, second]: [&Trajectory; 2]) -> Result<Self> {
         let sides: EachSide<(&dyn Solver, &Trajectory)> =
             EachSide::new((&analytic::TIGHT_ASSUR, first), (&analytic::TIGHT_NEWTON, second));
-        Known::beside(case, Reference::Assur, sides, sensitivity)
+        Known::beside(case, Reference::Assur, &analytic::AssurSolver, sides)
     }
 
-    /// The same, each trajectory with the side that makes the tighter run beside it.
+    /// The same, each trajectory with the side that makes the tighter run beside it. `solver` is the reference itself.
     ///
     /// # Errors
     /// Those of the tighter runs.
     pub(super) fn beside(
         case: &Case,
         reference: Reference,
+        solver: &dyn Solver,
         sides: EachSide<(&dyn Solver, &Trajectory)>,
-        sensitivity: &[f64],
     ) -> Result<Self> {
+        let own = sides[reference].1;
+        let sensitivity = sensitivity::of(case, solver, own)?;
         let integration = |(tight, trajectory): (&dyn Solver, &Trajectory)| -> Result<Vec<f64>> {
             if !case.is_free() {
                 return Ok(vec![0.0; trajectory.channels().len()]);
@@ -145,7 +149,6 @@ impl Known {
             let rounding = sensitivity.iter().map(|change| ULPS * f64::EPSILON * change);
             Ok(trajectory.iter().zip(tight.iter()).map(of).zip(rounding).map(|(error, more)| error + more).collect())
         };
-        let own = sides[reference].1;
         let integration = EachSide::tried(|side| integration(sides[side]))?;
         let dependence = Dependence::of(case, own.channels());
         let magnitudes = magnitudes_by(own, &dependence.of, &|from, to| dependence.feeds(from, to));
@@ -163,7 +166,8 @@ impl Known {
             lever.larger(places / over)
         };
         let levers = all.map(lever_of).collect();
-        Ok(Known { reference, magnitudes, integration, dependence, conditions: Vec::new(), levers, turned, is_angle })
+        let conditions = Vec::new();
+        Ok(Known { reference, sensitivity, magnitudes, integration, dependence, conditions, levers, turned, is_angle })
     }
 
     /// Measures the condition of every pose, for a trajectory whose errors exceed those of well conditioned poses.
@@ -253,8 +257,7 @@ mod tests {
             let case = of_repository(&format!("scenarios/{name}")).case;
             let sides: [&dyn Solver; 2] = [&AssurSolver, &NewtonSolver];
             let [own, other] = sides.map(|side| side.solve(&case).unwrap());
-            let sensitivity = vec![0.0; own.channels().len()];
-            let mut known = Known::of(&case, [&own, &other], &sensitivity).unwrap();
+            let mut known = Known::of(&case, [&own, &other]).unwrap();
             known.measure(&case, &AssurSolver).unwrap();
             let worst = |row: &Vec<f64>| row.iter().copied().fold(1.0, f64::larger);
             let all: Vec<f64> = known.conditions.iter().map(worst).collect();
@@ -271,8 +274,7 @@ mod tests {
         let case = of_repository("scenarios/crank_rocker_runup.toml").case;
         let sides: [&dyn Solver; 2] = [&AssurSolver, &NewtonSolver];
         let [own, other] = sides.map(|side| side.solve(&case).unwrap());
-        let sensitivity = vec![0.0; own.channels().len()];
-        let known = Known::of(&case, [&own, &other], &sensitivity).unwrap();
+        let known = Known::of(&case, [&own, &other]).unwrap();
         let mut seen = 0;
         for (channel, kind) in own.channels().iter().map(|channel| channel.kind).enumerate() {
             let [first, second] = Reference::ALL.map(|side| known.integration(side, channel));
@@ -314,7 +316,7 @@ mod tests {
         let case = case.on(Grid::of_inputs(case.crank(), cranks)).unwrap().wanting(motion);
         let sides: [&dyn Solver; 2] = [&AssurSolver, &NewtonSolver];
         let [own, other] = sides.map(|side| side.solve(&case).unwrap());
-        let mut known = Known::of(&case, [&own, &other], &[]).unwrap();
+        let mut known = Known::of(&case, [&own, &other]).unwrap();
         known.measure(&case, &AssurSolver).unwrap();
         for (index, channel) in own.channels().iter().enumerate() {
             let apart = known.apart(channel.kind.stage, index, 2);
@@ -369,7 +371,7 @@ mod tests {
             let case = row(count, from, &[85.0, 90.0, 95.0].map(f64::to_radians)).wanting(motion);
             let sides: [&dyn Solver; 2] = [&AssurSolver, &NewtonSolver];
             let [own, other] = sides.map(|side| side.solve(&case).unwrap());
-            let mut known = Known::of(&case, [&own, &other], &[]).unwrap();
+            let mut known = Known::of(&case, [&own, &other]).unwrap();
             known.measure(&case, &AssurSolver).unwrap();
             for (index, channel) in own.channels().iter().enumerate() {
                 let (stage, values) = (channel.kind.stage, [&own, &other].map(|of| of.column(channel).unwrap()[1]));

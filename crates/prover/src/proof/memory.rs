@@ -58,12 +58,17 @@ pub fn of_oracles(oracles: &[Oracle]) -> f64 {
 /// # Errors
 /// [`ErrorKind::Unsupported`] with the ways out.
 pub fn check_input(what: &str, needed: f64, most: Option<f64>) -> Result<()> {
+    let fewer = Advice::Text("give fewer rows, or fewer columns".into());
+    allowed(needed, most, || format!("{what} needs about {} of memory", gigabytes(needed)), fewer)
+}
+
+/// Checks that `needed` (bytes) is allowed, with what an error begins with and a way to need less.
+fn allowed(needed: f64, most: Option<f64>, what: impl FnOnce() -> String, fewer: Advice) -> Result<()> {
     let most = most.unwrap_or(MOST);
     if needed <= most {
         return Ok(());
     }
-    let message = format!("{what} needs about {} of memory; {} are allowed", gigabytes(needed), gigabytes(most));
-    let fewer = Advice::Text("give fewer rows, or fewer columns".into());
+    let message = format!("{}; {} are allowed", what(), gigabytes(most));
     Err(Error::new(ErrorKind::Unsupported, message).help(fewer).or_help(Advice::MoreMemory { to: needed }))
 }
 
@@ -84,15 +89,7 @@ fn trajectory(case: &Case) -> f64 {
 /// # Errors
 /// [`ErrorKind::Unsupported`] with the size of the run and the ways out.
 pub fn check(case: &Case, needed: f64, most: Option<f64>) -> Result<()> {
-    let most = most.unwrap_or(MOST);
-    if needed <= most {
-        return Ok(());
-    }
-    let message = format!("{}; {} are allowed", told(case, needed), gigabytes(most));
-    Err(Error::new(ErrorKind::Unsupported, message)
-        .key("grid")
-        .help(Advice::FewerInstants)
-        .or_help(Advice::MoreMemory { to: needed }))
+    allowed(needed, most, || told(case, needed), Advice::FewerInstants).map_err(|error| error.key("grid"))
 }
 
 /// What a run needs, in words.

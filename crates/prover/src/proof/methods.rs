@@ -3,13 +3,13 @@
 use super::checks::rounding;
 use crate::compare::{Check, Verdict};
 use analytic::witness::triad::class_change::ClassChange;
-use analytic::witness::triad::{Reactions, Triad, assur_point, cramer, linear_system};
+use analytic::witness::triad::{Triad, assur_point, cramer, linear_system};
 use linkage::case::Case;
 use linkage::drive::InputState;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::input::Input;
 use linkage::math::statistics::share;
-use linkage::math::{KeepNan, Vec2, cross};
+use linkage::math::{KeepNan, cross};
 use linkage::solver::{Solver, State};
 use linkage::trajectory::Stage;
 
@@ -89,21 +89,20 @@ impl Watch {
         Ok(Watch { triad, scales: [1.0, 0.0, 0.0, 0.0], cramer, change, assur_point, linear })
     }
 
-    fn grow(&mut self, quantity: Quantity, value: f64) {
-        let scale = &mut self.scales[quantity as usize];
-        *scale = scale.larger(value.abs());
-    }
-
     fn see(&mut self, case: &Case, row: usize, state: &State) {
         let deepest = case.wanted.deepest();
         let drive = crank_of(case, row, state);
         let crank = drive.value;
         let links = self.triad.links();
-        self.grow(Quantity::Omega, drive.rate);
-        self.grow(Quantity::Alpha, drive.rate * drive.rate);
+        let mut grow = |quantity: Quantity, value: f64| {
+            let scale = &mut self.scales[quantity as usize];
+            *scale = scale.larger(value.abs());
+        };
+        grow(Quantity::Omega, drive.rate);
+        grow(Quantity::Alpha, drive.rate * drive.rate);
         for link in links {
-            self.grow(Quantity::Omega, state.motions[link].omega);
-            self.grow(Quantity::Alpha, state.motions[link].alpha);
+            grow(Quantity::Omega, state.motions[link].omega);
+            grow(Quantity::Alpha, state.motions[link].alpha);
         }
         let rates = |worst: &mut Worst, [first, second]: [[f64; 4]; 2]| {
             for (k, link) in links.into_iter().enumerate() {
@@ -135,25 +134,16 @@ impl Watch {
         if deepest >= Stage::Reactions && !setting_off {
             let known = self.triad.known(case, state);
             let places = self.triad.places(&state.motions);
-            self.forces(case, crank, assur_point::reactions(&places, &known), &state.forces, |own| {
-                &mut own.assur_point
-            });
-            self.forces(case, crank, linear_system::reactions(&places, &known), &state.forces, |own| &mut own.linear);
-        }
-    }
-
-    fn forces(
-        &mut self,
-        case: &Case,
-        crank: f64,
-        found: Result<Reactions>,
-        forces: &[Vec2],
-        worst: impl Fn(&mut Self) -> &mut Worst,
-    ) {
-        let Some(found) = worst(self).answer(found) else { return };
-        for (joint, force) in self.triad.joint_forces(&case.mechanism, &found) {
-            self.grow(Quantity::Force, forces[joint].norm());
-            worst(self).put(Quantity::Force, (force - forces[joint]).norm(), crank);
+            for (worst, found) in [
+                (&mut self.assur_point, assur_point::reactions(&places, &known)),
+                (&mut self.linear, linear_system::reactions(&places, &known)),
+            ] {
+                let Some(found) = worst.answer(found) else { continue };
+                for (joint, force) in self.triad.joint_forces(&case.mechanism, &found) {
+                    grow(Quantity::Force, state.forces[joint].norm());
+                    worst.put(Quantity::Force, (force - state.forces[joint]).norm(), crank);
+                }
+            }
         }
     }
 

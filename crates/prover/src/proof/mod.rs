@@ -1,13 +1,12 @@
 //! The proof: a scenario solved by both analytic sides and by engines, compared, checked, and judged.
 
 pub mod beside;
-mod built;
 mod checks;
-pub mod claimed;
 mod dependence;
 mod dial;
 mod doubt;
 mod each_side;
+mod engine_proof;
 mod engines;
 mod entrants;
 mod examined;
@@ -32,7 +31,6 @@ mod planted;
 mod planted_forces;
 mod problem;
 mod room;
-mod rounded_instants;
 mod runs;
 mod sensitivity;
 mod settle;
@@ -40,21 +38,16 @@ pub mod shifted;
 pub mod solved;
 mod stall;
 
-pub use each_side::EachSide;
-pub use each_side::Reference;
-pub use engines::EngineProof;
-pub use entrants::{Engines, Entrant, SideClaims, Sides, TRUE_SIDES};
-pub use formulas::Judgement;
-pub use formulas::checks as formula_checks;
+pub use each_side::{EachSide, Reference};
+pub use engine_proof::{EngineProof, ForceFault};
+pub use entrants::{Engines, Entrant, Sides, TRUE_SIDES};
+pub use formulas::{Judgement, checks as formula_checks};
 pub use judge::{ChannelProof, EngineInfo};
-pub use ledger::Entry;
-pub use ledger::Ledger;
+pub use ledger::{Entry, Ledger};
 pub use options::Options;
-pub use own_forces::{ForceFault, OwnForces};
 pub use parties::Dispute;
 pub use problem::Problem;
-pub use settle::BUDGET;
-pub use settle::{End, Search};
+pub use settle::{BUDGET, End, Search};
 
 use crate::compare::{Check, Verdict, overall};
 use crate::diagnosis::Diagnosis;

@@ -3,8 +3,7 @@
 use super::each_side::{EachSide, Reference};
 use super::figures::Measured;
 use super::problem::Problem;
-use super::rounded_instants::RoundedInstants;
-use super::shifted::TELLING;
+use super::shifted::{RoundedInstants, TELLING};
 use crate::compare::{Check, Verdict, magnitudes, scales};
 use crate::tolerance::{Basis, Origin, Tolerance};
 use linkage::case::{Case, Grid, Wanted};
@@ -65,8 +64,7 @@ impl<'a> Answers<'a> {
         solvers: EachSide<&'a dyn Solver>,
         integration: &'a dyn Fn(Reference, &Channel) -> f64,
     ) -> Result<Self> {
-        let own = |series: &&OracleSeries| [Some(series.channel.clone()), series.y()].into_iter().flatten();
-        let channels: Vec<Channel> = series.iter().flat_map(own).collect();
+        let channels: Vec<Channel> = series.iter().flat_map(|series| channels_of(series)).collect();
         let stages: Vec<Stage> = series.iter().map(|series| series.channel.kind.stage).collect();
         let solved = |case: &Case, by_crank: bool| -> Result<Option<Solved>> {
             let at: fn(When) -> Option<f64> = if by_crank { When::crank } else { When::time };
@@ -98,42 +96,39 @@ impl<'a> Answers<'a> {
         Ok(Answers { nominal, timed: solved(case, false)?, integration })
     }
 
-    /// What a side answers for a series.
-    fn of_series<'b>(&'b self, oracle: &Oracle, series: &OracleSeries, side: Reference) -> Result<Answer<'b>> {
+    /// What a side answers for a series, in the nominal motion and in the motion itself.
+    fn of_series<'b>(
+        &'b self,
+        oracle: &Oracle,
+        series: &OracleSeries,
+        side: Reference,
+    ) -> Result<[Option<Told<'b>>; 2]> {
         let told = |solved: &'b Option<Solved>, integration: f64| -> Result<Option<Told<'b>>> {
             let Some(Solved { sides, rounded }) = solved else { return Ok(None) };
-            let [own, other] = [side, side.other()].map(|side| Components::of(oracle, series, &sides[side].0));
-            let (own, other) = (own?, other?);
+            let values = EachSide::tried(|side| values(oracle, series, &sides[side].0))?;
             let (trajectory, sizes) = &sides[side];
             let sizes = sizes.iter().find(|(own, _)| *own == series.channel);
             let [size, scale] = sizes.map_or([0.0; 2], |(_, sizes)| *sizes);
             let known = ULPS * f64::EPSILON * size + integration;
-            let channels = [Some(series.channel.clone()), series.y()];
-            Ok(Some(Told { trajectory, own, other, known, scale, rounded, channels }))
+            Ok(Some(Told { side, trajectory, values, known, scale, rounded, channels: channels_of(series).collect() }))
         };
-        let of = |channel: &Channel| (self.integration)(side, channel);
-        let integration = of(&series.channel) + series.y().map_or(0.0, |y| of(&y));
-        Ok(Answer { nominal: told(&self.nominal, 0.0)?, timed: told(&self.timed, integration)? })
+        // Channel by channel: a magnitude has the errors of both.
+        let integration: f64 = channels_of(series).map(|channel| (self.integration)(side, &channel)).sum();
+        Ok([told(&self.nominal, 0.0)?, told(&self.timed, integration)?])
     }
 }
 
-/// What a side answers for a series, at crank angles and at times.
-struct Answer<'a> {
-    nominal: Option<Told<'a>>,
-    timed: Option<Told<'a>>,
-}
-
-/// A series as both sides have solved it, and how far the number of one is known besides their difference.
+/// A series as both sides have solved it, and how far the number of one, `side`, is known besides their difference.
 struct Told<'a> {
+    side: Reference,
     trajectory: &'a Trajectory,
-    own: Components<'a>,
-    other: Components<'a>,
+    values: EachSide<Vec<f64>>,
     known: f64,
     /// Scale of the channel where the numbers hold.
     scale: f64,
     rounded: &'a RoundedInstants,
     /// The channel, and the other component of a magnitude.
-    channels: [Option<Channel>; 2],
+    channels: Vec<Channel>,
 }
 
 /// What a side answers for one printed number.
@@ -159,26 +154,25 @@ impl Found {
     }
 }
 
-impl Answer<'_> {
+impl Told<'_> {
     /// What is found for a printed number of a series.
     fn of(&self, series: &OracleSeries, point: &OraclePoint) -> Found {
-        let (told, instants, at) = match (point.at, &self.nominal, &self.timed) {
-            (When::Crank(crank), Some(told), _) => (told, told.trajectory.inputs(), crank),
-            (When::Time(time), _, Some(told)) => (told, told.trajectory.times(), time),
-            (When::Crank(_), None, _) | (When::Time(_), _, None) => unreachable!("solved at every instant"),
+        let (instants, at) = match point.at {
+            When::Crank(crank) => (self.trajectory.inputs(), crank),
+            When::Time(time) => (self.trajectory.times(), time),
         };
         let row = instants.binary_search_by(|other| other.total_cmp(&at)).expect("solved at this instant");
-        let [value, other] = [told.own.at(row), told.other.at(row)];
+        let [value, other] = [self.side, self.side.other()].map(|side| self.values[side][row]);
         // No number is known better than both sides agree on it.
-        let known = told.known + 2.0 * (value - other).abs();
+        let known = self.known + 2.0 * (value - other).abs();
         let difference = value - point.value;
         let deviation = if series.channel.kind.periodic { wrapped(difference) } else { difference }.abs();
         // A magnitude changes by no more than its vector.
-        let drift = told.channels.iter().flatten().map(|own| told.rounded.of_point(own, at, point.at_error));
+        let drift = self.channels.iter().map(|own| self.rounded.of_point(own, at, point.at_error));
         let instant = drift.fold(0.0, f64::hypot);
         // What a side knows is no rounding of the printed number: it adds to that.
         let bound = point.bound + known + instant;
-        Found { deviation, bound, instant, scale: told.scale }
+        Found { deviation, bound, instant, scale: self.scale }
     }
 }
 
@@ -202,9 +196,13 @@ fn of_series(
 /// The checks of one series: one for all correct values together, and one for each value that is known to be wrong. If
 /// all values are known to be wrong, they have one check together.
 fn of_one(oracle: &Oracle, series: &OracleSeries, answers: &Answers, side: Reference) -> Result<Vec<Check>> {
-    let answer = answers.of_series(oracle, series, side)?;
+    let [nominal, timed] = answers.of_series(oracle, series, side)?;
+    let found = |point: &OraclePoint| {
+        let told = if matches!(point.at, When::Crank(_)) { &nominal } else { &timed };
+        told.as_ref().expect("solved at every instant").of(series, point)
+    };
     let against = |family: &str, point: &OraclePoint, origin: Origin| -> Check {
-        let Found { deviation, bound, instant, .. } = answer.of(series, point);
+        let Found { deviation, bound, instant, .. } = found(point);
         let tolerance = tolerance(oracle, origin, (bound, instant), point.digits);
         let check = Check::new(family, deviation, tolerance, series.channel.kind.unit.symbol());
         check.located(|| format!("at {}", point.at))
@@ -217,7 +215,7 @@ fn of_one(oracle: &Oracle, series: &OracleSeries, answers: &Answers, side: Refer
     // Each cell has its own bound: the worst cell is the one that uses the largest share of it. NaN is the worst.
     let (mut worst, mut open): (Option<(f64, &OraclePoint)>, Option<&OraclePoint>) = (None, None);
     for point in &series.points {
-        let found = answer.of(series, point);
+        let found = found(point);
         if worst.is_none_or(|(most, _)| found.used() >= most) {
             worst = Some((found.used(), point));
         }
@@ -280,26 +278,24 @@ fn origin(oracle: &Oracle) -> Origin {
     }
 }
 
-/// The channel of a series, or both components of the vector whose magnitude it is.
-struct Components<'a> {
-    x: &'a [f64],
-    y: Option<&'a [f64]>,
+/// The channels of a series: one, or both components of the vector whose magnitude it is.
+fn channels_of(series: &OracleSeries) -> impl Iterator<Item = Channel> {
+    [Some(series.channel.clone()), series.y()].into_iter().flatten()
 }
 
-impl<'a> Components<'a> {
-    fn of(oracle: &Oracle, series: &OracleSeries, solved: &'a Trajectory) -> Result<Self> {
-        let named = |channel: &Channel| {
-            solved.column(channel).ok_or_else(|| {
-                Error::new(ErrorKind::Input, format!("oracle {}: there is no channel {channel}", oracle.name))
-                    .help("name a link, point or joint of this scenario")
-            })
-        };
-        Ok(Components { x: named(&series.channel)?, y: series.y().map(|y| named(&y)).transpose()? })
-    }
-
-    fn at(&self, row: usize) -> f64 {
-        self.y.map_or(self.x[row], |y| self.x[row].hypot(y[row]))
-    }
+/// What was solved for a series, by row.
+fn values(oracle: &Oracle, series: &OracleSeries, solved: &Trajectory) -> Result<Vec<f64>> {
+    let named = |channel: Channel| {
+        solved.column(&channel).ok_or_else(|| {
+            Error::new(ErrorKind::Input, format!("oracle {}: there is no channel {channel}", oracle.name))
+                .help("name a link, point or joint of this scenario")
+        })
+    };
+    let components = channels_of(series).map(named).collect::<Result<Vec<&[f64]>>>()?;
+    Ok(match components.as_slice() {
+        [x, y] => x.iter().zip(*y).map(|(x, y)| x.hypot(*y)).collect(),
+        own => own.concat(),
+    })
 }
 
 fn of_figures(oracles: &[Oracle], case: &Case, solvers: EachSide<&dyn Solver>) -> Result<Vec<Check>> {

@@ -6,18 +6,19 @@
 
 use std::sync::Arc;
 
-use super::judge::{ChannelProof, EngineInfo, Judge, Judged, describe};
+use super::engine_proof::EngineProof;
+use super::judge::{Judge, Judged, describe};
 use super::observe::{Stopped, Watch};
 use super::options::Chosen;
 use super::runs::Bank;
-use super::settle::{Search, Settling};
+use super::settle::Settling;
 use crate::compare::Verdict;
 use crate::engines::coarse_step;
 use crate::numbers::error;
 use linkage::case::Case;
 use linkage::engine::{Engine, Route, Settings};
 use linkage::error::{Advice, Error, ErrorKind};
-use linkage::trajectory::{Stage, Trajectory};
+use linkage::trajectory::Stage;
 use scenario::Setting;
 
 /// Sweeps to begin with at the most, if the motion has needed as many.
@@ -25,125 +26,61 @@ const ENOUGH: usize = 32;
 /// Share of the work allowed for an engine's settings that its own forces may take once more.
 const SHARE: f64 = 0.05;
 
-/// Reactions and balancing moment as an engine itself exerts them.
-#[derive(Clone, Debug)]
-pub struct OwnForces {
-    /// The engine, with the route and the settings by which it is asked.
-    pub info: EngineInfo,
-    /// How the settings were found; `None` if the engine failed.
-    pub search: Option<Search>,
-    /// Channels of forces, in the order of columns; none if the engine failed.
-    pub channels: Vec<ChannelProof>,
-    /// Verdict on them together.
-    pub verdict: Verdict,
-    /// The engine's trajectory by this route, forces only; `None` if it failed.
-    pub trajectory: Option<Trajectory>,
-    /// Why there is no comparison.
-    pub failure: Option<Error>,
+/// Whether there is anything to judge: not where no force is wanted, where the route is given, and for an engine
+/// whose usual route is its own.
+pub(super) fn are_asked(judge: &Judge, chosen: &Chosen) -> bool {
+    chosen.given.route.is_free() && judge.asking(judge.asked).of_own_forces().has_channels()
 }
 
-impl OwnForces {
-    /// Whether there is anything to judge: not where no force is wanted, where the route is given, and for an engine
-    /// whose usual route is its own.
-    pub(super) fn are_asked(judge: &Judge, chosen: &Chosen) -> bool {
-        chosen.given.route.is_free() && judge.asking(judge.asked).of_own_forces().has_channels()
+/// Judges the forces that the engine exerts, where they are [asked](are_asked), beside its `motion`; `None` if it has no
+/// route for them. The first route that is conclusive counts.
+pub(super) fn judged(
+    judge: &Judge,
+    case: &Case,
+    chosen: &Chosen,
+    motion: &EngineProof,
+    progress: &mut dyn FnMut(f64),
+) -> Option<EngineProof> {
+    let effort = motion.search.as_ref().map_or(0.0, |search| search.effort);
+    // Impulses are of a lower order than the motion, and need as many sweeps with the true masses.
+    if effort > SHARE * chosen.budget {
+        let told = format!(
+            "the motion has taken the work of {} steps, and the forces that the engine exerts need no less; {} are \
+             allowed for them",
+            error(effort),
+            error(SHARE * chosen.budget)
+        );
+        let failure = Error::new(ErrorKind::Unsupported, told);
+        return Some(failed(chosen.engine.as_ref(), failure, Some(effort)));
     }
-
-    /// Judges the forces that the engine exerts, whose motion has needed `sweeps` and this work; `None` if they are not
-    /// [asked](OwnForces::are_asked). The first route that is conclusive counts.
-    pub(super) fn judged(
-        judge: &Judge,
-        case: &Case,
-        chosen: &Chosen,
-        (sweeps, effort): (usize, f64),
-        progress: &mut dyn FnMut(f64),
-    ) -> Option<OwnForces> {
-        if !chosen.given.route.is_free() {
-            return None;
+    // Nothing else of these runs is looked at.
+    let mut forces = case.channels();
+    forces.retain(|channel| channel.kind.stage >= Stage::Reactions);
+    let case = &case.wanting_only(&forces);
+    let sweeps = motion.info.settings.sweeps.min(ENOUGH);
+    let mut found: Option<EngineProof> = None;
+    for &route in chosen.engine.own_routes(case) {
+        let own = by_route(judge, case, chosen, (route, sweeps), progress);
+        let is_open = matches!(own.verdict, Verdict::Inconclusive { .. });
+        // Of several open results, one with numbers tells more.
+        let better = found.as_ref().is_none_or(|found| !is_open || found.failure.is_some());
+        if better {
+            found = Some(own);
         }
-        // Impulses are of a lower order than the motion, and need as many sweeps with the true masses.
-        if effort > SHARE * chosen.budget {
-            let told = format!(
-                "the motion has taken the work of {} steps, and the forces that the engine exerts need no less; {} are \
-                 allowed for them",
-                error(effort),
-                error(SHARE * chosen.budget)
-            );
-            let failure = Error::new(ErrorKind::Unsupported, told);
-            return Some(OwnForces::failed(chosen.engine.as_ref(), failure, Some(effort)));
+        if !is_open {
+            break;
         }
-        // Nothing else of these runs is looked at.
-        let mut forces = case.channels();
-        forces.retain(|channel| channel.kind.stage >= Stage::Reactions);
-        let case = &case.wanting_only(&forces);
-        let mut found: Option<OwnForces> = None;
-        for &route in chosen.engine.own_routes(case) {
-            let own = by_route(judge, case, chosen, (route, sweeps.min(ENOUGH)), progress);
-            let is_open = matches!(own.verdict, Verdict::Inconclusive { .. });
-            // Of several open results, one with numbers tells more.
-            let better = found.as_ref().is_none_or(|found| !is_open || found.failure.is_some());
-            if better {
-                found = Some(own);
-            }
-            if !is_open {
-                break;
-            }
-        }
-        found
     }
+    found
 }
 
-/// Which of the two judgements of an engine's forces is against them.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ForceFault {
-    /// Those that follow from its motion, which agrees: the fault is in the equations that make forces of it.
-    Reading,
-    /// Those that the engine itself exerts: its motion is right, and so are the forces that belong to it.
-    Exerted,
-    /// Both.
-    Both,
-}
-
-impl OwnForces {
-    /// No comparison. Where nothing but work was missing, `work` that was not enough says how much would be.
-    fn failed(engine: &dyn Engine, failure: Error, work: Option<f64>) -> OwnForces {
-        // A round number that is surely enough for the next round.
-        let advice = work.map(|work| Advice::MoreWork { to: 10f64.powf((work / SHARE).log10().ceil()) });
-        let reason = failure.message().to_string();
-        OwnForces {
-            info: describe(engine),
-            search: None,
-            channels: Vec::new(),
-            verdict: Verdict::Inconclusive { reason, advice: advice.into_iter().collect() },
-            trajectory: None,
-            failure: Some(failure),
-        }
-    }
-
-    /// What they add to the engine's verdict. Where they stay open, they are told and take nothing back: the motion and
-    /// its forces are judged all the same, and impulses are of a lower order and need the true masses, with many
-    /// sweeps.
-    pub fn adds(&self) -> Option<&Verdict> {
-        Some(&self.verdict).filter(|verdict| !matches!(verdict, Verdict::Inconclusive { .. }))
-    }
-
-    /// Which of the two judgements of the forces disagrees, `channels` being the first one; `None` if neither does, or
-    /// if the other one is open or the motion itself disagrees, so that nothing follows.
-    pub(super) fn fault(&self, channels: &[ChannelProof]) -> Option<ForceFault> {
-        let disagrees = |channel: &ChannelProof| matches!(channel.verdict, Verdict::Disagree { .. });
-        let agrees = |channel: &ChannelProof| matches!(channel.verdict, Verdict::Agree { .. });
-        let is_force = |channel: &&ChannelProof| channel.residual.channel.kind.stage >= Stage::Reactions;
-        let (forces, motion): (Vec<&ChannelProof>, Vec<&ChannelProof>) = channels.iter().partition(is_force);
-        if motion.into_iter().any(disagrees) {
-            return None;
-        }
-        match [forces.iter().copied().any(disagrees), self.channels.iter().any(disagrees)] {
-            [true, true] => Some(ForceFault::Both),
-            [true, false] if self.channels.iter().all(agrees) => Some(ForceFault::Reading),
-            [false, true] if forces.into_iter().all(agrees) => Some(ForceFault::Exerted),
-            [_, _] => None,
-        }
-    }
+/// No comparison. Where nothing but work was missing, `work` that was not enough says how much would be.
+fn failed(engine: &dyn Engine, failure: Error, work: Option<f64>) -> EngineProof {
+    // A round number that is surely enough for the next round.
+    let advice = work.map(|work| Advice::MoreWork { to: 10f64.powf((work / SHARE).log10().ceil()) });
+    let reason = failure.message().to_string();
+    let verdict = Verdict::Inconclusive { reason, advice: advice.into_iter().collect() };
+    EngineProof { failure: Some(failure), ..EngineProof::bare(describe(engine), verdict) }
 }
 
 fn by_route(
@@ -152,7 +89,7 @@ fn by_route(
     chosen: &Chosen,
     (route, sweeps): (Route, usize),
     progress: &mut dyn FnMut(f64),
-) -> OwnForces {
+) -> EngineProof {
     let given = chosen.engine.settings();
     // A number of extrapolations that is given belongs to the given step.
     let (step, finest) = match (chosen.given.step.is_free(), chosen.given.extrapolated.is_free()) {
@@ -174,21 +111,14 @@ fn by_route(
     let search =
         Settling::new(&judge, &mut bank, engine.as_ref(), &asked, SHARE * chosen.budget).conclusive(finest, sweeps);
     match search.run(progress) {
-        Ok((Judged { info, mut channels, mut verdict, run, .. }, search)) => {
+        Ok((Judged { info, channels, verdict, run, kept, .. }, search)) => {
             drop(bank);
-            let (end, budget) = (search.end, chosen.budget);
-            let all = channels.iter_mut().map(|channel| &mut channel.verdict).chain([&mut verdict]);
-            all.for_each(|verdict| end.tell(verdict, budget));
-            OwnForces {
-                info,
-                search: Some(search),
-                channels,
-                verdict,
-                trajectory: Some(Arc::unwrap_or_clone(run).trajectory),
-                failure: None,
-            }
+            let trajectory = Some(Arc::unwrap_or_clone(run).trajectory);
+            let mut proof = EngineProof { channels, trajectory, kept, ..EngineProof::bare(info, verdict) };
+            proof.verdicts_mut().for_each(|verdict| search.end.tell(verdict, chosen.budget));
+            EngineProof { search: Some(search), ..proof }
         }
-        Err(Stopped { error, spent, .. }) => OwnForces::failed(engine.as_ref(), error, spent),
+        Err(Stopped { error, spent, .. }) => failed(engine.as_ref(), error, spent),
     }
 }
 

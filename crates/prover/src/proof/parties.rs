@@ -1,6 +1,6 @@
 //! Reference and engines as equals: which one disagrees with all others.
 
-use super::engines::EngineProof;
+use super::engine_proof::EngineProof;
 use crate::compare::largest_difference;
 use linkage::trajectory::{Channel, Trajectory};
 

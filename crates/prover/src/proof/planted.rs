@@ -77,8 +77,7 @@ fn assur(fault: Fault, size: f64) -> Wrapped<Everywhere, dyn Solver> {
 
 fn knowing(case: &Case) -> Known {
     let [first, second] = [seen(case, &AssurSolver), seen(case, &NewtonSolver)];
-    let sensitivity = vec![0.0; first.trajectory.channels().len()];
-    Known::of(case, [&first.trajectory, &second.trajectory], &sensitivity).unwrap()
+    Known::of(case, [&first.trajectory, &second.trajectory]).unwrap()
 }
 
 /// The checks of published numbers.

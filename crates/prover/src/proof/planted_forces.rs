@@ -6,7 +6,7 @@ use super::observe::{Watch, observe};
 use super::options::Chosen;
 use super::problem::Problem;
 use super::settle;
-use super::{EngineProof, ForceFault, engines, sensitivity};
+use super::{EngineProof, ForceFault, engines};
 use crate::engines::coarse_step;
 use analytic::{AssurSolver, NewtonSolver};
 use linkage::case::Case;
@@ -48,9 +48,7 @@ fn proven(name: &str, by: &'static [Route], fault: Fault) -> EngineProof {
         observe(case, solver, Watch::Side, &mut |_| {}).unwrap_or_else(|stopped| panic!("{}", stopped.error))
     };
     let sides = [seen(&AssurSolver), seen(&NewtonSolver)];
-    let sensitivity = sensitivity::of(case, &AssurSolver, &sides[0].trajectory).unwrap();
-    let both = [&sides[0].trajectory, &sides[1].trajectory];
-    let known = Known::of(case, both, &sensitivity).unwrap();
+    let known = Known::of(case, [&sides[0].trajectory, &sides[1].trajectory]).unwrap();
     let inner: Box<dyn Engine> = Box::new(Rapier::new(Build::Multibody, Precision::Double, coarse_step(case)));
     let hook = ByRoute { fault, by, route: inner.settings().route };
     let engine = Box::new(Wrapped { hook, inner });

@@ -1,6 +1,8 @@
 //! What is proven: a case, and what a scenario says of its solution.
 
+use crate::compare::Built;
 use linkage::case::Case;
+use linkage::math::KeepNan;
 use scenario::{Formulas, Oracle, Scenario};
 
 /// A case, and what a scenario says of its solution.
@@ -19,5 +21,15 @@ impl<'a> Problem<'a> {
     pub fn of(scenario: &'a Scenario, case: &'a Case) -> Self {
         let Scenario { oracles, formulas, engine_rel, .. } = scenario;
         Problem { case, oracles, formulas, engine_rel: *engine_rel }
+    }
+
+    /// Size, speed and force that the case is built for, whatever moves in it: sizes for what vanishes in the whole
+    /// mechanism. Its force is the weight of all links, or what accelerates them at that speed and size, if that is
+    /// larger; none where nothing has a mass.
+    pub(super) fn built(&self) -> Built {
+        let case = self.case;
+        let (length, speed) = (case.mechanism.size(), case.drives.top_speed());
+        let mass: f64 = case.mechanism.links().iter().map(|link| link.mass).sum();
+        Built { length, speed, force: mass * case.gravity.norm().larger(speed * speed * length) }
     }
 }

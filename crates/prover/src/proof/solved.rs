@@ -1,16 +1,18 @@
-//! A scenario solved by both analytic sides at instants of somebody else, without engines.
+//! A scenario solved by both analytic sides without engines: at instants of somebody else, or for what formulas claim.
 
 use super::dependence::Dependence;
 use super::each_side::Reference;
 use super::entrants::{Sides, TRUE_SIDES};
+use super::formulas::Judgement;
 use super::known::usual;
 use super::ledger::Ledger;
 use super::problem::Problem;
-use crate::claims::{Course, needed};
-use crate::compare::{Check, magnitudes, magnitudes_by};
+use crate::claims::{Cause, Course, MOST_WORK, needed, telling};
+use crate::compare::{Check, Verdict, magnitudes, magnitudes_by};
+use crate::tolerance::Basis;
 use analytic::range::explained;
 use linkage::case::{Case, Grid};
-use linkage::error::Result;
+use linkage::error::{Error, ErrorKind, Result};
 use linkage::trajectory::{Channel, Trajectory};
 use scenario::{Claim, Formulas, Scenario};
 
@@ -45,6 +47,15 @@ pub fn asked(claim: &Claim, case: &Case) -> Vec<Channel> {
     asked
 }
 
+/// The part of a case that is needed for some channels, and both sides on it, with what formulas claim.
+fn of_asked(scenario: &Scenario, whole: &Case, asked: &[Channel], formulas: &Formulas) -> Result<(Case, Sides)> {
+    let case = whole.wanting_only(asked).scene()?.case;
+    let problem = Problem { oracles: &[], formulas, ..Problem::of(scenario, &case) };
+    let sides = Sides::of(problem, whole, TRUE_SIDES, Reference::Assur, &mut Ledger::default());
+    let sides = sides.map_err(|error| explained(&case, error))?;
+    Ok((case, sides))
+}
+
 /// What both sides find, and how well they know it.
 pub struct Solved {
     /// What was solved: the part of the mechanism that the claims need, at the instants.
@@ -61,11 +72,7 @@ impl Solved {
     /// Those of the sides, with the crank angle, and of a grid to which the drive does not come.
     pub fn of<'a>(scenario: &Scenario, grid: Grid, claims: impl IntoIterator<Item = &'a Claim>) -> Result<Self> {
         let asked: Vec<Channel> = claims.into_iter().flat_map(|claim| asked(claim, &scenario.case)).collect();
-        let case = scenario.case.on(grid)?.wanting_only(&asked).scene()?.case;
-        let formulas = &Formulas::over(Vec::new());
-        let problem = Problem { oracles: &[], formulas, ..Problem::of(scenario, &case) };
-        let sides = Sides::of(problem, &case, TRUE_SIDES, Reference::Assur, &mut Ledger::default())
-            .map_err(|error| explained(&case, error))?;
+        let (case, sides) = of_asked(scenario, &scenario.case.on(grid)?, &asked, &Formulas::over(Vec::new()))?;
         let least = vec![0.0; sides.trajectory().channels().len()];
         Ok(Solved { case, sides, least })
     }
@@ -97,4 +104,55 @@ impl Solved {
     pub fn checks(&self) -> &[Check] {
         &self.sides.checks
     }
+}
+
+/// What formulas come to on both sides.
+#[derive(Clone, Debug)]
+pub struct Claimed {
+    /// What both sides say of every claim.
+    pub judgement: Judgement,
+    /// The checks of the sides themselves.
+    pub checks: Vec<Check>,
+    /// The verdict on all of it.
+    pub verdict: Verdict,
+}
+
+/// Judges the formulas of a scenario. Only what they claim is solved, and what their derivatives need.
+///
+/// # Errors
+/// [`ErrorKind::Input`] if no formula claims anything, and those of the sides, with the crank angle.
+pub fn judge(scenario: &Scenario) -> Result<Claimed> {
+    let mut asked = Vec::new();
+    for (_, claim) in scenario.formulas.claims() {
+        asked.extend(needed(claim, &scenario.case));
+    }
+    if asked.is_empty() {
+        let message = format!("no formula of the scenario {} claims a channel", scenario.name);
+        return Err(Error::new(ErrorKind::Input, message)
+            .key("formula")
+            .help("add `channel` to a [[formula]], or give a formula as an argument; docs/formulas.md has examples"));
+    }
+    let (_, mut sides) = of_asked(scenario, &scenario.case, &asked, &scenario.formulas)?;
+    let is_open = |own: &Judgement| {
+        let mut causes = own.causes.iter();
+        // A search that was long is not done once more with more channels.
+        own.work <= MOST_WORK
+            && causes.any(|(name, cause)| !cause.as_ref().is_some_and(Cause::is_whole) && !own.unsought.contains(name))
+    };
+    if let Some(own) = sides.judgement.as_mut().filter(|own| is_open(own)) {
+        // What is wrong may be a term that the mechanism has and nobody asked for.
+        asked.extend(telling(&scenario.case, scenario.formulas.claims().map(|(_, claim)| claim)));
+        let (_, all) = of_asked(scenario, &scenario.case, &asked, &scenario.formulas)?;
+        if let Some(again) = all.judgement {
+            (own.causes, own.unsought, own.work) = (again.causes, again.unsought, own.work + again.work);
+        }
+    }
+    let verdict = sides.verdict();
+    let judgement = sides.judgement.ok_or_else(|| {
+        Error::new(ErrorKind::Input, "no claimed channel was solved")
+            .key("formula")
+            .help("claim a channel of the scenario")
+    })?;
+    let is_own = |check: &Check| !matches!(check.basis, Basis::Formula { .. });
+    Ok(Claimed { judgement, verdict, checks: sides.checks.into_iter().filter(is_own).collect() })
 }

@@ -1,5 +1,6 @@
 //! Terms and factors that a derivation may have lost: steps, sines and cosines of its angles, products of these.
 
+use crate::claims::slips::{at_every_place, with_parts};
 use crate::claims::trial::Trial;
 use formula::{Function, Operator, Program, Shape, Tree};
 use linkage::math::KeepNan;
@@ -34,20 +35,24 @@ pub(super) struct Dictionary {
     pub(super) constants: Vec<(String, f64)>,
 }
 
-fn call(function: Function, argument: &Tree) -> Tree {
-    Tree::call(function, vec![argument.clone()])
-}
+/// What may be missing, each with its weight: made of a step `a`; of two, `a` and `b`; of two angles, `x` and `y`; of a
+/// step and an angle; of an angle.
+const OF_STEP: &str = "a: 1; a^2: 2; 1/a: 2; 1/a^2: 3";
+const OF_STEPS: &str = "a*b: 2; a/b: 3; b/a: 3; a^2*b: 4; a*b^2: 4";
+const OF_ANGLES: &str = "cos(x)*tan(y): 0; sin(x)*tan(y): 0";
+const OF_BOTH: &str = "a*cos(x): 2; a^2*cos(x): 3; a/cos(x): 3; a*sin(x): 2; a^2*sin(x): 3; a/sin(x): 3; \
+                       a*tan(x): 3; a^2*tan(x): 4; a/tan(x): 4";
+const OF_ANGLE: &str = "cos(x)*sin(x): 2; cos(x)^2: 2; cos(x)^3: 2; 1/cos(x): 2; 1/cos(x)^2: 3; 1/cos(x)^3: 3; \
+                        sin(x)^2: 2; sin(x)^3: 2; 1/sin(x): 2; 1/sin(x)^2: 3; 1/sin(x)^3: 3; \
+                        cos(x): 0; sin(x): 0; tan(x): 1";
 
-fn times(one: &Tree, other: &Tree) -> Tree {
-    Tree::pair(Operator::Times, one.clone(), other.clone())
-}
-
-fn over(one: &Tree, other: &Tree) -> Tree {
-    Tree::pair(Operator::Over, one.clone(), other.clone())
-}
-
-fn power(of: &Tree, exponent: f64) -> Tree {
-    Tree::pair(Operator::Power, of.clone(), Tree::number(exponent))
+/// Expressions with letters, and their weights.
+fn read(text: &str) -> Vec<(Tree, usize)> {
+    let one = |own: &str| {
+        let (tree, weight) = own.split_once(':').expect("an expression has a weight");
+        (Tree::parse(tree.trim()).expect("it is a formula"), weight.trim().parse().expect("it is a number"))
+    };
+    text.split(';').map(one).collect()
 }
 
 impl Dictionary {
@@ -63,39 +68,26 @@ impl Dictionary {
         let (fixed, steps): (Vec<Entry>, Vec<Entry>) = steps.into_iter().partition(is_constant);
         let constants = fixed.iter().map(|own| (own.tree.to_string(), own.values[0])).collect();
         let steps: Vec<Tree> = steps.into_iter().map(|own| own.tree).collect();
+        let [of_step, of_steps, of_angles, of_both, of_angle] =
+            [OF_STEP, OF_STEPS, OF_ANGLES, OF_BOTH, OF_ANGLE].map(read);
         let mut all: Vec<(Tree, usize)> = vec![(Tree::number(1.0), 0)];
+        let mut put = |of: &[(Tree, usize)], parts: &[(&str, &Tree)], more: usize| {
+            all.extend(of.iter().map(|(tree, weight)| (with_parts(tree, parts), weight + more)));
+        };
         for (index, step) in steps.iter().enumerate() {
-            all.extend([(step.clone(), 1), (power(step, 2.0), 2)]);
-            all.extend([(over(&Tree::number(1.0), step), 2), (over(&Tree::number(1.0), &power(step, 2.0)), 3)]);
-            for other in &steps[index + 1..] {
-                all.extend([(times(step, other), 2), (over(step, other), 3), (over(other, step), 3)]);
-                all.extend([(times(&power(step, 2.0), other), 4), (times(step, &power(other, 2.0)), 4)]);
-            }
+            put(&of_step, &[("a", step)], 0);
+            steps[index + 1..].iter().for_each(|other| put(&of_steps, &[("a", step), ("b", other)], 0));
         }
-        all.extend([(Tree::name("phi"), 2), (Tree::name("t"), 2)]);
+        put(&[(Tree::name("phi"), 2), (Tree::name("t"), 2)], &[], 0);
         let angles = angles(trial);
         for (angle, weight) in &angles {
             for (other, more) in angles.iter().filter(|(other, _)| other.to_string() != angle.to_string()) {
-                let tangent = call(Function::Tan, other);
-                all.push((times(&call(Function::Cos, angle), &tangent), weight + more));
-                all.push((times(&call(Function::Sin, angle), &tangent), weight + more));
+                put(&of_angles, &[("x", angle), ("y", other)], weight + more);
             }
         }
-        for (angle, weight) in angles {
-            let [sine, cosine, tangent] = [Function::Sin, Function::Cos, Function::Tan].map(|of| call(of, &angle));
-            for step in &steps {
-                for (own, more) in [(&cosine, 2), (&sine, 2), (&tangent, 3)] {
-                    all.extend([(times(step, own), weight + more), (times(&power(step, 2.0), own), weight + more + 1)]);
-                    all.push((over(step, own), weight + more + 1));
-                }
-            }
-            all.push((times(&cosine, &sine), weight + 2));
-            for own in [&cosine, &sine] {
-                all.extend([2.0, 3.0].map(|exponent| (power(own, exponent), weight + 2)));
-                all.push((over(&Tree::number(1.0), own), weight + 2));
-                all.extend([2.0, 3.0].map(|exponent| (over(&Tree::number(1.0), &power(own, exponent)), weight + 3)));
-            }
-            all.extend([(cosine, weight), (sine, weight), (tangent, weight + 1)]);
+        for (angle, weight) in &angles {
+            steps.iter().for_each(|step| put(&of_both, &[("a", step), ("x", angle)], *weight));
+            put(&of_angle, &[("x", angle)], *weight);
         }
         let entries = valued(trial, all.into_iter())
             .into_iter()
@@ -116,7 +108,7 @@ fn angles(trial: &Trial) -> Vec<(Tree, usize)> {
         }
     };
     for own in trial.formulas.list.iter().rev() {
-        crate::claims::slips::at_every_place(&own.tree, &mut |_, part| {
+        at_every_place(&own.tree, &mut |_, part| {
             let Shape::Call(Function::Sin | Function::Cos | Function::Tan, arguments) = &part.shape else { return };
             arguments[0].names().iter().for_each(|(name, _)| put(name));
         });

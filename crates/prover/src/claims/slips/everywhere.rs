@@ -2,11 +2,10 @@
 
 use super::edits;
 use super::places::at_every_place;
-use super::slip::{Kind, Slip};
-use super::tried::{Mended, Tried};
+use super::slip::{Kind, Slip, Tried};
 use crate::claims::dimension::Dimensions;
 use crate::claims::trial::Trial;
-use formula::{Function, Operator, Shape, Tree};
+use formula::{Function, Operator, Shape, Sheet, Tree};
 use scenario::Formulas;
 
 /// Tries every quantity and every function mended wherever it stands: in the first of the formulas `used`, then in all
@@ -15,110 +14,100 @@ pub(super) fn tried(trial: &mut Trial, used: &[usize], names: &[&str], dimension
     use Function::{Cos, Sin, Tan};
     let formulas = trial.formulas.clone();
     for scope in [&used[..1], used] {
-        let trees = || scope.iter().map(|&index| &formulas.list[index].tree);
-        let mut found: Vec<&str> = trees().flat_map(Tree::names).map(|(name, _)| name).collect();
+        let trees = scope.iter().map(|&index| &formulas.list[index].tree);
+        let mut found: Vec<&str> = trees.flat_map(Tree::names).map(|(name, _)| name).collect();
         found.sort_unstable();
         let several: Vec<&str> =
             found.chunk_by(|one, other| one == other).filter(|own| own.len() > 1).map(|own| own[0]).collect();
+        let mut search = Search { trial: &mut *trial, scope, dimensions, tried: &mut *tried };
         for name in several.into_iter().filter(|name| *name != "pi") {
-            if trial.is_spent() {
+            if search.trial.is_spent() {
                 return;
             }
-            let places = places(trial, &formulas, scope, &|part| part.shape == Shape::Name(name.into()));
-            let depending = trial.sheet.depending(&places);
+            let places = search.places(&formulas, &|part| part.shape == Shape::Name(name.into()));
+            let depending = search.depending(&places);
             for (kind, right) in of_name(name, names, &formulas) {
-                if trial.is_spent() {
+                if search.trial.is_spent() {
                     return;
                 }
-                tried.count += 1;
-                let changes: Vec<(usize, Tree)> = places.iter().map(|place| (*place, right.clone())).collect();
-                if !trial.is_promising(&changes, &depending) {
-                    continue;
-                }
+                let changes: Vec<(usize, Tree)> = places.iter().map(|(place, _)| (*place, right.clone())).collect();
                 let change = |tree: &Tree| tree.with_name(name, &right);
-                let written = Tree::name(name);
-                put(trial, scope, kind, [&written, &right], &change, dimensions, tried);
+                search.mended(kind, [&Tree::name(name), &right], &changes, &depending, &change);
             }
         }
         for swaps in [&[(Sin, Cos)][..], &[(Cos, Sin)], &[(Tan, Sin)], &[(Sin, Cos), (Cos, Sin)]] {
             let other = |own: Function| swaps.iter().find(|(from, _)| *from == own).map_or(own, |(_, other)| *other);
             let is_meant = |part: &Tree| matches!(&part.shape, Shape::Call(own, _) if other(*own) != *own);
-            let places = places(trial, &formulas, scope, &is_meant);
+            let places = search.places(&formulas, &is_meant);
             if places.is_empty() {
                 continue;
             }
-            let depending = trial.sheet.depending(&places);
-            let all: Vec<usize> = scope.iter().flat_map(|&index| trial.sheet.places(index).to_vec()).collect();
-            let functions: Vec<Function> = trees().flat_map(|tree| functions(tree, &is_meant)).collect();
-            let ordered = all.iter().filter(|place| places.contains(place));
-            let change = |(place, own): (&usize, &Function)| {
-                let argument = formula::Sheet::placeholder(trial.sheet.arguments(*place)[0]);
-                (*place, Tree::call(other(*own), vec![argument]))
+            let depending = search.depending(&places);
+            let change = |&(place, part): &(usize, &Tree)| {
+                let Shape::Call(own, _) = &part.shape else { return None };
+                let argument = Sheet::placeholder(search.trial.sheet.arguments(place)[0]);
+                Some((place, Tree::call(other(*own), vec![argument])))
             };
-            let changes: Vec<(usize, Tree)> = ordered.zip(&functions).map(change).collect();
-            tried.count += 1;
-            if trial.is_spent() || !trial.is_promising(&changes, &depending) {
-                continue;
-            }
+            let changes: Vec<(usize, Tree)> = places.iter().filter_map(change).collect();
             let text = |of: &dyn Fn(&(Function, Function)) -> Function| {
                 let names: Vec<&str> = swaps.iter().map(|swap| of(swap).name()).collect();
                 Tree::name(names.join(" and "))
             };
             let [written, right] = [text(&|swap| swap.0), text(&|swap| swap.1)];
             let change = |tree: &Tree| with_function(tree, &other);
-            put(trial, scope, Kind::Function, [&written, &right], &change, dimensions, tried);
+            search.mended(Kind::Function, [&written, &right], &changes, &depending, &change);
         }
     }
 }
 
-fn put(
-    trial: &mut Trial,
-    scope: &[usize],
-    kind: Kind,
-    [written, right]: [&Tree; 2],
-    change: &dyn Fn(&Tree) -> Tree,
-    dimensions: &Dimensions,
-    tried: &mut Tried,
-) {
-    let changed: Vec<(usize, Tree)> =
-        scope.iter().map(|&index| (index, change(&trial.formulas.list[index].tree))).collect();
-    let standing = dimensions.standing(&changed, trial.index, [written, right]);
-    trial.sheet.count(dimensions.work());
-    let Some(is_sound) = standing else { return };
-    let formula = trial.formulas.list[trial.index].name.clone();
-    let text = |tree: &Tree| tree.to_string().trim_matches('`').to_string();
-    let slip = Slip { formula, kind, written: text(written), right: text(right), everywhere: true };
-    let rank = (!is_sound, true, scope.len() > 1, kind);
-    tried.put(trial, Mended { changed, slip, rank, left: f64::INFINITY, among: 0 });
+/// The search in some formulas.
+struct Search<'a, 'b> {
+    trial: &'a mut Trial<'b>,
+    /// Their indices.
+    scope: &'a [usize],
+    dimensions: &'a Dimensions<'a>,
+    tried: &'a mut Tried,
 }
 
-/// Places of the parts of some formulas that are meant.
-fn places(trial: &mut Trial, formulas: &Formulas, scope: &[usize], is_meant: &dyn Fn(&Tree) -> bool) -> Vec<usize> {
-    let mut found = Vec::new();
-    for &index in scope {
-        let mut number = 0;
-        at_every_place(&formulas.list[index].tree, &mut |_, part| {
-            if is_meant(part) {
-                found.push(trial.sheet.places(index)[number]);
-            }
-            number += 1;
-        });
-        trial.sheet.count(number as u64);
-    }
-    found
-}
-
-/// The functions of a tree that are meant, in the order of its places.
-fn functions(tree: &Tree, is_meant: &dyn Fn(&Tree) -> bool) -> Vec<Function> {
-    let mut found = Vec::new();
-    at_every_place(tree, &mut |_, part| {
-        if let Shape::Call(function, _) = &part.shape
-            && is_meant(part)
-        {
-            found.push(*function);
+impl Search<'_, '_> {
+    /// The parts that are meant, with their places.
+    fn places<'t>(&mut self, formulas: &'t Formulas, is_meant: &dyn Fn(&Tree) -> bool) -> Vec<(usize, &'t Tree)> {
+        let mut found = Vec::new();
+        for &index in self.scope {
+            let places = self.trial.sheet.places(index).to_vec();
+            let mut numbers = 0..;
+            at_every_place(&formulas.list[index].tree, &mut |_, part| {
+                let place = numbers.next().map(|number: usize| places[number]);
+                found.extend(place.filter(|_| is_meant(part)).map(|place| (place, part)));
+            });
+            self.trial.sheet.count(numbers.start as u64);
         }
-    });
-    found
+        found
+    }
+
+    fn depending(&mut self, places: &[(usize, &Tree)]) -> Vec<usize> {
+        self.trial.sheet.depending(&places.iter().map(|(place, _)| *place).collect::<Vec<usize>>())
+    }
+
+    /// Tries a slip mended by `changes` of the sheet, and of trees by `change`.
+    fn mended(
+        &mut self,
+        kind: Kind,
+        replaced: [&Tree; 2],
+        changes: &[(usize, Tree)],
+        depending: &[usize],
+        change: &dyn Fn(&Tree) -> Tree,
+    ) {
+        self.tried.count += 1;
+        if self.trial.is_spent() || !self.trial.is_promising(changes, depending) {
+            return;
+        }
+        let list = &self.trial.formulas.list;
+        let changed: Vec<(usize, Tree)> = self.scope.iter().map(|&index| (index, change(&list[index].tree))).collect();
+        let [written, right] = replaced.map(|tree| tree.to_string().trim_matches('`').to_string());
+        let slip = Slip { formula: list[self.trial.index].name.clone(), kind, written, right, everywhere: true };
+        self.tried.put_standing(self.trial, self.dimensions, &changed, replaced, slip);
+    }
 }
 
 /// What may have been meant by a name wherever it stands.

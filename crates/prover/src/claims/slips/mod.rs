@@ -5,12 +5,9 @@
 
 mod edits;
 mod everywhere;
-mod functions;
 mod places;
-mod planted;
-mod regrouped;
+mod rules;
 mod slip;
-mod tried;
 mod values;
 
 use super::dimension::Dimensions;
@@ -18,9 +15,10 @@ use super::trial::Trial;
 use formula::{Shape, Sheet, Tree};
 use places::quantities;
 pub(super) use places::{at_every_place, numbered, replaced, used_by};
-pub use planted::planted;
+pub(super) use rules::with_parts;
+use scenario::Formulas;
 pub use slip::{Kind, Slip};
-pub(super) use tried::{Mended, Tried};
+pub(super) use slip::{Mended, Tried};
 
 /// Tries every slip, the simplest kinds first, until the trial's work is used up.
 pub(super) fn tried(trial: &mut Trial, dimensions: &Dimensions) -> Tried {
@@ -58,13 +56,9 @@ pub(super) fn tried(trial: &mut Trial, dimensions: &Dimensions) -> Tried {
                     let [(_, right)] = change;
                     let right = filled(&right, &own.tree, trial.sheet.places(index));
                     let changed = vec![(index, replaced(&own.tree, number, &right))];
-                    let standing = dimensions.standing(&changed, index, [part, &right]);
-                    trial.sheet.count(dimensions.work());
-                    let Some(is_sound) = standing else { continue };
-                    let (written, right) = (part.to_string(), right.to_string());
-                    let slip = Slip { formula: own.name.clone(), kind, written, right, everywhere: false };
-                    let rank = (!is_sound, false, index != trial.index, kind);
-                    tried.put(trial, Mended { changed, slip, rank, left: f64::INFINITY, among: 0 });
+                    let (formula, written) = (own.name.clone(), part.to_string());
+                    let slip = Slip { formula, kind, written, right: right.to_string(), everywhere: false };
+                    tried.put_standing(trial, dimensions, &changed, [part, &right], slip);
                 }
             });
         }
@@ -116,4 +110,20 @@ fn filled(tree: &Tree, formula: &Tree, places: &[usize]) -> Tree {
         *part = filled(part, formula, places);
     }
     own
+}
+
+/// A formula with one slip of a kind. What may have been meant by a part is as well what may be written for it: of all
+/// places and ways in which the slip can be made, the one with a `number`, counted round. `None` if it cannot be made.
+#[must_use]
+pub fn planted(formulas: &Formulas, formula: usize, kind: Kind, number: usize) -> Option<Tree> {
+    let tree = &formulas.list[formula].tree;
+    let names = quantities(formulas, formula);
+    let known: Vec<&str> = names.iter().map(String::as_str).collect();
+    let (mut place, mut edits) = (0, Vec::new());
+    at_every_place(tree, &mut |_, part| {
+        edits.extend(edits::of(part, kind, &known, &formulas.parameters).into_iter().map(|edit| (place, edit)));
+        place += 1;
+    });
+    let (place, edit) = edits.get(number % edits.len().max(1))?;
+    Some(replaced(tree, *place, edit))
 }

@@ -1,4 +1,8 @@
-//! A slip of the pen, and its kinds.
+//! A slip of the pen, its kinds, and what a formula is with it mended.
+
+use crate::claims::dimension::Dimensions;
+use crate::claims::trial::Trial;
+use formula::Tree;
 
 /// A slip of the pen.
 #[derive(Clone, Debug, PartialEq)]
@@ -49,5 +53,61 @@ linkage::words! {
         Parentheses = "parentheses",
         /// A number, or the value of a parameter.
         Value = "a value",
+    }
+}
+
+/// The simplest has the least: whether units contradict it, whether it is made in many places, whether it is in a step,
+/// and its kind.
+type Rank = (bool, bool, bool, Kind);
+
+/// A slip mended.
+pub(in crate::claims) struct Mended {
+    pub(in crate::claims) slip: Slip,
+    pub(in crate::claims) rank: Rank,
+    /// Share of the largest difference that it leaves; zero if the formula is right with it.
+    pub(in crate::claims) left: f64,
+    /// Number of slips that had been tried by then: those that are as simple.
+    pub(in crate::claims) among: usize,
+}
+
+/// Slips that were tried.
+#[derive(Default)]
+pub(in crate::claims) struct Tried {
+    /// Those with which the formula is right, the simplest first.
+    pub(in crate::claims) right: Vec<Mended>,
+    /// Of all others, the one that leaves least, if it leaves little.
+    pub(in crate::claims) nearest: Option<Mended>,
+    /// How many were tried.
+    pub(in crate::claims) count: usize,
+}
+
+impl Tried {
+    /// Judges a slip that was mended, and keeps it if the formula is right with it, or nearer than before.
+    pub(super) fn put(&mut self, trial: &mut Trial, changed: &[(usize, Tree)], slip: Slip, rank: Rank) {
+        let Some(left) = trial.left(changed, 0.0) else { return };
+        let mended = Mended { slip, rank, left, among: self.count };
+        // A simpler one that leaves hardly more is nearer.
+        if left == 0.0 {
+            self.right.push(mended);
+        } else if self.nearest.as_ref().is_none_or(|nearest| left < 0.8 * nearest.left) {
+            self.nearest = Some(mended);
+        }
+    }
+
+    /// The same for a part of the first formula that is changed: it was `replaced` by another, if units may stand so.
+    pub(super) fn put_standing(
+        &mut self,
+        trial: &mut Trial,
+        dimensions: &Dimensions,
+        changed: &[(usize, Tree)],
+        replaced: [&Tree; 2],
+        slip: Slip,
+    ) {
+        let standing = dimensions.standing(changed, changed[0].0, replaced);
+        trial.sheet.count(dimensions.work());
+        let Some(is_sound) = standing else { return };
+        let is_in_step = changed.iter().any(|(own, _)| *own != trial.index);
+        let rank = (!is_sound, slip.everywhere, is_in_step, slip.kind);
+        self.put(trial, changed, slip, rank);
     }
 }

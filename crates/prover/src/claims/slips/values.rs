@@ -8,8 +8,7 @@ use std::collections::BTreeSet;
 
 use super::edits;
 use super::places::{at_every_place, numbered, replaced};
-use super::slip::{Kind, Slip};
-use super::tried::{Mended, Tried};
+use super::slip::{Kind, Slip, Tried};
 use crate::claims::trial::Trial;
 use formula::{Operator, Shape, Tree, information};
 use linkage::math::KeepNan;
@@ -36,9 +35,9 @@ pub(super) fn tried(trial: &mut Trial, used: &[usize], tried: &mut Tried) {
         let Some((right, is_confused)) = meant(trial, place, own.given) else { continue };
         let number = Tree::number(if own.given == 0.0 { right } else { number * (right / own.given) });
         let change = |index: &usize| (*index, formulas.list[*index].tree.with_name(name, &number));
-        let changed = used.iter().map(change).collect();
+        let changed: Vec<(usize, Tree)> = used.iter().map(change).collect();
         let text = |value: f64| format!("{} = {value}", own.key);
-        put(trial, tried, changed, "[parameters]", [text(own.given), text(right)], is_confused);
+        put(trial, tried, &changed, "[parameters]", [text(own.given), text(right)], is_confused);
     }
     for &index in used {
         let own = &formulas.list[index];
@@ -56,7 +55,7 @@ pub(super) fn tried(trial: &mut Trial, used: &[usize], tried: &mut Tried) {
             let Some((right, is_confused)) = meant(trial, place, value) else { continue };
             let changed = vec![(index, replaced(&own.tree, number, &Tree::number(right)))];
             let written = numbered(&own.tree, number).to_string();
-            put(trial, tried, changed, &own.name, [written, right.to_string()], is_confused);
+            put(trial, tried, &changed, &own.name, [written, right.to_string()], is_confused);
         }
     }
 }
@@ -64,7 +63,7 @@ pub(super) fn tried(trial: &mut Trial, used: &[usize], tried: &mut Tried) {
 fn put(
     trial: &mut Trial,
     tried: &mut Tried,
-    changed: Vec<(usize, Tree)>,
+    changed: &[(usize, Tree)],
     formula: &str,
     texts: [String; 2],
     is_confused: bool,
@@ -73,7 +72,7 @@ fn put(
     let slip = Slip { formula: formula.into(), kind: Kind::Value, written, right, everywhere: false };
     // A number changes no unit. What digits do not tell comes after what is missing.
     let rank = (false, !is_confused, changed[0].0 != trial.index, Kind::Value);
-    tried.put(trial, Mended { changed, slip, rank, left: f64::INFINITY, among: 0 });
+    tried.put(trial, changed, slip, rank);
 }
 
 /// The number that was meant by a wrong one at a place, if one number of the same sign is right at all instants, and
