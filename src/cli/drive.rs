@@ -7,7 +7,7 @@ use super::motor_choice;
 use super::{number, output};
 use crate::report::drive::{self as report, Found};
 use crate::report::drive_graphs::{self, Curves};
-use crate::report::{run_up, table_csv};
+use crate::report::table_csv;
 use analytic::AssurSolver;
 use analytic::range::explained;
 use analytic::reduced::means as reduced;
@@ -84,7 +84,7 @@ fn driven(args: &Args, scenario: &Scenario) -> Result<()> {
             return Ok(());
         }
         if !told_there {
-            output::print(&run_up::text(&motion))?;
+            output::print(&report::run_up(&motion))?;
         }
     }
     let found = find(scenario, &model, args.step_deg, args.non_uniformity)?;

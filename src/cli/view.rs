@@ -6,7 +6,7 @@ use std::time::Instant;
 use clap::ValueEnum;
 
 use super::output;
-use crate::report::{film, layout, plotjuggler};
+use crate::report::{layout, plotjuggler};
 use lab::outside;
 use linkage::error::{Error, ErrorKind, Result};
 
@@ -46,7 +46,7 @@ pub(super) fn view(args: &Args) -> Result<()> {
             let to = beside("rrd");
             let since = Instant::now();
             let python = &args.python;
-            let made = outside::converted(&film::text(&film), python, &|| since.elapsed().as_secs_f64());
+            let made = outside::converted(&layout::film(&film), python, &|| since.elapsed().as_secs_f64());
             let made = made.map_err(|found| {
                 Error::new(ErrorKind::Io, format!("{} cannot be written by `{python}`: {found}", to.display()))
                     .help("`python3 -m pip install rerun-sdk`, or name a Python that has it with --python")

@@ -1,15 +1,12 @@
 //! The short report of a proof: the verdict in one line, the channels that are worst, and whatever is needed to act.
 
-use super::cells::{flush, trimmed, used};
-use super::engines;
-use super::own_forces;
-use super::reasons::{self, count};
-use super::style;
-use super::tell::Tell;
+use super::cells::{flush, trimmed};
+use super::judged::{Grade, counts, grade, ranked, verdicts};
+use super::style::{self, wrapped};
+use super::{Tell, engines, reasons};
 use linkage::trajectory::{Channel, Trajectory, Unit};
-use prover::compare::Verdict;
 use prover::numbers;
-use prover::proof::{ChannelProof, EngineInfo, EngineProof, Proof};
+use prover::proof::{EngineInfo, EngineProof, Proof};
 
 /// Channels that are shown with their values.
 const WORST: usize = 3;
@@ -24,20 +21,13 @@ pub fn verdict_line(proof: &Proof) -> String {
     let channels = proof.reference_trajectory.channels().len();
     let failed: Vec<&str> =
         proof.engines.iter().filter(|engine| engine.failure.is_some()).map(|engine| engine.info.name).collect();
-    let what = match &proof.verdict {
-        Verdict::Agree { .. } | Verdict::Expected { .. } => format!("{channels} channels and {checks} checks"),
-        Verdict::Disagree { .. } => {
-            let wrong = count(proof, |verdict| matches!(verdict, Verdict::Disagree { .. }));
-            format!("{wrong} of {} numbers differ", judged + checks)
-        }
-        Verdict::Inconclusive { .. } if !failed.is_empty() => format!("{} failed", failed.join(", ")),
-        Verdict::Inconclusive { .. } if proof.engines.iter().all(|engine| engine.channels.is_empty()) => {
-            "no run stands".to_string()
-        }
-        Verdict::Inconclusive { .. } => {
-            let open = count(proof, |verdict| matches!(verdict, Verdict::Inconclusive { .. }));
-            format!("{open} of {} numbers are open", judged + checks)
-        }
+    let [.., wrong, open] = counts(verdicts(proof).into_iter().map(|(_, verdict)| verdict));
+    let what = match grade(&proof.verdict) {
+        Grade::Agree => format!("{channels} channels and {checks} checks"),
+        Grade::Disagree => format!("{wrong} of {} numbers differ", judged + checks),
+        Grade::Open if !failed.is_empty() => format!("{} failed", failed.join(", ")),
+        Grade::Open if proof.engines.iter().all(|engine| engine.channels.is_empty()) => "no run stands".into(),
+        Grade::Open => format!("{open} of {} numbers are open", judged + checks),
     };
     format!("{}: {}: {what}; {}", proof.scenario, style::verdict(&proof.verdict), resolution(proof))
 }
@@ -64,40 +54,26 @@ pub fn proof(proof: &Proof, tell: Tell, width: usize) -> String {
     let width = Some(width);
     let mut text = format!("{}\n", verdict_line(proof));
     worst(proof, width, &mut text);
+    let mut paragraph = |told: &str| say!(text, "\n{}", wrapped(told, width, 2));
     if proof.engines.len() > 1 {
-        say!(text, "\n{}", style::wrapped(&engines::disputes(proof), width, 2));
+        paragraph(&engines::disputes(proof));
     }
     for engine in &proof.engines {
-        if let Some(own) = &engine.own_forces
-            && let Some(error) = &own.failure
-        {
-            let told = format!("Forces as {} itself exerts them are not judged: {}", engine.info.name, error.message());
-            say!(text, "\n{}", style::wrapped(&told, width, 2));
+        if let Some(error) = engine.own_forces.as_ref().and_then(|own| own.failure.as_ref()) {
+            let name = engine.info.name;
+            paragraph(&format!("Forces as {name} itself exerts them are not judged: {}", error.message()));
         }
         if let Some(fault) = engine.force_fault() {
-            say!(text, "\n{}", style::wrapped(own_forces::sentence(fault), width, 2));
+            paragraph(engines::sentence(fault));
         }
     }
     // What is open beside an agreement takes nothing from it.
-    let most = match proof.verdict {
-        Verdict::Agree { .. } | Verdict::Expected { .. } => 1,
-        Verdict::Disagree { .. } | Verdict::Inconclusive { .. } => WORST,
-    };
+    let most = if grade(&proof.verdict) == Grade::Agree { 1 } else { WORST };
     reasons::reasons(proof, tell, width, most, &mut text);
     reasons::diagnosed(proof, width, &mut text);
     reasons::left_out(proof, width, &mut text);
     reasons::expected(proof, tell, &mut text);
     text
-}
-
-/// All channels of all engines, the one that uses most of its bound first.
-pub fn ranked(proof: &Proof) -> Vec<(&EngineProof, &ChannelProof)> {
-    let mut all = Vec::new();
-    for engine in &proof.engines {
-        all.extend(engine.channels.iter().map(|channel| (engine, channel)));
-    }
-    all.sort_by(|(_, a), (_, b)| used(b).total_cmp(&used(a)));
-    all
 }
 
 /// The worst channels at their worst instants: both values, their difference and the bound.
@@ -110,8 +86,8 @@ pub fn worst(proof: &Proof, width: Option<usize>, text: &mut String) {
         [only] => only.info.name,
         _ => "engine",
     };
-    let header = ["worst channel", "at deg", proof.reference, engine, "error", "bound", "unit"];
-    let mut table = flush(header, &[1, 2, 3, 4, 5], width);
+    let header = format!("worst channel | at deg> | {}> | {engine}> | error> | bound> | unit", proof.reference);
+    let mut table = flush(&header, width);
     for (engine, channel) in all.into_iter().take(WORST) {
         let (residual, kind) = (&channel.residual, channel.residual.channel.kind);
         let name = match proof.engines.len() {
@@ -121,16 +97,12 @@ pub fn worst(proof: &Proof, width: Option<usize>, text: &mut String) {
         let (factor, unit) = read(kind.unit);
         let [difference, bound] = [factor * residual.max, factor * channel.bound];
         let value = |side: &Trajectory| at(side, &residual.channel, residual.worst_time).map(|value| factor * value);
-        let right = value(&proof.reference_trajectory);
-        let found = engine.trajectory.as_ref().and_then(value);
-        // An angle may differ by whole turns, which nobody counts as a difference.
-        let turns = |found: f64| match (kind.periodic, right) {
-            (true, Some(right)) => found - 360.0 * ((found - right) / 360.0).round(),
-            _ => found,
-        };
         // Every channel that is judged has both values.
-        let (Some(right), Some(found)) = (right, found.map(turns)) else { continue };
-        let [right, found] = numbers::beside([right, found], bound);
+        let found = engine.trajectory.as_ref().and_then(value);
+        let (Some(right), Some(found)) = (value(&proof.reference_trajectory), found) else { continue };
+        // An angle may differ by whole turns, which nobody counts as a difference.
+        let turns = if kind.periodic { 360.0 * ((found - right) / 360.0).round() } else { 0.0 };
+        let [right, found] = numbers::beside([right, found - turns], bound);
         table.add_row([
             name,
             numbers::fixed(residual.worst_crank.to_degrees(), 1),

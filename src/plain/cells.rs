@@ -1,17 +1,18 @@
-//! Tables and cells that several reports use.
+//! Tables, cells and lists that several reports use.
 
 use comfy_table::{CellAlignment, ColumnConstraint, ContentArrangement, Table, Width, presets};
 
-use prover::compare::Verdict;
+use linkage::math::statistics;
 use prover::numbers;
-use prover::proof::ChannelProof;
 
-/// An empty table without lines; the columns in `numbers` are aligned right.
-pub fn table<const N: usize>(header: [&str; N], numbers: &[usize]) -> Table {
+/// An empty table without lines. Its header names the columns between bars; those of numbers end in `>` and are aligned
+/// right.
+pub fn table(header: &str) -> Table {
     let mut table = Table::new();
-    table.load_style(presets::NOTHING).set_header(header);
-    for &index in numbers {
-        if let Some(column) = table.column_mut(index) {
+    let columns = header.split('|').map(|own| own.trim_matches(' '));
+    table.load_style(presets::NOTHING).set_header(columns.clone().map(|own| own.trim_end_matches('>')));
+    for (column, name) in table.column_iter_mut().zip(columns) {
+        if name.ends_with('>') {
             column.set_cell_alignment(CellAlignment::Right);
         }
     }
@@ -34,13 +35,27 @@ pub fn marked<T: AsRef<str>>(cells: &[T]) -> String {
     format!("| {} |", cells.iter().map(AsRef::as_ref).collect::<Vec<_>>().join(" | "))
 }
 
+/// `1 channel`, `2 channels`.
+pub fn counted(count: usize, what: &str) -> String {
+    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
+}
+
+/// The first `most` of some names; the others are counted.
+pub fn some<T: ToString>(names: &[T], most: usize) -> String {
+    let named = names.iter().take(most).map(ToString::to_string).collect::<Vec<_>>().join(", ");
+    match names.len().saturating_sub(most) {
+        0 => named,
+        more => format!("{named} and {more} more"),
+    }
+}
+
 /// Fewest columns of a text that is broken.
 const NARROWEST: u16 = 16;
 
-/// The same, in at most `width` columns if there is a width: there the texts of the first column are broken, and numbers
+/// A table in at most `width` columns if there is a width: there the texts of the first column are broken, and numbers
 /// stay whole. Where these leave no room for the texts, the table is wider.
-pub fn fitted<const N: usize>(header: [&str; N], numbers: &[usize], width: Option<usize>) -> Table {
-    let mut table = table(header, numbers);
+pub fn fitted(header: &str, width: Option<usize>) -> Table {
+    let mut table = table(header);
     if let Some(width) = width {
         table.set_content_arrangement(ContentArrangement::Dynamic).set_width(width as u16);
         table.column_iter_mut().enumerate().for_each(|(index, column)| {
@@ -54,9 +69,9 @@ pub fn fitted<const N: usize>(header: [&str; N], numbers: &[usize], width: Optio
 }
 
 /// The same without a margin on the left.
-pub fn flush<const N: usize>(header: [&str; N], numbers: &[usize], width: Option<usize>) -> Table {
-    let mut table = fitted(header, numbers, width);
-    let last = N - 1;
+pub fn flush(header: &str, width: Option<usize>) -> Table {
+    let mut table = fitted(header, width);
+    let last = table.column_count() - 1;
     table.column_iter_mut().enumerate().for_each(|(index, column)| {
         column.set_padding((0, if index == last { 0 } else { 2 }));
     });
@@ -77,17 +92,7 @@ pub fn trimmed(table: &Table) -> String {
     table.lines().map(|line| line.trim_end().to_string()).collect::<Vec<_>>().join("\n")
 }
 
-/// Share of its bound that a channel uses. A verdict other than agreement counts more than any share.
-pub fn used(channel: &ChannelProof) -> f64 {
-    let share = if channel.residual.max == 0.0 { 0.0 } else { channel.residual.max / channel.bound };
-    match channel.verdict {
-        Verdict::Agree { .. } | Verdict::Expected { .. } => share,
-        Verdict::Inconclusive { .. } => 1e3 + share,
-        Verdict::Disagree { .. } => 1e6 + share,
-    }
-}
-
 /// A value over its scale; 0 of a scale of 0 is 0.
 pub fn share(value: f64, scale: f64) -> String {
-    if value == 0.0 { "0".into() } else { numbers::significant(value / scale, 2) }
+    numbers::significant(statistics::share(value, scale), 2)
 }

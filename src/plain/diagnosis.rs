@@ -1,9 +1,9 @@
 //! Diagnoses in words.
 
+use super::cells::{counted, some};
 use linkage::trajectory::{Channel, Stage};
 use prover::diagnosis::{Arm, Axis, Cause, Change, Diagnosis, How, Nature, Over, Part, Plain, Since, Slip, Standing};
-
-use prover::numbers::{fixed, significant};
+use prover::numbers::{fixed, significant, with_unit};
 
 /// Column at which the text of a line begins.
 pub const INDENT: usize = 12;
@@ -26,22 +26,18 @@ pub fn text(diagnosis: &Diagnosis) -> String {
     if let Some(first) = diagnosis.since.first() {
         line("since", since(diagnosis, first));
     }
-    let wrong = diagnosis.since.len();
+    let (wrong, solved) = (counted(diagnosis.since.len(), "channel"), diagnosis.solved);
     match &diagnosis.cause {
-        None => line(
-            "cause",
-            format!("nothing simple: {} changed cases and all simple slips explain none of it", diagnosis.solved),
-        ),
+        None => {
+            line("cause", format!("nothing simple: {solved} changed cases and all simple slips explain none of it"));
+        }
         Some(found) if diagnosis.is_explained() => {
-            line(
-                "cause",
-                format!("{}; that explains all {} to within their bounds", cause(found), counted(wrong, "channel")),
-            );
+            line("cause", format!("{}; that explains all {wrong} to within their bounds", cause(found)));
         }
         Some(found) => {
-            let left = diagnosis.left_over.len();
             line("cause", format!("no single one; a part is explained by this: {}", cause(found)));
-            line("left over", format!("{} of {}: {}", left, counted(wrong, "channel"), names(&diagnosis.left_over)));
+            let left = &diagnosis.left_over;
+            line("left over", format!("{} of {wrong}: {}", left.len(), names(left)));
         }
     }
     if let Some(own) = diagnosis.nature {
@@ -51,10 +47,6 @@ pub fn text(diagnosis: &Diagnosis) -> String {
         line("or", format!("{}, which explains as much", cause(one)));
     }
     text
-}
-
-fn counted(count: usize, what: &str) -> String {
-    if count == 1 { format!("1 {what}") } else { format!("{count} {what}s") }
 }
 
 /// Who stands against whom.
@@ -88,11 +80,7 @@ fn since(diagnosis: &Diagnosis, first: &Since) -> String {
 }
 
 fn names(channels: &[Channel]) -> String {
-    let named: Vec<String> = channels.iter().take(NAMED).map(ToString::to_string).collect();
-    match channels.len().saturating_sub(NAMED) {
-        0 => named.join(", "),
-        more => format!("{} and {more} more", named.join(", ")),
-    }
+    some(channels, NAMED)
 }
 
 /// A cause in words.
@@ -212,44 +200,35 @@ pub fn nature(nature: Nature) -> String {
 
 /// A fitted amount with its unit; angles in degrees.
 fn amount(by: f64, unit: &str) -> String {
-    match unit {
-        "rad" => format!("{} deg", number(by.to_degrees())),
-        unit => format!("{} {unit}", number(by)),
-    }
+    if unit == "rad" { format!("{} deg", number(by.to_degrees())) } else { format!("{} {unit}", number(by)) }
 }
 
 /// A difference between two cases in words.
 #[must_use]
 pub fn change(change: &Change) -> String {
-    let part = part(&change.part);
-    match &change.how {
-        How::Missing => format!("{part}: missing"),
-        How::Reversed => format!("{part}: of the opposite sign"),
-        How::Twice => format!("{part}: counted twice"),
-        How::Half => format!("{part}: counted half"),
-        How::Times(factor, told) => format!("{part}: {} times as large, {told}", number(*factor)),
-        How::AtJoint(joint) => format!("{part}: at joint {joint}"),
-        How::AtPoint(point) => format!("{part}: at point {point}"),
-        How::FromJoint([one, other]) => {
-            format!("{part}: measured from the wrong end, {one} and {other} exchanged")
-        }
-        How::Across([one, other]) => format!("{part}: mirrored at the line of {one} and {other}"),
-        How::Middle([one, other]) => format!("{part}: in the middle of {one} and {other}"),
-        How::Turned(by) => format!("{part}: turned by {} deg", number(by.to_degrees())),
-        How::AboutJoint(joint) => format!("{part}: taken about joint {joint} instead of the mass centre"),
-        How::Swapped => format!("{part}: x and y exchanged"),
-        How::Other(mode) => format!("{part}: {mode}"),
+    let how = match &change.how {
+        How::Missing => "missing".into(),
+        How::Reversed => "of the opposite sign".into(),
+        How::Twice => "counted twice".into(),
+        How::Half => "counted half".into(),
+        How::Times(factor, told) => format!("{} times as large, {told}", number(*factor)),
+        How::AtJoint(joint) => format!("at joint {joint}"),
+        How::AtPoint(point) => format!("at point {point}"),
+        How::FromJoint([one, other]) => format!("measured from the wrong end, {one} and {other} exchanged"),
+        How::Across([one, other]) => format!("mirrored at the line of {one} and {other}"),
+        How::Middle([one, other]) => format!("in the middle of {one} and {other}"),
+        How::Turned(by) => format!("turned by {} deg", number(by.to_degrees())),
+        How::AboutJoint(joint) => format!("taken about joint {joint} instead of the mass centre"),
+        How::Swapped => "x and y exchanged".into(),
+        How::Other(mode) => (*mode).to_string(),
         How::Instead { found, given, unit } => {
-            let [found, given, unit] = match *unit {
-                "rad" => {
-                    [told_apart(found.to_degrees(), given.to_degrees()), number(given.to_degrees()), " deg".into()]
-                }
-                "" => [told_apart(*found, *given), number(*given), String::new()],
-                unit => [told_apart(*found, *given), number(*given), format!(" {unit}")],
-            };
-            format!("{part}: {found}{unit} instead of {given}{unit}")
+            let (factor, unit) = if *unit == "rad" { (1f64.to_degrees(), "deg") } else { (1.0, *unit) };
+            let [found, given] = [found, given].map(|value| factor * value);
+            let [found, given] = [told_apart(found, given), number(given)].map(|own| with_unit(&own, unit));
+            format!("{found} instead of {given}")
         }
-    }
+    };
+    format!("{}: {how}", part(&change.part))
 }
 
 fn part(part: &Part) -> String {

@@ -1,38 +1,34 @@
-//! Several engines side by side, and the one that disagrees with all others.
+//! Several engines side by side, the one that disagrees with all others, and forces as an engine itself exerts them, beside
+//! those that follow from its motion.
 
-use comfy_table::Table;
-
-use super::cells::{self, share, used};
+use super::cells::{fitted, share, trimmed};
+use super::judged::{Grade, grade, worst};
+use linkage::solver::Provision;
 use linkage::trajectory::Stage;
 use prover::compare::overall;
-use prover::proof::{EngineProof, Proof};
+use prover::numbers;
+use prover::proof::{EngineProof, ForceFault, Proof};
 
 /// One row per engine, one column per stage: the channel that uses the largest share of its bound.
-pub fn table(engines: &[EngineProof], width: Option<usize>) -> Table {
-    let stages = Stage::ALL.map(Stage::name);
-    let header = ["engine", stages[0], stages[1], stages[2], stages[3], stages[4], "verdict"];
-    let mut table = cells::fitted(header, &[1, 2, 3, 4, 5], width);
-    for engine in engines {
-        let mut row = vec![engine.info.name.to_string()];
-        row.extend(Stage::ALL.map(|stage| worst(engine, stage)));
-        row.push(match &engine.failure {
-            Some(_) => "failed".into(),
-            None => engine.verdict.word().into(),
-        });
-        table.add_row(row);
-    }
-    table
+pub fn table(engines: &[EngineProof], width: Option<usize>) -> String {
+    let rows = engines.iter().map(|engine| {
+        let verdict = engine.failure.as_ref().map_or(engine.verdict.word(), |_| "failed").to_string();
+        let stages = Stage::ALL.map(|stage| of_stage(engine, stage));
+        [engine.info.name.to_string()].into_iter().chain(stages).chain([verdict])
+    });
+    let header = format!("engine | {}> | verdict", Stage::ALL.map(Stage::name).join("> | "));
+    trimmed(fitted(&header, width).add_rows(rows))
 }
 
 /// Error and bound of the worst channel of a stage, over its scale, and the verdict if it is not agreement.
-fn worst(engine: &EngineProof, stage: Stage) -> String {
+fn of_stage(engine: &EngineProof, stage: Stage) -> String {
     let own = || engine.channels.iter().filter(|channel| channel.residual.channel.kind.stage == stage);
-    let Some(worst) = own().max_by(|a, b| used(a).total_cmp(&used(b))) else { return "-".into() };
+    let Some(worst) = worst(own()) else { return "-".into() };
     let residual = &worst.residual;
-    let mark = match overall(own().map(|channel| &channel.verdict)).word() {
-        "disagree" => " !",
-        "inconclusive" => " ?",
-        _ => "",
+    let mark = match grade(&overall(own().map(|channel| &channel.verdict))) {
+        Grade::Agree => "",
+        Grade::Open => " ?",
+        Grade::Disagree => " !",
     };
     format!("{} ({}){mark}", share(residual.max, residual.scale), share(worst.bound, residual.scale))
 }
@@ -49,9 +45,7 @@ pub fn disputes(proof: &Proof) -> String {
         text.push_str("No two of them differ by more than both may be wrong.");
         return text;
     }
-    let mut parties: Vec<&str> = vec![proof.reference];
-    parties.extend(proof.engines.iter().map(|engine| engine.info.name));
-    for party in parties {
+    for party in [proof.reference].into_iter().chain(proof.engines.iter().map(|engine| engine.info.name)) {
         let alone = proof.disputes.iter().filter(|dispute| dispute.odd == Some(party));
         if let Some(first) = alone.clone().next() {
             say!(text, "The odd one out in {} channels is {party}, first in {}.", alone.count(), first.channel);
@@ -65,4 +59,36 @@ pub fn disputes(proof: &Proof) -> String {
     }
     text.truncate(text.trim_end().len());
     text
+}
+
+/// Where the forces among an engine's channels come from.
+pub fn source(engine: &EngineProof) -> &str {
+    match engine.info.provides.iter().find(|(stage, _)| *stage == Stage::Reactions.name()) {
+        Some((_, Provision::Derived(how))) => how,
+        Some((_, Provision::Computed)) | None => "read",
+    }
+}
+
+/// Verdict on the forces that an engine itself exerts, and the channel that uses most of its bound.
+pub fn exerted(own: &EngineProof) -> String {
+    let Some(worst) = worst(&own.channels) else { return "none".into() };
+    let (residual, unit) = (&worst.residual, worst.residual.channel.kind.unit);
+    let [error, bound] = [residual.max, worst.bound].map(|value| numbers::error_in(value, unit.symbol()));
+    let numbers = format!("{error} of {bound} in {}", residual.channel);
+    format!("{} channels {}, at most {numbers}", own.channels.len(), own.verdict.word())
+}
+
+/// What both judgements of an engine's forces say together.
+pub fn sentence(fault: ForceFault) -> &'static str {
+    match fault {
+        ForceFault::Reading => {
+            "The engine's motion and the forces that it exerts agree: wrong are the forces that Newton and Euler's \
+             equations make of this motion."
+        }
+        ForceFault::Exerted => {
+            "The engine's motion and the forces that belong to it agree: wrong are those that it exerts itself, or how \
+             they are read."
+        }
+        ForceFault::Both => "The motion agrees, and the forces disagree in both ways: from the motion and as exerted.",
+    }
 }

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 
-use super::tell::Tell;
+use super::Tell;
 use files::visible;
 use linkage::error::Error;
 use linkage::mechanism::is_unseen;

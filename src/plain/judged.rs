@@ -1,11 +1,51 @@
-//! One model of what a proof has judged, for tables, test reports, logs and pages: every channel, every force that an
-//! engine exerts itself, every check.
+//! The model that every report of a proof is a view of: each channel, each force that an engine exerts itself and each
+//! check with its verdict, decided once for text, JSON, JUnit, Markdown, logs and pages.
 
-use prover::compare::Verdict;
+use std::cmp::Reverse;
+
+use linkage::math::statistics::share;
+use prover::compare::{Check, Verdict};
 use prover::proof::{ChannelProof, EngineProof, Proof};
 
+linkage::words! {
+    /// What a verdict comes to; the gravest is the last.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+    pub enum Grade: capitals {
+        /// It agrees, or a printed number is wrong as expected.
+        Agree = "AGREE",
+        /// Nothing is proven.
+        Open = "INCONCLUSIVE",
+        /// It disagrees.
+        Disagree = "DISAGREE",
+    }
+}
+
+/// What a verdict comes to.
+#[must_use]
+pub fn grade(verdict: &Verdict) -> Grade {
+    match verdict {
+        Verdict::Agree { .. } | Verdict::Expected { .. } => Grade::Agree,
+        Verdict::Inconclusive { .. } => Grade::Open,
+        Verdict::Disagree { .. } => Grade::Disagree,
+    }
+}
+
+/// How many agree, are wrong as expected, disagree, and are open.
+pub fn counts<'a>(verdicts: impl IntoIterator<Item = &'a Verdict>) -> [usize; 4] {
+    let mut counts = [0; 4];
+    for verdict in verdicts {
+        counts[match verdict {
+            Verdict::Agree { .. } => 0,
+            Verdict::Expected { .. } => 1,
+            Verdict::Disagree { .. } => 2,
+            Verdict::Inconclusive { .. } => 3,
+        }] += 1;
+    }
+    counts
+}
+
 /// What is judged.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Sort {
     /// A channel of an engine.
     Channel,
@@ -35,13 +75,8 @@ pub struct Judged<'a> {
 /// All that is judged: checks of the sides, then for each engine its channels, the forces that it exerts itself, and its
 /// checks.
 pub fn of(proof: &Proof) -> Vec<Judged<'_>> {
-    let mut all = Vec::new();
-    checks(None, proof, &mut all);
-    for engine in &proof.engines {
-        all.extend(of_engine(engine));
-        checks(Some(engine), proof, &mut all);
-    }
-    all
+    let of_engine = |engine| of_engine(engine).chain(checks(Some(engine), &engine.checks));
+    checks(None, &proof.checks).chain(proof.engines.iter().flat_map(of_engine)).collect()
 }
 
 /// The same, checks behind all else.
@@ -52,33 +87,28 @@ pub fn checks_last(proof: &Proof) -> Vec<Judged<'_>> {
 }
 
 /// Channels of an engine, and the forces that it exerts itself.
-pub fn of_engine(engine: &EngineProof) -> impl Iterator<Item = Judged<'_>> {
+fn of_engine(engine: &EngineProof) -> impl Iterator<Item = Judged<'_>> {
     let channels = engine.channels.iter().map(|own| (Sort::Channel, own));
     let forces = engine.own_forces.iter().flat_map(|own| &own.channels).map(|own| (Sort::OwnForce, own));
-    channels.chain(forces).map(move |(sort, own)| channel(sort, engine, own))
+    channels.chain(forces).map(|(sort, own)| {
+        let ChannelProof { residual, bound, basis, verdict, .. } = own;
+        let how = if sort == Sort::OwnForce { " as the engine exerts it" } else { "" };
+        Judged {
+            sort,
+            engine: Some(engine),
+            name: format!("{}{how}", residual.channel),
+            value: residual.max,
+            bound: *bound,
+            unit: residual.channel.kind.unit.symbol(),
+            basis: basis.to_string(),
+            verdict,
+            worst: Some(residual.worst_time),
+        }
+    })
 }
 
-fn channel<'a>(sort: Sort, engine: &'a EngineProof, own: &'a ChannelProof) -> Judged<'a> {
-    let ChannelProof { residual, bound, basis, verdict, .. } = own;
-    let name = residual.channel.to_string();
-    let name = if sort == Sort::OwnForce { format!("{name} as the engine exerts it") } else { name };
-    let (value, unit) = (residual.max, residual.channel.kind.unit.symbol());
-    Judged {
-        sort,
-        engine: Some(engine),
-        name,
-        value,
-        bound: *bound,
-        unit,
-        basis: basis.to_string(),
-        verdict,
-        worst: Some(residual.worst_time),
-    }
-}
-
-fn checks<'a>(engine: Option<&'a EngineProof>, proof: &'a Proof, all: &mut Vec<Judged<'a>>) {
-    let own = engine.map_or(&proof.checks, |engine| &engine.checks);
-    all.extend(own.iter().map(|check| Judged {
+fn checks<'a>(engine: Option<&'a EngineProof>, checks: &'a [Check]) -> impl Iterator<Item = Judged<'a>> {
+    checks.iter().map(move |check| Judged {
         sort: Sort::Check,
         engine,
         name: check.name(),
@@ -88,5 +118,56 @@ fn checks<'a>(engine: Option<&'a EngineProof>, proof: &'a Proof, all: &mut Vec<J
         basis: check.basis.to_string(),
         verdict: &check.verdict,
         worst: None,
-    }));
+    })
+}
+
+/// All verdicts of a proof by name: channels, forces that engines exert themselves, and checks.
+pub fn verdicts(proof: &Proof) -> Vec<(String, &Verdict)> {
+    let several = proof.engines.len() > 1;
+    // An engine without a run that stands has no channel to say so.
+    let without_run = proof.engines.iter().filter(|engine| engine.channels.is_empty() && engine.failure.is_none());
+    let mut all: Vec<_> = without_run.map(|engine| (engine.info.name.to_string(), &engine.verdict)).collect();
+    for engine in &proof.engines {
+        let name = |name: String| if several { format!("{name} ({})", engine.info.name) } else { name };
+        all.extend(of_engine(engine).map(|own| (name(own.name), own.verdict)));
+        let failed = engine.own_forces.iter().filter(|own| own.failure.is_some());
+        let whole = match several {
+            true => format!("forces as {} itself exerts them", engine.info.name),
+            false => "the engine's own forces".into(),
+        };
+        all.extend(failed.map(|own| (whole.clone(), &own.verdict)));
+    }
+    all.extend(proof.all_checks().map(|check| (check.name(), &check.verdict)));
+    all
+}
+
+/// Those of all verdicts that disagree or are open, the gravest first.
+pub fn unproven(proof: &Proof) -> Vec<(String, &Verdict)> {
+    let mut all = verdicts(proof);
+    all.retain(|(_, verdict)| grade(verdict) != Grade::Agree);
+    all.sort_by_key(|(_, verdict)| Reverse(grade(verdict)));
+    all
+}
+
+/// All channels of all engines, the one that uses most of its bound first.
+pub fn ranked(proof: &Proof) -> Vec<(&EngineProof, &ChannelProof)> {
+    let engines = proof.engines.iter();
+    let mut all: Vec<_> = engines.flat_map(|engine| engine.channels.iter().map(move |own| (engine, own))).collect();
+    all.sort_by(|(_, a), (_, b)| used(b).total_cmp(&used(a)));
+    all
+}
+
+/// The channel that uses most of its bound.
+pub fn worst<'a>(channels: impl IntoIterator<Item = &'a ChannelProof>) -> Option<&'a ChannelProof> {
+    channels.into_iter().max_by(|a, b| used(a).total_cmp(&used(b)))
+}
+
+/// Share of its bound that a channel uses. A verdict other than agreement counts more than any share.
+fn used(channel: &ChannelProof) -> f64 {
+    let share = share(channel.residual.max, channel.bound);
+    match grade(&channel.verdict) {
+        Grade::Agree => share,
+        Grade::Open => 1e3 + share,
+        Grade::Disagree => 1e6 + share,
+    }
 }

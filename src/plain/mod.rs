@@ -23,7 +23,8 @@ pub mod diagnosis;
 pub mod engines;
 pub mod errors;
 pub mod judged;
-pub mod own_forces;
 pub mod reasons;
 pub mod style;
-pub mod tell;
+
+/// Function that words an advice. A program with options names them; `Advice::to_string` names none.
+pub type Tell = fn(&linkage::error::Advice) -> String;

@@ -4,6 +4,7 @@
 use anstyle::{AnsiColor, Style};
 use textwrap::{Options, WordSplitter, wrap};
 
+use super::judged::{Grade, grade};
 use prover::compare::Verdict;
 
 /// How much a report tells.
@@ -43,22 +44,14 @@ pub fn plain(text: &str) -> String {
 
 /// The word of a verdict in capitals, in its colour.
 pub fn verdict(verdict: &Verdict) -> String {
-    let colour = match verdict {
-        Verdict::Agree { .. } | Verdict::Expected { .. } => AnsiColor::Green,
-        Verdict::Disagree { .. } => AnsiColor::Red,
-        Verdict::Inconclusive { .. } => AnsiColor::Yellow,
+    let grade = grade(verdict);
+    let colour = match grade {
+        Grade::Agree => AnsiColor::Green,
+        Grade::Open => AnsiColor::Yellow,
+        Grade::Disagree => AnsiColor::Red,
     };
     let style = Style::new().bold().fg_color(Some(colour.into()));
-    format!("{style}{}{style:#}", capitals(verdict))
-}
-
-/// `AGREE`, `DISAGREE` or `INCONCLUSIVE`: the verdict on a whole.
-pub fn capitals(verdict: &Verdict) -> &'static str {
-    match verdict {
-        Verdict::Agree { .. } | Verdict::Expected { .. } => "AGREE",
-        Verdict::Disagree { .. } => "DISAGREE",
-        Verdict::Inconclusive { .. } => "INCONCLUSIVE",
-    }
+    format!("{style}{}{style:#}", grade.capitals())
 }
 
 /// Text in lines of at most `width` columns, if there is a width. Lines after the first of each line given are indented.

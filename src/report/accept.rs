@@ -5,14 +5,14 @@ use std::path::Path;
 use serde_json::{Value, json};
 
 use super::json::Failure;
-use super::pretty::pretty;
-use crate::plain::cells::{table, trimmed};
+use super::pretty::{list, pretty};
+use crate::plain::Tell;
+use crate::plain::cells::{counted, table, trimmed};
 use crate::plain::diagnosis::{number, told_apart};
-use crate::plain::tell::Tell;
+use crate::plain::judged::{Grade, grade};
 use linkage::error::Error;
 use linkage::trajectory::Channel;
 use prover::accept::{Comparison, Figure, Moved, Wider};
-use prover::compare::Verdict;
 use prover::proof::Proof;
 use scenario::accepted::Accepted;
 
@@ -73,16 +73,12 @@ fn headline(item: &Item) -> String {
     let (name, file) = (&item.found.scenario, item.file.display());
     let all = channels(item.found.channels.len());
     match (item.deed, item.comparison) {
-        (Deed::Checked, Some(comparison)) => match &comparison.verdict {
-            Verdict::Agree { .. } | Verdict::Expected { .. } => {
-                format!("AGREE: {name} is as accepted in {file}, {all} within their bounds.")
-            }
-            Verdict::Disagree { .. } => {
-                format!("DISAGREE: {name} is not as accepted in {file}: {}.", counts(comparison))
-            }
-            Verdict::Inconclusive { .. } => {
+        (Deed::Checked, Some(comparison)) => match grade(&comparison.verdict) {
+            Grade::Agree => format!("AGREE: {name} is as accepted in {file}, {all} within their bounds."),
+            Grade::Open => {
                 format!("INCONCLUSIVE: {name} is not proven to be as accepted in {file}: {}.", counts(comparison))
             }
+            Grade::Disagree => format!("DISAGREE: {name} is not as accepted in {file}: {}.", counts(comparison)),
         },
         (Deed::Renewed, Some(comparison)) => format!("{name}: accepted anew in {file}: {}.", counts(comparison)),
         (Deed::Kept, _) => format!("{name}: nothing has moved, {file} stays as it is ({all})."),
@@ -92,7 +88,7 @@ fn headline(item: &Item) -> String {
 }
 
 fn channels(count: usize) -> String {
-    format!("{count} channel{}", if count == 1 { "" } else { "s" })
+    counted(count, "channel")
 }
 
 /// What has changed, in numbers.
@@ -128,20 +124,26 @@ fn counts(comparison: &Comparison) -> String {
 
 /// The worst figure of every channel that has moved, and the channels that are new, gone or known worse.
 fn changes(comparison: &Comparison, text: &mut String) {
-    let mut worst: Vec<&Moved> =
-        comparison.moved_channels().iter().filter_map(|name| worst(comparison, name)).collect();
+    let worst_of = |channel: &&str| {
+        let own = comparison.moved.iter().filter(|moved| moved.channel == *channel);
+        own.max_by(|a, b| a.bounds().total_cmp(&b.bounds()))
+    };
+    let moved = comparison.moved_channels();
+    let mut worst: Vec<&Moved> = moved.iter().filter_map(worst_of).collect();
     worst.sort_by(|a, b| b.bounds().total_cmp(&a.bounds()));
+    let row = |moved: &&Moved| {
+        // Both figures with so many digits that they differ.
+        let [accepted, found] = [(moved.accepted, moved.found), (moved.found, moved.accepted)]
+            .map(|(value, other)| told_apart(value, other));
+        let by = format!("{:+.1e} {}", moved.found - moved.accepted, unit(&moved.channel));
+        let [bound, bounds] = [moved.bound, moved.bounds()].map(|number| format!("{number:.1e}"));
+        let (word, at) = figure(moved.figure);
+        let figure = at.map_or(word.to_string(), |t| format!("{word} {} s", number(t)));
+        [moved.channel.clone(), figure, accepted, found, by, bound, bounds]
+    };
     if !worst.is_empty() {
-        let header = ["channel", "figure", "accepted", "found", "moved by", "bound", "bounds"];
-        let mut table = table(header, &[2, 3, 4, 5, 6]);
-        for moved in worst.iter().take(SHOWN) {
-            let [accepted, found] = both(moved);
-            let (by, unit) = (moved.found - moved.accepted, unit(&moved.channel));
-            let (by, bound) = (format!("{by:+.1e} {unit}"), format!("{:.1e}", moved.bound));
-            let bounds = format!("{:.1e}", moved.bounds());
-            table.add_row([moved.channel.clone(), figure(moved.figure), accepted, found, by, bound, bounds]);
-        }
-        say!(text, "\n{}", trimmed(&table));
+        let mut table = table("channel | figure | accepted> | found> | moved by> | bound> | bounds>");
+        say!(text, "\n{}", trimmed(table.add_rows(worst.iter().take(SHOWN).map(row))));
     }
     if worst.len() > SHOWN {
         say!(text, "... and {} more channels; the JSON has all of them.", worst.len() - SHOWN);
@@ -157,11 +159,6 @@ fn changes(comparison: &Comparison, text: &mut String) {
     }
 }
 
-fn worst<'a>(comparison: &'a Comparison, channel: &str) -> Option<&'a Moved> {
-    let own = comparison.moved.iter().filter(|moved| moved.channel == channel);
-    own.max_by(|a, b| a.bounds().total_cmp(&b.bounds()))
-}
-
 fn listed(names: &[String]) -> String {
     let more = names.len().saturating_sub(SHOWN);
     let names = names.iter().take(SHOWN).map(String::as_str).collect::<Vec<_>>().join(", ");
@@ -172,18 +169,14 @@ fn unit(channel: &str) -> &'static str {
     Channel::named(channel).map_or("", |channel| channel.kind.unit.symbol())
 }
 
-fn figure(figure: Figure) -> String {
+/// The word of a figure, and its instant (s) if it has one.
+fn figure(figure: Figure) -> (&'static str, Option<f64>) {
     match figure {
-        Figure::At(t) => format!("at {} s", number(t)),
-        Figure::Least => "least".into(),
-        Figure::Greatest => "greatest".into(),
-        Figure::Rms => "rms".into(),
+        Figure::At(t) => ("at", Some(t)),
+        Figure::Least => ("least", None),
+        Figure::Greatest => ("greatest", None),
+        Figure::Rms => ("rms", None),
     }
-}
-
-/// Both figures with so many digits that they differ.
-fn both(moved: &Moved) -> [String; 2] {
-    [(moved.accepted, moved.found), (moved.found, moved.accepted)].map(|(value, other)| told_apart(value, other))
 }
 
 /// The results of a command as JSON.
@@ -203,25 +196,17 @@ impl Document {
     pub(crate) fn add(&mut self, item: &Item) {
         let comparison = item.comparison.map(|comparison| {
             json!({
-                "verdict": comparison.verdict.word(),
-                "other_grid": comparison.is_other_grid,
-                "moved": comparison.moved.iter().map(row).collect::<Vec<_>>(),
-                "wider": comparison.wider.iter().map(bounds).collect::<Vec<_>>(),
-                "looser": comparison.looser.iter().map(bounds).collect::<Vec<_>>(),
-                "new": comparison.new,
-                "gone": comparison.gone,
+                "verdict": comparison.verdict.word(), "other_grid": comparison.is_other_grid,
+                "moved": list(&comparison.moved, row), "wider": list(&comparison.wider, bounds),
+                "looser": list(&comparison.looser, bounds), "new": comparison.new, "gone": comparison.gone,
                 "accepted_proof": comparison.proof.as_ref().map(|[accepted, _]| accepted),
             })
         });
         self.files.push(json!({
-            "scenario": item.found.scenario,
-            "accepted_file": item.file.display().to_string(),
-            "deed": item.deed.word(),
-            "proof": item.proof.verdict.word(),
-            "reason": item.proof.verdict.reason(self.tell),
-            "channels": item.found.channels.len(),
-            "channels_without_figures": item.without_figures(),
-            "comparison": comparison,
+            "scenario": item.found.scenario, "accepted_file": item.file.display().to_string(),
+            "deed": item.deed.word(), "proof": item.proof.verdict.word(),
+            "reason": item.proof.verdict.reason(self.tell), "channels": item.found.channels.len(),
+            "channels_without_figures": item.without_figures(), "comparison": comparison,
         }));
     }
 
@@ -238,28 +223,14 @@ impl Document {
 
 fn bounds(own: &Wider) -> Value {
     json!({
-        "channel": own.channel,
-        "unit": unit(&own.channel),
-        "accepted_bound": own.accepted,
-        "found_bound": own.found,
+        "channel": own.channel, "unit": unit(&own.channel), "accepted_bound": own.accepted, "found_bound": own.found,
     })
 }
 
 fn row(moved: &Moved) -> Value {
-    let (figure, t) = match moved.figure {
-        Figure::At(t) => ("at", Some(t)),
-        Figure::Least => ("least", None),
-        Figure::Greatest => ("greatest", None),
-        Figure::Rms => ("rms", None),
-    };
+    let (figure, t) = figure(moved.figure);
     json!({
-        "channel": moved.channel,
-        "unit": unit(&moved.channel),
-        "figure": figure,
-        "t_s": t,
-        "accepted": moved.accepted,
-        "found": moved.found,
-        "bound": moved.bound,
-        "bounds": moved.bounds(),
+        "channel": moved.channel, "unit": unit(&moved.channel), "figure": figure, "t_s": t,
+        "accepted": moved.accepted, "found": moved.found, "bound": moved.bound, "bounds": moved.bounds(),
     })
 }

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::pretty::pretty;
+use super::pretty::{list, pretty};
 use super::table_csv::csv;
 use crate::plain::cells::{distinct, table};
 use lab::bench::{Axis, Bench, Errors, Outcome, Party, Point, front};
@@ -63,22 +63,16 @@ pub(crate) fn text(bench: &Bench) -> String {
     for &stage in &bench.stages {
         let floor = bench.floor.errors[stage as usize];
         say!(text, "\n{}: the reference is known to {floor:.1e}", stage.name());
-        let mut rows = table(["error", "time", "solutions", "program", "settings"], &[0, 1, 2]);
         let sides = front(&bench.points, stage, Axis::Time, floor, &|_| true);
         let others = front(&bench.points, stage, Axis::Time, floor, &|point| point.party != Party::Side);
-        let others = others.into_iter().filter(|index| !sides.contains(index)).collect::<Vec<_>>();
-        for index in sides.iter().copied().chain(others) {
+        let others = others.into_iter().filter(|index| !sides.contains(index));
+        let rows = sides.iter().copied().chain(others).filter_map(|index| {
             let point = &bench.points[index];
-            let Some(errors) = point.error(stage) else { continue };
-            rows.add_row([
-                error(errors, floor),
-                ratio(bench, point).map_or_else(String::new, short),
-                Axis::Solutions.of(point).map_or_else(String::new, |count| count.to_string()),
-                point.program.clone(),
-                point.told(),
-            ]);
-        }
-        say!(text, "{rows}");
+            let time = ratio(bench, point).map_or_else(String::new, short);
+            let solutions = Axis::Solutions.of(point).map_or_else(String::new, |count| count.to_string());
+            Some([error(point.error(stage)?, floor), time, solutions, point.program.clone(), point.told()])
+        });
+        say!(text, "{}", table("error> | time> | solutions> | program | settings").add_rows(rows));
         for within in DECADES {
             let other = fastest(bench, stage, within, &|point| point.party != Party::Side);
             let told = other.and_then(|point| Some(format!("{} {}", short(ratio(bench, point)?), point.program)));
@@ -114,8 +108,7 @@ pub(crate) fn rows(bench: &Bench, machine: &Machine) -> Result<String> {
         say!(text, "# floor of {}: {:e}", stage.name(), bench.floor.errors[stage as usize]);
     }
     let counts = counts(bench);
-    let mut header: Vec<String> =
-        ["scenario", "program", "party", "way", "resolution", "ratio"].map(String::from).to_vec();
+    let mut header = ["scenario", "program", "party", "way", "resolution", "ratio"].map(String::from).to_vec();
     for &stage in &bench.stages {
         header.extend(["max", "rms", "limited", "front"].map(|what| format!("{}_{what}", stage.name())));
     }
@@ -172,20 +165,15 @@ fn fronts(bench: &Bench) -> Vec<Vec<usize>> {
 
 /// Everything as JSON, schema 1.
 pub(crate) fn json(benches: &[Bench], machine: &Machine) -> String {
-    let machine: serde_json::Map<String, Value> =
-        machine.iter().map(|(name, value)| ((*name).to_string(), json!(value))).collect();
-    pretty(&json!({
-        "schema": 1, "machine": machine,
-        "scenarios": benches.iter().map(scenario).collect::<Vec<_>>(),
-    }))
+    let machine: Value = machine.iter().map(|(name, value)| (*name, value.as_str())).collect();
+    pretty(&json!({ "schema": 1, "machine": machine, "scenarios": list(benches, scenario) }))
 }
 
 fn scenario(bench: &Bench) -> Value {
-    let by_stage = |of: &dyn Fn(Stage) -> Value| {
-        let rows = bench.stages.iter().map(|&stage| (stage.name().to_string(), of(stage)));
-        Value::Object(rows.collect())
+    let by_stage = |of: &dyn Fn(Stage) -> Value| -> Value {
+        bench.stages.iter().map(|&stage| (stage.name(), of(stage))).collect()
     };
-    let points = bench.points.iter().map(|point| {
+    let points = list(&bench.points, |point| {
         let run = point.run();
         let errors = by_stage(&|stage| match point.error(stage) {
             Some(errors) => json!({
@@ -193,29 +181,24 @@ fn scenario(bench: &Bench) -> Value {
             }),
             None => json!(point.failure(stage).map(|reason| json!({ "failed": reason }))),
         });
-        let counts = run.map(|run| {
-            run.effort.0.iter().map(|(name, times)| (name.clone(), json!(times))).collect::<serde_json::Map<_, _>>()
-        });
+        let counts = run.map(|run| run.effort.0.iter().cloned().collect::<Value>());
         json!({
             "program": point.program, "party": point.party.name(), "way": point.way, "resolution": point.resolution,
-            "ratio": ratio(bench, point), "errors": errors, "work": counts,
-            "seconds": run.map(|run| run.seconds.clone()),
+            "ratio": ratio(bench, point), "errors": errors, "work": counts, "seconds": run.map(|run| &run.seconds),
         })
     });
-    let versions: serde_json::Map<String, Value> =
-        bench.versions.iter().map(|(name, version)| (name.clone(), json!(version))).collect();
+    let fronts = by_stage(&|stage| {
+        list(Axis::ALL, |axis| {
+            let floor = bench.floor.errors[stage as usize];
+            json!({ "over": axis.name(), "points": front(&bench.points, stage, axis, floor, &|_| true) })
+        })
+    });
     json!({
         "scenario": bench.scenario[0], "title": bench.scenario[1], "instants": bench.instants, "span_s": bench.span,
         "free": bench.is_free, "reference": bench.floor.reference, "floor_basis": bench.floor.basis,
-        "floor": by_stage(&|stage| json!(bench.floor.errors[stage as usize])),
-        "ratio_to": "side 1 (assur)", "versions": versions, "not_run": bench.left_out,
-        "absent": bench.absent.iter().map(|(name, reason)| json!({ "peer": name, "reason": reason })).collect::<Vec<_>>(),
-        "front": by_stage(&|stage| {
-            json!(Axis::ALL.map(|axis| {
-                let floor = bench.floor.errors[stage as usize];
-                json!({ "over": axis.name(), "points": front(&bench.points, stage, axis, floor, &|_| true) })
-            }))
-        }),
-        "points": points.collect::<Vec<_>>(),
+        "floor": by_stage(&|stage| json!(bench.floor.errors[stage as usize])), "ratio_to": "side 1 (assur)",
+        "versions": bench.versions.iter().cloned().collect::<Value>(), "not_run": bench.left_out,
+        "absent": list(&bench.absent, |(name, reason)| json!({ "peer": name, "reason": reason })),
+        "front": fronts, "points": points,
     })
 }

@@ -1,14 +1,15 @@
 //! Judgements of formulas as text and JSON.
 
-use std::cmp::Ordering;
+use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 
 use serde_json::{Value, json};
 
-use super::pretty::pretty;
-use crate::plain::cells::{flush, trimmed};
+use super::pretty::{list, pretty};
+use crate::plain::Tell;
+use crate::plain::cells::{counted, flush, trimmed};
+use crate::plain::judged::Grade;
 use crate::plain::style::{self, wrapped};
-use crate::plain::tell::Tell;
 use prover::claims::{At, CUT, Cause, Judged, Missing, Outcome, Term, WORDS};
 use prover::compare::Verdict;
 use prover::numbers::{beside, error, fixed, fixed_in, with_unit};
@@ -21,31 +22,24 @@ const WORST: usize = 3;
 /// Column at which the text below a formula begins.
 const INDENT: usize = 9;
 
+/// What a claim comes to.
+fn grade(judged: &Judged) -> Grade {
+    match judged.outcome() {
+        Outcome::Right => Grade::Agree,
+        Outcome::Open { .. } => Grade::Open,
+        Outcome::Wrong => Grade::Disagree,
+    }
+}
+
 /// One claim, by value or by a derivative: the side that it fits worse.
 struct Line<'a> {
     side: &'static str,
     formula: &'a Formula,
     judged: &'a Judged,
+    grade: Grade,
 }
 
 impl Line<'_> {
-    fn rank(&self) -> (u8, f64) {
-        let rank = match self.judged.outcome() {
-            Outcome::Right => 0,
-            Outcome::Open { .. } => 1,
-            Outcome::Wrong => 2,
-        };
-        (rank, self.judged.worst.map_or(0.0, |worst| worst.used()))
-    }
-
-    fn word(&self) -> &'static str {
-        match self.judged.outcome() {
-            Outcome::Right => "right",
-            Outcome::Open { .. } => "open",
-            Outcome::Wrong => "WRONG",
-        }
-    }
-
     fn name(&self) -> String {
         match self.judged.order {
             0 => self.judged.name.clone(),
@@ -54,21 +48,22 @@ impl Line<'_> {
     }
 }
 
+fn formulas(scenario: &Scenario) -> BTreeMap<&str, &Formula> {
+    scenario.formulas.list.iter().map(|formula| (formula.name.as_str(), formula)).collect()
+}
+
 fn lines<'a>(scenario: &'a Scenario, claimed: &'a Claimed) -> Vec<Line<'a>> {
     let [first, second] = claimed.judgement.sides.pair();
     let [one, two] = Reference::ALL.map(Reference::name);
-    let mut lines = Vec::new();
-    let formulas: BTreeMap<&str, &Formula> =
-        scenario.formulas.list.iter().map(|formula| (formula.name.as_str(), formula)).collect();
-    for (own, other) in first.iter().zip(second) {
-        let formula = formulas.get(own[0].name.as_str()).expect("only the scenario's formulas are judged");
-        for (own, other) in own.iter().zip(other) {
-            let [own, other] = [(one, own), (two, other)].map(|(side, judged)| Line { side, formula, judged });
-            let worse = other.rank().0 > own.rank().0;
-            lines.push(if worse { other } else { own });
-        }
-    }
-    lines
+    let formulas = formulas(scenario);
+    let both = first.iter().zip(second).flat_map(|(own, other)| own.iter().zip(other));
+    let line = |(own, other): (&'a Judged, &'a Judged)| {
+        let formula = formulas.get(own.name.as_str()).expect("only the scenario's formulas are judged");
+        let [own, other] = [(one, own), (two, other)];
+        let (side, judged) = if grade(other.1) > grade(own.1) { other } else { own };
+        Line { side, formula, judged, grade: grade(judged) }
+    };
+    both.map(line).collect()
 }
 
 /// The verdict in one line.
@@ -85,25 +80,19 @@ pub fn brief(scenario: &Scenario, claimed: &Claimed, tell: Tell, width: usize) -
     let lines = lines(scenario, claimed);
     let wrong = wrong_values(&lines);
     let is_told = |line: &&Line| line.judged.worst.is_some() && !is_consequence(&wrong, line);
-    let mut worst: Vec<&Line> = lines.iter().filter(is_told).collect();
-    worst.sort_by(|a, b| (b.rank().0, b.rank().1).partial_cmp(&(a.rank().0, a.rank().1)).unwrap_or(Ordering::Equal));
-    let header = ["worst formula", "at deg", "formula", "mechanism", "error", "bound", "unit"];
-    let mut table = flush(header, &[1, 2, 3, 4, 5], Some(width));
-    for line in worst.into_iter().take(WORST) {
-        let Some(at) = line.judged.worst else { continue };
-        let [found, right] = beside([at.formula, at.mechanism], at.bound);
-        let found = if at.formula.is_nan() { "no value".into() } else { found };
-        table.add_row([
-            format!("{}{}", of(line.judged.order), line.judged.name),
-            fixed(at.crank.to_degrees(), 1),
-            found,
-            right,
-            error(at.difference.abs()),
-            error(at.bound),
-            line.judged.unit.to_string(),
-        ]);
-    }
-    let mut text = format!("{}\n\n{}\n", verdict_line(scenario, claimed), trimmed(&table));
+    let mut worst: Vec<(&Line, At)> =
+        lines.iter().filter(is_told).filter_map(|line| Some((line, line.judged.worst?))).collect();
+    worst.sort_by(|(_, a), (_, b)| b.used().total_cmp(&a.used()));
+    worst.sort_by_key(|(line, _)| Reverse(line.grade));
+    let rows = worst.into_iter().take(WORST).map(|(line, at)| {
+        let [found, right] = values(at);
+        let name = format!("{}{}", of(line.judged.order), line.judged.name);
+        let [off, bound] = [at.difference.abs(), at.bound].map(error);
+        [name, fixed(at.crank.to_degrees(), 1), found, right, off, bound, line.judged.unit.to_string()]
+    });
+    let header = "worst formula | at deg> | formula> | mechanism> | error> | bound> | unit";
+    let table = trimmed(flush(header, Some(width)).add_rows(rows));
+    let mut text = format!("{}\n\n{table}\n", verdict_line(scenario, claimed));
     reasons(&lines, claimed, tell, width, &mut text);
     text
 }
@@ -112,29 +101,35 @@ pub fn brief(scenario: &Scenario, claimed: &Claimed, tell: Tell, width: usize) -
 #[must_use]
 pub fn text(scenario: &Scenario, claimed: &Claimed, tell: Tell, width: usize) -> String {
     let lines = lines(scenario, claimed);
-    let mut table = flush(["formula", "claim", "at deg", "error", "bound", "verdict"], &[2, 3, 4], Some(width));
+    let mut table = flush("formula | claim | at deg> | error> | bound> | verdict", Some(width));
     if let Some(claims) = table.column_mut(1) {
         claims.remove_constraint();
     }
-    for line in &lines {
-        let worst = line.judged.worst;
-        table.add_row([
-            line.name(),
-            if line.judged.order == 0 { line.judged.claim.clone() } else { String::new() },
-            worst.map_or(String::new(), |at| fixed(at.crank.to_degrees(), 1)),
-            worst.map_or(String::new(), |at| error(at.difference.abs())),
-            worst.map_or(String::new(), |at| error(at.bound)),
-            line.word().into(),
-        ]);
-    }
+    table.add_rows(lines.iter().map(|line| {
+        let numbers = |at: At| [fixed(at.crank.to_degrees(), 1), error(at.difference.abs()), error(at.bound)];
+        let [at, off, bound] = line.judged.worst.map(numbers).unwrap_or_default();
+        let claim = if line.judged.order == 0 { line.judged.claim.clone() } else { String::new() };
+        let word = match line.grade {
+            Grade::Agree => "right",
+            Grade::Open => "open",
+            Grade::Disagree => "WRONG",
+        };
+        [line.name(), claim, at, off, bound, word.into()]
+    }));
     let mut text = format!("{}\n\n{}\n", verdict_line(scenario, claimed), trimmed(&table));
     reasons(&lines, claimed, tell, width, &mut text);
     text
 }
 
+/// What the formula and the mechanism say, with the digits in which they differ.
+fn values(at: At) -> [String; 2] {
+    let [found, right] = beside([at.formula, at.mechanism], at.bound);
+    [if at.formula.is_nan() { "no value".into() } else { found }, right]
+}
+
 /// Names of the formulas that are wrong by value.
 fn wrong_values<'a>(lines: &[Line<'a>]) -> BTreeSet<&'a str> {
-    let is_wrong_value = |line: &&Line| line.judged.order == 0 && line.rank().0 == 2;
+    let is_wrong_value = |line: &&Line| line.judged.order == 0 && line.grade == Grade::Disagree;
     lines.iter().filter(is_wrong_value).map(|line| line.judged.name.as_str()).collect()
 }
 
@@ -146,35 +141,30 @@ fn is_consequence(wrong: &BTreeSet<&str>, of: &Line) -> bool {
 /// What is wrong or open, and why.
 fn reasons(lines: &[Line], claimed: &Claimed, tell: Tell, width: usize, text: &mut String) {
     let wrong = wrong_values(lines);
-    let told = |line: &&Line| line.rank().0 > 0 && !is_consequence(&wrong, line);
+    let told = |line: &&Line| line.grade != Grade::Agree && !is_consequence(&wrong, line);
     let causes = causes(claimed);
     for line in lines.iter().filter(told) {
         say!(text, "\n{}", wrapped(&reason(line, tell), Some(width), INDENT));
+        let name = &line.judged.name;
         if line.judged.order > 0 {
             continue;
         }
-        let undefined = claimed.judgement.undefined(&line.judged.name);
+        let mut below = |told: &str| say!(text, "{}", wrapped(told, Some(width), INDENT));
+        let (undefined, is_cut) = (claimed.judgement.undefined(name), claimed.judgement.unsought.contains(name));
         if let Some(undefined) = undefined {
-            say!(text, "{}", wrapped(&format!("  but    {undefined}."), Some(width), INDENT));
+            below(&format!("  but    {undefined}."));
         }
-        let told = match causes.get(line.judged.name.as_str()) {
-            Some(Some(found)) if claimed.judgement.unsought.contains(&line.judged.name) => {
-                format!("  cause  {found}.\n         Perhaps another: {CUT}.")
-            }
-            Some(Some(
-                found @ (Cause::Leaves { .. } | Cause::Mostly { .. } | Cause::Near { .. } | Cause::Constant),
-            )) => {
+        let Some(cause) = causes.get(name.as_str()) else { continue };
+        below(&match cause {
+            Some(found) if is_cut => format!("  cause  {found}.\n         Perhaps another: {CUT}."),
+            Some(found @ (Cause::Leaves { .. } | Cause::Mostly { .. } | Cause::Near { .. } | Cause::Constant)) => {
                 format!("  cause  {found}.")
             }
-            Some(Some(found)) => format!("  cause  {found}.\n         With that, nothing is left over."),
-            Some(None) if claimed.judgement.unsought.contains(&line.judged.name) => {
-                format!("  cause  not found: {CUT}.")
-            }
-            Some(None) if undefined.is_some() => continue,
-            Some(None) => "  cause  none that is simple: no single slip, offset, factor or term explains it.".into(),
-            None => continue,
-        };
-        say!(text, "{}", wrapped(&told, Some(width), INDENT));
+            Some(found) => format!("  cause  {found}.\n         With that, nothing is left over."),
+            None if is_cut => format!("  cause  not found: {CUT}."),
+            None if undefined.is_some() => continue,
+            None => "  cause  none that is simple: no single slip, offset, factor or term explains it.".into(),
+        });
     }
     for check in &claimed.checks {
         if let Some(reason) = check.verdict.reason(tell) {
@@ -191,22 +181,17 @@ fn causes(claimed: &Claimed) -> BTreeMap<&str, Option<&Cause>> {
 fn sentence(lines: &[Line], claimed: &Claimed) -> String {
     let claims = lines.iter().filter(|line| line.judged.order == 0).count();
     let instants = lines.iter().map(|line| line.judged.judged).max().unwrap_or(0);
-    let plural = |count: usize, word: &str| format!("{count} {word}{}", if count == 1 { "" } else { "s" });
     let [first, second] = Reference::ALL.map(Reference::name);
-    let wrong = lines.iter().filter(|line| line.rank().0 == 2);
+    let wrong = lines.iter().filter(|line| line.grade == Grade::Disagree);
     let mut names: Vec<&str> = wrong.map(|line| line.judged.name.as_str()).collect();
     names.dedup();
     match &claimed.verdict {
         Verdict::Agree { .. } | Verdict::Expected { .. } => {
-            let (claims, instants) = (plural(claims, "formula"), plural(instants, "instant"));
+            let (claims, instants) = (counted(claims, "formula"), counted(instants, "instant"));
             format!("{claims} at {instants}, {first} and {second}")
         }
-        Verdict::Disagree { .. } if names.is_empty() => {
-            format!("{first} and {second} contradict each other")
-        }
-        Verdict::Disagree { .. } => {
-            format!("{} of {} wrong", names.len(), plural(claims, "formula"))
-        }
+        Verdict::Disagree { .. } if names.is_empty() => format!("{first} and {second} contradict each other"),
+        Verdict::Disagree { .. } => format!("{} of {} wrong", names.len(), counted(claims, "formula")),
         Verdict::Inconclusive { .. } => "something is open".into(),
     }
 }
@@ -226,8 +211,9 @@ fn reason(line: &Line, tell: Tell) -> String {
             let says = |word: &str, at: At| {
                 let place =
                     format!("crank angle {}, t = {} s", fixed_in(at.crank.to_degrees(), 3, "deg"), fixed(at.time, 6));
-                let [found, right] = beside([at.formula, at.mechanism], at.bound).map(|text| with_unit(&text, unit));
-                let found = if at.formula.is_nan() { "no value".into() } else { found };
+                let [found, right] = values(at);
+                let found = if at.formula.is_nan() { found } else { with_unit(&found, unit) };
+                let right = with_unit(&right, unit);
                 format!("\n  {word:6} {place}: formula {found}, mechanism {right}")
             };
             if let (Some(since), Some(worst)) = (line.judged.since, line.judged.worst) {
@@ -264,11 +250,10 @@ fn cause_json(cause: &Cause) -> Value {
         }),
         Cause::Terms(terms) => {
             let term = |term: &Term| json!({ "coefficient": term.coefficient, "factor": term.factor, "of": term.of });
-            json!({ "kind": "missing terms", "terms": terms.iter().map(term).collect::<Vec<_>>(), "words": words })
+            json!({ "kind": "missing terms", "terms": list(terms, term), "words": words })
         }
         Cause::Several { causes, more } => {
-            let all: Vec<Value> = causes.iter().map(cause_json).collect();
-            json!({ "kind": "several", "causes": all, "more": more, "words": words })
+            json!({ "kind": "several", "causes": list(causes, cause_json), "more": more, "words": words })
         }
         Cause::Other(channel) => json!({ "kind": "another channel", "channel": channel, "words": words }),
         Cause::Constant => json!({ "kind": "a constant", "words": words }),
@@ -293,47 +278,44 @@ pub fn json(scenario: &Scenario, claimed: &Claimed, tell: Tell) -> String {
             "difference": at.difference, "bound": at.bound,
         })
     };
-    let causes = causes(claimed);
-    let formulas: BTreeMap<&str, &Formula> =
-        scenario.formulas.list.iter().map(|formula| (formula.name.as_str(), formula)).collect();
-    let of = |(side, all): (Reference, &Vec<Vec<Judged>>)| -> Vec<Value> {
-        let judged = all.iter().flatten();
-        let row = |judged: &Judged| {
-            let formula = formulas.get(judged.name.as_str());
+    let (causes, formulas) = (causes(claimed), formulas(scenario));
+    let no_value = |judged: &Judged| {
+        claimed.judgement.undefined(&judged.name).map(|undefined| {
             json!({
-                "side": side.name(), "formula": judged.name, "expression": formula.map(|formula| formula.text.as_str()),
-                "source": formula.and_then(|formula| formula.source.as_deref()), "claim": judged.claim,
-                "unit": judged.unit, "derivative": judged.order, "claimed_error": formula.and_then(|own| own.error),
-                "verdict": match judged.outcome() {
-                    Outcome::Right => "agree",
-                    Outcome::Open { .. } => "inconclusive",
-                    Outcome::Wrong => "disagree",
-                },
-                "cause": causes.get(judged.name.as_str()).copied().flatten().map(cause_json),
-                "search_cut": claimed.judgement.unsought.contains(&judged.name),
-                "no_value": claimed.judgement.undefined(&judged.name).map(|undefined| json!({
-                    "in": undefined.formula, "written": undefined.written, "from": undefined.fault.at.start,
-                    "to": undefined.fault.at.end, "crank_deg": undefined.crank.to_degrees(),
-                    "words": undefined.to_string(),
-                })),
-                "judged": judged.judged, "lost": judged.lost, "undefined": judged.undefined,
-                "scale": judged.scale,
-                "first": judged.since.as_ref().map(at), "worst": judged.worst.as_ref().map(at),
-            })
-        };
-        judged.map(row).collect()
-    };
-    let checks = claimed.checks.iter();
-    let checks: Vec<Value> = checks
-        .map(|check| {
-            json!({
-                "check": check.name(), "value": check.value, "bound": check.bound, "verdict": check.verdict.word(),
-                "reason": check.verdict.reason(tell),
+                "in": undefined.formula, "written": undefined.written, "from": undefined.fault.at.start,
+                "to": undefined.fault.at.end, "crank_deg": undefined.crank.to_degrees(), "words": undefined.to_string(),
             })
         })
-        .collect();
-    let rows: Vec<Value> = claimed.judgement.sides.iter().flat_map(of).collect();
+    };
+    let row = |side: Reference, judged: &Judged| {
+        let formula = formulas.get(judged.name.as_str());
+        let verdict = match grade(judged) {
+            Grade::Agree => "agree",
+            Grade::Open => "inconclusive",
+            Grade::Disagree => "disagree",
+        };
+        json!({
+            "side": side.name(), "formula": judged.name, "expression": formula.map(|formula| formula.text.as_str()),
+            "source": formula.and_then(|formula| formula.source.as_deref()), "claim": judged.claim,
+            "unit": judged.unit, "derivative": judged.order, "claimed_error": formula.and_then(|own| own.error),
+            "verdict": verdict, "cause": causes.get(judged.name.as_str()).copied().flatten().map(cause_json),
+            "search_cut": claimed.judgement.unsought.contains(&judged.name), "no_value": no_value(judged),
+            "judged": judged.judged, "lost": judged.lost, "undefined": judged.undefined, "scale": judged.scale,
+            "first": judged.since.as_ref().map(at), "worst": judged.worst.as_ref().map(at),
+        })
+    };
+    let sides = claimed.judgement.sides.iter();
+    let rows = sides
+        .flat_map(|(side, all)| all.iter().flatten().map(move |judged| (side, judged)))
+        .map(|(side, judged)| row(side, judged));
+    let checks = list(&claimed.checks, |check| {
+        json!({
+            "check": check.name(), "value": check.value, "bound": check.bound, "verdict": check.verdict.word(),
+            "reason": check.verdict.reason(tell),
+        })
+    });
     pretty(&json!({
-        "schema": 1, "scenario": scenario.name, "verdict": claimed.verdict.word(), "formulas": rows, "checks": checks,
+        "schema": 1, "scenario": scenario.name, "verdict": claimed.verdict.word(),
+        "formulas": rows.collect::<Value>(), "checks": checks,
     }))
 }

@@ -2,16 +2,14 @@
 
 use serde_json::{Value, json};
 
-use super::pretty::pretty;
+use super::pretty::{list, pretty};
 use super::table_csv::csv;
 use crate::plain::cells::{table, trimmed};
+use design::clearance::{Clearance, Course, Meeting, PairClearance, Work};
 use linkage::error::{Error, Result};
 use linkage::math::Vec2;
 use prover::numbers;
-
 use scenario::Scenario;
-
-use design::clearance::{Clearance, Course, Meeting, PairClearance};
 use scenario::clearance::Question;
 
 linkage::words! {
@@ -66,29 +64,23 @@ pub(crate) fn text(scenario: &Scenario, asked: &Question, found: &Clearance) -> 
     if found.pairs.is_empty() {
         say!(text, "no two bodies can meet: all links are joined, and there is no housing\n");
     } else {
-        let header = ["bodies", "", "smallest mm", "at crank deg", "nearest points mm", "", "first contact at deg"];
-        let mut table = table(header, &[2, 3, 6]);
-        for pair in &found.pairs {
-            let [first, second] = names(asked, pair);
-            let smallest = &pair.smallest;
+        let rows = found.pairs.iter().map(|pair| {
+            let ([first, second], smallest) = (names(asked, pair).map(String::from), &pair.smallest);
             let [one, two] = smallest.points.map(place);
             let contact = pair.collision.map_or(String::new(), |meeting| degrees(meeting.cranks[1]));
-            let row = [millimetres(smallest.distance), degrees(smallest.crank), one, two, contact];
-            table.add_row([first, second].map(String::from).into_iter().chain(row));
-        }
-        say!(text, "{}\n", trimmed(&table));
-        say!(text, "no distance is smaller by more than {} mm", significant(1e3 * found.tolerance));
+            [first, second, millimetres(smallest.distance), degrees(smallest.crank), one, two, contact]
+        });
+        let header = "bodies | | smallest mm> | at crank deg> | nearest points mm | | first contact at deg>";
+        say!(text, "{}\n", trimmed(table(header).add_rows(rows)));
+        say!(text, "no distance is smaller by more than {} mm", numbers::significant(1e3 * found.tolerance, 2));
     }
-    let swept: Vec<_> = found.swept.iter().collect();
-    if !swept.is_empty() {
-        let mut areas =
-            table(["\nswept area", "\nmm2", "\nerror at most", "\nproven covered", "\nat most"], &[1, 2, 3, 4]);
-        for (body, area) in swept {
-            let of = |value: f64| numbers::fixed(1e6 * value, 2);
-            let name = asked.bodies[*body].name.clone();
-            areas.add_row([name, of(area.value), of(area.error()), of(area.least), of(area.most)]);
-        }
-        say!(text, "{}\n", trimmed(&areas));
+    if !found.swept.is_empty() {
+        let rows = found.swept.iter().map(|(body, area)| {
+            let numbers = [area.value, area.error(), area.least, area.most].map(|own| numbers::fixed(1e6 * own, 2));
+            [asked.bodies[*body].name.clone()].into_iter().chain(numbers)
+        });
+        let header = "\nswept area | \nmm2> | \nerror at most> | \nproven covered> | \nat most>";
+        say!(text, "{}\n", trimmed(table(header).add_rows(rows)));
         if let Some((body, area)) = found.swept.iter().find(|(_, area)| area.error() > asked.area * area.value) {
             let (name, share) = (&asked.bodies[*body].name, area.error() / area.value);
             say!(text, "the area of {name} is known to {} only: the work allowed is done", numbers::percent(share));
@@ -108,20 +100,12 @@ pub(crate) fn text(scenario: &Scenario, asked: &Question, found: &Clearance) -> 
     if let (Some(wanted), Some(first)) = (asked.wanted, found.first_too_near()) {
         said(&mut text, &format!("first nearer than the {} mm wanted", millimetres(wanted)), first);
     }
-    let (word, work) = (standing(found).word(), found.work);
+    let (word, Work { poses, distances, positions, squares }) = (standing(found).word(), found.work);
     say!(
         text,
-        "{word}: {} poses and {} distances of convex parts; for areas {} poses and {} tests of squares\n",
-        work.poses,
-        work.distances,
-        work.positions,
-        work.squares
+        "{word}: {poses} poses and {distances} distances of convex parts; for areas {positions} poses and {squares} tests of squares\n"
     );
     text
-}
-
-fn significant(value: f64) -> String {
-    numbers::significant(value, 2)
 }
 
 /// The answer as JSON: one entry of the document.
@@ -135,7 +119,7 @@ pub(crate) fn value(scenario: &Scenario, asked: &Question, found: &Clearance) ->
             json!({"clear_until_rad": clear, "crank_rad": crank, "t_s": time(crank), "place_m": point(own.place)})
         })
     };
-    let pairs = found.pairs.iter().map(|pair| {
+    let pairs = list(&found.pairs, |pair| {
         let smallest = &pair.smallest;
         json!({
             "bodies": names(asked, pair),
@@ -145,7 +129,7 @@ pub(crate) fn value(scenario: &Scenario, asked: &Question, found: &Clearance) ->
             "collision": meeting(pair.collision), "too_near": meeting(pair.too_near),
         })
     });
-    let swept = found.swept.iter().map(|(body, area)| {
+    let swept = list(&found.swept, |(body, area)| {
         json!({
             "link": asked.bodies[*body].name, "area_m2": area.value, "error_m2": area.error(),
             "least_m2": area.least, "most_m2": area.most,
@@ -156,8 +140,8 @@ pub(crate) fn value(scenario: &Scenario, asked: &Question, found: &Clearance) ->
     };
     json!({
         "scenario": scenario.name, "standing": standing(found).word(), "range_rad": found.range,
-        "wanted_m": asked.wanted, "tolerance_m": found.tolerance, "pairs": pairs.collect::<Vec<_>>(),
-        "swept": swept.collect::<Vec<_>>(), "first_collision": first(found.first_collision()),
+        "wanted_m": asked.wanted, "tolerance_m": found.tolerance, "pairs": pairs,
+        "swept": swept, "first_collision": first(found.first_collision()),
         "first_too_near": first(found.first_too_near()), "not_proven_rad": found.open,
         "work": {
             "poses": found.work.poses, "distances": found.work.distances,

@@ -2,7 +2,7 @@
 
 use serde_json::json;
 
-use super::pretty::pretty;
+use super::pretty::{list, pretty};
 use design::diagram::MotionDiagram;
 use design::diagram::draw::significant;
 use prover::numbers;
@@ -16,9 +16,8 @@ pub(crate) fn text(scenario: &Scenario, diagram: &MotionDiagram) -> String {
         let half = significant(diagram.half_range(which));
         say!(text, "  {:28} half range {half:>10} {}", channel.to_string(), channel.kind.unit);
     }
-    let header = ["largest error", "rms", "of half range", "order", "order"];
-    let [largest, rms, share, first, second] = header;
-    say!(text, "\n  {:34} {largest:>20} {rms:>20} {share:>14} {first:>6} {second:>6}", "method");
+    let [method, largest, rms, share, order] = ["method", "largest error", "rms", "of half range", "order"];
+    say!(text, "\n  {method:34} {largest:>20} {rms:>20} {share:>14} {order:>6} {order:>6}");
     for found in &diagram.found {
         let unit = diagram.course.0[found.method.gives()].kind.unit.symbol();
         let [first, second] =
@@ -54,22 +53,22 @@ fn quoted(name: &str) -> String {
 
 /// The diagram as JSON, schema 1.
 pub(crate) fn json(scenario: &Scenario, diagram: &MotionDiagram) -> String {
-    let found = diagram.found.iter().map(|found| {
+    let found = list(&diagram.found, |found| {
         let which = found.method.gives();
-        let points = found.rows.iter().zip(&found.values).map(|(&row, value)| {
-            json!({"crank_rad": diagram.cranks[row], "t_s": diagram.times[row], "value": value, "exact": diagram.exact[which][row]})
+        let points = list(found.rows.iter().zip(&found.values), |(&row, value)| {
+            let (crank, time, exact) = (diagram.cranks[row], diagram.times[row], diagram.exact[which][row]);
+            json!({"crank_rad": crank, "t_s": time, "value": value, "exact": exact})
         });
         json!({
             "method": found.method.words(), "channel": diagram.course.0[which].to_string(), "largest": found.largest,
-            "rms": found.rms, "share_of_half_range": found.share, "orders": found.orders, "points": points.collect::<Vec<_>>(),
+            "rms": found.rms, "share_of_half_range": found.share, "orders": found.orders, "points": points,
         })
     });
-    let course = diagram.course.0.iter().enumerate().map(|(which, channel)| {
-        json!({"channel": channel.to_string(), "unit": channel.kind.unit.symbol(), "half_range": diagram.half_range(which)})
-    });
-    let value = json!({
-        "schema": 1, "scenario": scenario.name, "divisions": diagram.divisions,
-        "course": course.collect::<Vec<_>>(), "methods": found.collect::<Vec<_>>(),
-    });
-    pretty(&value)
+    let course = list(
+        diagram.course.0.iter().enumerate(),
+        |(which, channel)| json!({"channel": channel.to_string(), "unit": channel.kind.unit.symbol(), "half_range": diagram.half_range(which)}),
+    );
+    pretty(&json!({
+        "schema": 1, "scenario": scenario.name, "divisions": diagram.divisions, "course": course, "methods": found,
+    }))
 }

@@ -5,11 +5,12 @@ use serde_json::{Value, json};
 use super::pretty::pretty;
 use crate::plain::cells::{table, trimmed};
 use analytic::reduced::means::Means;
+use analytic::reduced::{End, RunUp};
 use analytic::steady::course::{Extremes, Row};
 use analytic::steady::regime::At;
 use analytic::steady::{Averaged, Regime};
 use design::flywheel::Flywheel;
-use prover::numbers::{fixed, fixed_in};
+use prover::numbers::{error, fixed, fixed_in};
 use scenario::Scenario;
 
 /// What is known about a drive.
@@ -50,12 +51,9 @@ pub(crate) fn text(scenario: &Scenario, found: &Found, by_angle: bool) -> String
         None => text.push_str("no motor: add a `[motor]` section to learn the steady motion\n"),
         Some(([crank, motor], regime)) => {
             say!(text, "averaged model\n  crank     {crank:.6} rad/s\n  motor     {motor:.6} rad/s");
-            match &found.averaged {
-                Some(averaged) => {
-                    say!(text, "  time constant {:.9} s", averaged.time_constant);
-                }
-                None => text.push_str("  time constant: none, the motor's law is not one straight line from rest on\n"),
-            }
+            let constant = found.averaged.as_ref().map(|averaged| format!(" {:.9} s", averaged.time_constant));
+            let none = ": none, the motor's law is not one straight line from rest on";
+            say!(text, "  time constant{}", constant.as_deref().unwrap_or(none));
             say!(text, "steady motion\n{}", of_regime(regime));
         }
     }
@@ -79,21 +77,15 @@ fn of_regime(regime: &Regime) -> String {
 }
 
 fn angles(found: &Found) -> String {
-    let header = ["crank deg", "I* kg m^2", "dI*/dphi kg m^2", "resistance N m", "omega rad/s", "alpha rad/s^2"];
-    let mut table = table(header, &[0, 1, 2, 3, 4, 5]);
-    for (index, row) in found.rows.iter().enumerate() {
+    let rows = found.rows.iter().enumerate().map(|(index, row)| {
         let at = found.steady.as_ref().map(|(_, regime)| regime.samples[index]);
-        let steady = |of: fn(At) -> f64| at.map_or("-".into(), |at| fixed(of(at), 6));
-        table.add_row([
-            fixed(row.crank.to_degrees(), 3),
-            fixed(row.inertia, 9),
-            fixed(row.slope, 9),
-            fixed(row.resistance, 6),
-            steady(|at| at.omega),
-            steady(|at| at.alpha),
-        ]);
-    }
-    trimmed(&table)
+        let [omega, alpha] =
+            at.map_or_else(|| ["-", "-"].map(String::from), |at| [at.omega, at.alpha].map(|own| fixed(own, 6)));
+        let [inertia, slope] = [row.inertia, row.slope].map(|own| fixed(own, 9));
+        [fixed(row.crank.to_degrees(), 3), inertia, slope, fixed(row.resistance, 6), omega, alpha]
+    });
+    let header = "crank deg> | I* kg m^2> | dI*/dphi kg m^2> | resistance N m> | omega rad/s> | alpha rad/s^2>";
+    trimmed(table(header).add_rows(rows))
 }
 
 /// The drive as JSON, schema 1.
@@ -139,4 +131,21 @@ pub(crate) fn json(scenario: &Scenario, found: &Found) -> String {
         value["steady_absent"] = Value::from("the scenario has no motor");
     }
     pretty(&value)
+}
+
+/// The end of a run-up as text, with an empty line after it.
+pub(crate) fn run_up(run_up: &RunUp) -> String {
+    let degrees = |crank: f64| fixed_in(crank.to_degrees(), 6, "deg");
+    let mut text = match run_up.end {
+        End::Reached => "run-up followed to its end".to_string(),
+        End::Held(t, crank) => format!("run-up: held at {t:.9} s, crank angle {}", degrees(crank)),
+        End::Limit(t, crank) => {
+            format!("run-up: at a limit of rotation at {t:.9} s, crank angle {}", degrees(crank))
+        }
+    };
+    if let Some(residual) = run_up.power_residual() {
+        put!(text, "; motor against reactions: {} of the largest moment", error(residual));
+    }
+    text.push_str("\n\n");
+    text
 }

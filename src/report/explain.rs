@@ -1,5 +1,6 @@
 //! What a proof has done, how often and why, and what it did not need.
 
+use crate::plain::cells::some;
 use linkage::case::{Case, LeftOut};
 use linkage::trajectory::Stage;
 use linkage::work::Work;
@@ -33,12 +34,7 @@ fn asked(case: &Case) -> String {
     let instants = case.grid.len();
     match &case.only {
         None => format!("{} of everything at {instants} instants: {} of {all} channels", stages.join(", "), own.len()),
-        Some(only) => {
-            let names: Vec<String> = only.iter().map(ToString::to_string).collect();
-            let shown = names.iter().take(SHOWN).cloned().collect::<Vec<_>>().join(", ");
-            let rest = if names.len() > SHOWN { format!(" and {} more", names.len() - SHOWN) } else { String::new() };
-            format!("{shown}{rest} at {instants} instants")
-        }
+        Some(only) => format!("{} at {instants} instants", some(&only[..], SHOWN)),
     }
 }
 

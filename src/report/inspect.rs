@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::pretty::pretty;
+use super::pretty::{list, pretty};
 use super::{modes, range};
 use analytic::modes::Modes;
 use analytic::range::Range;
@@ -27,16 +27,12 @@ pub(crate) fn text(scenario: &Scenario) -> String {
     say!(text, "structure  {}\n\nlinks", structure.formula(mechanism));
     for (index, (link, pose)) in mechanism.links().iter().zip(&case.start.0).enumerate() {
         let points: Vec<&str> = link.points.iter().map(|point| point.name.as_str()).collect();
-        let body = if index == GROUND {
-            "fixed".to_string()
-        } else {
-            let at = format!("at {}", fixed_in(pose.angle.to_degrees(), 3, "deg"));
-            let [mass, inertia] = [link.mass, link.inertia].map(|value| significant(value, SHOWN));
-            if link.mass == 0.0 {
-                format!("massless, {at}")
-            } else {
-                format!("m = {mass} kg, J = {inertia} kg m^2, {at}")
-            }
+        let at = format!("at {}", fixed_in(pose.angle.to_degrees(), 3, "deg"));
+        let [mass, inertia] = [link.mass, link.inertia].map(|value| significant(value, SHOWN));
+        let body = match link.mass {
+            _ if index == GROUND => "fixed".to_string(),
+            0.0 => format!("massless, {at}"),
+            _ => format!("m = {mass} kg, J = {inertia} kg m^2, {at}"),
         };
         say!(text, "  {:14} points {:14} {body}", link.name, points.join(" "));
     }
@@ -50,13 +46,9 @@ pub(crate) fn text(scenario: &Scenario) -> String {
     for ((group, &mode), choice) in structure.groups.iter().zip(&case.modes).zip(&scenario.choices) {
         let transmission = transmission_sine(mechanism, group, &case.start)
             .map_or_else(String::new, |sine| format!(", transmission angle {:.2} deg", sine.abs().asin().to_degrees()));
-        let (class, order, pairs, mode, from) =
-            (group.class, group.order(), group.pairs(), mode.name(), from_rough_place(choice));
-        say!(
-            text,
-            "  {:28} class {class}, order {order}, {pairs}, mode {mode}{transmission}{from}",
-            group.names(mechanism)
-        );
+        let (names, from) = (group.names(mechanism), from_rough_place(choice));
+        let (class, order, pairs, mode) = (group.class, group.order(), group.pairs(), mode.name());
+        say!(text, "  {names:28} class {class}, order {order}, {pairs}, mode {mode}{transmission}{from}");
     }
     text
 }
@@ -99,34 +91,32 @@ pub(crate) fn json(
 fn structure(scenario: &Scenario) -> Value {
     let case = &scenario.case;
     let (mechanism, structure) = (&case.mechanism, &case.structure);
-    let link = |index: usize| mechanism.links()[index].name.clone();
-    let joint = |index: usize| mechanism.joints()[index].name.clone();
-    let links = mechanism.links().iter().zip(&case.start.0).map(|(link, pose)| {
-        let points = link.points.iter().map(|p| json!({"name": p.name, "x_m": p.local.x, "y_m": p.local.y}));
+    let link = |index: usize| Value::from(mechanism.links()[index].name.as_str());
+    let joint = |index: usize| Value::from(mechanism.joints()[index].name.as_str());
+    let links = list(mechanism.links().iter().zip(&case.start.0), |(link, pose)| {
+        let points = list(&link.points, |own| json!({"name": own.name, "x_m": own.local.x, "y_m": own.local.y}));
         json!({
-            "name": link.name, "points": points.collect::<Vec<_>>(), "mass_kg": link.mass, "inertia_kg_m2": link.inertia,
+            "name": link.name, "points": points, "mass_kg": link.mass, "inertia_kg_m2": link.inertia,
             "mass_centre": {"x_m": link.mass_centre.x, "y_m": link.mass_centre.y}, "start_angle_rad": pose.angle,
         })
     });
-    let joints = mechanism
-        .joints()
-        .iter()
-        .map(|joint| json!({"name": joint.name, "type": joint.kind.name(), "links": ends(mechanism, joint)}));
-    let groups = structure.groups.iter().zip(&case.modes).zip(&scenario.choices).map(|((group, &mode), choice)| {
+    let joints = list(
+        mechanism.joints(),
+        |joint| json!({"name": joint.name, "type": joint.kind.name(), "links": ends(mechanism, joint)}),
+    );
+    let groups = list(structure.groups.iter().zip(&case.modes).zip(&scenario.choices), |((group, mode), choice)| {
         json!({
-            "links": group.links.iter().map(|&l| link(l)).collect::<Vec<_>>(),
-            "inner_joints": group.inner.iter().map(|&j| joint(j)).collect::<Vec<_>>(),
-            "outer_joints": group.outer.iter().map(|&j| joint(j)).collect::<Vec<_>>(),
-            "class": group.class, "order": group.order(), "kind": group.pairs(), "mode": mode.name(),
+            "links": list(&group.links, |&own| link(own)), "inner_joints": list(&group.inner, |&own| joint(own)),
+            "outer_joints": list(&group.outer, |&own| joint(own)), "class": group.class, "order": group.order(),
+            "kind": group.pairs(), "mode": mode.name(),
             "transmission_angle_rad": transmission_sine(mechanism, group, &case.start).map(|sine| sine.abs().asin()),
             "from_rough_place_m": choice.nearest_m, "next_from_rough_place_m": choice.next_m,
         })
     });
-    let drivers = structure.drivers.iter().map(|&(l, j)| json!({"link": link(l), "joint": joint(j)}));
     json!({
         "schema": 1, "scenario": scenario.name, "title": scenario.title, "mobility": structure.mobility,
-        "formula": structure.formula(mechanism), "drivers": drivers.collect::<Vec<_>>(),
-        "groups": groups.collect::<Vec<_>>(), "links": links.collect::<Vec<_>>(), "joints": joints.collect::<Vec<_>>(),
+        "formula": structure.formula(mechanism), "groups": groups, "links": links, "joints": joints,
+        "drivers": list(&structure.drivers, |&(own, at)| json!({"link": link(own), "joint": joint(at)})),
         "start_crank_rad": case.crank().start,
     })
 }

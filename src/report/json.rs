@@ -4,15 +4,16 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use super::diagnosis_json;
 use super::pretty::rows;
-use crate::plain::tell::Tell;
+use crate::plain::Tell;
+use crate::plain::diagnosis::{cause, nature, standing};
+use crate::plain::judged::{Grade, grade};
 use linkage::case::LeftOut;
 use linkage::error::{Advice, Error};
 use linkage::solver::Provision;
 use linkage::work::Work;
 use prover::compare::{Check, Verdict};
-
+use prover::diagnosis::{Diagnosis, Since, Standing};
 use prover::proof::{ChannelProof, Dispute, End, EngineInfo, EngineProof, Entry, ForceFault, Proof, Search};
 
 /// Words by name.
@@ -34,7 +35,7 @@ rows! {
     struct Run = |proof: &Proof, recording: Option<String>, tell: Tell| {
         let times = proof.reference_trajectory.times();
         let left = &proof.scene.left_out;
-        let found = proof.diagnosis.as_ref().filter(|_| matches!(proof.verdict, Verdict::Disagree { .. }));
+        let found = proof.diagnosis.as_ref().filter(|_| grade(&proof.verdict) == Grade::Disagree);
     } {
         scenario: String = proof.scenario.clone(),
         title: String = proof.title.clone(),
@@ -45,15 +46,11 @@ rows! {
         /// Checks on the analytic sides.
         checks: Vec<CheckRow> = proof.checks.iter().map(|own| CheckRow::of(own, tell)).collect(),
         engines: Vec<Engine> = proof.engines.iter().map(|own| Engine::of(own, tell)).collect(),
-        #[serde(skip_serializing_if = "Vec::is_empty")]
-        disputes: Vec<DisputeRow> = proof.disputes.iter().map(DisputeRow::of).collect(),
-        #[serde(skip_serializing_if = "Option::is_none")]
-        diagnosis: Option<diagnosis_json::Row> = found.map(diagnosis_json::Row::of),
+        disputes["Vec::is_empty"]: Vec<DisputeRow> = proof.disputes.iter().map(DisputeRow::of).collect(),
+        diagnosis["Option::is_none"]: Option<DiagnosisRow> = found.map(DiagnosisRow::of),
         /// Whether the search for it ended at its limit of work.
-        #[serde(skip_serializing_if = "std::ops::Not::not")]
-        diagnosis_cut: bool = proof.diagnosis_is_cut,
-        #[serde(skip_serializing_if = "Option::is_none")]
-        recording: Option<String> = recording,
+        diagnosis_cut["std::ops::Not::not"]: bool = proof.diagnosis_is_cut,
+        recording["Option::is_none"]: Option<String> = recording,
         /// What nothing wanted depends on.
         left_out: Left = Left::of(left),
         /// What was done, part by part.
@@ -86,27 +83,23 @@ rows! {
     struct Engine = |proof: &EngineProof, tell: Tell| {
         let info = &proof.info;
         let resolution = Some(info.settings.resolution);
+        let own = proof.own_forces.as_ref();
     } {
         name: &'static str = info.name,
         version: String = info.version.clone(),
-        #[serde(skip_serializing_if = "Option::is_none")]
-        dt_s: Option<f64> = resolution.filter(|_| !info.controls_error),
-        #[serde(skip_serializing_if = "Option::is_none")]
-        accuracy: Option<f64> = resolution.filter(|_| info.controls_error),
+        dt_s["Option::is_none"]: Option<f64> = resolution.filter(|_| !info.controls_error),
+        accuracy["Option::is_none"]: Option<f64> = resolution.filter(|_| info.controls_error),
         settings: Words = info.told.iter().cloned().collect(),
         /// How the settings were found, if they were not all given.
-        #[serde(skip_serializing_if = "Option::is_none")]
-        search: Option<SearchRow> = proof.search.as_ref().map(|own| SearchRow::of(own, info)),
+        search["Option::is_none"]: Option<SearchRow> = proof.search.as_ref().map(|own| SearchRow::of(own, info)),
         provides: Words = info.provides.iter().map(|(stage, how)| (*stage, provision(how))).collect(),
         verdict: &'static str = proof.verdict.word(),
         reason: Option<String> = proof.verdict.reason(tell),
         channels: Vec<Channel> = proof.channels.iter().map(|own| Channel::of(info, own, tell)).collect(),
         /// Forces as the engine itself exerts them, judged besides those among the channels, which follow from its motion.
-        #[serde(skip_serializing_if = "Option::is_none")]
-        own_forces: Option<OwnForcesRow> = proof.own_forces.as_ref().map(|own| OwnForcesRow::of(proof, own, tell)),
+        own_forces["Option::is_none"]: Option<OwnForcesRow> = own.map(|own| OwnForcesRow::of(proof, own, tell)),
         checks: Vec<CheckRow> = proof.checks.iter().map(|own| CheckRow::of(own, tell)).collect(),
-        #[serde(skip_serializing_if = "Option::is_none")]
-        failure: Option<String> = proof.failure.as_ref().map(|error| error.message().to_string()),
+        failure["Option::is_none"]: Option<String> = proof.failure.as_ref().map(|error| error.message().to_string()),
     }
 
     struct OwnForcesRow = |engine: &EngineProof, own: &EngineProof, tell: Tell| {
@@ -115,8 +108,7 @@ rows! {
         route: &'static str = info.settings.route.name(),
         dt_s: f64 = info.settings.resolution,
         settings: Words = info.told.iter().cloned().collect(),
-        #[serde(skip_serializing_if = "Option::is_none")]
-        search: Option<SearchRow> = own.search.as_ref().map(|own| SearchRow::of(own, info)),
+        search["Option::is_none"]: Option<SearchRow> = own.search.as_ref().map(|own| SearchRow::of(own, info)),
         verdict: &'static str = own.verdict.word(),
         reason: Option<String> = own.verdict.reason(tell),
         /// Which of the two judgements is against the forces, if one is.
@@ -126,8 +118,7 @@ rows! {
             ForceFault::Both => "both",
         }),
         channels: Vec<Channel> = own.channels.iter().map(|own| Channel::of(info, own, tell)).collect(),
-        #[serde(skip_serializing_if = "Option::is_none")]
-        failure: Option<String> = own.failure.as_ref().map(|error| error.message().to_string()),
+        failure["Option::is_none"]: Option<String> = own.failure.as_ref().map(|error| error.message().to_string()),
     }
 
     struct SearchRow = |search: &Search, info: &EngineInfo| {} {
@@ -148,6 +139,38 @@ rows! {
         channel: String = dispute.channel.clone(),
         pairs: Vec<[&'static str; 2]> = dispute.pairs.clone(),
         odd_one_out: Option<&'static str> = dispute.odd,
+    }
+
+    /// A diagnosis in the JSON report.
+    pub struct DiagnosisRow = |diagnosis: &Diagnosis| {} {
+        suspect: String = diagnosis.suspect.clone(),
+        /// The party that stands alone, if one does, and how all of them stand to each other.
+        alone: Option<String> = match &diagnosis.alone {
+            Standing::Alone(name) => Some(name.clone()),
+            Standing::Together | Standing::Camps(_) | Standing::Open(_) => None,
+        },
+        standing: String = standing(&diagnosis.alone),
+        /// The channels beyond their bounds, the earliest first.
+        since: Vec<SinceRow> = diagnosis.since.iter().map(SinceRow::of).collect(),
+        /// The cause in words; `null` where nothing simple explains any of it.
+        cause: Option<String> = diagnosis.cause.as_ref().map(cause),
+        /// What the error looks like, where no cause explains all of it.
+        error: Option<String> = diagnosis.nature.map(nature),
+        /// Whether it explains all channels.
+        explained: bool = diagnosis.is_explained(),
+        /// Causes that explain as much.
+        also: Vec<String> = diagnosis.also.iter().map(cause).collect(),
+        left_over: Vec<String> = diagnosis.left_over.iter().map(ToString::to_string).collect(),
+        cases_tried: usize = diagnosis.solved,
+    }
+
+    struct SinceRow = |one: &Since| {} {
+        channel: String = one.channel.to_string(),
+        t_s: f64 = one.time,
+        crank_rad: f64 = one.crank,
+        difference: f64 = one.difference,
+        bound: f64 = one.bound,
+        instants_beyond: usize = one.beyond,
     }
 
     struct Channel = |info: &EngineInfo, proof: &ChannelProof, tell: Tell| {
@@ -184,10 +207,11 @@ rows! {
     }
 
     struct CheckRow = |check: &Check, tell: Tell| {
-        let (finding, printed_off) = match &check.verdict {
-            Verdict::Expected { finding, off } => (Some(finding.clone()), Some(*off)),
-            Verdict::Agree { .. } | Verdict::Disagree { .. } | Verdict::Inconclusive { .. } => (None, None),
+        let expected = match &check.verdict {
+            Verdict::Expected { finding, off } => Some((finding.clone(), *off)),
+            Verdict::Agree { .. } | Verdict::Disagree { .. } | Verdict::Inconclusive { .. } => None,
         };
+        let (finding, printed_off) = expected.unzip();
     } {
         name: String = check.name(),
         value: f64 = check.value,
@@ -198,11 +222,9 @@ rows! {
         basis: String = check.basis.to_string(),
         verdict: &'static str = check.verdict.word(),
         reason: Option<String> = check.verdict.reason(tell),
-        #[serde(skip_serializing_if = "Option::is_none")]
-        finding: Option<String> = finding,
+        finding["Option::is_none"]: Option<String> = finding,
         /// Residual of the printed number that the finding calls wrong; `value` is the residual of the correct one.
-        #[serde(skip_serializing_if = "Option::is_none")]
-        printed_off: Option<f64> = printed_off,
+        printed_off["Option::is_none"]: Option<f64> = printed_off,
     }
 }
 

@@ -1,9 +1,11 @@
-//! A layout for Foxglove and Lichtblick: the mechanism from above, beside plots of both sides and of their errors.
+//! A layout for Foxglove and Lichtblick: the mechanism from above, beside plots of both sides and of their errors. And
+//! the same as a film for other viewers.
 
 use serde_json::{Map, Value, json};
 
+use super::pretty::{list, pretty};
 use linkage::math::KeepNan;
-use recording::{Line, Plot, View};
+use recording::{Film, Line, Part, Plot, View};
 
 /// Speeds that the players offer.
 const SPEEDS: [f64; 8] = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 0.8, 1.0];
@@ -16,26 +18,20 @@ const WIDE: f64 = 1.1;
 
 /// The layout as JSON.
 pub(crate) fn text(view: &View) -> String {
-    let mut panels = Map::from_iter([("3D!mechanism".to_string(), picture(view))]);
-    let mut names = Vec::new();
-    for (number, plot) in view.plots.iter().enumerate() {
-        let name = format!("Plot!{number}");
-        panels.insert(name.clone(), graph(plot));
-        names.push(name);
+    let mut panels = json!({ "3D!mechanism": picture(view) });
+    let names: Vec<String> = (0..view.plots.len()).map(|number| format!("Plot!{number}")).collect();
+    for (name, plot) in names.iter().zip(&view.plots) {
+        panels[name] = graph(plot);
     }
     let picture = Value::from("3D!mechanism");
     let layout = match column(&names) {
         Some(column) => json!({ "direction": "row", "first": picture, "second": column, "splitPercentage": 60 }),
         None => picture,
     };
-    let document = json!({
-        "configById": panels,
-        "globalVariables": {},
-        "userNodes": {},
-        "playbackConfig": { "speed": speed(view.slow, view.turn) },
-        "layout": layout,
-    });
-    format!("{document:#}\n")
+    pretty(&json!({
+        "configById": panels, "globalVariables": {}, "userNodes": {},
+        "playbackConfig": { "speed": speed(view.slow, view.turn) }, "layout": layout,
+    }))
 }
 
 /// Playback speed: that of a stated time scale, else the fastest that lets people follow a turn of that log time (s).
@@ -58,57 +54,34 @@ fn picture(view: &View) -> Value {
     let (centre, height) = ((low + high) / 2.0, height(view));
     let hidden = |frame: &String| (format!("frame:{frame}"), json!({ "visible": false }));
     let frames: Map<String, Value> = view.frames.iter().map(hidden).chain([hidden(&"world".into())]).collect();
-    let mut topics = Map::from_iter([("/mechanism/links".to_string(), json!({ "visible": true }))]);
-    topics.insert("/robot_description".into(), json!({ "visible": false }));
+    let mut topics = json!({ "/mechanism/links": { "visible": true }, "/robot_description": { "visible": false } });
     if view.forces {
-        topics.insert("/mechanism/forces".into(), json!({ "visible": true }));
+        topics["/mechanism/forces"] = json!({ "visible": true });
     }
     json!({
-        "foxglovePanelTitle": view.name,
-        "lichtblickPanelTitle": view.name,
+        "foxglovePanelTitle": view.name, "lichtblickPanelTitle": view.name,
         "cameraState": {
-            "perspective": false,
-            "distance": height,
-            "phi": 0,
-            "thetaOffset": 0,
-            "targetOffset": [centre.x, centre.y, 0],
-            "target": [0, 0, 0],
-            "targetOrientation": [0, 0, 0, 1],
-            "fovy": 45,
-            "near": 0.01 * height,
-            "far": 100.0 * height,
+            "perspective": false, "distance": height, "phi": 0, "thetaOffset": 0,
+            "targetOffset": [centre.x, centre.y, 0], "target": [0, 0, 0], "targetOrientation": [0, 0, 0, 1],
+            "fovy": 45, "near": 0.01 * height, "far": 100.0 * height,
         },
-        "followMode": "follow-none",
-        "followTf": "world",
+        "followMode": "follow-none", "followTf": "world",
         "scene": { "transforms": {
-            "showLabel": false,
-            "labelSize": 0.02 * height,
-            "axisScale": 0.05 * height,
-            "lineWidth": 0,
+            "showLabel": false, "labelSize": 0.02 * height, "axisScale": 0.05 * height, "lineWidth": 0,
             // All poses at once: right ones also after a jump backwards.
             "enablePreloading": true,
         } },
-        "transforms": frames,
-        "topics": topics,
-        "layers": {},
+        "transforms": frames, "topics": topics, "layers": {},
     })
 }
 
 fn graph(plot: &Plot) -> Value {
     json!({
-        "foxglovePanelTitle": plot.title,
-        "lichtblickPanelTitle": plot.title,
-        "title": plot.title,
+        "foxglovePanelTitle": plot.title, "lichtblickPanelTitle": plot.title, "title": plot.title,
         // The first one is drawn last: engines in front of the reference.
-        "paths": plot.lines.iter().rev().map(path).collect::<Vec<Value>>(),
-        "showXAxisLabels": true,
-        "showYAxisLabels": true,
-        "showLegend": plot.lines.len() > 1,
-        "legendDisplay": "floating",
-        "showPlotValuesInLegend": false,
-        "isSynced": true,
-        "xAxisVal": "timestamp",
-        "sidebarDimension": 240,
+        "paths": list(plot.lines.iter().rev(), path), "showXAxisLabels": true, "showYAxisLabels": true,
+        "showLegend": plot.lines.len() > 1, "legendDisplay": "floating", "showPlotValuesInLegend": false,
+        "isSynced": true, "xAxisVal": "timestamp", "sidebarDimension": 240,
     })
 }
 
@@ -118,12 +91,8 @@ fn path(line: &Line) -> Value {
     // The title says what it is. A long name would cover the curve.
     let side = line.side.and_then(|_| line.topic.split('/').nth(1));
     json!({
-        "value": format!("{}.{}", quoted(&line.topic), line.field),
-        "label": side.unwrap_or(&line.label),
-        "enabled": true,
-        "timestampMethod": "receiveTime",
-        "color": colour(line.side),
-        "lineSize": width,
+        "value": format!("{}.{}", quoted(&line.topic), line.field), "label": side.unwrap_or(&line.label),
+        "enabled": true, "timestampMethod": "receiveTime", "color": colour(line.side), "lineSize": width,
         "showLine": true,
     })
 }
@@ -153,5 +122,39 @@ fn column(names: &[String]) -> Option<Value> {
             let share = 100.0 / names.len() as f64;
             json!({ "direction": "column", "first": first, "second": below, "splitPercentage": share })
         }
+    })
+}
+
+/// A moving picture as JSON, for programs that write it for a viewer: places in m, angles in rad, times in simulated
+/// seconds.
+pub(crate) fn film(film: &Film) -> String {
+    let view = &film.view;
+    let centre = (view.corners[0] + view.corners[1]) / 2.0;
+    let plots = list(view.plots.iter().zip(&film.values), |(plot, values)| {
+        let lines = list(
+            plot.lines.iter().zip(values),
+            |(line, values)| json!({ "label": line.label, "side": line.side, "values": values }),
+        );
+        json!({ "title": plot.title, "lines": lines })
+    });
+    let document = json!({
+        "name": view.name, "centre": [centre.x, centre.y], "height": height(view),
+        "speed": speed(view.slow, view.turn) / view.slow, "times": film.times, "plots": plots,
+        "poses": film.poses.iter().map(|(name, poses)| (name.clone(), json!(poses))).collect::<Value>(),
+        "parts": list(&film.parts, part),
+        "arrows": film.arrows.iter().map(|(name, rows)| (name.clone(), json!(rows))).collect::<Value>(),
+    });
+    document.to_string()
+}
+
+fn part(part: &Part) -> Value {
+    json!({
+        "frame": part.frame,
+        "lines": list(&part.lines, |(points, thickness, rgba)| {
+            json!({ "points": points, "thickness": thickness, "rgba": rgba })
+        }),
+        "discs": list(&part.discs, |(at, radius, rgba)| json!({ "at": at, "radius": radius, "rgba": rgba })),
+        "areas": list(&part.areas, |(points, rgba)| json!({ "points": points, "rgba": rgba })),
+        "texts": list(&part.texts, |(at, text)| json!({ "at": at, "text": text })),
     })
 }

@@ -1,9 +1,9 @@
 //! Lists of scenarios, channels and solvers.
 
-use std::fmt::{Display, Write};
+use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
-use crate::plain::tell::Tell;
+use crate::plain::Tell;
 use linkage::case::{Case, Seat};
 use linkage::error::Result;
 use linkage::trajectory::{CHANNELS, Channel};
@@ -13,24 +13,14 @@ use scenario::Scenario;
 pub(crate) fn scenarios(directory: &Path, all: &[(Result<Scenario>, PathBuf)], tell: Tell) -> String {
     let mut text = String::new();
     for (scenario, file) in all {
-        let _ = match scenario {
-            Ok(scenario) => writeln!(
-                text,
-                "{}\n    {}\n    {}",
-                file.display(),
-                scenario.title,
-                scenario.case.structure.formula(&scenario.case.mechanism)
-            ),
-            Err(error) => writeln!(
-                text,
-                "{}\n    cannot be read: {}",
-                file.display(),
-                error.lines_by(tell).replace('\n', "\n    ")
-            ),
-        };
+        let told = scenario.as_ref().map_or_else(
+            |error| format!("cannot be read: {}", error.lines_by(tell).replace('\n', "\n    ")),
+            |own| format!("{}\n    {}", own.title, own.case.structure.formula(&own.case.mechanism)),
+        );
+        say!(text, "{}\n    {told}", file.display());
     }
     if all.is_empty() {
-        let _ = writeln!(text, "no scenario files (*.toml) in {}", directory.display());
+        say!(text, "no scenario files (*.toml) in {}", directory.display());
     }
     text
 }
@@ -41,7 +31,7 @@ pub(crate) fn channels() -> String {
     for kind in &CHANNELS {
         let of = if kind.subject.is_whole() { "" } else { "NAME" };
         let name = Channel { of: of.into(), kind }.to_string();
-        let _ = writeln!(text, "{name:40} {:8} {:26} with \"{}\"", kind.unit, kind.quantity, kind.stage.name());
+        say!(text, "{name:40} {:8} {:26} with \"{}\"", kind.unit, kind.quantity, kind.stage.name());
     }
     text
 }
@@ -58,7 +48,7 @@ pub(crate) fn channels_of(case: &Case) -> String {
     let (name, meaning) = (width(0), width(2));
     let mut text = String::new();
     for [own, unit, what, stage] in &rows {
-        let _ = writeln!(text, "{own:name$}  {unit:8} {what:meaning$}  with \"{stage}\"");
+        say!(text, "{own:name$}  {unit:8} {what:meaning$}  with \"{stage}\"");
     }
     text
 }
@@ -91,10 +81,10 @@ pub(crate) fn solvers<'a, V: Display>(
 ) -> String {
     let mut text = String::new();
     for name in analytic {
-        let _ = writeln!(text, "{name:10} analytic");
+        say!(text, "{name:10} analytic");
     }
     for (name, version) in engines {
-        let _ = writeln!(text, "{name:10} engine, {version}");
+        say!(text, "{name:10} engine, {version}");
     }
     text
 }

@@ -2,6 +2,7 @@
 
 use serde_json::{Value, json};
 
+use super::pretty::list;
 use analytic::modes::Modes;
 use linkage::mechanism::AssemblyMode;
 use prover::numbers::{fixed, fixed_in};
@@ -46,23 +47,20 @@ pub(crate) fn text(scenario: &Scenario, crank: f64, all: &[Modes], undecided: &[
             Some(Open::After(names, number)) => say!(text, "  for configuration {number} of {names}"),
         };
         for (number, mode) in found.modes.iter().enumerate() {
-            let name =
-                if mode.mode == AssemblyMode::Followed { String::new() } else { format!(", {}", mode.mode.name()) };
+            let name = (mode.mode != AssemblyMode::Followed).then(|| format!(", {}", mode.mode.name()));
             let followed = if mode.is_followed && open.is_none() { ", followed by the scenario" } else { "" };
-            say!(text, "  {}{name}{followed}", number + 1);
+            say!(text, "  {}{}{followed}", number + 1, name.unwrap_or_default());
             for (k, (&link, pose)) in group.links.iter().zip(&mode.poses).enumerate() {
-                let omega = mode
-                    .omegas
-                    .as_ref()
-                    .map_or_else(|| "singular".into(), |all| format!("{:>12} rad/s", fixed(all[k], 5)));
+                let omega = mode.omegas.as_ref().map(|all| format!("{:>12} rad/s", fixed(all[k], 5)));
+                let omega = omega.unwrap_or_else(|| "singular".into());
                 let link = &mechanism.links()[link];
                 let points = link.points.iter().map(|point| {
                     let at = pose.point(point.local);
                     format!("{} ({}, {})", point.name, fixed(at.x, 6), fixed(at.y, 6))
                 });
-                let points: Vec<String> = points.collect();
+                let points = points.collect::<Vec<_>>().join(", ");
                 let angle = fixed(pose.angle.to_degrees(), 5);
-                say!(text, "    {:14} {angle:>11} deg {omega:<18}   {} m", link.name, points.join(", "));
+                say!(text, "    {:14} {angle:>11} deg {omega:<18}   {points} m", link.name);
             }
         }
     }
@@ -72,26 +70,28 @@ pub(crate) fn text(scenario: &Scenario, crank: f64, all: &[Modes], undecided: &[
 /// The configurations as JSON.
 pub(super) fn json(scenario: &Scenario, crank: f64, all: &[Modes], undecided: &[Undecided]) -> Value {
     let mechanism = &scenario.case.mechanism;
-    let groups = scenario.case.structure.groups.iter().zip(all).enumerate().map(|(index, (group, found))| {
+    let groups = scenario.case.structure.groups.iter().zip(all).enumerate();
+    let groups = list(groups, |(index, (group, found))| {
         let open = open(scenario, all, undecided, index);
-        let modes = found.modes.iter().map(|mode| {
-            let links = group.links.iter().zip(&mode.poses).enumerate().map(|(k, (&link, pose))| {
-                let omega = mode.omegas.as_ref().map(|all| all[k]);
+        let modes = list(&found.modes, |mode| {
+            let links = list(group.links.iter().zip(&mode.poses).enumerate(), |(k, (&link, pose))| {
                 let link = &mechanism.links()[link];
-                let points = link.points.iter().map(|point| {
+                let points = list(&link.points, |point| {
                     let at = pose.point(point.local);
                     json!({"name": point.name, "x_m": at.x, "y_m": at.y})
                 });
-                json!({"name": link.name, "angle_rad": pose.angle, "omega_rad_s": omega, "points": points.collect::<Vec<_>>()})
+                let omega = mode.omegas.as_ref().map(|all| all[k]);
+                json!({"name": link.name, "angle_rad": pose.angle, "omega_rad_s": omega, "points": points})
             });
-            let mut value = json!({"mode": mode.mode.name(), "followed": mode.is_followed && open.is_none(), "links": links.collect::<Vec<_>>()});
+            let followed = mode.is_followed && open.is_none();
+            let mut value = json!({"mode": mode.mode.name(), "followed": followed, "links": links});
             if mode.omegas.is_none() {
                 value["omega_absent"] = SINGULAR.into();
             }
             value
         });
-        let links: Vec<&str> = group.links.iter().map(|&l| mechanism.links()[l].name.as_str()).collect();
-        let mut value = json!({"links": links, "all_known": found.unknown.is_none(), "modes": modes.collect::<Vec<_>>()});
+        let links = list(&group.links, |&link| mechanism.links()[link].name.as_str().into());
+        let mut value = json!({"links": links, "all_known": found.unknown.is_none(), "modes": modes});
         if let Some(why) = &found.unknown {
             value["others_absent"] = why.as_str().into();
         }
@@ -104,5 +104,5 @@ pub(super) fn json(scenario: &Scenario, crank: f64, all: &[Modes], undecided: &[
         }
         value
     });
-    json!({"crank_rad": crank, "groups": groups.collect::<Vec<_>>()})
+    json!({"crank_rad": crank, "groups": groups})
 }

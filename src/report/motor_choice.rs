@@ -65,7 +65,7 @@ pub(crate) fn text(scenario: &Scenario, choice: &Choice) -> String {
 pub(crate) fn json(scenario: &Scenario, choice: &Choice) -> String {
     let (motor, geared) = (&choice.motor, &choice.geared);
     let [at_rest, slope] = line(choice);
-    let value = json!({
+    pretty(&json!({
         "schema": 1, "scenario": scenario.name,
         "peak": {"crank_rad": choice.peak.0, "moment_N_m": choice.peak.1}, "mean_N_m": choice.mean,
         "wanted_rad_s": choice.wanted, "peak_W": choice.power, "asked_W": choice.asked,
@@ -78,6 +78,5 @@ pub(crate) fn json(scenario: &Scenario, choice: &Choice) -> String {
         "shaft_mean_N_m": choice.mean_torque(), "shaft_peak_N_m": choice.peak_torque(),
         "averaged_crank_rad_s": choice.averaged, "averaged_motor_rad_s": choice.averaged * geared.ratio,
         "steady_mean_rad_s": choice.regime.mean_speed, "non_uniformity": choice.regime.non_uniformity(),
-    });
-    pretty(&value)
+    }))
 }

@@ -2,10 +2,10 @@
 
 use serde_json::{Value, json};
 
-use super::pretty::pretty;
+use super::pretty::{list, pretty};
 use crate::plain::cells::{marked, table, trimmed};
 
-use lab::mutate::{End, Kind, Mutant, Mutated, Outcome, Party, Share, Sight, Spoiled, Tally, all, tally};
+use lab::mutate::{End, Kind, Mutant, Mutated, Outcome, Party, Plant, Share, Sight, Spoiled, Tally, all, tally};
 use linkage::math::KeepNan;
 
 /// The result as text, the verdict first.
@@ -18,16 +18,10 @@ pub(crate) fn text(found: &[Mutated]) -> String {
         say!(text, "{name}: no fault of the kinds asked for changes anything; kinds that would: {instead}{formulas}\n");
     }
     say!(text, "{}\n", scenarios(found));
-    say!(text, "{}\n", kinds(found));
+    say!(text, "{}\n", trimmed(table(KINDS).add_rows(kinds(found))));
     say!(text, "{LEGEND}\n");
-    for (title, lines) in [("Not found in one party:", not_found(found)), ("Open in the trunk:", open(&tally))] {
-        if !lines.is_empty() {
-            say!(text, "{title}");
-            lines.iter().for_each(|line| {
-                say!(text, "  {line}");
-            });
-            text.push('\n');
-        }
+    for (title, lines) in lists(found, &tally).into_iter().filter(|(_, lines)| !lines.is_empty()) {
+        say!(text, "{title}\n  {}\n", lines.join("\n  "));
     }
     text
 }
@@ -77,28 +71,16 @@ fn percent(part: usize, whole: usize) -> String {
 }
 
 fn scenarios(found: &[Mutated]) -> String {
-    let header = [
-        "scenario",
-        "without",
-        "faults",
-        "found",
-        "open",
-        "escaped",
-        "no change",
-        "trunk",
-        "found outside",
-        "in formulas",
-        "found by judging",
-    ];
-    let mut table = table(header, &[2, 3, 4, 5, 6, 7, 8, 9, 10]);
-    for one in found {
+    let rows = found.iter().map(|one| {
         let Tally { planted, trunk, formulas, .. } = tally(std::slice::from_ref(one));
         let Share { inconclusive, escaped, equivalent, .. } = planted;
         let of_trunk = [trunk.real(), trunk.found(), formulas.real(), formulas.found()];
         let counts = [planted.real(), planted.found(), inconclusive, escaped, equivalent].into_iter().chain(of_trunk);
-        table.add_row([one.scenario.clone(), one.verdict.to_string()].into_iter().chain(counts.map(|n| n.to_string())));
-    }
-    trimmed(&table)
+        [one.scenario.clone(), one.verdict.to_string()].into_iter().chain(counts.map(|count| count.to_string()))
+    });
+    let header = "scenario | without | faults> | found> | open> | escaped> | no change> | trunk> | found outside> | \
+                  in formulas> | found by judging>";
+    trimmed(table(header).add_rows(rows))
 }
 
 /// What came of one kind in all scenarios.
@@ -158,26 +140,12 @@ fn cells(kind: &Kind, own: &OfKind) -> [String; 9] {
     ]
 }
 
-const KIND_HEADER: [&str; 9] = [
-    "kind",
-    "family",
-    "in a side",
-    "in the engine",
-    "least margin",
-    "side, found down to",
-    "engine, found down to",
-    "in the trunk",
-    "in formulas",
-];
+const KINDS: &str = "kind | family | in a side> | in the engine> | least margin> | side, found down to> | \
+                     engine, found down to> | in the trunk> | in formulas>";
 
-fn kinds(found: &[Mutated]) -> String {
-    let mut table = table(KIND_HEADER, &[2, 3, 4, 5, 6, 7, 8]);
-    for kind in all() {
-        if let Some(own) = of_kind(found, kind) {
-            table.add_row(cells(kind, &own));
-        }
-    }
-    trimmed(&table)
+/// The kinds that were planted, with what came of them.
+fn kinds(found: &[Mutated]) -> impl Iterator<Item = [String; 9]> {
+    all().filter_map(|kind| Some(cells(kind, &of_kind(found, kind)?)))
 }
 
 /// Faults in one party that are not found, with the reason.
@@ -206,6 +174,11 @@ fn not_found(found: &[Mutated]) -> Vec<String> {
     lines
 }
 
+/// What is not found, below a title: faults in one party, kinds in the trunk.
+fn lists(found: &[Mutated], tally: &Tally) -> [(&'static str, Vec<String>); 2] {
+    [("Not found in one party:", not_found(found)), ("Open in the trunk:", open(tally))]
+}
+
 /// Kinds in the trunk that nothing from outside finds in any scenario.
 fn open(tally: &Tally) -> Vec<String> {
     let open = all().filter(|kind| tally.trunk_kinds.contains(&kind.name) && !tally.trunk_found.contains(&kind.name));
@@ -213,12 +186,8 @@ fn open(tally: &Tally) -> Vec<String> {
 }
 
 /// All kinds as text.
-pub(crate) fn list() -> String {
-    let mut table = table(["kind", "family", "where", "size", "what is wrong"], &[3]);
-    for kind in all() {
-        table.add_row(described(kind));
-    }
-    format!("{}\n", trimmed(&table))
+pub(crate) fn all_kinds() -> String {
+    format!("{}\n", trimmed(table("kind | family | where | size> | what is wrong").add_rows(all().map(described))))
 }
 
 fn described(kind: &Kind) -> [String; 5] {
@@ -233,9 +202,9 @@ fn described(kind: &Kind) -> [String; 5] {
 
 fn place(kind: &Kind) -> &'static str {
     match kind.plant {
-        lab::mutate::Plant::Case(_) => "case",
-        lab::mutate::Plant::Answer(_) => "answer",
-        lab::mutate::Plant::Formula(_) => "formula",
+        Plant::Case(_) => "case",
+        Plant::Answer(_) => "answer",
+        Plant::Formula(_) => "formula",
     }
 }
 
@@ -252,15 +221,13 @@ pub fn kinds_markdown() -> String {
 /// What came of all kinds as a table in Markdown, with the figures above it and what was not found below.
 pub(crate) fn markdown(found: &[Mutated]) -> String {
     let tally = tally(found);
-    let mut text = format!("{}.\n\n{}\n|{}\n", headline(&tally), marked(&KIND_HEADER), "---|".repeat(9));
-    for (kind, own) in all().filter_map(|kind| Some((kind, of_kind(found, kind)?))) {
-        say!(text, "{}", marked(&cells(kind, &own)));
+    let mut text = format!("{}.\n\n| {} |\n|{}\n", headline(&tally), KINDS.replace('>', ""), "---|".repeat(9));
+    for row in kinds(found) {
+        say!(text, "{}", marked(&row));
     }
-    for (title, lines) in [("Not found in one party:", not_found(found)), ("Open in the trunk:", open(&tally))] {
+    for (title, lines) in lists(found, &tally) {
         say!(text, "\n{title}\n");
-        lines.iter().for_each(|line| {
-            say!(text, "- {line}");
-        });
+        lines.iter().for_each(|line| say!(text, "- {line}"));
     }
     text
 }
@@ -268,37 +235,28 @@ pub(crate) fn markdown(found: &[Mutated]) -> String {
 /// The result as JSON, schema 1.
 pub(crate) fn json(found: &[Mutated], failures: &[(String, String)]) -> String {
     let tally = tally(found);
-    let kinds: Vec<Value> = all()
-        .filter(|kind| tally.kinds.contains(&kind.name))
-        .map(|kind| {
-            json!({
-                "name": kind.name, "family": kind.family.name(), "where": place(kind), "size": kind.size, "says": kind.says,
-            })
+    let kinds = list(all().filter(|kind| tally.kinds.contains(&kind.name)), |kind| {
+        let (family, place) = (kind.family.name(), place(kind));
+        json!({ "name": kind.name, "family": family, "where": place, "size": kind.size, "says": kind.says })
+    });
+    let scenarios = list(found, |one| {
+        json!({
+            "scenario": one.scenario, "verdict_without": one.verdict, "engine": one.engine,
+            "faults": list(&one.mutants, mutant), "without_part": one.without, "kinds_instead": one.instead,
+            "formulas": one.formulas,
         })
-        .collect();
-    let scenarios: Vec<Value> = found
-        .iter()
-        .map(|one| {
-            json!({
-                "scenario": one.scenario, "verdict_without": one.verdict, "engine": one.engine,
-                "faults": one.mutants.iter().map(mutant).collect::<Vec<_>>(), "without_part": one.without,
-                "kinds_instead": one.instead, "formulas": one.formulas,
-            })
-        })
-        .collect();
-    let value = json!({
+    });
+    let open = tally.trunk_kinds.iter().filter(|name| !tally.trunk_found.contains(name)).collect::<Vec<_>>();
+    pretty(&json!({
         "schema": 1,
         "figures": {
             "kinds": tally.kinds.len(), "planted": share(&tally.planted), "trunk": share(&tally.trunk),
-            "formulas": share(&tally.formulas),
-            "trunk_kinds": tally.trunk_kinds.len(), "trunk_kinds_found": tally.trunk_found.len(),
-            "trunk_kinds_open": tally.trunk_kinds.iter().filter(|name| !tally.trunk_found.contains(name)).collect::<Vec<_>>(),
+            "formulas": share(&tally.formulas), "trunk_kinds": tally.trunk_kinds.len(),
+            "trunk_kinds_found": tally.trunk_found.len(), "trunk_kinds_open": open,
         },
-        "kinds": kinds,
-        "scenarios": scenarios,
-        "failures": failures.iter().map(|(file, error)| json!({"file": file, "error": error})).collect::<Vec<_>>(),
-    });
-    pretty(&value)
+        "kinds": kinds, "scenarios": scenarios,
+        "failures": list(failures, |(file, error)| json!({"file": file, "error": error})),
+    }))
 }
 
 fn share(share: &Share) -> Value {
@@ -314,20 +272,17 @@ fn mutant(mutant: &Mutant) -> Value {
         "kind": mutant.kind.name, "party": mutant.party.name(), "outcome": mutant.outcome.word(),
         "change": mutant.effect, "smallest": mutant.smallest,
     });
-    let map = value.as_object_mut().expect("this is an object");
     if let Some(Spoiled { formula, right, wrong }) = &mutant.formula {
-        map.insert("formula".into(), json!({ "name": formula, "right": right, "wrong": wrong }));
+        value["formula"] = json!({ "name": formula, "right": right, "wrong": wrong });
     }
     match &mutant.outcome {
         Outcome::Detected { first, clearest, channels, checks } => {
-            map.insert("first".into(), sight(first));
-            map.insert("clearest".into(), sight(clearest));
-            map.insert("channels".into(), json!(channels));
-            map.insert("checks".into(), json!(checks));
+            value["first"] = sight(first);
+            value["clearest"] = sight(clearest);
+            value["channels"] = json!(channels);
+            value["checks"] = json!(checks);
         }
-        Outcome::Refused(reason) | Outcome::Inconclusive(reason) => {
-            map.insert("reason".into(), json!(reason));
-        }
+        Outcome::Refused(reason) | Outcome::Inconclusive(reason) => value["reason"] = json!(reason),
         Outcome::Escaped | Outcome::Equivalent(_) => {}
     }
     value

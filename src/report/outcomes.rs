@@ -3,49 +3,26 @@
 use std::path::Path;
 
 use super::versus;
-use crate::plain::judged::{self, Judged, Sort};
-use crate::plain::tell::Tell;
-use linkage::error::{Advice, Error};
+use crate::plain::Tell;
+use crate::plain::judged::{self, Grade, Judged, Sort, grade};
+use linkage::error::Error;
 use prover::compare::Verdict;
-
 use prover::proof::Proof;
-
 use prover::versus::{Comparison, Pair};
 
 /// One channel or check.
 #[derive(Clone, Debug)]
 pub(super) struct Case {
     /// What judged it: an engine, or the analytic sides.
-    pub(super) by: String,
+    pub(super) by: &'static str,
     pub(super) name: String,
-    pub(super) outcome: Outcome,
+    pub(super) verdict: Verdict,
+    /// Why it is no plain agreement.
+    pub(super) reason: Option<String>,
 }
 
 /// Who judges checks of the analytic sides on each other.
 const SIDES: &str = "analytic sides";
-
-impl Case {
-    fn of(by: &str, name: String, verdict: &Verdict, tell: Tell) -> Case {
-        let reason = || verdict.reason(|advice: &Advice| tell(advice)).unwrap_or_default();
-        let outcome = match verdict {
-            Verdict::Agree { .. } => Outcome::Agrees,
-            Verdict::Expected { .. } => Outcome::Expected(reason()),
-            Verdict::Disagree { .. } => Outcome::Disagrees(reason()),
-            Verdict::Inconclusive { .. } => Outcome::Open(reason()),
-        };
-        Case { by: by.into(), name, outcome }
-    }
-}
-
-#[derive(Clone, Debug, PartialEq)]
-pub(super) enum Outcome {
-    Agrees,
-    /// The published number is wrong, as a finding says.
-    Expected(String),
-    Disagrees(String),
-    /// Nothing is proven.
-    Open(String),
-}
 
 /// A scenario with its cases, or with the error that kept it from being proven.
 #[derive(Clone, Debug)]
@@ -76,26 +53,30 @@ impl Outcomes {
     /// Those of a comparison: every channel and every check of every pair.
     #[must_use]
     pub fn of_comparison(paths: [&Path; 2], comparison: &Comparison, tell: Tell) -> Self {
+        let mut all = Outcomes { noun: "comparison", entries: Vec::new(), tell };
         let entry = |pair: &Pair| {
-            let channels = pair.channels.iter().map(|own| ("comparison", own.claim.text.clone(), &own.verdict));
-            let checks = pair.checks.iter().map(|check| (SIDES, check.name(), &check.verdict));
-            let cases = channels.chain(checks).map(|(by, name, verdict)| Case::of(by, name, verdict, tell));
-            let verdict = pair.verdict().word();
-            Entry { name: versus::who(paths, pair), title: String::new(), verdict, cases: cases.collect(), error: None }
+            let channels = pair.channels.iter().map(|own| all.case("comparison", own.claim.text.clone(), &own.verdict));
+            let checks = pair.checks.iter().map(|check| all.case(SIDES, check.name(), &check.verdict));
+            let (name, cases) = (versus::who(paths, pair), channels.chain(checks).collect());
+            Entry { name, title: String::new(), verdict: pair.verdict().word(), cases, error: None }
         };
-        Outcomes { noun: "comparison", entries: comparison.pairs.iter().map(entry).collect(), tell }
+        all.entries = comparison.pairs.iter().map(entry).collect();
+        all
+    }
+
+    fn case(&self, by: &'static str, name: String, verdict: &Verdict) -> Case {
+        Case { by, name, verdict: verdict.clone(), reason: verdict.reason(self.tell) }
     }
 
     /// Adds a proof: every channel of every engine, and every check.
     pub fn add(&mut self, proof: &Proof) {
         // Forces of an engine's own that prove nothing take nothing from the verdict.
-        let is_left_out =
-            |own: &Judged| own.sort == Sort::OwnForce && matches!(own.verdict, Verdict::Inconclusive { .. });
-        let judged = judged::of(proof).into_iter().filter(|own| !is_left_out(own));
+        let counts = |own: &Judged| own.sort != Sort::OwnForce || grade(own.verdict) != Grade::Open;
+        let judged = judged::of(proof).into_iter().filter(counts);
         let by = |own: &Judged| own.engine.map_or(SIDES, |engine| engine.info.name);
-        let cases = judged.map(|own| Case::of(by(&own), own.name, own.verdict, self.tell)).collect();
-        let failures = proof.engines.iter().filter_map(|engine| engine.failure.as_ref());
-        let error = failures.map(|error| error.message().to_string()).next();
+        let cases = judged.map(|own| self.case(by(&own), own.name, own.verdict)).collect();
+        let error =
+            proof.engines.iter().find_map(|engine| engine.failure.as_ref()).map(|own| own.message().to_string());
         let (name, title) = (proof.scenario.clone(), proof.title.clone());
         self.entries.push(Entry { name, title, verdict: proof.verdict.word(), cases, error });
     }

@@ -2,8 +2,8 @@
 
 use serde_json::json;
 
-use super::pretty::pretty;
-use crate::plain::tell::Tell;
+use super::pretty::{list, pretty};
+use crate::plain::Tell;
 use design::diagram::draw::significant;
 use design::diagram::{Plan, Plans, SingularPoint};
 use linkage::case::Case;
@@ -66,24 +66,25 @@ fn singular_text(text: &mut String, case: &Case, point: &SingularPoint) {
 /// The plans as JSON, schema 1. Arguments as in [`text`].
 pub(crate) fn json(scenario: &Scenario, plans: &Plans, singular: &[Result<SingularPoint>], tell: Tell) -> String {
     let plan = |plan: &Plan| {
-        let vectors = plan.vectors.iter().map(|vector| {
+        let vectors = list(&plan.vectors, |vector| {
             json!({
                 "name": vector.name, "from": vector.from, "to": vector.to, "x": vector.value.x, "y": vector.value.y,
                 "size": vector.value.norm(), "paper_mm": plan.paper(vector), "link": vector.link, "meaning": vector.meaning,
             })
         });
-        let points = plan.tips.iter().map(|tip| json!({"letter": tip.letter, "x": tip.at.x, "y": tip.at.y}));
+        let points = list(&plan.tips, |tip| json!({"letter": tip.letter, "x": tip.at.x, "y": tip.at.y}));
         json!({
             "unit": plan.quantity.unit(), "pole": plan.quantity.pole(), "scale_per_mm": plan.scale,
-            "points": points.collect::<Vec<_>>(), "vectors": vectors.collect::<Vec<_>>(),
+            "points": points, "vectors": vectors,
         })
     };
     let scheme = &plans.scheme;
-    let links = scheme.links.iter().map(
+    let links = list(
+        &scheme.links,
         |link| json!({"number": link.number, "name": link.name, "omega_rad_s": link.omega, "alpha_rad_s2": link.alpha}),
     );
-    let points = scheme.points.iter().map(|(name, at)| json!({"name": name, "x_m": at.x, "y_m": at.y}));
-    let singular = singular.iter().map(|found| match found {
+    let points = list(&scheme.points, |(name, at)| json!({"name": name, "x_m": at.x, "y_m": at.y}));
+    let singular = list(singular, |found| match found {
         Ok(point) => {
             let links = point.links.map(|(link, omega, alpha)| {
                 json!({"name": scenario.case.mechanism.links()[link].name, "omega_rad_s": omega, "alpha_rad_s2": alpha})
@@ -97,11 +98,9 @@ pub(crate) fn json(scenario: &Scenario, plans: &Plans, singular: &[Result<Singul
         }
         Err(error) => json!({"error": error.line_by(tell)}),
     });
-    let value = json!({
+    pretty(&json!({
         "schema": 1, "scenario": scenario.name, "crank_rad": plans.crank,
-        "diagram": {"scale_m_per_mm": scheme.scale, "links": links.collect::<Vec<_>>(), "points": points.collect::<Vec<_>>()},
-        "velocity": plan(&plans.velocity), "acceleration": plan(&plans.acceleration),
-        "singular_points": singular.collect::<Vec<_>>(),
-    });
-    pretty(&value)
+        "diagram": {"scale_m_per_mm": scheme.scale, "links": links, "points": points},
+        "velocity": plan(&plans.velocity), "acceleration": plan(&plans.acceleration), "singular_points": singular,
+    }))
 }

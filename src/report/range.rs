@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use serde_json::{Value, json};
 
+use super::pretty::list;
 use crate::plain::cells::{table, trimmed};
 use analytic::range::{At, Extent, Extreme, LinkRange, Measure, Range, Singularity};
 use prover::numbers;
@@ -59,50 +60,48 @@ fn names(scenario: &Scenario, group: usize) -> String {
     scenario.case.structure.groups[group].names(&scenario.case.mechanism)
 }
 
-fn is_dyad(scenario: &Scenario, group: usize) -> bool {
-    scenario.case.structure.groups[group].links.len() == 2
+/// Transmission angle (rad) at a determinant; `None` for a group that is no dyad.
+fn transmission(scenario: &Scenario, group: usize, determinant: f64) -> Option<f64> {
+    (scenario.case.structure.groups[group].links.len() == 2).then(|| determinant.abs().asin())
 }
 
 fn singularities(scenario: &Scenario, range: &Range) -> String {
     if range.singularities.is_empty() {
         return "No singular pose on the way.\n".into();
     }
-    let mut table = table(["singular pose", "crank deg", "group", "determinant"], &[1, 3]);
-    for Singularity { kind, crank, group, determinant } in &range.singularities {
-        let crank = degrees(*crank, range);
-        table.add_row([kind.name().to_string(), crank, names(scenario, *group), numbers::significant(*determinant, 2)]);
-    }
-    format!("{}\n", trimmed(&table))
+    let rows = range.singularities.iter().map(|Singularity { kind, crank, group, determinant }| {
+        let (crank, determinant) = (degrees(*crank, range), numbers::significant(*determinant, 2));
+        [kind.name().to_string(), crank, names(scenario, *group), determinant]
+    });
+    format!("{}\n", trimmed(table("singular pose | crank deg> | group | determinant>").add_rows(rows)))
 }
 
 fn groups(scenario: &Scenario, range: &Range) -> String {
-    let header =
-        ["group", "least determinant", "transmission deg", "at crank deg", "largest condition", "at crank deg"];
-    let mut table = table(header, &[1, 2, 3, 4, 5]);
-    for (index, group) in range.groups.iter().enumerate() {
+    let rows = range.groups.iter().enumerate().map(|(index, group)| {
         let At { crank, value } = group.determinant;
-        let transmission =
-            if is_dyad(scenario, index) { numbers::fixed(value.abs().asin().to_degrees(), 4) } else { "-".into() };
+        let transmission = transmission(scenario, index, value);
+        let transmission = transmission.map_or("-".into(), |angle| numbers::fixed(angle.to_degrees(), 4));
         let (condition, at) = match group.condition {
             Some(worst) => (numbers::fixed(worst.value, 4), degrees(worst.crank, range)),
             None => ("without bound".into(), degrees(crank, range)),
         };
         let (least, crank) = (numbers::fixed(value, 6), degrees(crank, range));
-        table.add_row([names(scenario, index), least, transmission, crank, condition, at]);
-    }
-    trimmed(&table)
+        [names(scenario, index), least, transmission, crank, condition, at]
+    });
+    let header = "group | least determinant> | transmission deg> | at crank deg> | largest condition> | at crank deg>";
+    trimmed(table(header).add_rows(rows))
 }
 
 fn links(scenario: &Scenario, range: &Range) -> String {
-    let mut table = table(["link", "motion", "from deg", "to deg", "extreme positions, at crank deg"], &[2, 3]);
-    for link in &range.links {
+    let rows = range.links.iter().map(|link| {
         // For a link that rotates fully, the interval of its angle has no meaning.
         let end = |at: At| if link.turns == 0 { numbers::fixed(at.value.to_degrees(), 6) } else { "-".into() };
         let [least, most] = link.angles.map(end);
         let name = scenario.case.mechanism.links()[link.link].name.clone();
-        table.add_row([name, motion(link), least, most, positions(&link.extremes, range)]);
-    }
-    trimmed(&table)
+        [name, motion(link), least, most, positions(&link.extremes, range)]
+    });
+    let header = "link | motion | from deg> | to deg> | extreme positions, at crank deg";
+    trimmed(table(header).add_rows(rows))
 }
 
 fn motion(link: &LinkRange) -> String {
@@ -120,11 +119,9 @@ fn positions(extremes: &[Extreme], range: &Range) -> String {
         let word = if extreme.is_greatest { "greatest" } else { "smallest" };
         format!("{} ({word}, {})", numbers::fixed(extreme.angle.to_degrees(), 6), degrees(extreme.crank, range))
     };
-    let mut shown: Vec<String> = extremes.iter().take(EXTREMES).map(one).collect();
-    if extremes.len() > EXTREMES {
-        shown.push(format!("and {} more", extremes.len() - EXTREMES));
-    }
-    shown.join("\n")
+    let more = extremes.len().saturating_sub(EXTREMES);
+    let more = (more > 0).then(|| format!("and {more} more"));
+    extremes.iter().take(EXTREMES).map(one).chain(more).collect::<Vec<_>>().join("\n")
 }
 
 /// The range as JSON.
@@ -134,18 +131,17 @@ pub(super) fn json(scenario: &Scenario, range: &Range) -> Value {
         Extent::FullTurn(turns) => json!({"full_turn": true, "turns_to_same_pose": turns}),
         Extent::Limited([from, to]) => json!({"full_turn": false, "from_rad": from.crank, "to_rad": to.crank}),
     };
-    let singularities = range.singularities.iter().map(|s| {
-        let transmission = is_dyad(scenario, s.group).then(|| s.determinant.abs().asin());
+    let singularities = list(&range.singularities, |own| {
         json!({
-            "kind": s.kind.name(), "crank_rad": s.crank, "group": names(scenario, s.group), "determinant": s.determinant,
-            "transmission_angle_rad": transmission,
+            "kind": own.kind.name(), "crank_rad": own.crank, "group": names(scenario, own.group),
+            "determinant": own.determinant,
+            "transmission_angle_rad": transmission(scenario, own.group, own.determinant),
         })
     });
-    let groups = range.groups.iter().enumerate().map(|(index, group)| {
-        let transmission = is_dyad(scenario, index).then(|| group.determinant.value.abs().asin());
+    let groups = list(range.groups.iter().enumerate(), |(index, group)| {
         let mut value = json!({
             "links": names(scenario, index), "least_determinant": at(&group.determinant, "determinant"),
-            "least_transmission_angle_rad": transmission,
+            "least_transmission_angle_rad": transmission(scenario, index, group.determinant.value),
             "largest_condition": group.condition.as_ref().map(|worst| at(worst, "condition")),
         });
         if group.condition.is_none() {
@@ -154,23 +150,19 @@ pub(super) fn json(scenario: &Scenario, range: &Range) -> Value {
         }
         value
     });
-    let links = range.links.iter().map(|link| {
-        let extremes = link
-            .extremes
-            .iter()
-            .map(|e| json!({"crank_rad": e.crank, "angle_rad": e.angle, "greatest": e.is_greatest}));
+    let extreme = |own: &Extreme| json!({"crank_rad": own.crank, "angle_rad": own.angle, "greatest": own.is_greatest});
+    let links = list(&range.links, |link| {
         json!({
             "name": scenario.case.mechanism.links()[link.link].name, "least": at(&link.angles[0], "angle_rad"),
-            "greatest": at(&link.angles[1], "angle_rad"), "turns": link.turns, "extremes": extremes.collect::<Vec<_>>(),
+            "greatest": at(&link.angles[1], "angle_rad"), "turns": link.turns,
+            "extremes": list(&link.extremes, extreme),
         })
     });
-    let of_samples = |f: fn(&Measure) -> f64, group: usize| -> Vec<f64> {
-        range.samples.iter().map(|sample| f(&sample.groups[group])).collect()
-    };
-    let sampled = (0..range.groups.len()).map(|group| {
+    let sampled = list(0..range.groups.len(), |group| {
+        let of = |of: fn(&Measure) -> f64| list(&range.samples, |sample| json!(of(&sample.groups[group])));
         json!({
-            "links": names(scenario, group), "determinant": of_samples(|m| m.determinant, group),
-            "condition": of_samples(|m| m.condition, group),
+            "links": names(scenario, group), "determinant": of(|own| own.determinant),
+            "condition": of(|own| own.condition),
         })
     });
     let four_bar = range.four_bar.as_ref().map(|bar| {
@@ -178,12 +170,8 @@ pub(super) fn json(scenario: &Scenario, range: &Range) -> Value {
         json!({"type": bar.of_type.name(), "frame_m": frame, "driver_m": driver, "coupler_m": coupler, "output_m": output})
     });
     json!({
-        "extent": extent, "four_bar": four_bar, "singularities": singularities.collect::<Vec<_>>(),
-        "groups": groups.collect::<Vec<_>>(), "links": links.collect::<Vec<_>>(),
-        "samples": {
-            "crank_rad": range.samples.iter().map(|sample| sample.crank).collect::<Vec<_>>(),
-            "groups": sampled.collect::<Vec<_>>(),
-        },
+        "extent": extent, "four_bar": four_bar, "singularities": singularities, "groups": groups, "links": links,
+        "samples": { "crank_rad": list(&range.samples, |sample| json!(sample.crank)), "groups": sampled },
     })
 }
 

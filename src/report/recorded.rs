@@ -3,13 +3,11 @@
 use std::collections::BTreeMap;
 
 use super::json;
-use crate::plain::judged::{self, Sort};
-use crate::plain::tell::Tell;
+use crate::plain::Tell;
+use crate::plain::judged::{self, Grade, grade};
 use linkage::math::KeepNan;
 use prover::compare::Verdict;
-
 use prover::proof::{EngineProof, Proof};
-
 use recording::{Level, LogEntry};
 
 /// Versions, settings and verdict, by name.
@@ -21,10 +19,8 @@ pub(crate) fn metadata(proof: &Proof) -> BTreeMap<String, String> {
         ("verdict".into(), proof.verdict.word().into()),
     ]);
     for EngineProof { info, own_forces, .. } in &proof.engines {
-        let (engine, provides) = match proof.engines.len() {
-            1 => ("engine".to_string(), "provides".to_string()),
-            _ => (format!("engine_{}", info.name), format!("provides_{}", info.name)),
-        };
+        let named = if proof.engines.len() == 1 { String::new() } else { format!("_{}", info.name) };
+        let [engine, provides] = ["engine", "provides"].map(|word| format!("{word}{named}"));
         let resolution = if info.controls_error { "accuracy" } else { "step_s" };
         metadata.insert(engine.clone(), info.version.clone());
         metadata.insert(format!("{engine}_{resolution}"), format!("{:e}", info.settings.resolution));
@@ -43,14 +39,10 @@ pub(crate) fn metadata(proof: &Proof) -> BTreeMap<String, String> {
 /// The verdict at the start, and every disagreement at its worst instant.
 pub(crate) fn log(proof: &Proof, tell: Tell) -> Vec<LogEntry> {
     let start = proof.reference_trajectory.times().iter().copied().fold(f64::INFINITY, f64::smaller);
-    let level = |verdict: &Verdict| match verdict {
-        Verdict::Agree { .. } | Verdict::Expected { .. } => Level::Info,
-        Verdict::Inconclusive { .. } => Level::Warning,
-        Verdict::Disagree { .. } => Level::Error,
-    };
-    let why = |verdict: &Verdict| match verdict {
-        Verdict::Agree { .. } | Verdict::Expected { .. } => None,
-        Verdict::Disagree { .. } | Verdict::Inconclusive { .. } => verdict.reason(tell),
+    let level = |verdict: &Verdict| match grade(verdict) {
+        Grade::Agree => Level::Info,
+        Grade::Open => Level::Warning,
+        Grade::Disagree => Level::Error,
     };
     let mut log = vec![LogEntry {
         time: start,
@@ -58,9 +50,10 @@ pub(crate) fn log(proof: &Proof, tell: Tell) -> Vec<LogEntry> {
         text: format!("{}: {}", proof.scenario, proof.verdict.word()),
     }];
     let mut all = judged::of(proof);
-    all.sort_by_key(|own| [Sort::Channel, Sort::OwnForce, Sort::Check].iter().position(|sort| *sort == own.sort));
+    all.retain(|own| grade(own.verdict) != Grade::Agree);
+    all.sort_by_key(|own| own.sort);
     log.extend(all.into_iter().filter_map(|own| {
-        let text = format!("{}: {}", own.name, why(own.verdict)?);
+        let text = format!("{}: {}", own.name, own.verdict.reason(tell)?);
         Some(LogEntry { time: own.worst.unwrap_or(start), level: level(own.verdict), text })
     }));
     log

@@ -2,20 +2,22 @@
 
 use crate::plain::cells::{table, trimmed};
 use crate::plain::judged::{self, Judged, Sort};
+use linkage::math::statistics::share;
 use prover::numbers;
 use prover::proof::Proof;
 
 /// One line for every channel of every engine, and for every check.
 #[must_use]
 pub fn all(proof: &Proof) -> String {
-    let mut table = table(["channel or check", "side", "residual", "bound", "unit", "used", "verdict"], &[2, 3, 5]);
-    for Judged { sort, engine, name, value, bound, unit, verdict, .. } in judged::checks_last(proof) {
+    let rows = judged::checks_last(proof).into_iter().map(|own| {
+        let Judged { sort, engine, name, value, bound, unit, verdict, .. } = own;
         let side = engine.filter(|_| sort != Sort::Check).map_or("", |engine| engine.info.name);
-        let used = numbers::significant(if value == 0.0 { 0.0 } else { value / bound }, 3);
+        let used = numbers::significant(share(value, bound), 3);
         let [value, bound] = [value, bound].map(|number| numbers::significant(number, 4));
-        table.add_row([name, side.into(), value, bound, unit.into(), used, verdict.word().into()]);
-    }
-    format!("\n{}\n", trimmed(&table))
+        [name, side.into(), value, bound, unit.into(), used, verdict.word().into()]
+    });
+    let header = "channel or check | side | residual> | bound> | unit | used> | verdict";
+    format!("\n{}\n", trimmed(table(header).add_rows(rows)))
 }
 
 #[cfg(test)]

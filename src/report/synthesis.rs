@@ -2,12 +2,12 @@
 
 use serde_json::json;
 
-use super::pretty::pretty;
+use super::pretty::{list, pretty};
 use crate::plain::cells::table;
 use design::diagram::timing::{Stretch, TimingDiagram};
-use design::synthesis::achieved::BAND;
+use design::synthesis::achieved::{BAND, PhaseDone};
 use design::synthesis::{Achieved, Found};
-use design::task::{Output, Sense, Task};
+use design::task::{Output, Phase, Sense, Task};
 use prover::numbers;
 
 /// A task, what was achieved, and how it was found.
@@ -53,33 +53,27 @@ pub(crate) fn text(story: &Story) -> String {
             text,
             "{drawn} random candidates, {assembled} of them assembled near the limits; cost {cost}, refined {refined} (worst of the refined {worst})\n"
         );
-        let mut dimensions = table(["dimension", "value", "from", "to"], &[1, 2, 3]);
-        for (variable, &value) in task.variables.iter().zip(values) {
+        let rows = task.variables.iter().zip(values).map(|(variable, &value)| {
             let show = |value: f64| match variable.is_angle {
                 true => numbers::fixed_in(value.to_degrees(), 4, "deg"),
                 false => numbers::fixed_in(value * 1e3, 3, "mm"),
             };
             let [from, to] = variable.bounds;
-            let shown = [value, from, to].map(show);
-            dimensions.add_row(std::iter::once(variable.name.clone()).chain(shown));
-        }
-        say!(text, "{dimensions}\n");
+            [variable.name.clone(), show(value), show(from), show(to)]
+        });
+        say!(text, "{}\n", table("dimension | value> | from> | to>").add_rows(rows));
     }
-    let header = ["from deg", "to deg", "sense", "displacement %", "motion %", "wrong way %", "level %", "ends at deg"];
-    let mut phases = table(header, &[0, 1, 3, 4, 5, 6, 7]);
-    for (phase, done) in task.timing.phases().iter().zip(&achieved.phases) {
+    let rows = task.timing.phases().iter().zip(&achieved.phases).map(|(phase, done)| {
         let percent = |share: f64| numbers::fixed(100.0 * share, 3);
-        phases.add_row([
-            numbers::fixed(phase.from.to_degrees(), 1),
-            numbers::fixed(phase.to.to_degrees(), 1),
-            phase.sense.name().to_string(),
-            percent(done.displacement),
-            percent(done.motion),
-            if phase.sense == Sense::Dwell { "-".into() } else { percent(done.wrong) },
-            percent(done.level),
-            done.end.map_or("-".into(), |end| numbers::fixed(end.to_degrees(), 2)),
-        ]);
-    }
+        let [from, to] = [phase.from, phase.to].map(|angle| numbers::fixed(angle.to_degrees(), 1));
+        let [displacement, motion, level] = [done.displacement, done.motion, done.level].map(percent);
+        let wrong = if phase.sense == Sense::Dwell { "-".into() } else { percent(done.wrong) };
+        let end = done.end.map_or("-".into(), |end| numbers::fixed(end.to_degrees(), 2));
+        [from, to, phase.sense.name().to_string(), displacement, motion, wrong, level, end]
+    });
+    let header = "from deg> | to deg> | sense | displacement %> | motion %> | wrong way %> | level %> | ends at deg>";
+    let mut phases = table(header);
+    phases.add_rows(rows);
     say!(text, "{phases}\n\n{}", summary(task, achieved));
     say!(
         text,
@@ -92,29 +86,28 @@ pub(crate) fn text(story: &Story) -> String {
 /// The motion and its timing as JSON, schema 1.
 pub(crate) fn json(story: &Story) -> String {
     let (task, achieved) = (story.task, story.achieved);
-    let phases = task.timing.phases().iter().zip(&achieved.phases).map(|(phase, done)| {
+    let phases = list(task.timing.phases().iter().zip(&achieved.phases), |(phase, done)| {
         json!({
             "from_rad": phase.from, "to_rad": phase.to, "sense": phase.sense.name(), "displacement": done.displacement,
             "motion": done.motion, "wrong": done.wrong, "level": done.level, "end_rad": done.end,
         })
     });
     let search = story.search.map(|(found, values)| {
-        let dimensions = task.variables.iter().zip(values).map(|(variable, value)| {
-            let unit = if variable.is_angle { "rad" } else { "m" };
-            json!({"name": variable.name, "value": value, "unit": unit, "from": variable.bounds[0], "to": variable.bounds[1]})
+        let dimensions = list(task.variables.iter().zip(values), |(variable, value)| {
+            let ([from, to], unit) = (variable.bounds, if variable.is_angle { "rad" } else { "m" });
+            json!({"name": variable.name, "value": value, "unit": unit, "from": from, "to": to})
         });
         json!({
             "seed": task.effort.seed, "candidates": found.candidates[0], "assembled": found.candidates[1],
             "random_cost": found.random_cost, "cost": found.cost, "refined_costs": found.refined,
-            "dimensions": dimensions.collect::<Vec<_>>(),
+            "dimensions": dimensions,
         })
     });
-    let value = json!({
+    pretty(&json!({
         "schema": 1, "name": task.name, "stroke": achieved.stroke, "forward": achieved.forward,
         "transmission_rad": achieved.transmission, "unrest": achieved.unrest(task), "wrong": achieved.wrong(),
-        "late_rad": achieved.late(task), "short_rad": achieved.short(task), "phases": phases.collect::<Vec<_>>(), "search": search,
-    });
-    pretty(&value)
+        "late_rad": achieved.late(task), "short_rad": achieved.short(task), "phases": phases, "search": search,
+    }))
 }
 
 /// Data of the picture: a point every degree, and the wanted curve where it is known.
@@ -125,42 +118,32 @@ pub(crate) fn diagram(story: &Story) -> TimingDiagram {
         let row = achieved.turns.iter().position(|&turn| turn >= crank);
         achieved.shares[row.unwrap_or(achieved.shares.len() - 1)]
     };
-    let least = |phase: &design::task::Phase| {
-        let start = share(phase.from);
-        let way = match phase.sense {
-            Sense::Dwell => 0.0,
-            Sense::Forward => phase.least,
-            Sense::Back => -phase.least,
+    let stretch = |(phase, done): (&Phase, &PhaseDone)| {
+        let (start, moves) = (share(phase.from), format!("{:+.1} %", 100.0 * done.displacement));
+        let (way, figure) = match phase.sense {
+            Sense::Dwell => (0.0, format!("moves {:.2} %", 100.0 * done.motion)),
+            Sense::Forward => (phase.least, moves),
+            Sense::Back => (-phase.least, moves),
         };
-        [start, phase.level.unwrap_or(start + way)]
+        Stretch {
+            from: phase.from,
+            to: phase.to,
+            word: phase.sense.name(),
+            rests: phase.sense == Sense::Dwell,
+            figure,
+            least: [start, phase.level.unwrap_or(start + way)],
+        }
     };
-    let stretch = |(phase, done): (&design::task::Phase, &design::synthesis::achieved::PhaseDone)| Stretch {
-        from: phase.from,
-        to: phase.to,
-        word: phase.sense.name(),
-        rests: phase.sense == Sense::Dwell,
-        figure: match phase.sense {
-            Sense::Dwell => format!("moves {:.2} %", 100.0 * done.motion),
-            Sense::Forward | Sense::Back => format!("{:+.1} %", 100.0 * done.displacement),
-        },
-        least: least(phase),
+    let wanted = |deg: u32| {
+        let angle = f64::from(deg).to_radians();
+        task.timing.wanted(angle).map(|share| [angle, share])
     };
+    let summary = summary(task, achieved);
+    let rest = summary.split_once(". ").map_or("", |(_, rest)| rest);
     TimingDiagram {
         curve: rows.map(|row| [achieved.turns[row], achieved.shares[row]]).collect(),
-        wanted: (0..=360)
-            .filter_map(|deg| {
-                task.timing.wanted(f64::from(deg).to_radians()).map(|share| [f64::from(deg).to_radians(), share])
-            })
-            .collect(),
+        wanted: (0..=360).filter_map(wanted).collect(),
         stretches: task.timing.phases().iter().zip(&achieved.phases).map(stretch).collect(),
-        note: format!(
-            "stroke {}; {}",
-            stroke(task, achieved),
-            summary(task, achieved)
-                .split_once(". ")
-                .map_or("", |(_, rest)| rest)
-                .replace(". ", "; ")
-                .replace('\n', " ")
-        ),
+        note: format!("stroke {}; {}", stroke(task, achieved), rest.replace(". ", "; ").replace('\n', " ")),
     }
 }

@@ -1,15 +1,10 @@
 //! Proofs as text for the terminal.
 
-use comfy_table::Table;
-
-use crate::plain::brief;
-use crate::plain::cells::{distinct, fitted, share, trimmed, used};
-use crate::plain::engines;
-use crate::plain::own_forces;
-use crate::plain::reasons::{self, count};
+use crate::plain::cells::{counted, distinct, fitted, share, trimmed};
+use crate::plain::judged::{counts, verdicts, worst};
 use crate::plain::style::wrapped;
-use crate::plain::tell::Tell;
-use prover::compare::{Check, Verdict};
+use crate::plain::{Tell, brief, engines, reasons};
+use prover::compare::{Check, Verdict, overall};
 use prover::numbers;
 use prover::proof::{ChannelProof, End, EngineInfo, EngineProof, Proof, Search};
 
@@ -20,7 +15,7 @@ const REASONS: usize = 5;
 /// lines have at most `width` columns, if there is a width.
 #[must_use]
 pub fn proof(proof: &Proof, tell: Tell, width: Option<usize>) -> String {
-    let mut text = format!("{}\n{}\n", brief::verdict_line(proof), sentence(&proof.verdict, proof));
+    let mut text = format!("{}\n{}\n", brief::verdict_line(proof), sentence(proof));
     brief::worst(proof, width, &mut text);
     text.push('\n');
     let mut line = |what: &str, told: &str| {
@@ -39,11 +34,11 @@ pub fn proof(proof: &Proof, tell: Tell, width: Option<usize>) -> String {
     }
     match proof.engines.as_slice() {
         [only] => {
-            let table = trimmed(&channels(&only.channels, width));
+            let table = channels(&only.channels, width);
             say!(text, "\nEngine against reference, the worst channel of each quantity:\n{table}");
         }
         several => {
-            let table = trimmed(&engines::table(several, width));
+            let table = engines::table(several, width);
             say!(text, "\nSide by side, the largest error over its scale (and its bound):\n{table}");
             say!(text, "\n{}", wrapped(&engines::disputes(proof), width, 2));
         }
@@ -52,8 +47,7 @@ pub fn proof(proof: &Proof, tell: Tell, width: Option<usize>) -> String {
         own_section(engine, proof.engines.len() > 1, width, &mut text);
     }
     reasons::left_out(proof, width, &mut text);
-    let all: Vec<&Check> = proof.all_checks().collect();
-    say!(text, "\nChecks:\n{}", trimmed(&checks(&all, width)));
+    say!(text, "\nChecks:\n{}", checks(proof, width));
     reasons::expected(proof, tell, &mut text);
     reasons::reasons(proof, tell, width, REASONS, &mut text);
     reasons::diagnosed(proof, width, &mut text);
@@ -74,27 +68,25 @@ fn described(info: &EngineInfo) -> String {
 /// The section on an engine's own forces, after the table of its channels: a table, or a line beside `several` engines.
 fn own_section(engine: &EngineProof, several: bool, width: Option<usize>, text: &mut String) {
     let Some(own) = &engine.own_forces else { return };
-    let route = own.info.settings.route.name();
+    let (name, route) = (engine.info.name, own.info.settings.route.name());
+    let mut paragraph = |told: &str| say!(text, "\n{}", wrapped(told, width, 2));
     match &own.failure {
         Some(error) => {
-            let (name, why) = (engine.info.name, error.message());
-            let told = format!("Forces as {name} itself exerts them (route {route}) are not judged: {why}");
-            say!(text, "\n{}", wrapped(&told, width, 2));
+            let why = error.message();
+            paragraph(&format!("Forces as {name} itself exerts them (route {route}) are not judged: {why}"));
         }
         None if several => {
-            let (name, how) = (engine.info.name, own_forces::line(own));
-            let told = format!("Forces as {name} itself exerts them (route {route}): {how}");
-            say!(text, "\n{}", wrapped(&told, width, 2));
+            let how = engines::exerted(own);
+            paragraph(&format!("Forces as {name} itself exerts them (route {route}): {how}"));
         }
         None => {
-            let source = format!("The forces above: {}.", own_forces::source(engine));
-            let told = format!("{source}\nForces as the engine itself exerts them, by {}", own_how(own));
-            say!(text, "\n{}", wrapped(&told, width, 2));
-            say!(text, "{}", trimmed(&channels(&own.channels, width)));
+            let (source, how, table) = (engines::source(engine), own_how(own), channels(&own.channels, width));
+            paragraph(&format!("The forces above: {source}.\nForces as the engine itself exerts them, by {how}"));
+            say!(text, "{table}");
         }
     }
     if let Some(fault) = engine.force_fault() {
-        say!(text, "\n{}", wrapped(own_forces::sentence(fault), width, 2));
+        say!(text, "\n{}", wrapped(engines::sentence(fault), width, 2));
     }
 }
 
@@ -122,12 +114,8 @@ fn found(info: &EngineInfo, search: &Search) -> String {
         End::Budget => "; the work that was allowed is done",
         End::Pace => "; at this pace the work that was allowed would not be enough",
     };
-    let (sweeps, runs, effort) = (info.settings.sweeps, search.runs, search.effort);
-    let plural = if sweeps == 1 { "sweep" } else { "sweeps" };
-    format!(
-        "found: {sweeps} {plural}, {times}, from {runs} runs with the work of {} steps{why}",
-        numbers::error(effort)
-    )
+    let (sweeps, runs, effort) = (counted(info.settings.sweeps, "sweep"), search.runs, numbers::error(search.effort));
+    format!("found: {sweeps}, {times}, from {runs} runs with the work of {effort} steps{why}")
 }
 
 /// A step with at most five significant digits; the JSON has all digits.
@@ -136,89 +124,80 @@ fn seconds(step: f64) -> String {
 }
 
 /// How much was judged, and what came of it.
-pub(super) fn sentence(verdict: &Verdict, proof: &Proof) -> String {
-    let own: Vec<&ChannelProof> =
-        proof.engines.iter().flat_map(|engine| &engine.own_forces).flat_map(|own| &own.channels).collect();
-    let closed = own.iter().filter(|own| !matches!(own.verdict, Verdict::Inconclusive { .. })).count();
-    let own = own.len();
+pub(super) fn sentence(proof: &Proof) -> String {
+    let forces = proof.engines.iter().flat_map(|engine| &engine.own_forces).flat_map(|own| &own.channels);
+    let [agree, expected, wrong, open] = counts(forces.map(|own| &own.verdict));
+    let closed = agree + expected + wrong;
+    let own = closed + open;
     let channels = proof.reference_trajectory.channels().len();
     let channels = match own {
         0 => format!("{channels} channels"),
-        _ if closed < own && matches!(verdict, Verdict::Agree { .. }) => {
+        _ if open > 0 && matches!(proof.verdict, Verdict::Agree { .. }) => {
             format!("{channels} channels, {closed} of {own} forces that the engine itself exerts (the others are open)")
         }
         _ => format!("{channels} channels, {own} forces that the engine itself exerts"),
     };
     let checks = proof.all_checks().count();
-    match verdict {
+    let [within, known, wrong, open] = counts(verdicts(proof).into_iter().map(|(_, verdict)| verdict));
+    match proof.verdict {
         Verdict::Agree { .. } | Verdict::Expected { .. } => {
-            let known = count(proof, |verdict| matches!(verdict, Verdict::Expected { .. }));
             let expected = if known == 0 { String::new() } else { format!(", {known} disagree as expected") };
-            let within = count(proof, |verdict| matches!(verdict, Verdict::Agree { .. }));
             match proof.engines.len() {
                 1 => format!("{channels} and {} checks are within their bounds{expected}.", checks - known),
                 _ => format!("{within} channels and checks are within their bounds{expected}."),
             }
         }
         Verdict::Disagree { .. } => {
-            let wrong = count(proof, |verdict| matches!(verdict, Verdict::Disagree { .. }));
             let are = if wrong == 1 { "number is beyond its bound" } else { "numbers are beyond their bounds" };
             format!("{wrong} {are}, of {channels} and {checks} checks.")
         }
         Verdict::Inconclusive { .. } => {
-            let open = count(proof, |verdict| matches!(verdict, Verdict::Inconclusive { .. }));
             let prove = if open == 1 { "number proves" } else { "numbers prove" };
             format!("{open} {prove} nothing either way, of {channels} and {checks} checks.")
         }
     }
 }
 
-/// Verdict on a family of checks; `expected` if all wrong numbers are known to be wrong.
-fn family_word<'a>(family: impl Iterator<Item = &'a Check> + Clone) -> &'static str {
-    let word = prover::compare::overall(family.clone().map(|check| &check.verdict)).word();
-    let known = family.clone().any(|check| matches!(check.verdict, Verdict::Expected { .. }));
-    if known && word == "agree" { "expected" } else { word }
-}
-
-fn channels(channels: &[ChannelProof], width: Option<usize>) -> Table {
-    let header = ["quantity", "worst channel", "crank deg", "error", "of scale", "bound", "order", "verdict"];
-    let mut table = fitted(header, &[2, 3, 4, 5, 6], width);
-    for quantity in distinct(channels.iter().map(|own| own.residual.channel.kind.quantity)) {
-        let family = || channels.iter().filter(|c| c.residual.channel.kind.quantity == quantity);
-        let Some(worst) = family().max_by(|a, b| used(a).total_cmp(&used(b))) else { continue };
-        let residual = &worst.residual;
-        table.add_row([
+/// The channels as a table: of each quantity the one that uses most of its bound.
+fn channels(channels: &[ChannelProof], width: Option<usize>) -> String {
+    let header = "quantity | worst channel | crank deg> | error> | of scale> | bound> | order> | verdict";
+    let quantities = distinct(channels.iter().map(|own| own.residual.channel.kind.quantity));
+    let rows = quantities.into_iter().filter_map(|quantity| {
+        let family = || channels.iter().filter(|own| own.residual.channel.kind.quantity == quantity);
+        let worst = worst(family())?;
+        let (residual, order) = (&worst.residual, worst.convergence.observed);
+        Some([
             format!("{quantity} ({})", family().count()),
             residual.channel.to_string(),
             numbers::fixed(residual.worst_crank.to_degrees(), 1),
             numbers::error_in(residual.max, residual.channel.kind.unit.symbol()),
             share(residual.max, residual.scale),
             share(worst.bound, residual.scale),
-            order(worst.convergence.observed),
-            prover::compare::overall(family().map(|c| &c.verdict)).word().to_string(),
-        ]);
-    }
-    table
+            if order.is_nan() { "rounding".into() } else { format!("{order:.2}") },
+            overall(family().map(|own| &own.verdict)).word().to_string(),
+        ])
+    });
+    trimmed(fitted(header, width).add_rows(rows))
 }
 
-fn order(observed: f64) -> String {
-    if observed.is_nan() { "rounding".into() } else { format!("{observed:.2}") }
-}
-
-fn checks(checks: &[&Check], width: Option<usize>) -> Table {
-    let mut table = fitted(["check", "numbers", "worst", "bound", "basis", "verdict"], &[1, 2, 3], width);
-    for name in distinct(checks.iter().map(|check| check.family.as_str())) {
-        let family = || checks.iter().copied().filter(|check| check.family == name);
-        let Some(worst) = family().max_by(|a, b| a.used().total_cmp(&b.used())) else { continue };
+/// The checks as a table: of each family the one that uses most of its bound. A family is `expected` if all its wrong
+/// numbers are known to be wrong.
+fn checks(proof: &Proof, width: Option<usize>) -> String {
+    let families = distinct(proof.all_checks().map(|check| check.family.as_str()));
+    let rows = families.into_iter().filter_map(|name| {
+        let family = || proof.all_checks().filter(|check| check.family == name);
+        let worst: &Check = family().max_by(|a, b| a.used().total_cmp(&b.used()))?;
         let detail = if worst.detail.is_empty() { String::new() } else { format!(", worst in {}", worst.detail) };
-        table.add_row([
+        let [_, known, wrong, open] = counts(family().map(|check| &check.verdict));
+        let is_known = known > 0 && wrong + open == 0;
+        Some([
             format!("{name}{detail}"),
             family().count().to_string(),
             numbers::error_in(worst.value, worst.unit),
             numbers::error_in(worst.bound, worst.unit),
             worst.basis.origin().word().to_string(),
-            family_word(family()).to_string(),
-        ]);
-    }
-    table
+            if is_known { "expected" } else { overall(family().map(|check| &check.verdict)).word() }.to_string(),
+        ])
+    });
+    trimmed(fitted("check | numbers> | worst> | bound> | basis | verdict", width).add_rows(rows))
 }

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use serde_json::json;
 
-use super::pretty::pretty;
+use super::pretty::{list, pretty};
 use crate::plain::cells::{table, trimmed};
 use lab::tune::{Candidate, Tuning};
 use linkage::engine::Settings;
@@ -33,11 +33,9 @@ pub(crate) struct Hints<'a> {
 
 /// The settings as text. `within`: the largest error that was wanted, as a share of each channel's scale.
 pub(crate) fn text(scenario: &Scenario, found: &Tuning, within: f64, section: &Section, hints: Hints) -> String {
-    let header = ["engine", "step", "sweeps", "substeps", "extrapolated", "route", "error", "worst channel", "price"];
-    let mut table = table(header, &[1, 2, 3, 6, 8]);
-    for candidate in &found.by_engine {
+    let rows = found.by_engine.iter().map(|candidate| {
         let Settings { resolution, sweeps, substeps, route, extrapolated } = candidate.settings;
-        table.add_row([
+        [
             candidate.engine.to_string(),
             numbers::significant(resolution, 4),
             sweeps.to_string(),
@@ -47,17 +45,17 @@ pub(crate) fn text(scenario: &Scenario, found: &Tuning, within: f64, section: &S
             numbers::significant(candidate.verified, 3),
             candidate.worst.clone(),
             numbers::fixed(candidate.price / found.best.price, 2),
-        ]);
-    }
+        ]
+    });
+    let header = "engine | step> | sweeps> | substeps> | extrapolated | route | error> | worst channel | price>";
+    let table = trimmed(table(header).add_rows(rows));
     let mut text = format!("{}: {}\n\n", scenario.name, scenario.title);
-    let (within, table) = (numbers::error(within), trimmed(&table));
+    let within = numbers::error(within);
     say!(text, "The cheapest settings within {within} of every channel's scale:\n{table}\n");
     for (name, error) in &found.too_coarse {
         match error.is_finite() {
             true => say!(text, "{name} does not meet it: its smallest error was {}.", numbers::error(*error)),
-            false => {
-                say!(text, "{name} does not run it with any settings: {} says why.", (hints.why)(name))
-            }
+            false => say!(text, "{name} does not run it with any settings: {} says why.", (hints.why)(name)),
         };
     }
     for name in &found.too_dear {
@@ -104,12 +102,11 @@ pub(crate) fn json(scenario: &Scenario, found: &Tuning, within: f64) -> String {
             "proven": candidate.is_proven,
         })
     };
-    let value = json!({
+    let coarse = list(&found.too_coarse, |(name, error)| json!({"engine": name, "smallest_error": error}));
+    pretty(&json!({
         "schema": 1, "scenario": scenario.name, "within": within, "runs": found.runs,
         "best": candidate(&found.best), "expected_error": found.predicted,
-        "engines": found.by_engine.iter().map(candidate).collect::<Vec<_>>(),
-        "too_coarse": found.too_coarse.iter().map(|(name, error)| json!({"engine": name, "smallest_error": error})).collect::<Vec<_>>(),
-        "too_dear": found.too_dear, "spent": found.is_spent,
-    });
-    pretty(&value)
+        "engines": list(&found.by_engine, candidate), "too_coarse": coarse, "too_dear": found.too_dear,
+        "spent": found.is_spent,
+    }))
 }

@@ -2,21 +2,18 @@
 
 use std::path::Path;
 
-use serde_json::{Value, json};
+use serde_json::json;
 
-use super::diagnosis_json;
-use super::pretty::pretty;
-use crate::plain::cells::{flush, trimmed};
-use crate::plain::diagnosis;
+use super::json::DiagnosisRow;
+use super::pretty::{list, pretty};
+use crate::plain::cells::{counted, flush, some, trimmed};
+use crate::plain::judged::{Grade, counts, grade};
 use crate::plain::style::{self, Detail};
-use crate::plain::tell::Tell;
+use crate::plain::{Tell, diagnosis};
 use linkage::math::KeepNan;
 use prover::claims::Cause;
-
-use prover::compare::Verdict;
-
+use prover::compare::Check;
 use prover::numbers;
-
 use prover::versus::{Compared, Comparison, Contradiction, Explained, Pair, Row};
 
 /// Channels of agreeing pairs that a short report shows.
@@ -49,12 +46,9 @@ fn of_pair(pair: &Pair, all: bool, tell: Tell, width: usize) -> String {
     order.sort_by(|a, b| rank(b).total_cmp(&rank(a)));
     let shown = if all { order.len() } else { SHOWN.min(order.len()) };
     let at = if pair.by_crank { "at deg" } else { "at s" };
-    let header = ["channel", at, "first", "second", "difference", "bound", ""];
-    let mut table = flush(header, &[1, 2, 3, 4, 5], Some(width));
-    for own in &order[..shown] {
-        table.add_row(row(own, pair.by_crank));
-    }
-    let mut told = trimmed(&table);
+    let header = format!("channel | {at}> | first> | second> | difference> | bound> |");
+    let rows = order[..shown].iter().map(|own| row(own, pair.by_crank));
+    let mut told = trimmed(flush(&header, Some(width)).add_rows(rows));
     let more = order.len() - shown;
     if more > 0 {
         let is_fine = order[shown..].iter().all(|own| rank(own) <= 1.0);
@@ -65,7 +59,7 @@ fn of_pair(pair: &Pair, all: bool, tell: Tell, width: usize) -> String {
     let paragraph = |text: &mut String, told: &str| {
         say!(text, "\n{}", style::wrapped(told, Some(width), 2));
     };
-    for own in order.iter().filter(|own| matches!(own.verdict, Verdict::Inconclusive { .. })).take(SHOWN) {
+    for own in order.iter().filter(|own| grade(&own.verdict) == Grade::Open).take(SHOWN) {
         paragraph(&mut text, &format!("{}: {}", own.claim.text, own.verdict.reason(tell).unwrap_or_default()));
     }
     for explained in &pair.causes {
@@ -92,7 +86,12 @@ fn row(own: &Compared, by_crank: bool) -> [String; 7] {
         let [first, second] = numbers::beside(values, at.known.smaller_number(NOTHING * largest));
         [when, first, second, numbers::error(at.difference), numbers::error(at.bound)]
     });
-    [own.claim.text.clone(), at, first, second, difference, bound, word(&own.verdict).into()]
+    let word = match grade(&own.verdict) {
+        Grade::Agree => "",
+        Grade::Open => "open",
+        Grade::Disagree => "OFF",
+    };
+    [own.claim.text.clone(), at, first, second, difference, bound, word.into()]
 }
 
 const SIMULATION: &str = "The rest is off by less than a fiftieth of its scale, as by the error of a method or of its \
@@ -115,44 +114,30 @@ pub(super) fn who(paths: [&Path; 2], pair: &Pair) -> String {
 }
 
 fn sentence(paths: [&Path; 2], pair: &Pair) -> String {
-    let count = |word: &str| pair.channels.iter().filter(|own| own.verdict.word() == word).count();
-    let [agree, disagree, open] = ["agree", "disagree", "inconclusive"].map(count);
-    let word = style::verdict(&pair.verdict());
+    let [agree, _, disagree, open] = counts(pair.channels.iter().map(|own| &own.verdict));
     let all = pair.channels.len();
-    let verdict = match (disagree, open, pair.crank_is_off()) {
-        (0, 0, false) => format!("{word}: all {agree} channels"),
-        (0, 0, true) => format!("{word}: the crank angle, and none of {all} channels"),
-        (0, open, false) => format!("{word}: {open} of {all} channels"),
-        (disagree, _, is_off) => {
-            format!("{word}: {}{disagree} of {all} channels", if is_off { "the crank angle, and " } else { "" })
-        }
+    let told = match (disagree, open, pair.crank_is_off()) {
+        (0, 0, false) => format!("all {agree} channels"),
+        (0, 0, true) => format!("the crank angle, and none of {all} channels"),
+        (0, open, false) => format!("{open} of {all} channels"),
+        (disagree, _, true) => format!("the crank angle, and {disagree} of {all} channels"),
+        (disagree, _, false) => format!("{disagree} of {all} channels"),
     };
-    let by = if pair.by_crank { "crank angle" } else { "time" };
-    let count = pair.instants - pair.unshared;
-    let several = if count == 1 { "" } else { "s" };
+    let by = counted(pair.instants - pair.unshared, if pair.by_crank { "crank angle" } else { "time" });
     let values = match pair.values() {
-        [1, 1] => "1 value".to_string(),
-        [judged, of] if judged == of => format!("{judged} values"),
+        [judged, of] if judged == of => counted(judged, "value"),
         [judged, of] => format!("{judged} of {of} values"),
     };
-    format!("{verdict} at {count} {by}{several}, {values}: {}", who(paths, pair))
+    format!("{}: {told} at {by}, {values}: {}", style::verdict(&pair.verdict()), who(paths, pair))
 }
 
 fn rank(own: &Compared) -> f64 {
     let used = own.worst.map_or(0.0, |at| at.used());
-    match own.verdict {
-        Verdict::Agree { .. } | Verdict::Expected { .. } => used.smaller(1.0),
-        Verdict::Inconclusive { .. } => 2.0,
+    match grade(&own.verdict) {
+        Grade::Agree => used.smaller(1.0),
+        Grade::Open => 2.0,
         // The gravest first: beyond its bound by most, measured by its own scale.
-        Verdict::Disagree { .. } => 3.0 + own.largest.map_or(0.0, |at| at.difference.abs() / own.scale),
-    }
-}
-
-fn word(verdict: &Verdict) -> &'static str {
-    match verdict {
-        Verdict::Agree { .. } | Verdict::Expected { .. } => "",
-        Verdict::Disagree { .. } => "OFF",
-        Verdict::Inconclusive { .. } => "open",
+        Grade::Disagree => 3.0 + own.largest.map_or(0.0, |at| at.difference.abs() / own.scale),
     }
 }
 
@@ -185,23 +170,15 @@ fn notes(pair: &Pair) -> String {
     }
     for (side, which) in ["first", "second"].into_iter().enumerate() {
         if !pair.alone[side].is_empty() {
-            put!(text, "\nonly in the {which}: {}", some(&pair.alone[side]));
+            put!(text, "\nonly in the {which}: {}", some(&pair.alone[side], NAMED));
         }
     }
     text
 }
 
-/// The first of some names, and how many there are besides.
-fn some(names: &[String]) -> String {
-    match names.len().saturating_sub(NAMED) {
-        0 => names.join(", "),
-        more => format!("{} and {more} more", names[..NAMED].join(", ")),
-    }
-}
-
 fn cause(pair: &Pair, explained: &Explained, width: usize) -> String {
     let Explained { of, diagnosis: found, left, .. } = explained;
-    let mut text = style::wrapped(&format!("{}:", some(of)), Some(width), 2);
+    let mut text = style::wrapped(&format!("{}:", some(of, NAMED)), Some(width), 2);
     let mut line = |what: &str, told: &str| {
         put!(text, "\n{}", style::wrapped(&format!("  {what:<8}{told}"), Some(width), 10));
     };
@@ -249,61 +226,49 @@ pub fn why(explained: &Explained) -> Option<String> {
 /// The comparison as JSON, schema 1.
 #[must_use]
 pub fn json(paths: [&Path; 2], comparison: &Comparison, tell: Tell) -> String {
+    // What is no number is `null`.
     let instant = |at: &Row| {
-        let crank = if at.crank.is_nan() { Value::Null } else { at.crank.to_degrees().into() };
-        let time = if at.time.is_nan() { Value::Null } else { at.time.into() };
         json!({
-            "t_s": time, "crank_deg": crank, "first": at.values[0], "second": at.values[1],
+            "t_s": at.time, "crank_deg": at.crank.to_degrees(), "first": at.values[0], "second": at.values[1],
             "difference": at.difference, "bound": at.bound, "known": at.known,
         })
     };
     let channel = |own: &Compared| {
         json!({
-            "channel": own.claim.text,
-            "unit": own.claim.unit(),
-            "verdict": own.verdict.word(),
-            "reason": own.verdict.reason(tell),
-            "instants": own.judged,
-            "missing": own.missing,
-            "scale": own.scale,
-            "rms": own.rms,
+            "channel": own.claim.text, "unit": own.claim.unit(),
+            "verdict": own.verdict.word(), "reason": own.verdict.reason(tell),
+            "instants": own.judged, "missing": own.missing, "scale": own.scale, "rms": own.rms,
             "bound_is": if own.is_derived { "derived" } else { "allowed" },
-            "largest": own.largest.as_ref().map(instant),
-            "worst": own.worst.as_ref().map(instant),
+            "largest": own.largest.as_ref().map(instant), "worst": own.worst.as_ref().map(instant),
             "since": own.since.as_ref().map(instant),
         })
     };
     let cause = |own: &Explained| {
         json!({
-            "channels": own.of, "cause": cause_of(own), "left_over_share": own.left, "but_for_t_s": own.but, "diagnosis": diagnosis_json::Row::of(&own.diagnosis),
+            "channels": own.of, "cause": cause_of(own), "left_over_share": own.left, "but_for_t_s": own.but,
+            "diagnosis": DiagnosisRow::of(&own.diagnosis),
+        })
+    };
+    let check = |check: &Check| {
+        json!({
+            "name": check.name(), "value": check.value, "bound": check.bound, "verdict": check.verdict.word(),
+            "reason": check.verdict.reason(tell),
         })
     };
     let pair = |pair: &Pair| {
         json!({
-            "first": pair.names[0],
-            "second": pair.names[1],
-            "by": if pair.by_crank { "crank angle" } else { "time" },
-            "instants": pair.instants,
-            "unshared": pair.unshared,
-            "values": pair.values()[0],
+            "first": pair.names[0], "second": pair.names[1], "by": if pair.by_crank { "crank angle" } else { "time" },
+            "instants": pair.instants, "unshared": pair.unshared, "values": pair.values()[0],
             "jumps_back_in_row": pair.turns_back.map(|(row, _)| row + 1),
             "rows_that_contradict": pair.contradiction.as_ref().map(|own| own.rows.map(|row| row + 1)),
-            "only_in_first": pair.alone[0],
-            "only_in_second": pair.alone[1],
-            "channels": pair.channels.iter().map(channel).collect::<Vec<_>>(),
-            "causes": pair.causes.iter().map(cause).collect::<Vec<_>>(),
-            "checks": pair.checks.iter().map(|check| json!({
-                "name": check.name(), "value": check.value, "bound": check.bound, "verdict": check.verdict.word(),
-                "reason": check.verdict.reason(tell),
-            })).collect::<Vec<_>>(),
+            "only_in_first": pair.alone[0], "only_in_second": pair.alone[1],
+            "channels": list(&pair.channels, channel), "causes": list(&pair.causes, cause),
+            "checks": list(&pair.checks, check),
         })
     };
+    let [first, second] = paths.map(|path| path.display().to_string());
     pretty(&json!({
-        "schema": 1,
-        "first": paths[0].display().to_string(),
-        "second": paths[1].display().to_string(),
-        "verdict": comparison.verdict.word(),
-        "reason": comparison.verdict.reason(tell),
-        "pairs": comparison.pairs.iter().map(pair).collect::<Vec<_>>(),
+        "schema": 1, "first": first, "second": second, "verdict": comparison.verdict.word(),
+        "reason": comparison.verdict.reason(tell), "pairs": list(&comparison.pairs, pair),
     }))
 }

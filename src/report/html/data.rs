@@ -4,27 +4,28 @@ use serde_json::{Map, Value, json};
 
 use super::markup::{doubles, singles};
 use super::thinned::{Errors, Thinned, is_wide};
-use crate::plain::tell::Tell;
+use crate::plain::Tell;
+use crate::report::pretty::list;
 use drawing::{Lettering, Shape, Sketch};
 use linkage::math::Vec2;
 use linkage::mechanism::Side;
 use linkage::trajectory::{Channel, Trajectory};
-use prover::compare::Verdict;
 use prover::proof::{ChannelProof, EngineProof, Proof};
 
 /// Everything, as one object.
 pub(super) fn of(proof: &Proof, errors: &[Errors], thinned: &Thinned, tell: Tell) -> Map<String, Value> {
     let reference = &proof.reference_trajectory;
     let at = |values: &[f64]| doubles(thinned.rows.iter().map(|&row| values[row]));
-    let mut data = Map::new();
-    data.insert("reference".into(), proof.reference.into());
-    data.insert("instants".into(), thinned.all.into());
-    data.insert("time".into(), at(reference.times()).into());
-    data.insert("crank".into(), at(reference.inputs()).into());
-    data.insert("channels".into(), reference.iter().map(|(own, values)| channel(own, values, &thinned.rows)).collect());
+    let channels = reference.iter().map(|(own, values)| channel(own, values, &thinned.rows));
     let engines = proof.engines.iter().zip(errors).map(|(own, errors)| engine(own, reference, errors, thinned, tell));
-    data.insert("engines".into(), engines.collect());
-    data
+    Map::from_iter([
+        ("reference".to_string(), proof.reference.into()),
+        ("instants".into(), thinned.all.into()),
+        ("time".into(), at(reference.times()).into()),
+        ("crank".into(), at(reference.inputs()).into()),
+        ("channels".into(), channels.collect()),
+        ("engines".into(), engines.collect()),
+    ])
 }
 
 fn channel(channel: &Channel, values: &[f64], rows: &[usize]) -> Value {
@@ -38,7 +39,7 @@ fn channel(channel: &Channel, values: &[f64], rows: &[usize]) -> Value {
 
 fn engine(proof: &EngineProof, reference: &Trajectory, errors: &Errors, thinned: &Thinned, tell: Tell) -> Value {
     let judged = |channel: &Channel| proof.channels.iter().find(|own| own.residual.channel == *channel);
-    let channels = reference.channels().iter().zip(errors).map(|(channel, errors)| {
+    let channels = list(reference.channels().iter().zip(errors), |(channel, errors)| {
         let mut value = judged(channel).map_or_else(|| json!({}), |own| judgement(own, tell));
         if let Some(errors) = errors {
             value["errors"] = singles(thinned.rows.iter().map(|&row| errors[row])).into();
@@ -47,17 +48,14 @@ fn engine(proof: &EngineProof, reference: &Trajectory, errors: &Errors, thinned:
     });
     let doubt = thinned.rows.iter().enumerate().filter(|(_, row)| proof.kept.get(**row) == Some(&false));
     json!({
-        "name": proof.info.name, "version": proof.info.version,
-        "channels": channels.collect::<Vec<_>>(), "unjudged": doubt.map(|(place, _)| place).collect::<Vec<_>>(),
+        "name": proof.info.name, "version": proof.info.version, "channels": channels,
+        "unjudged": list(doubt, |(place, _)| place.into()),
     })
 }
 
 fn judgement(own: &ChannelProof, tell: Tell) -> Value {
     let residual = &own.residual;
-    let reason = match own.verdict {
-        Verdict::Agree { .. } => None,
-        Verdict::Expected { .. } | Verdict::Disagree { .. } | Verdict::Inconclusive { .. } => own.verdict.reason(tell),
-    };
+    let reason = own.verdict.reason(tell);
     json!({
         "max": residual.max, "bound": own.bound, "scale": residual.scale, "order": own.convergence.observed,
         "verdict": own.verdict.word(), "reason": reason, "at": residual.worst_time, "left_out": own.left_out,
@@ -72,36 +70,36 @@ pub(super) fn motion(proof: &Proof, sketch: &Sketch, view: [f64; 4]) -> Value {
     let columns = |word: &str, name: &str, suffixes: &[&str]| -> Option<Vec<usize>> {
         suffixes.iter().map(|suffix| column(format!("{word}.{name}.{suffix}"))).collect()
     };
-    let links = mechanism.links().iter().skip(1).map(|link| {
+    let links = list(mechanism.links().iter().skip(1), |link| {
         json!({
             "name": link.name, "centre": pair(link.mass_centre),
             "at": columns("link", &link.name, &["angle_rad", "x_m", "y_m"]),
             "rates": columns("link", &link.name, &["omega_rad_s", "vx_m_s", "vy_m_s"]),
-            "points": link.points.iter().map(|point| json!([point.name, point.local.x, point.local.y])).collect::<Vec<_>>(),
+            "points": list(&link.points, |point| json!([point.name, point.local.x, point.local.y])),
         })
     });
-    let points = mechanism.moving_points().map(|(name, own)| {
+    let points = list(mechanism.moving_points(), |(name, own)| {
         json!({
             "name": name, "link": own.link,
             "at": columns("point", name, &["x_m", "y_m"]), "velocity": columns("point", name, &["vx_m_s", "vy_m_s"]),
             "acceleration": columns("point", name, &["ax_m_s2", "ay_m_s2"]),
         })
     });
-    let joints = mechanism.joints().iter().map(|joint| {
+    let joints = list(mechanism.joints(), |joint| {
         json!({
             "name": joint.name, "kind": joint.kind.name(), "on": side(joint.second), "force": columns("joint", &joint.name, &["fx_N", "fy_N"]),
             "links": [mechanism.links()[joint.first.link].name, mechanism.links()[joint.second.link].name],
         })
     });
-    let stretched = sketch.stretched.iter().map(|own| {
+    let stretched = list(&sketch.stretched, |own| {
         let lines = own.marks.iter().filter_map(|mark| match &mark.shape {
-            Shape::Line { points, .. } => Some(points.iter().map(|at| pair(*at)).collect::<Vec<_>>()),
+            Shape::Line { points, .. } => Some(list(points, |at| pair(*at))),
             Shape::Circle { .. } | Shape::Arc { .. } => None,
         });
-        let ends = own.ends.map(side);
-        json!({ "role": own.role.name(), "ends": ends, "width": own.width / unit, "lines": lines.collect::<Vec<_>>() })
+        let (ends, lines) = (own.ends.map(side), lines.collect::<Value>());
+        json!({ "role": own.role.name(), "ends": ends, "width": own.width / unit, "lines": lines })
     });
-    let labels = sketch.labels.iter().map(|label| {
+    let labels = list(&sketch.labels, |label| {
         let names = match label.names {
             Lettering::Point => "point",
             Lettering::Link => "link",
@@ -111,10 +109,8 @@ pub(super) fn motion(proof: &Proof, sketch: &Sketch, view: [f64; 4]) -> Value {
         json!({ "text": label.text, "names": names, "on": side(label.at) })
     });
     json!({
-        "unit": unit, "size": mechanism.size(), "view": view,
-        "links": links.collect::<Vec<_>>(), "points": points.collect::<Vec<_>>(),
-        "joints": joints.collect::<Vec<_>>(), "stretched": stretched.collect::<Vec<_>>(),
-        "labels": labels.collect::<Vec<_>>(),
+        "unit": unit, "size": mechanism.size(), "view": view, "links": links, "points": points, "joints": joints,
+        "stretched": stretched, "labels": labels,
     })
 }
 

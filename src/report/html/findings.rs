@@ -1,8 +1,8 @@
 //! Findings of a page in words: why the verdict is what it is, and what else was found.
 
 use super::markup::escaped;
-use crate::plain::tell::Tell;
-use crate::plain::{engines, own_forces, reasons};
+use crate::plain::judged::{Grade, grade, unproven};
+use crate::plain::{Tell, engines, reasons};
 use linkage::trajectory::Channel;
 use prover::compare::Verdict;
 use prover::proof::Proof;
@@ -52,10 +52,7 @@ pub(super) fn others(proof: &Proof, tell: Tell) -> String {
 }
 
 fn agrees(proof: &Proof) -> bool {
-    match proof.verdict {
-        Verdict::Agree { .. } | Verdict::Expected { .. } => true,
-        Verdict::Disagree { .. } | Verdict::Inconclusive { .. } => false,
-    }
+    grade(&proof.verdict) == Grade::Agree
 }
 
 /// What became of an engine that failed, or whose own forces are wrong.
@@ -65,7 +62,7 @@ fn faults(proof: &Proof, told: &mut String) {
             say!(told, "{} failed: {}\n", engine.info.name, error.message());
         }
         if let Some(fault) = engine.force_fault() {
-            say!(told, "{}\n", own_forces::sentence(fault));
+            say!(told, "{}\n", engines::sentence(fault));
         }
     }
 }
@@ -82,12 +79,8 @@ fn write(all: &[Reason], which: std::ops::Range<usize>, told: &mut String) {
 
 /// The reasons of all verdicts, those that say the same once; what disagrees first.
 fn grouped(proof: &Proof, tell: Tell) -> Vec<Reason> {
-    let is_told = |verdict: &Verdict| matches!(verdict, Verdict::Disagree { .. } | Verdict::Inconclusive { .. });
-    let mut told = reasons::verdicts(proof);
-    told.retain(|(_, verdict)| is_told(verdict));
-    told.sort_by_key(|(_, verdict)| matches!(verdict, Verdict::Inconclusive { .. }));
     let mut all: Vec<Reason> = Vec::new();
-    for (name, verdict) in told {
+    for (name, verdict) in unproven(proof) {
         let reason = verdict.reason(tell).unwrap_or_default();
         let key = key(&name, verdict, &reason);
         match all.iter_mut().find(|own| own.key == key) {

@@ -4,6 +4,7 @@ use serde_json::{Value, json};
 
 use super::markup::singles;
 use super::thinned::ends;
+use crate::report::pretty::list;
 use design::diagram::Graphs;
 use linkage::case::Case;
 use linkage::drive::{Motor, MotorLaw};
@@ -17,7 +18,7 @@ const BEYOND: f64 = 1.15;
 
 /// Graphs over the crank angle.
 pub(super) fn over_crank(graphs: &Graphs) -> Value {
-    let each = graphs.graphs.iter().map(|graph| {
+    let each = list(&graphs.graphs, |graph| {
         let [x, y] = [0, 1].map(|axis| singles(graph.points.iter().map(move |point| point[axis])));
         let marks = graph.marks.map(|mark| json!({ "word": mark.word, "at": mark.at }));
         json!({
@@ -25,7 +26,7 @@ pub(super) fn over_crank(graphs: &Graphs) -> Value {
             "mean": graph.mean, "mean_word": graph.mean_word, "marks": marks, "constant": graph.is_constant(),
         })
     });
-    json!({ "period": graphs.period, "graphs": each.collect::<Vec<_>>(), "note": graphs.notes.last() })
+    json!({ "period": graphs.period, "graphs": each, "note": graphs.notes.last() })
 }
 
 /// The moment of the crank's motor on the crank over the crank's speed, in the motor's sense; `null` without a motor.

@@ -28,8 +28,8 @@ pub(super) fn of(case: &Case, sketch: &Sketch, placed: &Placed, rows: &[usize], 
     let mechanism = &case.mechanism;
     let arrows = sketch.loads.iter().enumerate().filter(|(_, sign)| is_known(&case.loads[sign.load]));
     let arrows = arrows.map(|(index, sign)| {
-        let columns = [0, 1].map(|axis| column(&acting.iter().map(|own| own[index].force[axis]).collect::<Vec<_>>()));
-        let moment = column(&acting.iter().map(|own| own[index].moment).collect::<Vec<_>>());
+        let columns = [0, 1].map(|axis| column(acting.iter().map(|own| own[index].force[axis])));
+        let moment = column(acting.iter().map(|own| own[index].moment));
         let is_moment = columns.iter().all(|own| *own == 0.0);
         json!({
             "name": name(mechanism, &case.loads[sign.load]), "on": side(sign.at),
@@ -40,7 +40,7 @@ pub(super) fn of(case: &Case, sketch: &Sketch, placed: &Placed, rows: &[usize], 
     let count = tensions.first().map_or(0, Vec::len);
     let between = (0..count).filter(|&index| is_known(&case.loads[tensions[0][index].load])).map(|index| {
         let load = &case.loads[tensions[0][index].load];
-        let size = column(&tensions.iter().map(|own| own[index].size).collect::<Vec<_>>());
+        let size = column(tensions.iter().map(|own| own[index].size));
         let ends = sketch.stretched.iter().find(|own| own.load == tensions[0][index].load);
         json!({ "name": name(mechanism, load), "size": size, "ends": ends.map(|own| own.ends.map(side)) })
     });

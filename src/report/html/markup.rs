@@ -50,10 +50,11 @@ pub(super) fn singles(values: impl Iterator<Item = f64>) -> String {
 }
 
 /// A column of numbers in single precision; one number where all are the same.
-pub(super) fn column(values: &[f64]) -> Value {
-    match values.split_first() {
-        Some((first, rest)) if rest.iter().all(|value| value == first) => json!(first),
-        _ => singles(values.iter().copied()).into(),
+pub(super) fn column(mut values: impl Iterator<Item = f64> + Clone) -> Value {
+    let all = values.clone();
+    match values.next() {
+        Some(first) if values.all(|value| value == first) => json!(first),
+        _ => singles(all).into(),
     }
 }
 

@@ -14,7 +14,7 @@ mod words;
 
 use std::collections::BTreeMap;
 
-use crate::plain::tell::Tell;
+use crate::plain::Tell;
 use design::diagram::Graphs;
 use drawing::{Sketch, Travels};
 use markup::contained;
@@ -85,14 +85,8 @@ pub(crate) fn page(proof: &Proof, beside: &Beside, tell: Tell) -> String {
     };
     data.insert("motor".into(), graphs::motor(case, reference));
     let links = case.mechanism.links().len();
-    let style = filled(
-        STYLE,
-        &[
-            ("light", &picture::colours(links, false)),
-            ("dark", &picture::colours(links, true)),
-            ("links", &picture::inks(links)),
-        ],
-    );
+    let [light, dark] = [false, true].map(|dark| picture::colours(links, dark));
+    let style = filled(STYLE, &[("light", &light), ("dark", &dark), ("links", &picture::inks(links))]);
     filled(
         TEMPLATE,
         &[
@@ -106,14 +100,7 @@ pub(crate) fn page(proof: &Proof, beside: &Beside, tell: Tell) -> String {
             ("picture", &picture),
             ("thinned", &told(&thinned)),
             ("reduced", &no_graphs),
-            (
-                "checks",
-                &words::table(
-                    "Checks",
-                    &["check", "value", "bound", "basis of the bound", "verdict"],
-                    words::checks(proof),
-                ),
-            ),
+            ("checks", &words::checks(proof)),
             ("structure", &words::structure(proof)),
             ("settings", &words::settings(settings)),
             ("scenario", &words::scenario(given)),

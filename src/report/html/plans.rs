@@ -4,6 +4,7 @@ use serde_json::{Value, json};
 
 use super::markup::column;
 use super::placed::Placed;
+use crate::report::pretty::list;
 use design::diagram::{Part, Plan, Planner, Quantity, TipKind};
 use linkage::case::Case;
 use linkage::solver::State;
@@ -24,10 +25,9 @@ fn quantities(placed: &Placed) -> impl Iterator<Item = Quantity> {
 pub(super) fn of(case: &Case, placed: &Placed, rows: &[usize]) -> Value {
     let planner = Planner::of(&case.mechanism);
     let states: Vec<State> = rows.iter().map(|&row| placed.state(case, row)).collect();
-    let plans = quantities(placed).map(|quantity| course(quantity, &planner, &states));
     json!({
-        "letters": planner.letters().map(|(name, letter)| json!([name, letter])).collect::<Vec<_>>(),
-        "plans": plans.collect::<Vec<_>>(),
+        "letters": list(planner.letters(), |(name, letter)| json!([name, letter])),
+        "plans": list(quantities(placed), |quantity| course(quantity, &planner, &states)),
     })
 }
 
@@ -44,16 +44,13 @@ fn course(quantity: Quantity, planner: &Planner, states: &[State]) -> Value {
         which.push(place);
     }
     let most = layouts.iter().map(|own| own.tips.len()).max().unwrap_or(0);
-    let tips = (0..most).map(|tip| {
-        let at =
-            |axis: usize| plans.iter().map(|own| own.tips.get(tip).map_or(0.0, |tip| tip.at[axis])).collect::<Vec<_>>();
-        json!([column(&at(0)), column(&at(1))])
+    let tips = list(0..most, |tip| {
+        let at = |axis: usize| plans.iter().map(move |own| own.tips.get(tip).map_or(0.0, |tip| tip.at[axis]));
+        [0, 1].map(|axis| column(at(axis))).into()
     });
-    let is_one = layouts.len() == 1;
     json!({
         "word": quantity.word(), "symbol": quantity.symbol(), "pole": quantity.pole(), "unit": quantity.unit(),
-        "layouts": layouts.iter().map(|own| layout(own)).collect::<Vec<_>>(),
-        "which": if is_one { json!(null) } else { json!(which) }, "tips": tips.collect::<Vec<_>>(),
+        "layouts": list(&layouts, |own| layout(own)), "which": (layouts.len() != 1).then_some(which), "tips": tips,
     })
 }
 
@@ -65,7 +62,7 @@ fn has_same_layout(one: &Plan, other: &Plan) -> bool {
 }
 
 fn layout(plan: &Plan) -> Value {
-    let tips = plan.tips.iter().map(|tip| {
+    let tips = list(&plan.tips, |tip| {
         let kind = match tip.kind {
             TipKind::Fixed => "fixed",
             TipKind::Point => "point",
@@ -76,7 +73,7 @@ fn layout(plan: &Plan) -> Value {
         json!([tip.letter, kind])
     });
     let place = |letter: &str| plan.tips.iter().position(|tip| tip.letter == letter);
-    let vectors = plan.vectors.iter().map(|vector| {
+    let vectors = list(&plan.vectors, |vector| {
         let part = match vector.part {
             Part::Absolute => "absolute",
             Part::MassCentre => "centre",
@@ -88,5 +85,5 @@ fn layout(plan: &Plan) -> Value {
         };
         json!([vector.name, part, place(&vector.from), place(&vector.to), vector.link, vector.meaning])
     });
-    json!({ "tips": tips.collect::<Vec<_>>(), "vectors": vectors.collect::<Vec<_>>() })
+    json!({ "tips": tips, "vectors": vectors })
 }

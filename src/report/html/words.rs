@@ -3,14 +3,11 @@
 use std::collections::BTreeMap;
 
 use super::markup::escaped;
-use crate::plain::judged::{self, Judged, Sort};
-use crate::plain::{brief, style};
+use crate::plain::brief;
+use crate::plain::judged::{self, Grade, Judged, Sort, grade};
 use crate::report::text;
 use linkage::mechanism::Mechanism;
-use prover::compare::Verdict;
-
 use prover::numbers::{error_in, fixed, significant};
-
 use prover::proof::Proof;
 
 /// Longest scenario that is shown (bytes).
@@ -18,12 +15,13 @@ const LONGEST: usize = 200_000;
 
 /// Sign and word of a verdict on the whole.
 pub(super) fn verdict(proof: &Proof) -> String {
-    let (sign, class) = match proof.verdict {
-        Verdict::Agree { .. } | Verdict::Expected { .. } => ("✓", "agree"),
-        Verdict::Disagree { .. } => ("✗", "disagree"),
-        Verdict::Inconclusive { .. } => ("?", "inconclusive"),
+    let grade = grade(&proof.verdict);
+    let sign = match grade {
+        Grade::Agree => "✓",
+        Grade::Open => "?",
+        Grade::Disagree => "✗",
     };
-    let word = style::capitals(&proof.verdict);
+    let (word, class) = (grade.capitals(), grade.capitals().to_lowercase());
     format!("<span class=\"{class}\"><span aria-hidden=\"true\">{sign}</span> {word}</span>")
 }
 
@@ -31,11 +29,11 @@ pub(super) fn verdict(proof: &Proof) -> String {
 pub(super) fn sentence(proof: &Proof) -> String {
     let engine = if proof.engines.len() == 1 { "Engine" } else { "Engines" };
     let parties: Vec<&str> = proof.engines.iter().map(|engine| engine.info.name).collect();
-    let (judged, parties, at) = (text::sentence(&proof.verdict, proof), parties.join(", "), brief::resolution(proof));
+    let (judged, parties, at) = (text::sentence(proof), parties.join(", "), brief::resolution(proof));
     escaped(&format!("{judged} Reference: {}. {engine}: {parties}; {at}.", proof.reference))
 }
 
-/// Checks, and forces as engines themselves exert them, as rows of a table; what uses most of its bound first.
+/// Checks, and forces as engines themselves exert them, as a table; what uses most of its bound first.
 pub(super) fn checks(proof: &Proof) -> String {
     let share = |own: &Judged| if own.bound > 0.0 { own.value / own.bound } else { f64::from(own.value > 0.0) };
     let mut all = judged::of(proof);
@@ -43,17 +41,16 @@ pub(super) fn checks(proof: &Proof) -> String {
     // Of those that use as much, checks stand first.
     all.sort_by_key(|own| own.sort != Sort::Check);
     all.sort_by(|a, b| share(b).total_cmp(&share(a)));
-    let row = |own: Judged| {
+    let rows = all.into_iter().map(|own| {
         let name = match own.engine {
             Some(engine) if own.sort == Sort::OwnForce => format!("{} ({})", own.name, engine.info.name),
             _ => own.name,
         };
-        let [value, bound] = [own.value, own.bound].map(|number| error_in(number, own.unit));
-        let cells = [escaped(&name), value, bound, escaped(&own.basis)];
-        let (cells, word) = (cells.map(|cell| format!("<td>{cell}</td>")).concat(), own.verdict.word());
-        format!("<tr>{cells}<td class=\"{word}\">{word}</td></tr>\n")
-    };
-    all.into_iter().map(row).collect()
+        let ([value, bound], word) = ([own.value, own.bound].map(|one| error_in(one, own.unit)), own.verdict.word());
+        let verdict = format!("<td class=\"{word}\">{word}</td>");
+        row(&[escaped(&name), value, bound, escaped(&own.basis)], &verdict)
+    });
+    table("Checks", &["check", "value", "bound", "basis of the bound", "verdict"], rows.collect())
 }
 
 /// Mobility, driving links and groups, links and joints.
@@ -88,18 +85,16 @@ fn joint_name(mechanism: &Mechanism, joint: usize) -> String {
 
 fn links(mechanism: &Mechanism) -> String {
     let rows = mechanism.links().iter().enumerate().map(|(number, link)| {
-        let points: Vec<String> = link
-            .points
-            .iter()
-            .map(|point| {
-                let [x, y] = [point.local.x, point.local.y].map(|own| fixed(1e3 * own, 3));
-                format!("{} ({x}, {y})", escaped(&point.name))
-            })
-            .collect();
+        let points = link.points.iter().map(|point| {
+            let [x, y] = [point.local.x, point.local.y].map(|own| fixed(1e3 * own, 3));
+            format!("{} ({x}, {y})", escaped(&point.name))
+        });
         let [mass, inertia] = [link.mass, link.inertia].map(|own| significant(own, 5));
         let swatch = format!("<span class=\"swatch k{number}\" aria-hidden=\"true\"></span>");
-        let (name, points) = (escaped(&link.name), points.join(", "));
-        format!("<tr><td>{swatch}{number}</td><td>{name}</td><td>{points}</td><td>{mass}</td><td>{inertia}</td></tr>\n")
+        row(
+            &[format!("{swatch}{number}"), escaped(&link.name), points.collect::<Vec<_>>().join(", "), mass, inertia],
+            "",
+        )
     });
     table("Links", &["no.", "link", "points (mm, its frame)", "mass kg", "inertia kg m²"], rows.collect())
 }
@@ -107,19 +102,29 @@ fn links(mechanism: &Mechanism) -> String {
 fn joints(mechanism: &Mechanism) -> String {
     let rows = mechanism.joints().iter().map(|joint| {
         let [first, second] = [joint.first, joint.second].map(|side| link_name(mechanism, side.link));
-        let (name, kind) = (escaped(&joint.name), joint.kind.name());
-        format!("<tr><td>{name}</td><td>{kind}</td><td>{first}</td><td>{second}</td></tr>\n")
+        row(&[escaped(&joint.name), joint.kind.name().into(), first, second], "")
     });
     table("Joints", &["joint", "kind", "first link", "second link"], rows.collect())
 }
 
-/// A table that is wider than a phone scrolls by itself.
-pub(super) fn table(caption: &str, heads: &[&str], rows: String) -> String {
-    let heads: String = heads.iter().map(|head| format!("<th scope=\"col\">{head}</th>")).collect();
+/// A row of a table; the `last` cell is one already.
+fn row(cells: &[String], last: &str) -> String {
+    let cells: String = cells.iter().map(|cell| format!("<td>{cell}</td>")).collect();
+    format!("<tr>{cells}{last}</tr>\n")
+}
+
+/// What is wider than a phone scrolls by itself.
+fn scrolling(label: &str, inside: &str) -> String {
     format!(
-        "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"{caption}\"><table><caption>{caption}</caption>\n\
-         <thead><tr>{heads}</tr></thead>\n<tbody>\n{rows}</tbody></table></div>\n"
+        "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"{label}\"><table>{inside}</tbody></table></div>\n"
     )
+}
+
+/// A table with its caption and the heads of its columns.
+fn table(caption: &str, heads: &[&str], rows: String) -> String {
+    let heads: String = heads.iter().map(|head| format!("<th scope=\"col\">{head}</th>")).collect();
+    let inside = format!("<caption>{caption}</caption>\n<thead><tr>{heads}</tr></thead>\n<tbody>\n{rows}");
+    scrolling(caption, &inside)
 }
 
 /// Settings and versions.
@@ -128,9 +133,7 @@ pub(super) fn settings(told: &BTreeMap<String, String>) -> String {
         format!("<tr><th scope=\"row\">{}</th><td>{}</td></tr>\n", escaped(&key.replace('_', " ")), escaped(value))
     };
     let rows: String = told.iter().map(row).collect();
-    format!(
-        "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Settings and versions\"><table><tbody>\n{rows}</tbody></table></div>\n"
-    )
+    scrolling("Settings and versions", &format!("<tbody>\n{rows}"))
 }
 
 /// The scenario as it was given.

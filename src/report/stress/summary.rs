@@ -73,8 +73,8 @@ pub(crate) fn text(families: &[(&Family, Vec<&Outcome>)]) -> String {
 
 /// One family: a table of its parties, and the reasons of what does not agree.
 pub(super) fn body(outcomes: &[&Outcome]) -> String {
-    let header = ["", "agrees at", "not", "largest error: positions", "rates", "forces", "over bound", "widest bound"];
-    let mut found = table(header, &[6, 7]);
+    let mut found =
+        table("| agrees at | not | largest error: positions | rates | forces | over bound> | widest bound>");
     let mut reasons = String::new();
     for name in names(outcomes) {
         let [agrees, others, positions, rates, forces, used, widest] = cells(outcomes, name);
