@@ -2,7 +2,8 @@
 //! agree.
 //!
 //! One line, one fork, one join: a [`Scenario`] holds a [`Case`], an analytic side and an engine solve it, and their
-//! trajectories are compared. [`prove`] runs the whole line; [`solve`] gives the analytic solution alone.
+//! trajectories are compared. [`prove`] runs the whole line; [`solve`] gives the analytic solution alone. [`check`]
+//! judges formulas, [`compare`] tables and recordings of other programs; `draw` shows a mechanism (feature `command`).
 //!
 //! From a file:
 //!
@@ -41,6 +42,27 @@
 //! # Ok::<(), linkproof::parts::Error>(())
 //! ```
 //!
+//! A table, a recording or another program's solution against a scenario:
+//!
+//! ```
+//! use linkproof::parts::{How, Mapping, Party};
+//! use linkproof::{Scenario, compare, solve};
+//!
+//! # std::env::set_current_dir(env!("CARGO_MANIFEST_DIR"))?;
+//! let scenario = Scenario::load("scenarios/crank_rocker.toml")?;
+//! let solved = solve(&scenario.case)?;
+//! let found = compare([scenario.clone().into(), solved.into()], &How::default())?;
+//! assert_eq!(found.verdict.word(), "agree");
+//! # let file = std::env::temp_dir().join("linkproof_compared.csv");
+//! # std::fs::write(&file, "crank_deg,link.rocker.angle_deg\n90,12.5\n120,17.25\n")?;
+//!
+//! let table = Party::table(&file, &Mapping::default())?;
+//! let found = compare([scenario.into(), table], &How::default())?;
+//! assert_eq!(found.verdict.word(), "disagree");
+//! println!("{}", found.pairs[0].channels[0].since.unwrap().difference);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
 //! In a test; a disagreement panics with the report, and [`testing`] has more:
 //!
 //! ```
@@ -54,9 +76,12 @@
 #[macro_use]
 pub mod plain;
 
+mod check;
 #[cfg(feature = "command")]
 #[doc(hidden)]
 pub mod cli;
+#[cfg(feature = "command")]
+mod draw;
 #[cfg(feature = "command")]
 #[doc(hidden)]
 pub mod report;
@@ -64,6 +89,9 @@ pub mod report;
 mod shipped;
 pub mod testing;
 
+pub use check::{check, check_formula};
+#[cfg(feature = "command")]
+pub use draw::draw;
 #[doc(inline)]
 pub use linkage::case::Case;
 #[doc(inline)]
@@ -71,10 +99,15 @@ pub use prover::compare::Verdict;
 #[doc(inline)]
 pub use prover::proof::{Options, Proof, prove, solve};
 #[doc(inline)]
+pub use prover::versus::compare;
+#[doc(inline)]
 pub use scenario::Scenario;
 
 /// What the front door's signatures name besides: errors, choices, what a proof and a solution consist of.
 pub mod parts {
+    pub use crate::check::Question;
+    #[cfg(feature = "command")]
+    pub use crate::draw::{Medium, Wish};
     pub use linkage::case::{CaseBuilder, Grid, Wanted};
     pub use linkage::drive::{Load, MotionLaw};
     pub use linkage::engine::Route;
@@ -83,6 +116,10 @@ pub mod parts {
     pub use linkage::trajectory::{Channel, Stage, Trajectory};
     pub use prover::compare::{Check, Residual};
     pub use prover::engines::EngineName;
+    pub use prover::proof::solved::Claimed;
     pub use prover::proof::{ChannelProof, EngineInfo, EngineProof, Reference, prove_with};
+    pub use prover::tables::By;
+    pub use prover::versus::{Compared, Comparison, How, Pair, Party, Row};
+    pub use scenario::mapping::{Allowed, Mapped, Mapping, Size};
     pub use scenario::{EngineSettings, Origin, Setting};
 }

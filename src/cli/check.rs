@@ -5,13 +5,11 @@ use std::path::PathBuf;
 use super::grid::GridArgs;
 use super::load::StartArgs;
 use super::{advice, exit_code, number, output, terminal};
+use crate::check::{Question, Words, check as judged};
 use crate::plain::style::Detail;
 use crate::report::check as report;
-use linkage::error::{Error, ErrorKind, Result};
-use prover::proof::solved;
-use scenario::formula::{fault_of_claim, refused};
-
-use scenario::{Claim, Scenario};
+use linkage::error::Result;
+use scenario::Scenario;
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = include_str!("help/check.txt").trim_ascii_end())]
@@ -62,7 +60,7 @@ fn step(text: &str) -> std::result::Result<(String, String), String> {
 /// Judges, reports, and says how it ended.
 pub(super) fn check(args: &Args) -> Result<u8> {
     let scenario = asked(args)?;
-    let found = solved::judge(&scenario)?;
+    let found = judged(&scenario)?;
     if let Some(to) = &args.json {
         output::write(&report::json(&scenario, &found, advice::told), to)?;
     }
@@ -77,25 +75,21 @@ pub(super) fn check(args: &Args) -> Result<u8> {
     Ok(exit_code::of(&found.verdict))
 }
 
+/// What messages call the arguments.
+const WORDS: Words =
+    Words { formula: "EXPR", channel: "--channel", step: "--let", valid: "--to-deg", error: "--error" };
+
 /// The scenario with the formulas that are asked about.
 fn asked(args: &Args) -> Result<Scenario> {
-    let adds = args.expression.is_some();
-    let mut scenario = args.start.load_and_add(&args.file, &args.grid, adds)?;
-    let (Some(expression), Some(channel)) = (&args.expression, &args.channel) else { return Ok(scenario) };
-    // What the file claims itself is not asked.
-    scenario.formulas.list.iter_mut().for_each(|formula| formula.claim = None);
-    for (name, text) in &args.steps {
-        scenario.formulas.check_name(name).map_err(|error| error.key("--let"))?;
-        scenario.formulas.add(name, text).map_err(|fault| refused("--let", text, &fault))?;
-    }
-    let claim = Claim::parse(channel, &scenario.case).map_err(|fault| refused("--channel", channel, &fault))?;
-    let formula = scenario.formulas.add("formula", expression).map_err(|fault| refused("EXPR", expression, &fault))?;
-    formula.claim = Some(claim);
-    formula.valid = [args.from_deg, args.to_deg].map(|degrees| degrees.map(f64::to_radians));
-    formula.error = args.error;
-    if let Some((key, message, help)) = fault_of_claim(formula.valid, formula.error) {
-        let option = if key == "to" { "--to-deg" } else { "--error" };
-        return Err(Error::new(ErrorKind::Input, message).key(option).help(help));
-    }
-    Ok(scenario)
+    let (Some(formula), Some(channel)) = (&args.expression, &args.channel) else {
+        return args.start.load(&args.file, &args.grid);
+    };
+    let question = Question {
+        formula: formula.clone(),
+        channel: channel.clone(),
+        steps: args.steps.clone(),
+        valid: [args.from_deg, args.to_deg].map(|degrees| degrees.map(f64::to_radians)),
+        error: args.error,
+    };
+    question.of_scenario(args.start.load_and_add(&args.file, &args.grid)?, &WORDS)
 }

@@ -2,9 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use clap::ValueEnum;
-
-use super::engine_args::MemoryArgs;
+use super::engine_args::{MemoryArgs, word};
 use super::exit_code::graver;
 use super::grid::GridArgs;
 use super::load::StartArgs;
@@ -14,9 +12,9 @@ use super::{advice, exit_code, output, standard_input, terminal};
 use crate::plain::style::Detail;
 use crate::report::outcomes::Outcomes;
 use crate::report::versus as report;
-use linkage::error::{Error, ErrorKind, Result};
+use linkage::error::Result;
 use prover::proof::memory;
-use prover::tables::{self, Held};
+use prover::tables::By;
 use prover::versus::{How, Party, compare as compared};
 use scenario::mapping::{Allowed, Mapped, Mapping, Size};
 
@@ -41,10 +39,10 @@ pub(super) struct Args {
     write_map: Option<PathBuf>,
     /// Allow differences of this share of a channel's scale, half its range over the scenario's run: for all channels,
     /// or for one channel, subject or stage
-    #[arg(long, value_name = "[CHANNEL=]SHARE", value_parser = share)]
+    #[arg(long, value_name = "[CHANNEL=]SHARE", value_parser = share(Size::Relative))]
     rel: Vec<Allowed>,
     /// Allow differences of this share of each value: 0.05 for 5 %; near zero only what --abs allows
-    #[arg(long, value_name = "[CHANNEL=]SHARE", value_parser = share_of_value)]
+    #[arg(long, value_name = "[CHANNEL=]SHARE", value_parser = share(Size::OfValue))]
     rel_value: Vec<Allowed>,
     /// Allow differences of this size, in the unit of the channel
     #[arg(long, value_name = "CHANNEL=SIZE", value_parser = size)]
@@ -53,7 +51,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "WORD")]
     only: Vec<String>,
     /// Bring rows together by time or by crank angle [default: by time, where both have times]
-    #[arg(long, value_name = "WHAT")]
+    #[arg(long, value_name = "WHAT", value_parser = word(["time", "crank"], by))]
     by: Option<By>,
     /// Interpolate the first of two tables between its rows, with what that may be wrong by in the bound
     #[arg(long)]
@@ -75,10 +73,12 @@ pub(super) struct Args {
     reports: Reports,
 }
 
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum By {
-    Time,
-    Crank,
+fn by(word: &str) -> Option<By> {
+    match word {
+        "time" => Some(By::Time),
+        "crank" => Some(By::Crank),
+        _ => None,
+    }
 }
 
 /// A path that a mapping may be written to: a mapping there is replaced, another file is not.
@@ -93,28 +93,20 @@ fn mapping_target(text: &str) -> std::result::Result<PathBuf, String> {
     Ok(path)
 }
 
-/// Reads `[CHANNEL=]SHARE`.
-fn share(text: &str) -> std::result::Result<Allowed, String> {
-    let (of, share) = of_and_share(text)?;
-    Ok(Allowed { of, size: Size::Relative(share) })
-}
-
-/// Reads `[CHANNEL=]SHARE` of each value.
-fn share_of_value(text: &str) -> std::result::Result<Allowed, String> {
-    let (of, share) = of_and_share(text)?;
-    Ok(Allowed { of, size: Size::OfValue(share) })
-}
-
-fn of_and_share(text: &str) -> std::result::Result<(Option<String>, f64), String> {
-    let (of, number) = text.rsplit_once('=').map_or((None, text), |(of, number)| (Some(of.trim().to_string()), number));
-    Ok((of, not_negative(number)?))
+/// Reads `[CHANNEL=]SHARE`, a share of what `size` says.
+fn share(size: fn(f64) -> Size) -> impl Fn(&str) -> std::result::Result<Allowed, String> + Clone {
+    move |text| {
+        let (of, number) = text.rsplit_once('=').map_or((None, text), |(of, number)| (Some(of.trim().into()), number));
+        Ok(Allowed { of, size: size(not_negative(number)?) })
+    }
 }
 
 /// Reads `CHANNEL=SIZE`.
 fn size(text: &str) -> std::result::Result<Allowed, String> {
-    let (of, number) =
-        text.rsplit_once('=').ok_or("expected CHANNEL=SIZE, such as point.B.x_mm=0.01: sizes have units")?;
-    Ok(Allowed { of: Some(of.trim().to_string()), size: Size::Absolute(not_negative(number)?) })
+    match text.contains('=') {
+        true => share(Size::Absolute)(text),
+        false => Err("expected CHANNEL=SIZE, such as point.B.x_mm=0.01: sizes have units".into()),
+    }
 }
 
 /// Compares, reports, and says how it ended.
@@ -132,14 +124,14 @@ pub(super) fn compare(args: &Args) -> Result<u8> {
     }
     let how = How {
         allowed: mapping.allowed,
-        by_crank: args.by.map(|by| matches!(by, By::Crank)),
+        by: args.by,
         interpolates: args.interpolate,
         side: args.side.clone(),
         only: args.only.clone(),
         memory: Some(args.memory.bytes()),
     };
     let paths = [args.first.as_path(), args.second.as_path()];
-    let found = compared([first, second], paths, &how)?;
+    let found = compared([first, second], &how)?;
     let outcomes = Outcomes::of_comparison(paths, &found, advice::told);
     if !args.reports.takes_output() {
         let detail = Detail::asked(args.quiet, args.verbose);
@@ -154,20 +146,25 @@ fn check_parties(args: &Args) -> Result<()> {
     let tables = [&args.first, &args.second].map(|path| is_table(path));
     let has_recording =
         [&args.first, &args.second].iter().any(|path| path.extension().is_some_and(|own| own == "mcap"));
-    let refused = |option: &str, message: &str, help: &str| {
-        Err(Error::new(ErrorKind::Input, message).key(option).help(help.to_string()))
-    };
     if !args.map.is_empty() && tables == [false; 2] {
-        return refused("--map", "neither of the two is a table", "scenarios and recordings have channels by name");
+        return output::refused(
+            "--map",
+            "neither of the two is a table",
+            "scenarios and recordings have channels by name",
+        );
     }
     if !args.map_a.is_empty() && !tables[0] {
-        return refused("--map-a", "A is no table", "--map is for B");
+        return output::refused("--map-a", "A is no table", "--map is for B");
     }
     if args.interpolate && tables.iter().filter(|is_table| **is_table).count() == 0 && !has_recording {
-        return refused("--interpolate", "both are scenarios, which are solved where they are asked", "leave it out");
+        return output::refused(
+            "--interpolate",
+            "both are scenarios, which are solved where they are asked",
+            "leave it out",
+        );
     }
     if args.side.is_some() && !has_recording {
-        return refused("--side", "neither of the two is a recording", "leave it out");
+        return output::refused("--side", "neither of the two is a recording", "leave it out");
     }
     Ok(())
 }
@@ -202,8 +199,8 @@ fn party(args: &Args, path: &Path, other: &Path, mapping: &Mapping) -> Result<Pa
     let path = if standard_input::is_meant(path) { Path::new("/dev/stdin") } else { path };
     let ending = path.extension().and_then(|ending| ending.to_str());
     Ok(match ending {
-        Some("toml") => Party::Scenario(Box::new(args.start.load(path, &GridArgs::default())?)),
-        Some("mcap") => Party::Recording(recording::load(path)?),
+        Some("toml") => args.start.load(path, &GridArgs::default())?.into(),
+        Some("mcap") => Party::recording(path.display().to_string(), recording::load(path)?),
         Some(_) | None => {
             let claims = mapping.channels.len().max(1);
             let is_solved = other.extension().is_some_and(|ending| ending == "toml");
@@ -214,7 +211,7 @@ fn party(args: &Args, path: &Path, other: &Path, mapping: &Mapping) -> Result<Pa
                 let compared = if is_solved && rows > 0 { memory::of_comparison(rows, claims, claims) } else { 0.0 };
                 memory::check_input(&format!("comparing {rows} rows"), compared, most)
             };
-            Party::Table(Box::new(Held::of_table(&tables::load_within(path, &may)?, mapping)?))
+            Party::table_within(path, mapping, &may)?
         }
     })
 }

@@ -1,24 +1,14 @@
 //! `linkproof draw`.
 
-mod media;
-mod motion;
-mod subject;
-
 use std::path::PathBuf;
 
 use super::engine_args::side;
-use super::{exit_code, number, output};
-use drawing::sheet::{Cell, columns, sheet};
-use drawing::view::Extras;
+use super::output::{self, refused};
+use super::{exit_code, load, number};
+use crate::draw::{Drawn, Medium, Wish, picture};
 use linkage::error::{Error, ErrorKind, Result};
-use linkage::math::Vec2;
-use media::Medium;
 use prover::proof::Reference;
-use subject::{Drawn, Wish};
-
-/// Room of a picture that stands alone, and of one among others (mm).
-const ALONE: [f64; 2] = [150.0, 120.0];
-const AMONG: [f64; 2] = [100.0, 96.0];
+use scenario::Asked;
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = include_str!("help/draw.txt").trim_ascii_end())]
@@ -27,7 +17,7 @@ pub(super) struct Args {
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
     /// Picture to write: .svg, .png, or one turn of the crank as .gif or .webp; `-` for SVG on standard output
-    #[arg(long, short, value_name = "PICTURE", value_parser = picture)]
+    #[arg(long, short, value_name = "PICTURE", value_parser = target)]
     output: PathBuf,
     /// Crank angle in degrees, as the scenario states it [default: that of the start]
     #[arg(long, value_name = "DEG", allow_hyphen_values = true, value_parser = number::finite)]
@@ -36,7 +26,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "LINK,LINK=MODE")]
     mode: Vec<String>,
     /// Number of a parameter, by its key in `[parameters]`; may be given several times
-    #[arg(long, value_name = "KEY=NUMBER", value_parser = super::load::setting)]
+    #[arg(long, value_name = "KEY=NUMBER", value_parser = load::setting)]
     set: Vec<(String, f64)>,
     /// Draw all configurations at this crank angle, each with the modes of its groups
     #[arg(long)]
@@ -68,7 +58,7 @@ pub(super) struct Args {
 }
 
 /// Path of a picture: one whose ending says how it is written, or standard output.
-fn picture(text: &str) -> std::result::Result<PathBuf, String> {
+fn target(text: &str) -> std::result::Result<PathBuf, String> {
     let path = output::target(text)?;
     Medium::of(&path)?;
     Ok(path)
@@ -76,9 +66,6 @@ fn picture(text: &str) -> std::result::Result<PathBuf, String> {
 
 /// Refuses options that mean nothing for the medium.
 fn fits(args: &Args, medium: Medium) -> Result<()> {
-    let refused = |option: &str, message: &str, help: &str| {
-        Err(Error::new(ErrorKind::Input, message).key(option).help(help.to_string()))
-    };
     let still = [("--frames", args.frames.is_some()), ("--seconds", args.seconds.is_some())];
     match still.iter().find(|(_, is_given)| *is_given) {
         Some((option, _)) if !medium.moves() => {
@@ -99,53 +86,29 @@ fn fits(args: &Args, medium: Medium) -> Result<()> {
 pub(super) fn draw(args: &Args) -> Result<u8> {
     let medium = Medium::of(&args.output).map_err(|message| Error::new(ErrorKind::Input, message).key("--output"))?;
     fits(args, medium)?;
-    let frames = if medium.moves() { args.frames.map_or(48, |count| count as usize) } else { 1 };
-    let extras = Extras { loads: args.loads, dimensions: args.dimensions, is_moving: medium.moves() };
     let wish = Wish {
         crank: args.crank_deg.map(f64::to_radians),
-        modes: &args.mode,
-        set: &args.set,
         each_mode: args.each_mode,
+        loads: args.loads,
+        dimensions: args.dimensions,
         all_traces: args.traces,
-        traces: &args.trace,
-        frames,
-        solver: args.with.solver(),
+        traces: args.trace.clone(),
+        solver: args.with,
+        width: args.width,
+        frames: args.frames.map(|count| count as usize),
+        seconds: args.seconds,
+        traces_key: Some("--trace"),
     };
-    let all = args.files.iter().map(|file| Drawn::of(file, &wish)).collect::<Result<Vec<_>>>()?;
-    let count: usize = all.iter().map(|own| if args.each_mode { own.shots.len() } else { 1 }).sum();
-    let room = Vec2::from(if columns(count) == 1 { ALONE } else { AMONG });
-    // Per frame, the cells of all files.
-    let mut sheets: Vec<Vec<Cell>> = vec![Vec::new(); frames];
-    for own in &all {
-        let cells = own.cells(extras, room, args.files.len() == 1);
-        match args.each_mode {
-            true => sheets[0].extend(cells),
-            // What cannot move stands still in every frame.
-            false => {
-                let last = cells.last().cloned().into_iter().cycle();
-                sheets.iter_mut().zip(cells.into_iter().chain(last)).for_each(|(sheet, cell)| sheet.push(cell));
-            }
-        }
-    }
-    let (title, subtitle) = headline(&all, medium.moves());
-    let pages: Vec<_> = sheets.iter().map(|cells| sheet(&title, &subtitle, cells, room.x)).collect();
-    let bytes = medium.bytes(&pages, &title, args.width.unwrap_or(800), args.seconds.unwrap_or(4.0) / frames as f64)?;
-    output::write_bytes(&bytes, &args.output)?;
-    for error in all.iter().flat_map(Drawn::faults) {
-        output::show(error);
-    }
-    for note in all.iter().filter_map(|own| own.note.as_ref()) {
-        output::note(note);
-    }
-    let is_whole = all.iter().all(|own| own.faults().next().is_none());
-    Ok(if is_whole { exit_code::AGREE } else { exit_code::BAD_INPUT })
-}
-
-/// Title and subtitle of a sheet.
-fn headline(all: &[Drawn], moves: bool) -> (String, String) {
-    match all {
-        [one] if moves => (one.name.clone(), one.title.clone()),
-        [one] => (format!("{}, crank at {}", one.name, one.angle()), one.title.clone()),
-        _ => (all.iter().map(|own| own.name.clone()).collect::<Vec<_>>().join(", "), String::new()),
-    }
+    let asked = Asked { modes: args.mode.clone(), set: args.set.clone(), ..Asked::default() };
+    let drawn = |file: &PathBuf| match load::as_asked(file, &asked) {
+        Ok(scenario) => Drawn::of(scenario, &wish, medium).map_err(|error| error.key("--crank-deg")),
+        // What is wrong with the text itself is told by the reading of the draft.
+        Err(error) => Drawn::of_draft(load::draft(file, &asked)?, &wish, error),
+    };
+    let all = args.files.iter().map(drawn).collect::<Result<Vec<_>>>()?;
+    output::write_bytes(&picture(&all, &wish, medium)?, &args.output)?;
+    let faults: Vec<&Error> = all.iter().filter_map(|own| own.fault.as_ref()).collect();
+    faults.iter().for_each(|error| output::show(error));
+    all.iter().filter_map(|own| own.note.as_ref()).for_each(|note| output::note(note));
+    Ok(if faults.is_empty() { exit_code::AGREE } else { exit_code::BAD_INPUT })
 }

@@ -36,9 +36,9 @@ impl StartArgs {
         self.load_as(file, grid, Asked { memory: Some(memory), ..Asked::default() })
     }
 
-    /// The same; parameters that are set and that the file does not have are added, if they may be.
-    pub(super) fn load_and_add(&self, file: &Path, grid: &GridArgs, adds_parameters: bool) -> Result<Scenario> {
-        self.load_as(file, grid, Asked { adds_parameters, ..Asked::default() })
+    /// The same; parameters that are set and that the file does not have are added.
+    pub(super) fn load_and_add(&self, file: &Path, grid: &GridArgs) -> Result<Scenario> {
+        self.load_as(file, grid, Asked { adds_parameters: true, ..Asked::default() })
     }
 
     fn load_as(&self, file: &Path, grid: &GridArgs, besides: Asked) -> Result<Scenario> {

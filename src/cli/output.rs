@@ -191,6 +191,11 @@ pub(super) fn make_directory(path: &Path, option: &str, help: &str) -> Result<()
     })
 }
 
+/// Refuses an option.
+pub(super) fn refused<T>(option: &str, message: impl Into<String>, help: &str) -> Result<T> {
+    Err(Error::new(ErrorKind::Input, message).key(option).help(help))
+}
+
 /// Shows a line on standard error.
 pub(super) fn note(text: &str) {
     // If standard error is closed, nothing can be done.

@@ -46,10 +46,9 @@ fn mapping(lines: &[&str]) -> Mapping {
 }
 
 fn held(raw: &Raw) -> Party {
-    Party::Table(Box::new(Held::of_table(raw, &Mapping::default()).unwrap()))
+    Held::of_table(raw, &Mapping::default()).unwrap().into()
 }
 
 pub(crate) fn against(scenario: &Scenario, raw: &Raw, how: &How) -> Comparison {
-    let parties = [Party::Scenario(Box::new(scenario.clone())), held(raw)];
-    compare(parties, [Path::new("a"), Path::new("b")], how).unwrap()
+    compare([scenario.clone().into(), held(raw)], how).unwrap()
 }

@@ -15,7 +15,7 @@ use linkage::trajectory::Trajectory;
 use linkproof::plain::diagnosis::{cause, nature};
 use linkproof::report::versus::why;
 use prover::tables::{Held, load};
-use prover::versus::{Comparison, Explained, How, Party, compare};
+use prover::versus::{Comparison, Explained, How, compare};
 use scenario::Scenario;
 use scenario::mapping::{Allowed, Mapped, Mapping, Size};
 
@@ -200,8 +200,8 @@ fn told(scenario: &str, table: &str, lines: &[&str]) -> Vec<(Vec<String>, Option
     lines.iter().for_each(|line| mapping.push(Mapped::parse(line, "a test").unwrap()));
     let file = Path::new("tests/suite/wrong_tables/tables").join(table);
     let held = Held::of_table(&load(&file).unwrap(), &mapping).unwrap();
-    let scenario = Party::Scenario(Box::new(Scenario::parse(&right, &path).unwrap()));
-    let found = compare([scenario, Party::Table(Box::new(held))], [&path, &file], &How::default()).unwrap();
+    let scenario = Scenario::parse(&right, &path).unwrap();
+    let found = compare([scenario.into(), held.into()], &How::default()).unwrap();
     assert_eq!(found.verdict.word(), "disagree");
     words(&found)
 }

@@ -18,44 +18,6 @@ pub struct Cell {
     is_missing: bool,
 }
 
-/// A decimal number as it is printed.
-#[derive(Clone, Copy, Debug)]
-pub struct Decimal {
-    /// The number.
-    pub value: f64,
-    /// Decimals printed, less the exponent.
-    pub decimals: i32,
-    significant: u16,
-    telling: u16,
-}
-
-impl Decimal {
-    /// Reads a number with a point and an exponent, or without; any other text is refused.
-    #[must_use]
-    pub fn parse(text: &str) -> Option<Decimal> {
-        let (mut decimals, mut significant, mut telling, mut point, mut exponent) = (0i32, 0u16, 0u16, false, 0i32);
-        for (at, byte) in text.bytes().enumerate() {
-            match byte {
-                b'0'..=b'9' => {
-                    significant = significant.saturating_add(u16::from(significant > 0 || byte != b'0'));
-                    decimals = decimals.saturating_add(i32::from(point));
-                    telling = if byte != b'0' || point { significant } else { telling };
-                }
-                b'.' if !point => point = true,
-                b'+' | b'-' if at == 0 => {}
-                b'e' | b'E' => {
-                    exponent = text[at + 1..].parse().ok()?;
-                    telling = significant;
-                    break;
-                }
-                _ => return None,
-            }
-        }
-        let value: f64 = text.parse().ok().filter(|value: &f64| value.is_finite())?;
-        Some(Decimal { value, decimals: decimals.checked_sub(exponent)?, significant, telling })
-    }
-}
-
 /// No number stands in a cell, and none is claimed: nothing was measured.
 pub const MISSING: Rounded = Rounded::exact(f64::NAN);
 
@@ -78,24 +40,40 @@ impl Cell {
     /// Reads a cell; `None` if it is neither a number nor a word for a missing one.
     #[must_use]
     pub fn parse(text: &str) -> Option<Cell> {
-        let Some(decimal) = Decimal::parse(text) else { return Cell::word(text) };
+        let Some(decimal) = Cell::decimal(text) else { return Cell::word(text) };
         // Python ends whole numbers with a point and a zero, whatever digits they have.
-        Some(Cell::of(text.strip_suffix(".0").and_then(Decimal::parse).unwrap_or(decimal)))
+        Some(text.strip_suffix(".0").and_then(Cell::decimal).unwrap_or(decimal))
     }
 
-    fn of(Decimal { value, decimals, significant, telling }: Decimal) -> Cell {
-        Cell { value, decimals, significant, telling, is_missing: false }
+    /// A number with a point and an exponent, or without.
+    fn decimal(text: &str) -> Option<Cell> {
+        let (mut decimals, mut significant, mut telling, mut point, mut exponent) = (0i32, 0u16, 0u16, false, 0i32);
+        for (at, byte) in text.bytes().enumerate() {
+            match byte {
+                b'0'..=b'9' => {
+                    significant = significant.saturating_add(u16::from(significant > 0 || byte != b'0'));
+                    decimals = decimals.saturating_add(i32::from(point));
+                    telling = if byte != b'0' || point { significant } else { telling };
+                }
+                b'.' if !point => point = true,
+                b'+' | b'-' if at == 0 => {}
+                b'e' | b'E' => {
+                    exponent = text[at + 1..].parse().ok()?;
+                    telling = significant;
+                    break;
+                }
+                _ => return None,
+            }
+        }
+        let value: f64 = text.parse().ok().filter(|value: &f64| value.is_finite())?;
+        Some(Cell { value, decimals: decimals.checked_sub(exponent)?, significant, telling, is_missing: false })
     }
 
     fn word(text: &str) -> Option<Cell> {
         let is = |words: &[&str], text: &str| words.iter().any(|word| text.eq_ignore_ascii_case(word));
-        let no_number =
-            |is_missing| Some(Cell { value: f64::NAN, decimals: 0, significant: 0, telling: 0, is_missing });
-        if text.is_empty() || is(&EMPTY, text) {
-            return no_number(true);
-        }
-        let size = text.strip_prefix(['+', '-']).unwrap_or(text);
-        if is(&NO_NUMBER, size) { no_number(false) } else { None }
+        let is_missing = text.is_empty() || is(&EMPTY, text);
+        let is_word = is_missing || is(&NO_NUMBER, text.strip_prefix(['+', '-']).unwrap_or(text));
+        is_word.then_some(Cell { value: f64::NAN, decimals: 0, significant: 0, telling: 0, is_missing })
     }
 
     /// The number; NaN where there is none.
@@ -150,15 +128,16 @@ impl Cell {
 /// tells one from its neighbours may lie half way to these, so that it is read in single precision again.
 #[must_use]
 pub fn numbers(cells: &[Cell]) -> Vec<Rounded> {
-    numbers_as(cells, are_single(cells))
+    numbers_as(cells, Precision::of(cells))
 }
 
-pub(crate) fn numbers_as(cells: &[Cell], are_single: bool) -> Vec<Rounded> {
+pub(crate) fn numbers_as(cells: &[Cell], precision: Precision) -> Vec<Rounded> {
     let shown = || cells.iter().filter(|cell| !cell.value.is_nan());
     let decimals = shown().map(|cell| cell.decimals).max().unwrap_or(0);
     let [all, telling] = [|cell: &Cell| cell.significant, |cell: &Cell| cell.telling]
         .map(|of| i32::from(shown().map(of).max().unwrap_or(0)));
-    let binary = if are_single { 0.5 * f64::from(f32::EPSILON) } else { f64::EPSILON };
+    let is_single = precision == Precision::Single;
+    let binary = if is_single { 0.5 * f64::from(f32::EPSILON) } else { f64::EPSILON };
     let with = |significant: i32| -> Vec<Rounded> {
         let of = |cell: &Cell| {
             if cell.value.is_nan() {
@@ -170,14 +149,14 @@ pub(crate) fn numbers_as(cells: &[Cell], are_single: bool) -> Vec<Rounded> {
             };
             // The decimal is rounded once more to binary; the excess covers only that rounding.
             let half = 0.5 * 10f64.powi(place) * (1.0 + 1e-9);
-            let value = if are_single { f64::from(cell.value as f32) } else { cell.value };
+            let value = if is_single { f64::from(cell.value as f32) } else { cell.value };
             Rounded { value, error: half.larger(binary * value.abs()) }
         };
         cells.iter().map(of).collect()
     };
     let found = with(all);
     let are_rounded = shown().filter(|cell| i32::from(cell.significant) > telling).count() >= FEW;
-    if are_rounded && !chosen(&found, false) { with(telling) } else { found }
+    if are_rounded && !chosen(&found) { with(telling) } else { found }
 }
 
 /// Whole numbers that end with zeros by chance: one of ten does, and so many do hardly ever.
@@ -187,16 +166,24 @@ const FEW: usize = 2;
 /// a number in single precision: one of some eight decimals with eight digits is, by chance.
 const TELLING: usize = 8;
 
-/// Whether a column holds numbers in single precision, each with as many digits as tell it from its neighbours.
-pub(crate) fn are_single(cells: &[Cell]) -> bool {
-    let shown = || cells.iter().filter(|cell| !cell.value.is_nan());
-    if shown().any(|cell| cell.significant > 9) || shown().filter(|cell| cell.significant >= 8).count() < TELLING {
-        return false;
+/// What the numbers of a column were before they were printed; the coarser comes first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Precision {
+    /// Each has as many digits as tell it from its neighbours.
+    Single,
+    Double,
+}
+
+impl Precision {
+    pub(crate) fn of(cells: &[Cell]) -> Precision {
+        let shown = || cells.iter().filter(|cell| !cell.value.is_nan());
+        let are_few = shown().filter(|cell| cell.significant >= 8).count() < TELLING;
+        let is_single = |cell: &Cell| (cell.value as f32).to_string().parse::<f64>() == Ok(cell.value);
+        match are_few || shown().any(|cell| cell.significant > 9) || !shown().all(is_single) {
+            true => Precision::Double,
+            false => Precision::Single,
+        }
     }
-    shown().all(|cell| {
-        let single = cell.value as f32;
-        single.to_string().parse::<f64>() == Ok(cell.value)
-    })
 }
 
 #[cfg(test)]

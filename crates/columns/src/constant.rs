@@ -1,6 +1,6 @@
 //! Columns of one number throughout: a moment that is zero, a constant speed.
 
-use crate::cell::{Cell, are_single, numbers, numbers_as};
+use crate::cell::{Cell, Precision, numbers, numbers_as};
 use crate::instants::chosen;
 use formula::Rounded;
 
@@ -22,20 +22,20 @@ where
     Others: IntoIterator<Item: AsRef<[Cell]>>,
 {
     match is_zero(cells).then(|| vouched(others())).flatten() {
-        Some(Vouched { decimals, significant, are_single }) => {
+        Some(Vouched { decimals, significant, precision }) => {
             let cells: Vec<Cell> = cells.iter().map(|cell| cell.with_zeros(decimals, significant)).collect();
-            numbers_as(&cells, are_single)
+            numbers_as(&cells, precision)
         }
         None => numbers(cells),
     }
 }
 
-/// What other columns vouch for: the fewest decimals and digits of them, and whether one is in single precision.
+/// What other columns vouch for: the fewest decimals and digits of them, and the coarsest precision.
 #[derive(Clone, Copy)]
 struct Vouched {
     decimals: i32,
     significant: u16,
-    are_single: bool,
+    precision: Precision,
 }
 
 /// What other columns vouch for; `None` if they say nothing.
@@ -43,7 +43,7 @@ fn vouched(others: impl IntoIterator<Item: AsRef<[Cell]>>) -> Option<Vouched> {
     let mut coarsest: Option<Vouched> = None;
     for column in others {
         let cells = column.as_ref();
-        if is_constant(cells) || chosen(&numbers(cells), false) {
+        if is_constant(cells) || chosen(&numbers(cells)) {
             continue;
         }
         let shown = || cells.iter().filter(|cell| cell.has_digits());
@@ -55,13 +55,13 @@ fn vouched(others: impl IntoIterator<Item: AsRef<[Cell]>>) -> Option<Vouched> {
         if decimals <= 0 || !leaves_zeros_out(cells) {
             return None;
         }
-        let are_single = are_single(cells);
-        let significant = if are_single { significant.min(SINGLE) } else { significant };
-        let own = Vouched { decimals, significant, are_single };
+        let precision = Precision::of(cells);
+        let significant = if precision == Precision::Single { significant.min(SINGLE) } else { significant };
+        let own = Vouched { decimals, significant, precision };
         coarsest = Some(coarsest.map_or(own, |least| Vouched {
             decimals: least.decimals.min(own.decimals),
             significant: least.significant.min(own.significant),
-            are_single: least.are_single || own.are_single,
+            precision: least.precision.min(own.precision),
         }));
     }
     coarsest

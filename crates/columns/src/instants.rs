@@ -8,25 +8,39 @@ use linkage::math::KeepNan;
 const EVIDENCE: f64 = 50.0;
 
 /// Whether instants were chosen as they are printed, and not rounded: whole multiples of one step, which are so many,
-/// or of a step so round, that no other step would look like that. Whole degrees at equal steps always are, and at
-/// others where they have a divisor that whole numbers rarely share, such as 0, 30, 45, 60, 90.
+/// or of a step so round, that no other step would look like that.
 #[must_use]
-pub fn chosen(values: &[Rounded], are_degrees: bool) -> bool {
+pub fn chosen(values: &[Rounded]) -> bool {
+    chosen_as(values, Sort::Any)
+}
+
+/// The same of degrees. Whole ones at equal steps always are chosen, and at others where they have a divisor that whole
+/// numbers rarely share, such as 0, 30, 45, 60, 90.
+#[must_use]
+pub fn degrees_chosen(values: &[Rounded]) -> bool {
+    let are_whole = values.iter().all(|at| at.value.fract() == 0.0);
+    chosen_as(values, if are_whole { Sort::WholeDegrees } else { Sort::Any })
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Sort {
+    Any,
+    WholeDegrees,
+}
+
+fn chosen_as(values: &[Rounded], sort: Sort) -> bool {
     let Some(first) = values.first() else { return false };
     let size = values.iter().map(|at| at.value.abs()).fold(0.0, f64::larger);
     let step = values.get(1).map_or(first.value, |second| second.value - first.value);
     let is_step = |pair: &[Rounded]| (pair[1].value - pair[0].value - step).abs() <= 8.0 * f64::EPSILON * size;
     let is_first_one = first.value == 0.0 || is_multiple(first.value, step);
-    let are_whole = are_degrees && values.iter().all(|at| at.value.fract() == 0.0);
     // Half a unit has an excess for its rounding.
     let unit = 2.0 * values.iter().map(|at| at.error).fold(0.0, f64::larger) / (1.0 + 1e-9);
     if !is_first_one || !values.windows(2).all(is_step) {
-        return are_multiples(values, unit, are_whole);
+        return are_multiples(values, unit, sort);
     }
-    if are_whole {
-        return true;
-    }
-    is_multiple(step, unit) && evidence((values.len() - 1) as f64, (step / unit).abs().round()) >= EVIDENCE
+    sort == Sort::WholeDegrees
+        || is_multiple(step, unit) && evidence((values.len() - 1) as f64, (step / unit).abs().round()) >= EVIDENCE
 }
 
 fn is_multiple(value: f64, of: f64) -> bool {
@@ -54,7 +68,7 @@ const INDEPENDENT: i32 = 3;
 
 /// The same at unequal steps: a divisor of all tells as much as its roundness, such as zeros at all ends. Whole degrees
 /// that have nothing to do with each other share a divisor in as few cases as its power says.
-fn are_multiples(values: &[Rounded], unit: f64, are_whole_degrees: bool) -> bool {
+fn are_multiples(values: &[Rounded], unit: f64, sort: Sort) -> bool {
     let (mut divisor, mut count) = (0u64, 0i32);
     for at in values.iter().filter(|at| at.value != 0.0) {
         let units = (at.value / unit).abs();
@@ -68,8 +82,9 @@ fn are_multiples(values: &[Rounded], unit: f64, are_whole_degrees: bool) -> bool
     if count < 2 {
         return false;
     }
-    let independent = if count - 1 < INDEPENDENT { count - 1 } else { INDEPENDENT };
-    evidence(1.0, divisor as f64) >= EVIDENCE || are_whole_degrees && (divisor as f64).powi(independent) >= EVIDENCE
+    let independent = (count - 1).min(INDEPENDENT);
+    evidence(1.0, divisor as f64) >= EVIDENCE
+        || sort == Sort::WholeDegrees && (divisor as f64).powi(independent) >= EVIDENCE
 }
 
 /// Greatest common divisor.
@@ -127,25 +142,27 @@ mod tests {
             (1, &|_| "0".into(), true),
         ] {
             let texts = list(count, print);
-            assert_eq!(chosen(&of(&texts), false), expected, "{texts:?}");
+            assert_eq!(chosen(&of(&texts)), expected, "{texts:?}");
         }
-        assert!(chosen(&of(&["70".into()]), true) && chosen(&of(&list(4, &|row| format!("{}", 15.0 * row))), true));
-        assert!(!chosen(&of(&["0".into(), "2".into(), "3".into(), "5".into()]), true));
+        assert!(degrees_chosen(&of(&["70".into()])));
+        assert!(degrees_chosen(&of(&list(4, &|row| format!("{}", 15.0 * row)))));
+        assert!(!degrees_chosen(&of(&["0".into(), "2".into(), "3".into(), "5".into()])));
         // Parts of degrees say no more than parts of seconds.
-        assert!(!chosen(&of(&["0".into(), "2.7".into(), "5.4".into()]), true));
-        for (texts, are_degrees, expected) in [
+        assert!(!degrees_chosen(&of(&["0".into(), "2.7".into(), "5.4".into()])));
+        let (degrees, any) = (degrees_chosen as fn(&[Rounded]) -> bool, chosen as fn(&[Rounded]) -> bool);
+        for (texts, chosen, expected) in [
             // As tables in books have them, and what a program has rounded.
-            (["0", "30", "45", "60", "90"], true, true),
-            (["0", "30", "45", "60", "90"], false, false),
-            (["0", "3", "5", "8", "10"], true, false),
+            (["0", "30", "45", "60", "90"], degrees, true),
+            (["0", "30", "45", "60", "90"], any, false),
+            (["0", "3", "5", "8", "10"], degrees, false),
             // With the zeros that say so.
-            (["0.000", "17.000", "46.000", "63.000", "90.000"], true, true),
-            (["0.000", "0.200", "0.500", "0.600", "1.000"], false, true),
-            (["0.0000", "0.0333", "0.0667", "0.2000", "0.5000"], false, false),
+            (["0.000", "17.000", "46.000", "63.000", "90.000"], degrees, true),
+            (["0.000", "0.200", "0.500", "0.600", "1.000"], any, true),
+            (["0.0000", "0.0333", "0.0667", "0.2000", "0.5000"], any, false),
             // A step that is hidden is even by chance.
-            (["2.068378", "9.362942", "16.657506", "23.952070", "31.246634"], true, false),
+            (["2.068378", "9.362942", "16.657506", "23.952070", "31.246634"], degrees, false),
         ] {
-            assert_eq!(chosen(&of(&texts.map(Into::into)), are_degrees), expected, "{texts:?}");
+            assert_eq!(chosen(&of(&texts.map(Into::into))), expected, "{texts:?}");
         }
     }
 

@@ -54,9 +54,25 @@ pub struct Beside<'a> {
     pub turn: Option<f64>,
     /// What is allowed.
     pub allowance: Allowance,
-    /// Which of the two is measured by, and whether its numbers are those of an analytic side: where that has none,
-    /// nothing is expected.
-    pub measure: (usize, bool),
+    /// Which of the two is measured by.
+    pub measure: Measure,
+}
+
+/// Which of two columns is measured by: the first, unless the second alone is of an analytic side.
+#[derive(Clone, Copy, Debug)]
+pub struct Measure {
+    /// Its number, from 0.
+    pub party: usize,
+    /// Whether its numbers are those of an analytic side: where that has none, nothing is expected.
+    pub is_analytic: bool,
+}
+
+impl Measure {
+    /// By whether each of the two is of an analytic side.
+    #[must_use]
+    pub fn among([one, other]: [bool; 2]) -> Self {
+        Measure { party: usize::from(!one && other), is_analytic: one || other }
+    }
 }
 
 /// What two columns come to.
@@ -84,11 +100,11 @@ pub struct Judged {
 /// differ: such a NaN is beyond every bound.
 #[must_use]
 pub fn judge(both: &Beside) -> Judged {
-    let Beside { values, places, drift, turn, allowance, measure: (measure, is_analytic) } = *both;
+    let Beside { values, places, drift, turn, allowance, measure } = *both;
     let (mut own, mut squares, mut numbers) = (Judged::default(), 0.0, 0usize);
     for (row, (&one, &other)) in values[0].iter().zip(values[1]).enumerate() {
-        let measured = [one, other][measure];
-        let nothing_expected = match is_analytic {
+        let measured = [one, other][measure.party];
+        let nothing_expected = match measure.is_analytic {
             true => measured.value.is_nan(),
             false => one.value.is_nan() && other.value.is_nan(),
         };
@@ -128,9 +144,10 @@ mod tests {
     use super::*;
     use crate::cell::{MISSING, UNDEFINED};
 
-    fn judged(first: &[Rounded], second: &[Rounded], measure: (usize, bool)) -> Judged {
+    fn judged(first: &[Rounded], second: &[Rounded], is_analytic: [bool; 2]) -> Judged {
         let at: Vec<f64> = (0..first.len()).map(|row| row as f64).collect();
         let (places, allowance) = ([&at[..], &at], Allowance::default());
+        let measure = Measure::among(is_analytic);
         judge(&Beside { values: [first, second], places, drift: &[], turn: None, allowance, measure })
     }
 
@@ -143,8 +160,8 @@ mod tests {
         let (at, nowhere, drift) = ([5.0, 4.0, 3.0, 2.0, 1.0], [f64::NAN; 5], [0.5, 0.0, 0.0, 0.0, 0.0]);
         for places in [[&at[..], &nowhere], [&nowhere, &at]] {
             let allowance = Allowance { fixed: 0.25, of_value: 0.1 };
-            let both =
-                Beside { values: [&first, &second], places, drift: &drift, turn: None, allowance, measure: (0, true) };
+            let measure = Measure { party: 0, is_analytic: true };
+            let both = Beside { values: [&first, &second], places, drift: &drift, turn: None, allowance, measure };
             let found = judge(&both);
             // Differences 0, 1, -4 and none; bounds 0.8 + 1, 2, 3 and 4.
             assert_eq!((found.judged, found.missing, found.widest), (4, 1, 0.1 + 0.2 + 0.5));
@@ -154,30 +171,30 @@ mod tests {
             // What is no number uses most, and is beyond its bound at the earliest instant.
             assert_eq!([found.worst, found.since].map(|own| own.unwrap().row), [4, 4]);
             // By the second party, whose numbers are other ones.
-            let by_other = judge(&Beside { measure: (1, false), ..both });
+            let by_other = judge(&Beside { measure: Measure { party: 1, is_analytic: false }, ..both });
             assert_eq!(by_other.largest.unwrap().bound, 0.1 * 26.0);
             // An angle of 4 turned by 5 is one of -1.
             let turned = judge(&Beside { turn: Some(5.0), ..both });
             assert_eq!((turned.largest.unwrap().row, turned.largest.unwrap().difference.abs()), (1, 1.0));
         }
-        let worst = judged(&[of(1.0, 1.0), of(1.0, 0.5), of(1.0, 1.0)], &[Rounded::exact(1.4); 3], (0, true));
+        let worst = judged(&[of(1.0, 1.0), of(1.0, 0.5), of(1.0, 1.0)], &[Rounded::exact(1.4); 3], [true, false]);
         assert_eq!((worst.worst.unwrap().row, worst.since), (1, None));
     }
 
     #[test]
     fn what_was_computed_and_is_no_number_differs_and_what_is_missing_is_counted() {
         let right = [Rounded::exact(1.0); 4];
-        let of = |cell: Rounded| judged(&right, &[right[0], cell, cell, right[0]], (0, true));
+        let of = |cell: Rounded| judged(&right, &[right[0], cell, cell, right[0]], [true, false]);
         let found = of(MISSING);
         assert_eq!((found.judged, found.missing, found.since), (2, 2, None));
         let found = of(UNDEFINED);
         assert_eq!((found.judged, found.missing, found.since.map(|at| at.row)), (4, 0, Some(1)));
         assert!(found.largest.unwrap().difference == 0.0 && found.worst.unwrap().used().is_infinite());
         // Where the analytic side has no number, none is expected.
-        let found = judged(&[right[0], UNDEFINED], &right[..2], (0, true));
+        let found = judged(&[right[0], UNDEFINED], &right[..2], [true, false]);
         assert_eq!((found.judged, found.missing, found.since), (1, 1, None));
         // Of two tables one has no number.
-        assert!(judged(&[right[0], UNDEFINED], &right[..2], (0, false)).since.is_some());
-        assert_eq!(judged(&[UNDEFINED], &[UNDEFINED], (0, false)).missing, 1);
+        assert!(judged(&[right[0], UNDEFINED], &right[..2], [false; 2]).since.is_some());
+        assert_eq!(judged(&[UNDEFINED], &[UNDEFINED], [false; 2]).missing, 1);
     }
 }

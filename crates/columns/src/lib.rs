@@ -19,14 +19,12 @@ mod cell;
 mod constant;
 mod instants;
 mod judge;
-mod names;
 mod records;
 mod text;
 
-pub use cell::{Cell, Decimal, MISSING, UNDEFINED, is_missing, numbers};
+pub use cell::{Cell, MISSING, UNDEFINED, is_missing, numbers};
 pub use constant::numbers_beside;
-pub use instants::{chosen, drift};
-pub use judge::{Allowance, Beside, Judged, Row, judge};
-pub use names::Twice;
+pub use instants::{chosen, degrees_chosen, drift};
+pub use judge::{Allowance, Beside, Judged, Measure, Row, judge};
 pub use records::Records;
-pub use text::{Fault, Table, bytes, read};
+pub use text::{Fault, Table, Twice, bytes, read};

@@ -2,11 +2,12 @@
 //! header, with lines of comment.
 
 use std::borrow::Cow;
+use std::collections::BTreeMap;
+use std::fmt;
 use std::ops::Range;
 
 use super::cell::Cell;
 use super::constant::numbers_beside;
-use super::names::Twice;
 use formula::Rounded;
 
 /// Signs that begin a line of comment.
@@ -55,6 +56,42 @@ pub struct Fault {
     pub message: String,
     /// The way out.
     pub help: String,
+}
+
+/// Two columns of one name. It displays as a message.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Twice {
+    /// The name.
+    pub name: String,
+    /// Numbers of the two columns, from 1.
+    pub columns: [usize; 2],
+}
+
+impl Twice {
+    /// The way out.
+    pub const HELP: &str = "give every column a name of its own, or take one of the two out";
+
+    /// The first name that stands twice. Columns without a name are nobody's: nothing can ask for them.
+    pub fn of<T: AsRef<str>>(names: impl IntoIterator<Item = T>) -> Option<Twice> {
+        let mut seen = BTreeMap::new();
+        for (index, name) in names.into_iter().enumerate() {
+            let name = name.as_ref().trim().to_string();
+            if name.is_empty() {
+                continue;
+            }
+            if let Some(first) = seen.insert(name.clone(), index + 1) {
+                return Some(Twice { name, columns: [first, index + 1] });
+            }
+        }
+        None
+    }
+}
+
+impl fmt::Display for Twice {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [first, second] = self.columns;
+        write!(f, "the columns {first} and {second} of the table are both called \"{}\"", self.name)
+    }
 }
 
 /// Memory (bytes) that the numbers of a text take, at most.
@@ -231,5 +268,12 @@ mod tests {
                 Err(fault) => proptest::prop_assert!(text.get(fault.at).is_some() && !fault.help.is_empty()),
             }
         }
+    }
+
+    #[test]
+    fn a_name_that_stands_twice_is_told_with_both_places() {
+        let twice = Twice::of(["t", "x", "", "", " t"]).unwrap();
+        assert_eq!(twice.to_string(), "the columns 1 and 5 of the table are both called \"t\"");
+        assert_eq!(Twice::of(["t", "T", "", ""]), None);
     }
 }

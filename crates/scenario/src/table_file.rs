@@ -275,7 +275,8 @@ impl<'a> Rows<'a> {
     fn instants(&self, column: usize, from: &series::Rows, case: &Case) -> Result<Vec<(When, f64)>> {
         let cells: Vec<columns::Cell> = self.cells(column).map(|cell| cell.number()).collect::<Result<_>>()?;
         let numbers = columns::numbers(&cells);
-        let is_chosen = columns::chosen(&numbers, from.are_degrees());
+        let chosen = if from.are_degrees() { columns::degrees_chosen } else { columns::chosen };
+        let is_chosen = chosen(&numbers);
         let end = series::end(case);
         let of = |(cell, printed): (Cell, Rounded)| {
             let printed = if is_chosen { Rounded::exact(printed.value) } else { printed };

@@ -36,9 +36,9 @@ fn compared(right: &str, table: &str, lines: &[&str]) -> Comparison {
     }
     let file = path("data").join(table);
     let held = Held::of_table(&load(&file).unwrap(), &mapping).unwrap_or_else(|error| panic!("{table}: {error}"));
-    let parties = [Party::Scenario(Box::new(scenario(of))), Party::Table(Box::new(held))];
+    let parties = [Party::from(scenario(of)), Party::from(held)];
     let how = How { allowed: mapping.allowed, ..How::default() };
-    compare(parties, [Path::new(of), &file], &how).unwrap_or_else(|error| panic!("{table}: {error}"))
+    compare(parties, &how).unwrap_or_else(|error| panic!("{table}: {error}"))
 }
 
 fn causes(found: &Comparison) -> Vec<String> {

@@ -1,15 +1,9 @@
 //! Alignment, mapping, units, digits, interpolation.
 
-use std::path::Path;
-
 use super::{against, held, mapping, scenario, solved, table};
-use prover::tables::{Held, load};
-use prover::versus::{Comparison, How, Party, compare};
+use prover::tables::{By, Held, load};
+use prover::versus::{How, Party, compare as compared};
 use scenario::mapping::{Allowed, Size};
-
-fn compared(parties: [Party; 2], how: &How) -> Result<Comparison, linkage::Error> {
-    compare(parties, [Path::new("a.csv"), Path::new("b.csv")], how)
-}
 
 fn rel(share: f64) -> How {
     How { allowed: vec![Allowed { of: None, size: Size::Relative(share) }], ..How::default() }
@@ -35,7 +29,7 @@ fn a_mapping_bridges_names_units_signs_and_offsets() {
     ];
     let mapping = mapping(&lines);
     let table = Held::of_table(&raw, &mapping).unwrap();
-    let both = [Party::Scenario(Box::new(scenario)), Party::Table(Box::new(table))];
+    let both = [Party::from(scenario), Party::from(table)];
     let found = compared(both, &How::default()).unwrap();
     assert_eq!((found.verdict.word(), found.pairs[0].channels.len()), ("agree", 4));
     // What it says is written to a file, and read back.
@@ -66,7 +60,7 @@ fn a_wrong_mapping_is_refused_with_its_place() {
     }
     // The scenario has no such link.
     let table = Held::of_table(&raw, &mapping(&["phi3=link.roker.angle_rad"])).unwrap();
-    let both = [Party::Scenario(Box::new(scenario("crank_rocker"))), Party::Table(Box::new(table))];
+    let both = [Party::from(scenario("crank_rocker")), Party::from(table)];
     let error = compared(both, &How::default()).err().unwrap();
     assert!(format!("{:?}", error.advice()).contains("link.rocker.angle_rad"), "{:?}", error.advice());
 }
@@ -104,7 +98,7 @@ fn rows_are_brought_together_by_crank_angle_too() {
     ]);
     let found = against(&scenario, &raw, &How::default());
     assert!(found.pairs[0].by_crank && found.verdict.word() == "agree");
-    let error = compared([held(&raw), held(&raw)], &How { by_crank: Some(false), ..How::default() }).err().unwrap();
+    let error = compared([held(&raw), held(&raw)], &How { by: Some(By::Time), ..How::default() }).err().unwrap();
     assert!(error.message().contains("no times"), "{}", error.message());
 }
 
@@ -260,7 +254,7 @@ fn two_tables_in_different_units_are_compared_in_one() {
 #[test]
 fn two_models_of_one_mechanism_are_compared() {
     let one = scenario("crank_rocker");
-    let both = |other: linkproof::Scenario| [Party::Scenario(Box::new(one.clone())), Party::Scenario(Box::new(other))];
+    let both = |other: linkproof::Scenario| [Party::from(one.clone()), Party::from(other)];
     let same = compared(both(one.clone()), &How::default()).unwrap();
     assert_eq!(same.verdict.word(), "agree");
     assert_eq!(same.pairs[0].channels.len(), one.case.channels().len());
@@ -287,7 +281,7 @@ fn what_they_do_not_share_is_told() {
     assert_eq!(pair.alone[1], ["link.ghost.angle_rad"]);
     let missing =
         How { allowed: vec![Allowed { of: Some("point.B".into()), size: Size::Relative(0.1) }], ..How::default() };
-    let parties = [Party::Scenario(Box::new(scenario)), held(&raw)];
+    let parties = [Party::from(scenario), held(&raw)];
     let error = compared(parties, &missing).err().unwrap();
     assert!(error.message().contains("point.B"), "{}", error.message());
 }

@@ -23,6 +23,15 @@ pub struct Instants {
     pub cranks: Option<Vec<Rounded>>,
 }
 
+/// What rows are brought together by.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum By {
+    /// Times.
+    Time,
+    /// Crank angles.
+    Crank,
+}
+
 /// The instants by which rows are brought together.
 #[derive(Clone, Debug)]
 pub struct At {
@@ -104,11 +113,17 @@ impl Places {
 const TIMES: [&str; 2] = ["t_s", "t"];
 
 impl Held {
-    /// What a party holds in some columns.
+    /// What a party that is not analytic holds in some columns.
     #[must_use]
-    pub fn of_columns(at: Instants, columns: Vec<Column>, is_analytic: bool) -> Held {
+    pub fn of_columns(at: Instants, columns: Vec<Column>) -> Held {
         let places = Places::of(&columns);
-        Held { at, columns, is_analytic, unused: Vec::new(), places }
+        Held { at, columns, is_analytic: false, unused: Vec::new(), places }
+    }
+
+    /// The same, found by an analytic side.
+    #[must_use]
+    pub fn analytic(self) -> Held {
+        Held { is_analytic: true, ..self }
     }
 
     /// What a table says by a mapping. A column that has the name of a channel, unit included, needs none.
@@ -124,7 +139,8 @@ impl Held {
             let (factor, is_crank) =
                 mapped.instant().ok_or_else(|| mapped.wrong("this is no instant", "map a time"))?;
             let printed = reader.column(mapped)?;
-            let is_chosen = columns::chosen(&printed, mapped.name == "crank_deg");
+            let chosen = if mapped.name == "crank_deg" { columns::degrees_chosen } else { columns::chosen };
+            let is_chosen = chosen(&printed);
             // A factor to SI rounds.
             let exact = |own: Rounded| if is_chosen { Rounded::nearly(own.value) } else { own };
             let values: Vec<Rounded> = printed.into_iter().map(|own| exact(scaled(own, factor))).collect();
@@ -144,14 +160,16 @@ impl Held {
         let is_own = |name: &&String| PrintedChannel::named(name).is_some() && !mapped.contains(name.as_str());
         let channels = raw.names.iter().filter(is_own);
         let own: Vec<Mapped> = channels.map(|name| Mapped::same(name, name)).collect();
+        let mut column = |mapped: &Mapped| -> Result<Column> {
+            let claim = claim_of(&mapped.name).map_err(|fault| mapped.wrong(&fault.message, &fault.help))?;
+            Ok(Column { claim, values: reader.column(mapped)?, scale: None, mapped: None })
+        };
         let mut columns = Vec::new();
         for mapped in &mapping.channels {
-            let claim = claim_of(&mapped.name).map_err(|fault| mapped.wrong(&fault.message, &fault.help))?;
-            columns.push(Column { claim, values: reader.column(mapped)?, scale: None, mapped: Some(mapped.clone()) });
+            columns.push(Column { mapped: Some(mapped.clone()), ..column(mapped)? });
         }
         for mapped in &own {
-            let claim = claim_of(&mapped.name).map_err(|fault| mapped.wrong(&fault.message, &fault.help))?;
-            columns.push(Column { claim, values: reader.column(mapped)?, scale: None, mapped: None });
+            columns.push(column(mapped)?);
         }
         if columns.is_empty() {
             let message = format!("no column of the table is a channel; they are {}", some(&raw.names));
@@ -159,12 +177,12 @@ impl Held {
             return Err(Error::new(ErrorKind::Input, message).help(help));
         }
         let unused = raw.names.iter().filter(|name| !reader.used.contains(name.as_str())).cloned().collect();
-        Ok(Held { unused, ..Held::of_columns(at, columns, false) })
+        Ok(Held { unused, ..Held::of_columns(at, columns) })
     }
 
-    /// What a trajectory holds.
+    /// What a trajectory holds that no analytic side has found.
     #[must_use]
-    pub fn of_trajectory(trajectory: &Trajectory, is_analytic: bool) -> Held {
+    pub fn of_trajectory(trajectory: &Trajectory) -> Held {
         let exact = |values: &[f64]| -> Vec<Rounded> { values.iter().map(|&value| Rounded::nearly(value)).collect() };
         let times = Some(trajectory.times().iter().map(|&time| Rounded::exact(time)).collect());
         let cranks = Some(exact(trajectory.inputs()));
@@ -174,16 +192,16 @@ impl Held {
             Some(Column { claim, values: exact(values), scale: None, mapped: None })
         };
         let columns = trajectory.iter().filter_map(column).collect();
-        Held::of_columns(Instants { times, cranks }, columns, is_analytic)
+        Held::of_columns(Instants { times, cranks }, columns)
     }
 
     /// The instants of its rows: crank angles or times as asked for, else times where it has some.
     ///
     /// # Errors
     /// [`ErrorKind::Input`] if it lacks what is asked for.
-    pub fn at(&self, by_crank: Option<bool>) -> Result<At> {
+    pub fn at(&self, by: Option<By>) -> Result<At> {
         let Instants { times, cranks } = &self.at;
-        let is_crank = by_crank.unwrap_or(times.is_none());
+        let is_crank = by.map_or(times.is_none(), |by| by == By::Crank);
         let found = if is_crank { cranks } else { times };
         let [lacks, has] = if is_crank { ["crank angles", "times"] } else { ["times", "crank angles"] };
         let values = found.clone().ok_or_else(|| {
@@ -396,7 +414,7 @@ mod tests {
             let values = vec![Rounded::exact(1.0 + index as f64)];
             Column { claim: claim_of(text).unwrap(), values, scale: None, mapped: None }
         };
-        let held = Held::of_columns(Instants::default(), names.iter().enumerate().map(column).collect(), false);
+        let held = Held::of_columns(Instants::default(), names.iter().enumerate().map(column).collect());
         let value = |text: &str| held.values_of(&claim_of(text).unwrap()).map(|values| values[0].value);
         for (text, expected) in [
             ("point.B.x_mm", Some(1.0)),

@@ -1,28 +1,27 @@
 //! Tables of other programs: CSV and Parquet files, and which of their columns are which channels.
 
-mod csv_file;
 mod held;
 #[cfg(feature = "parquet")]
 mod parquet_file;
 mod source;
 
 pub use columns::Table as Raw;
-pub use held::{At, Column, Held, Instants};
+pub use held::{At, By, Column, Held, Instants};
 pub use source::May;
 
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
-use self::source::{MAGIC, unread};
+use self::source::{MAGIC, text, unread};
 use linkage::error::{Error, ErrorKind, Result};
 
 /// Reads a file: Parquet by its first bytes, else text with separated columns.
 ///
 /// # Errors
 /// [`ErrorKind::Io`] if it cannot be read, [`ErrorKind::Input`] if it is no table of numbers, with the place.
-pub fn load(path: &Path) -> Result<Raw> {
-    load_within(path, &|_, _| Ok(()))
+pub fn load(path: impl AsRef<Path>) -> Result<Raw> {
+    load_within(path.as_ref(), &|_, _| Ok(()))
 }
 
 /// The same where memory is asked for before it is taken: before a file is read, by its size, and before its numbers
@@ -50,7 +49,7 @@ pub fn load_within(path: &Path, may: May) -> Result<Raw> {
             let message = format!("the table {} is a Parquet file that comes through a pipe", path.display());
             return Err(Error::new(ErrorKind::Input, message).help("write it to a file first: its end is read first"));
         }
-        (false, size) => csv_file::read(path, first.as_slice().chain(file), size, may)?,
+        (false, size) => text(path, first.as_slice().chain(file), size, may)?,
     };
     if raw.is_empty() {
         let message = format!("{} has no rows of numbers", path.display());

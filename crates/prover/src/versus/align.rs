@@ -3,12 +3,10 @@
 use std::f64::consts::TAU;
 
 use super::allowed::How;
-use super::contradiction;
-use super::crank;
 use super::interpolate::Course;
 use super::judge::Both;
-use super::pair::{Pair, Side};
-use crate::tables::{At, Column, Held, Instants};
+use super::pair::{Pair, Side, Which, crank_check};
+use crate::tables::{At, By, Column, Held, Instants};
 use columns::MISSING;
 use formula::Rounded;
 use linkage::error::{Error, ErrorKind, Result};
@@ -20,26 +18,26 @@ const SAME: f64 = 1e-6;
 
 /// Compares two parties at the instants of the second.
 pub(super) fn beside(one: &Side, other: &Side, how: &How) -> Result<Pair> {
-    let by_crank = how.by_crank.or_else(|| {
-        // By what both have.
-        let has_times = [one, other].iter().all(|side| side.1.at.times.is_some());
-        Some(!has_times)
-    });
-    let (from, to) = (one.1.at(by_crank)?, other.1.at(by_crank)?);
+    let names = [one, other].map(|side| side.name.clone());
+    let (one, other) = (&one.held, &other.held);
+    // By what both have.
+    let has_times = [one, other].iter().all(|own| own.at.times.is_some());
+    let by = how.by.unwrap_or(if has_times { By::Time } else { By::Crank });
+    let (from, to) = (one.at(Some(by))?, other.at(Some(by))?);
     let asked = how.asked();
-    let wanted = other.1.columns.iter().map(|own| &own.claim).filter(|claim| asked(claim));
-    let claims: Vec<Claim> = wanted.filter(|claim| one.1.holds(claim)).cloned().collect();
+    let wanted = other.columns.iter().map(|own| &own.claim).filter(|claim| asked(claim));
+    let claims: Vec<Claim> = wanted.filter(|claim| one.holds(claim)).cloned().collect();
     let lacks = |of: &Held, in_it: &Held| -> Vec<String> {
         let own = of.columns.iter().filter(|own| !in_it.holds(&own.claim));
         own.map(|own| own.claim.text.clone()).collect()
     };
-    let alone = [lacks(&one.1, &other.1), lacks(&other.1, &one.1)];
+    let alone = [lacks(one, other), lacks(other, one)];
     if claims.is_empty() {
         let some = |names: &[String]| names.iter().take(5).cloned().collect::<Vec<_>>().join(", ");
         let message = format!("the two have no channel in common: {} against {}", some(&alone[0]), some(&alone[1]));
         return Err(Error::new(ErrorKind::Input, message).help("map the columns of both to the same channels"));
     }
-    let places = places(&from, &to, how.interpolates);
+    let places = places(&from, &to, how);
     let unshared = places.iter().filter(|place| matches!(place, Place::Nowhere)).count();
     let shared = to.values.len() - unshared;
     // One alone proves nothing: of times in other units, zero is the same.
@@ -51,37 +49,31 @@ pub(super) fn beside(one: &Side, other: &Side, how: &How) -> Result<Pair> {
             .help("allow interpolation, or give both the same instants; check the units of both"));
     }
     let column = |claim: &Claim| {
-        let values = at_places(&one.1.values_of(claim)?, &from, &places, claim.turn());
-        Some(Column { claim: claim.clone(), values, scale: one.1.scale_of(claim), mapped: None })
+        let values = at_places(&one.values_of(claim)?, &from, &places, claim.turn());
+        Some(Column { claim: claim.clone(), values, scale: one.scale_of(claim), mapped: None })
     };
     let columns: Vec<Column> = claims.iter().filter_map(column).collect();
     let drift = drift(&from, &to, &places);
     let of_claims = columns.iter().map(|own| drift(&own.values, own.claim.turn())).collect();
-    let first = Held::of_columns(Instants::default(), columns, one.1.is_analytic);
+    let mut first = Held::of_columns(Instants::default(), columns);
+    first.is_analytic = one.is_analytic;
     let known = |of: &Option<Vec<Rounded>>| match of {
         Some(values) => values.iter().map(|at| at.value).collect(),
         None => vec![f64::NAN; to.values.len()],
     };
     let both = Both {
-        parties: [&first, &other.1],
+        parties: [&first, other],
         at: &to,
-        places: [known(&other.1.at.times), known(&other.1.at.cranks)],
+        instants: [known(&other.at.times), known(&other.at.cranks)],
         drift: of_claims,
         how,
     };
-    let channels = both.judged(&claims);
-    let contradiction = contradiction::found(&both, 1, &claims);
-    let names = [one.0.clone(), other.0.clone()];
-    let (instants, by_crank, turns_back) = (to.values.len(), to.is_crank, to.turns_back());
-    let mut checks = Vec::new();
-    if let ([Some(ours), Some(theirs)], false) = ([&one.1.at.cranks, &other.1.at.cranks], to.is_crank) {
+    let mut pair = Pair { names, unshared, alone, ..Pair::of(&both, Which::Second, &claims) };
+    if let ([Some(ours), Some(theirs)], false) = ([&one.at.cranks, &other.at.cranks], to.is_crank) {
         let ours = at_places(ours, &from, &places, Some(TAU));
-        let measure =
-            (usize::from(!one.1.is_analytic && other.1.is_analytic), one.1.is_analytic || other.1.is_analytic);
-        checks.extend(crank::check([&ours, theirs], &both.places, &drift(&ours, Some(TAU)), measure, how));
+        pair.checks.extend(crank_check(&both, [&ours, theirs], &drift(&ours, Some(TAU))));
     }
-    let causes = Vec::new();
-    Ok(Pair { names, channels, checks, instants, unshared, alone, turns_back, contradiction, by_crank, causes })
+    Ok(pair)
 }
 
 /// What the digits of the instants of both leave open in a column of the first at the rows of the second.
@@ -107,7 +99,7 @@ enum Place {
     Nowhere,
 }
 
-fn places(from: &At, to: &At, interpolates: bool) -> Vec<Place> {
+fn places(from: &At, to: &At, how: &How) -> Vec<Place> {
     let order = from.ascending();
     let at = |index: usize| from.values[order[index]].value;
     let of = |wanted: &Rounded| {
@@ -125,7 +117,7 @@ fn places(from: &At, to: &At, interpolates: bool) -> Vec<Place> {
             return Place::At(order[index]);
         }
         match near {
-            [Some(_), Some(_)] if interpolates => Place::Between(wanted.value),
+            [Some(_), Some(_)] if how.interpolates => Place::Between(wanted.value),
             _ => Place::Nowhere,
         }
     };

@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use crate::tables::By;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::KeepNan;
 use scenario::mapping::{Allowed, Size};
@@ -14,8 +15,8 @@ use columns::Allowance;
 pub struct How {
     /// Differences that are allowed; of several for one channel the last counts.
     pub allowed: Vec<Allowed>,
-    /// Whether instants are crank angles; `None` for times where there are some.
-    pub by_crank: Option<bool>,
+    /// By what rows are brought together; `None` for times where both have some.
+    pub by: Option<By>,
     /// Whether a table may be interpolated between its instants.
     pub interpolates: bool,
     /// The side of a recording that is compared; `None` for all.

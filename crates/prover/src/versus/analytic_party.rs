@@ -4,11 +4,9 @@ use std::collections::BTreeSet;
 
 use super::allowed::How;
 use super::cause;
-use super::contradiction;
-use super::crank;
 use super::instants;
 use super::judge::Both;
-use super::pair::{Pair, Side};
+use super::pair::{Pair, Side, Which, crank_check};
 use super::scale::Scales;
 use crate::proof::memory;
 use crate::proof::solved::{Solved, asked};
@@ -25,7 +23,7 @@ pub(super) fn held(scenario: &Scenario) -> Result<Held> {
     let claims: Vec<Claim> = scenario.case.channels().iter().filter_map(channel).collect();
     let solved = Solved::of(scenario, scenario.case.grid.clone(), &claims)?;
     let columns = columns(&solved, &claims, &|row| row, scenario.case.grid.len())?;
-    Ok(Held::of_columns(Held::of_trajectory(solved.trajectory(), true).at, columns, true))
+    Ok(Held::of_columns(Held::of_trajectory(solved.trajectory()).at, columns).analytic())
 }
 
 /// What the sides say of claims, `of(row)` being the instant of a row.
@@ -38,9 +36,10 @@ fn columns(solved: &Solved, claims: &[Claim], of: &dyn Fn(usize) -> usize, rows:
     claims.iter().map(column).collect()
 }
 
-/// Compares a scenario with a party, which gives the instants; `is_first` if the scenario was named first.
-pub(super) fn beside(scenario: &Scenario, (name, held): Side, is_first: bool, how: &How) -> Result<Pair> {
-    let at = held.at(how.by_crank)?;
+/// Compares a scenario, which is this party, with the other, which gives the instants.
+pub(super) fn beside(scenario: &Scenario, which: Which, other: Side, how: &How) -> Result<Pair> {
+    let Side { name, held } = other;
+    let at = held.at(how.by)?;
     let (claims, alone) = claims(scenario, &held, how)?;
     let asked = claims.iter().flat_map(|claim| asked(claim, &scenario.case));
     let channels: BTreeSet<String> = asked.map(|channel| channel.to_string()).collect();
@@ -51,36 +50,32 @@ pub(super) fn beside(scenario: &Scenario, (name, held): Side, is_first: bool, ho
     let solved = Solved::of(scenario, grid, &claims)?.known_at_least(&|channel| scales.known(channel));
     let mut columns = columns(&solved, &claims, &|row| rows[row], at.values.len())?;
     columns.iter_mut().for_each(|column| column.scale = scales.of_claim(&column.claim));
-    let drift = instants::drift(&solved, &claims, &at, &rows, &columns);
-    let own = Held::of_columns(held.at.clone(), columns, true);
+    let drift = instants::drift(&solved, &columns, &at, &rows);
+    let own = Held::of_columns(held.at.clone(), columns).analytic();
     let other = if held.is_analytic { as_well_known(held, &own) } else { held };
     let place = |of: &[f64]| rows.iter().map(|&row| of[row]).collect::<Vec<f64>>();
     let trajectory = solved.trajectory();
     let both = Both {
-        parties: if is_first { [&own, &other] } else { [&other, &own] },
+        parties: which.beside(&own, &other),
         at: &at,
-        places: [place(trajectory.times()), place(trajectory.inputs())],
+        instants: [place(trajectory.times()), place(trajectory.inputs())],
         drift: drift.claims,
         how,
     };
-    let channels = both.judged(&claims);
-    let contradiction = contradiction::found(&both, usize::from(is_first), &claims);
-    let causes = match contradiction {
-        None => cause::explained(scenario, &both, &channels, is_first)?,
-        Some(_) => Vec::new(),
+    let mut pair = Pair {
+        names: which.beside(String::new(), name),
+        alone: which.beside(Vec::new(), alone),
+        checks: solved.checks().to_vec(),
+        ..Pair::of(&both, which.other(), &claims)
     };
-    let mut checks = solved.checks().to_vec();
+    if pair.contradiction.is_none() {
+        pair.causes = cause::explained(scenario, which, &both, &pair.channels)?;
+    }
     if let (false, Some(theirs)) = (at.is_crank, &other.at.cranks) {
         let ours = solved.on_course(|course| Ok(rows.iter().map(|&row| course.crank(row)).collect::<Vec<_>>()))?;
-        let cranks: [&[Rounded]; 2] = if is_first { [&ours, theirs] } else { [theirs, &ours] };
-        checks.extend(crank::check(cranks, &both.places, &drift.crank, (usize::from(!is_first), true), how));
+        pair.checks.extend(crank_check(&both, which.beside(ours.as_slice(), theirs), &drift.crank));
     }
-    let (names, alone) = match is_first {
-        true => ([String::new(), name], [Vec::new(), alone]),
-        false => ([name, String::new()], [alone, Vec::new()]),
-    };
-    let (instants, by_crank, turns_back) = (at.values.len(), at.is_crank, at.turns_back());
-    Ok(Pair { names, channels, checks, instants, unshared: 0, alone, turns_back, contradiction, by_crank, causes })
+    Ok(pair)
 }
 
 /// What a party says of channels that the scenario has, and the names of its other ones.

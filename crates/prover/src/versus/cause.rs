@@ -4,7 +4,8 @@ use std::borrow::Cow;
 use std::collections::BTreeSet;
 use std::f64::consts::{PI, TAU};
 
-use super::judge::{Both, Compared, Row};
+use super::judge::{Both, Compared};
+use super::pair::Which;
 use crate::claims::{Course, Term, Wrong, missing_in_numbers};
 use crate::compare::largest_difference;
 use crate::diagnosis::{Cause, Change, Diagnosis, How, Judged, Part, Party, Question, Slip, diagnose, even};
@@ -49,19 +50,19 @@ const MOST: usize = 2000;
 /// Share of a channel's scale from which on a difference is a mistake, and not the error of a method.
 pub const GROSS: f64 = 0.02;
 
-/// Examines the channels of the party beside a scenario that disagree. What explains them to within their bounds is
+/// Examines the channels of the party beside a scenario, which is this one, that disagree. What explains them to within their bounds is
 /// granted first, of all together, then of what it leaves; a single row that is off besides hides no cause.
 /// Then those that are grossly off are examined together and one by one, for causes that leave little. What is off by
 /// little and without a common cause is the error of a method.
 pub(super) fn explained(
     scenario: &Scenario,
+    which: Which,
     both: &Both,
     channels: &[Compared],
-    is_first: bool,
 ) -> Result<Vec<Explained>> {
     let is_wrong = |own: &&Compared| own.since.is_some() && own.is_plain();
     let mut open: Vec<&Compared> = channels.iter().filter(is_wrong).collect();
-    let Some(stage) = Stage::of(scenario, both, channels, is_first)? else { return Ok(Vec::new()) };
+    let Some(stage) = Stage::of(scenario, which, both, channels)? else { return Ok(Vec::new()) };
     let mut found = Vec::new();
     let mut grant = |open: &mut Vec<&Compared>, explained: Explained| {
         open.retain(|own| !explained.of.contains(&own.claim.text));
@@ -108,7 +109,7 @@ impl Compared {
     /// Whether it is off by so much that no method's error explains it.
     #[must_use]
     pub fn is_gross(&self) -> bool {
-        self.since.is_some() && self.largest.is_some_and(|at: Row| at.difference.abs() > GROSS * self.scale)
+        self.since.is_some() && self.largest.is_some_and(|at| at.difference.abs() > GROSS * self.scale)
     }
 }
 
@@ -161,8 +162,8 @@ struct Stage {
 }
 
 impl Stage {
-    fn of(scenario: &Scenario, both: &Both, channels: &[Compared], is_first: bool) -> Result<Option<Stage>> {
-        let other = both.parties[usize::from(is_first)];
+    fn of(scenario: &Scenario, which: Which, both: &Both, channels: &[Compared]) -> Result<Option<Stage>> {
+        let other = both.parties[which.other() as usize];
         let plain = channels.iter().filter(|own| own.is_plain());
         let plain: Vec<(&Compared, Cow<[formula::Rounded]>)> = plain
             .filter(|own| !own.claim.channels[0].1.magnitude)
@@ -170,7 +171,7 @@ impl Stage {
             .collect();
         let has_all = |row: &usize| plain.iter().all(|(_, values)| values[*row].value.is_finite());
         let mut rows: Vec<usize> = both.at.ascending().into_iter().filter(has_all).collect();
-        rows.dedup_by(|a, b| both.places[0][*a] == both.places[0][*b]);
+        rows.dedup_by(|a, b| both.instants[0][*a] == both.instants[0][*b]);
         let telling = |own: &Compared| [own.since, own.worst, own.largest].map(|at| at.map(|at| at.row));
         let kept: BTreeSet<usize> = channels.iter().flat_map(telling).flatten().collect();
         let (mut place, step) = (0, rows.len().div_ceil(MOST));
@@ -181,8 +182,7 @@ impl Stage {
         if rows.len() < 4 || plain.is_empty() {
             return Ok(None);
         }
-        let times: Vec<f64> = rows.iter().map(|&row| both.places[0][row]).collect();
-        let cranks: Vec<f64> = rows.iter().map(|&row| both.places[1][row]).collect();
+        let [times, cranks] = both.places().map(|instants| rows.iter().map(|&row| instants[row]).collect::<Vec<f64>>());
         let (mut names, mut columns, mut bounds) = (Vec::new(), Vec::new(), Vec::new());
         for (own, values) in &plain {
             let printed = &own.claim.channels[0].1;

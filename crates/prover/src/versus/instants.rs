@@ -23,7 +23,7 @@ pub(super) struct Drift {
 
 /// The largest change of every claim within what the digits of the instants leave open: see [`shifted`].
 /// Where it cannot be solved there, the course from row to row must do.
-pub(super) fn drift(solved: &Solved, claims: &[Claim], at: &At, rows: &[usize], columns: &[Column]) -> Drift {
+pub(super) fn drift(solved: &Solved, columns: &[Column], at: &At, rows: &[usize]) -> Drift {
     let trajectory = solved.trajectory();
     let mut slack = vec![0.0; trajectory.times().len()];
     for (own, &row) in at.values.iter().zip(rows) {
@@ -33,8 +33,7 @@ pub(super) fn drift(solved: &Solved, claims: &[Claim], at: &At, rows: &[usize], 
         return Drift::default();
     }
     let of_rows = |of: &[f64]| rows.iter().map(|&row| of[row]).collect::<Vec<f64>>();
-    if let Ok(found) = by_solving(solved, claims, at.is_crank, &slack) {
-        let Drift { claims, crank } = found;
+    if let Ok(Drift { claims, crank }) = by_solving(solved, columns, at, &slack) {
         return Drift { claims: claims.iter().map(|own| of_rows(own)).collect(), crank: of_rows(&crank) };
     }
     let (instants, order) = (at.values.iter().map(|at| at.value).collect::<Vec<f64>>(), at.ascending());
@@ -45,13 +44,14 @@ pub(super) fn drift(solved: &Solved, claims: &[Claim], at: &At, rows: &[usize], 
     Drift { claims, crank: along(&cranks, None) }
 }
 
-fn by_solving(solved: &Solved, claims: &[Claim], by_crank: bool, slack: &[f64]) -> Result<Drift> {
+fn by_solving(solved: &Solved, columns: &[Column], at: &At, slack: &[f64]) -> Result<Drift> {
     let (case, own) = (&solved.case, solved.trajectory());
-    let mut drift = Drift { claims: vec![vec![0.0; slack.len()]; claims.len()], crank: vec![0.0; slack.len()] };
+    let mut drift = Drift { claims: vec![vec![0.0; slack.len()]; columns.len()], crank: vec![0.0; slack.len()] };
     let values =
         |case: &Case, trajectory: &Trajectory, claim: &Claim| Course::new(case, trajectory, &|_, _| 0.0).values(claim);
-    shifted(case, own, (by_crank, slack), &AssurSolver, &mut |shifted, found| {
-        for (claim, drift) in claims.iter().zip(&mut drift.claims).filter(|(claim, _)| claim.figures.is_empty()) {
+    shifted(case, own, (at.is_crank, slack), &AssurSolver, &mut |shifted, found| {
+        let claims = columns.iter().map(|own| &own.claim);
+        for (claim, drift) in claims.zip(&mut drift.claims).filter(|(claim, _)| claim.figures.is_empty()) {
             let (before, after) = (values(case, own, claim)?, values(shifted, found, claim)?);
             grow(drift, before.iter().zip(&after).map(|(before, after)| after.value - before.value), claim.turn());
         }

@@ -1,10 +1,12 @@
 //! Channel by channel: differences, bounds, verdicts.
 
+use std::ops::Deref;
+
 use super::allowed::{Allowances, How};
 use crate::compare::Verdict;
 use crate::proof::shifted::TELLING;
 use crate::tables::{At, Held};
-use columns::{Beside, Judged, judge};
+use columns::{Beside, Judged, Measure, judge};
 use formula::{Rounded, Shape};
 use linkage::error::Advice;
 use linkage::input::Input;
@@ -20,35 +22,35 @@ pub use columns::Row;
 pub struct Compared {
     /// The channel in its unit.
     pub claim: Claim,
-    /// Number of instants compared.
-    pub judged: usize,
-    /// Number of instants at which nothing was measured, or nothing is defined.
-    pub missing: usize,
     /// Half the range over the whole run of the scenario, at least a thousandth of what is natural for its quantity; in
     /// the claim's unit. The same whatever else is compared.
     pub scale: f64,
-    /// Root of the mean square of the differences.
-    pub rms: f64,
-    /// The widest bound.
-    pub loosest: f64,
-    /// The largest difference.
-    pub largest: Option<Row>,
-    /// The instant that uses most of its bound.
-    pub worst: Option<Row>,
-    /// The first instant beyond its bound.
-    pub since: Option<Row>,
+    /// What the numbers of both come to, in the claim's unit.
+    pub found: Judged,
     /// Whether the bound is what is known of both parties, and nothing is allowed besides.
     pub is_derived: bool,
     /// Agreement within the bounds of all instants.
     pub verdict: Verdict,
 }
 
+impl Deref for Compared {
+    type Target = Judged;
+
+    fn deref(&self) -> &Judged {
+        &self.found
+    }
+}
+
 impl Compared {
     /// Whether it is off because a number is expected and none stands there.
     #[must_use]
     pub fn has_no_number(&self) -> bool {
-        self.since.is_some_and(|at| at.difference.is_nan())
+        has_no_number(&self.found)
     }
+}
+
+fn has_no_number(own: &Judged) -> bool {
+    own.since.is_some_and(|at| at.difference.is_nan())
 }
 
 /// Both parties at the same rows.
@@ -56,7 +58,7 @@ pub(super) struct Both<'a> {
     pub parties: [&'a Held; 2],
     pub at: &'a At,
     /// Times and crank angles of rows as far as somebody knows them.
-    pub places: [Vec<f64>; 2],
+    pub instants: [Vec<f64>; 2],
     /// What the digits of the instants leave open, claim by claim and row by row; an empty column for nothing.
     pub drift: Vec<Vec<f64>>,
     pub how: &'a How,
@@ -74,17 +76,20 @@ impl Both<'_> {
         claims.iter().enumerate().filter_map(of).collect()
     }
 
-    /// The party that is measured by, and whether it is analytic.
-    fn measure(&self) -> (usize, bool) {
-        let [one, other] = self.parties.map(|party| party.is_analytic);
-        (usize::from(!one && other), one || other)
+    /// The party that is measured by.
+    pub(super) fn measure(&self) -> Measure {
+        Measure::among(self.parties.map(|party| party.is_analytic))
+    }
+
+    pub(super) fn places(&self) -> [&[f64]; 2] {
+        self.instants.each_ref().map(Vec::as_slice)
     }
 
     /// The scale of a channel: as a complete trajectory gives it, whatever else is compared. Of tables, and of an
     /// arithmetic, by the numbers of its own alone: half their range, and at least a tenth of the largest, or of a
     /// coordinate a thousandth.
     fn scale(&self, claim: &Claim, values: &[Rounded]) -> f64 {
-        let measure = self.measure().0;
+        let measure = self.measure().party;
         let complete = [measure, 1 - measure].into_iter().find_map(|party| self.parties[party].scale_of(claim));
         complete.unwrap_or_else(|| {
             let numbers: Vec<f64> = values.iter().map(|own| own.value).filter(|value| value.is_finite()).collect();
@@ -102,57 +107,40 @@ impl Both<'_> {
 
     fn channel(&self, claim: &Claim, index: usize, values: [&[Rounded]; 2], allowances: &Allowances) -> Compared {
         let measure = self.measure();
-        let scale = self.scale(claim, values[measure.0]);
+        let scale = self.scale(claim, values[measure.party]);
         let allowed = allowances.of(claim, scale);
         let found = judge(&Beside {
             values,
-            places: [&self.places[0], &self.places[1]],
+            places: self.places(),
             drift: self.drift.get(index).map_or(&[], Vec::as_slice),
             turn: claim.turn(),
             allowance: allowed.unwrap_or_default(),
             measure,
         });
-        let Judged { judged, missing, rms, widest, loosest, largest, worst, since } = found;
         let is_derived = allowed.is_none();
-        let verdict = Verdict::open("nothing was compared");
-        let mut own = Compared {
-            claim: claim.clone(),
-            judged,
-            missing,
-            scale,
-            rms,
-            loosest,
-            largest,
-            worst,
-            since,
-            is_derived,
-            verdict,
-        };
-        own.verdict = self.verdict(&own, widest);
-        own
+        Compared { claim: claim.clone(), scale, is_derived, verdict: self.verdict(&found, scale, is_derived), found }
     }
 
-    fn verdict(&self, own: &Compared, widest: f64) -> Verdict {
+    fn verdict(&self, own: &Judged, scale: f64, is_derived: bool) -> Verdict {
         let Some(worst) = own.worst else {
             return Verdict::open("at no instant do both have a number");
         };
-        let is_known = self.measure().1;
         let open = |reason: String, advice: &str| Verdict::Inconclusive {
             reason,
             advice: vec![Advice::Text(advice.to_string())],
         };
         let largest = own.largest.map_or(0.0, |largest| largest.difference.abs());
         match own.since {
-            Some(_) if own.is_derived && !is_known && !own.has_no_number() => open(
+            Some(_) if is_derived && !self.measure().is_analytic && !has_no_number(own) => open(
                 format!("they differ by up to {largest:.3e}, and neither is analytic, so that no bound is known"),
                 "say what difference is allowed",
             ),
             Some(since) => Verdict::Disagree { place: place(&since) },
             // Numbers that are as near as that prove it, whatever their digits leave open.
-            None if own.is_derived && widest > TELLING * own.scale && largest > TELLING * own.scale => open(
+            None if is_derived && own.widest > TELLING * scale && largest > TELLING * scale => open(
                 format!(
                     "the numbers are known to {:.1e} of their scale only: digits, instants or interpolation",
-                    widest / own.scale
+                    own.widest / scale
                 ),
                 "give more digits or closer instants, or say what difference is allowed",
             ),

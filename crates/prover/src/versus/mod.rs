@@ -7,8 +7,6 @@ mod align;
 mod allowed;
 mod analytic_party;
 mod cause;
-mod contradiction;
-mod crank;
 mod instants;
 mod interpolate;
 mod judge;
@@ -17,29 +15,81 @@ mod scale;
 
 pub use allowed::How;
 pub use cause::Explained;
-pub use contradiction::Contradiction;
 pub use judge::{Compared, Row};
-pub use pair::Pair;
+pub use pair::{Contradiction, Pair};
 
-use std::path::Path;
-
-use self::pair::Side;
+use self::pair::{Side, Which};
 use self::scale::Scales;
 use crate::compare::{Verdict, overall};
-use crate::tables::Held;
+use crate::tables::{Held, May, load_within};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::trajectory::Trajectory;
 use scenario::Scenario;
+use scenario::mapping::Mapping;
 use scenario::words::choice;
+use std::path::Path;
 
 /// One of the two that are compared.
-pub enum Party {
+pub struct Party {
+    name: String,
+    holds: Holds,
+}
+
+enum Holds {
     /// A scenario, which is solved.
     Scenario(Box<Scenario>),
-    /// What a recording holds: trajectories by the names of their sides.
+    /// Trajectories by the names of their sides.
     Recording(Vec<(String, Trajectory)>),
-    /// A table.
     Table(Box<Held>),
+}
+
+impl Party {
+    /// What a recording holds: trajectories by the names of their sides, of which `reference` is analytic. Messages call
+    /// it `name`.
+    pub fn recording(name: impl Into<String>, sides: Vec<(String, Trajectory)>) -> Party {
+        Party { name: name.into(), holds: Holds::Recording(sides) }
+    }
+
+    /// A table in a file, CSV or Parquet, and which of its columns are which channels. A column that has the name of a
+    /// channel, unit included, needs no line of the mapping.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Io`] if it cannot be read, [`ErrorKind::Input`] if it is no table of numbers, or if the mapping does
+    /// not fit it, with the place.
+    pub fn table(path: impl AsRef<Path>, mapping: &Mapping) -> Result<Party> {
+        Party::table_within(path, mapping, &|_, _| Ok(()))
+    }
+
+    /// The same where `may` is asked before memory is taken.
+    ///
+    /// # Errors
+    /// Those of [`Party::table`], and what `may` says.
+    pub fn table_within(path: impl AsRef<Path>, mapping: &Mapping, may: May) -> Result<Party> {
+        let path = path.as_ref();
+        let held = Held::of_table(&load_within(path, may)?, mapping)?;
+        Ok(Party { name: path.display().to_string(), holds: Holds::Table(Box::new(held)) })
+    }
+}
+
+/// A scenario, which is solved where the other party has instants.
+impl From<Scenario> for Party {
+    fn from(scenario: Scenario) -> Party {
+        Party { name: scenario.path.display().to_string(), holds: Holds::Scenario(Box::new(scenario)) }
+    }
+}
+
+/// What another program, or an engine, has found: numbers of which nobody knows the errors.
+impl From<Trajectory> for Party {
+    fn from(trajectory: Trajectory) -> Party {
+        Party::recording("the trajectory", vec![(String::new(), trajectory)])
+    }
+}
+
+/// What is read of a table.
+impl From<Held> for Party {
+    fn from(held: Held) -> Party {
+        Party { name: "the table".into(), holds: Holds::Table(Box::new(held)) }
+    }
 }
 
 /// Two parties compared.
@@ -53,44 +103,38 @@ pub struct Comparison {
 /// Name of the analytic side in a recording.
 const REFERENCE: &str = "reference";
 
-/// Compares two parties; `paths` name them in messages.
+/// Compares two parties channel by channel, within what is known of both and what is allowed besides.
 ///
 /// # Errors
 /// [`ErrorKind::Input`] if they have no instant or no channel in common, and those of the sides.
-pub fn compare(parties: [Party; 2], paths: [&Path; 2], how: &How) -> Result<Comparison> {
-    let mut pairs = Vec::new();
-    let [first, second] = parties;
-    let sides = |party: Party| match party {
-        Party::Scenario(_) => Ok(Vec::new()),
-        Party::Recording(all) => asked(all, how),
-        Party::Table(held) => Ok(vec![(String::new(), *held)]),
+pub fn compare(parties: [Party; 2], how: &How) -> Result<Comparison> {
+    let names = parties.each_ref().map(|party| party.name.clone());
+    let [first, second] = parties.map(|party| party.holds);
+    let beside = |scenario: &Scenario, which: Which, other: Holds| -> Result<Vec<Pair>> {
+        sides(other, how)?.into_iter().map(|side| analytic_party::beside(scenario, which, side, how)).collect()
     };
-    match (first, second) {
-        (Party::Scenario(one), Party::Scenario(other)) => {
-            let held = analytic_party::held(&one)?;
-            pairs.push(analytic_party::beside(&other, (String::new(), held), false, how)?);
-        }
-        (Party::Scenario(scenario), other) => {
-            for side in sides(other)? {
-                pairs.push(analytic_party::beside(&scenario, side, true, how)?);
-            }
-        }
-        (other, Party::Scenario(scenario)) => {
-            for side in sides(other)? {
-                pairs.push(analytic_party::beside(&scenario, side, false, how)?);
-            }
-        }
+    let pairs = match (first, second) {
+        (one, Holds::Scenario(other)) => beside(&other, Which::Second, one)?,
+        (Holds::Scenario(one), other) => beside(&one, Which::First, other)?,
         (one, other) => {
-            let (ones, others) = (sides(one)?, sides(other)?);
-            for [one, other] in paired(&ones, &others, paths)? {
-                pairs.push(align::beside(one, other, how)?);
-            }
+            let (ones, others) = (sides(one, how)?, sides(other, how)?);
+            let pairs = paired(&ones, &others, &names)?;
+            pairs.into_iter().map(|[one, other]| align::beside(one, other, how)).collect::<Result<_>>()?
         }
-    }
+    };
     how.check_used(pairs.iter().flat_map(|pair| &pair.channels).map(|own| &own.claim))?;
     let verdicts: Vec<Verdict> = pairs.iter().map(Pair::verdict).collect();
-    let verdict = overall(&verdicts);
-    Ok(Comparison { pairs, verdict })
+    Ok(Comparison { verdict: overall(&verdicts), pairs })
+}
+
+/// The sides of a party that are asked for.
+fn sides(party: Holds, how: &How) -> Result<Vec<Side>> {
+    let alone = |held: Held| vec![Side { name: String::new(), held }];
+    match party {
+        Holds::Scenario(scenario) => Ok(alone(analytic_party::held(&scenario)?)),
+        Holds::Table(held) => Ok(alone(*held)),
+        Holds::Recording(all) => asked(all, how),
+    }
 }
 
 /// The sides of a recording that are asked for.
@@ -98,7 +142,8 @@ fn asked(all: Vec<(String, Trajectory)>, how: &How) -> Result<Vec<Side>> {
     let names: Vec<String> = all.iter().map(|(name, _)| name.clone()).collect();
     let is_asked = |name: &str| how.side.as_deref().is_none_or(|side| side == name);
     let held = |(name, own): (String, Trajectory)| {
-        let mut held = Held::of_trajectory(&own, name == REFERENCE);
+        let mut held = Held::of_trajectory(&own);
+        held.is_analytic = name == REFERENCE;
         let scales = Scales::of_trajectory(&own);
         held.columns.iter_mut().for_each(|column| column.scale = scales.of_claim(&column.claim));
         if held.is_analytic {
@@ -107,7 +152,7 @@ fn asked(all: Vec<(String, Trajectory)>, how: &How) -> Result<Vec<Side>> {
                 column.values.iter_mut().for_each(|value| value.error += known);
             }
         }
-        (name, held)
+        Side { name, held }
     };
     let asked: Vec<Side> = all.into_iter().filter(|(name, _)| is_asked(name)).map(held).collect();
     match (&how.side, asked.is_empty()) {
@@ -118,17 +163,17 @@ fn asked(all: Vec<(String, Trajectory)>, how: &How) -> Result<Vec<Side>> {
 }
 
 /// Which sides of two parties belong together: those of the same name, or all with one that is alone.
-fn paired<'a>(ones: &'a [Side], others: &'a [Side], paths: [&Path; 2]) -> Result<Vec<[&'a Side; 2]>> {
+fn paired<'a>(ones: &'a [Side], others: &'a [Side], names: &[String; 2]) -> Result<Vec<[&'a Side; 2]>> {
     let pairs: Vec<[&Side; 2]> = match (ones, others) {
         ([one], others) => others.iter().map(|other| [one, other]).collect(),
         (ones, [other]) => ones.iter().map(|one| [one, other]).collect(),
         (ones, others) => {
-            let same = |one: &'a Side| Some([one, others.iter().find(|other| other.0 == one.0)?]);
+            let same = |one: &'a Side| Some([one, others.iter().find(|other| other.name == one.name)?]);
             ones.iter().filter_map(same).collect()
         }
     };
     if pairs.is_empty() {
-        let message = format!("{} and {} have no side of the same name", paths[0].display(), paths[1].display());
+        let message = format!("{} and {} have no side of the same name", names[0], names[1]);
         return Err(Error::new(ErrorKind::Input, message).help("name a side that both have, such as reference"));
     }
     Ok(pairs)

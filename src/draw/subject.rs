@@ -1,8 +1,6 @@
 //! What is drawn of a file: the mechanism in its poses, or as far as it can be laid.
 
-use std::path::Path;
-
-use super::super::load;
+use super::media::{Medium, Wish};
 use super::motion::{swung, turned, with_travels};
 use design::diagram::draw::significant;
 use design::diagram::plan::state_at;
@@ -14,105 +12,82 @@ use linkage::drive::Drive;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::Vec2;
 use linkage::mechanism::{AssemblyMode, LinkPose, Mechanism, Structure};
-use linkage::solver::{Solver, State};
-use scenario::{Asked, Draft, Scenario};
+use linkage::solver::State;
+use scenario::{Draft, Scenario};
 
 /// Most configurations on a sheet, and most mistakes below one.
 const MOST: usize = 24;
 const SHOWN: usize = 3;
 
-/// What is asked of every file.
-pub struct Wish<'a> {
-    /// Crank angle (rad).
-    pub crank: Option<f64>,
-    pub modes: &'a [String],
-    pub set: &'a [(String, f64)],
-    pub each_mode: bool,
-    pub all_traces: bool,
-    pub traces: &'a [String],
-    pub frames: usize,
-    pub solver: &'static dyn Solver,
-}
-
 /// A file as it is drawn.
-pub struct Drawn {
-    pub name: String,
-    pub title: String,
+pub(crate) struct Drawn {
+    pub(crate) name: String,
+    pub(super) title: String,
     /// Crank angle of the first shot (rad).
     crank: f64,
     mechanism: Mechanism,
     drives: Vec<Drive>,
     loads: Vec<linkage::drive::Load>,
     gravity: Vec2,
-    pub shots: Vec<Shot>,
+    pub(super) shots: Vec<Shot>,
     /// Above each shot.
     headings: Vec<Vec<String>>,
     travels: Travels,
     traces: Vec<Trace>,
     /// What is wrong with the file or with the question.
-    fault: Option<Error>,
+    pub(crate) fault: Option<Error>,
     /// Whether the file has mistakes, which are then told below the picture.
     has_mistakes: bool,
-    pub note: Option<String>,
-    each_mode: bool,
+    pub(crate) note: Option<String>,
 }
 
 impl Drawn {
-    pub fn of(file: &Path, wish: &Wish) -> Result<Drawn> {
-        let mut drawn = Drawn::as_it_stands(file, wish)?;
-        let (_, unknown) = traced(&drawn.mechanism, wish);
-        drawn.fault = Error::all(drawn.fault.take().into_iter().chain(unknown));
-        Ok(drawn)
+    /// A mechanism that can be assembled somewhere.
+    pub(crate) fn of(scenario: Scenario, wish: &Wish, medium: Medium) -> Result<Drawn> {
+        let crank = wish.crank.unwrap_or(scenario.case.crank().start);
+        let drawn = match wish.each_mode {
+            true => Drawn::each_mode(draft_of(&scenario), crank, None),
+            false => Drawn::whole(scenario, crank, wish, medium),
+        };
+        Ok(drawn?.with_unknown_traces(wish))
     }
 
-    /// The file, whatever the paths that are asked for.
-    fn as_it_stands(file: &Path, wish: &Wish) -> Result<Drawn> {
-        let asked = Asked { modes: wish.modes.to_vec(), set: wish.set.to_vec(), ..Asked::default() };
-        match load::as_asked(file, &asked) {
-            Ok(scenario) if wish.each_mode => {
-                let crank = wish.crank.unwrap_or(scenario.case.crank().start);
-                Drawn::each_mode(draft_of(&scenario), crank, None)
-            }
-            Ok(scenario) => Drawn::whole(scenario, wish),
-            Err(error) => {
-                // What is wrong with the text itself is told by the reading of the draft.
-                let draft = load::draft(file, &asked)?;
-                let crank = wish.crank.unwrap_or(draft.crank);
-                if wish.each_mode && draft.structure.is_ok() {
-                    return Drawn::each_mode(draft, crank, Some(error));
-                }
-                Drawn::partial(draft, crank, error)
-            }
-        }
+    /// What a file states of a mechanism that cannot be read as a scenario, because of an error.
+    pub(crate) fn of_draft(draft: Draft, wish: &Wish, error: Error) -> Result<Drawn> {
+        let crank = wish.crank.unwrap_or(draft.crank);
+        let drawn = match wish.each_mode && draft.structure.is_ok() {
+            true => Drawn::each_mode(draft, crank, Some(error))?,
+            false => Drawn::partial(draft, crank, error),
+        };
+        Ok(drawn.with_unknown_traces(wish))
     }
 
-    /// What is wrong: for the file, else for a crank angle.
-    pub fn faults(&self) -> impl Iterator<Item = &Error> {
-        self.fault.iter()
+    fn with_unknown_traces(mut self, wish: &Wish) -> Drawn {
+        let (_, unknown) = traced(&self.mechanism, wish);
+        self.fault = Error::all(self.fault.take().into_iter().chain(unknown));
+        self
     }
 
-    /// The crank angle in words.
-    pub fn angle(&self) -> String {
-        degrees(self.crank)
+    /// The name, and the crank angle in words.
+    pub(super) fn headline(&self) -> String {
+        format!("{}, crank at {}°", self.name, (self.crank.to_degrees() * 1e6).round() / 1e6 + 0.0)
     }
 
     /// The cells of all shots, in a room of this size (mm).
-    pub fn cells(&self, extras: Extras, room: Vec2, is_alone: bool) -> Vec<Cell> {
+    pub(super) fn cells(&self, wish: &Wish, medium: Medium, room: Vec2) -> Vec<Cell> {
         let Drawn { mechanism, drives, loads, gravity, .. } = self;
         let subject = Subject { mechanism, drives, loads, gravity: *gravity };
+        let extras = Extras { loads: wish.loads, dimensions: wish.dimensions, is_moving: medium.moves() };
         let mut all = cells(&subject, &self.shots, &self.travels, &self.traces, extras, room);
         for (index, cell) in all.iter_mut().enumerate() {
             cell.heading = self.headings.get(index).cloned().unwrap_or_default();
-            if !is_alone {
-                let of_file = format!("{}, crank at {}", self.name, self.angle());
-                cell.heading.insert(0, of_file);
-            }
             let faults = self.shots[index].laid.faults.iter().map(|fault| fault.message().to_string());
             cell.faults = match &self.fault {
                 Some(fault) if self.has_mistakes => mistakes(fault),
                 _ => faults.collect(),
             };
-            if let (true, Some(fault), false) = (cell.faults.is_empty(), &self.fault, self.each_mode) {
+            // Configurations say above themselves what they are.
+            if let (true, Some(fault), true) = (cell.faults.is_empty(), &self.fault, self.headings.is_empty()) {
                 cell.faults.push(fault.message().to_string());
             }
         }
@@ -142,58 +117,52 @@ impl Drawn {
             fault: None,
             has_mistakes,
             note: None,
-            each_mode: false,
         }
     }
 
-    /// A mechanism that can be assembled.
-    fn whole(scenario: Scenario, wish: &Wish) -> Result<Drawn> {
+    /// The mechanism at a crank angle (rad), or its motion.
+    fn whole(scenario: Scenario, crank: f64, wish: &Wish, medium: Medium) -> Result<Drawn> {
+        let (frames, solver) = (medium.frames(wish), wish.solver.solver());
         let (points, _) = traced(&scenario.case.mechanism, wish);
-        let is_motion_seen = wish.frames > 1 || !points.is_empty();
-        let own = if is_motion_seen { swung(&scenario.case, wish.solver) } else { None };
+        let is_motion_seen = frames > 1 || !points.is_empty();
+        let own = if is_motion_seen { swung(&scenario.case, solver) } else { None };
         let scenario = scenario.nominal();
         let case = &scenario.case;
-        let crank = wish.crank.unwrap_or(case.crank().start);
-        let first = match state_at(case, wish.solver, crank) {
+        let first = match state_at(case, solver, crank) {
             Ok(state) => state,
-            Err(error) if error.kind() == ErrorKind::Input => return Err(error.key("--crank-deg")),
+            Err(error) if error.kind() == ErrorKind::Input => return Err(error),
             Err(error) => {
                 let error = analytic::range::explained(case, error);
-                let mut drawn = Drawn::partial(draft_of(&scenario), crank, error)?;
-                drawn.travels = turned(case, wish.solver).1;
-                return Ok(drawn);
+                let travels = turned(case, solver).1;
+                return Ok(Drawn { travels, ..Drawn::partial(draft_of(&scenario), crank, error) });
             }
         };
-        let (states, travels) = own.map_or_else(|| turned(case, wish.solver), |states| with_travels(case, states));
+        let (states, travels) = own.map_or_else(|| turned(case, solver), |states| with_travels(case, states));
         let sketch = Sketch::of_case(case, &travels, unit(&case.mechanism));
         let shot = |state: &State| Shot {
             laid: Laid::whole(poses(state)),
             acting: acting(case, &sketch, &state.motions, &state.angles),
         };
-        let shots: Vec<Shot> = match wish.frames {
+        let shots: Vec<Shot> = match frames {
             1 => vec![shot(&first)],
             frames => {
                 let row = |k: usize| k * states.len() / frames;
                 (0..frames).filter_map(|k| states.get(row(k))).map(shot).collect()
             }
         };
-        let traces = points
-            .iter()
-            .map(|&(link, local)| (link, states.iter().map(|state| state.motions[link].point(local)).collect()));
-        let traces = traces.collect();
-        let mut drawn = Drawn::new(draft_of(&scenario), crank, shots);
-        drawn.traces = traces;
-        let own = drawn.travels.clone();
-        drawn.travels = travels;
+        let path = |link: usize, local: Vec2| states.iter().map(|state| state.motions[link].point(local)).collect();
+        let traces = points.iter().map(|&(link, local)| (link, path(link, local))).collect();
+        let mut drawn = Drawn { traces, ..Drawn::new(draft_of(&scenario), crank, shots) };
+        let own = std::mem::replace(&mut drawn.travels, travels);
         // The instant asked for lies on the way, but between two instants of it.
-        if wish.frames == 1 {
+        if frames == 1 {
             drawn.travels.widen(&own);
         }
         Ok(drawn)
     }
 
     /// A mechanism as far as it can be laid at a crank angle (rad), with the reason.
-    fn partial(draft: Draft, crank: f64, error: Error) -> Result<Drawn> {
+    fn partial(draft: Draft, crank: f64, error: Error) -> Drawn {
         let angles = angles(&draft.drives, crank);
         let laid = match &draft.structure {
             Ok(structure) => lay(&draft.mechanism, structure, &angles, &draft.starts),
@@ -216,9 +185,8 @@ impl Drawn {
             ([], Err(_)) => None,
             (gaps, _) => Some(format!("{}: {}", draft.name, gaps.join(", "))),
         };
-        let mut drawn = Drawn::new(draft, crank, vec![Shot { laid, acting: Vec::new() }]);
-        (drawn.fault, drawn.note) = (Some(error), note);
-        Ok(drawn)
+        let shots = vec![Shot { laid, acting: Vec::new() }];
+        Drawn { fault: Some(error), note, ..Drawn::new(draft, crank, shots) }
     }
 
     /// All configurations at a crank angle (rad).
@@ -235,11 +203,9 @@ impl Drawn {
         let told: Vec<String> = open.into_iter().chain(cut).collect();
         let note = (!told.is_empty()).then(|| format!("{}: {}", draft.name, told.join("; ")));
         let first = all.first().and_then(|laid| laid.faults.first().cloned());
-        let error = error.or(first).filter(|_| !is_answered);
+        let fault = error.or(first).filter(|_| !is_answered);
         let shots = all.into_iter().map(|laid| Shot { laid, acting: Vec::new() }).collect();
-        let mut drawn = Drawn::new(draft, crank, shots);
-        (drawn.headings, drawn.note, drawn.fault, drawn.each_mode) = (headings, note, error, true);
-        Ok(drawn)
+        Ok(Drawn { headings, note, fault, ..Drawn::new(draft, crank, shots) })
     }
 }
 
@@ -261,10 +227,6 @@ fn of_guess(draft: &Draft) -> Option<String> {
     let drive = draft.drives.first().filter(|_| draft.is_driven_by_guess)?;
     let link = &draft.mechanism.links()[drive.link].name;
     Some(format!("{}: no drive could be read; drawn as if \"{link}\" were driven", draft.name))
-}
-
-fn degrees(angle: f64) -> String {
-    format!("{}°", (angle.to_degrees() * 1e6).round() / 1e6 + 0.0)
 }
 
 /// World angles of the driving links with the crank at an angle (rad), the others at their start.
@@ -315,14 +277,14 @@ fn traced(mechanism: &Mechanism, wish: &Wish) -> (Vec<(usize, Vec2)>, Vec<Error>
     let free = points.iter().filter(|(_, side)| wish.all_traces && !is_joint(side.link, side.local));
     let mut found: Vec<(usize, Vec2)> = free.map(|(_, side)| (side.link, side.local)).collect();
     let mut unknown = Vec::new();
-    for name in wish.traces {
+    for name in &wish.traces {
         match points.iter().find(|(own, _)| own == name) {
             Some((_, side)) => found.push((side.link, side.local)),
             None => {
                 let names: Vec<&str> = points.iter().map(|(own, _)| *own).collect();
                 let message = format!("no point that moves is called \"{name}\"");
-                let error = Error::new(ErrorKind::Input, message).key("--trace");
-                unknown.push(error.help(format!("name one of {}", names.join(", "))));
+                let error = Error::new(ErrorKind::Input, message).help(format!("name one of {}", names.join(", ")));
+                unknown.push(error.key(wish.traces_key.unwrap_or("traces")));
             }
         }
     }

@@ -1,0 +1,99 @@
+//! What is asked of a picture, and how it is written: by its ending.
+
+use std::path::Path;
+
+use drawing::bitmap::{Bitmap, bitmap, to_gif, to_png, to_webp};
+use drawing::paper::document::document;
+use drawing::paper::figure::Figure;
+use linkage::error::Result;
+use prover::proof::Reference;
+
+/// What is asked of a picture.
+#[derive(Clone, Debug, Default)]
+pub struct Wish {
+    /// Crank angle (rad, as the scenario states it); `None` for that of the start.
+    pub crank: Option<f64>,
+    /// All configurations at the crank angle, each with the modes of its groups.
+    pub each_mode: bool,
+    /// Forces and moments as arrows with their sizes, and gravity.
+    pub loads: bool,
+    /// Lengths of the links.
+    pub dimensions: bool,
+    /// Paths of all points that are no joints.
+    pub all_traces: bool,
+    /// Paths of these points.
+    pub traces: Vec<String>,
+    /// Who solves.
+    pub solver: Reference,
+    /// Width of a bitmap in pixels; `None` for 800.
+    pub width: Option<u32>,
+    /// Frames of an animation; `None` for 48.
+    pub frames: Option<usize>,
+    /// Time that a turn takes in an animation (s); `None` for 4.
+    pub seconds: Option<f64>,
+    /// What messages call `traces`.
+    #[doc(hidden)]
+    pub traces_key: Option<&'static str>,
+}
+
+/// A format of pictures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Medium {
+    /// Lines and letters.
+    Svg,
+    /// A bitmap.
+    Png,
+    /// A bitmap that moves.
+    Gif,
+    /// The same, smaller.
+    WebP,
+}
+
+impl Medium {
+    /// The format of a path, by its ending; SVG for `-`.
+    ///
+    /// # Errors
+    /// What is wrong, if no picture ends so.
+    pub fn of(path: impl AsRef<Path>) -> std::result::Result<Medium, String> {
+        let path = path.as_ref();
+        let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
+        match ending.as_deref() {
+            Some("svg") => Ok(Medium::Svg),
+            None if path == Path::new("-") => Ok(Medium::Svg),
+            Some("png") => Ok(Medium::Png),
+            Some("gif") => Ok(Medium::Gif),
+            Some("webp") => Ok(Medium::WebP),
+            Some(other) => Err(format!("no pictures end in .{other}; expected .svg, .png, .gif or .webp")),
+            None => Err("expected a file that ends in .svg, .png, .gif or .webp, or `-`".into()),
+        }
+    }
+
+    /// Whether the picture moves.
+    #[must_use]
+    pub fn moves(self) -> bool {
+        match self {
+            Medium::Svg | Medium::Png => false,
+            Medium::Gif | Medium::WebP => true,
+        }
+    }
+
+    pub(super) fn frames(self, wish: &Wish) -> usize {
+        if self.moves() && !wish.each_mode { wish.frames.unwrap_or(48) } else { 1 }
+    }
+
+    /// The picture: figures with their sizes (mm).
+    pub(super) fn bytes(self, pages: &[(Figure, [f64; 2])], title: &str, wish: &Wish) -> Result<Vec<u8>> {
+        let width = wish.width.unwrap_or(800);
+        let seconds = wish.seconds.unwrap_or(4.0) / self.frames(wish) as f64;
+        let bitmaps =
+            || pages.iter().map(|(figure, size)| bitmap(figure, *size, width)).collect::<Result<Vec<Bitmap>>>();
+        match self {
+            Medium::Svg => {
+                Ok(pages.iter().map(|(figure, size)| document(figure, *size, title)).collect::<String>().into_bytes())
+            }
+            Medium::Png => bitmaps()?.first().map_or_else(|| Ok(Vec::new()), to_png),
+            Medium::Gif => to_gif(&bitmaps()?, (seconds * 100.0).round().clamp(2.0, 60_000.0) as u16),
+            Medium::WebP => to_webp(&bitmaps()?, (seconds * 1000.0).round().clamp(10.0, 1e6) as u32),
+        }
+    }
+}

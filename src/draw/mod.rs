@@ -1,0 +1,71 @@
+//! Mechanisms as pictures: links, joints, guides and loads, at one crank angle, in all configurations, or moving.
+
+mod media;
+mod motion;
+mod subject;
+
+use drawing::sheet::{Cell, columns, sheet};
+use linkage::error::Result;
+use linkage::math::Vec2;
+use scenario::Scenario;
+
+pub use media::{Medium, Wish};
+pub(crate) use subject::Drawn;
+
+/// Room of a picture that stands alone, and of one among others (mm).
+const ALONE: [f64; 2] = [150.0, 120.0];
+const AMONG: [f64; 2] = [100.0, 96.0];
+
+/// Draws a mechanism; gives the bytes of a file.
+///
+/// ```
+/// use linkproof::parts::{Medium, Wish};
+/// use linkproof::{Scenario, draw};
+///
+/// # std::env::set_current_dir(env!("CARGO_MANIFEST_DIR"))?;
+/// let scenario = Scenario::load("scenarios/crank_rocker.toml")?;
+/// let picture = draw(scenario, &Wish { crank: Some(0.5), ..Wish::default() }, Medium::Svg)?;
+/// assert!(String::from_utf8(picture)?.starts_with("<svg"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`ErrorKind::Input`](crate::parts::ErrorKind::Input) for a crank angle or a point that there is not; what keeps the
+/// mechanism from being assembled at the crank angle.
+pub fn draw(scenario: Scenario, wish: &Wish, medium: Medium) -> Result<Vec<u8>> {
+    let drawn = Drawn::of(scenario, wish, medium)?;
+    match &drawn.fault {
+        None => picture(&[drawn], wish, medium),
+        Some(fault) => Err(fault.clone()),
+    }
+}
+
+/// The picture of several files, those that have faults as far as they go.
+pub(crate) fn picture(all: &[Drawn], wish: &Wish, medium: Medium) -> Result<Vec<u8>> {
+    let frames = medium.frames(wish);
+    let count: usize = all.iter().map(|own| if wish.each_mode { own.shots.len() } else { 1 }).sum();
+    let room = Vec2::from(if columns(count) == 1 { ALONE } else { AMONG });
+    // Per frame, the cells of all files.
+    let mut sheets: Vec<Vec<Cell>> = vec![Vec::new(); frames];
+    for own in all {
+        let mut cells = own.cells(wish, medium, room);
+        if all.len() > 1 {
+            cells.iter_mut().for_each(|cell| cell.heading.insert(0, own.headline()));
+        }
+        match wish.each_mode {
+            true => sheets[0].extend(cells),
+            // What cannot move stands still in every frame.
+            false => {
+                let last = cells.last().cloned().into_iter().cycle();
+                sheets.iter_mut().zip(cells.into_iter().chain(last)).for_each(|(sheet, cell)| sheet.push(cell));
+            }
+        }
+    }
+    let (title, subtitle) = match all {
+        [one] if medium.moves() => (one.name.clone(), one.title.as_str()),
+        [one] => (one.headline(), one.title.as_str()),
+        _ => (all.iter().map(|own| own.name.as_str()).collect::<Vec<_>>().join(", "), ""),
+    };
+    let pages: Vec<_> = sheets.iter().map(|cells| sheet(&title, subtitle, cells, room.x)).collect();
+    medium.bytes(&pages, &title, wish)
+}
