@@ -11,10 +11,10 @@ use linkage::error::Result;
 
 /// What is told of the keys that are read here.
 pub const SECTIONS: &[Section] = &[Section::at("grid").with(&[
-    optional("from", Kind::ANGLES_OR_TIMES, "given with `to` and `step`")
+    optional("from", Kind::INPUTS_OR_TIMES, "given with `to` and `step`")
         .means("first crank angle, or first time from the start"),
-    optional("to", Kind::ANGLES_OR_TIMES, "given with `from`").means("last one, in the same kind of unit"),
-    optional("step", Kind::ANGLES_OR_TIMES, "given with `from`").means("distance of instants; may be negative"),
+    optional("to", Kind::INPUTS_OR_TIMES, "given with `from`").means("last one, in the same kind of unit"),
+    optional("step", Kind::INPUTS_OR_TIMES, "given with `from`").means("distance of instants; may be negative"),
     optional("angles", Kind::LIST_OF_ANGLES, "a range")
         .means("crank angles, one by one, in any order; not for a free motion"),
     optional("times", Kind::LIST_OF_TIMES, "a range").means("times, one by one, in any order"),

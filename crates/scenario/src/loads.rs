@@ -54,7 +54,7 @@ pub const SECTIONS: &[Section] = &[
             .means("turns of the crank after which the table repeats; 2 for a four-stroke engine"),
     ]),
     Section::at("loads.table").with(&[
-        needed("crank", Kind::ANGLES).means("crank angle"),
+        needed("crank", Kind::INPUTS).means("crank angle"),
         optional("moment", Kind::MOMENTS, "of a moment").means("moment there"),
         optional("x", Kind::FORCES, "of a force").means("force along x there"),
         optional("y", Kind::FORCES, "of a force").means("force along y there"),

@@ -17,7 +17,7 @@ pub const SECTIONS: &[Section] = &[
     Section::at("drive").with(&[
         needed("joint", Kind::Text).means("revolute joint between the ground and the driving link"),
         optional("law", Kind::Choice(|| names(LAWS)), "`\"constant\"`").means("crank angle over time; below"),
-        optional("zero", Kind::ANGLES, "0").means("world direction from which the crank angle is measured"),
+        optional("zero", Kind::INPUTS, "0").means("world direction from which the crank angle is measured"),
         optional("motion", Kind::Choice(|| vec!["prescribed", "free"]), "`\"prescribed\"`")
             .means("`\"free\"`: forces determine the motion, see below"),
         optional("initial_speed", Kind::SPEEDS, "0").means("of a free link: its angular velocity at t = 0"),
@@ -31,13 +31,13 @@ pub const SECTIONS: &[Section] = &[
         optional("time", Kind::TIMES, "required of these laws")
             .of(Sign::Positive)
             .means("duration of a ramp, or of a cycloidal law"),
-        optional("to", Kind::ANGLES, "required of this law").means("last crank angle of a cycloidal law"),
+        optional("to", Kind::INPUTS, "required of this law").means("last crank angle of a cycloidal law"),
         optional("points", Kind::Tables, "required of the law `\"table\"`")
             .means("points of a table, two or more: times ascending from 0, the first angle that of the start"),
     ]),
     Section::at("drive.points").with(&[
         needed("time", Kind::TIMES).of(Sign::NotNegative).means("time"),
-        needed("angle", Kind::ANGLES).means("crank angle at that time"),
+        needed("angle", Kind::INPUTS).means("crank angle at that time"),
     ]),
     Section::at("gravity")
         .with(&[needed("x", Kind::ACCELERATIONS).means("along x"), needed("y", Kind::ACCELERATIONS).means("along y")]),

@@ -21,7 +21,7 @@ const RIGHT: Key =
     optional("right", Kind::Table, "required with `finding`").means("what is right instead, in the printed unit");
 const VALUE: Key = needed("value", Kind::Number).means("the number, in the unit of the name");
 const DIGITS: Key = needed("digits", Kind::Integer).means("number of printed decimals");
-const CRANK: Key = optional("crank", Kind::ANGLES, "a time is given").means("crank angle");
+const CRANK: Key = optional("crank", Kind::INPUTS, "a time is given").means("crank angle");
 const AT_TIME: Key = optional("time", Kind::TIMES, "a crank angle is given").means("time");
 
 /// What is told of the keys that are read here.

@@ -19,7 +19,7 @@ const MODES: Words<AssemblyMode> = &[
 /// What is told of the keys that are read here.
 pub const SECTIONS: &[Section] = &[
     Section::at("start").with(&[
-        needed("crank", Kind::ANGLES).means("crank angle at t = 0, of the first drive"),
+        needed("crank", Kind::INPUTS).means("crank angle at t = 0, of the first drive"),
         optional("groups", Kind::Tables, "none: a mechanism without groups").means("one table for each Assur group"),
     ]),
     Section::at("start.groups").with(&[

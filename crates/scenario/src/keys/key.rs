@@ -104,7 +104,9 @@ impl Key {
 impl Kind {
     pub(crate) const ACCELERATIONS: Kind = Kind::Quantity(&[&ACCELERATION]);
     pub(crate) const ANGLES: Kind = Kind::Quantity(&[&ANGLE]);
-    pub(crate) const ANGLES_OR_TIMES: Kind = Kind::Quantity(&[&ANGLE, &TIME]);
+    /// Values of an input, which is an angle.
+    pub(crate) const INPUTS: Kind = Kind::ANGLES;
+    pub(crate) const INPUTS_OR_TIMES: Kind = Kind::Quantity(&[&ANGLE, &TIME]);
     pub(crate) const DAMPINGS_OR_SLOPES: Kind = Kind::Quantity(&[&DAMPING, &MOMENT_PER_SPEED]);
     pub(crate) const FORCES: Kind = Kind::Quantity(&[&FORCE]);
     pub(crate) const INERTIAS: Kind = Kind::Quantity(&[&INERTIA]);
