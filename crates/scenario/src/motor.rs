@@ -15,37 +15,28 @@ pub const SECTIONS: &[Section] = &[
             "share of the power that the reducer transmits, above 0 and at most 1, the same in both \
                         directions",
         ),
-        optional("torque", Kind::MOMENTS, "required of this law")
-            .of(Sign::Positive)
+        optional("torque", Kind::MOMENTS.of(Sign::Positive), "required of this law")
             .means("constant law: the torque, positive"),
-        optional("torque_at_rest", Kind::MOMENTS, "required of this law")
-            .of(Sign::Positive)
+        optional("torque_at_rest", Kind::MOMENTS.of(Sign::Positive), "required of this law")
             .means("linear law: torque at rest, positive"),
-        optional("slope", Kind::SLOPES, "required of this law")
-            .of(Sign::Negative)
+        optional("slope", Kind::SLOPES.of(Sign::Negative), "required of this law")
             .means("linear law: change with the speed, negative"),
-        optional("breakdown_torque", Kind::MOMENTS, "required of this law")
-            .of(Sign::Positive)
+        optional("breakdown_torque", Kind::MOMENTS.of(Sign::Positive), "required of this law")
             .means("Kloss: largest torque"),
-        optional("synchronous_speed", Kind::SPEEDS, "required of this law")
-            .of(Sign::Positive)
+        optional("synchronous_speed", Kind::SPEEDS.of(Sign::Positive), "required of this law")
             .means("Kloss: synchronous speed"),
         optional("breakdown_slip", Kind::Number, "the speed is given").means("Kloss: slip at breakdown, or"),
-        optional("breakdown_speed", Kind::SPEEDS, "the slip is given")
-            .of(Sign::NotNegative)
+        optional("breakdown_speed", Kind::SPEEDS.of(Sign::NotNegative), "the slip is given")
             .means("Kloss: speed at breakdown"),
         optional("points", Kind::Tables, "required of this law").means("table: two or more, speeds ascending"),
-        optional("rotor_inertia", Kind::INERTIAS, "0")
-            .of(Sign::NotNegative)
+        optional("rotor_inertia", Kind::INERTIAS.of(Sign::NotNegative), "0")
             .means("moment of inertia of the rotor about its shaft"),
-        optional("input_inertia", Kind::INERTIAS, "0")
-            .of(Sign::NotNegative)
+        optional("input_inertia", Kind::INERTIAS.of(Sign::NotNegative), "0")
             .means("of the reducer's input shaft, which turns with the motor"),
-        optional("intermediate_inertia", Kind::INERTIAS, "0").of(Sign::NotNegative).means("of its intermediate shaft"),
+        optional("intermediate_inertia", Kind::INERTIAS.of(Sign::NotNegative), "0").means("of its intermediate shaft"),
         optional("intermediate_ratio", Kind::Number, "required with its inertia")
             .means("speed of the intermediate shaft over that of the crank"),
-        optional("output_inertia", Kind::INERTIAS, "0")
-            .of(Sign::NotNegative)
+        optional("output_inertia", Kind::INERTIAS.of(Sign::NotNegative), "0")
             .means("of its output shaft, which turns with the crank"),
     ]),
     Section::at("motor.points").with(&[
