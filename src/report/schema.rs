@@ -52,7 +52,7 @@ fn of_key(key: &Key, path: &str) -> Value {
         Kind::Text => json!({ "type": "string" }),
         Kind::Choice(words) => json!({ "enum": words() }),
         Kind::Texts => list(json!({ "type": "string" })),
-        Kind::Number | Kind::Quantity(_) => number(),
+        Kind::Number | Kind::Quantity(..) => number(),
         Kind::Numbers | Kind::Quantities(_) => list(number()),
         Kind::Integer => json!({ "type": "integer" }),
         Kind::IntegerOrBoolean => json!({ "type": ["integer", "boolean"] }),

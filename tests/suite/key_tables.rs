@@ -15,7 +15,7 @@ fn kind(key: &Key) -> String {
         Kind::Text => "text".into(),
         Kind::Choice(words) => words().iter().map(word).collect::<Vec<_>>().join(", "),
         Kind::Texts => "list of texts".into(),
-        Kind::Number | Kind::Quantity(_) => "number".into(),
+        Kind::Number | Kind::Quantity(..) => "number".into(),
         Kind::Numbers | Kind::Quantities(_) => "list of numbers".into(),
         Kind::Integer => "whole number".into(),
         Kind::IntegerOrBoolean => "whole number, or `true`, `false`".into(),

@@ -247,8 +247,7 @@ pub fn all_modes(
                     }
                     None => {
                         laid.reaches.extend(reaches(mechanism, group, &laid));
-                        let names = group.names(mechanism);
-                        laid.faults.push(error.key(format!("start.groups ({names})")).of_group(names));
+                        laid.faults.push(error.key(group.key(mechanism)).of_group(group.names(mechanism)));
                     }
                 }
                 open.push((laid, index + 1));

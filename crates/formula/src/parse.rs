@@ -46,20 +46,14 @@ impl Tree {
     /// # Errors
     /// What cannot be read, with its place and the way out.
     pub fn parse(text: &str) -> Result<Tree, Fault> {
-        tree(text)
+        bounded(text)?;
+        whole(&mut LocatingSlice::new(text)).map_err(|error| match error {
+            ErrMode::Cut(Found(Some(fault))) | ErrMode::Backtrack(Found(Some(fault))) => fault,
+            ErrMode::Cut(Found(None)) | ErrMode::Backtrack(Found(None)) | ErrMode::Incomplete(_) => {
+                Fault::new("this is no formula", 0..text.len(), "write an expression such as a*cos(phi) + b")
+            }
+        })
     }
-}
-
-fn tree(text: &str) -> Result<Tree, Fault> {
-    bounded(text)?;
-    let mut input = LocatingSlice::new(text);
-    let found = whole(&mut input).map_err(|error| match error {
-        ErrMode::Cut(Found(Some(fault))) | ErrMode::Backtrack(Found(Some(fault))) => fault,
-        ErrMode::Cut(Found(None)) | ErrMode::Backtrack(Found(None)) | ErrMode::Incomplete(_) => {
-            Fault::new("this is no formula", 0..text.len(), "write an expression such as a*cos(phi) + b")
-        }
-    })?;
-    Ok(found)
 }
 
 /// Whether reading it can use up neither memory nor stack.
@@ -101,19 +95,16 @@ fn whole(input: &mut Input<'_>) -> Read<Tree> {
 
 /// A sign where an operator or the end of a part could stand.
 fn no_operator<T>(sign: char, at: usize) -> Read<T> {
-    match sign {
-        ',' => refused(
-            "a comma stands between arguments of atan2 only",
-            at..at + 1,
-            "write numbers with a decimal point, such as 0.5",
-        ),
-        first if first.is_ascii_alphanumeric() || first == '(' || first == '_' => refused(
-            format!("an operator is missing before `{first}`"),
-            at..at + first.len_utf8(),
-            "write a product with `*`, such as 2*phi",
-        ),
-        other => unknown_sign(other, at),
+    let own = at..at + sign.len_utf8();
+    if sign == ',' {
+        let help = "write numbers with a decimal point, such as 0.5";
+        return refused("a comma stands between arguments of atan2 only", own, help);
     }
+    if sign.is_ascii_alphanumeric() || sign == '(' || sign == '_' {
+        let message = format!("an operator is missing before `{sign}`");
+        return refused(message, own, "write a product with `*`, such as 2*phi");
+    }
+    unknown_sign(sign, at)
 }
 
 fn unknown_sign<T>(sign: char, at: usize) -> Read<T> {
@@ -259,11 +250,8 @@ fn number(input: &mut Input<'_>, start: usize) -> Read<Tree> {
     }
     let written = &text[..end];
     let Some(value) = written.parse::<f64>().ok().filter(|value| value.is_finite()) else {
-        return refused(
-            format!("`{written}` is no finite number"),
-            start..start + end,
-            "write a number such as 1.5e-3",
-        );
+        let message = format!("`{written}` is no finite number");
+        return refused(message, start..start + end, "write a number such as 1.5e-3");
     };
     take(input, end);
     Ok(Tree { shape: Shape::Number(value), at: start..start + end })

@@ -63,6 +63,42 @@ pub enum Part {
     Group(String),
 }
 
+/// The key of a description that an error is about.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Key {
+    text: String,
+    /// Length of the dotted path in the text.
+    path: usize,
+    links: Vec<String>,
+}
+
+impl Key {
+    /// The key of the one of several Assur groups under a dotted path that has these links.
+    #[must_use]
+    pub fn of_group(path: &str, links: Vec<String>) -> Self {
+        Key { text: format!("{path} ({})", links.join(", ")), path: path.len(), links }
+    }
+
+    /// Keys and names from the top of the description, joined by dots: `joints.A`.
+    #[must_use]
+    pub fn path(&self) -> &str {
+        &self.text[..self.path]
+    }
+
+    /// The links of an Assur group; none of another key.
+    #[must_use]
+    pub fn links(&self) -> &[String] {
+        &self.links
+    }
+}
+
+impl<T: Into<String>> From<T> for Key {
+    fn from(path: T) -> Self {
+        let text: String = path.into();
+        Key { path: text.len(), text, links: Vec::new() }
+    }
+}
+
 /// A number beyond its bound.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Excess {
@@ -100,7 +136,7 @@ pub struct Error(Box<Inner>);
 struct Inner {
     kind: ErrorKind,
     message: String,
-    key: Option<String>,
+    key: Option<Key>,
     place: Option<Place>,
     time: Option<f64>,
     input: Option<InputValue>,
@@ -215,7 +251,7 @@ impl Error {
     /// Names the scenario key (dotted path) at fault. A key that is already set is kept, because the innermost caller
     /// knows best.
     #[must_use]
-    pub fn key(mut self, key: impl Into<String>) -> Self {
+    pub fn key(mut self, key: impl Into<Key>) -> Self {
         self.0.key.get_or_insert_with(|| key.into());
         self
     }
@@ -239,10 +275,16 @@ impl Error {
         &self.0.message
     }
 
-    /// Dotted path of the scenario key at fault, if there is one.
+    /// The scenario key at fault in words, if there is one: its dotted path, and of an Assur group its links.
     #[must_use]
     pub fn scenario_key(&self) -> Option<&str> {
-        self.0.key.as_deref()
+        self.0.key.as_ref().map(|key| key.text.as_str())
+    }
+
+    /// The scenario key at fault, if there is one.
+    #[must_use]
+    pub fn key_at_fault(&self) -> Option<&Key> {
+        self.0.key.as_ref()
     }
 
     /// Place in the file, if known.
@@ -311,7 +353,7 @@ impl Error {
     #[must_use]
     pub fn line_by(&self, tell: impl Fn(&Advice) -> String) -> String {
         let place = self.0.place.as_ref().map(|place| format!("{}:{}: ", place.file.display(), place.line()));
-        let key = self.0.key.as_ref().map(|key| format!("`{key}`: "));
+        let key = self.scenario_key().map(|key| format!("`{key}`: "));
         let way_out = self.way_out_by(tell).map(|way_out| format!("; {way_out}"));
         let [place, key, way_out] = [place, key, way_out].map(Option::unwrap_or_default);
         format!("{place}{key}{}{way_out}", self.0.message)

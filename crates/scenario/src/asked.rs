@@ -93,8 +93,7 @@ impl Start<'_> {
     pub fn placed(&self, crank: f64, groups: &[(usize, StartGroup)]) -> Result<Placed> {
         let moved = crank != self.crank;
         if groups.is_empty() && !moved {
-            let (pose, choices, starts, undecided) = self.settled(crank, self.starts.to_vec())?;
-            return Ok(Placed { pose, choices, starts, is_own_branch: undecided.is_empty(), undecided });
+            return self.settled(crank, self.starts.to_vec());
         }
         let own = first_choices(self.mechanism, self.structure, &self.angles(self.crank), self.starts);
         let is_asked = |index: usize| groups.iter().any(|(asked, _)| *asked == index);
@@ -118,12 +117,12 @@ impl Start<'_> {
         for (index, start) in groups {
             starts[*index] = start.clone();
         }
-        let (pose, choices, starts, undecided) = self.settled(crank, starts)?;
-        let is_own_branch = own.is_ok_and(|(own, _)| {
+        let mut placed = self.settled(crank, starts)?;
+        placed.is_own_branch &= own.is_ok_and(|(own, _)| {
             let own = if moved { followed } else { Some(own) };
-            undecided.is_empty() && own.is_some_and(|own| is_same(&own, &pose))
+            own.is_some_and(|own| is_same(&own, &placed.pose))
         });
-        Ok(Placed { pose, choices, starts, is_own_branch, undecided })
+        Ok(placed)
     }
 
     /// World angles of the driving links at t = 0 with the crank at `crank` (rad).
@@ -134,28 +133,25 @@ impl Start<'_> {
         self.drives.iter().enumerate().map(angle).collect()
     }
 
-    /// Pose, choices and starts. For a list, groups that cannot be decided get a number.
-    #[expect(clippy::type_complexity, reason = "the parts of one result, taken apart at once")]
-    fn settled(
-        &self,
-        crank: f64,
-        mut starts: Vec<StartGroup>,
-    ) -> Result<(Pose, Vec<Choice>, Vec<StartGroup>, Vec<Undecided>)> {
+    /// All groups placed by these starts. For a list, groups that cannot be decided get a number; without any the branch
+    /// is taken to be the file's.
+    fn settled(&self, crank: f64, mut starts: Vec<StartGroup>) -> Result<Placed> {
         let angles = self.angles(crank);
         let mut undecided: Vec<Undecided> = Vec::new();
         loop {
             let error = match first_choices(self.mechanism, self.structure, &angles, &starts) {
-                Ok((pose, choices)) => return Ok((pose, choices, starts, undecided)),
+                Ok((pose, choices)) => {
+                    return Ok(Placed { pose, choices, starts, is_own_branch: undecided.is_empty(), undecided });
+                }
                 Err(error) => error,
             };
             let found = blame(self.mechanism, self.structure, &angles, &starts, &error);
-            let why = match &found {
-                Some(found) => blamed(self.mechanism, self.structure, found, &error),
-                None => error,
-            };
-            let (group, rank) = match found {
-                Some(found) => (Some(found.group), found.rank),
-                None => (group_of(self.mechanism, self.structure, &why), 1),
+            let (why, group, rank) = match found {
+                Some(found) => (blamed(self.mechanism, self.structure, &found, &error), Some(found.group), found.rank),
+                None => {
+                    let group = group_of(self.mechanism, self.structure, &error);
+                    (error, group, 1)
+                }
             };
             match group {
                 Some(group)
@@ -230,7 +226,7 @@ impl Start<'_> {
         let give = "an angle nearer to the file's start, or ask for a configuration by its number".to_string();
         Error::new(ErrorKind::Geometry, message)
             .help(Advice::Configuration { give })
-            .key(format!("start.groups ({names})"))
+            .key(group.key(self.mechanism))
             .of_group(names)
     }
 }

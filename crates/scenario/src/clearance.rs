@@ -16,8 +16,7 @@ use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::{GROUND, Link, Mechanism, Point, is_sound_name};
 use question::pairs;
 
-const RADIUS: Key = optional("radius", Kind::LENGTHS, "that of the section; of a polygon 0")
-    .of(Sign::NotNegative)
+const RADIUS: Key = optional("radius", Kind::LENGTHS.of(Sign::NotNegative), "that of the section; of a polygon 0")
     .means("radius of the rounding: positive of a line, not negative of a polygon or of a part of the housing");
 const CORNERS: Key = optional("corners", Kind::Tables, "a line")
     .means("places, three or more: a polygon with its interior, convex or not, in either sense");
@@ -27,15 +26,13 @@ const LINE: Key = optional("line", Kind::Tables, "through the link's points, if 
 /// What is told of the keys that are read here.
 pub const SECTIONS: &[Section] = &[
     Section::at("clearance").with(&[
-        optional("radius", Kind::LENGTHS, "every link needs an outline of its own").of(Sign::Positive).means(
+        optional("radius", Kind::LENGTHS.of(Sign::Positive), "every link needs an outline of its own").means(
             "radius, positive, of the capsules between the points of every link that has no outline of \
                         its own",
         ),
-        optional("wanted", Kind::LENGTHS, "only collisions count")
-            .of(Sign::NotNegative)
+        optional("wanted", Kind::LENGTHS.of(Sign::NotNegative), "only collisions count")
             .means("distance that no pair may fall to"),
-        optional("tolerance", Kind::LENGTHS, "a millionth of the mechanism's size")
-            .of(Sign::Positive)
+        optional("tolerance", Kind::LENGTHS.of(Sign::Positive), "a millionth of the mechanism's size")
             .means("error that a smallest distance may have"),
         optional("area_rel", Kind::Number, "5e-3")
             .means("error that a swept area may have, as a share of it; from 1e-5 to 1"),

@@ -139,11 +139,9 @@ pub const MOST_TIMES: usize = 8;
 pub const ROWS: &[Row] = &[
     Row {
         keys: &[
-            optional("dt", Kind::TIMES, "found by `run`")
-                .of(Sign::Positive)
+            optional("dt", Kind::TIMES.of(Sign::Positive), "found by `run`")
                 .means("time step of engines with a fixed step; at most one of `dt` and `step`"),
-            optional("step", Kind::ANGLES, "found by `run`")
-                .of(Sign::NotZero)
+            optional("step", Kind::ANGLES.of(Sign::NotZero), "found by `run`")
                 .means("the same as the angle that the crank turns through in a step"),
         ],
         argument: "dt",

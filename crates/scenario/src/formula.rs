@@ -99,12 +99,17 @@ impl Formulas {
         if let Some((name, at)) = tree.names().into_iter().find(|(name, _)| !self.graph.knows(name)) {
             return Err(self.unknown(name, at));
         }
-        let id = self.graph.add(&tree)?;
-        self.graph.name(name, id);
-        let (name, text) = (name.to_string(), text.to_string());
-        let formula = Formula { name, text, tree, id, claim: None, source: None, valid: [None; 2], error: None };
-        self.list.push(formula);
+        let (name, text, id) = (name.to_string(), text.to_string(), self.graph.input(0));
+        self.put(Formula { name, text, tree, id, claim: None, source: None, valid: [None; 2], error: None })?;
         Ok(self.list.last_mut().expect("just added"))
+    }
+
+    /// Adds a formula to the list, and its node to the graph.
+    fn put(&mut self, mut formula: Formula) -> std::result::Result<(), Fault> {
+        formula.id = self.graph.add(&formula.tree)?;
+        self.graph.name(&formula.name, formula.id);
+        self.list.push(formula);
+        Ok(())
     }
 
     /// Whether a formula may have this name.
@@ -213,10 +218,7 @@ impl Formulas {
         };
         let mut formulas = Formulas::over(self.parameters.iter().filter(is_kept).cloned().collect());
         for index in &kept {
-            let mut own = self.list[*index].clone();
-            own.id = formulas.graph.add(&own.tree).expect("a formula knows what stands before it");
-            formulas.graph.name(&own.name, own.id);
-            formulas.list.push(own);
+            formulas.put(self.list[*index].clone()).expect("a formula knows what stands before it");
         }
         (formulas, kept.len() - 1)
     }
@@ -235,9 +237,7 @@ impl Formulas {
             if index == of {
                 (own.text, own.tree) = (tree.to_string(), tree.clone());
             }
-            own.id = formulas.graph.add(&own.tree).ok()?;
-            formulas.graph.name(&own.name, own.id);
-            formulas.list.push(own);
+            formulas.put(own).ok()?;
         }
         Some(formulas)
     }

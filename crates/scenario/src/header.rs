@@ -15,9 +15,10 @@ pub fn check_format(root: &mut Table) -> Result<()> {
     }
     match root.integer("format")? {
         FORMAT => Ok(()),
-        other => Err(root
-            .wrong(ErrorKind::Unsupported, "format", format!("format {other} is not handled by this version"))
-            .help(format!("this version reads `format = {FORMAT}`"))),
+        other => {
+            let message = format!("format {other} is not handled by this version");
+            root.unsupported("format", message, format!("this version reads `format = {FORMAT}`"))
+        }
     }
 }
 

@@ -61,9 +61,10 @@ use self::reader::{Faults, Table};
 use self::source::{Source, text_of};
 use self::stated::Stated;
 use linkage::case::{Case, CaseParts, Grid, Wanted};
+use linkage::drive::Drives;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::mechanism::assembly::{Choice, group_of};
-use linkage::mechanism::{StartGroup, Structure};
+use linkage::mechanism::{Mechanism, StartGroup, Structure};
 
 /// A scenario: the problem, the engine's settings, and the published numbers that it is compared with.
 ///
@@ -271,10 +272,10 @@ fn parse(text: &str, path: &Path, asked: &Asked, lists: Lists) -> Result<(Scenar
         Ok(stated)
     });
     let mut stated = stated.map_err(in_file)?;
-    let structure = structure(&stated).map_err(in_file)?;
     let (Some(drives), Some(start)) = (&stated.drives, &stated.start) else {
         unreachable!("what is missing has ended the reading");
     };
+    let structure = structure(&stated.mechanism, drives).map_err(in_file)?;
     // What is asked for has no place in the file.
     let groups = asked.groups(&stated.mechanism, &structure)?;
     let mechanism = &stated.mechanism;
@@ -290,10 +291,7 @@ fn parse(text: &str, path: &Path, asked: &Asked, lists: Lists) -> Result<(Scenar
 }
 
 /// The structure of what a file states, whose masses and speeds make sense.
-fn structure(stated: &Stated) -> Result<Structure> {
-    let Stated { mechanism, drives: Some(drives), .. } = stated else {
-        unreachable!("what is missing has ended the reading");
-    };
+fn structure(mechanism: &Mechanism, drives: &Drives) -> Result<Structure> {
     masses::check(mechanism, drives)?;
     masses::check_speeds(mechanism, drives)?;
     Structure::of(mechanism, &drives.joints())
@@ -308,9 +306,7 @@ fn finished(
     asked: &Asked,
 ) -> Result<(Scenario, Vec<Undecided>)> {
     let (own_crank, crank) = (stated.crank, asked.crank.unwrap_or(stated.crank));
-    let (mechanism, Some(drives)) = (stated.mechanism, stated.drives) else {
-        unreachable!("what is missing has ended the reading");
-    };
+    let (mechanism, drives) = (stated.mechanism, stated.drives.expect("what is missing has ended the reading"));
     let (starts, choices, undecided) = (placed.starts, placed.choices, placed.undecided);
     let modes = choices.iter().map(|choice| choice.mode).collect();
     let start = placed.pose;
@@ -344,13 +340,12 @@ fn finished(
             false => "take the numbers out, or give them at crank angles to which the drive comes",
         }));
     }
-    let (path, text) = (source.path.to_path_buf(), source.text.to_string());
     let scenario = Scenario {
         name: stated.name,
         title: stated.title,
         source: stated.source,
-        path,
-        text,
+        path: source.path.to_path_buf(),
+        text: source.text.to_string(),
         case,
         engine: stated.engine,
         engine_rel: stated.engine_rel,

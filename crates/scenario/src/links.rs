@@ -14,7 +14,7 @@ pub const PLACE: &[Key] = &[
     optional("x", Kind::LENGTHS, "given with `y`, in place of `from`").means("coordinate along x"),
     optional("y", Kind::LENGTHS, "given with `x`").means("coordinate along y"),
     optional("from", Kind::Text, "given in place of `x` and `y`").means("point that stands earlier in the same table"),
-    optional("length", Kind::LENGTHS, "given with `from`").of(Sign::NotNegative).means("distance from that point"),
+    optional("length", Kind::LENGTHS.of(Sign::NotNegative), "given with `from`").means("distance from that point"),
     optional("angle", Kind::ANGLES, "given with `from`").means(
         "direction from that point, counted from the x axis of the link; for ground points, from the x axis \
                 of the world",
@@ -27,11 +27,10 @@ pub const SECTIONS: &[Section] = &[
     Section::at("ground.points.*").with(PLACE),
     Section::at("links.*").with(&[
         needed("points", Kind::Table).means("points in the link's own frame by name, at least one"),
-        optional("mass", Kind::MASSES, "none: a massless link").of(Sign::NotNegative).means("mass, not negative"),
+        optional("mass", Kind::MASSES.of(Sign::NotNegative), "none: a massless link").means("mass, not negative"),
         optional("mass_centre", Kind::Table, "required with a mass, refused without")
             .means("place of the mass centre in the link's frame; may refer to any point of the link"),
-        optional("inertia", Kind::INERTIAS, "0")
-            .of(Sign::NotNegative)
+        optional("inertia", Kind::INERTIAS.of(Sign::NotNegative), "0")
             .means("moment of inertia about the mass centre, not negative; needs a mass"),
     ]),
     Section::at("links.*.points.*").with(PLACE),

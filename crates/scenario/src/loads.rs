@@ -119,8 +119,7 @@ fn resisting_force(table: &mut Table, mechanism: &Mechanism) -> Result<Load> {
     // The velocity of such a point would be the rounding of zero, and so would the direction of the force.
     let mut pins = mechanism.joints().iter().filter(|joint| joint.is_pin() && joint.on(GROUND).is_some());
     if pins.any(|joint| joint.on(at.link) == Some(at.local)) {
-        let message = "the point does not move: it is hinged to the ground";
-        return Err(table.wrong(ErrorKind::Input, "point", message).help("name a point that moves"));
+        return table.refuse("point", "the point does not move: it is hinged to the ground", "name a point that moves");
     }
     Ok(Load::ResistingForce { at, force })
 }
@@ -161,7 +160,7 @@ fn courses<const N: usize>(table: &mut Table, names: [&str; N], family: &'static
         for (key, is_given) in [("interpolation", smooth.is_some()), ("turns", turns.is_some())] {
             if is_given {
                 let message = "this belongs to a table over the crank angle, but there is none";
-                return Err(table.wrong(ErrorKind::Input, key, message).help("add `table`, or leave the key out"));
+                return table.refuse(key, message, "add `table`, or leave the key out");
             }
         }
         let mut found = [0.0; N];
@@ -175,8 +174,7 @@ fn courses<const N: usize>(table: &mut Table, names: [&str; N], family: &'static
     }
     for (constant, name) in constants.into_iter().zip(names) {
         if constant?.is_some() {
-            let error = table.wrong(ErrorKind::Input, name, format!("`{name}` and `table` are both given"));
-            return Err(error.help("keep one of the two"));
+            return table.refuse(name, format!("`{name}` and `table` are both given"), "keep one of the two");
         }
     }
     let mut points: [Vec<(f64, f64)>; N] = names.map(|_| Vec::new());
@@ -193,8 +191,8 @@ fn courses<const N: usize>(table: &mut Table, names: [&str; N], family: &'static
         check_crank(&row, &points[0], turns)?;
     }
     if points[0].is_empty() {
-        let error = table.wrong(ErrorKind::Input, "table", "a table over the crank angle needs a point or more");
-        return Err(error.help("write a constant, or add points"));
+        let help = "write a constant, or add points";
+        return table.refuse("table", "a table over the crank angle needs a point or more", help);
     }
     Ok(points.map(|points| Course::table(&points, turns, smooth)))
 }
@@ -224,9 +222,7 @@ fn period(table: &Table, turns: Option<i64>) -> Result<u32> {
         Some(turns @ 1..=MOST_TURNS) => Ok(turns as u32),
         Some(other) => {
             let message = format!("found {other}, but a table repeats after 1 to {MOST_TURNS} turns of the crank");
-            Err(table
-                .wrong(ErrorKind::Input, "turns", message)
-                .help("write 2 for a four-stroke engine, else leave it out"))
+            table.refuse("turns", message, "write 2 for a four-stroke engine, else leave it out")
         }
     }
 }
@@ -235,8 +231,7 @@ fn period(table: &Table, turns: Option<i64>) -> Result<u32> {
 fn moving(table: &mut Table, name: &str, mechanism: &Mechanism) -> Result<usize> {
     let link = link(table, name, mechanism.links())?;
     if link == GROUND {
-        let error = table.wrong(ErrorKind::Input, "link", "the ground does not move, and bears any load");
-        return Err(error.help("name a moving link"));
+        return table.refuse("link", "the ground does not move, and bears any load", "name a moving link");
     }
     Ok(link)
 }
@@ -245,12 +240,12 @@ fn moving(table: &mut Table, name: &str, mechanism: &Mechanism) -> Result<usize>
 fn turning(table: &mut Table, name: &str, mechanism: &Mechanism) -> Result<usize> {
     let link = link(table, name, mechanism.links())?;
     if link == GROUND {
-        return Err(table.wrong(ErrorKind::Input, "link", "the ground does not turn").help("name a moving link"));
+        return table.refuse("link", "the ground does not turn", "name a moving link");
     }
     // The angular velocity of such a link would be the rounding of zero, and so would the sense of the moment.
     if !mechanism.can_turn(link) {
         let message = format!("link \"{name}\" does not turn: prismatic joints alone connect it with the ground");
-        return Err(table.wrong(ErrorKind::Input, "link", message).help("name a link that turns"));
+        return table.refuse("link", message, "name a link that turns");
     }
     Ok(link)
 }
@@ -275,12 +270,11 @@ fn side(table: &Table, mechanism: &Mechanism, link: usize, point: &str, key: &st
 fn pair(table: &mut Table, mechanism: &Mechanism, names: &[String]) -> Result<[usize; 2]> {
     let [first, second] = names else {
         let message = format!("found {} links, but this load acts between two", names.len());
-        return Err(table.wrong(ErrorKind::Input, "links", message).help("write `links = [\"ground\", \"rocker\"]`"));
+        return table.refuse("links", message, "write `links = [\"ground\", \"rocker\"]`");
     };
     let links = [link(table, first, mechanism.links())?, link(table, second, mechanism.links())?];
     if links[0] == links[1] {
-        let message = format!("it acts between \"{first}\" and itself");
-        return Err(table.wrong(ErrorKind::Input, "links", message).help("name two different links"));
+        return table.refuse("links", format!("it acts between \"{first}\" and itself"), "name two different links");
     }
     Ok(links)
 }
@@ -289,13 +283,12 @@ fn pair(table: &mut Table, mechanism: &Mechanism, names: &[String]) -> Result<[u
 fn ends(table: &mut Table, mechanism: &Mechanism, (links, points): (Vec<String>, Vec<String>)) -> Result<[Side; 2]> {
     let links = pair(table, mechanism, &links)?;
     let [first, second] = &points[..] else {
-        let message = format!("found {} points, but this load acts between two", points.len());
         let help = "write `points = [\"S\", \"B\"]`: a point of the first link and one of the second";
-        return Err(table.wrong(ErrorKind::Input, "points", message).help(help));
+        return table.refuse("points", format!("found {} points, but this load acts between two", points.len()), help);
     };
     if first == second {
         let message = format!("a joint holds the two points \"{first}\" together");
-        return Err(table.wrong(ErrorKind::Input, "points", message).help("name two points that move apart"));
+        return table.refuse("points", message, "name two points that move apart");
     }
     Ok([side(table, mechanism, links[0], first, "points")?, side(table, mechanism, links[1], second, "points")?])
 }

@@ -25,18 +25,16 @@ pub const SECTIONS: &[Section] = &[
             .means("the mechanism passes change points on the branch on which velocities go on; see below"),
         optional("start", Kind::ANGLES, "required there, refused on the first")
             .means("of every drive but the first: its angle at t = 0"),
-        optional("speed", Kind::SPEEDS, "required but of the laws `\"cycloidal\"` and `\"table\"`")
-            .of(Sign::NotZero)
+        optional("speed", Kind::SPEEDS.of(Sign::NotZero), "required but of the laws `\"cycloidal\"` and `\"table\"`")
             .means("angular velocity, counter-clockwise positive, not zero"),
-        optional("time", Kind::TIMES, "required of these laws")
-            .of(Sign::Positive)
+        optional("time", Kind::TIMES.of(Sign::Positive), "required of these laws")
             .means("duration of a ramp, or of a cycloidal law"),
         optional("to", Kind::INPUTS, "required of this law").means("last crank angle of a cycloidal law"),
         optional("points", Kind::Tables, "required of the law `\"table\"`")
             .means("points of a table, two or more: times ascending from 0, the first angle that of the start"),
     ]),
     Section::at("drive.points").with(&[
-        needed("time", Kind::TIMES).of(Sign::NotNegative).means("time"),
+        needed("time", Kind::TIMES.of(Sign::NotNegative)).means("time"),
         needed("angle", Kind::INPUTS).means("crank angle at that time"),
     ]),
     Section::at("gravity")

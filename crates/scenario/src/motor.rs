@@ -2,7 +2,6 @@
 
 use super::keys::key::{Kind, Section, needed, optional};
 use super::reader::{Sign, Table};
-use super::unit::{ANGULAR_SPEED, INERTIA, MOMENT, MOMENT_PER_SPEED};
 use super::words::{Words, names};
 use linkage::drive::{Motor, MotorLaw, ShaftInertia};
 use linkage::error::{ErrorKind, Result};
@@ -16,21 +15,29 @@ pub const SECTIONS: &[Section] = &[
             "share of the power that the reducer transmits, above 0 and at most 1, the same in both \
                         directions",
         ),
-        optional("torque", Kind::MOMENTS, "required of this law").means("constant law: the torque, positive"),
-        optional("torque_at_rest", Kind::MOMENTS, "required of this law").means("linear law: torque at rest, positive"),
-        optional("slope", Kind::SLOPES, "required of this law").means("linear law: change with the speed, negative"),
-        optional("breakdown_torque", Kind::MOMENTS, "required of this law").means("Kloss: largest torque"),
-        optional("synchronous_speed", Kind::SPEEDS, "required of this law").means("Kloss: synchronous speed"),
+        optional("torque", Kind::MOMENTS.of(Sign::Positive), "required of this law")
+            .means("constant law: the torque, positive"),
+        optional("torque_at_rest", Kind::MOMENTS.of(Sign::Positive), "required of this law")
+            .means("linear law: torque at rest, positive"),
+        optional("slope", Kind::SLOPES.of(Sign::Negative), "required of this law")
+            .means("linear law: change with the speed, negative"),
+        optional("breakdown_torque", Kind::MOMENTS.of(Sign::Positive), "required of this law")
+            .means("Kloss: largest torque"),
+        optional("synchronous_speed", Kind::SPEEDS.of(Sign::Positive), "required of this law")
+            .means("Kloss: synchronous speed"),
         optional("breakdown_slip", Kind::Number, "the speed is given").means("Kloss: slip at breakdown, or"),
-        optional("breakdown_speed", Kind::SPEEDS, "the slip is given").means("Kloss: speed at breakdown"),
+        optional("breakdown_speed", Kind::SPEEDS.of(Sign::NotNegative), "the slip is given")
+            .means("Kloss: speed at breakdown"),
         optional("points", Kind::Tables, "required of this law").means("table: two or more, speeds ascending"),
-        optional("rotor_inertia", Kind::INERTIAS, "0").means("moment of inertia of the rotor about its shaft"),
-        optional("input_inertia", Kind::INERTIAS, "0")
+        optional("rotor_inertia", Kind::INERTIAS.of(Sign::NotNegative), "0")
+            .means("moment of inertia of the rotor about its shaft"),
+        optional("input_inertia", Kind::INERTIAS.of(Sign::NotNegative), "0")
             .means("of the reducer's input shaft, which turns with the motor"),
-        optional("intermediate_inertia", Kind::INERTIAS, "0").means("of its intermediate shaft"),
+        optional("intermediate_inertia", Kind::INERTIAS.of(Sign::NotNegative), "0").means("of its intermediate shaft"),
         optional("intermediate_ratio", Kind::Number, "required with its inertia")
             .means("speed of the intermediate shaft over that of the crank"),
-        optional("output_inertia", Kind::INERTIAS, "0").means("of its output shaft, which turns with the crank"),
+        optional("output_inertia", Kind::INERTIAS.of(Sign::NotNegative), "0")
+            .means("of its output shaft, which turns with the crank"),
     ]),
     Section::at("motor.points").with(&[
         needed("speed", Kind::SPEEDS).means("speed of the motor"),
@@ -62,25 +69,24 @@ pub fn read(table: &mut Table) -> Result<Motor> {
 }
 
 fn constant(table: &mut Table) -> Result<MotorLaw> {
-    Ok(MotorLaw::Constant { torque: table.quantity("torque", &MOMENT, Sign::Positive)? })
+    Ok(MotorLaw::Constant { torque: table.si("torque")? })
 }
 
 fn linear(table: &mut Table) -> Result<MotorLaw> {
-    let at_rest = table.quantity("torque_at_rest", &MOMENT, Sign::Positive)?;
-    Ok(MotorLaw::Linear { at_rest, slope: table.quantity("slope", &MOMENT_PER_SPEED, Sign::Negative)? })
+    let at_rest = table.si("torque_at_rest")?;
+    Ok(MotorLaw::Linear { at_rest, slope: table.si("slope")? })
 }
 
 /// The breakdown point is given by its slip or by its speed, whichever the catalogue has.
 fn kloss(table: &mut Table) -> Result<MotorLaw> {
-    let breakdown_torque = table.quantity("breakdown_torque", &MOMENT, Sign::Positive)?;
-    let synchronous_speed = table.quantity("synchronous_speed", &ANGULAR_SPEED, Sign::Positive)?;
+    let breakdown_torque = table.si("breakdown_torque")?;
+    let synchronous_speed = table.si("synchronous_speed")?;
     let slip = table.optional_number("breakdown_slip")?;
-    let speed = table.optional_quantity("breakdown_speed", &ANGULAR_SPEED, Sign::NotNegative)?;
+    let speed = table.optional_si("breakdown_speed")?;
     let help = "give one of the two: `breakdown_slip`, or `breakdown_speed_rpm` or `breakdown_speed_rad_s`";
     let breakdown_slip = match (slip, speed) {
         (Some(_), Some(_)) => {
-            let message = "the slip and the speed of breakdown are both given";
-            return Err(table.wrong(ErrorKind::Input, "breakdown_slip", message).help(help));
+            return table.refuse("breakdown_slip", "the slip and the speed of breakdown are both given", help);
         }
         (None, None) => {
             let keys = ["breakdown_slip", "breakdown_speed_rpm", "breakdown_speed_rad_s"];
@@ -88,9 +94,13 @@ fn kloss(table: &mut Table) -> Result<MotorLaw> {
         }
         (Some(slip), None) if slip > 0.0 => slip,
         (Some(slip), None) => {
-            let message = format!("found {slip}, but the slip of breakdown is positive");
             let help = "give (synchronous speed - speed of breakdown) over synchronous speed";
-            return Err(table.wrong(ErrorKind::Input, "breakdown_slip", message).help(help));
+            let help = help;
+            return table.refuse(
+                "breakdown_slip",
+                format!("found {slip}, but the slip of breakdown is positive"),
+                help,
+            );
         }
         (None, Some(speed)) if speed < synchronous_speed => 1.0 - speed / synchronous_speed,
         (None, Some(speed)) => {
@@ -107,8 +117,8 @@ fn points(table: &mut Table) -> Result<MotorLaw> {
     let (mut speeds, mut torques) = (Vec::new(), Vec::new());
     for mut point in table.tables("points")? {
         let (speed, torque) = point.read(|point| {
-            let speed = point.quantity("speed", &ANGULAR_SPEED, Sign::Any)?;
-            let torque = point.quantity("torque", &MOMENT, Sign::Any)?;
+            let speed = point.si("speed")?;
+            let torque = point.si("torque")?;
             point.finish()?;
             Ok((speed, torque))
         })?;
@@ -124,15 +134,14 @@ fn points(table: &mut Table) -> Result<MotorLaw> {
     if speeds.len() < 2 {
         let help = "write `points = [{ speed_rpm = 0, torque_N_m = 4 }, { speed_rpm = 3000, torque_N_m = 0 }]`";
         let message = format!("a table of torques needs two points or more, found {}", speeds.len());
-        return Err(table.wrong(ErrorKind::Input, "points", message).help(help));
+        return table.refuse("points", message, help);
     }
     Ok(MotorLaw::Table { speeds, torques })
 }
 
 /// Moments of inertia that turn with the motor and the reducer; zero without a table.
 fn inertia(table: &mut Table) -> Result<ShaftInertia> {
-    let mut shaft =
-        |name: &str| -> Result<f64> { Ok(table.optional_quantity(name, &INERTIA, Sign::NotNegative)?.unwrap_or(0.0)) };
+    let mut shaft = |name: &str| -> Result<f64> { Ok(table.optional_si(name)?.unwrap_or(0.0)) };
     let (rotor, input) = (shaft("rotor_inertia")?, shaft("input_inertia")?);
     let (intermediate, output) = (shaft("intermediate_inertia")?, shaft("output_inertia")?);
     let ratio = table.optional_number("intermediate_ratio")?;
@@ -140,12 +149,12 @@ fn inertia(table: &mut Table) -> Result<ShaftInertia> {
         Some(ratio) if ratio <= 0.0 => {
             let message = format!("found {ratio}, but a ratio of speeds is positive");
             let help = "give the speed of the intermediate shaft over that of the crank";
-            return Err(table.wrong(ErrorKind::Input, "intermediate_ratio", message).help(help));
+            return table.refuse("intermediate_ratio", message, help);
         }
         None if intermediate > 0.0 => {
             let message = "the intermediate shaft has a moment of inertia, but its speed is not known";
             let help = "add `intermediate_ratio`: its speed over that of the crank";
-            return Err(table.wrong(ErrorKind::Input, "intermediate_inertia_kg_m2", message).help(help));
+            return table.refuse("intermediate_inertia_kg_m2", message, help);
         }
         _ => {}
     }

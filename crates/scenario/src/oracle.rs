@@ -197,7 +197,8 @@ fn values(table: &mut Table, known: &Known, case: &Case) -> Result<Vec<OracleSer
         series.extend(table.part(own));
     }
     if series.is_empty() {
-        return table.refuse("values", "there is no value", VALUE_HELP);
+        let help = "write `values = [{ channel = \"link.rocker.angle_deg\", value = 82, digits = 3 }]`";
+        return table.refuse("values", "there is no value", help);
     }
     Ok(series)
 }
@@ -224,5 +225,3 @@ fn value(entry: &mut Table, at: When, known: &Known) -> Result<OracleSeries> {
     let PrintedChannel { channel, magnitude, .. } = channel;
     Ok(OracleSeries { name, channel, magnitude, points, expected, wrong: None })
 }
-
-const VALUE_HELP: &str = "write `values = [{ channel = \"link.rocker.angle_deg\", value = 82, digits = 3 }]`";

@@ -60,19 +60,13 @@ impl When {
     /// The crank angle (rad) of a value at one.
     #[must_use]
     pub fn crank(self) -> Option<f64> {
-        match self {
-            When::Crank(crank) => Some(crank),
-            When::Time(_) => None,
-        }
+        if let When::Crank(crank) = self { Some(crank) } else { None }
     }
 
     /// The time (s) of a value at one.
     #[must_use]
     pub fn time(self) -> Option<f64> {
-        match self {
-            When::Crank(_) => None,
-            When::Time(time) => Some(time),
-        }
+        if let When::Time(time) = self { Some(time) } else { None }
     }
 }
 

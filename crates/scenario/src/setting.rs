@@ -36,10 +36,7 @@ impl<T> Setting<T> {
 
     /// The value, if it is given.
     pub fn value(&self) -> Option<&T> {
-        match self {
-            Setting::Free => None,
-            Setting::Given(value, _) => Some(value),
-        }
+        if let Setting::Given(value, _) = self { Some(value) } else { None }
     }
 
     /// Whether it is not given.

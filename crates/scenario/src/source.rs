@@ -1,5 +1,5 @@
 //! The file of a scenario: places in it, its spanned tree, and the place of a key that an error of the `linkage` crate
-//! names.
+//! carries.
 
 use std::ops::Range;
 use std::path::Path;
@@ -8,10 +8,10 @@ use std::sync::Arc;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::keys::key::Key;
+use super::keys::key;
 use super::malformed;
 use super::parameters::Parameters;
-use linkage::error::{Error, ErrorKind, Place, Result};
+use linkage::error::{Error, ErrorKind, Key, Place, Result};
 use linkage::mechanism::{LONGEST_NAME, is_unseen};
 
 /// Longest text (characters).
@@ -45,7 +45,7 @@ pub struct Source<'a> {
     /// Parameters that its numbers may use.
     pub parameters: Parameters,
     /// The rows of the table of keys for a section, by its path; none of files that are no scenarios.
-    pub rows: fn(&str) -> &'static [Key],
+    pub rows: fn(&str) -> &'static [key::Key],
     /// The text once more, for places.
     shared: Arc<str>,
 }
@@ -57,7 +57,7 @@ impl<'a> Source<'a> {
     }
 
     /// The same file with parameters, whose sections have these rows.
-    pub fn with(self, parameters: Parameters, rows: fn(&str) -> &'static [Key]) -> Self {
+    pub fn with(self, parameters: Parameters, rows: fn(&str) -> &'static [key::Key]) -> Self {
         Source { parameters, rows, ..self }
     }
 
@@ -84,7 +84,7 @@ impl<'a> Source<'a> {
             if error.place().is_some() {
                 return error;
             }
-            let span = error.scenario_key().map_or(0..0, |key| locate(tree, key));
+            let span = error.key_at_fault().map_or(0..0, |key| locate(tree, key));
             error.at(self.place(span))
         })
     }
@@ -150,15 +150,11 @@ impl<'a> Source<'a> {
     }
 }
 
-/// Place of the dotted `key`, or else of the nearest existing parent. Elements of an array are found by their name
-/// (`joints.A`), Assur groups by their links (`start.groups (coupler, rocker)`).
+/// Place of a key, or else of the nearest existing parent. Elements of an array are found by their name (`joints.A`),
+/// Assur groups by their links.
 #[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the TOML parser")]
-pub fn locate(tree: &DeTable, key: &str) -> Range<usize> {
-    let (path, links) = match key.split_once(" (") {
-        Some((path, rest)) => (path, Some(rest.trim_end_matches(')').split(", ").collect::<Vec<_>>())),
-        None => (key, None),
-    };
-    let mut segments = path.split('.');
+fn locate(tree: &DeTable, key: &Key) -> Range<usize> {
+    let mut segments = key.path().split('.');
     let Some(mut found) = segments.next().and_then(|first| tree.get(first)) else { return 0..0 };
     for segment in segments {
         let next = match found.get_ref() {
@@ -171,20 +167,20 @@ pub fn locate(tree: &DeTable, key: &str) -> Range<usize> {
             None => return found.span(),
         }
     }
-    let group = links.and_then(|links| found.get_ref().as_array()?.iter().find(|element| has_links(element, &links)));
-    group.unwrap_or(found).span()
+    let group = found.get_ref().as_array().filter(|_| !key.links().is_empty());
+    group.and_then(|groups| groups.iter().find(|element| has_links(element, key.links()))).unwrap_or(found).span()
 }
 
 fn named(element: &Spanned<DeValue>, name: &str) -> bool {
     element.get_ref().get("name").and_then(|found| found.get_ref().as_str()) == Some(name)
 }
 
-fn has_links(element: &Spanned<DeValue>, links: &[&str]) -> bool {
+fn has_links(element: &Spanned<DeValue>, links: &[String]) -> bool {
     let Some(found) = element.get_ref().get("links").and_then(|found| found.get_ref().as_array()) else {
         return false;
     };
     let found: Vec<&str> = found.iter().filter_map(|name| name.get_ref().as_str()).collect();
-    found.len() == links.len() && links.iter().all(|link| found.contains(link))
+    found.len() == links.len() && links.iter().all(|link| found.contains(&link.as_str()))
 }
 
 #[cfg(test)]
@@ -198,12 +194,13 @@ mod tests {
     fn keys_are_found_in_the_file() {
         let source = Source::new(Path::new("x.toml"), TEXT);
         let tree = source.tree().unwrap();
-        let line = |key: &str| source.place(locate(tree.get_ref(), key)).line();
+        let line = |key: Key| source.place(locate(tree.get_ref(), &key)).line();
+        let group = |links: [&str; 2]| line(Key::of_group("start.groups", links.map(String::from).to_vec()));
+        assert_eq!((group(["d", "c"]), group(["a", "d"])), (10, 8));
+        let line = |key: &str| line(key.into());
         assert_eq!(line("links.rocker.points.B"), 2);
         assert_eq!(line("joints"), 3);
         assert_eq!(line("joints.B"), 5);
-        assert_eq!(line("start.groups (d, c)"), 10);
-        assert_eq!(line("start.groups (a, d)"), 8);
         assert_eq!(line("links.rocker.mass"), 1);
         assert_eq!(line("nothing.here"), 1);
     }

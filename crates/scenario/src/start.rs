@@ -51,7 +51,7 @@ pub fn stated<'a>(tables: Vec<Table<'a>>, mechanism: &Mechanism, faults: &mut Fa
     let one = |mut table: Table<'a>| {
         let (links, mode, near) = faults.read(&mut table, |table| {
             let names = table.strings("links")?;
-            let mode = mode(table)?;
+            let mode = table.optional_choice("mode", "is no assembly mode", MODES)?;
             let near = table.table_or_tables("near")?.into_iter().map(rough_place).collect::<Result<_>>();
             let near = table.part(near);
             table.finish()?;
@@ -162,10 +162,6 @@ pub fn asked(text: &str, mechanism: &Mechanism, structure: &Structure) -> Result
     Ok((index, StartGroup { mode: Some(mode), ..StartGroup::default() }))
 }
 
-fn mode(table: &mut Table) -> Result<Option<AssemblyMode>> {
-    table.optional_choice("mode", "is no assembly mode", MODES)
-}
-
 /// The assembly modes of a group of this kind that can be asked for by name.
 fn modes_of(kind: GroupKind) -> &'static [AssemblyMode] {
     match kind {
@@ -201,18 +197,18 @@ fn side_point(
     mechanism: &Mechanism,
     group: &Group,
 ) -> Result<(SidePoint, Vec2)> {
-    let mut points = group.links.iter().flat_map(|&link| {
+    let points = group.links.iter().flat_map(|&link| {
         mechanism.links()[link].points.iter().map(move |point| (point.name.as_str(), Side { link, local: point.local }))
     });
     match points.clone().find(|&(point, _)| point == name) {
         Some((_, side)) => Ok((SidePoint { name, side }, place)),
         None => {
             let mut names: Vec<&str> = Vec::new();
-            points.by_ref().for_each(|(point, _)| {
+            for (point, _) in points {
                 if !names.contains(&point) {
-                    names.push(point)
+                    names.push(point);
                 }
-            });
+            }
             let message = format!("no link of the group has a point \"{name}\"");
             table.refuse("point", message, suggestion(&name, names, "\""))
         }

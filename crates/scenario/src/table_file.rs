@@ -1,6 +1,5 @@
 //! Tables of published numbers: CSV files with a header, read as text because the printed digits matter.
 
-use std::borrow::Cow;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
@@ -202,13 +201,6 @@ struct Rows<'a> {
     records: Records<'a>,
 }
 
-/// One cell with its place.
-struct Cell<'a> {
-    rows: &'a Rows<'a>,
-    row: usize,
-    column: usize,
-}
-
 impl<'a> Rows<'a> {
     fn read(source: &'a Source<'a>) -> Result<Self> {
         let wrong = |at: Range<usize>, message: String| Error::new(ErrorKind::Input, message).at(source.place(at));
@@ -250,13 +242,13 @@ impl<'a> Rows<'a> {
         })
     }
 
-    fn cells(&self, column: usize) -> impl Iterator<Item = Cell<'_>> {
-        (0..self.records.len()).map(move |row| Cell { rows: self, row, column })
+    fn numbers(&self, column: usize) -> Result<Vec<columns::Cell>> {
+        (0..self.records.len()).map(|row| self.number(row, column)).collect()
     }
 
     /// The numbers of a column; with so many `digits` at least, or with those that the column shows.
     fn printed(&self, column: usize, digits: Option<i32>) -> Result<Vec<Printed>> {
-        let cells: Vec<columns::Cell> = self.cells(column).map(|cell| cell.number()).collect::<Result<_>>()?;
+        let cells = self.numbers(column)?;
         Ok(match digits {
             Some(all) => {
                 cells.iter().map(|cell| Printed::with_digits(cell.value(), all.max(cell.decimals()))).collect()
@@ -268,43 +260,44 @@ impl<'a> Rows<'a> {
     /// The other columns that hold numbers, whether the oracle reads them or not.
     fn others(&self, column: usize) -> impl Iterator<Item = Vec<columns::Cell>> {
         let others = (0..self.records.header.len()).filter(move |other| *other != column);
-        others.filter_map(|other| self.cells(other).map(|cell| columns::Cell::parse(&cell.text())).collect())
+        let rows = || 0..self.records.len();
+        others.filter_map(move |other| rows().map(|row| columns::Cell::parse(&self.records.cell(row, other))).collect())
     }
 
     /// Where the rows hold, and by how much that may be off because it was rounded.
     fn instants(&self, column: usize, from: &series::Rows, case: &Case) -> Result<Vec<(When, f64)>> {
-        let cells: Vec<columns::Cell> = self.cells(column).map(|cell| cell.number()).collect::<Result<_>>()?;
-        let numbers = columns::numbers(&cells);
+        let numbers = columns::numbers(&self.numbers(column)?);
         let chosen = if from.are_degrees() { columns::degrees_chosen } else { columns::chosen };
         let is_chosen = chosen(&numbers);
         let end = series::end(case);
-        let of = |(cell, printed): (Cell, Rounded)| {
+        let of = |(row, printed): (usize, Rounded)| {
             let printed = if is_chosen { Rounded::exact(printed.value) } else { printed };
-            let wrong = |message| Error::new(ErrorKind::Input, message).at(cell.place()).help(series::TIME_HELP);
+            let wrong =
+                |message| Error::new(ErrorKind::Input, message).at(self.place(row, column)).help(series::TIME_HELP);
             from.instant(case, end, printed).map_err(wrong)
         };
-        self.cells(column).zip(numbers).map(of).collect()
-    }
-}
-
-impl Cell<'_> {
-    fn text(&self) -> Cow<'_, str> {
-        self.rows.records.cell(self.row, self.column)
+        numbers.into_iter().enumerate().map(of).collect()
     }
 
-    fn number(&self) -> Result<columns::Cell> {
-        let text = self.text();
+    fn number(&self, row: usize, column: usize) -> Result<columns::Cell> {
+        let text = self.records.cell(row, column);
         Printed::cell(&text).ok_or_else(|| {
             let comma = if has_decimal_comma(&text) { ", and decimals take a point" } else { "" };
             Error::new(ErrorKind::Input, format!("found \"{text}\", but a decimal number is needed{comma}"))
-                .at(self.place())
+                .at(self.place(row, column))
                 .help("write it as printed, with a decimal point; a cell known to be wrong is named under `expect`, with its finding")
         })
     }
 
-    fn place(&self) -> Place {
-        let Rows { source, records } = self.rows;
-        source.place(within(source.text, records.line(self.row), records.header.len(), self.column))
+    /// The span of a cell in its line; the whole line if quotes hide where the cells end.
+    fn place(&self, row: usize, column: usize) -> Place {
+        let mut span = self.records.line(row);
+        let parts: Vec<&str> = self.source.text.get(span.clone()).unwrap_or("").split(',').collect();
+        if parts.len() == self.records.header.len() {
+            span.start += parts[..column].iter().map(|part| part.len() + 1).sum::<usize>();
+            span.end = span.start + parts[column].len();
+        }
+        self.source.place(span)
     }
 }
 
@@ -314,14 +307,4 @@ fn line_from(text: &str, start: usize) -> Range<usize> {
     let start = start + (rest.len() - rest.trim_start_matches(['\r', '\n']).len());
     let length = text.get(start..).map_or(0, |rest| rest.find(['\r', '\n']).unwrap_or(rest.len()));
     start..start + length
-}
-
-/// The span of a cell in its line; the whole line if quotes hide where the cells end.
-fn within(text: &str, line: Range<usize>, cells: usize, column: usize) -> Range<usize> {
-    let parts: Vec<&str> = text.get(line.clone()).unwrap_or("").split(',').collect();
-    if parts.len() != cells {
-        return line;
-    }
-    let start = line.start + parts[..column].iter().map(|part| part.len() + 1).sum::<usize>();
-    start..start + parts[column].len()
 }

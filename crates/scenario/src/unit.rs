@@ -14,11 +14,11 @@ pub struct Unit {
     divisor: f64,
 }
 
-impl Unit {
-    const fn new(suffix: &'static str, factor: f64, divisor: f64) -> Self {
-        Unit { suffix, factor, divisor }
-    }
+const fn unit(suffix: &'static str, factor: f64, divisor: f64) -> Unit {
+    Unit { suffix, factor, divisor }
+}
 
+impl Unit {
     /// A number in this unit, converted to SI.
     #[must_use]
     pub fn to_si(&self, value: f64) -> f64 {
@@ -39,6 +39,10 @@ pub struct Family {
 }
 
 impl Family {
+    const fn of(noun: &'static str, units: &'static [Unit], most: f64) -> Family {
+        Family { noun, units, most }
+    }
+
     /// The spellings of a key of this family: `length_m` or `length_mm`.
     #[must_use]
     pub fn keys(&self, base: &str) -> Vec<String> {
@@ -54,43 +58,39 @@ impl Family {
 }
 
 const fn si(suffix: &'static str) -> Unit {
-    Unit::new(suffix, 1.0, 1.0)
+    unit(suffix, 1.0, 1.0)
 }
 
 /// Lengths and coordinates.
-pub static LENGTH: Family = Family { noun: "a length", units: &[si("m"), Unit::new("mm", 1.0, 1e3)], most: 1e9 };
+pub static LENGTH: Family = Family::of("a length", &[si("m"), unit("mm", 1.0, 1e3)], 1e9);
 /// Angles.
-pub static ANGLE: Family =
-    Family { noun: "an angle", units: &[si("rad"), Unit::new("deg", PI / 180.0, 1.0)], most: 1e9 };
+pub static ANGLE: Family = Family::of("an angle", &[si("rad"), unit("deg", PI / 180.0, 1.0)], 1e9);
 /// Angular velocities; rpm are turns per minute.
-pub static ANGULAR_SPEED: Family =
-    Family { noun: "an angular velocity", units: &[si("rad_s"), Unit::new("rpm", TAU, 60.0)], most: 1e9 };
+pub static ANGULAR_SPEED: Family = Family::of("an angular velocity", &[si("rad_s"), unit("rpm", TAU, 60.0)], 1e9);
 /// Times.
-pub static TIME: Family = Family { noun: "a time", units: &[si("s"), Unit::new("ms", 1.0, 1e3)], most: 1e12 };
+pub static TIME: Family = Family::of("a time", &[si("s"), unit("ms", 1.0, 1e3)], 1e12);
 /// Masses.
-pub static MASS: Family = Family { noun: "a mass", units: &[si("kg"), Unit::new("g", 1.0, 1e3)], most: 1e30 };
+pub static MASS: Family = Family::of("a mass", &[si("kg"), unit("g", 1.0, 1e3)], 1e30);
 /// Moments of inertia.
-pub static INERTIA: Family = Family { noun: "a moment of inertia", units: &[si("kg_m2")], most: 1e30 };
+pub static INERTIA: Family = Family::of("a moment of inertia", &[si("kg_m2")], 1e30);
 /// Accelerations.
-pub static ACCELERATION: Family = Family { noun: "an acceleration", units: &[si("m_s2")], most: 1e12 };
+pub static ACCELERATION: Family = Family::of("an acceleration", &[si("m_s2")], 1e12);
 /// Moments of forces.
-pub static MOMENT: Family = Family { noun: "a moment", units: &[si("N_m")], most: 1e20 };
+pub static MOMENT: Family = Family::of("a moment", &[si("N_m")], 1e20);
 /// Moments per angular velocity.
-pub static MOMENT_PER_SPEED: Family =
-    Family { noun: "a change of a moment with an angular velocity", units: &[si("N_m_s")], most: 1e20 };
+pub static MOMENT_PER_SPEED: Family = Family::of("a change of a moment with an angular velocity", &[si("N_m_s")], 1e20);
 /// Forces.
-pub static FORCE: Family = Family { noun: "a force", units: &[si("N"), Unit::new("kN", 1e3, 1.0)], most: 1e20 };
+pub static FORCE: Family = Family::of("a force", &[si("N"), unit("kN", 1e3, 1.0)], 1e20);
 /// Forces per length.
-pub static STIFFNESS: Family =
-    Family { noun: "a stiffness", units: &[si("N_m"), Unit::new("N_mm", 1e3, 1.0)], most: 1e20 };
+pub static STIFFNESS: Family = Family::of("a stiffness", &[si("N_m"), unit("N_mm", 1e3, 1.0)], 1e20);
 /// Forces per velocity.
-pub static DAMPING: Family = Family { noun: "a damping", units: &[si("N_s_m")], most: 1e20 };
+pub static DAMPING: Family = Family::of("a damping", &[si("N_s_m")], 1e20);
 /// Moments per angle.
-pub static TORSIONAL_STIFFNESS: Family = Family { noun: "a torsional stiffness", units: &[si("N_m_rad")], most: 1e20 };
+pub static TORSIONAL_STIFFNESS: Family = Family::of("a torsional stiffness", &[si("N_m_rad")], 1e20);
 /// Masses of bars per length.
-pub static MASS_PER_LENGTH: Family = Family { noun: "a mass per length", units: &[si("kg_per_m")], most: 1e20 };
+pub static MASS_PER_LENGTH: Family = Family::of("a mass per length", &[si("kg_per_m")], 1e20);
 /// Powers.
-pub static POWER: Family = Family { noun: "a power", units: &[si("W"), Unit::new("kW", 1e3, 1.0)], most: 1e20 };
+pub static POWER: Family = Family::of("a power", &[si("W"), unit("kW", 1e3, 1.0)], 1e20);
 
 /// The units in which inputs are written, whatever they measure.
 pub static INPUTS: [&Family; 1] = [&ANGLE];

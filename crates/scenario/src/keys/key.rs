@@ -27,8 +27,6 @@ pub struct Key {
     pub meaning: &'static str,
     /// What holds without it; empty of a key that must be there.
     pub default: &'static str,
-    /// The values that a quantity may have.
-    pub sign: Sign,
 }
 
 /// What stands at a key.
@@ -48,8 +46,8 @@ pub enum Kind {
     Integer,
     /// A whole number, `true` or `false`.
     IntegerOrBoolean,
-    /// A number whose key ends in a unit of one of these families.
-    Quantity(&'static [&'static Family]),
+    /// A number whose key ends in a unit of one of these families, and which values it may have.
+    Quantity(&'static [&'static Family], Sign),
     /// A list of such numbers.
     Quantities(&'static [&'static Family]),
     /// A table: the section with the path of the key.
@@ -72,7 +70,7 @@ impl Section {
 
 /// A key that must be there.
 pub(crate) const fn needed(name: &'static str, kind: Kind) -> Key {
-    Key { name, kind, is_needed: true, meaning: "", default: "", sign: Sign::Any }
+    Key { name, kind, is_needed: true, meaning: "", default: "" }
 }
 
 /// A key that may be left out, and what holds then.
@@ -83,11 +81,6 @@ pub(crate) const fn optional(name: &'static str, kind: Kind, default: &'static s
 impl Key {
     pub(crate) const fn means(self, meaning: &'static str) -> Key {
         Key { meaning, ..self }
-    }
-
-    /// The values that a quantity may have.
-    pub(crate) const fn of(self, sign: Sign) -> Key {
-        Key { sign, ..self }
     }
 
     /// The spellings of the key, units included.
@@ -102,28 +95,38 @@ impl Key {
 
 /// Kinds of quantities.
 impl Kind {
-    pub(crate) const ACCELERATIONS: Kind = Kind::Quantity(&[&ACCELERATION]);
-    pub(crate) const ANGLES: Kind = Kind::Quantity(&[&ANGLE]);
+    pub(crate) const ACCELERATIONS: Kind = Kind::Quantity(&[&ACCELERATION], Sign::Any);
+    pub(crate) const ANGLES: Kind = Kind::Quantity(&[&ANGLE], Sign::Any);
     /// Values of an input: see [`unit::of_input`](crate::unit::of_input).
-    pub(crate) const INPUTS: Kind = Kind::Quantity(&INPUTS);
-    pub(crate) const INPUTS_OR_TIMES: Kind = Kind::Quantity(&INPUTS_OR_TIMES);
-    pub(crate) const DAMPINGS_OR_SLOPES: Kind = Kind::Quantity(&[&DAMPING, &MOMENT_PER_SPEED]);
-    pub(crate) const FORCES: Kind = Kind::Quantity(&[&FORCE]);
-    pub(crate) const INERTIAS: Kind = Kind::Quantity(&[&INERTIA]);
-    pub(crate) const LENGTHS: Kind = Kind::Quantity(&[&LENGTH]);
-    pub(crate) const LENGTHS_OR_ANGLES: Kind = Kind::Quantity(&[&LENGTH, &ANGLE]);
-    pub(crate) const MASSES: Kind = Kind::Quantity(&[&MASS]);
-    pub(crate) const MOMENTS: Kind = Kind::Quantity(&[&MOMENT]);
-    pub(crate) const SLOPES: Kind = Kind::Quantity(&[&MOMENT_PER_SPEED]);
-    pub(crate) const SPEEDS: Kind = Kind::Quantity(&[&ANGULAR_SPEED]);
-    pub(crate) const STIFFNESSES_OR_TORSIONAL: Kind = Kind::Quantity(&[&STIFFNESS, &TORSIONAL_STIFFNESS]);
-    pub(crate) const TIMES: Kind = Kind::Quantity(&[&TIME]);
+    pub(crate) const INPUTS: Kind = Kind::Quantity(&INPUTS, Sign::Any);
+    pub(crate) const INPUTS_OR_TIMES: Kind = Kind::Quantity(&INPUTS_OR_TIMES, Sign::Any);
+    pub(crate) const DAMPINGS_OR_SLOPES: Kind = Kind::Quantity(&[&DAMPING, &MOMENT_PER_SPEED], Sign::Any);
+    pub(crate) const FORCES: Kind = Kind::Quantity(&[&FORCE], Sign::Any);
+    pub(crate) const INERTIAS: Kind = Kind::Quantity(&[&INERTIA], Sign::Any);
+    pub(crate) const LENGTHS: Kind = Kind::Quantity(&[&LENGTH], Sign::Any);
+    pub(crate) const LENGTHS_OR_ANGLES: Kind = Kind::Quantity(&[&LENGTH, &ANGLE], Sign::Any);
+    pub(crate) const MASSES: Kind = Kind::Quantity(&[&MASS], Sign::Any);
+    pub(crate) const MOMENTS: Kind = Kind::Quantity(&[&MOMENT], Sign::Any);
+    pub(crate) const SLOPES: Kind = Kind::Quantity(&[&MOMENT_PER_SPEED], Sign::Any);
+    pub(crate) const SPEEDS: Kind = Kind::Quantity(&[&ANGULAR_SPEED], Sign::Any);
+    pub(crate) const STIFFNESSES_OR_TORSIONAL: Kind = Kind::Quantity(&[&STIFFNESS, &TORSIONAL_STIFFNESS], Sign::Any);
+    pub(crate) const TIMES: Kind = Kind::Quantity(&[&TIME], Sign::Any);
     pub(crate) const LIST_OF_ANGLES: Kind = Kind::Quantities(&[&ANGLE]);
     pub(crate) const LIST_OF_TIMES: Kind = Kind::Quantities(&[&TIME]);
 
+    /// Quantities of these values only.
+    pub(crate) const fn of(self, sign: Sign) -> Kind {
+        if let Kind::Quantity(families, _) = self { Kind::Quantity(families, sign) } else { self }
+    }
+
     /// The families of a quantity; none of anything else.
     pub(crate) const fn families(self) -> &'static [&'static Family] {
-        if let Kind::Quantity(families) | Kind::Quantities(families) = self { families } else { &[] }
+        if let Kind::Quantity(families, _) | Kind::Quantities(families) = self { families } else { &[] }
+    }
+
+    /// The values that a quantity may have.
+    pub(crate) const fn sign(self) -> Sign {
+        if let Kind::Quantity(_, sign) = self { sign } else { Sign::Any }
     }
 }
 

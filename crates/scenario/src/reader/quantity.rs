@@ -35,7 +35,7 @@ impl<'a> Table<'a> {
     /// The same with the family that it is of.
     pub fn optional_si_of(&mut self, key: &str) -> Result<Option<(&'static Family, f64)>> {
         let row = self.row(key);
-        self.quantity_in(key, row.kind.families(), row.sign)
+        self.quantity_in(key, row.kind.families(), row.kind.sign())
     }
 
     /// A list of quantities in SI, as its row tells, and the family that they are of; `None` if it is not there.
@@ -47,7 +47,7 @@ impl<'a> Table<'a> {
     /// A quantity in SI, as its row tells.
     pub fn si(&mut self, key: &str) -> Result<f64> {
         let row = self.row(key);
-        self.quantity(key, row.kind.families()[0], row.sign)
+        self.quantity(key, row.kind.families()[0], row.kind.sign())
     }
 
     /// Quantity under one of the spellings of `base` in `family`, in SI; `None` if there is none.

@@ -105,6 +105,6 @@ pub fn blamed(mechanism: &Mechanism, structure: &Structure, blame: &Blame, error
     let give = format!("{fits} of the group ({own}), or check the lengths and rough places of ({later})");
     Error::new(error.kind(), message)
         .help(Advice::Configuration { give })
-        .key(format!("start.groups ({own})"))
+        .key(structure.groups[blame.group].key(mechanism))
         .of_group(own)
 }

@@ -62,10 +62,7 @@ pub fn first_choices(
     }
     let mut choices = Vec::with_capacity(structure.groups.len());
     for (group, wanted) in structure.groups.iter().zip(wanted) {
-        let of_group = |error: Error| {
-            let names = group.names(mechanism);
-            error.key(format!("start.groups ({names})")).of_group(names)
-        };
+        let of_group = |error: Error| error.key(group.key(mechanism)).of_group(group.names(mechanism));
         choices.push(choice::place(mechanism, group, wanted, &mut pose).map_err(of_group)?);
     }
     Ok((pose, choices))

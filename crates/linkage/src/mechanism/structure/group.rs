@@ -1,5 +1,6 @@
 //! An Assur group and its kind.
 
+use crate::error::Key;
 use crate::mechanism::Mechanism;
 
 /// Kind of Assur group.
@@ -88,5 +89,12 @@ impl Group {
     pub fn names(&self, mechanism: &Mechanism) -> String {
         let names: Vec<&str> = self.links.iter().map(|&link| mechanism.links()[link].name.as_str()).collect();
         names.join(", ")
+    }
+
+    /// The group's key in a description: the one of `start.groups` with its links.
+    #[must_use]
+    pub fn key(&self, mechanism: &Mechanism) -> Key {
+        let links = self.links.iter().map(|&link| mechanism.links()[link].name.clone());
+        Key::of_group("start.groups", links.collect())
     }
 }
