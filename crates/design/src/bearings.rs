@@ -7,6 +7,7 @@ use analytic::PoseSolver;
 use linkage::case::Case;
 use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::math::extremum;
+use linkage::math::statistics::ends;
 use linkage::solver::State;
 use linkage::trajectory::Stage;
 
@@ -53,8 +54,7 @@ pub fn over_range(case: &Case) -> Result<Peaks> {
         return Err(Error::new(ErrorKind::Unsupported, message).help(Advice::SolutionTable));
     }
     let mut poses = PoseSolver::new(case)?;
-    let (from, to) =
-        case.grid.inputs.iter().fold((f64::MAX, f64::MIN), |(low, high), &c| (low.smaller(c), high.larger(c)));
+    let [from, to] = ends(case.grid.inputs.iter().copied());
     let parts = ((to - from) / SAMPLE_STEP).ceil().larger(1.0) as usize;
     let cranks: Vec<f64> = (0..=parts).map(|k| from + (to - from) * (k as f64 / parts as f64)).collect();
     let joints = case.mechanism.joints();

@@ -4,9 +4,8 @@ use super::recording::Side;
 use super::table::topic_name;
 use super::view::{Plot, plots};
 use super::{messages, read};
-use linkage::error::{Error, ErrorKind, Result};
+use linkage::error::Result;
 use linkage::trajectory::{Channel, Trajectory};
-use mcap::McapError;
 use std::collections::BTreeSet;
 use std::path::Path;
 
@@ -25,19 +24,15 @@ pub struct Numbers {
 /// Those of [`load`](super::load).
 pub fn numbers(path: &Path) -> Result<Numbers> {
     let bytes = read::bytes(path)?;
-    let sides = read::of_bytes(&bytes, path)?;
+    let sides = read::read_bytes(&bytes, path)?;
     let mut topics = BTreeSet::new();
-    messages::each::<McapError>(&bytes, &mut |message| {
+    messages::each(&bytes, path, |message| {
         let topic = message.channel.topic.as_str();
         let side = topic.strip_prefix('/').and_then(|rest| rest.split_once('/')).map(|(side, _)| side);
         if side.is_some_and(|side| side == "error" || sides.iter().any(|(own, _)| own == side)) {
             topics.insert(topic.to_string());
         }
         Ok(())
-    })
-    .map_err(|error| {
-        Error::new(ErrorKind::Io, format!("the recording {} is damaged: {error}", path.display()))
-            .help("record it again")
     })?;
     Ok(Numbers { plots: plotted(&sides, &topics), topics: topics.into_iter().collect() })
 }

@@ -4,7 +4,9 @@ use super::{messages, raw, schema};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::input::Input;
 use linkage::trajectory::{Channel, Trajectory};
-use mcap::{McapError, Message};
+use mcap::Message;
+use prost::DecodeError;
+use std::collections::hash_map::Entry;
 use std::collections::{BTreeMap, HashMap};
 use std::fmt::Display;
 use std::fs;
@@ -32,26 +34,17 @@ struct Found {
     first: Option<u16>,
 }
 
-/// What is wrong with a file.
-enum Damage {
-    File(McapError),
-    Message(prost::DecodeError),
-}
-
-impl From<McapError> for Damage {
-    fn from(error: McapError) -> Self {
-        Damage::File(error)
-    }
-}
-
-impl From<prost::DecodeError> for Damage {
-    fn from(error: prost::DecodeError) -> Self {
-        Damage::Message(error)
-    }
-}
-
-pub(super) fn read(path: &Path) -> Result<Vec<(String, Trajectory)>> {
-    of_bytes(&bytes(path)?, path)
+/// Reads every side of a recording, in the order in which they were recorded.
+///
+/// Times, crank angles and values are read back bit for bit, with the rows in the solver's order. Columns are in the
+/// order of subjects in the recording, and of [`CHANNELS`](linkage::trajectory::CHANNELS) within a subject.
+///
+/// # Errors
+/// [`ErrorKind::Io`](linkage::ErrorKind::Io) with the path if the file cannot be read, is cut off or damaged;
+/// [`ErrorKind::Input`](linkage::ErrorKind::Input) if it holds no side, or if a topic lacks samples;
+/// [`ErrorKind::Numeric`](linkage::ErrorKind::Numeric) if a value is not finite.
+pub fn load(path: &Path) -> Result<Vec<(String, Trajectory)>> {
+    read_bytes(&bytes(path)?, path)
 }
 
 /// The bytes of a recording.
@@ -82,31 +75,26 @@ fn bounded(bytes: &[u8], path: &Path) -> Result<()> {
         .help("record it again: recordings of this program hold some three times their size"))
 }
 
-pub(super) fn of_bytes(bytes: &[u8], path: &Path) -> Result<Vec<(String, Trajectory)>> {
+/// The same from the bytes of a recording; messages call it `path`.
+///
+/// # Errors
+/// Those of [`load`], except that the file cannot be read.
+pub fn read_bytes(bytes: &[u8], path: &Path) -> Result<Vec<(String, Trajectory)>> {
     if !bytes.starts_with(mcap::MAGIC) {
         let what = if bytes.is_empty() { "is empty" } else { "is no recording: it does not begin as MCAP files do" };
         return Err(Error::new(ErrorKind::Io, format!("the file {} {what}", path.display()))
             .help("name a recording (.mcap), which a run leaves"));
     }
     bounded(bytes, path)?;
-    let damaged = |error: &dyn Display| {
-        Error::new(ErrorKind::Io, format!("the recording {} is cut off or damaged: {error}", path.display()))
-            .help("record it again, or save what is left of it with `pymcap-cli recover`")
-    };
     let mut topics: HashMap<u16, Topic> = HashMap::new();
     let mut names = schema::Names::default();
     let mut sides: BTreeMap<String, Found> = BTreeMap::new();
-    let mut take = |message: &Message| -> std::result::Result<(), Damage> {
-        let id = message.channel.id;
-        if let std::collections::hash_map::Entry::Vacant(entry) = topics.entry(id) {
-            entry.insert(topic(message, &mut names)?);
-        }
-        collect(message, &topics[&id], &mut sides)?;
-        Ok(())
-    };
-    messages::each(bytes, &mut take).map_err(|error| match error {
-        Damage::File(error) => damaged(&error),
-        Damage::Message(error) => damaged(&error),
+    messages::each(bytes, path, |message| {
+        let topic = match topics.entry(message.channel.id) {
+            Entry::Occupied(known) => known.into_mut(),
+            Entry::Vacant(new) => new.insert(topic(message, &mut names)?),
+        };
+        collect(message, topic, &mut sides)
     })?;
     let mut sides: Vec<(String, Found)> = sides.into_iter().collect();
     sides.sort_by_key(|(_, found)| found.first);
@@ -118,7 +106,7 @@ pub(super) fn of_bytes(bytes: &[u8], path: &Path) -> Result<Vec<(String, Traject
 }
 
 /// Content of a message's topic, from its name and from the descriptor in the file.
-fn topic(message: &Message, names: &mut schema::Names) -> std::result::Result<Topic, prost::DecodeError> {
+fn topic(message: &Message, names: &mut schema::Names) -> std::result::Result<Topic, DecodeError> {
     let channel = &message.channel;
     let parts = channel.topic.strip_prefix('/').and_then(|rest| rest.split_once('/'));
     let (Some((side, subject)), Some(schema)) = (parts, &channel.schema) else { return Ok(Topic::Other) };
@@ -141,7 +129,7 @@ fn collect(
     message: &Message,
     topic: &Topic,
     sides: &mut BTreeMap<String, Found>,
-) -> std::result::Result<(), prost::DecodeError> {
+) -> std::result::Result<(), DecodeError> {
     let id = message.channel.id;
     match topic {
         Topic::Grid(side, names) => {

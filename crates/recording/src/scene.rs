@@ -1,14 +1,14 @@
 //! The moving mechanism: the positions, the frames and the drawing of each side's links.
 
 use super::marks::{Brush, letter};
-use super::placed::{Placed, column};
 use super::recording::Side;
 use super::shapes::{GREY, Paint, stamp, turn, vector};
 use crate::viewers::{FrameTransform, FrameTransforms, SceneEntity, SceneUpdate};
 use drawing::{Lettering, Sketch, Travels};
 use linkage::math::statistics::ascending;
 use linkage::math::{KeepNan, Vec2};
-use linkage::mechanism::{GROUND, Link, Mechanism};
+use linkage::mechanism::{GROUND, Link, LinkPose, Mechanism};
+use linkage::trajectory::{Channel, Trajectory};
 
 /// Largest number of frames in a recording, unless it is so long that there would be fewer than [`FRAMES_PER_SECOND`].
 const FRAMES: f64 = 400.0;
@@ -134,4 +134,41 @@ impl<'a> Scene<'a> {
         entity.texts = labels.map(|label| letter(&label.text, label.at.local + aside, 0.06 * self.size)).collect();
         entity
     }
+}
+
+/// A side with the positions of its links.
+pub struct Placed<'a> {
+    /// Name of the side.
+    pub name: &'a str,
+    /// Its values.
+    pub trajectory: &'a Trajectory,
+    /// Colour, thickness and height of the side in drawings.
+    pub paint: Paint,
+    /// Rows in ascending order of time.
+    rows: Vec<usize>,
+    /// Columns for each moving link: angle and coordinates of the mass centre.
+    links: Vec<[&'a [f64]; 3]>,
+}
+
+impl Placed<'_> {
+    /// Row of the last sample that is not after `time`, or of the first sample.
+    pub fn row_at(&self, time: f64) -> usize {
+        let times = self.trajectory.times();
+        let after = self.rows.partition_point(|&row| times[row] <= time);
+        self.rows[after.max(1) - 1]
+    }
+
+    /// Pose of a link's frame, from the mass centre in the trajectory.
+    pub fn pose(&self, mechanism: &Mechanism, link: usize, row: usize) -> LinkPose {
+        if link == GROUND {
+            return LinkPose::GROUND;
+        }
+        let [angle, x, y] = self.links[link - 1].map(|column| column[row]);
+        LinkPose::through(mechanism.links()[link].mass_centre, Vec2::new(x, y), angle)
+    }
+}
+
+/// Column of the channel called `name`, if the trajectory has it.
+pub fn column<'a>(trajectory: &'a Trajectory, name: &str) -> Option<&'a [f64]> {
+    trajectory.column(&Channel::named(name)?)
 }

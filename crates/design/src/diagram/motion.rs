@@ -225,19 +225,16 @@ fn apply(method: Method, stride: usize, times: &[f64], exact: &[Vec<f64>; 3]) ->
     let places = at(&ends, times);
     let velocity = || slopes(&places, &at(&ends, &exact[0]));
     let integrated = |of: usize| integral(exact[of][0], &places, &at(&middles, &exact[of + 1]));
-    match method {
-        Method::ChordVelocity => {
-            let values = velocity();
-            (middles, values)
-        }
-        Method::ChordAcceleration => (ends[1..].to_vec(), closed_slopes(&places, &velocity())),
-        Method::IntegratedDisplacement => {
-            let values = integrated(0);
-            (ends, values)
-        }
-        Method::IntegratedVelocity => {
-            let values = integrated(1);
-            (ends, values)
-        }
-    }
+    let values = match method {
+        Method::ChordVelocity => velocity(),
+        Method::ChordAcceleration => closed_slopes(&places, &velocity()),
+        Method::IntegratedDisplacement => integrated(0),
+        Method::IntegratedVelocity => integrated(1),
+    };
+    let rows = match method {
+        Method::ChordVelocity => middles,
+        Method::ChordAcceleration => ends[1..].to_vec(),
+        Method::IntegratedDisplacement | Method::IntegratedVelocity => ends,
+    };
+    (rows, values)
 }

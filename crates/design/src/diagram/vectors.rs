@@ -8,50 +8,42 @@ pub(super) const ROOM: f64 = 100.0;
 /// Smallest share of a plan's scale factor that one of some of its vectors has.
 const FINEST: f64 = 1e-3;
 
-/// The quantity of a plan.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Quantity {
-    /// Velocities (m/s).
-    Velocity,
-    /// Accelerations (m/s^2).
-    Acceleration,
+linkage::words! {
+    /// The quantity of a plan.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Quantity: word {
+        /// Velocities (m/s).
+        Velocity = "velocity",
+        /// Accelerations (m/s^2).
+        Acceleration = "acceleration",
+    }
 }
 
 impl Quantity {
+    /// What belongs to this quantity of two things.
+    pub(super) fn of<T>(self, velocity: T, acceleration: T) -> T {
+        match self {
+            Quantity::Velocity => velocity,
+            Quantity::Acceleration => acceleration,
+        }
+    }
+
     /// SI unit.
     #[must_use]
     pub fn unit(self) -> &'static str {
-        match self {
-            Quantity::Velocity => "m/s",
-            Quantity::Acceleration => "m/s^2",
-        }
+        self.of("m/s", "m/s^2")
     }
 
     /// Symbol of its vectors: v or a.
     #[must_use]
     pub fn symbol(self) -> &'static str {
-        match self {
-            Quantity::Velocity => "v",
-            Quantity::Acceleration => "a",
-        }
+        self.of("v", "a")
     }
 
     /// Letter of its pole: p or π.
     #[must_use]
     pub fn pole(self) -> &'static str {
-        match self {
-            Quantity::Velocity => "p",
-            Quantity::Acceleration => "π",
-        }
-    }
-
-    /// The quantity in words.
-    #[must_use]
-    pub fn word(self) -> &'static str {
-        match self {
-            Quantity::Velocity => "velocity",
-            Quantity::Acceleration => "acceleration",
-        }
+        self.of("p", "π")
     }
 }
 

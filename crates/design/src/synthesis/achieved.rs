@@ -1,6 +1,7 @@
 //! The achieved motion of a mechanism compared with the wanted motion of its output, on a fine grid of its scenario.
 
 use linkage::math::KeepNan;
+use linkage::math::statistics::ends;
 use std::f64::consts::TAU;
 
 use super::evaluate::Evaluator;
@@ -64,8 +65,7 @@ impl Achieved {
             Error::new(ErrorKind::Geometry, message).help(Advice::LookAtRange)
         })?;
         let curve = &evaluator.curve;
-        let (low, high) =
-            curve.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &v| (l.smaller(v), h.larger(v)));
+        let [low, high] = ends(curve.iter().copied());
         let dyads = task.case.structure.groups.iter().all(|group| group.kind != GroupKind::Higher);
         let share =
             |&value: &f64| if forward > 0.0 { (value - low) / (high - low) } else { (high - value) / (high - low) };
@@ -142,6 +142,11 @@ impl Achieved {
         self.shares[row.rem_euclid(ROWS as i64) as usize]
     }
 
+    /// The least and the greatest share from one row to another.
+    fn ends(&self, from: i64, to: i64) -> [f64; 2] {
+        ends((from..=to).map(|row| self.at(row)))
+    }
+
     fn row(&self, turn: f64) -> i64 {
         (turn / TAU * ROWS as f64).round() as i64
     }
@@ -150,7 +155,7 @@ impl Achieved {
         let phases = task.timing.phases();
         let (phase, next) = (&phases[index], &phases[(index + 1) % phases.len()]);
         let (from, to) = (self.row(phase.from), self.row(phase.to));
-        let values = || (from..=to).map(|row| self.at(row));
+        let [low, high] = self.ends(from, to);
         let sign = phase.sense.sign();
         let end = match (phase.sense, next.sense) {
             (Sense::Dwell, Sense::Dwell) => None,
@@ -164,7 +169,7 @@ impl Achieved {
         };
         PhaseDone {
             displacement: self.at(to) - self.at(from),
-            motion: values().fold(f64::NEG_INFINITY, f64::larger) - values().fold(f64::INFINITY, f64::smaller),
+            motion: high - low,
             wrong: (from..to).map(|row| (-sign * (self.at(row + 1) - self.at(row))).larger(0.0)).sum(),
             level: self.at(to),
             end,
@@ -181,10 +186,10 @@ impl Achieved {
     /// The search starts in the middle of the dwell between the rows `from` and `to`, and goes towards `to` and beyond.
     /// The band is centred between the dwell's extremes.
     fn leaves(&self, from: i64, to: i64, way: i64) -> Option<f64> {
-        let (low, high) = (from.min(to), from.max(to));
-        let values = || (low..=high).map(|row| self.at(row));
-        let middle = (values().fold(f64::NEG_INFINITY, f64::larger) + values().fold(f64::INFINITY, f64::smaller)) / 2.0;
-        let mut row = (low + high) / 2;
+        let (first, last) = (from.min(to), from.max(to));
+        let [low, high] = self.ends(first, last);
+        let middle = (high + low) / 2.0;
+        let mut row = (first + last) / 2;
         let outside = to + way * (ROWS as i64 / 4);
         while row != outside && (self.at(row) - middle).abs() <= BAND {
             row += way;

@@ -1,16 +1,14 @@
 //! Input of a synthesis, in SI units and world axes.
 //! It has a structure with a starting drawing, the variable dimensions, the wanted motion of a link or point, and constraints.
 
-mod dimension;
 mod timing;
 
-pub use dimension::{Entry, Place};
 pub use timing::{Phase, Sense, Timing};
 
 use linkage::case::Case;
 use linkage::error::{Error, ErrorKind, Result};
-use linkage::math::Vec2;
-use linkage::mechanism::{GroupKind, StartGroup};
+use linkage::math::{Vec2, unit};
+use linkage::mechanism::{GroupKind, Handle, Mechanism, StartGroup};
 
 /// The output quantity.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,6 +38,51 @@ pub struct Variable {
     pub bounds: [f64; 2],
     /// Whether it is an angle; else it is a length or a coordinate.
     pub is_angle: bool,
+}
+
+/// A fixed number or a variable.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Entry {
+    /// Fixed (SI).
+    Fixed(f64),
+    /// The variable with this index.
+    Free(usize),
+}
+
+impl Entry {
+    /// Its value (SI), given the values of the variables.
+    #[inline]
+    #[must_use]
+    pub fn value(self, values: &[f64]) -> f64 {
+        match self {
+            Entry::Fixed(value) => value,
+            Entry::Free(index) => values[index],
+        }
+    }
+}
+
+/// The position of a point in its link.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Place {
+    /// The point, and the joints that move with it.
+    pub handle: Handle,
+    /// Point of the same link from which length and angle are measured. Without it the entries are x and y.
+    pub from: Option<usize>,
+    /// x and y (m), or length (m) and angle (rad) in the link's frame.
+    pub entries: [Entry; 2],
+}
+
+impl Place {
+    /// Moves the point to the position that `values` define.
+    #[inline]
+    pub fn apply(&self, values: &[f64], mechanism: &mut Mechanism) {
+        let [a, b] = self.entries.map(|entry| entry.value(values));
+        let local = match self.from {
+            None => Vec2::new(a, b),
+            Some(from) => mechanism.links()[self.handle.link].points[from].local + unit(b) * a,
+        };
+        mechanism.place(&self.handle, local);
+    }
 }
 
 /// Effort of the search.

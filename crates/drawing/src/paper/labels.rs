@@ -43,13 +43,7 @@ pub struct Obstacles {
     pub discs: Vec<(Vec2, f64)>,
 }
 
-/// Centres of the labels' boxes.
-#[must_use]
-pub fn place(labels: &[Label], obstacles: &Obstacles) -> Vec<Vec2> {
-    place_among(labels, obstacles, 1)
-}
-
-/// The same in one of so many drawings that are made together and share the work.
+/// Centres of the labels' boxes in one of so many drawings that are made together and share the work.
 #[must_use]
 pub fn place_among(labels: &[Label], obstacles: &Obstacles, drawings: usize) -> Vec<Vec2> {
     place_within(labels, obstacles, (MOST_COMPARED / drawings.max(1)).max(LEAST_COMPARED))
@@ -205,7 +199,7 @@ mod tests {
             discs: Vec::new(),
         };
         let labels = [label(0.0, 0.0), label(0.5, 0.0), label(0.0, 0.4), label(-0.3, 0.0)];
-        let places = place(&labels, &obstacles);
+        let places = place_among(&labels, &obstacles, 1);
         for (index, at) in places.iter().enumerate() {
             let half = labels[index].size / 2.0;
             assert!(obstacles.segments.iter().all(|line| length_inside(line, *at, half) == 0.0), "{at:?}");
@@ -226,7 +220,7 @@ mod tests {
 
     #[test]
     fn a_free_letter_stands_where_it_should() {
-        let places = place(&[label(0.0, 0.0)], &Obstacles::default());
+        let places = place_among(&[label(0.0, 0.0)], &Obstacles::default(), 1);
         assert!(places[0].x > 1.5 && places[0].y.abs() < 1e-9);
     }
 }

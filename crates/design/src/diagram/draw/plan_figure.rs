@@ -3,7 +3,7 @@
 use crate::diagram::builder::NOTHING;
 use crate::diagram::vectors::{Part, Plan, Tip, TipKind, Vector};
 use drawing::paper::figure::{Figure, Style, scripted, solid, sub};
-use drawing::paper::labels::{Label, Obstacles, place};
+use drawing::paper::labels::{Label, Obstacles, place_among};
 use drawing::paper::lettering::{label_size, letter};
 use drawing::paper::style::{BLACK, GREY, colour, significant};
 use drawing::paper::table::Table;
@@ -72,8 +72,7 @@ pub fn plan(plan: &Plan) -> Figure {
             clear: if index == 0 { 1.0 } else { 0.55 },
         })
         .collect();
-    let places = place(&labels, &obstacles);
-    for ((label, (_, text)), at) in labels.iter().zip(&marks).zip(places) {
+    for ((label, (_, text)), at) in labels.iter().zip(&marks).zip(place_among(&labels, &obstacles, 1)) {
         letter(&mut figure, label, at, text, BLACK);
     }
     figure
