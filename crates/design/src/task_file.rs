@@ -65,7 +65,8 @@ fn read(root: &mut Table) -> Result<TaskFile> {
         }
     })?;
     let mechanism = &drawing.case.mechanism;
-    let timing = timing(phases, follow)?;
+    let timing = timing(phases)?;
+    let timing = if follow { timing.followed()? } else { timing };
     let (output, forward) = read_output(output, mechanism)?;
     let family = if matches!(output, Output::Angle { .. }) { &ANGLE } else { &LENGTH };
     let (stroke, transmission) = read_limits(limits, family)?;
@@ -103,7 +104,7 @@ fn read(root: &mut Table) -> Result<TaskFile> {
     Ok(TaskFile { task, drawing })
 }
 
-fn timing(tables: Vec<Table>, follow: bool) -> Result<Timing> {
+fn timing(tables: Vec<Table>) -> Result<Timing> {
     let (mut from, mut phases, mut places) = (0.0, Vec::new(), Vec::new());
     for mut table in tables {
         let to = table.quantity("to", &ANGLE, Sign::Positive)?;
@@ -119,8 +120,7 @@ fn timing(tables: Vec<Table>, follow: bool) -> Result<Timing> {
         places.push(table.fault(""));
         from = to;
     }
-    let timing = Timing::of(phases).and_then(|timing| if follow { timing.followed() } else { Ok(timing) });
-    timing.map_err(|error| {
+    Timing::of(phases).map_err(|error| {
         let own = places.iter().find(|own| own.scenario_key() == error.scenario_key());
         match own.and_then(|own| own.place()).cloned() {
             Some(place) => error.at(place),

@@ -127,13 +127,9 @@ pub fn lay_loose(mechanism: &Mechanism, drivers: &[(usize, usize)], angles: &[f6
     laid.faults.push(fault);
     while let Some(group) = dyad(mechanism, &laid) {
         let found = configurations(mechanism, &group, &laid.pose());
-        match found.ok().and_then(|all| all.into_iter().next()) {
-            Some(one) => {
-                for (&link, pose) in group.links.iter().zip(one.links) {
-                    laid.places[link] = Place::Loose(pose);
-                }
-            }
-            None => break,
+        let Some(one) = found.ok().and_then(|all| all.into_iter().next()) else { break };
+        for (&link, pose) in group.links.iter().zip(one.links) {
+            laid.places[link] = Place::Loose(pose);
         }
     }
     close(mechanism, laid)

@@ -4,8 +4,7 @@ use super::acting::Acting;
 use super::mark::{Fill, Ink, Layer, Look, Mark, Role, Shape};
 use super::palette::LOAD;
 use super::paper::figure::{Figure, Style, Tint, Type, solid, sub, words};
-use super::paper::labels::{self, Obstacles, place_among};
-use super::paper::lettering::{LETTER, label_size, letter};
+use super::paper::labels::{self, LETTER, Obstacles, label_size, letter, place_among};
 use super::paper::style::{BLACK, GREY, colour, significant};
 use super::sign::{arrow, turning};
 use super::sketch::{Label, Lettering, Sketch};
@@ -279,15 +278,10 @@ impl<'a> Picture<'a> {
         self.letters((ends[0] + ends[1]) / 2.0, Vec2::zeros(), 1.0, text, ALARM);
     }
 
-    /// Places all letters and returns the figure.
+    /// Places all letters and returns the figure, one of so many that are made together: they share the work for
+    /// letters.
     #[must_use]
-    pub fn finish(self) -> Figure {
-        self.finish_among(1)
-    }
-
-    /// The same for one of so many drawings that are made together: they share the work for letters.
-    #[must_use]
-    pub fn finish_among(mut self, drawings: usize) -> Figure {
+    pub fn finish(mut self, drawings: usize) -> Figure {
         self.written.sort_by_key(|own| own.sort);
         let boxes: Vec<labels::Label> = self.written.iter().map(|own| own.label).collect();
         let places = place_among(&boxes, &self.obstacles, drawings);

@@ -69,8 +69,7 @@ pub fn cells(
     let sketch = if extras.loads { sketch } else { sketch.without(&[Role::MassCentre, Role::MassQuarter]) };
     let figures: Vec<_> =
         shots.iter().map(|shot| figure(subject, &sketch, shot, traces, extras, scale, shots.len())).collect();
-    let bounds = figures.iter().map(Figure::bounds);
-    let bounds = bounds.reduce(|a, b| [a[0].inf(&b[0]), a[1].sup(&b[1])]).unwrap_or([Vec2::zeros(); 2]);
+    let bounds = corners(figures.iter().flat_map(Figure::bounds));
     let cell = |figure| Cell { heading: Vec::new(), figure, bounds, scale, faults: Vec::new() };
     figures.into_iter().map(cell).collect()
 }
@@ -126,7 +125,7 @@ fn figure(
     if extras.loads {
         picture.draw_gravity(subject.gravity);
     }
-    picture.finish_among(drawings)
+    picture.finish(drawings)
 }
 
 /// All places that the picture must hold (m).

@@ -1,14 +1,16 @@
-//! A recording as a moving picture, read back for viewers that know none of its messages.
+//! A recording read back for viewers that know none of its messages: as a moving picture, or its numbers alone.
 
 use super::extent::{corners, placed};
-use super::numbers::plotted;
+use super::recording::Side;
 use super::shapes::rgba;
-use super::view::{View, turn};
+use super::table::topic_name;
+use super::view::{Plot, View, plots, turn};
 use super::{beside, messages, read, schema};
 use crate::viewers::{FrameTransforms, LineType, Pose, SceneEntity, SceneUpdate, Vector3};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::unit;
 use linkage::mechanism::LinkPose;
+use linkage::trajectory::{Channel, Trajectory};
 use mcap::Message;
 use prost::Message as _;
 use std::collections::{BTreeMap, BTreeSet};
@@ -186,4 +188,42 @@ fn part(entity: &SceneEntity) -> Part {
         areas: areas.collect(),
         texts: entity.texts.iter().map(|text| (at(text.pose), text.text.clone())).collect(),
     }
+}
+
+/// The numbers of a recording.
+#[derive(Clone, Debug)]
+pub struct Numbers {
+    /// Topics of the sides and of their errors.
+    pub topics: Vec<String>,
+    /// Plots, the most interesting first: the values of all sides, then their errors.
+    pub plots: Vec<Plot>,
+}
+
+/// Reads which numbers a recording has.
+///
+/// # Errors
+/// Those of [`load`](super::load).
+pub fn numbers(path: &Path) -> Result<Numbers> {
+    let bytes = read::bytes(path)?;
+    let sides = read::read_bytes(&bytes, path)?;
+    let mut topics = BTreeSet::new();
+    messages::each(&bytes, path, |message| {
+        let topic = message.channel.topic.as_str();
+        let side = topic.strip_prefix('/').and_then(|rest| rest.split_once('/')).map(|(side, _)| side);
+        if side.is_some_and(|side| side == "error" || sides.iter().any(|(own, _)| own == side)) {
+            topics.insert(topic.to_string());
+        }
+        Ok(())
+    })?;
+    Ok(Numbers { plots: plotted(&sides, &topics), topics: topics.into_iter().collect() })
+}
+
+/// Plots of the sides, and of those errors that have a topic.
+fn plotted(sides: &[(String, Trajectory)], topics: &BTreeSet<String>) -> Vec<Plot> {
+    let named: Vec<Side> = sides.iter().map(|(name, trajectory)| Side { name, trajectory }).collect();
+    let errors: Vec<Channel> = (named.first().iter().flat_map(|side| side.trajectory.channels()))
+        .filter(|channel| topics.contains(&topic_name("error", channel.kind.subject, &channel.of)))
+        .cloned()
+        .collect();
+    plots(&named, &errors)
 }

@@ -30,7 +30,6 @@ mod film;
 mod forces;
 mod marks;
 mod messages;
-mod numbers;
 mod output;
 mod pour;
 mod raw;
@@ -43,15 +42,13 @@ mod schema;
 mod shapes;
 mod sink;
 mod table;
-mod thin;
 mod urdf;
 mod view;
 mod viewers;
 mod write;
 
 pub use beside::{Place, place};
-pub use film::{Film, Part, film};
-pub use numbers::{Numbers, numbers};
+pub use film::{Film, Numbers, Part, film, numbers};
 pub use read::{load, read_bytes};
 pub use recording::{Level, LogEntry, Recording, Show, Side};
 #[cfg(feature = "live")]

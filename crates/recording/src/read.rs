@@ -16,14 +16,18 @@ use std::path::Path;
 /// Values with the sequence numbers of their samples.
 type Numbered = Vec<(u32, f64)>;
 
-/// How the messages of one MCAP channel are used.
-enum Topic {
-    /// The grid of a side, with the names of the fields by number.
-    Grid(String, BTreeMap<u32, String>),
-    /// Values of a side, with the channels by field number.
-    Values(String, BTreeMap<u32, Channel>),
-    /// Not a topic of this format.
-    Other,
+/// How the messages of one MCAP channel of a side are used: what the fields are, by their numbers.
+struct Topic {
+    side: String,
+    is_grid: bool,
+    fields: BTreeMap<u32, Field>,
+}
+
+enum Field {
+    /// A field of the grid, by its name.
+    Grid(String),
+    /// A channel.
+    Value(Channel),
 }
 
 /// The data found of one side. Keys keep sides and columns in the order of recording: MCAP channel, then field.
@@ -86,7 +90,7 @@ pub fn read_bytes(bytes: &[u8], path: &Path) -> Result<Vec<(String, Trajectory)>
             .help("name a recording (.mcap), which a run leaves"));
     }
     bounded(bytes, path)?;
-    let mut topics: HashMap<u16, Topic> = HashMap::new();
+    let mut topics: HashMap<u16, Option<Topic>> = HashMap::new();
     let mut names = schema::Names::default();
     let mut sides: BTreeMap<String, Found> = BTreeMap::new();
     messages::each(bytes, path, |message| {
@@ -94,7 +98,7 @@ pub fn read_bytes(bytes: &[u8], path: &Path) -> Result<Vec<(String, Trajectory)>
             Entry::Occupied(known) => known.into_mut(),
             Entry::Vacant(new) => new.insert(topic(message, &mut names)?),
         };
-        collect(message, topic, &mut sides)
+        topic.as_ref().map_or(Ok(()), |topic| collect(message, topic, &mut sides))
     })?;
     let mut sides: Vec<(String, Found)> = sides.into_iter().collect();
     sides.sort_by_key(|(_, found)| found.first);
@@ -105,24 +109,24 @@ pub fn read_bytes(bytes: &[u8], path: &Path) -> Result<Vec<(String, Trajectory)>
     sides.into_iter().map(|(name, found)| assemble(&name, found, path).map(|trajectory| (name, trajectory))).collect()
 }
 
-/// Content of a message's topic, from its name and from the descriptor in the file.
-fn topic(message: &Message, names: &mut schema::Names) -> std::result::Result<Topic, DecodeError> {
+/// Content of a message's topic, from its name and from the descriptor in the file; `None` if it is not of this format.
+fn topic(message: &Message, names: &mut schema::Names) -> std::result::Result<Option<Topic>, DecodeError> {
     let channel = &message.channel;
     let parts = channel.topic.strip_prefix('/').and_then(|rest| rest.split_once('/'));
-    let (Some((side, subject)), Some(schema)) = (parts, &channel.schema) else { return Ok(Topic::Other) };
+    let (Some((side, subject)), Some(schema)) = (parts, &channel.schema) else { return Ok(None) };
     if channel.message_encoding != "protobuf" || schema.encoding != "protobuf" {
-        return Ok(Topic::Other);
-    }
-    let names = names.of(schema)?;
-    if subject == "grid" {
-        return Ok(Topic::Grid(side.into(), names.clone()));
+        return Ok(None);
     }
     // `link/crank` and the field `x_m` are the channel `link.crank.x_m`. Errors have small units: no field of theirs is
     // a channel.
-    let subject = subject.replacen('/', ".", 1);
-    let channels: BTreeMap<u32, Channel> =
-        names.iter().filter_map(|(&tag, field)| Some((tag, Channel::named(&format!("{subject}.{field}"))?))).collect();
-    Ok(if channels.is_empty() { Topic::Other } else { Topic::Values(side.into(), channels) })
+    let (is_grid, subject) = (subject == "grid", subject.replacen('/', ".", 1));
+    let field = |name: &String| match is_grid {
+        true => Some(Field::Grid(name.clone())),
+        false => Channel::named(&format!("{subject}.{name}")).map(Field::Value),
+    };
+    let fields: BTreeMap<u32, Field> =
+        names.of(schema)?.iter().filter_map(|(&tag, name)| Some((tag, field(name)?))).collect();
+    Ok((is_grid || !fields.is_empty()).then(|| Topic { side: side.into(), is_grid, fields }))
 }
 
 fn collect(
@@ -131,26 +135,19 @@ fn collect(
     sides: &mut BTreeMap<String, Found>,
 ) -> std::result::Result<(), DecodeError> {
     let id = message.channel.id;
-    match topic {
-        Topic::Grid(side, names) => {
-            let found = sides.entry(side.clone()).or_default();
-            found.first = Some(id);
-            for (tag, value) in schema::numbers(&message.data)? {
-                if let Some(name) = names.get(&tag) {
-                    found.grid.entry(name.clone()).or_default().push((message.sequence, value));
-                }
+    let found = sides.entry(topic.side.clone()).or_default();
+    if topic.is_grid {
+        found.first = Some(id);
+    }
+    for (tag, value) in schema::numbers(&message.data)? {
+        let column = match topic.fields.get(&tag) {
+            Some(Field::Grid(name)) => found.grid.entry(name.clone()).or_default(),
+            Some(Field::Value(channel)) => {
+                &mut found.columns.entry((id, tag)).or_insert_with(|| (channel.clone(), Vec::new())).1
             }
-        }
-        Topic::Values(side, channels) => {
-            let found = sides.entry(side.clone()).or_default();
-            for (tag, value) in schema::numbers(&message.data)? {
-                if let Some(channel) = channels.get(&tag) {
-                    let column = found.columns.entry((id, tag)).or_insert_with(|| (channel.clone(), Vec::new()));
-                    column.1.push((message.sequence, value));
-                }
-            }
-        }
-        Topic::Other => {}
+            None => continue,
+        };
+        column.push((message.sequence, value));
     }
     Ok(())
 }

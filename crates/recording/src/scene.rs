@@ -103,20 +103,21 @@ impl<'a> Scene<'a> {
     /// The drawing of all links, each in its own frame, and of the ground.
     pub fn links(&self) -> SceneUpdate {
         let brush = Brush { unit: self.sketch.unit, rgba: GREY, broad: 1.0, z: 0.0, step: 0.1 * self.layer() };
-        let mut entities = vec![self.entity("world", "ground", &brush, GROUND, true)];
+        let mut entities = vec![self.lettered(self.entity("world", "ground", &brush, GROUND), GROUND)];
         for (number, side) in self.sides.iter().enumerate() {
             let Paint { rgba, broad, layer } = side.paint;
             let brush = Brush { rgba, broad, z: self.layer() * (1.0 + layer), ..brush };
             for (index, link) in self.mechanism.links().iter().enumerate().skip(1) {
                 let name = format!("{}/{}", side.name, link.name);
-                entities.push(self.entity(&name, &name, &brush, index, number == 0));
+                let entity = self.entity(&name, &name, &brush, index);
+                entities.push(if number == 0 { self.lettered(entity, index) } else { entity });
             }
         }
         SceneUpdate { entities }
     }
 
-    /// The marks of a link in its frame, and the names of its points if it is `lettered`.
-    fn entity(&self, frame: &str, id: &str, brush: &Brush, link: usize, lettered: bool) -> SceneEntity {
+    /// The marks of a link in its frame.
+    fn entity(&self, frame: &str, id: &str, brush: &Brush, link: usize) -> SceneEntity {
         let mut entity = SceneEntity {
             timestamp: stamp(0),
             frame_id: frame.into(),
@@ -127,10 +128,15 @@ impl<'a> Scene<'a> {
         for (_, mark) in self.sketch.in_order().into_iter().filter(|&(of, _)| of == link) {
             brush.put(mark, &mut entity);
         }
+        entity
+    }
+
+    /// The same with the names of the link's points.
+    fn lettered(&self, mut entity: SceneEntity, link: usize) -> SceneEntity {
         // The names of ground points stand below them, where no link passes.
         let aside = if link == GROUND { Vec2::new(0.03, -0.05) * self.size } else { Vec2::zeros() };
         let own = |names, at| names == Lettering::Point && at == link;
-        let labels = self.sketch.labels.iter().filter(|label| lettered && own(label.names, label.at.link));
+        let labels = self.sketch.labels.iter().filter(|label| own(label.names, label.at.link));
         entity.texts = labels.map(|label| letter(&label.text, label.at.local + aside, 0.06 * self.size)).collect();
         entity
     }

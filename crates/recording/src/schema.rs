@@ -107,24 +107,12 @@ impl Names {
 /// Names of the number fields of the message called `full_name` in a serialised descriptor set, by their numbers.
 pub fn field_names(descriptor: &[u8], full_name: &str) -> Result<BTreeMap<u32, String>, prost::DecodeError> {
     let set = FileDescriptorSet::decode(descriptor)?;
-    let mut names = BTreeMap::new();
-    for file in &set.file {
-        let package = file.package();
-        for message in &file.message_type {
-            let own = if package.is_empty() { message.name().into() } else { format!("{package}.{}", message.name()) };
-            if own == full_name {
-                let is_number = |field: &&FieldDescriptorProto| matches!(field.r#type(), Type::Double | Type::Float);
-                names.extend(
-                    message
-                        .field
-                        .iter()
-                        .filter(is_number)
-                        .map(|field| (field.number() as u32, field.name().to_string())),
-                );
-            }
-        }
-    }
-    Ok(names)
+    let full = |package: &str, name: &str| if package.is_empty() { name.into() } else { format!("{package}.{name}") };
+    let messages = set.file.iter().flat_map(|file| file.message_type.iter().map(|own| (file.package(), own)));
+    let fields =
+        messages.filter(|(package, own)| full(package, own.name()) == full_name).flat_map(|(_, own)| &own.field);
+    let numbers = fields.filter(|field| matches!(field.r#type(), Type::Double | Type::Float));
+    Ok(numbers.map(|field| (field.number() as u32, field.name().to_string())).collect())
 }
 
 /// Channels in the message of a subject. The message of a sliding joint has those of any joint, and more.

@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 
 use super::markup::column;
 use super::placed::Placed;
-use design::diagram::{Part, Plan, Planner, Quantity, TipKind};
+use design::diagram::{Plan, Planner, Quantity};
 use linkage::case::Case;
 use linkage::solver::State;
 
@@ -65,28 +65,10 @@ fn has_same_layout(one: &Plan, other: &Plan) -> bool {
 }
 
 fn layout(plan: &Plan) -> Value {
-    let tips = plan.tips.iter().map(|tip| {
-        let kind = match tip.kind {
-            TipKind::Fixed => "fixed",
-            TipKind::Point => "point",
-            TipKind::MassCentre => "centre",
-            TipKind::Normal | TipKind::Coriolis => "between",
-            TipKind::Coincident => "coincident",
-        };
-        json!([tip.letter, kind])
-    });
+    let tips = plan.tips.iter().map(|tip| json!([tip.letter, tip.kind.word()]));
     let place = |letter: &str| plan.tips.iter().position(|tip| tip.letter == letter);
     let vectors = plan.vectors.iter().map(|vector| {
-        let part = match vector.part {
-            Part::Absolute => "absolute",
-            Part::MassCentre => "centre",
-            Part::Relative => "relative",
-            Part::Normal => "normal",
-            Part::Tangential => "tangential",
-            Part::Sliding => "sliding",
-            Part::Coriolis => "coriolis",
-        };
-        json!([vector.name, part, place(&vector.from), place(&vector.to), vector.link, vector.meaning])
+        json!([vector.name, vector.part.word(), place(&vector.from), place(&vector.to), vector.link, vector.meaning])
     });
     json!({ "tips": tips.collect::<Vec<_>>(), "vectors": vectors.collect::<Vec<_>>() })
 }

@@ -210,17 +210,16 @@ impl<'a> Builder<'a> {
             return Vec::new();
         }
         let places = self.places;
-        let on = |name: &str, local: Vec2, fixed: bool| {
-            let place = places.iter().find(|place| place.named.name == name && place.fixed == fixed)?;
-            Some(On { named: &place.named, local, fixed })
-        };
+        let on = |place: &'a Place, local: Vec2| On { named: &place.named, local, fixed: place.fixed };
+        let moves = |name: &str| places.iter().find(|place| place.named.name == name && !place.fixed);
+        let stands = |name: &str| places.iter().find(|place| place.named.name == name && place.fixed);
         let pivot = pivot(self.mechanism, link);
         let own = self.mechanism.links()[link].points.iter();
         let moving: Vec<On> = own
             .filter(|point| pivot.as_ref().is_none_or(|(local, _)| point.local != *local))
-            .filter_map(|point| on(&point.name, point.local, false))
+            .filter_map(|point| Some(on(moves(&point.name)?, point.local)))
             .collect();
-        let base = pivot.as_ref().and_then(|(local, name)| on(name, *local, true));
+        let base = pivot.as_ref().and_then(|(local, name)| Some(on(stands(name)?, *local)));
         let mut pairs: Vec<(On, On)> = base.iter().flat_map(|&base| moving.iter().map(move |&to| (base, to))).collect();
         for (index, &from) in moving.iter().enumerate() {
             pairs.extend(moving[index + 1..].iter().map(|&to| (from, to)));

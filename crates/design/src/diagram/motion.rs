@@ -46,13 +46,9 @@ impl Course {
         };
         let stem = name.strip_suffix(channel.kind.suffix).unwrap_or(name);
         match ENDINGS.into_iter().find(|endings| endings.contains(&channel.kind.suffix)) {
-            Some(endings) if endings[0] == channel.kind.suffix => {
-                let found = endings.map(|ending| Channel::named(&format!("{stem}{ending}")));
-                match found {
-                    [Some(a), Some(b), Some(c)] => Ok(Course([a, b, c])),
-                    _ => Err(wrong(format!("\"{name}\" has no derivatives among the channels"), help(&all, name))),
-                }
-            }
+            Some(endings) if endings[0] == channel.kind.suffix => Ok(Course(endings.map(|ending| {
+                Channel::named(&format!("{stem}{ending}")).expect("links and points have all derivatives")
+            }))),
             Some(endings) => Err(wrong(
                 format!("\"{name}\" is a derivative already; a motion diagram starts from a position or an angle"),
                 format!("ask for {stem}{}: its diagram shows this one too", endings[0]),

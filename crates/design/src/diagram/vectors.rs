@@ -47,21 +47,23 @@ impl Quantity {
     }
 }
 
-/// Kind of the end point of a vector.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum TipKind {
-    /// The pole itself, or a ground point, which coincides with it.
-    Fixed,
-    /// A named point of the mechanism.
-    Point,
-    /// A mass centre: s and the number of its link.
-    MassCentre,
-    /// The end of a normal part: n and a running number.
-    Normal,
-    /// A point of a moving guide's link that coincides with a sliding point: letter of that point and number of the link, a3.
-    Coincident,
-    /// The end of a Coriolis part: k and a running number.
-    Coriolis,
+linkage::words! {
+    /// Kind of the end point of a vector.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum TipKind: word {
+        /// The pole itself, or a ground point, which coincides with it.
+        Fixed = "fixed",
+        /// A named point of the mechanism.
+        Point = "point",
+        /// A mass centre: s and the number of its link.
+        MassCentre = "centre",
+        /// The end of a normal part: n and a running number.
+        Normal = "between",
+        /// A point of a moving guide's link that coincides with a sliding point: letter of that point and number of the link, a3.
+        Coincident = "coincident",
+        /// The end of a Coriolis part: k and a running number.
+        Coriolis = "between",
+    }
 }
 
 /// A point of a plan.
@@ -75,23 +77,25 @@ pub struct Tip {
     pub at: Vec2,
 }
 
-/// Kind of a vector.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Part {
-    /// Absolute vector of a named point.
-    Absolute,
-    /// Absolute vector of a mass centre.
-    MassCentre,
-    /// Relative vector of two points of one link.
-    Relative,
-    /// Normal part of an acceleration: omega^2 l, from the point towards the other one.
-    Normal,
-    /// Tangential part of an acceleration: alpha l, perpendicular to the line through both points.
-    Tangential,
-    /// Along a moving guide: velocity or acceleration of a sliding point relative to the guide's link.
-    Sliding,
-    /// Coriolis part of the acceleration of a point that slides on a turning guide: 2 omega x v, across the guide.
-    Coriolis,
+linkage::words! {
+    /// Kind of a vector.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Part: word {
+        /// Absolute vector of a named point.
+        Absolute = "absolute",
+        /// Absolute vector of a mass centre.
+        MassCentre = "centre",
+        /// Relative vector of two points of one link.
+        Relative = "relative",
+        /// Normal part of an acceleration: omega^2 l, from the point towards the other one.
+        Normal = "normal",
+        /// Tangential part of an acceleration: alpha l, perpendicular to the line through both points.
+        Tangential = "tangential",
+        /// Along a moving guide: velocity or acceleration of a sliding point relative to the guide's link.
+        Sliding = "sliding",
+        /// Coriolis part of the acceleration of a point that slides on a turning guide: 2 omega x v, across the guide.
+        Coriolis = "coriolis",
+    }
 }
 
 /// One vector of a plan.

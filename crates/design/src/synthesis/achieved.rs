@@ -5,7 +5,7 @@ use linkage::math::statistics::ends;
 use std::f64::consts::TAU;
 
 use super::evaluate::Evaluator;
-use crate::task::{Sense, Task};
+use crate::task::{Phase, Sense, Task};
 use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::mechanism::GroupKind;
 
@@ -94,11 +94,18 @@ impl Achieved {
         Ok(if wrong(&ahead) <= wrong(&back) { ahead } else { back })
     }
 
+    /// Every phase as it is and as it is wanted, with the sense of the next one.
+    fn with_next<'a>(&'a self, task: &'a Task) -> impl Iterator<Item = (&'a PhaseDone, &'a Phase, Sense)> {
+        let phases = task.timing.phases();
+        let next = phases.iter().cycle().skip(1).map(|phase| phase.sense);
+        self.phases.iter().zip(phases).zip(next).map(|((done, phase), next)| (done, phase, next))
+    }
+
     /// Largest motion in any dwell (share of the stroke).
     #[must_use]
     pub fn unrest(&self, task: &Task) -> f64 {
-        let dwells = self.phases.iter().zip(task.timing.phases()).filter(|(_, phase)| phase.sense == Sense::Dwell);
-        dwells.map(|(done, _)| done.motion).fold(0.0, f64::larger)
+        let dwells = self.with_next(task).filter(|(_, phase, _)| phase.sense == Sense::Dwell);
+        dwells.map(|(done, ..)| done.motion).fold(0.0, f64::larger)
     }
 
     /// Largest distance travelled in the wrong sense in any phase (share of the stroke).
@@ -110,31 +117,22 @@ impl Achieved {
     /// Largest deviation (rad) of an extreme position from the limit between two opposite motions where it should be.
     #[must_use]
     pub fn late(&self, task: &Task) -> f64 {
-        let phases = task.timing.phases();
-        let apart = |(index, done): (usize, &PhaseDone)| {
-            let next = phases[(index + 1) % phases.len()].sense;
-            let turns_about = phases[index].sense.sign() * next.sign() < 0.0;
-            turns_about.then(|| done.end.map_or(TAU, |end| (end - phases[index].to).abs()))
-        };
-        self.phases.iter().enumerate().filter_map(apart).fold(0.0, f64::larger)
+        let turns = self.with_next(task).filter(|(_, phase, next)| phase.sense.sign() * next.sign() < 0.0);
+        let apart = turns.map(|(done, phase, _)| done.end.map_or(TAU, |end| (end - phase.to).abs()));
+        apart.fold(0.0, f64::larger)
     }
 
     /// Largest shortfall of a dwell at either end (rad): the output is outside [`BAND`] although it should dwell.
     /// A dwell that is longer than required does not count.
     #[must_use]
     pub fn short(&self, task: &Task) -> f64 {
-        let phases = task.timing.phases();
-        let missing = |(index, done): (usize, &PhaseDone)| {
-            let (own, next) = (phases[index].sense, phases[(index + 1) % phases.len()].sense);
-            let end = done.end?;
-            match (own, next) {
-                (Sense::Dwell, Sense::Dwell) => None,
-                (Sense::Dwell, _) => Some(phases[index].to - end),
-                (_, Sense::Dwell) => Some(end - phases[index].to),
-                _ => None,
-            }
+        let missing = |(done, phase, next): (&PhaseDone, &Phase, Sense)| match (phase.sense, next) {
+            (Sense::Dwell, Sense::Dwell) => None,
+            (Sense::Dwell, _) => Some(phase.to - done.end?),
+            (_, Sense::Dwell) => Some(done.end? - phase.to),
+            _ => None,
         };
-        self.phases.iter().enumerate().filter_map(missing).fold(0.0, f64::larger)
+        self.with_next(task).filter_map(missing).fold(0.0, f64::larger)
     }
 
     /// The share at any row; rows continue over several turns.

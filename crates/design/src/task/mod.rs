@@ -141,28 +141,28 @@ impl Task {
     /// [`ErrorKind::Unsupported`] for mechanisms with several degrees of freedom, or transmission angles of groups without any.
     /// [`ErrorKind::Input`] if nothing may vary or the effort is zero.
     pub fn check(&self) -> Result<()> {
-        let wrong = |key: &str, message: &str, help: &str| {
-            Err(Error::new(ErrorKind::Input, message.to_string()).key(key).help(help.to_string()))
+        let wrong = |kind: ErrorKind, key: &str, message: &'static str, help: &'static str| {
+            Err(Error::new(kind, message).key(key).help(help))
         };
         if !self.case.drives.further().is_empty() {
             let message = "the mechanism has several drives, but a timing belongs to one crank";
-            return Err(Error::new(ErrorKind::Unsupported, message)
-                .key("scenario")
-                .help("take a scenario with one `[drive]`"));
+            return wrong(ErrorKind::Unsupported, "scenario", message, "take a scenario with one `[drive]`");
         }
         if self.variables.is_empty() {
-            return wrong("vary", "nothing may vary", "add a table `[[vary]]` for each length or pivot to be found");
+            let help = "add a table `[[vary]]` for each length or pivot to be found";
+            return wrong(ErrorKind::Input, "vary", "nothing may vary", help);
         }
         let higher = self.case.structure.groups.iter().any(|group| group.kind == GroupKind::Higher);
         if higher && self.transmission > 0.0 {
             let message = "a smallest transmission angle is asked for, but higher groups have none";
-            return Err(Error::new(ErrorKind::Unsupported, message).key("limits").help("leave `transmission` out"));
+            return wrong(ErrorKind::Unsupported, "limits", message, "leave `transmission` out");
         }
         let effort = &self.effort;
         let counts = [effort.candidates, effort.refined, effort.evaluations];
         if counts.iter().any(|count| !(1..=MOST).contains(count)) || effort.refined > effort.candidates {
             let help = "give counts of 1 or more, and no more refinements than candidates";
-            return wrong("search", "the search has no candidates, no refinements or no evaluations", help);
+            let message = "the search has no candidates, no refinements or no evaluations";
+            return wrong(ErrorKind::Input, "search", message, help);
         }
         Ok(())
     }

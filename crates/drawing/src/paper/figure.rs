@@ -372,3 +372,22 @@ fn text_element(at: Vec2, text: &str, set: &Type) -> String {
         set.colour
     )
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The wall of a cylinder is open at one end, and what lies beneath the cylinder must not be seen in it.
+    #[test]
+    fn an_open_line_may_cover_what_lies_beneath() {
+        let mut figure = Figure::default();
+        let corners = vec![Vec2::zeros(), Vec2::new(1.0, 0.0), Vec2::new(1.0, 1.0)];
+        figure.curve(corners.clone(), Some(Tint::opaque("white")), solid("#000000", 0.5));
+        figure.curve(corners.clone(), None, solid("#000000", 0.5));
+        figure.area(corners, None, solid("#000000", 0.5));
+        let [cover, line, area] = [0, 1, 2].map(|k| figure.nodes().nth(k).unwrap().to_string());
+        assert!(cover.contains("fill=\"white\"") && !cover.contains('Z'), "{cover}");
+        assert!(line.contains("fill=\"none\"") && !line.contains('Z'), "{line}");
+        assert!(area.contains("fill=\"none\"") && area.contains('Z'), "{area}");
+    }
+}

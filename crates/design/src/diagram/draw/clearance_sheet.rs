@@ -85,7 +85,7 @@ pub fn clearance(case: &Case, name: &str, asked: &Question, found: &Clearance) -
         crank
     };
     picture.name(picture.names(|what| matches!(what, Lettering::Point | Lettering::Motor)));
-    let figure = picture.finish();
+    let figure = picture.finish(1);
     let bounds = figure.bounds();
     let cell = Cell { heading: Vec::new(), figure, bounds, scale, faults: Vec::new() };
     let title = format!("{name}: clearance");

@@ -47,7 +47,7 @@ pub fn scheme(scheme: &Scheme) -> Figure {
             picture.letters(middle, middle - pivot / scheme.scale, 0.3, text, BLACK);
         }
     }
-    picture.finish()
+    picture.finish(1)
 }
 
 /// A singular point on paper and the lines that meet in it, each from the lead's farther end.

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use quick_xml::escape::escape;
 
-use super::forces::{Forces, Target};
+use super::forces::{Actuator, Forces, Target};
 use super::model::Model;
 use super::xml::{Xml, flat, number, numbers};
 use linkage::math::Vec2;
@@ -31,27 +31,31 @@ pub(super) fn sites(xml: &mut Xml, forces: &Forces, link: usize) {
 }
 
 /// Tendons: sums of angles that frictions and actuators act on, and springs and dampers between points.
-pub(super) fn tendons(xml: &mut Xml, model: &Model, forces: &Forces) {
+pub(super) fn tendons<'a>(xml: &mut Xml, model: &Model, forces: &'a Forces) {
     let long: Vec<_> = model.frictions.iter().filter(|friction| !friction.own_hinge).collect();
-    let sums: Vec<_> = forces.actuators.iter().filter_map(|own| Some((&own.name, sum(&own.target)?))).collect();
+    let sum = |own: &'a Actuator| match &own.target {
+        Target::Sum(sum) => Some((&own.name, sum)),
+        Target::Hinge(_) | Target::Place { .. } => None,
+    };
+    let sums: Vec<_> = forces.actuators.iter().filter_map(sum).collect();
     if long.is_empty() && sums.is_empty() && forces.tendons.is_empty() {
         return;
     }
     let hinge = |xml: &mut Xml, branch: usize, factor: f64| {
         xml.leaf(format_args!(r#"joint joint="{}" coef="{}""#, joint(model, branch), number(factor)));
     };
-    xml.nest("tendon", format_args!(""), |xml| {
+    xml.nest("tendon", |xml| {
         for friction in long {
             let name = escape(model.case.mechanism.links()[friction.link].name.as_str());
             let loss = number(friction.moment);
             xml.comment("Its length is the link's angle.");
-            xml.nest("fixed", format_args!(r#" name="{name}" frictionloss="{loss}""#), |xml| {
+            xml.nest(format_args!(r#"fixed name="{name}" frictionloss="{loss}""#), |xml| {
                 friction.hinges.iter().for_each(|&branch| hinge(xml, branch, 1.0));
             });
         }
         for (name, sum) in sums {
             xml.comment("Its length is the angle that the load depends on.");
-            xml.nest("fixed", format_args!(r#" name="{name}""#), |xml| {
+            xml.nest(format_args!(r#"fixed name="{name}""#), |xml| {
                 sum.iter().for_each(|&(branch, factor)| hinge(xml, branch, factor));
             });
         }
@@ -59,7 +63,7 @@ pub(super) fn tendons(xml: &mut Xml, model: &Model, forces: &Forces) {
             let name = &tendon.name;
             let [stiffness, damping, length] = [tendon.stiffness, tendon.damping, tendon.free_length].map(number);
             let spring = format!(r#"stiffness="{stiffness}" springlength="{length}" damping="{damping}""#);
-            xml.nest("spatial", format_args!(r#" name="{name}" {spring}"#), |xml| {
+            xml.nest(format_args!(r#"spatial name="{name}" {spring}"#), |xml| {
                 for index in 0..tendon.ends.len() {
                     xml.leaf(format_args!(r#"site site="{}""#, end(name, index)));
                 }
@@ -76,13 +80,6 @@ fn joint<'a>(model: &'a Model, branch: usize) -> std::borrow::Cow<'a, str> {
 /// Name of the site of a load.
 fn end(load: &str, index: usize) -> String {
     format!("{load}.{}", ["first", "second"][index])
-}
-
-fn sum(target: &Target) -> Option<&[(usize, f64)]> {
-    match target {
-        Target::Sum(sum) => Some(sum),
-        Target::Hinge(_) | Target::Place { .. } => None,
-    }
 }
 
 /// Places at which loads act on a link, with the names of their sites.
@@ -103,7 +100,7 @@ pub(super) fn actuators(xml: &mut Xml, model: &Model, forces: &Forces) {
     if forces.actuators.is_empty() {
         return;
     }
-    xml.nest("actuator", format_args!(""), |xml| {
+    xml.nest("actuator", |xml| {
         for actuator in &forces.actuators {
             let name = escape(actuator.name.as_str());
             let target = match &actuator.target {
@@ -120,7 +117,7 @@ pub(super) fn actuators(xml: &mut Xml, model: &Model, forces: &Forces) {
             if let Some(range) = actuator.range {
                 let _ = write!(tag, r#" forcelimited="true" forcerange="{}""#, numbers(range));
             }
-            xml.leaf(format_args!("{tag}"));
+            xml.leaf(tag);
         }
     });
 }

@@ -72,13 +72,6 @@ impl<'a> Model<'a> {
         Ok(model)
     }
 
-    /// Largest moment of inertia that the mechanism could have about one of its points (kg m^2): all its mass one size away.
-    fn bulk(&self) -> f64 {
-        let size = self.size();
-        let inertia: f64 = self.case.mechanism.links().iter().map(|link| link.inertia).sum();
-        inertia + self.mass() * size * size
-    }
-
     /// Mass of the mechanism (kg); 1 kg if it has none, so that its motion can still be simulated.
     fn mass(&self) -> f64 {
         let mass: f64 = self.case.mechanism.links().iter().map(|link| link.mass).sum();
@@ -94,7 +87,9 @@ impl<'a> Model<'a> {
     /// Inertia (kg m^2) of the rotor that keeps the speed of a prescribed drive.
     #[must_use]
     pub fn rotor(&self) -> f64 {
-        ROTOR * self.bulk()
+        let (size, links) = (self.size(), self.case.mechanism.links());
+        // Of all mass one size away from a point.
+        ROTOR * (links.iter().map(|link| link.inertia).sum::<f64>() + self.mass() * size * size)
     }
 
     /// Inertia (kg m^2) that turns with a driven hinge: that rotor, or what a free link's motor has.

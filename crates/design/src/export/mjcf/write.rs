@@ -30,14 +30,14 @@ const COLOURS: [&str; 6] = [
 /// The whole document.
 pub(super) fn document(model: &Model, forces: &Forces) -> String {
     let mut xml = Xml::new();
-    xml.nest("mujoco", format_args!(r#" model="{}""#, escape(model.name)), |xml| {
+    xml.nest(format_args!(r#"mujoco model="{}""#, escape(model.name)), |xml| {
         xml.comment(concat!(
             "Written by linkproof ",
             env!("CARGO_PKG_VERSION"),
             "; SI units, plane XOY. Load the keyframe \"start\": without it nothing moves."
         ));
         options(xml, model);
-        xml.nest("worldbody", format_args!(""), |xml| world(xml, model, forces));
+        xml.nest("worldbody", |xml| world(xml, model, forces));
         loops(xml, model);
         effects::tendons(xml, model, forces);
         effects::actuators(xml, model, forces);
@@ -48,30 +48,30 @@ pub(super) fn document(model: &Model, forces: &Forces) -> String {
 }
 
 fn options(xml: &mut Xml, model: &Model) {
-    xml.leaf(format_args!(r#"compiler angle="radian" autolimits="false" inertiafromgeom="false""#));
+    xml.leaf(r#"compiler angle="radian" autolimits="false" inertiafromgeom="false""#);
     // MuJoCo scales its tolerance with the trace of the inertia matrix, which contains the rotor: only zero is small enough.
     // Newton's method needs two iterations; 20 are a limit in case rounding keeps it going.
     let solver = r#"integrator="implicitfast" solver="Newton" iterations="20" tolerance="0" ls_tolerance="1e-6""#;
     let (step, gravity) = (number(model.step), flat(model.case.gravity));
-    xml.nest("option", format_args!(r#" timestep="{step}" gravity="{gravity}" {solver}"#), |xml| {
-        xml.leaf(format_args!(r#"flag contact="disable" refsafe="enable""#));
+    xml.nest(format_args!(r#"option timestep="{step}" gravity="{gravity}" {solver}"#), |xml| {
+        xml.leaf(r#"flag contact="disable" refsafe="enable""#);
     });
     let poses = &model.case.start.0;
     let joints = model.case.mechanism.joints().iter();
     let [low, high] = corners(joints.map(|joint| poses[joint.second.link].point(joint.second.local)));
     let (centre, extent) = (flat((low + high) / 2.0), number((high - low).norm().larger(model.size())));
     xml.leaf(format_args!(r#"statistic center="{centre}" extent="{extent}""#));
-    xml.nest("visual", format_args!(""), |xml| {
+    xml.nest("visual", |xml| {
         // View from above: x right, y up.
-        xml.leaf(format_args!(r#"global azimuth="90" elevation="-90""#));
+        xml.leaf(r#"global azimuth="90" elevation="-90""#);
     });
     xml.comment("As stiff as a step allows: the time constant is raised to twice the time step, whatever that is.");
-    xml.nest("default", format_args!(""), |xml| {
+    xml.nest("default", |xml| {
         xml.leaf(format_args!(r#"equality solref="{STIFF}" solimp="{HARD}""#));
         let friction = format!(r#"solreffriction="{STIFF}" solimpfriction="{HARD}""#);
         xml.leaf(format_args!(r#"joint {friction} damping="0""#));
         xml.leaf(format_args!("tendon {friction}"));
-        xml.leaf(format_args!(r#"geom contype="0" conaffinity="0""#));
+        xml.leaf(r#"geom contype="0" conaffinity="0""#);
         xml.leaf(format_args!(r#"site size="{}" rgba="0.1 0.1 0.1 1""#, number(0.005 * model.size())));
     });
 }
@@ -91,7 +91,7 @@ fn body(xml: &mut Xml, model: &Model, forces: &Forces, link: usize) {
     let own = &model.bodies[index];
     let data = &model.case.mechanism.links()[link];
     let (name, at, turn) = (escape(data.name.as_str()), flat(own.offset), about_z(own.turn));
-    xml.nest("body", format_args!(r#" name="{name}" pos="{at}" axisangle="{turn}""#), |xml| {
+    xml.nest(format_args!(r#"body name="{name}" pos="{at}" axisangle="{turn}""#), |xml| {
         let (mass, inertia) = model.inertial(link);
         if model.is_lent(link) {
             xml.comment("It has no mass or no inertia: MuJoCo gets a small one.");
@@ -126,7 +126,7 @@ fn joint(xml: &mut Xml, model: &Model, index: usize) {
     if let Some(found) = model.frictions.iter().find(|friction| friction.link == branch.link && friction.own_hinge) {
         let _ = write!(tag, r#" frictionloss="{}""#, number(found.moment));
     }
-    xml.leaf(format_args!("{tag}"));
+    xml.leaf(tag);
 }
 
 /// Sites of a link: at its joints, its points, and where loads act.
@@ -147,7 +147,7 @@ fn loops(xml: &mut Xml, model: &Model) {
     if model.tree.cut.is_empty() {
         return;
     }
-    xml.nest("equality", format_args!(""), |xml| {
+    xml.nest("equality", |xml| {
         for &joint in &model.tree.cut {
             let joint = &model.case.mechanism.joints()[joint];
             let [first, second] = [joint.first.link, joint.second.link].map(|link| side(joint, link));
@@ -162,7 +162,7 @@ fn sensors(xml: &mut Xml, model: &Model) {
     xml.comment(
         "What acts on the body in the joint that carries it, in the body's frame; moments about the joint's place, without frictionloss.",
     );
-    xml.nest("sensor", format_args!(""), |xml| {
+    xml.nest("sensor", |xml| {
         for branch in &model.tree.branches {
             let joint = &model.case.mechanism.joints()[branch.joint];
             let (name, site) = (escape(joint.name.as_str()), side(joint, branch.link));
@@ -178,7 +178,7 @@ fn sensors(xml: &mut Xml, model: &Model) {
 fn keyframe(xml: &mut Xml, model: &Model) {
     let coordinates = numbers(model.in_order().iter().map(|body| body.coordinate));
     let rates = numbers(model.in_order().iter().map(|body| body.rate));
-    xml.nest("keyframe", format_args!(""), |xml| {
+    xml.nest("keyframe", |xml| {
         xml.leaf(format_args!(r#"key name="start" time="0" qpos="{coordinates}" qvel="{rates}""#));
     });
 }

@@ -1,6 +1,6 @@
 //! Elements of an XML document, and numbers in it.
 
-use std::fmt::{Arguments, Write};
+use std::fmt::{Display, Write};
 
 use linkage::math::Vec2;
 
@@ -39,23 +39,24 @@ impl Xml {
         Xml { text: "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n".into(), depth: 0 }
     }
 
-    fn line(&mut self, content: Arguments) {
+    fn line(&mut self, content: &str) {
         let _ = writeln!(self.text, "{:1$}{content}", "", 2 * self.depth);
     }
 
-    pub(super) fn leaf(&mut self, tag: Arguments) {
-        self.line(format_args!("<{tag}/>"));
+    pub(super) fn leaf(&mut self, tag: impl Display) {
+        self.line(&format!("<{tag}/>"));
     }
 
-    pub(super) fn nest(&mut self, name: &str, attributes: Arguments, inside: impl FnOnce(&mut Self)) {
-        self.line(format_args!("<{name}{attributes}>"));
+    pub(super) fn nest(&mut self, tag: impl Display, inside: impl FnOnce(&mut Self)) {
+        let tag = tag.to_string();
+        self.line(&format!("<{tag}>"));
         self.depth += 1;
         inside(self);
         self.depth -= 1;
-        self.line(format_args!("</{name}>"));
+        self.line(&format!("</{}>", tag.split(' ').next().unwrap_or_default()));
     }
 
     pub(super) fn comment(&mut self, text: &str) {
-        self.line(format_args!("<!-- {text} -->"));
+        self.line(&format!("<!-- {text} -->"));
     }
 }
