@@ -4,7 +4,7 @@ use super::media::{Medium, Wish};
 use super::motion::{swung, turned, with_travels};
 use design::diagram::draw::significant;
 use design::diagram::plan::state_at;
-use drawing::lay::{Laid, all_modes, lay, lay_loose};
+use drawing::lay::{Laid, Standing, all_modes, lay, lay_loose};
 use drawing::sheet::Cell;
 use drawing::view::{Extras, Shot, Subject, Trace, cells};
 use drawing::{Sketch, Travels, acting, unit};
@@ -193,7 +193,9 @@ impl Drawn {
     fn each_mode(draft: Draft, crank: f64, error: Option<Error>) -> Result<Drawn> {
         let structure = draft.structure.clone()?;
         let angles = angles(&draft.drives, crank);
-        let (all, is_cut) = all_modes(&draft.mechanism, &structure, &angles, &draft.starts, MOST);
+        let mut all = all_modes(&draft.mechanism, &structure, &angles, &draft.starts, MOST + 1);
+        let is_cut = all.len() > MOST;
+        all.truncate(MOST);
         let own = lay(&draft.mechanism, &structure, &angles, &draft.starts);
         let headings = all.iter().map(|laid| heading(&draft.mechanism, &structure, laid, &own)).collect();
         // A file that leaves its mode open is answered by the list, and a configuration that does not close is no fault.
@@ -293,8 +295,8 @@ fn traced(mechanism: &Mechanism, wish: &Wish) -> (Vec<(usize, Vec2)>, Vec<Error>
 
 /// The modes of a configuration: what the key `mode` takes, or the number where there are no names.
 fn heading(mechanism: &Mechanism, structure: &Structure, laid: &Laid, own: &Laid) -> Vec<String> {
-    let line = |&(index, mode, number): &(usize, AssemblyMode, usize)| {
-        let names = structure.groups[index].names(mechanism).replace(", ", ",");
+    let line = |&Standing { group, mode, number }: &Standing| {
+        let names = structure.groups[group].names(mechanism).replace(", ", ",");
         match mode {
             AssemblyMode::Left | AssemblyMode::Right | AssemblyMode::Ahead | AssemblyMode::Behind => {
                 Some(format!("{names} = {}", mode.name()))

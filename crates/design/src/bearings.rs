@@ -7,6 +7,7 @@ use analytic::PoseSolver;
 use linkage::case::Case;
 use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::math::extremum;
+use linkage::math::statistics::ends;
 use linkage::solver::State;
 use linkage::trajectory::Stage;
 
@@ -53,55 +54,40 @@ pub fn over_range(case: &Case) -> Result<Peaks> {
         return Err(Error::new(ErrorKind::Unsupported, message).help(Advice::SolutionTable));
     }
     let mut poses = PoseSolver::new(case)?;
-    let (from, to) =
-        case.grid.inputs.iter().fold((f64::MAX, f64::MIN), |(low, high), &c| (low.smaller(c), high.larger(c)));
+    let [from, to] = ends(case.grid.inputs.iter().copied());
     let parts = ((to - from) / SAMPLE_STEP).ceil().larger(1.0) as usize;
     let cranks: Vec<f64> = (0..=parts).map(|k| from + (to - from) * (k as f64 / parts as f64)).collect();
     let joints = case.mechanism.joints();
-    let mut quantities: Vec<Quantity> = (0..joints.len()).map(Quantity::Reaction).collect();
-    let sliding = joints.iter().enumerate().filter(|(_, joint)| joint.keeps_angle());
-    quantities.extend(sliding.map(|(joint, _)| Quantity::Moment(joint)));
-    quantities.extend([Quantity::ShakingForce, Quantity::BalancingMoment]);
+    let mut quantities: Vec<Quantity> = Vec::new();
+    for joint in 0..joints.len() {
+        quantities.push(Box::new(move |state| state.forces[joint].norm()));
+    }
+    for (joint, _) in joints.iter().enumerate().filter(|(_, joint)| joint.keeps_angle()) {
+        quantities.push(Box::new(move |state| state.moments[joint].abs()));
+    }
+    quantities.push(Box::new(|state| state.shaking(case).0.norm()));
+    quantities.push(Box::new(|state| state.torques[0].abs()));
     let mut samples = vec![Vec::with_capacity(cranks.len()); quantities.len()];
     for &crank in &cranks {
         let state = at(case, &mut poses, crank)?;
         for (column, quantity) in samples.iter_mut().zip(&quantities) {
-            column.push(quantity.of(case, state));
+            column.push(quantity(state));
         }
     }
-    let mut peaks = Vec::with_capacity(quantities.len());
-    for (quantity, column) in quantities.iter().zip(&samples) {
-        peaks.push(refined(case, &mut poses, *quantity, &cranks, column)?);
-    }
-    let of = |wanted: Quantity| quantities.iter().position(|&own| own == wanted).map(|index| peaks[index]);
-    let known = |wanted: Quantity| of(wanted).expect("every mechanism has it");
+    let refine = |(quantity, column): (&Quantity, &Vec<f64>)| refined(case, &mut poses, quantity, &cranks, column);
+    let peaks = quantities.iter().zip(&samples).map(refine).collect::<Result<Vec<_>>>()?;
+    let mut peaks = peaks.into_iter();
+    let mut next = || peaks.next().expect("every quantity has a peak");
     Ok(Peaks {
-        reactions: (0..joints.len()).map(|joint| known(Quantity::Reaction(joint))).collect(),
-        moments: (0..joints.len()).map(|joint| of(Quantity::Moment(joint))).collect(),
-        shaking_force: known(Quantity::ShakingForce),
-        balancing_moment: known(Quantity::BalancingMoment),
+        reactions: joints.iter().map(|_| next()).collect(),
+        moments: joints.iter().map(|joint| joint.keeps_angle().then(&mut next)).collect(),
+        shaking_force: next(),
+        balancing_moment: next(),
     })
 }
 
 /// A quantity whose peak is wanted.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Quantity {
-    Reaction(usize),
-    Moment(usize),
-    ShakingForce,
-    BalancingMoment,
-}
-
-impl Quantity {
-    fn of(self, case: &Case, state: &State) -> f64 {
-        match self {
-            Quantity::Reaction(joint) => state.forces[joint].norm(),
-            Quantity::Moment(joint) => state.moments[joint].abs(),
-            Quantity::ShakingForce => state.shaking(case).0.norm(),
-            Quantity::BalancingMoment => state.torques[0].abs(),
-        }
-    }
-}
+type Quantity<'a> = Box<dyn Fn(&State) -> f64 + 'a>;
 
 fn at<'p>(case: &Case, poses: &'p mut PoseSolver, crank: f64) -> Result<&'p State> {
     let drive = case.crank().at(case.crank().time_of(crank));
@@ -109,8 +95,8 @@ fn at<'p>(case: &Case, poses: &'p mut PoseSolver, crank: f64) -> Result<&'p Stat
 }
 
 /// The largest sample, refined by golden section between its neighbours.
-fn refined(case: &Case, poses: &mut PoseSolver, quantity: Quantity, cranks: &[f64], samples: &[f64]) -> Result<Peak> {
-    let mut value = |crank: f64| -> Result<f64> { Ok(quantity.of(case, at(case, poses, crank)?)) };
+fn refined(case: &Case, poses: &mut PoseSolver, quantity: &Quantity, cranks: &[f64], samples: &[f64]) -> Result<Peak> {
+    let mut value = |crank: f64| -> Result<f64> { Ok(quantity(at(case, poses, crank)?)) };
     let (crank, value) = extremum::greatest(cranks, samples, &mut value)?;
     Ok(Peak { value, crank })
 }

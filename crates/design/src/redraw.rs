@@ -49,18 +49,14 @@ pub fn redrawn(task: &Task, text: &str, values: &[f64], comment: &str) -> Result
         place.apply(values, &mut mechanism);
         let body = &mechanism.links()[place.handle.link];
         let [a, b] = place.entries.map(|entry| entry.value(values));
-        let mut written = InlineTable::new();
-        match place.from {
-            None => {
-                written.insert("x_mm", rounded(a * 1e3, DECIMALS[0]).into());
-                written.insert("y_mm", rounded(b * 1e3, DECIMALS[0]).into());
-            }
-            Some(from) => {
-                written.insert("from", body.points[from].name.as_str().into());
-                written.insert("length_mm", rounded(a * 1e3, DECIMALS[0]).into());
-                written.insert("angle_deg", rounded(b.to_degrees(), DECIMALS[1]).into());
-            }
-        }
+        let written = match place.from {
+            None => flat(Vec2::new(a, b)),
+            Some(from) => InlineTable::from_iter([
+                ("from", toml_edit::Value::from(body.points[from].name.as_str())),
+                ("length_mm", rounded(a * 1e3, DECIMALS[0]).into()),
+                ("angle_deg", rounded(b.to_degrees(), DECIMALS[1]).into()),
+            ]),
+        };
         let owner = link_table(&mut document, place.handle.link, &body.name)?;
         let points = owner.get_mut("points").and_then(Item::as_table_like_mut).ok_or_else(|| foreign(&body.name))?;
         points.insert(&body.points[place.handle.point].name, value(written));
@@ -107,6 +103,13 @@ fn link_table<'a>(document: &'a mut DocumentMut, link: usize, name: &str) -> Res
     item.and_then(Item::as_table_like_mut).ok_or_else(|| foreign(name))
 }
 
+/// A place in its link (m).
+fn flat(place: Vec2) -> InlineTable {
+    InlineTable::from_iter(
+        [("x_mm", place.x), ("y_mm", place.y)].map(|(key, at)| (key, rounded(at * 1e3, DECIMALS[0]))),
+    )
+}
+
 /// Masses of slender bars of `bar` (kg/m) from the first point of a link to each of the others.
 fn weigh(table: &mut dyn TableLike, body: &Link, bar: f64) {
     let first = body.points[0].local;
@@ -121,10 +124,6 @@ fn weigh(table: &mut dyn TableLike, body: &Link, bar: f64) {
         own * arm.norm_squared() / 12.0 + own * (*arm * 0.5 - centre).norm_squared()
     };
     let inertia: f64 = bars.iter().map(about_centre).sum();
-    let centre = first + centre;
-    let mut place = InlineTable::new();
-    place.insert("x_mm", rounded(centre.x * 1e3, DECIMALS[0]).into());
-    place.insert("y_mm", rounded(centre.y * 1e3, DECIMALS[0]).into());
     for key in ["mass_g", "mass_kg", "inertia_kg_m2", "mass_centre"] {
         table.remove(key);
     }
@@ -132,7 +131,7 @@ fn weigh(table: &mut dyn TableLike, body: &Link, bar: f64) {
     // Six significant digits.
     let digits = 10f64.powi(5 - inertia.log10().floor() as i32);
     table.insert("inertia_kg_m2", value(rounded(inertia, digits)));
-    table.insert("mass_centre", value(place));
+    table.insert("mass_centre", value(flat(first + centre)));
 }
 
 #[cfg(test)]

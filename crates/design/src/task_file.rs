@@ -5,7 +5,7 @@ use std::path::Path;
 
 use crate::task::{Effort, Entry, Output, Phase, Place, Sense, Task, Timing, Variable};
 use linkage::error::{Error, ErrorKind, Result};
-use linkage::math::{Vec2, unit};
+use linkage::math::unit;
 use linkage::mechanism::{GROUND, Mechanism};
 use scenario::Scenario;
 use scenario::header::{check_format, name};
@@ -65,9 +65,11 @@ fn read(root: &mut Table) -> Result<TaskFile> {
         }
     })?;
     let mechanism = &drawing.case.mechanism;
-    let timing = timing(phases, follow)?;
-    let (output, forward, is_angle) = read_output(output, mechanism)?;
-    let (stroke, transmission) = read_limits(limits, is_angle)?;
+    let timing = timing(phases)?;
+    let timing = if follow { timing.followed()? } else { timing };
+    let (output, forward) = read_output(output, mechanism)?;
+    let family = if matches!(output, Output::Angle { .. }) { &ANGLE } else { &LENGTH };
+    let (stroke, transmission) = read_limits(limits, family)?;
     let mut variables = Vec::new();
     let mut places = Vec::new();
     for table in vary {
@@ -79,7 +81,7 @@ fn read(root: &mut Table) -> Result<TaskFile> {
         Some(mut table) => {
             let bounds = bounds(&mut table, &ANGLE)?;
             table.finish()?;
-            free(&mut variables, "zero".into(), bounds, true)
+            free(&mut variables, Variable { name: "zero".into(), bounds, is_angle: true })
         }
     };
     let task = Task {
@@ -102,7 +104,7 @@ fn read(root: &mut Table) -> Result<TaskFile> {
     Ok(TaskFile { task, drawing })
 }
 
-fn timing(tables: Vec<Table>, follow: bool) -> Result<Timing> {
+fn timing(tables: Vec<Table>) -> Result<Timing> {
     let (mut from, mut phases, mut places) = (0.0, Vec::new(), Vec::new());
     for mut table in tables {
         let to = table.quantity("to", &ANGLE, Sign::Positive)?;
@@ -118,15 +120,17 @@ fn timing(tables: Vec<Table>, follow: bool) -> Result<Timing> {
         places.push(table.fault(""));
         from = to;
     }
-    Timing::of(phases, follow).map_err(|error| {
-        let own =
-            places.iter().find(|own| own.scenario_key() == error.scenario_key()).and_then(|own| own.place()).cloned();
-        own.map_or(error.clone(), |place| error.at(place))
+    Timing::of(phases).map_err(|error| {
+        let own = places.iter().find(|own| own.scenario_key() == error.scenario_key());
+        match own.and_then(|own| own.place()).cloned() {
+            Some(place) => error.at(place),
+            None => error,
+        }
     })
 }
 
-/// Output, the sense of forward motion, and whether the output is an angle.
-fn read_output(mut table: Table, mechanism: &Mechanism) -> Result<(Output, Option<f64>, bool)> {
+/// Output, and the sense of forward motion.
+fn read_output(mut table: Table, mechanism: &Mechanism) -> Result<(Output, Option<f64>)> {
     let forward = match table.optional_string("forward")?.as_deref() {
         None => None,
         Some("positive") => Some(1.0),
@@ -144,7 +148,7 @@ fn read_output(mut table: Table, mechanism: &Mechanism) -> Result<(Output, Optio
                 let error = table.wrong(ErrorKind::Input, "link", "the ground does not turn");
                 return Err(error.help("name the moving link whose angle is watched"));
             }
-            (Output::Angle { link }, forward, true)
+            Output::Angle { link }
         }
         (None, Some(name)) => {
             let along = unit(table.quantity("along", &ANGLE, Sign::Any)?);
@@ -156,7 +160,7 @@ fn read_output(mut table: Table, mechanism: &Mechanism) -> Result<(Output, Optio
                 let error = table.wrong(ErrorKind::Input, "point", format!("no moving link has a point \"{name}\""));
                 return Err(error.help(suggestion(&name, names, "\"")));
             };
-            (Output::Coordinate { link, point, along }, forward, false)
+            Output::Coordinate { link, point, along }
         }
         _ => {
             let help =
@@ -165,11 +169,11 @@ fn read_output(mut table: Table, mechanism: &Mechanism) -> Result<(Output, Optio
         }
     };
     table.finish()?;
-    Ok(found)
+    Ok((found, forward))
 }
 
-/// Limits of the stroke, and the smallest transmission angle.
-fn read_limits(table: Option<Table>, is_angle: bool) -> Result<([f64; 2], f64)> {
+/// Limits of the stroke, a quantity of this family, and the smallest transmission angle.
+fn read_limits(table: Option<Table>, family: &'static Family) -> Result<([f64; 2], f64)> {
     let Some(mut table) = table else { return Ok(([0.0, f64::INFINITY], 0.0)) };
     let transmission = table.optional_quantity("transmission", &ANGLE, Sign::NotNegative)?.unwrap_or(0.0);
     if transmission >= std::f64::consts::FRAC_PI_2 {
@@ -179,7 +183,6 @@ fn read_limits(table: Option<Table>, is_angle: bool) -> Result<([f64; 2], f64)> 
             .wrong(ErrorKind::Input, "transmission", message)
             .help("give less than 90 deg; 30 to 45 deg are usual"));
     }
-    let family = if is_angle { &ANGLE } else { &LENGTH };
     let stroke = match table.optional_table("stroke")? {
         None => [0.0, f64::INFINITY],
         Some(mut stroke) => {
@@ -219,8 +222,8 @@ fn bounds(table: &mut Table, family: &'static Family) -> Result<[f64; 2]> {
     Ok([from, to])
 }
 
-fn free(variables: &mut Vec<Variable>, name: String, bounds: [f64; 2], is_angle: bool) -> Entry {
-    variables.push(Variable { name, bounds, is_angle });
+fn free(variables: &mut Vec<Variable>, variable: Variable) -> Entry {
+    variables.push(variable);
     Entry::Free(variables.len() - 1)
 }
 
@@ -250,31 +253,25 @@ fn place(mut table: Table, mechanism: &Mechanism, variables: &mut Vec<Variable>,
             .help("put all that varies about a point into one table"));
     }
     let from = table.optional_string("from")?.map(|name| index(&table, "from", &name)).transpose()?;
-    let kinds: [(&str, &Family); 2] =
-        if from.is_some() { [("length", &LENGTH), ("angle", &ANGLE)] } else { [("x", &LENGTH), ("y", &LENGTH)] };
     let drawn = points[point].local;
-    let drawn = match from {
-        None => [drawn.x, drawn.y],
-        Some(from) => polar(drawn - points[from].local),
+    let (keys, drawn) = match from.map(|from| drawn - points[from].local) {
+        None => (["x", "y"], [drawn.x, drawn.y]),
+        Some(arm) => (["length", "angle"], [arm.norm(), arm.y.atan2(arm.x)]),
     };
     let mut entries = drawn.map(Entry::Fixed);
-    for (entry, (key, family)) in entries.iter_mut().zip(kinds) {
+    for (entry, key) in entries.iter_mut().zip(keys) {
         if let Some(mut own) = table.optional_table(key)? {
-            let family = if std::ptr::eq(family, &ANGLE) { &ANGLE } else { &LENGTH };
-            let found = bounds(&mut own, family)?;
+            let is_angle = key == "angle";
+            let bounds = bounds(&mut own, if is_angle { &ANGLE } else { &LENGTH })?;
             own.finish()?;
-            *entry = free(variables, format!("{link_name}.{point_name} {key}"), found, std::ptr::eq(family, &ANGLE));
+            let name = format!("{link_name}.{point_name} {key}");
+            *entry = free(variables, Variable { name, bounds, is_angle });
         }
     }
     table.finish()?;
     if entries.iter().all(|entry| matches!(entry, Entry::Fixed(_))) {
-        let help = format!("add `{0} = {{ from_mm = ..., to_mm = ... }}`", kinds[0].0);
+        let help = format!("add `{0} = {{ from_mm = ..., to_mm = ... }}`", keys[0]);
         return Err(table.fault("nothing about this point varies").help(help));
     }
     Ok(Place { handle, from, entries })
-}
-
-/// Length (m) and angle (rad) of a vector.
-fn polar(v: Vec2) -> [f64; 2] {
-    [v.norm(), v.y.atan2(v.x)]
 }

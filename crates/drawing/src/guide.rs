@@ -57,11 +57,8 @@ pub fn marks(mechanism: &Mechanism, travels: &Travels, unit: f64) -> Vec<(usize,
     let mut marks = Vec::new();
     for guide in guides {
         marks.extend(guide.block().into_iter().map(|mark| (guide.block.link, mark)));
-        let of_guide = match (guide.guide.link == GROUND, guide.is_cylinder) {
-            (true, _) => guide.fixed(&pivots, &mut drawn),
-            (false, true) => guide.cylinder(),
-            (false, false) => guide.slot(),
-        };
+        let is_fixed = guide.guide.link == GROUND;
+        let of_guide = if is_fixed { guide.fixed(&pivots, &mut drawn) } else { guide.moving() };
         marks.extend(of_guide.into_iter().map(|mark| (guide.guide.link, mark)));
     }
     marks
@@ -128,21 +125,16 @@ impl Guide {
         if self.head() > 0.0 { [from, to + HEAD * self.unit] } else { [from - HEAD * self.unit, to] }
     }
 
-    /// A slot of a moving link, and the bar that leads to it.
-    fn slot(&self) -> Vec<Mark> {
-        let [from, to] = self.covered();
-        let ends = [from - PLAY * self.unit, to + PLAY * self.unit];
-        let mut marks = self.lead(ends);
-        marks.push(Mark::area(Role::Slot, self.strip(ends, self.gap())));
-        marks
-    }
-
-    /// A moving cylinder, open where its piston comes from.
-    fn cylinder(&self) -> Vec<Mark> {
-        let ends = self.barrel();
-        let mut marks = self.lead(ends);
-        marks.push(Mark::line(Role::Cylinder, self.open(self.strip(ends, self.gap()))));
-        marks
+    /// A slot of a moving link, or a cylinder that is open where its piston comes from, and the bar that leads to it.
+    fn moving(&self) -> Vec<Mark> {
+        let ([from, to], play) = (self.covered(), PLAY * self.unit);
+        let ends = if self.is_cylinder { self.barrel() } else { [from - play, to + play] };
+        let strip = self.strip(ends, self.gap());
+        let guide = match self.is_cylinder {
+            true => Mark::line(Role::Cylinder, self.open(strip)),
+            false => Mark::area(Role::Slot, strip),
+        };
+        self.lead(ends).into_iter().chain([guide]).collect()
     }
 
     /// The corners of a strip from its open end around the head.
@@ -151,10 +143,10 @@ impl Guide {
     }
 
     /// The bar from the guide's place to a slot or cylinder that does not reach it.
-    fn lead(&self, [from, to]: [f64; 2]) -> Vec<Mark> {
+    fn lead(&self, [from, to]: [f64; 2]) -> Option<Mark> {
         let near = 0.0_f64.clamp(from, to);
         let ends = [0.0, near].map(|way| self.guide.local + self.axes[0] * way);
-        if near == 0.0 { Vec::new() } else { vec![Mark::line(Role::Bar, ends)] }
+        (near != 0.0).then(|| Mark::line(Role::Bar, ends))
     }
 
     /// Rails or bore of a fixed guide, hatched, and its centre line. Rails leave the pivots free; hatching of two guides

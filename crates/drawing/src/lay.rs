@@ -24,8 +24,19 @@ pub struct Laid {
     pub reaches: Vec<(Vec2, f64)>,
     /// What is missing, group by group.
     pub faults: Vec<Error>,
-    /// The mode and the number of the configuration of each group placed, with the group's number.
-    pub modes: Vec<(usize, AssemblyMode, usize)>,
+    /// How each group that is placed stands.
+    pub modes: Vec<Standing>,
+}
+
+/// How a group stands.
+#[derive(Clone, Copy, Debug)]
+pub struct Standing {
+    /// Number of the group.
+    pub group: usize,
+    /// Its mode.
+    pub mode: AssemblyMode,
+    /// Number of its configuration, from 1 on; 0 where it is not known.
+    pub number: usize,
 }
 
 impl Laid {
@@ -92,7 +103,8 @@ pub fn lay(mechanism: &Mechanism, structure: &Structure, angles: &[f64], starts:
                     laid.places[link] = Place::Here(pose.0[link]);
                 }
                 if let Some(choice) = choices.last() {
-                    laid.modes.push((index, choice.mode, wanted.last().and_then(|own| own.rank).unwrap_or(0)));
+                    let number = wanted.last().and_then(|own| own.rank).unwrap_or(0);
+                    laid.modes.push(Standing { group: index, mode: choice.mode, number });
                 }
                 done = tried;
             }
@@ -115,13 +127,9 @@ pub fn lay_loose(mechanism: &Mechanism, drivers: &[(usize, usize)], angles: &[f6
     laid.faults.push(fault);
     while let Some(group) = dyad(mechanism, &laid) {
         let found = configurations(mechanism, &group, &laid.pose());
-        match found.ok().and_then(|all| all.into_iter().next()) {
-            Some(one) => {
-                for (&link, pose) in group.links.iter().zip(one.links) {
-                    laid.places[link] = Place::Loose(pose);
-                }
-            }
-            None => break,
+        let Some(one) = found.ok().and_then(|all| all.into_iter().next()) else { break };
+        for (&link, pose) in group.links.iter().zip(one.links) {
+            laid.places[link] = Place::Loose(pose);
         }
     }
     close(mechanism, laid)
@@ -199,8 +207,7 @@ fn reaches(mechanism: &Mechanism, group: &Group, laid: &Laid) -> Vec<(Vec2, f64)
 }
 
 /// All configurations of a mechanism with the driving links at these world angles (rad), at most `most` of them, each
-/// laid as far as it goes, and whether there are more. A group whose configurations are not all known is placed as
-/// `starts` wants it.
+/// laid as far as it goes. A group whose configurations are not all known is placed as `starts` wants it.
 #[must_use]
 pub fn all_modes(
     mechanism: &Mechanism,
@@ -208,14 +215,11 @@ pub fn all_modes(
     angles: &[f64],
     starts: &[StartGroup],
     most: usize,
-) -> (Vec<Laid>, bool) {
+) -> Vec<Laid> {
     let mut found: Vec<Laid> = Vec::new();
     let mut open = vec![(Laid::start(mechanism, &structure.drivers, angles), 0)];
-    while let Some((mut laid, index)) = open.pop() {
+    while let Some((mut laid, index)) = open.pop().filter(|_| found.len() < most) {
         let Some(group) = structure.groups.get(index) else {
-            if found.len() == most {
-                return (found, true);
-            }
             found.push(close(mechanism, laid));
             continue;
         };
@@ -230,7 +234,7 @@ pub fn all_modes(
                     for (&link, pose) in group.links.iter().zip(&one.links) {
                         next.places[link] = Place::Here(*pose);
                     }
-                    next.modes.push((index, one.mode, number + 1));
+                    next.modes.push(Standing { group: index, mode: one.mode, number: number + 1 });
                     open.push((next, index + 1));
                 }
             }
@@ -243,7 +247,7 @@ pub fn all_modes(
                         for &link in &group.links {
                             laid.places[link] = own.places[link];
                         }
-                        laid.modes.push((index, AssemblyMode::Followed, 0));
+                        laid.modes.push(Standing { group: index, mode: AssemblyMode::Followed, number: 0 });
                     }
                     None => {
                         laid.reaches.extend(reaches(mechanism, group, &laid));
@@ -254,5 +258,5 @@ pub fn all_modes(
             }
         }
     }
-    (found, false)
+    found
 }

@@ -12,9 +12,9 @@
 //! let sketch = Sketch::of(&mechanism, &Travels::none(&mechanism), unit(&mechanism));
 //! let pose = LinkPose::GROUND;
 //! for (link, mark) in sketch.in_order() {
-//!     let (line, closed) = mark.shape.outline();
+//!     let line = mark.shape.points();
 //!     // Draw `line` with the pose of `link`, as `mark.role` says.
-//!     # let _ = (line.iter().map(|&local| pose.point(local)).collect::<Vec<_>>(), closed, mark.role.look(), link);
+//!     # let _ = (line.iter().map(|&local| pose.point(local)).collect::<Vec<_>>(), mark.role.look(), link);
 //! }
 //! ```
 

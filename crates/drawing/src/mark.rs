@@ -38,24 +38,28 @@ pub enum Shape {
 }
 
 impl Shape {
-    /// The shape as a line through points, and whether it is closed: for whoever draws lines only.
+    /// The shape as a line through points, for whoever draws lines only: [closed](Shape::is_closed) or not.
     #[must_use]
-    pub fn outline(&self) -> (Vec<Vec2>, bool) {
+    pub fn points(&self) -> Vec<Vec2> {
         let arc = |centre: Vec2, radius: f64, from: f64, sweep: f64, count: usize| {
-            (0..=count).map(|k| centre + unit(from + sweep * k as f64 / count as f64) * radius).collect::<Vec<_>>()
+            (0..=count).map(move |k| centre + unit(from + sweep * k as f64 / count as f64) * radius)
         };
         match *self {
-            Shape::Line { ref points, closed } => (points.clone(), closed),
+            Shape::Line { ref points, .. } => points.clone(),
             Shape::Circle { centre, radius } => {
-                let mut points = arc(centre, radius, 0.0, TAU, CORNERS as usize);
-                points.pop();
-                (points, true)
+                arc(centre, radius, 0.0, TAU, CORNERS as usize).take(CORNERS as usize).collect()
             }
             Shape::Arc { centre, radius, from, sweep } => {
                 let count = (CORNERS * sweep.abs() / TAU).ceil() as usize;
-                (arc(centre, radius, from, sweep, count.max(2)), false)
+                arc(centre, radius, from, sweep, count.max(2)).collect()
             }
         }
+    }
+
+    /// Whether the last of its points is joined to the first.
+    #[must_use]
+    pub fn is_closed(&self) -> bool {
+        matches!(self, Shape::Line { closed: true, .. } | Shape::Circle { .. })
     }
 }
 

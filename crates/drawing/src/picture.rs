@@ -3,14 +3,14 @@
 use super::acting::Acting;
 use super::mark::{Fill, Ink, Layer, Look, Mark, Role, Shape};
 use super::palette::LOAD;
-use super::paper::figure::{Figure, Style, Type, solid, sub, words};
-use super::paper::labels::{self, Obstacles, place_among};
-use super::paper::lettering::{LETTER, label_size, letter};
+use super::paper::figure::{Figure, Style, Tint, Type, solid, sub, words};
+use super::paper::labels::{self, LETTER, Obstacles, label_size, letter, place_among};
 use super::paper::style::{BLACK, GREY, colour, significant};
 use super::sign::{arrow, turning};
 use super::sketch::{Label, Lettering, Sketch};
+use super::stretched::Stretched;
 use linkage::math::{KeepNan, Vec2};
-use linkage::mechanism::{LinkPose, Mechanism};
+use linkage::mechanism::{GROUND, LinkPose, Mechanism};
 
 /// Radius (mm) of the disc around a link's number, and of what a pin covers.
 const NUMBER: f64 = 2.3;
@@ -55,10 +55,6 @@ impl Place {
             Place::Nowhere => None,
         }
     }
-
-    fn is_loose(&self) -> bool {
-        matches!(self, Place::Loose(_))
-    }
 }
 
 /// A picture being drawn; the world's origin is the figure's origin.
@@ -71,23 +67,30 @@ pub struct Picture<'a> {
     pub figure: Figure,
     /// What labels must not touch.
     pub obstacles: Obstacles,
-    labels: Vec<(labels::Label, String, &'static str)>,
-    numbers: Vec<(labels::Label, String, &'static str)>,
+    written: Vec<Written>,
+}
+
+/// A text that is still to be placed.
+struct Written {
+    sort: Sort,
+    label: labels::Label,
+    text: String,
+    paint: &'static str,
+}
+
+/// What a text is. Numbers are placed first.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Sort {
+    Number,
+    Letters,
 }
 
 impl<'a> Picture<'a> {
     /// The links of a sketch in their places, at a scale (m/mm).
     #[must_use]
     pub fn of(sketch: &'a Sketch, places: &'a [Place], scale: f64) -> Picture<'a> {
-        Picture {
-            sketch,
-            places,
-            scale,
-            figure: Figure::default(),
-            obstacles: Obstacles::default(),
-            labels: Vec::new(),
-            numbers: Vec::new(),
-        }
+        let (figure, obstacles) = (Figure::default(), Obstacles::default());
+        Picture { sketch, places, scale, figure, obstacles, written: Vec::new() }
     }
 
     /// A point of a link on paper.
@@ -100,54 +103,46 @@ impl<'a> Picture<'a> {
     pub fn draw_marks(&mut self) {
         let sketch = self.sketch;
         let marks = sketch.in_order();
-        let is_above = |(_, mark): &&(usize, &Mark)| mark.role.look().layer > Layer::Stretched;
-        let below = marks.iter().take_while(|mark| !is_above(mark)).count();
-        for (link, mark) in &marks[..below] {
-            self.mark(*link, mark);
-        }
+        let below = marks.partition_point(|(_, mark)| mark.role.look().layer <= Layer::Stretched);
+        self.draw_bodies(&marks[..below]);
         for own in &sketch.stretched {
             let [first, second] = own.ends.map(|end| self.at(end.link, end.local));
             let (Some(first), Some(second)) = (first, second) else { continue };
-            for mark in &own.marks {
-                let (points, closed) = mark.shape.outline();
-                let scaled = super::Stretched { width: own.width / self.scale, ..own.clone() };
-                let points: Vec<Vec2> = points.into_iter().map(|at| scaled.at(at, [first, second])).collect();
-                self.line(points, closed, mark.role, 0, false);
-            }
+            let scaled = Stretched { width: own.width / self.scale, ..own.clone() };
+            own.marks.iter().for_each(|mark| self.put(mark, GROUND, |at| scaled.at(at, [first, second])));
         }
-        for (link, mark) in &marks[below..] {
-            self.mark(*link, mark);
+        self.draw_bodies(&marks[below..]);
+    }
+
+    fn draw_bodies(&mut self, marks: &[(usize, &Mark)]) {
+        let (places, scale) = (self.places, self.scale);
+        for &(link, mark) in marks {
+            if let Some(pose) = places[link].pose() {
+                self.put(mark, link, |local| pose.point(local) / scale);
+            }
         }
     }
 
-    fn mark(&mut self, link: usize, mark: &Mark) {
-        let is_loose = self.places[link].is_loose();
+    /// Draws a mark of a link: `at` tells where its points are on paper.
+    fn put(&mut self, mark: &Mark, link: usize, at: impl Fn(Vec2) -> Vec2) {
+        let (style, fill) = style(mark.role.look(), link, &self.places[link]);
         if let Shape::Circle { centre, radius } = mark.shape {
-            let (Some(at), radius) = (self.at(link, centre), radius / self.scale) else { return };
-            let (style, fill) = style(mark.role.look(), link, is_loose);
-            self.figure.disc(at, radius, fill.map_or("none", |fill| fill.0), style);
+            let (at, radius) = (at(centre), radius / self.scale);
+            self.figure.disc(at, radius, fill.map_or("none", |fill| fill.colour), style);
             self.obstacles.discs.push((at, radius));
             return;
         }
-        let (points, closed) = mark.shape.outline();
-        let points: Option<Vec<Vec2>> = points.into_iter().map(|local| self.at(link, local)).collect();
-        if let Some(points) = points {
-            self.line(points, closed, mark.role, link, is_loose);
-        }
-    }
-
-    fn line(&mut self, points: Vec<Vec2>, closed: bool, role: Role, link: usize, is_loose: bool) {
-        let (style, fill) = style(role.look(), link, is_loose);
-        let is_obstacle = !matches!(role, Role::Weld | Role::MassQuarter | Role::LoadHead);
-        if is_obstacle {
+        let (points, closed) = (mark.shape.points().into_iter().map(at).collect::<Vec<_>>(), mark.shape.is_closed());
+        if !matches!(mark.role, Role::Weld | Role::MassQuarter | Role::LoadHead) {
             self.obstacles.segments.extend(points.windows(2).map(|pair| [pair[0], pair[1]]));
             if let (true, [first, .., last]) = (closed, &points[..]) {
                 self.obstacles.segments.push([*last, *first]);
             }
         }
         match points[..] {
-            [a, b] if !closed => self.figure.line([a, b], style),
-            _ => self.figure.shape(points, closed, fill, style),
+            _ if closed => self.figure.area(points, fill, style),
+            [a, b] => self.figure.line([a, b], style),
+            _ => self.figure.curve(points, fill, style),
         }
     }
 
@@ -183,7 +178,10 @@ impl<'a> Picture<'a> {
     pub fn number_links(&mut self) {
         for label in self.sketch.labels.iter().filter(|label| label.names == Lettering::Link) {
             if let Some(at) = self.at(label.at.link, label.at.local) {
-                self.number(at, label.text.clone(), colour(label.at.link));
+                let size = Vec2::new(2.0 * NUMBER, 2.0 * NUMBER);
+                let place = labels::Label { anchor: at, away: Vec2::zeros(), size, clear: 0.3 };
+                let (text, paint) = (label.text.clone(), colour(label.at.link));
+                self.written.push(Written { sort: Sort::Number, label: place, text, paint });
             }
         }
     }
@@ -195,14 +193,10 @@ impl<'a> Picture<'a> {
         }
     }
 
-    fn number(&mut self, anchor: Vec2, text: String, paint: &'static str) {
-        let size = Vec2::new(2.0 * NUMBER, 2.0 * NUMBER);
-        self.numbers.push((labels::Label { anchor, away: Vec2::zeros(), size, clear: 0.3 }, text, paint));
-    }
-
     /// A text at a point on paper, in a preferred direction from it, or any.
     pub fn letters(&mut self, anchor: Vec2, away: Vec2, clear: f64, text: String, paint: &'static str) {
-        self.labels.push((labels::Label { anchor, away, size: label_size(&text), clear }, text, paint));
+        let label = labels::Label { anchor, away, size: label_size(&text), clear };
+        self.written.push(Written { sort: Sort::Letters, label, text, paint });
     }
 
     /// Arrows of forces and moments, the largest force 22 mm long, and the sizes of all. They begin at the points on
@@ -214,11 +208,11 @@ impl<'a> Picture<'a> {
             let at = own.at / self.scale;
             if own.force.norm() > NOTHING.larger(LEAST * largest) {
                 let tip = own.force * (FORCE / largest);
-                self.sign(arrow(tip, 1.0), at);
+                self.sign(&arrow(tip, 1.0), at);
                 self.letters(at + tip, tip, 0.6, format!("{} N", short(own.force.norm())), LOAD.light);
             }
             if own.moment.abs() > NOTHING.larger(LEAST * moments) {
-                self.sign(turning(own.moment, MOMENT, 0.4, 1.0).to_vec(), at);
+                self.sign(&turning(own.moment, MOMENT, 0.4, 1.0), at);
                 let beside = Vec2::new(0.0, MOMENT * own.moment.signum());
                 self.letters(at + beside, beside, 0.8, format!("{} N m", short(own.moment.abs())), LOAD.light);
             }
@@ -233,22 +227,19 @@ impl<'a> Picture<'a> {
         let tip = gravity * (GRAVITY / gravity.norm());
         let [low, high] = self.figure.bounds();
         let at = Vec2::new(low.x - 4.0 - tip.x.larger(0.0), high.y - tip.y.larger(0.0));
-        self.sign(arrow(tip, 1.0), at);
+        self.sign(&arrow(tip, 1.0), at);
         self.letters(at + tip / 2.0, Vec2::new(-1.0, 0.0), 0.6, "g".into(), LOAD.light);
     }
 
-    fn sign(&mut self, marks: Vec<Mark>, at: Vec2) {
-        for mark in marks {
-            let (points, closed) = mark.shape.outline();
-            self.line(points.into_iter().map(|own| own + at).collect(), closed, mark.role, 0, false);
-        }
+    fn sign(&mut self, marks: &[Mark], at: Vec2) {
+        marks.iter().for_each(|mark| self.put(mark, GROUND, |own| own + at));
     }
 
     /// The path of a point in the world (m), beneath what is drawn later.
     pub fn draw_trace(&mut self, path: &[Vec2], link: usize) {
         let points: Vec<Vec2> = path.iter().map(|at| at / self.scale).collect();
         if points.len() > 1 {
-            self.figure.shape(points, false, None, Style { colour: colour(link), width: 0.35, dash: "1 0.8" });
+            self.figure.curve(points, None, Style { colour: colour(link), width: 0.35, dash: "1 0.8" });
         }
     }
 
@@ -270,8 +261,8 @@ impl<'a> Picture<'a> {
     pub fn draw_reach(&mut self, centre: Vec2, radius: f64, toward: Vec2) {
         let from = toward.y.atan2(toward.x) - REACH;
         let (centre, radius) = (centre / self.scale, radius / self.scale);
-        let (points, _) = Shape::Arc { centre, radius, from, sweep: 2.0 * REACH }.outline();
-        self.figure.shape(points, false, None, Style { colour: GREY, width: 0.3, dash: CONSTRUCTION });
+        let points = Shape::Arc { centre, radius, from, sweep: 2.0 * REACH }.points();
+        self.figure.curve(points, None, Style { colour: GREY, width: 0.3, dash: CONSTRUCTION });
     }
 
     /// A gap between two points in the world (m) that a joint should hold together, with its size.
@@ -287,24 +278,17 @@ impl<'a> Picture<'a> {
         self.letters((ends[0] + ends[1]) / 2.0, Vec2::zeros(), 1.0, text, ALARM);
     }
 
-    /// Places all letters and returns the figure.
+    /// Places all letters and returns the figure, one of so many that are made together: they share the work for
+    /// letters.
     #[must_use]
-    pub fn finish(self) -> Figure {
-        self.finish_among(1)
-    }
-
-    /// The same for one of so many drawings that are made together: they share the work for letters.
-    #[must_use]
-    pub fn finish_among(mut self, drawings: usize) -> Figure {
-        let numbers = std::mem::take(&mut self.numbers).into_iter().map(|own| (own, true));
-        let letters = std::mem::take(&mut self.labels).into_iter().map(|own| (own, false));
-        let all: Vec<_> = numbers.chain(letters).collect();
-        let boxes: Vec<labels::Label> = all.iter().map(|((label, ..), _)| *label).collect();
-        for (((label, text, paint), is_number), at) in all.iter().zip(place_among(&boxes, &self.obstacles, drawings)) {
-            if *is_number {
-                draw_number(&mut self.figure, at, text.clone(), paint);
-            } else {
-                letter(&mut self.figure, label, at, text, paint);
+    pub fn finish(mut self, drawings: usize) -> Figure {
+        self.written.sort_by_key(|own| own.sort);
+        let boxes: Vec<labels::Label> = self.written.iter().map(|own| own.label).collect();
+        let places = place_among(&boxes, &self.obstacles, drawings);
+        for (Written { sort, label, text, paint }, at) in self.written.into_iter().zip(places) {
+            match sort {
+                Sort::Number => draw_number(&mut self.figure, at, text, paint),
+                Sort::Letters => letter(&mut self.figure, &label, at, &text, paint),
             }
         }
         self.figure
@@ -332,8 +316,8 @@ fn short(value: f64) -> String {
     }
 }
 
-/// Line and fill of a look.
-fn style(look: Look, link: usize, is_loose: bool) -> (Style, Option<(&'static str, f64)>) {
+/// Line and fill of a look of a link in its place.
+fn style(look: Look, link: usize, place: &Place) -> (Style, Option<Tint>) {
     let paint = match look.ink {
         Ink::Link => colour(link),
         Ink::Text => BLACK,
@@ -342,11 +326,11 @@ fn style(look: Look, link: usize, is_loose: bool) -> (Style, Option<(&'static st
     };
     let fill = match look.fill {
         Fill::None => None,
-        Fill::Paper => Some(("white", 1.0)),
-        Fill::Tint => Some((paint, TINT)),
-        Fill::Ink => Some((paint, 1.0)),
+        Fill::Paper => Some(Tint::opaque("white")),
+        Fill::Tint => Some(Tint { colour: paint, opacity: TINT }),
+        Fill::Ink => Some(Tint::opaque(paint)),
     };
-    let dash = if is_loose && look.layer == Layer::Links { LOOSE } else { "" };
+    let dash = if matches!(place, Place::Loose(_)) && look.layer == Layer::Links { LOOSE } else { "" };
     let dash = if look.ink == Ink::Quiet && look.layer == Layer::Ground { CONSTRUCTION } else { dash };
     (Style { colour: paint, width: look.width, dash }, fill)
 }

@@ -1,6 +1,6 @@
 //! What acts on a mechanism: drives, motors, forces, moments, torsional springs and dampers.
 
-use super::mark::{Mark, Role};
+use super::mark::{Mark, Role, Shape};
 use linkage::drive::{Drive, Load, On};
 use linkage::math::{KeepNan, Vec2, turned, unit};
 use linkage::mechanism::{GROUND, Mechanism, Side};
@@ -78,10 +78,9 @@ pub fn twisted(mechanism: &Mechanism, load: &Load, u: f64) -> Option<(usize, Vec
     let ends = [from, from + sweep].map(|angle| {
         Mark::line(Role::TorsionDamper, [DRUM - 1.0, DRUM].map(|radius| local + unit(angle) * (radius * u)))
     });
-    let mut marks =
-        vec![Mark::arc(Role::TorsionDamper, local, DRUM * u, [from, sweep]), Mark::line(Role::TorsionDamper, vane)];
-    marks.extend(ends);
-    Some((link, marks))
+    let [first, last] = ends;
+    let drum = Mark::arc(Role::TorsionDamper, local, DRUM * u, [from, sweep]);
+    Some((link, vec![drum, Mark::line(Role::TorsionDamper, vane), first, last]))
 }
 
 /// The arrow in the sense of a drive, in the frame of the driven link, and the circle of its motor.
@@ -94,9 +93,7 @@ pub fn of_drive(mechanism: &Mechanism, drive: &Drive, u: f64) -> Vec<Mark> {
     let mut marks = Vec::new();
     if drive.has_moment() {
         let [arc, head] = turning(sense, DRIVE * u, arm.y.atan2(arm.x) + sense * AHEAD, u);
-        marks.extend(
-            [(arc, Role::Drive), (head, Role::DriveHead)].map(|(mark, role)| Mark { role, ..moved(mark, pin) }),
-        );
+        marks.extend([moved(arc, Role::Drive, pin), moved(head, Role::DriveHead, pin)]);
     }
     if drive.motor().is_some() {
         marks.push(Mark::circle(Role::Motor, pin, MOTOR * u));
@@ -104,8 +101,7 @@ pub fn of_drive(mechanism: &Mechanism, drive: &Drive, u: f64) -> Vec<Mark> {
     marks
 }
 
-fn moved(mark: Mark, by: Vec2) -> Mark {
-    use super::mark::Shape;
+fn moved(mark: Mark, role: Role, by: Vec2) -> Mark {
     let shape = match mark.shape {
         Shape::Line { points, closed } => {
             Shape::Line { points: points.into_iter().map(|at| at + by).collect(), closed }
@@ -113,7 +109,7 @@ fn moved(mark: Mark, by: Vec2) -> Mark {
         Shape::Circle { centre, radius } => Shape::Circle { centre: centre + by, radius },
         Shape::Arc { centre, radius, from, sweep } => Shape::Arc { centre: centre + by, radius, from, sweep },
     };
-    Mark { shape, role: mark.role }
+    Mark { shape, role }
 }
 
 /// An arrow from the origin to `tip` (m), its line and its head, for a sketch of this unit (m). Nothing for no length.

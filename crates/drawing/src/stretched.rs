@@ -47,20 +47,13 @@ pub fn of_loads(loads: &[Load], unit: f64) -> Vec<Stretched> {
         all.push(Stretched { role, load, ends, width: WIDTH * unit, marks: Vec::new() });
     }
     let same = |a: &Stretched, b: &Stretched| a.ends == b.ends || a.ends == [b.ends[1], b.ends[0]];
-    let asides: Vec<f64> = all
-        .iter()
-        .enumerate()
-        .map(|(index, own)| {
-            let count = all.iter().filter(|other| same(own, other)).count();
-            let before = all[..index].iter().filter(|other| same(own, other)).count();
-            let side = if all.iter().find(|other| same(own, other)).is_some_and(|first| first.ends == own.ends) {
-                1.0
-            } else {
-                -1.0
-            };
-            side * APART * (before as f64 - (count as f64 - 1.0) / 2.0)
-        })
-        .collect();
+    let aside = |(index, own): (usize, &Stretched)| {
+        let together: Vec<usize> = (0..all.len()).filter(|&other| same(own, &all[other])).collect();
+        let before = together.iter().filter(|&&other| other < index).count();
+        let side = if all[together[0]].ends == own.ends { 1.0 } else { -1.0 };
+        side * APART * (before as f64 - (together.len() as f64 - 1.0) / 2.0)
+    };
+    let asides: Vec<f64> = all.iter().enumerate().map(aside).collect();
     for (own, aside) in all.iter_mut().zip(asides) {
         own.marks = if own.role == Role::Spring { spring(aside) } else { damper(aside) };
     }

@@ -3,12 +3,13 @@
 use super::acting::Acting;
 use super::lay::Laid;
 use super::mark::Role;
+use super::paper::figure::Figure;
 use super::picture::{AROUND, Picture};
 use super::sheet::{Cell, fit};
 use super::sketch::{Lettering, Sketch};
 use super::travel::Travels;
 use linkage::drive::{Drive, Load};
-use linkage::math::{KeepNan, Vec2};
+use linkage::math::{KeepNan, Vec2, corners};
 use linkage::mechanism::{GROUND, Mechanism};
 
 /// Least length of a link between two joints on which its number has room (mm).
@@ -60,10 +61,7 @@ pub fn cells(
     extras: Extras,
     room: Vec2,
 ) -> Vec<Cell> {
-    let points = extent(subject, shots, travels, traces);
-    let (low, high) = points
-        .iter()
-        .fold((Vec2::repeat(f64::INFINITY), Vec2::repeat(f64::NEG_INFINITY)), |(l, h), at| (l.inf(at), h.sup(at)));
+    let [low, high] = corners(extent(subject, shots, travels, traces));
     let scale = fit(high - low, room - Vec2::repeat(2.0 * AROUND));
     let sketch = Sketch::of(subject.mechanism, travels, scale)
         .with_drives(subject.mechanism, subject.drives)
@@ -71,8 +69,7 @@ pub fn cells(
     let sketch = if extras.loads { sketch } else { sketch.without(&[Role::MassCentre, Role::MassQuarter]) };
     let figures: Vec<_> =
         shots.iter().map(|shot| figure(subject, &sketch, shot, traces, extras, scale, shots.len())).collect();
-    let bounds = figures.iter().map(super::paper::figure::Figure::bounds);
-    let bounds = bounds.reduce(|a, b| [a[0].inf(&b[0]), a[1].sup(&b[1])]).unwrap_or([Vec2::zeros(); 2]);
+    let bounds = corners(figures.iter().flat_map(Figure::bounds));
     let cell = |figure| Cell { heading: Vec::new(), figure, bounds, scale, faults: Vec::new() };
     figures.into_iter().map(cell).collect()
 }
@@ -85,7 +82,7 @@ fn figure(
     extras: Extras,
     scale: f64,
     drawings: usize,
-) -> super::paper::figure::Figure {
+) -> Figure {
     let laid = &shot.laid;
     let mut picture = Picture::of(sketch, &laid.places, scale);
     for (link, path) in traces {
@@ -128,7 +125,7 @@ fn figure(
     if extras.loads {
         picture.draw_gravity(subject.gravity);
     }
-    picture.finish_among(drawings)
+    picture.finish(drawings)
 }
 
 /// All places that the picture must hold (m).

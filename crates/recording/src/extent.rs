@@ -1,27 +1,24 @@
 //! Where a moving scene is, over all of its frames.
 
-use crate::viewers::{FrameTransforms, Point3, Pose, SceneEntity, SceneUpdate};
-use linkage::math::{KeepNan, Vec2, rotated, unit};
+use crate::viewers::{FrameTransform, FrameTransforms, Pose, SceneEntity, SceneUpdate, Vector3};
+use linkage::math::{KeepNan, Vec2};
+use linkage::mechanism::LinkPose;
 
 /// Corners of all that a scene draws, over all of its frames (m).
-pub fn corners(links: &SceneUpdate, frames: impl Iterator<Item = FrameTransforms>) -> [Vec2; 2] {
+pub fn corners<'a>(links: &SceneUpdate, frames: impl Iterator<Item = &'a FrameTransforms>) -> [Vec2; 2] {
     let mut corners = [Vec2::repeat(f64::INFINITY), Vec2::repeat(f64::NEG_INFINITY)];
     let mut take = |at: Vec2| {
-        corners = [
-            Vec2::new(corners[0].x.smaller(at.x), corners[0].y.smaller(at.y)),
-            Vec2::new(corners[1].x.larger(at.x), corners[1].y.larger(at.y)),
-        ];
+        let [low, high] = corners;
+        corners = [low.zip_map(&at, f64::smaller), high.zip_map(&at, f64::larger)];
     };
     let reach: Vec<(&str, Vec<Vec2>)> =
         links.entities.iter().map(|entity| (entity.frame_id.as_str(), places(entity))).collect();
-    for (_, places) in reach.iter().filter(|(frame, _)| *frame == "world") {
-        places.iter().for_each(|&at| take(at));
-    }
-    for frame in frames.flat_map(|frames| frames.transforms) {
-        let (at, turn) = (frame.translation.unwrap_or_default(), frame.rotation.unwrap_or_default());
-        let direction = unit(2.0 * turn.z.atan2(turn.w));
-        for (_, places) in reach.iter().filter(|(name, _)| *name == frame.child_frame_id) {
-            places.iter().for_each(|&local| take(Vec2::new(at.x, at.y) + rotated(local, direction)));
+    let still = ("world", LinkPose::GROUND);
+    let moving =
+        frames.flat_map(|frames| &frames.transforms).map(|frame| (frame.child_frame_id.as_str(), frame.pose()));
+    for (frame, pose) in std::iter::once(still).chain(moving) {
+        for (_, places) in reach.iter().filter(|(name, _)| *name == frame) {
+            places.iter().for_each(|&local| take(pose.point(local)));
         }
     }
     corners
@@ -29,15 +26,22 @@ pub fn corners(links: &SceneUpdate, frames: impl Iterator<Item = FrameTransforms
 
 /// Places of what an entity draws, in its frame.
 fn places(entity: &SceneEntity) -> Vec<Vec2> {
-    let flat = |point: &Point3| Vec2::new(point.x, point.y);
+    let flat = |point: &Vector3| Vec2::new(point.x, point.y);
     let lines = entity.lines.iter().flat_map(|line| &line.points).map(flat);
     let areas = entity.triangles.iter().flat_map(|area| &area.points).map(flat);
-    lines.chain(areas).chain(entity.cylinders.iter().map(|pin| placed(pin.pose.as_ref()).0)).collect()
+    lines.chain(areas).chain(entity.cylinders.iter().map(|pin| placed(pin.pose).origin)).collect()
 }
 
 /// Place and angle of a pose in the plane.
-pub fn placed(pose: Option<&Pose>) -> (Vec2, f64) {
-    let (at, turn) = pose.map(|pose| (pose.position, pose.orientation)).unwrap_or_default();
-    let (at, turn) = (at.unwrap_or_default(), turn.unwrap_or_default());
-    (Vec2::new(at.x, at.y), 2.0 * turn.z.atan2(turn.w))
+pub fn placed(pose: Option<Pose>) -> LinkPose {
+    let Pose { position, orientation } = pose.unwrap_or_default();
+    let (at, turn) = (position.unwrap_or_default(), orientation.unwrap_or_default());
+    LinkPose { origin: Vec2::new(at.x, at.y), angle: 2.0 * turn.z.atan2(turn.w) }
+}
+
+impl FrameTransform {
+    /// Place and angle of the frame in the plane.
+    pub fn pose(&self) -> LinkPose {
+        placed(Some(Pose { position: self.translation, orientation: self.rotation }))
+    }
 }

@@ -1,13 +1,17 @@
-//! A recording as a moving picture, read back for viewers that know none of its messages.
+//! A recording read back for viewers that know none of its messages: as a moving picture, or its numbers alone.
 
 use super::extent::{corners, placed};
-use super::numbers::plotted;
-use super::view::{View, turn};
+use super::recording::Side;
+use super::shapes::rgba;
+use super::table::topic_name;
+use super::view::{Plot, View, plots, turn};
 use super::{beside, messages, read, schema};
-use crate::viewers::{Color, FrameTransforms, LineType, Point3, Pose, SceneEntity, SceneUpdate};
+use crate::viewers::{FrameTransforms, LineType, Pose, SceneEntity, SceneUpdate, Vector3};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::unit;
-use mcap::{McapError, Message};
+use linkage::mechanism::LinkPose;
+use linkage::trajectory::{Channel, Trajectory};
+use mcap::Message;
 use prost::Message as _;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -66,22 +70,17 @@ struct Found {
 /// Those of [`load`](super::load); [`ErrorKind::Input`](linkage::ErrorKind::Input) if it has no picture.
 pub fn film(path: &Path) -> Result<Film> {
     let bytes = read::bytes(path)?;
-    let sides = read::of_bytes(&bytes, path)?;
-    let damaged = |error: McapError| {
-        Error::new(ErrorKind::Io, format!("the recording {} is damaged: {error}", path.display()))
-            .help("record it again")
-    };
+    let sides = read::read_bytes(&bytes, path)?;
     let metadata = beside::described(&bytes).map(|(_, metadata)| metadata).unwrap_or_default();
     let number = |key: &str, usual: f64| metadata.get(key).and_then(|text| text.parse().ok()).unwrap_or(usual);
     let (slow, zero) = (number("slow", 1.0), number("log_time_zero_s", 0.0));
     let time = |nanoseconds: u64| zero + nanoseconds as f64 * 1e-9 / slow;
 
     let mut found = Found::default();
-    messages::each::<McapError>(&bytes, &mut |message| {
+    messages::each(&bytes, path, |message| {
         found.take(message);
         Ok(())
-    })
-    .map_err(damaged)?;
+    })?;
     let Some(links) = found.links.filter(|_| !found.frames.is_empty()) else {
         let message = format!("the recording {} has no picture: no positions were recorded", path.display());
         return Err(Error::new(ErrorKind::Input, message).help("record the scenario again with its positions"));
@@ -90,28 +89,27 @@ pub fn film(path: &Path) -> Result<Film> {
     let lasts = found.frames.last().map_or(0.0, |(last, _)| *last as f64 * 1e-9);
     let mut poses: BTreeMap<String, Vec<[f64; 3]>> = BTreeMap::new();
     for frame in found.frames.iter().flat_map(|(_, frames)| &frames.transforms) {
-        let (at, turn) = (frame.translation.unwrap_or_default(), frame.rotation.unwrap_or_default());
-        let pose = [at.x, at.y, 2.0 * turn.z.atan2(turn.w)];
-        poses.entry(frame.child_frame_id.clone()).or_default().push(pose);
+        let LinkPose { origin, angle } = frame.pose();
+        poses.entry(frame.child_frame_id.clone()).or_default().push([origin.x, origin.y, angle]);
     }
     let mut arrows: BTreeMap<String, Vec<[f64; 5]>> = BTreeMap::new();
     for (at, entity) in found.arrows.iter().flat_map(|(at, update)| update.entities.iter().map(move |own| (at, own))) {
         for arrow in &entity.arrows {
-            let (foot, turn) = placed(arrow.pose.as_ref());
-            let tip = unit(turn) * (arrow.shaft_length + arrow.head_length);
+            let LinkPose { origin: foot, angle } = placed(arrow.pose);
+            let tip = unit(angle) * (arrow.shaft_length + arrow.head_length);
             arrows.entry(entity.id.clone()).or_default().push([time(*at), foot.x, foot.y, tip.x, tip.y]);
         }
     }
     let view = View {
         name: metadata.get("scenario").cloned().unwrap_or_else(|| "recording".into()),
-        corners: corners(&links, found.frames.iter().map(|(_, frames)| frames.clone())),
+        corners: corners(&links, found.frames.iter().map(|(_, frames)| frames)),
         frames: poses.keys().cloned().collect(),
         forces: !arrows.is_empty(),
         slow,
         turn: sides.first().map_or(lasts, |(_, trajectory)| turn(lasts, trajectory)),
         plots,
     };
-    let values = values(&bytes, &view, &time).map_err(damaged)?;
+    let values = values(&bytes, path, &view, &time)?;
     let times = found.frames.iter().map(|(at, _)| time(*at)).collect();
     Ok(Film { parts: links.entities.iter().map(part).collect(), times, poses, arrows, values, view })
 }
@@ -142,11 +140,11 @@ impl Found {
 }
 
 /// Times and values of every line of every plot.
-fn values(bytes: &[u8], view: &View, time: &dyn Fn(u64) -> f64) -> mcap::McapResult<Vec<Vec<Vec<[f64; 2]>>>> {
+fn values(bytes: &[u8], path: &Path, view: &View, time: &dyn Fn(u64) -> f64) -> Result<Vec<Vec<Vec<[f64; 2]>>>> {
     let mut known = schema::Names::default();
     let mut values: Vec<Vec<Vec<[f64; 2]>>> =
         view.plots.iter().map(|plot| vec![Vec::new(); plot.lines.len()]).collect();
-    messages::each::<McapError>(bytes, &mut |message| {
+    messages::each(bytes, path, |message| {
         for (plot, values) in view.plots.iter().zip(&mut values) {
             for (line, values) in plot.lines.iter().zip(values) {
                 if line.topic != message.channel.topic {
@@ -165,34 +163,67 @@ fn values(bytes: &[u8], view: &View, time: &dyn Fn(u64) -> f64) -> mcap::McapRes
 }
 
 fn part(entity: &SceneEntity) -> Part {
-    let height = |pose: Option<&Pose>| pose.and_then(|pose| pose.position).map_or(0.0, |at| at.z);
-    let colour = |colour: Option<&Color>| {
-        colour.map_or([128, 128, 128, 255], |Color { r, g, b, a }| [r, g, b, a].map(|part| (part * 255.0) as u8))
-    };
-    let raised = |points: &[Point3], z: f64| points.iter().map(|at| [at.x, at.y, at.z + z]).collect::<Vec<_>>();
-    let at = |pose: Option<&Pose>| {
-        let place = placed(pose).0;
+    let height = |pose: Option<Pose>| pose.and_then(|pose| pose.position).map_or(0.0, |at| at.z);
+    let raised = |points: &[Vector3], z: f64| points.iter().map(|at| [at.x, at.y, at.z + z]).collect::<Vec<_>>();
+    let at = |pose: Option<Pose>| {
+        let place = placed(pose).origin;
         [place.x, place.y, height(pose)]
     };
     let lines = entity.lines.iter().map(|line| {
-        let mut points = raised(&line.points, height(line.pose.as_ref()));
+        let mut points = raised(&line.points, height(line.pose));
         if line.r#type == LineType::LineLoop as i32 {
             points.extend(points.first().copied());
         }
-        (points, line.thickness, colour(line.color.as_ref()))
+        (points, line.thickness, rgba(line.color))
     });
-    let round = entity.cylinders.iter().map(|own| (&own.pose, &own.size, &own.color));
-    let balls = entity.spheres.iter().map(|own| (&own.pose, &own.size, &own.color));
-    let discs = round
-        .chain(balls)
-        .map(|(pose, size, own)| (at(pose.as_ref()), size.map_or(0.0, |size| size.x / 2.0), colour(own.as_ref())));
-    let areas = entity.triangles.iter();
-    let areas = areas.map(|own| (raised(&own.points, height(own.pose.as_ref())), colour(own.color.as_ref())));
+    let round = entity.cylinders.iter().map(|own| (own.pose, own.size, own.color));
+    let balls = entity.spheres.iter().map(|own| (own.pose, own.size, own.color));
+    let disc =
+        |(pose, size, color): (_, Option<Vector3>, _)| (at(pose), size.map_or(0.0, |size| size.x / 2.0), rgba(color));
+    let areas = entity.triangles.iter().map(|own| (raised(&own.points, height(own.pose)), rgba(own.color)));
     Part {
         frame: entity.frame_id.clone(),
         lines: lines.collect(),
-        discs: discs.collect(),
+        discs: round.chain(balls).map(disc).collect(),
         areas: areas.collect(),
-        texts: entity.texts.iter().map(|text| (at(text.pose.as_ref()), text.text.clone())).collect(),
+        texts: entity.texts.iter().map(|text| (at(text.pose), text.text.clone())).collect(),
     }
+}
+
+/// The numbers of a recording.
+#[derive(Clone, Debug)]
+pub struct Numbers {
+    /// Topics of the sides and of their errors.
+    pub topics: Vec<String>,
+    /// Plots, the most interesting first: the values of all sides, then their errors.
+    pub plots: Vec<Plot>,
+}
+
+/// Reads which numbers a recording has.
+///
+/// # Errors
+/// Those of [`load`](super::load).
+pub fn numbers(path: &Path) -> Result<Numbers> {
+    let bytes = read::bytes(path)?;
+    let sides = read::read_bytes(&bytes, path)?;
+    let mut topics = BTreeSet::new();
+    messages::each(&bytes, path, |message| {
+        let topic = message.channel.topic.as_str();
+        let side = topic.strip_prefix('/').and_then(|rest| rest.split_once('/')).map(|(side, _)| side);
+        if side.is_some_and(|side| side == "error" || sides.iter().any(|(own, _)| own == side)) {
+            topics.insert(topic.to_string());
+        }
+        Ok(())
+    })?;
+    Ok(Numbers { plots: plotted(&sides, &topics), topics: topics.into_iter().collect() })
+}
+
+/// Plots of the sides, and of those errors that have a topic.
+fn plotted(sides: &[(String, Trajectory)], topics: &BTreeSet<String>) -> Vec<Plot> {
+    let named: Vec<Side> = sides.iter().map(|(name, trajectory)| Side { name, trajectory }).collect();
+    let errors: Vec<Channel> = (named.first().iter().flat_map(|side| side.trajectory.channels()))
+        .filter(|channel| topics.contains(&topic_name("error", channel.kind.subject, &channel.of)))
+        .cloned()
+        .collect();
+    plots(&named, &errors)
 }

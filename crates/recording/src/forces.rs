@@ -1,7 +1,6 @@
 //! Reactions as arrows: the force of each joint's first link on its second, at the joint.
 
-use super::placed::{Placed, column};
-use super::scene::Scene;
+use super::scene::{Placed, Scene, column};
 use super::shapes::{colour, pose, short, stamp};
 use crate::viewers::{ArrowPrimitive, SceneEntity, SceneUpdate};
 use linkage::math::{KeepNan, Vec2};

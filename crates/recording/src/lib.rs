@@ -30,9 +30,7 @@ mod film;
 mod forces;
 mod marks;
 mod messages;
-mod numbers;
 mod output;
-mod placed;
 mod pour;
 mod raw;
 mod read;
@@ -44,15 +42,14 @@ mod schema;
 mod shapes;
 mod sink;
 mod table;
-mod thin;
 mod urdf;
 mod view;
-pub mod viewers;
+mod viewers;
 mod write;
 
 pub use beside::{Place, place};
-pub use film::{Film, Part, film};
-pub use numbers::{Numbers, numbers};
+pub use film::{Film, Numbers, Part, film, numbers};
+pub use read::{load, read_bytes};
 pub use recording::{Level, LogEntry, Recording, Show, Side};
 #[cfg(feature = "live")]
 pub use reel::{Reel, Told, reel};
@@ -60,28 +57,3 @@ pub use reel::{Reel, Told, reel};
 pub use sink::Kind;
 pub use view::{Line, Plot, View, view};
 pub use write::write;
-
-use linkage::error::Result;
-use linkage::trajectory::Trajectory;
-use std::path::Path;
-
-/// Reads every side of a recording, in the order in which they were recorded.
-///
-/// Times, crank angles and values are read back bit for bit, with the rows in the solver's order. Columns are in the
-/// order of subjects in the recording, and of [`CHANNELS`](linkage::trajectory::CHANNELS) within a subject.
-///
-/// # Errors
-/// [`ErrorKind::Io`](linkage::ErrorKind::Io) with the path if the file cannot be read, is cut off or damaged;
-/// [`ErrorKind::Input`](linkage::ErrorKind::Input) if it holds no side, or if a topic lacks samples;
-/// [`ErrorKind::Numeric`](linkage::ErrorKind::Numeric) if a value is not finite.
-pub fn load(path: &Path) -> Result<Vec<(String, Trajectory)>> {
-    read::read(path)
-}
-
-/// The same from the bytes of a recording; messages call it `path`.
-///
-/// # Errors
-/// Those of [`load`], except that the file cannot be read.
-pub fn read_bytes(bytes: &[u8], path: &Path) -> Result<Vec<(String, Trajectory)>> {
-    read::of_bytes(bytes, path)
-}

@@ -1,6 +1,6 @@
 //! The marks of a sketch as the primitives of a scene.
 
-use super::shapes::{colour, extent, point, pose};
+use super::shapes::{colour, extent, pose, vector};
 use crate::viewers::{
     Color, CylinderPrimitive, LinePrimitive, LineType, SceneEntity, TextPrimitive, TriangleListPrimitive,
 };
@@ -48,14 +48,14 @@ impl Brush {
             entity.cylinders.push(disc(z + self.step, HOLE.1 * radius, HOLE.0));
             return;
         }
-        let (outline, closed) = mark.shape.outline();
+        let (outline, closed) = (mark.shape.points(), mark.shape.is_closed());
         // An area of a later side would hide the first one, or be hidden.
         if closed && look.fill != Fill::None && self.broad >= 1.0 {
             let opacity = if look.fill == Fill::Ink { self.rgba[3] } else { TINT };
             let [red, green, blue, _] = self.rgba;
             entity.triangles.push(TriangleListPrimitive {
                 pose: pose(Vec2::zeros(), z - 0.5 * self.step, 0.0),
-                points: fan(&outline).into_iter().map(|corner| point(corner, 0.0)).collect(),
+                points: fan(&outline).into_iter().map(|corner| vector(corner, 0.0)).collect(),
                 color: Some(colour([red, green, blue, opacity])),
             });
         }
@@ -63,7 +63,7 @@ impl Brush {
             r#type: if closed { LineType::LineLoop } else { LineType::LineStrip } as i32,
             pose: pose(Vec2::zeros(), z, 0.0),
             thickness: look.width * self.unit * self.broad,
-            points: outline.into_iter().map(|corner| point(corner, 0.0)).collect(),
+            points: outline.into_iter().map(|corner| vector(corner, 0.0)).collect(),
             color: Some(colour(self.rgba)),
             ..Default::default()
         });

@@ -5,24 +5,38 @@
 //! other sorts of records are looked into than messages need.
 
 use std::borrow::Cow;
+use std::path::Path;
 
 use super::raw;
+use linkage::error::{Error, ErrorKind, Result};
 use mcap::read::ChannelAccumulator;
 use mcap::records::{Record, op};
 use mcap::sans_io::{LinearReadEvent, LinearReader, LinearReaderOptions};
 use mcap::{McapError, McapResult, Message, parse_record};
+use prost::DecodeError;
 
 /// Length that a record may have in any file: a compressed one may be longer than its file.
 const SMALL: usize = 1 << 20;
 
-/// Calls `visit` with every message, in the order of the file.
+/// Calls `visit` with every message, in the order of the file, which messages call `path`.
 ///
 /// # Errors
-/// Those of the file, and of `visit`.
-pub(super) fn each<E: From<McapError>>(
+/// [`ErrorKind::Io`] for a file that is cut off or damaged, and for a message that `visit` cannot read.
+pub(super) fn each(
     bytes: &[u8],
-    visit: &mut dyn FnMut(&Message) -> std::result::Result<(), E>,
-) -> std::result::Result<(), E> {
+    path: &Path,
+    mut visit: impl FnMut(&Message) -> std::result::Result<(), DecodeError>,
+) -> Result<()> {
+    walk(bytes, &mut visit).map_err(|error| {
+        Error::new(ErrorKind::Io, format!("the recording {} is cut off or damaged: {error}", path.display()))
+            .help("record it again, or save what is left of it with `pymcap-cli recover`")
+    })
+}
+
+fn walk(
+    bytes: &[u8],
+    visit: &mut dyn FnMut(&Message) -> std::result::Result<(), DecodeError>,
+) -> std::result::Result<(), Box<dyn std::error::Error>> {
     let longest = bytes.len().max(SMALL);
     let ([told, _], mut seen) = (raw::expanded(bytes), 0);
     let options = LinearReaderOptions::default().with_validate_chunk_crcs(true).with_record_length_limit(longest);

@@ -4,7 +4,9 @@ use super::{messages, raw, schema};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::input::Input;
 use linkage::trajectory::{Channel, Trajectory};
-use mcap::{McapError, Message};
+use mcap::Message;
+use prost::DecodeError;
+use std::collections::hash_map::Entry;
 use std::collections::{BTreeMap, HashMap};
 use std::fmt::Display;
 use std::fs;
@@ -14,14 +16,18 @@ use std::path::Path;
 /// Values with the sequence numbers of their samples.
 type Numbered = Vec<(u32, f64)>;
 
-/// How the messages of one MCAP channel are used.
-enum Topic {
-    /// The grid of a side, with the names of the fields by number.
-    Grid(String, BTreeMap<u32, String>),
-    /// Values of a side, with the channels by field number.
-    Values(String, BTreeMap<u32, Channel>),
-    /// Not a topic of this format.
-    Other,
+/// How the messages of one MCAP channel of a side are used: what the fields are, by their numbers.
+struct Topic {
+    side: String,
+    is_grid: bool,
+    fields: BTreeMap<u32, Field>,
+}
+
+enum Field {
+    /// A field of the grid, by its name.
+    Grid(String),
+    /// A channel.
+    Value(Channel),
 }
 
 /// The data found of one side. Keys keep sides and columns in the order of recording: MCAP channel, then field.
@@ -32,26 +38,17 @@ struct Found {
     first: Option<u16>,
 }
 
-/// What is wrong with a file.
-enum Damage {
-    File(McapError),
-    Message(prost::DecodeError),
-}
-
-impl From<McapError> for Damage {
-    fn from(error: McapError) -> Self {
-        Damage::File(error)
-    }
-}
-
-impl From<prost::DecodeError> for Damage {
-    fn from(error: prost::DecodeError) -> Self {
-        Damage::Message(error)
-    }
-}
-
-pub(super) fn read(path: &Path) -> Result<Vec<(String, Trajectory)>> {
-    of_bytes(&bytes(path)?, path)
+/// Reads every side of a recording, in the order in which they were recorded.
+///
+/// Times, crank angles and values are read back bit for bit, with the rows in the solver's order. Columns are in the
+/// order of subjects in the recording, and of [`CHANNELS`](linkage::trajectory::CHANNELS) within a subject.
+///
+/// # Errors
+/// [`ErrorKind::Io`](linkage::ErrorKind::Io) with the path if the file cannot be read, is cut off or damaged;
+/// [`ErrorKind::Input`](linkage::ErrorKind::Input) if it holds no side, or if a topic lacks samples;
+/// [`ErrorKind::Numeric`](linkage::ErrorKind::Numeric) if a value is not finite.
+pub fn load(path: &Path) -> Result<Vec<(String, Trajectory)>> {
+    read_bytes(&bytes(path)?, path)
 }
 
 /// The bytes of a recording.
@@ -82,31 +79,26 @@ fn bounded(bytes: &[u8], path: &Path) -> Result<()> {
         .help("record it again: recordings of this program hold some three times their size"))
 }
 
-pub(super) fn of_bytes(bytes: &[u8], path: &Path) -> Result<Vec<(String, Trajectory)>> {
+/// The same from the bytes of a recording; messages call it `path`.
+///
+/// # Errors
+/// Those of [`load`], except that the file cannot be read.
+pub fn read_bytes(bytes: &[u8], path: &Path) -> Result<Vec<(String, Trajectory)>> {
     if !bytes.starts_with(mcap::MAGIC) {
         let what = if bytes.is_empty() { "is empty" } else { "is no recording: it does not begin as MCAP files do" };
         return Err(Error::new(ErrorKind::Io, format!("the file {} {what}", path.display()))
             .help("name a recording (.mcap), which a run leaves"));
     }
     bounded(bytes, path)?;
-    let damaged = |error: &dyn Display| {
-        Error::new(ErrorKind::Io, format!("the recording {} is cut off or damaged: {error}", path.display()))
-            .help("record it again, or save what is left of it with `pymcap-cli recover`")
-    };
-    let mut topics: HashMap<u16, Topic> = HashMap::new();
+    let mut topics: HashMap<u16, Option<Topic>> = HashMap::new();
     let mut names = schema::Names::default();
     let mut sides: BTreeMap<String, Found> = BTreeMap::new();
-    let mut take = |message: &Message| -> std::result::Result<(), Damage> {
-        let id = message.channel.id;
-        if let std::collections::hash_map::Entry::Vacant(entry) = topics.entry(id) {
-            entry.insert(topic(message, &mut names)?);
-        }
-        collect(message, &topics[&id], &mut sides)?;
-        Ok(())
-    };
-    messages::each(bytes, &mut take).map_err(|error| match error {
-        Damage::File(error) => damaged(&error),
-        Damage::Message(error) => damaged(&error),
+    messages::each(bytes, path, |message| {
+        let topic = match topics.entry(message.channel.id) {
+            Entry::Occupied(known) => known.into_mut(),
+            Entry::Vacant(new) => new.insert(topic(message, &mut names)?),
+        };
+        topic.as_ref().map_or(Ok(()), |topic| collect(message, topic, &mut sides))
     })?;
     let mut sides: Vec<(String, Found)> = sides.into_iter().collect();
     sides.sort_by_key(|(_, found)| found.first);
@@ -117,52 +109,45 @@ pub(super) fn of_bytes(bytes: &[u8], path: &Path) -> Result<Vec<(String, Traject
     sides.into_iter().map(|(name, found)| assemble(&name, found, path).map(|trajectory| (name, trajectory))).collect()
 }
 
-/// Content of a message's topic, from its name and from the descriptor in the file.
-fn topic(message: &Message, names: &mut schema::Names) -> std::result::Result<Topic, prost::DecodeError> {
+/// Content of a message's topic, from its name and from the descriptor in the file; `None` if it is not of this format.
+fn topic(message: &Message, names: &mut schema::Names) -> std::result::Result<Option<Topic>, DecodeError> {
     let channel = &message.channel;
     let parts = channel.topic.strip_prefix('/').and_then(|rest| rest.split_once('/'));
-    let (Some((side, subject)), Some(schema)) = (parts, &channel.schema) else { return Ok(Topic::Other) };
+    let (Some((side, subject)), Some(schema)) = (parts, &channel.schema) else { return Ok(None) };
     if channel.message_encoding != "protobuf" || schema.encoding != "protobuf" {
-        return Ok(Topic::Other);
-    }
-    let names = names.of(schema)?;
-    if subject == "grid" {
-        return Ok(Topic::Grid(side.into(), names.clone()));
+        return Ok(None);
     }
     // `link/crank` and the field `x_m` are the channel `link.crank.x_m`. Errors have small units: no field of theirs is
     // a channel.
-    let subject = subject.replacen('/', ".", 1);
-    let channels: BTreeMap<u32, Channel> =
-        names.iter().filter_map(|(&tag, field)| Some((tag, Channel::named(&format!("{subject}.{field}"))?))).collect();
-    Ok(if channels.is_empty() { Topic::Other } else { Topic::Values(side.into(), channels) })
+    let (is_grid, subject) = (subject == "grid", subject.replacen('/', ".", 1));
+    let field = |name: &String| match is_grid {
+        true => Some(Field::Grid(name.clone())),
+        false => Channel::named(&format!("{subject}.{name}")).map(Field::Value),
+    };
+    let fields: BTreeMap<u32, Field> =
+        names.of(schema)?.iter().filter_map(|(&tag, name)| Some((tag, field(name)?))).collect();
+    Ok((is_grid || !fields.is_empty()).then(|| Topic { side: side.into(), is_grid, fields }))
 }
 
 fn collect(
     message: &Message,
     topic: &Topic,
     sides: &mut BTreeMap<String, Found>,
-) -> std::result::Result<(), prost::DecodeError> {
+) -> std::result::Result<(), DecodeError> {
     let id = message.channel.id;
-    match topic {
-        Topic::Grid(side, names) => {
-            let found = sides.entry(side.clone()).or_default();
-            found.first = Some(id);
-            for (tag, value) in schema::numbers(&message.data)? {
-                if let Some(name) = names.get(&tag) {
-                    found.grid.entry(name.clone()).or_default().push((message.sequence, value));
-                }
+    let found = sides.entry(topic.side.clone()).or_default();
+    if topic.is_grid {
+        found.first = Some(id);
+    }
+    for (tag, value) in schema::numbers(&message.data)? {
+        let column = match topic.fields.get(&tag) {
+            Some(Field::Grid(name)) => found.grid.entry(name.clone()).or_default(),
+            Some(Field::Value(channel)) => {
+                &mut found.columns.entry((id, tag)).or_insert_with(|| (channel.clone(), Vec::new())).1
             }
-        }
-        Topic::Values(side, channels) => {
-            let found = sides.entry(side.clone()).or_default();
-            for (tag, value) in schema::numbers(&message.data)? {
-                if let Some(channel) = channels.get(&tag) {
-                    let column = found.columns.entry((id, tag)).or_insert_with(|| (channel.clone(), Vec::new()));
-                    column.1.push((message.sequence, value));
-                }
-            }
-        }
-        Topic::Other => {}
+            None => continue,
+        };
+        column.push((message.sequence, value));
     }
     Ok(())
 }

@@ -1,14 +1,14 @@
 //! The moving mechanism: the positions, the frames and the drawing of each side's links.
 
 use super::marks::{Brush, letter};
-use super::placed::{Placed, column};
 use super::recording::Side;
 use super::shapes::{GREY, Paint, stamp, turn, vector};
 use crate::viewers::{FrameTransform, FrameTransforms, SceneEntity, SceneUpdate};
 use drawing::{Lettering, Sketch, Travels};
 use linkage::math::statistics::ascending;
 use linkage::math::{KeepNan, Vec2};
-use linkage::mechanism::{GROUND, Link, Mechanism};
+use linkage::mechanism::{GROUND, Link, LinkPose, Mechanism};
+use linkage::trajectory::{Channel, Trajectory};
 
 /// Largest number of frames in a recording, unless it is so long that there would be fewer than [`FRAMES_PER_SECOND`].
 const FRAMES: f64 = 400.0;
@@ -103,20 +103,21 @@ impl<'a> Scene<'a> {
     /// The drawing of all links, each in its own frame, and of the ground.
     pub fn links(&self) -> SceneUpdate {
         let brush = Brush { unit: self.sketch.unit, rgba: GREY, broad: 1.0, z: 0.0, step: 0.1 * self.layer() };
-        let mut entities = vec![self.entity("world", "ground", &brush, GROUND, true)];
+        let mut entities = vec![self.lettered(self.entity("world", "ground", &brush, GROUND), GROUND)];
         for (number, side) in self.sides.iter().enumerate() {
             let Paint { rgba, broad, layer } = side.paint;
             let brush = Brush { rgba, broad, z: self.layer() * (1.0 + layer), ..brush };
             for (index, link) in self.mechanism.links().iter().enumerate().skip(1) {
                 let name = format!("{}/{}", side.name, link.name);
-                entities.push(self.entity(&name, &name, &brush, index, number == 0));
+                let entity = self.entity(&name, &name, &brush, index);
+                entities.push(if number == 0 { self.lettered(entity, index) } else { entity });
             }
         }
         SceneUpdate { entities }
     }
 
-    /// The marks of a link in its frame, and the names of its points if it is `lettered`.
-    fn entity(&self, frame: &str, id: &str, brush: &Brush, link: usize, lettered: bool) -> SceneEntity {
+    /// The marks of a link in its frame.
+    fn entity(&self, frame: &str, id: &str, brush: &Brush, link: usize) -> SceneEntity {
         let mut entity = SceneEntity {
             timestamp: stamp(0),
             frame_id: frame.into(),
@@ -127,11 +128,53 @@ impl<'a> Scene<'a> {
         for (_, mark) in self.sketch.in_order().into_iter().filter(|&(of, _)| of == link) {
             brush.put(mark, &mut entity);
         }
+        entity
+    }
+
+    /// The same with the names of the link's points.
+    fn lettered(&self, mut entity: SceneEntity, link: usize) -> SceneEntity {
         // The names of ground points stand below them, where no link passes.
         let aside = if link == GROUND { Vec2::new(0.03, -0.05) * self.size } else { Vec2::zeros() };
         let own = |names, at| names == Lettering::Point && at == link;
-        let labels = self.sketch.labels.iter().filter(|label| lettered && own(label.names, label.at.link));
+        let labels = self.sketch.labels.iter().filter(|label| own(label.names, label.at.link));
         entity.texts = labels.map(|label| letter(&label.text, label.at.local + aside, 0.06 * self.size)).collect();
         entity
     }
+}
+
+/// A side with the positions of its links.
+pub struct Placed<'a> {
+    /// Name of the side.
+    pub name: &'a str,
+    /// Its values.
+    pub trajectory: &'a Trajectory,
+    /// Colour, thickness and height of the side in drawings.
+    pub paint: Paint,
+    /// Rows in ascending order of time.
+    rows: Vec<usize>,
+    /// Columns for each moving link: angle and coordinates of the mass centre.
+    links: Vec<[&'a [f64]; 3]>,
+}
+
+impl Placed<'_> {
+    /// Row of the last sample that is not after `time`, or of the first sample.
+    pub fn row_at(&self, time: f64) -> usize {
+        let times = self.trajectory.times();
+        let after = self.rows.partition_point(|&row| times[row] <= time);
+        self.rows[after.max(1) - 1]
+    }
+
+    /// Pose of a link's frame, from the mass centre in the trajectory.
+    pub fn pose(&self, mechanism: &Mechanism, link: usize, row: usize) -> LinkPose {
+        if link == GROUND {
+            return LinkPose::GROUND;
+        }
+        let [angle, x, y] = self.links[link - 1].map(|column| column[row]);
+        LinkPose::through(mechanism.links()[link].mass_centre, Vec2::new(x, y), angle)
+    }
+}
+
+/// Column of the channel called `name`, if the trajectory has it.
+pub fn column<'a>(trajectory: &'a Trajectory, name: &str) -> Option<&'a [f64]> {
+    trajectory.column(&Channel::named(name)?)
 }

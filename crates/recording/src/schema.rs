@@ -3,6 +3,7 @@
 //! Every field has presence (proto3 `optional`). A channel that was not computed is not declared either: some viewers show
 //! a field that is absent as zero.
 
+use super::sink::Kind;
 use linkage::input::Input;
 use linkage::trajectory::{CHANNELS, ChannelKind, Subject, Unit};
 use prost::Message;
@@ -19,28 +20,18 @@ pub const fn grid_fields(input: Input) -> [&'static str; 3] {
     ["t_s", input.key(), "row"]
 }
 
-/// A message type as viewers need it.
-pub struct Schema {
-    /// Full name.
-    pub name: String,
-    /// Serialised descriptor set.
-    pub descriptor: Vec<u8>,
+/// What the messages of a subject tell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Told {
+    /// Values in SI units.
+    Values,
+    /// Errors in small units. Single precision is enough: people read three digits.
+    Errors,
 }
 
-/// The schema of the grid message.
-pub fn grid(input: Input) -> Schema {
-    schema("Grid", (1..).zip(grid_fields(input).map(str::to_string)), Type::Double)
-}
-
-/// The schema of a subject's values that has these channels.
-pub fn values(subject: Subject, own: &[&ChannelKind]) -> Schema {
-    of_kinds(subject, "", own, |kind| kind.suffix.to_string(), Type::Double)
-}
-
-/// The schema of a subject's errors in these channels, in small units. Single precision is enough: people read three
-/// digits.
-pub fn errors(subject: Subject, own: &[&ChannelKind]) -> Schema {
-    of_kinds(subject, "Error", own, |kind| small_unit(kind).0, Type::Float)
+/// The grid message.
+pub fn grid(input: Input) -> Kind {
+    message("Grid", (1..).zip(grid_fields(input).map(str::to_string)), Type::Double)
 }
 
 /// Number of a channel's field in the message of its subject.
@@ -116,24 +107,12 @@ impl Names {
 /// Names of the number fields of the message called `full_name` in a serialised descriptor set, by their numbers.
 pub fn field_names(descriptor: &[u8], full_name: &str) -> Result<BTreeMap<u32, String>, prost::DecodeError> {
     let set = FileDescriptorSet::decode(descriptor)?;
-    let mut names = BTreeMap::new();
-    for file in &set.file {
-        let package = file.package();
-        for message in &file.message_type {
-            let own = if package.is_empty() { message.name().into() } else { format!("{package}.{}", message.name()) };
-            if own == full_name {
-                let is_number = |field: &&FieldDescriptorProto| matches!(field.r#type(), Type::Double | Type::Float);
-                names.extend(
-                    message
-                        .field
-                        .iter()
-                        .filter(is_number)
-                        .map(|field| (field.number() as u32, field.name().to_string())),
-                );
-            }
-        }
-    }
-    Ok(names)
+    let full = |package: &str, name: &str| if package.is_empty() { name.into() } else { format!("{package}.{name}") };
+    let messages = set.file.iter().flat_map(|file| file.message_type.iter().map(|own| (file.package(), own)));
+    let fields =
+        messages.filter(|(package, own)| full(package, own.name()) == full_name).flat_map(|(_, own)| &own.field);
+    let numbers = fields.filter(|field| matches!(field.r#type(), Type::Double | Type::Float));
+    Ok(numbers.map(|field| (field.number() as u32, field.name().to_string())).collect())
 }
 
 /// Channels in the message of a subject. The message of a sliding joint has those of any joint, and more.
@@ -142,26 +121,28 @@ fn kinds(subject: Subject) -> impl Iterator<Item = &'static ChannelKind> {
     CHANNELS.iter().filter(move |kind| kind.subject == subject || joint && kind.subject == Subject::Joint)
 }
 
-/// A message with the fields of these channels, named after its subject. One that lacks channels has the numbers of its
+/// The message of a subject that has these channels, named after it. One that lacks channels has the numbers of its
 /// fields in its name too: two messages of one name with different fields confuse viewers.
-fn of_kinds(
-    subject: Subject,
-    suffix: &str,
-    own: &[&ChannelKind],
-    field: impl Fn(&ChannelKind) -> String,
-    kind: Type,
-) -> Schema {
+pub fn of_subject(subject: Subject, told: Told, own: &[&ChannelKind]) -> Kind {
     let word = if subject == Subject::Slider { "slider" } else { subject.word() };
+    let (suffix, number) = match told {
+        Told::Values => ("", Type::Double),
+        Told::Errors => ("Error", Type::Float),
+    };
+    let field = |kind: &ChannelKind| match told {
+        Told::Values => kind.suffix.to_string(),
+        Told::Errors => small_unit(kind).0,
+    };
     let mut name = word[..1].to_uppercase() + &word[1..] + suffix;
     let fields: BTreeMap<u32, String> = own.iter().map(|kind| (tag(kind), field(kind))).collect();
     if fields.len() < kinds(subject).count() {
         name.extend(fields.keys().map(|tag| format!("_{tag}")));
     }
-    schema(&name, fields.into_iter(), kind)
+    message(&name, fields.into_iter(), number)
 }
 
 /// A message with these fields, by their numbers.
-fn schema(name: &str, fields: impl Iterator<Item = (u32, String)>, kind: Type) -> Schema {
+fn message(name: &str, fields: impl Iterator<Item = (u32, String)>, kind: Type) -> Kind {
     let field: Vec<FieldDescriptorProto> = fields
         .enumerate()
         .map(|(index, (tag, field))| FieldDescriptorProto {
@@ -186,7 +167,7 @@ fn schema(name: &str, fields: impl Iterator<Item = (u32, String)>, kind: Type) -
         syntax: Some("proto3".into()),
         ..Default::default()
     };
-    Schema { name: format!("linkproof.{name}"), descriptor: FileDescriptorSet { file: vec![file] }.encode_to_vec() }
+    Kind::protobuf(format!("linkproof.{name}"), FileDescriptorSet { file: vec![file] }.encode_to_vec())
 }
 
 #[cfg(test)]
@@ -197,8 +178,8 @@ mod tests {
     fn every_channel_has_a_field_of_its_own_name() {
         for kind in &CHANNELS {
             let all: Vec<&ChannelKind> = kinds(kind.subject).collect();
-            let schema = values(kind.subject, &all);
-            let names = field_names(&schema.descriptor, &schema.name).unwrap();
+            let kind_of_all = of_subject(kind.subject, Told::Values, &all);
+            let names = field_names(&kind_of_all.data, &kind_of_all.schema).unwrap();
             assert_eq!(names[&tag(kind)], kind.suffix);
         }
     }
@@ -207,13 +188,13 @@ mod tests {
     #[test]
     fn only_what_is_there_is_declared() {
         let some: Vec<&ChannelKind> = kinds(Subject::Slider).filter(|kind| kind.unit == Unit::Metre).collect();
-        for schema in [values(Subject::Slider, &some), errors(Subject::Slider, &some)] {
-            let names = field_names(&schema.descriptor, &schema.name).unwrap();
+        for own in [Told::Values, Told::Errors].map(|told| of_subject(Subject::Slider, told, &some)) {
+            let names = field_names(&own.data, &own.schema).unwrap();
             assert_eq!(
                 names.keys().copied().collect::<Vec<_>>(),
                 some.iter().map(|kind| tag(kind)).collect::<Vec<_>>()
             );
-            assert!(schema.name.contains(&format!("_{}", tag(some[0]))), "{}", schema.name);
+            assert!(own.schema.contains(&format!("_{}", tag(some[0]))), "{}", own.schema);
         }
     }
 

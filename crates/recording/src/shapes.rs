@@ -1,6 +1,6 @@
 //! Small constructors of the viewers' messages, and the colours of the sides.
 
-use crate::viewers::{Color, Point3, Pose, Quaternion, Vector3};
+use crate::viewers::{Color, Pose, Quaternion, Vector3};
 use prost_types::Timestamp;
 
 use linkage::math::Vec2;
@@ -33,6 +33,11 @@ pub fn colour(rgba: [u8; 4]) -> Color {
     Color { r, g, b, a }
 }
 
+/// The same back, each part 0 to 255; that of the ground where none is told.
+pub fn rgba(colour: Option<Color>) -> [u8; 4] {
+    colour.map_or(GREY, |Color { r, g, b, a }| [r, g, b, a].map(|part| (part * 255.0).round() as u8))
+}
+
 /// Colour of the ground: readable on black and on white.
 pub const GREY: [u8; 4] = [128, 128, 128, 255];
 
@@ -47,12 +52,7 @@ pub fn short(value: f64) -> f64 {
     f64::from(value as f32)
 }
 
-/// A point at height `z`.
-pub fn point(at: Vec2, z: f64) -> Point3 {
-    Point3 { x: short(at.x), y: short(at.y), z: short(z) }
-}
-
-/// A vector at height `z`.
+/// A vector, or a point, at height `z`.
 pub fn vector(at: Vec2, z: f64) -> Vector3 {
     Vector3 { x: short(at.x), y: short(at.y), z: short(z) }
 }

@@ -1,6 +1,5 @@
 //! Where messages go: a file, or whoever looks on.
 
-use super::schema;
 use crate::viewers::Known;
 use mcap::McapResult;
 
@@ -27,19 +26,14 @@ pub struct Kind {
 }
 
 impl Kind {
-    /// One of our own messages.
-    pub fn own(schema: schema::Schema) -> Kind {
-        Kind { schema: schema.name, encoding: "protobuf".into(), data: schema.descriptor, message: "protobuf".into() }
+    /// A message in protobuf, with the name and the serialised descriptor set of its schema.
+    pub fn protobuf(schema: impl Into<String>, data: impl Into<Vec<u8>>) -> Kind {
+        Kind { schema: schema.into(), encoding: "protobuf".into(), data: data.into(), message: "protobuf".into() }
     }
 
     /// One of the viewers' messages.
     pub fn viewers<M: Known>() -> Kind {
-        Kind {
-            schema: M::SCHEMA.into(),
-            encoding: "protobuf".into(),
-            data: M::DESCRIPTOR.into(),
-            message: "protobuf".into(),
-        }
+        Kind::protobuf(M::SCHEMA, M::DESCRIPTOR)
     }
 
     /// A text, as robots' programs write it.

@@ -1,7 +1,7 @@
 //! A trajectory as topics: one for each subject, with one message per row.
 
-use super::schema;
-use super::sink::{Kind, Sink};
+use super::schema::{self, Told};
+use super::sink::Sink;
 use linkage::trajectory::{ChannelKind, Subject, Trajectory};
 use mcap::McapResult;
 
@@ -48,30 +48,33 @@ impl Topic<'_> {
 impl<'a> Table<'a> {
     /// The grid and the values of a side.
     pub fn values(sink: &mut impl Sink, side: &str, trajectory: &'a Trajectory) -> McapResult<Self> {
-        let id = sink.topic(&format!("/{side}/grid"), &Kind::own(schema::grid(trajectory.input())))?;
-        let grid = vec![Field::Value(1, trajectory.times()), Field::Value(2, trajectory.inputs()), Field::Row(3)];
-        let mut topics = vec![Topic { id, fields: grid }];
-        for (subject, of, columns) in by_subject(trajectory) {
-            let id =
-                sink.topic(&topic_name(side, subject, of), &Kind::own(schema::values(subject, &kinds(&columns))))?;
-            let field = |(kind, column): (&ChannelKind, &'a [f64])| Field::Value(schema::tag(kind), column);
-            topics.push(Topic { id, fields: columns.into_iter().map(field).collect() });
-        }
-        Ok(Table { times: trajectory.times(), topics })
+        let id = sink.topic(&format!("/{side}/grid"), &schema::grid(trajectory.input()))?;
+        let fields = vec![Field::Value(1, trajectory.times()), Field::Value(2, trajectory.inputs()), Field::Row(3)];
+        Table::of(sink, side, trajectory, Told::Values, vec![Topic { id, fields }])
     }
 
     /// The errors, in small units.
     pub fn errors(sink: &mut impl Sink, errors: &'a Trajectory) -> McapResult<Self> {
-        let mut topics = Vec::new();
-        for (subject, of, columns) in by_subject(errors) {
-            let id =
-                sink.topic(&topic_name("error", subject, of), &Kind::own(schema::errors(subject, &kinds(&columns))))?;
-            let field = |(kind, column): (&ChannelKind, &'a [f64])| {
-                Field::Scaled(schema::tag(kind), column, schema::small_unit(kind).1)
+        Table::of(sink, "error", errors, Told::Errors, Vec::new())
+    }
+
+    fn of(
+        sink: &mut impl Sink,
+        side: &str,
+        trajectory: &'a Trajectory,
+        told: Told,
+        mut topics: Vec<Topic<'a>>,
+    ) -> McapResult<Self> {
+        for (subject, of, columns) in by_subject(trajectory) {
+            let kinds: Vec<&ChannelKind> = columns.iter().map(|&(kind, _)| kind).collect();
+            let id = sink.topic(&topic_name(side, subject, of), &schema::of_subject(subject, told, &kinds))?;
+            let field = |(kind, column): (&ChannelKind, &'a [f64])| match told {
+                Told::Values => Field::Value(schema::tag(kind), column),
+                Told::Errors => Field::Scaled(schema::tag(kind), column, schema::small_unit(kind).1),
             };
             topics.push(Topic { id, fields: columns.into_iter().map(field).collect() });
         }
-        Ok(Table { times: errors.times(), topics })
+        Ok(Table { times: trajectory.times(), topics })
     }
 }
 
@@ -82,10 +85,6 @@ pub fn topic_name(side: &str, subject: Subject, of: &str) -> String {
 }
 
 type Columns<'a> = Vec<(&'static ChannelKind, &'a [f64])>;
-
-fn kinds<'a>(columns: &Columns<'a>) -> Vec<&'a ChannelKind> {
-    columns.iter().map(|&(kind, _)| kind).collect()
-}
 
 /// The columns of each link, point, joint (all columns of a sliding joint together), of frame and drive, in the order
 /// of their first column.

@@ -1,7 +1,7 @@
 //! The links as a robot's description (URDF), for viewers that draw no scenes: boxes and cylinders that `/tf` moves.
 
-use super::shapes::GREY;
-use crate::viewers::{Color, LinePrimitive, LineType, Point3, Pose, SceneEntity, SceneUpdate};
+use super::shapes::rgba;
+use crate::viewers::{Color, LinePrimitive, LineType, Pose, SceneEntity, SceneUpdate, Vector3};
 use linkage::math::Vec2;
 use std::fmt::Write;
 
@@ -46,30 +46,29 @@ fn write_link(text: &mut String, name: &str, entities: &[&SceneEntity]) {
         for pin in &entity.cylinders {
             let (radius, length) = pin.size.map_or((0.0, 0.0), |size| (size.x / 2.0, size.z));
             let shape = format!("<cylinder radius=\"{radius}\" length=\"{length}\"/>");
-            write_visual(text, &at(pin.pose.as_ref()), &shape, pin.color.as_ref());
+            write_visual(text, &at(pin.pose), &shape, pin.color);
         }
     }
     text.push_str("</link>");
 }
 
-fn write_box(text: &mut String, line: &LinePrimitive, from: &Point3, to: &Point3) {
+fn write_box(text: &mut String, line: &LinePrimitive, from: &Vector3, to: &Vector3) {
     let [from, to] = [from, to].map(|point| Vec2::new(point.x, point.y));
     let (middle, way) = ((from + to) / 2.0, to - from);
-    let z = line.pose.as_ref().and_then(|pose| pose.position).map_or(0.0, |position| position.z);
+    let z = line.pose.and_then(|pose| pose.position).map_or(0.0, |position| position.z);
     let origin = format!("xyz=\"{} {} {z}\" rpy=\"0 0 {}\"", middle.x, middle.y, way.y.atan2(way.x));
     let size = format!("{} {} {}", way.norm() + line.thickness, line.thickness, FLAT * line.thickness);
-    write_visual(text, &origin, &format!("<box size=\"{size}\"/>"), line.color.as_ref());
+    write_visual(text, &origin, &format!("<box size=\"{size}\"/>"), line.color);
 }
 
-fn at(pose: Option<&Pose>) -> String {
+fn at(pose: Option<Pose>) -> String {
     let at = pose.and_then(|pose| pose.position).unwrap_or_default();
     format!("xyz=\"{} {} {}\" rpy=\"0 0 0\"", at.x, at.y, at.z)
 }
 
 /// One part. Materials of one colour share a name, so that no two of a name differ.
-fn write_visual(text: &mut String, origin: &str, shape: &str, colour: Option<&Color>) {
-    let [r, g, b, a] =
-        colour.map_or(GREY, |Color { r, g, b, a }| [r, g, b, a].map(|part| (part * 255.0).round() as u8));
+fn write_visual(text: &mut String, origin: &str, shape: &str, colour: Option<Color>) {
+    let [r, g, b, a] = rgba(colour);
     let rgba = [r, g, b, a].map(|part| (f64::from(part) / 255.0).to_string()).join(" ");
     let _ = write!(
         text,

@@ -6,7 +6,9 @@ use super::recording::{Recording, Side};
 use super::schema::small_unit;
 use super::table::topic_name;
 use super::write::as_shown;
-use linkage::math::{KeepNan, Vec2};
+use crate::viewers::FrameTransforms;
+use linkage::math::Vec2;
+use linkage::math::statistics::ends;
 use linkage::trajectory::{Channel, ChannelKind, Trajectory, Unit};
 
 /// Poses at which is looked where the mechanism is.
@@ -60,13 +62,14 @@ pub fn view(recording: &Recording) -> Option<View> {
         let scene = drawn.scene.as_ref()?;
         let links = scene.links();
         let times = scene.times(recording.show.slow);
-        let frames = || times.iter().step_by(times.len() / POSES + 1).map(|&time| scene.frames(time, 0));
+        let times = times.iter().step_by(times.len() / POSES + 1);
+        let frames: Vec<FrameTransforms> = times.map(|&time| scene.frames(time, 0)).collect();
         let lasts = lasts(recording) * recording.show.slow;
         let errors: Option<Vec<Channel>> = recording.errors.map(|errors| errors.channels().to_vec());
         Some(View {
             name: recording.name.into(),
-            corners: corners(&links, frames()),
-            frames: frames().next()?.transforms.into_iter().map(|frame| frame.child_frame_id).collect(),
+            corners: corners(&links, frames.iter()),
+            frames: frames.first()?.transforms.iter().map(|frame| frame.child_frame_id.clone()).collect(),
             forces: drawn.forces.is_some(),
             slow: recording.show.slow,
             turn: turn(lasts, recording.sides[0].trajectory),
@@ -77,11 +80,7 @@ pub fn view(recording: &Recording) -> Option<View> {
 
 /// Log time of a turn, of a recording that lasts so long.
 pub(super) fn turn(lasts: f64, trajectory: &Trajectory) -> f64 {
-    let ends = trajectory
-        .inputs()
-        .iter()
-        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &angle| [low.smaller(angle), high.larger(angle)]);
-    let turns = ((ends[1] - ends[0]) / std::f64::consts::TAU).round();
+    let turns = (range(trajectory.inputs()) / std::f64::consts::TAU).round();
     if turns >= 1.0 { lasts / turns } else { lasts }
 }
 
@@ -143,8 +142,6 @@ fn telling(trajectory: &Trajectory) -> Vec<&Channel> {
 }
 
 fn range(column: &[f64]) -> f64 {
-    let ends = column
-        .iter()
-        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &value| [low.smaller(value), high.larger(value)]);
-    ends[1] - ends[0]
+    let [low, high] = ends(column.iter().copied());
+    high - low
 }

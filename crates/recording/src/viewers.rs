@@ -24,282 +24,144 @@ macro_rules! known {
 
 known! { FrameTransforms Log SceneUpdate }
 
-/// A vector, or the edges of a box (m).
-#[derive(Clone, Copy, PartialEq, Message)]
-pub struct Vector3 {
-    /// Along x.
-    #[prost(double, tag = "1")]
-    pub x: f64,
-    /// Along y.
-    #[prost(double, tag = "2")]
-    pub y: f64,
-    /// Along z.
-    #[prost(double, tag = "3")]
-    pub z: f64,
+/// The messages as tables: name, type, number and kind of each field.
+macro_rules! messages {
+    ($($(#[$about:meta])* $name:ident { $($field:ident: $type:ty = $tag:tt ($($kind:tt)+),)* })*) => {
+        $($(#[$about])* #[derive(Clone, PartialEq, Message)]
+        pub struct $name { $(#[prost($($kind)+, tag = $tag)] pub $field: $type,)* })*
+    };
 }
 
-/// A point (m).
-#[derive(Clone, Copy, PartialEq, Message)]
-pub struct Point3 {
-    /// Along x.
-    #[prost(double, tag = "1")]
-    pub x: f64,
-    /// Along y.
-    #[prost(double, tag = "2")]
-    pub y: f64,
-    /// Along z.
-    #[prost(double, tag = "3")]
-    pub z: f64,
-}
+messages! {
+    /// A vector, a point, or the edges of a box (m).
+    #[derive(Copy)]
+    Vector3 {
+        x: f64 = 1 (double),
+        y: f64 = 2 (double),
+        z: f64 = 3 (double),
+    }
 
-/// A rotation.
-#[derive(Clone, Copy, PartialEq, Message)]
-pub struct Quaternion {
-    /// Along x.
-    #[prost(double, tag = "1")]
-    pub x: f64,
-    /// Along y.
-    #[prost(double, tag = "2")]
-    pub y: f64,
-    /// Along z.
-    #[prost(double, tag = "3")]
-    pub z: f64,
-    /// Real part.
-    #[prost(double, tag = "4")]
-    pub w: f64,
-}
+    /// A rotation.
+    #[derive(Copy)]
+    Quaternion {
+        x: f64 = 1 (double),
+        y: f64 = 2 (double),
+        z: f64 = 3 (double),
+        w: f64 = 4 (double),
+    }
 
-/// A place and a rotation.
-#[derive(Clone, Copy, PartialEq, Message)]
-pub struct Pose {
-    /// Position.
-    #[prost(message, optional, tag = "1")]
-    pub position: Option<Vector3>,
-    /// Orientation.
-    #[prost(message, optional, tag = "2")]
-    pub orientation: Option<Quaternion>,
-}
+    /// A place and a rotation.
+    #[derive(Copy)]
+    Pose {
+        position: Option<Vector3> = 1 (message, optional),
+        orientation: Option<Quaternion> = 2 (message, optional),
+    }
 
-/// A colour, 0 to 1.
-#[derive(Clone, Copy, PartialEq, Message)]
-pub struct Color {
-    /// Red.
-    #[prost(double, tag = "1")]
-    pub r: f64,
-    /// Green.
-    #[prost(double, tag = "2")]
-    pub g: f64,
-    /// Blue.
-    #[prost(double, tag = "3")]
-    pub b: f64,
-    /// Opacity.
-    #[prost(double, tag = "4")]
-    pub a: f64,
-}
+    /// A colour, 0 to 1.
+    #[derive(Copy)]
+    Color {
+        r: f64 = 1 (double),
+        g: f64 = 2 (double),
+        b: f64 = 3 (double),
+        a: f64 = 4 (double),
+    }
 
-/// An arrow along the x axis of its pose (m).
-#[derive(Clone, Copy, PartialEq, Message)]
-pub struct ArrowPrimitive {
-    /// Pose.
-    #[prost(message, optional, tag = "1")]
-    pub pose: Option<Pose>,
-    /// Shaft length.
-    #[prost(double, tag = "2")]
-    pub shaft_length: f64,
-    /// Shaft diameter.
-    #[prost(double, tag = "3")]
-    pub shaft_diameter: f64,
-    /// Head length.
-    #[prost(double, tag = "4")]
-    pub head_length: f64,
-    /// Head diameter.
-    #[prost(double, tag = "5")]
-    pub head_diameter: f64,
-    /// Color.
-    #[prost(message, optional, tag = "6")]
-    pub color: Option<Color>,
-}
+    /// An arrow along the x axis of its pose (m).
+    #[derive(Copy)]
+    ArrowPrimitive {
+        pose: Option<Pose> = 1 (message, optional),
+        shaft_length: f64 = 2 (double),
+        shaft_diameter: f64 = 3 (double),
+        head_length: f64 = 4 (double),
+        head_diameter: f64 = 5 (double),
+        color: Option<Color> = 6 (message, optional),
+    }
 
-/// An ellipsoid.
-#[derive(Clone, Copy, PartialEq, Message)]
-pub struct SpherePrimitive {
-    /// Pose.
-    #[prost(message, optional, tag = "1")]
-    pub pose: Option<Pose>,
-    /// Size.
-    #[prost(message, optional, tag = "2")]
-    pub size: Option<Vector3>,
-    /// Color.
-    #[prost(message, optional, tag = "3")]
-    pub color: Option<Color>,
-}
+    /// An ellipsoid.
+    #[derive(Copy)]
+    SpherePrimitive {
+        pose: Option<Pose> = 1 (message, optional),
+        size: Option<Vector3> = 2 (message, optional),
+        color: Option<Color> = 3 (message, optional),
+    }
 
-/// A cylinder, or a cone, along the z axis of its pose.
-#[derive(Clone, Copy, PartialEq, Message)]
-pub struct CylinderPrimitive {
-    /// Pose.
-    #[prost(message, optional, tag = "1")]
-    pub pose: Option<Pose>,
-    /// Size.
-    #[prost(message, optional, tag = "2")]
-    pub size: Option<Vector3>,
-    /// Bottom scale.
-    #[prost(double, tag = "3")]
-    pub bottom_scale: f64,
-    /// Top scale.
-    #[prost(double, tag = "4")]
-    pub top_scale: f64,
-    /// Color.
-    #[prost(message, optional, tag = "5")]
-    pub color: Option<Color>,
-}
+    /// A cylinder, or a cone, along the z axis of its pose.
+    #[derive(Copy)]
+    CylinderPrimitive {
+        pose: Option<Pose> = 1 (message, optional),
+        size: Option<Vector3> = 2 (message, optional),
+        bottom_scale: f64 = 3 (double),
+        top_scale: f64 = 4 (double),
+        color: Option<Color> = 5 (message, optional),
+    }
 
-/// A line through points.
-#[derive(Clone, PartialEq, Message)]
-pub struct LinePrimitive {
-    /// Type.
-    #[prost(enumeration = "LineType", tag = "1")]
-    pub r#type: i32,
-    /// Pose.
-    #[prost(message, optional, tag = "2")]
-    pub pose: Option<Pose>,
-    /// Thickness.
-    #[prost(double, tag = "3")]
-    pub thickness: f64,
-    /// Scale invariant.
-    #[prost(bool, tag = "4")]
-    pub scale_invariant: bool,
-    /// Points.
-    #[prost(message, repeated, tag = "5")]
-    pub points: Vec<Point3>,
-    /// Color.
-    #[prost(message, optional, tag = "6")]
-    pub color: Option<Color>,
-}
+    /// A line through points.
+    LinePrimitive {
+        r#type: i32 = 1 (enumeration = "LineType"),
+        pose: Option<Pose> = 2 (message, optional),
+        thickness: f64 = 3 (double),
+        scale_invariant: bool = 4 (bool),
+        points: Vec<Vector3> = 5 (message, repeated),
+        color: Option<Color> = 6 (message, optional),
+    }
 
-/// Triangles, three points each.
-#[derive(Clone, PartialEq, Message)]
-pub struct TriangleListPrimitive {
-    /// Pose.
-    #[prost(message, optional, tag = "1")]
-    pub pose: Option<Pose>,
-    /// Points.
-    #[prost(message, repeated, tag = "2")]
-    pub points: Vec<Point3>,
-    /// Color.
-    #[prost(message, optional, tag = "3")]
-    pub color: Option<Color>,
-}
+    /// Triangles, three points each.
+    TriangleListPrimitive {
+        pose: Option<Pose> = 1 (message, optional),
+        points: Vec<Vector3> = 2 (message, repeated),
+        color: Option<Color> = 3 (message, optional),
+    }
 
-/// A text at a pose.
-#[derive(Clone, PartialEq, Message)]
-pub struct TextPrimitive {
-    /// Pose.
-    #[prost(message, optional, tag = "1")]
-    pub pose: Option<Pose>,
-    /// Billboard.
-    #[prost(bool, tag = "2")]
-    pub billboard: bool,
-    /// Font size.
-    #[prost(double, tag = "3")]
-    pub font_size: f64,
-    /// Scale invariant.
-    #[prost(bool, tag = "4")]
-    pub scale_invariant: bool,
-    /// Color.
-    #[prost(message, optional, tag = "5")]
-    pub color: Option<Color>,
-    /// Text.
-    #[prost(string, tag = "6")]
-    pub text: String,
-}
+    /// A text at a pose.
+    TextPrimitive {
+        pose: Option<Pose> = 1 (message, optional),
+        billboard: bool = 2 (bool),
+        font_size: f64 = 3 (double),
+        scale_invariant: bool = 4 (bool),
+        color: Option<Color> = 5 (message, optional),
+        text: String = 6 (string),
+    }
 
-/// What moves with a frame.
-#[derive(Clone, PartialEq, Message)]
-pub struct SceneEntity {
-    /// Timestamp.
-    #[prost(message, optional, tag = "1")]
-    pub timestamp: Option<Timestamp>,
-    /// Frame id.
-    #[prost(string, tag = "2")]
-    pub frame_id: String,
-    /// Id.
-    #[prost(string, tag = "3")]
-    pub id: String,
-    /// Frame locked.
-    #[prost(bool, tag = "5")]
-    pub frame_locked: bool,
-    /// Arrows.
-    #[prost(message, repeated, tag = "7")]
-    pub arrows: Vec<ArrowPrimitive>,
-    /// Spheres.
-    #[prost(message, repeated, tag = "9")]
-    pub spheres: Vec<SpherePrimitive>,
-    /// Cylinders.
-    #[prost(message, repeated, tag = "10")]
-    pub cylinders: Vec<CylinderPrimitive>,
-    /// Lines.
-    #[prost(message, repeated, tag = "11")]
-    pub lines: Vec<LinePrimitive>,
-    /// Triangles.
-    #[prost(message, repeated, tag = "12")]
-    pub triangles: Vec<TriangleListPrimitive>,
-    /// Texts.
-    #[prost(message, repeated, tag = "13")]
-    pub texts: Vec<TextPrimitive>,
-}
+    /// What moves with a frame.
+    SceneEntity {
+        timestamp: Option<Timestamp> = 1 (message, optional),
+        frame_id: String = 2 (string),
+        id: String = 3 (string),
+        frame_locked: bool = 5 (bool),
+        arrows: Vec<ArrowPrimitive> = 7 (message, repeated),
+        spheres: Vec<SpherePrimitive> = 9 (message, repeated),
+        cylinders: Vec<CylinderPrimitive> = 10 (message, repeated),
+        lines: Vec<LinePrimitive> = 11 (message, repeated),
+        triangles: Vec<TriangleListPrimitive> = 12 (message, repeated),
+        texts: Vec<TextPrimitive> = 13 (message, repeated),
+    }
 
-/// Entities of a scene.
-#[derive(Clone, PartialEq, Message)]
-pub struct SceneUpdate {
-    /// Entities.
-    #[prost(message, repeated, tag = "2")]
-    pub entities: Vec<SceneEntity>,
-}
+    /// Entities of a scene.
+    SceneUpdate {
+        entities: Vec<SceneEntity> = 2 (message, repeated),
+    }
 
-/// The pose of a frame in another.
-#[derive(Clone, PartialEq, Message)]
-pub struct FrameTransform {
-    /// Timestamp.
-    #[prost(message, optional, tag = "1")]
-    pub timestamp: Option<Timestamp>,
-    /// Parent frame id.
-    #[prost(string, tag = "2")]
-    pub parent_frame_id: String,
-    /// Child frame id.
-    #[prost(string, tag = "3")]
-    pub child_frame_id: String,
-    /// Translation.
-    #[prost(message, optional, tag = "4")]
-    pub translation: Option<Vector3>,
-    /// Rotation.
-    #[prost(message, optional, tag = "5")]
-    pub rotation: Option<Quaternion>,
-}
+    /// The pose of a frame in another.
+    FrameTransform {
+        timestamp: Option<Timestamp> = 1 (message, optional),
+        parent_frame_id: String = 2 (string),
+        child_frame_id: String = 3 (string),
+        translation: Option<Vector3> = 4 (message, optional),
+        rotation: Option<Quaternion> = 5 (message, optional),
+    }
 
-/// The poses of frames at an instant.
-#[derive(Clone, PartialEq, Message)]
-pub struct FrameTransforms {
-    /// Transforms.
-    #[prost(message, repeated, tag = "1")]
-    pub transforms: Vec<FrameTransform>,
-}
+    /// The poses of frames at an instant.
+    FrameTransforms {
+        transforms: Vec<FrameTransform> = 1 (message, repeated),
+    }
 
-/// A line of a log.
-#[derive(Clone, PartialEq, Message)]
-pub struct Log {
-    /// Timestamp.
-    #[prost(message, optional, tag = "1")]
-    pub timestamp: Option<Timestamp>,
-    /// Level.
-    #[prost(enumeration = "LogLevel", tag = "2")]
-    pub level: i32,
-    /// Message.
-    #[prost(string, tag = "3")]
-    pub message: String,
-    /// Name.
-    #[prost(string, tag = "4")]
-    pub name: String,
+    /// A line of a log.
+    Log {
+        timestamp: Option<Timestamp> = 1 (message, optional),
+        level: i32 = 2 (enumeration = "LogLevel"),
+        message: String = 3 (string),
+        name: String = 4 (string),
+    }
 }
 
 /// How a line joins its points.
@@ -341,7 +203,7 @@ mod tests {
         });
         let color = Some(Color { r: 0.5, g: 0.6, b: 0.7, a: 0.8 });
         let size = Some(Vector3 { x: 4.0, y: 5.0, z: 6.0 });
-        let points = vec![Point3 { x: 7.0, y: 8.0, z: 9.0 }];
+        let points = vec![Vector3 { x: 7.0, y: 8.0, z: 9.0 }];
         let timestamp = Some(Timestamp { seconds: 11, nanos: 12 });
         let entity = SceneEntity {
             timestamp,

@@ -101,8 +101,8 @@ fn element(mark: &Mark, unit: f64) -> String {
             format!("<circle {class} cx=\"{x}\" cy=\"{y}\" r=\"{r}\" data-ring=\"{ring}\"/>")
         }
         Shape::Line { .. } | Shape::Arc { .. } => {
-            let (points, closed) = mark.shape.outline();
-            format!("<path {class} d=\"{}\"/>", path(points.iter().map(|at| [at.x / unit, at.y / unit]), closed))
+            let points = mark.shape.points().into_iter().map(|at| [at.x / unit, at.y / unit]);
+            format!("<path {class} d=\"{}\"/>", path(points, mark.shape.is_closed()))
         }
     }
 }

@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use super::markup::column;
 use super::placed::Placed;
 use crate::report::pretty::list;
-use design::diagram::{Part, Plan, Planner, Quantity, TipKind};
+use design::diagram::{Plan, Planner, Quantity};
 use linkage::case::Case;
 use linkage::solver::State;
 
@@ -62,28 +62,10 @@ fn has_same_layout(one: &Plan, other: &Plan) -> bool {
 }
 
 fn layout(plan: &Plan) -> Value {
-    let tips = list(&plan.tips, |tip| {
-        let kind = match tip.kind {
-            TipKind::Fixed => "fixed",
-            TipKind::Point => "point",
-            TipKind::MassCentre => "centre",
-            TipKind::Normal | TipKind::Coriolis => "between",
-            TipKind::Coincident => "coincident",
-        };
-        json!([tip.letter, kind])
-    });
+    let tips = list(&plan.tips, |tip| json!([tip.letter, tip.kind.word()]));
     let place = |letter: &str| plan.tips.iter().position(|tip| tip.letter == letter);
     let vectors = list(&plan.vectors, |vector| {
-        let part = match vector.part {
-            Part::Absolute => "absolute",
-            Part::MassCentre => "centre",
-            Part::Relative => "relative",
-            Part::Normal => "normal",
-            Part::Tangential => "tangential",
-            Part::Sliding => "sliding",
-            Part::Coriolis => "coriolis",
-        };
-        json!([vector.name, part, place(&vector.from), place(&vector.to), vector.link, vector.meaning])
+        json!([vector.name, vector.part.word(), place(&vector.from), place(&vector.to), vector.link, vector.meaning])
     });
     json!({ "tips": tips, "vectors": vectors })
 }

@@ -16,7 +16,8 @@ use std::f64::consts::TAU;
 use analytic::{AssurSolver, PoseSolver};
 use linkage::case::{Case, Wanted};
 use linkage::error::{Error, ErrorKind, Result};
-use linkage::math::{KeepNan, Motion};
+use linkage::math::Motion;
+use linkage::math::statistics::ends;
 use linkage::mechanism::GroupKind;
 use linkage::solver::Solver;
 use linkage::trajectory::Stage;
@@ -216,9 +217,7 @@ fn cranks(case: &Case) -> Result<Vec<f64>> {
 
 /// Crank angles from which and to which the grid goes, in the order of the motion (rad).
 fn range(case: &Case) -> Result<[f64; 2]> {
-    let cranks = cranks(case)?;
-    let low = cranks.iter().copied().fold(f64::INFINITY, f64::smaller);
-    let mut high = cranks.iter().copied().fold(f64::NEG_INFINITY, f64::larger);
+    let [low, mut high] = ends(cranks(case)?);
     let dyads = case.structure.groups.iter().all(|group| group.kind != GroupKind::Higher);
     let forwards = case.crank().sense() > 0.0;
     if dyads && case.drives.further().is_empty() && !case.crank().through && high - low > TAU {

@@ -267,7 +267,7 @@ impl<'a, 'c> Sweep<'a, 'c> {
                 return Ok(Square::Covered);
             }
         }
-        Ok(if kept.is_empty() { Square::Free } else { Square::Border(kept, share(lowest, half)) })
+        Ok(if kept.is_empty() { Square::Free } else { Square::Border(kept, share(lowest.0, lowest.1, half)) })
     }
 
     /// The body does not come nearer to a place than this over a part of the range (m); negative where it may cover it.
@@ -344,7 +344,7 @@ fn passes([from, to]: &[Track; 2], half: f64, centre: Vec2, about: f64) -> bool 
 }
 
 /// Share of a square with half the side `half` that lies where `value` + `away` . (place - centre) <= 0.
-fn share((value, away): (f64, Vec2), half: f64) -> f64 {
+fn share(value: f64, away: Vec2, half: f64) -> f64 {
     let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(x, y)| Vec2::new(x, y) * half);
     let mut kept: Vec<Vec2> = Vec::with_capacity(6);
     for k in 0..4 {

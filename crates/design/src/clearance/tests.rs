@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use linkage::case::Case;
-use linkage::math::Vec2;
+use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::{AssemblyMode, GROUND};
 
 use super::tube::Tubes;

@@ -1,6 +1,6 @@
 //! Computes the vectors of a plan from the motions of the links, pair of points by pair of points.
 
-use super::names::{Place, fixed_guide, pair, pivot, primed};
+use super::names::{Named, Place, fixed_guide, pair, pivot, primed};
 use super::sliding::Slide;
 use super::vectors::{Part, Plan, Quantity, ROOM, Tip, TipKind, Vector};
 use drawing::paper::scale::factor;
@@ -11,10 +11,10 @@ use linkage::solver::State;
 /// A tangential part shorter than this on paper (mm) counts as zero: the link turns uniformly.
 pub(super) const NOTHING: f64 = 1e-9;
 
-/// A point of a link and its letter.
+/// A point of a link.
+#[derive(Clone, Copy)]
 struct On<'a> {
-    name: &'a str,
-    letter: &'a str,
+    named: &'a Named,
     local: Vec2,
     fixed: bool,
 }
@@ -68,26 +68,18 @@ impl<'a> Builder<'a> {
     fn absolute(&mut self) {
         let (pole, symbol, word) = (self.quantity.pole(), self.quantity.symbol(), self.quantity.word());
         for place in self.places {
-            let value = self.of_point(&self.state.motions[place.side.link], place.side.local);
+            let (Named { name, letter }, link) = (&place.named, place.side.link);
+            let value = self.of_point(&self.state.motions[link], place.side.local);
             let kind = if place.fixed { TipKind::Fixed } else { TipKind::Point };
-            self.tips.push(Tip { letter: place.letter.clone(), kind, at: value });
-            if place.fixed {
-                continue;
+            self.tips.push(Tip { letter: letter.clone(), kind, at: value });
+            if !place.fixed {
+                let meaning = format!("{word} of {name}{}", self.direction(link, name));
+                self.push(format!("{symbol}_{name}"), Part::Absolute, [pole, letter], value, link, meaning);
             }
-            let meaning = format!("{word} of {}{}", place.name, self.direction(place.side.link, &place.name));
-            self.push(
-                format!("{symbol}_{}", place.name),
-                Part::Absolute,
-                [pole, &place.letter],
-                value,
-                place.side.link,
-                meaning,
-            );
         }
         for (number, link) in self.mechanism.links().iter().enumerate().skip(1).filter(|(_, link)| link.mass > 0.0) {
-            let letter = self.unused(format!("s{number}"));
             let value = self.of_point(&self.state.motions[number], link.mass_centre);
-            self.tips.push(Tip { letter: letter.clone(), kind: TipKind::MassCentre, at: value });
+            let letter = self.tip(format!("s{number}"), TipKind::MassCentre, value);
             let guide = fixed_guide(self.mechanism, number).map_or_else(String::new, |guide| along(&guide.name));
             let meaning = format!("{word} of the mass centre of link {number} ({}){guide}", link.name);
             self.push(format!("{symbol}_S{number}"), Part::MassCentre, [pole, &letter], value, number, meaning);
@@ -112,8 +104,10 @@ impl<'a> Builder<'a> {
             let value = self.of_point(&self.state.motions[guide], slide.place_under(self.state));
             self.tips.push(Tip { letter: under.letter.clone(), kind: TipKind::Coincident, at: value });
             let direction = self.direction(guide, &under.name);
-            let meaning =
-                format!("{word} of {}, the point of link {guide} under {}{direction}", under.name, slide.name);
+            let meaning = format!(
+                "{word} of {}, the point of link {guide} under {}{direction}",
+                under.name, slide.place.named.name
+            );
             self.push(format!("{symbol}_{}", under.name), Part::Absolute, [pole, &under.letter], value, guide, meaning);
         }
     }
@@ -124,17 +118,14 @@ impl<'a> Builder<'a> {
         let motion = &self.state.motions[link];
         for (from, to) in self.pairs(link).into_iter().filter(|(from, _)| !from.fixed) {
             let arm = motion.arm(to.local - from.local);
-            let value = match self.quantity {
-                Quantity::Velocity => turned(arm) * motion.omega,
-                Quantity::Acceleration => turned(arm) * motion.alpha - arm * motion.omega.powi(2),
-            };
-            let line = pair(from.name, to.name);
-            let mut meaning = format!("{word} of {} relative to {}", to.name, from.name);
-            if self.quantity == Quantity::Velocity {
-                meaning += &format!(", perpendicular to {line}");
-            }
-            let name = format!("{symbol}_{}", pair(to.name, from.name));
-            self.push(name, Part::Relative, [from.letter, to.letter], value, link, meaning);
+            let value =
+                self.quantity.of(turned(arm) * motion.omega, turned(arm) * motion.alpha - arm * motion.omega.powi(2));
+            let (from, to) = (from.named, to.named);
+            let line = format!(", perpendicular to {}", pair(&from.name, &to.name));
+            let line = self.quantity.of(line.as_str(), "");
+            let meaning = format!("{word} of {} relative to {}{line}", to.name, from.name);
+            let name = format!("{symbol}_{}", pair(&to.name, &from.name));
+            self.push(name, Part::Relative, [&from.letter, &to.letter], value, link, meaning);
         }
     }
 
@@ -144,26 +135,25 @@ impl<'a> Builder<'a> {
         let mut number = 0;
         for slide in self.slides {
             let Some(under) = &slide.under else { continue };
-            let along_guide = along(&slide.joint_name);
+            let Place { named: own, fixed, .. } = &slide.place;
+            let joint = &self.mechanism.joints()[slide.joint].name;
             let (from, link) = (under.letter.as_str(), slide.block.link);
-            let to = if slide.fixed { self.quantity.pole() } else { &slide.letter };
-            let of = pair(&slide.name, &under.name);
+            let to = if *fixed { self.quantity.pole() } else { &own.letter };
+            let of = pair(&own.name, &under.name);
             let Some([speed, growth]) = slide.rates(self.mechanism, self.state) else { continue };
+            let meaning =
+                format!("{} of {} relative to {}{}", self.quantity.word(), own.name, under.name, along(joint));
             if self.quantity == Quantity::Velocity {
-                let meaning = format!("velocity of {} relative to {}{along_guide}", slide.name, under.name);
                 self.push(format!("v_{of}"), Part::Sliding, [from, to], speed, link, meaning);
                 continue;
             }
-            let meaning = format!("acceleration of {} relative to {}{along_guide}", slide.name, under.name);
             let coriolis = turned(speed) * (2.0 * self.state.motions[slide.guide.link].omega);
-            let start = self.tips.iter().find(|tip| tip.letter == *from).map_or_else(Vec2::zeros, |tip| tip.at);
             let end = if !self.mechanism.can_turn(slide.guide.link) {
                 from.to_string()
             } else {
                 number += 1;
-                let letter = self.unused(format!("k{number}"));
-                self.tips.push(Tip { letter: letter.clone(), kind: TipKind::Coriolis, at: start + coriolis });
-                let meaning = format!("Coriolis part, 2 omega x v, perpendicular to the guide {}", slide.joint_name);
+                let letter = self.tip(format!("k{number}"), TipKind::Coriolis, self.end(from) + coriolis);
+                let meaning = format!("Coriolis part, 2 omega x v, perpendicular to the guide {joint}");
                 self.push(format!("a_{of}^cor"), Part::Coriolis, [from, &letter], coriolis, link, meaning);
                 letter
             };
@@ -171,9 +161,16 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// `letter`, with as many primes as make it different from all other ends of vectors.
-    fn unused(&self, letter: String) -> String {
-        primed(letter, |letter| self.tips.iter().any(|tip| tip.letter == letter))
+    /// Adds the end of a vector, with as many primes as make its letter different from all others. Returns its letter.
+    fn tip(&mut self, letter: String, kind: TipKind, at: Vec2) -> String {
+        let letter = primed(letter, |letter| self.tips.iter().any(|tip| tip.letter == letter));
+        self.tips.push(Tip { letter: letter.clone(), kind, at });
+        letter
+    }
+
+    /// Where the vector to this letter ends, relative to the pole (SI).
+    fn end(&self, letter: &str) -> Vec2 {
+        self.tips.iter().find(|tip| tip.letter == letter).map_or_else(Vec2::zeros, |tip| tip.at)
     }
 
     /// Normal and tangential parts of every relative acceleration, and of those about a pivot on the ground.
@@ -184,24 +181,21 @@ impl<'a> Builder<'a> {
             for (from, to) in self.pairs(link) {
                 let arm = motion.arm(to.local - from.local);
                 let (normal, tangential) = (-arm * motion.omega.powi(2), turned(arm) * motion.alpha);
-                let (of, line) = (pair(to.name, from.name), pair(from.name, to.name));
+                let start = if from.fixed { self.quantity.pole() } else { &from.named.letter };
+                let (from, to) = (from.named, to.named);
+                let (of, line) = (pair(&to.name, &from.name), pair(&from.name, &to.name));
                 let uniform = !(tangential.norm() / scale > NOTHING);
                 let end = if uniform {
-                    to.letter.to_string()
+                    to.letter.clone()
                 } else {
                     number += 1;
-                    let at =
-                        self.tips.iter().find(|tip| tip.letter == from.letter).map_or(normal, |tip| tip.at + normal);
-                    let letter = self.unused(format!("n{number}"));
-                    self.tips.push(Tip { letter: letter.clone(), kind: TipKind::Normal, at });
-                    letter
+                    self.tip(format!("n{number}"), TipKind::Normal, self.end(&from.letter) + normal)
                 };
-                let start = if from.fixed { self.quantity.pole() } else { from.letter };
                 let meaning = format!("normal part along {of}, omega^2 l");
                 self.push(format!("a_{of}^n"), Part::Normal, [start, &end], normal, link, meaning);
                 if !uniform {
                     let meaning = format!("tangential part, alpha l, perpendicular to {line}");
-                    self.push(format!("a_{of}^t"), Part::Tangential, [&end, to.letter], tangential, link, meaning);
+                    self.push(format!("a_{of}^t"), Part::Tangential, [&end, &to.letter], tangential, link, meaning);
                 }
             }
         }
@@ -216,39 +210,33 @@ impl<'a> Builder<'a> {
             return Vec::new();
         }
         let places = self.places;
+        let on = |place: &'a Place, local: Vec2| On { named: &place.named, local, fixed: place.fixed };
+        let moves = |name: &str| places.iter().find(|place| place.named.name == name && !place.fixed);
+        let stands = |name: &str| places.iter().find(|place| place.named.name == name && place.fixed);
         let pivot = pivot(self.mechanism, link);
         let own = self.mechanism.links()[link].points.iter();
-        let moving: Vec<(&'a Place, Vec2)> = own
+        let moving: Vec<On> = own
             .filter(|point| pivot.as_ref().is_none_or(|(local, _)| point.local != *local))
-            .filter_map(|point| places.iter().find(|p| p.name == point.name && !p.fixed).map(|p| (p, point.local)))
+            .filter_map(|point| Some(on(moves(&point.name)?, point.local)))
             .collect();
-        let on =
-            |&(place, local): &(&'a Place, Vec2)| On { name: &place.name, letter: &place.letter, local, fixed: false };
-        let base = pivot.as_ref().and_then(|(local, name)| {
-            let place = places.iter().find(|place| place.fixed && place.name == *name)?;
-            Some((place, *local))
-        });
-        let mut pairs = Vec::new();
-        for to in &moving {
-            pairs.extend(base.as_ref().map(|base| (On { fixed: true, ..on(base) }, on(to))));
-        }
-        for (index, from) in moving.iter().enumerate() {
-            pairs.extend(moving[index + 1..].iter().map(|to| (on(from), on(to))));
+        let base = pivot.as_ref().and_then(|(local, name)| Some(on(stands(name)?, *local)));
+        let mut pairs: Vec<(On, On)> = base.iter().flat_map(|&base| moving.iter().map(move |&to| (base, to))).collect();
+        for (index, &from) in moving.iter().enumerate() {
+            pairs.extend(moving[index + 1..].iter().map(|&to| (from, to)));
         }
         for slide in self.slides.iter().filter(|slide| slide.guide.link == link) {
             let Some(under) = &slide.under else { continue };
-            let local = slide.place_under(self.state);
-            let to = || On { name: &under.name, letter: &under.letter, local, fixed: false };
-            match &base {
-                Some(base) => pairs.push((On { fixed: true, ..on(base) }, to())),
-                None => pairs.extend(moving.iter().map(|from| (on(from), to()))),
+            let to = On { named: under, local: slide.place_under(self.state), fixed: false };
+            match base {
+                Some(base) => pairs.push((base, to)),
+                None => pairs.extend(moving.iter().map(|&from| (from, to))),
             }
         }
         pairs
     }
 
     fn push(&mut self, name: String, part: Part, [from, to]: [&str; 2], value: Vec2, link: usize, meaning: String) {
-        let start = self.tips.iter().find(|tip| tip.letter == from).map_or_else(Vec2::zeros, |tip| tip.at);
+        let start = self.end(from);
         self.vectors.push(Vector { name, part, from: from.into(), to: to.into(), start, value, link, meaning });
     }
 }

@@ -1,6 +1,6 @@
 //! Graphs of quantities over one period of the crank angle, independent of the method that computed them.
 
-use linkage::math::KeepNan;
+use linkage::math::statistics::ends;
 
 /// A marked point of a graph.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,7 +38,7 @@ impl Graph {
     #[must_use]
     pub fn range(&self) -> [f64; 2] {
         let values = self.points.iter().map(|point| point[1]).chain(self.marks.iter().map(|mark| mark.at[1]));
-        values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.smaller(value), high.larger(value)])
+        ends(values)
     }
 
     /// Whether the quantity is constant over the period, except for rounding.

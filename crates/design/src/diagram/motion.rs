@@ -46,13 +46,9 @@ impl Course {
         };
         let stem = name.strip_suffix(channel.kind.suffix).unwrap_or(name);
         match ENDINGS.into_iter().find(|endings| endings.contains(&channel.kind.suffix)) {
-            Some(endings) if endings[0] == channel.kind.suffix => {
-                let found = endings.map(|ending| Channel::named(&format!("{stem}{ending}")));
-                match found {
-                    [Some(a), Some(b), Some(c)] => Ok(Course([a, b, c])),
-                    _ => Err(wrong(format!("\"{name}\" has no derivatives among the channels"), help(&all, name))),
-                }
-            }
+            Some(endings) if endings[0] == channel.kind.suffix => Ok(Course(endings.map(|ending| {
+                Channel::named(&format!("{stem}{ending}")).expect("links and points have all derivatives")
+            }))),
             Some(endings) => Err(wrong(
                 format!("\"{name}\" is a derivative already; a motion diagram starts from a position or an angle"),
                 format!("ask for {stem}{}: its diagram shows this one too", endings[0]),
@@ -225,19 +221,16 @@ fn apply(method: Method, stride: usize, times: &[f64], exact: &[Vec<f64>; 3]) ->
     let places = at(&ends, times);
     let velocity = || slopes(&places, &at(&ends, &exact[0]));
     let integrated = |of: usize| integral(exact[of][0], &places, &at(&middles, &exact[of + 1]));
-    match method {
-        Method::ChordVelocity => {
-            let values = velocity();
-            (middles, values)
-        }
-        Method::ChordAcceleration => (ends[1..].to_vec(), closed_slopes(&places, &velocity())),
-        Method::IntegratedDisplacement => {
-            let values = integrated(0);
-            (ends, values)
-        }
-        Method::IntegratedVelocity => {
-            let values = integrated(1);
-            (ends, values)
-        }
-    }
+    let values = match method {
+        Method::ChordVelocity => velocity(),
+        Method::ChordAcceleration => closed_slopes(&places, &velocity()),
+        Method::IntegratedDisplacement => integrated(0),
+        Method::IntegratedVelocity => integrated(1),
+    };
+    let rows = match method {
+        Method::ChordVelocity => middles,
+        Method::ChordAcceleration => ends[1..].to_vec(),
+        Method::IntegratedDisplacement | Method::IntegratedVelocity => ends,
+    };
+    (rows, values)
 }

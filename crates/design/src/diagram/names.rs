@@ -4,13 +4,20 @@
 use linkage::math::Vec2;
 use linkage::mechanism::{GROUND, Joint, Mechanism, Side};
 
+/// A name in the mechanism and its letter in the plans.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Named {
+    /// Name.
+    pub name: String,
+    /// Letter.
+    pub letter: String,
+}
+
 /// A named point of the mechanism, listed once for all links that contain it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Place {
-    /// Name in the mechanism.
-    pub name: String,
-    /// Letter in the plans.
-    pub letter: String,
+    /// Its name and letter.
+    pub named: Named,
     /// A link that contains it, and its position there. A link on a ground pivot or in a fixed guide is preferred.
     pub side: Side,
     /// Whether it is a ground point.
@@ -35,15 +42,15 @@ pub fn fixed_guide(mechanism: &Mechanism, link: usize) -> Option<&Joint> {
 /// All named points, those of the ground first, each with a unique letter.
 pub fn places(mechanism: &Mechanism, poles: &[&str]) -> Vec<Place> {
     let mut taken: Vec<String> = poles.iter().map(ToString::to_string).collect();
-    let mut letter = |name: &str| {
+    let mut named = |name: &str| {
         let letter = primed(name.to_lowercase(), |letter| taken.iter().any(|other| other == letter));
         taken.push(letter.clone());
-        letter
+        Named { name: name.into(), letter }
     };
     let mut all: Vec<Place> = Vec::new();
     for point in &mechanism.links()[GROUND].points {
         let side = Side { link: GROUND, local: point.local };
-        all.push(Place { name: point.name.clone(), letter: letter(&point.name), side, fixed: true });
+        all.push(Place { named: named(&point.name), side, fixed: true });
     }
     for (name, first) in mechanism.moving_points() {
         let carriers = mechanism.links().iter().enumerate().skip(1).filter_map(|(link, body)| {
@@ -51,7 +58,7 @@ pub fn places(mechanism: &Mechanism, poles: &[&str]) -> Vec<Place> {
         });
         let led = |side: &Side| pivot(mechanism, side.link).is_some() || fixed_guide(mechanism, side.link).is_some();
         let side = carriers.into_iter().find(led).unwrap_or(first);
-        all.push(Place { name: name.to_string(), letter: letter(name), side, fixed: false });
+        all.push(Place { named: named(name), side, fixed: false });
     }
     all
 }
@@ -77,7 +84,7 @@ mod tests {
 
     #[test]
     fn every_point_has_its_own_letter_and_the_pole_too() {
-        let letters = |all: Vec<Place>| all.into_iter().map(|place| place.letter).collect::<Vec<_>>();
+        let letters = |all: Vec<Place>| all.into_iter().map(|place| place.named.letter).collect::<Vec<_>>();
         assert_eq!(letters(places(&four_bar(), &["p"])), ["o", "c", "a", "b"]);
         let links = vec![
             link("ground", &[("O", 0.0, 0.0)]),

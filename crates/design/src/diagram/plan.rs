@@ -16,7 +16,7 @@
 //! No vector is the difference of two others, so the closure of the polygons is a result.
 
 use super::builder::Builder;
-use super::names::{Place, places};
+use super::names::{Named, Place, places};
 use super::scheme::Scheme;
 use super::sliding::{Slide, slides, travels};
 use super::vectors::{Plan, Quantity};
@@ -37,8 +37,8 @@ pub struct Plans {
     pub velocity: Plan,
     /// The acceleration plan.
     pub acceleration: Plan,
-    /// Names of points, each with its letter and the links that have it.
-    points: Vec<(String, String, Vec<usize>)>,
+    /// Points, each with the links that have it.
+    points: Vec<(Named, Vec<usize>)>,
 }
 
 impl Plans {
@@ -54,10 +54,9 @@ impl Plans {
             let carry = links.clone().filter(|(_, link)| link.points.iter().any(|point| point.name == name));
             carry.map(|(number, _)| number).collect()
         };
-        let places = planner.places.iter();
-        let points = places.map(|place| (place.name.clone(), place.letter.clone(), carriers(&place.name))).collect();
-        let [velocity, acceleration] =
-            [Quantity::Velocity, Quantity::Acceleration].map(|quantity| planner.plan(quantity, state));
+        let names = planner.places.iter().map(|place| &place.named);
+        let points = names.map(|named| (named.clone(), carriers(&named.name))).collect();
+        let [velocity, acceleration] = Quantity::ALL.map(|quantity| planner.plan(quantity, state));
         Plans { crank, scheme, velocity, acceleration, points }
     }
 
@@ -70,14 +69,14 @@ impl Plans {
         let mut letters: Vec<String> = Vec::new();
         for name in names {
             let link = self.scheme.links.iter().find(|link| link.name == *name).map(|link| link.number);
-            let has = |(own, _, links): &&(String, String, Vec<usize>)| {
-                own == name || link.is_some_and(|link| links.contains(&link))
+            let has = |(own, links): &&(Named, Vec<usize>)| {
+                own.name == *name || link.is_some_and(|link| links.contains(&link))
             };
             let before = letters.len();
-            letters.extend(self.points.iter().filter(has).map(|(_, letter, _)| letter.clone()));
+            letters.extend(self.points.iter().filter(has).map(|(own, _)| own.letter.clone()));
             letters.extend(link.map(|link| format!("s{link}")));
             if letters.len() == before {
-                let points = self.points.iter().map(|(name, ..)| name.as_str());
+                let points = self.points.iter().map(|(own, _)| own.name.as_str());
                 let all: Vec<&str> = points.chain(self.scheme.links.iter().map(|link| link.name.as_str())).collect();
                 return Err(Error::new(ErrorKind::Input, format!("no point and no link is called \"{name}\""))
                     .help(format!("name some of {}", all.join(", "))));
@@ -101,14 +100,14 @@ impl<'a> Planner<'a> {
     /// The plans of this mechanism.
     #[must_use]
     pub fn of(mechanism: &'a Mechanism) -> Self {
-        let mut places = places(mechanism, &[Quantity::Velocity.pole(), Quantity::Acceleration.pole()]);
+        let mut places = places(mechanism, &Quantity::ALL.map(Quantity::pole));
         let slides = slides(mechanism, &mut places);
         Planner { mechanism, places, slides }
     }
 
     /// Names of points, each with its letter.
     pub fn letters(&self) -> impl Iterator<Item = (&str, &str)> {
-        self.places.iter().map(|place| (place.name.as_str(), place.letter.as_str()))
+        self.places.iter().map(|place| (place.named.name.as_str(), place.named.letter.as_str()))
     }
 
     /// The plan of a state that contains motions up to its quantity.

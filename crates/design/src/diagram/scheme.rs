@@ -7,7 +7,7 @@ use drawing::paper::scale::factor;
 use drawing::picture::Place::Here;
 use drawing::{Acting, Sketch, Travels, acting};
 use linkage::case::Case;
-use linkage::math::{KeepNan, Motion, Vec2};
+use linkage::math::{KeepNan, Motion, Vec2, corners};
 use linkage::mechanism::LinkPose;
 use linkage::solver::State;
 
@@ -21,10 +21,6 @@ pub struct SchemeLink {
     pub number: usize,
     /// Its name.
     pub name: String,
-    /// World positions of its points and joints (m).
-    pub places: Vec<Vec2>,
-    /// World position of its mass centre (m), if it has a mass.
-    pub mass_centre: Option<Vec2>,
     /// World position of its pivot on the ground (m), if it has one.
     pub pivot: Option<Vec2>,
     /// Angular velocity (rad/s), counter-clockwise positive.
@@ -36,10 +32,6 @@ pub struct SchemeLink {
 /// A guide of the diagram and its block.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SchemeGuide {
-    /// Number of the link that the guide belongs to: 0 for a fixed guide.
-    pub link: usize,
-    /// Number of the block's link.
-    pub block: usize,
     /// Unit vector along the guide, in the world.
     pub axis: Vec2,
     /// World position of the joint's point on the guide (m).
@@ -59,10 +51,8 @@ pub struct Scheme {
     pub scale: f64,
     /// Moving links.
     pub links: Vec<SchemeLink>,
-    /// Named points and their world positions (m); the first `fixed` of them are ground points.
+    /// Named points and their world positions (m), those of the ground first.
     pub points: Vec<(String, Vec2)>,
-    /// Number of ground points.
-    pub fixed: usize,
     /// Guides, fixed and moving.
     pub guides: Vec<SchemeGuide>,
     /// Number of the driving link.
@@ -83,18 +73,13 @@ impl Scheme {
         let mechanism = &case.mechanism;
         let points: Vec<(String, Vec2)> = places
             .iter()
-            .map(|place| (place.name.clone(), state.motions[place.side.link].point(place.side.local)))
+            .map(|place| (place.named.name.clone(), state.motions[place.side.link].point(place.side.local)))
             .collect();
         let links = mechanism.links().iter().enumerate().skip(1).map(|(number, link)| {
             let motion = &state.motions[number];
-            let mut locals: Vec<Vec2> = link.points.iter().map(|point| point.local).collect();
-            let joints = mechanism.joints().iter().filter_map(|joint| joint.on(number));
-            locals.extend(joints.filter(|place| !link.points.iter().any(|point| point.local == *place)));
             SchemeLink {
                 number,
                 name: link.name.clone(),
-                places: locals.iter().map(|&local| motion.point(local)).collect(),
-                mass_centre: (link.mass > 0.0).then(|| motion.point(link.mass_centre)),
                 pivot: pivot(mechanism, number).map(|(local, _)| motion.point(local)),
                 omega: motion.omega,
                 alpha: motion.alpha,
@@ -106,26 +91,24 @@ impl Scheme {
             let axis = motion.arm(mechanism.joints()[slide.joint].axis_on(slide.guide.link)?);
             let origin = motion.point(slide.guide.local);
             Some(SchemeGuide {
-                link: slide.guide.link,
-                block: slide.block.link,
                 axis,
                 origin,
                 at: state.motions[slide.block.link].point(slide.block.local),
                 ends: travel.map(|way| origin + axis * way),
-                under: slide.under.as_ref().map(|under| [slide.name.clone(), under.name.clone()]),
+                under: slide.under.as_ref().map(|under| [slide.place.named.name.clone(), under.name.clone()]),
             })
         };
         let guides: Vec<SchemeGuide> = slides.iter().zip(travels).filter_map(guide).collect();
-        let all = links.iter().flat_map(|link| link.places.iter().chain(&link.mass_centre).copied());
-        let all = all.chain(guides.iter().flat_map(|guide| guide.ends));
-        let all: Vec<Vec2> = all.chain(points.iter().map(|(_, at)| *at)).collect();
-        let extent = |of: fn(&Vec2) -> f64| {
-            let (low, high) =
-                all.iter().map(of).fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.smaller(v), h.larger(v)));
-            high - low
-        };
-        let scale = factor(extent(|v| v.x), ROOM[0]).larger(factor(extent(|v| v.y), ROOM[1]));
-        let fixed = places.iter().filter(|place| place.fixed).count();
+        let all =
+            mechanism.links().iter().zip(&state.motions).enumerate().skip(1).flat_map(|(number, (link, motion))| {
+                let joints = mechanism.joints().iter().filter_map(move |joint| joint.on(number));
+                let mass_centre = (link.mass > 0.0).then_some(link.mass_centre);
+                let locals = link.points.iter().map(|point| point.local).chain(joints).chain(mass_centre);
+                locals.map(|local| motion.point(local))
+            });
+        let all = all.chain(guides.iter().flat_map(|guide| guide.ends)).chain(points.iter().map(|(_, at)| *at));
+        let [low, high] = corners(all);
+        let scale = factor(high.x - low.x, ROOM[0]).larger(factor(high.y - low.y, ROOM[1]));
         // Parallel leads have no point that could be drawn.
         let groups = case.structure.groups.iter();
         let singular =
@@ -136,6 +119,6 @@ impl Scheme {
         let acting = acting(case, &sketch, &state.motions, &state.angles);
         let pose = |(motion, &angle): (&Motion, &f64)| Here(LinkPose { origin: motion.origin, angle });
         let places = state.motions.iter().zip(&state.angles).map(pose).collect();
-        Scheme { scale, links, points, fixed, guides, driver: case.crank().link, singular, sketch, places, acting }
+        Scheme { scale, links, points, guides, driver: case.crank().link, singular, sketch, places, acting }
     }
 }

@@ -55,14 +55,18 @@ impl SingularPoint {
         let [first, second] = &leads;
         let slant = cross(first.along, second.along);
         if !(slant.abs() > PARALLEL) {
-            return Err(at_infinity(&leads));
+            return Err(wrong(&leads, " and ", |names| {
+                format!("the leads {names} are parallel: their singular point lies at infinity")
+            }));
         }
         let at = first.ends[0] + first.along * (cross(second.ends[0] - first.ends[0], second.along) / slant);
         let outer = bases.map(|(_, known)| known);
         let arms = outer.map(|joint| at - joint[0]);
         let dead = cross(arms[0], arms[1]) / (arms[0].norm() * arms[1].norm());
         if !(dead.abs() > PARALLEL) {
-            return Err(dead_point(&leads));
+            return Err(wrong(&leads, " x ", |names| {
+                format!("the singular point {names} lies in line with the outer joints: a dead point")
+            }));
         }
         // turned(arm1) w1 - turned(arm2) w2 = r, multiplied by the arm that eliminates one unknown.
         let spins = |r: Vec2| {
@@ -143,20 +147,8 @@ fn parts(mechanism: &Mechanism, group: &Group, motions: &[Motion]) -> Option<([B
     Some((bases, [leads.next()??, leads.next()??]))
 }
 
-fn at_infinity(leads: &[Lead; 2]) -> Error {
+/// What is wrong with the leads, named side by side with `between`.
+fn wrong(leads: &[Lead; 2], between: &str, message: impl FnOnce(String) -> String) -> Error {
     let names = leads.each_ref().map(|lead| super::names::pair(&lead.names[0], &lead.names[1]));
-    Error::new(
-        ErrorKind::Geometry,
-        format!("the leads {} are parallel: their singular point lies at infinity", names.join(" and ")),
-    )
-    .help("take a crank angle a little beside this one")
-}
-
-fn dead_point(leads: &[Lead; 2]) -> Error {
-    let names = leads.each_ref().map(|lead| super::names::pair(&lead.names[0], &lead.names[1]));
-    Error::new(
-        ErrorKind::Geometry,
-        format!("the singular point {} lies in line with the outer joints: a dead point", names.join(" x ")),
-    )
-    .help("take a crank angle a little beside this one")
+    Error::new(ErrorKind::Geometry, message(names.join(between))).help("take a crank angle a little beside this one")
 }

@@ -1,38 +1,23 @@
 //! Prismatic pairs in plans and drawings: the guide's link, the sliding point, and the point of the guide that coincides with it.
 
-use super::names::{Place, primed};
+use super::names::{Named, Place, primed};
 use linkage::case::{Case, Wanted};
 use linkage::math::{KeepNan, Vec2, rotated};
 use linkage::mechanism::{GROUND, Mechanism, Side};
 use linkage::solver::{Solver, State};
 use linkage::trajectory::Stage;
 
-/// A name and its letter in the plans.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Named {
-    /// Name.
-    pub name: String,
-    /// Letter.
-    pub letter: String,
-}
-
 /// A prismatic pair: a point of the block slides on a line of the guide.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Slide {
     /// Index of the joint.
     pub joint: usize,
-    /// Its name.
-    pub joint_name: String,
     /// The guide's link and the joint's point on it.
     pub guide: Side,
     /// The block's link and the sliding point on it.
     pub block: Side,
-    /// Name of the sliding point.
-    pub name: String,
-    /// Its letter.
-    pub letter: String,
-    /// Whether the sliding point is also a ground point: a rod in a block that only swings.
-    pub fixed: bool,
+    /// The sliding point. It may be a ground point too: a rod in a block that only swings.
+    pub place: Place,
     /// The coincident point of a moving guide's link; a fixed guide has none.
     pub under: Option<Named>,
 }
@@ -74,20 +59,19 @@ pub fn slides(mechanism: &Mechanism, places: &mut Vec<Place>) -> Vec<Slide> {
         let Some([guide, block]) = mechanism.guide_and_block(joint) else { continue };
         let mut named = mechanism.links()[block.link].points.iter();
         let point = named.find(|point| point.local == block.local).map(|point| point.name.clone());
-        let place = point.and_then(|name| places.iter().find(|place| place.name == name).cloned());
+        let place = point.and_then(|name| places.iter().find(|place| place.named.name == name).cloned());
         let place = place.unwrap_or_else(|| {
-            let Named { name, letter } = unused(joint.name.clone(), places, &[]);
-            let new = Place { name, letter, side: block, fixed: false };
+            let new = Place { named: unused(joint.name.clone(), places, &[]), side: block, fixed: false };
             places.push(new.clone());
             new
         });
         let under = (guide.link != GROUND).then(|| {
-            let apart = if place.name.ends_with(|sign: char| sign.is_ascii_digit()) { "/" } else { "" };
-            unused(format!("{}{apart}{}", place.name, guide.link), places, &unders)
+            let name = &place.named.name;
+            let apart = if name.ends_with(|sign: char| sign.is_ascii_digit()) { "/" } else { "" };
+            unused(format!("{name}{apart}{}", guide.link), places, &unders)
         });
         unders.extend(under.clone());
-        let Place { name, letter, fixed, .. } = place;
-        all.push(Slide { joint: index, joint_name: joint.name.clone(), guide, block, name, letter, fixed, under });
+        all.push(Slide { joint: index, guide, block, place, under });
     }
     all
 }
@@ -97,9 +81,8 @@ fn unused(name: String, places: &[Place], others: &[Named]) -> Named {
     let name = primed(name, |name| {
         let letter = name.to_lowercase();
         // The poles of both plans have letters too.
-        ["p", "π"].contains(&letter.as_str())
-            || places.iter().any(|place| place.name == name || place.letter == letter)
-            || others.iter().any(|other| other.name == name || other.letter == letter)
+        let mut taken = places.iter().map(|place| &place.named).chain(others);
+        ["p", "π"].contains(&letter.as_str()) || taken.any(|other| other.name == name || other.letter == letter)
     });
     Named { letter: name.to_lowercase(), name }
 }

@@ -8,68 +8,62 @@ pub(super) const ROOM: f64 = 100.0;
 /// Smallest share of a plan's scale factor that one of some of its vectors has.
 const FINEST: f64 = 1e-3;
 
-/// The quantity of a plan.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Quantity {
-    /// Velocities (m/s).
-    Velocity,
-    /// Accelerations (m/s^2).
-    Acceleration,
+linkage::words! {
+    /// The quantity of a plan.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Quantity: word {
+        /// Velocities (m/s).
+        Velocity = "velocity",
+        /// Accelerations (m/s^2).
+        Acceleration = "acceleration",
+    }
 }
 
 impl Quantity {
+    /// What belongs to this quantity of two things.
+    pub(super) fn of<T>(self, velocity: T, acceleration: T) -> T {
+        match self {
+            Quantity::Velocity => velocity,
+            Quantity::Acceleration => acceleration,
+        }
+    }
+
     /// SI unit.
     #[must_use]
     pub fn unit(self) -> &'static str {
-        match self {
-            Quantity::Velocity => "m/s",
-            Quantity::Acceleration => "m/s^2",
-        }
+        self.of("m/s", "m/s^2")
     }
 
     /// Symbol of its vectors: v or a.
     #[must_use]
     pub fn symbol(self) -> &'static str {
-        match self {
-            Quantity::Velocity => "v",
-            Quantity::Acceleration => "a",
-        }
+        self.of("v", "a")
     }
 
     /// Letter of its pole: p or π.
     #[must_use]
     pub fn pole(self) -> &'static str {
-        match self {
-            Quantity::Velocity => "p",
-            Quantity::Acceleration => "π",
-        }
-    }
-
-    /// The quantity in words.
-    #[must_use]
-    pub fn word(self) -> &'static str {
-        match self {
-            Quantity::Velocity => "velocity",
-            Quantity::Acceleration => "acceleration",
-        }
+        self.of("p", "π")
     }
 }
 
-/// Kind of the end point of a vector.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum TipKind {
-    /// The pole itself, or a ground point, which coincides with it.
-    Fixed,
-    /// A named point of the mechanism.
-    Point,
-    /// A mass centre: s and the number of its link.
-    MassCentre,
-    /// The end of a normal part: n and a running number.
-    Normal,
-    /// A point of a moving guide's link that coincides with a sliding point: letter of that point and number of the link, a3.
-    Coincident,
-    /// The end of a Coriolis part: k and a running number.
-    Coriolis,
+linkage::words! {
+    /// Kind of the end point of a vector.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum TipKind: word {
+        /// The pole itself, or a ground point, which coincides with it.
+        Fixed = "fixed",
+        /// A named point of the mechanism.
+        Point = "point",
+        /// A mass centre: s and the number of its link.
+        MassCentre = "centre",
+        /// The end of a normal part: n and a running number.
+        Normal = "between",
+        /// A point of a moving guide's link that coincides with a sliding point: letter of that point and number of the link, a3.
+        Coincident = "coincident",
+        /// The end of a Coriolis part: k and a running number.
+        Coriolis = "between",
+    }
 }
 
 /// A point of a plan.
@@ -83,23 +77,25 @@ pub struct Tip {
     pub at: Vec2,
 }
 
-/// Kind of a vector.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Part {
-    /// Absolute vector of a named point.
-    Absolute,
-    /// Absolute vector of a mass centre.
-    MassCentre,
-    /// Relative vector of two points of one link.
-    Relative,
-    /// Normal part of an acceleration: omega^2 l, from the point towards the other one.
-    Normal,
-    /// Tangential part of an acceleration: alpha l, perpendicular to the line through both points.
-    Tangential,
-    /// Along a moving guide: velocity or acceleration of a sliding point relative to the guide's link.
-    Sliding,
-    /// Coriolis part of the acceleration of a point that slides on a turning guide: 2 omega x v, across the guide.
-    Coriolis,
+linkage::words! {
+    /// Kind of a vector.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    pub enum Part: word {
+        /// Absolute vector of a named point.
+        Absolute = "absolute",
+        /// Absolute vector of a mass centre.
+        MassCentre = "centre",
+        /// Relative vector of two points of one link.
+        Relative = "relative",
+        /// Normal part of an acceleration: omega^2 l, from the point towards the other one.
+        Normal = "normal",
+        /// Tangential part of an acceleration: alpha l, perpendicular to the line through both points.
+        Tangential = "tangential",
+        /// Along a moving guide: velocity or acceleration of a sliding point relative to the guide's link.
+        Sliding = "sliding",
+        /// Coriolis part of the acceleration of a point that slides on a turning guide: 2 omega x v, across the guide.
+        Coriolis = "coriolis",
+    }
 }
 
 /// One vector of a plan.

@@ -1,10 +1,11 @@
 //! The achieved motion of a mechanism compared with the wanted motion of its output, on a fine grid of its scenario.
 
 use linkage::math::KeepNan;
+use linkage::math::statistics::ends;
 use std::f64::consts::TAU;
 
 use super::evaluate::Evaluator;
-use crate::task::{Sense, Task};
+use crate::task::{Phase, Sense, Task};
 use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::mechanism::GroupKind;
 
@@ -64,8 +65,7 @@ impl Achieved {
             Error::new(ErrorKind::Geometry, message).help(Advice::LookAtRange)
         })?;
         let curve = &evaluator.curve;
-        let (low, high) =
-            curve.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &v| (l.smaller(v), h.larger(v)));
+        let [low, high] = ends(curve.iter().copied());
         let dyads = task.case.structure.groups.iter().all(|group| group.kind != GroupKind::Higher);
         let share =
             |&value: &f64| if forward > 0.0 { (value - low) / (high - low) } else { (high - value) / (high - low) };
@@ -94,11 +94,18 @@ impl Achieved {
         Ok(if wrong(&ahead) <= wrong(&back) { ahead } else { back })
     }
 
+    /// Every phase as it is and as it is wanted, with the sense of the next one.
+    fn with_next<'a>(&'a self, task: &'a Task) -> impl Iterator<Item = (&'a PhaseDone, &'a Phase, Sense)> {
+        let phases = task.timing.phases();
+        let next = phases.iter().cycle().skip(1).map(|phase| phase.sense);
+        self.phases.iter().zip(phases).zip(next).map(|((done, phase), next)| (done, phase, next))
+    }
+
     /// Largest motion in any dwell (share of the stroke).
     #[must_use]
     pub fn unrest(&self, task: &Task) -> f64 {
-        let dwells = self.phases.iter().zip(task.timing.phases()).filter(|(_, phase)| phase.sense == Sense::Dwell);
-        dwells.map(|(done, _)| done.motion).fold(0.0, f64::larger)
+        let dwells = self.with_next(task).filter(|(_, phase, _)| phase.sense == Sense::Dwell);
+        dwells.map(|(done, ..)| done.motion).fold(0.0, f64::larger)
     }
 
     /// Largest distance travelled in the wrong sense in any phase (share of the stroke).
@@ -110,36 +117,32 @@ impl Achieved {
     /// Largest deviation (rad) of an extreme position from the limit between two opposite motions where it should be.
     #[must_use]
     pub fn late(&self, task: &Task) -> f64 {
-        let phases = task.timing.phases();
-        let apart = |(index, done): (usize, &PhaseDone)| {
-            let next = phases[(index + 1) % phases.len()].sense;
-            let turns_about = phases[index].sense.sign() * next.sign() < 0.0;
-            turns_about.then(|| done.end.map_or(TAU, |end| (end - phases[index].to).abs()))
-        };
-        self.phases.iter().enumerate().filter_map(apart).fold(0.0, f64::larger)
+        let turns = self.with_next(task).filter(|(_, phase, next)| phase.sense.sign() * next.sign() < 0.0);
+        let apart = turns.map(|(done, phase, _)| done.end.map_or(TAU, |end| (end - phase.to).abs()));
+        apart.fold(0.0, f64::larger)
     }
 
     /// Largest shortfall of a dwell at either end (rad): the output is outside [`BAND`] although it should dwell.
     /// A dwell that is longer than required does not count.
     #[must_use]
     pub fn short(&self, task: &Task) -> f64 {
-        let phases = task.timing.phases();
-        let missing = |(index, done): (usize, &PhaseDone)| {
-            let (own, next) = (phases[index].sense, phases[(index + 1) % phases.len()].sense);
-            let end = done.end?;
-            match (own, next) {
-                (Sense::Dwell, Sense::Dwell) => None,
-                (Sense::Dwell, _) => Some(phases[index].to - end),
-                (_, Sense::Dwell) => Some(end - phases[index].to),
-                _ => None,
-            }
+        let missing = |(done, phase, next): (&PhaseDone, &Phase, Sense)| match (phase.sense, next) {
+            (Sense::Dwell, Sense::Dwell) => None,
+            (Sense::Dwell, _) => Some(phase.to - done.end?),
+            (_, Sense::Dwell) => Some(done.end? - phase.to),
+            _ => None,
         };
-        self.phases.iter().enumerate().filter_map(missing).fold(0.0, f64::larger)
+        self.with_next(task).filter_map(missing).fold(0.0, f64::larger)
     }
 
     /// The share at any row; rows continue over several turns.
     fn at(&self, row: i64) -> f64 {
         self.shares[row.rem_euclid(ROWS as i64) as usize]
+    }
+
+    /// The least and the greatest share from one row to another.
+    fn ends(&self, from: i64, to: i64) -> [f64; 2] {
+        ends((from..=to).map(|row| self.at(row)))
     }
 
     fn row(&self, turn: f64) -> i64 {
@@ -150,7 +153,7 @@ impl Achieved {
         let phases = task.timing.phases();
         let (phase, next) = (&phases[index], &phases[(index + 1) % phases.len()]);
         let (from, to) = (self.row(phase.from), self.row(phase.to));
-        let values = || (from..=to).map(|row| self.at(row));
+        let [low, high] = self.ends(from, to);
         let sign = phase.sense.sign();
         let end = match (phase.sense, next.sense) {
             (Sense::Dwell, Sense::Dwell) => None,
@@ -164,7 +167,7 @@ impl Achieved {
         };
         PhaseDone {
             displacement: self.at(to) - self.at(from),
-            motion: values().fold(f64::NEG_INFINITY, f64::larger) - values().fold(f64::INFINITY, f64::smaller),
+            motion: high - low,
             wrong: (from..to).map(|row| (-sign * (self.at(row + 1) - self.at(row))).larger(0.0)).sum(),
             level: self.at(to),
             end,
@@ -181,10 +184,10 @@ impl Achieved {
     /// The search starts in the middle of the dwell between the rows `from` and `to`, and goes towards `to` and beyond.
     /// The band is centred between the dwell's extremes.
     fn leaves(&self, from: i64, to: i64, way: i64) -> Option<f64> {
-        let (low, high) = (from.min(to), from.max(to));
-        let values = || (low..=high).map(|row| self.at(row));
-        let middle = (values().fold(f64::NEG_INFINITY, f64::larger) + values().fold(f64::INFINITY, f64::smaller)) / 2.0;
-        let mut row = (low + high) / 2;
+        let (first, last) = (from.min(to), from.max(to));
+        let [low, high] = self.ends(first, last);
+        let middle = (high + low) / 2.0;
+        let mut row = (first + last) / 2;
         let outside = to + way * (ROWS as i64 / 4);
         while row != outside && (self.at(row) - middle).abs() <= BAND {
             row += way;

@@ -6,7 +6,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::time_ratio;
+use super::{time_ratio, wrong};
 use analytic::range::{FourBar, FourBarType};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::{KeepNan, Vec2, cross, unit};
@@ -58,10 +58,6 @@ pub struct CrankRocker {
     pub transmission_at: f64,
     /// Time of the slower swing divided by that of the faster one, at a constant speed of the crank.
     pub time_ratio: f64,
-}
-
-fn wrong(key: &str, message: String, help: &str) -> Error {
-    Error::new(ErrorKind::Input, message).key(key).help(help)
 }
 
 impl CrankRocker {

@@ -50,8 +50,12 @@ impl Sheet {
     }
 }
 
-fn pin(name: &str, links: [&str; 2]) -> String {
-    format!("[[joints]]\nname = \"{name}\"\ntype = \"revolute\"\nlinks = [\"{}\", \"{}\"]\n\n", links[0], links[1])
+/// Pins, each between two links.
+fn pins(all: &[(&str, [&str; 2])]) -> String {
+    let pin = |(name, [first, second]): &(&str, [&str; 2])| {
+        format!("[[joints]]\nname = \"{name}\"\ntype = \"revolute\"\nlinks = [\"{first}\", \"{second}\"]\n\n")
+    };
+    all.iter().map(pin).collect()
 }
 
 impl CrankRocker {
@@ -68,14 +72,8 @@ impl CrankRocker {
         text += &sheet.bar("crank", ["O", "A"], self.crank);
         text += &sheet.bar("coupler", ["A", "B"], self.coupler);
         text += &sheet.bar("rocker", ["C", "B"], self.wish.rocker);
-        for (name, links) in [
-            ("O", ["ground", "crank"]),
-            ("A", ["crank", "coupler"]),
-            ("B", ["coupler", "rocker"]),
-            ("C", ["ground", "rocker"]),
-        ] {
-            text += &pin(name, links);
-        }
+        let (o, a) = (("O", ["ground", "crank"]), ("A", ["crank", "coupler"]));
+        text += &pins(&[o, a, ("B", ["coupler", "rocker"]), ("C", ["ground", "rocker"])]);
         text + &sheet.tail("\"coupler\", \"rocker\"", self.mode.name())
     }
 }
@@ -98,9 +96,7 @@ impl SliderCrank {
             "# As heavy as the crank.\n[links.slider]\nmass_kg = {mass:?}\nmass_centre = {{ x_m = 0, y_m = 0 }}\n\
              [links.slider.points]\nB = {{ x_m = 0, y_m = 0 }}\n"
         );
-        for (name, links) in [("O", ["ground", "crank"]), ("A", ["crank", "rod"]), ("B", ["rod", "slider"])] {
-            text += &pin(name, links);
-        }
+        text += &pins(&[("O", ["ground", "crank"]), ("A", ["crank", "rod"]), ("B", ["rod", "slider"])]);
         text += "[[joints]]\nname = \"guide\"\ntype = \"prismatic\"\nlinks = [\"ground\", \"slider\"]\npoints = [\"G\", \"B\"]\naxis_deg = 0\n\n";
         text + &sheet.tail("\"rod\", \"slider\"", "ahead")
     }

@@ -14,6 +14,7 @@ pub use draft::Sheet;
 pub use search::{Found, search};
 pub use slider_crank::SliderCrank;
 
+use linkage::error::{Error, ErrorKind};
 use std::f64::consts::PI;
 
 /// Time of the slower stroke divided by that of the faster one, at a constant speed of the crank:
@@ -21,4 +22,8 @@ use std::f64::consts::PI;
 /// `theta` (rad) is the difference between the directions of crank and coupler in the two extreme positions.
 fn time_ratio(theta: f64) -> f64 {
     (PI + theta.abs()) / (PI - theta.abs())
+}
+
+fn wrong(key: &str, message: String, help: &str) -> Error {
+    Error::new(ErrorKind::Input, message).key(key).help(help)
 }

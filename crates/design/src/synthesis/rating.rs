@@ -10,6 +10,7 @@ use std::f64::consts::TAU;
 
 use crate::task::{Phase, Sense, Task, Timing};
 use linkage::math::KeepNan;
+use linkage::math::statistics::ends;
 
 /// Weight of motion in the wrong sense, and of a moving phase that moves too little, relative to the motion in a dwell.
 const WRONG: f64 = 4.0;
@@ -75,8 +76,7 @@ impl<'a> Rater<'a> {
 
     /// Stores an output and returns its stroke.
     pub(super) fn take(&mut self, curve: &[f64]) -> f64 {
-        let (low, high) =
-            curve.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &v| (l.smaller(v), h.larger(v)));
+        let [low, high] = ends(curve.iter().copied());
         self.span = high - low;
         let share = |value: &f64| (value - low) / self.span;
         self.twice.clear();
@@ -166,7 +166,7 @@ mod tests {
             phase(200.0, 300.0, Sense::Back),
             phase(300.0, 360.0, Sense::Dwell),
         ];
-        Timing::of(phases, true).unwrap()
+        Timing::of(phases).unwrap().followed().unwrap()
     }
 
     #[test]

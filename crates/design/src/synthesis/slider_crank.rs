@@ -11,7 +11,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::time_ratio;
+use super::{time_ratio, wrong};
 use linkage::error::{Advice, Error, ErrorKind, Result};
 
 /// Requirement on a slider-crank, besides its stroke and offset.
@@ -44,10 +44,6 @@ pub struct SliderCrank {
     pub pressure: f64,
 }
 
-fn wrong(key: &str, message: String, help: impl Into<Advice>) -> Error {
-    Error::new(ErrorKind::Input, message).key(key).help(help)
-}
-
 fn impossible(message: String, help: impl Into<Advice>) -> Error {
     Error::new(ErrorKind::Geometry, message).help(help)
 }
@@ -62,11 +58,8 @@ impl SliderCrank {
             return Err(wrong("stroke", format!("the stroke is {stroke} m"), "give a length greater than zero"));
         }
         if !offset.is_finite() {
-            return Err(wrong(
-                "offset",
-                format!("the offset is {offset} m"),
-                "give a decimal number; 0 for a central one",
-            ));
+            let help = "give a decimal number; 0 for a central one";
+            return Err(wrong("offset", format!("the offset is {offset} m"), help));
         }
         let e = offset.abs();
         let (crank, rod) = match given {
@@ -114,13 +107,13 @@ fn of_time_ratio(stroke: f64, e: f64, ratio: f64) -> Result<(f64, f64)> {
         return Err(wrong("time_ratio", format!("the time ratio is {ratio}"), help));
     }
     let theta = PI * (ratio - 1.0) / (ratio + 1.0);
-    if e == 0.0 || theta == 0.0 {
-        let message = match e == 0.0 {
-            true => format!("without an offset both strokes take the same time, not {ratio} times as long"),
-            false => "with an offset the two strokes never take the same time".to_string(),
-        };
-        let message =
-            if e == 0.0 && theta == 0.0 { "without an offset any rod gives a time ratio of 1".into() } else { message };
+    let undecided = match (e == 0.0, theta == 0.0) {
+        (true, true) => Some("without an offset any rod gives a time ratio of 1".to_string()),
+        (true, false) => Some(format!("without an offset both strokes take the same time, not {ratio} times as long")),
+        (false, true) => Some("with an offset the two strokes never take the same time".to_string()),
+        (false, false) => None,
+    };
+    if let Some(message) = undecided {
         return Err(impossible(message, "give the length of the rod instead of the time ratio, or change the offset"));
     }
     let rest = e * e - e * stroke / theta.tan();

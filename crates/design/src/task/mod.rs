@@ -1,16 +1,14 @@
 //! Input of a synthesis, in SI units and world axes.
 //! It has a structure with a starting drawing, the variable dimensions, the wanted motion of a link or point, and constraints.
 
-mod dimension;
 mod timing;
 
-pub use dimension::{Entry, Place};
 pub use timing::{Phase, Sense, Timing};
 
 use linkage::case::Case;
 use linkage::error::{Error, ErrorKind, Result};
-use linkage::math::Vec2;
-use linkage::mechanism::{GroupKind, StartGroup};
+use linkage::math::{Vec2, unit};
+use linkage::mechanism::{GroupKind, Handle, Mechanism, StartGroup};
 
 /// The output quantity.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,6 +38,51 @@ pub struct Variable {
     pub bounds: [f64; 2],
     /// Whether it is an angle; else it is a length or a coordinate.
     pub is_angle: bool,
+}
+
+/// A fixed number or a variable.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Entry {
+    /// Fixed (SI).
+    Fixed(f64),
+    /// The variable with this index.
+    Free(usize),
+}
+
+impl Entry {
+    /// Its value (SI), given the values of the variables.
+    #[inline]
+    #[must_use]
+    pub fn value(self, values: &[f64]) -> f64 {
+        match self {
+            Entry::Fixed(value) => value,
+            Entry::Free(index) => values[index],
+        }
+    }
+}
+
+/// The position of a point in its link.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Place {
+    /// The point, and the joints that move with it.
+    pub handle: Handle,
+    /// Point of the same link from which length and angle are measured. Without it the entries are x and y.
+    pub from: Option<usize>,
+    /// x and y (m), or length (m) and angle (rad) in the link's frame.
+    pub entries: [Entry; 2],
+}
+
+impl Place {
+    /// Moves the point to the position that `values` define.
+    #[inline]
+    pub fn apply(&self, values: &[f64], mechanism: &mut Mechanism) {
+        let [a, b] = self.entries.map(|entry| entry.value(values));
+        let local = match self.from {
+            None => Vec2::new(a, b),
+            Some(from) => mechanism.links()[self.handle.link].points[from].local + unit(b) * a,
+        };
+        mechanism.place(&self.handle, local);
+    }
 }
 
 /// Effort of the search.
@@ -98,28 +141,28 @@ impl Task {
     /// [`ErrorKind::Unsupported`] for mechanisms with several degrees of freedom, or transmission angles of groups without any.
     /// [`ErrorKind::Input`] if nothing may vary or the effort is zero.
     pub fn check(&self) -> Result<()> {
-        let wrong = |key: &str, message: &str, help: &str| {
-            Err(Error::new(ErrorKind::Input, message.to_string()).key(key).help(help.to_string()))
+        let wrong = |kind: ErrorKind, key: &str, message: &'static str, help: &'static str| {
+            Err(Error::new(kind, message).key(key).help(help))
         };
         if !self.case.drives.further().is_empty() {
             let message = "the mechanism has several drives, but a timing belongs to one crank";
-            return Err(Error::new(ErrorKind::Unsupported, message)
-                .key("scenario")
-                .help("take a scenario with one `[drive]`"));
+            return wrong(ErrorKind::Unsupported, "scenario", message, "take a scenario with one `[drive]`");
         }
         if self.variables.is_empty() {
-            return wrong("vary", "nothing may vary", "add a table `[[vary]]` for each length or pivot to be found");
+            let help = "add a table `[[vary]]` for each length or pivot to be found";
+            return wrong(ErrorKind::Input, "vary", "nothing may vary", help);
         }
         let higher = self.case.structure.groups.iter().any(|group| group.kind == GroupKind::Higher);
         if higher && self.transmission > 0.0 {
             let message = "a smallest transmission angle is asked for, but higher groups have none";
-            return Err(Error::new(ErrorKind::Unsupported, message).key("limits").help("leave `transmission` out"));
+            return wrong(ErrorKind::Unsupported, "limits", message, "leave `transmission` out");
         }
         let effort = &self.effort;
         let counts = [effort.candidates, effort.refined, effort.evaluations];
         if counts.iter().any(|count| !(1..=MOST).contains(count)) || effort.refined > effort.candidates {
             let help = "give counts of 1 or more, and no more refinements than candidates";
-            return wrong("search", "the search has no candidates, no refinements or no evaluations", help);
+            let message = "the search has no candidates, no refinements or no evaluations";
+            return wrong(ErrorKind::Input, "search", message, help);
         }
         Ok(())
     }

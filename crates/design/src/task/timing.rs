@@ -63,62 +63,60 @@ impl Timing {
     /// The timing of these phases.
     ///
     /// # Errors
-    /// [`ErrorKind::Input`] with the number of the phase (`phases[2]`) in these cases:
-    /// the phases do not follow each other over a whole turn, they contradict themselves,
-    /// or the curve must be followed and a level is not known.
-    pub fn of(phases: Vec<Phase>, follow: bool) -> Result<Self> {
-        let wrong = |index: usize, message: String, help: &str| {
-            Err(Error::new(ErrorKind::Input, message).key(format!("phases[{}]", index + 1)).help(help))
+    /// [`ErrorKind::Input`] with the number of the phase (`phases[2]`) if the phases do not follow each other over a
+    /// whole turn, or contradict themselves.
+    pub fn of(phases: Vec<Phase>) -> Result<Self> {
+        let of_all = |message: String, help: &str| Err(wrong("phases", message).help(help));
+        let of_one = |index: usize, message: String, help: &str| {
+            Err(wrong(&format!("phases[{}]", index + 1), message).help(help))
         };
         if phases.len() < 2 {
-            let error =
-                Error::new(ErrorKind::Input, format!("found {} phases, but a motion has two at least", phases.len()));
-            return Err(error
-                .key("phases")
-                .help("write `phases = [{ to_deg = 180, sense = \"forward\" }, { to_deg = 360, sense = \"back\" }]`"));
+            let help = "write `phases = [{ to_deg = 180, sense = \"forward\" }, { to_deg = 360, sense = \"back\" }]`";
+            return of_all(format!("found {} phases, but a motion has two at least", phases.len()), help);
         }
         if phases.len() > MOST_PHASES {
-            let error = Error::new(ErrorKind::Input, format!("found {} phases, more than {MOST_PHASES}", phases.len()));
-            return Err(error.key("phases").help("join phases of one sense"));
+            let message = format!("found {} phases, more than {MOST_PHASES}", phases.len());
+            return of_all(message, "join phases of one sense");
         }
         let mut from = 0.0;
         for (index, phase) in phases.iter().enumerate() {
             if phase.from != from || !(phase.to > phase.from) {
                 let message =
                     format!("the phase leads from {:.6} to {:.6} deg", phase.from.to_degrees(), phase.to.to_degrees());
-                return wrong(index, message, "let crank angles ascend from phase to phase; the first begins at 0");
+                return of_one(index, message, "let crank angles ascend from phase to phase; the first begins at 0");
             }
             if phase.level.is_some_and(|level| !(0.0..=1.0).contains(&level)) {
-                return wrong(index, "a level is a share of the stroke".into(), "give a number from 0 to 1");
+                return of_one(index, "a level is a share of the stroke".into(), "give a number from 0 to 1");
             }
             if !(phase.least >= 0.0 && phase.least < 1.0) {
-                return wrong(
-                    index,
-                    "the least displacement is a share of the stroke".into(),
-                    "give a number from 0 to below 1",
-                );
+                let message = "the least displacement is a share of the stroke".into();
+                return of_one(index, message, "give a number from 0 to below 1");
             }
             from = phase.to;
         }
         if (from - TAU).abs() > 1e-9 {
             let message = format!("the last phase ends at {:.6} deg, not after a whole turn", from.to_degrees());
-            return wrong(phases.len() - 1, message, "let it end at 360 deg");
+            return of_one(phases.len() - 1, message, "let it end at 360 deg");
         }
         for sense in [Sense::Forward, Sense::Back] {
             if !phases.iter().any(|phase| phase.sense == sense) {
-                let error = Error::new(
-                    ErrorKind::Input,
-                    format!("no phase goes {}: the output would not come round", sense.name()),
-                );
-                return Err(error.key("phases").help("an output that rocks goes forward and back in every turn"));
+                let message = format!("no phase goes {}: the output would not come round", sense.name());
+                return of_all(message, "an output that rocks goes forward and back in every turn");
             }
         }
-        let levels = levels(&phases);
-        if follow && levels.is_none() {
-            let error = Error::new(ErrorKind::Input, "the curve is to be followed, but not all levels are known");
-            return Err(error.key("follow").help("give every moving phase its `level`, or leave `follow` out"));
+        Ok(Timing { levels: levels(&phases), phases, follow: false })
+    }
+
+    /// The same, with a curve that the output must follow.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Input`] if a level is not known.
+    pub fn followed(self) -> Result<Self> {
+        if self.levels.is_none() {
+            return Err(wrong("follow", "the curve is to be followed, but not all levels are known".into())
+                .help("give every moving phase its `level`, or leave `follow` out"));
         }
-        Ok(Timing { phases, levels, follow })
+        Ok(Timing { follow: true, ..self })
     }
 
     /// The phases.
@@ -152,6 +150,10 @@ impl Timing {
         let u = ((crank - phase.from) / (phase.to - phase.from)).clamp(0.0, 1.0);
         Some(before + (levels[index] - before) * (u - (TAU * u).sin() / TAU))
     }
+}
+
+fn wrong(key: &str, message: String) -> Error {
+    Error::new(ErrorKind::Input, message).key(key)
 }
 
 /// Levels at the ends of all phases: those given, those that a dwell keeps, and 1 and 0 if there is one motion forward and one back.
@@ -196,7 +198,7 @@ mod tests {
     fn levels_follow_from_one_motion_either_way() {
         use Sense::{Back, Dwell, Forward};
         let all = phases(&[(30.0, Dwell, None), (130.0, Forward, None), (240.0, Back, None), (360.0, Dwell, None)]);
-        let timing = Timing::of(all, true).unwrap();
+        let timing = Timing::of(all).unwrap().followed().unwrap();
         let at = |deg: f64| timing.wanted(deg.to_radians()).unwrap();
         assert_eq!([at(0.0), at(15.0), at(300.0), at(360.0)], [0.0; 4]);
         assert!((at(130.0) - 1.0).abs() < 1e-15 && (at(80.0) - 0.5).abs() < 1e-12);
@@ -207,9 +209,9 @@ mod tests {
     fn levels_that_are_not_known_stay_open() {
         use Sense::{Back, Dwell, Forward};
         let open = [(90.0, Forward, None), (180.0, Dwell, None), (270.0, Forward, Some(1.0)), (360.0, Back, Some(0.0))];
-        let timing = Timing::of(phases(&open), false).unwrap();
+        let timing = Timing::of(phases(&open)).unwrap();
         assert_eq!([timing.level(0), timing.level(2), timing.wanted(1.0)], [None, Some(1.0), None]);
-        assert!(Timing::of(phases(&open), true).unwrap_err().message().contains("not all levels"));
+        assert!(timing.followed().unwrap_err().message().contains("not all levels"));
     }
 
     #[test]
@@ -222,7 +224,7 @@ mod tests {
             (vec![(200.0, Forward, None), (360.0, Dwell, None)], "no phase goes back"),
             (vec![(200.0, Forward, Some(1.5)), (360.0, Back, None)], "share of the stroke"),
         ] {
-            let error = Timing::of(phases(&all), false).unwrap_err();
+            let error = Timing::of(phases(&all)).unwrap_err();
             assert!(error.message().contains(words) && error.way_out().is_some(), "{error}");
         }
     }

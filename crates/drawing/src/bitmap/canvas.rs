@@ -1,11 +1,11 @@
 //! Paints a figure into pixels.
 
 use tiny_skia::{
-    Color, FillRule, LineCap, LineJoin, Paint, PathBuilder, Pixmap, PixmapPaint, Stroke, StrokeDash, Transform,
+    Color, FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, PixmapPaint, Stroke, StrokeDash, Transform,
 };
 
 use super::glyphs::Glyphs;
-use crate::paper::figure::{Figure, Ink, Style, head};
+use crate::paper::figure::{Figure, Ink, Style, Tint, head};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::Vec2;
 
@@ -54,25 +54,22 @@ struct Canvas {
 impl Canvas {
     fn draw(&mut self, ink: &Ink) {
         match ink {
-            Ink::Line(ends, style) => self.line(ends, false, None, style),
+            Ink::Line(ends, style) => self.paint(line(ends).finish(), None, style),
             Ink::Arrow(ends, style, _) => {
                 let (base, corners) = head(*ends);
-                self.line(&[ends[0], base], false, None, style);
-                self.line(&corners, true, Some((style.colour, 1.0)), &Style { width: 0.0, ..*style });
+                self.paint(line(&[ends[0], base]).finish(), None, style);
+                self.paint(polygon(&corners), Some(Tint::opaque(style.colour)), &Style { width: 0.0, ..*style });
             }
-            Ink::Shape { corners, closed, fill, style } => self.line(corners, *closed, *fill, style),
+            Ink::Shape { corners, closed: true, fill, style } => self.paint(polygon(corners), *fill, style),
+            Ink::Shape { corners, closed: false, fill, style } => self.paint(line(corners).finish(), *fill, style),
             Ink::Disc { centre, radius, fill, style } => {
                 let path = PathBuilder::from_circle(centre.x as f32, -centre.y as f32, *radius as f32);
-                if let Some(path) = path {
-                    self.paint(&path, (*fill != "none").then_some((*fill, 1.0)), style);
-                }
+                self.paint(path, (*fill != "none").then_some(Tint::opaque(fill)), style);
             }
             Ink::Text { at, text, set } => {
                 let (path, strength) = self.glyphs.path(*at, text, set);
-                if let Some(path) = path {
-                    let style = Style { colour: set.colour, width: strength, dash: "" };
-                    self.paint(&path, Some((set.colour, 1.0)), &style);
-                }
+                let style = Style { colour: set.colour, width: strength, dash: "" };
+                self.paint(path, Some(Tint::opaque(set.colour)), &style);
             }
             Ink::Group { ink, opacity, .. } => {
                 let Some(layer) = Pixmap::new(self.pixmap.width(), self.pixmap.height()) else { return };
@@ -85,23 +82,10 @@ impl Canvas {
         }
     }
 
-    fn line(&mut self, corners: &[Vec2], closed: bool, fill: Option<(&str, f64)>, style: &Style) {
-        let mut path = PathBuilder::new();
-        for (index, corner) in corners.iter().enumerate() {
-            let (x, y) = (corner.x as f32, -corner.y as f32);
-            if index == 0 { path.move_to(x, y) } else { path.line_to(x, y) }
-        }
-        if closed {
-            path.close();
-        }
-        if let Some(path) = path.finish() {
-            self.paint(&path, fill, style);
-        }
-    }
-
-    fn paint(&mut self, path: &tiny_skia::Path, fill: Option<(&str, f64)>, style: &Style) {
-        if let Some((colour, opacity)) = fill {
-            self.pixmap.fill_path(path, &paint(colour, opacity), FillRule::Winding, self.view, None);
+    fn paint(&mut self, path: Option<Path>, fill: Option<Tint>, style: &Style) {
+        let Some(path) = path else { return };
+        if let Some(tint) = fill {
+            self.pixmap.fill_path(&path, &paint(tint), FillRule::Winding, self.view, None);
         }
         if style.width > 0.0 {
             let dashes: Vec<f32> = style.dash.split_whitespace().filter_map(|part| part.parse().ok()).collect();
@@ -112,13 +96,28 @@ impl Canvas {
                 dash: StrokeDash::new(dashes, 0.0),
                 ..Stroke::default()
             };
-            self.pixmap.stroke_path(path, &paint(style.colour, 1.0), &stroke, self.view, None);
+            self.pixmap.stroke_path(&path, &paint(Tint::opaque(style.colour)), &stroke, self.view, None);
         }
     }
 }
 
+fn line(corners: &[Vec2]) -> PathBuilder {
+    let mut path = PathBuilder::new();
+    for (index, corner) in corners.iter().enumerate() {
+        let (x, y) = (corner.x as f32, -corner.y as f32);
+        if index == 0 { path.move_to(x, y) } else { path.line_to(x, y) }
+    }
+    path
+}
+
+fn polygon(corners: &[Vec2]) -> Option<Path> {
+    let mut path = line(corners);
+    path.close();
+    path.finish()
+}
+
 /// A paint from `#rrggbb` or `white`; black for anything else.
-fn paint(colour: &str, opacity: f64) -> Paint<'static> {
+fn paint(Tint { colour, opacity }: Tint) -> Paint<'static> {
     let part = |at: usize| colour.get(at..at + 2).and_then(|part| u8::from_str_radix(part, 16).ok()).unwrap_or(0);
     let [red, green, blue] = if colour == "white" { [255; 3] } else { [1, 3, 5].map(part) };
     let mut paint = Paint { anti_alias: true, ..Paint::default() };
@@ -138,7 +137,7 @@ mod tests {
         };
         let (mut group, mut figure) = (Figure::default(), Figure::default());
         for from in [1.0, 3.0] {
-            group.shape(square(from), true, Some(("#000000", 1.0)), solid("#000000", 0.0));
+            group.area(square(from), Some(Tint::opaque("#000000")), solid("#000000", 0.0));
         }
         figure.group(group, 0.5, "two squares".into());
         let bitmap = bitmap(&figure, [10.0, 10.0], 100).unwrap();

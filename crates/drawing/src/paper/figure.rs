@@ -30,13 +30,15 @@ pub fn sub(text: &str) -> String {
 /// A name such as `a_BA^n` or a unit such as `m/s^2` with its sub- and superscripts.
 #[must_use]
 pub fn scripted(name: &str) -> String {
-    let (symbol, rest) = name.split_once('_').unwrap_or((name, ""));
-    let lifted = |text: &str, low: bool| {
-        let (base, power) = text.rsplit_once('^').unwrap_or((text, ""));
-        let base = if low && !base.is_empty() { sub(base) } else { base.to_string() };
-        if power.is_empty() { base } else { format!("{base}{SUP}{power}{END}") }
+    let split = |text: &str| match text.rsplit_once('^') {
+        Some((base, power)) if !power.is_empty() => (base.to_string(), format!("{SUP}{power}{END}")),
+        Some((base, _)) => (base.to_string(), String::new()),
+        None => (text.to_string(), String::new()),
     };
-    lifted(symbol, false) + &lifted(rest, true)
+    let (symbol, rest) = name.split_once('_').unwrap_or((name, ""));
+    let ((symbol, lifted), (base, power)) = (split(symbol), split(rest));
+    let base = if base.is_empty() { base } else { sub(&base) };
+    symbol + &lifted + &base + &power
 }
 
 /// Text without control characters, as XML requires.
@@ -86,6 +88,29 @@ pub const fn solid(colour: &'static str, width: f64) -> Style {
     Style { colour, width, dash: "" }
 }
 
+/// What covers an area.
+#[derive(Clone, Copy, Debug)]
+pub struct Tint {
+    /// Colour, `#rrggbb` or `white`.
+    pub colour: &'static str,
+    /// Opacity, 0 to 1.
+    pub opacity: f64,
+}
+
+impl Tint {
+    /// What lets nothing through.
+    #[must_use]
+    pub const fn opaque(colour: &'static str) -> Tint {
+        Tint { colour, opacity: 1.0 }
+    }
+}
+
+/// The corners of a rectangle, from the lower left one on, counter-clockwise.
+#[must_use]
+pub fn rectangle([low, high]: [Vec2; 2]) -> Vec<Vec2> {
+    vec![low, Vec2::new(high.x, low.y), high, Vec2::new(low.x, high.y)]
+}
+
 /// Typography of a text.
 #[derive(Clone, Copy, Debug)]
 pub struct Type {
@@ -111,7 +136,7 @@ pub const fn words(size: f64) -> Type {
 pub(crate) enum Ink {
     Line([Vec2; 2], Style),
     Arrow([Vec2; 2], Style, String),
-    Shape { corners: Vec<Vec2>, closed: bool, fill: Option<(&'static str, f64)>, style: Style },
+    Shape { corners: Vec<Vec2>, closed: bool, fill: Option<Tint>, style: Style },
     Disc { centre: Vec2, radius: f64, fill: &'static str, style: Style },
     Text { at: Vec2, text: String, set: Type },
     Group { ink: Vec<Ink>, opacity: f64, name: String },
@@ -137,10 +162,16 @@ impl Figure {
         self.ink.push(Ink::Arrow(ends, style, name));
     }
 
-    /// A line through corners, or a polygon with the colour and the opacity of what it encloses.
-    pub fn shape(&mut self, corners: Vec<Vec2>, closed: bool, fill: Option<(&'static str, f64)>, style: Style) {
+    /// A line through corners. What it and the way back to its first corner enclose may be covered.
+    pub fn curve(&mut self, corners: Vec<Vec2>, fill: Option<Tint>, style: Style) {
         corners.iter().for_each(|corner| self.reach(*corner));
-        self.ink.push(Ink::Shape { corners, closed, fill, style });
+        self.ink.push(Ink::Shape { corners, closed: false, fill, style });
+    }
+
+    /// A polygon, and what covers it.
+    pub fn area(&mut self, corners: Vec<Vec2>, fill: Option<Tint>, style: Style) {
+        corners.iter().for_each(|corner| self.reach(*corner));
+        self.ink.push(Ink::Shape { corners, closed: true, fill, style });
     }
 
     /// A circle.
@@ -217,8 +248,8 @@ impl Ink {
                     data += &format!("{}{} {}", if index == 0 { "M" } else { "L" }, mm(corner.x), mm(-corner.y));
                 }
                 data += if *closed { "Z" } else { "" };
-                let (paint, opacity) = fill.unwrap_or(("none", 1.0));
-                let path = Path::new().set("d", data).set("fill", paint).set("stroke", style.colour);
+                let Tint { colour, opacity } = fill.unwrap_or(Tint::opaque("none"));
+                let path = Path::new().set("d", data).set("fill", colour).set("stroke", style.colour);
                 let path = path.set("stroke-width", mm(style.width));
                 let path = if opacity < 1.0 { path.set("fill-opacity", opacity) } else { path };
                 Box::new(if style.dash.is_empty() { path } else { path.set("stroke-dasharray", style.dash) })
@@ -340,4 +371,23 @@ fn text_element(at: Vec2, text: &str, set: &Type) -> String {
         mm(size),
         set.colour
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The wall of a cylinder is open at one end, and what lies beneath the cylinder must not be seen in it.
+    #[test]
+    fn an_open_line_may_cover_what_lies_beneath() {
+        let mut figure = Figure::default();
+        let corners = vec![Vec2::zeros(), Vec2::new(1.0, 0.0), Vec2::new(1.0, 1.0)];
+        figure.curve(corners.clone(), Some(Tint::opaque("white")), solid("#000000", 0.5));
+        figure.curve(corners.clone(), None, solid("#000000", 0.5));
+        figure.area(corners, None, solid("#000000", 0.5));
+        let [cover, line, area] = [0, 1, 2].map(|k| figure.nodes().nth(k).unwrap().to_string());
+        assert!(cover.contains("fill=\"white\"") && !cover.contains('Z'), "{cover}");
+        assert!(line.contains("fill=\"none\"") && !line.contains('Z'), "{line}");
+        assert!(area.contains("fill=\"none\"") && area.contains('Z'), "{area}");
+    }
 }

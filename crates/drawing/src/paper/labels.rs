@@ -1,6 +1,8 @@
-//! Places labels so that they touch neither lines nor each other.
+//! Letters at points: they are placed so that they touch neither lines nor each other.
 //! Each label takes the cheapest position around its anchor, in a few rounds.
 
+use super::figure::{Figure, Type, solid, width, words};
+use super::style::GREY;
 use crate::guide::inside;
 use linkage::math::{KeepNan, Vec2};
 
@@ -20,6 +22,11 @@ const NEIGHBOURS: f64 = 12.0;
 const MOST_COMPARED: usize = 200_000_000;
 /// The same for one of many drawings that are made together, as frames are: it is no less than this.
 const LEAST_COMPARED: usize = 10_000_000;
+
+/// Font size of labels (mm).
+pub const LETTER: f64 = 4.2;
+/// Labels farther than this from their point (mm) are connected with it by a line.
+const FAR: f64 = 3.2;
 
 /// A label to be placed; paper coordinates (mm), y upwards.
 #[derive(Clone, Copy, Debug)]
@@ -43,13 +50,7 @@ pub struct Obstacles {
     pub discs: Vec<(Vec2, f64)>,
 }
 
-/// Centres of the labels' boxes.
-#[must_use]
-pub fn place(labels: &[Label], obstacles: &Obstacles) -> Vec<Vec2> {
-    place_among(labels, obstacles, 1)
-}
-
-/// The same in one of so many drawings that are made together and share the work.
+/// Centres of the labels' boxes in one of so many drawings that are made together and share the work.
 #[must_use]
 pub fn place_among(labels: &[Label], obstacles: &Obstacles, drawings: usize) -> Vec<Vec2> {
     place_within(labels, obstacles, (MOST_COMPARED / drawings.max(1)).max(LEAST_COMPARED))
@@ -172,6 +173,26 @@ fn length_inside(segment: &[Vec2; 2], centre: Vec2, half: Vec2) -> f64 {
     inside(segment, centre, half).map_or(0.0, |[from, to]| (to - from) * (segment[1] - segment[0]).norm())
 }
 
+/// Box of a label.
+/// It is a little larger than its letters in the fonts that viewers fall back on, subscripts included.
+#[must_use]
+pub fn label_size(text: &str) -> Vec2 {
+    Vec2::new(1.05 * width(text, LETTER), 1.15 * LETTER)
+}
+
+/// A label at its position, with a line to its point if that is far away.
+pub fn letter(figure: &mut Figure, label: &Label, at: Vec2, text: &str, paint: &'static str) {
+    let toward = label.anchor - at;
+    let half = label.size / 2.0;
+    let edge = (half.x / toward.x.abs().larger(1e-9)).smaller(half.y / toward.y.abs().larger(1e-9));
+    if toward.norm() * (1.0 - edge) > FAR + label.clear {
+        let end = label.anchor - toward.normalize() * (label.clear + 0.2);
+        figure.line([at + toward * edge, end], solid(GREY, 0.15));
+    }
+    let set = Type { anchor: "middle", italic: true, colour: paint, ..words(LETTER) };
+    figure.text(at - Vec2::new(0.0, 0.28 * LETTER), text, set);
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -205,7 +226,7 @@ mod tests {
             discs: Vec::new(),
         };
         let labels = [label(0.0, 0.0), label(0.5, 0.0), label(0.0, 0.4), label(-0.3, 0.0)];
-        let places = place(&labels, &obstacles);
+        let places = place_among(&labels, &obstacles, 1);
         for (index, at) in places.iter().enumerate() {
             let half = labels[index].size / 2.0;
             assert!(obstacles.segments.iter().all(|line| length_inside(line, *at, half) == 0.0), "{at:?}");
@@ -226,7 +247,7 @@ mod tests {
 
     #[test]
     fn a_free_letter_stands_where_it_should() {
-        let places = place(&[label(0.0, 0.0)], &Obstacles::default());
+        let places = place_among(&[label(0.0, 0.0)], &Obstacles::default(), 1);
         assert!(places[0].x > 1.5 && places[0].y.abs() < 1e-9);
     }
 }

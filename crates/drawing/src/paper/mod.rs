@@ -4,7 +4,6 @@
 pub mod document;
 pub mod figure;
 pub mod labels;
-pub mod lettering;
 pub mod scale;
 pub mod style;
 pub mod table;

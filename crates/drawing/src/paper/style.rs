@@ -2,16 +2,8 @@
 
 use crate::palette::{LINKS, QUIET, TEXT, link};
 
-/// Colours of links on light paper.
-pub const COLOURS: [&str; LINKS.len()] = {
-    let mut colours = [""; LINKS.len()];
-    let mut index = 0;
-    while index < LINKS.len() {
-        colours[index] = LINKS[index].light;
-        index += 1;
-    }
-    colours
-};
+/// Colours of the first two links on light paper, for curves.
+pub const COLOURS: [&str; 2] = [LINKS[0].light, LINKS[1].light];
 
 /// Colour of elements that belong to no link.
 pub const BLACK: &str = TEXT.light;

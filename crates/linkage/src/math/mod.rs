@@ -48,6 +48,13 @@ pub fn unit(angle: f64) -> Vec2 {
     Vec2::new(cos, sin)
 }
 
+/// Lower left and upper right corner of the smallest box around points; infinite, the wrong way round, without any.
+#[must_use]
+pub fn corners(points: impl IntoIterator<Item = Vec2>) -> [Vec2; 2] {
+    let none = [Vec2::repeat(f64::INFINITY), Vec2::repeat(f64::NEG_INFINITY)];
+    points.into_iter().fold(none, |[low, high], at| [low.inf(&at), high.sup(&at)])
+}
+
 /// Rotates `v` by the direction `d` = (cos, sin): the product of the two as complex numbers.
 #[inline]
 #[must_use]

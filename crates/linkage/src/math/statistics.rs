@@ -68,6 +68,14 @@ pub fn share(part: f64, whole: f64) -> f64 {
     if part == 0.0 { 0.0 } else { part / whole }
 }
 
+/// The smallest and the largest value; NaN if a value is NaN. Without any value they are infinite, the first above the
+/// second.
+#[must_use]
+pub fn ends(values: impl IntoIterator<Item = f64>) -> [f64; 2] {
+    let none = [f64::INFINITY, f64::NEG_INFINITY];
+    values.into_iter().fold(none, |[low, high], value| [low.smaller(value), high.larger(value)])
+}
+
 /// Half the distance between the smallest and the largest value. NaN if a value is NaN; 0 for an empty slice.
 #[must_use]
 pub fn half_range(values: &[f64]) -> f64 {

@@ -1,9 +1,9 @@
 //! Axes with round numbers.
 
 use drawing::paper::document::document;
-use drawing::paper::figure::{Figure, Style, Type, solid, words};
+use drawing::paper::figure::{Figure, Style, Type, rectangle, solid, words};
 use drawing::paper::scale::{factor, round_up};
-use drawing::paper::style::{BLACK, GREY};
+use drawing::paper::style::BLACK;
 use linkage::math::{KeepNan, Vec2};
 
 /// Style of a grid line.
@@ -12,15 +12,18 @@ pub const GRID: Style = solid("#c8c8c8", 0.15);
 /// Margins of a sheet (mm).
 const MARGIN: f64 = 12.0;
 
-/// A sheet of diagrams below each other, with a title and notes above: `gap` below the notes, room on the left of all and
-/// between two of them (mm).
-pub fn stacked(
-    title: &str,
-    notes: &[String],
-    gap: f64,
-    panels: impl Iterator<Item = Figure>,
-    [left, between]: [f64; 2],
-) -> String {
+/// Distances on a sheet (mm).
+pub struct Room {
+    /// Below the notes.
+    pub gap: f64,
+    /// On the left of all diagrams.
+    pub left: f64,
+    /// Between two diagrams.
+    pub between: f64,
+}
+
+/// A sheet of diagrams below each other, with a title and notes above.
+pub fn stacked(title: &str, notes: &[String], room: &Room, panels: impl Iterator<Item = Figure>) -> String {
     let mut sheet = Figure::default();
     sheet.text(Vec2::new(MARGIN, -MARGIN - 4.0), title, Type { bold: true, ..words(5.0) });
     let mut top = -MARGIN - 10.0;
@@ -28,14 +31,19 @@ pub fn stacked(
         sheet.text(Vec2::new(MARGIN, top), note.as_str(), words(3.2));
         top -= 4.6;
     }
-    top -= gap;
+    top -= room.gap;
     for figure in panels {
         let [low, high] = figure.bounds();
-        sheet.add(&figure, Vec2::new(MARGIN + left, top - high.y));
-        top -= high.y - low.y + between;
+        sheet.add(&figure, Vec2::new(MARGIN + room.left, top - high.y));
+        top -= high.y - low.y + room.between;
     }
+    framed(&sheet, MARGIN, title)
+}
+
+/// A sheet with its upper left corner at the origin as a document, with a margin (mm) on the right and below.
+pub fn framed(sheet: &Figure, margin: f64, title: &str) -> String {
     let [low, high] = sheet.bounds();
-    document(&sheet, [(high.x + MARGIN).ceil(), (MARGIN - low.y).ceil()], title)
+    document(sheet, [(high.x + margin).ceil(), (margin - low.y).ceil()], title)
 }
 
 /// A vertical axis between two round values.
@@ -82,9 +90,8 @@ impl Axis {
 }
 
 /// The frame of a diagram; its lower left corner is the origin.
-pub fn frame(figure: &mut Figure, [long, high]: [f64; 2]) {
-    let corners = [(0.0, 0.0), (long, 0.0), (long, high), (0.0, high)].map(|(x, y)| Vec2::new(x, y));
-    figure.shape(corners.to_vec(), true, None, solid(GREY, 0.25));
+pub fn frame(figure: &mut Figure, size: Vec2, colour: &'static str) {
+    figure.area(rectangle([Vec2::zeros(), size]), None, solid(colour, 0.25));
 }
 
 /// A multiple of `step` with the digits that it needs.

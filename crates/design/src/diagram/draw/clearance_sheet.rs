@@ -1,9 +1,9 @@
 //! Clearance as a drawing: the housing, what every link sweeps over the range, the mechanism with its outlines where the
 //! smallest distance or the first collision is.
 
-use crate::clearance::{Clearance, poses};
+use crate::clearance::{Clearance, PairClearance, poses};
 use drawing::paper::document::document;
-use drawing::paper::figure::{Figure, solid};
+use drawing::paper::figure::{Figure, Tint, solid};
 use drawing::paper::style::{GREY, colour, significant};
 use drawing::picture::{ALARM, Picture, Place};
 use drawing::sheet::{Cell, fit, sheet};
@@ -69,10 +69,10 @@ pub fn clearance(case: &Case, name: &str, asked: &Question, found: &Clearance) -
     picture.draw_marks();
     picture.number_links();
     let crank = format!("crank angle {} deg", significant(shown.to_degrees()));
+    let names = |pair: &PairClearance| pair.bodies.map(|body| asked.bodies[body].name.as_str()).join(" and ");
     let words = if let Some((pair, meeting)) = collision {
         picture.figure.disc(meeting.place / scale, 2.2, "none", solid(ALARM, 0.8));
-        let [a, b] = pair.bodies.map(|body| &asked.bodies[body].name);
-        format!("first collision: {a} and {b} at {crank}")
+        format!("first collision: {} at {crank}", names(pair))
     } else if let Some(pair) = smallest {
         let ends = pair.smallest.points.map(|point| point / scale);
         picture.figure.line(ends, solid(ALARM, 0.8));
@@ -80,13 +80,12 @@ pub fn clearance(case: &Case, name: &str, asked: &Question, found: &Clearance) -
         let distance = format!("{} mm", significant(1e3 * pair.smallest.distance));
         let middle = (ends[0] + ends[1]) / 2.0;
         picture.letters(middle, Vec2::zeros(), 1.2, distance.clone(), ALARM);
-        let [a, b] = pair.bodies.map(|body| &asked.bodies[body].name);
-        format!("smallest distance {distance}: {a} and {b} at {crank}")
+        format!("smallest distance {distance}: {} at {crank}", names(pair))
     } else {
         crank
     };
     picture.name(picture.names(|what| matches!(what, Lettering::Point | Lettering::Motor)));
-    let figure = picture.finish();
+    let figure = picture.finish(1);
     let bounds = figure.bounds();
     let cell = Cell { heading: Vec::new(), figure, bounds, scale, faults: Vec::new() };
     let title = format!("{name}: clearance");
@@ -119,7 +118,7 @@ fn draw(figure: &mut Figure, outline: &Outline, pose: &Motion, paint: &'static s
     }
     let wide = 2.0 * outline.radius() / scale;
     match outline.is_solid() {
-        true => figure.shape(corners, true, Some((paint, 1.0)), solid(paint, wide)),
-        false => figure.shape(corners, false, None, solid(paint, wide.larger(THIN))),
+        true => figure.area(corners, Some(Tint::opaque(paint)), solid(paint, wide)),
+        false => figure.curve(corners, None, solid(paint, wide.larger(THIN))),
     }
 }

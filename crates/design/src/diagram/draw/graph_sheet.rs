@@ -1,20 +1,18 @@
 //! The sheet of graphs over the crank angle, arranged vertically.
 
-use super::axes::{Axis, GRID, frame, stacked};
+use super::axes::{Axis, GRID, Room, frame, stacked};
 use crate::diagram::graphs::{Graph, Graphs};
 use drawing::paper::figure::{Figure, Style, Type, scripted, solid, words};
-use drawing::paper::style::{COLOURS, significant};
+use drawing::paper::style::{COLOURS, GREY, significant};
 use linkage::math::{KeepNan, Vec2};
 
 /// Length of the crank angle axis (mm): over one turn two degrees per millimetre.
 const LONG: f64 = 180.0;
-/// Largest height of a graph, and distance between two graphs (mm).
+/// Largest height of a graph, and the distances of graphs (mm).
 const HIGH: f64 = 56.0;
-const BETWEEN: f64 = 6.0;
-/// Room on the left for the numbers of the axis (mm).
-const LEFT: f64 = 22.0;
+const ROOM: Room = Room { gap: 3.0, left: 22.0, between: 6.0 };
 /// Room above and below a curve for the text at its extremes, as a share of its range.
-const ROOM: f64 = 0.2;
+const ASIDES: f64 = 0.2;
 /// Closer to an end of the axis than this (mm), the text at an extreme starts or ends there.
 const ASIDE: f64 = 28.0;
 /// Style of the line at the mean.
@@ -24,7 +22,7 @@ const MEAN: Style = Style { colour: COLOURS[1], width: 0.3, dash: "2 1.2" };
 #[must_use]
 pub fn graphs(graphs: &Graphs, title: &str) -> String {
     let panels = graphs.graphs.iter().map(|graph| panel(graph, graphs.period));
-    stacked(title, &graphs.notes, 3.0, panels, [LEFT, BETWEEN])
+    stacked(title, &graphs.notes, &ROOM, panels)
 }
 
 /// One graph; the lower left corner of its frame is the origin.
@@ -35,19 +33,19 @@ fn panel(graph: &Graph, [start, end]: [f64; 2]) -> Figure {
     let clear = |value: f64| if value.abs() <= 1e-9 * graph.size.abs() { 0.0 } else { value };
     let mean = clear(graph.mean);
     let [low, high] = if constant { [mean.smaller(0.0), mean.larger(0.0)] } else { graph.range() };
-    let room = if constant { 0.0 } else { ROOM * (high - low) };
+    let room = if constant { 0.0 } else { ASIDES * (high - low) };
     let axis = Axis::of([low - room, high + room], HIGH);
     let share = |crank: f64| (crank - start) / (end - start);
     axis.draw(&mut figure, LONG);
     angles(&mut figure, [start, end], axis.height());
-    frame(&mut figure, [LONG, axis.height()]);
+    frame(&mut figure, Vec2::new(LONG, axis.height()), GREY);
     let level = axis.y(mean);
     figure.line([Vec2::new(0.0, level), Vec2::new(LONG, level)], MEAN);
     let word = if constant { "constant" } else { graph.mean_word };
     let set = Type { colour: MEAN.colour, ..words(2.8) };
     figure.text(Vec2::new(LONG + 2.0, level - 1.0), format!("{word} {}", significant(mean)), set);
     let curve = graph.points.iter().map(|&[crank, value]| Vec2::new(LONG * share(crank), axis.y(value)));
-    figure.shape(curve.collect(), false, None, solid(COLOURS[0], 0.45));
+    figure.curve(curve.collect(), None, solid(COLOURS[0], 0.45));
     for (mark, above) in graph.marks.iter().zip([false, true]).filter(|_| !constant) {
         let [crank, value] = mark.at;
         let share = share(crank).rem_euclid(1.0);
@@ -55,12 +53,10 @@ fn panel(graph: &Graph, [start, end]: [f64; 2]) -> Figure {
         figure.disc(at, 0.9, "white", solid(COLOURS[0], 0.4));
         let degrees = (start + share * (end - start)).to_degrees();
         let text = format!("{} {} at {:.1}°", mark.word, significant(clear(value)), degrees + 0.0);
-        let anchor = if at.x < ASIDE {
-            "start"
-        } else if at.x > LONG - ASIDE {
-            "end"
-        } else {
-            "middle"
+        let anchor = match at.x {
+            x if x < ASIDE => "start",
+            x if x > LONG - ASIDE => "end",
+            _ => "middle",
         };
         let aside = at + Vec2::new(0.0, if above { 1.9 } else { -4.0 });
         figure.text(aside, text, Type { anchor, ..words(2.8) });

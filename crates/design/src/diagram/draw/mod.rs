@@ -4,7 +4,6 @@ mod axes;
 mod clearance_sheet;
 mod graph_sheet;
 mod motion_sheet;
-mod plan_figure;
 mod plan_sheet;
 mod scheme_figure;
 mod timing_sheet;

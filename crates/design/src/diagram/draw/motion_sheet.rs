@@ -1,18 +1,19 @@
 //! The sheet of motion diagrams: displacement, velocity and acceleration over the crank angle, arranged vertically.
 
-use super::axes::{Axis, GRID, frame, stacked};
+use super::axes::{Axis, GRID, Room, frame, stacked};
 use crate::diagram::motion::{Found, Method, MotionDiagram};
 use drawing::paper::figure::{Figure, Style, Type, solid, sub, words};
-use drawing::paper::style::{BLACK, COLOURS, significant};
-use linkage::math::{KeepNan, Vec2};
+use drawing::paper::style::{BLACK, COLOURS, GREY, significant};
+use linkage::math::Vec2;
+use linkage::math::statistics::ends;
 
 /// Length of the crank angle axis (mm): two degrees per millimetre.
 const LONG: f64 = 180.0;
-/// Largest height of a diagram, and distance between two diagrams (mm).
+/// Largest height of a diagram, and the distances of diagrams (mm).
 const HIGH: f64 = 60.0;
-const BETWEEN: f64 = 10.0;
-/// Room on the left for the numbers of the axis (mm).
-const LEFT: f64 = 28.0;
+const ROOM: Room = Room { gap: 3.4, left: 28.0, between: 10.0 };
+/// The chords of the displacement.
+const CHORDS: Style = Style { colour: COLOURS[0], width: 0.25, dash: "1.5 1" };
 /// Font size of the legend, and distance of its lines (mm).
 const TEXT: f64 = 3.3;
 const LINE: f64 = 5.0;
@@ -26,7 +27,7 @@ pub fn motion(diagram: &MotionDiagram, title: &str) -> String {
         "chord method and graphical integration, {} divisions of the turn; errors as shares of half the range of the exact curve",
         diagram.divisions
     );
-    stacked(title, &[note], 3.4, (0..3).map(|which| panel(diagram, which)), [LEFT, BETWEEN])
+    stacked(title, &[note], &ROOM, (0..3).map(|which| panel(diagram, which)))
 }
 
 /// One diagram; the lower left corner of its frame is the origin.
@@ -34,24 +35,20 @@ fn panel(diagram: &MotionDiagram, which: usize) -> Figure {
     let mut figure = Figure::default();
     let exact = &diagram.exact[which];
     let found: Vec<&Found> = diagram.found.iter().filter(|found| found.method.gives() == which).collect();
-    let values = exact.iter().chain(found.iter().flat_map(|found| &found.values));
-    let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &v| (l.smaller(v), h.larger(v)));
-    let axis = Axis::of([low, high], HIGH);
-    let y = |value: f64| axis.y(value);
+    let axis = Axis::of(ends(exact.iter().chain(found.iter().flat_map(|found| &found.values)).copied()), HIGH);
     let rows = exact.len() - 1;
-    let x = |row: usize| LONG * row as f64 / rows as f64;
+    let at = |row: usize, value: f64| Vec2::new(LONG * row as f64 / rows as f64, axis.y(value));
     let (height, scale) = (axis.height(), axis.scale);
     axes(&mut figure, diagram, &axis);
     let stride = rows.div_ceil(POINTS - 1).max(1);
-    let curve = (0..=rows).filter(|row| row % stride == 0 || *row == rows).map(|row| Vec2::new(x(row), y(exact[row])));
-    figure.shape(curve.collect(), false, None, solid(BLACK, 0.45));
+    let curve = (0..=rows).filter(|row| row % stride == 0 || *row == rows).map(|row| at(row, exact[row]));
+    figure.curve(curve.collect(), None, solid(BLACK, 0.45));
     if which == 0 {
-        let ends = (0..=rows).step_by(diagram.stride).map(|row| Vec2::new(x(row), y(exact[row])));
-        figure.shape(ends.collect(), false, None, Style { colour: COLOURS[0], width: 0.25, dash: "1.5 1" });
+        figure.curve((0..=rows).step_by(diagram.stride).map(|row| at(row, exact[row])).collect(), None, CHORDS);
     }
     for one in &found {
         for (&row, &value) in one.rows.iter().zip(&one.values) {
-            mark(&mut figure, one.method, Vec2::new(x(row), y(value)));
+            mark(&mut figure, one.method, at(row, value));
         }
     }
     let channel = &diagram.course.0[which];
@@ -70,15 +67,10 @@ fn panel(diagram: &MotionDiagram, which: usize) -> Figure {
 /// The legend: the method of each mark, and its error relative to the curve.
 fn caption(figure: &mut Figure, found: &[&Found], which: usize, unit: &str) {
     let mut line = -14.5;
-    figure.line([Vec2::new(0.0, line + 1.0), Vec2::new(6.0, line + 1.0)], solid(BLACK, 0.45));
-    figure.text(Vec2::new(8.0, line), "exact, by the solver", words(TEXT));
-    line -= LINE;
-    if which == 0 {
-        figure.line(
-            [Vec2::new(0.0, line + 1.0), Vec2::new(6.0, line + 1.0)],
-            Style { colour: COLOURS[0], width: 0.25, dash: "1.5 1" },
-        );
-        figure.text(Vec2::new(8.0, line), "chords whose slopes give the velocity", words(TEXT));
+    let lines = [(solid(BLACK, 0.45), "exact, by the solver"), (CHORDS, "chords whose slopes give the velocity")];
+    for (style, text) in lines.into_iter().take(if which == 0 { 2 } else { 1 }) {
+        figure.line([Vec2::new(0.0, line + 1.0), Vec2::new(6.0, line + 1.0)], style);
+        figure.text(Vec2::new(8.0, line), text, words(TEXT));
         line -= LINE;
     }
     for one in found {
@@ -123,5 +115,5 @@ fn axes(figure: &mut Figure, diagram: &MotionDiagram, axis: &Axis) {
             figure.text(Vec2::new(x, -4.0), format!("{degrees}°"), Type { anchor: "middle", ..words(2.8) });
         }
     }
-    frame(figure, [LONG, height]);
+    frame(figure, Vec2::new(LONG, height), GREY);
 }

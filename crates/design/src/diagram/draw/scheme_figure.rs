@@ -39,7 +39,7 @@ pub fn scheme(scheme: &Scheme) -> Figure {
     picture.name(names);
     let is_arc = |mark: &&Mark| mark.role == Role::Drive;
     if let Some(arc) = scheme.sketch.bodies[scheme.driver].marks.iter().find(is_arc) {
-        let (line, _) = arc.shape.outline();
+        let line = arc.shape.points();
         let middle = picture.at(scheme.driver, line[line.len() / 2]);
         let pivot = scheme.links.iter().find(|link| link.number == scheme.driver).and_then(|link| link.pivot);
         if let (Some(middle), Some(pivot)) = (middle, pivot) {
@@ -47,7 +47,7 @@ pub fn scheme(scheme: &Scheme) -> Figure {
             picture.letters(middle, middle - pivot / scheme.scale, 0.3, text, BLACK);
         }
     }
-    picture.finish()
+    picture.finish(1)
 }
 
 /// A singular point on paper and the lines that meet in it, each from the lead's farther end.

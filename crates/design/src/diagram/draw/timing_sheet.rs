@@ -2,9 +2,9 @@
 
 use std::f64::consts::TAU;
 
+use super::axes::{GRID, frame, framed};
 use crate::diagram::timing::TimingDiagram;
-use drawing::paper::document::document;
-use drawing::paper::figure::{Figure, Style, Type, solid, words};
+use drawing::paper::figure::{Figure, Style, Tint, Type, rectangle, solid, words};
 use drawing::paper::style::{BLACK, COLOURS, GREY};
 use linkage::math::Vec2;
 
@@ -31,9 +31,8 @@ pub fn timing(diagram: &TimingDiagram, title: &str) -> String {
     for stretch in &diagram.stretches {
         let [from, to] = [x(stretch.from), x(stretch.to)];
         if stretch.rests {
-            let corners =
-                [(from, 0.0), (to, 0.0), (to, HIGH + STRIP), (from, HIGH + STRIP)].map(|(x, y)| Vec2::new(x, y));
-            figure.shape(corners.to_vec(), true, Some((REST, 1.0)), solid(REST, 0.1));
+            let corners = rectangle([Vec2::new(from, 0.0), Vec2::new(to, HIGH + STRIP)]);
+            figure.area(corners, Some(Tint::opaque(REST)), solid(REST, 0.1));
         }
     }
     axes(&mut figure, &x);
@@ -53,9 +52,9 @@ pub fn timing(diagram: &TimingDiagram, title: &str) -> String {
             figure.line([at([stretch.from, from]), at([stretch.to, to])], WANTED);
         }
     } else {
-        figure.shape(diagram.wanted.iter().copied().map(at).collect(), false, None, WANTED);
+        figure.curve(diagram.wanted.iter().copied().map(at).collect(), None, WANTED);
     }
-    figure.shape(diagram.curve.iter().copied().map(at).collect(), false, None, solid(COLOURS[0], 0.5));
+    figure.curve(diagram.curve.iter().copied().map(at).collect(), None, solid(COLOURS[0], 0.5));
     legend(&mut figure, diagram);
     let mut sheet = Figure::default();
     let [low, high] = figure.bounds();
@@ -67,25 +66,23 @@ pub fn timing(diagram: &TimingDiagram, title: &str) -> String {
         sheet.text(Vec2::new(MARGIN, line), part, words(2.8));
         line -= 4.2;
     }
-    let [low, high] = sheet.bounds();
-    document(&sheet, [(high.x + MARGIN).ceil(), (MARGIN - low.y).ceil()], title)
+    framed(&sheet, MARGIN, title)
 }
 
 /// Frame, grid and numbers.
 fn axes(figure: &mut Figure, x: &dyn Fn(f64) -> f64) {
     for share in 0..=4 {
         let y = HIGH * f64::from(share) / 4.0;
-        figure.line([Vec2::new(0.0, y), Vec2::new(LONG, y)], solid("#c8c8c8", 0.15));
+        figure.line([Vec2::new(0.0, y), Vec2::new(LONG, y)], GRID);
         let text = format!("{} %", 25 * share);
         figure.text(Vec2::new(-2.0, y - 1.0), text, Type { anchor: "end", ..words(2.8) });
     }
     for deg in (0..=360).step_by(30) {
         let at = x(f64::from(deg).to_radians());
-        figure.line([Vec2::new(at, 0.0), Vec2::new(at, HIGH)], solid("#c8c8c8", 0.15));
+        figure.line([Vec2::new(at, 0.0), Vec2::new(at, HIGH)], GRID);
         figure.text(Vec2::new(at, -4.0), format!("{deg}°"), Type { anchor: "middle", ..words(2.8) });
     }
-    let corners = [(0.0, 0.0), (LONG, 0.0), (LONG, HIGH), (0.0, HIGH)].map(|(x, y)| Vec2::new(x, y));
-    figure.shape(corners.to_vec(), true, None, solid(BLACK, 0.25));
+    frame(figure, Vec2::new(LONG, HIGH), BLACK);
 }
 
 fn legend(figure: &mut Figure, diagram: &TimingDiagram) {

@@ -17,8 +17,15 @@ pub(super) enum Target {
     Hinge(usize),
     /// A fixed tendon: branches with their coefficients, whose coordinates it adds.
     Sum(Vec<(usize, f64)>),
-    /// A place of a link, with a force in world axes or in those of the link (N).
-    Place(Side, Vec2, bool),
+    /// A place of a link with a force (N).
+    Place {
+        /// The place.
+        at: Side,
+        /// The force.
+        force: Vec2,
+        /// Whether it is given in the axes of the link; else in those of the world.
+        follows: bool,
+    },
 }
 
 /// A force or moment `constant + stiffness * length + damping * rate`, limited to a range.
@@ -74,7 +81,7 @@ pub(super) fn forces(model: &Model) -> Result<Forces> {
             let target = match target {
                 Target::Sum(sum) if sum.is_empty() => return,
                 Target::Sum(sum) if sum.len() == 1 && sum[0].1 == 1.0 => Target::Hinge(sum[0].0),
-                other @ (Target::Hinge(_) | Target::Sum(_) | Target::Place(..)) => other,
+                other @ (Target::Hinge(_) | Target::Sum(_) | Target::Place { .. }) => other,
             };
             found.actuators.push(Actuator { name: name.clone(), target, bias, range: None });
         };
@@ -82,7 +89,8 @@ pub(super) fn forces(model: &Model) -> Result<Forces> {
         if let Load::Moment { link, moment, .. } = load {
             put(Target::Sum(turning(&[(*link, 1.0)])), [constant(moment), 0.0, 0.0]);
         } else if let Load::Force { at, force: [x, y], follows } = load {
-            put(Target::Place(*at, Vec2::new(constant(x), constant(y)), *follows), [1.0, 0.0, 0.0]);
+            let force = Vec2::new(constant(x), constant(y));
+            put(Target::Place { at: *at, force, follows: *follows }, [1.0, 0.0, 0.0]);
         } else if let &Load::Spring { ends, stiffness, free_length } = load {
             found.tendons.push(Tendon { name, ends, stiffness, free_length, damping: 0.0 });
         } else if let &Load::Damper { ends, damping } = load {

@@ -25,7 +25,6 @@
 //!   That gives b = 1/h and k = 1/h^2, so a gap is closed in one step.
 //!   The file is therefore valid for any step, and the error is of second order in it.
 
-mod bodies;
 mod effects;
 mod forces;
 mod limits;
@@ -37,7 +36,7 @@ mod xml;
 
 pub use model::Model;
 
-use super::start::first_state;
+use super::first_state;
 use linkage::case::Case;
 use linkage::error::Result;
 use linkage::solver::Solver;

@@ -1,13 +1,12 @@
 //! Contents of the file as numbers: bodies, joints, loops, frictions and the first state.
 
-use super::bodies::{self, Body};
 use super::limits;
-use super::names::Names;
+use super::names;
 use linkage::case::Case;
 use linkage::drive::Load;
 use linkage::error::{Error, ErrorKind, Result};
-use linkage::math::{KeepNan, Vec2};
-use linkage::mechanism::{GROUND, Tree};
+use linkage::math::{KeepNan, Vec2, rotated, unit};
+use linkage::mechanism::{Branch, GROUND, JointKind, Tree};
 use linkage::solver::State;
 
 /// Inertia of a drive's rotor divided by the largest moment of inertia that the mechanism could have about one of its points.
@@ -59,7 +58,7 @@ impl<'a> Model<'a> {
             return Err(Error::new(ErrorKind::Input, format!("the time step is {step} s, but must be positive"))
                 .help("give a step such as 1e-3"));
         }
-        Names::check(&case.mechanism)?;
+        names::check(&case.mechanism)?;
         for drive in case.drives.iter() {
             limits::check_drive(drive)?;
         }
@@ -67,17 +66,10 @@ impl<'a> Model<'a> {
             limits::check(load)?;
         }
         let tree = Tree::of(&case.mechanism);
-        let bodies = tree.branches.iter().map(|branch| bodies::body(case, start, branch)).collect();
+        let bodies = tree.branches.iter().map(|branch| body(case, start, branch)).collect();
         let mut model = Model { case, name, step, tree, bodies, frictions: Vec::new() };
         model.frictions = model.frictions();
         Ok(model)
-    }
-
-    /// Largest moment of inertia that the mechanism could have about one of its points (kg m^2): all its mass one size away.
-    fn bulk(&self) -> f64 {
-        let size = self.size();
-        let inertia: f64 = self.case.mechanism.links().iter().map(|link| link.inertia).sum();
-        inertia + self.mass() * size * size
     }
 
     /// Mass of the mechanism (kg); 1 kg if it has none, so that its motion can still be simulated.
@@ -95,7 +87,9 @@ impl<'a> Model<'a> {
     /// Inertia (kg m^2) of the rotor that keeps the speed of a prescribed drive.
     #[must_use]
     pub fn rotor(&self) -> f64 {
-        ROTOR * self.bulk()
+        let (size, links) = (self.size(), self.case.mechanism.links());
+        // Of all mass one size away from a point.
+        ROTOR * (links.iter().map(|link| link.inertia).sum::<f64>() + self.mass() * size * size)
     }
 
     /// Inertia (kg m^2) that turns with a driven hinge: that rotor, or what a free link's motor has.
@@ -147,11 +141,6 @@ impl<'a> Model<'a> {
         order
     }
 
-    /// Position of a joint on one of its links, in that link's frame (m).
-    pub(super) fn place(&self, joint: usize, link: usize) -> Vec2 {
-        self.case.mechanism.joints()[joint].on(link).expect("the joint is on the link")
-    }
-
     /// Hinges from the ground to `link`, as indices of branches, innermost last.
     pub(super) fn hinges(&self, mut link: usize) -> Vec<usize> {
         let mut hinges = Vec::new();
@@ -180,4 +169,51 @@ impl<'a> Model<'a> {
         });
         frictions.filter(|friction| !friction.hinges.is_empty()).collect()
     }
+}
+
+/// The one degree of freedom of a body in its parent.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Freedom {
+    /// Hinge about z at a point of the body's frame (m).
+    Hinge(Vec2),
+    /// Slide along a unit vector of the body's frame.
+    Slide(Vec2),
+}
+
+/// A link as a body in its parent.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Body {
+    /// Origin of the link's frame in that of its parent, in the start pose (m).
+    pub offset: Vec2,
+    /// Angle of the link minus that of its parent in the start pose (rad).
+    pub turn: f64,
+    /// The joint.
+    pub freedom: Freedom,
+    /// The joint's coordinate in the start pose: angle of the link minus that of its parent (rad), or slide (m).
+    pub coordinate: f64,
+    /// Its rate at the start (rad/s, m/s).
+    pub rate: f64,
+}
+
+/// The body of a branch. Poses are those of the case at t = 0, rates those of `start`.
+pub(super) fn body(case: &Case, start: &State, branch: &Branch) -> Body {
+    let joint = &case.mechanism.joints()[branch.joint];
+    let [parent, child] = [branch.parent, branch.link].map(|link| case.start.0[link]);
+    let offset = rotated(unit(-parent.angle), child.origin - parent.origin);
+    let turn = child.angle - parent.angle;
+    let (freedom, coordinate, rate) = match joint.kind {
+        JointKind::Revolute => {
+            let place = joint.on(branch.link).expect("a branch's joint is on its link");
+            let rate = start.motions[branch.link].omega - start.motions[branch.parent].omega;
+            (Freedom::Hinge(place), turn, rate)
+        }
+        JointKind::Prismatic { .. } => {
+            let axis = joint.axis_on(branch.link).expect("a branch's joint is on its link");
+            // A slide is measured from the first link to the second.
+            let sense = if branch.link == joint.second.link { 1.0 } else { -1.0 };
+            let of = |state: &State| state.slide(joint).expect("the joint slides");
+            (Freedom::Slide(axis * sense), of(&State::at_start(case))[0], of(start)[1])
+        }
+    };
+    Body { offset, turn, freedom, coordinate, rate }
 }

@@ -8,50 +8,41 @@ use linkage::mechanism::{Joint, Mechanism};
 /// MuJoCo's own name for the ground.
 const WORLD: &str = "world";
 
-/// Names of elements that have none in the scenario.
-pub(super) struct Names;
+/// Site at the joint's point on `link`.
+pub(super) fn side(joint: &Joint, link: usize) -> String {
+    format!("{}.{}", joint.name, if joint.first.link == link { "first" } else { "second" })
+}
 
-impl Names {
-    /// Site at the joint's point on `link`.
-    pub fn side(joint: &Joint, link: usize) -> String {
-        format!("{}.{}", joint.name, if joint.first.link == link { "first" } else { "second" })
+/// Checks that all names are unique in MuJoCo.
+///
+/// # Errors
+/// [`ErrorKind::Unsupported`] in these cases:
+/// a link has MuJoCo's name for the ground, two sites have the same name, or a name is empty or has control characters.
+pub(super) fn check(mechanism: &Mechanism) -> Result<()> {
+    let unsupported = |message: String, key: String| {
+        let error = Error::new(ErrorKind::Unsupported, message).key(key);
+        Err(error.help("give it another name in the scenario"))
+    };
+    if mechanism.links()[1..].iter().any(|link| link.name == WORLD) {
+        let message = "MuJoCo calls the ground \"world\" and takes no other body of that name".to_string();
+        return unsupported(message, format!("links.{WORLD}"));
     }
-
-    /// Checks that all names are unique in MuJoCo.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Unsupported`] in these cases:
-    /// a link has MuJoCo's name for the ground, two sites have the same name, or a name is empty or has control characters.
-    pub fn check(mechanism: &Mechanism) -> Result<()> {
-        let unsupported = |message: String, key: String| {
-            let error = Error::new(ErrorKind::Unsupported, message).key(key);
-            Err(error.help("give it another name in the scenario"))
-        };
-        for link in &mechanism.links()[1..] {
-            if link.name == WORLD {
-                let message = "MuJoCo calls the ground \"world\" and takes no other body of that name".to_string();
-                return unsupported(message, format!("links.{}", link.name));
-            }
+    let links = mechanism.links()[1..].iter().map(|link| ("links", &link.name));
+    for (table, name) in links.chain(mechanism.joints().iter().map(|joint| ("joints", &joint.name))) {
+        if name.is_empty() || name.chars().any(char::is_control) {
+            let message = "MuJoCo takes no empty names and none with control characters".to_string();
+            return unsupported(message, format!("{table}.{name}"));
         }
-        let links = mechanism.links()[1..].iter().map(|link| ("links", &link.name));
-        for (table, name) in links.chain(mechanism.joints().iter().map(|joint| ("joints", &joint.name))) {
-            if name.is_empty() || name.chars().any(char::is_control) {
-                let message = "MuJoCo takes no empty names and none with control characters".to_string();
-                return unsupported(message, format!("{table}.{name}"));
-            }
-        }
-        let mut sites = BTreeSet::new();
-        let sides = mechanism
-            .joints()
-            .iter()
-            .flat_map(|joint| [joint.first.link, joint.second.link].map(|link| Names::side(joint, link)));
-        let points = mechanism.moving_points().map(|(name, _)| name.to_string());
-        for name in sides.chain(points) {
-            if !sites.insert(name.clone()) {
-                let message = format!("the file would have two sites called \"{name}\"");
-                return unsupported(message, format!("points.{name}"));
-            }
-        }
-        Ok(())
     }
+    let mut sites = BTreeSet::new();
+    let sides =
+        mechanism.joints().iter().flat_map(|joint| [joint.first.link, joint.second.link].map(|link| side(joint, link)));
+    let points = mechanism.moving_points().map(|(name, _)| name.to_string());
+    for name in sides.chain(points) {
+        if !sites.insert(name.clone()) {
+            let message = format!("the file would have two sites called \"{name}\"");
+            return unsupported(message, format!("points.{name}"));
+        }
+    }
+    Ok(())
 }

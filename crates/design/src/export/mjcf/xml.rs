@@ -1,7 +1,6 @@
 //! Elements of an XML document, and numbers in it.
 
-use quick_xml::Writer;
-use quick_xml::events::{BytesEnd, BytesStart, BytesText, Event};
+use std::fmt::{Display, Write};
 
 use linkage::math::Vec2;
 
@@ -28,31 +27,36 @@ pub(super) fn about_z(angle: f64) -> String {
     numbers([0.0, 0.0, 1.0, angle])
 }
 
-pub(super) type Attributes<'a> = &'a [(&'a str, &'a str)];
-
-/// An XML document in memory; writing to it cannot fail.
-pub(super) struct Xml(pub(super) Writer<Vec<u8>>);
+/// An XML document in memory, a line for every tag. Tags are given as they are written, without their brackets: names
+/// from outside must be [escaped](quick_xml::escape::escape).
+pub(super) struct Xml {
+    pub(super) text: String,
+    depth: usize,
+}
 
 impl Xml {
-    pub(super) fn put(&mut self, event: Event) {
-        self.0.write_event(event).expect("memory takes everything");
+    pub(super) fn new() -> Xml {
+        Xml { text: "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n".into(), depth: 0 }
     }
 
-    fn start<'a>(name: &'a str, attributes: Attributes<'a>) -> BytesStart<'a> {
-        BytesStart::new(name).with_attributes(attributes.iter().copied())
+    fn line(&mut self, content: &str) {
+        let _ = writeln!(self.text, "{:1$}{content}", "", 2 * self.depth);
     }
 
-    pub(super) fn leaf(&mut self, name: &str, attributes: Attributes) {
-        self.put(Event::Empty(Self::start(name, attributes)));
+    pub(super) fn leaf(&mut self, tag: impl Display) {
+        self.line(&format!("<{tag}/>"));
     }
 
-    pub(super) fn nest(&mut self, name: &str, attributes: Attributes, inside: impl FnOnce(&mut Self)) {
-        self.put(Event::Start(Self::start(name, attributes)));
+    pub(super) fn nest(&mut self, tag: impl Display, inside: impl FnOnce(&mut Self)) {
+        let tag = tag.to_string();
+        self.line(&format!("<{tag}>"));
+        self.depth += 1;
         inside(self);
-        self.put(Event::End(BytesEnd::new(name)));
+        self.depth -= 1;
+        self.line(&format!("</{}>", tag.split(' ').next().unwrap_or_default()));
     }
 
     pub(super) fn comment(&mut self, text: &str) {
-        self.put(Event::Comment(BytesText::from_escaped(format!(" {text} "))));
+        self.line(&format!("<!-- {text} -->"));
     }
 }
