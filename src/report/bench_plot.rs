@@ -98,7 +98,7 @@ fn panel(bench: &Bench, stage: Stage, axis: Axis, [left, right]: [f64; 2]) -> Fi
         let best = front(&bench.points, stage, axis, floor, &own);
         let best: Vec<Vec2> = best.iter().filter_map(place).map(|at| chart.at(at)).collect();
         if best.len() > 1 {
-            chart.figure.shape(best, false, None, solid(colour(number), 0.5));
+            chart.figure.curve(best, None, solid(colour(number), 0.5));
         }
         for (index, point) in bench.points.iter().enumerate().filter(|(_, point)| own(point)) {
             let (at, filling) = match (place(&index), point.error(stage)) {

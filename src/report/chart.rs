@@ -1,6 +1,6 @@
 //! A diagram with two logarithmic axes on paper, and the marks of the parties in it.
 
-use drawing::paper::figure::{Figure, Style, Type, solid, words};
+use drawing::paper::figure::{Figure, Style, Tint, Type, solid, words};
 use drawing::paper::style::{GREY, colour};
 use linkage::math::Vec2;
 
@@ -56,7 +56,7 @@ impl Chart {
     pub(super) fn band(&mut self, [from, to]: [f64; 2], fill: &'static str) {
         let [left, right] = self.ends[0];
         let corners = [[left, from], [right, from], [right, to], [left, to]].map(|place| self.at(place));
-        self.figure.shape(corners.to_vec(), true, Some((fill, 1.0)), solid(fill, 0.0));
+        self.figure.area(corners.to_vec(), Some(Tint::opaque(fill)), solid(fill, 0.0));
     }
 
     /// A line across at a value of the upright axis.
@@ -79,7 +79,7 @@ impl Chart {
             self.figure.text(Vec2::new(low.x - 1.5, y - 1.0), label(value), Type { anchor: "end", ..words(SMALL) });
         }
         let corners = [low, Vec2::new(high.x, low.y), high, Vec2::new(low.x, high.y)];
-        self.figure.shape(corners.to_vec(), true, None, solid(GREY, 0.25));
+        self.figure.area(corners.to_vec(), None, solid(GREY, 0.25));
         self.figure.text(Vec2::new(low.x, high.y + 2.0), title, Type { bold: true, ..words(3.6) });
         let middle = Vec2::new((low.x + high.x) / 2.0, low.y - 9.0);
         self.figure.text(middle, below, Type { anchor: "middle", ..words(3.2) });
@@ -122,7 +122,7 @@ pub(super) fn mark(figure: &mut Figure, at: Vec2, size: f64, party: usize, filli
     if filling != Filling::Cross && corners.is_empty() {
         figure.disc(at, size, fill, solid(edge, 0.2));
     } else if filling != Filling::Cross {
-        figure.shape(corners.iter().copied().map(around).collect(), true, Some((fill, 1.0)), solid(edge, 0.2));
+        figure.area(corners.iter().copied().map(around).collect(), Some(Tint::opaque(fill)), solid(edge, 0.2));
     }
     if matches!(filling, Filling::Cross | Filling::Crossed) {
         for slope in [1.0, -1.0] {

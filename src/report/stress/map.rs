@@ -106,8 +106,8 @@ fn panel(family: &Family, outcomes: &[&Outcome], names: &[&str], group: Group) -
             }
         }
         for [errors, bounds] in lines.into_iter().filter(|[errors, _]| errors.len() > 1) {
-            chart.figure.shape(errors, false, None, solid(colour(number), 0.3));
-            chart.figure.shape(bounds, false, None, Style { colour: colour(number), ..DASHED });
+            chart.figure.curve(errors, None, solid(colour(number), 0.3));
+            chart.figure.curve(bounds, None, Style { colour: colour(number), ..DASHED });
         }
         is_empty &= marks.is_empty();
         for (at, filling) in marks {
