@@ -1,12 +1,12 @@
 //! The short report of a proof: the verdict in one line, the channels that are worst, and whatever is needed to act.
 
 use super::cells::{flush, trimmed};
-use super::judged::{Grade, counts, grade, ranked, verdicts};
+use super::judged::{self, Grade, counts, grade, ranked, verdicts};
 use super::style::{self, wrapped};
 use super::{Tell, engines, reasons};
 use linkage::trajectory::{Channel, Trajectory, Unit};
 use prover::numbers;
-use prover::proof::{EngineInfo, EngineProof, Proof};
+use prover::proof::{EngineInfo, Proof};
 
 /// Channels that are shown with their values.
 const WORST: usize = 3;
@@ -15,19 +15,17 @@ const WORST: usize = 3;
 /// whatever the number of engines, and forces that are judged twice count once; numbers are all that were judged.
 #[must_use]
 pub fn verdict_line(proof: &Proof) -> String {
-    let checks = proof.all_checks().count();
-    let own = |engine: &EngineProof| engine.own_forces.as_ref().map_or(0, |own| own.channels.len());
-    let judged: usize = proof.engines.iter().map(|engine| engine.channels.len() + own(engine)).sum();
+    let (checks, all) = (proof.all_checks().count(), judged::of(proof).len());
     let channels = proof.reference_trajectory.channels().len();
     let failed: Vec<&str> =
         proof.engines.iter().filter(|engine| engine.failure.is_some()).map(|engine| engine.info.name).collect();
     let [.., wrong, open] = counts(verdicts(proof).into_iter().map(|(_, verdict)| verdict));
     let what = match grade(&proof.verdict) {
         Grade::Agree => format!("{channels} channels and {checks} checks"),
-        Grade::Disagree => format!("{wrong} of {} numbers differ", judged + checks),
+        Grade::Disagree => format!("{wrong} of {all} numbers differ"),
         Grade::Open if !failed.is_empty() => format!("{} failed", failed.join(", ")),
         Grade::Open if proof.engines.iter().all(|engine| engine.channels.is_empty()) => "no run stands".into(),
-        Grade::Open => format!("{open} of {} numbers are open", judged + checks),
+        Grade::Open => format!("{open} of {all} numbers are open"),
     };
     format!("{}: {}: {what}; {}", proof.scenario, style::verdict(&proof.verdict), resolution(proof))
 }

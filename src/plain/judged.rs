@@ -79,13 +79,6 @@ pub fn of(proof: &Proof) -> Vec<Judged<'_>> {
     checks(None, &proof.checks).chain(proof.engines.iter().flat_map(of_engine)).collect()
 }
 
-/// The same, checks behind all else.
-pub fn checks_last(proof: &Proof) -> Vec<Judged<'_>> {
-    let mut all = of(proof);
-    all.sort_by_key(|own| own.sort == Sort::Check);
-    all
-}
-
 /// Channels of an engine, and the forces that it exerts itself.
 fn of_engine(engine: &EngineProof) -> impl Iterator<Item = Judged<'_>> {
     let channels = engine.channels.iter().map(|own| (Sort::Channel, own));

@@ -236,37 +236,34 @@ fn of(order: usize) -> String {
 }
 
 fn cause_json(cause: &Cause) -> Value {
-    let words = cause.to_string();
-    match cause {
+    let term = |term: &Term| json!({ "coefficient": term.coefficient, "factor": term.factor, "of": term.of });
+    let mut value = match cause {
         Cause::Slip(slip) => json!({
             "kind": slip.kind.words(), "in": slip.formula, "written": slip.written, "right": slip.right,
-            "everywhere": slip.everywhere, "words": words,
+            "everywhere": slip.everywhere,
         }),
-        Cause::Offset(offset) => json!({ "kind": "an offset", "offset": offset, "words": words }),
-        Cause::Factor(factor) => json!({ "kind": "a factor", "factor": factor, "words": words }),
-        Cause::Missing(Missing { formula, beside, what, is_factor }) => json!({
-            "kind": if *is_factor { "a missing factor" } else { "a missing term" },
-            "in": formula, "beside": beside, "missing": what, "words": words,
-        }),
-        Cause::Terms(terms) => {
-            let term = |term: &Term| json!({ "coefficient": term.coefficient, "factor": term.factor, "of": term.of });
-            json!({ "kind": "missing terms", "terms": list(terms, term), "words": words })
+        Cause::Offset(offset) => json!({ "kind": "an offset", "offset": offset }),
+        Cause::Factor(factor) => json!({ "kind": "a factor", "factor": factor }),
+        Cause::Missing(Missing { formula, beside, what, is_factor }) => {
+            let kind = if *is_factor { "a missing factor" } else { "a missing term" };
+            json!({ "kind": kind, "in": formula, "beside": beside, "missing": what })
         }
+        Cause::Terms(terms) => json!({ "kind": "missing terms", "terms": list(terms, term) }),
         Cause::Several { causes, more } => {
-            json!({ "kind": "several", "causes": list(causes, cause_json), "more": more, "words": words })
+            json!({ "kind": "several", "causes": list(causes, cause_json), "more": more })
         }
-        Cause::Other(channel) => json!({ "kind": "another channel", "channel": channel, "words": words }),
-        Cause::Constant => json!({ "kind": "a constant", "words": words }),
-        Cause::Near { error, share } => {
-            json!({ "kind": "nearly right", "error": error, "share": share, "words": words })
-        }
+        Cause::Other(channel) => json!({ "kind": "another channel", "channel": channel }),
+        Cause::Constant => json!({ "kind": "a constant" }),
+        Cause::Near { error, share } => json!({ "kind": "nearly right", "error": error, "share": share }),
         Cause::Mostly { cause, left } => {
-            json!({ "kind": "for the most part", "cause": cause_json(cause), "left": left, "words": words })
+            json!({ "kind": "for the most part", "cause": cause_json(cause), "left": left })
         }
-        Cause::Leaves { after, before } => json!({
-            "kind": "another branch", "after_deg": after.to_degrees(), "before_deg": before.to_degrees(), "words": words,
-        }),
-    }
+        Cause::Leaves { after, before } => {
+            json!({ "kind": "another branch", "after_deg": after.to_degrees(), "before_deg": before.to_degrees() })
+        }
+    };
+    value["words"] = cause.to_string().into();
+    value
 }
 
 /// The judgement as JSON, schema 1. Numbers that are not finite are `null`.

@@ -36,24 +36,18 @@ pub(crate) fn graphs(scenario: &Scenario, found: &Found, curves: &Curves) -> Gra
         let size = ends.least.1.abs().larger(ends.greatest.1.abs());
         Graph { name, symbol, unit, points: points(of), mean, mean_word: "mean", marks, size }
     };
+    let (means, [inertia, resistance]) = (&found.means, &found.extremes);
+    let rate =
+        reduced(["derivative of the reduced moment of inertia", "dI*/dφ", "kg m^2"], |row| row.slope, 0.0, slope);
     let mut graphs = vec![
-        reduced(
-            ["reduced moment of inertia", "I*", "kg m^2"],
-            |row| row.inertia,
-            found.means.inertia,
-            &found.extremes[0],
-        ),
-        Graph {
-            // If the inertia is constant, its derivative is only rounding.
-            size: found.extremes[0].greatest.1.larger(slope.greatest.1),
-            // The inertia is periodic, so the mean of its derivative is zero.
-            ..reduced(["derivative of the reduced moment of inertia", "dI*/dφ", "kg m^2"], |row| row.slope, 0.0, slope)
-        },
+        reduced(["reduced moment of inertia", "I*", "kg m^2"], |row| row.inertia, means.inertia, inertia),
+        // The inertia is periodic, so the mean of its derivative is zero. If it is constant, that is only rounding.
+        Graph { size: inertia.greatest.1.larger(slope.greatest.1), ..rate },
         reduced(
             ["reduced moment of resistance", "M_r", "N m"],
             |row| row.resistance,
-            sense * found.means.resistance,
-            &found.extremes[1],
+            sense * means.resistance,
+            resistance,
         ),
     ];
     let turns = (period / std::f64::consts::TAU).round();

@@ -127,29 +127,19 @@ pub(crate) fn unadvertised(first: u64, count: usize) -> String {
 
 /// A message of a channel, to whoever asked for it by that number.
 pub(crate) fn message(subscription: u32, told: &Told) -> Vec<u8> {
-    let mut bytes = vec![1];
-    bytes.extend(subscription.to_le_bytes());
-    bytes.extend(told.time.to_le_bytes());
-    bytes.extend(told.data);
-    bytes
+    [&[1][..], &subscription.to_le_bytes(), &told.time.to_le_bytes(), told.data].concat()
 }
 
 /// The server's log time (ns).
 pub(crate) fn time(time: u64) -> Vec<u8> {
-    let mut bytes = vec![2];
-    bytes.extend(time.to_le_bytes());
-    bytes
+    [&[2][..], &time.to_le_bytes()].concat()
 }
 
 /// How it is played; `id` is the request's that this answers, or empty.
 pub(crate) fn state(state: &State, id: &str) -> Vec<u8> {
-    let mut bytes = vec![5, if state.plays { 0 } else { 1 }];
-    bytes.extend(state.time.to_le_bytes());
-    bytes.extend(state.speed.to_le_bytes());
-    bytes.push(u8::from(state.jumped));
-    bytes.extend((id.len() as u32).to_le_bytes());
-    bytes.extend(id.as_bytes());
-    bytes
+    let (head, jumped, length) = ([5, u8::from(!state.plays)], [u8::from(state.jumped)], id.len() as u32);
+    let (time, speed) = (state.time.to_le_bytes(), state.speed.to_le_bytes());
+    [&head[..], &time, &speed, &jumped, &length.to_le_bytes(), id.as_bytes()].concat()
 }
 
 /// What a viewer asks for in a text; `None` if that is nothing that is served.

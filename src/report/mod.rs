@@ -34,7 +34,6 @@ pub(crate) mod plotjuggler;
 mod pretty;
 pub(crate) mod range;
 pub(crate) mod recorded;
-pub mod residuals;
 pub mod schema;
 pub(crate) mod stress;
 pub(crate) mod synthesis;

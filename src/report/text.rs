@@ -1,9 +1,10 @@
 //! Proofs as text for the terminal.
 
-use crate::plain::cells::{counted, distinct, fitted, share, trimmed};
-use crate::plain::judged::{counts, verdicts, worst};
+use crate::plain::cells::{counted, distinct, fitted, share, table, trimmed};
+use crate::plain::judged::{self, Judged, Sort, counts, verdicts, worst};
 use crate::plain::style::wrapped;
 use crate::plain::{Tell, brief, engines, reasons};
+use linkage::math::statistics;
 use prover::compare::{Check, Verdict, overall};
 use prover::numbers;
 use prover::proof::{ChannelProof, End, EngineInfo, EngineProof, Proof, Search};
@@ -200,4 +201,54 @@ fn checks(proof: &Proof, width: Option<usize>) -> String {
         ])
     });
     trimmed(fitted("check | numbers> | worst> | bound> | basis | verdict", width).add_rows(rows))
+}
+
+/// Every residual of a proof beside its bound, for readers who examine the bounds: a line for every channel of every
+/// engine, and for every check.
+#[must_use]
+pub fn residuals(proof: &Proof) -> String {
+    let mut all = judged::of(proof);
+    all.sort_by_key(|own| own.sort == Sort::Check);
+    let rows = all.into_iter().map(|own| {
+        let Judged { sort, engine, name, value, bound, unit, verdict, .. } = own;
+        let side = engine.filter(|_| sort != Sort::Check).map_or("", |engine| engine.info.name);
+        let used = numbers::significant(statistics::share(value, bound), 3);
+        let [value, bound] = [value, bound].map(|number| numbers::significant(number, 4));
+        [name, side.into(), value, bound, unit.into(), used, verdict.word().into()]
+    });
+    let header = "channel or check | side | residual> | bound> | unit | used> | verdict";
+    format!("\n{}\n", trimmed(table(header).add_rows(rows)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use prover::proof::{Options, prove};
+    use scenario::of_repository;
+
+    /// Residual, bound and what is used of it, line by line, in the order of the proof.
+    #[test]
+    fn every_residual_stands_beside_its_bound() {
+        let proof =
+            prove(&of_repository("scenarios/crank_rocker.toml"), &Options::default().step(2e-3).sweeps(16)).unwrap();
+        let channels = proof
+            .engines
+            .iter()
+            .flat_map(|engine| engine.channels.iter().chain(engine.own_forces.iter().flat_map(|own| &own.channels)));
+        let channels = channels.map(|own| ([own.residual.max, own.bound], own.verdict.word()));
+        let checks = proof.all_checks().map(|own| ([own.value, own.bound], own.verdict.word()));
+        let text = residuals(&proof);
+        let verdicts = ["agree", "disagree", "inconclusive", "expected"];
+        let mut lines = text.lines().filter(|line| verdicts.iter().any(|word| line.ends_with(word)));
+        for ([value, bound], verdict) in channels.chain(checks) {
+            let line = lines.next().unwrap();
+            let numbers: Vec<f64> = line.split_whitespace().filter_map(|cell| cell.parse().ok()).collect();
+            let found = &numbers[numbers.len() - 3..];
+            for (found, wanted) in found.iter().zip([value, bound, value / bound]) {
+                assert!((found - wanted).abs() <= 5e-3 * wanted.abs(), "{line}: {found} {wanted}");
+            }
+            assert!(line.ends_with(verdict), "{line}: {verdict}");
+        }
+        assert_eq!(lines.next(), None);
+    }
 }

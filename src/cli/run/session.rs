@@ -15,7 +15,7 @@ use crate::plain::brief;
 use crate::plain::style::Detail;
 use crate::report::closing::Closing;
 use crate::report::outcomes::Outcomes;
-use crate::report::{explain, json, recorded, residuals, text};
+use crate::report::{explain, json, recorded, text};
 use linkage::error::{Error, Result};
 use linkage::work::Work;
 use prover::proof::{EngineProof, Entry, Proof};
@@ -115,7 +115,7 @@ impl<'a> Session<'a> {
             output::print(&format!("\n{}", explain::text(proof, &[recording_told(args)])))?;
         }
         if args.tolerance_scale == Some(0.0) {
-            output::print(&residuals::all(proof))?;
+            output::print(&text::residuals(proof))?;
         }
         Ok(())
     }

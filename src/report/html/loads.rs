@@ -5,6 +5,7 @@ use serde_json::{Value, json};
 use super::data::{pair, side};
 use super::markup::column;
 use super::placed::Placed;
+use crate::report::pretty::list;
 use drawing::{Sketch, acting, tensions, weights};
 use linkage::case::{Case, Seat};
 use linkage::drive::{Load, Senses};
@@ -27,7 +28,7 @@ pub(super) fn of(case: &Case, sketch: &Sketch, placed: &Placed, rows: &[usize], 
     let tensions: Vec<_> = states.iter().map(|state| tensions(case, &state.motions, &state.angles)).collect();
     let mechanism = &case.mechanism;
     let arrows = sketch.loads.iter().enumerate().filter(|(_, sign)| is_known(&case.loads[sign.load]));
-    let arrows = arrows.map(|(index, sign)| {
+    let arrows = list(arrows, |(index, sign)| {
         let columns = [0, 1].map(|axis| column(acting.iter().map(|own| own[index].force[axis])));
         let moment = column(acting.iter().map(|own| own[index].moment));
         let is_moment = columns.iter().all(|own| *own == 0.0);
@@ -38,7 +39,7 @@ pub(super) fn of(case: &Case, sketch: &Sketch, placed: &Placed, rows: &[usize], 
         })
     });
     let count = tensions.first().map_or(0, Vec::len);
-    let between = (0..count).filter(|&index| is_known(&case.loads[tensions[0][index].load])).map(|index| {
+    let between = list((0..count).filter(|&index| is_known(&case.loads[tensions[0][index].load])), |index| {
         let load = &case.loads[tensions[0][index].load];
         let size = column(tensions.iter().map(|own| own[index].size));
         let ends = sketch.stretched.iter().find(|own| own.load == tensions[0][index].load);
@@ -55,13 +56,13 @@ pub(super) fn of(case: &Case, sketch: &Sketch, placed: &Placed, rows: &[usize], 
         let name = format!("{what} on {}", mechanism.links()[drive.link].name);
         Some(json!({ "name": name, "on": side(at), "torque": torque }))
     });
-    let weights = weights(case).into_iter().map(|own| {
+    let weights = list(weights(case), |own| {
         let name = format!("weight of {}", mechanism.links()[own.at.link].name);
         json!({ "name": name, "on": side(own.at), "force": pair(own.force) })
     });
     json!({
-        "arrows": arrows.collect::<Vec<_>>(), "between": between.collect::<Vec<_>>(),
-        "drives": drives.collect::<Vec<_>>(), "weights": weights.collect::<Vec<_>>(), "gravity": pair(case.gravity),
+        "arrows": arrows, "between": between, "drives": drives.collect::<Value>(), "weights": weights,
+        "gravity": pair(case.gravity),
     })
 }
 

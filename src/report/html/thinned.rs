@@ -80,24 +80,21 @@ pub(super) fn errors(proof: &Proof) -> Vec<Errors> {
     let reference = &proof.reference_trajectory;
     let of = |own: &Trajectory| -> Errors {
         let rows = matching(reference.times(), own.times());
-        reference
-            .iter()
-            .enumerate()
-            .map(|(index, (channel, ours))| {
-                let theirs = own.column_near(channel, index)?;
-                let pairs: Vec<(usize, usize)> =
-                    rows.iter().enumerate().filter_map(|(row, other)| other.map(|other| (row, other))).collect();
-                let [ours, theirs]: [Vec<f64>; 2] = [
-                    pairs.iter().map(|(row, _)| ours[*row]).collect(),
-                    pairs.iter().map(|(_, row)| theirs[*row]).collect(),
-                ];
-                let mut all = vec![f64::NAN; rows.len()];
-                for ((row, _), error) in pairs.iter().zip(differences(&ours, &theirs, channel.kind.periodic)) {
-                    all[*row] = error;
-                }
-                Some(all)
-            })
-            .collect()
+        let pairs: Vec<(usize, usize)> =
+            rows.iter().enumerate().filter_map(|(row, other)| Some((row, (*other)?))).collect();
+        let of_channel = |(index, (channel, ours)): (usize, (&Channel, &[f64]))| {
+            let theirs = own.column_near(channel, index)?;
+            let [ours, theirs]: [Vec<f64>; 2] = [
+                pairs.iter().map(|(row, _)| ours[*row]).collect(),
+                pairs.iter().map(|(_, row)| theirs[*row]).collect(),
+            ];
+            let mut all = vec![f64::NAN; rows.len()];
+            for ((row, _), error) in pairs.iter().zip(differences(&ours, &theirs, channel.kind.periodic)) {
+                all[*row] = error;
+            }
+            Some(all)
+        };
+        reference.iter().enumerate().map(of_channel).collect()
     };
     let nothing = || vec![None; reference.channels().len()];
     proof.engines.iter().map(|engine| engine.trajectory.as_ref().map_or_else(nothing, of)).collect()
