@@ -4,8 +4,9 @@ use std::path::{Path, PathBuf};
 
 use super::engine_args::EngineArgs;
 use super::exit_code::graver;
+use super::output::End;
 use super::progress::Bar;
-use super::{advice, exit_code, output, terminal};
+use super::{advice, exit_code, output};
 use crate::plain::brief;
 use crate::report::accept::{Deed, Document, Item, text};
 use linkage::error::{Error, ErrorKind, Result};
@@ -46,7 +47,7 @@ pub(super) fn run(args: &Args) -> u8 {
         worst = graver(worst, code);
     }
     match &args.json {
-        Some(to) => graver(worst, output::exit(output::write(&document.text(), to))),
+        Some(to) => graver(worst, output::write(&document.text(), to).code()),
         None => worst,
     }
 }
@@ -65,17 +66,12 @@ fn one(args: &Args, file: &Path, document: &mut Document) -> Result<u8> {
     let found = figures(&proof);
     let comparison = kept.as_ref().map(|kept| compared(kept, &found));
     let is_proven = exit_code::of(&proof.verdict) == exit_code::AGREE;
-    let deed = match &comparison {
-        Some(_) if args.check => Deed::Checked,
-        _ if !is_proven && !args.unproven => Deed::Refused,
-        None => Deed::Written,
-        Some(comparison) if comparison.is_same() => Deed::Kept,
-        Some(_) => Deed::Renewed,
-    };
-    let written = match (deed, &kept, &comparison) {
-        (Deed::Renewed, Some(kept), Some(comparison)) => Some(renewed(kept, found.clone(), comparison)),
-        (Deed::Written, _, _) => Some(found.clone()),
-        _ => None,
+    let (deed, written) = match kept.as_ref().zip(comparison.as_ref()) {
+        Some(_) if args.check => (Deed::Checked, None),
+        _ if !is_proven && !args.unproven => (Deed::Refused, None),
+        None => (Deed::Written, Some(found.clone())),
+        Some((_, comparison)) if comparison.is_same() => (Deed::Kept, None),
+        Some((kept, comparison)) => (Deed::Renewed, Some(renewed(kept, found.clone(), comparison))),
     };
     if let Some(figures) = written {
         // What is there has been read as figures of this scenario.
@@ -85,11 +81,10 @@ fn one(args: &Args, file: &Path, document: &mut Document) -> Result<u8> {
     document.add(&item);
     if !output::is_said(&args.json) {
         output::print(&text(&item))?;
-        let is_worse = comparison
-            .as_ref()
-            .is_some_and(|comparison| comparison.proof.as_ref().is_some_and(|[_, found]| found != "agree"));
+        let proofs = comparison.as_ref().and_then(|comparison| comparison.proof.as_ref());
+        let is_worse = proofs.is_some_and(|[_, found]| found != "agree");
         if !is_proven && (deed == Deed::Refused || deed == Deed::Checked && is_worse) {
-            terminal::print(&format!("\n{}", brief::proof(&proof, advice::told, terminal::columns())))?;
+            output::report(&format!("\n{}", brief::proof(&proof, advice::told, output::columns())))?;
         }
     }
     Ok(match (deed, &comparison) {

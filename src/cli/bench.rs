@@ -93,7 +93,7 @@ pub(super) fn run(args: &Args) -> Result<()> {
     let used = move || used(since);
     let mut benches = Vec::new();
     for scenario in &scenarios {
-        let found = one(args, scenario, &options, [&used, &wall])?;
+        let found = one(args, scenario, &options, &used, &wall)?;
         output::print(&format!("{}\n", report::text(&found)))?;
         put(args, &found, &machine)?;
         benches.push(found);
@@ -117,7 +117,7 @@ fn used(since: Instant) -> f64 {
 }
 
 /// One scenario, with a progress bar. Runs are timed by the first clock, peers stopped by the second.
-fn one(args: &Args, scenario: &Scenario, options: &Options, [used, wall]: [Clock; 2]) -> Result<Bench> {
+fn one(args: &Args, scenario: &Scenario, options: &Options, used: Clock, wall: Clock) -> Result<Bench> {
     let case = &scenario.case;
     let exports = match args.peer.is_empty() {
         true => None,

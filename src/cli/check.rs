@@ -4,12 +4,12 @@ use std::path::PathBuf;
 
 use super::grid::GridArgs;
 use super::load::StartArgs;
-use super::{advice, exit_code, number, output, terminal};
+use super::{advice, exit_code, number, output};
 use crate::check::{Question, Words, check as judged};
 use crate::plain::style::Detail;
 use crate::report::check as report;
 use linkage::error::Result;
-use scenario::Scenario;
+use scenario::{Asked, Scenario};
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = include_str!("help/check.txt").trim_ascii_end())]
@@ -65,8 +65,8 @@ pub(super) fn check(args: &Args) -> Result<u8> {
         output::write(&report::json(&scenario, &found, advice::told), to)?;
     }
     if !output::is_said(&args.json) {
-        let width = terminal::columns();
-        terminal::print(&match Detail::asked(args.quiet, args.verbose) {
+        let width = output::columns();
+        output::report(&match Detail::asked(args.quiet, args.verbose) {
             Detail::Verdict => format!("{}\n", report::verdict_line(&scenario, &found)),
             Detail::Whole => report::text(&scenario, &found, advice::told, width),
             Detail::Short => report::brief(&scenario, &found, advice::told, width),
@@ -91,5 +91,6 @@ fn asked(args: &Args) -> Result<Scenario> {
         valid: [args.from_deg, args.to_deg].map(|degrees| degrees.map(f64::to_radians)),
         error: args.error,
     };
-    question.of_scenario(args.start.load_and_add(&args.file, &args.grid)?, &WORDS)
+    let besides = Asked { adds_parameters: true, ..Asked::default() };
+    question.of_scenario(args.start.load_as(&args.file, &args.grid, besides)?, &WORDS)
 }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use super::exit_code::graver;
 use super::load::plain;
 use super::progress::Bar;
-use super::{exit_code, output, standard_input};
+use super::{exit_code, load, output};
 use crate::report::clearance::{self as report, Standing};
 use analytic::range::explained;
 use design::clearance::{Clearance, course, find};
@@ -55,7 +55,7 @@ pub(super) fn clearance(args: &Args) -> Result<u8> {
             Err(error) => {
                 output::show(&error);
                 worst = exit_code::BAD_INPUT;
-                documents.extend(report::failures(&standard_input::named(file).display().to_string(), &error));
+                documents.extend(report::failures(&load::named(file).display().to_string(), &error));
             }
         }
     }

@@ -8,7 +8,7 @@ use super::grid::GridArgs;
 use super::load::StartArgs;
 use super::number::not_negative;
 use super::reports::Reports;
-use super::{advice, exit_code, output, standard_input, terminal};
+use super::{advice, exit_code, load, output};
 use crate::plain::style::Detail;
 use crate::report::outcomes::Outcomes;
 use crate::report::versus as report;
@@ -135,7 +135,7 @@ pub(super) fn compare(args: &Args) -> Result<u8> {
     let outcomes = Outcomes::of_comparison(paths, &found, advice::told);
     if !args.reports.takes_output() {
         let detail = Detail::asked(args.quiet, args.verbose);
-        terminal::print(&report::text(paths, &found, detail, advice::told, terminal::columns()))?;
+        output::report(&report::text(paths, &found, detail, advice::told, output::columns()))?;
     }
     let written = args.reports.write(|| report::json(paths, &found, advice::told), &outcomes);
     Ok(graver(exit_code::of(&found.verdict), written))
@@ -196,7 +196,7 @@ fn mapping(lines: &[String], option: &str) -> Result<Mapping> {
 
 /// A party; `other` is the path of the one beside it.
 fn party(args: &Args, path: &Path, other: &Path, mapping: &Mapping) -> Result<Party> {
-    let path = if standard_input::is_meant(path) { Path::new("/dev/stdin") } else { path };
+    let path = if load::is_standard_input(path) { Path::new("/dev/stdin") } else { path };
     let ending = path.extension().and_then(|ending| ending.to_str());
     Ok(match ending {
         Some("toml") => args.start.load(path, &GridArgs::default())?.into(),

@@ -13,39 +13,16 @@ pub(super) struct Args {
 }
 
 macro_rules! pages {
-    ($($name:literal),* $(,)?) => {
-        &[$(($name, include_str!(concat!("../../docs/", $name, ".md")))),*]
+    ($($name:ident)*) => {
+        &[$((stringify!($name), include_str!(concat!("../../docs/", stringify!($name), ".md")))),*]
     };
 }
 
 /// Names and texts.
-static PAGES: &[(&str, &str)] = pages![
-    "bench",
-    "clearance",
-    "compare",
-    "draw",
-    "engines",
-    "findings",
-    "foreign",
-    "formulas",
-    "gallery",
-    "mjcf",
-    "mutate",
-    "notation",
-    "peers",
-    "plans",
-    "rapier",
-    "recording",
-    "report",
-    "scenario",
-    "skip",
-    "stories",
-    "stress",
-    "synthesis",
-    "testing",
-    "tutorial",
-    "variants60",
-];
+static PAGES: &[(&str, &str)] = pages! {
+    bench clearance compare draw engines findings foreign formulas gallery mjcf mutate notation peers plans rapier
+    recording report scenario skip stories stress synthesis testing tutorial variants60
+};
 
 pub(super) fn docs(args: &Args) -> Result<()> {
     let Some(asked) = &args.page else { return output::print(&list()) };

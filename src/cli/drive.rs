@@ -1,19 +1,21 @@
 //! `linkproof drive`.
 
-use std::path::PathBuf;
+use std::f64::consts::TAU;
+use std::path::{Path, PathBuf};
 
 use super::load::load;
-use super::motor_choice;
 use super::{number, output};
 use crate::report::drive::{self as report, Found};
 use crate::report::drive_graphs::{self, Curves};
-use crate::report::table_csv;
+use crate::report::{motor_choice, table_csv};
 use analytic::AssurSolver;
 use analytic::range::explained;
 use analytic::reduced::means as reduced;
 use analytic::reduced::{ACCURACY, Model, RunUp};
 use analytic::steady::Averaged;
+use design::catalogue;
 use design::flywheel::Flywheel;
+use design::motor::Choice;
 use linkage::error::{Error, ErrorKind, Result};
 use scenario::Scenario;
 
@@ -55,7 +57,21 @@ pub(super) struct Args {
     #[arg(long, value_name = "FILE", value_parser = output::target)]
     json: Option<PathBuf>,
     #[command(flatten)]
-    choice: motor_choice::Args,
+    choice: Choosing,
+}
+
+/// A motor for the mechanism.
+#[derive(Debug, clap::Args)]
+struct Choosing {
+    /// Only choose a motor from this catalogue, by the peak of the resistance and the scenario's speed
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["non_uniformity", "run_up", "svg", "table"])]
+    catalogue: Option<PathBuf>,
+    /// Efficiency between motor and crank, for the choice [default: that of the scenario's motor, else 1]
+    #[arg(long, value_name = "SHARE", allow_hyphen_values = true, requires = "catalogue", value_parser = number::efficiency)]
+    efficiency: Option<f64>,
+    /// Choose only among motors of this synchronous speed, in turns per minute
+    #[arg(long, value_name = "RPM", requires = "catalogue", allow_hyphen_values = true, value_parser = number::positive)]
+    synchronous_rpm: Option<f64>,
 }
 
 /// Number of equal intervals between the points of a graph over the period: half a degree each over one turn.
@@ -72,7 +88,7 @@ pub(super) fn drive(args: &Args) -> Result<()> {
 
 fn driven(args: &Args, scenario: &Scenario) -> Result<()> {
     if let Some(file) = &args.choice.catalogue {
-        return motor_choice::choose(&args.choice, file, scenario, &args.json);
+        return choose(&args.choice, file, scenario, &args.json);
     }
     let model = Model::of(&scenario.case)?;
     let targets = [&args.run_up, &args.json, &args.svg];
@@ -114,7 +130,7 @@ pub(super) fn find(scenario: &Scenario, model: &Model, step_deg: f64, non_unifor
     let case = &scenario.case;
     let means = reduced::means_over_turn(case, &AssurSolver)?;
     let sense = case.crank().sense();
-    let period = model.kinks().period.unwrap_or(std::f64::consts::TAU).to_degrees();
+    let period = model.kinks().period.unwrap_or(TAU).to_degrees();
     let count = (period / step_deg + 1e-9).floor() as usize;
     let cranks: Vec<f64> =
         (0..=count).map(|k| case.crank().start + sense * (step_deg * k as f64).to_radians()).collect();
@@ -139,7 +155,7 @@ pub(super) fn find(scenario: &Scenario, model: &Model, step_deg: f64, non_unifor
 /// Data of the graphs: at equal intervals, and at the kinks of the reduced quantities.
 pub(super) fn curves(scenario: &Scenario, model: &Model, found: &Found) -> Result<Curves> {
     let (start, sense) = (scenario.case.crank().start, scenario.case.crank().sense());
-    let period = model.kinks().period.unwrap_or(std::f64::consts::TAU);
+    let period = model.kinks().period.unwrap_or(TAU);
     let even: Vec<f64> = (0..=PARTS).map(|k| start + sense * period * (f64::from(k) / f64::from(PARTS))).collect();
     let kinks = model.kinks().cranks.iter().map(|kink| start + sense * (sense * (kink - start)).rem_euclid(period));
     let mut cranks: Vec<f64> = even.iter().copied().chain(kinks).collect();
@@ -152,5 +168,20 @@ pub(super) fn curves(scenario: &Scenario, model: &Model, found: &Found) -> Resul
 
 fn run_up(args: &Args, model: &Model) -> Result<RunUp> {
     let times: Vec<f64> = (0..=args.points).map(|k| args.seconds * (k as f64 / args.points as f64)).collect();
-    RunUp::of(model, args.from_rpm * std::f64::consts::TAU / 60.0, &times, ACCURACY)
+    RunUp::of(model, args.from_rpm * TAU / 60.0, &times, ACCURACY)
+}
+
+/// Chooses a motor and reports it.
+fn choose(args: &Choosing, file: &Path, scenario: &Scenario, json_to: &Option<PathBuf>) -> Result<()> {
+    let mut motors = catalogue::load(file)?;
+    if let Some(rpm) = args.synchronous_rpm {
+        motors.retain(|motor| (motor.synchronous_speed * 60.0 / TAU - rpm).abs() < 0.5);
+        if motors.is_empty() {
+            let message = format!("the catalogue has no motor of {rpm} rpm");
+            return output::refused("--synchronous-rpm", message, "give 3000 or 1500, or leave it out");
+        }
+    }
+    let own = scenario.case.crank().motor().map_or(1.0, |motor| motor.efficiency);
+    let choice = Choice::of(&scenario.case, &motors, args.efficiency.unwrap_or(own))?;
+    output::either(json_to, || motor_choice::json(scenario, &choice), || motor_choice::text(scenario, &choice))
 }

@@ -25,13 +25,7 @@ pub fn of(verdict: &Verdict) -> u8 {
 
 /// The graver of two exit codes. Bad input is graver than disagreement, and disagreement graver than no proof.
 pub fn graver(a: u8, b: u8) -> u8 {
-    let rank = |code: u8| match code {
-        BAD_INPUT => 3,
-        DISAGREE => 2,
-        INCONCLUSIVE => 1,
-        _ => 0,
-    };
-    if rank(b) > rank(a) { b } else { a }
+    [BAD_INPUT, DISAGREE, INCONCLUSIVE].into_iter().find(|code| [a, b].contains(code)).unwrap_or(a)
 }
 
 #[cfg(test)]

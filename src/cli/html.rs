@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
+use std::iter::once;
 use std::path::{Path, PathBuf};
 
 use super::{advice, drive, output};
@@ -73,12 +74,8 @@ impl Pages {
             Error::new(ErrorKind::Io, format!("the directory {} cannot be made: {error}", self.to.display()))
                 .help("name another directory with --html")
         })?;
-        let mut own = name.to_string();
-        let mut number = 1;
-        while !self.taken.insert(own.clone()) {
-            number += 1;
-            own = format!("{name}-{number}");
-        }
+        let mut names = once(name.to_string()).chain((2..).map(|number| format!("{name}-{number}")));
+        let own = names.find(|own| self.taken.insert(own.clone())).expect("numbers do not end");
         Ok(self.to.join(format!("{own}.html")))
     }
 }

@@ -5,8 +5,6 @@ mod player;
 #[cfg(feature = "live")]
 mod server;
 #[cfg(feature = "live")]
-mod show;
-#[cfg(feature = "live")]
 mod stage;
 #[cfg(feature = "live")]
 mod viewer;

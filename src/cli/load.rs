@@ -1,9 +1,11 @@
-//! The common first step of every command: a scenario from a file, and names to choose from.
+//! The common first step of every command: a scenario from a file, or from standard input in its place.
 
+use std::io::{self, IsTerminal};
 use std::path::Path;
+use std::sync::OnceLock;
 
 use super::grid::GridArgs;
-use super::{number, standard_input};
+use super::{number, output};
 use linkage::error::{Error, ErrorKind, Result};
 use scenario::{Asked, Draft, Scenario, Undecided};
 
@@ -31,17 +33,8 @@ impl StartArgs {
         self.load_as(file, grid, Asked::default())
     }
 
-    /// The same; the numbers of its tables may take so much memory (bytes).
-    pub(super) fn load_within(&self, file: &Path, grid: &GridArgs, memory: f64) -> Result<Scenario> {
-        self.load_as(file, grid, Asked { memory: Some(memory), ..Asked::default() })
-    }
-
-    /// The same; parameters that are set and that the file does not have are added.
-    pub(super) fn load_and_add(&self, file: &Path, grid: &GridArgs) -> Result<Scenario> {
-        self.load_as(file, grid, Asked { adds_parameters: true, ..Asked::default() })
-    }
-
-    fn load_as(&self, file: &Path, grid: &GridArgs, besides: Asked) -> Result<Scenario> {
+    /// The same with what is asked `besides`.
+    pub(super) fn load_as(&self, file: &Path, grid: &GridArgs, besides: Asked) -> Result<Scenario> {
         let crank = self.start_crank_deg.map(f64::to_radians);
         let asked = Asked {
             modes: self.mode.clone(),
@@ -76,8 +69,8 @@ pub(super) fn load(file: &Path, modes: &[String]) -> Result<Scenario> {
 }
 
 pub(super) fn as_asked(file: &Path, asked: &Asked) -> Result<Scenario> {
-    let found = match standard_input::is_meant(file) {
-        true => Scenario::parse_as(standard_input::text()?, standard_input::named(file), asked),
+    let found = match is_standard_input(file) {
+        true => Scenario::parse_as(standard_input()?, named(file), asked),
         false => Scenario::load_as(file, asked),
     };
     found.map_err(|error| of_mode(asked, error))
@@ -85,8 +78,8 @@ pub(super) fn as_asked(file: &Path, asked: &Asked) -> Result<Scenario> {
 
 /// The same for a list of configurations: with the groups that the file does not decide.
 pub(super) fn to_list(file: &Path, asked: &Asked) -> Result<(Scenario, Vec<Undecided>)> {
-    let found = match standard_input::is_meant(file) {
-        true => Scenario::parse_to_list(standard_input::text()?, standard_input::named(file), asked),
+    let found = match is_standard_input(file) {
+        true => Scenario::parse_to_list(standard_input()?, named(file), asked),
         false => Scenario::load_to_list(file, asked),
     };
     found.map_err(|error| of_mode(asked, error))
@@ -94,8 +87,8 @@ pub(super) fn to_list(file: &Path, asked: &Asked) -> Result<(Scenario, Vec<Undec
 
 /// The mechanism of a file that cannot be assembled, as far as the file states it.
 pub(super) fn draft(file: &Path, asked: &Asked) -> Result<Draft> {
-    match standard_input::is_meant(file) {
-        true => Draft::parse(standard_input::text()?, standard_input::named(file), asked),
+    match is_standard_input(file) {
+        true => Draft::parse(standard_input()?, named(file), asked),
         false => Draft::load(file, asked),
     }
 }
@@ -104,4 +97,44 @@ pub(super) fn draft(file: &Path, asked: &Asked) -> Result<Draft> {
 fn of_mode(asked: &Asked, error: Error) -> Error {
     let is_asked = !asked.modes.is_empty() && error.place().is_none() && error.kind() != ErrorKind::Io;
     if is_asked { error.key("--mode") } else { error }
+}
+
+/// What stands for standard input in place of a path.
+const DASH: &str = "-";
+
+/// What messages call it. Files that the scenario names are relative to the working directory.
+const NAME: &str = "<standard input>";
+
+/// Whether a path stands for standard input.
+pub(super) fn is_standard_input(path: &Path) -> bool {
+    path == Path::new(DASH)
+}
+
+/// The path, as messages name it.
+pub(super) fn named(path: &Path) -> &Path {
+    if is_standard_input(path) { Path::new(NAME) } else { path }
+}
+
+/// The text of standard input, which is read once.
+fn standard_input() -> Result<&'static str> {
+    static TEXT: OnceLock<Result<String>> = OnceLock::new();
+    let read = || {
+        if io::stdin().is_terminal() {
+            output::note("the scenario is read from standard input, up to its end (Ctrl-D)");
+        }
+        files::text_from(io::stdin().lock()).map_err(|error| {
+            let usual = "give a scenario, as in: linkproof run - < four_bar.toml";
+            Error::new(ErrorKind::Io, format!("{NAME} cannot be read: {error}")).help(files::way_out(&error, usual))
+        })
+    };
+    TEXT.get_or_init(read).as_ref().map(String::as_str).map_err(Error::clone)
+}
+
+/// Refuses to write settings into what is no file.
+pub(super) fn refuse_writing(path: &Path) -> Result<()> {
+    if !is_standard_input(path) {
+        return Ok(());
+    }
+    let help = "save the scenario to a file and name that, or leave --write out: the report tells the settings";
+    output::refused("--write", format!("settings cannot be written to {NAME}"), help)
 }

@@ -22,7 +22,6 @@ mod jobs;
 mod list;
 mod live;
 mod load;
-mod motor_choice;
 mod mutate;
 mod new;
 mod number;
@@ -36,10 +35,8 @@ mod run;
 mod schema;
 mod shell;
 mod solve;
-mod standard_input;
 mod stress;
 mod synthesize;
-mod terminal;
 mod tune;
 mod view;
 
@@ -156,7 +153,7 @@ fn command() -> clap::Command {
             let name = name.to_lowercase();
             let about = command.find_subcommand(&name).and_then(clap::Command::get_about);
             let row = format!("  {name:<13}{}", about.map(ToString::to_string).unwrap_or_default());
-            listed += &format!("\n{}", wrapped(&row, Some(terminal::columns().min(WIDEST)), 15));
+            listed += &format!("\n{}", wrapped(&row, Some(output::columns().min(WIDEST)), 15));
         }
     }
     command.help_template(format!(

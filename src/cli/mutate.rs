@@ -7,11 +7,11 @@ use clap::builder::PossibleValuesParser;
 use super::engine_args::EngineArgs;
 use super::load::plain;
 use super::progress::Bar;
-use super::{advice, exit_code, output, standard_input};
+use super::{advice, exit_code, load, output};
 use crate::plain::errors;
 use crate::report::mutate as report;
 use lab::mutate::{Asked, End, Party, all, mutate, named, tally};
-use linkage::error::{Error, ErrorKind, Result};
+use linkage::error::Result;
 use prover::proof::Reference;
 
 #[derive(Debug, clap::Args)]
@@ -54,7 +54,7 @@ pub(super) fn run(args: &Args) -> Result<u8> {
     let options = args.engine.options(Reference::Assur);
     if options.engine_count() > 1 {
         let message = format!("found {} engines, but faults are planted in one", options.engine_count());
-        return Err(Error::new(ErrorKind::Input, message).key("--engine").help("give one engine"));
+        return output::refused("--engine", message, "give one engine");
     }
     let parties = args.party.iter().filter_map(|name| Party::named(name)).collect();
     let asked = Asked { kinds: args.kind.clone(), parties, with_sizes: !args.no_sizes, jobs: args.jobs, options };
@@ -68,7 +68,7 @@ pub(super) fn run(args: &Args) -> Result<u8> {
             Ok(one) => found.push(one),
             Err(error) => {
                 output::show(&error);
-                failures.push((standard_input::named(file).display().to_string(), errors::text(&error, advice::told)));
+                failures.push((load::named(file).display().to_string(), errors::text(&error, advice::told)));
             }
         }
     }

@@ -39,7 +39,7 @@ fn target(text: &str) -> std::result::Result<PathBuf, String> {
 pub(super) fn new(args: &Args) -> Result<u8> {
     match (&args.template, &args.shipped) {
         (Some(name), _) => return begin(name, args),
-        (None, Some(directory)) => ship(directory, args.force)?,
+        (None, Some(directory)) => ship(directory, args)?,
         (None, None) => output::print(&list())?,
     }
     Ok(exit_code::AGREE)
@@ -64,8 +64,8 @@ fn begun(template: &Template, file: &str) -> String {
 }
 
 /// Refuses what would replace a file.
-fn free(path: &Path, force: bool, other: &str) -> Result<()> {
-    if force || path.symlink_metadata().is_err() {
+fn free(path: &Path, args: &Args, other: &str) -> Result<()> {
+    if args.force || path.symlink_metadata().is_err() {
         return Ok(());
     }
     Err(Error::new(ErrorKind::Input, format!("{} is there already", path.display()))
@@ -82,7 +82,7 @@ fn begin(name: &str, args: &Args) -> Result<u8> {
         output::print(&text)?;
         return Ok(told(&text, Path::new("standard output"), template));
     }
-    free(path, args.force, "give another name with --output")?;
+    free(path, args, "give another name with --output")?;
     match args.output {
         Some(_) => output::write(&text, path)?,
         None => output::make_by(text.as_bytes(), path, &|_| args.force)?,
@@ -109,10 +109,10 @@ fn told(text: &str, path: &Path, template: &Template) -> u8 {
     exit_code::BAD_INPUT
 }
 
-fn ship(directory: &Path, force: bool) -> Result<()> {
+fn ship(directory: &Path, args: &Args) -> Result<()> {
     let files = shipped::files();
     for (path, _) in &files {
-        free(&directory.join(path), force, "name another directory, as in --shipped DIR")?;
+        free(&directory.join(path), args, "name another directory, as in --shipped DIR")?;
     }
     for (path, bytes) in &files {
         let path = directory.join(path);
@@ -121,7 +121,7 @@ fn ship(directory: &Path, force: bool) -> Result<()> {
             Error::new(ErrorKind::Io, format!("cannot make the directory of {}: {error}", path.display()))
                 .help("check that this directory may be written to")
         })?;
-        output::make_by(bytes, &path, &|_| force)?;
+        output::make_by(bytes, &path, &|_| args.force)?;
     }
     output::print(&format!("{} files in {}\n", files.len(), directory.display()))
 }

@@ -39,11 +39,8 @@ pub(super) fn efficiency(text: &str) -> Parsed<f64> {
 
 /// A whole number from one on.
 pub(super) fn count(text: &str) -> Parsed<usize> {
-    const EXPECTED: &str = "expected a whole number from 1 on";
-    match text.trim().parse() {
-        Ok(0) | Err(_) => Err(EXPECTED.into()),
-        Ok(count) => Ok(count),
-    }
+    let count = text.trim().parse().ok().filter(|count| *count > 0);
+    count.ok_or_else(|| "expected a whole number from 1 on".into())
 }
 
 /// A number of extrapolations.

@@ -1,13 +1,16 @@
 //! Writing to standard output, files and the terminal.
 
 use std::fs;
-use std::io::{self, Write};
+use std::io::{self, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
 use super::{advice, exit_code};
 use crate::plain::errors;
+use crate::plain::style::COLUMNS;
+use anstream::AutoStream;
 use files::{self, Target};
 use linkage::error::{Error, ErrorKind, Result};
+use terminal_size::{Width, terminal_size_of};
 
 /// Path that results may be written to, `-` for standard output. Scenario files are refused: in `--json
 /// scenarios/*.toml` the first of them would become the target.
@@ -137,7 +140,32 @@ fn printed(fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<()> {
     }
 }
 
-/// What a command comes to: nothing more to say, or an exit code of its own.
+/// Columns below which a table is not worth reading; a narrower terminal breaks the lines itself.
+const LEAST: usize = 60;
+
+/// Columns of the terminal, or 80 if standard output is none.
+pub(super) fn columns() -> usize {
+    width().unwrap_or(COLUMNS)
+}
+
+/// Columns of the terminal; `None` if standard output is none.
+pub(super) fn width() -> Option<usize> {
+    let out = io::stdout();
+    let known = if out.is_terminal() { terminal_size_of(&out) } else { None };
+    known.map(|(Width(columns), _)| usize::from(columns).max(LEAST))
+}
+
+/// Writes a report to standard output. Its colours stay where standard output takes them: on a terminal, unless NO_COLOR
+/// is set, or with CLICOLOR_FORCE.
+pub(super) fn report(report: &str) -> Result<()> {
+    let choice = AutoStream::choice(&io::stdout());
+    let mut text = AutoStream::new(Vec::new(), choice);
+    // A vector takes everything.
+    let _ = text.write_all(report.as_bytes());
+    print(&String::from_utf8_lossy(&text.into_inner()))
+}
+
+/// What a command, or a part of it, comes to: nothing more to say, an exit code of its own, or an error, which is shown.
 pub(super) trait End {
     /// The exit code.
     fn code(self) -> u8;
@@ -157,18 +185,13 @@ impl End for u8 {
 
 impl<T: End> End for Result<T> {
     fn code(self) -> u8 {
-        self.map_or_else(|error| exit(Err(error)), End::code)
-    }
-}
-
-/// Shows the error of a command, or of a part of it, and returns the exit code.
-pub(super) fn exit(result: Result<()>) -> u8 {
-    match result {
-        Ok(()) => exit_code::AGREE,
-        Err(error) => {
-            show(&error);
-            exit_code::BAD_INPUT
-        }
+        self.map_or_else(
+            |error| {
+                show(&error);
+                exit_code::BAD_INPUT
+            },
+            End::code,
+        )
     }
 }
 

@@ -2,8 +2,9 @@
 
 use std::collections::BTreeMap;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
+use super::live::LiveArgs;
 use super::{advice, number, output};
 use crate::report::{layout, recorded};
 use files::{self, Target};
@@ -53,13 +54,10 @@ pub(super) struct RecordArgs {
 pub(super) struct Recorded {
     /// Its file.
     pub path: PathBuf,
-    /// Its layout, and why it is an older one.
-    layout: Option<(PathBuf, String)>,
-    bytes: u64,
-    /// Why it has not the usual name.
-    why: String,
-    /// What is said of a large one.
-    large: String,
+    /// Its layout.
+    pub layout: Option<PathBuf>,
+    /// Where it is, how large, and what opens it well.
+    pub told: String,
 }
 
 impl RecordArgs {
@@ -71,15 +69,15 @@ impl RecordArgs {
     /// Tries whether recordings can be written, if there are to be any, before any work is done.
     ///
     /// # Errors
-    /// What is in the way; an option that nothing would follow, because nothing is recorded and nobody looks on `live`.
-    pub(super) fn target(&self, is_live: bool) -> Result<()> {
+    /// What is in the way; an option that nothing would follow, because nothing is recorded and nobody looks on live.
+    pub(super) fn target(&self, live: &LiveArgs) -> Result<()> {
         if self.no_record {
             let given = [
                 ("--slow", self.slow.is_some()),
                 ("--record-hz", self.record_hz.is_some()),
                 ("--record-forces", self.record_forces),
             ];
-            let idle = given.into_iter().find(|&(_, is_given)| is_given && !is_live);
+            let idle = given.into_iter().find(|&(_, is_given)| is_given && !live.is_on());
             return idle.map_or(Ok(()), |(option, _)| {
                 let message =
                     format!("{option} cannot be used with --no-record: it shapes what is recorded or shown live");
@@ -112,26 +110,27 @@ impl RecordArgs {
         let view = self.as_recorded(scenario, proof, &metadata, |recording| {
             recording::write(recording, &path).map(|()| recording::view(recording))
         })?;
-        let layout = view.map(|view| (path.with_extension("foxglove.json"), layout::text(&view)));
-        let layout = layout.map(|(to, text)| -> Result<(PathBuf, String)> {
-            let kept = Target::Made(&to, &files::is_sealed).in_the_way();
-            let told = match kept {
-                Some(why) => format!(
-                    "\n           {why}: it is kept;\n           \
-                     linkproof view {} --with foxglove -o OTHER.json writes a new one",
-                    path.display()
-                ),
-                None => output::make(&text, &to).map(|()| String::new())?,
-            };
-            Ok((to, told))
-        });
-        let layout = layout.transpose()?;
         let bytes = fs::metadata(&path).map_or(0, |found| found.len());
-        let why = other.map_or(String::new(), |found| {
-            format!("\n           {}.mcap is of another run and is kept: {found}", scenario.name)
-        });
-        let large = large(bytes, proof.reference_trajectory.times(), self.record_hz);
-        Ok(Some(Recorded { path, layout, bytes, why, large }))
+        let mut told = format!("\nrecording  {} ({})", path.display(), files::size(bytes));
+        if let Some(found) = other {
+            told += &format!("\n           {}.mcap is of another run and is kept: {found}", scenario.name);
+        }
+        told += &large(bytes, proof.reference_trajectory.times(), self.record_hz);
+        let layout = view.as_ref().map(|_| path.with_extension("foxglove.json"));
+        if let (Some(view), Some(to)) = (&view, &layout) {
+            told += &format!("\nlayout     {}", to.display());
+            match Target::Made(to, &files::is_sealed).in_the_way() {
+                Some(why) => {
+                    told += &format!(
+                        "\n           {why}: it is kept;\n           \
+                         linkproof view {} --with foxglove -o OTHER.json writes a new one",
+                        path.display()
+                    );
+                }
+                None => output::make(&layout::text(view), to)?,
+            }
+        }
+        Ok(Some(Recorded { path, layout, told: told + "\n" }))
     }
 
     /// What a recording of a proof holds, for viewers that look on.
@@ -181,26 +180,6 @@ impl RecordArgs {
 
     fn show(&self) -> Show {
         Show { slow: self.slow.unwrap_or(1.0), hz: self.record_hz, forces: self.record_forces }
-    }
-}
-
-impl Recorded {
-    /// Its layout.
-    pub(super) fn layout(&self) -> Option<&Path> {
-        self.layout.as_ref().map(|(path, _)| path.as_path())
-    }
-
-    /// Where it is, how large, and what opens it well.
-    pub(super) fn told(&self) -> String {
-        let layout = |(path, kept): &(PathBuf, String)| format!("\nlayout     {}{kept}", path.display());
-        let layout = self.layout.as_ref().map_or(String::new(), layout);
-        format!(
-            "\nrecording  {} ({}){}{}{layout}\n",
-            self.path.display(),
-            files::size(self.bytes),
-            self.why,
-            self.large
-        )
     }
 }
 

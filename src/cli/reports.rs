@@ -2,7 +2,8 @@
 
 use std::path::PathBuf;
 
-use super::{exit_code, output};
+use super::exit_code::{self, graver};
+use super::output::{self, End};
 use crate::report::outcomes::Outcomes;
 use crate::report::{junit, markdown};
 use linkage::error::Result;
@@ -45,11 +46,8 @@ impl Reports {
         ];
         let mut worst = exit_code::AGREE;
         for (to, text) in targets {
-            if let Some(to) = to
-                && let Err(error) = output::write(&text(), to)
-            {
-                output::show(&error);
-                worst = exit_code::BAD_INPUT;
+            if let Some(to) = to {
+                worst = graver(worst, output::write(&text(), to).code());
             }
         }
         worst

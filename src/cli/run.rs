@@ -10,13 +10,12 @@ use std::path::{Path, PathBuf};
 use super::html::Pages;
 use super::jobs::{Room, side_by_side};
 use super::live::Live;
-use super::load::only;
 use super::progress::Shared;
-use super::{output, standard_input};
+use super::{load, output};
 use linkage::error::Result;
 use linkage::threads::cores;
 use prover::proof::{Proof, memory, prove_with};
-use scenario::Scenario;
+use scenario::{Asked, Scenario};
 use session::Session;
 
 pub(super) use args::Args;
@@ -24,7 +23,7 @@ pub(super) use args::Args;
 /// Proves every file. A bad file does not stop the others from being proven.
 pub(super) fn run(args: &Args) -> Result<u8> {
     // The default directory need not be there if nothing is recorded.
-    args.record.target(args.live.is_on())?;
+    args.record.target(&args.live)?;
     args.reports.check(&[("--html", &args.html)])?;
     let live = args.live.start(&args.files)?;
     let pages = args.html.as_deref().map(|to| Pages::of(to, args.files.len())).transpose()?;
@@ -63,8 +62,11 @@ fn prove_file(
     index: usize,
     bar: &Shared,
 ) -> Result<(Scenario, Proof)> {
-    standard_input::refuse_writing(file, args.write)?;
-    let scenario = only(args.start.load_within(file, &args.grid, args.engine.memory.bytes())?, &args.only)?;
+    if args.write {
+        load::refuse_writing(file)?;
+    }
+    let besides = Asked { memory: Some(args.engine.memory.bytes()), ..Asked::default() };
+    let scenario = load::only(args.start.load_as(file, &args.grid, besides)?, &args.only)?;
     let options = args.engine.options(args.reference);
     let needed = memory::of_proof(&scenario.case, options.engine_count()) + memory::of_oracles(&scenario.oracles);
     room.take(index, needed, || bar.hidden(|| args.engine.memory.tell(&scenario.case, needed)));

@@ -4,9 +4,8 @@ use std::path::PathBuf;
 
 use super::engine_args::EngineArgs;
 use super::engine_section::{self, keys};
-use super::load::plain;
 use super::progress::Bar;
-use super::{number, output, standard_input};
+use super::{load, number, output};
 use crate::report::tune as report;
 use lab::tune::{Candidate, Wish, by_work, tune};
 use linkage::engine::Engine;
@@ -38,8 +37,10 @@ pub(super) struct Args {
 }
 
 pub(super) fn run(args: &Args) -> Result<()> {
-    standard_input::refuse_writing(&args.file, args.write)?;
-    let scenario = plain(&args.file)?;
+    if args.write {
+        load::refuse_writing(&args.file)?;
+    }
+    let scenario = load::plain(&args.file)?;
     let wish = Wish { within: args.within, channels: args.channel.clone() };
     let mut options = args.engine.options(Reference::Assur);
     if options.settings.engines.is_free() {
@@ -56,8 +57,7 @@ pub(super) fn run(args: &Args) -> Result<()> {
         Some(to) => output::write(&report::json(&scenario, &found, args.within), to),
         None => {
             let section = edit::engine_section(best_keys(&scenario, &found.best));
-            let place =
-                report::Section { text: &section, file: standard_input::named(&args.file), is_written: args.write };
+            let place = report::Section { text: &section, file: load::named(&args.file), is_written: args.write };
             let hints = report::Hints { why: &|engine| format!("`linkproof run --engine {engine}`"), write: "--write" };
             output::print(&report::text(&scenario, &found, args.within, &place, hints))
         }

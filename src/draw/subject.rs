@@ -316,14 +316,12 @@ fn heading(mechanism: &Mechanism, structure: &Structure, laid: &Laid, own: &Laid
         }
         _ => false,
     };
-    if own.is_whole() && laid.places.iter().zip(&own.places).all(near) {
-        if let Some(last) = lines.last_mut() {
-            *last += " (as in the file)";
-        }
-    } else if !laid.is_whole()
-        && let Some(last) = lines.last_mut()
-    {
-        *last += " (does not close)";
-    }
+    let is_own = own.is_whole() && laid.places.iter().zip(&own.places).all(near);
+    let remark = match laid.is_whole() {
+        _ if is_own => " (as in the file)",
+        true => "",
+        false => " (does not close)",
+    };
+    lines.last_mut().into_iter().for_each(|last| *last += remark);
     lines
 }

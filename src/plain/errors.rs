@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 
 use super::Tell;
-use files::visible;
+use files::{visible, visible_lines};
 use linkage::error::Error;
 use linkage::mechanism::is_unseen;
 
@@ -36,14 +36,14 @@ fn one(error: &Error, tell: Tell) -> String {
         Some(key) => format!("`{key}`: {}", error.message()),
         None => error.message().to_string(),
     };
-    let title = visible(&title, false);
-    let help = error.way_out_by(tell).map(|help| visible(&help, true));
+    let title = visible(&title);
+    let help = error.way_out_by(tell).map(|help| visible_lines(&help));
     let Some(place) = error.place() else {
         // The renderer would draw a margin for lines that do not exist.
         let help = help.map(|help| format!("\n  = help: {help}")).unwrap_or_default();
         return format!("error: {title}{help}");
     };
-    let path = visible(&place.file.display().to_string(), false);
+    let path = visible(&place.file.display().to_string());
     let source = of_same_length(&place.text);
     // A span may end within a letter, as where a text is cut after so many bytes; the renderer would panic.
     let start = (0..=place.span.start.min(source.len())).rfind(|&at| source.is_char_boundary(at)).unwrap_or(0);

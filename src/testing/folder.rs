@@ -33,7 +33,7 @@ use scenario::files_in;
 /// harness = false
 /// ```
 #[must_use = "the exit code says whether all agree"]
-pub fn main(folder: impl Into<PathBuf>) -> ExitCode {
+pub fn main(folder: impl AsRef<Path>) -> ExitCode {
     Folder::of(folder).main()
 }
 
@@ -57,8 +57,8 @@ pub struct Folder {
 
 impl Folder {
     /// The tests of the folder at `path`.
-    pub fn of(path: impl Into<PathBuf>) -> Self {
-        Folder { path: path.into(), options: Options::default(), ignored: Vec::new() }
+    pub fn of(path: impl AsRef<Path>) -> Self {
+        Folder { path: path.as_ref().into(), options: Options::default(), ignored: Vec::new() }
     }
 
     /// Sets engines, their settings and the reference of every proof.

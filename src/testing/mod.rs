@@ -10,10 +10,11 @@ mod folder;
 #[cfg(feature = "testing")]
 pub use folder::{Folder, main};
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use crate::plain::{brief, errors, style};
 use linkage::case::Grid;
+use linkage::drive::Drive;
 use linkage::error::{Advice, Error, ErrorKind, Result};
 use prover::compare::Verdict;
 use prover::proof::{Options, Proof, prove};
@@ -111,13 +112,11 @@ pub struct Proving {
     tolerance: Option<f64>,
 }
 
-/// The instants of a grid.
+/// The instants of a grid: crank angles (rad) or times (s), and what makes a grid of them.
 #[derive(Clone, Debug)]
-enum Instants {
-    /// Crank angles (rad).
-    Cranks(Vec<f64>),
-    /// Times (s).
-    Times(Vec<f64>),
+struct Instants {
+    values: Vec<f64>,
+    grid: fn(&Drive, Vec<f64>) -> Grid,
 }
 
 impl Proving {
@@ -129,9 +128,9 @@ impl Proving {
     ///
     /// Proving::of("scenarios/crank_rocker.toml").with(Options::default().step(1e-3)).only(["positions"]).assert();
     /// ```
-    pub fn of(path: impl Into<PathBuf>) -> Self {
+    pub fn of(path: impl AsRef<Path>) -> Self {
         Proving {
-            file: path.into(),
+            file: path.as_ref().into(),
             asked: Asked::default(),
             instants: None,
             only: Vec::new(),
@@ -162,13 +161,13 @@ impl Proving {
 
     /// Sets the grid by crank angles (rad, as the scenario states them).
     pub fn cranks(mut self, angles: impl IntoIterator<Item = f64>) -> Self {
-        self.instants = Some(Instants::Cranks(angles.into_iter().collect()));
+        self.instants = Some(Instants { values: angles.into_iter().collect(), grid: Grid::of_inputs });
         self
     }
 
     /// Sets the grid by times (s).
     pub fn times(mut self, times: impl IntoIterator<Item = f64>) -> Self {
-        self.instants = Some(Instants::Times(times.into_iter().collect()));
+        self.instants = Some(Instants { values: times.into_iter().collect(), grid: Grid::of_times });
         self
     }
 
@@ -240,10 +239,7 @@ impl Instants {
             Error::new(ErrorKind::Input, format!("the grid cannot be: {message}"))
                 .help("give every instant once, crank angles in rad or times in s")
         };
-        let grid = match self {
-            Instants::Cranks(angles) => Grid::of_inputs(crank, listed(angles.clone()).map_err(wrong)?),
-            Instants::Times(times) => Grid::of_times(crank, listed(times.clone()).map_err(wrong)?),
-        };
+        let grid = (self.grid)(crank, listed(self.values.clone()).map_err(wrong)?);
         grid.check(crank).map_err(wrong)?;
         Ok(grid)
     }

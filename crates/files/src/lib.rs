@@ -13,7 +13,7 @@ use std::io;
 
 pub use seal::{is_sealed, sealed};
 pub use target::{Target, may_fill, may_write, size, unwritten};
-pub use text::{LARGEST, read_named, read_text, text, text_from, visible, way_out};
+pub use text::{LARGEST, read_named, read_text, text, text_from, visible, visible_lines, way_out};
 
 use target::Place;
 use temporary::{clear, create, directory_of};

@@ -13,12 +13,22 @@ pub const LARGEST: u64 = 64 << 20;
 const LONGEST: usize = 2000;
 
 /// A text with every letter that is not seen written out, so that no name from a file forges a line or commands a
-/// terminal, and of bounded length. Help may have several lines, such as a section to add.
+/// terminal, and of bounded length.
 #[must_use]
-pub fn visible(text: &str, has_lines: bool) -> String {
+pub fn visible(text: &str) -> String {
+    shown(text, is_unseen)
+}
+
+/// The same of a text that may have several lines, such as help with a section to add.
+#[must_use]
+pub fn visible_lines(text: &str) -> String {
+    shown(text, |letter| letter != '\n' && is_unseen(letter))
+}
+
+fn shown(text: &str, is_escaped: impl Fn(char) -> bool) -> String {
     let mut shown = String::new();
     for letter in text.chars().take(LONGEST) {
-        match is_unseen(letter) && !(has_lines && letter == '\n') {
+        match is_escaped(letter) {
             true => shown.extend(letter.escape_default()),
             false => shown.push(letter),
         }

@@ -8,8 +8,9 @@ use crate::cli::engine_section::{self, keys};
 use crate::cli::exit_code::{self, graver};
 use crate::cli::html::Pages;
 use crate::cli::live::Live;
+use crate::cli::output::End;
 use crate::cli::record_args::Recorded;
-use crate::cli::{advice, output, standard_input, terminal};
+use crate::cli::{advice, load, output};
 use crate::plain::brief;
 
 use crate::plain::style::Detail;
@@ -55,7 +56,7 @@ impl<'a> Session<'a> {
 
     fn failed(&mut self, file: &Path, error: &Error) {
         output::show(error);
-        let named = standard_input::named(file).display().to_string();
+        let named = load::named(file).display().to_string();
         self.document.add_failure(&named, error);
         self.outcomes.add_failure(&named, error);
         self.worst = exit_code::BAD_INPUT;
@@ -74,7 +75,7 @@ impl<'a> Session<'a> {
             Ok(shown) => shown,
             Err(error) => {
                 self.failed(file, &error);
-                self.closing.add_failure(&standard_input::named(file).display().to_string());
+                self.closing.add_failure(&load::named(file).display().to_string());
                 return;
             }
         };
@@ -83,7 +84,7 @@ impl<'a> Session<'a> {
             self.failed(file, &error);
             None
         });
-        let layout = recording.as_ref().and_then(Recorded::layout);
+        let layout = recording.as_ref().and_then(|recorded| recorded.layout.as_deref());
         let tried = [self.page(&scenario, &proof), self.show_live(&scenario, &proof, layout)];
         tried.into_iter().filter_map(Result::err).for_each(|error| self.failed(file, &error));
         if self.tells() && self.args.files.len() > 1 {
@@ -106,10 +107,10 @@ impl<'a> Session<'a> {
         if !self.reports() {
             return Ok(());
         }
-        terminal::print(&match Detail::asked(args.quiet, args.verbose) {
+        output::report(&match Detail::asked(args.quiet, args.verbose) {
             Detail::Verdict => format!("{}\n", brief::verdict_line(proof)),
-            Detail::Whole => text::proof(proof, advice::told, terminal::width()),
-            Detail::Short => brief::proof(proof, advice::told, terminal::columns()),
+            Detail::Whole => text::proof(proof, advice::told, output::width()),
+            Detail::Short => brief::proof(proof, advice::told, output::columns()),
         })?;
         if args.explain {
             output::print(&format!("\n{}", explain::text(proof, &[recording_told(args)])))?;
@@ -127,10 +128,7 @@ impl<'a> Session<'a> {
 
     /// Prints what stands between and below the reports.
     fn print(&mut self, text: &str) {
-        if let Err(error) = terminal::print(text) {
-            output::show(&error);
-            self.worst = exit_code::BAD_INPUT;
-        }
+        self.worst = graver(self.worst, output::report(text).code());
     }
 
     /// Records a proof, unless recording is off. A recording of another run is left alone.
@@ -139,7 +137,7 @@ impl<'a> Session<'a> {
         if let Some(recorded) = &recorded
             && self.tells()
         {
-            output::print(&recorded.told())?;
+            output::print(&recorded.told)?;
         }
         Ok(recorded)
     }
@@ -167,17 +165,15 @@ impl<'a> Session<'a> {
     /// exit code.
     pub(super) fn end(mut self) -> u8 {
         if self.tells()
-            && let Some(table) = self.closing.text(terminal::columns())
+            && let Some(table) = self.closing.text(output::columns())
         {
             self.print(&table);
         }
         let written = self.args.reports.write(|| self.document.text(), &self.outcomes);
         if let (Some(live), Some(told)) = (self.live, self.live_told.take()) {
             let tell = || if self.reports() { self.print(&told) } else { output::note(told.trim()) };
-            if let Err(error) = live.serve(tell) {
-                output::show(&error);
-                self.worst = exit_code::BAD_INPUT;
-            }
+            let served = live.serve(tell).code();
+            self.worst = graver(self.worst, served);
         }
         graver(self.worst, written)
     }

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::cli::output;
-use linkage::error::{Error, ErrorKind, Result};
+use linkage::error::Result;
 
 /// Path of a scenario to be written: `-` or a name that ends in `.toml`.
 pub(super) fn scenario_target(text: &str) -> std::result::Result<PathBuf, String> {
@@ -23,7 +23,7 @@ pub(super) fn write_scenario(text: &str, to: &Path, sources: &[&Path]) -> Result
     };
     if let Some(source) = sources.iter().find(|source| same(source)) {
         let message = format!("the scenario found would overwrite {}, which it comes from", source.display());
-        return Err(Error::new(ErrorKind::Input, message).key("--output").help("name another file"));
+        return output::refused("--output", message, "name another file");
     }
     output::write(text, to)
 }

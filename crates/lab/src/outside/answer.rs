@@ -25,7 +25,7 @@ fn last(output: &str) -> Result<Value, String> {
 }
 
 fn word(object: &Map<String, Value>, key: &str) -> Option<String> {
-    object.get(key).and_then(Value::as_str).map(|text| visible(text, false))
+    object.get(key).and_then(Value::as_str).map(visible)
 }
 
 /// The refusal in a peer's words, if it is one.
@@ -90,7 +90,7 @@ fn counts(work: Option<&Value>) -> Result<Vec<(String, u64)>, String> {
         return Err(format!("it counts {} things, and at most {COUNTED} are shown", all.len()));
     }
     let count = |(name, times): (&String, &Value)| match times.as_u64() {
-        Some(count) => Ok((visible(name, false), count)),
+        Some(count) => Ok((visible(name), count)),
         None => Err(format!("its count of {name} is {times}, which is no whole number")),
     };
     all.iter().map(count).collect()

@@ -76,7 +76,7 @@ impl<'a> Command<'a> {
         let request = request.to_string_lossy();
         let output = process::run(&self.command, &[what, &request], directory, self.limit, self.clock);
         // Whatever it says of its failure is shown to people.
-        output.and_then(|output| read(&output, directory)).map_err(|reason| visible(&reason, false))
+        output.and_then(|output| read(&output, directory)).map_err(|reason| visible(&reason))
     }
 
     fn furnished(&self) -> std::io::Result<TempDir> {

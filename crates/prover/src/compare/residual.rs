@@ -85,21 +85,18 @@ pub(crate) fn scales_beyond(errors: &[f64], trajectory: &Trajectory, built: &Bui
         false => largest_size(values),
     });
     let own: Vec<[f64; 2]> = halves.iter().copied().zip(largest).map(|(half, largest)| [half, largest]).collect();
-    let sizes: Vec<f64> = own.iter().map(|[half, largest]| half.larger(*largest)).collect();
+    let sizes = own.iter().map(|[half, largest]| half.larger(*largest));
     let (turn, share) = match is_instant {
         true => (1.0, 1.0),
         false => (half_range(trajectory.inputs()), SMALLEST_SHARE),
     };
-    let natural: Vec<f64> = natural(trajectory, &sizes, turn)
-        .into_iter()
-        .zip(trajectory.channels())
-        .map(|(natural, channel)| built.unless(natural, channel.kind.unit))
-        .collect();
+    let sizes = Sizes::of(trajectory, trajectory.channels().iter().zip(sizes));
     let of = |(index, channel): (usize, &Channel)| {
         let [half, largest] = own[index];
+        let natural = built.unless(sizes.natural(channel, turn), channel.kind.unit);
         let vanishes = !is_coordinate(channel) && largest <= errors[index];
         let share = if vanishes { share.larger(SMALLEST_OWN_SHARE) } else { share };
-        half.larger(SMALLEST_OWN_SHARE * largest).larger(share * natural[index])
+        half.larger(SMALLEST_OWN_SHARE * largest).larger(share * natural)
     };
     trajectory.channels().iter().enumerate().map(of).collect()
 }
@@ -116,34 +113,31 @@ pub(crate) struct Built {
 }
 
 impl Built {
-    /// A size, or that of its unit here if the other is its rounding.
-    pub(crate) fn unless(&self, size: f64, unit: Unit) -> f64 {
+    /// What follows of a unit from these sizes, and from a turn (rad) for angles and their rates.
+    fn of(&self, unit: Unit, turn: f64) -> f64 {
         let Built { length, speed, force } = *self;
-        let own = match unit {
-            Unit::Radian => 1.0,
-            Unit::RadianPerSecond => speed,
-            Unit::RadianPerSecondSquared => speed * speed,
+        match unit {
+            Unit::Radian => turn,
+            Unit::RadianPerSecond => speed * turn,
+            Unit::RadianPerSecondSquared => speed * speed * turn,
             Unit::Metre => length,
             Unit::MetrePerSecond => speed * length,
             Unit::MetrePerSecondSquared => speed * speed * length,
             Unit::Newton => force,
             Unit::NewtonMetre => force * length,
-        };
+        }
+    }
+
+    /// A size, or that of its unit here if the other is its rounding.
+    pub(crate) fn unless(&self, size: f64, unit: Unit) -> f64 {
+        let own = self.of(unit, 1.0);
         if size <= VANISHING * own { own } else { size }
     }
 }
 
 /// Whether a channel's values are counted from somewhere, so that their size says nothing.
 fn is_coordinate(channel: &Channel) -> bool {
-    match channel.kind.unit {
-        Unit::Radian | Unit::Metre => true,
-        Unit::RadianPerSecond
-        | Unit::RadianPerSecondSquared
-        | Unit::MetrePerSecond
-        | Unit::MetrePerSecondSquared
-        | Unit::Newton
-        | Unit::NewtonMetre => false,
-    }
+    matches!(channel.kind.unit, Unit::Radian | Unit::Metre)
 }
 
 /// Size of the numbers in every channel, which its rounding is proportional to. It is the largest absolute value among
@@ -181,39 +175,26 @@ fn largest_sizes(trajectory: &Trajectory) -> Vec<f64> {
     trajectory.iter().map(|(_, values)| largest_size(values)).collect()
 }
 
-/// For every channel, the largest of `sizes` among the channels of its quantity, but at least the value that follows
-/// from the crank's speed, its `turn` (rad) and the sizes of places and forces.
-fn natural(trajectory: &Trajectory, sizes: &[f64], turn: f64) -> Vec<f64> {
-    let all = Sizes::of(trajectory, trajectory.channels().iter().zip(sizes.iter().copied()));
-    trajectory.channels().iter().map(|channel| all.natural(channel, turn)).collect()
-}
-
 /// Largest sizes among some channels.
 struct Sizes {
     of_quantity: BTreeMap<&'static str, f64>,
-    length: f64,
-    force: f64,
-    /// Mean speed of the crank (rad/s).
-    speed: f64,
+    /// Of places and forces, and the mean speed of the crank.
+    largest: Built,
 }
 
 impl Sizes {
     fn of<'a>(trajectory: &Trajectory, own: impl Iterator<Item = (&'a Channel, f64)>) -> Self {
         let span = half_range(trajectory.times());
         let speed = if span > 0.0 { half_range(trajectory.inputs()) / span } else { 0.0 };
-        let mut sizes = Sizes { of_quantity: BTreeMap::new(), length: 0.0, force: 0.0, speed };
+        let mut sizes = Sizes { of_quantity: BTreeMap::new(), largest: Built { speed, ..Built::default() } };
         for (channel, size) in own {
             let of_quantity = sizes.of_quantity.entry(channel.kind.quantity).or_insert(0.0);
             *of_quantity = of_quantity.larger(size);
-            match channel.kind.unit {
-                Unit::Metre => sizes.length = sizes.length.larger(size),
-                Unit::Newton => sizes.force = sizes.force.larger(size),
-                Unit::Radian
-                | Unit::RadianPerSecond
-                | Unit::RadianPerSecondSquared
-                | Unit::MetrePerSecond
-                | Unit::MetrePerSecondSquared
-                | Unit::NewtonMetre => {}
+            let Built { length, force, .. } = &mut sizes.largest;
+            if channel.kind.unit == Unit::Metre {
+                *length = length.larger(size);
+            } else if channel.kind.unit == Unit::Newton {
+                *force = force.larger(size);
             }
         }
         sizes
@@ -225,7 +206,8 @@ impl Sizes {
             let own = self.of_quantity.entry(quantity).or_insert(0.0);
             *own = own.larger(*size);
         }
-        (self.length, self.force) = (self.length.larger(other.length), self.force.larger(other.force));
+        self.largest.length = self.largest.length.larger(other.largest.length);
+        self.largest.force = self.largest.force.larger(other.largest.force);
         self
     }
 
@@ -233,26 +215,19 @@ impl Sizes {
     /// may cancel each other and leave their rounding.
     fn rounded_with(&self, channel: &Channel) -> f64 {
         let own = self.natural(channel, 1.0);
-        if channel.kind.unit == Unit::Newton { own.larger(self.force) } else { own }
+        if channel.kind.unit == Unit::Newton { own.larger(self.largest.force) } else { own }
     }
 
+    /// The largest size of the channel's quantity, but at least the value that follows from the crank's speed, its `turn`
+    /// (rad) and the sizes of places and forces.
     fn natural(&self, channel: &Channel, turn: f64) -> f64 {
-        let Sizes { length, force, speed, .. } = *self;
         let own = self.of_quantity.get(channel.kind.quantity).copied().unwrap_or(0.0);
-        let derived = match channel.kind.unit {
-            Unit::Radian => turn,
-            Unit::RadianPerSecond => speed * turn,
-            Unit::RadianPerSecondSquared => speed * speed * turn,
-            Unit::Metre => length,
-            Unit::MetrePerSecond => speed * length,
-            Unit::MetrePerSecondSquared => speed * speed * length,
-            // The causes of forces are not known here, only the forces themselves: the shaking force of a balanced
-            // mechanism is the rounding of those in its joints.
-            Unit::Newton if own <= VANISHING * force => force,
-            Unit::Newton => 0.0,
-            Unit::NewtonMetre => force * length,
-        };
-        own.larger(derived)
+        // The causes of forces are not known here, only the forces themselves: the shaking force of a balanced
+        // mechanism is the rounding of those in its joints.
+        match channel.kind.unit == Unit::Newton && !(own <= VANISHING * self.largest.force) {
+            true => own.larger(0.0),
+            false => own.larger(self.largest.of(channel.kind.unit, turn)),
+        }
     }
 }
 

@@ -135,38 +135,28 @@ impl Verdict {
                           masses, loads or more instants would give one";
             return Verdict::open(reason);
         }
-        if parts.iteration.is_infinite() {
+        let open = |reason: String| {
             let (why, advice) = way_out(parts);
-            let reason = format!("the sweeps have hardly begun to converge here: the error cannot be estimated{why}");
-            return Verdict::Inconclusive { reason, advice };
+            Verdict::Inconclusive { reason: reason + why, advice }
+        };
+        if parts.iteration.is_infinite() {
+            return open("the sweeps have hardly begun to converge here: the error cannot be estimated".into());
         }
         // Runs that hardly differ need no order: see `NEGLIGIBLE`.
         if !convergence.is_trusted() && !(bound <= NEGLIGIBLE * wanted * scale) {
-            let (why, advice) = way_out(parts);
-            let reason = format!(
-                "the engine converges with order {:.2} instead of {:.0} here: its error cannot be estimated{why}",
+            return open(format!(
+                "the engine converges with order {:.2} instead of {:.0} here: its error cannot be estimated",
                 convergence.observed, convergence.formal,
-            );
-            return Verdict::Inconclusive { reason, advice };
+            ));
         }
-        match Verdict::of(value, bound, place) {
-            // Where the bound proves nothing, nothing close to it is disproven.
-            Verdict::Agree { .. } | Verdict::Disagree { .. }
-                if bound > wanted * scale && value <= DISPROVEN * bound =>
-            {
-                let (why, advice) = way_out(parts);
-                let reason = format!(
-                    "the engine's error may reach {} of the channel's scale, more than the {} that still proves something{why}",
-                    percent(bound / scale),
-                    percent(wanted),
-                );
-                Verdict::Inconclusive { reason, advice }
-            }
-            verdict @ (Verdict::Agree { .. }
-            | Verdict::Disagree { .. }
-            | Verdict::Expected { .. }
-            | Verdict::Inconclusive { .. }) => verdict,
+        // Where the bound proves nothing, nothing close to it is disproven.
+        if bound > wanted * scale && value <= DISPROVEN * bound {
+            let (reached, proves) = (percent(bound / scale), percent(wanted));
+            return open(format!(
+                "the engine's error may reach {reached} of the channel's scale, more than the {proves} that still proves something"
+            ));
         }
+        Verdict::of(value, bound, place)
     }
 }
 
@@ -229,11 +219,10 @@ impl Check {
         basis: Basis,
         wanted: f64,
     ) -> Self {
-        let bound = parts.sum();
-        let place = || beyond(value, bound, "");
+        let own = Check::new(family, value, Tolerance { bound: parts.sum(), basis }, "");
+        let place = || beyond(value, own.bound, "");
         let verdict = Verdict::of_estimate(value, 1.0, convergence, parts, wanted, place);
-        let estimate = Some((parts, *convergence));
-        Check { family: family.into(), detail: String::new(), value, bound, unit: "", basis, estimate, verdict }
+        Check { estimate: Some((parts, *convergence)), verdict, ..own }
     }
 
     /// States which check of its family this is.
