@@ -2,8 +2,8 @@
 //! right-hand side.
 //!
 //! Revolute: C = p2 - p1.
-//! Prismatic, with the axis e and its normal n = z x e on the first link and d = p2 - p1: C1 = n . d and
-//! C2 = theta2 - theta1 - twist.
+//! On a line, with the axis e and its normal n = z x e on the first link and d = p2 - p1: C1 = n . d.
+//! Prismatic, besides: C2 = theta2 - theta1 - twist.
 //! As n' = -omega1 e, dC1/dtheta1 = -e . (d + r1) with r1 from the mass centre to p1.
 //! C1'' = 0 gives n . d'' = 2 omega1 e . d' + alpha1 e . d. Its first term and the centripetal terms of d'' are gamma.
 //! So the multiplier of C1 is a force along n that acts at p2 on both links, and that of C2 a moment (Haug, chapter
@@ -13,7 +13,7 @@ use super::system::System;
 use linkage::drive::Drive;
 use linkage::input::Input;
 use linkage::math::{Vec2, turned};
-use linkage::mechanism::{Joint, JointKind, Side};
+use linkage::mechanism::{Joint, Side};
 
 impl System<'_> {
     /// Residual and Jacobian of a drive's equation in `row`: the coordinate of its joint is the input `at`, counted as
@@ -33,9 +33,12 @@ impl System<'_> {
     #[inline]
     pub(super) fn assemble_joint(&mut self, index: usize, joint: &Joint) {
         let row = self.case.mechanism.rows(index).start;
-        match joint.kind {
-            JointKind::Revolute => self.assemble_revolute(row, joint),
-            JointKind::Prismatic { axes } => self.assemble_prismatic(row, joint, axes[0], self.twists[index]),
+        match joint.kind.line() {
+            None => self.assemble_revolute(row, joint),
+            Some(axis) => self.assemble_line(row, joint, axis),
+        }
+        if joint.keeps_angle() {
+            self.assemble_angle(row + 1, joint, self.twists[index]);
         }
     }
 
@@ -57,7 +60,7 @@ impl System<'_> {
         self.residual[row + 1] = gap.y;
     }
 
-    fn assemble_prismatic(&mut self, row: usize, joint: &Joint, axis: Vec2, twist: f64) {
+    fn assemble_line(&mut self, row: usize, joint: &Joint, axis: Vec2) {
         let [first, second] = [joint.first.link, joint.second.link];
         let axis = self.along(first, axis);
         let normal = turned(axis);
@@ -69,11 +72,19 @@ impl System<'_> {
                 self.jacobian.add(row, column, normal.x * sign);
                 self.jacobian.add(row, column + 1, normal.y * sign);
                 self.jacobian.add(row, column + 2, axis.dot(&(place - self.centre(link))) * sign);
-                self.jacobian.add(row + 1, column + 2, sign);
             }
         }
         self.residual[row] = normal.dot(&gap);
-        self.residual[row + 1] = self.angle(second) - self.angle(first) - twist;
+    }
+
+    fn assemble_angle(&mut self, row: usize, joint: &Joint, twist: f64) {
+        let [first, second] = [joint.first.link, joint.second.link];
+        for (link, sign) in [(first, -1.0), (second, 1.0)] {
+            if link > 0 {
+                self.jacobian.add(row, 3 * (link - 1) + 2, sign);
+            }
+        }
+        self.residual[row] = self.angle(second) - self.angle(first) - twist;
     }
 
     /// Writes the right-hand side of the equations of the joint with this number for the accelerations.
@@ -85,14 +96,16 @@ impl System<'_> {
         };
         let gamma = centripetal(joint.second) - centripetal(joint.first);
         let row = self.case.mechanism.rows(index).start;
-        match joint.kind {
-            JointKind::Revolute => (self.second[row], self.second[row + 1]) = (gamma.x, gamma.y),
-            JointKind::Prismatic { axes } => {
-                let axis = self.along(joint.first.link, axes[0]);
+        match joint.kind.line() {
+            None => (self.second[row], self.second[row + 1]) = (gamma.x, gamma.y),
+            Some(axis) => {
+                let axis = self.along(joint.first.link, axis);
                 let speed = self.velocity(joint.second) - self.velocity(joint.first);
-                let across = turned(axis).dot(&gamma) + 2.0 * self.omega(joint.first.link) * axis.dot(&speed);
-                (self.second[row], self.second[row + 1]) = (across, 0.0);
+                self.second[row] = turned(axis).dot(&gamma) + 2.0 * self.omega(joint.first.link) * axis.dot(&speed);
             }
+        }
+        if joint.keeps_angle() {
+            self.second[row + 1] = 0.0;
         }
     }
 
@@ -100,9 +113,11 @@ impl System<'_> {
     #[inline]
     pub(super) fn reaction(&self, index: usize, joint: &Joint) -> (Vec2, f64) {
         let own = &self.lambda[self.case.mechanism.rows(index)];
-        match joint.kind {
-            JointKind::Revolute => (Vec2::new(own[0], own[1]), 0.0),
-            JointKind::Prismatic { axes } => (turned(self.along(joint.first.link, axes[0])) * own[0], own[1]),
+        match joint.kind.line() {
+            None => (Vec2::new(own[0], own[1]), 0.0),
+            Some(axis) => {
+                (turned(self.along(joint.first.link, axis)) * own[0], if joint.keeps_angle() { own[1] } else { 0.0 })
+            }
         }
     }
 }

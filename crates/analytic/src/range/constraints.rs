@@ -6,7 +6,7 @@
 //! Each kind of joint has one function with its rows.
 
 use linkage::math::{Column, Matrix, Vec2, cross, rotated, unit};
-use linkage::mechanism::{Group, Joint, JointKind, LinkPose, Mechanism, Pose, Side};
+use linkage::mechanism::{Group, Joint, LinkPose, Mechanism, Pose, Side};
 
 /// A driving link that is geared to the crank: its angle follows that of the crank.
 #[derive(Clone, Copy, Debug)]
@@ -95,9 +95,18 @@ impl<'a> Constraints<'a> {
             Equations { residual: Column::zeros(self.rows()), jacobian: Matrix::zeros(self.rows(), q.len()) };
         for (index, joint) in self.mechanism.joints().iter().enumerate() {
             let row = self.mechanism.rows(index).start;
-            match joint.kind {
-                JointKind::Revolute => self.revolute(joint, q, row, &mut equations),
-                JointKind::Prismatic { axes } => self.prismatic(joint, axes, q, row, &mut equations),
+            match joint.kind.line() {
+                None => self.revolute(joint, q, row, &mut equations),
+                Some(axis) => self.line(joint, axis, q, row, &mut equations),
+            }
+            if let Some(axes) = joint.kind.axes() {
+                let [first, second] = [joint.first.link, joint.second.link];
+                let [axis, other] = [(first, axes[0]), (second, axes[1])]
+                    .map(|(link, axis)| if link == 0 { axis } else { rotated(unit(q[Self::angle(link)]), axis) });
+                equations.residual[row + 1] = cross(axis, other).atan2(axis.dot(&other));
+                for (link, sign) in [(first, -1.0), (second, 1.0)].into_iter().filter(|(link, _)| *link > 0) {
+                    equations.jacobian[(row + 1, Self::angle(link))] += sign;
+                }
             }
         }
         for (index, gearing) in self.gearings.iter().enumerate() {
@@ -126,15 +135,12 @@ impl<'a> Constraints<'a> {
         }
     }
 
-    /// n . (p_second - p_first) = 0 with the normal n of the axis on the first link, and equal angles of both axes.
-    fn prismatic(&self, joint: &Joint, axes: [Vec2; 2], q: &Column, row: usize, equations: &mut Equations) {
-        let angle_of = |link: usize| if link == 0 { 0.0 } else { q[Self::angle(link)] };
+    /// n . (p_second - p_first) = 0 with the normal n of the axis on the first link.
+    fn line(&self, joint: &Joint, axis: Vec2, q: &Column, row: usize, equations: &mut Equations) {
         let [first, second] = [joint.first, joint.second];
-        let axis = rotated(unit(angle_of(first.link)), axes[0]);
-        let other = rotated(unit(angle_of(second.link)), axes[1]);
+        let axis = if first.link == 0 { axis } else { rotated(unit(q[Self::angle(first.link)]), axis) };
         let gap = self.point(second, q).0 - self.point(first, q).0;
         equations.residual[row] = cross(axis, gap);
-        equations.residual[row + 1] = cross(axis, other).atan2(axis.dot(&other));
         for (side, sign) in [(first, -1.0), (second, 1.0)] {
             if side.link > 0 {
                 let column = 3 * (side.link - 1);
@@ -142,7 +148,6 @@ impl<'a> Constraints<'a> {
                 equations.jacobian[(row, column)] -= sign * axis.y;
                 equations.jacobian[(row, column + 1)] += sign * axis.x;
                 equations.jacobian[(row, column + 2)] += sign * axis.dot(&arm);
-                equations.jacobian[(row + 1, column + 2)] += sign;
             }
         }
         if first.link > 0 {

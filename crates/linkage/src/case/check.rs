@@ -107,7 +107,9 @@ fn moves_nothing(mechanism: &Mechanism, drive: &Drive) -> bool {
     let own = mechanism.joints()[drive.joint].on(drive.link);
     let others = || mechanism.joints().iter().enumerate().filter(|&(index, _)| index != drive.joint);
     let mut carried = others().filter_map(|(_, joint)| Some((joint.is_pin(), joint.on(drive.link)?))).peekable();
-    carried.peek().is_some()
+    // A slide moves its link wherever the joints lie.
+    mechanism.joints()[drive.joint].is_pin()
+        && carried.peek().is_some()
         && carried
             .all(|(is_pin, place)| is_pin && own.is_some_and(|own| (place - own).norm() <= POINT * mechanism.size()))
 }

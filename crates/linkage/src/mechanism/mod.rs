@@ -89,6 +89,17 @@ pub enum JointKind {
 
 /// Properties of a pair for all crates. A new kind is added here and where its equations are written out by kind.
 impl JointKind {
+    /// The line on which the second link's place must lie: unit vector in the frame of the first link, through the place
+    /// there. That is one equation. `None` where the two places must coincide, which is two.
+    #[inline]
+    #[must_use]
+    pub fn line(self) -> Option<Vec2> {
+        match self {
+            JointKind::Revolute => None,
+            JointKind::Prismatic { axes } => Some(axes[0]),
+        }
+    }
+
     /// Axes along which the links slide: unit vectors in the frames of the first and the second link. `None` if they
     /// do not slide.
     #[inline]

@@ -12,7 +12,7 @@ use crate::math::angle::wrapped;
 use crate::math::dense::Lu;
 use crate::math::{KeepNan, Vec2, cross, rotated, turned, unit};
 use crate::mechanism::pose::SidePoint;
-use crate::mechanism::{Group, Joint, JointKind, LinkPose, Mechanism, Pose};
+use crate::mechanism::{Group, Joint, LinkPose, Mechanism, Pose};
 
 #[cfg(test)]
 mod tests;
@@ -131,20 +131,17 @@ impl System<'_> {
         let gaps = self.joints().flat_map(|joint| {
             let [first, second] = [joint.first, joint.second].map(|side| pose.0[side.link].point(side.local));
             let gap = second - first;
-            match joint.kind {
-                JointKind::Revolute => vec![gap.x, gap.y],
-                JointKind::Prismatic { axes } => {
-                    let [e, f] = self.axes(joint, axes, pose);
-                    vec![cross(e, gap), self.size * cross(e, f)]
-                }
-            }
+            let Some(line) = joint.kind.line() else { return vec![gap.x, gap.y] };
+            let e = rotated(unit(pose.0[joint.first.link].angle), line);
+            let turn = self.second_axis(joint, pose).map(|f| self.size * cross(e, f));
+            std::iter::once(cross(e, gap)).chain(turn).collect()
         });
         gaps.collect()
     }
 
-    fn axes(&self, joint: &Joint, axes: [Vec2; 2], pose: &Pose) -> [Vec2; 2] {
-        let links = [joint.first.link, joint.second.link];
-        [0, 1].map(|k| rotated(unit(pose.0[links[k]].angle), axes[k]))
+    /// The axis of a joint that keeps the angle, as its second link has it.
+    fn second_axis(&self, joint: &Joint, pose: &Pose) -> Option<Vec2> {
+        Some(rotated(unit(pose.0[joint.second.link].angle), joint.kind.axes()?[1]))
     }
 
     /// Rows of the Jacobian, one per gap.
@@ -163,22 +160,22 @@ impl System<'_> {
                 let moves = [Vec2::new(1.0, 0.0), Vec2::new(0.0, 1.0), arm];
                 for (column, by) in moves.into_iter().enumerate() {
                     let column = 3 * at + column;
-                    match joint.kind {
-                        JointKind::Revolute => {
-                            rows[row][column] = sign * by.x;
-                            rows[row + 1][column] = sign * by.y;
-                        }
-                        JointKind::Prismatic { axes } => {
-                            let [e, f] = self.axes(joint, axes, pose);
-                            rows[row][column] = sign * cross(e, by);
-                            if column % 3 == 2 {
-                                rows[row + 1][column] = sign * e.dot(&f);
-                                // The line turns with the first link.
-                                if k == 0 {
-                                    rows[row][column] -= e.dot(&(places[1] - places[0])) / self.size;
-                                }
-                            }
-                        }
+                    let Some(line) = joint.kind.line() else {
+                        rows[row][column] = sign * by.x;
+                        rows[row + 1][column] = sign * by.y;
+                        continue;
+                    };
+                    let e = rotated(unit(pose.0[joint.first.link].angle), line);
+                    rows[row][column] = sign * cross(e, by);
+                    if column % 3 != 2 {
+                        continue;
+                    }
+                    // The line turns with the first link.
+                    if k == 0 {
+                        rows[row][column] -= e.dot(&(places[1] - places[0])) / self.size;
+                    }
+                    if let Some(f) = self.second_axis(joint, pose) {
+                        rows[row + 1][column] = sign * e.dot(&f);
                     }
                 }
             }
