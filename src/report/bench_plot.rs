@@ -18,7 +18,7 @@ const TITLE: f64 = 12.0;
 const PALE: &str = "#ececec";
 const ROSE: &str = "#fcf0f0";
 /// Size of a mark and of a ring about it (mm).
-const MARK: f64 = 0.8;
+const MARK: f64 = 1.0;
 const RING: f64 = 1.7;
 /// Costs that are drawn: an axis of logarithms counts its decades, and begins with none at zero.
 const DRAWN: RangeInclusive<f64> = 1e-20..=1e20;
@@ -84,7 +84,7 @@ fn panel(bench: &Bench, stage: Stage, axis: Axis, [left, right]: [f64; 2]) -> Fi
     let mut chart = Chart::new(PANEL, [[left, right], [low, band]]);
     chart.band([low, floor], PALE);
     chart.band([high, band], ROSE);
-    let title = format!("{}: largest error over the scale", caption(stage));
+    let title = format!("{}: error", caption(stage));
     chart.axes([&decades([left, right], 8), &decades([low, high], 9)], &title, label(axis));
     chart.level(floor, solid(GREY, 0.5));
     chart.level(CLEAR * floor, DASHED);
@@ -190,7 +190,8 @@ fn legend(bench: &Bench, axis: Axis) -> Figure {
         "Line: what no other setting of the same program beats; ring: nothing, or no engine and peer, beats it.",
         &format!("Grey line: the reference's own error ({}).", bench.floor.basis),
         &format!("Hollow: less than {CLEAR} times above it (dashes), limited by the reference."),
-        "Cross in the band above: failed. Errors: largest over instants and channels.",
+        "Cross in the band above: failed.",
+        "Errors: largest over instants and channels, as a share of the channel's scale.",
     ] {
         write(&mut y, text, 3.2);
     }

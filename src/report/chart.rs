@@ -130,3 +130,40 @@ pub(super) fn mark(figure: &mut Figure, at: Vec2, size: f64, party: usize, filli
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use drawing::paper::document::document;
+    use std::collections::BTreeSet;
+
+    #[test]
+    fn an_axis_has_round_numbers_and_no_more_than_there_is_room_for() {
+        assert_eq!(
+            decades([3e-3, 2e3], 8).into_iter().map(label).collect::<Vec<_>>(),
+            ["0.01", "0.1", "1", "10", "100", "1000"]
+        );
+        for most in 1..12 {
+            let found = decades([3e-15, 4e7], most);
+            assert!(found.len() <= most as usize + 1, "{most}: {found:?}");
+            assert!(found.iter().all(|value| value.log10().fract() == 0.0), "{found:?}");
+        }
+    }
+
+    /// Symptom: two oranges and two blues.
+    #[test]
+    fn regress_no_two_parties_look_alike() {
+        let looks = |party: usize, filling: Filling| {
+            let mut figure = Figure::default();
+            mark(&mut figure, Vec2::zeros(), 1.0, party, filling);
+            document(&figure, [10.0, 10.0], "")
+        };
+        let fillings = [Filling::Full, Filling::Hollow, Filling::Crossed];
+        let all: BTreeSet<String> =
+            fillings.iter().flat_map(|&own| (0..20).map(move |party| looks(party, own))).collect();
+        assert_eq!(all.len(), 60);
+        // The crosses of failures differ by colour alone.
+        let crosses: BTreeSet<String> = (0..8).map(|party| looks(party, Filling::Cross)).collect();
+        assert_eq!(crosses.len(), 8);
+    }
+}

@@ -119,3 +119,18 @@ fn panel(family: &Family, outcomes: &[&Outcome], names: &[&str], group: Group) -
     }
     chart.figure
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use lab::stress::named;
+
+    /// Symptom: empty diagrams, without a word.
+    #[test]
+    fn regress_a_map_without_numbers_says_so() {
+        let family = named("step").unwrap();
+        let refused = String::from("no mechanism");
+        let outcome = Outcome { dial: 1.0, sample: 0, key: String::new(), refused, parties: Vec::new() };
+        assert_eq!(map(family, &[&outcome]).matches("nothing to draw").count(), Group::ALL.len());
+    }
+}
