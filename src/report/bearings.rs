@@ -26,7 +26,7 @@ pub(crate) fn text(journals: Journals, scenario: &Scenario, peaks: &Peaks) -> St
     let header = ["joint", "largest reaction", "at crank deg", "smallest journal", "largest moment", "at crank deg"];
     let mut table = table(header, &[1, 2, 3, 4, 5]);
     let degrees = |peak: Peak| numbers::fixed(peak.crank.to_degrees(), 4);
-    for (index, joint) in scenario.case.mechanism.joints().iter().enumerate() {
+    for (index, joint) in scenario.case.mechanism.joints().entries() {
         let reaction = peaks.reactions[index];
         let mut row = vec![joint.name.clone(), numbers::fixed_in(reaction.value, 6, "N"), degrees(reaction)];
         match peaks.moments[index] {
@@ -52,7 +52,7 @@ pub(crate) fn text(journals: Journals, scenario: &Scenario, peaks: &Peaks) -> St
 /// The largest reactions as JSON, schema 1.
 pub(crate) fn json(journals: Journals, scenario: &Scenario, peaks: &Peaks) -> String {
     let whole = |peak: Peak, unit: &str| json!({unit: peak.value, "crank_rad": peak.crank});
-    let joints = scenario.case.mechanism.joints().iter().enumerate().map(|(index, joint)| {
+    let joints = scenario.case.mechanism.joints().entries().map(|(index, joint)| {
         json!({
             "joint": joint.name, "reaction": whole(peaks.reactions[index], "N"),
             "moment": peaks.moments[index].map(|moment| whole(moment, "N_m")),

@@ -6,7 +6,7 @@ use super::pretty::pretty;
 use linkage::case::Case;
 use linkage::drive::{Acts, Course, Drive, DriveMotion, Load, MotionLaw, Motor, MotorLaw};
 use linkage::math::Vec2;
-use linkage::mechanism::Side;
+use linkage::mechanism::{LinkId, Side};
 use linkage::solver::State;
 
 /// Version of the form.
@@ -53,7 +53,7 @@ fn pair(vector: Vec2) -> Value {
     json!([vector.x, vector.y])
 }
 
-fn name(case: &Case, link: usize) -> &str {
+fn name(case: &Case, link: LinkId) -> &str {
     &case.mechanism.links()[link].name
 }
 
@@ -114,7 +114,7 @@ fn course(course: &Course) -> Value {
 }
 
 fn load(case: &Case, load: &Load) -> Value {
-    let link = |index: usize| name(case, index);
+    let link = |index: LinkId| name(case, index);
     let both = |ends: &[Side; 2]| ends.map(|end| side(case, end));
     let sort = load.sort();
     match load {

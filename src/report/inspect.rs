@@ -7,7 +7,7 @@ use super::{modes, range};
 use analytic::modes::Modes;
 use analytic::range::Range;
 use linkage::mechanism::assembly::{Choice, transmission_sine};
-use linkage::mechanism::{GROUND, Joint, Mechanism};
+use linkage::mechanism::{GROUND, Joint, JointId, LinkId, Mechanism};
 use prover::numbers::{fixed_in, significant};
 use scenario::{Scenario, Undecided};
 
@@ -25,9 +25,9 @@ pub(crate) fn text(scenario: &Scenario) -> String {
     }
     say!(text, "mobility   W = 3*{links} - 2*{joints} = {}", structure.mobility);
     say!(text, "structure  {}\n\nlinks", structure.formula(mechanism));
-    for (index, (link, pose)) in mechanism.links().iter().zip(&case.start.0).enumerate() {
+    for ((id, link), pose) in mechanism.links().entries().zip(&case.start.0) {
         let points: Vec<&str> = link.points.iter().map(|point| point.name.as_str()).collect();
-        let body = if index == GROUND {
+        let body = if id == GROUND {
             "fixed".to_string()
         } else {
             let at = format!("at {}", fixed_in(pose.angle.to_degrees(), 3, "deg"));
@@ -83,8 +83,8 @@ pub(crate) fn json(
 ) -> String {
     let mut value = structure(scenario);
     for open in undecided {
-        value["groups"][open.group]["mode"] = Value::Null;
-        value["groups"][open.group]["undecided"] = open.why.message().into();
+        value["groups"][open.group.index()]["mode"] = Value::Null;
+        value["groups"][open.group.index()]["undecided"] = open.why.message().into();
     }
     if let Some((crank, all)) = modes {
         value["modes"] = modes::json(scenario, crank, all, undecided);
@@ -99,8 +99,8 @@ pub(crate) fn json(
 fn structure(scenario: &Scenario) -> Value {
     let case = &scenario.case;
     let (mechanism, structure) = (&case.mechanism, &case.structure);
-    let link = |index: usize| mechanism.links()[index].name.clone();
-    let joint = |index: usize| mechanism.joints()[index].name.clone();
+    let link = |index: LinkId| mechanism.links()[index].name.clone();
+    let joint = |index: JointId| mechanism.joints()[index].name.clone();
     let links = mechanism.links().iter().zip(&case.start.0).map(|(link, pose)| {
         let points = link.points.iter().map(|p| json!({"name": p.name, "x_m": p.local.x, "y_m": p.local.y}));
         json!({

@@ -6,6 +6,7 @@ use serde_json::{Value, json};
 
 use crate::plain::cells::{table, trimmed};
 use analytic::range::{At, Extent, Extreme, LinkRange, Measure, Range, Singularity};
+use linkage::mechanism::GroupId;
 use prover::numbers;
 use scenario::Scenario;
 
@@ -55,11 +56,11 @@ fn in_turn(crank: f64, range: &Range) -> f64 {
     }
 }
 
-fn names(scenario: &Scenario, group: usize) -> String {
+fn names(scenario: &Scenario, group: GroupId) -> String {
     scenario.case.structure.groups[group].names(&scenario.case.mechanism)
 }
 
-fn is_dyad(scenario: &Scenario, group: usize) -> bool {
+fn is_dyad(scenario: &Scenario, group: GroupId) -> bool {
     scenario.case.structure.groups[group].links.len() == 2
 }
 
@@ -79,7 +80,7 @@ fn groups(scenario: &Scenario, range: &Range) -> String {
     let header =
         ["group", "least determinant", "transmission deg", "at crank deg", "largest condition", "at crank deg"];
     let mut table = table(header, &[1, 2, 3, 4, 5]);
-    for (index, group) in range.groups.iter().enumerate() {
+    for (index, group) in range.groups.entries() {
         let At { crank, value } = group.determinant;
         let transmission =
             if is_dyad(scenario, index) { numbers::fixed(value.abs().asin().to_degrees(), 4) } else { "-".into() };
@@ -141,7 +142,7 @@ pub(super) fn json(scenario: &Scenario, range: &Range) -> Value {
             "transmission_angle_rad": transmission,
         })
     });
-    let groups = range.groups.iter().enumerate().map(|(index, group)| {
+    let groups = range.groups.entries().map(|(index, group)| {
         let transmission = is_dyad(scenario, index).then(|| group.determinant.value.abs().asin());
         let mut value = json!({
             "links": names(scenario, index), "least_determinant": at(&group.determinant, "determinant"),
@@ -164,10 +165,10 @@ pub(super) fn json(scenario: &Scenario, range: &Range) -> Value {
             "greatest": at(&link.angles[1], "angle_rad"), "turns": link.turns, "extremes": extremes.collect::<Vec<_>>(),
         })
     });
-    let of_samples = |f: fn(&Measure) -> f64, group: usize| -> Vec<f64> {
+    let of_samples = |f: fn(&Measure) -> f64, group: GroupId| -> Vec<f64> {
         range.samples.iter().map(|sample| f(&sample.groups[group])).collect()
     };
-    let sampled = (0..range.groups.len()).map(|group| {
+    let sampled = range.groups.ids().map(|group| {
         json!({
             "links": names(scenario, group), "determinant": of_samples(|m| m.determinant, group),
             "condition": of_samples(|m| m.condition, group),

@@ -7,6 +7,7 @@ use analytic::PoseSolver;
 use linkage::case::Case;
 use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::math::extremum;
+use linkage::mechanism::JointId;
 use linkage::solver::State;
 use linkage::trajectory::Stage;
 
@@ -58,8 +59,8 @@ pub fn over_range(case: &Case) -> Result<Peaks> {
     let parts = ((to - from) / SAMPLE_STEP).ceil().larger(1.0) as usize;
     let cranks: Vec<f64> = (0..=parts).map(|k| from + (to - from) * (k as f64 / parts as f64)).collect();
     let joints = case.mechanism.joints();
-    let mut quantities: Vec<Quantity> = (0..joints.len()).map(Quantity::Reaction).collect();
-    let sliding = joints.iter().enumerate().filter(|(_, joint)| joint.keeps_angle());
+    let mut quantities: Vec<Quantity> = joints.ids().map(Quantity::Reaction).collect();
+    let sliding = joints.entries().filter(|(_, joint)| joint.keeps_angle());
     quantities.extend(sliding.map(|(joint, _)| Quantity::Moment(joint)));
     quantities.extend([Quantity::ShakingForce, Quantity::BalancingMoment]);
     let mut samples = vec![Vec::with_capacity(cranks.len()); quantities.len()];
@@ -76,8 +77,8 @@ pub fn over_range(case: &Case) -> Result<Peaks> {
     let of = |wanted: Quantity| quantities.iter().position(|&own| own == wanted).map(|index| peaks[index]);
     let known = |wanted: Quantity| of(wanted).expect("every mechanism has it");
     Ok(Peaks {
-        reactions: (0..joints.len()).map(|joint| known(Quantity::Reaction(joint))).collect(),
-        moments: (0..joints.len()).map(|joint| of(Quantity::Moment(joint))).collect(),
+        reactions: joints.ids().map(|joint| known(Quantity::Reaction(joint))).collect(),
+        moments: joints.ids().map(|joint| of(Quantity::Moment(joint))).collect(),
         shaking_force: known(Quantity::ShakingForce),
         balancing_moment: known(Quantity::BalancingMoment),
     })
@@ -86,8 +87,8 @@ pub fn over_range(case: &Case) -> Result<Peaks> {
 /// A quantity whose peak is wanted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Quantity {
-    Reaction(usize),
-    Moment(usize),
+    Reaction(JointId),
+    Moment(JointId),
     ShakingForce,
     BalancingMoment,
 }

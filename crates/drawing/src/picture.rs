@@ -10,7 +10,7 @@ use super::paper::style::{BLACK, GREY, colour, significant};
 use super::sign::{arrow, turning};
 use super::sketch::{Label, Lettering, Sketch};
 use linkage::math::{KeepNan, Vec2};
-use linkage::mechanism::{LinkPose, Mechanism};
+use linkage::mechanism::{LinkId, LinkPose, Mechanism};
 
 /// Radius (mm) of the disc around a link's number, and of what a pin covers.
 const NUMBER: f64 = 2.3;
@@ -92,7 +92,7 @@ impl<'a> Picture<'a> {
 
     /// A point of a link on paper.
     #[must_use]
-    pub fn at(&self, link: usize, local: Vec2) -> Option<Vec2> {
+    pub fn at(&self, link: LinkId, local: Vec2) -> Option<Vec2> {
         self.places[link].pose().map(|pose| pose.point(local) / self.scale)
     }
 
@@ -100,7 +100,7 @@ impl<'a> Picture<'a> {
     pub fn draw_marks(&mut self) {
         let sketch = self.sketch;
         let marks = sketch.in_order();
-        let is_above = |(_, mark): &&(usize, &Mark)| mark.role.look().layer > Layer::Stretched;
+        let is_above = |(_, mark): &&(LinkId, &Mark)| mark.role.look().layer > Layer::Stretched;
         let below = marks.iter().take_while(|mark| !is_above(mark)).count();
         for (link, mark) in &marks[..below] {
             self.mark(*link, mark);
@@ -112,7 +112,7 @@ impl<'a> Picture<'a> {
                 let (points, closed) = mark.shape.outline();
                 let scaled = super::Stretched { width: own.width / self.scale, ..own.clone() };
                 let points: Vec<Vec2> = points.into_iter().map(|at| scaled.at(at, [first, second])).collect();
-                self.line(points, closed, mark.role, 0, false);
+                self.line(points, closed, mark.role, LinkId(0), false);
             }
         }
         for (link, mark) in &marks[below..] {
@@ -120,7 +120,7 @@ impl<'a> Picture<'a> {
         }
     }
 
-    fn mark(&mut self, link: usize, mark: &Mark) {
+    fn mark(&mut self, link: LinkId, mark: &Mark) {
         let is_loose = self.places[link].is_loose();
         if let Shape::Circle { centre, radius } = mark.shape {
             let (Some(at), radius) = (self.at(link, centre), radius / self.scale) else { return };
@@ -136,7 +136,7 @@ impl<'a> Picture<'a> {
         }
     }
 
-    fn line(&mut self, points: Vec<Vec2>, closed: bool, role: Role, link: usize, is_loose: bool) {
+    fn line(&mut self, points: Vec<Vec2>, closed: bool, role: Role, link: LinkId, is_loose: bool) {
         let (style, fill) = style(role.look(), link, is_loose);
         let is_obstacle = !matches!(role, Role::Weld | Role::MassQuarter | Role::LoadHead);
         if is_obstacle {
@@ -189,7 +189,7 @@ impl<'a> Picture<'a> {
     }
 
     /// Writes the number of a link on it, at this place of its frame (m): there it stays while the link moves.
-    pub fn number_on(&mut self, link: usize, local: Vec2) {
+    pub fn number_on(&mut self, link: LinkId, local: Vec2) {
         if let Some(at) = self.at(link, local) {
             draw_number(&mut self.figure, at, link.to_string(), colour(link));
         }
@@ -240,12 +240,12 @@ impl<'a> Picture<'a> {
     fn sign(&mut self, marks: Vec<Mark>, at: Vec2) {
         for mark in marks {
             let (points, closed) = mark.shape.outline();
-            self.line(points.into_iter().map(|own| own + at).collect(), closed, mark.role, 0, false);
+            self.line(points.into_iter().map(|own| own + at).collect(), closed, mark.role, LinkId(0), false);
         }
     }
 
     /// The path of a point in the world (m), beneath what is drawn later.
-    pub fn draw_trace(&mut self, path: &[Vec2], link: usize) {
+    pub fn draw_trace(&mut self, path: &[Vec2], link: LinkId) {
         let points: Vec<Vec2> = path.iter().map(|at| at / self.scale).collect();
         if points.len() > 1 {
             self.figure.shape(points, false, None, Style { colour: colour(link), width: 0.35, dash: "1 0.8" });
@@ -254,7 +254,7 @@ impl<'a> Picture<'a> {
 
     /// The lengths of all links between their places, in mm.
     pub fn draw_lengths(&mut self, mechanism: &Mechanism) {
-        for link in 1..mechanism.links().len() {
+        for link in mechanism.links().ids().skip(1) {
             let places = super::body::corners(mechanism, link);
             let sides = if places.len() > 2 { places.len() } else { places.len().saturating_sub(1) };
             for (a, b) in (0..sides).map(|k| (places[k], places[(k + 1) % places.len()])) {
@@ -333,7 +333,7 @@ fn short(value: f64) -> String {
 }
 
 /// Line and fill of a look.
-fn style(look: Look, link: usize, is_loose: bool) -> (Style, Option<(&'static str, f64)>) {
+fn style(look: Look, link: LinkId, is_loose: bool) -> (Style, Option<(&'static str, f64)>) {
     let paint = match look.ink {
         Ink::Link => colour(link),
         Ink::Text => BLACK,

@@ -3,7 +3,7 @@
 use super::tree::Tree;
 use linkage::case::Case;
 use linkage::math::KeepNan;
-use linkage::mechanism::{GROUND, Joint};
+use linkage::mechanism::{GROUND, Joint, LinkId};
 
 /// Mass added to a link without any, as a share of the mean mass.
 /// What is light is taken away quickly: the error of a first guess decays with this share from step to step.
@@ -17,7 +17,7 @@ const OFF_JOINTS: f64 = 1e-2;
 
 /// Mass (kg) and moment of inertia (kg m^2) that a link of a free motion gets in addition; 0 where it needs none.
 /// What it needs depends on whether it is in the tree of the world.
-pub(super) fn to_link(case: &Case, link: usize, tree: &Tree) -> [f64; 2] {
+pub(super) fn to_link(case: &Case, link: LinkId, tree: &Tree) -> [f64; 2] {
     if link == GROUND {
         return [0.0; 2];
     }

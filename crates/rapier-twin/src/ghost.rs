@@ -11,6 +11,7 @@ use super::tree::Tree;
 use super::world::{masses, masses_with_flywheels};
 use linkage::case::Case;
 use linkage::error::Result;
+use linkage::mechanism::LinkId;
 use linkage::solver::State;
 
 /// Stand-ins for missing masses, flywheels that are accelerated, and loads that the engine was not given.
@@ -33,7 +34,7 @@ impl Ghost {
         if case.is_free() {
             // Loads in the world already take away the effect of added masses.
             for (link, extra) in extra.iter_mut().enumerate() {
-                let [mass, inertia] = bare::to_link(case, link, &tree);
+                let [mass, inertia] = bare::to_link(case, LinkId(link), &tree);
                 extra[0] -= mass;
                 extra[1] -= inertia;
             }

@@ -8,7 +8,7 @@ use linkage::case::Case;
 use linkage::drive::Wrench;
 use linkage::engine::bodies::stand_in;
 use linkage::math::{KeepNan, Vec2, cross, rotated};
-use linkage::mechanism::{GROUND, Joint, Link, LinkPose, Side};
+use linkage::mechanism::{GROUND, Joint, JointId, Link, LinkId, LinkPose, Side};
 
 /// What is known of a link's angle (rad, counter-clockwise positive).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -140,7 +140,7 @@ pub trait World {
     fn set_motor(&mut self, drive: usize, target: f64, damping: f64);
 
     /// Sets the loads on a link. They stay until they are set again.
-    fn set_load(&mut self, link: usize, load: Wrench);
+    fn set_load(&mut self, link: LinkId, load: Wrench);
 
     /// Moves all links into the given poses; velocities stay as they are.
     fn place(&mut self, poses: &[LinkPose]);
@@ -149,7 +149,7 @@ pub trait World {
     fn frames(&self) -> &[LinkFrame];
 
     /// Angle of a link's frame (rad), turns counted.
-    fn angle(&self, link: usize) -> f64 {
+    fn angle(&self, link: LinkId) -> f64 {
         self.frames()[link].angle()
     }
 
@@ -166,13 +166,13 @@ pub trait World {
 
     /// Velocity of the mass centre (m/s) and angular velocity (rad/s) of a link outside the tree.
     /// They too are one step late. `None` for links of the tree.
-    fn velocity(&self, link: usize) -> Option<(Vec2, f64)>;
+    fn velocity(&self, link: LinkId) -> Option<(Vec2, f64)>;
 
     /// Reaction in a joint that the tree cuts, from the impulses of the last step.
     /// It is the force of the first link on the second (N) and the moment about the point on the second (N m).
     /// `None` for joints of the tree, which report none.
     /// The world must have been built for reading reactions.
-    fn reaction(&self, joint: usize) -> Option<(Vec2, f64)>;
+    fn reaction(&self, joint: JointId) -> Option<(Vec2, f64)>;
 
     /// Driving moment on the drive's link (N m), from the motor's impulse in the last step.
     fn torque(&self, drive: usize) -> f64;
@@ -215,11 +215,11 @@ pub(super) fn masses(case: &Case, tree: &Tree) -> Vec<[f64; 2]> {
 
 /// The same with nothing added to links that have both.
 fn bare_masses(case: &Case, tree: &Tree) -> Vec<[f64; 2]> {
-    let of = |(index, link): (usize, &Link)| {
+    let of = |(index, link): (LinkId, &Link)| {
         let [mass, inertia] = if case.is_free() { bare::to_link(case, index, tree) } else { stand_in(case, index) };
         [link.mass + mass, link.inertia + inertia]
     };
-    let mut masses: Vec<[f64; 2]> = case.mechanism.links().iter().enumerate().map(of).collect();
+    let mut masses: Vec<[f64; 2]> = case.mechanism.links().entries().map(of).collect();
     masses[GROUND] = [0.0; 2];
     masses[case.crank().link][1] += case.crank().moving_inertia();
     masses

@@ -2,7 +2,7 @@
 
 use super::shapes::Paint;
 use linkage::math::Vec2;
-use linkage::mechanism::{GROUND, LinkPose, Mechanism};
+use linkage::mechanism::{GROUND, LinkId, LinkPose, Mechanism};
 use linkage::trajectory::{Channel, Trajectory};
 
 /// A side with the positions of its links.
@@ -28,11 +28,11 @@ impl Placed<'_> {
     }
 
     /// Pose of a link's frame, from the mass centre in the trajectory.
-    pub fn pose(&self, mechanism: &Mechanism, link: usize, row: usize) -> LinkPose {
+    pub fn pose(&self, mechanism: &Mechanism, link: LinkId, row: usize) -> LinkPose {
         if link == GROUND {
             return LinkPose::GROUND;
         }
-        let [angle, x, y] = self.links[link - 1].map(|column| column[row]);
+        let [angle, x, y] = self.links[link.index() - 1].map(|column| column[row]);
         LinkPose::through(mechanism.links()[link].mass_centre, Vec2::new(x, y), angle)
     }
 }

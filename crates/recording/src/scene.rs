@@ -8,7 +8,7 @@ use crate::viewers::{FrameTransform, FrameTransforms, SceneEntity, SceneUpdate};
 use drawing::{Lettering, Sketch, Travels};
 use linkage::math::statistics::ascending;
 use linkage::math::{KeepNan, Vec2};
-use linkage::mechanism::{GROUND, Link, Mechanism};
+use linkage::mechanism::{GROUND, Link, LinkId, Mechanism};
 
 /// Largest number of frames in a recording, unless it is so long that there would be fewer than [`FRAMES_PER_SECOND`].
 const FRAMES: f64 = 400.0;
@@ -86,7 +86,7 @@ impl<'a> Scene<'a> {
         let mut transforms = Vec::new();
         for side in &self.sides {
             let row = side.row_at(time);
-            for (index, link) in self.mechanism.links().iter().enumerate().skip(1) {
+            for (index, link) in self.mechanism.links().entries().skip(1) {
                 let at = side.pose(self.mechanism, index, row);
                 transforms.push(FrameTransform {
                     timestamp: stamp(nanoseconds),
@@ -107,7 +107,7 @@ impl<'a> Scene<'a> {
         for (number, side) in self.sides.iter().enumerate() {
             let Paint { rgba, broad, layer } = side.paint;
             let brush = Brush { rgba, broad, z: self.layer() * (1.0 + layer), ..brush };
-            for (index, link) in self.mechanism.links().iter().enumerate().skip(1) {
+            for (index, link) in self.mechanism.links().entries().skip(1) {
                 let name = format!("{}/{}", side.name, link.name);
                 entities.push(self.entity(&name, &name, &brush, index, number == 0));
             }
@@ -116,7 +116,7 @@ impl<'a> Scene<'a> {
     }
 
     /// The marks of a link in its frame, and the names of its points if it is `lettered`.
-    fn entity(&self, frame: &str, id: &str, brush: &Brush, link: usize, lettered: bool) -> SceneEntity {
+    fn entity(&self, frame: &str, id: &str, brush: &Brush, link: LinkId, lettered: bool) -> SceneEntity {
         let mut entity = SceneEntity {
             timestamp: stamp(0),
             frame_id: frame.into(),

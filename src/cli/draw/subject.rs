@@ -13,7 +13,7 @@ use drawing::{Sketch, Travels, acting, unit};
 use linkage::drive::Drive;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::Vec2;
-use linkage::mechanism::{AssemblyMode, LinkPose, Mechanism, Structure};
+use linkage::mechanism::{AssemblyMode, GroupId, JointId, LinkId, LinkPose, Mechanism, Structure};
 use linkage::solver::{Solver, State};
 use scenario::{Asked, Draft, Scenario};
 
@@ -198,7 +198,8 @@ impl Drawn {
         let laid = match &draft.structure {
             Ok(structure) => lay(&draft.mechanism, structure, &angles, &draft.starts),
             Err(fault) => {
-                let drivers: Vec<(usize, usize)> = draft.drives.iter().map(|drive| (drive.link, drive.joint)).collect();
+                let drivers: Vec<(LinkId, JointId)> =
+                    draft.drives.iter().map(|drive| (drive.link, drive.joint)).collect();
                 lay_loose(&draft.mechanism, &drivers, &angles, fault.clone())
             }
         };
@@ -275,7 +276,7 @@ fn angles(drives: &[Drive], crank: f64) -> Vec<f64> {
 
 fn draft_of(scenario: &Scenario) -> Draft {
     let case = &scenario.case;
-    let standing = |(index, group): (usize, &linkage::mechanism::Group)| {
+    let standing = |(index, group): (GroupId, &linkage::mechanism::Group)| {
         let mode = case.modes[index];
         match mode {
             AssemblyMode::Followed => scenario.starts[index].clone(),
@@ -298,7 +299,7 @@ fn draft_of(scenario: &Scenario) -> Draft {
         loads: case.loads.clone(),
         gravity: case.gravity,
         crank: case.crank().start,
-        starts: case.structure.groups.iter().enumerate().map(standing).collect(),
+        starts: case.structure.groups.entries().map(standing).collect(),
         mistakes: None,
     }
 }
@@ -309,11 +310,11 @@ fn poses(state: &State) -> Vec<LinkPose> {
 }
 
 /// The points whose paths are asked for, each with its link, and an error for each that there is not.
-fn traced(mechanism: &Mechanism, wish: &Wish) -> (Vec<(usize, Vec2)>, Vec<Error>) {
+fn traced(mechanism: &Mechanism, wish: &Wish) -> (Vec<(LinkId, Vec2)>, Vec<Error>) {
     let points: Vec<_> = mechanism.moving_points().collect();
     let is_joint = |link, local| mechanism.joints().iter().any(|joint| joint.on(link) == Some(local));
     let free = points.iter().filter(|(_, side)| wish.all_traces && !is_joint(side.link, side.local));
-    let mut found: Vec<(usize, Vec2)> = free.map(|(_, side)| (side.link, side.local)).collect();
+    let mut found: Vec<(LinkId, Vec2)> = free.map(|(_, side)| (side.link, side.local)).collect();
     let mut unknown = Vec::new();
     for name in wish.traces {
         match points.iter().find(|(own, _)| own == name) {
@@ -331,7 +332,7 @@ fn traced(mechanism: &Mechanism, wish: &Wish) -> (Vec<(usize, Vec2)>, Vec<Error>
 
 /// The modes of a configuration: what the key `mode` takes, or the number where there are no names.
 fn heading(mechanism: &Mechanism, structure: &Structure, laid: &Laid, own: &Laid) -> Vec<String> {
-    let line = |&(index, mode, number): &(usize, AssemblyMode, usize)| {
+    let line = |&(index, mode, number): &(GroupId, AssemblyMode, usize)| {
         let names = structure.groups[index].names(mechanism).replace(", ", ",");
         match mode {
             AssemblyMode::Left | AssemblyMode::Right | AssemblyMode::Ahead | AssemblyMode::Behind => {

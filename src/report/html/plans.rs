@@ -86,7 +86,7 @@ fn layout(plan: &Plan) -> Value {
             Part::Sliding => "sliding",
             Part::Coriolis => "coriolis",
         };
-        json!([vector.name, part, place(&vector.from), place(&vector.to), vector.link, vector.meaning])
+        json!([vector.name, part, place(&vector.from), place(&vector.to), vector.link.index(), vector.meaning])
     });
     json!({ "tips": tips.collect::<Vec<_>>(), "vectors": vectors.collect::<Vec<_>>() })
 }

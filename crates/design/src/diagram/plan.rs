@@ -22,7 +22,7 @@ use super::sliding::{Slide, slides, travels};
 use super::vectors::{Plan, Quantity};
 use linkage::case::{Case, Grid, Wanted};
 use linkage::error::{Error, ErrorKind, Result};
-use linkage::mechanism::Mechanism;
+use linkage::mechanism::{LinkId, Mechanism};
 use linkage::solver::{Solver, State};
 use linkage::trajectory::Stage;
 
@@ -38,7 +38,7 @@ pub struct Plans {
     /// The acceleration plan.
     pub acceleration: Plan,
     /// Names of points, each with its letter and the links that have it.
-    points: Vec<(String, String, Vec<usize>)>,
+    points: Vec<(String, String, Vec<LinkId>)>,
 }
 
 impl Plans {
@@ -49,7 +49,7 @@ impl Plans {
         let planner = Planner::of(&case.mechanism);
         let travels = travels(case, solver, state, &planner.slides);
         let scheme = Scheme::of(case, state, &planner.places, &planner.slides, &travels);
-        let links = case.mechanism.links().iter().enumerate();
+        let links = case.mechanism.links().entries();
         let carriers = |name: &str| {
             let carry = links.clone().filter(|(_, link)| link.points.iter().any(|point| point.name == name));
             carry.map(|(number, _)| number).collect()
@@ -70,7 +70,7 @@ impl Plans {
         let mut letters: Vec<String> = Vec::new();
         for name in names {
             let link = self.scheme.links.iter().find(|link| link.name == *name).map(|link| link.number);
-            let has = |(own, _, links): &&(String, String, Vec<usize>)| {
+            let has = |(own, _, links): &&(String, String, Vec<LinkId>)| {
                 own == name || link.is_some_and(|link| links.contains(&link))
             };
             let before = letters.len();

@@ -8,7 +8,7 @@ use drawing::picture::Place::Here;
 use drawing::{Acting, Sketch, Travels, acting};
 use linkage::case::Case;
 use linkage::math::{KeepNan, Motion, Vec2};
-use linkage::mechanism::LinkPose;
+use linkage::mechanism::{LinkId, LinkPose};
 use linkage::solver::State;
 
 /// Largest width and height (mm) of the kinematic diagram on paper.
@@ -18,7 +18,7 @@ const ROOM: [f64; 2] = [150.0, 215.0];
 #[derive(Clone, Debug, PartialEq)]
 pub struct SchemeLink {
     /// Its number: its index in the mechanism, where the ground is 0.
-    pub number: usize,
+    pub number: LinkId,
     /// Its name.
     pub name: String,
     /// World positions of its points and joints (m).
@@ -37,9 +37,9 @@ pub struct SchemeLink {
 #[derive(Clone, Debug, PartialEq)]
 pub struct SchemeGuide {
     /// Number of the link that the guide belongs to: 0 for a fixed guide.
-    pub link: usize,
+    pub link: LinkId,
     /// Number of the block's link.
-    pub block: usize,
+    pub block: LinkId,
     /// Unit vector along the guide, in the world.
     pub axis: Vec2,
     /// World position of the joint's point on the guide (m).
@@ -66,7 +66,7 @@ pub struct Scheme {
     /// Guides, fixed and moving.
     pub guides: Vec<SchemeGuide>,
     /// Number of the driving link.
-    pub driver: usize,
+    pub driver: LinkId,
     /// Singular points of class IV groups that have one.
     pub singular: Vec<SingularPoint>,
     /// What the mechanism looks like; its unit is a millimetre on paper.
@@ -85,7 +85,7 @@ impl Scheme {
             .iter()
             .map(|place| (place.name.clone(), state.motions[place.side.link].point(place.side.local)))
             .collect();
-        let links = mechanism.links().iter().enumerate().skip(1).map(|(number, link)| {
+        let links = mechanism.links().entries().skip(1).map(|(number, link)| {
             let motion = &state.motions[number];
             let mut locals: Vec<Vec2> = link.points.iter().map(|point| point.local).collect();
             let joints = mechanism.joints().iter().filter_map(|joint| joint.on(number));

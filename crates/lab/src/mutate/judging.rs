@@ -8,7 +8,7 @@ use super::seen::Outcome;
 use super::stage::Stage;
 use linkage::case::Wanted;
 use linkage::math::Vec2;
-use linkage::mechanism::GROUND;
+use linkage::mechanism::{GROUND, JointId, LinkId};
 use linkage::solver::State;
 use linkage::trajectory::Stage as Of;
 use prover::compare::Verdict;
@@ -55,14 +55,16 @@ static IN_A_SIDE: [(&str, Kind, usize, &[&str]); 12] = [
     ),
     (
         "crank_rocker",
-        wrong("an angle at the first instant", 1e-9, |at, state, size| at_row(at, 0, || state.angles[2] += size)),
+        wrong("an angle at the first instant", 1e-9, |at, state, size| {
+            at_row(at, 0, || state.angles[LinkId(2)] += size)
+        }),
         1,
         &[BETWEEN],
     ),
     (
         "crank_rocker",
         wrong("an angle at the last instant", 1e-9, |at, state, size| {
-            at_row(at, at.case.grid.len() - 1, || state.angles[2] += size)
+            at_row(at, at.case.grid.len() - 1, || state.angles[LinkId(2)] += size)
         }),
         1,
         &[BETWEEN],
@@ -70,7 +72,7 @@ static IN_A_SIDE: [(&str, Kind, usize, &[&str]); 12] = [
     (
         "crank_rocker",
         wrong("an angle", 1e-10, |_, state, size| {
-            state.angles[2] += size;
+            state.angles[LinkId(2)] += size;
             Some(())
         }),
         1,
@@ -79,7 +81,7 @@ static IN_A_SIDE: [(&str, Kind, usize, &[&str]); 12] = [
     (
         "crank_rocker",
         wrong("an angular velocity", 1e-8, |_, state, size| {
-            state.motions[3].omega += size;
+            state.motions[LinkId(3)].omega += size;
             Some(())
         }),
         // Those of the link, of its mass centre and of its points hang on it, and the power that it takes.
@@ -89,7 +91,7 @@ static IN_A_SIDE: [(&str, Kind, usize, &[&str]); 12] = [
     (
         "crank_rocker",
         wrong("an angular acceleration", 1e-6, |_, state, size| {
-            state.motions[3].alpha += size;
+            state.motions[LinkId(3)].alpha += size;
             Some(())
         }),
         0,
@@ -101,8 +103,8 @@ static IN_A_SIDE: [(&str, Kind, usize, &[&str]); 12] = [
             "a reaction, by the same amount in two joints of the frame: a couple without a force",
             1e-4,
             |_, state, size| {
-                state.forces[0].x += size;
-                state.forces[3].x -= size;
+                state.forces[JointId(0)].x += size;
+                state.forces[JointId(3)].x -= size;
                 Some(())
             },
         ),
@@ -112,7 +114,7 @@ static IN_A_SIDE: [(&str, Kind, usize, &[&str]); 12] = [
     (
         "crank_rocker",
         wrong("a reaction at the origin: a force without a couple", 1e-6, |_, state, size| {
-            state.forces[0] += Vec2::new(size, size);
+            state.forces[JointId(0)] += Vec2::new(size, size);
             Some(())
         }),
         0,
@@ -148,7 +150,7 @@ static IN_A_SIDE: [(&str, Kind, usize, &[&str]); 12] = [
     (
         "rotary_engine",
         wrong("the moment in a guide", 1e-6, |at, state, size| {
-            let guide = at.case.mechanism.joints().iter().position(|joint| joint.slides())?;
+            let guide = at.case.mechanism.joints().find(|joint| joint.slides())?;
             state.moments[guide] += size;
             Some(())
         }),
@@ -196,14 +198,16 @@ fn what_is_wrong_in_a_side_by_a_fixed_size_is_seen_by_every_check_that_must() {
 static IN_THE_ENGINE: [(&str, Kind, &[&str], &[&str]); 8] = [
     (
         "crank_rocker",
-        wrong("an angle at the first instant", 1e-4, |at, state, size| at_row(at, 0, || state.angles[2] += size)),
+        wrong("an angle at the first instant", 1e-4, |at, state, size| {
+            at_row(at, 0, || state.angles[LinkId(2)] += size)
+        }),
         &["link.coupler.angle_rad"],
         &[],
     ),
     (
         "crank_rocker",
         wrong("an angle at the last instant", 1e-4, |at, state, size| {
-            at_row(at, at.case.grid.len() - 1, || state.angles[2] += size)
+            at_row(at, at.case.grid.len() - 1, || state.angles[LinkId(2)] += size)
         }),
         &["link.coupler.angle_rad"],
         &[],
@@ -211,7 +215,7 @@ static IN_THE_ENGINE: [(&str, Kind, &[&str], &[&str]); 8] = [
     (
         "crank_rocker",
         wrong("an angular velocity", 1e-2, |_, state, size| {
-            state.motions[3].omega += size;
+            state.motions[LinkId(3)].omega += size;
             Some(())
         }),
         &["link.rocker.omega_rad_s"],
@@ -220,7 +224,7 @@ static IN_THE_ENGINE: [(&str, Kind, &[&str], &[&str]); 8] = [
     (
         "crank_rocker",
         wrong("an angular acceleration", 1.0, |_, state, size| {
-            state.motions[3].alpha += size;
+            state.motions[LinkId(3)].alpha += size;
             Some(())
         }),
         &["link.rocker.alpha_rad_s2"],
@@ -230,7 +234,7 @@ static IN_THE_ENGINE: [(&str, Kind, &[&str], &[&str]); 8] = [
     (
         "crank_rocker",
         wrong("a reaction", 1.0, |_, state, size| {
-            state.forces[2].y += size;
+            state.forces[JointId(2)].y += size;
             Some(())
         }),
         &["joint.B.fy_N"],
@@ -296,7 +300,7 @@ fn what_is_wrong_in_an_engine_by_a_fixed_size_decides_its_verdict() {
 #[test]
 fn a_wrong_speed_that_no_channel_has_is_seen_by_the_balance_of_powers() {
     static SPEED: Kind = wrong("an angular velocity, by a hundredth of itself", 1e-2, |_, state, size| {
-        state.motions[3].omega *= 1.0 + size;
+        state.motions[LinkId(3)].omega *= 1.0 + size;
         Some(())
     });
     let whole = scenario("crank_rocker");
@@ -319,7 +323,7 @@ fn a_wrong_speed_that_no_channel_has_is_seen_by_the_balance_of_powers() {
 #[test]
 fn an_open_loop_that_no_channel_shows_decides_the_engine_s_verdict() {
     static OPEN: Kind = wrong("a loop is open by a tenth of a millimetre", 1e-4, |_, state, size| {
-        state.motions[3].origin.x += size;
+        state.motions[LinkId(3)].origin.x += size;
         Some(())
     });
     let whole = scenario("crank_rocker");

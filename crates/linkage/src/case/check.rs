@@ -7,7 +7,7 @@ use super::parts::CaseParts;
 use crate::drive::{Course, Drive, DriveMotion, Load, MotionLaw, Motor, MotorLaw};
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::{KeepNan, unit};
-use crate::mechanism::{AssemblyMode, GROUND, GroupKind, LinkPose, Mechanism, Side, Structure};
+use crate::mechanism::{AssemblyMode, GROUND, GroupKind, LinkId, LinkPose, Mechanism, Side, Structure};
 
 /// Largest opening of a joint in a start pose, as a share of the farthest place in it.
 /// First poses of all shipped scenarios leave less than 1e-15 (`tests/suite/start.rs`).
@@ -105,7 +105,7 @@ const POINT: f64 = 1e-12;
 /// Whether a driving link carries others, but all of them by pins on its own axis.
 fn moves_nothing(mechanism: &Mechanism, drive: &Drive) -> bool {
     let own = mechanism.joints()[drive.joint].on(drive.link);
-    let others = || mechanism.joints().iter().enumerate().filter(|&(index, _)| index != drive.joint);
+    let others = || mechanism.joints().entries().filter(|&(index, _)| index != drive.joint);
     let mut carried = others().filter_map(|(_, joint)| Some((joint.is_pin(), joint.on(drive.link)?))).peekable();
     carried.peek().is_some()
         && carried
@@ -179,7 +179,7 @@ fn loads(parts: &CaseParts) -> Result<()> {
         let fault = |message: String| Err(wrong("loads", format!("load {index}, a {}: {message}", load.sort())));
         let (links, sound) = of_load(load);
         let count = parts.mechanism.links().len();
-        if let Some(link) = links.iter().find(|&&link| link >= count) {
+        if let Some(link) = links.iter().find(|link| link.index() >= count) {
             return fault(format!("it acts on link {link}, but there are {count} links"));
         }
         if !sound {
@@ -190,7 +190,7 @@ fn loads(parts: &CaseParts) -> Result<()> {
 }
 
 /// The links that a load acts on, and whether its numbers are valid.
-fn of_load(load: &Load) -> (Vec<usize>, bool) {
+fn of_load(load: &Load) -> (Vec<LinkId>, bool) {
     let finite = |side: &Side| side.local.iter().all(|value| value.is_finite());
     let course = |course: &Course| match course {
         Course::Constant(value) => value.is_finite(),

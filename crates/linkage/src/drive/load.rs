@@ -8,7 +8,7 @@ pub use sort::LoadSort;
 
 use super::course::Course;
 use crate::math::{Motion, Vec2, angle, cross};
-use crate::mechanism::{LinkPose, Side};
+use crate::mechanism::{LinkId, LinkPose, Side};
 
 /// The sense of rotation of the link for which a moment acts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,14 +27,14 @@ pub enum Load {
     /// Moment of constant size against the link's rotation. Zero while the link stands still.
     Resistance {
         /// The loaded link.
-        link: usize,
+        link: LinkId,
         /// Size of the moment (N m), not negative.
         moment: f64,
     },
     /// Moment that does not depend on the speed. It may act for one sense of the link's rotation only.
     Moment {
         /// The loaded link.
-        link: usize,
+        link: LinkId,
         /// The moment (N m), counter-clockwise positive.
         moment: Course,
         /// When it acts.
@@ -80,7 +80,7 @@ pub enum Load {
     /// At t = 0 it is in (-pi, pi]; from there on it keeps its turns.
     TorsionSpring {
         /// The links.
-        links: [usize; 2],
+        links: [LinkId; 2],
         /// Stiffness (N m/rad).
         stiffness: f64,
         /// Twist without moment (rad).
@@ -90,7 +90,7 @@ pub enum Load {
     /// second.
     TorsionDamper {
         /// The links.
-        links: [usize; 2],
+        links: [LinkId; 2],
         /// Damping (N m s/rad).
         damping: f64,
     },
@@ -103,7 +103,7 @@ pub enum Senses {
     /// The load does not depend on a sense of motion.
     Nothing,
     /// On the sense of rotation of a link.
-    Link(usize),
+    Link(LinkId),
     /// On the sense of motion of a point.
     Point(Side),
 }
@@ -118,7 +118,7 @@ pub struct Nature<'a> {
     /// Whether it depends on the size of speeds, not only on their senses.
     pub is_viscous: bool,
     /// The two links whose [`Setting::twist`] it depends on.
-    pub twist: Option<[usize; 2]>,
+    pub twist: Option<[LinkId; 2]>,
     /// Its quantities that may depend on the crank angle.
     pub courses: &'a [Course],
 }
@@ -139,7 +139,7 @@ pub struct Setting<'a> {
 impl Setting<'_> {
     /// Twist between two links (rad): see [`Load::TorsionSpring`].
     #[must_use]
-    pub fn twist(&self, [first, second]: [usize; 2]) -> f64 {
+    pub fn twist(&self, [first, second]: [LinkId; 2]) -> f64 {
         let begun = self.start[second].angle - self.start[first].angle;
         self.angles[second] - self.angles[first] - begun + angle::wrapped(begun)
     }
@@ -149,7 +149,7 @@ impl Setting<'_> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Action {
     /// The link.
-    pub link: usize,
+    pub link: LinkId,
     /// Force (N, world axes).
     pub force: Vec2,
     /// World place at which the force acts (m).
@@ -161,7 +161,7 @@ pub struct Action {
 impl Action {
     /// Only a moment (N m, counter-clockwise positive), no force.
     #[must_use]
-    pub fn of_moment(link: usize, moment: f64) -> Self {
+    pub fn of_moment(link: LinkId, moment: f64) -> Self {
         Action { link, force: Vec2::zeros(), place: Vec2::zeros(), moment }
     }
 
@@ -292,7 +292,7 @@ impl Load {
     /// The link on whose sense of rotation the load depends.
     #[inline]
     #[must_use]
-    pub fn sensed_link(&self) -> Option<usize> {
+    pub fn sensed_link(&self) -> Option<LinkId> {
         match self.nature().senses {
             Senses::Link(link) => Some(link),
             Senses::Nothing | Senses::Point(_) => None,
@@ -362,7 +362,7 @@ impl Load {
     /// It is the only load that some engines and formats have built in.
     #[inline]
     #[must_use]
-    pub fn resistance(&self) -> Option<(usize, f64)> {
+    pub fn resistance(&self) -> Option<(LinkId, f64)> {
         match *self {
             Load::Resistance { link, moment } => Some((link, moment)),
             Load::Moment { .. } | Load::Force { .. } | Load::ResistingForce { .. } => None,
@@ -419,7 +419,7 @@ fn pull_together(ends: [Side; 2], places: [Vec2; 2], pull: Vec2, put: &mut impl 
 }
 
 #[inline]
-fn twist_back(links: [usize; 2], moment: f64, put: &mut impl FnMut(Action)) {
+fn twist_back(links: [LinkId; 2], moment: f64, put: &mut impl FnMut(Action)) {
     put(Action::of_moment(links[0], moment));
     put(Action::of_moment(links[1], -moment));
 }

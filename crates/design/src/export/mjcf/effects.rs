@@ -4,13 +4,13 @@ use super::forces::{Forces, Target};
 use super::model::Model;
 use super::xml::{Xml, flat, number, numbers};
 use linkage::math::Vec2;
-use linkage::mechanism::{GROUND, Side};
+use linkage::mechanism::{GROUND, LinkId, Side};
 
 /// Site on the ground to which forces in world axes refer.
 const AXES: &str = "world.axes";
 
 /// Sites of a link at which loads act; on the ground also the one that tells the world's axes.
-pub(super) fn sites(xml: &mut Xml, forces: &Forces, link: usize) {
+pub(super) fn sites(xml: &mut Xml, forces: &Forces, link: LinkId) {
     for (name, place) in places(forces, link) {
         xml.leaf("site", &[("name", &name), ("pos", &flat(place))]);
     }
@@ -76,7 +76,7 @@ fn sum(target: &Target) -> Option<&[(usize, f64)]> {
 }
 
 /// Places at which loads act on a link, with the names of their sites.
-fn places(forces: &Forces, link: usize) -> Vec<(String, Vec2)> {
+fn places(forces: &Forces, link: LinkId) -> Vec<(String, Vec2)> {
     let ends = forces.tendons.iter().flat_map(|tendon| {
         let named = |(index, side): (usize, &Side)| (*side, end(&tendon.name, index));
         tendon.ends.iter().enumerate().map(named).collect::<Vec<_>>()

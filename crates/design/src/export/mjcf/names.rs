@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use linkage::error::{Error, ErrorKind, Result};
-use linkage::mechanism::{Joint, Mechanism};
+use linkage::mechanism::{Joint, LinkId, Mechanism};
 
 /// MuJoCo's own name for the ground.
 const WORLD: &str = "world";
@@ -13,7 +13,7 @@ pub(super) struct Names;
 
 impl Names {
     /// Site at the joint's point on `link`.
-    pub fn side(joint: &Joint, link: usize) -> String {
+    pub fn side(joint: &Joint, link: LinkId) -> String {
         format!("{}.{}", joint.name, if joint.first.link == link { "first" } else { "second" })
     }
 

@@ -2,7 +2,7 @@
 
 use super::model::Model;
 use linkage::math::{Vec2, rotated, unit};
-use linkage::mechanism::GROUND;
+use linkage::mechanism::{GROUND, LinkId};
 
 /// Thickness of the shapes as a share of the mechanism's size.
 const THICKNESS: f64 = 0.012;
@@ -19,7 +19,7 @@ pub(super) enum Shape {
 }
 
 /// Shapes of a link: rods between its joints, and a block or a guide where it slides.
-pub(super) fn of_link(model: &Model, link: usize) -> Vec<Shape> {
+pub(super) fn of_link(model: &Model, link: LinkId) -> Vec<Shape> {
     let mechanism = &model.case.mechanism;
     let thick = THICKNESS * model.size();
     let mut places: Vec<Vec2> = Vec::new();
@@ -51,7 +51,7 @@ pub(super) fn of_link(model: &Model, link: usize) -> Vec<Shape> {
 }
 
 /// Start position of a guide's block along the guide's axis (m).
-fn along(model: &Model, guide: usize, axis: Vec2, place: Vec2, block: usize, local: Vec2) -> f64 {
+fn along(model: &Model, guide: LinkId, axis: Vec2, place: Vec2, block: LinkId, local: Vec2) -> f64 {
     let [guide, block] = [guide, block].map(|link| model.case.start.0[link]);
     rotated(unit(guide.angle), axis).dot(&(block.point(local) - guide.point(place)))
 }

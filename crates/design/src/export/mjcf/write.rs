@@ -11,7 +11,7 @@ use super::names::Names;
 use super::shapes::{self, Shape};
 use super::xml::{Xml, about_z, flat, number, numbers};
 use linkage::math::{KeepNan, Vec2};
-use linkage::mechanism::GROUND;
+use linkage::mechanism::{GROUND, LinkId};
 
 /// Stiffness of every constraint: see the module documentation.
 const STIFF: &str = "1e-9 0.5";
@@ -100,7 +100,7 @@ fn world(xml: &mut Xml, model: &Model, forces: &Forces) {
     }
 }
 
-fn body(xml: &mut Xml, model: &Model, forces: &Forces, link: usize) {
+fn body(xml: &mut Xml, model: &Model, forces: &Forces, link: LinkId) {
     let index = model.branch_of(link).expect("every moving link is in the tree");
     let own = &model.bodies[index];
     let data = &model.case.mechanism.links()[link];
@@ -114,7 +114,7 @@ fn body(xml: &mut Xml, model: &Model, forces: &Forces, link: usize) {
         let inertial = [flat(data.mass_centre), number(mass), numbers([inertia; 3])];
         xml.leaf("inertial", &[("pos", &inertial[0]), ("mass", &inertial[1]), ("diaginertia", &inertial[2])]);
         joint(xml, model, index);
-        on_link(xml, (model, forces), link, COLOURS[(link - 1) % COLOURS.len()]);
+        on_link(xml, (model, forces), link, COLOURS[(link.index() - 1) % COLOURS.len()]);
         for child in model.children(link) {
             body(xml, model, forces, child);
         }
@@ -154,7 +154,7 @@ fn joint(xml: &mut Xml, model: &Model, index: usize) {
 }
 
 /// Shapes and sites of a link.
-fn on_link(xml: &mut Xml, (model, forces): (&Model, &Forces), link: usize, colour: &str) {
+fn on_link(xml: &mut Xml, (model, forces): (&Model, &Forces), link: LinkId, colour: &str) {
     for shape in shapes::of_link(model, link) {
         match shape {
             Shape::Ball(at, radius) => {
@@ -178,8 +178,7 @@ fn on_link(xml: &mut Xml, (model, forces): (&Model, &Forces), link: usize, colou
             }
         }
     }
-    for (index, joint) in model.case.mechanism.joints().iter().enumerate().filter(|(_, joint)| joint.on(link).is_some())
-    {
+    for (index, joint) in model.case.mechanism.joints().entries().filter(|(_, joint)| joint.on(link).is_some()) {
         xml.leaf("site", &[("name", &Names::side(joint, link)), ("pos", &flat(model.place(index, link)))]);
     }
     for (name, side) in model.case.mechanism.moving_points().filter(|(_, side)| side.link == link) {
