@@ -8,6 +8,7 @@ use std::time::Instant;
 
 use linkage::case::{Case, Grid, Wanted};
 use linkage::engine::{Engine, Settings};
+use linkage::mechanism::LinkId;
 use linkage::solver::Solver;
 use rapier_twin::tree::Tree;
 use rapier_twin::{Build, Precision, Rapier};
@@ -39,7 +40,7 @@ fn bare(engine: &Rapier, build: Build, case: &Case, steps: usize) {
     for _ in 0..steps {
         world.bare_step();
     }
-    black_box(world.angle(1));
+    black_box(world.angle(LinkId(1)));
 }
 
 fn main() {

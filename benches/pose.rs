@@ -12,6 +12,7 @@ use std::time::Instant;
 use analytic::PoseSolver;
 use analytic::assur::batch::{Batch, Poses};
 use four_bar::FourBar;
+use linkage::mechanism::LinkId;
 use linkage::trajectory::Stage;
 use scenario::Scenario;
 
@@ -41,7 +42,7 @@ fn angle(k: usize) -> f64 {
 
 fn by_hand(scenario: &Scenario) -> FourBar {
     let case = &scenario.case;
-    let [crank, coupler, rocker] = [1, 2, 3].map(|k| &case.mechanism.links()[k]);
+    let [crank, coupler, rocker] = [1, 2, 3].map(|k| &case.mechanism.links()[LinkId(k)]);
     let length = |link: &linkage::mechanism::Link| link.points[1].local.x;
     FourBar {
         crank: length(crank),

@@ -67,10 +67,12 @@ impl Solver for Freudenstein {
                 -omega * r1 * (theta - rocker).sin() / (r2 * between),
                 omega * r1 * (theta - coupler).sin() / (r3 * -between),
             ];
-            for (link, (angle, rate)) in [theta, coupler, rocker].into_iter().zip(rates).enumerate() {
+            for (link, (angle, rate)) in
+                case.mechanism.links().ids().skip(1).zip([theta, coupler, rocker].into_iter().zip(rates))
+            {
                 let angle = angle + self.base;
-                state.angles[link + 1] = angle;
-                state.motions[link + 1] = Motion { direction: unit(angle), omega: rate, ..Motion::REST };
+                state.angles[link] = angle;
+                state.motions[link] = Motion { direction: unit(angle), omega: rate, ..Motion::REST };
             }
             visit(row, &state)?;
             progress((row + 1) as f64 / case.grid.len() as f64);

@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use drawing::Travels;
 use linkage::case::{Case, Grid, Wanted};
 use linkage::math::KeepNan;
+use linkage::mechanism::LinkId;
 use linkage::solver::{Solver, State};
 use linkage::trajectory::Stage;
 
@@ -43,7 +44,7 @@ pub(super) fn with_travels(case: &Case, states: Vec<State>) -> (Vec<State>, Trav
 }
 
 /// Whether a link turns fully in these states.
-fn turns(states: &[State], link: usize) -> bool {
+fn turns(states: &[State], link: LinkId) -> bool {
     let angles = || states.iter().map(|state| state.angles[link]);
     let [least, most] = [angles().fold(f64::INFINITY, f64::smaller), angles().fold(f64::NEG_INFINITY, f64::larger)];
     most - least >= TAU

@@ -11,7 +11,7 @@ use drawing::{Sketch, Travels, acting, unit};
 use linkage::drive::Drive;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::Vec2;
-use linkage::mechanism::{AssemblyMode, LinkPose, Mechanism, Structure};
+use linkage::mechanism::{AssemblyMode, GroupId, JointId, LinkId, LinkPose, Mechanism, Structure};
 use linkage::solver::State;
 use scenario::{Draft, Scenario};
 
@@ -150,7 +150,7 @@ impl Drawn {
                 (0..frames).filter_map(|k| states.get(row(k))).map(shot).collect()
             }
         };
-        let path = |link: usize, local: Vec2| states.iter().map(|state| state.motions[link].point(local)).collect();
+        let path = |link: LinkId, local: Vec2| states.iter().map(|state| state.motions[link].point(local)).collect();
         let traces = points.iter().map(|&(link, local)| (link, path(link, local))).collect();
         let mut drawn = Drawn { traces, ..Drawn::new(draft_of(&scenario), crank, shots) };
         let own = std::mem::replace(&mut drawn.travels, travels);
@@ -167,7 +167,8 @@ impl Drawn {
         let laid = match &draft.structure {
             Ok(structure) => lay(&draft.mechanism, structure, &angles, &draft.starts),
             Err(fault) => {
-                let drivers: Vec<(usize, usize)> = draft.drives.iter().map(|drive| (drive.link, drive.joint)).collect();
+                let drivers: Vec<(LinkId, JointId)> =
+                    draft.drives.iter().map(|drive| (drive.link, drive.joint)).collect();
                 lay_loose(&draft.mechanism, &drivers, &angles, fault.clone())
             }
         };
@@ -239,7 +240,7 @@ fn angles(drives: &[Drive], crank: f64) -> Vec<f64> {
 
 fn draft_of(scenario: &Scenario) -> Draft {
     let case = &scenario.case;
-    let standing = |(index, group): (usize, &linkage::mechanism::Group)| {
+    let standing = |(index, group): (GroupId, &linkage::mechanism::Group)| {
         let mode = case.modes[index];
         match mode {
             AssemblyMode::Followed => scenario.starts[index].clone(),
@@ -262,7 +263,7 @@ fn draft_of(scenario: &Scenario) -> Draft {
         loads: case.loads.clone(),
         gravity: case.gravity,
         crank: case.crank().start,
-        starts: case.structure.groups.iter().enumerate().map(standing).collect(),
+        starts: case.structure.groups.entries().map(standing).collect(),
         mistakes: None,
     }
 }
@@ -273,11 +274,11 @@ fn poses(state: &State) -> Vec<LinkPose> {
 }
 
 /// The points whose paths are asked for, each with its link, and an error for each that there is not.
-fn traced(mechanism: &Mechanism, wish: &Wish) -> (Vec<(usize, Vec2)>, Vec<Error>) {
+fn traced(mechanism: &Mechanism, wish: &Wish) -> (Vec<(LinkId, Vec2)>, Vec<Error>) {
     let points: Vec<_> = mechanism.moving_points().collect();
     let is_joint = |link, local| mechanism.joints().iter().any(|joint| joint.on(link) == Some(local));
     let free = points.iter().filter(|(_, side)| wish.all_traces && !is_joint(side.link, side.local));
-    let mut found: Vec<(usize, Vec2)> = free.map(|(_, side)| (side.link, side.local)).collect();
+    let mut found: Vec<(LinkId, Vec2)> = free.map(|(_, side)| (side.link, side.local)).collect();
     let mut unknown = Vec::new();
     for name in &wish.traces {
         match points.iter().find(|(own, _)| own == name) {

@@ -2,11 +2,11 @@
 
 use std::ops::RangeInclusive;
 
-use super::chart::{Chart, DASHED, Filling, decades, mark};
+use super::chart::{Chart, DASHED, Filling, colour, decades, mark};
 use crate::plain::cells::distinct;
 use drawing::paper::document::document;
 use drawing::paper::figure::{Figure, solid, words};
-use drawing::paper::style::{GREY, colour};
+use drawing::paper::style::GREY;
 use lab::bench::{Axis, Bench, CLEAR, Party, Point, front};
 use linkage::math::{KeepNan, Vec2};
 use linkage::trajectory::Stage;

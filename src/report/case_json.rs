@@ -7,7 +7,7 @@ use linkage::case::Case;
 use linkage::drive::load::{Acts, Part};
 use linkage::drive::{Course, Drive, DriveMotion, Load, MotionLaw, Motor, MotorLaw, On};
 use linkage::math::Vec2;
-use linkage::mechanism::Side;
+use linkage::mechanism::{LinkId, Side};
 use linkage::solver::State;
 
 /// Version of the form.
@@ -54,7 +54,7 @@ fn pair(vector: Vec2) -> Value {
     json!([vector.x, vector.y])
 }
 
-fn name(case: &Case, link: usize) -> &str {
+fn name(case: &Case, link: LinkId) -> &str {
     &case.mechanism.links()[link].name
 }
 

@@ -1,8 +1,9 @@
 //! A diagram with two logarithmic axes on paper, and the marks of the parties in it.
 
 use drawing::paper::figure::{Figure, Style, Tint, Type, solid, words};
-use drawing::paper::style::{GREY, colour};
+use drawing::paper::style::{self, GREY};
 use linkage::math::Vec2;
+use linkage::mechanism::LinkId;
 
 /// Room between a cell and the frame of its diagram (mm): on the left, on the right, above, below.
 const ROOM: [f64; 4] = [17.0, 5.0, 9.0, 12.0];
@@ -104,6 +105,11 @@ pub(super) fn decades([low, high]: [f64; 2], most: i32) -> Vec<f64> {
 /// A number of an axis.
 pub(super) fn label(value: f64) -> String {
     if (0.01..1e5).contains(&value) { format!("{value}") } else { format!("{value:e}") }
+}
+
+/// Colour of the party with this number: parties have those of links.
+pub(super) fn colour(party: usize) -> &'static str {
+    style::colour(LinkId(party))
 }
 
 /// The mark of a party, `size` (mm) from its middle to its edge: its colour and its shape by number, its filling.

@@ -7,7 +7,7 @@ use super::{modes, range};
 use analytic::modes::Modes;
 use analytic::range::Range;
 use linkage::mechanism::assembly::{Choice, transmission_sine};
-use linkage::mechanism::{GROUND, Joint, Mechanism};
+use linkage::mechanism::{GROUND, Joint, JointId, LinkId, Mechanism};
 use prover::numbers::{fixed_in, significant};
 use scenario::{Scenario, Undecided};
 
@@ -25,12 +25,12 @@ pub(crate) fn text(scenario: &Scenario) -> String {
     }
     say!(text, "mobility   W = 3*{links} - 2*{joints} = {}", structure.mobility);
     say!(text, "structure  {}\n\nlinks", structure.formula(mechanism));
-    for (index, (link, pose)) in mechanism.links().iter().zip(&case.start.0).enumerate() {
+    for ((id, link), pose) in mechanism.links().entries().zip(&case.start.0) {
         let points: Vec<&str> = link.points.iter().map(|point| point.name.as_str()).collect();
         let at = format!("at {}", fixed_in(pose.angle.to_degrees(), 3, "deg"));
         let [mass, inertia] = [link.mass, link.inertia].map(|value| significant(value, SHOWN));
         let body = match link.mass {
-            _ if index == GROUND => "fixed".to_string(),
+            _ if id == GROUND => "fixed".to_string(),
             0.0 => format!("massless, {at}"),
             _ => format!("m = {mass} kg, J = {inertia} kg m^2, {at}"),
         };
@@ -75,8 +75,8 @@ pub(crate) fn json(
 ) -> String {
     let mut value = structure(scenario);
     for open in undecided {
-        value["groups"][open.group]["mode"] = Value::Null;
-        value["groups"][open.group]["undecided"] = open.why.message().into();
+        value["groups"][open.group.index()]["mode"] = Value::Null;
+        value["groups"][open.group.index()]["undecided"] = open.why.message().into();
     }
     if let Some((crank, all)) = modes {
         value["modes"] = modes::json(scenario, crank, all, undecided);
@@ -91,8 +91,8 @@ pub(crate) fn json(
 fn structure(scenario: &Scenario) -> Value {
     let case = &scenario.case;
     let (mechanism, structure) = (&case.mechanism, &case.structure);
-    let link = |index: usize| Value::from(mechanism.links()[index].name.as_str());
-    let joint = |index: usize| Value::from(mechanism.joints()[index].name.as_str());
+    let link = |index: LinkId| Value::from(mechanism.links()[index].name.as_str());
+    let joint = |index: JointId| Value::from(mechanism.joints()[index].name.as_str());
     let links = list(mechanism.links().iter().zip(&case.start.0), |(link, pose)| {
         let points = list(&link.points, |own| json!({"name": own.name, "x_m": own.local.x, "y_m": own.local.y}));
         json!({

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use crate::plain::Tell;
 use linkage::case::{Case, Seat};
 use linkage::error::Result;
+use linkage::mechanism::LinkId;
 use linkage::trajectory::{CHANNELS, Channel};
 use scenario::Scenario;
 
@@ -56,7 +57,7 @@ pub(crate) fn channels_of(case: &Case) -> String {
 /// What a channel of a case means, in words.
 fn meaning(channel: &Channel, seat: Seat, case: &Case) -> String {
     let (mechanism, of, quantity) = (&case.mechanism, channel.of.as_str(), channel.kind.quantity);
-    let name = |link: usize| mechanism.links()[link].name.as_str();
+    let name = |link: LinkId| mechanism.links()[link].name.as_str();
     let what = match seat {
         Seat::Link(_) => format!("{quantity} of link {of}"),
         Seat::Point(_) => format!("{quantity}, {of}"),

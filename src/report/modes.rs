@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 
 use super::pretty::list;
 use analytic::modes::Modes;
-use linkage::mechanism::AssemblyMode;
+use linkage::mechanism::{AssemblyMode, GroupId};
 use prover::numbers::{fixed, fixed_in};
 use scenario::{Scenario, Undecided};
 
@@ -20,7 +20,7 @@ enum Open<'a> {
 }
 
 /// Whether and why the list of the group `index` is not that of the scenario.
-fn open<'a>(scenario: &Scenario, all: &[Modes], undecided: &'a [Undecided], index: usize) -> Option<Open<'a>> {
+fn open<'a>(scenario: &Scenario, all: &[Modes], undecided: &'a [Undecided], index: GroupId) -> Option<Open<'a>> {
     if let Some(own) = undecided.iter().find(|other| other.group == index) {
         return Some(Open::Undecided(own.why.message()));
     }
@@ -34,7 +34,7 @@ fn open<'a>(scenario: &Scenario, all: &[Modes], undecided: &'a [Undecided], inde
 pub(crate) fn text(scenario: &Scenario, crank: f64, all: &[Modes], undecided: &[Undecided]) -> String {
     let mechanism = &scenario.case.mechanism;
     let mut text = format!("{} at crank angle {}\n", scenario.name, fixed_in(crank.to_degrees(), 4, "deg"));
-    for (index, (group, found)) in scenario.case.structure.groups.iter().zip(all).enumerate() {
+    for ((index, group), found) in scenario.case.structure.groups.entries().zip(all) {
         let names = group.names(mechanism);
         let open = open(scenario, all, undecided, index);
         match &found.unknown {
@@ -70,8 +70,8 @@ pub(crate) fn text(scenario: &Scenario, crank: f64, all: &[Modes], undecided: &[
 /// The configurations as JSON.
 pub(super) fn json(scenario: &Scenario, crank: f64, all: &[Modes], undecided: &[Undecided]) -> Value {
     let mechanism = &scenario.case.mechanism;
-    let groups = scenario.case.structure.groups.iter().zip(all).enumerate();
-    let groups = list(groups, |(index, (group, found))| {
+    let groups = scenario.case.structure.groups.entries().zip(all);
+    let groups = list(groups, |((index, group), found)| {
         let open = open(scenario, all, undecided, index);
         let modes = list(&found.modes, |mode| {
             let links = list(group.links.iter().zip(&mode.poses).enumerate(), |(k, (&link, pose))| {

@@ -69,7 +69,7 @@ pub(crate) fn json(scenario: &Scenario, plans: &Plans, singular: &[Result<Singul
         let vectors = list(&plan.vectors, |vector| {
             json!({
                 "name": vector.name, "from": vector.from, "to": vector.to, "x": vector.value.x, "y": vector.value.y,
-                "size": vector.value.norm(), "paper_mm": plan.paper(vector), "link": vector.link, "meaning": vector.meaning,
+                "size": vector.value.norm(), "paper_mm": plan.paper(vector), "link": vector.link.index(), "meaning": vector.meaning,
             })
         });
         let points = list(&plan.tips, |tip| json!({"letter": tip.letter, "x": tip.at.x, "y": tip.at.y}));
@@ -81,7 +81,7 @@ pub(crate) fn json(scenario: &Scenario, plans: &Plans, singular: &[Result<Singul
     let scheme = &plans.scheme;
     let links = list(
         &scheme.links,
-        |link| json!({"number": link.number, "name": link.name, "omega_rad_s": link.omega, "alpha_rad_s2": link.alpha}),
+        |link| json!({"number": link.number.index(), "name": link.name, "omega_rad_s": link.omega, "alpha_rad_s2": link.alpha}),
     );
     let points = list(&scheme.points, |(name, at)| json!({"name": name, "x_m": at.x, "y_m": at.y}));
     let singular = list(singular, |found| match found {

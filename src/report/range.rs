@@ -7,6 +7,7 @@ use serde_json::{Value, json};
 use super::pretty::list;
 use crate::plain::cells::{table, trimmed};
 use analytic::range::{At, Extent, Extreme, LinkRange, Measure, Range, Singularity};
+use linkage::mechanism::GroupId;
 use prover::numbers;
 use scenario::Scenario;
 
@@ -56,12 +57,12 @@ fn in_turn(crank: f64, range: &Range) -> f64 {
     }
 }
 
-fn names(scenario: &Scenario, group: usize) -> String {
+fn names(scenario: &Scenario, group: GroupId) -> String {
     scenario.case.structure.groups[group].names(&scenario.case.mechanism)
 }
 
 /// Transmission angle (rad) at a determinant; `None` for a group that is no dyad.
-fn transmission(scenario: &Scenario, group: usize, determinant: f64) -> Option<f64> {
+fn transmission(scenario: &Scenario, group: GroupId, determinant: f64) -> Option<f64> {
     (scenario.case.structure.groups[group].links.len() == 2).then(|| determinant.abs().asin())
 }
 
@@ -77,7 +78,7 @@ fn singularities(scenario: &Scenario, range: &Range) -> String {
 }
 
 fn groups(scenario: &Scenario, range: &Range) -> String {
-    let rows = range.groups.iter().enumerate().map(|(index, group)| {
+    let rows = range.groups.entries().map(|(index, group)| {
         let At { crank, value } = group.determinant;
         let transmission = transmission(scenario, index, value);
         let transmission = transmission.map_or("-".into(), |angle| numbers::fixed(angle.to_degrees(), 4));
@@ -138,7 +139,7 @@ pub(super) fn json(scenario: &Scenario, range: &Range) -> Value {
             "transmission_angle_rad": transmission(scenario, own.group, own.determinant),
         })
     });
-    let groups = list(range.groups.iter().enumerate(), |(index, group)| {
+    let groups = list(range.groups.entries(), |(index, group)| {
         let mut value = json!({
             "links": names(scenario, index), "least_determinant": at(&group.determinant, "determinant"),
             "least_transmission_angle_rad": transmission(scenario, index, group.determinant.value),
@@ -158,7 +159,7 @@ pub(super) fn json(scenario: &Scenario, range: &Range) -> Value {
             "extremes": list(&link.extremes, extreme),
         })
     });
-    let sampled = list(0..range.groups.len(), |group| {
+    let sampled = list(range.groups.ids(), |group| {
         let of = |of: fn(&Measure) -> f64| list(&range.samples, |sample| json!(of(&sample.groups[group])));
         json!({
             "links": names(scenario, group), "determinant": of(|own| own.determinant),

@@ -3,6 +3,7 @@
 
 use std::path::Path;
 
+use linkage::mechanism::LinkId;
 use linkage::{Error, ErrorKind};
 use scenario::Scenario;
 
@@ -153,7 +154,7 @@ fn regress_twenty_thousand_parameters_and_points_are_read() {
     let points: String = (0..20_000).map(|index| format!("Q{index} = {{ x_mm = \"p{index}\", y_mm = 0 }}\n")).collect();
     let text = GOOD.replacen("[ground.points]\n", &format!("[parameters]\n{parameters}\n[ground.points]\n{points}"), 1);
     let scenario = parse(&text, TABLE).unwrap();
-    let ground = &scenario.case.mechanism.links()[0];
+    let ground = &scenario.case.mechanism.links()[LinkId(0)];
     let last = ground.points.iter().find(|point| point.name == "Q19999").unwrap();
     assert!((last.local.x - 20.0).abs() < 1e-12, "{last:?}");
     // Each of as many mistakes is compared with no more names than a reader could look at.

@@ -36,7 +36,7 @@ fn sorts(state: &State) -> [Vec<f64>; 9] {
         motions().flat_map(|motion| [motion.acceleration.x, motion.acceleration.y]).collect(),
         motions().map(|motion| motion.alpha).collect(),
         state.forces.iter().flat_map(|force| [force.x, force.y]).collect(),
-        state.moments.clone(),
+        state.moments.to_vec(),
         state.torques.clone(),
     ]
 }

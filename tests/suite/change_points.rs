@@ -5,7 +5,7 @@ use analytic::PoseSolver;
 use linkage::case::Case;
 use linkage::error::Result;
 use linkage::math::{KeepNan, Vec2, cross};
-use linkage::mechanism::AssemblyMode;
+use linkage::mechanism::{AssemblyMode, LinkId};
 use linkage::trajectory::Stage;
 use scenario::Scenario;
 
@@ -106,7 +106,7 @@ fn no_step_passes_over_the_change_point_of_a_dyad_on_a_dyad() {
         let mut poses = PoseSolver::new(&plain).unwrap();
         let mut distance = |gone: f64| {
             let state = poses.solve(start + gone, 1.0, 0.0, Stage::Positions).unwrap();
-            (state.motions[3].point(at) - pivot).norm()
+            (state.motions[LinkId(3)].point(at) - pivot).norm()
         };
         let places: Vec<f64> = (0..=6000).map(|k| way * f64::from(k) / 6000.0).collect();
         let distances: Vec<f64> = places.iter().map(|&gone| distance(gone)).collect();

@@ -8,7 +8,7 @@ use analytic::NewtonSolver;
 use design::clearance::{Clearance, course, find};
 use linkage::case::{Case, Grid};
 use linkage::math::{KeepNan, Vec2, cross};
-use linkage::mechanism::GROUND;
+use linkage::mechanism::{GROUND, LinkId};
 use linkage::solver::{Solver, State};
 use scenario::Scenario;
 use scenario::clearance::question::{are_joined, pairs};
@@ -87,7 +87,7 @@ fn asked(random: &mut Random, case: &Case) -> Question {
     let mechanism = &case.mechanism;
     let size = mechanism.size();
     let mut bodies = Vec::new();
-    for (link, own) in mechanism.links().iter().enumerate().skip(1) {
+    for (link, own) in mechanism.links().entries().skip(1) {
         let places: Vec<Vec2> = own.points.iter().map(|point| point.local).collect();
         let radius = size * random.number(0.005, 0.03);
         let outline = if random.index(3) == 0 {
@@ -223,7 +223,7 @@ fn planted_thin_crossings_are_found() {
         let [from, to] = [case.grid.inputs[0], case.grid.inputs[case.grid.len() - 1]];
         for _ in 0..4 {
             let crank = from + (to - from) * random.number(0.05, 0.95);
-            let link = 1 + random.index(case.mechanism.links().len() - 1);
+            let link = LinkId(1 + random.index(case.mechanism.links().len() - 1));
             let local = case.mechanism.links()[link].points[0].local + random.vector(0.1 * size, 0.2 * size);
             let motion = at(&case, &[crank])[0].motions[link];
             // As near to the path as is left when it is crossed for a hundred-thousandth of a degree only.
@@ -308,7 +308,9 @@ fn the_crankcase_is_clear() {
     let rod = found.swept[1].1;
     let positions: Vec<Vec<Vec2>> = at(case, &(0..360).map(|k| f64::from(k).to_radians()).collect::<Vec<_>>())
         .iter()
-        .map(|state| asked.bodies[1].outline.corners().iter().map(|&corner| state.motions[2].point(corner)).collect())
+        .map(|state| {
+            asked.bodies[1].outline.corners().iter().map(|&corner| state.motions[LinkId(2)].point(corner)).collect()
+        })
         .collect();
     let step = 2e-3;
     let mut count = 0;
@@ -354,10 +356,10 @@ fn a_run_does_not_depend_on_it() {
 fn links_on_one_pin_are_joined_without_a_common_joint() {
     let case = shipped("ov7_base.toml").case;
     let mechanism = &case.mechanism;
-    let has_joint = |a: usize, b: usize| mechanism.joints().iter().any(|j| j.on(a).is_some() && j.on(b).is_some());
+    let has_joint = |a: LinkId, b: LinkId| mechanism.joints().iter().any(|j| j.on(a).is_some() && j.on(b).is_some());
     let links = mechanism.links().len();
-    let pairs = (1..links).flat_map(|a| (a + 1..links).map(move |b| (a, b)));
-    let by_pin: Vec<(usize, usize)> =
+    let pairs = (1..links).flat_map(|a| (a + 1..links).map(move |b| (LinkId(a), LinkId(b))));
+    let by_pin: Vec<(LinkId, LinkId)> =
         pairs.filter(|&(a, b)| !has_joint(a, b) && are_joined(mechanism, [a, b])).collect();
     assert!(!by_pin.is_empty());
     // None of them is joined to all others.

@@ -10,7 +10,7 @@ use linkage::ErrorKind;
 use linkage::case::Case;
 use linkage::drive::Load;
 use linkage::math::{KeepNan, Vec2, cross, rotated, unit};
-use linkage::mechanism::{GROUND, JointKind, Mechanism, Side, Tree};
+use linkage::mechanism::{GROUND, JointKind, LinkId, Mechanism, Side, Tree};
 use linkage::solver::State;
 use model::{Document, Kind};
 use scenario::Scenario;
@@ -204,11 +204,11 @@ fn the_rotor_outweighs_the_mechanism() {
         let state = start(case);
         let model = Model::new(case, &state, &scenario.name, STEP).unwrap();
         // Inertia reduced to the crank: twice the kinetic energy over the square of its speed.
-        let energy = |link: usize| {
+        let energy = |link: LinkId| {
             let (body, motion) = (&case.mechanism.links()[link], &state.motions[link]);
             body.mass * motion.point_velocity(body.mass_centre).norm_squared() + body.inertia * motion.omega.powi(2)
         };
-        let total: f64 = (1..case.mechanism.links().len()).map(energy).sum();
+        let total: f64 = case.mechanism.links().ids().skip(1).map(energy).sum();
         let reduced = total / case.crank().at(0.0).rate.powi(2);
         assert!(model.rotor() >= 1e7 * reduced, "{}: {:e} and {reduced:e}", scenario.name, model.rotor());
     }
@@ -274,7 +274,7 @@ fn a_step_must_be_positive() {
 fn rods_lie_between_joints_and_nothing_touches() {
     let case = crate::common::shipped("ov7_base.toml").case;
     let document = Document::read(&exported(&case, "shapes"));
-    for (link, body) in case.mechanism.links().iter().enumerate().skip(1) {
+    for (link, body) in case.mechanism.links().entries().skip(1) {
         let places: Vec<Vec2> = case.mechanism.joints().iter().filter_map(|joint| joint.on(link)).collect();
         let rods = document.rods(&body.name);
         assert!(!rods.is_empty(), "{} is not drawn", body.name);

@@ -7,6 +7,7 @@ use analytic::{AssurSolver, NewtonSolver, witness::power};
 use approx::assert_abs_diff_eq;
 use linkage::case::{Case, Grid};
 use linkage::math::KeepNan;
+use linkage::mechanism::JointId;
 use linkage::solver::{Solver, State};
 use linkage::trajectory::{Channel, Stage, Trajectory};
 use prover::compare::{Verdict, difference, residuals, scales};
@@ -341,7 +342,7 @@ fn val_ov7_new_printed_r1_and_moment_come_from_half_a_reaction() {
             assert_abs_diff_eq!(r1.norm(), printed[row / 300], epsilon = 0.02);
         }
         largest_force = largest_force.larger(r1.norm());
-        let arm = motion.arm(mechanism.joints()[1].first.local);
+        let arm = motion.arm(mechanism.joints()[JointId(1)].first.local);
         let centre = motion.arm(body.mass_centre);
         let moment = -(arm.perp(&half) + centre.perp(&inertial));
         largest = largest.larger(moment.abs());

@@ -71,7 +71,7 @@ fn velocities_and_accelerations_are_derivatives() {
                 let around = Around::of(solver, sample, case.grid.times[k]);
                 let here = around.here();
                 let fastest = here.motions.iter().map(|m| m.omega.abs()).fold(speed, f64::larger);
-                for link in 1..case.mechanism.links().len() {
+                for link in case.mechanism.links().ids().skip(1) {
                     let motion = &here.motions[link];
                     let (velocity, acceleration) =
                         (centre_velocity(case, here, link), centre_acceleration(case, here, link));

@@ -1,6 +1,7 @@
 //! Largest reactions over a turn and the journals that carry them.
 
 use crate::common::assert_within;
+use linkage::mechanism::JointId;
 use std::path::Path;
 
 use analytic::NewtonSolver;
@@ -65,7 +66,7 @@ fn the_other_side_has_the_same_peaks() {
             let forces: Vec<f64> = crate::common::states(&NewtonSolver, &case, &times)
                 .unwrap()
                 .iter()
-                .map(|s| s.forces[joint].norm())
+                .map(|s| s.forces[JointId(joint)].norm())
                 .collect();
             assert_within!((forces[1] - peak.value).abs(), 1e-10 * peak.value, "{name}, joint {joint}");
             assert_within!(forces[0], peak.value * (1.0 + 1e-10), "{name}, {joint}");

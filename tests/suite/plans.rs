@@ -16,6 +16,7 @@ use design::diagram::plan::state_at;
 use design::diagram::{Part, Plan, Plans, SingularPoint, TipKind, Vector};
 use linkage::case::Case;
 use linkage::math::{KeepNan, Vec2, rotated, unit};
+use linkage::mechanism::GroupId;
 use linkage::solver::Solver;
 use scenario::Scenario;
 
@@ -230,7 +231,7 @@ fn both_solvers_draw_the_same_plans() {
 #[test]
 fn the_singular_point_gives_the_solvers_velocities_and_accelerations() {
     let case = scenario("fourth_class").case;
-    let group = &case.structure.groups[0];
+    let group = &case.structure.groups[GroupId(0)];
     for solver in [&AssurSolver as &dyn Solver, &NewtonSolver] {
         for degrees in 0..72 {
             let state =

@@ -5,6 +5,7 @@ use crate::common::{assert_within, centre, centre_acceleration, states};
 use analytic::{self, witness::power};
 use linkage::case::Case;
 use linkage::math::{KeepNan, Vec2, cross};
+use linkage::mechanism::JointId;
 use linkage::solver::{Solver, State};
 
 /// The states of a solver on the sample's grid, with their times and crank angles.
@@ -23,7 +24,7 @@ fn each(check: impl Fn(&Sample, &dyn Solver)) {
     }
 }
 
-fn joint_of(sample: &Sample) -> usize {
+fn joint_of(sample: &Sample) -> JointId {
     sample.case.mechanism.joint_named(sample.joint).unwrap()
 }
 
@@ -63,7 +64,7 @@ fn velocities_and_accelerations_are_derivatives() {
                 (8.0 * (d - b) - (e - a)) / (12.0 * h)
             };
             let here = &around[2];
-            for link in 1..case.mechanism.links().len() {
+            for link in case.mechanism.links().ids().skip(1) {
                 let motion = &here.motions[link];
                 let pairs = [
                     (slope(&|s| s.angles[link]), motion.omega),
@@ -89,7 +90,7 @@ fn every_link_is_in_equilibrium() {
         let case = &sample.case;
         for (time, _, state) in solved(solver, case) {
             let largest = state.forces.iter().fold(0.0, |max: f64, force| max.larger(force.norm()));
-            for (index, link) in case.mechanism.links().iter().enumerate().skip(1) {
+            for (index, link) in case.mechanism.links().entries().skip(1) {
                 let middle = centre(case, &state, index);
                 let mut force = (case.gravity - centre_acceleration(case, &state, index)) * link.mass;
                 let mut moment = -link.inertia * state.motions[index].alpha;
@@ -151,7 +152,7 @@ fn drive_and_frame_agree_with_power_and_momentum() {
             let error = (state.torques[0] - power::balancing_moment(case, state)).abs();
             assert_within!(error, 1e-11 * size, "{} at {time}: {error:e} of {size}", sample.name);
             let (mut force, mut moment, mut weight) = (Vec2::zeros(), 0.0, 0.0);
-            for (index, link) in case.mechanism.links().iter().enumerate().skip(1) {
+            for (index, link) in case.mechanism.links().entries().skip(1) {
                 let inertial = (case.gravity - centre_acceleration(case, state, index)) * link.mass;
                 force += inertial;
                 moment += cross(centre(case, state, index), inertial) - link.inertia * state.motions[index].alpha;
@@ -174,7 +175,7 @@ fn order_of_a_joints_links_does_not_matter() {
         let other = sliders::swapped(&sample.case);
         for ((time, _, one), (_, _, two)) in solved(solver, &sample.case).into_iter().zip(solved(solver, &other)) {
             let size = one.forces.iter().fold(0.0, |max: f64, force| max.larger(force.norm()));
-            for (index, joint) in sample.case.mechanism.joints().iter().enumerate() {
+            for (index, joint) in sample.case.mechanism.joints().entries() {
                 let [first, second] = [joint.first, joint.second].map(|side| one.motions[side.link].point(side.local));
                 let moment =
                     if joint.slides() { one.moments[index] + cross(second - first, one.forces[index]) } else { 0.0 };

@@ -15,7 +15,7 @@ use linkage::case::{Case, Grid};
 use linkage::error::Advice;
 use linkage::math::angle::wrapped;
 use linkage::mechanism::assembly::configurations;
-use linkage::mechanism::{LinkPose, Pose};
+use linkage::mechanism::{GroupId, LinkPose, Pose};
 use linkage::solver::Solver;
 use linkage::trajectory::Stage;
 
@@ -82,7 +82,7 @@ fn limits_of_random_four_bars_are_those_of_the_law_of_cosines() {
             (Some(found), Some(expected)) => {
                 limited += 1;
                 for (limit, expected) in found.iter().zip(expected) {
-                    assert_eq!((limit.kind, limit.group), (Kind::DeadPoint, 0), "{lengths:?}");
+                    assert_eq!((limit.kind, limit.group), (Kind::DeadPoint, GroupId(0)), "{lengths:?}");
                     worst = worst.larger((limit.crank - expected).abs());
                 }
             }
@@ -160,9 +160,9 @@ fn val_crank_rocker_extreme_positions() {
     assert_eq!([rocker.angles[0].value, rocker.angles[1].value], [first.angle, second.angle]);
     // Smallest transmission angle of a crank-rocker: where A is on the line of the pivots (Alt 1932).
     let base = 0.015f64.atan2(0.15);
-    assert_within!((range.groups[0].determinant.crank - base).abs(), 1e-8, "{:?}", range.groups[0]);
-    let mu = range.groups[0].determinant.value.asin();
-    assert_within!((range.groups[0].condition.unwrap().value - 1.0 / (mu / 2.0).tan()).abs(), 1e-9);
+    assert_within!((range.groups[GroupId(0)].determinant.crank - base).abs(), 1e-8, "{:?}", range.groups[GroupId(0)]);
+    let mu = range.groups[GroupId(0)].determinant.value.asin();
+    assert_within!((range.groups[GroupId(0)].condition.unwrap().value - 1.0 / (mu / 2.0).tan()).abs(), 1e-9);
 }
 
 /// Every limit and extreme position of random chains of dyads, by the closed forms of the solver. On one side of a
@@ -292,12 +292,13 @@ fn groups_of_four_links_lose_two_configurations_at_their_limits() {
                 continue;
             };
             let count = |crank: f64| {
-                let mut pose = Pose(vec![LinkPose::GROUND; case.mechanism.links().len()]);
+                let mut pose = Pose(vec![LinkPose::GROUND; case.mechanism.links().len()].into());
                 let joint = &case.mechanism.joints()[case.crank().joint];
                 let pivot = joint.other(case.crank().link).local;
                 let own = joint.on(case.crank().link).unwrap();
                 pose.0[case.crank().link] = LinkPose::through(own, pivot, case.crank().world_angle(crank));
-                configurations(&case.mechanism, &case.structure.groups[0], &pose).map_or(0, |all| all.len() as i32)
+                configurations(&case.mechanism, &case.structure.groups[GroupId(0)], &pose)
+                    .map_or(0, |all| all.len() as i32)
             };
             for (limit, outwards) in [(from, -1.0), (to, 1.0)] {
                 // Near a double zero the polynomial's own zeros have an error of the square root of rounding.

@@ -5,7 +5,7 @@ mod sliders;
 
 use linkage::ErrorKind;
 use linkage::math::{Motion, Vec2, cross, turned, unit};
-use linkage::mechanism::{Joint, JointKind, Link, Mechanism, Point, Side as On};
+use linkage::mechanism::{Joint, JointKind, Link, LinkId, Mechanism, Point, Side as On};
 use linkage::trajectory::{CHANNELS, Channel, Stage, Subject, Trajectory};
 use recording::{Level, LogEntry, Recording, Show, Side, load, write};
 use std::collections::BTreeMap;
@@ -30,15 +30,15 @@ fn four_bar() -> Mechanism {
         link("rocker", &[("C", 0.0, 0.0), ("B", 0.3, 0.0)], Vec2::new(0.15, 0.0)),
     ];
     let pins = [("O", 0, 1), ("A", 1, 2), ("B", 2, 3), ("C", 0, 3)];
-    let side = |name: &str, link: usize| {
+    let side = |name: &str, link: LinkId| {
         let local = links[link].points.iter().find(|point| point.name == name).unwrap().local;
         On { link, local }
     };
     let joints = pins.map(|(name, first, second)| Joint {
         name: name.into(),
         kind: JointKind::Revolute,
-        first: side(name, first),
-        second: side(name, second),
+        first: side(name, LinkId(first)),
+        second: side(name, LinkId(second)),
         drawn: None,
     });
     Mechanism::new(links, joints.to_vec()).unwrap()
@@ -78,7 +78,7 @@ fn motions(time: f64) -> [Motion; 3] {
 /// Reactions at O, A, B and C and the torque on the crank, from the balances of the links.
 fn reactions(mechanism: &Mechanism, motions: &[Motion; 3]) -> ([Vec2; 4], f64) {
     let inertia = |k: usize| {
-        let link = &mechanism.links()[k + 1];
+        let link = &mechanism.links()[LinkId(k + 1)];
         let force = motions[k].point_acceleration(link.mass_centre) * link.mass;
         let arm = motions[k].arm(link.mass_centre);
         (force, link.inertia * motions[k].alpha + cross(arm, force))
@@ -95,8 +95,8 @@ fn reactions(mechanism: &Mechanism, motions: &[Motion; 3]) -> ([Vec2; 4], f64) {
 
 fn value(mechanism: &Mechanism, channel: &Channel, time: f64) -> f64 {
     let motions = motions(time);
-    let on = |link: usize, local: Vec2| {
-        let motion = &motions[link - 1];
+    let on = |link: LinkId, local: Vec2| {
+        let motion = &motions[link.index() - 1];
         let d = motion.direction;
         let [p, v, a] = [motion.point(local), motion.point_velocity(local), motion.point_acceleration(local)];
         match channel.kind.suffix {

@@ -7,6 +7,7 @@ use crate::common::{assert_within, shipped, states};
 use analytic::{AssurSolver, NewtonSolver};
 use linkage::case::Case;
 use linkage::math::KeepNan;
+use linkage::mechanism::LinkId;
 use linkage::solver::Solver;
 use scenario::Scenario;
 
@@ -72,7 +73,7 @@ fn regress_a_weight_that_turns_the_motor_back_meets_its_losses() {
             let expected = sense * (4.0 * factor * torque - mass * gravity * arm) / (inertia + mass * arm * arm);
             for (solver, bound) in solvers(1e-5) {
                 let found = states(solver.as_ref(), &case, &[0.0]).unwrap_or_else(|error| panic!("{error}"));
-                let found = found[0].motions[1].alpha;
+                let found = found[0].motions[LinkId(1)].alpha;
                 let message = format!("{} {torque} {sense}: {found} {expected}", solver.name());
                 assert_within!((found / expected - 1.0).abs(), bound, "{message}");
             }

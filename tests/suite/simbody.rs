@@ -12,6 +12,7 @@ use linkage::ErrorKind;
 use linkage::case::{Case, Grid};
 use linkage::engine::Engine;
 use linkage::math::{KeepNan, Vec2};
+use linkage::mechanism::{GroupId, JointId, LinkId};
 use linkage::solver::Solver;
 use linkage::trajectory::{Channel, Stage, Trajectory, Unit};
 use prover::compare::{Verdict, residuals};
@@ -206,7 +207,7 @@ fn loads_of_all_sorts_agree() {
     let rod = case.mechanism.link_named("rod").unwrap();
     let more = [
         linkage::drive::Load::ResistingForce { at, force: 200.0 },
-        linkage::drive::Load::TorsionSpring { links: [0, rod], stiffness: 30.0, free_angle: 0.4 },
+        linkage::drive::Load::TorsionSpring { links: [LinkId(0), rod], stiffness: 30.0, free_angle: 0.4 },
         linkage::drive::Load::Resistance { link: rod, moment: 7.0 },
     ];
     let case = case.with(|parts| parts.loads.extend(more)).unwrap();
@@ -229,12 +230,12 @@ fn sliders_agree_however_their_joints_are_written() {
 fn crank_last(case: &Case) -> Case {
     use linkage::mechanism::{AssemblyMode, Mechanism, Structure};
     let joints: Vec<_> = case.mechanism.joints().iter().rev().cloned().collect();
-    let driven = joints.len() - 1 - case.crank().joint;
+    let driven = JointId(joints.len() - 1 - case.crank().joint.index());
     let mechanism = Mechanism::new(case.mechanism.links().to_vec(), joints).unwrap();
     let structure = Structure::of(&mechanism, &[driven]).unwrap();
     let drives = linkage::drive::Drive { joint: driven, ..case.crank().clone() }.into();
     // One group per sample: its links may have changed their order.
-    let turned = structure.groups[0].links != case.structure.groups[0].links;
+    let turned = structure.groups[GroupId(0)].links != case.structure.groups[GroupId(0)].links;
     let mode = |&mode: &AssemblyMode| match mode {
         AssemblyMode::Ahead if turned => AssemblyMode::Behind,
         AssemblyMode::Behind if turned => AssemblyMode::Ahead,

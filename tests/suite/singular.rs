@@ -9,6 +9,7 @@ use analytic::{AssurSolver, NewtonSolver};
 use linkage::case::{Case, Grid};
 use linkage::error::ErrorKind;
 use linkage::math::KeepNan;
+use linkage::mechanism::LinkId;
 use linkage::solver::Solver;
 use scenario::Scenario;
 
@@ -94,11 +95,11 @@ fn regress_a_prescribed_link_does_not_suffer_from_a_dead_point() {
     let limit = ((16.0f64 + 9.0 - 4.5 * 4.5) / (2.0 * 4.0 * 3.0)).acos();
     for off in [1e-3f64, 1e-9, 1e-11] {
         let case = at(lengths, true, 30.0, &[(limit - off.to_radians()).to_degrees()]);
-        let pin = case.mechanism.links()[1].points.iter().find(|point| point.local.norm() > 1.0).unwrap().local;
+        let pin = case.mechanism.links()[LinkId(1)].points.iter().find(|point| point.local.norm() > 1.0).unwrap().local;
         let mut found = None;
         NewtonSolver
             .each(&case, &mut |_, state| {
-                found = Some(state.motions[1]);
+                found = Some(state.motions[LinkId(1)]);
                 Ok(())
             })
             .unwrap();
@@ -141,7 +142,7 @@ fn regress_a_link_that_only_translates_has_no_sense_of_rotation() {
         let times = cranks.iter().map(|crank| case.crank().time_of(crank.to_radians())).collect();
         case.on(Grid::of_times(case.crank(), times)).unwrap()
     };
-    assert!(!loaded.case.can_turn(2) && loaded.case.can_turn(1) && loaded.case.can_turn(3));
+    assert!(!loaded.case.can_turn(LinkId(2)) && loaded.case.can_turn(LinkId(1)) && loaded.case.can_turn(LinkId(3)));
     let mut solvers: Vec<Box<dyn Solver>> = vec![Box::new(AssurSolver), Box::new(NewtonSolver)];
     for name in ["rapier", "impulse"] {
         solvers.push(prover::engines::named(name, 1e-3).unwrap());
@@ -158,8 +159,8 @@ fn regress_a_link_that_only_translates_has_no_sense_of_rotation() {
 #[test]
 fn what_turns_a_little_keeps_its_sense() {
     let case = at([0.4, 0.1, 0.4, 0.1 + 1e-9], true, 30.0, &[30.0]);
-    assert!(case.can_turn(2));
-    assert!(shipped("crank_rocker.toml").case.can_turn(2));
+    assert!(case.can_turn(LinkId(2)));
+    assert!(shipped("crank_rocker.toml").case.can_turn(LinkId(2)));
 }
 
 /// A crank whose pins lie on its own axis moves nothing.

@@ -9,6 +9,7 @@ use analytic::range::{Extent, Kind, Range, explained};
 use analytic::{self, AssurSolver};
 use linkage::ErrorKind;
 use linkage::case::{Case, Grid};
+use linkage::mechanism::GroupId;
 use scenario::Scenario;
 
 fn on_cranks(case: &Case, cranks: &[f64]) -> Case {
@@ -23,7 +24,7 @@ fn regress_a_slide_that_goes_to_infinity_ends_the_range() {
     let range = Range::of(&shipped("tangent.toml").case).unwrap();
     let Extent::Limited(limits) = range.extent else { panic!("{:?}", range.extent) };
     for (limit, expected) in limits.iter().zip([-FRAC_PI_2, FRAC_PI_2]) {
-        assert_eq!((limit.kind, limit.group), (Kind::ParallelAxes, 0));
+        assert_eq!((limit.kind, limit.group), (Kind::ParallelAxes, GroupId(0)));
         // Promised accuracy of limits.
         assert_within!((limit.crank - expected).abs(), 1e-9, "{:e}", limit.crank - expected);
     }

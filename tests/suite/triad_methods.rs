@@ -13,7 +13,7 @@ use analytic::{AssurSolver, NewtonSolver};
 use linkage::ErrorKind;
 use linkage::case::Case;
 use linkage::math::{KeepNan, Matrix, Vec2, cross, rotated, turned, unit};
-use linkage::mechanism::GROUND;
+use linkage::mechanism::{GROUND, LinkId};
 use linkage::solver::{Solver, State};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
@@ -74,7 +74,7 @@ fn differences(case: &Case, triad: &Triad, states: &[State], times: &[f64]) -> D
     let links = triad.links();
     let speed = case.crank().at(0.0).rate;
     let all =
-        |of: &dyn Fn(&State, usize) -> f64| largest(states.iter().flat_map(|s| links.map(|link| of(s, link).abs())));
+        |of: &dyn Fn(&State, LinkId) -> f64| largest(states.iter().flat_map(|s| links.map(|link| of(s, link).abs())));
     let omega = all(&|state, link| state.motions[link].omega).larger(speed.abs());
     let alpha = all(&|state, link| state.motions[link].alpha).larger(speed * speed);
     let mut change = ClassChange::new(case, triad);

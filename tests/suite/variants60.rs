@@ -16,7 +16,7 @@ use analytic::range::{Extent, Kind, Range};
 use analytic::{AssurSolver, NewtonSolver};
 use linkage::math::Vec2;
 use linkage::math::angle::wrapped;
-use linkage::mechanism::{LinkPose, Pose};
+use linkage::mechanism::{LinkId, LinkPose, Pose};
 use linkage::solver::Solver;
 use plan::Plan;
 use scenario::Scenario;
@@ -117,7 +117,7 @@ fn the_given_pose_is_a_pose_of_the_file() {
         pose.push(rocker);
         // Places in the file are rounded to 1e-12 m, so x and y together have an error of half of that times the square
         // root of two.
-        let closure = Pose(pose).closure(&case.mechanism);
+        let closure = Pose(pose.into()).closure(&case.mechanism);
         assert_within!(closure, 1e-12, "{}: {closure:e}", v.number);
         if plan.given < 1e-4 {
             singular += 1;
@@ -127,7 +127,7 @@ fn the_given_pose_is_a_pose_of_the_file() {
         for solver in [&AssurSolver as &dyn Solver, &NewtonSolver] {
             let state = &crate::common::states(solver, &case, &[time]).unwrap()[0];
             let at = |name: &str| {
-                let fixed = case.mechanism.links()[0].points.iter().find(|point| point.name == name);
+                let fixed = case.mechanism.links()[LinkId(0)].points.iter().find(|point| point.name == name);
                 fixed.map_or_else(
                     || {
                         let (_, side) = case.mechanism.moving_points().find(|&(point, _)| point == name).unwrap();

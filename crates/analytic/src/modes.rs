@@ -9,7 +9,7 @@ use linkage::case::Case;
 use linkage::error::{ErrorKind, Result};
 use linkage::math::unit;
 use linkage::mechanism::assembly::{Configuration, configurations};
-use linkage::mechanism::{AssemblyMode, LinkPose, Pose, Structure};
+use linkage::mechanism::{AssemblyMode, LinkId, LinkPose, Pose, Structure};
 use linkage::trajectory::Stage;
 
 /// One real configuration of a group.
@@ -66,10 +66,13 @@ pub fn all(case: &Case, crank: f64) -> Result<Vec<Modes>> {
     let state = poses.with_angles().clone();
     let followed: Vec<LinkPose> =
         state.motions.iter().zip(&state.angles).map(|(m, &angle)| LinkPose { origin: m.origin, angle }).collect();
-    let pose = Pose(followed);
+    let pose = Pose(followed.into());
     let mut groups = Vec::with_capacity(case.structure.groups.len());
-    for (index, group) in case.structure.groups.iter().enumerate() {
-        let part = Structure { groups: case.structure.groups[..=index].to_vec(), ..case.structure.clone() };
+    for (index, group) in case.structure.groups.entries() {
+        let part = Structure {
+            groups: case.structure.groups.iter().take(index.index() + 1).cloned().collect(),
+            ..case.structure.clone()
+        };
         let mut modes = Vec::new();
         let (found, unknown) = match configurations(mechanism, group, &pose) {
             Ok(found) => (found, None),
@@ -85,7 +88,7 @@ pub fn all(case: &Case, crank: f64) -> Result<Vec<Modes>> {
                 motions[link].origin = place.origin;
                 motions[link].direction = unit(place.angle);
             }
-            let mut chosen = case.modes[..=index].to_vec();
+            let mut chosen = case.modes[..=index.index()].to_vec();
             chosen[index] = one.mode;
             let mut plan = Plan::of(mechanism, &part, &chosen);
             // The configurations are exact already. Solving them again only prepares the velocities.
@@ -98,8 +101,9 @@ pub fn all(case: &Case, crank: f64) -> Result<Vec<Modes>> {
                 plan.velocities(&omegas, &mut motions);
                 group.links.iter().map(|&link| motions[link].omega).collect()
             });
-            let near =
-                |(&link, place): (&usize, &LinkPose)| (unit(place.angle) - state.motions[link].direction).norm() < 1e-9;
+            let near = |(&link, place): (&LinkId, &LinkPose)| {
+                (unit(place.angle) - state.motions[link].direction).norm() < 1e-9
+            };
             let is_followed = group.links.iter().zip(&one.links).all(near);
             modes.push(Mode { mode: one.mode, poses: one.links, omegas, is_followed });
         }

@@ -59,10 +59,10 @@ pub fn over_range(case: &Case) -> Result<Peaks> {
     let cranks: Vec<f64> = (0..=parts).map(|k| from + (to - from) * (k as f64 / parts as f64)).collect();
     let joints = case.mechanism.joints();
     let mut quantities: Vec<Quantity> = Vec::new();
-    for joint in 0..joints.len() {
+    for joint in joints.ids() {
         quantities.push(Box::new(move |state| state.forces[joint].norm()));
     }
-    for (joint, _) in joints.iter().enumerate().filter(|(_, joint)| joint.keeps_angle()) {
+    for (joint, _) in joints.entries().filter(|(_, joint)| joint.keeps_angle()) {
         quantities.push(Box::new(move |state| state.moments[joint].abs()));
     }
     quantities.push(Box::new(|state| state.shaking(case).0.norm()));

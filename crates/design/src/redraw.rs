@@ -5,7 +5,7 @@ use toml_edit::{DocumentMut, InlineTable, Item, TableLike, value};
 use crate::task::{Entry, Task};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::Vec2;
-use linkage::mechanism::{GROUND, Link};
+use linkage::mechanism::{GROUND, Link, LinkId};
 
 /// Decimals kept of millimetres and of degrees: the accuracy of a workshop.
 const DECIMALS: [f64; 2] = [1e3, 1e4];
@@ -71,7 +71,7 @@ pub fn redrawn(task: &Task, text: &str, values: &[f64], comment: &str) -> Result
         drive.insert("zero_deg", value(rounded(values[index].to_degrees(), DECIMALS[1])));
     }
     if let Some(bar) = task.bar {
-        for (index, body) in mechanism.links().iter().enumerate().filter(|(index, _)| *index != GROUND) {
+        for (index, body) in mechanism.links().entries().filter(|(index, _)| *index != GROUND) {
             weigh(link_table(&mut document, index, &body.name)?, body, bar);
         }
     }
@@ -95,7 +95,7 @@ fn foreign(name: &str) -> Error {
 }
 
 /// The table of a link; the ground has its own table.
-fn link_table<'a>(document: &'a mut DocumentMut, link: usize, name: &str) -> Result<&'a mut dyn TableLike> {
+fn link_table<'a>(document: &'a mut DocumentMut, link: LinkId, name: &str) -> Result<&'a mut dyn TableLike> {
     let item = match link {
         GROUND => document.get_mut("ground"),
         _ => document.get_mut("links").and_then(|links| links.get_mut(name)),

@@ -152,7 +152,7 @@ fn read_output(mut table: Table, mechanism: &Mechanism) -> Result<(Output, Optio
         }
         (None, Some(name)) => {
             let along = unit(table.quantity("along", &ANGLE, Sign::Any)?);
-            let moving = || mechanism.links().iter().enumerate().skip(1);
+            let moving = || mechanism.links().entries().skip(1);
             let found = moving()
                 .find_map(|(link, body)| Some((link, body.points.iter().position(|point| point.name == name)?)));
             let Some((link, point)) = found else {

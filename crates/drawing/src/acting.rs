@@ -77,7 +77,7 @@ pub struct Weight {
 /// The weights of all links that have one.
 #[must_use]
 pub fn weights(case: &Case) -> Vec<Weight> {
-    let links = case.mechanism.links().iter().enumerate().skip(1);
+    let links = case.mechanism.links().entries().skip(1);
     let all =
         links.map(|(link, own)| Weight { at: Side { link, local: own.mass_centre }, force: case.gravity * own.mass });
     all.filter(|own| own.force.norm() > 0.0).collect()

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use super::mark::{Mark, Role};
 use linkage::math::{KeepNan, Vec2, cross, turned, unit};
-use linkage::mechanism::{GROUND, Mechanism};
+use linkage::mechanism::{GROUND, LinkId, Mechanism};
 
 /// Radius of the half disc that says that a bar goes on, of a mass centre, and half the width of a traced point's cross.
 const WELD: f64 = 2.0;
@@ -14,7 +14,7 @@ const TRACER: f64 = 1.1;
 const QUARTER: usize = 6;
 
 /// Places of a link (m, its frame): its points, then its joints that have no named point.
-pub fn places(mechanism: &Mechanism, link: usize) -> Vec<Vec2> {
+pub fn places(mechanism: &Mechanism, link: LinkId) -> Vec<Vec2> {
     let points = mechanism.links()[link].points.iter().map(|point| point.local);
     let all = points.chain(mechanism.joints().iter().filter_map(|joint| joint.on(link)));
     // Both zeros are one place.
@@ -23,13 +23,13 @@ pub fn places(mechanism: &Mechanism, link: usize) -> Vec<Vec2> {
 }
 
 /// Corners of a link: its hull, or both ends of a bar.
-pub fn corners(mechanism: &Mechanism, link: usize) -> Vec<Vec2> {
+pub fn corners(mechanism: &Mechanism, link: LinkId) -> Vec<Vec2> {
     hull(places(mechanism, link))
 }
 
 /// A place of a link on which a sign hides no joint: the middle of a plate, or of the longest piece of a bar. `None` if
 /// that is shorter than `least` (m).
-pub fn free(mechanism: &Mechanism, link: usize, least: f64) -> Option<Vec2> {
+pub fn free(mechanism: &Mechanism, link: LinkId, least: f64) -> Option<Vec2> {
     let (mut places, corners) = (places(mechanism, link), corners(mechanism, link));
     if let [first, _] = corners[..] {
         places.sort_by(|a, b| (a - first).norm().total_cmp(&(b - first).norm()));
@@ -41,7 +41,7 @@ pub fn free(mechanism: &Mechanism, link: usize, least: f64) -> Option<Vec2> {
 }
 
 /// The bar or plate of a moving link, its mass centre and its traced points.
-pub fn marks(mechanism: &Mechanism, link: usize, unit: f64) -> Vec<Mark> {
+pub fn marks(mechanism: &Mechanism, link: LinkId, unit: f64) -> Vec<Mark> {
     let corners = corners(mechanism, link);
     let mut marks = Vec::new();
     match corners.len() {
@@ -73,7 +73,7 @@ pub fn marks(mechanism: &Mechanism, link: usize, unit: f64) -> Vec<Mark> {
 }
 
 /// Named points of a link that are no joints.
-pub fn traced(mechanism: &Mechanism, link: usize) -> Vec<Vec2> {
+pub fn traced(mechanism: &Mechanism, link: LinkId) -> Vec<Vec2> {
     let is_joint = |at: Vec2| mechanism.joints().iter().any(|joint| joint.on(link) == Some(at));
     let points = mechanism.links()[link].points.iter().map(|point| point.local);
     points.filter(|&at| !is_joint(at)).collect()
@@ -93,7 +93,7 @@ fn sector(centre: Vec2, radius: f64, from: Vec2, steps: usize) -> Vec<Vec2> {
 }
 
 /// Largest distance of two places of a link (m); of the ground more than of any other.
-pub fn size(mechanism: &Mechanism, link: usize) -> f64 {
+pub fn size(mechanism: &Mechanism, link: LinkId) -> f64 {
     if link == GROUND {
         return f64::INFINITY;
     }

@@ -5,7 +5,7 @@ use super::mark::{Mark, Role};
 use super::pins::pivots;
 use super::travel::Travels;
 use linkage::math::{KeepNan, Vec2, cross, turned};
-use linkage::mechanism::{GROUND, Guise, Joint, Mechanism, Side};
+use linkage::mechanism::{GROUND, Guise, Joint, JointId, LinkId, Mechanism, Side};
 
 /// Half length and half width of a block in a fixed guide, and on a moving one. They differ so that both are visible if
 /// they sit on the same joint.
@@ -43,15 +43,15 @@ struct Guide {
 }
 
 /// All guides and blocks: the link that each mark belongs to, and the mark.
-pub fn marks(mechanism: &Mechanism, travels: &Travels, unit: f64) -> Vec<(usize, Mark)> {
-    let guide = |(index, joint): (usize, &Joint)| {
+pub fn marks(mechanism: &Mechanism, travels: &Travels, unit: f64) -> Vec<(LinkId, Mark)> {
+    let guide = |(index, joint): (JointId, &Joint)| {
         let [guide, block] = mechanism.guide_and_block(joint)?;
         let axes = [joint.axis_on(guide.link)?, joint.axis_on(block.link)?];
         let half = if guide.link == GROUND { FIXED } else { MOVING }.map(|part| part * unit);
         let is_cylinder = is_cylinder(mechanism, joint, guide, block, axes[1]);
         Some(Guide { guide, block, axes, travel: travels.of(index).unwrap_or([0.0; 2]), half, is_cylinder, unit })
     };
-    let guides = mechanism.joints().iter().enumerate().filter_map(guide);
+    let guides = mechanism.joints().entries().filter_map(guide);
     let mut drawn: Vec<[Vec2; 2]> = Vec::new();
     let pivots = pivots(mechanism);
     let mut marks = Vec::new();

@@ -6,7 +6,9 @@ use super::picture::Place;
 use linkage::error::{Error, ErrorKind};
 use linkage::math::{KeepNan, Vec2, cross, turned, unit};
 use linkage::mechanism::assembly::{configurations, first_choices};
-use linkage::mechanism::{AssemblyMode, GROUND, Group, GroupKind, LinkPose, Mechanism, Pose, StartGroup, Structure};
+use linkage::mechanism::{
+    AssemblyMode, GROUND, Group, GroupId, GroupKind, JointId, LinkId, LinkPose, Mechanism, Pose, StartGroup, Structure,
+};
 
 /// Share of the mechanism's size above which a joint is open.
 const OPEN: f64 = 1e-6;
@@ -19,7 +21,7 @@ pub struct Laid {
     /// Where every link is.
     pub places: Vec<Place>,
     /// Joints that stay open: number, and the two world points (m) that should be one.
-    pub gaps: Vec<(usize, [Vec2; 2])>,
+    pub gaps: Vec<(JointId, [Vec2; 2])>,
     /// Circles that points of links reach and that do not meet: centres and radii (m).
     pub reaches: Vec<(Vec2, f64)>,
     /// What is missing, group by group.
@@ -32,7 +34,7 @@ pub struct Laid {
 #[derive(Clone, Copy, Debug)]
 pub struct Standing {
     /// Number of the group.
-    pub group: usize,
+    pub group: GroupId,
     /// Its mode.
     pub mode: AssemblyMode,
     /// Number of its configuration, from 1 on; 0 where it is not known.
@@ -53,7 +55,7 @@ impl Laid {
         self.faults.is_empty() && self.places.iter().all(|place| matches!(place, Place::Here(_)))
     }
 
-    fn start(mechanism: &Mechanism, drivers: &[(usize, usize)], angles: &[f64]) -> Laid {
+    fn start(mechanism: &Mechanism, drivers: &[(LinkId, JointId)], angles: &[f64]) -> Laid {
         let mut laid = Laid::whole([]);
         laid.places = vec![Place::Nowhere; mechanism.links().len()];
         laid.places[GROUND] = Place::Here(LinkPose::GROUND);
@@ -85,8 +87,8 @@ impl Laid {
 #[must_use]
 pub fn lay(mechanism: &Mechanism, structure: &Structure, angles: &[f64], starts: &[StartGroup]) -> Laid {
     let mut laid = Laid::start(mechanism, &structure.drivers, angles);
-    let mut done: Vec<usize> = Vec::new();
-    for (index, group) in structure.groups.iter().enumerate() {
+    let mut done: Vec<GroupId> = Vec::new();
+    for (index, group) in structure.groups.entries() {
         if !laid.has(mechanism, group) {
             continue;
         }
@@ -122,7 +124,7 @@ pub fn lay(mechanism: &Mechanism, structure: &Structure, angles: &[f64], starts:
 
 /// Lays a mechanism that has no structure, because links or joints are missing or too many: what dyads can be found.
 #[must_use]
-pub fn lay_loose(mechanism: &Mechanism, drivers: &[(usize, usize)], angles: &[f64], fault: Error) -> Laid {
+pub fn lay_loose(mechanism: &Mechanism, drivers: &[(LinkId, JointId)], angles: &[f64], fault: Error) -> Laid {
     let mut laid = Laid::start(mechanism, drivers, angles);
     laid.faults.push(fault);
     while let Some(group) = dyad(mechanism, &laid) {
@@ -137,13 +139,13 @@ pub fn lay_loose(mechanism: &Mechanism, drivers: &[(usize, usize)], angles: &[f6
 
 /// A dyad of links without a place, between links that have one.
 fn dyad(mechanism: &Mechanism, laid: &Laid) -> Option<Group> {
-    let is_placed = |link: usize| laid.places[link].pose().is_some();
+    let is_placed = |link: LinkId| laid.places[link].pose().is_some();
     let joints = mechanism.joints();
-    let outer = |link: usize| {
-        let mut own = joints.iter().enumerate().filter(|(_, joint)| joint.on(link).is_some());
+    let outer = |link: LinkId| {
+        let mut own = joints.entries().filter(|(_, joint)| joint.on(link).is_some());
         own.find(|(_, joint)| is_placed(joint.other(link).link)).map(|(index, _)| index)
     };
-    joints.iter().enumerate().find_map(|(inner, joint)| {
+    joints.entries().find_map(|(inner, joint)| {
         let mut links = vec![joint.first.link, joint.second.link];
         links.sort_unstable();
         if links.iter().any(|&link| is_placed(link)) {
@@ -165,14 +167,14 @@ fn dyad(mechanism: &Mechanism, laid: &Laid) -> Option<Group> {
 
 /// Puts all links without a place as near to their neighbours as it goes, and tells which joints stay open.
 fn close(mechanism: &Mechanism, mut laid: Laid) -> Laid {
-    let missing: Vec<usize> = (0..laid.places.len()).filter(|&link| laid.places[link].pose().is_none()).collect();
+    let missing: Vec<LinkId> = mechanism.links().ids().filter(|&link| laid.places[link].pose().is_none()).collect();
     if !missing.is_empty() {
         for (link, pose) in nearest::nearest(mechanism, &laid.pose(), &missing) {
             laid.places[link] = Place::Loose(pose);
         }
     }
     let mut gaps = Vec::new();
-    for (index, joint) in mechanism.joints().iter().enumerate() {
+    for (index, joint) in mechanism.joints().entries() {
         let sides =
             [joint.first, joint.second].map(|side| laid.places[side.link].pose().map(|pose| (*pose, side.local)));
         let [Some(first), Some(second)] = sides else { continue };
@@ -196,7 +198,7 @@ fn close(mechanism: &Mechanism, mut laid: Laid) -> Laid {
 /// The circles on which the inner joint of a dyad of three pins would lie.
 fn reaches(mechanism: &Mechanism, group: &Group, laid: &Laid) -> Vec<(Vec2, f64)> {
     let (GroupKind::Rrr | GroupKind::Rrp, Some(&inner)) = (group.kind, group.inner.first()) else { return Vec::new() };
-    let of_link = |(&link, &outer): (&usize, &usize)| {
+    let of_link = |(&link, &outer): (&LinkId, &JointId)| {
         let joint = &mechanism.joints()[outer];
         let (own, base) = (joint.on(link)?, joint.other(link));
         let pin = mechanism.joints()[inner].on(link)?;
@@ -219,7 +221,7 @@ pub fn all_modes(
     let mut found: Vec<Laid> = Vec::new();
     let mut open = vec![(Laid::start(mechanism, &structure.drivers, angles), 0)];
     while let Some((mut laid, index)) = open.pop().filter(|_| found.len() < most) {
-        let Some(group) = structure.groups.get(index) else {
+        let Some(group) = structure.groups.get(GroupId(index)) else {
             found.push(close(mechanism, laid));
             continue;
         };
@@ -234,7 +236,7 @@ pub fn all_modes(
                     for (&link, pose) in group.links.iter().zip(&one.links) {
                         next.places[link] = Place::Here(*pose);
                     }
-                    next.modes.push(Standing { group: index, mode: one.mode, number: number + 1 });
+                    next.modes.push(Standing { group: GroupId(index), mode: one.mode, number: number + 1 });
                     open.push((next, index + 1));
                 }
             }
@@ -247,7 +249,7 @@ pub fn all_modes(
                         for &link in &group.links {
                             laid.places[link] = own.places[link];
                         }
-                        laid.modes.push(Standing { group: index, mode: AssemblyMode::Followed, number: 0 });
+                        laid.modes.push(Standing { group: GroupId(index), mode: AssemblyMode::Followed, number: 0 });
                     }
                     None => {
                         laid.reaches.extend(reaches(mechanism, group, &laid));

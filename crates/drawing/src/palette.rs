@@ -2,6 +2,8 @@
 //!
 //! Colour is never the only sign: links have numbers, and plates are hatched at an angle of their own.
 
+use linkage::mechanism::LinkId;
+
 /// A colour on light and on dark paper, and what replaces it where there is none.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Paint {
@@ -35,8 +37,8 @@ pub const PAPER: Paint = Paint { light: "#ffffff", dark: "#16181c", hatch_deg: 4
 
 /// Colour of the link with this number; the ground, number 0, has that of text.
 #[must_use]
-pub fn link(number: usize) -> Paint {
-    match number.checked_sub(1) {
+pub fn link(number: LinkId) -> Paint {
+    match number.index().checked_sub(1) {
         None => TEXT,
         Some(index) => LINKS[index % LINKS.len()],
     }

@@ -10,7 +10,7 @@ use super::sign::{arrow, turning};
 use super::sketch::{Label, Lettering, Sketch};
 use super::stretched::Stretched;
 use linkage::math::{KeepNan, Vec2};
-use linkage::mechanism::{GROUND, LinkPose, Mechanism};
+use linkage::mechanism::{GROUND, LinkId, LinkPose, Mechanism};
 
 /// Radius (mm) of the disc around a link's number, and of what a pin covers.
 const NUMBER: f64 = 2.3;
@@ -95,7 +95,7 @@ impl<'a> Picture<'a> {
 
     /// A point of a link on paper.
     #[must_use]
-    pub fn at(&self, link: usize, local: Vec2) -> Option<Vec2> {
+    pub fn at(&self, link: LinkId, local: Vec2) -> Option<Vec2> {
         self.places[link].pose().map(|pose| pose.point(local) / self.scale)
     }
 
@@ -114,7 +114,7 @@ impl<'a> Picture<'a> {
         self.draw_bodies(&marks[below..]);
     }
 
-    fn draw_bodies(&mut self, marks: &[(usize, &Mark)]) {
+    fn draw_bodies(&mut self, marks: &[(LinkId, &Mark)]) {
         let (places, scale) = (self.places, self.scale);
         for &(link, mark) in marks {
             if let Some(pose) = places[link].pose() {
@@ -124,7 +124,7 @@ impl<'a> Picture<'a> {
     }
 
     /// Draws a mark of a link: `at` tells where its points are on paper.
-    fn put(&mut self, mark: &Mark, link: usize, at: impl Fn(Vec2) -> Vec2) {
+    fn put(&mut self, mark: &Mark, link: LinkId, at: impl Fn(Vec2) -> Vec2) {
         let (style, fill) = style(mark.role.look(), link, &self.places[link]);
         if let Shape::Circle { centre, radius } = mark.shape {
             let (at, radius) = (at(centre), radius / self.scale);
@@ -187,7 +187,7 @@ impl<'a> Picture<'a> {
     }
 
     /// Writes the number of a link on it, at this place of its frame (m): there it stays while the link moves.
-    pub fn number_on(&mut self, link: usize, local: Vec2) {
+    pub fn number_on(&mut self, link: LinkId, local: Vec2) {
         if let Some(at) = self.at(link, local) {
             draw_number(&mut self.figure, at, link.to_string(), colour(link));
         }
@@ -236,7 +236,7 @@ impl<'a> Picture<'a> {
     }
 
     /// The path of a point in the world (m), beneath what is drawn later.
-    pub fn draw_trace(&mut self, path: &[Vec2], link: usize) {
+    pub fn draw_trace(&mut self, path: &[Vec2], link: LinkId) {
         let points: Vec<Vec2> = path.iter().map(|at| at / self.scale).collect();
         if points.len() > 1 {
             self.figure.curve(points, None, Style { colour: colour(link), width: 0.35, dash: "1 0.8" });
@@ -245,7 +245,7 @@ impl<'a> Picture<'a> {
 
     /// The lengths of all links between their places, in mm.
     pub fn draw_lengths(&mut self, mechanism: &Mechanism) {
-        for link in 1..mechanism.links().len() {
+        for link in mechanism.links().ids().skip(1) {
             let places = super::body::corners(mechanism, link);
             let sides = if places.len() > 2 { places.len() } else { places.len().saturating_sub(1) };
             for (a, b) in (0..sides).map(|k| (places[k], places[(k + 1) % places.len()])) {
@@ -317,7 +317,7 @@ fn short(value: f64) -> String {
 }
 
 /// Line and fill of a look of a link in its place.
-fn style(look: Look, link: usize, place: &Place) -> (Style, Option<Tint>) {
+fn style(look: Look, link: LinkId, place: &Place) -> (Style, Option<Tint>) {
     let paint = match look.ink {
         Ink::Link => colour(link),
         Ink::Text => BLACK,

@@ -2,7 +2,7 @@
 
 use super::mark::{Mark, Role};
 use linkage::math::Vec2;
-use linkage::mechanism::{GROUND, Mechanism, Side};
+use linkage::mechanism::{GROUND, LinkId, Mechanism, Side};
 
 /// Radius of a pin, and distance of the rings around it.
 pub const PIN: f64 = 1.2;
@@ -37,7 +37,7 @@ pub fn pivots(mechanism: &Mechanism) -> Vec<Vec2> {
 }
 
 /// All pins and pivots: the link that each mark belongs to, and the mark. A pin is drawn once, on the first of its links.
-pub fn marks(mechanism: &Mechanism, unit: f64) -> Vec<(usize, Mark)> {
+pub fn marks(mechanism: &Mechanism, unit: f64) -> Vec<(LinkId, Mark)> {
     let mut marks = Vec::new();
     for place in shared(mechanism) {
         let Some(side) = place.sides.iter().min_by_key(|side| side.link) else { continue };

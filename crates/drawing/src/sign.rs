@@ -3,7 +3,7 @@
 use super::mark::{Mark, Role, Shape};
 use linkage::drive::{Drive, Load, On};
 use linkage::math::{KeepNan, Vec2, turned, unit};
-use linkage::mechanism::{GROUND, Mechanism, Side};
+use linkage::mechanism::{GROUND, LinkId, Mechanism, Side};
 use std::f64::consts::{PI, TAU};
 
 /// Radius of the arrow that shows a drive's sense, its angle (rad), and that from its link to its begin.
@@ -33,7 +33,7 @@ pub struct LoadSign {
 }
 
 /// The place at which moments on a link are drawn: its pin on the ground, any pin, any point, or its mass centre.
-fn place_of(mechanism: &Mechanism, link: usize) -> Vec2 {
+fn place_of(mechanism: &Mechanism, link: LinkId) -> Vec2 {
     let pins = || mechanism.joints().iter().filter(|joint| joint.is_pin() && joint.on(link).is_some());
     let on_ground = pins().find(|joint| joint.other(link).link == GROUND);
     let pin = on_ground.or_else(|| pins().next()).and_then(|joint| joint.on(link));
@@ -42,7 +42,7 @@ fn place_of(mechanism: &Mechanism, link: usize) -> Vec2 {
 }
 
 /// The place of two links at which springs and dampers between their angles are drawn.
-fn place_between(mechanism: &Mechanism, links: [usize; 2]) -> Side {
+fn place_between(mechanism: &Mechanism, links: [LinkId; 2]) -> Side {
     let common = mechanism.joints().iter().find(|joint| links.iter().all(|&link| joint.on(link).is_some()));
     match common.and_then(|joint| joint.on(links[0])) {
         Some(local) => Side { link: links[0], local },
@@ -63,7 +63,7 @@ pub fn of_load(mechanism: &Mechanism, number: usize, load: &Load) -> Option<Load
 }
 
 /// The symbol of a torsional spring or damper, and its link; `None` for other loads.
-pub fn twisted(mechanism: &Mechanism, load: &Load, u: f64) -> Option<(usize, Vec<Mark>)> {
+pub fn twisted(mechanism: &Mechanism, load: &Load, u: f64) -> Option<(LinkId, Vec<Mark>)> {
     let On::Links(links) = load.nature().on else { return None };
     let Side { link, local } = place_between(mechanism, links);
     if !load.is_viscous() {

@@ -8,7 +8,7 @@ use super::{body, guide, pins, sign, stretched};
 use linkage::case::CaseParts;
 use linkage::drive::{Drive, Load};
 use linkage::math::{Vec2, turned};
-use linkage::mechanism::{GROUND, Mechanism, Side};
+use linkage::mechanism::{GROUND, LinkId, Mechanism, Side};
 
 /// Units in the size of a mechanism, where the size of the picture is not known.
 const UNITS: f64 = 60.0;
@@ -41,7 +41,7 @@ pub struct Sketch {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Body {
     /// Number of the link.
-    pub link: usize,
+    pub link: LinkId,
     /// Its marks.
     pub marks: Vec<Mark>,
     /// Largest distance of two of its places (m); infinite for the ground.
@@ -77,12 +77,11 @@ impl Sketch {
     /// [`unit`](self::unit).
     #[must_use]
     pub fn of(mechanism: &Mechanism, travels: &Travels, unit: f64) -> Sketch {
-        let links = 0..mechanism.links().len();
         let body = |link| {
             let marks = if link == GROUND { ground(mechanism, unit) } else { body::marks(mechanism, link, unit) };
             Body { link, marks, size: body::size(mechanism, link) }
         };
-        let mut bodies: Vec<Body> = links.map(body).collect();
+        let mut bodies: Vec<Body> = mechanism.links().ids().map(body).collect();
         for (link, mark) in guide::marks(mechanism, travels, unit).into_iter().chain(pins::marks(mechanism, unit)) {
             bodies[link].marks.push(mark);
         }
@@ -143,8 +142,8 @@ impl Sketch {
     /// All marks of all links, with the number of their link, in the order in which they are drawn: by layers, and within
     /// a layer larger links first. Springs and dampers belong to [`Layer::Stretched`].
     #[must_use]
-    pub fn in_order(&self) -> Vec<(usize, &Mark)> {
-        let mut all: Vec<(Layer, f64, usize, &Mark)> = Vec::new();
+    pub fn in_order(&self) -> Vec<(LinkId, &Mark)> {
+        let mut all: Vec<(Layer, f64, LinkId, &Mark)> = Vec::new();
         for body in &self.bodies {
             all.extend(body.marks.iter().map(|mark| (mark.role.look().layer, body.size, body.link, mark)));
         }
@@ -175,7 +174,7 @@ fn labels(mechanism: &Mechanism) -> Vec<Label> {
     let fixed = fixed.map(|point| (point.name.as_str(), Side { link: GROUND, local: point.local }));
     let point = |(name, at): (&str, Side)| Label { text: name.into(), names: Lettering::Point, at };
     let mut labels: Vec<Label> = fixed.chain(mechanism.moving_points()).map(point).collect();
-    for (link, body) in mechanism.links().iter().enumerate().skip(1) {
+    for (link, body) in mechanism.links().entries().skip(1) {
         let places = body::places(mechanism, link);
         // Nothing is seen of a link without places.
         if places.is_empty() {

@@ -1,7 +1,7 @@
 //! How far blocks travel on their guides: guides are drawn as long as that.
 
 use linkage::math::{KeepNan, Vec2};
-use linkage::mechanism::Mechanism;
+use linkage::mechanism::{JointId, LinkId, Mechanism};
 
 /// Least and largest distance of the block's place from the guide's place along the axis of the guide's link (m), for
 /// every joint; `None` for joints that do not slide, and before any pose is known.
@@ -17,7 +17,7 @@ impl Travels {
 
     /// Takes in one pose: `point` gives the world place (m) of a point of a link, in the frame of that link. `None`, or
     /// NaN, says that the link has no place.
-    pub fn take_in(&mut self, mechanism: &Mechanism, point: impl Fn(usize, Vec2) -> Option<Vec2>) {
+    pub fn take_in(&mut self, mechanism: &Mechanism, point: impl Fn(LinkId, Vec2) -> Option<Vec2>) {
         for (joint, travel) in mechanism.joints().iter().zip(&mut self.0) {
             let way = || {
                 let [guide, block] = mechanism.guide_and_block(joint)?;
@@ -44,13 +44,13 @@ impl Travels {
 
     /// Travel on the joint of this number (m).
     #[must_use]
-    pub fn of(&self, joint: usize) -> Option<[f64; 2]> {
+    pub fn of(&self, joint: JointId) -> Option<[f64; 2]> {
         self.0[joint]
     }
 
     /// The same with this travel (m) on a joint.
     #[must_use]
-    pub fn with(mut self, joint: usize, travel: [f64; 2]) -> Travels {
+    pub fn with(mut self, joint: JointId, travel: [f64; 2]) -> Travels {
         self.0[joint] = Some(travel);
         self
     }

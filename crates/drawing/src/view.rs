@@ -10,7 +10,7 @@ use super::sketch::{Lettering, Sketch};
 use super::travel::Travels;
 use linkage::drive::{Drive, Load};
 use linkage::math::{KeepNan, Vec2, corners};
-use linkage::mechanism::{GROUND, Mechanism};
+use linkage::mechanism::{GROUND, LinkId, Mechanism};
 
 /// Least length of a link between two joints on which its number has room (mm).
 const FREE: f64 = 11.0;
@@ -49,7 +49,7 @@ pub struct Shot {
 }
 
 /// The path of a point: its link, and its places in the world (m).
-pub type Trace = (usize, Vec<Vec2>);
+pub type Trace = (LinkId, Vec<Vec2>);
 
 /// The shots as figures at one scale, in a room of this size (mm), without headings.
 #[must_use]
@@ -104,7 +104,7 @@ fn figure(
         picture.draw_lengths(subject.mechanism);
     }
     if extras.is_moving {
-        for link in 1..subject.mechanism.links().len() {
+        for link in subject.mechanism.links().ids().skip(1) {
             if let Some(local) = super::body::free(subject.mechanism, link, FREE * scale) {
                 picture.number_on(link, local);
             }
@@ -134,12 +134,12 @@ fn extent(subject: &Subject, shots: &[Shot], travels: &Travels, traces: &[Trace]
     let mut points: Vec<Vec2> = traces.iter().flat_map(|(_, path)| path.iter().copied()).collect();
     points.extend(mechanism.links()[GROUND].points.iter().map(|point| point.local));
     for shot in shots {
-        let pose = |link: usize| shot.laid.places[link].pose();
-        for link in 1..mechanism.links().len() {
+        let pose = |link: LinkId| shot.laid.places[link].pose();
+        for link in mechanism.links().ids().skip(1) {
             let places = super::body::places(mechanism, link);
             points.extend(pose(link).into_iter().flat_map(|pose| places.iter().map(|&local| pose.point(local))));
         }
-        for (index, joint) in mechanism.joints().iter().enumerate() {
+        for (index, joint) in mechanism.joints().entries() {
             let Some([guide, _]) = mechanism.guide_and_block(joint) else { continue };
             if let (Some(pose), Some(axis), Some(travel)) =
                 (pose(guide.link), joint.axis_on(guide.link), travels.of(index))

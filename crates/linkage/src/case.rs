@@ -18,7 +18,7 @@ use crate::drive::load::sense_of;
 use crate::drive::{Action, Drive, InputState, Load, Motor, Senses, Setting, Wrench};
 use crate::input::{Input, InputValue};
 use crate::math::{KeepNan, Motion, Vec2};
-use crate::mechanism::Side;
+use crate::mechanism::{LinkId, Side};
 use crate::trajectory::{CHANNELS, Channel, OfLink, Reading, Stage, Subject};
 
 pub use builder::CaseBuilder;
@@ -163,7 +163,7 @@ impl Case {
     }
 
     fn channels_of(&self, is_wanted: impl Fn(Stage) -> bool) -> Vec<Channel> {
-        let rows = |(subject, _, of): (Subject, usize, &str)| {
+        let rows = |(subject, of, _): (Subject, &str, Seat)| {
             let kinds = CHANNELS.iter().filter(|kind| kind.subject == subject && is_wanted(kind.stage));
             kinds.map(|kind| Channel { of: of.to_string(), kind }).collect::<Vec<_>>()
         };
@@ -238,7 +238,7 @@ impl Case {
     #[must_use]
     pub fn drive_arm(&self) -> f64 {
         let links = self.mechanism.links();
-        let arm = |link: usize| {
+        let arm = |link: LinkId| {
             let has_slider = self.mechanism.joints().iter().any(|joint| joint.slides() && joint.on(link).is_some());
             links[link].extent().larger(if has_slider { self.mechanism.size() } else { 0.0 })
         };
@@ -277,7 +277,7 @@ impl Case {
     /// Whether a link can turn. A slider on the ground and the coupler of a parallelogram only translate.
     #[inline]
     #[must_use]
-    pub fn can_turn(&self, link: usize) -> bool {
+    pub fn can_turn(&self, link: LinkId) -> bool {
         self.turning[link]
     }
 
@@ -285,7 +285,7 @@ impl Case {
     /// It is zero for a link that cannot turn, and where it is rounding beside the fastest link's.
     #[inline]
     #[must_use]
-    pub fn spin(&self, motions: &[Motion], link: usize) -> f64 {
+    pub fn spin(&self, motions: &[Motion], link: LinkId) -> f64 {
         let omega = motions[link].omega;
         // NaN of any link fails.
         let is_seen = || motions.iter().all(|motion| omega.abs() > STANDSTILL * motion.omega.abs());
@@ -321,7 +321,7 @@ impl Case {
         &self,
         motions: &[Motion],
         angles: &[f64],
-        sensed: impl Fn(usize, &Load, usize, f64) -> f64,
+        sensed: impl Fn(usize, &Load, LinkId, f64) -> f64,
         out: &mut [Wrench],
     ) {
         self.loads_along(motions, angles, sensed, |_, velocity| sense_of(velocity), out);
@@ -335,7 +335,7 @@ impl Case {
         &self,
         motions: &[Motion],
         angles: &[f64],
-        sensed: impl Fn(usize, &Load, usize, f64) -> f64,
+        sensed: impl Fn(usize, &Load, LinkId, f64) -> f64,
         way: impl Fn(usize, Vec2) -> Vec2,
         out: &mut [Wrench],
     ) {

@@ -5,7 +5,7 @@ use crate::case::{Case, CaseParts, Grid, Wanted};
 use crate::drive::{Drive, Drives, MotionLaw};
 use crate::math::Vec2;
 use crate::mechanism::{
-    AssemblyMode, Joint, JointKind, Link, Mechanism, Point, Side, StartGroup, Structure, first_pose,
+    AssemblyMode, Joint, JointId, JointKind, Link, LinkId, Mechanism, Point, Side, StartGroup, Structure, first_pose,
 };
 
 /// A massless link from its points.
@@ -24,7 +24,7 @@ pub fn pin(links: &[Link], name: &str, point: &str, first: &str, second: &str) -
     let side = |wanted: &str| {
         let index = links.iter().position(|l| l.name == wanted).unwrap();
         let local = links[index].points.iter().find(|p| p.name == point).unwrap().local;
-        Side { link: index, local }
+        Side { link: LinkId(index), local }
     };
     Joint { name: name.into(), kind: JointKind::Revolute, first: side(first), second: side(second), drawn: None }
 }
@@ -85,7 +85,7 @@ pub fn turning(mechanism: Mechanism) -> Case {
 
 /// The same mechanism turning, of other groups too: from this crank angle (rad), with all groups as `group` says.
 pub fn turning_from(mechanism: Mechanism, crank: f64, group: &StartGroup) -> Case {
-    let drives = Drives::from(Drive::prescribed(0, 1, 0.0, crank, MotionLaw::ConstantSpeed(1.0)));
+    let drives = Drives::from(Drive::prescribed(JointId(0), LinkId(1), 0.0, crank, MotionLaw::ConstantSpeed(1.0)));
     let structure = Structure::of(&mechanism, &drives.joints()).unwrap();
     let groups = vec![group.clone(); structure.groups.len()];
     let (start, modes) = first_pose(&mechanism, &structure, &drives.world_angles(crank), &groups).unwrap();

@@ -5,7 +5,7 @@
 
 use linkage::case::Case;
 use linkage::error::{Error, ErrorKind, Result};
-use linkage::mechanism::{Group, GroupKind, Side};
+use linkage::mechanism::{Group, GroupKind, JointId, LinkId, Side};
 use linkage::trajectory::Trajectory;
 
 use super::Long;
@@ -16,9 +16,9 @@ use super::vector::Vector;
 
 /// A dyad: for each of its two links the outer joint and the inner one.
 struct Dyad {
-    links: [usize; 2],
-    outer: [usize; 2],
-    inner: usize,
+    links: [LinkId; 2],
+    outer: [JointId; 2],
+    inner: JointId,
     /// The outer joints' places on the links before.
     bases: [Side; 2],
     /// The outer joints' places on the dyad's own links, and the inner joint's.
@@ -59,7 +59,7 @@ fn dyad(case: &Case, start: &[Frame], group: &Group) -> Result<Dyad> {
     let joints = case.mechanism.joints();
     let outer = links.map(|link| group.outer_on(&case.mechanism, link).expect("each link of a dyad has one"));
     let bases = [0, 1].map(|k| joints[outer[k]].other(links[k]));
-    let local = |joint: usize, link: usize| joints[joint].on(link).expect("the joint is on the link");
+    let local = |joint: JointId, link: LinkId| joints[joint].on(link).expect("the joint is on the link");
     let locals = [0, 1].map(|k| [local(outer[k], links[k]), local(inner, links[k])]);
     let [a, b] = bases.map(|side| start[side.link].point(side.local));
     let c = start[links[0]].point(locals[0][1]);
@@ -113,12 +113,12 @@ impl Dyad {
 /// Reactions and torque by the equilibrium of every dyad, the last first.
 fn forces(case: &Case, task: &Task, dyads: &[Dyad], instant: &mut Snapshot) {
     // Force and moment about the world's origin on every link: weight, inertia, and what later groups exert.
-    let links = 0..case.mechanism.links().len();
-    let mut acting: Vec<(Vector, Long)> = links.map(|link| instant.inertia(case, link)).collect();
+    let mut acting: Vec<(Vector, Long)> =
+        case.mechanism.links().ids().map(|link| instant.inertia(case, link)).collect();
     let joints = case.mechanism.joints();
     // What a link feels in a joint, as the force of the first link on the second.
     let told =
-        |joint: usize, link: usize, force: Vector| if joints[joint].second.link == link { force } else { -force };
+        |joint: JointId, link: LinkId, force: Vector| if joints[joint].second.link == link { force } else { -force };
     for dyad in dyads.iter().rev() {
         let [a, b] = dyad.bases.map(|side| instant.frames[side.link].point(side.local));
         let c = instant.frames[dyad.links[0]].point(dyad.locals[0][1]);

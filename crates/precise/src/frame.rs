@@ -2,6 +2,7 @@
 
 use linkage::case::Case;
 use linkage::math::Vec2;
+use linkage::mechanism::LinkId;
 
 use super::Long;
 use super::vector::Vector;
@@ -73,7 +74,7 @@ impl Snapshot {
     }
 
     /// Weight and inertia of a link, as a force at the world's origin and the moment about it.
-    pub(crate) fn inertia(&self, case: &Case, link: usize) -> (Vector, Long) {
+    pub(crate) fn inertia(&self, case: &Case, link: LinkId) -> (Vector, Long) {
         let own = &case.mechanism.links()[link];
         let frame = &self.frames[link];
         let mass = Long::of(own.mass);

@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 use linkage::case::Case;
 use linkage::error::Result;
 use linkage::math::angle::wrapped;
-use linkage::mechanism::{GROUND, Joint, Side};
+use linkage::mechanism::{GROUND, Joint, JointId, LinkId, Side};
 use linkage::trajectory::{Channel, OfDrive, OfFrame, OfJoint, OfLink, OfPoint, OfSlider, Reading, Trajectory};
 
 use super::Long;
@@ -41,18 +41,18 @@ fn keep_turns(values: &mut [f64]) {
 
 /// Where links, points and joints are, by name.
 struct Places<'a> {
-    links: BTreeMap<&'a str, usize>,
+    links: BTreeMap<&'a str, LinkId>,
     points: BTreeMap<&'a str, Side>,
-    joints: BTreeMap<&'a str, usize>,
+    joints: BTreeMap<&'a str, JointId>,
 }
 
 impl<'a> Places<'a> {
     fn of(case: &'a Case) -> Self {
         let (links, joints) = (case.mechanism.links(), case.mechanism.joints());
         Places {
-            links: links.iter().enumerate().map(|(index, link)| (link.name.as_str(), index)).collect(),
+            links: links.entries().map(|(index, link)| (link.name.as_str(), index)).collect(),
             points: case.mechanism.moving_points().collect(),
-            joints: joints.iter().enumerate().map(|(index, joint)| (joint.name.as_str(), index)).collect(),
+            joints: joints.entries().map(|(index, joint)| (joint.name.as_str(), index)).collect(),
         }
     }
 
@@ -141,7 +141,7 @@ fn slide(instant: &Snapshot, joint: &Joint) -> [Long; 3] {
 /// What joints and drive exert on the ground, with the moment about the origin.
 fn shaking(case: &Case, instant: &Snapshot) -> (Vector, Long) {
     let (mut force, mut moment) = (Vector::ZERO, -instant.torque);
-    for (index, joint) in case.mechanism.joints().iter().enumerate() {
+    for (index, joint) in case.mechanism.joints().entries() {
         let sign = match (joint.first.link, joint.second.link) {
             (GROUND, _) => -Long::ONE,
             (_, GROUND) => Long::ONE,

@@ -2,7 +2,7 @@
 
 use linkage::case::Case;
 use linkage::error::{Error, ErrorKind, Result};
-use linkage::mechanism::GROUND;
+use linkage::mechanism::{GROUND, JointId, LinkId};
 
 use super::Long;
 use super::frame::Frame;
@@ -11,8 +11,8 @@ use super::vector::Vector;
 /// The drive of a case that can be taken.
 pub(crate) struct Task {
     /// Joint and link of the drive.
-    pub(crate) joint: usize,
-    pub(crate) link: usize,
+    pub(crate) joint: JointId,
+    pub(crate) link: LinkId,
     zero: f64,
     start: f64,
     /// Speed (rad/s).

@@ -5,7 +5,7 @@
 
 use linkage::case::Case;
 use linkage::error::Result;
-use linkage::mechanism::{GROUND, Joint, JointKind};
+use linkage::mechanism::{GROUND, Joint, JointKind, LinkId};
 use linkage::trajectory::Trajectory;
 
 use super::Long;
@@ -99,19 +99,19 @@ impl System {
 }
 
 /// Column of a link's unknowns: origin x and y, angle.
-fn column(link: usize) -> usize {
-    3 * (link - 1)
+fn column(link: LinkId) -> usize {
+    3 * (link.index() - 1)
 }
 
 impl Whole<'_> {
     /// Three unknowns of every moving link.
     fn empty(&self) -> System {
-        let unknowns = column(self.case.mechanism.links().len());
+        let unknowns = 3 * (self.case.mechanism.links().len() - 1);
         System { rows: vec![vec![Long::ZERO; unknowns]; unknowns], right: vec![Long::ZERO; unknowns] }
     }
 
     /// Writes the change of `normal . (point of the link)` to a row, times `sign`.
-    fn put(&self, row: &mut [Long], link: usize, arm: Vector, normal: Vector, sign: Long) {
+    fn put(&self, row: &mut [Long], link: LinkId, arm: Vector, normal: Vector, sign: Long) {
         if link == GROUND {
             return;
         }
@@ -121,7 +121,7 @@ impl Whole<'_> {
         }
     }
 
-    fn put_turn(&self, row: &mut [Long], link: usize, value: Long) {
+    fn put_turn(&self, row: &mut [Long], link: LinkId, value: Long) {
         if link != GROUND {
             row[column(link) + 2] = row[column(link) + 2] + value;
         }
@@ -131,7 +131,7 @@ impl Whole<'_> {
     /// the parts of the second derivatives that go with the squares of the speeds, on the other side.
     fn system(&self, frames: &[Frame], what: What) -> System {
         let mut system = self.empty();
-        for (index, joint) in self.case.mechanism.joints().iter().enumerate() {
+        for (index, joint) in self.case.mechanism.joints().entries() {
             let [first, second] = [joint.first.link, joint.second.link];
             let sides = [&frames[first], &frames[second]];
             let arms = [sides[0].arm(joint.first.local), sides[1].arm(joint.second.local)];
@@ -247,7 +247,7 @@ impl Whole<'_> {
     fn forces(&self, instant: &mut Snapshot) -> Option<()> {
         let mut system = self.empty();
         let joints = self.case.mechanism.joints();
-        for (index, joint) in joints.iter().enumerate() {
+        for (index, joint) in joints.entries() {
             let unknowns = self.case.mechanism.rows(index);
             for (k, (force, moment, _)) in unknowns.zip(Whole::reactions(joint, &instant.frames)) {
                 for (link, sign) in [(joint.second.link, Long::ONE), (joint.first.link, -Long::ONE)] {
@@ -261,14 +261,14 @@ impl Whole<'_> {
         }
         let last = system.right.len() - 1;
         system.rows[column(self.task.link) + 2][last] = Long::ONE;
-        for link in 1..self.case.mechanism.links().len() {
+        for link in self.case.mechanism.links().ids().skip(1) {
             let (force, moment) = instant.inertia(self.case, link);
             for (row, value) in [force.x, force.y, moment].into_iter().enumerate() {
                 system.right[column(link) + row] = -value;
             }
         }
         let found = system.solved()?;
-        for (index, joint) in joints.iter().enumerate() {
+        for (index, joint) in joints.entries() {
             let unknowns = self.case.mechanism.rows(index);
             for (&value, (force, _, moment)) in found[unknowns].iter().zip(Whole::reactions(joint, &instant.frames)) {
                 instant.forces[index] = instant.forces[index] + force * value;

@@ -13,6 +13,7 @@ use super::window::Window;
 use linkage::case::Case;
 use linkage::drive::Wrench;
 use linkage::math::{KeepNan, Vec2};
+use linkage::mechanism::LinkId;
 
 /// Added masses in one world of a free motion, and the accelerations by which their effect is taken away.
 #[derive(Debug)]
@@ -25,8 +26,7 @@ pub(super) struct Added {
 impl Added {
     /// The added masses in a world with this tree; `None` if no link needs one.
     pub(super) fn of(case: &Case, tree: &Tree) -> Option<Self> {
-        let links = 0..case.mechanism.links().len();
-        let masses: Vec<[f64; 2]> = links.map(|link| added(case, link, tree)).collect();
+        let masses: Vec<[f64; 2]> = case.mechanism.links().ids().map(|link| added(case, link, tree)).collect();
         let accelerations = vec![[0.0; 3]; masses.len()];
         masses.iter().flatten().any(|&mass| mass > 0.0).then_some(Added { masses, accelerations })
     }
@@ -35,7 +35,7 @@ impl Added {
     pub(super) fn follow(&mut self, window: &Window) {
         if window.newest() > 0 {
             for (link, own) in self.accelerations.iter_mut().enumerate().skip(1) {
-                *own = window.newest_acceleration(link);
+                *own = window.newest_acceleration(LinkId(link));
             }
         }
     }

@@ -7,7 +7,7 @@ use linkage::case::Case;
 use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::math::dense::Lu;
 use linkage::math::{KeepNan, Motion, Vec2, turned, unit};
-use linkage::mechanism::{GROUND, LinkPose};
+use linkage::mechanism::{GROUND, GroupId, LinkPose};
 use linkage::solver::State;
 
 /// Share of a group's largest determinant beyond which one of the other sign is another branch, and not what little the
@@ -24,7 +24,7 @@ pub(super) struct Branches {
 #[derive(Debug)]
 struct Watched {
     /// Its number in the structure.
-    index: usize,
+    index: GroupId,
     /// Constraints of its joints, in the coordinates of its links: x, y (m), and angle times the mechanism's size.
     constraints: Lu,
     /// Sign of the determinant on its branch.
@@ -43,14 +43,14 @@ impl Branches {
         }
         let at_start = |pose: &LinkPose| Motion { origin: pose.origin, direction: unit(pose.angle), ..Motion::REST };
         let motions: Vec<Motion> = case.start.0.iter().map(at_start).collect();
-        let of = |index: usize| {
+        let of = |index: GroupId| {
             let constraints = Lu::new(3 * case.structure.groups[index].links.len());
             let mut own = Watched { index, constraints, sense: 0.0, largest: 0.0, last: [None; 2] };
             let determinant = own.determinant(case, &motions);
             (own.sense, own.largest) = (determinant.signum(), determinant.abs());
             own
         };
-        Branches { groups: (0..case.structure.groups.len()).map(of).collect() }
+        Branches { groups: case.structure.groups.ids().map(of).collect() }
     }
 
     /// Checks that all groups of a state at `t` (s) are on their branches.
@@ -87,7 +87,7 @@ impl Branches {
 }
 
 /// The error for an engine that has not gone on smoothly at a change point.
-fn turned_back(case: &Case, group: usize, t: f64) -> Error {
+fn turned_back(case: &Case, group: GroupId, t: f64) -> Error {
     let names = case.structure.groups[group].names(&case.mechanism);
     let at = case.told(case.crank().at(t).value);
     let message = format!(
@@ -167,7 +167,7 @@ mod tests {
             (motion.origin, motion.direction) = (pose.origin, unit(pose.angle));
         }
         branches.check(&case, &state, 0.0).unwrap();
-        let group = &case.structure.groups[0];
+        let group = &case.structure.groups[GroupId(0)];
         let joints = case.mechanism.joints();
         let places = [0, 1].map(|k: usize| {
             let joint = &joints[group.outer[k]];

@@ -11,7 +11,7 @@ use linkage::engine::Settings;
 use linkage::engine::bodies::check_inertias;
 use linkage::error::Result;
 use linkage::math::{KeepNan, Vec2};
-use linkage::mechanism::{GROUND, Side};
+use linkage::mechanism::{GROUND, LinkId, Side};
 use linkage::solver::State;
 
 /// Rotation (rad) of the fastest free link in the tiny step that makes the start velocities consistent.
@@ -89,7 +89,7 @@ impl Acting {
         let (before, setting_off) = (&self.before, &self.setting_off);
         // A link may reverse within the step.
         // Its load is then the mean of the loads before and after the reversal, weighted with their shares of the step.
-        let sensed = |_: usize, load: &Load, link: usize, crank: f64| {
+        let sensed = |_: usize, load: &Load, link: LinkId, crank: f64| {
             let now = motions[link].omega;
             if now == 0.0 {
                 return load.moment_in(setting_off[link], crank);
@@ -220,7 +220,7 @@ pub(super) fn begin(case: &Case, acting: &mut Acting, worlds: &mut [Guard], sett
     if acting.must_try(case) {
         worlds[0].step(step)?;
         let world = worlds[0].world();
-        for (link, speed) in acting.setting_off.iter_mut().enumerate().skip(1) {
+        for (link, speed) in case.start.0.ids().zip(&mut acting.setting_off).skip(1) {
             *speed = (world.angle(link) - case.start.0[link].angle) / step;
         }
         let fastest = acting.setting_off.iter().fold(0.0f64, |most, speed| most.larger(speed.abs()));
@@ -246,7 +246,7 @@ fn guess(case: &Case, acting: &mut Acting, window: &Window, worlds: &mut [Guard]
         let own = &worlds[0];
         let mut change = 0.0f64;
         for added in acting.added.iter_mut().flatten() {
-            change = change.larger(added.guess(case, |link| window.next_acceleration(own, link)));
+            change = change.larger(added.guess(case, |link| window.next_acceleration(own, LinkId(link))));
         }
         undo(case, worlds, step)?;
         if change <= GUESSED {

@@ -31,7 +31,7 @@ impl Ghost {
             links.map(|(link, [mass, inertia])| [mass - link.mass, inertia - link.inertia]).collect();
         if case.is_free() {
             // Loads in the world already take away the effect of added masses.
-            for (link, extra) in extra.iter_mut().enumerate() {
+            for (link, extra) in case.mechanism.links().ids().zip(&mut extra) {
                 let [mass, inertia] = added(case, link, &tree);
                 extra[0] -= mass;
                 extra[1] -= inertia;

@@ -13,7 +13,7 @@ use linkage::engine::Settings;
 use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::input::InputValue;
 use linkage::math::{KeepNan, Vec2};
-use linkage::mechanism::{LinkPose, Side};
+use linkage::mechanism::{LinkId, LinkPose, Side};
 use linkage::quiet::guarded;
 use linkage::solver::State;
 use linkage::work::{Count, Tally};
@@ -124,7 +124,7 @@ impl<'a> Guard<'a> {
     /// Sets the loads of all links.
     pub(super) fn put_loads(&mut self, loads: &[Wrench]) {
         for (link, &load) in loads.iter().enumerate().skip(1) {
-            self.world.set_load(link, load);
+            self.world.set_load(LinkId(link), load);
         }
     }
 
@@ -173,17 +173,17 @@ impl<'a> Guard<'a> {
         guarded(|| world.step()).map_err(|cause| panicked(place(before), cause.as_ref()))?;
         let frames = world.frames();
         let mut twice_energy = 0.0;
-        for (link, (frame, before_it)) in frames.iter().zip(before.iter()).enumerate().skip(1) {
+        for ((link, body), (frame, before_it)) in links.entries().zip(frames.iter().zip(before.iter())).skip(1) {
             let turn = frame.turn_since(before_it);
             // Written so that NaN also stops the run.
             if !(turn <= LARGEST_TURN) {
-                let (name, degrees, place) = (&links[link].name, turn.to_degrees(), place(before));
+                let (name, degrees, place) = (&body.name, turn.to_degrees(), place(before));
                 let message =
                     format!("the engine's link \"{name}\" has turned by {degrees:.1} deg in one step, {place}");
                 return Err(place.failed(message).of_link(name).beyond(turn, LARGEST_TURN, "rad"));
             }
             let [mass, inertia] = masses[link];
-            let centre = frame.point(links[link].mass_centre);
+            let centre = frame.point(body.mass_centre);
             let moved = (centre - centres[link]).norm_squared();
             twice_energy += mass * moved + inertia * turn * turn;
             centres[link] = centre;
@@ -216,8 +216,8 @@ impl<'a> Guard<'a> {
     /// It then passed a dead point on the way, into another assembly mode.
     pub(super) fn check_start(&self) -> Result<()> {
         let case = self.case;
-        for (index, (link, pose)) in case.mechanism.links().iter().zip(&case.start.0).enumerate().skip(1) {
-            let off = |local| (self.world.point(Side { link: index, local }) - pose.point(local)).norm();
+        for ((id, link), pose) in case.mechanism.links().entries().zip(&case.start.0).skip(1) {
+            let off = |local| (self.world.point(Side { link: id, local }) - pose.point(local)).norm();
             let far = link.points.iter().map(|point| off(point.local)).fold(off(link.mass_centre), f64::larger);
             // Written so that NaN also stops the run.
             if !(far <= self.largest_gap) {
@@ -297,6 +297,7 @@ mod tests {
     use crate::{Build, Precision};
     use linkage::fixtures::{four_bar, turning};
     use linkage::math::{rotated, unit};
+    use linkage::mechanism::JointId;
 
     /// A world whose steps fail; afterwards it reports wrong positions and angles.
     struct Broken {
@@ -343,7 +344,7 @@ mod tests {
         fn set_motor(&mut self, drive: usize, target: f64, damping: f64) {
             self.world.set_motor(drive, target, damping);
         }
-        fn set_load(&mut self, link: usize, load: Wrench) {
+        fn set_load(&mut self, link: LinkId, load: Wrench) {
             self.world.set_load(link, load);
         }
         fn place(&mut self, poses: &[LinkPose]) {
@@ -355,10 +356,10 @@ mod tests {
         fn relative_speed(&self, index: usize) -> f64 {
             self.world.relative_speed(index)
         }
-        fn velocity(&self, link: usize) -> Option<(Vec2, f64)> {
+        fn velocity(&self, link: LinkId) -> Option<(Vec2, f64)> {
             self.world.velocity(link)
         }
-        fn reaction(&self, joint: usize) -> Option<(Vec2, f64)> {
+        fn reaction(&self, joint: JointId) -> Option<(Vec2, f64)> {
             self.world.reaction(joint)
         }
         fn torque(&self, drive: usize) -> f64 {

@@ -4,7 +4,7 @@ use super::tree::Tree;
 use linkage::case::Case;
 use linkage::engine::bodies::stand_in;
 use linkage::math::KeepNan;
-use linkage::mechanism::{GROUND, Joint, Link};
+use linkage::mechanism::{GROUND, Joint, Link, LinkId};
 
 /// Mass added to a link without any, as a share of the mean mass.
 /// What is light is taken away quickly: the error of a first guess decays with this share from step to step.
@@ -49,11 +49,11 @@ pub(super) fn masses(case: &Case, tree: &Tree) -> Vec<[f64; 2]> {
 
 /// The same with nothing added to links that have both.
 fn bare_masses(case: &Case, tree: &Tree) -> Vec<[f64; 2]> {
-    let of = |(index, link): (usize, &Link)| {
+    let of = |(index, link): (LinkId, &Link)| {
         let [mass, inertia] = if case.is_free() { added(case, index, tree) } else { stand_in(case, index) };
         [link.mass + mass, link.inertia + inertia]
     };
-    let mut masses: Vec<[f64; 2]> = case.mechanism.links().iter().enumerate().map(of).collect();
+    let mut masses: Vec<[f64; 2]> = case.mechanism.links().entries().map(of).collect();
     masses[GROUND] = [0.0; 2];
     masses[case.crank().link][1] += case.crank().moving_inertia();
     masses
@@ -108,7 +108,7 @@ fn with_flywheels(case: &Case, mut masses: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
 
 /// Mass (kg) and moment of inertia (kg m^2) that a link of a free motion gets in addition; 0 where it needs none.
 /// What it needs depends on whether it is in the tree of the world.
-pub(super) fn added(case: &Case, link: usize, tree: &Tree) -> [f64; 2] {
+pub(super) fn added(case: &Case, link: LinkId, tree: &Tree) -> [f64; 2] {
     if link == GROUND {
         return [0.0; 2];
     }

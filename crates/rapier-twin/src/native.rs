@@ -10,6 +10,7 @@ use linkage::case::Case;
 use linkage::engine::Settings;
 use linkage::error::Result;
 use linkage::math::Vec2;
+use linkage::mechanism::{JointId, PerJoint};
 use linkage::solver::State;
 
 /// Substeps between the instant that the engine's report of a step describes best and the end of that step.
@@ -21,9 +22,9 @@ use linkage::solver::State;
 const LATE: f64 = 1.0;
 
 /// For every joint, the index of the world that reports it; none for some of the joints that nobody asks for.
-pub(super) fn reporters(case: &Case, cuts: &[&[usize]]) -> Vec<Option<usize>> {
-    let of = |joint: usize| cuts.iter().position(|cut| cut.contains(&joint));
-    (0..case.mechanism.joints().len()).map(of).collect()
+pub(super) fn reporters(case: &Case, cuts: &[&[JointId]]) -> PerJoint<Option<usize>> {
+    let of = |joint: JointId| cuts.iter().position(|cut| cut.contains(&joint));
+    case.mechanism.joints().ids().map(of).collect()
 }
 
 /// The engine's reports of the last steps.
@@ -31,7 +32,7 @@ pub(super) struct Native {
     step: f64,
     late: f64,
     ring: Ring,
-    reporters: Vec<Option<usize>>,
+    reporters: PerJoint<Option<usize>>,
     ghost: Option<Ghost>,
     row: Vec<f64>,
     /// Lowest step from which a reading may be interpolated: the one at or before its instant.
@@ -41,7 +42,7 @@ pub(super) struct Native {
 impl Native {
     pub(super) fn new(case: &Case, worlds: &[Guard], settings: &Settings, start: i64) -> Self {
         let plain = worlds[0].world().tree().branches.is_empty();
-        let cuts: Vec<&[usize]> = worlds.iter().map(|guard| guard.world().tree().cut.as_slice()).collect();
+        let cuts: Vec<&[JointId]> = worlds.iter().map(|guard| guard.world().tree().cut.as_slice()).collect();
         let width = 3 * case.mechanism.joints().len() + case.drives.len();
         let reporters = reporters(case, &cuts);
         // In a free motion step 1 is the first one reported. The first steps of bodies that move begin with velocities
@@ -56,10 +57,10 @@ impl Native {
     pub(super) fn push(&mut self, worlds: &[Guard], direct: f64) {
         let row = self.ring.push();
         let drives = 3 * self.reporters.len();
-        for (joint, &world) in self.reporters.iter().enumerate() {
+        for (joint, &world) in self.reporters.entries() {
             let Some(world) = world else { continue };
             let (force, moment) = worlds[world].world().reaction(joint).expect("the tree of this world cuts the joint");
-            row[3 * joint..][..3].copy_from_slice(&[force.x, force.y, moment]);
+            row[3 * joint.index()..][..3].copy_from_slice(&[force.x, force.y, moment]);
         }
         for (drive, torque) in row[drives..].iter_mut().enumerate() {
             *torque = worlds[0].world().torque(drive);
@@ -71,8 +72,8 @@ impl Native {
     pub(super) fn solve(&mut self, case: &Case, state: &mut State, t: f64) -> Result<()> {
         let place = Place::of(t / self.step + self.late).from(self.lowest);
         self.ring.weigh(place.first(), &place.weights(0.0), 0..self.row.len(), &mut self.row);
-        for joint in 0..self.reporters.len() {
-            let row = &self.row[3 * joint..];
+        for joint in self.reporters.ids() {
+            let row = &self.row[3 * joint.index()..];
             (state.forces[joint], state.moments[joint]) = (Vec2::new(row[0], row[1]), row[2]);
         }
         let drives = 3 * self.reporters.len();

@@ -26,7 +26,7 @@ use linkage::drive::Wrench;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::Vec2;
 use linkage::math::dense::solve_pair;
-use linkage::mechanism::Tree;
+use linkage::mechanism::{JointId, Tree};
 use linkage::solver::State;
 use linkage::work::{Count, Tally};
 use seam::{PAIR, Seam, Stand, Term};
@@ -67,14 +67,14 @@ impl NewtonEuler {
     /// The equations with other masses (kg) and moments of inertia (kg m^2), and with a share of the loads.
     #[must_use]
     pub fn of(case: &Case, masses: Vec<[f64; 2]>, load_share: f64) -> Self {
-        let driven: Vec<usize> = case.drives.iter().map(|drive| drive.joint).collect();
+        let driven: Vec<JointId> = case.drives.iter().map(|drive| drive.joint).collect();
         NewtonEuler::along(case, &Tree::with(&case.mechanism, &driven), masses, load_share)
     }
 
     /// The same along any tree that contains all links and all driven joints.
     #[must_use]
     pub fn along(case: &Case, tree: &Tree, masses: Vec<[f64; 2]>, load_share: f64) -> Self {
-        let driven: Vec<usize> = case.drives.iter().map(|drive| drive.joint).collect();
+        let driven: Vec<JointId> = case.drives.iter().map(|drive| drive.joint).collect();
         let mut numbers = vec![None; masses.len()];
         for (number, branch) in tree.branches.iter().enumerate() {
             numbers[branch.link] = Some(number);

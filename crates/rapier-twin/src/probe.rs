@@ -16,7 +16,7 @@ use super::world::World;
 use linkage::case::Case;
 use linkage::error::Result;
 use linkage::math::Vec2;
-use linkage::mechanism::LinkPose;
+use linkage::mechanism::{JointId, LinkPose, PerJoint};
 use linkage::solver::State;
 use linkage::work::{Count, Tally};
 
@@ -25,7 +25,7 @@ pub(super) struct Probe<'a> {
     worlds: Vec<Guard<'a>>,
     /// The tiny step (s).
     step: f64,
-    reporters: Vec<Option<usize>>,
+    reporters: PerJoint<Option<usize>>,
     ghost: Option<Ghost>,
     /// Poses before the tiny step and after it.
     poses: [Vec<LinkPose>; 2],
@@ -35,7 +35,7 @@ pub(super) struct Probe<'a> {
 impl<'a> Probe<'a> {
     /// Probes of worlds whose trees together cut every joint. The crank turns by `turn` (rad) in a tiny step.
     pub(super) fn new(case: &'a Case, worlds: Vec<Guard<'a>>, turn: f64) -> Self {
-        let cuts: Vec<&[usize]> = worlds.iter().map(|guard| guard.world().tree().cut.as_slice()).collect();
+        let cuts: Vec<&[JointId]> = worlds.iter().map(|guard| guard.world().tree().cut.as_slice()).collect();
         let reporters = reporters(case, &cuts);
         let speed = case.drives.top_speed();
         let (poses, tally) = ([Vec::new(), Vec::new()], Tally::default());
@@ -72,7 +72,7 @@ impl<'a> Probe<'a> {
     /// Adds `share` times the reports of a world.
     fn add(&self, index: usize, share: f64, state: &mut State) {
         let world: &dyn World = self.worlds[index].world();
-        for joint in (0..self.reporters.len()).filter(|&joint| self.reporters[joint] == Some(index)) {
+        for joint in self.reporters.ids().filter(|&joint| self.reporters[joint] == Some(index)) {
             let (force, moment) = world.reaction(joint).expect("the tree of this world cuts the joint");
             state.forces[joint] += force * share;
             state.moments[joint] += moment * share;

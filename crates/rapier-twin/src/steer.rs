@@ -7,8 +7,8 @@
 //! a cos^2 mu / (a cos^2 mu + b). In any other directions it may come close to 1.
 
 use linkage::math::Vec2;
-use linkage::mechanism::spanning_tree::Tree;
 use linkage::mechanism::{GROUND, Joint, Mechanism};
+use linkage::mechanism::{LinkId, spanning_tree::Tree};
 
 /// The links of a cut pin, the more mobile one first, and the direction of its first row in that link's frame.
 /// `masses` are mass (kg) and moment of inertia (kg m^2) of every link. `None` where there is nothing to choose.
@@ -17,12 +17,12 @@ pub(super) fn steered(
     mechanism: &Mechanism,
     masses: &[[f64; 2]],
     joint: &Joint,
-) -> Option<([usize; 2], Vec2)> {
+) -> Option<([LinkId; 2], Vec2)> {
     if !joint.is_pin() || tree.branches.is_empty() {
         return None;
     }
     let links = [joint.first.link, joint.second.link];
-    let arm = |link: usize| -> Option<(f64, Vec2)> {
+    let arm = |link: LinkId| -> Option<(f64, Vec2)> {
         let Some(branch) = tree.branches.iter().find(|branch| branch.link == link) else {
             // A link that floats turns about its mass centre.
             let arm = joint.on(link)? - mechanism.links()[link].mass_centre;

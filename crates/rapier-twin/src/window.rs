@@ -7,7 +7,7 @@ use linkage::case::Case;
 use linkage::engine::Settings;
 use linkage::math::interpolate::{POINTS, lagrange_weights};
 use linkage::math::{Motion, Vec2, rotated, turned, unit};
-use linkage::mechanism::LinkPose;
+use linkage::mechanism::{LinkId, LinkPose};
 use linkage::solver::State;
 use linkage::trajectory::Stage;
 
@@ -158,12 +158,12 @@ impl Window {
         for (index, branch) in branches.iter().enumerate() {
             let joint = &joints[branch.joint];
             self.directions[branch.link] = unit(self.poses[branch.link][2]);
-            let along = |link: usize, local: Vec2| rotated(self.directions[link], local);
+            let along = |link: LinkId, local: Vec2| rotated(self.directions[link], local);
             let (velocity, omega) = self.rates[branch.parent];
             let speed = world.relative_speed(index);
             self.rates[branch.link] = match joint.axis_on(branch.parent) {
                 None => {
-                    let arm = |link: usize| {
+                    let arm = |link: LinkId| {
                         let local = joint.on(link).expect("the joint is on the link");
                         along(link, local - links[link].mass_centre)
                     };
@@ -171,8 +171,8 @@ impl Window {
                     (velocity + turned(arm(branch.parent)) * omega - turned(arm(branch.link)) * spin, spin)
                 }
                 Some(axis) => {
-                    let centre = |link: usize| match link {
-                        0 => Vec2::zeros(),
+                    let centre = |link: LinkId| match link {
+                        LinkId(0) => Vec2::zeros(),
                         _ => pair(&self.poses[link]),
                     };
                     let reach = centre(branch.link) - centre(branch.parent);
@@ -182,7 +182,7 @@ impl Window {
         }
         let before = self.ring.row_mut(self.ring.newest() - 1)[self.poses.len() * WIDTH..].as_chunks_mut().0;
         for (link, (own, carried)) in before.iter_mut().zip(&self.rates).enumerate().skip(1) {
-            let (velocity, omega) = world.velocity(link).unwrap_or(*carried);
+            let (velocity, omega) = world.velocity(LinkId(link)).unwrap_or(*carried);
             *own = [velocity.x, velocity.y, omega];
         }
     }
@@ -190,9 +190,9 @@ impl Window {
     /// The newest pose, with the velocities that led there: differences of positions over one step.
     pub(super) fn newest_motion(&self, case: &Case, state: &mut State) {
         let (now, before) = (self.ring.row(self.newest()), self.ring.row(self.newest() - 1));
-        for (link, body) in case.mechanism.links().iter().enumerate().skip(1) {
-            let at = |c: usize| now[link * WIDTH + c];
-            let rate = |c: usize| (at(c) - before[link * WIDTH + c]) / self.step;
+        for (link, body) in case.mechanism.links().entries().skip(1) {
+            let at = |c: usize| now[link.index() * WIDTH + c];
+            let rate = |c: usize| (at(c) - before[link.index() * WIDTH + c]) / self.step;
             state.angles[link] = at(2);
             state.motions[link] = Motion::of_point(
                 body.mass_centre,
@@ -206,15 +206,15 @@ impl Window {
 
     /// Acceleration of a link's mass centre and its angular acceleration (x, y, angle) in the newest step: second
     /// differences of positions.
-    pub(super) fn newest_acceleration(&self, link: usize) -> [f64; WIDTH] {
+    pub(super) fn newest_acceleration(&self, link: LinkId) -> [f64; WIDTH] {
         let [now, before, earlier] =
-            [0, 1, 2].map(|back| &self.ring.row(self.newest() - back)[link * WIDTH..][..WIDTH]);
+            [0, 1, 2].map(|back| &self.ring.row(self.newest() - back)[link.index() * WIDTH..][..WIDTH]);
         [0, 1, 2].map(|c| (now[c] - 2.0 * before[c] + earlier[c]) / (self.step * self.step))
     }
 
     /// The same for a step to the place that `guard` has reached from the newest one.
-    pub(super) fn next_acceleration(&self, guard: &Guard, link: usize) -> [f64; WIDTH] {
-        let [now, before] = [0, 1].map(|back| &self.ring.row(self.newest() - back)[link * WIDTH..][..WIDTH]);
+    pub(super) fn next_acceleration(&self, guard: &Guard, link: LinkId) -> [f64; WIDTH] {
+        let [now, before] = [0, 1].map(|back| &self.ring.row(self.newest() - back)[link.index() * WIDTH..][..WIDTH]);
         let centre = guard.centres()[link];
         let next = [centre.x, centre.y, guard.frames()[link].angle()];
         [0, 1, 2].map(|c| (next[c] - 2.0 * now[c] + before[c]) / (self.step * self.step))
@@ -226,10 +226,10 @@ impl Window {
         let weights = place.weights(back / self.step);
         into.clear();
         into.push(LinkPose::GROUND);
-        for (link, body) in case.mechanism.links().iter().enumerate().skip(1) {
+        for (link, body) in case.mechanism.links().entries().skip(1) {
             let mut sum = [0.0; WIDTH];
             for (k, weight) in weights.iter().enumerate() {
-                let row = &self.ring.row(place.first() + k as i64)[link * WIDTH..];
+                let row = &self.ring.row(place.first() + k as i64)[link.index() * WIDTH..];
                 (0..3).for_each(|c| sum[c] += weight * row[c]);
             }
             into.push(LinkPose::through(body.mass_centre, Vec2::new(sum[0], sum[1]), sum[2]));

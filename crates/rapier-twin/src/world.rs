@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use super::tree::Tree;
 use linkage::drive::Wrench;
 use linkage::math::{KeepNan, Vec2, cross, rotated};
-use linkage::mechanism::{Joint, LinkPose, Side};
+use linkage::mechanism::{Joint, JointId, LinkId, LinkPose, Side};
 
 /// What is known of a link's angle (rad, counter-clockwise positive).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -137,7 +137,7 @@ pub trait World {
     fn set_motor(&mut self, drive: usize, target: f64, damping: f64);
 
     /// Sets the loads on a link. They stay until they are set again.
-    fn set_load(&mut self, link: usize, load: Wrench);
+    fn set_load(&mut self, link: LinkId, load: Wrench);
 
     /// Moves all links into the given poses; velocities stay as they are.
     fn place(&mut self, poses: &[LinkPose]);
@@ -146,7 +146,7 @@ pub trait World {
     fn frames(&self) -> &[LinkFrame];
 
     /// Angle of a link's frame (rad), turns counted.
-    fn angle(&self, link: usize) -> f64 {
+    fn angle(&self, link: LinkId) -> f64 {
         self.frames()[link].angle()
     }
 
@@ -163,13 +163,13 @@ pub trait World {
 
     /// Velocity of the mass centre (m/s) and angular velocity (rad/s) of a link outside the tree.
     /// They too are one step late. `None` for links of the tree.
-    fn velocity(&self, link: usize) -> Option<(Vec2, f64)>;
+    fn velocity(&self, link: LinkId) -> Option<(Vec2, f64)>;
 
     /// Reaction in a joint that the tree cuts, from the impulses of the last step.
     /// It is the force of the first link on the second (N) and the moment about the point on the second (N m).
     /// `None` for joints of the tree, which report none.
     /// The world must have been built for reading reactions.
-    fn reaction(&self, joint: usize) -> Option<(Vec2, f64)>;
+    fn reaction(&self, joint: JointId) -> Option<(Vec2, f64)>;
 
     /// Driving moment on the drive's link (N m), from the motor's impulse in the last step.
     fn torque(&self, drive: usize) -> f64;

@@ -7,7 +7,7 @@ use crate::viewers::{FrameTransform, FrameTransforms, SceneEntity, SceneUpdate};
 use drawing::{Lettering, Sketch, Travels};
 use linkage::math::statistics::ascending;
 use linkage::math::{KeepNan, Vec2};
-use linkage::mechanism::{GROUND, Link, LinkPose, Mechanism};
+use linkage::mechanism::{GROUND, Link, LinkId, LinkPose, Mechanism};
 use linkage::trajectory::{Channel, Trajectory};
 
 /// Largest number of frames in a recording, unless it is so long that there would be fewer than [`FRAMES_PER_SECOND`].
@@ -86,7 +86,7 @@ impl<'a> Scene<'a> {
         let mut transforms = Vec::new();
         for side in &self.sides {
             let row = side.row_at(time);
-            for (index, link) in self.mechanism.links().iter().enumerate().skip(1) {
+            for (index, link) in self.mechanism.links().entries().skip(1) {
                 let at = side.pose(self.mechanism, index, row);
                 transforms.push(FrameTransform {
                     timestamp: stamp(nanoseconds),
@@ -107,7 +107,7 @@ impl<'a> Scene<'a> {
         for (number, side) in self.sides.iter().enumerate() {
             let Paint { rgba, broad, layer } = side.paint;
             let brush = Brush { rgba, broad, z: self.layer() * (1.0 + layer), ..brush };
-            for (index, link) in self.mechanism.links().iter().enumerate().skip(1) {
+            for (index, link) in self.mechanism.links().entries().skip(1) {
                 let name = format!("{}/{}", side.name, link.name);
                 let entity = self.entity(&name, &name, &brush, index);
                 entities.push(if number == 0 { self.lettered(entity, index) } else { entity });
@@ -117,7 +117,7 @@ impl<'a> Scene<'a> {
     }
 
     /// The marks of a link in its frame.
-    fn entity(&self, frame: &str, id: &str, brush: &Brush, link: usize) -> SceneEntity {
+    fn entity(&self, frame: &str, id: &str, brush: &Brush, link: LinkId) -> SceneEntity {
         let mut entity = SceneEntity {
             timestamp: stamp(0),
             frame_id: frame.into(),
@@ -132,7 +132,7 @@ impl<'a> Scene<'a> {
     }
 
     /// The same with the names of the link's points.
-    fn lettered(&self, mut entity: SceneEntity, link: usize) -> SceneEntity {
+    fn lettered(&self, mut entity: SceneEntity, link: LinkId) -> SceneEntity {
         // The names of ground points stand below them, where no link passes.
         let aside = if link == GROUND { Vec2::new(0.03, -0.05) * self.size } else { Vec2::zeros() };
         let own = |names, at| names == Lettering::Point && at == link;
@@ -165,11 +165,11 @@ impl Placed<'_> {
     }
 
     /// Pose of a link's frame, from the mass centre in the trajectory.
-    pub fn pose(&self, mechanism: &Mechanism, link: usize, row: usize) -> LinkPose {
+    pub fn pose(&self, mechanism: &Mechanism, link: LinkId, row: usize) -> LinkPose {
         if link == GROUND {
             return LinkPose::GROUND;
         }
-        let [angle, x, y] = self.links[link - 1].map(|column| column[row]);
+        let [angle, x, y] = self.links[link.index() - 1].map(|column| column[row]);
         LinkPose::through(mechanism.links()[link].mass_centre, Vec2::new(x, y), angle)
     }
 }

@@ -7,7 +7,7 @@ use linkage::math::KeepNan;
 use linkage::math::unit;
 use linkage::mechanism::assembly::{Choice, blame, blamed, first_choices, group_of};
 use linkage::mechanism::pose::SidePoint;
-use linkage::mechanism::{Group, GroupKind, Mechanism, Pose, Side, StartGroup, Structure};
+use linkage::mechanism::{Group, GroupId, GroupKind, LinkId, Mechanism, Pose, Side, StartGroup, Structure};
 
 /// A start other than that of the scenario file. The default asks for nothing.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -36,7 +36,7 @@ pub struct Asked {
 #[derive(Clone, Debug)]
 pub struct Undecided {
     /// Index of the group in the structure.
-    pub group: usize,
+    pub group: GroupId,
     /// Why it is not decided.
     pub why: Error,
 }
@@ -78,7 +78,7 @@ const SAME: f64 = 1e-9;
 
 impl Asked {
     /// The groups and starts asked for.
-    pub fn groups(&self, mechanism: &Mechanism, structure: &Structure) -> Result<Vec<(usize, StartGroup)>> {
+    pub fn groups(&self, mechanism: &Mechanism, structure: &Structure) -> Result<Vec<(GroupId, StartGroup)>> {
         self.modes.iter().map(|text| start::asked(text, mechanism, structure)).collect()
     }
 }
@@ -90,18 +90,18 @@ impl Start<'_> {
     /// # Errors
     /// Those of [`first_choices`], with the group to blame, and [`ErrorKind::Geometry`] if the file's configuration
     /// cannot be followed to the angle.
-    pub fn placed(&self, crank: f64, groups: &[(usize, StartGroup)]) -> Result<Placed> {
+    pub fn placed(&self, crank: f64, groups: &[(GroupId, StartGroup)]) -> Result<Placed> {
         let moved = crank != self.crank;
         if groups.is_empty() && !moved {
             return self.settled(crank, self.starts.to_vec());
         }
         let own = first_choices(self.mechanism, self.structure, &self.angles(self.crank), self.starts);
-        let is_asked = |index: usize| groups.iter().any(|(asked, _)| *asked == index);
+        let is_asked = |index: GroupId| groups.iter().any(|(asked, _)| *asked == index);
         let mut starts = self.starts.to_vec();
         let mut followed = None;
         if moved {
             followed = own.as_ref().ok().and_then(|own| self.followed(own, crank));
-            for (index, group) in self.structure.groups.iter().enumerate().filter(|(index, _)| !is_asked(*index)) {
+            for (index, group) in self.structure.groups.entries().filter(|(index, _)| !is_asked(*index)) {
                 starts[index] = match (&own, &followed, &starts[index]) {
                     (_, _, start) if start.near.is_empty() => start.clone(),
                     (_, _, start) if start.mode.is_some() => StartGroup { near: Vec::new(), ..start.clone() },
@@ -207,7 +207,7 @@ impl Start<'_> {
 
     /// The start of a group where it stands in `pose`.
     fn standing(&self, group: &Group, pose: &Pose) -> StartGroup {
-        let of_link = |&link: &usize| {
+        let of_link = |&link: &LinkId| {
             self.mechanism.links()[link].points.iter().map(move |point| {
                 let side = Side { link, local: point.local };
                 (SidePoint { name: point.name.clone(), side }, pose.0[link].point(point.local))

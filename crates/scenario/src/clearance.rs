@@ -13,7 +13,7 @@ use super::unit::LENGTH;
 use super::words::suggestion;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::{KeepNan, Vec2};
-use linkage::mechanism::{GROUND, Link, Mechanism, Point, is_sound_name};
+use linkage::mechanism::{GROUND, Link, LinkId, Mechanism, Point, is_sound_name};
 use question::pairs;
 
 const RADIUS: Key = optional("radius", Kind::LENGTHS.of(Sign::NotNegative), "that of the section; of a polygon 0")
@@ -123,7 +123,7 @@ fn links(table: &Table, outlines: Option<Table>, radius: Option<f64>, mechanism:
     if let Some(mut outlines) = outlines {
         for own in outlines.all_tables()? {
             let name = own.name().to_string();
-            let found = links.iter().position(|link| link.name == name);
+            let found = links.find(|link| link.name == name);
             let Some(link) = found.filter(|&link| link != GROUND) else {
                 let (message, names) = match found {
                     Some(_) => ("the ground has no outline of its own".into(), "write `[[clearance.housing]]`".into()),
@@ -137,7 +137,7 @@ fn links(table: &Table, outlines: Option<Table>, radius: Option<f64>, mechanism:
             given[link] = Some(of_link(own, radius, &links[link])?);
         }
     }
-    let body = |(link, own): (usize, Option<Outline>)| {
+    let body = |(link, own): (LinkId, Option<Outline>)| {
         let Link { name, points, .. } = &links[link];
         let outline = match (own, radius) {
             (Some(outline), _) => outline,
@@ -152,7 +152,7 @@ fn links(table: &Table, outlines: Option<Table>, radius: Option<f64>, mechanism:
         };
         Ok(Body { name: name.clone(), link, outline })
     };
-    given.into_iter().enumerate().skip(1).map(body).collect()
+    links.ids().zip(given).skip(1).map(body).collect()
 }
 
 fn default(table: &Table, points: &[Point], radius: f64) -> Result<Outline> {

@@ -11,7 +11,7 @@ use super::{keys, parameter_table, start};
 use linkage::drive::{Drive, Load, MotionLaw};
 use linkage::error::{Error, Result};
 use linkage::math::Vec2;
-use linkage::mechanism::{GROUND, Mechanism, StartGroup, Structure};
+use linkage::mechanism::{GROUND, JointId, Mechanism, StartGroup, Structure};
 
 /// The mechanism of a scenario file, whether or not it can be assembled, without what has a mistake.
 #[derive(Clone, Debug)]
@@ -76,7 +76,7 @@ fn read(root: &mut Table, asked: &Asked) -> Result<Draft> {
         Some(drives) => drives.to_vec(),
         None => guessed(&mechanism, crank).into_iter().collect(),
     };
-    let driven: Vec<usize> = drives.iter().map(|drive| drive.joint).collect();
+    let driven: Vec<JointId> = drives.iter().map(|drive| drive.joint).collect();
     let structure = Structure::of(&mechanism, &driven);
     let starts = structure.as_ref().map_or_else(
         |_| Vec::new(),
@@ -116,8 +116,8 @@ fn read(root: &mut Table, asked: &Asked) -> Result<Draft> {
 /// A drive of the first link on the ground whose motion would be that of all.
 fn guessed(mechanism: &Mechanism, crank: f64) -> Option<Drive> {
     let joints = mechanism.joints();
-    let is_hinge = |&index: &usize| joints[index].is_pin() && joints[index].on(GROUND).is_some();
-    let index = (0..joints.len()).filter(is_hinge).find(|&index| Structure::of(mechanism, &[index]).is_ok())?;
+    let is_hinge = |&index: &JointId| joints[index].is_pin() && joints[index].on(GROUND).is_some();
+    let index = joints.ids().filter(is_hinge).find(|&index| Structure::of(mechanism, &[index]).is_ok())?;
     Some(Drive::prescribed(index, joints[index].other(GROUND).link, 0.0, crank, MotionLaw::ConstantSpeed(1.0)))
 }
 

@@ -6,7 +6,7 @@ use super::unit::{LENGTH, Unit};
 use super::words::suggestion;
 use linkage::case::Case;
 use linkage::error::Result;
-use linkage::mechanism::Side;
+use linkage::mechanism::{LinkId, Side};
 
 /// One figure with the number it must have.
 #[derive(Clone, Debug, PartialEq)]
@@ -157,7 +157,7 @@ fn distance(entry: &mut Table, case: &Case) -> Result<(Figure, String)> {
     let places = [places(entry, case, first)?, places(entry, case, second)?];
     // On one link a distance is only what the file states. So it is measured between two links, where the solver must
     // bring the two points together.
-    let has = |link: usize, of: &[Side]| of.iter().any(|side| side.link == link);
+    let has = |link: LinkId, of: &[Side]| of.iter().any(|side| side.link == link);
     let measured = |this: usize| places[this].iter().find(|side| !has(side.link, &places[1 - this])).copied();
     let (Some(first), Some(second)) = (measured(0), measured(1)) else {
         let message =
@@ -170,8 +170,8 @@ fn distance(entry: &mut Table, case: &Case) -> Result<(Figure, String)> {
 
 /// The point called `name` on every link that has it.
 fn places(entry: &Table, case: &Case, name: &str) -> Result<Vec<Side>> {
-    let links = || case.mechanism.links().iter().enumerate();
-    let on = |(link, body): (usize, &linkage::mechanism::Link)| {
+    let links = || case.mechanism.links().entries();
+    let on = |(link, body): (LinkId, &linkage::mechanism::Link)| {
         let point = body.points.iter().find(|point| point.name == name)?;
         Some(Side { link, local: point.local })
     };

@@ -8,7 +8,7 @@ use super::reader::{Faults, Table};
 use super::words::{Words, names, suggestion};
 use linkage::error::{ErrorKind, Result};
 use linkage::math::{Vec2, unit};
-use linkage::mechanism::{Guise, Joint, JointKind, Link, Side, is_sound_name};
+use linkage::mechanism::{Guise, Joint, JointKind, Link, LinkId, Side, is_sound_name};
 
 /// Reads what a type of joints needs: the kind, and how it is drawn.
 type ReadJoint = fn(&mut Table) -> Result<(JointKind, Option<Guise>)>;
@@ -90,7 +90,7 @@ fn joint(table: &mut Table, links: &[Link], before: &[Joint]) -> Result<Joint> {
         );
         return table.refuse("links", message, "make the two one link with all their points, or join other links");
     }
-    let side = |link: usize, point: &str| -> Result<Side> {
+    let side = |link: LinkId, point: &str| -> Result<Side> {
         let points = &links[link].points;
         let found = points.iter().find(|found| found.name == point);
         let local = found.map(|found| found.local).ok_or_else(|| {
@@ -170,12 +170,12 @@ fn direction(angle: f64) -> Vec2 {
 }
 
 /// Index of the link called `name`. An unknown name is an error of the key `links` or `link` of `table`.
-pub fn link(table: &mut Table, name: &str, links: &[Link]) -> Result<usize> {
+pub fn link(table: &mut Table, name: &str, links: &[Link]) -> Result<LinkId> {
     if let Some(found) = links.iter().position(|link| link.name == name) {
-        return Ok(found);
+        return Ok(LinkId(found));
     }
     let key = if table.has("links") { "links" } else { "link" };
     let names = links.iter().map(|link| link.name.as_str());
     let error = table.wrong(ErrorKind::Input, key, format!("there is no link \"{name}\""));
-    table.unknown_name(links.len() - 1, error.help(suggestion(name, names, "\"")))
+    table.unknown_name(LinkId(links.len() - 1), error.help(suggestion(name, names, "\"")))
 }

@@ -7,7 +7,7 @@ use super::unit::{ANGLE, DAMPING, FORCE, Family, LENGTH, MOMENT, MOMENT_PER_SPEE
 use super::words::{Words, names, suggestion};
 use linkage::drive::{Acts, Course, Load};
 use linkage::error::{Error, ErrorKind, Result};
-use linkage::mechanism::{GROUND, Mechanism, Side};
+use linkage::mechanism::{GROUND, LinkId, Mechanism, Side};
 use std::f64::consts::TAU;
 
 const ACTS: Words<Acts> =
@@ -228,7 +228,7 @@ fn period(table: &Table, turns: Option<i64>) -> Result<u32> {
 }
 
 /// A moving link.
-fn moving(table: &mut Table, name: &str, mechanism: &Mechanism) -> Result<usize> {
+fn moving(table: &mut Table, name: &str, mechanism: &Mechanism) -> Result<LinkId> {
     let link = link(table, name, mechanism.links())?;
     if link == GROUND {
         return table.refuse("link", "the ground does not move, and bears any load", "name a moving link");
@@ -237,7 +237,7 @@ fn moving(table: &mut Table, name: &str, mechanism: &Mechanism) -> Result<usize>
 }
 
 /// A link that can turn.
-fn turning(table: &mut Table, name: &str, mechanism: &Mechanism) -> Result<usize> {
+fn turning(table: &mut Table, name: &str, mechanism: &Mechanism) -> Result<LinkId> {
     let link = link(table, name, mechanism.links())?;
     if link == GROUND {
         return table.refuse("link", "the ground does not turn", "name a moving link");
@@ -256,7 +256,7 @@ fn loaded_point(table: &mut Table, mechanism: &Mechanism, (name, point): (String
     side(table, mechanism, link, &point, "point")
 }
 
-fn side(table: &Table, mechanism: &Mechanism, link: usize, point: &str, key: &str) -> Result<Side> {
+fn side(table: &Table, mechanism: &Mechanism, link: LinkId, point: &str, key: &str) -> Result<Side> {
     let body = &mechanism.links()[link];
     let found = body.points.iter().find(|found| found.name == point);
     let missing = || -> Error {
@@ -267,7 +267,7 @@ fn side(table: &Table, mechanism: &Mechanism, link: usize, point: &str, key: &st
 }
 
 /// `links`: two links, either of which may be the ground.
-fn pair(table: &mut Table, mechanism: &Mechanism, names: &[String]) -> Result<[usize; 2]> {
+fn pair(table: &mut Table, mechanism: &Mechanism, names: &[String]) -> Result<[LinkId; 2]> {
     let [first, second] = names else {
         let message = format!("found {} links, but this load acts between two", names.len());
         return table.refuse("links", message, "write `links = [\"ground\", \"rocker\"]`");

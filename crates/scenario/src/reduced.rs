@@ -77,7 +77,7 @@ fn moment(case: &Case) -> Found {
 
 /// The links that move and have inertia.
 fn masses(case: &Case) -> impl Iterator<Item = &Link> {
-    let links = case.mechanism.links().iter().enumerate().filter(|(index, _)| *index != GROUND);
+    let links = case.mechanism.links().entries().filter(|(index, _)| *index != GROUND);
     links.map(|(_, link)| link).filter(|link| link.mass > 0.0 || link.inertia > 0.0)
 }
 

@@ -6,8 +6,8 @@ use super::reader::{Faults, Table};
 use super::words::{Words, names, suggestion};
 use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::math::Vec2;
-use linkage::mechanism::pose::SidePoint;
-use linkage::mechanism::{AssemblyMode, Group, GroupKind, Mechanism, Side, StartGroup, Structure};
+use linkage::mechanism::{AssemblyMode, Group, GroupId, GroupKind, Mechanism, Side, StartGroup, Structure};
+use linkage::mechanism::{LinkId, pose::SidePoint};
 
 const MODES: Words<AssemblyMode> = &[
     ("left", AssemblyMode::Left),
@@ -41,7 +41,7 @@ pub const SECTIONS: &[Section] = &[
 /// A table of `[[start.groups]]` as it stands there.
 pub struct Stated<'a> {
     table: Table<'a>,
-    links: Vec<usize>,
+    links: Vec<LinkId>,
     mode: Option<AssemblyMode>,
     near: Vec<(Table<'a>, String, Vec2)>,
 }
@@ -70,7 +70,7 @@ pub fn groups(
     stated: Vec<Stated>,
     mechanism: &Mechanism,
     structure: &Structure,
-    asked: &[(usize, StartGroup)],
+    asked: &[(GroupId, StartGroup)],
 ) -> Result<Vec<StartGroup>> {
     let mut wanted: Vec<Option<StartGroup>> = vec![None; structure.groups.len()];
     let mut faults = Faults::none();
@@ -80,8 +80,8 @@ pub fn groups(
         }
     }
     faults.end()?;
-    let is_asked = |index: usize| asked.iter().any(|(other, _)| *other == index);
-    let groups = structure.groups.iter().enumerate();
+    let is_asked = |index: GroupId| asked.iter().any(|(other, _)| *other == index);
+    let groups = structure.groups.entries();
     let missing: Vec<&Group> =
         groups.filter(|&(index, _)| wanted[index].is_none() && !is_asked(index)).map(|(_, group)| group).collect();
     // A group that no version of the file could start is left to the first pose, which reports it.
@@ -99,7 +99,7 @@ fn group(
     mechanism: &Mechanism,
     structure: &Structure,
     before: &[Option<StartGroup>],
-) -> Result<(usize, StartGroup)> {
+) -> Result<(GroupId, StartGroup)> {
     let Some(index) = group_of(&links, structure) else {
         return Err(unknown_group(&table, &links, mechanism, structure));
     };
@@ -118,17 +118,17 @@ fn group(
 }
 
 /// Index of the group of exactly these links, in any order.
-fn group_of(links: &[usize], structure: &Structure) -> Option<usize> {
+fn group_of(links: &[LinkId], structure: &Structure) -> Option<GroupId> {
     let mut sorted = links.to_vec();
     sorted.sort_unstable();
-    structure.groups.iter().position(|group| group.links == sorted)
+    structure.groups.find(|group| group.links == sorted)
 }
 
 /// The group and the start that `LINK,LINK=MODE` or `LINK,LINK=NUMBER` asks for.
 ///
 /// # Errors
 /// [`ErrorKind::Input`] if there is no such group, or if the group does not have the mode.
-pub fn asked(text: &str, mechanism: &Mechanism, structure: &Structure) -> Result<(usize, StartGroup)> {
+pub fn asked(text: &str, mechanism: &Mechanism, structure: &Structure) -> Result<(GroupId, StartGroup)> {
     let examples = || {
         let example = |group: &Group| {
             let names = group.names(mechanism).replace(", ", ",");
@@ -141,7 +141,7 @@ pub fn asked(text: &str, mechanism: &Mechanism, structure: &Structure) -> Result
             .help(format!("write the links of a group, `=`, and a mode or a number: {}", examples())));
     };
     let names: Vec<&str> = names.split(',').map(str::trim).collect();
-    let links: Option<Vec<usize>> = names.iter().map(|name| mechanism.link_named(name)).collect();
+    let links: Option<Vec<LinkId>> = names.iter().map(|name| mechanism.link_named(name)).collect();
     let Some(index) = links.as_ref().and_then(|links| group_of(links, structure)) else {
         return Err(Error::new(ErrorKind::Input, format!("the mechanism has no Assur group ({})", names.join(", ")))
             .help(format!("ask for one of its groups: {}", examples())));
@@ -215,7 +215,7 @@ fn side_point(
     }
 }
 
-fn unknown_group(table: &Table, links: &[usize], mechanism: &Mechanism, structure: &Structure) -> Error {
+fn unknown_group(table: &Table, links: &[LinkId], mechanism: &Mechanism, structure: &Structure) -> Error {
     let names: Vec<&str> = links.iter().map(|&link| mechanism.links()[link].name.as_str()).collect();
     let message = format!("the mechanism has no Assur group ({})", names.join(", "));
     let groups: Vec<&Group> = structure.groups.iter().collect();

@@ -12,7 +12,7 @@ use linkage::case::Grid;
 use linkage::drive::{Drive, Drives, Load, MotionLaw};
 use linkage::error::Result;
 use linkage::math::Vec2;
-use linkage::mechanism::{Joint, Link, Mechanism};
+use linkage::mechanism::{Joint, JointId, Link, LinkId, Mechanism};
 
 /// What is told of the keys that are read here.
 pub const SECTIONS: &[Section] = &[Section::at("").with(&[
@@ -118,7 +118,7 @@ impl<'a> Stated<'a> {
             clearance.and_then(|mut table| faults.read(&mut table, |table| clearance::read(table, &mechanism)));
         let crank_drive = match &drives {
             Some(drives) => drives.crank().clone(),
-            None => Drive::prescribed(0, 1, 0.0, 0.0, MotionLaw::ConstantSpeed(1.0)),
+            None => Drive::prescribed(JointId(0), LinkId(1), 0.0, 0.0, MotionLaw::ConstantSpeed(1.0)),
         };
         let grid = grid
             .ok()

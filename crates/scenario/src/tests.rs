@@ -6,7 +6,7 @@ use proptest::prelude::*;
 
 use super::*;
 use linkage::math::Vec2;
-use linkage::mechanism::{AssemblyMode, Side};
+use linkage::mechanism::{AssemblyMode, LinkId, Side};
 use linkage::trajectory::Channel;
 
 fn scenarios() -> PathBuf {
@@ -79,7 +79,7 @@ fn crank_rocker_starts_where_two_circles_meet() {
     assert!(linkage::math::cross(c - a, b - a) > 0.0, "B lies left of the line from A to C");
     let d = start_point(&scenario, "D");
     assert!((d - c - (b - c) * (4.0 / 3.0)).norm() < 1e-15);
-    let crank = &scenario.case.mechanism.links()[1];
+    let crank = &scenario.case.mechanism.links()[LinkId(1)];
     let about_pivot = crank.inertia + crank.mass * crank.mass_centre.norm_squared();
     assert!((about_pivot - 2.6 * a.norm_squared() / 3.0).abs() < 1e-18, "I_O = m l^2 / 3");
     assert_eq!((scenario.engine.step.get(), scenario.engine_rel, scenario.case.grid.len()), (None, 1e-2, 361));
@@ -105,8 +105,8 @@ fn crank_rocker_starts_where_two_circles_meet() {
     assert!(printed[2].wrong.is_none());
     // O is on the ground and the crank, A on the crank and the coupler: the distance is measured from the ground to the
     // coupler.
-    let [ground, coupler] =
-        [0, 2].map(|link| Side { link, local: scenario.case.mechanism.links()[link].points[0].local });
+    let [ground, coupler] = [0, 2]
+        .map(|link| Side { link: LinkId(link), local: scenario.case.mechanism.links()[LinkId(link)].points[0].local });
     assert_eq!(printed[0].figure, Figure::Distance([ground, coupler]));
     let known = |index: usize| scenario.oracles[index].basis;
     assert_eq!([0, 2, 4].map(known), [OracleBasis::Derived, OracleBasis::Recomputed, OracleBasis::Published]);

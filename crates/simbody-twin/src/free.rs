@@ -10,6 +10,7 @@ use linkage::case::Case;
 use linkage::drive::Wrench;
 use linkage::engine::bodies::check_inertias;
 use linkage::error::Result;
+use linkage::mechanism::LinkId;
 use linkage::solver::State;
 
 /// Starts the run of a free motion at t = 0.
@@ -59,7 +60,7 @@ fn acting(case: &Case, linkage: &Linkage, setting_off: Rc<RefCell<Vec<f64>>>) ->
         linkage.motion(bodies, &mut state);
         let State { motions, angles, .. } = &state;
         let senses = setting_off.borrow();
-        let sensed = |_: usize, load: &linkage::drive::Load, link: usize, crank: f64| {
+        let sensed = |_: usize, load: &linkage::drive::Load, link: LinkId, crank: f64| {
             let omega = motions[link].omega;
             load.moment_in(if omega == 0.0 { senses[link] } else { omega }, crank)
         };

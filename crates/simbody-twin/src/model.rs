@@ -8,7 +8,10 @@ use linkage::engine::bodies::stand_in;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::{Vec2, cross};
 use linkage::mechanism;
-use linkage::mechanism::spanning_tree::{Branch, Tree, coordinate};
+use linkage::mechanism::{
+    JointId, LinkId,
+    spanning_tree::{Branch, Tree, coordinate},
+};
 use linkage::solver::State;
 
 /// The model of a case, and the mapping from its numbers to the mechanism's.
@@ -39,7 +42,7 @@ impl Linkage {
             Error::new(ErrorKind::Input, format!("Simbody cannot take the mechanism: {}", failure.message))
         };
         let mechanism = &case.mechanism;
-        let driven: Vec<usize> = case.drives.iter().map(|drive| drive.joint).collect();
+        let driven: Vec<JointId> = case.drives.iter().map(|drive| drive.joint).collect();
         let tree = Tree::with(mechanism, &driven);
         let mut model = Model::new(case.gravity.into());
         // Bodies are numbered in the order of the branches; the ground is 0 on both sides.
@@ -157,11 +160,11 @@ fn law(case: &Case, branch: &Branch, drive: &Drive, moving: bool) -> Option<f64>
 
 fn joint(found: &mechanism::Joint, branch: &Branch) -> Joint {
     let [parent, child] = [branch.parent, branch.link];
-    let on = |link: usize| found.on(link).expect("the joint is on the link").into();
+    let on = |link: LinkId| found.on(link).expect("the joint is on the link").into();
     match found.kind {
         mechanism::JointKind::Revolute => Joint::Pin { on_parent: on(parent), on_child: on(child) },
         mechanism::JointKind::Prismatic { .. } => {
-            let axis = |link: usize| found.axis_on(link).expect("the joint is on the link").into();
+            let axis = |link: LinkId| found.axis_on(link).expect("the joint is on the link").into();
             Joint::Slider {
                 on_parent: on(parent),
                 on_child: on(child),
@@ -174,7 +177,7 @@ fn joint(found: &mechanism::Joint, branch: &Branch) -> Joint {
 
 /// Mass and inertia of a link. Simbody cannot accelerate a free body without them.
 /// Such a link carries additional ones, which its reactions do not contain.
-pub(super) fn inertia(case: &Case, link: usize) -> Inertia {
+pub(super) fn inertia(case: &Case, link: LinkId) -> Inertia {
     let body = &case.mechanism.links()[link];
     let [extra_mass, extra_inertia] = stand_in(case, link);
     let inertia = body.inertia + if link == case.crank().link { case.crank().moving_inertia() } else { 0.0 };
@@ -182,7 +185,7 @@ pub(super) fn inertia(case: &Case, link: usize) -> Inertia {
 }
 
 /// Constant moment against a link's rotation (N m).
-fn resistance(case: &Case, link: usize) -> f64 {
+fn resistance(case: &Case, link: LinkId) -> f64 {
     let on_link =
         |load: &Load| load.resistance().map_or(0.0, |(loaded, moment)| if loaded == link { moment } else { 0.0 });
     case.loads.iter().map(on_link).sum()

@@ -30,7 +30,8 @@ pub(super) fn bound(case: &Case, [tolerance, accuracy]: [f64; 2], channel: &Chan
     let size = case.mechanism.size();
     let moving = &case.mechanism.links()[1..];
     let shortest = moving.iter().map(|link| link.size()).filter(|&size| size > 0.0).fold(size, f64::smaller);
-    let mass: f64 = (1..=moving.len()).map(|link| inertia(case, link)).map(|own| own.mass + own.extra_mass).sum();
+    let mass: f64 =
+        case.mechanism.links().ids().skip(1).map(|link| inertia(case, link)).map(|own| own.mass + own.extra_mass).sum();
     let turned = case.start.0.iter().fold(speed * longest, |max: f64, pose| max.larger(pose.angle.abs())).larger(1.0);
     // Positions are world coordinates: far from the origin they are coarser than the mechanism's size suggests.
     let reach = case.start.0.iter().fold(size, |max: f64, pose| max.larger(pose.origin.norm() + size));

@@ -80,7 +80,7 @@ pub(super) fn motion(proof: &Proof, sketch: &Sketch, view: [f64; 4]) -> Value {
     });
     let points = list(mechanism.moving_points(), |(name, own)| {
         json!({
-            "name": name, "link": own.link,
+            "name": name, "link": own.link.index(),
             "at": columns("point", name, &["x_m", "y_m"]), "velocity": columns("point", name, &["vx_m_s", "vy_m_s"]),
             "acceleration": columns("point", name, &["ax_m_s2", "ay_m_s2"]),
         })
@@ -120,5 +120,5 @@ pub(super) fn pair(at: Vec2) -> Value {
 
 /// The number of a link, and a place in its frame (m).
 pub(super) fn side(side: Side) -> Value {
-    json!([side.link, side.local.x, side.local.y])
+    json!([side.link.index(), side.local.x, side.local.y])
 }

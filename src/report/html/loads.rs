@@ -9,7 +9,7 @@ use crate::report::pretty::list;
 use drawing::{Sketch, acting, tensions, weights};
 use linkage::case::{Case, Seat};
 use linkage::drive::{Load, Senses};
-use linkage::mechanism::{GROUND, Mechanism, Side};
+use linkage::mechanism::{GROUND, LinkId, Mechanism, Side};
 use linkage::trajectory::{Channel, Trajectory};
 
 /// Numbers in single precision that a row takes.
@@ -68,7 +68,7 @@ pub(super) fn of(case: &Case, sketch: &Sketch, placed: &Placed, rows: &[usize], 
 
 /// A load in words, with its links and points.
 fn name(mechanism: &Mechanism, load: &Load) -> String {
-    let link = |link: usize| mechanism.links()[link].name.as_str();
+    let link = |link: LinkId| mechanism.links()[link].name.as_str();
     let sort = load.sort().replace('_', " ");
     let (points, links) = (load.points(), load.links());
     match (points.as_slice(), links.as_slice()) {

@@ -5,7 +5,7 @@ use super::placed::Placed;
 use drawing::palette;
 use drawing::{Fill, Ink, Layer, Mark, Shape, Sketch};
 use linkage::math::KeepNan;
-use linkage::mechanism::{GROUND, LinkPose};
+use linkage::mechanism::{GROUND, LinkId, LinkPose};
 
 /// Room around the motion, in units: for arrows and names.
 const MARGIN: f64 = 15.0;
@@ -28,12 +28,12 @@ pub(super) fn drawn(sketch: &Sketch, placed: &Placed, view: [f64; 4], row: usize
          <title id=\"picture-title\">The mechanism in motion</title>\n<g id=\"paths\"></g>\n"
     );
     let order = sketch.in_order();
-    let is_ground = |link: usize| link == GROUND;
+    let is_ground = |link: LinkId| link == GROUND;
     let ground = |mark: &Mark| mark.role.look().layer == Layer::Ground;
-    let of = |has: &dyn Fn(usize, &Mark) -> bool| group(&order, sketch, placed, row, has);
+    let of = |has: &dyn Fn(LinkId, &Mark) -> bool| group(&order, sketch, placed, row, has);
     say!(out, "<g class=\"ground\">{}</g>", of(&|link, mark| is_ground(link) && ground(mark)));
     say!(out, "<g class=\"reference\">{}</g>", of(&|link, mark| !(is_ground(link) && ground(mark))));
-    let moves = |link: usize, mark: &Mark| {
+    let moves = |link: LinkId, mark: &Mark| {
         let layer = mark.role.look().layer;
         let is_body = matches!(layer, Layer::Links | Layer::Blocks) || mark.role.name() == "pin";
         is_body && !is_ground(link)
@@ -47,14 +47,14 @@ pub(super) fn drawn(sketch: &Sketch, placed: &Placed, view: [f64; 4], row: usize
 
 /// Marks in their order, those of one link that follow each other in one element.
 fn group(
-    order: &[(usize, &Mark)],
+    order: &[(LinkId, &Mark)],
     sketch: &Sketch,
     placed: &Placed,
     row: usize,
-    has: &dyn Fn(usize, &Mark) -> bool,
+    has: &dyn Fn(LinkId, &Mark) -> bool,
 ) -> String {
     let mut out = String::new();
-    let mut open: Option<usize> = None;
+    let mut open: Option<LinkId> = None;
     for &(link, mark) in order.iter().filter(|(link, mark)| has(*link, mark)) {
         if open != Some(link) {
             if open.is_some() {
@@ -121,7 +121,7 @@ fn number(value: f64) -> String {
 }
 
 /// Name of the colour of a link; that of its elements' class too.
-fn of_link(link: usize) -> String {
+fn of_link(link: LinkId) -> String {
     format!("k{link}")
 }
 
@@ -131,11 +131,11 @@ pub(super) fn colours(links: usize, dark: bool) -> String {
     let named =
         [("text", palette::TEXT), ("quiet", palette::QUIET), ("load", palette::LOAD), ("paper", palette::PAPER)];
     let mut rules: Vec<String> = named.into_iter().map(|(name, paint)| rule(name, paint)).collect();
-    rules.extend((0..links).map(|link| rule(&of_link(link), palette::link(link))));
+    rules.extend((0..links).map(LinkId).map(|link| rule(&of_link(link), palette::link(link))));
     rules.join(";")
 }
 
 /// Rules that give the elements of each link its colour.
 pub(super) fn inks(links: usize) -> String {
-    (0..links).map(of_link).map(|name| format!(".{name}{{--ink:var(--{name})}}")).collect()
+    (0..links).map(LinkId).map(of_link).map(|name| format!(".{name}{{--ink:var(--{name})}}")).collect()
 }

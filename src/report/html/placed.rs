@@ -3,7 +3,7 @@
 use super::thinned::ends;
 use linkage::case::Case;
 use linkage::math::{KeepNan, Motion, Vec2, unit as direction};
-use linkage::mechanism::{GROUND, LinkPose, Mechanism};
+use linkage::mechanism::{GROUND, LinkId, LinkPose, Mechanism};
 use linkage::solver::State;
 use linkage::trajectory::{Channel, Trajectory};
 
@@ -44,10 +44,10 @@ impl<'a> Placed<'a> {
     /// The state in a row: places, and velocities and accelerations as far as they are known, 0 where they are not.
     pub(super) fn state(&self, case: &Case, row: usize) -> State {
         let mut state = State::at_rest(case);
-        for (number, link) in self.mechanism.links().iter().enumerate().skip(1) {
+        for (number, link) in self.mechanism.links().entries().skip(1) {
             let of = |columns: &[&[f64]; 3]| columns.map(|column| column[row]);
-            let rates = |order: usize| self.rates.get(order).map_or([0.0; 3], |own| of(&own[number - 1]));
-            let [angle, x, y] = of(&self.links[number - 1]);
+            let rates = |order: usize| self.rates.get(order).map_or([0.0; 3], |own| of(&own[number.index() - 1]));
+            let [angle, x, y] = of(&self.links[number.index() - 1]);
             let [[omega, vx, vy], [alpha, ax, ay]] = [rates(0), rates(1)];
             let centre = [Vec2::new(x, y), Vec2::new(vx, vy), Vec2::new(ax, ay)];
             state.angles[number] = angle;
@@ -57,25 +57,25 @@ impl<'a> Placed<'a> {
     }
 
     /// World place (m) of a point of a link.
-    pub(super) fn point(&self, row: usize, link: usize, local: Vec2) -> Vec2 {
+    pub(super) fn point(&self, row: usize, link: LinkId, local: Vec2) -> Vec2 {
         self.pose(row, link).point(local)
     }
 
     /// Pose of a link's frame.
-    pub(super) fn pose(&self, row: usize, link: usize) -> LinkPose {
+    pub(super) fn pose(&self, row: usize, link: LinkId) -> LinkPose {
         if link == GROUND {
             return LinkPose::GROUND;
         }
-        let [angle, x, y] = self.links[link - 1].map(|column| column[row]);
+        let [angle, x, y] = self.links[link.index() - 1].map(|column| column[row]);
         LinkPose::through(self.mechanism.links()[link].mass_centre, Vec2::new(x, y), angle)
     }
 
     /// Least and greatest coordinates (m) of all points and joints over these rows: along x, along y.
     pub(super) fn room(&self, rows: &[usize]) -> [[f64; 2]; 2] {
-        let links = self.mechanism.links().iter().enumerate();
+        let links = self.mechanism.links().entries();
         let points = links.flat_map(|(link, own)| own.points.iter().map(move |point| (link, point.local)));
         let joints = self.mechanism.joints().iter().flat_map(|own| [own.first, own.second]);
-        let all: Vec<(usize, Vec2)> = points.chain(joints.map(|side| (side.link, side.local))).collect();
+        let all: Vec<(LinkId, Vec2)> = points.chain(joints.map(|side| (side.link, side.local))).collect();
         let places = || rows.iter().flat_map(|&row| all.iter().map(move |&(link, at)| self.point(row, link, at)));
         [ends(places().map(|at| at.x)), ends(places().map(|at| at.y))]
     }

@@ -65,7 +65,14 @@ fn layout(plan: &Plan) -> Value {
     let tips = list(&plan.tips, |tip| json!([tip.letter, tip.kind.word()]));
     let place = |letter: &str| plan.tips.iter().position(|tip| tip.letter == letter);
     let vectors = list(&plan.vectors, |vector| {
-        json!([vector.name, vector.part.word(), place(&vector.from), place(&vector.to), vector.link, vector.meaning])
+        json!([
+            vector.name,
+            vector.part.word(),
+            place(&vector.from),
+            place(&vector.to),
+            vector.link.index(),
+            vector.meaning
+        ])
     });
     json!({ "tips": tips, "vectors": vectors })
 }

@@ -6,7 +6,7 @@ use super::markup::escaped;
 use crate::plain::brief;
 use crate::plain::judged::{self, Grade, Judged, Sort, grade};
 use crate::report::text;
-use linkage::mechanism::Mechanism;
+use linkage::mechanism::{JointId, LinkId, Mechanism};
 use prover::numbers::{error_in, fixed, significant};
 use prover::proof::Proof;
 
@@ -65,7 +65,7 @@ pub(super) fn structure(proof: &Proof) -> String {
     }
     for (group, mode) in structure.groups.iter().zip(&case.modes) {
         let joints =
-            |all: &[usize]| all.iter().map(|&joint| joint_name(mechanism, joint)).collect::<Vec<_>>().join(", ");
+            |all: &[JointId]| all.iter().map(|&joint| joint_name(mechanism, joint)).collect::<Vec<_>>().join(", ");
         let [inner, outer] = [&group.inner, &group.outer].map(|all| joints(all));
         let (links, class, order, pairs) = (group.names(mechanism), group.class, group.order(), group.pairs());
         let head = escaped(&format!("{links}: class {class}, order {order}, {pairs}, mode {}", mode.name()));
@@ -75,11 +75,11 @@ pub(super) fn structure(proof: &Proof) -> String {
     out + &links(mechanism) + &joints(mechanism)
 }
 
-fn link_name(mechanism: &Mechanism, link: usize) -> String {
+fn link_name(mechanism: &Mechanism, link: LinkId) -> String {
     escaped(&mechanism.links()[link].name)
 }
 
-fn joint_name(mechanism: &Mechanism, joint: usize) -> String {
+fn joint_name(mechanism: &Mechanism, joint: JointId) -> String {
     escaped(&mechanism.joints()[joint].name)
 }
 

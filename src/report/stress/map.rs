@@ -2,12 +2,12 @@
 //!
 //! Every party has a colour and a mark of its own, and a verdict is the mark's filling.
 
-use super::super::chart::{Chart, DASHED, Filling, decades, mark};
+use super::super::chart::{Chart, DASHED, Filling, colour, decades, mark};
 use super::summary::names;
 use crate::plain::cells::distinct;
 use drawing::paper::document::document;
 use drawing::paper::figure::{Figure, Style, solid, width, words};
-use drawing::paper::style::{BLACK, GREY, colour};
+use drawing::paper::style::{BLACK, GREY};
 use lab::stress::{End, Family, Group, Outcome};
 use linkage::math::{KeepNan, Vec2};
 

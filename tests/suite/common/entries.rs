@@ -8,7 +8,9 @@ use std::path::Path;
 use arbitrary::{Result, Unstructured};
 use formula::{Graph, Program, Rounded, Tree};
 use linkage::math::{Vec2, unit};
-use linkage::mechanism::{GROUND, Joint, JointKind, Link, Mechanism, Point, Side, Structure, is_unseen};
+use linkage::mechanism::{
+    GROUND, Joint, JointId, JointKind, Link, LinkId, Mechanism, Point, Side, Structure, is_unseen,
+};
 use linkage::trajectory::CHANNELS;
 use linkage::{Error, ErrorKind};
 use scenario::Scenario;
@@ -105,15 +107,15 @@ pub fn structure(bytes: &[u8]) -> Result<()> {
     }
     known.sort_unstable();
     used.sort_unstable();
-    assert_eq!(known, (0..mechanism.links().len()).collect::<Vec<_>>());
-    assert_eq!(used, (0..mechanism.joints().len()).collect::<Vec<_>>());
+    assert_eq!(known, mechanism.links().ids().collect::<Vec<_>>());
+    assert_eq!(used, mechanism.joints().ids().collect::<Vec<_>>());
     // Names and classes of what was found are written in every report.
     assert!(!structure.formula(&mechanism).contains(is_unseen));
     assert_eq!(structure.upstream(&mechanism).len(), mechanism.links().len());
     Ok(())
 }
 
-type Drawn = (Mechanism, Vec<usize>);
+type Drawn = (Mechanism, Vec<JointId>);
 
 /// Up to 64 links with joints between any two of them, and up to four drives.
 fn mechanism(from: &mut Unstructured) -> Result<std::result::Result<Drawn, Error>> {
@@ -133,7 +135,7 @@ fn mechanism(from: &mut Unstructured) -> Result<std::result::Result<Drawn, Error
         .collect::<Result<Vec<Link>>>()?;
     let joints = (0..joints)
         .map(|index| {
-            let side = |from: &mut Unstructured, link: usize| {
+            let side = |from: &mut Unstructured, link: LinkId| {
                 Ok(Side { link, local: links[link].points[usize::from(from.arbitrary::<bool>()?)].local })
             };
             // Near links are joined more often than distant ones: otherwise hardly a drawing decomposes.
@@ -149,13 +151,14 @@ fn mechanism(from: &mut Unstructured) -> Result<std::result::Result<Drawn, Error
             Ok(Joint {
                 name: format!("J{index}"),
                 kind,
-                first: side(from, first)?,
-                second: side(from, second)?,
+                first: side(from, LinkId(first))?,
+                second: side(from, LinkId(second))?,
                 drawn: None,
             })
         })
         .collect::<Result<Vec<Joint>>>()?;
-    let drives = (0..drives).map(|_| from.choose_index(joints.len().max(1))).collect::<Result<Vec<usize>>>()?;
+    let drives =
+        (0..drives).map(|_| Ok(JointId(from.choose_index(joints.len().max(1))?))).collect::<Result<Vec<JointId>>>()?;
     Ok(match joints.is_empty() {
         true => Err(Error::new(ErrorKind::Input, "no joint")),
         false => Mechanism::new(links, joints).map(|mechanism| (mechanism, drives)),

@@ -1,6 +1,7 @@
 //! Random loads of all sorts, as text of a scenario.
 
 use linkage::case::Case;
+use linkage::mechanism::LinkId;
 use std::fmt::Write;
 
 use super::sketch::Random;
@@ -22,8 +23,8 @@ pub fn loads(random: &mut Random, case: &Case, count: usize, sizes: Sizes) -> St
     let links = case.mechanism.links();
     let mut text = String::new();
     for _ in 0..count {
-        let moving = 1 + random.index(links.len() - 1);
-        let other = (moving + 1 + random.index(links.len() - 1)) % links.len();
+        let moving = LinkId(1 + random.index(links.len() - 1));
+        let other = LinkId((moving.index() + 1 + random.index(links.len() - 1)) % links.len());
         let (link, second) = (&links[moving], &links[other]);
         let pair = format!("links = [{:?}, {:?}]", link.name, second.name);
         let point = &link.points[random.index(link.points.len())].name;
@@ -45,8 +46,11 @@ pub fn loads(random: &mut Random, case: &Case, count: usize, sizes: Sizes) -> St
                 format!("type = \"force\"\nlink = {:?}\npoint = {point:?}\nframe = {frame:?}\n{table}", link.name)
             }
             (3, _) => {
-                let hinged =
-                    case.mechanism.joints().iter().any(|joint| joint.on(0).is_some() && joint.on(moving).is_some());
+                let hinged = case
+                    .mechanism
+                    .joints()
+                    .iter()
+                    .any(|joint| joint.on(LinkId(0)).is_some() && joint.on(moving).is_some());
                 let sort = if hinged {
                     format!("type = \"force\"\nx_N = {:?}\ny_N = {:?}", 0.06 * force, -0.4 * force)
                 } else {

@@ -20,6 +20,7 @@ pub(crate) use dial::assert_within;
 pub use lab::specimens::{sketch, spec};
 use linkage::case::{Case, Grid};
 use linkage::math::Vec2;
+use linkage::mechanism::LinkId;
 use linkage::solver::{Solver, State};
 use scenario::Scenario;
 
@@ -65,16 +66,16 @@ pub fn states(solver: &dyn Solver, case: &Case, times: &[f64]) -> linkage::Resul
 }
 
 /// Position of a link's mass centre.
-pub fn centre(case: &Case, state: &State, link: usize) -> Vec2 {
+pub fn centre(case: &Case, state: &State, link: LinkId) -> Vec2 {
     state.motions[link].point(case.mechanism.links()[link].mass_centre)
 }
 
 /// Velocity of a link's mass centre.
-pub fn centre_velocity(case: &Case, state: &State, link: usize) -> Vec2 {
+pub fn centre_velocity(case: &Case, state: &State, link: LinkId) -> Vec2 {
     state.motions[link].point_velocity(case.mechanism.links()[link].mass_centre)
 }
 
 /// Acceleration of a link's mass centre.
-pub fn centre_acceleration(case: &Case, state: &State, link: usize) -> Vec2 {
+pub fn centre_acceleration(case: &Case, state: &State, link: LinkId) -> Vec2 {
     state.motions[link].point_acceleration(case.mechanism.links()[link].mass_centre)
 }

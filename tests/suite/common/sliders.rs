@@ -10,7 +10,8 @@ use linkage::case::{Case, CaseParts, Grid, Wanted};
 use linkage::drive::{Drive, MotionLaw};
 use linkage::math::{Vec2, rotated, turned, unit};
 use linkage::mechanism::{
-    AssemblyMode, Group, GroupKind, Joint, JointKind, Link, LinkPose, Mechanism, Point, Pose, Side, Structure,
+    AssemblyMode, Group, GroupKind, Joint, JointId, JointKind, Link, LinkId, LinkPose, Mechanism, Point, Pose, Side,
+    Structure,
 };
 
 /// Crank speed (rad/s).
@@ -44,7 +45,7 @@ fn link(name: &str, points: &[(&str, Vec2)], [mass, x, y, inertia]: [f64; 4]) ->
 }
 
 fn joint(name: &str, kind: JointKind, first: (usize, Vec2), second: (usize, Vec2)) -> Joint {
-    let [first, second] = [first, second].map(|(link, local)| Side { link, local });
+    let [first, second] = [first, second].map(|(link, local)| Side { link: LinkId(link), local });
     Joint { name: name.into(), kind, first, second, drawn: None }
 }
 
@@ -76,8 +77,8 @@ pub fn swapped(case: &Case) -> Case {
 /// The case with its crank as link 1, driven at joint 0.
 fn case(links: Vec<Link>, joints: Vec<Joint>, mode: AssemblyMode, start: f64, to: f64, pose: Vec<LinkPose>) -> Case {
     let mechanism = Mechanism::new(links, joints).unwrap();
-    let structure = Structure::of(&mechanism, &[0]).unwrap();
-    let drive = Drive::prescribed(0, 1, 0.0, start, MotionLaw::ConstantSpeed(SPEED));
+    let structure = Structure::of(&mechanism, &[JointId(0)]).unwrap();
+    let drive = Drive::prescribed(JointId(0), LinkId(1), 0.0, start, MotionLaw::ConstantSpeed(SPEED));
     let cranks = (0..=72).map(|k| start + (to - start) * f64::from(k) / 72.0).collect();
     let case = Case::new(CaseParts {
         mechanism,
@@ -85,7 +86,7 @@ fn case(links: Vec<Link>, joints: Vec<Joint>, mode: AssemblyMode, start: f64, to
         drives: drive.clone().into(),
         loads: Vec::new(),
         gravity: Vec2::new(0.0, -9.81),
-        start: Pose(pose),
+        start: Pose(pose.into()),
         modes: vec![mode],
         grid: Grid::of_inputs(&drive, cranks),
         wanted: Wanted::ALL,
@@ -169,8 +170,8 @@ pub fn short_rod() -> Case {
     let changed = case.with(|parts| {
         parts.mechanism = Mechanism::new(links, joints).unwrap();
         let pose = &mut parts.start.0;
-        pose[2].angle = angle;
-        pose[3].origin = pose[2].point(end);
+        pose[LinkId(2)].angle = angle;
+        pose[LinkId(3)].origin = pose[LinkId(2)].point(end);
     });
     changed.unwrap()
 }

@@ -2,7 +2,7 @@
 
 use super::{Tally, edited, examined, parsed, text};
 use linkage::case::{Case, Grid};
-use linkage::mechanism::Mechanism;
+use linkage::mechanism::{LinkId, Mechanism};
 use linkage::solver::Solver;
 use linkage::trajectory::Stage;
 
@@ -199,7 +199,7 @@ fn faults_in_every_shipped_scenario_are_named() {
         if case.gravity.norm() > 0.0 {
             add("no gravity", &case.with(|parts| parts.gravity *= 0.0).unwrap(), "gravity: missing");
         }
-        let link = case.mechanism.links().len() - 1;
+        let link = LinkId(case.mechanism.links().len() - 1);
         let mut links = case.mechanism.links().to_vec();
         if links[link].mass > 0.0 && case.wanted.has(Stage::Reactions) {
             links[link].mass *= 1.05;

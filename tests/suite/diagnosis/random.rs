@@ -2,7 +2,7 @@
 
 use super::{Outcome, examined, outcome, parsed, text, told};
 use linkage::case::{Case, CaseParts, Grid};
-use linkage::mechanism::{AssemblyMode, Link, Mechanism, StartGroup, first_pose};
+use linkage::mechanism::{AssemblyMode, Link, LinkId, Mechanism, StartGroup, first_pose};
 use linkage::solver::Solver;
 
 /// Numbers from 0 to 1, the same in every run.
@@ -34,7 +34,7 @@ fn with_links(parts: &mut CaseParts, change: impl FnOnce(&mut [Link])) {
 /// A case with a random fault, and the words that name it.
 fn planted(case: &Case, random: &mut Random) -> Option<(Case, String)> {
     let mut parts = case.clone().into_parts();
-    let link = 1 + random.below(parts.mechanism.links().len() - 1);
+    let link = LinkId(1 + random.below(parts.mechanism.links().len() - 1));
     let name = parts.mechanism.links()[link].name.clone();
     let (share, other) = (random.share(), random.next() < 0.5);
     let words = match random.below(6) {

@@ -11,6 +11,7 @@ use analytic::reduced::{ACCURACY, End, Model, RunUp, motion};
 use analytic::steady::Averaged;
 use linkage::case::Case;
 use linkage::drive::{DriveMotion, Load, MotionLaw, Motor, MotorLaw, ShaftInertia};
+use linkage::mechanism::LinkId;
 use scenario::Scenario;
 
 /// A bar of 2 kg and 0.05 kg m^2 about its mass centre, 0.3 m from the pivot; it starts in the direction `start` (deg).
@@ -73,7 +74,7 @@ fn the_averaged_model_is_exact_for_constant_coefficients() {
         let (law, turned) = (MotionLaw::ConstantSpeed(speed), Some(motor.clone()));
         let case = bar(0.0, 20.0, false).with(|parts| {
             parts.drives.crank_mut().motion = DriveMotion::Prescribed { law, motor: turned };
-            parts.loads.push(Load::Resistance { link: 1, moment: 6.0 });
+            parts.loads.push(Load::Resistance { link: LinkId(1), moment: 6.0 });
         });
         let case = case.unwrap();
         let model = Model::of(&case).unwrap();

@@ -13,7 +13,7 @@ use linkage::trajectory::Stage;
 fn energy(case: &Case, poses: &mut PoseSolver, at: &CrankState) -> [f64; 2] {
     let state = poses.solve(at.within, at.omega, at.alpha, Stage::Velocities).unwrap();
     let mut sum = [0.0; 2];
-    for (index, link) in case.mechanism.links().iter().enumerate().skip(1) {
+    for (index, link) in case.mechanism.links().entries().skip(1) {
         let velocity = centre_velocity(case, state, index);
         sum[0] += (link.mass * velocity.norm_squared() + link.inertia * state.motions[index].omega.powi(2)) / 2.0;
         sum[1] -= link.mass * case.gravity.dot(&centre(case, state, index));
@@ -61,7 +61,7 @@ fn a_resistance_takes_its_work() {
     let (found, end) = motion(&model, 60.0, &times, 1e-12).unwrap();
     let End::Held(t, crank) = end else { panic!("{end:?}") };
     assert!(t > 0.1 && crank > TAU, "{t} {crank}");
-    let rocker = case.mechanism.links().iter().position(|link| link.name == "rocker").unwrap();
+    let rocker = case.mechanism.link_named("rocker").unwrap();
     let mut poses = PoseSolver::counting_turns(&case).unwrap();
     let mut angle = |at: &CrankState| {
         poses.solve(at.crank, at.omega, at.alpha, Stage::Positions).unwrap();

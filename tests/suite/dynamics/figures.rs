@@ -8,6 +8,7 @@ use analytic::reduced::{ACCURACY, End, Model, RunUp, motion};
 use design::flywheel::Flywheel;
 use linkage::drive::{Load, Motor, MotorLaw};
 use linkage::math::{KeepNan, Vec2};
+use linkage::mechanism::LinkId;
 
 /// From half a millisecond to half a second: the run-up of the published problem.
 fn times() -> Vec<f64> {
@@ -44,7 +45,7 @@ fn val_crank_rocker_reduced_means_and_maximum() {
 #[test]
 fn val_crank_rocker_printed_means_count_one_position_twice() {
     let case = shipped("crank_rocker.toml").case;
-    let crank = &case.mechanism.links()[1];
+    let crank = &case.mechanism.links()[LinkId(1)];
     let about_pivot = crank.inertia + crank.mass * crank.mass_centre.norm_squared();
     for solver in analytic::all() {
         let (mut inertia, mut resistance, mut count) = (0.0, 0.0, 0.0);

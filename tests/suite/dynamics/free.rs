@@ -7,7 +7,7 @@ use linkage::engine::{Engine, Route, Settings};
 use linkage::error::Advice;
 use linkage::math::statistics::largest_difference;
 use linkage::math::{KeepNan, Vec2};
-use linkage::mechanism::Mechanism;
+use linkage::mechanism::{LinkId, Mechanism};
 use linkage::solver::Solver;
 use linkage::trajectory::{Channel, Stage, Trajectory, Unit};
 use prover::compare::{Verdict, residuals};
@@ -74,7 +74,7 @@ fn every_shipped_free_motion_is_compared() {
 fn two_ways_of_side_1_agree() {
     for name in ["crank_rocker_runup", "compressor_runup"] {
         let case = shipped(&format!("{name}.toml")).case;
-        let damper = linkage::drive::Load::TorsionDamper { links: [0, 1], damping: 0.0 };
+        let damper = linkage::drive::Load::TorsionDamper { links: [LinkId(0), LinkId(1)], damping: 0.0 };
         let damped = case.with(|parts| parts.loads.push(damper)).unwrap();
         let found = worst(&solve(&AssurSolver, &case), &solve(&AssurSolver, &damped), |_| true);
         assert_within!(found, 1e-10, "{name}: {found:e}");

@@ -6,7 +6,7 @@ use linkage::case::{Case, Grid};
 use linkage::drive::{Acts, Course, DriveMotion, Load};
 use linkage::engine::Settings;
 use linkage::math::{KeepNan, Vec2};
-use linkage::mechanism::Side;
+use linkage::mechanism::{LinkId, Side};
 use linkage::trajectory::Trajectory;
 use scenario::Scenario;
 
@@ -46,7 +46,7 @@ fn largest_change(values: &[f64]) -> f64 {
 fn a_higher_group_moves_under_a_damper() {
     let case = shipped("ov7_new_runup.toml").case;
     let crank = case.crank().link;
-    let damper = |damping| [Load::TorsionDamper { links: [0, crank], damping }];
+    let damper = |damping| [Load::TorsionDamper { links: [LinkId(0), crank], damping }];
     let [plain, _] = both("without", &case, 1e-10);
     let [idle, _] = both("no damping", &loaded(&case, &damper(0.0)), 1e-10);
     let apart = worst(&plain, &idle, |_| true);
@@ -86,7 +86,7 @@ fn a_higher_group_moves_between_two_free_cranks() {
 fn a_spring_is_wound_up_by_a_free_motion() {
     let case = shipped("pendulum.toml").case;
     let (rod, stiffness) = (case.crank().link, 1.0);
-    let case = loaded(&case, &[Load::TorsionSpring { links: [0, rod], stiffness, free_angle: 0.0 }]);
+    let case = loaded(&case, &[Load::TorsionSpring { links: [LinkId(0), rod], stiffness, free_angle: 0.0 }]);
     let case = case.with(|parts| match &mut parts.drives.crank_mut().motion {
         DriveMotion::Free { initial_speed, .. } => *initial_speed = 25.0,
         motion @ DriveMotion::Prescribed { .. } => panic!("{motion:?}"),
@@ -219,7 +219,7 @@ fn a_rocker_starts_from_its_dead_centre_against_a_moment() {
         let start = base.y.atan2(base.x) + at_pivot + turn;
         let case = parsed(&text.replacen("crank_deg = 0", &format!("crank_rad = {start:?}"), 1));
         both("reduced", &case, 1e-11);
-        let damper = Load::TorsionDamper { links: [0, case.crank().link], damping: 1e-3 };
+        let damper = Load::TorsionDamper { links: [LinkId(0), case.crank().link], damping: 1e-3 };
         both("group by group", &loaded(&case, &[damper]), 1e-11);
     }
 }
@@ -231,7 +231,7 @@ fn links_that_slide_to_infinity_turn_as_far_as_they_can() {
     let range = Range::of(&case).unwrap();
     let block = case.mechanism.link_named("block").unwrap();
     let own = range.links.iter().find(|own| own.link == block).unwrap();
-    let turned = own.angles[1].value - own.angles[0].value;
+    let turned = own.angles[LinkId(1)].value - own.angles[LinkId(0)].value;
     assert_within!((turned - std::f64::consts::PI).abs(), 1e-9, "{turned}");
     println!("{} poses", range.samples.len());
     assert!(range.samples.len() < 1000, "{}", range.samples.len());

@@ -16,6 +16,7 @@ use scenario::Scenario;
 use super::free::{column, energies, solve};
 use crate::common::spec::{Spec, four_bar};
 use crate::common::{assert_within, chain, shipped};
+use linkage::mechanism::LinkId;
 
 const SIDES: [&dyn Solver; 2] = [&AssurSolver, &NewtonSolver];
 const G: f64 = 9.81;
@@ -221,7 +222,7 @@ fn a_loaded_parallelogram_passes() {
     spec.links[1].mass = Some((3.0, Vec2::new(0.15, 0.09), 0.05));
     spec.loads = vec![("rocker".into(), 0.4)];
     let case = spec.scenario().unwrap_or_else(|error| panic!("{error}")).case;
-    let damper = Load::TorsionDamper { links: [0, 3], damping: 0.02 };
+    let damper = Load::TorsionDamper { links: [LinkId(0), LinkId(3)], damping: 0.02 };
     for case in [&case, &case.with(|parts| parts.loads.push(damper)).unwrap()] {
         let found = SIDES.map(|side| solve(side, case));
         let off = apart(&found, |_| true);

@@ -14,6 +14,7 @@ use super::solve;
 #[cfg(feature = "f32")]
 use crate::common::by_night;
 use crate::common::{assert_within, shipped};
+use linkage::mechanism::JointId;
 
 /// Enough for all shipped mechanisms, thanks to the flywheel (story 14).
 const SWEEPS: usize = 256;
@@ -86,7 +87,7 @@ fn gap_of_a_step(case: &Case, state: &State, step: f64) -> f64 {
     let around: linkage::math::Vec2 = (0..joints.len())
         .map(|k| {
             // Joints O, A, B, C in this order: link k goes from joint k - 1 to joint k.
-            let (from, to) = (&joints[k], &joints[(k + 1) % joints.len()]);
+            let (from, to) = (&joints[JointId(k)], &joints[JointId((k + 1) % joints.len())]);
             let link = [from.first.link, from.second.link].into_iter().find(|&link| to.on(link).is_some()).unwrap();
             let motion = &state.motions[link];
             (motion.point(to.on(link).unwrap()) - motion.point(from.on(link).unwrap())) * motion.omega.powi(2)

@@ -9,6 +9,7 @@ use rapier_twin::{Build, Precision, Rapier};
 
 use crate::common::spec::{Spec, four_bar};
 use crate::common::{assert_within, shipped, states};
+use linkage::mechanism::LinkId;
 
 /// Number of steps before the first reading is used: the closure force of the very first step is about half.
 const SETTLED: usize = 20;
@@ -138,7 +139,7 @@ fn regress_12_velocities_are_one_step_late() {
         let mut worst = 0.0f64;
         for (reading, state) in readings.iter().zip(&truth) {
             for (branch, speed) in tree.branches.iter().zip(&reading.speeds) {
-                let omega = |link: usize| state.motions[link].omega;
+                let omega = |link: LinkId| state.motions[link].omega;
                 worst = worst.larger((speed - (omega(branch.link) - omega(branch.parent))).abs());
             }
         }

@@ -3,7 +3,7 @@
 use analytic::NewtonSolver;
 use linkage::case::{Case, Grid};
 use linkage::math::KeepNan;
-use linkage::mechanism::{Link, Mechanism, Side};
+use linkage::mechanism::{Link, LinkId, Mechanism, Side};
 use linkage::solver::Solver;
 use rapier_twin::tree::Tree;
 use rapier_twin::{Build, Precision, Rapier};
@@ -76,14 +76,14 @@ fn regress_51_slide_speeds_are_one_step_late() {
 #[test]
 fn regress_52_links_in_sliders_turn_together() {
     let case = sliders::double::oldham().case;
-    let case = case.with(|parts| parts.start.0[2].angle += std::f64::consts::TAU).unwrap();
+    let case = case.with(|parts| parts.start.0[LinkId(2)].angle += std::f64::consts::TAU).unwrap();
     let cranks = (0..=40).map(|k| case.crank().start + f64::from(k) * std::f64::consts::PI).collect();
     let case = case.on(Grid::of_inputs(case.crank(), cranks)).unwrap();
     let mut solvers: Vec<Box<dyn Solver>> = vec![Box::new(NewtonSolver)];
     solvers.push(Box::new(Rapier::new(Build::Multibody, Precision::Double, 1e-3)));
     for solver in solvers {
         for (state, &crank) in states(solver.as_ref(), &case, &case.grid.times).unwrap().iter().zip(&case.grid.inputs) {
-            for link in 1..case.mechanism.links().len() {
+            for link in case.mechanism.links().ids().skip(1) {
                 let turned = state.angles[link] - case.start.0[link].angle;
                 // Half a unit in the last place of the largest angle per step, as in story 1.
                 let bound = 0.5 * f64::EPSILON * 128.0 * (crank / SPEED / 1e-3);
@@ -122,7 +122,7 @@ fn regress_54_the_twin_starts_in_the_start_pose() {
                 let tree =
                     if build == Build::Impulse { Tree::none(&case.mechanism) } else { Tree::of(&case.mechanism) };
                 let twin = moving(&case, build, tree, 1e-3);
-                for (link, body) in case.mechanism.links().iter().enumerate() {
+                for (link, body) in case.mechanism.links().entries() {
                     for point in &body.points {
                         let gap = twin.point(Side { link, local: point.local }) - case.start.0[link].point(point.local);
                         // A chain of three links, each below half a metre.

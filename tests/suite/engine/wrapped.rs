@@ -6,6 +6,7 @@ use super::solve;
 use crate::common::shipped;
 use linkage::case::Case;
 use linkage::engine::{Engine, Hook, Kept, Route, Settings, Wrapped};
+use linkage::mechanism::JointId;
 use linkage::solver::State;
 use linkage::trajectory::Subject;
 use prover::engines::{EngineName, is_built, with_step};
@@ -25,7 +26,7 @@ struct More(f64);
 
 impl Hook for More {
     fn answer(&self, _: &Case, _: usize, state: &mut State) {
-        state.forces[0].x += self.0;
+        state.forces[JointId(0)].x += self.0;
     }
 }
 

@@ -11,7 +11,7 @@ use design::export::mjcf::mjcf;
 use linkage::ErrorKind;
 use linkage::case::Case;
 use linkage::drive::{Acts, Course, Load, MotorLaw};
-use linkage::mechanism::Side;
+use linkage::mechanism::{LinkId, Side};
 use scenario::Scenario;
 
 fn all_loads() -> Case {
@@ -37,7 +37,7 @@ fn force(node: Node, length: f64, rate: f64) -> f64 {
 /// Angles and speeds of all links at the start.
 fn turning(case: &Case) -> (Vec<f64>, Vec<f64>) {
     let state = start(case);
-    (state.angles.clone(), state.motions.iter().map(|motion| motion.omega).collect())
+    (state.angles.to_vec(), state.motions.iter().map(|motion| motion.omega).collect())
 }
 
 #[test]
@@ -150,10 +150,10 @@ fn what_mjcf_has_no_words_for_is_refused_by_name() {
     refused(&shipped("loaded_slider.toml").case, &["\"force\"", "table"]);
     let case = all_loads();
     let with = |load: Load| case.with(|parts| parts.loads = vec![load]).unwrap();
-    let at = Side { link: 2, local: linkage::math::Vec2::new(0.1, 0.0) };
+    let at = Side { link: LinkId(2), local: linkage::math::Vec2::new(0.1, 0.0) };
     refused(&with(Load::ResistingForce { at, force: 3.0 }), &["resisting_force"]);
     let moment = Course::Constant(2.0);
-    refused(&with(Load::Moment { link: 2, moment, acts: Acts::Clockwise }), &["\"moment\"", "one sense"]);
+    refused(&with(Load::Moment { link: LinkId(2), moment, acts: Acts::Clockwise }), &["\"moment\"", "one sense"]);
     let table = MotorLaw::Table { speeds: vec![0.0, 10.0], torques: vec![2.0, 1.0] };
     let mut motor = case.crank().motor().unwrap().clone();
     motor.law = table;

@@ -9,6 +9,7 @@ use proptest::test_runner::TestCaseError;
 use super::{Around, COUNT};
 use crate::common::random::{REACH, for_each, within};
 use crate::common::{centre, centre_velocity};
+use linkage::mechanism::LinkId;
 
 /// Five states around an instant, and the scales of the balances.
 struct Instant<'a> {
@@ -25,8 +26,8 @@ impl Instant<'_> {
         self.around.here()
     }
 
-    fn masses(&self) -> impl Iterator<Item = (usize, &linkage::mechanism::Link)> {
-        self.case.mechanism.links().iter().enumerate().skip(1)
+    fn masses(&self) -> impl Iterator<Item = (LinkId, &linkage::mechanism::Link)> {
+        self.case.mechanism.links().entries().skip(1)
     }
 
     /// Resultant of the loads on every link, at its mass centre.
@@ -38,7 +39,7 @@ impl Instant<'_> {
     }
 
     /// Forces of the joints on `link` (0 for the ground). A joint acts on either link at its place on its second link.
-    fn on(&self, link: usize) -> Vec<Action> {
+    fn on(&self, link: LinkId) -> Vec<Action> {
         let here = self.here();
         let joints = self.case.mechanism.joints().iter().zip(here.forces.iter().zip(&here.moments));
         let own = joints.filter(|(joint, _)| joint.on(link).is_some()).map(|(joint, (&force, moment))| {
@@ -86,7 +87,7 @@ fn ground_reactions_and_gravity_change_the_momentum() {
         let momentum =
             |s: &State| -> Vec2 { at.masses().map(|(link, body)| centre_velocity(case, s, link) * body.mass).sum() };
         let weight: Vec2 = at.masses().map(|(_, body)| case.gravity * body.mass).sum();
-        let ground: Vec2 = at.on(0).iter().map(|action| -action.force).sum();
+        let ground: Vec2 = at.on(LinkId(0)).iter().map(|action| -action.force).sum();
         let loads: Vec2 = at.loads()[1..].iter().map(|load| load.force).sum();
         at.around.are_slopes("momentum", at.mass * REACH * at.fastest, momentum, weight + ground + loads)
     });
@@ -97,7 +98,7 @@ fn ground_reactions_drive_loads_and_gravity_change_the_angular_momentum() {
     at_instants(|at| {
         let case = at.case;
         let momentum = |s: &State| -> f64 {
-            let of = |(link, body): (usize, &linkage::mechanism::Link)| {
+            let of = |(link, body): (LinkId, &linkage::mechanism::Link)| {
                 body.mass * cross(centre(case, s, link), centre_velocity(case, s, link))
                     + body.inertia * s.motions[link].omega
             };
@@ -107,7 +108,7 @@ fn ground_reactions_drive_loads_and_gravity_change_the_angular_momentum() {
         let weight = at.masses().map(|(link, body)| {
             cross(centre(case, at.here(), link), case.gravity * body.mass + loads[link].force) + loads[link].moment
         });
-        let ground = at.on(0).into_iter().map(|action| -action.about(Vec2::zeros()));
+        let ground = at.on(LinkId(0)).into_iter().map(|action| -action.about(Vec2::zeros()));
         let outer: f64 = weight.chain(ground).sum::<f64>() + at.here().torques[0];
         at.around.is_slope("angular momentum", at.mass * REACH * REACH * at.fastest, momentum, outer)
     });
@@ -137,7 +138,7 @@ fn drive_and_loads_change_the_energy() {
     at_instants(|at| {
         let case = at.case;
         let energy = |s: &State| -> f64 {
-            let of = |(link, body): (usize, &linkage::mechanism::Link)| {
+            let of = |(link, body): (LinkId, &linkage::mechanism::Link)| {
                 let (v, spin) = (centre_velocity(case, s, link), s.motions[link].omega);
                 0.5 * (body.mass * v.norm_squared() + body.inertia * spin * spin)
                     - body.mass * case.gravity.dot(&centre(case, s, link))

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use linkage::case::Case;
 use linkage::math::{KeepNan, Vec2, cross, rotated, unit};
-use linkage::mechanism::GroupKind;
+use linkage::mechanism::{GroupKind, JointId};
 use linkage::solver::{Solver, State};
 use proptest::test_runner::TestCaseError;
 
@@ -63,7 +63,7 @@ fn compare(
     let bound = ROUNDING * sample.condition.powi(2);
     let spin = ours.motions.iter().map(|m| m.omega.abs()).fold(0.0, f64::larger);
     let force = ours.forces.iter().map(|f| f.norm()).fold(0.0, f64::larger);
-    for (link, body) in case.mechanism.links().iter().enumerate().skip(1) {
+    for (link, body) in case.mechanism.links().entries().skip(1) {
         let (a, b, c) = (&ours.motions[link], &theirs.motions[link], body.mass_centre);
         let d = other.mechanism.links()[link].mass_centre;
         let turn = theirs.angles[link] - (expected.angle)(ours.angles[link]);
@@ -161,7 +161,7 @@ fn same() -> Expected {
 fn joints_read_the_other_way_round_flip_their_own_force_only() {
     for_each(COUNT, |sample| {
         let case = &sample.scenario.case;
-        for (index, joint) in case.mechanism.joints().iter().enumerate() {
+        for (index, joint) in case.mechanism.joints().entries() {
             let mut other = sample.spec.clone();
             other.pins.iter_mut().filter(|pin| pin.name == joint.name).for_each(|pin| pin.links.reverse());
             other.guides.iter_mut().filter(|guide| guide.name == joint.name).for_each(|guide| guide.reverse());
@@ -185,7 +185,7 @@ fn joints_read_the_other_way_round_flip_their_own_force_only() {
 }
 
 /// Changes the mode of the group whose inner or outer joint is `joint`, if this matters for its kind.
-fn turn_modes(case: &Case, spec: &mut Spec, joint: usize, matters: impl Fn(GroupKind) -> bool) {
+fn turn_modes(case: &Case, spec: &mut Spec, joint: JointId, matters: impl Fn(GroupKind) -> bool) {
     for group in case.structure.groups.iter().filter(|group| matters(group.kind)) {
         let has = |start: &Start| {
             start.links.iter().all(|name| group.links.contains(&case.mechanism.link_named(name).expect("a link")))
@@ -201,7 +201,7 @@ fn turn_modes(case: &Case, spec: &mut Spec, joint: usize, matters: impl Fn(Group
 fn guides_read_against_their_axes_and_named_elsewhere_work_alike() {
     for_each(COUNT, |sample| {
         let case = &sample.scenario.case;
-        for (index, joint) in case.mechanism.joints().iter().enumerate().filter(|(_, joint)| joint.slides()) {
+        for (index, joint) in case.mechanism.joints().entries().filter(|(_, joint)| joint.slides()) {
             let mut turned = sample.spec.clone();
             let guide = turned.guides.iter_mut().find(|guide| guide.name == joint.name).expect("a guide");
             guide.axes.iter_mut().for_each(|axis| *axis += PI);
@@ -243,9 +243,9 @@ fn twice_the_masses_make_exactly_twice_the_forces() {
             for (ours, theirs) in pairs(solver, &sample, &heavier, 1.0) {
                 // A factor of two changes no rounding, so the equality is exact.
                 let doubled: Vec<Vec2> = ours.forces.iter().map(|force| force * 2.0).collect();
-                proptest::prop_assert_eq!(&theirs.forces, &doubled);
+                proptest::prop_assert_eq!(&*theirs.forces, &doubled);
                 let doubled: Vec<f64> = ours.moments.iter().map(|moment| moment * 2.0).collect();
-                proptest::prop_assert_eq!(&theirs.moments, &doubled);
+                proptest::prop_assert_eq!(&*theirs.moments, &doubled);
                 proptest::prop_assert_eq!(theirs.torques[0], 2.0 * ours.torques[0]);
                 proptest::prop_assert_eq!(&theirs.motions, &ours.motions);
             }

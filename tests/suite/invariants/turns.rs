@@ -7,6 +7,7 @@ use linkage::case::Grid;
 
 use crate::common::spec::four_bar;
 use crate::common::{assert_within, states};
+use linkage::mechanism::LinkId;
 
 /// Base, crank, coupler and rocker of mechanisms whose crank turns fully, and the number of turns of coupler and rocker
 /// per turn of the crank.
@@ -43,7 +44,7 @@ fn three_turns(lengths: [f64; 4], turning: [f64; 2], left: bool, speed: f64, ste
         let found = states(solver, &case, &times).unwrap_or_else(|error| panic!("{error}"));
         for (first, second) in found.iter().zip(&found[turn..]) {
             for (link, turns) in [(1, 1.0), (2, turning[0]), (3, turning[1])] {
-                let gone = second.angles[link] - first.angles[link];
+                let gone = second.angles[LinkId(link)] - first.angles[LinkId(link)];
                 let wrong = (gone - TAU * turns * speed.signum()).abs();
                 assert_within!(wrong, 1e-12, "{} {lengths:?} link {link}: {gone} in a turn", solver.name());
             }
@@ -56,7 +57,7 @@ fn three_turns(lengths: [f64; 4], turning: [f64; 2], left: bool, speed: f64, ste
             // No link of these turns more than eight times as fast as the crank; more would be an error of a whole
             // turn.
             let limit = (8.0 * step_deg.to_radians()).smaller(TAU * 0.75);
-            let jumps = (1..4).map(|link| (pair[1].angles[link] - pair[0].angles[link]).abs());
+            let jumps = (1..4).map(|link| (pair[1].angles[LinkId(link)] - pair[0].angles[LinkId(link)]).abs());
             assert_within!(jumps.fold(0.0, f64::larger), limit, "{} {lengths:?}", solver.name());
         }
     }

@@ -11,6 +11,7 @@ use linkage::error::ErrorKind;
 use linkage::trajectory::Stage;
 
 use crate::common::{assert_within, centre, centre_velocity, shipped};
+use linkage::mechanism::LinkId;
 
 /// The press with those of its loads that `keep` accepts.
 fn press(keep: impl Fn(&Load) -> bool) -> Case {
@@ -21,7 +22,7 @@ fn press(keep: impl Fn(&Load) -> bool) -> Case {
 fn energy(case: &Case, poses: &mut PoseSolver, at: &CrankState) -> f64 {
     let state = poses.solve(at.crank, at.omega, at.alpha, Stage::Velocities).unwrap();
     let mut sum = 0.0;
-    for (index, link) in case.mechanism.links().iter().enumerate().skip(1) {
+    for (index, link) in case.mechanism.links().entries().skip(1) {
         let velocity = centre_velocity(case, state, index);
         sum += (link.mass * velocity.norm_squared() + link.inertia * state.motions[index].omega.powi(2)) / 2.0;
         sum -= link.mass * case.gravity.dot(&centre(case, state, index));
@@ -94,6 +95,6 @@ fn what_the_reduction_does_not_know_is_refused_by_name() {
     });
     assert!(Model::of(&loaded(tables.into())).unwrap_err().message().contains("after 1309 turns"));
     let crank = case.crank().link;
-    let spring = vec![Load::TorsionSpring { links: [0, crank], stiffness: 1.0, free_angle: 0.0 }];
+    let spring = vec![Load::TorsionSpring { links: [LinkId(0), crank], stiffness: 1.0, free_angle: 0.0 }];
     assert!(Model::of(&loaded(spring)).unwrap_err().message().contains("wound up by every turn"));
 }

@@ -5,7 +5,7 @@ use linkage::case::{Case, Wanted};
 use linkage::drive::load::Acts;
 use linkage::drive::{Course, Load};
 use linkage::math::{KeepNan, Vec2, cross};
-use linkage::mechanism::{GROUND, Side};
+use linkage::mechanism::{GROUND, JointId, LinkId, Side};
 use linkage::trajectory::{Channel, Trajectory};
 use linkproof::Scenario;
 
@@ -39,7 +39,7 @@ impl Row<'_> {
         Vec2::new(x, y)
     }
 
-    fn link(&self, link: usize) -> Moving {
+    fn link(&self, link: LinkId) -> Moving {
         if link == GROUND {
             return Moving { turn: [0.0; 3], centre: [Vec2::zeros(); 3] };
         }
@@ -62,12 +62,12 @@ impl Row<'_> {
     }
 
     /// What loads do: link, place, force, moment.
-    fn loads(&self) -> Vec<(usize, Vec2, Vec2, f64)> {
+    fn loads(&self) -> Vec<(LinkId, Vec2, Vec2, f64)> {
         let crank = self.all.inputs()[self.row];
-        let omega = |link: usize| self.link(link).turn[1];
+        let omega = |link: LinkId| self.link(link).turn[1];
         // Zero at rest, as loads are.
         let sense = |speed: f64| if speed == 0.0 { 0.0 } else { speed.signum() };
-        let couple = |link: usize, moment: f64| (link, Vec2::zeros(), Vec2::zeros(), moment);
+        let couple = |link: LinkId, moment: f64| (link, Vec2::zeros(), Vec2::zeros(), moment);
         let mut all = Vec::new();
         for load in &self.case.loads {
             match load {
@@ -103,7 +103,7 @@ impl Row<'_> {
                     all.push((ends[1].link, b, -along * pull, 0.0));
                 }
                 Load::TorsionSpring { links, stiffness, free_angle } => {
-                    let angle = |link: usize| self.link(link).turn[0];
+                    let angle = |link: LinkId| self.link(link).turn[0];
                     let begun = self.case.start.0[links[1]].angle - self.case.start.0[links[0]].angle;
                     // At t = 0 in (-pi, pi].
                     let turns = ((begun - std::f64::consts::PI) / std::f64::consts::TAU).ceil();
@@ -120,9 +120,9 @@ impl Row<'_> {
         all
     }
 
-    fn torques(&self) -> Vec<(usize, f64)> {
+    fn torques(&self) -> Vec<(LinkId, f64)> {
         let drives = self.case.drives.iter().enumerate().filter(|(_, drive)| drive.has_moment());
-        let name = |index: usize, joint: usize| match index {
+        let name = |index: usize, joint: JointId| match index {
             0 => "drive.torque_N_m".to_string(),
             _ => format!("drive.{}.torque_N_m", self.case.mechanism.joints()[joint].name),
         };
@@ -172,7 +172,7 @@ impl Row<'_> {
             // The moment of a force through the origin is rounding at the mechanism's size.
             (largest, turning) = (largest.larger(own.norm()), turning.larger(about.abs()).larger(size * own.norm()));
         };
-        for (index, body) in case.mechanism.links().iter().enumerate().skip(1) {
+        for (index, body) in case.mechanism.links().entries().skip(1) {
             let Moving { turn: [_, omega, alpha], centre: [place, velocity, acceleration] } = self.link(index);
             let own = (case.gravity - acceleration) * body.mass;
             take(own, cross(place, own) - body.inertia * alpha);

@@ -12,6 +12,7 @@ use scenario::Scenario;
 
 use super::{Named, SLIDERS, angles, contours, degrees_of, longest, plans, plans_of, plans_with, scenario};
 use crate::common::assert_within;
+use linkage::mechanism::LinkId;
 
 /// Joint, sliding point, and the name of the point under it on a moving guide.
 const MOVING: [(&str, &str, &str, &str); 3] =
@@ -113,7 +114,7 @@ fn links_that_never_turn_have_no_relative_vectors() {
         for degrees in angles().map(|degrees| degrees_of(name, degrees)) {
             let plans = plans_with(name, &NewtonSolver, degrees);
             for plan in [&plans.velocity, &plans.acceleration] {
-                let still = |link: usize| plans.scheme.links[link - 1].omega.abs() < 1e-12;
+                let still = |link: LinkId| plans.scheme.links[link.index() - 1].omega.abs() < 1e-12;
                 let between =
                     |part: Part| matches!(part, Part::Relative | Part::Normal | Part::Tangential | Part::Coriolis);
                 let silly = plan.vectors.iter().find(|vector| between(vector.part) && still(vector.link));

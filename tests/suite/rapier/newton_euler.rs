@@ -9,7 +9,7 @@ use linkage::case::Case;
 use linkage::drive::Wrench;
 use linkage::math::dense::Lu;
 use linkage::math::{KeepNan, Motion, Vec2, cross, turned, unit};
-use linkage::mechanism::{Joint, Tree};
+use linkage::mechanism::{Joint, JointId, Tree};
 use linkage::solver::State;
 use rapier_twin::newton_euler::NewtonEuler;
 use scenario::Scenario;
@@ -30,7 +30,7 @@ fn shipped() -> Vec<(String, Case)> {
 /// The equations along the tree in use, and along every tree of those that together cover all joints, if it has all
 /// links and all driven joints.
 fn along_all_trees(case: &Case) -> Vec<(Tree, NewtonEuler)> {
-    let driven: Vec<usize> = case.drives.iter().map(|drive| drive.joint).collect();
+    let driven: Vec<JointId> = case.drives.iter().map(|drive| drive.joint).collect();
     let masses: Vec<[f64; 2]> = case.mechanism.links().iter().map(|link| [link.mass, link.inertia]).collect();
     let mut trees = vec![Tree::with(&case.mechanism, &driven)];
     for tree in Tree::covering(&case.mechanism, &case.wanted_reactions()) {
@@ -48,10 +48,10 @@ fn dense(case: &Case, state: &State) -> (Vec<Vec<f64>>, Vec<f64>) {
     let links = case.mechanism.links();
     let n = 3 * (links.len() - 1);
     let (mut matrix, mut right) = (vec![vec![0.0; n]; n], vec![0.0; n]);
-    for (index, joint) in case.mechanism.joints().iter().enumerate() {
+    for (index, joint) in case.mechanism.joints().entries() {
         let column = case.mechanism.rows(index).start;
         for (side, sign) in [(joint.first, -1.0), (joint.second, 1.0)] {
-            let Some(row) = (3 * side.link).checked_sub(3) else { continue };
+            let Some(row) = (3 * side.link.index()).checked_sub(3) else { continue };
             let motion = &state.motions[side.link];
             if let Some(normal) = normal(joint, state) {
                 let place = state.motions[joint.second.link].point(joint.second.local);
@@ -71,12 +71,13 @@ fn dense(case: &Case, state: &State) -> (Vec<Vec<f64>>, Vec<f64>) {
     }
     let first = case.mechanism.equations();
     for (index, drive) in case.drives.iter().enumerate() {
-        matrix[3 * drive.link - 1][first + index] = 1.0;
+        matrix[3 * drive.link.index() - 1][first + index] = 1.0;
     }
     let mut loads = vec![Wrench::ZERO; links.len()];
     case.loads_on(&state.motions, &state.angles, &mut loads);
-    for (index, link) in links.iter().enumerate().skip(1) {
-        let motion = &state.motions[index];
+    for (id, link) in links.entries().skip(1) {
+        let index = id.index();
+        let motion = &state.motions[id];
         let inertial = (motion.point_acceleration(link.mass_centre) - case.gravity) * link.mass - loads[index].force;
         let moment = link.inertia * motion.alpha - loads[index].moment;
         right[3 * index - 3..3 * index].copy_from_slice(&[inertial.x, inertial.y, moment]);
@@ -94,7 +95,7 @@ fn torn(case: &Case, numbers: &[f64]) -> State {
     let (mut state, size) = (State::at_start(case), case.mechanism.size());
     let mut next = numbers.iter().cycle();
     let mut more = || *next.next().unwrap();
-    for link in 1..state.motions.len() {
+    for link in state.motions.ids().skip(1) {
         let mut pair = || Vec2::new(more(), more());
         let (moved, velocity, acceleration) = (pair() * (0.05 * size), pair() * size, pair() * size);
         let angle = state.angles[link] + 0.3 * more();
@@ -113,7 +114,7 @@ fn torn(case: &Case, numbers: &[f64]) -> State {
 
 /// Reactions and moments in the order of the dense system's columns.
 fn flat(case: &Case, state: &State) -> Vec<f64> {
-    let joints = case.mechanism.joints().iter().enumerate().flat_map(|(index, joint)| {
+    let joints = case.mechanism.joints().entries().flat_map(|(index, joint)| {
         let force = state.forces[index];
         match normal(joint, state) {
             None => [force.x, force.y],
@@ -173,7 +174,7 @@ fn every_kind_of_joint_is_tested() {
     let mut seen = [0; 7];
     for (_, case) in shipped() {
         for (tree, equations) in along_all_trees(&case) {
-            let slide = |joint: usize| case.mechanism.joints()[joint].slides();
+            let slide = |joint: JointId| case.mechanism.joints()[joint].slides();
             let [pairs, larger] = equations.stages();
             let kinds = [
                 tree.cut.iter().any(|&joint| slide(joint)),

@@ -4,7 +4,7 @@ use lab::stress::{FAMILIES, named};
 use linkage::drive::Load;
 use linkage::error::ErrorKind;
 use linkage::math::KeepNan;
-use linkage::mechanism::AssemblyMode;
+use linkage::mechanism::{AssemblyMode, LinkId};
 use linkage::trajectory::Trajectory;
 use linkproof::{Case, Scenario};
 use precise::{dyads, whole};
@@ -104,7 +104,9 @@ fn what_it_does_not_take_is_refused() {
         assert_eq!(error.kind(), ErrorKind::Unsupported);
         assert!(error.message().contains(part), "{error}");
     };
-    let loaded = case.with(|parts| parts.loads.push(Load::TorsionDamper { links: [0, 3], damping: 0.02 })).unwrap();
+    let loaded = case
+        .with(|parts| parts.loads.push(Load::TorsionDamper { links: [LinkId(0), LinkId(3)], damping: 0.02 }))
+        .unwrap();
     refused(&loaded, "loads");
     refused(&case.with(|parts| parts.drives.crank_mut().through = true).unwrap(), "change points");
     let early = linkage::case::Grid::of_times(case.crank(), vec![-0.1, 0.0]);

@@ -13,6 +13,7 @@ use linkage::math::{KeepNan, Vec2};
 use scenario::Scenario;
 
 use crate::common::{assert_within, shipped, states};
+use linkage::mechanism::{GroupId, LinkId};
 
 fn sheet() -> Sheet {
     Sheet { name: "found".into(), title: "Found".into(), comment: "two\nlines".into(), speed: 6.0, bar: 2.0 }
@@ -73,7 +74,7 @@ fn crank_rockers_have_their_extreme_positions() {
         if found.transmission < 0.05 {
             continue;
         }
-        let rocker = range.links.iter().find(|link| link.link == 3).unwrap();
+        let rocker = range.links.iter().find(|link| link.link == LinkId(3)).unwrap();
         assert_eq!(rocker.extremes.len(), 2);
         for extreme in &rocker.extremes {
             let near = [found.stretched, found.folded]
@@ -81,7 +82,7 @@ fn crank_rockers_have_their_extreme_positions() {
                 .any(|own| same_angle(own.crank, extreme.crank, 1e-8) && same_angle(own.rocker, extreme.angle, 1e-9));
             assert!(near, "{extreme:?} {found:?}");
         }
-        let least = range.groups[0].determinant;
+        let least = range.groups[GroupId(0)].determinant;
         assert_within!((least.value.abs().asin() - found.transmission).abs(), 1e-6, "{least:?} {found:?}");
         assert!(same_angle(least.crank, found.transmission_at, 1e-6));
         // From extreme to extreme the crank turns through pi + theta in one direction, pi - theta in the other.
@@ -105,7 +106,7 @@ fn slider_cranks_have_their_stroke() {
         let found = SliderCrank::of(stroke, offset, given).unwrap();
         let case = case(&found.scenario(&sheet()));
         assert_eq!(Range::of(&case).unwrap().extent, Extent::FullTurn(1));
-        let place = case.mechanism.links().iter().position(|link| link.name == "slider").unwrap();
+        let place = case.mechanism.link_named("slider").unwrap();
         let cranks: Vec<f64> =
             [found.far[0], found.near[0]].into_iter().chain((0..3600).map(|k| f64::from(k) * TAU / 3600.0)).collect();
         let times: Vec<f64> = cranks.iter().map(|&crank| case.crank().time_of(crank)).collect();
@@ -125,7 +126,7 @@ fn slider_cranks_have_their_stroke() {
         let way = (found.far[0] - found.near[0]).abs();
         let slower = way.larger(TAU - way);
         assert_within!((slower / (TAU - slower) - found.time_ratio).abs(), 1e-12, "{found:?}");
-        let steepest = newton.iter().map(|state| state.motions[2].direction.y.abs()).fold(0.0, f64::larger);
+        let steepest = newton.iter().map(|state| state.motions[LinkId(2)].direction.y.abs()).fold(0.0, f64::larger);
         assert_within!((steepest.asin() - found.pressure).abs(), 1e-5, "{found:?}");
         assert!(found.pressure < PI / 2.0);
     }

@@ -13,6 +13,7 @@ use linkage::math::Vec2;
 use scenario::Scenario;
 
 use crate::common::{assert_within, shipped};
+use linkage::mechanism::LinkId;
 
 /// The published crank-rocker's problem without its closed form: pivots and rocker are fixed, crank and coupler free,
 /// swing and timing wanted.
@@ -114,15 +115,15 @@ fn the_scenario_written_has_the_values_found() {
     );
     let scenario = Scenario::parse(&text, "recovered.toml").unwrap();
     let links = scenario.case.mechanism.links();
-    let length = |link: usize| (links[link].points[1].local - links[link].points[0].local).norm();
-    assert_within!((length(1) - 0.031_235).abs(), 1e-15);
-    assert_within!((length(2) - 0.345_679).abs(), 1e-15);
+    let length = |link: LinkId| (links[link].points[1].local - links[link].points[0].local).norm();
+    assert_within!((length(LinkId(1)) - 0.031_235).abs(), 1e-15);
+    assert_within!((length(LinkId(2)) - 0.345_679).abs(), 1e-15);
     assert_within!((scenario.case.crank().zero.to_degrees() - 70.7355).abs(), 1e-9);
-    assert_within!((links[2].mass - 3.0 * 0.345_679).abs(), 1e-6);
-    assert_within!((links[2].inertia / links[2].mass - 0.345_679f64.powi(2) / 12.0).abs(), 1e-7);
+    assert_within!((links[LinkId(2)].mass - 3.0 * 0.345_679).abs(), 1e-6);
+    assert_within!((links[LinkId(2)].inertia / links[LinkId(2)].mass - 0.345_679f64.powi(2) / 12.0).abs(), 1e-7);
     // All of the file except dimensions stays.
     assert_eq!(scenario.case.loads, drawing.case.loads);
-    assert_eq!(scenario.case.mechanism.links()[0], drawing.case.mechanism.links()[0]);
+    assert_eq!(scenario.case.mechanism.links()[LinkId(0)], drawing.case.mechanism.links()[LinkId(0)]);
 }
 
 /// Symptom: the scenario found disagreed in 210 of 339 numbers, and did not load in another directory. Cause: it kept

@@ -4,6 +4,7 @@ use super::PoseSolver;
 use super::watch::CLEAR;
 use crate::assur::groups::{Clearance, Misfit, OutOfReach, SINGULAR};
 use linkage::math::KeepNan;
+use linkage::mechanism::GroupId;
 
 /// Halvings of an interval that leave nothing of it but rounding.
 const BISECTIONS: usize = 64;
@@ -70,7 +71,7 @@ impl PoseSolver<'_> {
     fn keep_clear_closely(&mut self, target: f64) -> Result<(), OutOfReach> {
         let sense = target - self.crank;
         self.has_motions = false;
-        for group in 0..self.watch.groups.len() {
+        for group in self.watch.groups.ids() {
             let seen = self.watch.groups[group];
             if seen.may_pass(sense) {
                 self.search(group, target, [seen.last, seen.now])?;
@@ -86,7 +87,7 @@ impl PoseSolver<'_> {
     /// Searches the smallest clearance of a group between the present crank angle and `target`, by bisection of its
     /// slope. It is refused where it is zero to rounding.
     #[cold]
-    fn search(&mut self, group: usize, target: f64, ends: [Clearance; 2]) -> Result<(), OutOfReach> {
+    fn search(&mut self, group: GroupId, target: f64, ends: [Clearance; 2]) -> Result<(), OutOfReach> {
         let ([mut low, mut high], [mut before, mut after]) = ([self.crank, target], ends);
         let sense = target - self.crank;
         if before.rate.is_nan() {

@@ -15,6 +15,7 @@
 use crate::assur::groups::{Bound, Limit, Misfit, OutOfReach, Plan, SINGULAR};
 use linkage::case::Case;
 use linkage::math::{KeepNan, Motion};
+use linkage::mechanism::GroupId;
 
 /// Share of the way from the end of the range to the band of a step that the kept band leaves out.
 const SPARE: f64 = 0.25;
@@ -28,7 +29,7 @@ const AGAIN: f64 = 16.0;
 /// A group with a gauge.
 #[derive(Clone, Copy, Debug)]
 struct Watched {
-    group: usize,
+    group: GroupId,
     /// Whether it hangs on driving links and the ground only.
     is_direct: bool,
     /// Whether a proof is missing on this step.
@@ -77,7 +78,7 @@ impl Gauges {
         let (none, mut driven) = (f64::NAN, gauges.links.clone());
         plan.bound_drivers(&gauges.ratios, &mut gauges.links);
         driven.clone_from(&gauges.links);
-        for (group, step) in plan.steps().iter().enumerate() {
+        for (group, step) in plan.steps().entries() {
             let has_limit = |links: &[Option<Bound>]| step.limit(links, motions, 1.0, 0.0).is_some();
             if has_limit(&gauges.links) {
                 let is_direct = has_limit(&driven);
@@ -95,7 +96,7 @@ impl Gauges {
     }
 
     /// The groups that need no estimate on this step: they are proven not to pass a change point.
-    pub(super) fn proven(&self) -> impl Iterator<Item = usize> {
+    pub(super) fn proven(&self) -> impl Iterator<Item = GroupId> {
         self.watched.iter().filter(|watched| !watched.is_open).map(|watched| watched.group)
     }
 
@@ -210,7 +211,7 @@ impl Gauges {
         };
         let Some((_, open)) = direct().find(is_open) else { return Ok(()) };
         let middle = f64::midpoint(from, to);
-        let passed = |group: usize| OutOfReach { group, why: Misfit::Passed { crank: middle } };
+        let passed = |group: GroupId| OutOfReach { group, why: Misfit::Passed { crank: middle } };
         if !(step > 8.0 * f64::EPSILON * to.abs().larger(1.0)) {
             return Err(passed(open.group));
         }

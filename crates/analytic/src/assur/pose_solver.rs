@@ -12,6 +12,7 @@ use linkage::case::Case;
 use linkage::drive::{Load, Wrench};
 use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::math::Motion;
+use linkage::mechanism::{LinkId, PerLink};
 use linkage::solver::State;
 use linkage::trajectory::Stage;
 use linkage::work;
@@ -148,7 +149,7 @@ impl<'a> PoseSolver<'a> {
     /// The rest of [`PoseSolver::solve`] beside a change point.
     #[cold]
     fn solve_passing(&mut self, omega: f64, alpha: f64, deepest: Stage) -> Result<&State> {
-        let begun: Vec<Motion> = self.state.motions.clone();
+        let begun: PerLink<Motion> = self.state.motions.clone();
         self.pass([omega, alpha], deepest, None)?;
         // What was not asked for keeps its old values.
         if deepest < Stage::Accelerations {
@@ -175,10 +176,10 @@ impl<'a> PoseSolver<'a> {
         // One sense for all poses around: that of this one.
         let own: Vec<f64> = match senses {
             Some(senses) => senses.to_vec(),
-            None => (0..self.state.motions.len()).map(|link| case.spin(&self.state.motions, link)).collect(),
+            None => self.state.motions.ids().map(|link| case.spin(&self.state.motions, link)).collect(),
         };
         let mut loads = |motions: &[Motion], angles: &[f64], out: &mut [Wrench]| {
-            let sensed = |_: usize, load: &Load, link: usize, crank: f64| load.moment_in(own[link], crank);
+            let sensed = |_: usize, load: &Load, link: LinkId, crank: f64| load.moment_in(own[link], crank);
             case.loads_with(motions, angles, sensed, out);
         };
         let found = window.reactions(place, rates, None, (case, &mut self.statics), &mut loads, &mut self.state);
@@ -204,7 +205,7 @@ impl<'a> PoseSolver<'a> {
         }
         if deepest >= Stage::Reactions && !self.case.loads.is_empty() && !begun.is_empty() {
             self.with_angles();
-            let sensed = |_: usize, load: &Load, link: usize, crank: f64| load.moment_in(begun[link], crank);
+            let sensed = |_: usize, load: &Load, link: LinkId, crank: f64| load.moment_in(begun[link], crank);
             let mut loads = vec![Wrench::ZERO; begun.len()];
             self.case.loads_with(&self.state.motions, &self.state.angles, sensed, &mut loads);
             self.statics.solve_under(&loads, self.case, &self.plan, &mut self.state);
@@ -319,7 +320,7 @@ impl<'a> PoseSolver<'a> {
         if let Some(turns) = &self.turns {
             // The frame does not turn, and the crank's angle is an input.
             let crank = self.case.crank().link;
-            let links = self.state.angles.iter_mut().enumerate().skip(1).filter(|(link, _)| *link != crank);
+            let links = self.state.angles.entries_mut().skip(1).filter(|(link, _)| *link != crank);
             links.for_each(|(link, angle)| *angle = turns.angle(link));
         }
         self.turn(self.crank);

@@ -16,7 +16,7 @@ use linkage::drive::Wrench;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::dense::Lu;
 use linkage::math::{KeepNan, Motion, Vec2};
-use linkage::mechanism::{self, GROUND};
+use linkage::mechanism::{self, GROUND, GroupId, LinkId};
 use linkage::solver::State;
 use linkage::trajectory::Stage;
 use linkage::work;
@@ -114,7 +114,7 @@ impl<'a> TransferSide<'a> {
         });
         if let Some(group) = passed {
             let crank = self.case.crank().from_world(self.target[0]);
-            return Err(OutOfReach { group, why: Misfit::Passed { crank } });
+            return Err(OutOfReach { group: GroupId(group), why: Misfit::Passed { crank } });
         }
         self.sines.clear();
         self.sines.extend(self.plan.clearances(&self.state.motions).map(|now| now.map(|now| now.sine)));
@@ -201,9 +201,9 @@ impl<'a> TransferSide<'a> {
             unit.fill(0.0);
             unit[self.free[k]] = 1.0;
             self.velocities(&unit);
-            for (link, body) in links.iter().enumerate() {
+            for (link, body) in links.entries() {
                 let motion = &self.state.motions[link];
-                self.transfer[k * links.len() + link] = (motion.point_velocity(body.mass_centre), motion.omega);
+                self.transfer[k * links.len() + link.index()] = (motion.point_velocity(body.mass_centre), motion.omega);
             }
         }
         self.unit = unit;
@@ -231,14 +231,14 @@ impl Side for TransferSide<'_> {
         for i in 0..self.free.len() {
             let of_i = &self.transfer[i * links.len()..][..links.len()];
             let mut right = 0.0;
-            for (link, body) in links.iter().enumerate().filter(|&(link, _)| link != GROUND) {
+            for (link, body) in links.entries().filter(|&(link, _)| link != GROUND) {
                 let motion = &self.state.motions[link];
                 let (velocity, omega) = of_i[link];
                 let force = (self.case.gravity - motion.point_acceleration(body.mass_centre)) * body.mass;
                 let load = self.loads[link];
                 right += velocity.dot(&(force + load.force)) + omega * (load.moment - body.inertia * motion.alpha);
                 for j in 0..self.free.len() {
-                    let (other, spin) = self.transfer[j * links.len() + link];
+                    let (other, spin) = self.transfer[j * links.len() + link.index()];
                     self.matrix.add(i, j, body.mass * velocity.dot(&other) + body.inertia * omega * spin);
                 }
             }
@@ -253,7 +253,7 @@ impl Side for TransferSide<'_> {
         Ok(())
     }
 
-    fn spin(&mut self, inputs: &Inputs, link: usize) -> Result<f64> {
+    fn spin(&mut self, inputs: &Inputs, link: LinkId) -> Result<f64> {
         self.go_to(&inputs.angles)?;
         self.velocities(&inputs.speeds);
         Ok(self.state.motions[link].omega)
@@ -268,7 +268,7 @@ impl Side for TransferSide<'_> {
         self.state.motions[at.link].point_acceleration(at.local)
     }
 
-    fn link_rates(&self, link: usize) -> [f64; 2] {
+    fn link_rates(&self, link: LinkId) -> [f64; 2] {
         let motion = &self.state.motions[link];
         [motion.omega, motion.alpha]
     }

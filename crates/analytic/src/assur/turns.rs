@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use linkage::math::{Motion, Vec2, cross};
-use linkage::mechanism::Pose;
+use linkage::mechanism::{LinkId, PerLink, Pose};
 
 /// Largest turn of a driving link between two poses (rad). Over such a step no link turns so far that its turns could
 /// be miscounted.
@@ -15,7 +15,7 @@ pub(super) const FOLLOWED_STEP: f64 = std::f64::consts::PI / 90.0;
 pub(super) struct Turns {
     /// Direction of every link at the last pose.
     directions: Vec<Vec2>,
-    whole: Vec<f64>,
+    whole: PerLink<f64>,
 }
 
 impl Turns {
@@ -54,12 +54,12 @@ impl Turns {
 
     /// Angles of all links at the last pose (rad), turns kept.
     pub(super) fn angles(&self) -> impl Iterator<Item = f64> {
-        (0..self.whole.len()).map(|link| self.angle(link))
+        self.whole.ids().map(|link| self.angle(link))
     }
 
     /// Angle of one link.
     #[inline]
-    pub(super) fn angle(&self, link: usize) -> f64 {
+    pub(super) fn angle(&self, link: LinkId) -> f64 {
         principal(self.directions[link]) + TAU * self.whole[link]
     }
 }

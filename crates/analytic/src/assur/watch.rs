@@ -8,6 +8,7 @@
 use super::gauges::Gauges;
 use crate::assur::groups::{Clearance, Plan};
 use linkage::math::{KeepNan, Motion};
+use linkage::mechanism::{PerGroup, PerLink};
 
 /// Clearance of a dyad below which a change point may lie within a step. From 0.8 to 0 and back its links turn by 106
 /// deg against each other, which at [`FAST`] takes 7 deg of the crank: more than a step behind a higher group, less
@@ -51,8 +52,8 @@ impl Seen {
 #[derive(Debug)]
 pub(super) struct Watch {
     is_needed: bool,
-    pub(super) motions: Vec<Motion>,
-    pub(super) groups: Vec<Seen>,
+    pub(super) motions: PerLink<Motion>,
+    pub(super) groups: PerGroup<Seen>,
     /// The last step of the crank (rad), without sign.
     step: f64,
 }
@@ -60,15 +61,15 @@ pub(super) struct Watch {
 impl Watch {
     pub(super) fn of(plan: &Plan, gauges: &Gauges) -> Self {
         let seen = Seen { last: NONE, now: NONE, fall: f64::NAN, is_watched: false };
-        let groups = vec![seen; plan.steps().len()];
-        let mut watch = Watch { is_needed: false, motions: Vec::new(), groups, step: 0.0 };
+        let groups = vec![seen; plan.steps().len()].into();
+        let mut watch = Watch { is_needed: false, motions: PerLink::default(), groups, step: 0.0 };
         watch.leave_to(gauges, plan);
         watch
     }
 
     /// Watches nothing.
     pub(super) fn none() -> Self {
-        Watch { is_needed: false, motions: Vec::new(), groups: Vec::new(), step: 0.0 }
+        Watch { is_needed: false, motions: PerLink::default(), groups: PerGroup::default(), step: 0.0 }
     }
 
     /// Watches the groups that gauges prove nothing of.

@@ -13,7 +13,7 @@ use linkage::drive::load::sense_of;
 use linkage::drive::{Branch, Load, Senses};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::{KeepNan, Vec2, cross, root};
-use linkage::mechanism::Side;
+use linkage::mechanism::{LinkId, Side};
 use linkage::solver::State;
 use linkage::work::{Count, Tally};
 
@@ -390,7 +390,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
         Ok(())
     }
 
-    fn is_held(&self, place: &Place<N>, link: usize, what: &str) -> Error {
+    fn is_held(&self, place: &Place<N>, link: LinkId, what: &str) -> Error {
         let name = &self.case.mechanism.links()[link].name;
         let message = format!("{what} link \"{name}\" at rest at t = {:.6} s", place.x);
         Error::new(ErrorKind::Numeric, message)

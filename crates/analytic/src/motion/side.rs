@@ -7,7 +7,7 @@ use linkage::drive::{Load, Wrench};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::dense::Lu;
 use linkage::math::{Motion, Vec2};
-use linkage::mechanism::Side as Place;
+use linkage::mechanism::{LinkId, Side as Place};
 use linkage::solver::State;
 
 /// The driving links at one instant, in the order of the drives: angles in the world (rad), angular velocities (rad/s)
@@ -75,7 +75,7 @@ pub(crate) trait Side {
     fn accelerate(&mut self, inputs: &mut Inputs, held: &Held) -> Result<()>;
 
     /// Angular velocity (rad/s) of a link at these angles and speeds.
-    fn spin(&mut self, inputs: &Inputs, link: usize) -> Result<f64>;
+    fn spin(&mut self, inputs: &Inputs, link: LinkId) -> Result<f64>;
 
     /// Velocity (m/s) of a point of a link at these angles and speeds.
     fn velocity(&mut self, inputs: &Inputs, at: Place) -> Result<Vec2>;
@@ -84,7 +84,7 @@ pub(crate) trait Side {
     fn acceleration(&self, at: Place) -> Vec2;
 
     /// Angular velocity and acceleration of a link after the last call of [accelerate](Side::accelerate).
-    fn link_rates(&self, link: usize) -> [f64; 2];
+    fn link_rates(&self, link: LinkId) -> [f64; 2];
 
     /// The whole state after the last call of [accelerate](Side::accelerate): turns of the links kept, reactions if
     /// wanted.

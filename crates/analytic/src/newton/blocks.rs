@@ -9,6 +9,7 @@
 use linkage::case::Case;
 use linkage::math::KeepNan;
 use linkage::math::dense::Lu;
+use linkage::mechanism::{JointId, LinkId};
 
 /// One diagonal block: a driving link, or a group.
 #[derive(Clone, Debug)]
@@ -37,8 +38,8 @@ impl Blocks {
     /// Storage for the equations of a case; all coefficients zero.
     pub(super) fn of(case: &Case) -> Self {
         let mut parts: Vec<(Vec<usize>, Vec<usize>)> = Vec::new();
-        let rows_of = |joint: usize| case.mechanism.rows(joint);
-        let columns_of = |link: usize| 3 * (link - 1)..3 * link;
+        let rows_of = |joint: JointId| case.mechanism.rows(joint);
+        let columns_of = |link: LinkId| 3 * (link.index() - 1)..3 * link.index();
         for (index, drive) in case.drives.iter().enumerate() {
             let rows = rows_of(drive.joint).chain([case.mechanism.equations() + index]).collect();
             parts.push((rows, columns_of(drive.link).collect()));

@@ -13,7 +13,7 @@ use super::system::System;
 use linkage::drive::Drive;
 use linkage::input::Input;
 use linkage::math::{Vec2, turned};
-use linkage::mechanism::{Joint, Side};
+use linkage::mechanism::{GROUND, Joint, JointId, Side};
 
 impl System<'_> {
     /// Residual and Jacobian of a drive's equation in `row`: the coordinate of its joint is the input `at`, counted as
@@ -22,7 +22,7 @@ impl System<'_> {
     pub(super) fn assemble_drive(&mut self, row: usize, drive: &Drive, at: f64) {
         match drive.input {
             Input::Angle => {
-                let theta = 3 * (drive.link - 1) + 2;
+                let theta = 3 * (drive.link.index() - 1) + 2;
                 self.residual[row] = self.q[theta] - at;
                 self.jacobian.add(row, theta, 1.0);
             }
@@ -31,7 +31,7 @@ impl System<'_> {
 
     /// Residuals and Jacobian of the equations of the joint with this number.
     #[inline]
-    pub(super) fn assemble_joint(&mut self, index: usize, joint: &Joint) {
+    pub(super) fn assemble_joint(&mut self, index: JointId, joint: &Joint) {
         let row = self.case.mechanism.rows(index).start;
         match joint.kind.line() {
             None => self.assemble_revolute(row, joint),
@@ -48,8 +48,8 @@ impl System<'_> {
         for (side, sign) in [(joint.first, -1.0), (joint.second, 1.0)] {
             let arm = self.arm(side.link, side.local);
             gap += (self.centre(side.link) + arm) * sign;
-            if side.link > 0 {
-                let column = 3 * (side.link - 1);
+            if side.link != GROUND {
+                let column = 3 * (side.link.index() - 1);
                 self.jacobian.add(row, column, sign);
                 self.jacobian.add(row + 1, column + 1, sign);
                 self.jacobian.add(row, column + 2, -arm.y * sign);
@@ -67,8 +67,8 @@ impl System<'_> {
         let place = self.centre(second) + self.arm(second, joint.second.local);
         let gap = place - (self.centre(first) + self.arm(first, joint.first.local));
         for (link, sign) in [(first, -1.0), (second, 1.0)] {
-            if link > 0 {
-                let column = 3 * (link - 1);
+            if link != GROUND {
+                let column = 3 * (link.index() - 1);
                 self.jacobian.add(row, column, normal.x * sign);
                 self.jacobian.add(row, column + 1, normal.y * sign);
                 self.jacobian.add(row, column + 2, axis.dot(&(place - self.centre(link))) * sign);
@@ -80,8 +80,8 @@ impl System<'_> {
     fn assemble_angle(&mut self, row: usize, joint: &Joint, twist: f64) {
         let [first, second] = [joint.first.link, joint.second.link];
         for (link, sign) in [(first, -1.0), (second, 1.0)] {
-            if link > 0 {
-                self.jacobian.add(row, 3 * (link - 1) + 2, sign);
+            if link != GROUND {
+                self.jacobian.add(row, 3 * (link.index() - 1) + 2, sign);
             }
         }
         self.residual[row] = self.angle(second) - self.angle(first) - twist;
@@ -89,7 +89,7 @@ impl System<'_> {
 
     /// Writes the right-hand side of the equations of the joint with this number for the accelerations.
     #[inline]
-    pub(super) fn put_gamma(&mut self, index: usize, joint: &Joint) {
+    pub(super) fn put_gamma(&mut self, index: JointId, joint: &Joint) {
         let centripetal = |side: Side| {
             let omega = self.omega(side.link);
             self.arm(side.link, side.local) * (omega * omega)
@@ -111,7 +111,7 @@ impl System<'_> {
 
     /// Force (N) and moment (N m) of the first link on the second in the joint with this number, from its multipliers.
     #[inline]
-    pub(super) fn reaction(&self, index: usize, joint: &Joint) -> (Vec2, f64) {
+    pub(super) fn reaction(&self, index: JointId, joint: &Joint) -> (Vec2, f64) {
         let own = &self.lambda[self.case.mechanism.rows(index)];
         match joint.kind.line() {
             None => (Vec2::new(own[0], own[1]), 0.0),

@@ -14,6 +14,7 @@ use linkage::error::Result;
 use linkage::math::dense::Lu;
 use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism;
+use linkage::mechanism::LinkId;
 use linkage::solver::State;
 use linkage::trajectory::Stage;
 
@@ -135,12 +136,12 @@ impl Side for Embedded<'_> {
         self.rest.copy_from_slice(&self.system.second);
         self.system.find_loads(|case, motions, angles, out| loads_held(case, motions, angles, held, out));
         let (case, n) = (self.system.case, self.system.q.len());
-        for (index, link) in case.mechanism.links()[1..].iter().enumerate() {
-            let i = 3 * index;
-            let Wrench { force, moment } = self.system.loads[index + 1];
-            self.force[i] = link.mass * (case.gravity.x - self.rest[i]) + force.x;
-            self.force[i + 1] = link.mass * (case.gravity.y - self.rest[i + 1]) + force.y;
-            self.force[i + 2] = moment - link.inertia * self.rest[i + 2];
+        for (link, body) in case.mechanism.links().entries().skip(1) {
+            let i = 3 * (link.index() - 1);
+            let Wrench { force, moment } = self.system.loads[link];
+            self.force[i] = body.mass * (case.gravity.x - self.rest[i]) + force.x;
+            self.force[i + 1] = body.mass * (case.gravity.y - self.rest[i + 1]) + force.y;
+            self.force[i + 2] = moment - body.inertia * self.rest[i + 2];
         }
         self.matrix.clear();
         for (row, &drive) in self.free.iter().enumerate() {
@@ -149,7 +150,7 @@ impl Side for Embedded<'_> {
             for (other, &second) in self.free.iter().enumerate() {
                 let beside = &self.columns[second * n..][..n];
                 let mass = |i: usize| {
-                    let link = &case.mechanism.links()[1 + i / 3];
+                    let link = &case.mechanism.links()[LinkId(1 + i / 3)];
                     if i % 3 == 2 { link.inertia } else { link.mass }
                 };
                 let sum = (0..n).map(|i| mass(i) * column[i] * beside[i]).sum();
@@ -168,7 +169,7 @@ impl Side for Embedded<'_> {
         Ok(())
     }
 
-    fn spin(&mut self, inputs: &Inputs, link: usize) -> Result<f64> {
+    fn spin(&mut self, inputs: &Inputs, link: LinkId) -> Result<f64> {
         self.go_to(&inputs.angles)?;
         self.set_rates(inputs);
         Ok(self.link_rates(link)[0])
@@ -183,8 +184,8 @@ impl Side for Embedded<'_> {
         self.system.motion(at.link).0.point_acceleration(at.local)
     }
 
-    fn link_rates(&self, link: usize) -> [f64; 2] {
-        let theta = 3 * (link - 1) + 2;
+    fn link_rates(&self, link: LinkId) -> [f64; 2] {
+        let theta = 3 * (link.index() - 1) + 2;
         [self.system.rate[theta], self.system.second[theta]]
     }
 

@@ -137,7 +137,7 @@ impl System<'_> {
     pub(super) fn assemble(&mut self) {
         self.jacobian.clear();
         let case = self.case;
-        for (index, joint) in case.mechanism.joints().iter().enumerate() {
+        for (index, joint) in case.mechanism.joints().entries() {
             self.assemble_joint(index, joint);
         }
         let first = case.mechanism.equations();
@@ -157,7 +157,7 @@ impl System<'_> {
             (self.rate[first + index], self.second[first + index]) = (input.rate, input.acceleration);
         }
         self.jacobian.solve(&mut self.rate);
-        for (index, joint) in case.mechanism.joints().iter().enumerate() {
+        for (index, joint) in case.mechanism.joints().entries() {
             self.put_gamma(index, joint);
         }
         self.jacobian.solve(&mut self.second);
@@ -166,7 +166,7 @@ impl System<'_> {
     /// Computes motions and angles of all links from the coordinates, and calls `of` to find their loads.
     pub(super) fn find_loads(&mut self, of: impl FnOnce(&Case, &[Motion], &[f64], &mut [Wrench])) {
         if !self.case.loads.is_empty() {
-            for link in 1..self.motions.len() {
+            for link in self.case.mechanism.links().ids().skip(1) {
                 (self.motions[link], self.angles[link]) = self.motion(link);
             }
             of(self.case, &self.motions, &self.angles, &mut self.loads);
@@ -175,12 +175,12 @@ impl System<'_> {
 
     /// J^T lambda = M q'' - Q, with the loads found last.
     pub(super) fn multipliers(&mut self) {
-        for (index, link) in self.case.mechanism.links()[1..].iter().enumerate() {
-            let i = 3 * index;
-            let Wrench { force, moment } = self.loads[index + 1];
-            self.lambda[i] = link.mass * (self.second[i] - self.case.gravity.x) - force.x;
-            self.lambda[i + 1] = link.mass * (self.second[i + 1] - self.case.gravity.y) - force.y;
-            self.lambda[i + 2] = link.inertia * self.second[i + 2] - moment;
+        for (link, body) in self.case.mechanism.links().entries().skip(1) {
+            let i = 3 * (link.index() - 1);
+            let Wrench { force, moment } = self.loads[link];
+            self.lambda[i] = body.mass * (self.second[i] - self.case.gravity.x) - force.x;
+            self.lambda[i + 1] = body.mass * (self.second[i + 1] - self.case.gravity.y) - force.y;
+            self.lambda[i + 2] = body.inertia * self.second[i + 2] - moment;
         }
         self.tally.one(Count::Forces);
         self.jacobian.solve_transposed(&mut self.lambda);
@@ -236,10 +236,10 @@ impl System<'_> {
     }
 
     pub(super) fn fill(&self, state: &mut State) {
-        for link in 1..state.motions.len() {
+        for link in state.motions.ids().skip(1) {
             (state.motions[link], state.angles[link]) = self.motion(link);
         }
-        for (index, joint) in self.case.mechanism.joints().iter().enumerate() {
+        for (index, joint) in self.case.mechanism.joints().entries() {
             (state.forces[index], state.moments[index]) = self.reaction(index, joint);
         }
         for ((row, _), torque) in self.drives().zip(&mut state.torques) {

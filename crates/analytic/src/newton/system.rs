@@ -6,7 +6,7 @@ use super::blocks::Blocks;
 use linkage::case::Case;
 use linkage::drive::{Drive, InputState, Wrench};
 use linkage::math::{Motion, Vec2, rotated, turned, unit};
-use linkage::mechanism::{Joint, Side};
+use linkage::mechanism::{GROUND, Joint, LinkId, Side};
 use linkage::trajectory::Stage;
 use linkage::work::Tally;
 
@@ -91,8 +91,8 @@ impl<'a> System<'a> {
     }
 
     /// Motion and angle of a moving link's frame.
-    pub(super) fn motion(&self, link: usize) -> (Motion, f64) {
-        let i = 3 * (link - 1);
+    pub(super) fn motion(&self, link: LinkId) -> (Motion, f64) {
+        let i = 3 * (link.index() - 1);
         let pair = |of: &[f64]| Vec2::new(of[i], of[i + 1]);
         let motion = Motion::of_point(
             self.case.mechanism.links()[link].mass_centre,
@@ -111,37 +111,41 @@ impl<'a> System<'a> {
     }
 
     /// World position of a link's mass centre; the origin for the ground.
-    pub(super) fn centre(&self, link: usize) -> Vec2 {
-        if link == 0 { Vec2::zeros() } else { Vec2::new(self.q[3 * (link - 1)], self.q[3 * (link - 1) + 1]) }
+    pub(super) fn centre(&self, link: LinkId) -> Vec2 {
+        if link == GROUND {
+            Vec2::zeros()
+        } else {
+            Vec2::new(self.q[3 * (link.index() - 1)], self.q[3 * (link.index() - 1) + 1])
+        }
     }
 
     /// World vector from a link's mass centre (the origin for the ground) to a point of it.
-    pub(super) fn arm(&self, link: usize, local: Vec2) -> Vec2 {
-        if link == 0 {
+    pub(super) fn arm(&self, link: LinkId, local: Vec2) -> Vec2 {
+        if link == GROUND {
             return local;
         }
-        rotated(unit(self.q[3 * (link - 1) + 2]), local - self.case.mechanism.links()[link].mass_centre)
+        rotated(unit(self.q[3 * (link.index() - 1) + 2]), local - self.case.mechanism.links()[link].mass_centre)
     }
 
     /// World vector of a vector in a link's frame.
-    pub(super) fn along(&self, link: usize, local: Vec2) -> Vec2 {
-        if link == 0 { local } else { rotated(unit(self.angle(link)), local) }
+    pub(super) fn along(&self, link: LinkId, local: Vec2) -> Vec2 {
+        if link == GROUND { local } else { rotated(unit(self.angle(link)), local) }
     }
 
-    pub(super) fn angle(&self, link: usize) -> f64 {
-        if link == 0 { 0.0 } else { self.q[3 * (link - 1) + 2] }
+    pub(super) fn angle(&self, link: LinkId) -> f64 {
+        if link == GROUND { 0.0 } else { self.q[3 * (link.index() - 1) + 2] }
     }
 
-    pub(super) fn omega(&self, link: usize) -> f64 {
-        if link == 0 { 0.0 } else { self.rate[3 * (link - 1) + 2] }
+    pub(super) fn omega(&self, link: LinkId) -> f64 {
+        if link == GROUND { 0.0 } else { self.rate[3 * (link.index() - 1) + 2] }
     }
 
     /// Velocity of a joint's place on a link.
     pub(super) fn velocity(&self, side: Side) -> Vec2 {
-        if side.link == 0 {
+        if side.link == GROUND {
             return Vec2::zeros();
         }
-        let i = 3 * (side.link - 1);
+        let i = 3 * (side.link.index() - 1);
         Vec2::new(self.rate[i], self.rate[i + 1]) + turned(self.arm(side.link, side.local)) * self.rate[i + 2]
     }
 }

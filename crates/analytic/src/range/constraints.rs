@@ -6,13 +6,13 @@
 //! Each kind of joint has one function with its rows.
 
 use linkage::math::{Column, Matrix, Vec2, cross, rotated, unit};
-use linkage::mechanism::{Group, Joint, LinkPose, Mechanism, Pose, Side};
+use linkage::mechanism::{GROUND, Group, Joint, LinkId, LinkPose, Mechanism, Pose, Side};
 
 /// A driving link that is geared to the crank: its angle follows that of the crank.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Gearing {
-    pub(super) crank: usize,
-    pub(super) link: usize,
+    pub(super) crank: LinkId,
+    pub(super) link: LinkId,
     /// Turns of the link per turn of the crank, and its angle where the crank's is zero (rad).
     pub(super) ratio: f64,
     pub(super) offset: f64,
@@ -42,7 +42,7 @@ pub(super) struct Equations {
 impl<'a> Constraints<'a> {
     /// The equations of `mechanism`, with coordinates from the place `origin` (m).
     pub(super) fn of(mechanism: &'a Mechanism, origin: Vec2, gearings: Vec<Gearing>) -> Self {
-        let middle = |link: usize| {
+        let middle = |link: LinkId| {
             let locals: Vec<Vec2> = mechanism.joints().iter().filter_map(|joint| joint.on(link)).collect();
             locals.iter().sum::<Vec2>() / locals.len().max(1) as f64
         };
@@ -51,7 +51,7 @@ impl<'a> Constraints<'a> {
             origin,
             size: mechanism.size(),
             gearings,
-            middles: (0..mechanism.links().len()).map(middle).collect(),
+            middles: mechanism.links().ids().map(middle).collect(),
         }
     }
 
@@ -66,34 +66,36 @@ impl<'a> Constraints<'a> {
     }
 
     /// Index of the coordinate that is the angle of `link`.
-    pub(super) fn angle(link: usize) -> usize {
-        3 * (link - 1) + 2
+    pub(super) fn angle(link: LinkId) -> usize {
+        3 * (link.index() - 1) + 2
     }
 
     /// Coordinates of a pose.
     pub(super) fn coordinates_of(&self, pose: &Pose) -> Column {
         let mut q = Column::zeros(self.coordinates());
-        for (link, place) in pose.0.iter().enumerate().skip(1) {
+        for (link, place) in pose.0.entries().skip(1) {
             let middle = (place.point(self.middles[link]) - self.origin) / self.size;
-            (q[3 * link - 3], q[3 * link - 2], q[3 * link - 1]) = (middle.x, middle.y, place.angle);
+            let angle = Self::angle(link);
+            (q[angle - 2], q[angle - 1], q[angle]) = (middle.x, middle.y, place.angle);
         }
         q
     }
 
     /// The pose for these coordinates.
     pub(super) fn pose(&self, q: &Column) -> Pose {
-        let place = |link: usize| {
-            let middle = Vec2::new(q[3 * link - 3], q[3 * link - 2]) * self.size + self.origin;
-            LinkPose::through(self.middles[link], middle, q[3 * link - 1])
+        let place = |link: LinkId| {
+            let angle = Self::angle(link);
+            let middle = Vec2::new(q[angle - 2], q[angle - 1]) * self.size + self.origin;
+            LinkPose::through(self.middles[link], middle, q[angle])
         };
-        Pose(std::iter::once(LinkPose::GROUND).chain((1..self.middles.len()).map(place)).collect())
+        Pose(std::iter::once(LinkPose::GROUND).chain(self.mechanism.links().ids().skip(1).map(place)).collect())
     }
 
     /// All equations at the coordinates `q`.
     pub(super) fn at(&self, q: &Column) -> Equations {
         let mut equations =
             Equations { residual: Column::zeros(self.rows()), jacobian: Matrix::zeros(self.rows(), q.len()) };
-        for (index, joint) in self.mechanism.joints().iter().enumerate() {
+        for (index, joint) in self.mechanism.joints().entries() {
             let row = self.mechanism.rows(index).start;
             match joint.kind.line() {
                 None => self.revolute(joint, q, row, &mut equations),
@@ -102,9 +104,9 @@ impl<'a> Constraints<'a> {
             if let Some(axes) = joint.kind.axes() {
                 let [first, second] = [joint.first.link, joint.second.link];
                 let [axis, other] = [(first, axes[0]), (second, axes[1])]
-                    .map(|(link, axis)| if link == 0 { axis } else { rotated(unit(q[Self::angle(link)]), axis) });
+                    .map(|(link, axis)| if link == GROUND { axis } else { rotated(unit(q[Self::angle(link)]), axis) });
                 equations.residual[row + 1] = cross(axis, other).atan2(axis.dot(&other));
-                for (link, sign) in [(first, -1.0), (second, 1.0)].into_iter().filter(|(link, _)| *link > 0) {
+                for (link, sign) in [(first, -1.0), (second, 1.0)].into_iter().filter(|(link, _)| *link != GROUND) {
                     equations.jacobian[(row + 1, Self::angle(link))] += sign;
                 }
             }
@@ -125,8 +127,8 @@ impl<'a> Constraints<'a> {
             let (place, arm) = self.point(side, q);
             equations.residual[row] += sign * place.x;
             equations.residual[row + 1] += sign * place.y;
-            if side.link > 0 {
-                let column = 3 * (side.link - 1);
+            if side.link != GROUND {
+                let column = 3 * (side.link.index() - 1);
                 equations.jacobian[(row, column)] += sign;
                 equations.jacobian[(row + 1, column + 1)] += sign;
                 equations.jacobian[(row, column + 2)] -= sign * arm.y;
@@ -138,19 +140,19 @@ impl<'a> Constraints<'a> {
     /// n . (p_second - p_first) = 0 with the normal n of the axis on the first link.
     fn line(&self, joint: &Joint, axis: Vec2, q: &Column, row: usize, equations: &mut Equations) {
         let [first, second] = [joint.first, joint.second];
-        let axis = if first.link == 0 { axis } else { rotated(unit(q[Self::angle(first.link)]), axis) };
+        let axis = if first.link == GROUND { axis } else { rotated(unit(q[Self::angle(first.link)]), axis) };
         let gap = self.point(second, q).0 - self.point(first, q).0;
         equations.residual[row] = cross(axis, gap);
         for (side, sign) in [(first, -1.0), (second, 1.0)] {
-            if side.link > 0 {
-                let column = 3 * (side.link - 1);
+            if side.link != GROUND {
+                let column = 3 * (side.link.index() - 1);
                 let arm = self.point(side, q).1;
                 equations.jacobian[(row, column)] -= sign * axis.y;
                 equations.jacobian[(row, column + 1)] += sign * axis.x;
                 equations.jacobian[(row, column + 2)] += sign * axis.dot(&arm);
             }
         }
-        if first.link > 0 {
+        if first.link != GROUND {
             // The normal turns with the first link.
             equations.jacobian[(row, Self::angle(first.link))] -= axis.dot(&gap);
         }
@@ -159,10 +161,10 @@ impl<'a> Constraints<'a> {
     /// Place of one side of a joint, and the vector to it from the middle of its link, in units of the mechanism's
     /// size.
     fn point(&self, side: Side, q: &Column) -> (Vec2, Vec2) {
-        if side.link == 0 {
+        if side.link == GROUND {
             return ((side.local - self.origin) / self.size, Vec2::zeros());
         }
-        let at = 3 * (side.link - 1);
+        let at = 3 * (side.link.index() - 1);
         let arm = rotated(unit(q[at + 2]), side.local - self.middles[side.link]) / self.size;
         (Vec2::new(q[at], q[at + 1]) + arm, arm)
     }
@@ -172,7 +174,7 @@ impl<'a> Constraints<'a> {
     pub(super) fn block(&self, jacobian: &Matrix, group: &Group) -> Matrix {
         let joints = group.inner.iter().chain(&group.outer);
         let rows: Vec<usize> = joints.flat_map(|&joint| self.mechanism.rows(joint)).collect();
-        let places = group.links.iter().flat_map(|&link| [3 * link - 3, 3 * link - 2]);
+        let places = group.links.iter().flat_map(|&link| [Self::angle(link) - 2, Self::angle(link) - 1]);
         let columns: Vec<usize> = places.chain(group.links.iter().map(|&link| Self::angle(link))).collect();
         Matrix::from_fn(rows.len(), columns.len(), |r, c| jacobian[(rows[r], columns[c])])
     }

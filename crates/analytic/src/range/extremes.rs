@@ -4,6 +4,7 @@
 //! zero along the curve.
 
 use linkage::math::KeepNan;
+use linkage::mechanism::{GroupId, LinkId};
 use std::f64::consts::TAU;
 
 use super::constraints::Constraints;
@@ -30,7 +31,7 @@ pub struct Extreme {
 #[derive(Clone, Debug, PartialEq)]
 pub struct LinkRange {
     /// The link.
-    pub link: usize,
+    pub link: LinkId,
     /// Smallest and greatest angle (rad, continued from that of the start pose), with their crank angles.
     pub angles: [At; 2],
     /// Whole turns of the link until the mechanism is back at its first pose, counter-clockwise positive for a crank
@@ -43,10 +44,10 @@ pub struct LinkRange {
 
 /// Ranges of all moving links.
 pub(super) fn links(tracker: &Tracker, points: &[Point], closed: bool, count: usize) -> Vec<LinkRange> {
-    (1..count).map(|link| of_link(tracker, points, closed, link)).collect()
+    (1..count).map(|link| of_link(tracker, points, closed, LinkId(link))).collect()
 }
 
-fn of_link(tracker: &Tracker, points: &[Point], closed: bool, link: usize) -> LinkRange {
+fn of_link(tracker: &Tracker, points: &[Point], closed: bool, link: LinkId) -> LinkRange {
     let angle = Constraints::angle(link);
     let rate = |point: &Point| point.tangent[angle];
     let at = |point: &Point| At { crank: tracker.crank_of(&point.q), value: point.q[angle] };
@@ -136,7 +137,7 @@ pub(super) fn contacts(tracker: &Tracker, points: &[Point], closed: bool, bound:
                 let contact = Singularity {
                     kind: Kind::BranchContact,
                     crank: tracker.crank_of(&lowest.q),
-                    group,
+                    group: GroupId(group),
                     determinant: lowest.measures[group].determinant,
                 };
                 if contact.determinant.abs() < bound {

@@ -8,7 +8,7 @@
 //! (Grashof 1883; for example Hunt, "Kinematic geometry of mechanisms", 1978, section 4.1.)
 
 use linkage::case::Case;
-use linkage::mechanism::{GROUND, GroupKind};
+use linkage::mechanism::{GROUND, GroupKind, LinkId};
 
 /// Relative difference of the sums of lengths up to which they are equal: the rounding of four lengths read from
 /// decimal numbers.
@@ -84,7 +84,7 @@ impl FourBar {
     pub fn of(case: &Case) -> Option<Self> {
         let (mechanism, drive) = (&case.mechanism, case.crank());
         let joints = mechanism.joints();
-        let [group] = case.structure.groups.as_slice() else { return None };
+        let [group] = &*case.structure.groups else { return None };
         if group.kind != GroupKind::Rrr || joints.len() != 4 || !joints.iter().all(|joint| joint.is_pin()) {
             return None;
         }
@@ -93,7 +93,7 @@ impl FourBar {
             .iter()
             .find(|&&link| joints.iter().any(|j| j.on(link).is_some() && j.other(link).link == GROUND))?;
         // Distance between the two joints on a link.
-        let length = |link: usize| {
+        let length = |link: LinkId| {
             let mut on_link = joints.iter().filter_map(|joint| joint.on(link));
             let (a, b) = (on_link.next()?, on_link.next()?);
             on_link.next().is_none().then(|| (a - b).norm())

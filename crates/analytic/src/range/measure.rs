@@ -64,13 +64,13 @@ mod tests {
     use super::*;
     use linkage::fixtures::four_bar;
     use linkage::math::Vec2;
-    use linkage::mechanism::{AssemblyMode, StartGroup, Structure, first_pose};
+    use linkage::mechanism::{AssemblyMode, GroupId, JointId, StartGroup, Structure, first_pose};
 
     #[test]
     fn a_dyad_has_its_transmission_angle_whatever_the_unit_of_length() {
         let mechanism = four_bar();
-        let structure = Structure::of(&mechanism, &[0]).unwrap();
-        let group = &structure.groups[0];
+        let structure = Structure::of(&mechanism, &[JointId(0)]).unwrap();
+        let group = &structure.groups[GroupId(0)];
         let constraints = Constraints::of(&mechanism, Vec2::new(1.0, -2.0), Vec::new());
         for degrees in (0..360).step_by(5) {
             for mode in [AssemblyMode::Left, AssemblyMode::Right] {

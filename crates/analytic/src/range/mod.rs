@@ -24,7 +24,7 @@ use constraints::Constraints;
 use linkage::case::Case;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::Vec2;
-use linkage::mechanism::{Group, Mechanism, Pose};
+use linkage::mechanism::{Group, GroupId, Mechanism, PerGroup, Pose};
 use linkage::work::limited;
 use tracking::{End, Point, Tracker};
 
@@ -76,7 +76,7 @@ pub struct Range {
     /// Limits, change points and contacts, in ascending order of the crank angle.
     pub singularities: Vec<Singularity>,
     /// The worst values of each group.
-    pub groups: Vec<GroupRange>,
+    pub groups: PerGroup<GroupRange>,
     /// The range of every moving link.
     pub links: Vec<LinkRange>,
     /// Measures of all groups along the way, in ascending order of the crank angle, at most two degrees apart, without
@@ -107,7 +107,7 @@ impl Range {
             Extent::Limited([from, to]) => [from].into_iter().chain(contacts).chain([to]).collect(),
         };
         singularities.sort_by(|a, b| a.crank.total_cmp(&b.crank));
-        let groups = (0..case.structure.groups.len()).map(|group| worst(&tracker, &points, extent, group)).collect();
+        let groups = case.structure.groups.ids().map(|group| worst(&tracker, &points, extent, group)).collect();
         let links = extremes::links(&tracker, &points, closed, case.mechanism.links().len());
         tracker.allowed(Ok(Range { extent, singularities, groups, links, samples, four_bar: FourBar::of(case) }))
     }
@@ -185,7 +185,7 @@ fn both_ways(tracker: &Tracker, start: &Point) -> Result<(Vec<Point>, Extent)> {
     Ok((points.collect(), Extent::Limited([from, to])))
 }
 
-fn worst(tracker: &Tracker, points: &[Point], extent: Extent, group: usize) -> GroupRange {
+fn worst(tracker: &Tracker, points: &[Point], extent: Extent, group: GroupId) -> GroupRange {
     let limits = match extent {
         Extent::FullTurn(_) => None,
         Extent::Limited(limits) => limits.into_iter().find(|limit| limit.group == group),

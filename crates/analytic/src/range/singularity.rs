@@ -1,5 +1,7 @@
 //! Singular poses, and values at a crank angle.
 
+use linkage::mechanism::GroupId;
+
 /// Kind of a singular pose.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
@@ -35,7 +37,7 @@ pub struct Singularity {
     /// Crank angle (rad, as the scenario states it), to 1e-9 rad. For a contact, the angle of the smallest determinant.
     pub crank: f64,
     /// The group whose determinant is zero: index in [`Structure::groups`](linkage::mechanism::Structure::groups).
-    pub group: usize,
+    pub group: GroupId,
     /// Normalised determinant of the group there: 0, except for a contact. The transmission angle of a dyad is its arc
     /// sine.
     pub determinant: f64,

@@ -21,6 +21,7 @@ use linkage::input::InputValue;
 use linkage::math::dense::Lu;
 use linkage::math::root::{self, Close};
 use linkage::math::{Column, KeepNan, Matrix, unit};
+use linkage::mechanism::{GroupId, LinkId};
 use linkage::work;
 
 /// Longest step: two degrees, where only the crank turns.
@@ -131,7 +132,7 @@ impl<'a> Tracker<'a> {
         let start =
             tracker.at_crank(&rough, drive.world_angle(drive.start)).ok_or_else(|| lost(drive.told(drive.start)));
         let start = tracker.allowed(start)?;
-        for (index, group) in case.structure.groups.iter().enumerate() {
+        for (index, group) in case.structure.groups.entries() {
             let sine = linkage::mechanism::assembly::transmission_sine(&case.mechanism, group, &case.start);
             let wanted = sine.map_or(1.0, f64::signum);
             tracker.signs[index] = wanted * start.measures[index].determinant.signum();
@@ -340,7 +341,7 @@ impl<'a> Tracker<'a> {
         if extent == 1.0 {
             return all;
         }
-        let is_far = |link: &usize| here.q.rows(3 * link - 3, 2).amax() > NEAR;
+        let is_far = |link: &LinkId| here.q.rows(Constraints::angle(*link) - 2, 2).amax() > NEAR;
         let groups = self.case.structure.groups.iter().zip(&here.measures);
         let near = groups.filter(|(group, _)| !group.links.iter().any(is_far));
         near.fold(all, |least, (_, measure)| least.smaller(measure.determinant.abs()))
@@ -371,7 +372,7 @@ impl<'a> Tracker<'a> {
     fn met(&self, mut points: Vec<Point>) -> Result<Track> {
         let last = &points[points.len() - 1];
         let Some(group) = weakest(&last.measures) else { return Err(self.lost(&last.q)) };
-        let known = by_determinant(&points, group);
+        let known = by_determinant(&points, GroupId(group));
         let known: Vec<(f64, Column)> = known.into_iter().map(|(x, point)| (x, point.q.clone())).collect();
         let q = if known.len() < 3 { last.q.clone() } else { neville_at_zero(&known) };
         let moved = (&q - &last.q).norm();
@@ -391,7 +392,7 @@ impl<'a> Tracker<'a> {
     fn is_settled(&self, points: &[Point]) -> bool {
         let last = &points[points.len() - 1];
         let Some(group) = weakest(&last.measures) else { return false };
-        let known = by_determinant(points, group);
+        let known = by_determinant(points, GroupId(group));
         if known.len() < MOST_KNOWN {
             return false;
         }
@@ -403,7 +404,7 @@ impl<'a> Tracker<'a> {
 
     /// What stays finite where links go to infinity: determinants of all groups, then angles of all links (rad).
     fn finite(&self, point: &Point) -> Column {
-        let angles = (1..self.case.mechanism.links().len()).map(|link| point.q[Constraints::angle(link)]);
+        let angles = self.case.mechanism.links().ids().skip(1).map(|link| point.q[Constraints::angle(link)]);
         let all: Vec<f64> = point.measures.iter().map(|measure| measure.determinant).chain(angles).collect();
         Column::from_vec(all)
     }
@@ -413,7 +414,7 @@ impl<'a> Tracker<'a> {
     fn escaped(&self, mut points: Vec<Point>) -> Result<Track> {
         let last = &points[points.len() - 1];
         let Some(group) = weakest(&last.measures) else { return Err(self.lost(&last.q)) };
-        let known = by_determinant(&points, group);
+        let known = by_determinant(&points, GroupId(group));
         if known.len() < 3 {
             return Err(self.lost(&last.q));
         }
@@ -423,7 +424,7 @@ impl<'a> Tracker<'a> {
         for (measure, determinant) in end.measures.iter_mut().zip(found.iter()) {
             measure.determinant = *determinant;
         }
-        for (link, angle) in (1..self.case.mechanism.links().len()).zip(found.iter().skip(end.measures.len())) {
+        for (link, angle) in self.case.mechanism.links().ids().skip(1).zip(found.iter().skip(end.measures.len())) {
             end.q[Constraints::angle(link)] = *angle;
         }
         end.measures[group] = Measure { determinant: 0.0, condition: f64::MAX };
@@ -436,12 +437,16 @@ impl<'a> Tracker<'a> {
     pub(super) fn singularity(&self, kind: Kind, at: &Point) -> Singularity {
         let group = weakest(&at.measures).unwrap_or(0);
         let determinant = if kind == Kind::BranchContact { at.measures[group].determinant } else { 0.0 };
-        Singularity { kind, crank: self.crank_of(&at.q), group, determinant }
+        Singularity { kind, crank: self.crank_of(&at.q), group: GroupId(group), determinant }
     }
 
     /// Whether all links have the same place again, whole turns apart.
     fn is_same(&self, a: &Point, b: &Point) -> bool {
-        (1..self.case.mechanism.links().len())
+        self.case
+            .mechanism
+            .links()
+            .ids()
+            .skip(1)
             .map(Constraints::angle)
             .all(|k| (unit(a.q[k]) - unit(b.q[k])).norm() < 1e-6)
     }
@@ -449,7 +454,7 @@ impl<'a> Tracker<'a> {
 
 /// The last regular poses by the determinant of a group.
 /// The nearest to zero comes first; each is half as far again as the one before.
-fn by_determinant(points: &[Point], group: usize) -> Vec<(f64, &Point)> {
+fn by_determinant(points: &[Point], group: GroupId) -> Vec<(f64, &Point)> {
     let mut known: Vec<(f64, &Point)> = Vec::new();
     for point in points.iter().rev().filter(|point| point.sigma > 1e-4) {
         let determinant = point.measures[group].determinant;

@@ -12,6 +12,7 @@ use linkage::case::{Case, Grid, Wanted};
 use linkage::drive::{Course, Load};
 use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::math::{KeepNan, Motion, quadrature, root};
+use linkage::mechanism::{Link, LinkId};
 use linkage::solver::{Solver, State};
 use linkage::trajectory::Stage;
 
@@ -19,11 +20,10 @@ use linkage::trajectory::Stage;
 /// I* = sum of m (v / omega_1)^2 + J (omega / omega_1)^2.
 #[must_use]
 pub fn moment_of_inertia(case: &Case, motions: &[Motion]) -> f64 {
-    let energy = |(link, motion): (usize, &Motion)| {
-        let body = &case.mechanism.links()[link];
+    let energy = |(body, motion): (&Link, &Motion)| {
         body.mass * motion.point_velocity(body.mass_centre).norm_squared() + body.inertia * motion.omega.powi(2)
     };
-    let sum: f64 = motions.iter().enumerate().skip(1).map(energy).sum();
+    let sum: f64 = case.mechanism.links().iter().zip(motions).skip(1).map(energy).sum();
     sum / motions[case.crank().link].omega.powi(2)
 }
 
@@ -31,11 +31,9 @@ pub fn moment_of_inertia(case: &Case, motions: &[Motion]) -> f64 {
 /// Positive where the drive must do work against them.
 #[must_use]
 pub fn moment_of_resistance(case: &Case, state: &State) -> f64 {
-    let power = |(link, motion): (usize, &Motion)| {
-        let body = &case.mechanism.links()[link];
-        case.gravity.dot(&motion.point_velocity(body.mass_centre)) * body.mass
-    };
-    let weights: f64 = state.motions.iter().enumerate().skip(1).map(power).sum();
+    let power =
+        |(body, motion): (&Link, &Motion)| case.gravity.dot(&motion.point_velocity(body.mass_centre)) * body.mass;
+    let weights: f64 = case.mechanism.links().iter().zip(&state.motions).skip(1).map(power).sum();
     -(weights + case.load_power(&state.motions, &state.angles)) / state.motions[case.crank().link].omega
 }
 
@@ -70,7 +68,7 @@ struct Reach {
 }
 
 impl Reach {
-    fn by_range(case: &Case, sensed: &[usize]) -> Result<Self> {
+    fn by_range(case: &Case, sensed: &[LinkId]) -> Result<Self> {
         let range = Range::of(case)?;
         let (turns, limits, meets) = match range.extent {
             Extent::FullTurn(turns) => (Some(turns.unsigned_abs()), None, false),
@@ -109,8 +107,8 @@ pub fn kinks(case: &Case) -> Result<Kinks> {
         );
     }
     let is_sensed =
-        |link: &usize| case.can_turn(*link) && case.loads.iter().any(|load| load.sensed_link() == Some(*link));
-    let sensed: Vec<usize> = (1..case.mechanism.links().len()).filter(is_sensed).collect();
+        |link: &LinkId| case.can_turn(*link) && case.loads.iter().any(|load| load.sensed_link() == Some(*link));
+    let sensed: Vec<LinkId> = case.mechanism.links().ids().skip(1).filter(is_sensed).collect();
     let start = case.crank().start;
     let within = |crank: f64, period: f64| {
         let inside = (crank - start).rem_euclid(period);

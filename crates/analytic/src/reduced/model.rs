@@ -6,7 +6,7 @@ use linkage::case::Case;
 use linkage::drive::{Branch, Load, Motor, Setting};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::{Motion, Vec2};
-use linkage::mechanism::GROUND;
+use linkage::mechanism::{GROUND, LinkId};
 use linkage::solver::State;
 use linkage::trajectory::Stage;
 
@@ -29,7 +29,7 @@ pub struct Reduced {
 /// A mass of the mechanism.
 #[derive(Clone, Copy, Debug)]
 struct Mass {
-    link: usize,
+    link: LinkId,
     mass: f64,
     inertia: f64,
     centre: Vec2,
@@ -57,7 +57,7 @@ pub struct Model<'a> {
     pub(crate) case: &'a Case,
     masses: Vec<Mass>,
     /// Loads that change with the sense of a link's rotation, and these links.
-    sensed: Vec<(usize, Load)>,
+    sensed: Vec<(LinkId, Load)>,
     /// Loads that depend only on the pose.
     steady: Vec<Load>,
     kinks: Kinks,
@@ -87,7 +87,7 @@ impl<'a> Model<'a> {
             );
             return Err(Error::new(ErrorKind::Unsupported, message).help("take a scenario with one `[drive]`"));
         }
-        let links = case.mechanism.links().iter().enumerate();
+        let links = case.mechanism.links().entries();
         let masses = links.filter(|(link, body)| *link != GROUND && (body.mass > 0.0 || body.inertia > 0.0));
         let masses =
             masses.map(|(link, body)| Mass { link, mass: body.mass, inertia: body.inertia, centre: body.mass_centre });
@@ -247,7 +247,7 @@ impl<'a> Model<'a> {
     /// Contribution of masses, gravity and steady loads: virtual powers at a crank speed of 1 rad/s.
     fn of_pose(&self, state: &State, crank: f64) -> Reduced {
         let mut found = self.of_masses(&state.motions);
-        let (motions, angles) = (state.motions.as_slice(), state.angles.as_slice());
+        let (motions, angles) = (&*state.motions, &*state.angles);
         let setting = Setting { motions, angles, start: &self.case.start.0, crank };
         for load in &self.steady {
             load.act(&setting, &mut |action| found.applied += action.power(&motions[action.link]));

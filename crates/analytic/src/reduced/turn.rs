@@ -9,6 +9,7 @@ use crate::PoseSolver;
 use linkage::case::Case;
 use linkage::error::Result;
 use linkage::math::root;
+use linkage::mechanism::{LinkId, PerLink};
 use linkage::trajectory::Stage;
 
 /// Poses of one turn of the crank, three degrees apart. Two reversals between two of them are still seen, by the
@@ -44,18 +45,18 @@ struct Rate {
 impl FullTurn {
     /// Turns the crank of a case from its start on until the mechanism is back at its first pose.
     /// `None` if it does not come there, or not without doubt.
-    pub(super) fn of(case: &Case, links: &[usize]) -> Option<Self> {
+    pub(super) fn of(case: &Case, links: &[LinkId]) -> Option<Self> {
         if case.crank().through {
             return None;
         }
         Self::turned(case, links).ok().flatten()
     }
 
-    fn turned(case: &Case, links: &[usize]) -> Result<Option<Self>> {
+    fn turned(case: &Case, links: &[LinkId]) -> Result<Option<Self>> {
         let (mut poses, start) = (PoseSolver::new(case)?, case.crank().start);
         let deepest = if links.is_empty() { Stage::Positions } else { Stage::Accelerations };
         let mut rates: Vec<Vec<Rate>> = vec![Vec::new(); links.len()];
-        let mut begun = Vec::new();
+        let mut begun = PerLink::default();
         for pose in 0..=MOST_TURNS * POSES {
             let crank = start + TAU * (f64::from(pose) / f64::from(POSES));
             let state = poses.solve(crank, 1.0, 0.0, deepest)?;
@@ -80,7 +81,7 @@ impl FullTurn {
 /// Adds the crank angles at which a link reverses, between poses of a whole period.
 fn reversals_of(
     poses: &mut PoseSolver,
-    link: usize,
+    link: LinkId,
     rates: &[Rate],
     period: f64,
     reversals: &mut Vec<f64>,
@@ -99,7 +100,7 @@ fn reversals_of(
 /// The same between two poses at which the link turns.
 fn between(
     poses: &mut PoseSolver,
-    link: usize,
+    link: LinkId,
     [a, b]: [Rate; 2],
     halvings: u32,
     reversals: &mut Vec<f64>,
@@ -136,7 +137,7 @@ mod tests {
     #[test]
     fn reversals_are_those_of_the_range_of_motion() {
         let case = turning(four_bar());
-        let links: Vec<usize> = (1..case.mechanism.links().len()).collect();
+        let links: Vec<LinkId> = case.mechanism.links().ids().skip(1).collect();
         let found = FullTurn::of(&case, &links).unwrap();
         let range = Range::of(&case).unwrap();
         assert_eq!(range.extent, Extent::FullTurn(found.turns as i32));

@@ -11,7 +11,7 @@ use linkage::solver::State;
 #[must_use]
 pub fn shaking(case: &Case, state: &State) -> (Vec2, f64) {
     let (mut force, mut moment) = (Vec2::zeros(), 0.0);
-    for (index, link) in case.mechanism.links().iter().enumerate().skip(1) {
+    for (index, link) in case.mechanism.links().entries().skip(1) {
         let motion = &state.motions[index];
         let own = (case.gravity - motion.point_acceleration(link.mass_centre)) * link.mass;
         force += own;

@@ -2,17 +2,17 @@
 
 use linkage::case::Case;
 use linkage::math::Motion;
+use linkage::mechanism::Link;
 use linkage::solver::State;
 
 /// Power of gravity, inertia and loads on all links (W): sum of m (g - a) . v - J alpha omega, and that of the loads.
 #[must_use]
 pub fn of_known_forces(case: &Case, state: &State) -> f64 {
-    let power = |(link, motion): (usize, &Motion)| {
-        let body = &case.mechanism.links()[link];
+    let power = |(body, motion): (&Link, &Motion)| {
         let force = (case.gravity - motion.point_acceleration(body.mass_centre)) * body.mass;
         force.dot(&motion.point_velocity(body.mass_centre)) - body.inertia * motion.alpha * motion.omega
     };
-    let own: f64 = state.motions.iter().enumerate().skip(1).map(power).sum();
+    let own: f64 = case.mechanism.links().iter().zip(&state.motions).skip(1).map(power).sum();
     own + case.load_power(&state.motions, &state.angles)
 }
 

@@ -5,6 +5,7 @@
 //! nearest points makes the bound weak, never wrong.
 
 use linkage::math::{KeepNan, Vec2, turned};
+use linkage::mechanism::LinkId;
 use parry2d_f64::math::{Pose, Rot2, Vector};
 use parry2d_f64::query::{self, ClosestPoints};
 use parry2d_f64::shape::{ConvexPolygon, Segment, Shape};
@@ -21,7 +22,7 @@ const CLOSE: f64 = 1e-5;
 /// A body's outline made ready for distances.
 pub struct Solid {
     /// Its link; the ground's for the housing.
-    pub link: usize,
+    pub link: LinkId,
     /// Radius of its rounding (m).
     pub radius: f64,
     pieces: Vec<Piece>,
@@ -63,7 +64,7 @@ pub struct Gap {
 impl Solid {
     /// Lengths are given to the library in units of `scale` (m): its tolerances are absolute.
     #[must_use]
-    pub fn new(link: usize, outline: &Outline, scale: f64) -> Self {
+    pub fn new(link: LinkId, outline: &Outline, scale: f64) -> Self {
         let pieces = outline.parts().iter().map(|part| Piece::new(part, scale)).collect();
         Solid { link, radius: outline.radius(), pieces, scale }
     }

@@ -198,7 +198,7 @@ pub fn course(case: &Case, question: &Question) -> Result<Course> {
 pub fn poses(case: &Case, cranks: &[f64]) -> Result<Vec<Vec<Motion>>> {
     let case = &case.nominal();
     let mut solver = PoseSolver::new(case)?;
-    let mut at = |&crank: &f64| Ok(solver.solve(crank, 1.0, 0.0, Stage::Positions)?.motions.clone());
+    let mut at = |&crank: &f64| Ok(solver.solve(crank, 1.0, 0.0, Stage::Positions)?.motions.to_vec());
     cranks.iter().map(&mut at).collect()
 }
 

@@ -10,6 +10,7 @@ mod tests;
 
 use linkage::error::Result;
 use linkage::math::{KeepNan, Vec2, cross, rotated};
+use linkage::mechanism::LinkId;
 
 use super::tube::{MOST_HALVINGS, Part, Track, Tube, Tubes};
 use scenario::clearance::Outline;
@@ -74,7 +75,7 @@ enum Square {
 pub struct Sweep<'a, 'c> {
     tubes: &'a mut Tubes<'c>,
     outline: &'a Outline,
-    link: usize,
+    link: LinkId,
     nodes: Vec<Node>,
     rounding: f64,
     /// Tests of a square against a part of the range.
@@ -85,7 +86,7 @@ pub struct Sweep<'a, 'c> {
 
 impl<'a, 'c> Sweep<'a, 'c> {
     /// For a link with an outline.
-    pub fn new(tubes: &'a mut Tubes<'c>, link: usize, outline: &'a Outline) -> Self {
+    pub fn new(tubes: &'a mut Tubes<'c>, link: LinkId, outline: &'a Outline) -> Self {
         let rounding = tubes.rounding();
         Sweep { tubes, outline, link, nodes: Vec::new(), rounding, tests: 0, open: Vec::new() }
     }

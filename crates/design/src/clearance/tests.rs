@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use linkage::case::Case;
 use linkage::math::{KeepNan, Vec2};
-use linkage::mechanism::{AssemblyMode, GROUND};
+use linkage::mechanism::{AssemblyMode, GROUND, LinkId};
 
 use super::tube::Tubes;
 use super::*;
@@ -44,7 +44,7 @@ fn four_bar() -> Case {
 
 /// All links as capsules, and walls.
 fn question(case: &Case, radius: f64, walls: &[(&str, Outline)]) -> Question {
-    let links = case.mechanism.links().iter().enumerate().skip(1);
+    let links = case.mechanism.links().entries().skip(1);
     let mut bodies: Vec<Body> = links
         .map(|(link, own)| {
             let places: Vec<Vec2> = own.points.iter().map(|point| point.local).collect();
@@ -246,7 +246,7 @@ fn pairs_that_cannot_meet_are_not_asked_for() {
     let without = |ignored: [usize; 2]| pairs(&case.mechanism, &asked.bodies, &[ignored]);
     assert_eq!([without([0, 2]), without([2, 0])].map(|own| own == all[1..]), [true; 2]);
     // Four links on one pin, each joined to the next.
-    let place = |link: usize| linkage::mechanism::Side { link, local: Vec2::zeros() };
+    let place = |link: LinkId| linkage::mechanism::Side { link, local: Vec2::zeros() };
     let links = ["ground", "a", "b", "c", "d", "e"].map(|name| linkage::mechanism::Link {
         name: name.into(),
         points: Vec::new(),
@@ -254,23 +254,23 @@ fn pairs_that_cannot_meet_are_not_asked_for() {
         mass_centre: Vec2::zeros(),
         inertia: 1.0,
     });
-    let joint = |(first, second): (usize, usize), end: Vec2| linkage::mechanism::Joint {
+    let joint = |[first, second]: [usize; 2], end: Vec2| linkage::mechanism::Joint {
         name: format!("{first}{second}"),
         kind: linkage::mechanism::JointKind::Revolute,
-        first: linkage::mechanism::Side { link: first, local: end },
-        second: place(second),
+        first: linkage::mechanism::Side { link: LinkId(first), local: end },
+        second: place(LinkId(second)),
         drawn: None,
     };
     let joints = vec![
-        joint((1, 2), Vec2::zeros()),
-        joint((2, 3), Vec2::zeros()),
-        joint((3, 4), Vec2::zeros()),
-        joint((4, 5), Vec2::new(1.0, 0.0)),
-        joint((0, 1), Vec2::new(1.0, 0.0)),
+        joint([1, 2], Vec2::zeros()),
+        joint([2, 3], Vec2::zeros()),
+        joint([3, 4], Vec2::zeros()),
+        joint([4, 5], Vec2::new(1.0, 0.0)),
+        joint([0, 1], Vec2::new(1.0, 0.0)),
     ];
     let mechanism = linkage::mechanism::Mechanism::new(links.to_vec(), joints).unwrap();
-    assert!(are_joined(&mechanism, [1, 4]) && are_joined(&mechanism, [4, 1]));
-    assert!(!are_joined(&mechanism, [1, 5]) && !are_joined(&mechanism, [3, 5]));
+    assert!(are_joined(&mechanism, [1, 4].map(LinkId)) && are_joined(&mechanism, [4, 1].map(LinkId)));
+    assert!(!are_joined(&mechanism, [1, 5].map(LinkId)) && !are_joined(&mechanism, [3, 5].map(LinkId)));
 }
 
 /// Without rounding, the direction of nearest points is lost where two corners come close; their sides have it.

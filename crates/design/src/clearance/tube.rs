@@ -22,7 +22,7 @@ use analytic::PoseSolver;
 use linkage::case::Case;
 use linkage::error::Result;
 use linkage::math::{KeepNan, Matrix, Vec2, cross, rotated, turned};
-use linkage::mechanism::{GROUND, Group, Joint};
+use linkage::mechanism::{GROUND, Group, Joint, LinkId};
 use linkage::trajectory::Stage;
 
 /// Largest first part of the range (rad).
@@ -165,7 +165,7 @@ impl<'a> Tubes<'a> {
     /// Those of [`PoseSolver::new`].
     pub fn new(case: &'a Case, [from, to]: [f64; 2], extent: f64) -> Result<Self> {
         let mechanism = &case.mechanism;
-        let centre = |link: usize| {
+        let centre = |link: LinkId| {
             let places: Vec<Vec2> = mechanism.joints().iter().filter_map(|joint| joint.on(link)).collect();
             places.iter().sum::<Vec2>() / (places.len() as f64).larger(1.0)
         };
@@ -174,7 +174,7 @@ impl<'a> Tubes<'a> {
         Ok(Tubes {
             case,
             solver: PoseSolver::new(case)?,
-            centres: (0..mechanism.links().len()).map(centre).collect(),
+            centres: mechanism.links().ids().map(centre).collect(),
             from,
             to,
             first,
@@ -240,7 +240,7 @@ impl<'a> Tubes<'a> {
         let state = self.solver.solve(crank, 1.0, 0.0, Stage::Velocities)?;
         let mut tubes = vec![Tube::STILL; state.motions.len()];
         let rounding = ROUNDING * self.scale;
-        for (link, tube) in tubes.iter_mut().enumerate().skip(1) {
+        for (link, tube) in state.motions.ids().zip(&mut tubes).skip(1) {
             let (motion, centre) = (&state.motions[link], self.centres[link]);
             let (at, rate) = (motion.point(centre), motion.point_velocity(centre));
             let (direction, spin) = (motion.direction, motion.omega);
@@ -266,7 +266,7 @@ fn enclose(case: &Case, group: &Group, half: f64, tubes: &mut [Tube], rounding: 
     if joints.iter().map(|joint| joint.kind.equations()).sum::<usize>() != size {
         return false;
     }
-    let column = |link: usize| group.links.iter().position(|&own| own == link).map(|index| 3 * index);
+    let column = |link: LinkId| group.links.iter().position(|&own| own == link).map(|index| 3 * index);
     let mut derivative = Matrix::zeros(size, size);
     let mut open = vec![0.0; size];
     let mut row = 0;
@@ -320,7 +320,7 @@ fn equations(
     joint: &Joint,
     tubes: &[Tube],
     half: f64,
-    column: &impl Fn(usize) -> Option<usize>,
+    column: &impl Fn(LinkId) -> Option<usize>,
     row: usize,
     derivative: &mut Matrix,
     open: &mut [f64],
@@ -375,7 +375,7 @@ fn changes(
     joint: &Joint,
     tubes: &[Tube],
     half: f64,
-    column: &impl Fn(usize) -> Option<usize>,
+    column: &impl Fn(LinkId) -> Option<usize>,
     radii: &[f64],
 ) -> [f64; 2] {
     let sides = [joint.first, joint.second];

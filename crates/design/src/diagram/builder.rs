@@ -5,7 +5,7 @@ use super::sliding::Slide;
 use super::vectors::{Part, Plan, Quantity, ROOM, Tip, TipKind, Vector};
 use drawing::paper::scale::factor;
 use linkage::math::{KeepNan, Motion, Vec2, turned};
-use linkage::mechanism::Mechanism;
+use linkage::mechanism::{LinkId, Mechanism};
 use linkage::solver::State;
 
 /// A tangential part shorter than this on paper (mm) counts as zero: the link turns uniformly.
@@ -45,7 +45,7 @@ impl<'a> Builder<'a> {
     pub(super) fn plan(mut self) -> Plan {
         self.absolute();
         self.coincident();
-        for link in 1..self.mechanism.links().len() {
+        for link in self.mechanism.links().ids().skip(1) {
             self.relative(link);
         }
         self.sliding();
@@ -77,7 +77,7 @@ impl<'a> Builder<'a> {
                 self.push(format!("{symbol}_{name}"), Part::Absolute, [pole, letter], value, link, meaning);
             }
         }
-        for (number, link) in self.mechanism.links().iter().enumerate().skip(1).filter(|(_, link)| link.mass > 0.0) {
+        for (number, link) in self.mechanism.links().entries().skip(1).filter(|(_, link)| link.mass > 0.0) {
             let value = self.of_point(&self.state.motions[number], link.mass_centre);
             let letter = self.tip(format!("s{number}"), TipKind::MassCentre, value);
             let guide = fixed_guide(self.mechanism, number).map_or_else(String::new, |guide| along(&guide.name));
@@ -87,7 +87,7 @@ impl<'a> Builder<'a> {
     }
 
     /// The direction that is known in advance for the vector of a point of `link`.
-    fn direction(&self, link: usize, name: &str) -> String {
+    fn direction(&self, link: LinkId, name: &str) -> String {
         match (self.quantity, pivot(self.mechanism, link), fixed_guide(self.mechanism, link)) {
             (Quantity::Velocity, Some((_, pivot)), _) => format!(", perpendicular to {}", pair(&pivot, name)),
             (_, None, Some(guide)) => along(&guide.name),
@@ -113,7 +113,7 @@ impl<'a> Builder<'a> {
     }
 
     /// Relative vectors between the images of a link's points.
-    fn relative(&mut self, link: usize) {
+    fn relative(&mut self, link: LinkId) {
         let (symbol, word) = (self.quantity.symbol(), self.quantity.word());
         let motion = &self.state.motions[link];
         for (from, to) in self.pairs(link).into_iter().filter(|(from, _)| !from.fixed) {
@@ -176,7 +176,7 @@ impl<'a> Builder<'a> {
     /// Normal and tangential parts of every relative acceleration, and of those about a pivot on the ground.
     fn split(&mut self, scale: f64) {
         let mut number = 0;
-        for link in 1..self.mechanism.links().len() {
+        for link in self.mechanism.links().ids().skip(1) {
             let motion = &self.state.motions[link];
             for (from, to) in self.pairs(link) {
                 let arm = motion.arm(to.local - from.local);
@@ -205,7 +205,7 @@ impl<'a> Builder<'a> {
     /// First come its ground pivot with every other point, and then the moving points with each other.
     /// Last come the points under sliding points with its pivot or, without a pivot, with its moving points.
     /// A link that never turns has no pairs: all its points have the same motion.
-    fn pairs(&self, link: usize) -> Vec<(On<'a>, On<'a>)> {
+    fn pairs(&self, link: LinkId) -> Vec<(On<'a>, On<'a>)> {
         if !self.mechanism.can_turn(link) {
             return Vec::new();
         }
@@ -235,7 +235,7 @@ impl<'a> Builder<'a> {
         pairs
     }
 
-    fn push(&mut self, name: String, part: Part, [from, to]: [&str; 2], value: Vec2, link: usize, meaning: String) {
+    fn push(&mut self, name: String, part: Part, [from, to]: [&str; 2], value: Vec2, link: LinkId, meaning: String) {
         let start = self.end(from);
         self.vectors.push(Vector { name, part, from: from.into(), to: to.into(), start, value, link, meaning });
     }

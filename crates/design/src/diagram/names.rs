@@ -2,7 +2,7 @@
 //! The pole has its own letter.
 
 use linkage::math::Vec2;
-use linkage::mechanism::{GROUND, Joint, Mechanism, Side};
+use linkage::mechanism::{GROUND, Joint, LinkId, Mechanism, Side};
 
 /// A name in the mechanism and its letter in the plans.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,7 +25,7 @@ pub struct Place {
 }
 
 /// Position on `link` of its revolute joint with the ground, and the name of that pivot.
-pub fn pivot(mechanism: &Mechanism, link: usize) -> Option<(Vec2, String)> {
+pub fn pivot(mechanism: &Mechanism, link: LinkId) -> Option<(Vec2, String)> {
     let mut pins = mechanism.joints().iter().filter(|joint| joint.is_pin());
     let joint = pins.find(|joint| joint.on(link).is_some() && joint.other(link).link == GROUND)?;
     let (own, ground) = (joint.on(link)?, joint.other(link).local);
@@ -34,7 +34,7 @@ pub fn pivot(mechanism: &Mechanism, link: usize) -> Option<(Vec2, String)> {
 }
 
 /// The prismatic joint that guides `link` on the ground.
-pub fn fixed_guide(mechanism: &Mechanism, link: usize) -> Option<&Joint> {
+pub fn fixed_guide(mechanism: &Mechanism, link: LinkId) -> Option<&Joint> {
     let mut sliding = mechanism.joints().iter().filter(|joint| joint.slides());
     sliding.find(|joint| joint.on(link).is_some() && joint.other(link).link == GROUND)
 }
@@ -53,7 +53,7 @@ pub fn places(mechanism: &Mechanism, poles: &[&str]) -> Vec<Place> {
         all.push(Place { named: named(&point.name), side, fixed: true });
     }
     for (name, first) in mechanism.moving_points() {
-        let carriers = mechanism.links().iter().enumerate().skip(1).filter_map(|(link, body)| {
+        let carriers = mechanism.links().entries().skip(1).filter_map(|(link, body)| {
             body.points.iter().find(|point| point.name == name).map(|point| Side { link, local: point.local })
         });
         let led = |side: &Side| pivot(mechanism, side.link).is_some() || fixed_guide(mechanism, side.link).is_some();
@@ -97,6 +97,6 @@ mod tests {
     #[test]
     fn a_point_belongs_to_a_link_hinged_to_the_ground_where_there_is_one() {
         let all = places(&four_bar(), &["p"]);
-        assert_eq!(all.iter().map(|place| place.side.link).collect::<Vec<_>>(), [0, 0, 1, 3]);
+        assert_eq!(all.iter().map(|place| place.side.link.index()).collect::<Vec<_>>(), [0, 0, 1, 3]);
     }
 }

@@ -22,7 +22,7 @@ use super::sliding::{Slide, slides, travels};
 use super::vectors::{Plan, Quantity};
 use linkage::case::{Case, Grid, Wanted};
 use linkage::error::{Error, ErrorKind, Result};
-use linkage::mechanism::Mechanism;
+use linkage::mechanism::{LinkId, Mechanism};
 use linkage::solver::{Solver, State};
 use linkage::trajectory::Stage;
 
@@ -38,7 +38,7 @@ pub struct Plans {
     /// The acceleration plan.
     pub acceleration: Plan,
     /// Points, each with the links that have it.
-    points: Vec<(Named, Vec<usize>)>,
+    points: Vec<(Named, Vec<LinkId>)>,
 }
 
 impl Plans {
@@ -49,7 +49,7 @@ impl Plans {
         let planner = Planner::of(&case.mechanism);
         let travels = travels(case, solver, state, &planner.slides);
         let scheme = Scheme::of(case, state, &planner.places, &planner.slides, &travels);
-        let links = case.mechanism.links().iter().enumerate();
+        let links = case.mechanism.links().entries();
         let carriers = |name: &str| {
             let carry = links.clone().filter(|(_, link)| link.points.iter().any(|point| point.name == name));
             carry.map(|(number, _)| number).collect()
@@ -69,7 +69,7 @@ impl Plans {
         let mut letters: Vec<String> = Vec::new();
         for name in names {
             let link = self.scheme.links.iter().find(|link| link.name == *name).map(|link| link.number);
-            let has = |(own, links): &&(Named, Vec<usize>)| {
+            let has = |(own, links): &&(Named, Vec<LinkId>)| {
                 own.name == *name || link.is_some_and(|link| links.contains(&link))
             };
             let before = letters.len();

@@ -8,7 +8,7 @@ use drawing::picture::Place::Here;
 use drawing::{Acting, Sketch, Travels, acting};
 use linkage::case::Case;
 use linkage::math::{KeepNan, Motion, Vec2, corners};
-use linkage::mechanism::LinkPose;
+use linkage::mechanism::{LinkId, LinkPose};
 use linkage::solver::State;
 
 /// Largest width and height (mm) of the kinematic diagram on paper.
@@ -18,7 +18,7 @@ const ROOM: [f64; 2] = [150.0, 215.0];
 #[derive(Clone, Debug, PartialEq)]
 pub struct SchemeLink {
     /// Its number: its index in the mechanism, where the ground is 0.
-    pub number: usize,
+    pub number: LinkId,
     /// Its name.
     pub name: String,
     /// World position of its pivot on the ground (m), if it has one.
@@ -56,7 +56,7 @@ pub struct Scheme {
     /// Guides, fixed and moving.
     pub guides: Vec<SchemeGuide>,
     /// Number of the driving link.
-    pub driver: usize,
+    pub driver: LinkId,
     /// Singular points of class IV groups that have one.
     pub singular: Vec<SingularPoint>,
     /// What the mechanism looks like; its unit is a millimetre on paper.
@@ -75,7 +75,7 @@ impl Scheme {
             .iter()
             .map(|place| (place.named.name.clone(), state.motions[place.side.link].point(place.side.local)))
             .collect();
-        let links = mechanism.links().iter().enumerate().skip(1).map(|(number, link)| {
+        let links = mechanism.links().entries().skip(1).map(|(number, link)| {
             let motion = &state.motions[number];
             SchemeLink {
                 number,
@@ -99,13 +99,12 @@ impl Scheme {
             })
         };
         let guides: Vec<SchemeGuide> = slides.iter().zip(travels).filter_map(guide).collect();
-        let all =
-            mechanism.links().iter().zip(&state.motions).enumerate().skip(1).flat_map(|(number, (link, motion))| {
-                let joints = mechanism.joints().iter().filter_map(move |joint| joint.on(number));
-                let mass_centre = (link.mass > 0.0).then_some(link.mass_centre);
-                let locals = link.points.iter().map(|point| point.local).chain(joints).chain(mass_centre);
-                locals.map(|local| motion.point(local))
-            });
+        let all = mechanism.links().entries().zip(&state.motions).skip(1).flat_map(|((number, link), motion)| {
+            let joints = mechanism.joints().iter().filter_map(move |joint| joint.on(number));
+            let mass_centre = (link.mass > 0.0).then_some(link.mass_centre);
+            let locals = link.points.iter().map(|point| point.local).chain(joints).chain(mass_centre);
+            locals.map(|local| motion.point(local))
+        });
         let all = all.chain(guides.iter().flat_map(|guide| guide.ends)).chain(points.iter().map(|(_, at)| *at));
         let [low, high] = corners(all);
         let scale = factor(high.x - low.x, ROOM[0]).larger(factor(high.y - low.y, ROOM[1]));

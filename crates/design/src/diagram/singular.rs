@@ -14,7 +14,7 @@
 use linkage::case::Case;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::{Motion, Vec2, cross, turned};
-use linkage::mechanism::{Group, Mechanism};
+use linkage::mechanism::{Group, JointId, LinkId, Mechanism};
 
 /// Sine of an angle below which two lines count as parallel: the point then has too few correct digits to be useful.
 const PARALLEL: f64 = 1e-9;
@@ -31,12 +31,12 @@ pub struct SingularPoint {
     /// Acceleration of the point on the first and on the second base link (m/s^2).
     pub accelerations: [Vec2; 2],
     /// Link, angular velocity (rad/s) and angular acceleration (rad/s^2): the two base links, then the two leads.
-    pub links: [(usize, f64, f64); 4],
+    pub links: [(LinkId, f64, f64); 4],
 }
 
 /// A lead between the two base links.
 struct Lead {
-    link: usize,
+    link: LinkId,
     names: [String; 2],
     ends: [Vec2; 2],
     along: Vec2,
@@ -114,11 +114,11 @@ impl SingularPoint {
     }
 }
 
-type Base = (usize, [Vec2; 3]);
+type Base = (LinkId, [Vec2; 3]);
 
 /// Base links with position, velocity and acceleration of their outer joints, and the leads between them.
 fn parts(mechanism: &Mechanism, group: &Group, motions: &[Motion]) -> Option<([Base; 2], [Lead; 2])> {
-    let base = |&joint: &usize| {
+    let base = |&joint: &JointId| {
         let joint = &mechanism.joints()[joint];
         let own = [joint.first, joint.second].into_iter().find(|side| group.links.contains(&side.link))?;
         let known = joint.other(own.link);
@@ -130,8 +130,8 @@ fn parts(mechanism: &Mechanism, group: &Group, motions: &[Motion]) -> Option<([B
         return None;
     }
     let bases = [base(&group.outer[0])?, base(&group.outer[1])?];
-    let lead = |link: usize| {
-        let end = |base: usize| {
+    let lead = |link: LinkId| {
+        let end = |base: LinkId| {
             let joint = group.inner.iter().map(|&j| &mechanism.joints()[j]);
             let joint = joint.into_iter().find(|j| j.on(link).is_some() && j.other(link).link == base)?;
             let local = joint.on(link)?;

@@ -3,7 +3,7 @@
 use super::names::{Named, Place, primed};
 use linkage::case::{Case, Wanted};
 use linkage::math::{KeepNan, Vec2, rotated};
-use linkage::mechanism::{GROUND, Mechanism, Side};
+use linkage::mechanism::{GROUND, JointId, Mechanism, Side};
 use linkage::solver::{Solver, State};
 use linkage::trajectory::Stage;
 
@@ -11,7 +11,7 @@ use linkage::trajectory::Stage;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Slide {
     /// Index of the joint.
-    pub joint: usize,
+    pub joint: JointId,
     /// The guide's link and the joint's point on it.
     pub guide: Side,
     /// The block's link and the sliding point on it.
@@ -52,10 +52,13 @@ impl Slide {
 pub fn slides(mechanism: &Mechanism, places: &mut Vec<Place>) -> Vec<Slide> {
     let mut all = Vec::new();
     // Mass centres keep their letters.
-    let mut unders: Vec<Named> = (1..mechanism.links().len())
+    let mut unders: Vec<Named> = mechanism
+        .links()
+        .ids()
+        .skip(1)
         .map(|number| Named { name: format!("S{number}"), letter: format!("s{number}") })
         .collect();
-    for (index, joint) in mechanism.joints().iter().enumerate() {
+    for (index, joint) in mechanism.joints().entries() {
         let Some([guide, block]) = mechanism.guide_and_block(joint) else { continue };
         let mut named = mechanism.links()[block.link].points.iter();
         let point = named.find(|point| point.local == block.local).map(|point| point.name.clone());

@@ -2,6 +2,7 @@
 
 use drawing::paper::scale::factor;
 use linkage::math::{KeepNan, Vec2};
+use linkage::mechanism::LinkId;
 
 /// Largest length (mm) of the longest vector of a plan.
 pub(super) const ROOM: f64 = 100.0;
@@ -115,7 +116,7 @@ pub struct Vector {
     /// Components in world axes (SI).
     pub value: Vec2,
     /// Number of the link whose motion it comes from.
-    pub link: usize,
+    pub link: LinkId,
     /// Its meaning in words.
     pub meaning: String,
 }

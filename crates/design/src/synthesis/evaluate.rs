@@ -6,7 +6,7 @@ use crate::task::{Output, Task};
 use analytic::assur::groups::{Plan, Step};
 use linkage::math::{KeepNan, Motion, cross, unit};
 use linkage::mechanism::assembly::transmission_sine;
-use linkage::mechanism::{Mechanism, Pose, first_pose};
+use linkage::mechanism::{Mechanism, PerLink, Pose, first_pose};
 use linkage::solver::State;
 
 /// Poses that are tried first: most candidates that cannot be assembled fail in one of them.
@@ -19,7 +19,7 @@ const FOLLOWED: f64 = PI / 90.0;
 pub(super) struct Evaluator<'a> {
     task: &'a Task,
     mechanism: Mechanism,
-    motions: Vec<Motion>,
+    motions: PerLink<Motion>,
     /// Pose of the last motions, for dyads with prismatic joints.
     pose: Pose,
     /// Output at the crank angles of the last run, without jumps.

@@ -8,7 +8,7 @@ pub use timing::{Phase, Sense, Timing};
 use linkage::case::Case;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::{Vec2, unit};
-use linkage::mechanism::{GroupKind, Handle, Mechanism, StartGroup};
+use linkage::mechanism::{GroupKind, Handle, LinkId, Mechanism, StartGroup};
 
 /// The output quantity.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,12 +16,12 @@ pub enum Output {
     /// The angle of a link (rad, counter-clockwise positive).
     Angle {
         /// The link.
-        link: usize,
+        link: LinkId,
     },
     /// The coordinate of a point along a direction of the world (m).
     Coordinate {
         /// A link that contains the point.
-        link: usize,
+        link: LinkId,
         /// Index of the point among the link's points.
         point: usize,
         /// Unit vector of the direction.

@@ -1,7 +1,7 @@
 //! Links as near to closed as it goes: the least squares of all gaps, after Levenberg and Marquardt.
 
 use linkage::math::{Column, KeepNan, Matrix, Vec2, cross, rotated, unit};
-use linkage::mechanism::{Joint, LinkPose, Mechanism, Pose, Side};
+use linkage::mechanism::{Joint, LinkId, LinkPose, Mechanism, Pose, Side};
 
 /// Weight of joints with links that have their place: what is missing shows between the others.
 const HELD: f64 = 1000.0;
@@ -15,7 +15,7 @@ const MOST: usize = 30;
 const TINY: f64 = 1e-7;
 
 /// Places of the links `missing`, beside all others at `pose`.
-pub fn nearest(mechanism: &Mechanism, pose: &Pose, missing: &[usize]) -> Vec<(usize, LinkPose)> {
+pub fn nearest(mechanism: &Mechanism, pose: &Pose, missing: &[LinkId]) -> Vec<(LinkId, LinkPose)> {
     let problem = Problem { mechanism, pose, missing, size: mechanism.size() };
     if missing.len() > MOST {
         return Vec::new();
@@ -29,7 +29,7 @@ pub fn nearest(mechanism: &Mechanism, pose: &Pose, missing: &[usize]) -> Vec<(us
 struct Problem<'a> {
     mechanism: &'a Mechanism,
     pose: &'a Pose,
-    missing: &'a [usize],
+    missing: &'a [LinkId],
     size: f64,
 }
 
@@ -40,7 +40,7 @@ impl Problem<'_> {
         LinkPose { origin, angle: unknowns[3 * k + 2] }
     }
 
-    fn place(&self, unknowns: &Column, link: usize) -> LinkPose {
+    fn place(&self, unknowns: &Column, link: LinkId) -> LinkPose {
         match self.missing.iter().position(|&own| own == link) {
             Some(k) => self.pose_of(unknowns, k),
             None => self.pose.0[link],

@@ -1,6 +1,7 @@
 //! Colours of links, and the number format of drawings.
 
-use crate::palette::{LINKS, QUIET, TEXT, link};
+use crate::palette::{self, LINKS, QUIET, TEXT};
+use linkage::mechanism::LinkId;
 
 /// Colours of the first two links on light paper, for curves.
 pub const COLOURS: [&str; 2] = [LINKS[0].light, LINKS[1].light];
@@ -13,8 +14,8 @@ pub const GREY: &str = QUIET.light;
 
 /// Colour of the link with this number.
 #[must_use]
-pub fn colour(number: usize) -> &'static str {
-    link(number).light
+pub fn colour(link: LinkId) -> &'static str {
+    palette::link(link).light
 }
 
 /// A number with four significant digits, as in drawings and tables.

@@ -8,7 +8,7 @@ use super::seen::Outcome;
 use super::stage::Stage;
 use linkage::case::Wanted;
 use linkage::math::Vec2;
-use linkage::mechanism::GROUND;
+use linkage::mechanism::{GROUND, JointId, LinkId};
 use linkage::trajectory::Stage as Of;
 use prover::compare::Verdict;
 use prover::proof::Options;
@@ -16,25 +16,25 @@ use scenario::{Scenario, of_repository};
 
 kinds! { Judgement, Answer:
     "a closed loop is open (m)" (1e-12): "", |_, state, size| state.motions[GROUND].origin.y += size;
-    "an angle" (1e-10): "", |_, state, size| state.angles[2] += size;
+    "an angle" (1e-10): "", |_, state, size| state.angles[LinkId(2)] += size;
     "an angle at the first instant" (1e-9): "", |at, state, size| if at.row == 0 {
-        state.angles[2] += size;
+        state.angles[LinkId(2)] += size;
     };
     "an angle at the last instant" (1e-9): "", |at, state, size| if at.row + 1 == at.case.grid.len() {
-        state.angles[2] += size;
+        state.angles[LinkId(2)] += size;
     };
-    "an angular velocity" (1e-8): "", |_, state, size| state.motions[3].omega += size;
-    "an angular velocity, by a share" (1e-2): "", |_, state, size| state.motions[3].omega *= 1.0 + size;
-    "an angular acceleration" (1e-6): "", |_, state, size| state.motions[3].alpha += size;
-    "a place (m)" (1e-4): "", |_, state, size| state.motions[3].origin.x += size;
-    "a reaction" (1.0): "", |_, state, size| state.forces[2].y += size;
+    "an angular velocity" (1e-8): "", |_, state, size| state.motions[LinkId(3)].omega += size;
+    "an angular velocity, by a share" (1e-2): "", |_, state, size| state.motions[LinkId(3)].omega *= 1.0 + size;
+    "an angular acceleration" (1e-6): "", |_, state, size| state.motions[LinkId(3)].alpha += size;
+    "a place (m)" (1e-4): "", |_, state, size| state.motions[LinkId(3)].origin.x += size;
+    "a reaction" (1.0): "", |_, state, size| state.forces[JointId(2)].y += size;
     "a reaction, by the same amount in two joints of the frame: a couple without a force" (1e-4): "",
         |_, state, size| {
-            state.forces[0].x += size;
-            state.forces[3].x -= size;
+            state.forces[JointId(0)].x += size;
+            state.forces[JointId(3)].x -= size;
         };
     "a reaction at the origin: a force without a couple" (1e-6): "",
-        |_, state, size| state.forces[0] += Vec2::new(size, size);
+        |_, state, size| state.forces[JointId(0)] += Vec2::new(size, size);
     "the driving moment" (1e-6): "", |_, state, size| state.torques[0] += size;
     "the second drive's moment" (1e-6): "", |_, state, size| state.torques[1] += size;
     "the second drive's moment at one instant" (0.5): "", |at, state, size| if at.row == at.case.grid.len() / 3 {
@@ -45,7 +45,7 @@ kinds! { Judgement, Answer:
             state.torques[1] += size;
         };
     "the moment in a guide" (1e-6): "", |at, state, size| {
-        let guide = at.case.mechanism.joints().iter().position(|joint| joint.slides())?;
+        let guide = at.case.mechanism.joints().find(|joint| joint.slides())?;
         state.moments[guide] += size;
         Some(())
     };

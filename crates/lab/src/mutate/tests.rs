@@ -104,7 +104,7 @@ fn sliders_on_moving_guides_and_their_moments_are_seen_in_every_party() {
 #[test]
 fn a_moment_for_one_sense_that_acts_always_is_seen_in_every_party() {
     let mut rocking = scenario("crank_rocker");
-    let rocker = rocking.case.mechanism.links().iter().position(|link| link.name == "rocker").unwrap();
+    let rocker = rocking.case.mechanism.link_named("rocker").unwrap();
     let load = Load::Moment { link: rocker, moment: Course::Constant(-0.5), acts: Acts::Clockwise };
     rocking.case = rocking.case.with(|parts| parts.loads.push(load)).unwrap();
     rocking.oracles.clear();

@@ -2,7 +2,7 @@
 
 use linkage::math::{KeepNan, cross};
 use linkage::mechanism::assembly::transmission_sine;
-use linkage::mechanism::{GroupKind, LinkPose, Pose, StartGroup, first_pose};
+use linkage::mechanism::{GroupKind, JointId, LinkPose, Pose, StartGroup, first_pose};
 
 use super::sketch::{Random, Sketch};
 use super::spec::{Ask, Dyad, Spec, Start};
@@ -108,13 +108,13 @@ pub fn sample(spec: Spec) -> Option<Sample> {
     let place = |cranks: &f64| first_pose(mechanism, structure, &[case.crank().world_angle(*cranks)], &wanted).ok();
     let poses: Vec<Pose> =
         case.grid.inputs.iter().map(place).map(|found| found.map(|(pose, _)| pose)).collect::<Option<_>>()?;
-    let joint = |pose: &Pose, joint: usize| {
+    let joint = |pose: &Pose, joint: JointId| {
         let side = mechanism.joints()[joint].second;
         pose.0[side.link].point(side.local)
     };
     let far = |pose: &Pose| {
         let centres = mechanism.links().iter().zip(&pose.0).map(|(link, own)| own.point(link.mass_centre));
-        centres.chain((0..mechanism.joints().len()).map(|index| joint(pose, index))).any(|at| !(at.norm() <= REACH))
+        centres.chain(mechanism.joints().ids().map(|index| joint(pose, index))).any(|at| !(at.norm() <= REACH))
     };
     if poses.iter().any(far) {
         return None;

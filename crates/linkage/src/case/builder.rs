@@ -7,7 +7,7 @@ use crate::drive::{Drive, DriveMotion, Drives, Load, MotionLaw, Motor};
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::{Vec2, unit};
 use crate::mechanism::{
-    AssemblyMode, GROUND, Joint, JointKind, Link, Mechanism, Point, Side, StartGroup, Structure, first_pose,
+    AssemblyMode, GROUND, Joint, JointKind, Link, LinkId, Mechanism, Point, Side, StartGroup, Structure, first_pose,
 };
 
 /// A joint by names.
@@ -89,7 +89,7 @@ impl CaseBuilder {
     /// The ground and its points: names and places (m) in the world.
     #[must_use]
     pub fn ground(mut self, points: &[(&str, [f64; 2])]) -> Self {
-        self.links.insert(GROUND, bare("ground", points));
+        self.links.insert(GROUND.index(), bare("ground", points));
         self
     }
 
@@ -234,9 +234,9 @@ impl CaseBuilder {
         Case::new(CaseParts { mechanism, structure, drives, loads, gravity, start, modes, grid, wanted, only: None })
     }
 
-    fn link_of(&self, name: &str, key: &str) -> Result<usize> {
+    fn link_of(&self, name: &str, key: &str) -> Result<LinkId> {
         let known = self.links.iter().map(|link| link.name.as_str());
-        known.clone().position(|own| own == name).ok_or_else(|| unknown("link", name, key, known))
+        known.clone().position(|own| own == name).map(LinkId).ok_or_else(|| unknown("link", name, key, known))
     }
 
     fn made(&self, wish: &Wish) -> Result<Joint> {
@@ -286,7 +286,7 @@ impl CaseBuilder {
             let known = mechanism.joints().iter().map(|joint| joint.name.as_str());
             let joint = mechanism.joint_named(name).ok_or_else(|| unknown("joint", name, "drive", known))?;
             let Joint { kind, first, second, .. } = mechanism.joints()[joint];
-            let carries = |link: usize| link == GROUND || all.iter().any(|before| before.link == link);
+            let carries = |link: LinkId| link == GROUND || all.iter().any(|before| before.link == link);
             let link = if carries(first.link) { second.link } else { first.link };
             all.push(Drive {
                 // A joint that no drive moves is refused where the structure is analysed.
@@ -318,11 +318,11 @@ impl CaseBuilder {
         }
         for (links, mode) in &self.modes {
             let own = |name: &String| mechanism.link_named(name);
-            let wanted: Option<Vec<usize>> = links.iter().map(own).collect();
-            let is_it = |of: &[usize]| {
+            let wanted: Option<Vec<LinkId>> = links.iter().map(own).collect();
+            let is_it = |of: &[LinkId]| {
                 wanted.as_ref().is_some_and(|all| all.len() == of.len() && all.iter().all(|link| of.contains(link)))
             };
-            let Some(index) = structure.groups.iter().position(|group| is_it(&group.links)) else {
+            let Some(index) = structure.groups.find(|group| is_it(&group.links)) else {
                 let known: Vec<String> = structure.groups.iter().map(|group| group.names(mechanism)).collect();
                 return Err(unknown("group", &links.join(", "), "start.groups", known.iter().map(String::as_str)));
             };
@@ -377,7 +377,7 @@ mod tests {
         assert_eq!(case.mechanism, crate::fixtures::four_bar());
         assert_eq!(case.modes, [AssemblyMode::Left]);
         assert_eq!((case.grid.len(), case.grid.inputs[360]), (361, -TAU));
-        assert_eq!(case.crank().link, 1);
+        assert_eq!(case.crank().link, LinkId(1));
     }
 
     #[test]
@@ -396,7 +396,7 @@ mod tests {
             .instants(8)
             .build()
             .unwrap();
-        assert!((case.start.0[3].origin.x - 0.5).abs() < 1e-15, "{:?}", case.start);
+        assert!((case.start.0[LinkId(3)].origin.x - 0.5).abs() < 1e-15, "{:?}", case.start);
     }
 
     /// Cause: the instants of a free motion were laid by crank angles, to which it comes at times of its own.
@@ -424,7 +424,7 @@ mod tests {
             .free("O", 0.0, 1.0)
             .free("A", 0.0, 1.0);
         let drives = pendulum.build().unwrap().into_parts().drives;
-        assert_eq!([drives[0].link, drives[1].link], [2, 1]);
+        assert_eq!([drives[0].link, drives[1].link], [LinkId(2), LinkId(1)]);
     }
 
     #[test]

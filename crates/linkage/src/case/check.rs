@@ -105,7 +105,7 @@ const POINT: f64 = 1e-12;
 /// Whether a driving link carries others, but all of them by pins on its own axis.
 fn moves_nothing(mechanism: &Mechanism, drive: &Drive) -> bool {
     let own = mechanism.joints()[drive.joint].on(drive.link);
-    let others = || mechanism.joints().iter().enumerate().filter(|&(index, _)| index != drive.joint);
+    let others = || mechanism.joints().entries().filter(|&(index, _)| index != drive.joint);
     let mut carried = others().filter_map(|(_, joint)| Some((joint.is_pin(), joint.on(drive.link)?))).peekable();
     // A slide moves its link wherever the joints lie.
     mechanism.joints()[drive.joint].is_pin()
@@ -181,7 +181,7 @@ fn loads(parts: &CaseParts) -> Result<()> {
         let fault = |message: String| Err(wrong("loads", format!("load {index}, a {}: {message}", load.sort())));
         let links = load.links();
         let count = parts.mechanism.links().len();
-        if let Some(link) = links.iter().find(|&&link| link >= count) {
+        if let Some(link) = links.iter().find(|link| link.index() >= count) {
             return fault(format!("it acts on link {link}, but there are {count} links"));
         }
         if !load.is_sound() {

@@ -9,7 +9,9 @@
 use super::{Case, CaseParts, Seat};
 use crate::drive::{Drive, Drives, Load};
 use crate::error::Result;
-use crate::mechanism::{AssemblyMode, GROUND, Group, Joint, Link, Mechanism, Pose, Side, Structure};
+use crate::mechanism::{
+    AssemblyMode, GROUND, Group, GroupId, Id, Joint, JointId, Link, LinkId, Mechanism, PerLink, Pose, Side, Structure,
+};
 use crate::trajectory::{Channel, Stage};
 
 /// Letters that a point keeps of its name if it needs a number besides.
@@ -72,18 +74,18 @@ impl Case {
 struct Needs<'a> {
     case: &'a Case,
     /// For every link, the groups that its motion depends on, its own the last.
-    upstream: Vec<Vec<usize>>,
+    upstream: PerLink<Vec<GroupId>>,
     /// For every link: whether its motion is needed.
-    moves: Vec<bool>,
+    moves: PerLink<bool>,
     /// The same for the forces on it.
-    carries: Vec<bool>,
+    carries: PerLink<bool>,
 }
 
 impl<'a> Needs<'a> {
     fn none(case: &'a Case) -> Self {
-        let links = case.mechanism.links().len();
+        let none = || case.mechanism.links().iter().map(|_| false).collect();
         let upstream = case.structure.upstream(&case.mechanism);
-        let mut needs = Needs { case, upstream, moves: vec![false; links], carries: vec![false; links] };
+        let mut needs = Needs { case, upstream, moves: none(), carries: none() };
         // The crank's angle identifies the instant.
         (needs.moves[GROUND], needs.moves[case.crank().link]) = (true, true);
         needs
@@ -108,18 +110,18 @@ impl<'a> Needs<'a> {
     }
 
     /// The link with a point that depends on the fewest groups.
-    fn carrier(&self, point: &str) -> usize {
-        let links = self.case.mechanism.links().iter().enumerate().skip(1);
+    fn carrier(&self, point: &str) -> LinkId {
+        let links = self.case.mechanism.links().entries().skip(1);
         let own = links.filter(|(_, link)| link.points.iter().any(|own| own.name == point)).map(|(index, _)| index);
         own.min_by_key(|&link| self.upstream[link].len()).expect("a channel of the case")
     }
 
     /// A link of the group, or the driving link, that a joint belongs to: of its two links the one solved later.
-    fn owner(&self, joint: usize) -> usize {
+    fn owner(&self, joint: JointId) -> LinkId {
         let joint = &self.case.mechanism.joints()[joint];
-        let place = |link: usize| match self.case.structure.drivers.iter().position(|&(own, _)| own == link) {
+        let place = |link: LinkId| match self.case.structure.drivers.iter().position(|&(own, _)| own == link) {
             Some(driver) => (1, driver),
-            None => self.upstream[link].last().map_or((0, 0), |&group| (2, group)),
+            None => self.upstream[link].last().map_or((0, 0), |&group| (2, group.index())),
         };
         let (first, second) = (joint.first.link, joint.second.link);
         if place(first) > place(second) { first } else { second }
@@ -128,7 +130,7 @@ impl<'a> Needs<'a> {
     /// Adds everything that the needed parts depend on.
     fn close(&mut self) {
         let (case, structure) = (self.case, &self.case.structure);
-        let ends = |joint: usize| {
+        let ends = |joint: JointId| {
             let joint = &case.mechanism.joints()[joint];
             [joint.first.link, joint.second.link]
         };
@@ -138,14 +140,14 @@ impl<'a> Needs<'a> {
             carries[link] |= ends(joint).into_iter().any(|base| base != GROUND && carries[base]);
         }
         for group in &structure.groups {
-            let own = |link: &usize| group.links.contains(link);
+            let own = |link: &LinkId| group.links.contains(link);
             let outer = group.outer.iter().flat_map(|&joint| ends(joint));
             let hangs = outer.filter(|link| *link != GROUND && !own(link)).any(|link| carries[link]);
             if hangs || group.links.iter().any(|&link| carries[link]) {
                 group.links.iter().for_each(|&link| carries[link] = true);
             }
         }
-        for link in 1..self.moves.len() {
+        for link in self.moves.ids().skip(1) {
             self.moves[link] |= self.carries[link];
         }
         // Their loads depend on the motion of further links.
@@ -231,14 +233,14 @@ impl<'a> Needs<'a> {
     /// name on the one that depends on fewer groups. The other gets a number.
     fn links(&self) -> Vec<Link> {
         let whole = &self.case.mechanism;
-        let stays = |index: &usize| self.moves[*index];
-        let mut links: Vec<(usize, Link)> =
-            (0..whole.links().len()).filter(stays).map(|index| (index, whole.links()[index].clone())).collect();
-        let carriers = |name: &str| -> Vec<usize> {
-            let all = (0..whole.links().len()).filter(stays);
+        let stays = |index: &LinkId| self.moves[*index];
+        let mut links: Vec<(LinkId, Link)> =
+            whole.links().ids().filter(stays).map(|index| (index, whole.links()[index].clone())).collect();
+        let carriers = |name: &str| -> Vec<LinkId> {
+            let all = whole.links().ids().filter(stays);
             all.filter(|&link| whole.links()[link].points.iter().any(|point| point.name == name)).collect()
         };
-        let pinned = |name: &str, [a, b]: [usize; 2]| {
+        let pinned = |name: &str, [a, b]: [LinkId; 2]| {
             whole.joints().iter().any(|joint| {
                 let at = |side: Side| {
                     whole.links()[side.link].points.iter().any(|own| own.name == name && own.local == side.local)
@@ -260,7 +262,7 @@ impl<'a> Needs<'a> {
                     next += 1;
                     let new =
                         all.iter().filter(|&&other| !reached.contains(&other) && pinned(&point.name, [own, other]));
-                    let new: Vec<usize> = new.copied().collect();
+                    let new: Vec<LinkId> = new.copied().collect();
                     reached.extend(new);
                 }
                 if !reached.contains(index) {
@@ -273,8 +275,8 @@ impl<'a> Needs<'a> {
     }
 
     /// The assembly mode of a group of the part, whose links have the numbers `link_number` gives them.
-    fn mode(&self, group: &Group, link_number: &[usize]) -> AssemblyMode {
-        let links = |of: &Group| -> Vec<usize> { of.links.iter().map(|&link| link_number[link]).collect() };
+    fn mode(&self, group: &Group, link_number: &[LinkId]) -> AssemblyMode {
+        let links = |of: &Group| -> Vec<LinkId> { of.links.iter().map(|&link| link_number[link]).collect() };
         let is_same = |own: &Group| self.moves[own.links[0]] && links(own) == group.links;
         let place = self.case.structure.groups.iter().position(is_same);
         self.case.modes[place.expect("groups that stay are groups of the part")]
@@ -282,11 +284,11 @@ impl<'a> Needs<'a> {
 }
 
 /// New numbers of what stays, in order. Those of what does not stay are never asked for.
-fn numbers(stays: impl Iterator<Item = bool>) -> Vec<usize> {
+fn numbers<I: Id>(stays: impl Iterator<Item = bool>) -> Vec<I> {
     let mut next = 0;
     stays
         .map(|stays| {
-            let own = next;
+            let own = I::at(next);
             next += usize::from(stays);
             own
         })

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::Case;
-use crate::mechanism::Side;
+use crate::mechanism::{JointId, LinkId, Side};
 use crate::trajectory::{Channel, Stage, Subject};
 
 /// Where in a mechanism the subject of a channel sits. It says what its numbers depend on and what they tell about.
@@ -11,11 +11,11 @@ use crate::trajectory::{Channel, Stage, Subject};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Seat {
     /// On the link with this number.
-    Link(usize),
+    Link(LinkId),
     /// At a point, on the first link that carries it.
     Point(Side),
     /// In the joint with this number.
-    Joint(usize),
+    Joint(JointId),
     /// At the drive with this number.
     Drive(usize),
     /// On the whole frame.
@@ -35,29 +35,27 @@ impl Seats<'_> {
 }
 
 impl Case {
-    /// Everything that has channels, in the order of columns: sort, number among its like, and name.
-    /// Points are numbered as in [`Mechanism::moving_points`](crate::mechanism::Mechanism::moving_points).
-    pub(crate) fn subjects(&self) -> impl Iterator<Item = (Subject, usize, &str)> {
-        let links = self.mechanism.links().iter().enumerate().skip(1);
-        let links = links.map(|(index, link)| (Subject::Link, index, link.name.as_str()));
-        let points = self.mechanism.moving_points().enumerate().map(|(index, (name, _))| (Subject::Point, index, name));
-        let joints = || self.mechanism.joints().iter().enumerate();
-        let sliders = joints().filter(|(_, joint)| joint.slides());
-        let sliders = sliders.map(|(index, joint)| (Subject::Slider, index, joint.name.as_str()));
-        let joints = joints().map(|(index, joint)| (Subject::Joint, index, joint.name.as_str()));
-        let frame = std::iter::once((Subject::Frame, 0, ""));
+    /// Everything that has channels, in the order of columns: sort, name, and seat.
+    pub(crate) fn subjects(&self) -> impl Iterator<Item = (Subject, &str, Seat)> {
+        let (links, joints) = (self.mechanism.links(), self.mechanism.joints());
+        let links = links.entries().skip(1).map(|(id, link)| (Subject::Link, link.name.as_str(), Seat::Link(id)));
+        let points = self.mechanism.moving_points().map(|(name, side)| (Subject::Point, name, Seat::Point(side)));
+        let sliders = joints.entries().filter(|(_, joint)| joint.slides());
+        let sliders = sliders.map(|(id, joint)| (Subject::Slider, joint.name.as_str(), Seat::Joint(id)));
+        let frame = std::iter::once((Subject::Frame, "", Seat::Frame));
         let moved = self.drives.with_moment().map(|(index, drive)| match index {
-            0 => (Subject::Drive, 0, ""),
-            _ => (Subject::Motor, index, self.mechanism.joints()[drive.joint].name.as_str()),
+            0 => (Subject::Drive, "", Seat::Drive(0)),
+            _ => (Subject::Motor, joints[drive.joint].name.as_str(), Seat::Drive(index)),
         });
+        let joints = joints.entries().map(|(id, joint)| (Subject::Joint, joint.name.as_str(), Seat::Joint(id)));
         links.chain(points).chain(joints).chain(sliders).chain(frame).chain(moved)
     }
 
     /// The joints whose reactions are wanted, by themselves or as part of the force on the frame.
     #[must_use]
-    pub fn wanted_reactions(&self) -> Vec<usize> {
+    pub fn wanted_reactions(&self) -> Vec<JointId> {
         let (joints, seats) = (self.mechanism.joints(), self.seats());
-        let is_wanted = |joint: &usize| match &self.only {
+        let is_wanted = |joint: &JointId| match &self.only {
             None => self.wanted.deepest() >= Stage::Reactions,
             Some(only) => only.iter().any(|own| match seats.of(own) {
                 Some(Seat::Joint(at)) => at == *joint && own.kind.stage >= Stage::Reactions,
@@ -65,24 +63,13 @@ impl Case {
                 Some(Seat::Link(_) | Seat::Point(_) | Seat::Drive(_)) | None => false,
             }),
         };
-        (0..joints.len()).filter(is_wanted).collect()
+        joints.ids().filter(is_wanted).collect()
     }
 
     /// Where everything that has channels sits.
     #[must_use]
     pub fn seats(&self) -> Seats<'_> {
-        let points: Vec<Side> = self.mechanism.moving_points().map(|(_, side)| side).collect();
-        let seat = |(subject, index, name)| {
-            let seat = match subject {
-                Subject::Link => Seat::Link(index),
-                Subject::Point => Seat::Point(points[index]),
-                Subject::Joint | Subject::Slider => Seat::Joint(index),
-                Subject::Drive | Subject::Motor => Seat::Drive(index),
-                Subject::Frame => Seat::Frame,
-            };
-            ((subject, name), seat)
-        };
-        Seats(self.subjects().map(seat).collect())
+        Seats(self.subjects().map(|(subject, name, seat)| ((subject, name), seat)).collect())
     }
 }
 

@@ -6,7 +6,7 @@
 
 use super::CaseParts;
 use crate::math::Vec2;
-use crate::mechanism::{GROUND, Joint};
+use crate::mechanism::{GROUND, Joint, LinkId};
 
 /// Difference of two opposite sides of a parallelogram, as a share of the mechanism's size, that is rounding.
 const EQUAL: f64 = 1e-12;
@@ -14,16 +14,16 @@ const EQUAL: f64 = 1e-12;
 /// A link that connects two others by revolute joints: these two in ascending order, the world places of the joints,
 /// and the link itself.
 struct Bridge {
-    ends: [usize; 2],
+    ends: [LinkId; 2],
     places: [Vec2; 2],
-    link: usize,
+    link: LinkId,
 }
 
 /// For every link, whether it can turn while the mechanism stays on the branch of its start pose.
 pub(super) fn turning(parts: &CaseParts) -> Vec<bool> {
     let mechanism = &parts.mechanism;
-    let mut classes: Vec<usize> = (0..mechanism.links().len()).collect();
-    let mut unite = |a: usize, b: usize| {
+    let mut classes: Vec<LinkId> = mechanism.links().ids().collect();
+    let mut unite = |a: LinkId, b: LinkId| {
         let (from, to) = (classes[a], classes[b]);
         classes.iter_mut().filter(|class| **class == from).for_each(|class| *class = to);
     };
@@ -51,7 +51,7 @@ pub(super) fn turning(parts: &CaseParts) -> Vec<bool> {
 fn bridges(parts: &CaseParts) -> Vec<Bridge> {
     let (links, joints) = (parts.mechanism.links(), parts.mechanism.joints());
     let mut found = Vec::new();
-    for link in 0..links.len() {
+    for link in links.ids() {
         let on = parts.mechanism.joints_on(link).iter().map(|&index| &joints[index]);
         let on: Vec<&Joint> = on.filter(|joint| !joint.keeps_angle()).collect();
         for (index, first) in on.iter().enumerate() {

@@ -2,6 +2,7 @@
 
 use super::{InputState, MotionLaw, Motor};
 use crate::input::{Input, InputValue};
+use crate::mechanism::{JointId, LinkId};
 
 /// What moves a driving link.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,9 +33,9 @@ pub struct Drive {
     /// What its input measures.
     pub input: Input,
     /// Driven joint.
-    pub joint: usize,
+    pub joint: JointId,
     /// The link that the drive turns.
-    pub link: usize,
+    pub link: LinkId,
     /// Where the input is zero. Of an angle: the world angle of the link's x axis there (rad).
     pub zero: f64,
     /// The input at t = 0 (in its SI unit).
@@ -49,7 +50,7 @@ pub struct Drive {
 impl Drive {
     /// A drive that follows `law` and has no motor. The other arguments are the fields of the same names.
     #[must_use]
-    pub fn prescribed(joint: usize, link: usize, zero: f64, start: f64, law: MotionLaw) -> Self {
+    pub fn prescribed(joint: JointId, link: LinkId, zero: f64, start: f64, law: MotionLaw) -> Self {
         let motion = DriveMotion::Prescribed { law, motor: None };
         Drive { input: Input::Angle, joint, link, zero, start, motion, through: false }
     }
@@ -264,7 +265,7 @@ mod tests {
     use crate::math::Piecewise;
 
     fn drive(law: MotionLaw) -> Drive {
-        Drive::prescribed(0, 1, 3.0, 0.5, law)
+        Drive::prescribed(JointId(0), LinkId(1), 3.0, 0.5, law)
     }
 
     fn table() -> MotionLaw {

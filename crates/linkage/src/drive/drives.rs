@@ -1,6 +1,7 @@
 //! All driving links of a mechanism in one list.
 
 use crate::math::KeepNan;
+use crate::mechanism::JointId;
 use std::ops::Deref;
 
 use super::Drive;
@@ -50,7 +51,7 @@ impl Drives {
 
     /// Driven joints, in the order of the drives.
     #[must_use]
-    pub fn joints(&self) -> Vec<usize> {
+    pub fn joints(&self) -> Vec<JointId> {
         self.0.iter().map(|drive| drive.joint).collect()
     }
 

@@ -13,7 +13,7 @@ pub use state::{Action, Setting, Wrench};
 
 use super::course::Course;
 use crate::math::{Motion, Vec2};
-use crate::mechanism::Side;
+use crate::mechanism::{LinkId, Side};
 
 /// A load on one link, or between two.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,14 +21,14 @@ pub enum Load {
     /// Moment of constant size against the link's rotation. Zero while the link stands still.
     Resistance {
         /// The loaded link.
-        link: usize,
+        link: LinkId,
         /// Size of the moment (N m), not negative.
         moment: f64,
     },
     /// Moment that does not depend on the speed. It may act for one sense of the link's rotation only.
     Moment {
         /// The loaded link.
-        link: usize,
+        link: LinkId,
         /// The moment (N m), counter-clockwise positive.
         moment: Course,
         /// When it acts.
@@ -74,7 +74,7 @@ pub enum Load {
     /// At t = 0 it is in (-pi, pi]; from there on it keeps its turns.
     TorsionSpring {
         /// The links.
-        links: [usize; 2],
+        links: [LinkId; 2],
         /// Stiffness (N m/rad).
         stiffness: f64,
         /// Twist without moment (rad).
@@ -84,7 +84,7 @@ pub enum Load {
     /// second.
     TorsionDamper {
         /// The links.
-        links: [usize; 2],
+        links: [LinkId; 2],
         /// Damping (N m s/rad).
         damping: f64,
     },
@@ -214,7 +214,7 @@ impl Load {
     /// The link on whose sense of rotation the load depends.
     #[inline]
     #[must_use]
-    pub fn sensed_link(&self) -> Option<usize> {
+    pub fn sensed_link(&self) -> Option<LinkId> {
         match self.nature().senses {
             Senses::Link(link) => Some(link),
             Senses::Nothing | Senses::Point(_) => None,
@@ -279,7 +279,7 @@ impl Load {
     /// It is the only load that some engines and formats have built in.
     #[inline]
     #[must_use]
-    pub fn resistance(&self) -> Option<(usize, f64)> {
+    pub fn resistance(&self) -> Option<(LinkId, f64)> {
         if let &Load::Resistance { link, moment } = self { Some((link, moment)) } else { None }
     }
 
@@ -331,7 +331,7 @@ fn pull_together(ends: [Side; 2], places: [Vec2; 2], pull: Vec2, put: &mut impl 
 }
 
 #[inline]
-fn twist_back(links: [usize; 2], moment: f64, put: &mut impl FnMut(Action)) {
+fn twist_back(links: [LinkId; 2], moment: f64, put: &mut impl FnMut(Action)) {
     put(Action::of_moment(links[0], moment));
     put(Action::of_moment(links[1], -moment));
 }

@@ -2,11 +2,12 @@
 
 use crate::case::Case;
 use crate::error::{Advice, Error, ErrorKind, Result};
+use crate::mechanism::LinkId;
 
 /// Mass (kg) and moment of inertia (kg m^2) that engines add to a link without them; 0 for what the link already has.
 /// The mass is the mean mass of all links.
 /// The moment of inertia is that of a rod with this mass and the mechanism's size. `link` is the link's number.
-pub fn stand_in(case: &Case, link: usize) -> [f64; 2] {
+pub fn stand_in(case: &Case, link: LinkId) -> [f64; 2] {
     let moving = &case.mechanism.links()[1..];
     let total: f64 = moving.iter().map(|link| link.mass).sum();
     let mean = if total > 0.0 { total / moving.len() as f64 } else { 1.0 };

@@ -82,7 +82,7 @@ impl Weights {
         let mix_pair = |weights: &[f64], of: &dyn Fn(&State) -> Vec2| {
             weights.iter().zip(states).fold(Vec2::zeros(), |sum, (weight, state)| sum + of(state) * *weight)
         };
-        for (index, link) in case.mechanism.links().iter().enumerate().skip(1) {
+        for (index, link) in case.mechanism.links().entries().skip(1) {
             // Combines mass centres, as the engine's bodies have them. The frame's origin follows.
             let centre = link.mass_centre;
             let angle = mix(&self.position, &|state| state.angles[index]);
@@ -99,7 +99,7 @@ impl Weights {
                 mix(&self.acceleration, &|state| state.motions[index].alpha),
             );
         }
-        for joint in 0..into.forces.len() {
+        for joint in into.forces.ids() {
             into.forces[joint] = mix_pair(&self.force, &|state| state.forces[joint]);
             into.moments[joint] = mix(&self.force, &|state| state.moments[joint]);
         }
@@ -190,6 +190,7 @@ mod tests {
     use crate::engine::{Kept, Route, Statics};
     use crate::error::{Error, ErrorKind};
     use crate::fixtures;
+    use crate::mechanism::LinkId;
 
     /// An engine whose links turn by t + h^2. It records its runs by steps and sweeps.
     /// Runs listed in `fails` stop at the second instant.
@@ -297,7 +298,7 @@ mod tests {
     fn run(engine: &dyn Engine, case: &Case) -> (Vec<(usize, f64)>, Result<()>) {
         let (mut seen, mut far) = (Vec::new(), 0.0);
         let mut visit = |row: usize, state: &State| {
-            seen.push((row, state.angles[1]));
+            seen.push((row, state.angles[LinkId(1)]));
             Ok(())
         };
         let ended = engine.sweep(case, &mut visit, &mut |part| {

@@ -9,6 +9,7 @@ use std::sync::Arc;
 use crate::case::Case;
 use crate::error::Result;
 use crate::math::Vec2;
+use crate::mechanism::JointId;
 use crate::solver::{Progress, Solver, State};
 use crate::trajectory::Stage;
 
@@ -32,7 +33,7 @@ struct Layout {
     /// Joints whose forces are kept.
     joints: usize,
     /// Joints among them that carry a moment.
-    sliding: Vec<usize>,
+    sliding: Vec<JointId>,
     drives: usize,
 }
 
@@ -44,13 +45,13 @@ impl Layout {
         let with_forces = deepest >= Stage::Reactions;
         let has_sense = case.loads.iter().any(|load| load.sensed_link().is_some() || load.sensed_point().is_some());
         let joints = case.mechanism.joints();
-        let slides = |&index: &usize| joints[index].slides();
+        let slides = |&index: &JointId| joints[index].slides();
         Layout {
             links: case.mechanism.links().len() - 1,
             velocities: has_sense || deepest >= Stage::Velocities,
             accelerations: deepest >= Stage::Accelerations,
             joints: if with_forces { joints.len() } else { 0 },
-            sliding: if with_forces { (0..joints.len()).filter(slides).collect() } else { Vec::new() },
+            sliding: if with_forces { joints.ids().filter(slides).collect() } else { Vec::new() },
             drives: if with_forces { case.drives.len() } else { 0 },
         }
     }
@@ -101,7 +102,7 @@ impl Rows {
                 put_pair(motion.acceleration);
             }
         }
-        state.forces[..*joints].iter().for_each(|&force| put_pair(force));
+        state.forces.iter().take(*joints).for_each(|&force| put_pair(force));
         for (motion, &angle) in state.motions.iter().zip(&state.angles).skip(1) {
             put(angle);
             if *velocities {
@@ -138,7 +139,7 @@ impl Rows {
                 motion.acceleration = get_pair();
             }
         }
-        state.forces[..*joints].iter_mut().for_each(|force| *force = get_pair());
+        state.forces.iter_mut().take(*joints).for_each(|force| *force = get_pair());
         for (motion, angle) in state.motions.iter_mut().zip(&mut state.angles).skip(1) {
             *angle = get();
             if *velocities {

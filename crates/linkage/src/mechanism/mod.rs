@@ -1,6 +1,7 @@
 //! The mechanism: links, joints, structure, and start pose. No time, no files, no solvers.
 
 pub mod assembly;
+mod ids;
 mod name;
 mod outline;
 mod placing;
@@ -9,6 +10,7 @@ pub mod spanning_tree;
 pub mod structure;
 
 pub use assembly::{AssemblyMode, StartGroup, first_pose};
+pub use ids::{GroupId, Id, JointId, LinkId, Per, PerGroup, PerJoint, PerLink};
 pub use name::{LONGEST_NAME, is_sound_name, is_unseen};
 pub use outline::ring;
 pub use placing::Handle;
@@ -23,8 +25,8 @@ use crate::error::{Error, ErrorKind, Result};
 use crate::input::Input;
 use crate::math::{KeepNan, Vec2, cross, rotated};
 
-/// Index of the ground (frame) in [`Mechanism::links`].
-pub const GROUND: usize = 0;
+/// The ground (frame) in [`Mechanism::links`].
+pub const GROUND: LinkId = LinkId(0);
 
 /// Rigid member of a mechanism. Its points and mass centre are given in its own frame.
 #[derive(Clone, Debug, PartialEq)]
@@ -196,7 +198,7 @@ impl Guise {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Side {
     /// Index of the link.
-    pub link: usize,
+    pub link: LinkId,
     /// Coordinates of the joint in that link's frame (m).
     pub local: Vec2,
 }
@@ -220,20 +222,20 @@ pub struct Joint {
 impl Joint {
     /// The joint's place on `link`, if the joint is on that link.
     #[must_use]
-    pub fn on(&self, link: usize) -> Option<Vec2> {
+    pub fn on(&self, link: LinkId) -> Option<Vec2> {
         [self.first, self.second].into_iter().find(|side| side.link == link).map(|side| side.local)
     }
 
     /// The side on the link other than `link`.
     #[must_use]
-    pub fn other(&self, link: usize) -> Side {
+    pub fn other(&self, link: LinkId) -> Side {
         if self.first.link == link { self.second } else { self.first }
     }
 
     /// The pose of `link`, one of the joint's, that a drive gives to it: the joint's coordinate is `coordinate`, counted
     /// as [`Drive::world_angle`](crate::drive::Drive::world_angle) does, and its other link stands in the pose `base`.
     #[must_use]
-    pub fn driven(&self, link: usize, base: &LinkPose, coordinate: f64) -> LinkPose {
+    pub fn driven(&self, link: LinkId, base: &LinkPose, coordinate: f64) -> LinkPose {
         let local = self.on(link).expect("the driven joint is on the driving link");
         LinkPose::through(local, base.point(self.other(link).local), coordinate)
     }
@@ -241,7 +243,7 @@ impl Joint {
     /// Where the joint's reaction acts on `link`, by the side that is known there: a pin's two places are the same
     /// point, and that of other joints is the place on the second link.
     #[must_use]
-    pub fn acts_at(&self, link: usize) -> Side {
+    pub fn acts_at(&self, link: LinkId) -> Side {
         match self.kind {
             JointKind::Revolute if self.first.link == link => self.first,
             JointKind::Revolute | JointKind::Prismatic { .. } => self.second,
@@ -272,7 +274,7 @@ impl Joint {
     /// Unit vector of the sliding axis in the frame of `link`. `None` if the links do not slide or the joint is not on
     /// `link`.
     #[must_use]
-    pub fn axis_on(&self, link: usize) -> Option<Vec2> {
+    pub fn axis_on(&self, link: LinkId) -> Option<Vec2> {
         let axes = self.kind.axes()?;
         let sides = [self.first, self.second];
         sides.iter().position(|side| side.link == link).map(|index| axes[index])
@@ -300,10 +302,10 @@ impl Joint {
 /// A planar mechanism: links, of which the first is the ground, and the joints between them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mechanism {
-    links: Vec<Link>,
-    joints: Vec<Joint>,
+    links: PerLink<Link>,
+    joints: PerJoint<Joint>,
     /// Joints on every link, in order.
-    on: Vec<Vec<usize>>,
+    on: PerLink<Vec<JointId>>,
     /// First equation of every joint in a list of all, and the number of all at the end.
     rows: Vec<usize>,
     /// Asked for in every pose; computed once, because a link of many points has many more distances.
@@ -331,9 +333,10 @@ impl Mechanism {
     /// is there. Nothing else may rest on it.
     #[must_use]
     pub fn unchecked(links: Vec<Link>, joints: Vec<Joint>) -> Self {
+        let (links, joints) = (PerLink::from(links), PerJoint::from(joints));
         let size = links.iter().map(Link::extent).fold(0.0, f64::larger);
-        let mut on = vec![Vec::new(); links.len()];
-        for (index, joint) in joints.iter().enumerate() {
+        let mut on = PerLink::from(vec![Vec::new(); links.len()]);
+        for (index, joint) in joints.entries() {
             for side in [joint.first, joint.second] {
                 // A joint of a link with itself is refused below.
                 on[side.link].push(index);
@@ -349,21 +352,21 @@ impl Mechanism {
 
     /// All links; index 0 is the ground.
     #[must_use]
-    pub fn links(&self) -> &[Link] {
+    pub fn links(&self) -> &PerLink<Link> {
         &self.links
     }
 
     /// All joints.
     #[must_use]
-    pub fn joints(&self) -> &[Joint] {
+    pub fn joints(&self) -> &PerJoint<Joint> {
         &self.joints
     }
 
     /// The equations of a joint in a list of those of all joints, in the order of joints.
     #[inline]
     #[must_use]
-    pub fn rows(&self, joint: usize) -> Range<usize> {
-        self.rows[joint]..self.rows[joint + 1]
+    pub fn rows(&self, joint: JointId) -> Range<usize> {
+        self.rows[joint]..self.rows[joint.index() + 1]
     }
 
     /// Number of equations of all joints. What else is in a list of equations, as those of drives, comes after them.
@@ -375,20 +378,20 @@ impl Mechanism {
 
     /// Joints on a link, as indices in ascending order.
     #[must_use]
-    pub fn joints_on(&self, link: usize) -> &[usize] {
+    pub fn joints_on(&self, link: LinkId) -> &[JointId] {
         &self.on[link]
     }
 
     /// Index of the link called `name`.
     #[must_use]
-    pub fn link_named(&self, name: &str) -> Option<usize> {
-        self.links.iter().position(|link| link.name == name)
+    pub fn link_named(&self, name: &str) -> Option<LinkId> {
+        self.links.find(|link| link.name == name)
     }
 
     /// Index of the joint called `name`.
     #[must_use]
-    pub fn joint_named(&self, name: &str) -> Option<usize> {
-        self.joints.iter().position(|joint| joint.name == name)
+    pub fn joint_named(&self, name: &str) -> Option<JointId> {
+        self.joints.find(|joint| joint.name == name)
     }
 
     /// Guide and block of a joint that slides; `None` for other joints.
@@ -404,7 +407,7 @@ impl Mechanism {
     pub fn moving_points(&self) -> impl Iterator<Item = (&str, Side)> {
         let mut seen: BTreeSet<&str> = self.links[GROUND].points.iter().map(|point| point.name.as_str()).collect();
         let mut points = Vec::new();
-        for (link, body) in self.links.iter().enumerate().skip(1) {
+        for (link, body) in self.links.entries().skip(1) {
             for point in &body.points {
                 if seen.insert(&point.name) {
                     points.push((point.name.as_str(), Side { link, local: point.local }));
@@ -423,7 +426,7 @@ impl Mechanism {
 
     /// Whether a link can turn. It cannot if joints that keep the angle connect it with the ground.
     #[must_use]
-    pub fn can_turn(&self, link: usize) -> bool {
+    pub fn can_turn(&self, link: LinkId) -> bool {
         let mut still = vec![GROUND];
         let mut next = 0;
         while let Some(&own) = still.get(next) {
@@ -478,8 +481,8 @@ impl Mechanism {
     }
 
     fn check_shared_points(&self) -> Result<()> {
-        let mut carriers: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
-        for (link, body) in self.links.iter().enumerate() {
+        let mut carriers: BTreeMap<&str, Vec<LinkId>> = BTreeMap::new();
+        for (link, body) in self.links.entries() {
             for point in &body.points {
                 let key = || format!("links.{}.points.{}", body.name, point.name);
                 let others = carriers.entry(&point.name).or_default();
@@ -507,7 +510,7 @@ impl Mechanism {
 
     /// Whether revolute joints at points with the name `name` connect link `a` with link `b`, directly or through
     /// others.
-    fn held_together(&self, name: &str, a: usize, b: usize) -> bool {
+    fn held_together(&self, name: &str, a: LinkId, b: LinkId) -> bool {
         let at = |side: Side| self.links[side.link].points.iter().any(|p| p.name == name && p.local == side.local);
         let mut reached = vec![a];
         let mut next = 0;
@@ -574,7 +577,7 @@ mod tests {
     fn equations_stand_in_the_order_of_joints_as_many_as_each_kind_has() {
         let mechanism = four_bar();
         let mut next = 0;
-        for (index, joint) in mechanism.joints().iter().enumerate() {
+        for (index, joint) in mechanism.joints().entries() {
             assert_eq!(mechanism.rows(index), next..next + joint.kind.equations(), "{}", joint.name);
             next += joint.kind.equations();
         }

@@ -2,30 +2,31 @@
 
 use super::{Joint, Mechanism, Side};
 use crate::math::Vec2;
+use crate::mechanism::{JointId, LinkId};
 
 /// A point of a link that can be moved.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Handle {
     /// Index of the link.
-    pub link: usize,
+    pub link: LinkId,
     /// Index of the point in the link.
     pub point: usize,
     /// Joints at the point.
-    joints: Vec<usize>,
+    joints: Vec<JointId>,
 }
 
 impl Mechanism {
     /// The point `point` of the link `link` (both by index) with the joints at it.
     /// `None` if another point of the link has the same place, because then the joints could be at either.
     #[must_use]
-    pub fn handle(&self, link: usize, point: usize) -> Option<Handle> {
+    pub fn handle(&self, link: LinkId, point: usize) -> Option<Handle> {
         let points = &self.links[link].points;
         let local = points[point].local;
         if points.iter().enumerate().any(|(index, other)| index != point && other.local == local) {
             return None;
         }
         let lies_there = |joint: &Joint| joint.on(link) == Some(local);
-        let joints = (0..self.joints.len()).filter(|&joint| lies_there(&self.joints[joint])).collect();
+        let joints = self.joints.ids().filter(|&joint| lies_there(&self.joints[joint])).collect();
         Some(Handle { link, point, joints })
     }
 
@@ -48,11 +49,11 @@ mod tests {
     #[test]
     fn joints_go_with_their_points() {
         let mut mechanism = four_bar();
-        let old = mechanism.links()[3].points.clone();
-        let handle = mechanism.handle(3, 1).unwrap();
+        let old = mechanism.links()[LinkId(3)].points.clone();
+        let handle = mechanism.handle(LinkId(3), 1).unwrap();
         mechanism.place(&handle, Vec2::new(0.7, 0.1));
         let moved: Vec<&Joint> =
-            mechanism.joints().iter().filter(|joint| joint.on(3) == Some(Vec2::new(0.7, 0.1))).collect();
+            mechanism.joints().iter().filter(|joint| joint.on(LinkId(3)) == Some(Vec2::new(0.7, 0.1))).collect();
         assert_eq!(moved.len(), 1, "{moved:?}");
         mechanism.place(&handle, old[1].local);
         assert_eq!(mechanism, four_bar());
@@ -61,9 +62,9 @@ mod tests {
     #[test]
     fn points_in_one_place_cannot_be_told_apart() {
         let mut mechanism = four_bar();
-        let handle = mechanism.handle(3, 1).unwrap();
-        let other = mechanism.links()[3].points[0].local;
+        let handle = mechanism.handle(LinkId(3), 1).unwrap();
+        let other = mechanism.links()[LinkId(3)].points[0].local;
         mechanism.place(&handle, other);
-        assert!(mechanism.handle(3, 1).is_none());
+        assert!(mechanism.handle(LinkId(3), 1).is_none());
     }
 }

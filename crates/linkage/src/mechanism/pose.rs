@@ -2,6 +2,7 @@
 
 use super::{Joint, Mechanism, Side};
 use crate::math::{KeepNan, Vec2, cross, rotated, unit};
+use crate::mechanism::PerLink;
 
 /// Place of one link's frame in the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,7 +39,7 @@ impl LinkPose {
 
 /// Pose of the whole mechanism: one entry per link, in the mechanism's order. The ground's is [`LinkPose::GROUND`].
 #[derive(Clone, Debug, PartialEq)]
-pub struct Pose(pub Vec<LinkPose>);
+pub struct Pose(pub PerLink<LinkPose>);
 
 impl Pose {
     /// Largest opening of any joint (m): see [`Joint::opening`]. An angle is multiplied by the mechanism's size.

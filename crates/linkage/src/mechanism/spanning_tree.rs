@@ -10,16 +10,17 @@
 
 use super::{GROUND, Joint, LinkPose, Mechanism};
 use crate::math::{rotated, unit};
+use crate::mechanism::{JointId, LinkId};
 
 /// A link that a joint of the tree connects to its parent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Branch {
     /// The link.
-    pub link: usize,
+    pub link: LinkId,
     /// The parent link, nearer to the ground.
-    pub parent: usize,
+    pub parent: LinkId,
     /// The joint between the two.
-    pub joint: usize,
+    pub joint: JointId,
 }
 
 /// Branches from the ground, and the remaining joints, which close the loops. Links without a branch are free bodies.
@@ -28,25 +29,26 @@ pub struct Tree {
     /// Branches; a parent always comes before its children.
     pub branches: Vec<Branch>,
     /// Joints that close loops.
-    pub cut: Vec<usize>,
+    pub cut: Vec<JointId>,
 }
 
 impl Tree {
     /// No tree: every link is a free body and every joint remains.
     #[must_use]
     pub fn none(mechanism: &Mechanism) -> Self {
-        Tree { branches: Vec::new(), cut: (0..mechanism.joints().len()).collect() }
+        Tree { branches: Vec::new(), cut: mechanism.joints().ids().collect() }
     }
 
     /// Trees such that each of these joints is cut in at least one of them.
     /// The first is that of [`Tree::of`]. Each further tree cuts as many of the joints as possible that no earlier tree
     /// cuts.
     #[must_use]
-    pub fn covering(mechanism: &Mechanism, joints: &[usize]) -> Vec<Self> {
+    pub fn covering(mechanism: &Mechanism, joints: &[JointId]) -> Vec<Self> {
         let mut trees = vec![Tree::of(mechanism)];
         loop {
-            let covered = |joint: &usize| !joints.contains(joint) || trees.iter().any(|tree| tree.cut.contains(joint));
-            let (kept, wanted): (Vec<usize>, Vec<usize>) = (0..mechanism.joints().len()).partition(covered);
+            let covered =
+                |joint: &JointId| !joints.contains(joint) || trees.iter().any(|tree| tree.cut.contains(joint));
+            let (kept, wanted): (Vec<JointId>, Vec<JointId>) = mechanism.joints().ids().partition(covered);
             if wanted.is_empty() {
                 return trees;
             }
@@ -69,8 +71,8 @@ impl Tree {
     }
 
     /// The spanning tree that takes joints in the given order as long as they close no loop (Kruskal's algorithm).
-    fn along(mechanism: &Mechanism, order: impl Iterator<Item = usize>) -> Self {
-        let mut part: Vec<usize> = (0..mechanism.links().len()).collect();
+    fn along(mechanism: &Mechanism, order: impl Iterator<Item = JointId>) -> Self {
+        let mut part: Vec<LinkId> = mechanism.links().ids().collect();
         let (mut taken, mut cut) = (Vec::new(), Vec::new());
         for index in order {
             let joint = &mechanism.joints()[index];
@@ -110,7 +112,7 @@ impl Tree {
     /// In an Oldham coupling, for example, sliding joints alone reach the driven disc.
     /// The drive would then be cut, although it must be a coordinate of the tree.
     #[must_use]
-    pub fn with(mechanism: &Mechanism, joints: &[usize]) -> Self {
+    pub fn with(mechanism: &Mechanism, joints: &[JointId]) -> Self {
         let mut tree = Tree { branches: Vec::new(), cut: Vec::new() };
         let mut reached = Vec::new();
         tree.reach(mechanism, GROUND, &mut reached);
@@ -123,7 +125,7 @@ impl Tree {
         let mut next = 0;
         while let Some(&parent) = reached.get(next) {
             next += 1;
-            for (joint, found) in mechanism.joints().iter().enumerate() {
+            for (joint, found) in mechanism.joints().entries() {
                 let link = found.other(parent).link;
                 if found.on(parent).is_some() && !reached.contains(&link) {
                     tree.branches.push(Branch { link, parent, joint });
@@ -131,16 +133,18 @@ impl Tree {
                 }
             }
         }
-        tree.cut = (0..mechanism.joints().len())
+        tree.cut = mechanism
+            .joints()
+            .ids()
             .filter(|&joint| tree.branches.iter().all(|branch| branch.joint != joint))
             .collect();
         tree
     }
 
     /// Adds a link and all links that slide on it.
-    fn reach(&mut self, mechanism: &Mechanism, parent: usize, reached: &mut Vec<usize>) {
+    fn reach(&mut self, mechanism: &Mechanism, parent: LinkId, reached: &mut Vec<LinkId>) {
         reached.push(parent);
-        for (joint, found) in mechanism.joints().iter().enumerate().filter(|(_, found)| found.slides()) {
+        for (joint, found) in mechanism.joints().entries().filter(|(_, found)| found.slides()) {
             let link = found.other(parent).link;
             if found.on(parent).is_some() && !reached.contains(&link) {
                 self.branches.push(Branch { link, parent, joint });
@@ -156,7 +160,7 @@ impl Tree {
 #[must_use]
 pub fn coordinate(joint: &Joint, branch: &Branch, poses: &[LinkPose]) -> f64 {
     let [parent, child] = [branch.parent, branch.link].map(|link| poses[link]);
-    let on = |link: usize| joint.on(link).expect("a branch's joint is on both links");
+    let on = |link: LinkId| joint.on(link).expect("a branch's joint is on both links");
     match joint.axis_on(branch.parent) {
         None => child.angle - parent.angle,
         Some(axis) => {
@@ -172,20 +176,29 @@ mod tests {
     use crate::math::Vec2;
     use crate::mechanism::JointKind;
 
+    fn numbers(joints: &[JointId]) -> Vec<usize> {
+        joints.iter().map(|joint| joint.index()).collect()
+    }
+
+    /// Parent and child of every branch.
+    fn pairs(tree: &Tree) -> Vec<(usize, usize)> {
+        tree.branches.iter().map(|branch| (branch.parent.index(), branch.link.index())).collect()
+    }
+
     #[test]
     fn four_bar_is_cut_once() {
         let tree = Tree::of(&four_bar());
-        assert_eq!(tree.cut, [2]);
-        assert_eq!(tree.branches.iter().map(|b| (b.parent, b.link)).collect::<Vec<_>>(), [(0, 1), (0, 3), (1, 2)]);
+        assert_eq!(numbers(&tree.cut), [2]);
+        assert_eq!(pairs(&tree), [(0, 1), (0, 3), (1, 2)]);
     }
 
     #[test]
     fn every_joint_is_cut_in_one_of_the_covering_trees() {
-        let trees = Tree::covering(&four_bar(), &[0, 1, 2, 3]);
+        let trees = Tree::covering(&four_bar(), &[JointId(0), JointId(1), JointId(2), JointId(3)]);
         // One cut per tree, four joints.
-        assert_eq!(trees.iter().map(|tree| tree.cut.clone()).collect::<Vec<_>>(), [[2], [3], [1], [0]]);
+        assert_eq!(trees.iter().map(|tree| numbers(&tree.cut)).collect::<Vec<_>>(), [[2], [3], [1], [0]]);
         let class_four = class_four(1.0, 1.0);
-        let trees = Tree::covering(&class_four, &(0..7).collect::<Vec<_>>());
+        let trees = Tree::covering(&class_four, &class_four.joints().ids().collect::<Vec<_>>());
         for tree in &trees {
             assert_eq!((tree.branches.len(), tree.cut.len()), (5, 2));
             let mut reached = vec![GROUND];
@@ -196,29 +209,32 @@ mod tests {
         }
         // Seven joints, two at a time.
         assert_eq!(trees.len(), 4);
-        assert!((0..7).all(|joint| trees.iter().any(|tree| tree.cut.contains(&joint))));
+        assert!(class_four.joints().ids().all(|joint| trees.iter().any(|tree| tree.cut.contains(&joint))));
     }
 
     #[test]
     fn only_the_joints_asked_for_need_a_tree() {
-        let cuts = |joints: &[usize]| Tree::covering(&four_bar(), joints).len();
+        let cuts = |joints: &[usize]| {
+            let joints: Vec<JointId> = joints.iter().map(|&joint| JointId(joint)).collect();
+            Tree::covering(&four_bar(), &joints).len()
+        };
         assert_eq!([cuts(&[]), cuts(&[2]), cuts(&[3]), cuts(&[2, 0])], [1, 1, 2, 2]);
     }
 
     #[test]
     fn a_crank_alone_is_cut_off_as_a_whole() {
         let four_bar = four_bar();
-        let alone = Mechanism::new(four_bar.links()[..2].to_vec(), four_bar.joints()[..1].to_vec()).unwrap();
-        let trees = Tree::covering(&alone, &[0]);
+        let alone =
+            Mechanism::new(four_bar.links().to_vec()[..2].to_vec(), four_bar.joints().to_vec()[..1].to_vec()).unwrap();
+        let trees = Tree::covering(&alone, &[JointId(0)]);
         assert_eq!(trees.len(), 2);
-        assert_eq!((trees[1].branches.len(), &trees[1].cut), (0, &vec![0]));
+        assert_eq!((trees[1].branches.len(), numbers(&trees[1].cut)), (0, vec![0]));
     }
 
     #[test]
     fn a_joint_can_be_asked_for() {
-        let pairs = |tree: &Tree| tree.branches.iter().map(|b| (b.parent, b.link)).collect::<Vec<_>>();
-        let asked = Tree::with(&four_bar(), &[3]);
-        assert_eq!((pairs(&asked), asked.cut), (vec![(0, 3), (0, 1), (3, 2)], vec![1]));
+        let asked = Tree::with(&four_bar(), &[JointId(3)]);
+        assert_eq!((pairs(&asked), numbers(&asked.cut)), (vec![(0, 3), (0, 1), (3, 2)], vec![1]));
         // If the coupler slides on both cranks, sliding joints alone reach the second crank.
         let kind = JointKind::Prismatic { axes: [Vec2::new(1.0, 0.0); 2] };
         let mut joints = four_bar().joints().to_vec();
@@ -230,9 +246,12 @@ mod tests {
             links[link].points.iter_mut().for_each(|point| point.name += name);
         }
         let mechanism = Mechanism::new(links, joints).unwrap();
-        assert_eq!((pairs(&Tree::of(&mechanism)), Tree::of(&mechanism).cut), (vec![(0, 1), (1, 2), (2, 3)], vec![3]));
-        let asked = Tree::with(&mechanism, &[3]);
-        assert_eq!((pairs(&asked), asked.cut), (vec![(0, 3), (3, 2), (2, 1)], vec![0]));
+        assert_eq!(
+            (pairs(&Tree::of(&mechanism)), numbers(&Tree::of(&mechanism).cut)),
+            (vec![(0, 1), (1, 2), (2, 3)], vec![3])
+        );
+        let asked = Tree::with(&mechanism, &[JointId(3)]);
+        assert_eq!((pairs(&asked), numbers(&asked.cut)), (vec![(0, 3), (3, 2), (2, 1)], vec![0]));
     }
 
     #[test]
@@ -245,7 +264,7 @@ mod tests {
         let mut links = four_bar().links().to_vec();
         links[3].points[1].name = "D".into();
         let tree = Tree::of(&Mechanism::new(links, joints).unwrap());
-        assert_eq!(tree.cut, [1]);
-        assert_eq!(tree.branches.iter().map(|b| (b.parent, b.link)).collect::<Vec<_>>(), [(0, 1), (0, 3), (3, 2)]);
+        assert_eq!(numbers(&tree.cut), [1]);
+        assert_eq!(pairs(&tree), [(0, 1), (0, 3), (3, 2)]);
     }
 }

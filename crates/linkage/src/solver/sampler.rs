@@ -4,10 +4,10 @@ use std::cell::LazyCell;
 use std::collections::BTreeMap;
 
 use super::state::State;
-use crate::case::Case;
+use crate::case::{Case, Seat};
 use crate::error::Result;
 use crate::math::{Motion, Vec2};
-use crate::mechanism::Side;
+use crate::mechanism::{JointId, LinkId, Side};
 use crate::trajectory::channel::rows;
 use crate::trajectory::{Channel, OfDrive, OfFrame, OfJoint, OfLink, OfPoint, OfSlider, Stage, Subject, Trajectory};
 
@@ -19,10 +19,10 @@ const BLOCK: usize = 8;
 /// Only what has wanted channels is read.
 #[derive(Debug)]
 pub struct Sampler {
-    links: Vec<(usize, Mask)>,
+    links: Vec<(LinkId, Mask)>,
     points: Vec<(Side, Mask)>,
-    joints: Vec<(usize, Mask)>,
-    sliders: Vec<(usize, Mask)>,
+    joints: Vec<(JointId, Mask)>,
+    sliders: Vec<(JointId, Mask)>,
     frame: Mask,
     /// The drives that exert a moment, the crank's first if it is one of them.
     drives: Vec<(usize, Mask)>,
@@ -72,7 +72,6 @@ impl Sampler {
     pub fn new(case: &Case) -> Self {
         let channels = case.channels();
         let columns = vec![vec![f64::NAN; case.grid.len()]; channels.len()];
-        let places: Vec<Side> = case.mechanism.moving_points().map(|(_, side)| side).collect();
         let mut sampler = Sampler {
             links: Vec::new(),
             points: Vec::new(),
@@ -88,15 +87,15 @@ impl Sampler {
             inputs: case.grid.inputs.clone(),
         };
         let masks = masks(&channels);
-        for (subject, index, name) in case.subjects() {
+        for (subject, name, seat) in case.subjects() {
             let Some(&mask) = masks.get(&(subject, name)) else { continue };
-            match subject {
-                Subject::Link => sampler.links.push((index, mask)),
-                Subject::Point => sampler.points.push((places[index], mask)),
-                Subject::Joint => sampler.joints.push((index, mask)),
-                Subject::Slider => sampler.sliders.push((index, mask)),
-                Subject::Frame => sampler.frame = mask,
-                Subject::Drive | Subject::Motor => sampler.drives.push((index, mask)),
+            match seat {
+                Seat::Link(link) => sampler.links.push((link, mask)),
+                Seat::Point(side) => sampler.points.push((side, mask)),
+                Seat::Joint(joint) if subject == Subject::Slider => sampler.sliders.push((joint, mask)),
+                Seat::Joint(joint) => sampler.joints.push((joint, mask)),
+                Seat::Frame => sampler.frame = mask,
+                Seat::Drive(drive) => sampler.drives.push((drive, mask)),
             }
         }
         Sampler { channels, ..sampler }

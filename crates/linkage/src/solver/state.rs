@@ -2,20 +2,20 @@
 
 use crate::case::Case;
 use crate::math::{KeepNan, Motion, Vec2, cross, unit};
-use crate::mechanism::{GROUND, Joint};
+use crate::mechanism::{GROUND, Joint, PerJoint, PerLink};
 
 /// State of the whole mechanism at one instant, in the form that all solvers share.
 #[derive(Clone, Debug)]
 pub struct State {
     /// Motion of every link's frame. The ground's motion is [`Motion::REST`].
-    pub motions: Vec<Motion>,
+    pub motions: PerLink<Motion>,
     /// Angle of every link's frame, turns kept (rad).
-    pub angles: Vec<f64>,
+    pub angles: PerLink<f64>,
     /// Force of the first link on the second in every joint (N).
-    pub forces: Vec<Vec2>,
+    pub forces: PerJoint<Vec2>,
     /// Moment of the first link on the second in every joint, about the joint's place on the second (N m). 0 in
     /// revolute joints.
-    pub moments: Vec<f64>,
+    pub moments: PerJoint<f64>,
     /// Balancing moment on every driving link (N m), in the order of
     /// [`CaseParts::drives`](crate::case::CaseParts::drives).
     pub torques: Vec<f64>,
@@ -29,10 +29,10 @@ impl State {
     #[must_use]
     pub fn at_rest(case: &Case) -> Self {
         State {
-            motions: vec![Motion::REST; case.mechanism.links().len()],
-            angles: vec![0.0; case.mechanism.links().len()],
-            forces: vec![Vec2::zeros(); case.mechanism.joints().len()],
-            moments: vec![0.0; case.mechanism.joints().len()],
+            motions: vec![Motion::REST; case.mechanism.links().len()].into(),
+            angles: vec![0.0; case.mechanism.links().len()].into(),
+            forces: vec![Vec2::zeros(); case.mechanism.joints().len()].into(),
+            moments: vec![0.0; case.mechanism.joints().len()].into(),
             torques: vec![0.0; case.drives.len()],
             passing: None,
         }
@@ -60,7 +60,7 @@ impl State {
     pub fn shaking(&self, case: &Case) -> (Vec2, f64) {
         // Drives stand on the frame, so their reactions there are opposite to the balancing moments.
         let (mut force, mut moment) = (Vec2::zeros(), -self.torques.iter().sum::<f64>());
-        for (index, joint) in case.mechanism.joints().iter().enumerate() {
+        for (index, joint) in case.mechanism.joints().entries() {
             let sign = match (joint.first.link, joint.second.link) {
                 (GROUND, _) => -1.0,
                 (_, GROUND) => 1.0,
@@ -105,7 +105,7 @@ impl State {
     #[must_use]
     pub fn at_start(case: &Case) -> Self {
         let mut state = State::at_rest(case);
-        for (index, pose) in case.start.0.iter().enumerate() {
+        for (index, pose) in case.start.0.entries() {
             state.motions[index].origin = pose.origin;
             state.motions[index].direction = unit(pose.angle);
             state.angles[index] = pose.angle;

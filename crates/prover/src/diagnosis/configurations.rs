@@ -4,7 +4,7 @@ use super::cause::{Change, How, Part};
 use linkage::case::{Case, CaseParts};
 use linkage::mechanism::assembly::{StartGroup, configurations, first_pose};
 use linkage::mechanism::pose::SidePoint;
-use linkage::mechanism::{AssemblyMode, LinkPose, Side};
+use linkage::mechanism::{AssemblyMode, LinkId, LinkPose, Side};
 
 /// Puts the mechanism together again after a change of its lengths or of its drives' start angles: dyads in their
 /// modes, higher groups as near as they can be to where they were.
@@ -44,11 +44,11 @@ fn assembled(parts: &mut CaseParts, wanted: &[StartGroup]) -> Option<()> {
 /// The case with one group in another of its configurations, for all of them that are known.
 pub fn others(case: &Case) -> Vec<(Change, Case)> {
     let mut found = Vec::new();
-    for (index, group) in case.structure.groups.iter().enumerate() {
+    for (index, group) in case.structure.groups.entries() {
         // Not all configurations of groups of more than four links are known.
         let all = configurations(&case.mechanism, group, &case.start).unwrap_or_default();
         for (number, one) in all.iter().enumerate() {
-            let same = |(&link, place): (&usize, &LinkPose)| {
+            let same = |(&link, place): (&LinkId, &LinkPose)| {
                 let own = &case.start.0[link];
                 let turn = (place.angle - own.angle).sin().abs() + (1.0 - (place.angle - own.angle).cos());
                 (place.origin - own.origin).norm() < 1e-6 * case.mechanism.size() && turn < 1e-6

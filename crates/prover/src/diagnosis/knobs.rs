@@ -7,7 +7,7 @@ use super::configurations::reassembled;
 use linkage::case::{Case, CaseParts, Grid};
 use linkage::drive::{Drive, DriveMotion, MotionLaw, Motor, ShaftInertia};
 use linkage::math::{KeepNan, Vec2};
-use linkage::mechanism::{Joint, Link, Mechanism};
+use linkage::mechanism::{Joint, JointId, Link, LinkId, Mechanism};
 
 /// Makes the parts those of another value; `None` where there is no such case.
 type Turn = Box<dyn Fn(&mut CaseParts, f64) -> Option<()>>;
@@ -111,7 +111,7 @@ pub(super) fn all(case: &Case) -> Vec<Knob> {
     knobs.extend((0..case.loads.len()).map(|index| load(case, index)));
     knobs.extend((0..case.loads.len()).filter_map(|index| free(case, index)));
     knobs.extend(motor(case));
-    let moving = || case.mechanism.links().iter().enumerate().skip(1);
+    let moving = || case.mechanism.links().entries().skip(1);
     // Of a single link all is the same as this one.
     if moving().filter(|(_, link)| link.mass > 0.0).count() > 1 {
         knobs.push(share(Part::Masses, |link, factor| link.mass *= factor));
@@ -195,7 +195,7 @@ fn free(case: &Case, index: usize) -> Option<Knob> {
     Some(Knob { shows: Shows::Forces, ..knob }.also([(0.0, How::Missing)]))
 }
 
-fn inertia(case: &Case, index: usize, link: &Link) -> Knob {
+fn inertia(case: &Case, index: LinkId, link: &Link) -> Knob {
     let turn = move |parts: &mut CaseParts, inertia| changed(parts, |links, _| links[index].inertia = inertia);
     let about = case.mechanism.joints().iter().filter_map(|joint| {
         let arm = (joint.on(index)? - link.mass_centre).norm_squared();
@@ -204,7 +204,7 @@ fn inertia(case: &Case, index: usize, link: &Link) -> Knob {
     Knob::amount(Part::Inertia(link.name.clone()), link.inertia, "kg m^2", turn).also(about)
 }
 
-fn mass_centre(index: usize, link: &Link, axis: Axis) -> Knob {
+fn mass_centre(index: LinkId, link: &Link, axis: Axis) -> Knob {
     let turn =
         move |parts: &mut CaseParts, value| changed(parts, |links, _| links[index].mass_centre[axis as usize] = value);
     let part = Part::MassCentreAlong(link.name.clone(), axis);
@@ -213,10 +213,10 @@ fn mass_centre(index: usize, link: &Link, axis: Axis) -> Knob {
 }
 
 /// Places of joints on links, each once.
-fn places(case: &Case) -> Vec<(usize, usize)> {
-    let mut found: Vec<(usize, usize)> = Vec::new();
+fn places(case: &Case) -> Vec<(JointId, LinkId)> {
+    let mut found: Vec<(JointId, LinkId)> = Vec::new();
     let joints = case.mechanism.joints();
-    for (index, joint) in joints.iter().enumerate() {
+    for (index, joint) in joints.entries() {
         for side in [joint.first, joint.second] {
             let known =
                 found.iter().any(|&(other, link)| link == side.link && joints[other].on(link) == Some(side.local));
@@ -228,7 +228,7 @@ fn places(case: &Case) -> Vec<(usize, usize)> {
     found
 }
 
-fn place(case: &Case, joint: usize, link: usize, axis: Axis) -> Knob {
+fn place(case: &Case, joint: JointId, link: LinkId, axis: Axis) -> Knob {
     let own = &case.mechanism.joints()[joint];
     let old = own.on(link).expect("the joint is on the link");
     let turn = move |parts: &mut CaseParts, value| {
@@ -241,7 +241,7 @@ fn place(case: &Case, joint: usize, link: usize, axis: Axis) -> Knob {
 }
 
 /// Moves a place of a link, with every joint and point that is there.
-fn moved(parts: &mut CaseParts, link: usize, old: Vec2, new: Vec2) -> Option<()> {
+fn moved(parts: &mut CaseParts, link: LinkId, old: Vec2, new: Vec2) -> Option<()> {
     changed(parts, |links, joints| {
         let points = links[link].points.iter_mut().map(|point| &mut point.local);
         let on_link = joints.iter_mut().flat_map(|joint| [&mut joint.first, &mut joint.second]);
@@ -254,7 +254,7 @@ fn moved(parts: &mut CaseParts, link: usize, old: Vec2, new: Vec2) -> Option<()>
 /// Distances of two joints on a link that are along neither axis of its frame: along one, a place is the distance.
 fn lengths(case: &Case) -> Vec<Knob> {
     let places = places(case);
-    let at = |&(joint, link): &(usize, usize)| case.mechanism.joints()[joint].on(link);
+    let at = |&(joint, link): &(JointId, LinkId)| case.mechanism.joints()[joint].on(link);
     let mut knobs = Vec::new();
     for one in &places {
         for other in places.iter().filter(|other| other.1 == one.1 && other.0 != one.0) {
@@ -264,7 +264,7 @@ fn lengths(case: &Case) -> Vec<Knob> {
                 continue;
             }
             let turn = move |parts: &mut CaseParts, length| moved(parts, link, old, from + arm * (length / arm.norm()));
-            let name = |place: &(usize, usize)| case.mechanism.joints()[place.0].name.clone();
+            let name = |place: &(JointId, LinkId)| case.mechanism.joints()[place.0].name.clone();
             let part = Part::Length(name(one), name(other), case.mechanism.links()[link].name.clone());
             let knob = Knob::place(part, arm.norm(), case.mechanism.size(), "m", turn);
             knobs.push(Knob { plain: Vec::new(), ..knob });

@@ -10,7 +10,7 @@ use super::tries::{Candidate, Make, Tries};
 use linkage::case::Case;
 use linkage::drive::{Course, Load};
 use linkage::math::Vec2;
-use linkage::mechanism::{Link, Side};
+use linkage::mechanism::{Link, LinkId, Side};
 
 /// Changes without a number: another configuration, gravity along another axis, mass centres elsewhere, no weights or
 /// inertia forces, loads at other points.
@@ -39,7 +39,7 @@ pub(super) fn whole_changes(tries: &Tries) -> Vec<Candidate> {
     }
     let kinematic = tries.thin.is_moved();
     if !kinematic && !tries.is_free {
-        let links: Vec<usize> = (1..case.mechanism.links().len()).collect();
+        let links: Vec<LinkId> = case.mechanism.links().ids().skip(1).collect();
         all.push((
             Change { part: Part::InertiaForces, how: How::Missing },
             Box::new(move |case| without_inertia_forces(case, &links)),
@@ -61,7 +61,7 @@ pub(super) fn whole_changes(tries: &Tries) -> Vec<Candidate> {
 /// other side of their line.
 fn mass_centres(case: &Case) -> Vec<(Change, Make)> {
     let mut found: Vec<(Change, Make)> = Vec::new();
-    for (index, link) in case.mechanism.links().iter().enumerate().skip(1).filter(|(_, link)| link.mass > 0.0) {
+    for (index, link) in case.mechanism.links().entries().skip(1).filter(|(_, link)| link.mass > 0.0) {
         let joints = case.mechanism.joints().iter().filter_map(|joint| Some((joint.name.clone(), joint.on(index)?)));
         let joints: Vec<(String, Vec2)> = joints.collect();
         let own = link.mass_centre;
@@ -97,8 +97,8 @@ fn mass_centres(case: &Case) -> Vec<(Change, Make)> {
 fn masses(case: &Case) -> Vec<(Change, Make)> {
     let mut found: Vec<(Change, Make)> = Vec::new();
     let mut put = |part: Part, make: Make| found.push((Change { part, how: How::Missing }, make));
-    let heavy = |(_, link): &(usize, &Link)| link.mass > 0.0;
-    let all: Vec<(usize, &Link)> = case.mechanism.links().iter().enumerate().skip(1).filter(heavy).collect();
+    let heavy = |(_, link): &(LinkId, &Link)| link.mass > 0.0;
+    let all: Vec<(LinkId, &Link)> = case.mechanism.links().entries().skip(1).filter(heavy).collect();
     // Of a single link all is the same as this one.
     for &(index, link) in all.iter().filter(|_| all.len() > 1) {
         if link.inertia > 0.0 && case.mechanism.can_turn(index) {
@@ -132,20 +132,20 @@ fn loads(case: &Case) -> Vec<(Change, Make)> {
 }
 
 /// A link's weight times a factor, as a load.
-fn weight(case: &Case, link: usize, factor: f64) -> Load {
+fn weight(case: &Case, link: LinkId, factor: f64) -> Load {
     let body = &case.mechanism.links()[link];
     let [x, y] = [case.gravity.x, case.gravity.y].map(|own| Course::Constant(factor * body.mass * own));
     Load::Force { at: Side { link, local: body.mass_centre }, force: [x, y], follows: false }
 }
 
 /// The case with weights, but without some links' resistance to acceleration.
-fn without_inertia_forces(case: &Case, of: &[usize]) -> Option<Case> {
+fn without_inertia_forces(case: &Case, of: &[LinkId]) -> Option<Case> {
     let heavy = case.with(|parts| parts.loads.extend(of.iter().map(|&link| weight(case, link, 1.0)))).ok()?;
     without_masses(&heavy, of)
 }
 
 /// The case without some links' masses and moments of inertia.
-fn without_masses(case: &Case, of: &[usize]) -> Option<Case> {
+fn without_masses(case: &Case, of: &[LinkId]) -> Option<Case> {
     let gone = |links: &mut [Link]| of.iter().for_each(|&link| (links[link].mass, links[link].inertia) = (0.0, 0.0));
     remade(case, |parts| changed(parts, |links, _| gone(links)))
 }

@@ -3,29 +3,29 @@
 use std::collections::BTreeMap;
 
 use linkage::case::{Case, Seat};
-use linkage::mechanism::{Mechanism, Structure};
+use linkage::mechanism::{GroupId, LinkId, Mechanism, PerLink, Structure};
 use linkage::trajectory::{Channel, Stage};
 
 /// Sets of groups that channels depend on.
 pub(super) struct Dependence {
     /// The different sets: indices of groups in ascending order.
-    pub(super) sets: Vec<Vec<usize>>,
+    pub(super) sets: Vec<Vec<GroupId>>,
     /// The set of every channel, as an index.
     pub(super) of: Vec<usize>,
     /// Groups of every set from which all its others follow, because they are before them.
-    tops: Vec<Vec<usize>>,
+    tops: Vec<Vec<GroupId>>,
 }
 
 impl Dependence {
     /// A prescribed motion comes to a link through its own group and those before it. Forces, and a motion that they
     /// decide, depend on all groups.
     pub(super) fn of(case: &Case, channels: &[Channel]) -> Self {
-        let all: Vec<usize> = (0..case.structure.groups.len()).collect();
+        let all: Vec<GroupId> = case.structure.groups.ids().collect();
         let upstream = case.structure.upstream(&case.mechanism);
         let mut found = Dependence { sets: Vec::new(), of: Vec::with_capacity(channels.len()), tops: Vec::new() };
         let seats = case.seats();
         // A set follows from the groups of its channel's links: each is found once.
-        let mut known: BTreeMap<Vec<usize>, usize> = BTreeMap::new();
+        let mut known: BTreeMap<Vec<GroupId>, usize> = BTreeMap::new();
         for channel in channels {
             // A link's own group is the last of those that it depends on.
             let tops = match case.is_free() || channel.kind.stage >= Stage::Reactions {
@@ -57,16 +57,16 @@ impl Dependence {
 }
 
 /// The groups `tops` and all before them, in ascending order.
-fn joined(structure: &Structure, upstream: &[Vec<usize>], tops: &[usize]) -> Vec<usize> {
-    let of = |&top: &usize| upstream[structure.groups[top].links[0]].iter().copied();
-    let mut set: Vec<usize> = tops.iter().flat_map(of).collect();
+fn joined(structure: &Structure, upstream: &PerLink<Vec<GroupId>>, tops: &[GroupId]) -> Vec<GroupId> {
+    let of = |&top: &GroupId| upstream[structure.groups[top].links[0]].iter().copied();
+    let mut set: Vec<GroupId> = tops.iter().flat_map(of).collect();
     set.sort_unstable();
     set.dedup();
     set
 }
 
 /// The links whose motion a channel of motion tells: each belongs to a part of its mechanism.
-fn links_of(mechanism: &Mechanism, seat: Option<Seat>) -> Vec<usize> {
+fn links_of(mechanism: &Mechanism, seat: Option<Seat>) -> Vec<LinkId> {
     match seat {
         Some(Seat::Link(link)) => vec![link],
         Some(Seat::Point(side)) => vec![side.link],
@@ -98,13 +98,13 @@ mod tests {
             found.sets[found.of[index.unwrap_or_else(|| panic!("{name}"))]].clone()
         };
         let (driving, _) = case.structure.drivers[0];
-        let name = |link: usize| &case.mechanism.links()[link].name;
+        let name = |link: LinkId| &case.mechanism.links()[link].name;
         assert!(set(&format!("link.{}.alpha_rad_s2", name(driving))).is_empty());
-        for (index, group) in case.structure.groups.iter().enumerate() {
+        for (index, group) in case.structure.groups.entries() {
             let own = set(&format!("link.{}.alpha_rad_s2", name(group.links[0])));
             assert_eq!(own.last(), Some(&index), "{}", name(group.links[0]));
         }
-        assert_eq!(set("drive.torque_N_m"), (0..groups).collect::<Vec<_>>());
+        assert_eq!(set("drive.torque_N_m"), (0..groups).map(GroupId).collect::<Vec<_>>());
         // What follows from the last groups of a set is what all of its groups say.
         let (sets, count) = (&found.sets, found.sets.len());
         assert!(count > 2);

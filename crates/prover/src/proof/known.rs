@@ -16,6 +16,7 @@ use linkage::case::Case;
 use linkage::error::Result;
 use linkage::math::KeepNan;
 use linkage::math::statistics::share;
+use linkage::mechanism::GroupId;
 use linkage::solver::{Solver, State};
 use linkage::trajectory::{Channel, Stage, Trajectory, Unit};
 
@@ -53,7 +54,7 @@ pub(super) fn of_condition(stage: Stage, condition: f64) -> f64 {
 /// How much farther than any of their joints are from each other the mass centres of links are from them; 1 at least.
 /// Side 2 calculates with the places of mass centres: a joint is as uncertain as the last digit of its distance from
 /// there, and angles by as much over the distance of the joints. The links are those of `groups` and the driving ones.
-fn lever(case: &Case, groups: &[usize]) -> f64 {
+fn lever(case: &Case, groups: &[GroupId]) -> f64 {
     let own = groups.iter().flat_map(|&group| case.structure.groups[group].links.iter().copied());
     let (mut size, mut farthest) = (0.0f64, 0.0f64);
     for link in own.chain(case.drives.iter().map(|drive| drive.link)) {
@@ -73,7 +74,7 @@ const PLACES: f64 = 4.0;
 /// (m): a group far from the origin is known to the last digit of that distance, its angles to as much over the
 /// distance of a link's pins. Every group adds its rounding to that of the groups before it, and they know nothing of
 /// each other: as the root of their number.
-fn placed(case: &Case, groups: &[usize]) -> [f64; 2] {
+fn placed(case: &Case, groups: &[GroupId]) -> [f64; 2] {
     let (mut far, mut arm) = (0.0f64, f64::INFINITY);
     for group in groups.iter().map(|&group| &case.structure.groups[group]) {
         let joints = || group.inner.iter().chain(&group.outer).map(|&joint| &case.mechanism.joints()[joint]);
@@ -298,7 +299,7 @@ mod tests {
     #[test]
     fn a_mass_centre_far_from_its_joints_is_a_lever_of_rounding() {
         let Scenario { text, path, .. } = of_repository("scenarios/crank_rocker.toml");
-        let of = |text: &str| lever(&Scenario::parse(text, &path).unwrap().case, &[0]);
+        let of = |text: &str| lever(&Scenario::parse(text, &path).unwrap().case, &[GroupId(0)]);
         let far = text[..text.find("[[oracle]]").unwrap()]
             .replace("x_mm = 250, y_mm = 0 } # S3", "x_mm = 2500, y_mm = 0 } # S3");
         assert_eq!(of(&text), 1.0);

@@ -7,7 +7,7 @@ use linkage::drive::Load;
 use linkage::error::Error;
 use linkage::math::statistics::share;
 use linkage::math::{KeepNan, Motion, Vec2, largest_size};
-use linkage::mechanism::{LinkPose, Pose, Side};
+use linkage::mechanism::{LinkId, LinkPose, Pose, Side};
 use linkage::solver::{Sampler, Solver, State};
 use linkage::trajectory::{Stage, Trajectory};
 
@@ -193,7 +193,7 @@ pub(super) fn observe(
 
 /// The motion whose sense a load depends on (rad/s as the first component, or m/s); zero where it stands still.
 fn sensed(case: &Case, state: &State, load: &Load) -> Option<Vec2> {
-    let of_link = |link: usize| Vec2::new(case.spin(&state.motions, link), 0.0);
+    let of_link = |link: LinkId| Vec2::new(case.spin(&state.motions, link), 0.0);
     let of_point = |at: Side| match case.moves(&state.motions, at) {
         true => state.motions[at.link].point_velocity(at.local),
         false => Vec2::zeros(),
@@ -215,7 +215,7 @@ fn power_of_drives(case: &Case, state: &State) -> f64 {
 
 /// Balancing moments of all drives (N m), reduced to the crank by their powers.
 fn reduced_torque(case: &Case, state: &State) -> f64 {
-    let omega = |link: usize| state.motions[link].omega;
+    let omega = |link: LinkId| state.motions[link].omega;
     let further = case.drives.further().iter().zip(&state.torques[1..]);
     let further = further.map(|(drive, torque)| torque * (omega(drive.link) / omega(case.crank().link)));
     state.torques[0] + further.sum::<f64>()
@@ -249,7 +249,7 @@ impl Unbalance {
         let [open_force, open_moment] = open(case, state, crank);
         self.force = self.force.larger(((force - other_force).norm() - open_force).larger(0.0));
         self.moment = self.moment.larger(((moment - other_moment).abs() - open_moment).larger(0.0));
-        for (index, joint) in case.mechanism.joints().iter().enumerate() {
+        for (index, joint) in case.mechanism.joints().entries() {
             let place = state.motions[joint.second.link].point(joint.second.local);
             let own = state.forces[index].norm();
             self.largest_force = self.largest_force.larger(own);

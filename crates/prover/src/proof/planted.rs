@@ -23,7 +23,7 @@ use lab::specimens::spec::four_bar;
 use linkage::case::{Case, Grid, Wanted};
 use linkage::engine::{Engine, Hook, Route, Settings, Wrapped};
 use linkage::math::{Vec2, turned};
-use linkage::mechanism::GROUND;
+use linkage::mechanism::{GROUND, JointId, LinkId};
 use linkage::solver::{Solver, State};
 use linkage::trajectory::Channel;
 use rapier_twin::Rapier;
@@ -103,24 +103,24 @@ fn every_check_of_the_two_sides_finds_three_times_its_bound_and_passes_a_fifth()
         let place = truth.trajectory.channels().iter().position(|channel| channel.to_string() == name).unwrap();
         magnitudes(&truth.trajectory)[place]
     };
-    let moved: Fault = |state, size| state.motions[3].origin.x += size;
-    let force: Fault = |state, size| state.forces[0].x += size;
+    let moved: Fault = |state, size| state.motions[LinkId(3)].origin.x += size;
+    let force: Fault = |state, size| state.forces[JointId(0)].x += size;
     let torque: Fault = |state, size| state.torques[0] += size;
     let planted: [(&str, Fault, f64); 8] = [
         ("closure of all joints (assur)", moved, 1e-13 * case.mechanism.size()),
         (
             "assur against newton, positions",
-            |state, size| state.angles[2] += size,
+            |state, size| state.angles[LinkId(2)] += size,
             1e-12 * largest("link.coupler.angle_rad"),
         ),
         (
             "assur against newton, velocities",
-            |state, size| state.motions[2].omega += size,
+            |state, size| state.motions[LinkId(2)].omega += size,
             1e-11 * largest("link.coupler.omega_rad_s"),
         ),
         (
             "assur against newton, accelerations",
-            |state, size| state.motions[2].alpha += size,
+            |state, size| state.motions[LinkId(2)].alpha += size,
             1e-11 * largest("link.coupler.alpha_rad_s2"),
         ),
         ("assur against newton, reactions", force, 1e-10 * largest("joint.O.fx_N")),
@@ -162,7 +162,7 @@ fn regress_a_driving_link_is_judged_by_its_own_numbers_near_a_dead_point() {
     let mut known = knowing(&case);
     known.measure(&case, &AssurSolver).unwrap();
     let alpha = case.crank().top_speed().powi(2);
-    let slower: Fault = |state, size| state.motions[1].alpha -= size;
+    let slower: Fault = |state, size| state.motions[LinkId(1)].alpha -= size;
     for (size, is_found) in [(0.0, false), (0.2e-11 * alpha, false), (3e-11 * alpha, true), (1.76 * alpha, true)] {
         let slow = seen(&case, &assur(slower, size));
         let differ = checks::sides_differ([&truth.trajectory, &slow.trajectory], &known);
@@ -193,7 +193,7 @@ fn what_is_not_a_number_at_one_instant_disagrees() {
         assert_eq!(named(&found, name).verdict.word(), "disagree", "{name}");
     }
     // A NaN that is in no channel still reaches the closure.
-    let second: Fault = |state, _| state.motions[3].origin.y = f64::NAN;
+    let second: Fault = |state, _| state.motions[LinkId(3)].origin.y = f64::NAN;
     let positions = case.wanting(Wanted::of(&[]));
     assert!(seen(&positions, &assur(second, 0.0)).closure().is_nan());
 }
@@ -298,7 +298,7 @@ fn the_engine_s_own_checks_find_what_does_not_vanish_with_the_step() {
     let rounding = closure.estimate.unwrap().0.rounding * scenario.case.mechanism.size();
     assert!((rounding / place.parts.rounding - 1.0).abs() < 1e-12, "{rounding:e} {:?}", place.parts);
     assert!(powers.bound < 1e-9, "{powers:?}");
-    let moved: Fault = |state, size| state.motions[3].origin.x += size;
+    let moved: Fault = |state, size| state.motions[LinkId(3)].origin.x += size;
     let torque: Fault = |state, size| state.torques[0] += size;
     let size = scenario.case.mechanism.size();
     let moment = seen(&scenario.case, &AssurSolver).moment;
@@ -373,7 +373,7 @@ fn what_the_sides_differ_by_is_told_in_times_of_what_is_allowed() {
     let truth = seen(&case, &AssurSolver);
     let place = truth.trajectory.channels().iter().position(|own| own.to_string() == "joint.O.fx_N").unwrap();
     let largest = magnitudes(&truth.trajectory)[place];
-    let force: Fault = |state, size| state.forces[0].x += size;
+    let force: Fault = |state, size| state.forces[JointId(0)].x += size;
     let [wrong, other] = [seen(&case, &assur(force, 3e-10 * largest)), seen(&case, &NewtonSolver)];
     let beyond = checks::beyond(EachSide::new(&wrong, &other), &knowing(&case));
     let own = beyond.iter().find(|own| own.channel.to_string() == "joint.O.fx_N").unwrap();
@@ -472,8 +472,8 @@ fn the_error_of_an_integration_adds_to_the_bound_of_numbers_at_times() {
 fn a_fault_of_fixed_size_is_found_where_the_reference_is_zero() {
     let cranks = include_str!("../../../../tests/suite/exact_zeros/parallel_cranks.toml");
     let zeros: [(&str, &str, &str, Fault, f64); 2] = [
-        ("crank_rocker", &text("crank_rocker"), "crank", |state, size| state.motions[1].alpha += size, 1e-6),
-        ("parallel_cranks", cranks, "rocker", |state, size| state.motions[3].alpha += size, 1e-2),
+        ("crank_rocker", &text("crank_rocker"), "crank", |state, size| state.motions[LinkId(1)].alpha += size, 1e-6),
+        ("parallel_cranks", cranks, "rocker", |state, size| state.motions[LinkId(3)].alpha += size, 1e-2),
     ];
     for (name, text, link, fault, share) in zeros {
         let scenario = parsed(name, text);
@@ -501,7 +501,7 @@ fn a_fault_of_fixed_size_is_found_where_nothing_has_a_size() {
     (rotor.gravity, rotor.dt) = (Vec2::zeros(), None);
     let rotor = rotor.scenario().unwrap();
     let zeros: [(&str, Fault); 2] = [
-        ("joint.O.fx_N", |state, size| state.forces[0].x += size),
+        ("joint.O.fx_N", |state, size| state.forces[JointId(0)].x += size),
         ("drive.torque_N_m", |state, size| state.torques[0] += size),
     ];
     for (own, fault) in zeros {

@@ -12,6 +12,7 @@ use analytic::{AssurSolver, NewtonSolver};
 use linkage::case::Case;
 use linkage::engine::{Engine, Hook, Route, Settings, Wrapped};
 use linkage::math::rotated;
+use linkage::mechanism::{JointId, LinkId};
 use linkage::solver::{Solver, State};
 use rapier_twin::{Build, Precision, Rapier};
 use scenario::EngineSettings;
@@ -78,7 +79,7 @@ fn nothing(_: &mut State) {}
 
 /// One force is read in the frame of a link instead of the world's.
 fn in_a_link_s_frame(state: &mut State) {
-    state.forces[1] = rotated(state.motions[1].direction, state.forces[1]);
+    state.forces[JointId(1)] = rotated(state.motions[LinkId(1)].direction, state.forces[JointId(1)]);
 }
 
 fn a_fiftieth_more(state: &mut State) {

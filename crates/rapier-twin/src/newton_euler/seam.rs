@@ -2,7 +2,7 @@
 
 use linkage::case::Case;
 use linkage::math::{Vec2, cross, turned};
-use linkage::mechanism::{JointKind, Side};
+use linkage::mechanism::{JointId, JointKind, LinkId, Side};
 use linkage::solver::State;
 
 /// Components that a joint transmits where it stands alone in two equations: those of a pin or of a slide.
@@ -11,9 +11,9 @@ pub(super) const PAIR: usize = 2;
 /// A joint between two links.
 #[derive(Clone, Debug)]
 pub(super) struct Seam {
-    pub(super) joint: usize,
+    pub(super) joint: JointId,
     /// The two links, and their numbers in the tree; `None` for the ground.
-    pub(super) links: [usize; 2],
+    pub(super) links: [LinkId; 2],
     pub(super) numbers: [Option<usize>; 2],
     /// +1 for the joint's second link, else -1: the sense in which its reaction acts.
     pub(super) signs: [f64; 2],
@@ -53,7 +53,7 @@ pub(super) type Term = [f64; 3];
 
 impl Seam {
     /// The joint between two links, in the order given.
-    pub(super) fn new(case: &Case, joint: usize, links: [usize; 2], numbers: &[Option<usize>]) -> Self {
+    pub(super) fn new(case: &Case, joint: JointId, links: [LinkId; 2], numbers: &[Option<usize>]) -> Self {
         let found = &case.mechanism.joints()[joint];
         let centres = links.map(|link| case.mechanism.links()[link].mass_centre);
         let on = links.map(|link| found.on(link).expect("the joint is on the link"));

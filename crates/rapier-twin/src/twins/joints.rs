@@ -10,7 +10,7 @@ use linkage::drive::Drive;
 use linkage::engine::Settings;
 use linkage::input::Input;
 use linkage::math::Vec2;
-use linkage::mechanism::{Joint, JointKind, Link};
+use linkage::mechanism::{Joint, JointKind, Link, LinkId};
 
 /// Joint frequency (Hz): rigid down to rounding.
 /// The default, 1e6 Hz, adds 6 % to the closure gap at a step of 1e-5 s.
@@ -40,14 +40,14 @@ pub(super) fn floating(link: &Link) -> GenericJoint {
 }
 
 /// A joint between the joint's points on `links` that locks the given axes.
-fn holding(axes: JointAxesMask, joint: &Joint, links: [usize; 2]) -> GenericJointBuilder {
+fn holding(axes: JointAxesMask, joint: &Joint, links: [LinkId; 2]) -> GenericJointBuilder {
     let [first, second] = links.map(|link| vector(joint.on(link).expect("the joint is on the link")));
     locking(axes).local_anchor1(first).local_anchor2(second)
 }
 
 /// The joint between `links`, which Rapier calls first and second.
 /// For a prismatic joint, the x axis of both joint frames lies along the axis.
-pub(super) fn between(joint: &Joint, links: [usize; 2]) -> GenericJoint {
+pub(super) fn between(joint: &Joint, links: [LinkId; 2]) -> GenericJoint {
     match joint.kind {
         JointKind::Revolute => holding(JointAxesMask::LOCKED_REVOLUTE_AXES, joint, links).build(),
         JointKind::Prismatic { .. } => {
@@ -73,7 +73,7 @@ pub(super) fn motor(drive: &Drive) -> (GenericJoint, JointAxis) {
 }
 
 /// A revolute joint between `links` whose rows lie along and across the direction `axis` of the first of them.
-pub(super) fn steered(joint: &Joint, links: [usize; 2], axis: Vec2) -> GenericJoint {
+pub(super) fn steered(joint: &Joint, links: [LinkId; 2], axis: Vec2) -> GenericJoint {
     holding(JointAxesMask::LOCKED_REVOLUTE_AXES, joint, links).local_axis1(vector(axis)).build()
 }
 

@@ -19,7 +19,7 @@ use linkage::case::Case;
 use linkage::engine::Settings;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::Vec2;
-use linkage::mechanism::{GROUND, Joint, LinkPose};
+use linkage::mechanism::{GROUND, Joint, JointId, LinkId, LinkPose};
 
 /// Links of a tree from which a free motion has a multibody for every link that hangs on the ground.
 /// A row of the sweeps costs as much as the multibodies of its two links have coordinates, whether they move these
@@ -33,11 +33,11 @@ const LARGE: usize = 16;
 #[derive(Clone, Debug)]
 struct Cut {
     joint: Joint,
-    index: usize,
+    index: JointId,
     handle: ImpulseJointHandle,
     /// The link that Rapier calls first, and the direction of the first row in that link's frame, where they are not
     /// those of the joint itself.
-    steered: Option<(usize, Vec2)>,
+    steered: Option<(LinkId, Vec2)>,
     /// Where the joint was at the start of the last substep.
     start: joints::Frame,
 }
@@ -73,7 +73,7 @@ pub(crate) struct Twin {
     /// The multibodies, each given by one of its links; none if all links are separate bodies. See [`LARGE`].
     multibodies: Vec<MultibodyJointHandle>,
     /// Links outside the tree. They are separate bodies, or float in a multibody.
-    outside: Vec<usize>,
+    outside: Vec<LinkId>,
     /// Where every branch's link is. The sense of its coordinate is that of the child relative to its parent.
     places: Vec<Place>,
     /// Where every link is that floats in a multibody; it has three coordinates.
@@ -108,12 +108,12 @@ impl Twin {
         for (link, &masses) in mechanism.links().iter().zip(&masses).skip(1) {
             bodies.push(world.bodies.insert(joints::body(link, masses)));
         }
-        let is_outside = |&link: &usize| tree.branches.iter().all(|branch| branch.link != link);
-        let outside: Vec<usize> = (1..mechanism.links().len()).filter(is_outside).collect();
+        let is_outside = |&link: &LinkId| tree.branches.iter().all(|branch| branch.link != link);
+        let outside: Vec<LinkId> = mechanism.links().ids().skip(1).filter(is_outside).collect();
         let is_split = case.is_free() && tree.branches.len() >= LARGE;
         let (mut multibodies, mut home) = (Vec::new(), vec![0; bodies.len()]);
         // Hangs a link on the ground: on the one body of it, or on one more that no other multibody has.
-        let mut hang = |world: &mut PhysicsWorld, link: usize, joint: GenericJoint| {
+        let mut hang = |world: &mut PhysicsWorld, link: LinkId, joint: GenericJoint| {
             let ground = if is_split { world.bodies.insert(RigidBodyBuilder::fixed()) } else { bodies[GROUND] };
             let handle = world.multibody_joints.insert(ground, bodies[link], joint, true)?;
             if is_split || multibodies.is_empty() {
@@ -167,10 +167,10 @@ impl Twin {
         });
         let motors = motors.collect();
         let twists = tree.branches.iter().map(|branch| {
-            let angle = |link: usize| case.start.0[link].angle;
+            let angle = |link: LinkId| case.start.0[link].angle;
             mechanism.joints()[branch.joint].keeps_angle().then(|| angle(branch.link) - angle(branch.parent))
         });
-        let frames = (0..mechanism.links().len()).map(|link| {
+        let frames = mechanism.links().ids().map(|link| {
             let angle = if outside.contains(&link) { LinkAngle::Turns(0.0) } else { LinkAngle::Whole(0.0) };
             LinkFrame { angle, ..LinkFrame::GROUND }
         });
@@ -210,7 +210,7 @@ impl Twin {
             // Rapier gives every revolute joint a damping of 0.1 N m s/rad by default.
             multibody.damping_mut().fill(0.0);
         }
-        let place = |link: usize| {
+        let place = |link: LinkId| {
             let own = multibody_joints.rigid_body_link(self.bodies[link]).expect("every link is in a multibody");
             let multibody = multibody_joints.get_multibody(own.multibody).expect("the multibody exists");
             let dof = multibody.link(own.id).expect("the link exists").assembly_id();

@@ -7,7 +7,7 @@ use crate::world::{LinkAngle, LinkFrame, World};
 use linkage::drive::Wrench;
 use linkage::math::Vec2;
 use linkage::math::angle::arc_tangent;
-use linkage::mechanism::LinkPose;
+use linkage::mechanism::{JointId, LinkId, LinkPose};
 
 impl Twin {
     fn multibody(&self, index: usize) -> &Multibody {
@@ -134,7 +134,7 @@ impl World for Twin {
         }
     }
 
-    fn set_load(&mut self, link: usize, load: Wrench) {
+    fn set_load(&mut self, link: LinkId, load: Wrench) {
         let body = &mut self.world.bodies[self.bodies[link]];
         body.reset_forces(true);
         body.reset_torques(true);
@@ -155,7 +155,7 @@ impl World for Twin {
         wide(self.multibody(multibody).generalized_velocity()[dof])
     }
 
-    fn velocity(&self, link: usize) -> Option<(Vec2, f64)> {
+    fn velocity(&self, link: LinkId) -> Option<(Vec2, f64)> {
         if let LinkAngle::Whole(_) = self.frames[link].angle {
             return None;
         }
@@ -166,7 +166,7 @@ impl World for Twin {
         Some((Vec2::new(wide(velocity.x), wide(velocity.y)), omega))
     }
 
-    fn reaction(&self, joint: usize) -> Option<(Vec2, f64)> {
+    fn reaction(&self, joint: JointId) -> Option<(Vec2, f64)> {
         self.read_reaction(joint)
     }
 

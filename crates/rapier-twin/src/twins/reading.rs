@@ -4,6 +4,7 @@ use super::joints::Frame;
 use super::{Twin, wide};
 use crate::world::World;
 use linkage::math::{Vec2, cross, rotated, turned};
+use linkage::mechanism::{JointId, LinkId};
 
 impl Twin {
     /// Stores where the joints to be read are, the share `share` of the way from the stored frames to the present ones.
@@ -27,14 +28,14 @@ impl Twin {
                     (rotated(direction, axis), second - normal * normal.dot(&(second - first)))
                 }
             };
-            let centre = |link: usize| self.point(linkage::mechanism::Side { link, local: self.centres[link] });
+            let centre = |link: LinkId| self.point(linkage::mechanism::Side { link, local: self.centres[link] });
             let arms = [place - centre(joint.first.link), second - centre(joint.second.link)];
             let start = &mut self.cuts[index].start;
             *start = if share == 1.0 { Frame { axis, arms } } else { start.towards(Frame { axis, arms }, share) };
         }
     }
 
-    pub(super) fn read_reaction(&self, joint: usize) -> Option<(Vec2, f64)> {
+    pub(super) fn read_reaction(&self, joint: JointId) -> Option<(Vec2, f64)> {
         let cut = self.cuts.iter().find(|cut| cut.index == joint)?;
         let impulses = self.world.impulse_joints.get(cut.handle)?.impulses;
         let mut rows = [impulses[0], impulses[1], impulses[2]].map(wide);

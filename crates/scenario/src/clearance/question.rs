@@ -1,7 +1,7 @@
 //! What is asked: bodies with outlines, the pairs of them that must not meet, and how well it must be known.
 
 use linkage::math::KeepNan;
-use linkage::mechanism::{GROUND, Mechanism};
+use linkage::mechanism::{GROUND, LinkId, Mechanism};
 
 use super::outline::Outline;
 
@@ -11,7 +11,7 @@ pub struct Body {
     /// Name for reports.
     pub name: String,
     /// Its link; [`GROUND`] for the housing.
-    pub link: usize,
+    pub link: LinkId,
     /// Its outline in the frame of its link.
     pub outline: Outline,
 }
@@ -67,7 +67,7 @@ pub fn pairs(mechanism: &Mechanism, bodies: &[Body], ignored: &[[usize; 2]]) -> 
 
 /// Whether a joint holds two links together, or both are on one pin with others between them.
 #[must_use]
-pub fn are_joined(mechanism: &Mechanism, [a, b]: [usize; 2]) -> bool {
+pub fn are_joined(mechanism: &Mechanism, [a, b]: [LinkId; 2]) -> bool {
     if mechanism.joints().iter().any(|joint| joint.on(a).is_some() && joint.on(b).is_some()) {
         return true;
     }

@@ -14,6 +14,7 @@ use crate::assur::turns::FOLLOWED_STEP;
 use linkage::case::Case;
 use linkage::error::Result;
 use linkage::math::{Vec2, cross};
+use linkage::mechanism::LinkId;
 use linkage::trajectory::Stage;
 
 /// Numbers that an interval keeps of a link: those of a start, but for the share of the way.
@@ -36,7 +37,7 @@ struct Way<'a> {
     poses: PoseSolver<'a>,
     /// Distance of two anchors (rad), with its sign.
     step: f64,
-    links: Vec<usize>,
+    links: Vec<LinkId>,
     /// Direction of every link at the outermost anchor, its transfer functions, and those of the one before.
     last: Vec<(Vec2, [f64; 2])>,
     intervals: Vec<f64>,
@@ -50,7 +51,7 @@ impl<'a> Anchors<'a> {
     /// # Errors
     /// Those of [`PoseSolver::new`].
     pub(super) fn of(case: &'a Case, groups: &Groups) -> Result<Option<Self>> {
-        let links: Vec<usize> = groups.chains().flat_map(|(chain, _)| chain.links().to_vec()).collect();
+        let links: Vec<LinkId> = groups.chains().flat_map(|(chain, _)| chain.links().to_vec()).collect();
         if links.is_empty() {
             return Ok(None);
         }

@@ -4,7 +4,7 @@ use super::poses::Layout;
 use linkage::case::Case;
 use linkage::drive::Load;
 use linkage::math::Vec2;
-use linkage::mechanism::Side;
+use linkage::mechanism::{JointId, LinkId, Side};
 
 /// A joint as it acts on one of its links: `sign` times its reaction, at `arm` from the link's pole, in the link's
 /// frame.
@@ -41,16 +41,16 @@ pub(super) struct Reader<'a> {
 }
 
 impl Reader<'_> {
-    pub(super) fn place(&self, joint: usize, link: usize) -> Vec2 {
+    pub(super) fn place(&self, joint: JointId, link: LinkId) -> Vec2 {
         self.case.mechanism.joints()[joint].on(link).expect("the joint is on the link")
     }
 
-    pub(super) fn base(&self, joint: usize, link: usize) -> (Option<usize>, Vec2) {
+    pub(super) fn base(&self, joint: JointId, link: LinkId) -> (Option<usize>, Vec2) {
         let Side { link, local } = self.case.mechanism.joints()[joint].other(link);
         (self.layout.link(link), local)
     }
 
-    pub(super) fn action(&self, joint: usize, link: usize, pole: Vec2) -> Action {
+    pub(super) fn action(&self, joint: JointId, link: LinkId, pole: Vec2) -> Action {
         let is_second = self.case.mechanism.joints()[joint].second.link == link;
         Action {
             force: self.layout.force(joint),
@@ -59,9 +59,9 @@ impl Reader<'_> {
         }
     }
 
-    pub(super) fn body(&self, link: usize, pole: Vec2) -> Body {
+    pub(super) fn body(&self, link: LinkId, pole: Vec2) -> Body {
         let joints = self.case.mechanism.joints();
-        let hanging = (0..joints.len()).filter(|&joint| self.settled[joint] && joints[joint].on(link).is_some());
+        let hanging = joints.ids().filter(|&joint| self.settled[joint] && joints[joint].on(link).is_some());
         let body = &self.case.mechanism.links()[link];
         Body {
             link: self.layout.link(link).expect("the link moves"),

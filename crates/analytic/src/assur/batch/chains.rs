@@ -10,6 +10,7 @@ use super::bodies::{Action, Body, Reader};
 use super::elimination;
 use crate::assur::groups::{self, Hangs};
 use linkage::math::Vec2;
+use linkage::mechanism::LinkId;
 
 /// Numbers of a start: direction of the link at the anchor, share of the way to the next one, and five coefficients of
 /// the turn from there (rad).
@@ -53,7 +54,7 @@ pub(super) struct Chain {
     /// Sign of the determinant.
     branch: f64,
     /// The links by their numbers in the mechanism.
-    links: Vec<usize>,
+    links: Vec<LinkId>,
 }
 
 impl Chain {
@@ -63,7 +64,7 @@ impl Chain {
         if chain.is_sliding() || !matches!(contours.nodes.len(), 4 | 6) {
             return None;
         }
-        let column = |link: usize| reader.layout.link(link);
+        let column = |link: LinkId| reader.layout.link(link);
         let nodes = contours.nodes.iter().map(|node| Node {
             body: reader.body(node.link, node.own),
             own: node.own,
@@ -97,7 +98,7 @@ impl Chain {
     }
 
     /// The links by their numbers in the mechanism, in the order of their starts.
-    pub(super) fn links(&self) -> &[usize] {
+    pub(super) fn links(&self) -> &[LinkId] {
         &self.links
     }
 

@@ -7,7 +7,7 @@ use crate::assur::groups::{Plan, Step};
 use linkage::case::Case;
 use linkage::drive::Load;
 use linkage::math::Vec2;
-use linkage::mechanism::{AssemblyMode, GROUND, Group, GroupKind};
+use linkage::mechanism::{AssemblyMode, GROUND, Group, GroupKind, JointId, LinkId};
 
 /// Columns of a dyad in the working memory: two each for its spans r1 and r2, and 1 / (r1 x r2).
 const OF_DYAD: usize = 5;
@@ -72,7 +72,7 @@ impl Groups {
     pub(super) fn of(case: &Case, plan: &Plan, layout: Layout) -> Option<Self> {
         let groups = &case.structure.groups;
         let simple = |load: &Load| load.resistance().is_some();
-        let hinged = |&(link, joint): &(usize, usize)| {
+        let hinged = |&(link, joint): &(LinkId, JointId)| {
             let joint = &case.mechanism.joints()[joint];
             joint.is_pin() && joint.other(link).link == GROUND
         };
@@ -81,7 +81,7 @@ impl Groups {
         }
         let mut settled = vec![false; case.mechanism.joints().len()];
         let mut parts = Vec::with_capacity(groups.len());
-        for (index, (group, &mode)) in groups.iter().zip(&case.modes).enumerate().rev() {
+        for ((index, group), &mode) in groups.entries().zip(&case.modes).rev() {
             let reader = Reader { case, layout, settled: &settled };
             parts.push(match (&plan.steps()[index], group.kind) {
                 (Step::Chain(chain), _) => Part::Chain(Chain::of(&reader, chain)?),
@@ -117,7 +117,7 @@ impl Groups {
 }
 
 impl Reader<'_> {
-    fn driver(&self, link: usize, joint: usize) -> Driver {
+    fn driver(&self, link: LinkId, joint: JointId) -> Driver {
         let pivot = self.place(joint, link);
         Driver {
             ground: self.base(joint, link).1,

@@ -3,7 +3,7 @@
 use super::lanes::{Eight, TILE};
 use linkage::case::Case;
 use linkage::math::{Motion, Vec2};
-use linkage::mechanism::GROUND;
+use linkage::mechanism::{GROUND, JointId, LinkId};
 use linkage::solver::State;
 
 /// Columns of one link's motion, in this order: two each for origin, direction, velocity and acceleration, one
@@ -35,20 +35,20 @@ impl Layout {
     }
 
     /// First column of a link; `None` for the ground.
-    pub(super) fn link(&self, link: usize) -> Option<usize> {
-        (link != GROUND).then(|| (link - 1) * OF_LINK)
+    pub(super) fn link(&self, link: LinkId) -> Option<usize> {
+        (link != GROUND).then(|| (link.index() - 1) * OF_LINK)
     }
 
     /// First of the two columns of the force in a joint.
     #[inline(always)]
-    pub(super) fn force(&self, joint: usize) -> usize {
-        (self.links - 1) * OF_LINK + 2 * joint
+    pub(super) fn force(&self, joint: JointId) -> usize {
+        (self.links - 1) * OF_LINK + 2 * joint.index()
     }
 
     /// The balancing moment of a drive.
     #[inline(always)]
     pub(super) fn torque(&self, drive: usize) -> usize {
-        self.force(self.joints) + drive
+        self.force(JointId(self.joints)) + drive
     }
 
     /// The column that is NaN where the pose cannot be assembled.
@@ -57,12 +57,12 @@ impl Layout {
         self.torque(self.drives)
     }
 
-    fn moment(&self, joint: usize) -> usize {
-        self.reach() + 1 + joint
+    fn moment(&self, joint: JointId) -> usize {
+        self.reach() + 1 + joint.index()
     }
 
     pub(super) fn columns(&self) -> usize {
-        self.moment(if self.has_moments { self.joints } else { 0 })
+        self.moment(JointId(if self.has_moments { self.joints } else { 0 }))
     }
 }
 
@@ -97,7 +97,7 @@ impl Poses {
 
     /// Motion of a link's frame in the pose `row`; the ground's is [`Motion::REST`].
     #[must_use]
-    pub fn motion(&self, row: usize, link: usize) -> Motion {
+    pub fn motion(&self, row: usize, link: LinkId) -> Motion {
         let Some(first) = self.layout.link(link) else { return Motion::REST };
         Motion {
             origin: self.vector(row, first + ORIGIN),
@@ -111,14 +111,14 @@ impl Poses {
 
     /// Force of the first link on the second in a joint (N), in the pose `row`.
     #[must_use]
-    pub fn force(&self, row: usize, joint: usize) -> Vec2 {
+    pub fn force(&self, row: usize, joint: JointId) -> Vec2 {
         self.vector(row, self.layout.force(joint))
     }
 
     /// Moment of the first link on the second in a joint, about the joint's place on the second (N m), in the pose
     /// `row`; 0 in revolute joints.
     #[must_use]
-    pub fn moment(&self, row: usize, joint: usize) -> f64 {
+    pub fn moment(&self, row: usize, joint: JointId) -> f64 {
         if self.layout.has_moments { self.get(row, self.layout.moment(joint)) } else { 0.0 }
     }
 
@@ -133,10 +133,10 @@ impl Poses {
     /// as with [`PoseSolver::solve`](crate::PoseSolver::solve).
     pub fn copy_to(&self, row: usize, state: &mut State) {
         for (link, motion) in state.motions.iter_mut().enumerate() {
-            *motion = self.motion(row, link);
+            *motion = self.motion(row, LinkId(link));
         }
         for (joint, (force, moment)) in state.forces.iter_mut().zip(&mut state.moments).enumerate() {
-            (*force, *moment) = (self.force(row, joint), self.moment(row, joint));
+            (*force, *moment) = (self.force(row, JointId(joint)), self.moment(row, JointId(joint)));
         }
         for (drive, torque) in state.torques.iter_mut().enumerate() {
             *torque = self.torque(row, drive);
@@ -174,7 +174,7 @@ impl Poses {
         };
         let vectors = |column: usize, v: Vec2| [(column, v.x), (column + 1, v.y)];
         for (link, motion) in state.motions.iter().enumerate() {
-            let Some(first) = layout.link(link) else { continue };
+            let Some(first) = layout.link(LinkId(link)) else { continue };
             let all = [
                 vectors(first + ORIGIN, motion.origin),
                 vectors(first + DIRECTION, motion.direction),
@@ -185,9 +185,9 @@ impl Poses {
             all.into_iter().flatten().for_each(|(column, value)| put(column, value));
         }
         for (joint, (&force, &moment)) in state.forces.iter().zip(&state.moments).enumerate() {
-            vectors(layout.force(joint), force).into_iter().for_each(|(column, value)| put(column, value));
+            vectors(layout.force(JointId(joint)), force).into_iter().for_each(|(column, value)| put(column, value));
             if layout.has_moments {
-                put(layout.moment(joint), moment);
+                put(layout.moment(JointId(joint)), moment);
             }
         }
         for (drive, &torque) in state.torques.iter().enumerate() {

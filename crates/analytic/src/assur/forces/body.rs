@@ -3,7 +3,7 @@
 use linkage::case::Case;
 use linkage::drive::{Load, Wrench};
 use linkage::math::{Motion, Vec2, cross};
-use linkage::mechanism::Side;
+use linkage::mechanism::{JointId, LinkId, Side};
 
 /// Reactions: what the first link of every joint exerts on the second. Filled in from the last group to the first.
 #[derive(Debug)]
@@ -19,7 +19,7 @@ pub(super) struct Reactions<'a> {
 /// A joint as it acts on one of its links: `sign` times its reaction, at the place to which the reaction refers.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Action {
-    pub(super) joint: usize,
+    pub(super) joint: JointId,
     side: Side,
     sign: f64,
     /// Whether the joint carries a moment too.
@@ -29,7 +29,7 @@ pub(super) struct Action {
 }
 
 impl Action {
-    pub(super) fn of(case: &Case, joint: usize, link: usize) -> Self {
+    pub(super) fn of(case: &Case, joint: JointId, link: LinkId) -> Self {
         let found = &case.mechanism.joints()[joint];
         let side = found.acts_at(link);
         let sign = if found.second.link == link { 1.0 } else { -1.0 };
@@ -71,7 +71,7 @@ impl Action {
 /// analysis.
 #[derive(Clone, Debug)]
 pub(super) struct Body {
-    link: usize,
+    link: LinkId,
     mass: f64,
     inertia: f64,
     centre: Vec2,
@@ -81,7 +81,7 @@ pub(super) struct Body {
 }
 
 impl Body {
-    pub(super) fn of(case: &Case, link: usize, settled: &[bool]) -> Self {
+    pub(super) fn of(case: &Case, link: LinkId, settled: &[bool]) -> Self {
         let is_loaded = |load: &Load| load.resistance().is_none_or(|(loaded, _)| loaded == link);
         let on_link = case.mechanism.joints_on(link).iter().filter(|&&index| settled[index]);
         let hanging = on_link.map(|&index| Action::of(case, index, link)).collect();

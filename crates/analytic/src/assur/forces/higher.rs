@@ -8,12 +8,13 @@ use super::body::{Action, Body, Reactions};
 use crate::assur::groups::{Chain, Plan, Step};
 use linkage::case::Case;
 use linkage::math::{Motion, Vec2, cross};
+use linkage::mechanism::GroupId;
 
 /// Force analysis of a higher group.
 #[derive(Clone, Debug)]
 pub(super) struct Higher {
     /// Index of the group's [`Chain`] in the plan.
-    step: usize,
+    step: GroupId,
     bodies: Vec<Body>,
     /// For each node: the joint to its parent, as it acts on the node's link.
     hung: Vec<Action>,
@@ -37,7 +38,7 @@ struct Inwards {
 }
 
 impl Higher {
-    pub(super) fn of(case: &Case, step: usize, chain: &Chain, settled: &[bool]) -> Self {
+    pub(super) fn of(case: &Case, step: GroupId, chain: &Chain, settled: &[bool]) -> Self {
         let nodes = chain.nodes();
         let inwards = nodes.iter().enumerate().rev().filter_map(|(child, node)| {
             let is_guided = node.is_guided();

@@ -14,6 +14,7 @@ use higher::Higher;
 use linkage::case::Case;
 use linkage::drive::{Drive, Load, Wrench};
 use linkage::math::Vec2;
+use linkage::mechanism::LinkId;
 use linkage::solver::State;
 use linkage::work::{Count, Tally};
 use rrr::Pinned;
@@ -36,7 +37,7 @@ pub(super) struct Kinetostatics {
     /// Loads on every link; empty if there are none.
     loads: Vec<Wrench>,
     /// One load for every loaded link, if all are moments of resistance. They need no place of a link.
-    resistances: Option<Vec<(usize, Load)>>,
+    resistances: Option<Vec<(LinkId, Load)>>,
     tally: Tally,
 }
 
@@ -45,7 +46,7 @@ impl Kinetostatics {
     pub(super) fn of(case: &Case, plan: &Plan) -> Self {
         let mut settled = vec![false; case.mechanism.joints().len()];
         let mut parts = Vec::with_capacity(case.structure.groups.len());
-        for (step, group) in case.structure.groups.iter().enumerate().rev() {
+        for (step, group) in case.structure.groups.entries().rev() {
             parts.push(match &plan.steps()[step] {
                 Step::Chain(chain) => Part::Higher(Higher::of(case, step, chain, &settled)),
                 Step::Rrr(_) => Part::Pinned(Pinned::of(case, step, group, &settled)),
@@ -114,8 +115,8 @@ impl Kinetostatics {
 }
 
 /// Moments of resistance on the same link in one.
-fn merged(resistances: Vec<(usize, f64)>) -> Vec<(usize, Load)> {
-    let mut all: Vec<(usize, f64)> = Vec::new();
+fn merged(resistances: Vec<(LinkId, f64)>) -> Vec<(LinkId, Load)> {
+    let mut all: Vec<(LinkId, f64)> = Vec::new();
     for (link, moment) in resistances {
         match all.iter_mut().find(|(known, _)| *known == link) {
             Some((_, sum)) => *sum += moment,

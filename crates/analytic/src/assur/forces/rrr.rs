@@ -9,20 +9,20 @@ use super::body::{Action, Body, Reactions};
 use crate::assur::groups::Rrr;
 use linkage::case::Case;
 use linkage::math::{Motion, cross};
-use linkage::mechanism::Group;
+use linkage::mechanism::{Group, GroupId};
 
 /// Force analysis of an RRR dyad.
 #[derive(Clone, Debug)]
 pub(super) struct Pinned {
     /// Index of the group in the plan.
-    pub(super) step: usize,
+    pub(super) step: GroupId,
     bodies: [Body; 2],
     outer: [Action; 2],
     inner: Action,
 }
 
 impl Pinned {
-    pub(super) fn of(case: &Case, step: usize, group: &Group, settled: &[bool]) -> Self {
+    pub(super) fn of(case: &Case, step: GroupId, group: &Group, settled: &[bool]) -> Self {
         Pinned {
             step,
             bodies: [0, 1].map(|k| Body::of(case, group.links[k], settled)),

@@ -13,7 +13,7 @@
 use super::body::{Action, Body, Reactions};
 use linkage::case::Case;
 use linkage::math::{Motion, Vec2, cross, turned};
-use linkage::mechanism::{Group, GroupKind};
+use linkage::mechanism::{Group, GroupKind, JointId, LinkId};
 
 /// Force analysis of a dyad with prismatic pairs. The links have the order in which the formulas name them.
 #[derive(Clone, Debug)]
@@ -24,9 +24,9 @@ pub(super) struct Sliding {
     inner: [Action; 2],
     /// Axis of the prismatic pair of RRP, of RPR (the inner pair) and of PRP (the first), or of RPP's guide. The
     /// index is the link on which the axis is given.
-    axis: (usize, Vec2),
+    axis: (LinkId, Vec2),
     /// Axis of PRP's second guide, or of RPP's inner pair.
-    other: (usize, Vec2),
+    other: (LinkId, Vec2),
 }
 
 impl Sliding {
@@ -45,7 +45,7 @@ impl Sliding {
         let links = order.map(|k| group.links[k]);
         let outer = order.map(|k| group.outer[k]);
         // The axis in world axes. It is fixed to the first link of its joint.
-        let axis = |joint: usize| {
+        let axis = |joint: JointId| {
             let link = joints[joint].first.link;
             (link, joints[joint].axis_on(link).unwrap_or_else(Vec2::zeros))
         };

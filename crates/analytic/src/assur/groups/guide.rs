@@ -1,7 +1,7 @@
 //! Outer prismatic pair of a dyad: a link that slides on a known link and turns with it.
 
 use linkage::math::{Motion, Vec2, cross, rotated, turned};
-use linkage::mechanism::{Joint, Side};
+use linkage::mechanism::{Joint, LinkId, Side};
 
 /// `a` times the conjugate of `b` as complex numbers: the direction of a frame in which the unit vector `b` points
 /// along `a`.
@@ -13,7 +13,7 @@ pub(super) fn turn_between(a: Vec2, b: Vec2) -> Vec2 {
 /// A link on its guide.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Guide {
-    pub(super) link: usize,
+    pub(super) link: LinkId,
     /// The guide's link and the joint's place on it.
     pub(super) base: Side,
     /// The axis in the guide's link.
@@ -25,9 +25,9 @@ pub(super) struct Guide {
 }
 
 impl Guide {
-    pub(super) fn of(joint: &Joint, link: usize) -> Self {
+    pub(super) fn of(joint: &Joint, link: LinkId) -> Self {
         let base = joint.other(link);
-        let axis = |on: usize| joint.axis_on(on).expect("the joint is prismatic and on the link");
+        let axis = |on: LinkId| joint.axis_on(on).expect("the joint is prismatic and on the link");
         Guide {
             link,
             base,

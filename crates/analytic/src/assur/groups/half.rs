@@ -1,10 +1,10 @@
 //! The two links of a dyad, in the order that its equations need.
 
-use linkage::mechanism::{Group, Joint, Mechanism};
+use linkage::mechanism::{Group, Joint, LinkId, Mechanism};
 
 /// One link of a dyad and its outer joint.
 pub(super) struct Half<'a> {
-    pub(super) link: usize,
+    pub(super) link: LinkId,
     pub(super) outer: &'a Joint,
 }
 
@@ -12,7 +12,7 @@ pub(super) struct Half<'a> {
 pub(super) fn of_dyad<'a>(
     mechanism: &'a Mechanism,
     group: &Group,
-    is_first: impl Fn(&Joint, usize) -> bool,
+    is_first: impl Fn(&Joint, LinkId) -> bool,
 ) -> [Half<'a>; 2] {
     let half = |k: usize| Half { link: group.links[k], outer: &mechanism.joints()[group.outer[k]] };
     let [a, b] = [half(0), half(1)];

@@ -25,7 +25,7 @@ pub use rrp::Rrp;
 pub use rrr::Rrr;
 
 use linkage::math::{KeepNan, Motion, Vec2, rotated, turned, unit};
-use linkage::mechanism::{AssemblyMode, GROUND, GroupKind, Mechanism, Structure};
+use linkage::mechanism::{AssemblyMode, GROUND, GroupId, GroupKind, LinkId, Mechanism, PerGroup, Structure};
 use linkage::work::{Count, Tally};
 
 /// Share of one configuration's squared distance from an expected pose in that of the other, up to which the first is
@@ -35,8 +35,8 @@ const NEARER: f64 = 0.04;
 /// Driving link that turns about a joint with the ground, or with an earlier driving link.
 #[derive(Clone, Copy, Debug)]
 struct Driver {
-    link: usize,
-    base: usize,
+    link: LinkId,
+    base: LinkId,
     /// The joint in the link's own frame, and in that of its base.
     pivot: Vec2,
     place: Vec2,
@@ -175,7 +175,7 @@ impl Step {
     }
 
     /// A dyad of two configurations in its other one, and its links. `None` for the other groups.
-    fn other(&self) -> Option<(Step, [usize; 2])> {
+    fn other(&self) -> Option<(Step, [LinkId; 2])> {
         match self {
             Step::Rrr(dyad) => Some((Step::Rrr(dyad.flipped()), dyad.links())),
             Step::Rrp(dyad) => Some((Step::Rrp(dyad.flipped()), dyad.links())),
@@ -189,7 +189,7 @@ impl Step {
 #[derive(Clone, Debug)]
 pub struct Plan {
     drivers: Vec<Driver>,
-    steps: Vec<Step>,
+    steps: PerGroup<Step>,
     tally: Tally,
 }
 
@@ -197,7 +197,7 @@ pub struct Plan {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OutOfReach {
     /// Index of the group in [`Structure::groups`].
-    pub group: usize,
+    pub group: GroupId,
     /// The reason.
     pub why: Misfit,
 }
@@ -234,7 +234,7 @@ impl Plan {
 
     /// The groups, in the order of [`Structure::groups`].
     #[must_use]
-    pub fn steps(&self) -> &[Step] {
+    pub fn steps(&self) -> &PerGroup<Step> {
         &self.steps
     }
 
@@ -253,7 +253,7 @@ impl Plan {
     pub fn positions(&mut self, angles: &[f64], motions: &mut [Motion]) -> std::result::Result<(), OutOfReach> {
         self.count_pose();
         self.turn_drivers(angles, motions);
-        for (group, step) in self.steps.iter_mut().enumerate() {
+        for (group, step) in self.steps.entries_mut() {
             step.positions(angles, motions).map_err(|why| OutOfReach { group, why })?;
         }
         Ok(())
@@ -294,7 +294,7 @@ impl Plan {
             let [origin, velocity, acceleration] = place;
             motions[driver.link] = Motion { origin, direction, velocity, omega, acceleration, alpha };
         }
-        for (group, step) in self.steps.iter_mut().enumerate() {
+        for (group, step) in self.steps.entries_mut() {
             // Most groups are of this kind.
             if let Step::Rrr(dyad) = step {
                 dyad.motions(motions).map_err(|why| OutOfReach { group, why })?;
@@ -320,7 +320,7 @@ impl Plan {
     ) -> std::result::Result<(), OutOfReach> {
         self.count_pose();
         self.turn_drivers(angles, motions);
-        for (group, step) in self.steps.iter_mut().enumerate() {
+        for (group, step) in self.steps.entries_mut() {
             let misfit = |why| OutOfReach { group, why };
             if let Step::Chain(chain) = step {
                 if !chain.positions_like(like, angles, motions) {
@@ -356,7 +356,7 @@ impl Plan {
     /// Those of [`Plan::positions`].
     pub(in crate::assur) fn some_positions(
         &mut self,
-        groups: impl Iterator<Item = usize>,
+        groups: impl Iterator<Item = GroupId>,
         angles: &[f64],
         motions: &mut [Motion],
     ) -> std::result::Result<(), OutOfReach> {
@@ -387,7 +387,7 @@ impl Plan {
     }
 
     /// Determinant of a higher group at the last pose; `None` for a dyad.
-    pub(crate) fn determinant(&self, group: usize) -> Option<f64> {
+    pub(crate) fn determinant(&self, group: GroupId) -> Option<f64> {
         match &self.steps[group] {
             Step::Chain(chain) => Some(chain.determinant()),
             Step::Rrr(_) | Step::Rrp(_) | Step::Rpr(_) | Step::Rpp(_) | Step::Prp(_) => None,
@@ -427,7 +427,8 @@ impl Plan {
             motion.omega = omega;
             motion.velocity = turned(motion.arm(driver.pivot)) * -omega;
             if driver.base != GROUND {
-                motions[driver.link].velocity += motions[driver.base].point_velocity(driver.place);
+                let carried = motions[driver.base].point_velocity(driver.place);
+                motions[driver.link].velocity += carried;
             }
         }
     }
@@ -449,7 +450,8 @@ impl Plan {
             motion.alpha = alpha;
             motion.acceleration = arm * (motion.omega * motion.omega) - turned(arm) * alpha;
             if driver.base != GROUND {
-                motions[driver.link].acceleration += motions[driver.base].point_acceleration(driver.place);
+                let carried = motions[driver.base].point_acceleration(driver.place);
+                motions[driver.link].acceleration += carried;
             }
         }
     }

@@ -2,12 +2,12 @@
 
 use super::bounds::Bounds;
 use linkage::math::{Motion, Vec2, turned};
-use linkage::mechanism::{Joint, Side};
+use linkage::mechanism::{Joint, LinkId, Side};
 
 /// A link on its pin.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pin {
-    pub(super) link: usize,
+    pub(super) link: LinkId,
     /// The known link and the joint's place on it.
     base: Side,
     /// The joint's place on the turning link.
@@ -15,7 +15,7 @@ pub(super) struct Pin {
 }
 
 impl Pin {
-    pub(super) fn of(joint: &Joint, link: usize) -> Self {
+    pub(super) fn of(joint: &Joint, link: LinkId) -> Self {
         Pin { link, base: joint.other(link), own: joint.on(link).expect("the joint is on the link") }
     }
 

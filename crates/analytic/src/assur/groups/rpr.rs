@@ -12,7 +12,7 @@ use super::guide::turn_between;
 use super::misfit::{Clearance, Misfit, SINGULAR};
 use super::pin::Pin;
 use linkage::math::{Motion, Vec2, cross, rotated, turned};
-use linkage::mechanism::{AssemblyMode, Group, Mechanism};
+use linkage::mechanism::{AssemblyMode, Group, LinkId, Mechanism};
 
 /// RPR dyad, prepared for solving.
 #[derive(Clone, Copy, Debug)]
@@ -109,7 +109,7 @@ impl Rpr {
     }
 
     /// Its two links.
-    pub(super) fn links(&self) -> [usize; 2] {
+    pub(super) fn links(&self) -> [LinkId; 2] {
         self.pins.map(|pin| pin.link)
     }
 

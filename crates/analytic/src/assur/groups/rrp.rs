@@ -13,7 +13,7 @@ use super::half::of_dyad;
 use super::misfit::{Clearance, Misfit, SINGULAR};
 use super::pin::Pin;
 use linkage::math::{Motion, Vec2, turned};
-use linkage::mechanism::{AssemblyMode, Group, Mechanism};
+use linkage::mechanism::{AssemblyMode, Group, LinkId, Mechanism};
 
 /// Steps of the crank for which a bound of a moving guide is made.
 const FAR: f64 = 16.0;
@@ -38,7 +38,7 @@ impl Rrp {
     pub fn of(mechanism: &Mechanism, group: &Group, mode: AssemblyMode) -> Self {
         let [slider, rod] = of_dyad(mechanism, group, |outer, _| outer.slides());
         let inner = &mechanism.joints()[group.inner[0]];
-        let on = |link: usize| inner.on(link).expect("the inner joint is on both links");
+        let on = |link: LinkId| inner.on(link).expect("the inner joint is on both links");
         let pin = Pin::of(rod.outer, rod.link);
         Rrp {
             rod: pin,
@@ -122,7 +122,7 @@ impl Rrp {
     }
 
     /// Its two links.
-    pub(super) fn links(&self) -> [usize; 2] {
+    pub(super) fn links(&self) -> [LinkId; 2] {
         [self.rod.link, self.guide.link]
     }
 

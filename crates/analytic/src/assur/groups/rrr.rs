@@ -10,12 +10,12 @@
 use super::bounds::{Bound, Bounds, Limit, least_product, of_square};
 use super::misfit::{Clearance, Misfit, SINGULAR};
 use linkage::math::{Motion, Vec2, cross, turned};
-use linkage::mechanism::{AssemblyMode, GROUND, Group, Mechanism, Side};
+use linkage::mechanism::{AssemblyMode, GROUND, Group, JointId, LinkId, Mechanism, Side};
 
 /// One of the two links of a dyad.
 #[derive(Clone, Copy, Debug)]
 struct Arm {
-    link: usize,
+    link: LinkId,
     /// The outer joint on the link that is already known.
     base: Side,
     /// The outer joint in the link's own frame.
@@ -57,7 +57,7 @@ impl Rrr {
     /// Prepares the dyad `group` in the assembly mode `mode`.
     #[must_use]
     pub fn of(mechanism: &Mechanism, group: &Group, mode: AssemblyMode) -> Self {
-        let on = |joint: usize, link: usize| mechanism.joints()[joint].on(link).expect("the joint is on the link");
+        let on = |joint: JointId, link: LinkId| mechanism.joints()[joint].on(link).expect("the joint is on the link");
         let spans = [0, 1].map(|k| on(group.inner[0], group.links[k]) - on(group.outer[k], group.links[k]));
         let squared = spans.map(|span| span.norm_squared());
         let lengths = squared.map(f64::sqrt);
@@ -235,7 +235,7 @@ impl Rrr {
     }
 
     /// Its two links.
-    pub(super) fn links(&self) -> [usize; 2] {
+    pub(super) fn links(&self) -> [LinkId; 2] {
         self.arms.map(|arm| arm.link)
     }
 

@@ -49,7 +49,7 @@ impl Window {
         let other = alpha + alpha.abs().larger(omega * omega).larger(1.0);
         for node in &self.nodes {
             let mut at = |alpha: f64| -> Vec<f64> {
-                for (link, unit) in node.motions.iter().enumerate() {
+                for (link, unit) in state.motions.ids().zip(&node.motions) {
                     beside.motions[link] = at_speed(unit, [omega, alpha]);
                     let (here, there) = (state.motions[link].direction, unit.direction);
                     let turn = angle::wrapped(cross(here, there).atan2(here.dot(&there)));

@@ -16,6 +16,7 @@ use linkage::case::Case;
 use linkage::error::{Error, ErrorKind};
 use linkage::input::InputValue;
 use linkage::math::{KeepNan, Motion};
+use linkage::mechanism::GroupId;
 use window::Window;
 
 /// Largest estimated distance (rad) at which a change point is looked for: before a step can lead into its window.
@@ -38,7 +39,7 @@ pub(super) struct Passing {
     windows: Vec<Window>,
     /// Intervals of the driving link's angle (rad) in which a search in this direction has found nothing: group,
     /// direction, ends.
-    clear: Vec<(usize, f64, [f64; 2])>,
+    clear: Vec<(GroupId, f64, [f64; 2])>,
     /// The window of the last pose, if it lies in one.
     inside: Option<usize>,
     motions: Vec<Motion>,
@@ -132,21 +133,21 @@ impl Passing {
         self.motions.extend_from_slice(motions);
         plan.velocities(&[1.0], &mut self.motions);
         let (before, dets) = &self.last;
-        let slope = |group: usize| {
+        let slope = |group: GroupId| {
             // Of a higher group, the determinant's way from pose to pose.
-            let (now, last) = (plan.determinant(group)?.abs(), dets.get(group).copied().flatten()?.abs());
+            let (now, last) = (plan.determinant(group)?.abs(), dets.get(group.index()).copied().flatten()?.abs());
             (angle != *before).then(|| now * (angle - before) / (now - last))
         };
-        let near = |(group, clearance): (usize, Option<Clearance>)| {
+        let near = |(group, clearance): (GroupId, Option<Clearance>)| {
             let ahead = match clearance {
                 Some(Clearance { sine, rate }) => -sine / rate,
                 None => -slope(group)?,
             };
             (ahead.abs() < LOOK).then_some((group, ahead))
         };
-        let found: Vec<(usize, f64)> = plan.clearances(&self.motions).enumerate().filter_map(near).collect();
-        let groups = plan.steps().len();
-        self.last = (angle, (0..groups).map(|group| plan.determinant(group)).collect());
+        let found: Vec<(GroupId, f64)> =
+            plan.steps().ids().zip(plan.clearances(&self.motions)).filter_map(near).collect();
+        self.last = (angle, plan.steps().ids().map(|group| plan.determinant(group)).collect());
         // What is forgotten is only searched once more.
         let old = self.clear.len().saturating_sub(MOST_CLEAR);
         self.clear.drain(..old);
@@ -155,7 +156,7 @@ impl Passing {
                 let from = window.at - angle;
                 from * ahead > 0.0 && from.abs() < NEXT * ahead.abs()
             });
-            let is_clear = |&(own, way, [low, high]): &(usize, f64, [f64; 2])| {
+            let is_clear = |&(own, way, [low, high]): &(GroupId, f64, [f64; 2])| {
                 own == group && way == ahead.signum() && low <= angle && angle <= high
             };
             if known || self.clear.iter().any(is_clear) {

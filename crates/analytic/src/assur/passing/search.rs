@@ -3,6 +3,7 @@
 use crate::assur::groups::{Clearance, Misfit, OutOfReach, Plan};
 use crate::assur::turns::FOLLOWED_STEP;
 use linkage::math::{KeepNan, Motion};
+use linkage::mechanism::GroupId;
 
 /// Share of the estimated distance that a step of the search takes. At a dead point the estimate is twice the distance:
 /// less than half of it stays on the branch.
@@ -29,7 +30,7 @@ pub(super) struct Start<'a> {
 
 /// The angle of the driving link at which a group has a change point, about `ahead` (rad) from a pose.
 /// Otherwise the angle up to which there is none.
-pub(super) fn change_point(start: &Start, group: usize, ahead: f64) -> Result<f64, f64> {
+pub(super) fn change_point(start: &Start, group: GroupId, ahead: f64) -> Result<f64, f64> {
     let (mut plan, mut motions) = (start.plan.clone(), start.motions.to_vec());
     let (way, mut angle) = (ahead.signum(), start.angle);
     let mut slope = f64::NAN;
@@ -69,9 +70,9 @@ pub(super) fn change_point(start: &Start, group: usize, ahead: f64) -> Result<f6
 }
 
 /// Clearance of a group at the last pose of a plan.
-pub(super) fn clearance(plan: &mut Plan, motions: &mut [Motion], group: usize) -> Option<Clearance> {
+pub(super) fn clearance(plan: &mut Plan, motions: &mut [Motion], group: GroupId) -> Option<Clearance> {
     plan.velocities(&[1.0], motions);
-    plan.clearances(motions).nth(group).flatten()
+    plan.clearances(motions).nth(group.index()).flatten()
 }
 
 /// Places a plan at an angle, from the last one. Higher groups are followed in small steps.

@@ -12,6 +12,7 @@ use std::f64::consts::PI;
 use super::search::{Start, clearance, walk};
 use crate::assur::groups::{Misfit, OutOfReach, Plan};
 use linkage::math::{KeepNan, Motion, Vec2};
+use linkage::mechanism::{GroupId, LinkId};
 
 /// Nodes on each side.
 const SIDE: usize = 10;
@@ -65,7 +66,7 @@ pub(super) fn weights(offsets: &[f64], x: f64) -> Vec<f64> {
 
 impl Window {
     /// The surroundings of the change point of `group` at the angle `at` (rad), seen from a pose beside it.
-    pub(super) fn around(at: f64, group: usize, start: &Start, share: f64) -> Result<Self, OutOfReach> {
+    pub(super) fn around(at: f64, group: GroupId, start: &Start, share: f64) -> Result<Self, OutOfReach> {
         let mut best: Option<(f64, Window)> = None;
         let (mut failed, mut allowed) = (None, f64::INFINITY);
         for reach in WIDTHS {
@@ -103,7 +104,7 @@ impl Window {
         }
     }
 
-    fn of_width(at: f64, reach: f64, group: usize, start: &Start) -> Result<Self, OutOfReach> {
+    fn of_width(at: f64, reach: f64, group: GroupId, start: &Start) -> Result<Self, OutOfReach> {
         let towards = (at - start.angle).signum();
         let distance = |k: usize| {
             let place = (PI * (2 * k + 1) as f64 / (2 * SIDE) as f64).cos();
@@ -154,7 +155,7 @@ impl Window {
 
     /// A group that has another change point between the innermost nodes, if there is one. Reactions have poles at
     /// both, and only one is known here.
-    fn other_inside(&mut self) -> Option<usize> {
+    fn other_inside(&mut self) -> Option<GroupId> {
         let near = |side: f64| {
             let own = self.nodes.iter().enumerate().filter(move |(_, node)| node.offset * side > 0.0);
             own.min_by(|(_, a), (_, b)| a.offset.abs().total_cmp(&b.offset.abs())).map_or(0, |(index, _)| index)
@@ -162,7 +163,7 @@ impl Window {
         let inner = [near(-1.0), near(1.0)];
         let [low, high] = inner.map(|index| self.nodes[index].offset);
         let is_apart = |place: f64| place > low && place < high && place.abs() > APART * (high - low);
-        (0..self.nodes[0].plan.steps().len()).find(|&group| {
+        self.nodes[0].plan.steps().ids().find(|&group| {
             let [a, b] = inner.map(|index| self.nodes[index].plan.determinant(group));
             if let (Some(a), Some(b)) = (a, b) {
                 return a * b < 0.0 && is_apart(low + (high - low) * a / (a - b));
@@ -213,7 +214,7 @@ impl Window {
 
     /// Determinants of the higher groups at a node.
     pub(super) fn determinants(&self, node: &Node) -> Vec<Option<f64>> {
-        (0..node.plan.steps().len()).map(|group| node.plan.determinant(group)).collect()
+        node.plan.steps().ids().map(|group| node.plan.determinant(group)).collect()
     }
 
     /// Error of the second transfer functions at the change point as a share of the largest one: what leaving out the
@@ -223,10 +224,10 @@ impl Window {
             let nodes: Vec<&Node> = self.nodes.iter().filter(|node| kept(node.offset.abs())).collect();
             let offsets: Vec<f64> = nodes.iter().map(|node| node.offset).collect();
             let weights = weights(&offsets, 0.0);
-            let sum = |of: &dyn Fn(&Motion) -> f64, link: usize| {
+            let sum = |of: &dyn Fn(&Motion) -> f64, link: LinkId| {
                 nodes.iter().zip(&weights).map(|(node, weight)| weight * of(&node.motions[link])).sum::<f64>()
             };
-            let links = 0..self.nodes[0].motions.len();
+            let links = (0..self.nodes[0].motions.len()).map(LinkId);
             let of = |link| [sum(&|motion| motion.alpha, link), sum(&|motion| motion.omega, link)];
             links.flat_map(of).collect()
         };

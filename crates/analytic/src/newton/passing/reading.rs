@@ -85,7 +85,7 @@ fn turn_crank(system: &mut System, spot: &mut Spot) {
     let centre = system.case.mechanism.links()[crank.link].mass_centre;
     let arm = rotated(unit(spot.angle), centre - pin);
     let (place, across) = (joint.other(crank.link).local + arm, turned(arm));
-    let first = 3 * (crank.link - 1);
+    let first = 3 * (crank.link.index() - 1);
     let own = [(place.x, across.x, -arm.x), (place.y, across.y, -arm.y), (spot.angle, 1.0, 0.0)];
     for (index, (q, slope, curve)) in (first..).zip(own) {
         (spot.q[index], spot.slope[index], spot.curve[index]) = (q, slope, curve);

@@ -13,7 +13,7 @@ use crate::newton::steps::TRACKING_STEP;
 use crate::newton::system::System;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::KeepNan;
-use linkage::mechanism::GROUND;
+use linkage::mechanism::{GROUND, LinkId};
 
 /// Poses on each side, and the numbers of those that coordinates go through, from the outermost inwards.
 const SIDE: usize = 8;
@@ -64,9 +64,9 @@ impl Window {
         let (mut failed, mut allowed) = (None, f64::INFINITY);
         let turns = whole_turns(&from.q);
         let twists = system.twists.clone();
-        let crank = turns[3 * (system.case.crank().link - 1) + 2];
+        let crank = turns[3 * (system.case.crank().link.index() - 1) + 2];
         for (joint, twist) in system.case.mechanism.joints().iter().zip(&mut system.twists) {
-            let of = |link: usize| if link == GROUND { 0.0 } else { turns[3 * (link - 1) + 2] };
+            let of = |link: LinkId| if link == GROUND { 0.0 } else { turns[3 * (link.index() - 1) + 2] };
             *twist -= of(joint.second.link) - of(joint.first.link);
         }
         let mut bare = Spot { angle: from.angle - crank, ..from.clone() };

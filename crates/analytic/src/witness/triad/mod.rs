@@ -17,18 +17,18 @@ use linkage::case::Case;
 use linkage::drive::Wrench;
 use linkage::error::{Error, ErrorKind};
 use linkage::math::{Motion, Vec2, cross};
-use linkage::mechanism::{Group, Mechanism, Side};
+use linkage::mechanism::{Group, JointId, LinkId, Mechanism, Side};
 use linkage::solver::State;
 
 /// One of the three leads of the group.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lead {
     /// The link.
-    pub link: usize,
+    pub link: LinkId,
     /// Its outer joint.
-    pub outer: usize,
+    pub outer: JointId,
     /// Its joint with the base link.
-    pub inner: usize,
+    pub inner: JointId,
     /// The outer joint on the link that is known before the group.
     pub support: Side,
     /// The outer joint in the lead's own frame (m).
@@ -43,7 +43,7 @@ pub struct Lead {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Triad {
     /// The link to which all three leads are attached.
-    pub base: usize,
+    pub base: LinkId,
     /// The leads, in the order of the group's outer joints.
     pub leads: [Lead; 3],
 }
@@ -59,10 +59,10 @@ impl Triad {
         if sizes != [3, 4, 3, 3] || !touching.clone().all(|joint| joint.is_pin()) {
             return None;
         }
-        let on = |joint: usize, link: usize| mechanism.joints()[joint].on(link);
+        let on = |joint: JointId, link: LinkId| mechanism.joints()[joint].on(link);
         let base =
             group.links.iter().copied().find(|&link| group.inner.iter().all(|&joint| on(joint, link).is_some()))?;
-        let lead = |outer: usize| {
+        let lead = |outer: JointId| {
             let link = group.links.iter().copied().find(|&link| link != base && on(outer, link).is_some())?;
             let inner = group.inner.iter().copied().find(|&joint| on(joint, link).is_some())?;
             Some(Lead {
@@ -86,7 +86,7 @@ impl Triad {
 
     /// The group's links: leads, then base link.
     #[must_use]
-    pub fn links(&self) -> [usize; 4] {
+    pub fn links(&self) -> [LinkId; 4] {
         [self.leads[0].link, self.leads[1].link, self.leads[2].link, self.base]
     }
 
@@ -107,14 +107,14 @@ impl Triad {
         let (motions, forces) = (&state.motions, &state.forces);
         let mut loads = vec![Wrench::ZERO; motions.len()];
         case.loads_on(motions, &state.angles, &mut loads);
-        let own = |joint: usize| self.leads.iter().any(|lead| lead.outer == joint || lead.inner == joint);
+        let own = |joint: JointId| self.leads.iter().any(|lead| lead.outer == joint || lead.inner == joint);
         self.links().map(|link| {
             let (body, motion) = (&case.mechanism.links()[link], &motions[link]);
             let at = motion.point(body.mass_centre);
             let inertia = (case.gravity - motion.point_acceleration(body.mass_centre)) * body.mass;
             let Wrench { force, moment } = loads[link];
             let mut known = Known { force: inertia + force, moment: moment - body.inertia * motion.alpha, at };
-            for (index, joint) in case.mechanism.joints().iter().enumerate() {
+            for (index, joint) in case.mechanism.joints().entries() {
                 if let (Some(local), false) = (joint.on(link), own(index)) {
                     let force = if joint.second.link == link { forces[index] } else { -forces[index] };
                     known.force += force;
@@ -127,8 +127,8 @@ impl Triad {
 
     /// Reactions as forces of each joint's first link on its second (N): joint and force, feet first.
     #[must_use]
-    pub fn joint_forces(&self, mechanism: &Mechanism, reactions: &Reactions) -> [(usize, Vec2); 6] {
-        let of = |joint: usize, loaded: usize, force: Vec2| {
+    pub fn joint_forces(&self, mechanism: &Mechanism, reactions: &Reactions) -> [(JointId, Vec2); 6] {
+        let of = |joint: JointId, loaded: LinkId, force: Vec2| {
             (joint, if mechanism.joints()[joint].second.link == loaded { force } else { -force })
         };
         let foot = |k: usize| of(self.leads[k].outer, self.leads[k].link, reactions.feet[k]);

@@ -6,6 +6,7 @@ use linkage::math::unit;
 
 use super::super::tests::slider_crank;
 use super::*;
+use linkage::mechanism::LinkId;
 
 /// A crank of 0.1 m, rounded by 0.02 m, sweeps a disc of 0.12 m: no square that is covered sticks out of it, and none
 /// that is free reaches into it.
@@ -14,7 +15,7 @@ fn squares_are_covered_or_free_with_all_their_corners() {
     let case = slider_crank();
     let mut tubes = Tubes::new(&case, [0.0, TAU], 0.12).unwrap();
     let outline = Outline::line(&[Vec2::new(0.0, 0.0), Vec2::new(0.1, 0.0)], 0.02).unwrap();
-    let mut sweep = Sweep::new(&mut tubes, 1, &outline);
+    let mut sweep = Sweep::new(&mut tubes, LinkId(1), &outline);
     let near = sweep.sound_parts().unwrap();
     let mut counts = [0; 3];
     for half in [4e-3, 1e-3] {

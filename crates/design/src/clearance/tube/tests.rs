@@ -2,7 +2,7 @@
 //! every term of a bound is the largest somewhere.
 
 use linkage::math::unit;
-use linkage::mechanism::{JointKind, Side};
+use linkage::mechanism::{JointKind, LinkId, Side};
 
 use super::*;
 
@@ -77,7 +77,7 @@ impl Sample {
         let half = 0.1 * random.number().abs();
         let mut tubes = [tube(random, half), tube(random, half)];
         let locals = tubes.map(|tube| tube.centre + random.vector(1.0));
-        let sides = [0, 1].map(|link| Side { link, local: locals[link] });
+        let sides = [0, 1].map(|link| Side { link: LinkId(link), local: locals[link] });
         let slides = random.yes();
         let axis = unit(4.0 * random.number());
         if slides {
@@ -133,9 +133,9 @@ impl Sample {
         found
     }
 
-    fn column(&self) -> impl Fn(usize) -> Option<usize> {
+    fn column(&self) -> impl Fn(LinkId) -> Option<usize> {
         let own = self.own;
-        move |link: usize| own[link].then_some(3 * link)
+        move |link: LinkId| own[link].then_some(3 * link.index())
     }
 
     fn equations(&self) -> (Matrix, Vec<f64>) {

@@ -8,7 +8,7 @@ use super::forces::{Actuator, Forces, Target};
 use super::model::Model;
 use super::xml::{Xml, flat, number, numbers};
 use linkage::math::Vec2;
-use linkage::mechanism::{GROUND, Side};
+use linkage::mechanism::{GROUND, LinkId, Side};
 
 /// Site on the ground to which forces in world axes refer.
 const AXES: &str = "world.axes";
@@ -19,7 +19,7 @@ pub(super) fn site(xml: &mut Xml, name: &str, place: Vec2) {
 }
 
 /// Sites of a link at which loads act; on the ground also the one that tells the world's axes.
-pub(super) fn sites(xml: &mut Xml, forces: &Forces, link: usize) {
+pub(super) fn sites(xml: &mut Xml, forces: &Forces, link: LinkId) {
     for (name, place) in places(forces, link) {
         site(xml, &name, place);
     }
@@ -83,7 +83,7 @@ fn end(load: &str, index: usize) -> String {
 }
 
 /// Places at which loads act on a link, with the names of their sites.
-fn places(forces: &Forces, link: usize) -> Vec<(String, Vec2)> {
+fn places(forces: &Forces, link: LinkId) -> Vec<(String, Vec2)> {
     let ends = forces.tendons.iter().flat_map(|tendon| {
         let named = |(index, side): (usize, &Side)| (*side, end(&tendon.name, index));
         tendon.ends.iter().enumerate().map(named).collect::<Vec<_>>()

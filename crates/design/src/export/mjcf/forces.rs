@@ -5,7 +5,7 @@ use super::model::Model;
 use linkage::drive::{Course, Load, Motor};
 use linkage::error::Result;
 use linkage::math::{Vec2, angle};
-use linkage::mechanism::Side;
+use linkage::mechanism::{LinkId, Side};
 
 /// Forces that are large enough never to be reached.
 const ENDLESS: f64 = 1e30;
@@ -67,7 +67,7 @@ pub(super) fn forces(model: &Model) -> Result<Forces> {
     for (index, load) in model.case.loads.iter().enumerate() {
         let name = format!("load.{}", index + 1);
         let constant = |course: &Course| course.at(0.0);
-        let turning = |links: &[(usize, f64)]| {
+        let turning = |links: &[(LinkId, f64)]| {
             let mut sum: Vec<(usize, f64)> = Vec::new();
             for &(link, sign) in links {
                 sum.extend(model.hinges(link).into_iter().map(|branch| (branch, sign)));

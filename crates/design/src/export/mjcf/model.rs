@@ -6,7 +6,7 @@ use linkage::case::Case;
 use linkage::drive::Load;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::{KeepNan, Vec2, rotated, unit};
-use linkage::mechanism::{Branch, GROUND, JointKind, Tree};
+use linkage::mechanism::{Branch, GROUND, JointId, JointKind, LinkId, PerLink, Tree};
 use linkage::solver::State;
 
 /// Inertia of a drive's rotor divided by the largest moment of inertia that the mechanism could have about one of its points.
@@ -27,7 +27,7 @@ const SHORTEST: f64 = 0.1;
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Friction {
     /// The link.
-    pub link: usize,
+    pub link: LinkId,
     /// Moment (N m).
     pub moment: f64,
     /// Hinges from the ground to the link, as indices of branches: the sum of their angles is the link's angle.
@@ -93,19 +93,19 @@ impl<'a> Model<'a> {
     }
 
     /// Inertia (kg m^2) that turns with a driven hinge: that rotor, or what a free link's motor has.
-    pub(super) fn armature(&self, joint: usize) -> Option<f64> {
+    pub(super) fn armature(&self, joint: JointId) -> Option<f64> {
         let drive = self.case.drives.iter().find(|drive| drive.joint == joint)?;
         if drive.is_free() { Some(drive.moving_inertia()).filter(|own| *own > 0.0) } else { Some(self.rotor()) }
     }
 
     /// Whether a joint is driven.
-    pub(super) fn is_driven(&self, joint: usize) -> bool {
+    pub(super) fn is_driven(&self, joint: JointId) -> bool {
         self.case.drives.iter().any(|drive| drive.joint == joint)
     }
 
     /// Mass (kg) and moment of inertia (kg m^2) of a link for MuJoCo: its own, or those of a light rod if it has none.
     #[must_use]
-    pub fn inertial(&self, link: usize) -> (f64, f64) {
+    pub fn inertial(&self, link: LinkId) -> (f64, f64) {
         let link = &self.case.mechanism.links()[link];
         let light = LIGHT * self.mass();
         let radius = GYRATION * link.size().larger(SHORTEST * self.size());
@@ -114,18 +114,18 @@ impl<'a> Model<'a> {
     }
 
     /// Whether MuJoCo gets a mass or inertia that the link does not have.
-    pub(super) fn is_lent(&self, link: usize) -> bool {
+    pub(super) fn is_lent(&self, link: LinkId) -> bool {
         let link = &self.case.mechanism.links()[link];
         !(link.mass > 0.0 && link.inertia > 0.0)
     }
 
     /// Index of the branch that carries `link`.
-    pub(super) fn branch_of(&self, link: usize) -> Option<usize> {
+    pub(super) fn branch_of(&self, link: LinkId) -> Option<usize> {
         self.tree.branches.iter().position(|branch| branch.link == link)
     }
 
     /// Child links of `parent`, in the tree's order.
-    pub(super) fn children(&self, parent: usize) -> Vec<usize> {
+    pub(super) fn children(&self, parent: LinkId) -> Vec<LinkId> {
         self.tree.branches.iter().filter(|branch| branch.parent == parent).map(|branch| branch.link).collect()
     }
 
@@ -142,7 +142,7 @@ impl<'a> Model<'a> {
     }
 
     /// Hinges from the ground to `link`, as indices of branches, innermost last.
-    pub(super) fn hinges(&self, mut link: usize) -> Vec<usize> {
+    pub(super) fn hinges(&self, mut link: LinkId) -> Vec<usize> {
         let mut hinges = Vec::new();
         while link != GROUND {
             let branch = self.branch_of(link).expect("every moving link is in the tree");
@@ -157,12 +157,12 @@ impl<'a> Model<'a> {
 
     /// One friction for each link with a resistance; a link that cannot turn has none.
     fn frictions(&self) -> Vec<Friction> {
-        let mut moments = vec![0.0; self.case.mechanism.links().len()];
+        let mut moments = PerLink::from(vec![0.0; self.case.mechanism.links().len()]);
         for (link, moment) in self.case.loads.iter().filter_map(Load::resistance) {
             moments[link] += moment;
         }
-        let resisted = moments.into_iter().enumerate().filter(|&(_, moment)| moment > 0.0);
-        let frictions = resisted.map(|(link, moment)| {
+        let resisted = moments.entries().filter(|(_, moment)| **moment > 0.0);
+        let frictions = resisted.map(|(link, &moment)| {
             let hinges = self.hinges(link);
             let own_hinge = hinges.len() == 1 && self.branch_of(link) == hinges.first().copied();
             Friction { link, moment, hinges, own_hinge }

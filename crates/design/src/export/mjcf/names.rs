@@ -3,13 +3,13 @@
 use std::collections::BTreeSet;
 
 use linkage::error::{Error, ErrorKind, Result};
-use linkage::mechanism::{Joint, Mechanism};
+use linkage::mechanism::{Joint, LinkId, Mechanism};
 
 /// MuJoCo's own name for the ground.
 const WORLD: &str = "world";
 
 /// Site at the joint's point on `link`.
-pub(super) fn side(joint: &Joint, link: usize) -> String {
+pub(super) fn side(joint: &Joint, link: LinkId) -> String {
     format!("{}.{}", joint.name, if joint.first.link == link { "first" } else { "second" })
 }
 

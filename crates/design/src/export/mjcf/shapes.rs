@@ -3,13 +3,13 @@
 use super::model::Model;
 use super::xml::{Xml, about_z, flat, number, numbers};
 use linkage::math::{Vec2, rotated, unit};
-use linkage::mechanism::{GROUND, Side};
+use linkage::mechanism::{GROUND, LinkId, Side};
 
 /// Thickness of the shapes as a share of the mechanism's size.
 const THICKNESS: f64 = 0.012;
 
 /// Shapes of a link: rods between its joints, and a block or a guide where it slides.
-pub(super) fn draw(xml: &mut Xml, model: &Model, link: usize, colour: &str) {
+pub(super) fn draw(xml: &mut Xml, model: &Model, link: LinkId, colour: &str) {
     let mechanism = &model.case.mechanism;
     let thick = THICKNESS * model.size();
     let rod = |xml: &mut Xml, [from, to]: [Vec2; 2], radius: f64| {

@@ -11,7 +11,7 @@ use super::names::side;
 use super::shapes;
 use super::xml::{Xml, about_z, flat, number, numbers};
 use linkage::math::{KeepNan, corners};
-use linkage::mechanism::GROUND;
+use linkage::mechanism::{GROUND, LinkId};
 
 /// Stiffness of every constraint: see the module documentation.
 const STIFF: &str = "1e-9 0.5";
@@ -86,7 +86,7 @@ fn world(xml: &mut Xml, model: &Model, forces: &Forces) {
     }
 }
 
-fn body(xml: &mut Xml, model: &Model, forces: &Forces, link: usize) {
+fn body(xml: &mut Xml, model: &Model, forces: &Forces, link: LinkId) {
     let index = model.branch_of(link).expect("every moving link is in the tree");
     let own = &model.bodies[index];
     let data = &model.case.mechanism.links()[link];
@@ -100,7 +100,7 @@ fn body(xml: &mut Xml, model: &Model, forces: &Forces, link: usize) {
         let (centre, mass, inertia) = (flat(data.mass_centre), number(mass), numbers([inertia; 3]));
         xml.leaf(format_args!(r#"inertial pos="{centre}" mass="{mass}" diaginertia="{inertia}""#));
         joint(xml, model, index);
-        shapes::draw(xml, model, link, COLOURS[(link - 1) % COLOURS.len()]);
+        shapes::draw(xml, model, link, COLOURS[(link.index() - 1) % COLOURS.len()]);
         sites(xml, model, forces, link);
         for child in model.children(link) {
             body(xml, model, forces, child);
@@ -130,7 +130,7 @@ fn joint(xml: &mut Xml, model: &Model, index: usize) {
 }
 
 /// Sites of a link: at its joints, its points, and where loads act.
-fn sites(xml: &mut Xml, model: &Model, forces: &Forces, link: usize) {
+fn sites(xml: &mut Xml, model: &Model, forces: &Forces, link: LinkId) {
     let mechanism = &model.case.mechanism;
     for joint in mechanism.joints() {
         if let Some(place) = joint.on(link) {

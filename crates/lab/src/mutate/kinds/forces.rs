@@ -4,7 +4,6 @@ use super::kind::kinds;
 use super::touch::{crank, crank_pin, output, slider};
 use linkage::case::Case;
 use linkage::math::{Vec2, cross, rotated};
-use linkage::mechanism::Joint;
 use linkage::solver::State;
 
 kinds! { Force, Answer:
@@ -70,7 +69,7 @@ kinds! { Force, Answer:
         state.moments[index] += cross(second - first, state.forces[index]);
     };
     "last-guide-moment": "the moment in the last slider is missing", |at, state, _| {
-        let last = at.case.mechanism.joints().iter().rposition(Joint::slides)?;
+        let (last, _) = at.case.mechanism.joints().entries().rfind(|(_, joint)| joint.slides())?;
         state.moments[last] = 0.0;
     };
     "moment" (1e-2): "the balancing moment is larger by a share",
@@ -95,7 +94,7 @@ kinds! { Force, Answer:
     };
     "force-output": "the reaction on the last link lacks the link's inertia force", |at, state, _| {
         let (link, joints) = (output(at.case), at.case.mechanism.joints());
-        let joint = joints.iter().position(|joint| joint.on(link).is_some())?;
+        let joint = joints.find(|joint| joint.on(link).is_some())?;
         let own = &at.case.mechanism.links()[link];
         let force = state.motions[link].point_acceleration(own.mass_centre) * own.mass;
         let sign = if joints[joint].second.link == link { 1.0 } else { -1.0 };

@@ -4,7 +4,7 @@ use super::kind::kinds;
 use super::touch::{coupler, crank, ends, move_places, moving_guide, output, placed, slider};
 use linkage::case::Case;
 use linkage::math::{Vec2, rotated, turned, unit};
-use linkage::mechanism::{GROUND, JointKind};
+use linkage::mechanism::{GROUND, JointId, JointKind, LinkId};
 use prover::diagnosis::others;
 
 kinds! { Geometry, Case:
@@ -23,8 +23,8 @@ kinds! { Geometry, Case:
         |case, _| pivot(case, |place, _| Vec2::new(place.x, -place.y));
     "point-mirrored": "a place on a link with three places is on the wrong side of the link", |case, _| {
         let joints = case.mechanism.joints();
-        let off = |link: usize| joints.iter().filter_map(move |joint| joint.on(link)).find(|place| place.y != 0.0);
-        let link = (1..case.mechanism.links().len()).find(|&link| off(link).is_some())?;
+        let off = |link: LinkId| joints.iter().filter_map(move |joint| joint.on(link)).find(|place| place.y != 0.0);
+        let link = case.mechanism.links().ids().skip(1).find(|&link| off(link).is_some())?;
         let wrong = off(link)?;
         let mirrored = move |place: Vec2| if place == wrong { Vec2::new(place.x, -place.y) } else { place };
         placed(case, |links, joints| move_places(links, joints, link, mirrored))
@@ -42,7 +42,7 @@ kinds! { Geometry, Case:
 }
 
 /// All places on a link moved away from the first one by a factor.
-fn stretched(case: &Case, link: usize, factor: f64) -> Option<Case> {
+fn stretched(case: &Case, link: LinkId, factor: f64) -> Option<Case> {
     let [first, _] = ends(case, link)?;
     placed(case, |links, joints| move_places(links, joints, link, |place| first + (place - first) * factor))
 }
@@ -50,7 +50,7 @@ fn stretched(case: &Case, link: usize, factor: f64) -> Option<Case> {
 /// The last place of a pin on the ground that is not the crank's, moved; `to` is given the place and the size of the
 /// mechanism (m).
 fn pivot(case: &Case, to: impl Fn(Vec2, f64) -> Vec2) -> Option<Case> {
-    let pins = case.mechanism.joints().iter().enumerate().filter(|(_, joint)| joint.is_pin());
+    let pins = case.mechanism.joints().entries().filter(|(_, joint)| joint.is_pin());
     let fixed = pins.filter(|(index, _)| *index != case.crank().joint);
     let last = fixed.filter_map(|(_, joint)| joint.on(GROUND)).next_back()?;
     let (new, moved) = (to(last, case.mechanism.size()), |place, new| if place == last { new } else { place });
@@ -61,7 +61,7 @@ fn pivot(case: &Case, to: impl Fn(Vec2, f64) -> Vec2) -> Option<Case> {
 }
 
 /// A prismatic joint with another axis on its first link, and its place there moved across (m).
-fn guided(case: &Case, joint: usize, axis: impl Fn(Vec2) -> Vec2, across: f64) -> Option<Case> {
+fn guided(case: &Case, joint: JointId, axis: impl Fn(Vec2) -> Vec2, across: f64) -> Option<Case> {
     placed(case, |_, joints| {
         let own = &mut joints[joint];
         if let JointKind::Prismatic { axes } = &mut own.kind {

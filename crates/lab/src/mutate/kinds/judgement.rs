@@ -4,7 +4,7 @@ use super::kind::kinds;
 use super::touch::turner;
 use linkage::case::Case;
 use linkage::math::{KeepNan, Vec2};
-use linkage::mechanism::GROUND;
+use linkage::mechanism::{GROUND, JointId};
 use linkage::solver::State;
 
 kinds! { Judgement, Answer:
@@ -19,10 +19,10 @@ kinds! { Judgement, Answer:
     "frame-couple" (1e-2): "the reactions in two joints of the frame are off by a couple, by a share of the larger",
         |at, state, size| {
             let joints = at.case.mechanism.joints();
-            let on_frame = |index: &usize| joints[*index].on(GROUND).is_some();
-            let first = (0..joints.len()).find(on_frame)?;
-            let last = (0..joints.len()).rfind(on_frame)?;
-            let place = |index: usize| {
+            let on_frame = |index: &JointId| joints[*index].on(GROUND).is_some();
+            let first = joints.ids().find(on_frame)?;
+            let last = joints.ids().rfind(on_frame)?;
+            let place = |index: JointId| {
                 let side = joints[index].second;
                 state.motions[side.link].point(side.local)
             };
@@ -31,7 +31,7 @@ kinds! { Judgement, Answer:
             let across = Vec2::new(-arm.y, arm.x) / arm.norm();
             let force = across * (size * state.forces[first].norm().larger(state.forces[last].norm()));
             // What a joint exerts on its second link; on the frame it has the other sign where the frame is the first.
-            let sign = |index: usize| if joints[index].first.link == GROUND { -1.0 } else { 1.0 };
+            let sign = |index: JointId| if joints[index].first.link == GROUND { -1.0 } else { 1.0 };
             state.forces[first] -= force * sign(first);
             state.forces[last] += force * sign(last);
         };

@@ -7,6 +7,7 @@ use super::touch::parts;
 use linkage::case::Case;
 use linkage::drive::load::Acts;
 use linkage::drive::{Course, Drive, Load};
+use linkage::mechanism::LinkId;
 
 kinds! { Load, Case:
     "load-missing": "the first load is missing", |case, _| times(case, 0, 0.0);
@@ -23,11 +24,11 @@ kinds! { Load, Case:
         (ratio != 1.0).then(|| times(case, 0, 1.0 / ratio))?
     };
     "load-other-link": "the first moment acts on the link before its own", |case, _| changed(case, &|load| {
-        if let Load::Resistance { link: link @ 2.., moment } = load {
-            return Some(Load::Resistance { link: link - 1, moment: *moment });
+        if let Load::Resistance { link: link @ LinkId(2..), moment } = load {
+            return Some(Load::Resistance { link: LinkId(link.index() - 1), moment: *moment });
         }
-        let Load::Moment { link: link @ 2.., moment, acts } = load else { return None };
-        Some(Load::Moment { link: link - 1, moment: moment.clone(), acts: *acts })
+        let Load::Moment { link: link @ LinkId(2..), moment, acts } = load else { return None };
+        Some(Load::Moment { link: LinkId(link.index() - 1), moment: moment.clone(), acts: *acts })
     });
     "load-place": "the first force acts at the mass centre", |case, _| changed(case, &|load| {
         let Load::Force { at, force, follows } = load else { return None };

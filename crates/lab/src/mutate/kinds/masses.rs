@@ -4,7 +4,7 @@ use super::kind::kinds;
 use super::touch::{crank, ends, heaviest, output, parts, with};
 use linkage::case::Case;
 use linkage::math::Vec2;
-use linkage::mechanism::Link;
+use linkage::mechanism::{Link, LinkId};
 
 kinds! { Mass, Case:
     "gravity-missing": "there is no gravity", |case, _| gravity(case, |_| Vec2::zeros());
@@ -24,8 +24,8 @@ kinds! { Mass, Case:
         |case, size| on(case, massive(case, output(case)), |link| link.mass *= 1.0 + size);
     "masses-exchanged": "the masses of the first and the last link are exchanged", |case, _| {
         let last = output(case);
-        let [first, other] = [1, last].map(|link| case.mechanism.links()[link].mass);
-        (last > 1 && first != other).then_some(())?;
+        let [first, other] = [LinkId(1), last].map(|link| case.mechanism.links()[link].mass);
+        (last > LinkId(1) && first != other).then_some(())?;
         with(case, |links, _| (links[1].mass, links[last].mass) = (other, first))
     };
     "inertia-missing": "the last link with a moment of inertia has none",
@@ -39,7 +39,7 @@ kinds! { Mass, Case:
     "inertia-twice": "the moment of inertia of the last link that has one is doubled",
         |case, _| on(case, turning(case), |link| link.inertia *= 2.0);
     "inertia-about-joint": "a moment of inertia is that about a joint, m l^2 / 3 for m l^2 / 12", |case, _| {
-        let link = (1..case.mechanism.links().len()).rev().find(|&link| steiner(case, link) > 0.0)?;
+        let link = case.mechanism.links().ids().skip(1).rev().find(|&link| steiner(case, link) > 0.0)?;
         let more = steiner(case, link);
         on(case, Some(link), |link| link.inertia += more)
     };
@@ -60,7 +60,7 @@ kinds! { Mass, Case:
     "centre-mirrored": "the mass centre of a link is on the other side of its frame",
         |case, _| on(case, off_frame(case), |link| link.mass_centre *= -1.0);
     "centre-other-end": "the mass centre of a link is measured from its other end", |case, _| {
-        let link = (1..case.mechanism.links().len()).rev().find(|&link| measured(case, link).is_some())?;
+        let link = case.mechanism.links().ids().skip(1).rev().find(|&link| measured(case, link).is_some())?;
         let centre = measured(case, link)?;
         on(case, Some(link), |link| link.mass_centre = centre)
     };
@@ -76,37 +76,37 @@ fn gravity(case: &Case, to: impl Fn(Vec2) -> Vec2) -> Option<Case> {
     })
 }
 
-fn on(case: &Case, link: Option<usize>, change: impl Fn(&mut Link)) -> Option<Case> {
+fn on(case: &Case, link: Option<LinkId>, change: impl Fn(&mut Link)) -> Option<Case> {
     let link = link?;
     with(case, |links, _| change(&mut links[link]))
 }
 
-fn massive(case: &Case, link: usize) -> Option<usize> {
+fn massive(case: &Case, link: LinkId) -> Option<LinkId> {
     (case.mechanism.links()[link].mass > 0.0).then_some(link)
 }
 
 /// The last link with a moment of inertia that can turn.
-fn turning(case: &Case) -> Option<usize> {
-    let has = |&link: &usize| case.mechanism.links()[link].inertia > 0.0 && case.can_turn(link);
-    (1..case.mechanism.links().len()).rev().find(has)
+fn turning(case: &Case) -> Option<LinkId> {
+    let has = |&link: &LinkId| case.mechanism.links()[link].inertia > 0.0 && case.can_turn(link);
+    case.mechanism.links().ids().skip(1).rev().find(has)
 }
 
 /// The heaviest link whose mass centre is not at its frame.
-fn off_frame(case: &Case) -> Option<usize> {
+fn off_frame(case: &Case) -> Option<LinkId> {
     let links = case.mechanism.links();
-    let off = (1..links.len()).filter(|&link| links[link].mass > 0.0 && links[link].mass_centre.norm() > 0.0);
+    let off = links.ids().skip(1).filter(|&link| links[link].mass > 0.0 && links[link].mass_centre.norm() > 0.0);
     off.max_by(|&a, &b| links[a].mass.total_cmp(&links[b].mass))
 }
 
 /// Mass times the squared distance of the mass centre from the first joint (kg m^2).
-fn steiner(case: &Case, link: usize) -> f64 {
+fn steiner(case: &Case, link: LinkId) -> f64 {
     let own = &case.mechanism.links()[link];
     let place = case.mechanism.joints().iter().find_map(|joint| joint.on(link));
     place.map_or(0.0, |place| own.mass * (place - own.mass_centre).norm_squared())
 }
 
 /// The mass centre measured from the link's other end, if it is another place.
-fn measured(case: &Case, link: usize) -> Option<Vec2> {
+fn measured(case: &Case, link: LinkId) -> Option<Vec2> {
     let [first, last] = ends(case, link)?;
     let own = &case.mechanism.links()[link];
     let centre = last - (own.mass_centre - first);

@@ -3,6 +3,7 @@
 use super::kind::kinds;
 use super::touch::{arm, floating, output, turner};
 use linkage::math::{rotated, unit};
+use linkage::mechanism::LinkId;
 use linkage::solver::State;
 
 kinds! { Position, Answer:
@@ -52,7 +53,7 @@ kinds! { Position, Answer:
         };
 }
 
-fn turn(state: &mut State, link: usize, angle: f64) {
+fn turn(state: &mut State, link: LinkId, angle: f64) {
     state.angles[link] += angle;
     let motion = &mut state.motions[link];
     motion.direction = rotated(unit(angle), motion.direction);

@@ -2,7 +2,7 @@
 
 use linkage::case::{Case, CaseParts};
 use linkage::math::{Motion, Vec2};
-use linkage::mechanism::{GROUND, Joint, Link};
+use linkage::mechanism::{GROUND, Joint, JointId, Link, LinkId};
 use linkage::solver::State;
 use prover::diagnosis::{changed, reassembled};
 
@@ -27,44 +27,44 @@ pub(super) fn parts(case: &Case, change: impl FnOnce(&mut CaseParts) -> Option<(
 }
 
 /// The last link: mostly the output.
-pub(super) fn output(case: &Case) -> usize {
-    case.mechanism.links().len() - 1
+pub(super) fn output(case: &Case) -> LinkId {
+    LinkId(case.mechanism.links().len() - 1)
 }
 
 /// The last link whose frame moves: one that no pin holds to the ground; the last link if there is none.
-pub(super) fn floating(case: &Case) -> usize {
-    let held = |link: usize| {
+pub(super) fn floating(case: &Case) -> LinkId {
+    let held = |link: LinkId| {
         let joints = case.mechanism.joints().iter();
         joints.filter(|joint| joint.on(link).is_some()).any(|joint| joint.is_pin() && joint.on(GROUND).is_some())
     };
-    (1..case.mechanism.links().len()).rev().find(|&link| !held(link)).unwrap_or_else(|| output(case))
+    case.mechanism.links().ids().skip(1).rev().find(|&link| !held(link)).unwrap_or_else(|| output(case))
 }
 
 /// The last link that can turn: of another, rates of turning are rounding.
-pub(super) fn turner(case: &Case) -> usize {
-    (1..case.mechanism.links().len()).rev().find(|&link| case.can_turn(link)).unwrap_or_else(|| output(case))
+pub(super) fn turner(case: &Case) -> LinkId {
+    case.mechanism.links().ids().skip(1).rev().find(|&link| case.can_turn(link)).unwrap_or_else(|| output(case))
 }
 
 /// The crank's link.
-pub(super) fn crank(case: &Case) -> usize {
+pub(super) fn crank(case: &Case) -> LinkId {
     case.crank().link
 }
 
 /// The heaviest moving link; of equal ones the last.
-pub(super) fn heaviest(case: &Case) -> Option<usize> {
-    let moving = case.mechanism.links().iter().enumerate().skip(1).filter(|(_, link)| link.mass > 0.0);
+pub(super) fn heaviest(case: &Case) -> Option<LinkId> {
+    let moving = case.mechanism.links().entries().skip(1).filter(|(_, link)| link.mass > 0.0);
     moving.max_by(|a, b| a.1.mass.total_cmp(&b.1.mass)).map(|(index, _)| index)
 }
 
 /// The first moving link that is not driven and has two places of joints; else the last link with two.
-pub(super) fn coupler(case: &Case) -> Option<usize> {
-    let is_driven = |link: usize| case.drives.iter().any(|drive| drive.link == link);
-    let long = || (1..case.mechanism.links().len()).filter(|&link| ends(case, link).is_some());
+pub(super) fn coupler(case: &Case) -> Option<LinkId> {
+    let is_driven = |link: LinkId| case.drives.iter().any(|drive| drive.link == link);
+    let long = || case.mechanism.links().ids().skip(1).filter(|&link| ends(case, link).is_some());
     long().find(|&link| !is_driven(link)).or_else(|| long().next_back())
 }
 
 /// The places of joints on a link, each once, in the order of joints.
-pub(super) fn places(case: &Case, link: usize) -> Vec<Vec2> {
+pub(super) fn places(case: &Case, link: LinkId) -> Vec<Vec2> {
     let mut places: Vec<Vec2> = Vec::new();
     for place in case.mechanism.joints().iter().filter_map(|joint| joint.on(link)) {
         if !places.contains(&place) {
@@ -75,7 +75,7 @@ pub(super) fn places(case: &Case, link: usize) -> Vec<Vec2> {
 }
 
 /// The first and the last place of joints on a link that has two or more.
-pub(super) fn ends(case: &Case, link: usize) -> Option<[Vec2; 2]> {
+pub(super) fn ends(case: &Case, link: LinkId) -> Option<[Vec2; 2]> {
     match places(case, link).as_slice() {
         [first, .., last] => Some([*first, *last]),
         _ => None,
@@ -83,27 +83,27 @@ pub(super) fn ends(case: &Case, link: usize) -> Option<[Vec2; 2]> {
 }
 
 /// Moves the places of joints on a link, its points with them.
-pub(super) fn move_places(links: &mut [Link], joints: &mut [Joint], link: usize, to: impl Fn(Vec2) -> Vec2) {
+pub(super) fn move_places(links: &mut [Link], joints: &mut [Joint], link: LinkId, to: impl Fn(Vec2) -> Vec2) {
     links[link].points.iter_mut().for_each(|point| point.local = to(point.local));
     let sides = joints.iter_mut().flat_map(|joint| [&mut joint.first, &mut joint.second]);
     sides.filter(|side| side.link == link).for_each(|side| side.local = to(side.local));
 }
 
 /// The first prismatic joint.
-pub(super) fn slider(case: &Case) -> Option<usize> {
-    case.mechanism.joints().iter().position(Joint::slides)
+pub(super) fn slider(case: &Case) -> Option<JointId> {
+    case.mechanism.joints().find(Joint::slides)
 }
 
 /// The first prismatic joint whose guide moves.
-pub(super) fn moving_guide(case: &Case) -> Option<usize> {
+pub(super) fn moving_guide(case: &Case) -> Option<JointId> {
     let is_moving = |joint: &Joint| joint.slides() && joint.first.link != GROUND && joint.second.link != GROUND;
-    case.mechanism.joints().iter().position(is_moving)
+    case.mechanism.joints().find(is_moving)
 }
 
 /// The joint between the crank and the link after it; that of the crank itself if there is no other.
-pub(super) fn crank_pin(case: &Case) -> usize {
+pub(super) fn crank_pin(case: &Case) -> JointId {
     let (own, link) = (case.crank().joint, crank(case));
-    let joints = case.mechanism.joints().iter().enumerate();
+    let joints = case.mechanism.joints().entries();
     joints
         .filter(|(_, joint)| joint.on(link).is_some())
         .map(|(index, _)| index)
@@ -119,7 +119,7 @@ pub(super) fn on_arm(case: &Case, state: &mut State, change: impl FnOnce(&mut Mo
 }
 
 /// World vector from the frame of a link to its last place of a joint; its mass centre if that is at the frame.
-pub(super) fn arm(case: &Case, state: &State, link: usize) -> Vec2 {
+pub(super) fn arm(case: &Case, state: &State, link: LinkId) -> Vec2 {
     let last = places(case, link).last().copied().unwrap_or_else(Vec2::zeros);
     let own = &case.mechanism.links()[link];
     let local = if last.norm() > 0.0 { last } else { own.mass_centre };

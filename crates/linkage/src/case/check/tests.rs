@@ -4,7 +4,7 @@ use crate::case::{Case, CaseParts, Grid};
 use crate::drive::{Drive, DriveMotion, Drives, Load, MotionLaw, Motor, MotorLaw};
 use crate::fixtures::{class_four, four_bar, turning};
 use crate::math::Vec2;
-use crate::mechanism::{AssemblyMode, LinkPose, Side, Structure};
+use crate::mechanism::{AssemblyMode, JointId, LinkId, LinkPose, Side, Structure};
 use crate::{Error, ErrorKind};
 
 /// The error of the four-bar with one part changed.
@@ -32,10 +32,10 @@ fn parts_that_fit_are_a_case_and_come_back_unchanged() {
 
 #[test]
 fn a_drive_belongs_to_a_moving_link_and_its_joint() {
-    says(Input, "drive", &["joint 9", "4 joints"], |parts| parts.drives.crank_mut().joint = 9);
-    says(Input, "drive", &["link 4", "4 links"], |parts| parts.drives.crank_mut().link = 4);
-    says(Input, "drive", &["\"ground\"", "\"O\""], |parts| parts.drives.crank_mut().link = 0);
-    says(Input, "drive", &["\"rocker\"", "\"O\""], |parts| parts.drives.crank_mut().link = 3);
+    says(Input, "drive", &["joint 9", "4 joints"], |parts| parts.drives.crank_mut().joint = JointId(9));
+    says(Input, "drive", &["link 4", "4 links"], |parts| parts.drives.crank_mut().link = LinkId(4));
+    says(Input, "drive", &["\"ground\"", "\"O\""], |parts| parts.drives.crank_mut().link = LinkId(0));
+    says(Input, "drive", &["\"rocker\"", "\"O\""], |parts| parts.drives.crank_mut().link = LinkId(3));
     says(Input, "drive", &["driven already"], |parts| {
         let crank = parts.drives.crank().clone();
         parts.drives = Drives::new(crank.clone(), vec![crank]);
@@ -108,13 +108,13 @@ fn drives_together_are_what_is_solved() {
     ];
     let pins = [("O", "O", "ground", "upper"), ("A", "A", "upper", "lower")];
     let mechanism = crate::fixtures::mechanism(links, &pins).unwrap();
-    let structure = Structure::of(&mechanism, &[0, 1]).unwrap();
-    let free = |joint: usize, motor: Option<Motor>| {
+    let structure = Structure::of(&mechanism, &[JointId(0), JointId(1)]).unwrap();
+    let free = |joint: JointId, motor: Option<Motor>| {
         let motion = DriveMotion::Free { initial_speed: 0.0, nominal_speed: 1.0, motor };
         Drive {
             input: crate::input::Input::Angle,
             joint,
-            link: joint + 1,
+            link: LinkId(joint.index() + 1),
             zero: 0.0,
             start: 0.0,
             motion,
@@ -128,51 +128,53 @@ fn drives_together_are_what_is_solved() {
             mechanism: mechanism.clone(),
             structure: structure.clone(),
             drives: Drives::new(crank, vec![second]),
-            start: crate::mechanism::Pose(pose),
+            start: crate::mechanism::Pose(pose.into()),
             modes: Vec::new(),
             ..turning(four_bar()).into_parts()
         })
     };
     let motor = || Some(Motor::ideal(MotorLaw::Constant { torque: 1.0 }, 1.0));
-    let pair = of(free(0, motor()), free(1, None)).unwrap();
+    let pair = of(free(JointId(0), motor()), free(JointId(1), None)).unwrap();
     assert_eq!(pair.drives.free().count(), 2);
     // Only the crank's motor exerts a moment.
     assert_eq!(pair.drives.with_moment().map(|(index, _)| index).collect::<Vec<_>>(), [0]);
     let nominal = pair.nominal();
     assert!(!nominal.is_free() && nominal.crank().motor().is_some() && nominal.crank().moving_motor().is_none());
 
-    let error = of(free(0, None), free(1, motor())).unwrap_err();
+    let error = of(free(JointId(0), None), free(JointId(1), motor())).unwrap_err();
     assert!(error.kind() == Unsupported && error.message().contains("\"lower\"") && error.message().contains("motor"));
-    let prescribed = Drive::prescribed(1, 2, 0.0, 0.0, MotionLaw::ConstantSpeed(1.0));
-    let error = of(free(0, None), prescribed).unwrap_err();
+    let prescribed = Drive::prescribed(JointId(1), LinkId(2), 0.0, 0.0, MotionLaw::ConstantSpeed(1.0));
+    let error = of(free(JointId(0), None), prescribed).unwrap_err();
     assert!(error.kind() == Unsupported && error.message().contains("hangs on a moving link"), "{error}");
-    let ramp = Drive::prescribed(0, 1, 0.0, 0.0, MotionLaw::Ramp { speed: 1.0, time: 1.0 });
-    let error = of(ramp, free(1, None)).unwrap_err();
+    let ramp = Drive::prescribed(JointId(0), LinkId(1), 0.0, 0.0, MotionLaw::Ramp { speed: 1.0, time: 1.0 });
+    let error = of(ramp, free(JointId(1), None)).unwrap_err();
     assert!(error.kind() == Unsupported && error.message().contains("changes"), "{error}");
 }
 
 #[test]
 fn a_structure_is_that_of_the_mechanism() {
-    says(Input, "structure", &["of 1 parts", "of 2"], |parts| parts.structure.groups.clear());
-    says(Input, "structure", &[], |parts| parts.structure = Structure::of(&class_four(1.0, 1.0), &[0]).unwrap());
-    says(Input, "structure", &[], |parts| parts.structure = Structure::of(&parts.mechanism, &[3]).unwrap());
+    says(Input, "structure", &["of 1 parts", "of 2"], |parts| parts.structure.groups = Vec::new().into());
+    says(Input, "structure", &[], |parts| {
+        parts.structure = Structure::of(&class_four(1.0, 1.0), &[JointId(0)]).unwrap()
+    });
+    says(Input, "structure", &[], |parts| parts.structure = Structure::of(&parts.mechanism, &[JointId(3)]).unwrap());
 }
 
 #[test]
 fn loads_act_on_links_with_numbers() {
-    let at = |link: usize| Side { link, local: Vec2::zeros() };
+    let at = |link: LinkId| Side { link, local: Vec2::zeros() };
     let wrong = [
-        (Load::Resistance { link: 4, moment: 1.0 }, "link 4"),
-        (Load::ResistingForce { at: at(7), force: 1.0 }, "link 7"),
-        (Load::Spring { ends: [at(0), at(5)], stiffness: 1.0, free_length: 0.0 }, "link 5"),
-        (Load::TorsionDamper { links: [9, 0], damping: 1.0 }, "link 9"),
-        (Load::Resistance { link: 1, moment: -1.0 }, "not finite"),
-        (Load::TorsionSpring { links: [0, 1], stiffness: f64::NAN, free_angle: 0.0 }, "not finite"),
+        (Load::Resistance { link: LinkId(4), moment: 1.0 }, "link 4"),
+        (Load::ResistingForce { at: at(LinkId(7)), force: 1.0 }, "link 7"),
+        (Load::Spring { ends: [at(LinkId(0)), at(LinkId(5))], stiffness: 1.0, free_length: 0.0 }, "link 5"),
+        (Load::TorsionDamper { links: [LinkId(9), LinkId(0)], damping: 1.0 }, "link 9"),
+        (Load::Resistance { link: LinkId(1), moment: -1.0 }, "not finite"),
+        (Load::TorsionSpring { links: [LinkId(0), LinkId(1)], stiffness: f64::NAN, free_angle: 0.0 }, "not finite"),
     ];
     for (load, word) in wrong {
         let sort = load.sort();
         says(Input, "loads", &["load 1", sort, word], |parts| {
-            parts.loads = vec![Load::Resistance { link: 1, moment: 0.0 }, load];
+            parts.loads = vec![Load::Resistance { link: LinkId(1), moment: 0.0 }, load];
         });
     }
     says(Input, "gravity", &["NaN"], |parts| parts.gravity.y = f64::NAN);
@@ -180,15 +182,15 @@ fn loads_act_on_links_with_numbers() {
 
 #[test]
 fn a_start_pose_closes_the_joints_where_the_drive_starts() {
-    says(Input, "start", &["3 places", "4 links"], |parts| parts.start.0.truncate(3));
-    says(Input, "start", &["ground"], |parts| parts.start.0[0].angle = 1e-15);
-    says(Input, "start", &["\"rocker\""], |parts| parts.start.0[3].angle = f64::NAN);
-    says(Geometry, "start", &["\"B\"", "e-8 m"], |parts| parts.start.0[3].angle += 1e-8);
+    says(Input, "start", &["3 places", "4 links"], |parts| parts.start.0 = parts.start.0[1..].to_vec().into());
+    says(Input, "start", &["ground"], |parts| parts.start.0[LinkId(0)].angle = 1e-15);
+    says(Input, "start", &["\"rocker\""], |parts| parts.start.0[LinkId(3)].angle = f64::NAN);
+    says(Geometry, "start", &["\"B\"", "e-8 m"], |parts| parts.start.0[LinkId(3)].angle += 1e-8);
     says(Geometry, "start", &["\"crank\"", "1.000e-8 rad"], |parts| parts.drives.crank_mut().start = 1e-8);
     // Whole turns and rounding are not faults.
     let turned = turning(four_bar()).with(|parts| {
-        parts.start.0[2].angle += 3.0 * std::f64::consts::TAU;
-        parts.start.0[3].angle += 1e-14;
+        parts.start.0[LinkId(2)].angle += 3.0 * std::f64::consts::TAU;
+        parts.start.0[LinkId(3)].angle += 1e-14;
     });
     assert!(turned.is_ok(), "{turned:?}");
 }

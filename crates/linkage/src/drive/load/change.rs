@@ -3,12 +3,12 @@
 use super::{Acts, Load, On, Part, Role};
 use crate::drive::Course;
 use crate::math::Vec2;
-use crate::mechanism::Side;
+use crate::mechanism::{LinkId, Side};
 
 impl Load {
     /// The links that the load acts on, and on whose motion it depends: one or two, by their numbers.
     #[must_use]
-    pub fn links(&self) -> Vec<usize> {
+    pub fn links(&self) -> Vec<LinkId> {
         match self.nature().on {
             On::Link(link) => vec![link],
             On::Point(at) => vec![at.link],
@@ -29,7 +29,7 @@ impl Load {
 
     /// The same load on other links: `number` gives the new number of each of [`Load::links`].
     #[must_use]
-    pub fn on_links(&self, number: impl Fn(usize) -> usize) -> Load {
+    pub fn on_links(&self, number: impl Fn(LinkId) -> LinkId) -> Load {
         let mut load = self.clone();
         for part in load.parts() {
             match part {

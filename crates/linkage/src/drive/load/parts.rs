@@ -1,7 +1,7 @@
 //! What can be asked of every load, whatever its sort.
 
 use crate::drive::Course;
-use crate::mechanism::Side;
+use crate::mechanism::{LinkId, Side};
 
 /// The sense of rotation of the link for which a moment acts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,7 +21,7 @@ pub enum Senses {
     /// The load does not depend on a sense of motion.
     Nothing,
     /// On the sense of rotation of a link.
-    Link(usize),
+    Link(LinkId),
     /// On the sense of motion of a point.
     Point(Side),
 }
@@ -30,13 +30,13 @@ pub enum Senses {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum On {
     /// A moment on a link.
-    Link(usize),
+    Link(LinkId),
     /// A force on a point.
     Point(Side),
     /// A force between two points: it pulls them together or pushes them apart.
     Points([Side; 2]),
     /// A moment between two links: on the second one the opposite of that on the first.
-    Links([usize; 2]),
+    Links([LinkId; 2]),
 }
 
 /// What a load is called, where it acts, and the quantities it depends on: see [`Load::nature`](super::Load::nature).
@@ -51,7 +51,7 @@ pub struct Nature<'a> {
     /// Whether it depends on the size of speeds, not only on their senses.
     pub is_viscous: bool,
     /// The two links whose [`Setting::twist`](super::Setting::twist) it depends on.
-    pub twist: Option<[usize; 2]>,
+    pub twist: Option<[LinkId; 2]>,
     /// Its quantities that may depend on the crank angle.
     pub courses: &'a [Course],
 }
@@ -74,7 +74,7 @@ pub enum Role {
 #[derive(Debug, PartialEq)]
 pub enum Part<'a> {
     /// A link that it acts on.
-    Link(&'a mut usize),
+    Link(&'a mut LinkId),
     /// A point that it acts on.
     Point(&'a mut Side),
     /// A number.

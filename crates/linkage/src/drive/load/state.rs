@@ -1,7 +1,7 @@
 //! What loads are given, and what they do to links.
 
 use crate::math::{Motion, Vec2, angle, cross};
-use crate::mechanism::LinkPose;
+use crate::mechanism::{LinkId, LinkPose};
 
 /// The state that loads depend on. Slices have one entry per link.
 #[derive(Clone, Copy, Debug)]
@@ -19,7 +19,7 @@ pub struct Setting<'a> {
 impl Setting<'_> {
     /// Twist between two links (rad): see [`Load::TorsionSpring`](super::Load::TorsionSpring).
     #[must_use]
-    pub fn twist(&self, [first, second]: [usize; 2]) -> f64 {
+    pub fn twist(&self, [first, second]: [LinkId; 2]) -> f64 {
         let begun = self.start[second].angle - self.start[first].angle;
         self.angles[second] - self.angles[first] - begun + angle::wrapped(begun)
     }
@@ -29,7 +29,7 @@ impl Setting<'_> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Action {
     /// The link.
-    pub link: usize,
+    pub link: LinkId,
     /// Force (N, world axes).
     pub force: Vec2,
     /// World place at which the force acts (m).
@@ -41,7 +41,7 @@ pub struct Action {
 impl Action {
     /// Only a moment (N m, counter-clockwise positive), no force.
     #[must_use]
-    pub fn of_moment(link: usize, moment: f64) -> Self {
+    pub fn of_moment(link: LinkId, moment: f64) -> Self {
         Action { link, force: Vec2::zeros(), place: Vec2::zeros(), moment }
     }
 

@@ -1,7 +1,7 @@
 use std::f64::consts::PI;
 
 use super::*;
-use crate::mechanism::LinkPose;
+use crate::mechanism::{LinkId, LinkPose};
 
 /// The ground, and a link at (3, 0) m turned by 90 degrees, moving with (0, 2) m/s and `omega`.
 fn motions(omega: f64) -> [Motion; 2] {
@@ -24,13 +24,13 @@ fn act(load: &Load, motions: &[Motion], angles: &[f64], crank: f64) -> Vec<Actio
     found
 }
 
-fn side(link: usize, x: f64, y: f64) -> Side {
+fn side(link: LinkId, x: f64, y: f64) -> Side {
     Side { link, local: Vec2::new(x, y) }
 }
 
 #[test]
 fn resistance_opposes_the_rotation() {
-    let load = Load::Resistance { link: 1, moment: 100.0 };
+    let load = Load::Resistance { link: LinkId(1), moment: 100.0 };
     let moment = |omega| act(&load, &motions(omega), &[], 0.0)[0].moment;
     assert_eq!([moment(2.0), moment(-0.1), moment(0.0)], [-100.0, 100.0, 0.0]);
 }
@@ -40,9 +40,9 @@ fn a_moment_may_rest_while_its_link_turns_back() {
     for (acts, expected) in
         [(Acts::Always, [7.0, 7.0, 7.0]), (Acts::CounterClockwise, [7.0, 0.0, 0.0]), (Acts::Clockwise, [0.0, 7.0, 0.0])]
     {
-        let load = Load::Moment { link: 1, moment: Course::Constant(7.0), acts };
+        let load = Load::Moment { link: LinkId(1), moment: Course::Constant(7.0), acts };
         assert_eq!([2.0, -2.0, 0.0].map(|omega| act(&load, &motions(omega), &[], 0.0)[0].moment), expected);
-        assert_eq!(load.sensed_link(), (acts != Acts::Always).then_some(1));
+        assert_eq!(load.sensed_link(), (acts != Acts::Always).then_some(LinkId(1)));
     }
 }
 
@@ -50,7 +50,7 @@ fn a_moment_may_rest_while_its_link_turns_back() {
 fn a_force_keeps_its_direction_or_follows_its_link() {
     let [x, y] = [Course::Constant(5.0), Course::table(&[(0.0, 1.0), (1.0, 3.0)], 1, false)];
     for (follows, expected) in [(false, Vec2::new(5.0, 2.0)), (true, Vec2::new(-2.0, 5.0))] {
-        let load = Load::Force { at: side(1, 1.0, 0.0), force: [x.clone(), y.clone()], follows };
+        let load = Load::Force { at: side(LinkId(1), 1.0, 0.0), force: [x.clone(), y.clone()], follows };
         let found = act(&load, &motions(0.0), &[], 0.5);
         assert_eq!((found[0].force, found[0].place, found[0].moment), (expected, Vec2::new(3.0, 1.0), 0.0));
         // About the origin: 3 F_y - 1 F_x.
@@ -63,7 +63,7 @@ fn a_force_keeps_its_direction_or_follows_its_link() {
 fn a_resisting_force_opposes_the_point_not_the_link() {
     // The point one metre along the link's x axis is above its origin. It moves with (-1, 2) m/s where the link turns
     // with 1 rad/s.
-    let load = Load::ResistingForce { at: side(1, 1.0, 0.0), force: 10.0 };
+    let load = Load::ResistingForce { at: side(LinkId(1), 1.0, 0.0), force: 10.0 };
     let found = act(&load, &motions(1.0), &[], 0.0)[0];
     assert!((found.force - Vec2::new(1.0, -2.0) * (10.0 / 5f64.sqrt())).norm() < 1e-14);
     assert!((found.power(&motions(1.0)[1]) + 10.0 * 5f64.sqrt()).abs() < 1e-13);
@@ -75,13 +75,21 @@ fn a_resisting_force_opposes_the_point_not_the_link() {
 fn a_spring_pulls_when_it_is_long_and_pushes_when_it_is_short() {
     // From (0, 1) on the ground to (3, 5): 5 m.
     for (free_length, pull) in [(3.0, 200.0), (6.0, -100.0), (5.0, 0.0)] {
-        let load = Load::Spring { ends: [side(0, 0.0, 1.0), side(1, 5.0, 0.0)], stiffness: 100.0, free_length };
+        let load = Load::Spring {
+            ends: [side(LinkId(0), 0.0, 1.0), side(LinkId(1), 5.0, 0.0)],
+            stiffness: 100.0,
+            free_length,
+        };
         let [ground, link] = act(&load, &motions(0.0), &[], 0.0)[..] else { panic!("two ends") };
-        assert_eq!((ground.link, link.link), (0, 1));
+        assert_eq!((ground.link, link.link), (LinkId(0), LinkId(1)));
         assert!((ground.force - Vec2::new(0.6, 0.8) * pull).norm() < 1e-13, "{ground:?}");
         assert_eq!((link.force, link.place), (-ground.force, Vec2::new(3.0, 5.0)));
     }
-    let shut = Load::Spring { ends: [side(0, 3.0, 0.0), side(1, 0.0, 0.0)], stiffness: 100.0, free_length: 1.0 };
+    let shut = Load::Spring {
+        ends: [side(LinkId(0), 3.0, 0.0), side(LinkId(1), 0.0, 0.0)],
+        stiffness: 100.0,
+        free_length: 1.0,
+    };
     assert_eq!(act(&shut, &motions(0.0), &[], 0.0)[1].force, Vec2::zeros());
 }
 
@@ -89,7 +97,7 @@ fn a_spring_pulls_when_it_is_long_and_pushes_when_it_is_short() {
 fn a_damper_resists_the_rate_of_its_length() {
     // The point at (3, 5) moves with (0, 2) - 5 (1, 0) = (-5, 2) m/s where the link turns with 1 rad/s.
     // Its distance from (0, 1) changes with (-5 * 0.6 + 2 * 0.8) = -1.4 m/s.
-    let load = Load::Damper { ends: [side(0, 0.0, 1.0), side(1, 5.0, 0.0)], damping: 10.0 };
+    let load = Load::Damper { ends: [side(LinkId(0), 0.0, 1.0), side(LinkId(1), 5.0, 0.0)], damping: 10.0 };
     let [ground, link] = act(&load, &motions(1.0), &[], 0.0)[..] else { panic!("two ends") };
     assert!((ground.force - Vec2::new(0.6, 0.8) * -14.0).norm() < 1e-13, "{ground:?}");
     assert!((link.power(&motions(1.0)[1]) + 10.0 * 1.4 * 1.4).abs() < 1e-12);
@@ -100,7 +108,7 @@ fn a_damper_resists_the_rate_of_its_length() {
 fn a_torsion_spring_counts_turns_from_the_start() {
     // At the start the link stands at 90 degrees. Two turns later the spring is wound up by two turns, whatever angle
     // the pose reports.
-    let load = Load::TorsionSpring { links: [0, 1], stiffness: 2.0, free_angle: 0.5 };
+    let load = Load::TorsionSpring { links: [LinkId(0), LinkId(1)], stiffness: 2.0, free_angle: 0.5 };
     let still = motions(0.0);
     for turns in [0.0, 2.0, -1.0] {
         let angle = PI / 2.0 + 2.0 * PI * turns;
@@ -109,21 +117,24 @@ fn a_torsion_spring_counts_turns_from_the_start() {
     }
     let start = [LinkPose::GROUND, LinkPose { origin: Vec2::zeros(), angle: 2.0 + 2.0 * PI }];
     let setting = Setting { motions: &still, angles: &[0.0, 2.5 + 2.0 * PI], start: &start, crank: 0.0 };
-    assert!((setting.twist([0, 1]) - 2.5).abs() < 1e-15 * 8.0 && (setting.twist([1, 0]) + 2.5).abs() < 1e-15 * 8.0);
+    assert!(
+        (setting.twist([LinkId(0), LinkId(1)]) - 2.5).abs() < 1e-15 * 8.0
+            && (setting.twist([LinkId(1), LinkId(0)]) + 2.5).abs() < 1e-15 * 8.0
+    );
 }
 
 #[test]
 fn a_torsion_damper_resists_the_relative_rotation() {
-    let load = Load::TorsionDamper { links: [1, 0], damping: 3.0 };
+    let load = Load::TorsionDamper { links: [LinkId(1), LinkId(0)], damping: 3.0 };
     let [link, ground] = act(&load, &motions(2.0), &[], 0.0)[..] else { panic!("two links") };
-    assert_eq!((link.link, link.moment, ground.moment), (1, -6.0, 6.0));
+    assert_eq!((link.link, link.moment, ground.moment), (LinkId(1), -6.0, 6.0));
 }
 
 #[test]
 fn moments_in_a_sense_are_those_of_the_action() {
     let table = Course::table(&[(0.0, 1.0), (2.0, 3.0)], 2, true);
     for acts in [Acts::CounterClockwise, Acts::Clockwise] {
-        let load = Load::Moment { link: 1, moment: table.clone(), acts };
+        let load = Load::Moment { link: LinkId(1), moment: table.clone(), acts };
         for omega in [-1.5, 0.0, 0.1] {
             assert_eq!(act(&load, &motions(omega), &[], 7.0)[0].moment, load.moment_in(omega, 7.0));
         }
@@ -140,12 +151,12 @@ fn loads_of_another_amount_act_in_proportion() {
             .sum()
     };
     let table = Course::table(&[(0.0, 1.0), (2.0, 5.0)], 1, false);
-    let ends = [side(0, 1.0, 2.0), side(1, 0.5, 0.1)];
+    let ends = [side(LinkId(0), 1.0, 2.0), side(LinkId(1), 0.5, 0.1)];
     let loads = [
-        Load::Resistance { link: 1, moment: 100.0 },
-        Load::Moment { link: 1, moment: table.clone(), acts: Acts::Clockwise },
-        Load::Force { at: side(1, 0.2, 0.3), force: [table, Course::Constant(3.0)], follows: true },
-        Load::ResistingForce { at: side(1, 0.2, 0.3), force: 7.0 },
+        Load::Resistance { link: LinkId(1), moment: 100.0 },
+        Load::Moment { link: LinkId(1), moment: table.clone(), acts: Acts::Clockwise },
+        Load::Force { at: side(LinkId(1), 0.2, 0.3), force: [table, Course::Constant(3.0)], follows: true },
+        Load::ResistingForce { at: side(LinkId(1), 0.2, 0.3), force: 7.0 },
         Load::Spring { ends, stiffness: 20.0, free_length: 0.3 },
         Load::Damper { ends, damping: 4.0 },
     ];
@@ -162,8 +173,8 @@ fn loads_of_another_amount_act_in_proportion() {
         }
     }
     let twist = [
-        Load::TorsionSpring { links: [0, 1], stiffness: 2.0, free_angle: 0.1 },
-        Load::TorsionDamper { links: [0, 1], damping: 2.0 },
+        Load::TorsionSpring { links: [LinkId(0), LinkId(1)], stiffness: 2.0, free_angle: 0.1 },
+        Load::TorsionDamper { links: [LinkId(0), LinkId(1)], damping: 2.0 },
     ];
     for load in twist {
         let on_second = |load: &Load| act(load, &motions(2.0), &[0.0, 0.4], 0.7)[1].moment;
@@ -175,16 +186,16 @@ fn loads_of_another_amount_act_in_proportion() {
 /// A load that vanishes where its link reverses has a kink there at most, and so has one without a size.
 #[test]
 fn a_load_jumps_by_what_it_is_for_either_sense() {
-    let one_way = |moment, acts| Load::Moment { link: 1, moment, acts };
+    let one_way = |moment, acts| Load::Moment { link: LinkId(1), moment, acts };
     let table = || Course::table(&[(0.0, 0.0), (1.0, 4.0)], 1, false);
     let loads = [
-        (Load::Resistance { link: 1, moment: 100.0 }, 200.0),
-        (Load::Resistance { link: 1, moment: 0.0 }, 0.0),
-        (Load::ResistingForce { at: side(1, 0.2, 0.0), force: 3.0 }, 6.0),
+        (Load::Resistance { link: LinkId(1), moment: 100.0 }, 200.0),
+        (Load::Resistance { link: LinkId(1), moment: 0.0 }, 0.0),
+        (Load::ResistingForce { at: side(LinkId(1), 0.2, 0.0), force: 3.0 }, 6.0),
         (one_way(Course::Constant(-7.0), Acts::CounterClockwise), 7.0),
         (one_way(table(), Acts::Clockwise), 2.0),
         (one_way(table(), Acts::Always), 0.0),
-        (Load::TorsionDamper { links: [0, 1], damping: 2.0 }, 0.0),
+        (Load::TorsionDamper { links: [LinkId(0), LinkId(1)], damping: 2.0 }, 0.0),
     ];
     for (load, jump) in loads {
         assert_eq!(load.jump(0.5), jump, "{load:?}");

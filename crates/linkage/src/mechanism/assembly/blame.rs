@@ -2,13 +2,13 @@
 
 use super::{StartGroup, configurations, first_choices};
 use crate::error::{Advice, Error, ErrorKind, Part};
-use crate::mechanism::{AssemblyMode, Group, Mechanism, Structure};
+use crate::mechanism::{AssemblyMode, Group, GroupId, Mechanism, Structure};
 
 /// A group whose configuration leaves no place for a later one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Blame {
     /// Index of the group in the structure.
-    pub group: usize,
+    pub group: GroupId,
     /// Number of the configuration in which the later group can be placed, counted from 1.
     pub rank: usize,
     /// Its mode.
@@ -17,9 +17,9 @@ pub struct Blame {
 
 /// Index of the group that an error of [`first_choices`] is about.
 #[must_use]
-pub fn group_of(mechanism: &Mechanism, structure: &Structure, error: &Error) -> Option<usize> {
+pub fn group_of(mechanism: &Mechanism, structure: &Structure, error: &Error) -> Option<GroupId> {
     match error.part() {
-        Some(Part::Group(names)) => structure.groups.iter().position(|group| group.names(mechanism) == *names),
+        Some(Part::Group(names)) => structure.groups.find(|group| group.names(mechanism) == *names),
         Some(Part::Link(_) | Part::Joint(_)) | None => None,
     }
 }
@@ -37,17 +37,18 @@ pub fn blame(
     error: &Error,
 ) -> Option<Blame> {
     let failed = group_of(mechanism, structure, error).filter(|_| error.kind() == ErrorKind::Geometry)?;
-    let upto = |last: usize| Structure { groups: structure.groups[..=last].to_vec(), ..structure.clone() };
-    let part = upto(failed);
+    let before = |count: usize| Structure {
+        groups: structure.groups.iter().take(count).cloned().collect(),
+        ..structure.clone()
+    };
+    let part = before(failed.index() + 1);
     let mut own = wanted.to_vec();
     own[failed].near.clear();
     // Without its rough places the group may be placed where it stands. Then they must speak clearly for the change.
     let stands = first_choices(mechanism, &part, drive_angles, &own).is_ok();
-    for (index, group) in
-        part.groups[..failed].iter().enumerate().rev().filter(|(index, _)| wanted[*index].near.is_empty())
-    {
-        let before = Structure { groups: structure.groups[..index].to_vec(), ..structure.clone() };
-        let Ok((pose, _)) = first_choices(mechanism, &before, drive_angles, wanted) else { continue };
+    let earlier = part.groups.entries().rev().filter(|(index, _)| *index < failed && wanted[*index].near.is_empty());
+    for (index, group) in earlier {
+        let Ok((pose, _)) = first_choices(mechanism, &before(index.index()), drive_angles, wanted) else { continue };
         let Ok(all) = configurations(mechanism, group, &pose) else { continue };
         for (number, one) in all.iter().enumerate() {
             let mut other = wanted.to_vec();
@@ -72,8 +73,8 @@ fn clearly_nearer(
     found: Option<f64>,
 ) -> bool {
     let last = part.groups.len() - 1;
-    let before = Structure { groups: part.groups[..last].to_vec(), ..part.clone() };
-    let group = &part.groups[last];
+    let before = Structure { groups: part.groups.iter().take(last).cloned().collect(), ..part.clone() };
+    let group = part.groups.last().expect("the last is the one that failed");
     let least = first_choices(mechanism, &before, drive_angles, wanted)
         .and_then(|(pose, _)| configurations(mechanism, group, &pose))
         .map(|all| {

@@ -11,7 +11,7 @@ mod tests;
 use super::mode::{AssemblyMode, Configuration};
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::{Vec2, cross, rotated, turned, unit};
-use crate::mechanism::{Group, GroupKind, Joint, LinkPose, Mechanism, Pose};
+use crate::mechanism::{Group, GroupKind, Joint, LinkId, LinkPose, Mechanism, Pose};
 
 /// Sine of the angle between two axes below which they count as parallel. Rounding of their directions would then move
 /// the links by more than a ten-thousandth of the mechanism.
@@ -24,7 +24,7 @@ pub(super) fn turn(from: Vec2, to: Vec2) -> f64 {
 
 /// One link of a dyad with its two joints.
 struct Member<'a> {
-    link: usize,
+    link: LinkId,
     outer: &'a Joint,
     inner: &'a Joint,
     /// Pose of the link to which the outer joint is attached.
@@ -134,7 +134,7 @@ fn in_pair_order<'a, 'b>([a, b]: &'b [Member<'a>; 2]) -> [&'b Member<'a>; 2] {
 }
 
 /// The poses of both links in the group's order, from those of the given links.
-fn configuration(members: &[Member; 2], mode: AssemblyMode, poses: [(usize, LinkPose); 2]) -> Configuration {
+fn configuration(members: &[Member; 2], mode: AssemblyMode, poses: [(LinkId, LinkPose); 2]) -> Configuration {
     let pose = |member: &Member| poses.iter().find(|(link, _)| *link == member.link).expect("both links are posed").1;
     Configuration { mode, links: members.iter().map(pose).collect() }
 }

@@ -11,7 +11,7 @@ use super::three_leads::{Conditions, End, Lead, Pair};
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::angle::wrapped;
 use crate::math::{Vec2, rotated, unit};
-use crate::mechanism::{Group, LinkPose, Mechanism, Pose};
+use crate::mechanism::{Group, JointId, LinkId, LinkPose, Mechanism, Pose};
 use std::f64::consts::TAU;
 
 #[cfg(test)]
@@ -20,7 +20,7 @@ mod tests;
 /// A body of the layout: a link of the group, or the links before the group as one body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Body {
-    Link(usize),
+    Link(LinkId),
     World,
 }
 
@@ -28,7 +28,7 @@ enum Body {
 #[derive(Clone, Debug)]
 struct Layout {
     frame: Body,
-    base: usize,
+    base: LinkId,
     leads: [(Body, Lead); 3],
 }
 
@@ -39,17 +39,17 @@ impl Layout {
             return None;
         }
         let joints = mechanism.joints();
-        let inner_of = |link: usize| group.inner.iter().copied().filter(move |&j| joints[j].on(link).is_some());
+        let inner_of = |link: LinkId| group.inner.iter().copied().filter(move |&j| joints[j].on(link).is_some());
         let base_link = group.links.iter().copied().find(|&link| inner_of(link).count() == 3);
-        let ends: Vec<usize> =
+        let ends: Vec<LinkId> =
             group.links.iter().copied().filter(|&link| group.outer_on(mechanism, link).is_some()).collect();
         let (frame, base) = match (base_link, &ends[..]) {
             (Some(base), _) => (Body::World, base),
             (None, &[first, last]) => (Body::Link(first), last),
             _ => return None,
         };
-        let body_of = |link: usize| if group.links.contains(&link) { Body::Link(link) } else { Body::World };
-        let end = |joint: usize, body: Body| {
+        let body_of = |link: LinkId| if group.links.contains(&link) { Body::Link(link) } else { Body::World };
+        let end = |joint: JointId, body: Body| {
             let joint = &joints[joint];
             let side = [joint.first, joint.second].into_iter().find(|side| body_of(side.link) == body)?;
             let axis = joint.axis_on(side.link).unwrap_or_else(Vec2::zeros);
@@ -63,7 +63,7 @@ impl Layout {
         };
         // The joint between two bodies, if there is exactly one.
         let between = |a: Body, b: Body| {
-            let both = |&&joint: &&usize| end(joint, a).is_some() && end(joint, b).is_some();
+            let both = |&&joint: &&JointId| end(joint, a).is_some() && end(joint, b).is_some();
             let mut found = group.inner.iter().chain(&group.outer).filter(both);
             found.next().copied().filter(|_| found.next().is_none())
         };
@@ -93,7 +93,7 @@ impl Layout {
             None => LinkPose::GROUND,
         };
         in_frame.push((Body::Link(self.base), self.leads[0].1.far.body.place, *base));
-        let pose = |&link: &usize| {
+        let pose = |&link: &LinkId| {
             if self.frame == Body::Link(link) {
                 return LinkPose { angle: wrapped(frame.angle), ..frame };
             }

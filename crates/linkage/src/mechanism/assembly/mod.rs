@@ -55,7 +55,7 @@ pub fn first_choices(
     drive_angles: &[f64],
     wanted: &[StartGroup],
 ) -> Result<(Pose, Vec<Choice>)> {
-    let mut pose = Pose(vec![LinkPose::GROUND; mechanism.links().len()]);
+    let mut pose = Pose(vec![LinkPose::GROUND; mechanism.links().len()].into());
     for (&(link, joint), &angle) in structure.drivers.iter().zip(drive_angles) {
         let joint = &mechanism.joints()[joint];
         pose.0[link] = joint.driven(link, &pose.0[joint.other(link).link], angle);
@@ -75,16 +75,17 @@ mod tests {
     use crate::fixtures::four_bar;
     use crate::math::{Vec2, cross};
     use crate::mechanism::pose::SidePoint;
+    use crate::mechanism::{JointId, LinkId};
     use approx::assert_relative_eq;
 
     fn start(wanted: StartGroup) -> Result<(Pose, Vec<AssemblyMode>)> {
         let mechanism = four_bar();
-        let structure = Structure::of(&mechanism, &[0]).unwrap();
+        let structure = Structure::of(&mechanism, &[JointId(0)]).unwrap();
         first_pose(&mechanism, &structure, &[std::f64::consts::FRAC_PI_2], &[wanted])
     }
 
     fn point_b(pose: &Pose) -> Vec2 {
-        pose.0[2].point(Vec2::new(4.0, 0.0))
+        pose.0[LinkId(2)].point(Vec2::new(4.0, 0.0))
     }
 
     #[test]
@@ -104,7 +105,10 @@ mod tests {
     fn a_guess_chooses_only_when_it_is_clear() {
         let near = |x, y| {
             vec![(
-                SidePoint { name: "B".into(), side: crate::mechanism::Side { link: 3, local: Vec2::new(3.0, 0.0) } },
+                SidePoint {
+                    name: "B".into(),
+                    side: crate::mechanism::Side { link: LinkId(3), local: Vec2::new(3.0, 0.0) },
+                },
                 Vec2::new(x, y),
             )]
         };
@@ -124,8 +128,8 @@ mod tests {
     #[test]
     fn links_that_do_not_reach_are_an_error_with_the_distances() {
         let mut mechanism = four_bar();
-        mechanism.joints[2].second.local = Vec2::new(0.05, 0.0);
-        let structure = Structure::of(&mechanism, &[0]).unwrap();
+        mechanism.joints[JointId(2)].second.local = Vec2::new(0.05, 0.0);
+        let structure = Structure::of(&mechanism, &[JointId(0)]).unwrap();
         let wanted = [StartGroup { mode: Some(AssemblyMode::Left), ..StartGroup::default() }];
         let error = first_pose(&mechanism, &structure, &[0.0], &wanted).unwrap_err();
         assert!(error.to_string().contains("3.000000 m apart, its links span 3.950000 to 4.050000 m"), "{error}");

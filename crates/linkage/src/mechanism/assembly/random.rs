@@ -1,7 +1,7 @@
 //! Random mechanisms for the tests of this module, the same in every run.
 
 use crate::math::{KeepNan, Vec2, rotated, unit};
-use crate::mechanism::{Group, GroupKind, Joint, JointKind, Link, LinkPose, Mechanism, Pose, Side};
+use crate::mechanism::{Group, GroupKind, Joint, JointId, JointKind, Link, LinkId, LinkPose, Mechanism, Pose, Side};
 
 /// Linear congruential generator (Knuth's MMIX), upper bits.
 pub struct Random(pub u64);
@@ -25,7 +25,7 @@ impl Random {
     }
 
     /// A joint between links `a` and `b`, in random order, at random places.
-    pub fn joint(&mut self, name: &str, slides: bool, a: usize, b: usize) -> Joint {
+    pub fn joint(&mut self, name: &str, slides: bool, a: LinkId, b: LinkId) -> Joint {
         let [first, second] = if self.yes() { [a, b] } else { [b, a] };
         let side = |link, local| Side { link, local };
         let axes = [self.number(-3.1, 3.1), self.number(-3.1, 3.1)].map(unit);
@@ -62,7 +62,10 @@ pub fn mechanism(count: usize, joints: Vec<Joint>) -> Mechanism {
         points: joints
             .iter()
             .filter_map(|joint| {
-                Some(crate::mechanism::Point { name: format!("{}{index}", joint.name), local: joint.on(index)? })
+                Some(crate::mechanism::Point {
+                    name: format!("{}{index}", joint.name),
+                    local: joint.on(LinkId(index))?,
+                })
             })
             .collect(),
         mass: 0.0,
@@ -74,13 +77,13 @@ pub fn mechanism(count: usize, joints: Vec<Joint>) -> Mechanism {
 }
 
 /// The group of `links`, as the structural analysis would find it if all other links were known.
-pub fn group(mechanism: &Mechanism, links: &[usize], kind: GroupKind) -> Group {
-    let inside = |joint: usize| {
+pub fn group(mechanism: &Mechanism, links: &[LinkId], kind: GroupKind) -> Group {
+    let inside = |joint: JointId| {
         let joint = &mechanism.joints()[joint];
         [joint.first, joint.second].iter().filter(|side| links.contains(&side.link)).count()
     };
-    let all = 0..mechanism.joints().len();
-    let mut outer: Vec<usize> = all.clone().filter(|&joint| inside(joint) == 1).collect();
+    let all = mechanism.joints().ids();
+    let mut outer: Vec<JointId> = all.clone().filter(|&joint| inside(joint) == 1).collect();
     outer.sort_by_key(|&joint| links.iter().position(|&link| mechanism.joints()[joint].on(link).is_some()));
     Group { links: links.into(), inner: all.filter(|&joint| inside(joint) == 2).collect(), outer, class: 2, kind }
 }

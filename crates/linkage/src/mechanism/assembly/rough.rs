@@ -12,7 +12,7 @@ use crate::math::angle::wrapped;
 use crate::math::dense::Lu;
 use crate::math::{KeepNan, Vec2, cross, rotated, turned, unit};
 use crate::mechanism::pose::SidePoint;
-use crate::mechanism::{Group, Joint, LinkPose, Mechanism, Pose};
+use crate::mechanism::{Group, Joint, LinkId, LinkPose, Mechanism, Pose};
 
 #[cfg(test)]
 mod tests;
@@ -67,7 +67,7 @@ fn half_link(mechanism: &Mechanism, group: &Group, point: &str) -> f64 {
 fn lay_out(mechanism: &Mechanism, group: &Group, near: &Near, pose: &mut Pose) -> Result<()> {
     let mut left = group.links.clone();
     while !left.is_empty() {
-        let is_placed = |link: usize| !left.contains(&link);
+        let is_placed = |link: LinkId| !left.contains(&link);
         let laid = left.iter().enumerate().find_map(|(index, &link)| {
             let joints = group.inner.iter().chain(&group.outer).map(|&joint| &mechanism.joints()[joint]);
             let hooks = joints.filter(|joint| joint.on(link).is_some() && is_placed(joint.other(link).link));
@@ -87,7 +87,7 @@ fn lay_out(mechanism: &Mechanism, group: &Group, near: &Near, pose: &mut Pose) -
 }
 
 /// The pose of a link from its rough places and its joints with placed links; `None` if they are not enough.
-fn lay(mechanism: &Mechanism, link: usize, near: &Near, hooks: &[&Joint], pose: &Pose) -> Option<LinkPose> {
+fn lay(mechanism: &Mechanism, link: LinkId, near: &Near, hooks: &[&Joint], pose: &Pose) -> Option<LinkPose> {
     let own = |name: &str| mechanism.links()[link].points.iter().find(|point| point.name == name);
     let rough = near.iter().filter_map(|(point, place)| Some((own(&point.name)?.local, *place)));
     let pins = hooks.iter().filter(|joint| joint.is_pin()).map(|joint| {

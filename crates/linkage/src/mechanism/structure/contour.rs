@@ -1,20 +1,20 @@
 //! Class of an Assur group, from its closed contours.
 
 use super::group::Group;
-use crate::mechanism::Mechanism;
+use crate::mechanism::{JointId, LinkId, Mechanism};
 
 /// Number of sides of the highest closed contour of a group.
 /// A link with three or more pairs is a contour with as many sides, and so is every shortest loop of inner joints.
 pub(super) fn highest_contour(mechanism: &Mechanism, group: &Group) -> usize {
-    let joint = |&index: &usize| &mechanism.joints()[index];
-    let pairs_on = |link: usize| group.inner.iter().map(joint).filter(|j| j.on(link).is_some()).count();
+    let joint = |&index: &JointId| &mechanism.joints()[index];
+    let pairs_on = |link: LinkId| group.inner.iter().map(joint).filter(|j| j.on(link).is_some()).count();
     let rigid = group.links.iter().map(|&link| pairs_on(link)).max().unwrap_or(0);
     let loops = group.inner.iter().filter_map(|&index| shortest_loop(mechanism, group, index)).max().unwrap_or(0);
     rigid.max(loops).max(2)
 }
 
 /// Number of links in the shortest loop of inner joints through the joint `through`, if there is one.
-fn shortest_loop(mechanism: &Mechanism, group: &Group, through: usize) -> Option<usize> {
+fn shortest_loop(mechanism: &Mechanism, group: &Group, through: JointId) -> Option<usize> {
     let (start, goal) = (mechanism.joints()[through].first.link, mechanism.joints()[through].second.link);
     let mut layers = vec![(start, 1)];
     let mut next = 0;

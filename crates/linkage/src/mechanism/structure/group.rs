@@ -1,7 +1,7 @@
 //! An Assur group and its kind.
 
 use crate::error::Key;
-use crate::mechanism::Mechanism;
+use crate::mechanism::{JointId, LinkId, Mechanism};
 
 /// Kind of Assur group.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,11 +49,11 @@ impl GroupKind {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Group {
     /// Its links, in the mechanism's order.
-    pub links: Vec<usize>,
+    pub links: Vec<LinkId>,
     /// Joints between two of its links.
-    pub inner: Vec<usize>,
+    pub inner: Vec<JointId>,
     /// Joints with links that are known before the group is solved.
-    pub outer: Vec<usize>,
+    pub outer: Vec<JointId>,
     /// Class: 2 for dyads, otherwise the number of sides of its highest closed contour (Artobolevsky).
     pub class: usize,
     /// Kind of the group.
@@ -69,7 +69,7 @@ impl Group {
 
     /// The group's outer joint on `link`, for a link that has exactly one.
     #[must_use]
-    pub fn outer_on(&self, mechanism: &Mechanism, link: usize) -> Option<usize> {
+    pub fn outer_on(&self, mechanism: &Mechanism, link: LinkId) -> Option<JointId> {
         let mut found = self.outer.iter().copied().filter(|&joint| mechanism.joints()[joint].on(link).is_some());
         let first = found.next()?;
         found.next().is_none().then_some(first)

@@ -17,6 +17,7 @@ pub use group::{Group, GroupKind};
 
 use super::{GROUND, Mechanism};
 use crate::error::{Error, ErrorKind, Result};
+use crate::mechanism::{GroupId, JointId, LinkId, PerGroup, PerLink};
 use contour::highest_contour;
 use owners::{Owners, check_sparse};
 
@@ -26,9 +27,9 @@ pub struct Structure {
     /// Mobility by Chebyshev-Gruebler, W = 3 n - 2 p (n moving links, p lower pairs).
     pub mobility: i64,
     /// Driving links in the order in which the drives were given: (link, driven joint).
-    pub drivers: Vec<(usize, usize)>,
+    pub drivers: Vec<(LinkId, JointId)>,
     /// Assur groups in the order in which they can be solved.
-    pub groups: Vec<Group>,
+    pub groups: PerGroup<Group>,
 }
 
 impl Structure {
@@ -38,7 +39,7 @@ impl Structure {
     /// [`ErrorKind::Input`] if links have no connection to the ground, if the mobility is not the number of drives, or
     /// if a part is over-constrained while another is free.
     /// [`ErrorKind::Unsupported`] if a drive does not act on a link hinged to the ground.
-    pub fn of(mechanism: &Mechanism, drives: &[usize]) -> Result<Self> {
+    pub fn of(mechanism: &Mechanism, drives: &[JointId]) -> Result<Self> {
         check_connected(mechanism)?;
         check_sliders(mechanism)?;
         let mobility = mobility(mechanism);
@@ -47,7 +48,7 @@ impl Structure {
         }
         check_sparse(mechanism, drives)?;
         let owners = Owners::find(mechanism, drives)?;
-        let mut structure = Structure { mobility, drivers: Vec::new(), groups: Vec::new() };
+        let (mut drivers, mut groups) = (Vec::new(), Vec::new());
         let mut known = vec![false; mechanism.links().len()];
         known[GROUND] = true;
         for part in owners.parts(mechanism) {
@@ -57,9 +58,9 @@ impl Structure {
                 .copied()
                 .find(|&joint| owners.owner_of_drive(joint).is_some_and(|link| part.contains(&link)));
             match drive {
-                None => structure.groups.push(group(mechanism, part, &known)),
-                Some(joint) if part.len() == 1 && structure.carries(mechanism, joint, part[0]) => {
-                    structure.drivers.push((part[0], joint));
+                None => groups.push(group(mechanism, part, &known)),
+                Some(joint) if part.len() == 1 && carries(mechanism, &drivers, joint, part[0]) => {
+                    drivers.push((part[0], joint));
                 }
                 Some(joint) => return Err(unsupported_drive(mechanism, joint)),
             }
@@ -67,16 +68,10 @@ impl Structure {
                 known[link] = true;
             }
         }
-        structure.drivers.sort_by_key(|&(_, joint)| drives.iter().position(|&drive| drive == joint));
+        drivers.sort_by_key(|&(_, joint)| drives.iter().position(|&drive| drive == joint));
+        let structure = Structure { mobility, drivers, groups: groups.into() };
         structure.check_order(mechanism)?;
         Ok(structure)
-    }
-
-    /// Whether a joint that a drive can move holds a driving link to the ground or to an earlier driving link.
-    fn carries(&self, mechanism: &Mechanism, joint: usize, link: usize) -> bool {
-        let joint = &mechanism.joints()[joint];
-        let base = joint.other(link).link;
-        joint.kind.input().is_some() && (base == GROUND || self.drivers.iter().any(|&(driving, _)| driving == base))
     }
 
     /// Checks that each driving link comes after the link that carries it.
@@ -98,12 +93,12 @@ impl Structure {
     /// For every link, the groups that its motion depends on if all drives are prescribed: its own and those before it,
     /// as indices in ascending order. None for the ground and for driving links.
     #[must_use]
-    pub fn upstream(&self, mechanism: &Mechanism) -> Vec<Vec<usize>> {
-        let mut upstream: Vec<Vec<usize>> = vec![Vec::new(); mechanism.links().len()];
-        for (index, group) in self.groups.iter().enumerate() {
+    pub fn upstream(&self, mechanism: &Mechanism) -> PerLink<Vec<GroupId>> {
+        let mut upstream: PerLink<Vec<GroupId>> = vec![Vec::new(); mechanism.links().len()].into();
+        for (index, group) in self.groups.entries() {
             let ends = group.outer.iter().map(|&joint| &mechanism.joints()[joint]);
             let neighbours = ends.flat_map(|joint| [joint.first.link, joint.second.link]);
-            let mut all: Vec<usize> = neighbours.flat_map(|link| upstream[link].iter().copied()).collect();
+            let mut all: Vec<GroupId> = neighbours.flat_map(|link| upstream[link].iter().copied()).collect();
             all.push(index);
             all.sort_unstable();
             all.dedup();
@@ -118,7 +113,7 @@ impl Structure {
     #[must_use]
     pub fn formula(&self, mechanism: &Mechanism) -> String {
         const ROMAN: [&str; 9] = ["", "I", "II", "III", "IV", "V", "VI", "VII", "VIII"];
-        let name = |&(link, joint): &(usize, usize)| {
+        let name = |&(link, joint): &(LinkId, JointId)| {
             let base = mechanism.joints()[joint].other(link).link;
             format!("I({}, {})", mechanism.links()[base].name, mechanism.links()[link].name)
         };
@@ -130,6 +125,13 @@ impl Structure {
         }
         parts.join(" -> ")
     }
+}
+
+/// Whether a joint that a drive can move holds a driving link to the ground or to one of the `drivers` found so far.
+fn carries(mechanism: &Mechanism, drivers: &[(LinkId, JointId)], joint: JointId, link: LinkId) -> bool {
+    let joint = &mechanism.joints()[joint];
+    let base = joint.other(link).link;
+    joint.kind.input().is_some() && (base == GROUND || drivers.iter().any(|&(driving, _)| driving == base))
 }
 
 /// W = 3 n - 2 p: every lower pair takes two degrees of freedom.
@@ -144,7 +146,7 @@ fn check_connected(mechanism: &Mechanism) -> Result<()> {
         reached[joint.first.link] = true;
         reached[joint.second.link] = true;
     }
-    match reached.iter().position(|&is| !is) {
+    match mechanism.links().ids().find(|&link| !reached[link]) {
         None => Ok(()),
         Some(link) => {
             let name = &mechanism.links()[link].name;
@@ -158,7 +160,7 @@ fn check_connected(mechanism: &Mechanism) -> Result<()> {
 /// Refuses closed loops of prismatic pairs alone: such a loop fixes the angle between its links twice and leaves it
 /// free to slide.
 fn check_sliders(mechanism: &Mechanism) -> Result<()> {
-    let mut part: Vec<usize> = (0..mechanism.links().len()).collect();
+    let mut part: Vec<LinkId> = mechanism.links().ids().collect();
     for joint in mechanism.joints().iter().filter(|joint| joint.keeps_angle()) {
         let (a, b) = (part[joint.first.link], part[joint.second.link]);
         if a == b {
@@ -186,7 +188,7 @@ fn wrong_mobility(mechanism: &Mechanism, mobility: i64, drives: usize) -> Error 
     .help(help)
 }
 
-fn unsupported_drive(mechanism: &Mechanism, joint: usize) -> Error {
+fn unsupported_drive(mechanism: &Mechanism, joint: JointId) -> Error {
     Error::new(
         ErrorKind::Unsupported,
         format!(
@@ -199,10 +201,10 @@ fn unsupported_drive(mechanism: &Mechanism, joint: usize) -> Error {
 }
 
 /// The group of `links`, where all links marked in `known` are already solved.
-fn group(mechanism: &Mechanism, links: Vec<usize>, known: &[bool]) -> Group {
-    let inside = |link: usize| links.contains(&link);
+fn group(mechanism: &Mechanism, links: Vec<LinkId>, known: &[bool]) -> Group {
+    let inside = |link: LinkId| links.contains(&link);
     let (mut inner, mut outer) = (Vec::new(), Vec::new());
-    let mut own: Vec<usize> = links.iter().flat_map(|&link| mechanism.joints_on(link)).copied().collect();
+    let mut own: Vec<JointId> = links.iter().flat_map(|&link| mechanism.joints_on(link)).copied().collect();
     own.sort_unstable();
     own.dedup();
     for index in own {
@@ -222,11 +224,11 @@ fn group(mechanism: &Mechanism, links: Vec<usize>, known: &[bool]) -> Group {
     group
 }
 
-fn kind(mechanism: &Mechanism, links: &[usize], inner: &[usize], outer: &[usize]) -> GroupKind {
+fn kind(mechanism: &Mechanism, links: &[LinkId], inner: &[JointId], outer: &[JointId]) -> GroupKind {
     if links.len() != 2 {
         return GroupKind::Higher;
     }
-    let slides = |joints: &[usize]| joints.iter().filter(|&&joint| mechanism.joints()[joint].slides()).count();
+    let slides = |joints: &[JointId]| joints.iter().filter(|&&joint| mechanism.joints()[joint].slides()).count();
     match (slides(inner), slides(outer)) {
         (0, 0) => GroupKind::Rrr,
         (0, 1) => GroupKind::Rrp,

@@ -4,17 +4,17 @@ use petgraph::algo::tarjan_scc;
 use petgraph::graph::{DiGraph, NodeIndex};
 
 use crate::error::{Error, ErrorKind, Result};
-use crate::mechanism::{GROUND, Mechanism};
+use crate::mechanism::{GROUND, JointId, LinkId, Mechanism};
 
 /// Checks Laman's condition for plane bodies: a part of k links, the ground included, carries at most 3 k - 3
 /// equations.
 /// An equivalent condition is tested: with three more copies of any one equation, all equations still find owners among
 /// all links, three per link (Lee and Streinu, "Pebble game algorithms and sparse graphs", 2008).
-pub(super) fn check_sparse(mechanism: &Mechanism, drives: &[usize]) -> Result<()> {
+pub(super) fn check_sparse(mechanism: &Mechanism, drives: &[JointId]) -> Result<()> {
     let mut owners = Owners::unassigned(mechanism, drives, OWNED);
     owners.assign_all(mechanism)?;
     let count = owners.equations.len();
-    for (index, joint) in mechanism.joints().iter().enumerate() {
+    for (index, joint) in mechanism.joints().entries() {
         let ends = [joint.first.link, joint.second.link];
         owners.add((0..3).map(|_| Equation { joint: index, of_drive: false, ends }));
         owners.assign_from(count, mechanism)?;
@@ -27,9 +27,9 @@ pub(super) fn check_sparse(mechanism: &Mechanism, drives: &[usize]) -> Result<()
 /// One scalar equation of a joint or of a drive. One of the two links it touches will own it.
 #[derive(Clone, Copy)]
 struct Equation {
-    joint: usize,
+    joint: JointId,
     of_drive: bool,
-    ends: [usize; 2],
+    ends: [LinkId; 2],
 }
 
 /// Number of equations that one link can own: its degrees of freedom.
@@ -38,7 +38,7 @@ const OWNED: usize = 3;
 /// The owner of each equation.
 pub(super) struct Owners {
     equations: Vec<Equation>,
-    owner: Vec<Option<usize>>,
+    owner: Vec<Option<LinkId>>,
     /// The equations that each link owns.
     owned: Vec<Vec<usize>>,
     /// Number of equations that the ground can own.
@@ -47,16 +47,16 @@ pub(super) struct Owners {
 
 impl Owners {
     /// Finds owners. The ground owns nothing, because its pose is given.
-    pub(super) fn find(mechanism: &Mechanism, drives: &[usize]) -> Result<Self> {
+    pub(super) fn find(mechanism: &Mechanism, drives: &[JointId]) -> Result<Self> {
         let mut owners = Owners::unassigned(mechanism, drives, 0);
         owners.assign_all(mechanism)?;
         Ok(owners)
     }
 
-    fn unassigned(mechanism: &Mechanism, drives: &[usize], of_ground: usize) -> Self {
+    fn unassigned(mechanism: &Mechanism, drives: &[JointId], of_ground: usize) -> Self {
         let owned = vec![Vec::new(); mechanism.links().len()];
         let mut owners = Owners { equations: Vec::new(), owner: Vec::new(), owned, of_ground };
-        for (index, joint) in mechanism.joints().iter().enumerate() {
+        for (index, joint) in mechanism.joints().entries() {
             let ends = [joint.first.link, joint.second.link];
             owners.add((0..joint.kind.equations()).map(|_| Equation { joint: index, of_drive: false, ends }));
             let driven = drives.iter().filter(|&&drive| drive == index);
@@ -117,13 +117,13 @@ impl Owners {
         false
     }
 
-    pub(super) fn owner_of_drive(&self, joint: usize) -> Option<usize> {
+    pub(super) fn owner_of_drive(&self, joint: JointId) -> Option<LinkId> {
         let index = self.equations.iter().position(|equation| equation.of_drive && equation.joint == joint)?;
         self.owner[index]
     }
 
     /// The strongly connected parts, each sorted, in the order in which they can be solved.
-    pub(super) fn parts(&self, mechanism: &Mechanism) -> Vec<Vec<usize>> {
+    pub(super) fn parts(&self, mechanism: &Mechanism) -> Vec<Vec<LinkId>> {
         let mut graph = DiGraph::<(), ()>::new();
         for _ in mechanism.links() {
             graph.add_node(());
@@ -131,12 +131,12 @@ impl Owners {
         for (equation, owner) in self.equations.iter().zip(&self.owner) {
             let owner = owner.expect("every equation has an owner");
             let other = if equation.ends[0] == owner { equation.ends[1] } else { equation.ends[0] };
-            graph.update_edge(NodeIndex::new(owner), NodeIndex::new(other), ());
+            graph.update_edge(NodeIndex::new(owner.index()), NodeIndex::new(other.index()), ());
         }
-        let mut parts: Vec<Vec<usize>> = tarjan_scc(&graph)
+        let mut parts: Vec<Vec<LinkId>> = tarjan_scc(&graph)
             .into_iter()
-            .map(|part| part.into_iter().map(NodeIndex::index).collect())
-            .filter(|part: &Vec<usize>| part[..] != [GROUND])
+            .map(|part| part.into_iter().map(|node| LinkId(node.index())).collect())
+            .filter(|part: &Vec<LinkId>| part[..] != [GROUND])
             .collect();
         parts.iter_mut().for_each(|part| part.sort_unstable());
         parts

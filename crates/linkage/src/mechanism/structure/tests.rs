@@ -1,22 +1,23 @@
 use super::*;
 use crate::fixtures::{class_four, four_bar, link, mechanism};
+use crate::mechanism::{GroupId, JointId};
 
 #[test]
 fn four_bar_is_a_crank_and_a_dyad() {
     let mechanism = four_bar();
-    let structure = Structure::of(&mechanism, &[0]).unwrap();
+    let structure = Structure::of(&mechanism, &[JointId(0)]).unwrap();
     assert_eq!(structure.formula(&mechanism), "I(ground, crank) -> II.2 RRR(coupler, rocker)");
     assert_eq!(structure.mobility, 1);
     assert_eq!(
-        (structure.groups[0].inner.as_slice(), structure.groups[0].outer.as_slice()),
-        ([2].as_slice(), [1, 3].as_slice())
+        (structure.groups[GroupId(0)].inner.as_slice(), structure.groups[GroupId(0)].outer.as_slice()),
+        ([JointId(2)].as_slice(), [JointId(1), JointId(3)].as_slice())
     );
 }
 
 #[test]
 fn the_same_chain_driven_at_the_other_pivot_turns_round() {
     let mechanism = four_bar();
-    let structure = Structure::of(&mechanism, &[3]).unwrap();
+    let structure = Structure::of(&mechanism, &[JointId(3)]).unwrap();
     assert_eq!(structure.formula(&mechanism), "I(ground, rocker) -> II.2 RRR(crank, coupler)");
 }
 
@@ -45,21 +46,21 @@ fn triad() -> Mechanism {
 #[test]
 fn a_base_link_on_three_leads_is_class_three_order_three() {
     let mechanism = triad();
-    let structure = Structure::of(&mechanism, &[0]).unwrap();
+    let structure = Structure::of(&mechanism, &[JointId(0)]).unwrap();
     assert_eq!(structure.formula(&mechanism), "I(ground, crank) -> III.3(lead, base, left, right)");
 }
 
 #[test]
 fn driving_a_lead_of_the_triad_lowers_the_class() {
     let mechanism = triad();
-    let structure = Structure::of(&mechanism, &[5]).unwrap();
+    let structure = Structure::of(&mechanism, &[JointId(5)]).unwrap();
     assert_eq!(structure.formula(&mechanism), "I(ground, left) -> II.2 RRR(base, right) -> II.2 RRR(crank, lead)");
 }
 
 #[test]
 fn a_changeable_quadrilateral_is_class_four_order_two() {
     let mechanism = class_four(1.0, -1.0);
-    let structure = Structure::of(&mechanism, &[0]).unwrap();
+    let structure = Structure::of(&mechanism, &[JointId(0)]).unwrap();
     assert_eq!(structure.formula(&mechanism), "I(ground, 1) -> IV.2(2, 3, 4, 5)");
 }
 
@@ -79,7 +80,7 @@ fn a_rigid_part_beside_a_loose_one_is_found_although_the_count_is_right() {
     ];
     let mechanism = mechanism(links, &pins).unwrap();
     assert_eq!(mobility(&mechanism), 1);
-    let error = Structure::of(&mechanism, &[0]).unwrap_err();
+    let error = Structure::of(&mechanism, &[JointId(0)]).unwrap_err();
     assert!(error.to_string().contains("crank, coupler are over-constrained"), "{error}");
 }
 
@@ -94,7 +95,7 @@ fn two_links_pinned_together_twice_are_over_constrained_and_no_dyad() {
     let pins = [("O", "O", "ground", "crank"), ("A", "A", "crank", "a"), ("P", "P", "a", "b"), ("Q", "Q", "a", "b")];
     let mechanism = mechanism(links, &pins).unwrap();
     assert_eq!(mobility(&mechanism), 1);
-    let error = Structure::of(&mechanism, &[0]).unwrap_err();
+    let error = Structure::of(&mechanism, &[JointId(0)]).unwrap_err();
     assert!(error.to_string().contains("a, b are over-constrained"), "{error}");
 }
 
@@ -122,7 +123,7 @@ fn a_floating_part_with_one_joint_too_many_is_found() {
         ("A2", "A", "1", "loose"),
     ];
     let mechanism = mechanism(links, &pins).unwrap();
-    let error = Structure::of(&mechanism, &[0, 1]).unwrap_err();
+    let error = Structure::of(&mechanism, &[JointId(0), JointId(1)]).unwrap_err();
     assert!(error.to_string().contains("over-constrained"), "{error}");
     assert!(!error.to_string().contains("loose"), "{error}");
 }
@@ -131,7 +132,7 @@ fn a_floating_part_with_one_joint_too_many_is_found() {
 fn loose_links_and_missing_drives_are_refused() {
     let links = vec![link("ground", &[("O", 0.0, 0.0)]), link("a", &[("O", 0.0, 0.0)]), link("b", &[])];
     let alone = mechanism(links.clone(), &[("O", "O", "ground", "a")]).unwrap();
-    assert!(Structure::of(&alone, &[0]).unwrap_err().to_string().contains("not connected to the ground"));
+    assert!(Structure::of(&alone, &[JointId(0)]).unwrap_err().to_string().contains("not connected to the ground"));
     let message = Structure::of(&four_bar(), &[]).unwrap_err().to_string();
     assert!(message.contains("W = 3*3 - 2*4 = 1, but the number of drives is 0"), "{message}");
 }

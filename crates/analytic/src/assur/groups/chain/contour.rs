@@ -2,7 +2,7 @@
 
 use crate::assur::groups::guide::turn_between;
 use linkage::math::{Motion, Vec2};
-use linkage::mechanism::{Group, Joint, JointKind, Mechanism, Side};
+use linkage::mechanism::{Group, Joint, JointId, JointKind, LinkId, Mechanism, PerJoint, Side};
 
 /// How the parent guides a link with a prismatic joint to it.
 #[derive(Clone, Copy, Debug)]
@@ -17,9 +17,9 @@ pub(super) struct Guided {
 #[derive(Clone, Copy, Debug)]
 pub struct Node {
     /// The link.
-    pub link: usize,
+    pub link: LinkId,
     /// The joint to its parent.
-    pub joint: usize,
+    pub joint: JointId,
     /// That joint in the link's own frame, and whether it is the origin there.
     pub own: Vec2,
     pub(super) at_origin: bool,
@@ -46,7 +46,7 @@ pub(in crate::assur) enum Hangs {
 }
 
 impl Node {
-    fn of(joints: &[Joint], joint: usize, link: usize, before: &mut Contours) -> Self {
+    fn of(joints: &PerJoint<Joint>, joint: JointId, link: LinkId, before: &mut Contours) -> Self {
         let found = &joints[joint];
         let parent = found.other(link);
         let parent_node = before.nodes.iter().position(|node| node.link == parent.link);
@@ -95,7 +95,7 @@ pub(in crate::assur) struct Arrow {
     /// The vector in the frame of the node's link; `None` for the node's slide.
     pub(in crate::assur) local: Option<Vec2>,
     /// The link that it turns with, and the node whose unknown is that link's angle.
-    pub(super) carrier: usize,
+    pub(super) carrier: LinkId,
     pub(in crate::assur) spin: Option<usize>,
 }
 
@@ -106,7 +106,7 @@ pub(in crate::assur) struct Stretch {
     pub(in crate::assur) arrow: usize,
     pub(in crate::assur) sign: f64,
     /// As in [`Arrow`].
-    pub(super) carrier: usize,
+    pub(super) carrier: LinkId,
     pub(super) spin: Option<usize>,
     /// The node whose slide it is.
     pub(super) slide: Option<usize>,
@@ -116,7 +116,7 @@ pub(in crate::assur) struct Stretch {
 #[derive(Clone, Debug)]
 pub struct Closing {
     /// The joint.
-    pub joint: usize,
+    pub joint: JointId,
     /// Nodes of the joint's first and second link; `None` for a link outside the group.
     pub nodes: [Option<usize>; 2],
     /// The joint on its second link.
@@ -156,8 +156,8 @@ impl Contours {
         let mut used = vec![false; joints.len()];
         // Breadth first: all outer joints, then inner ones from the links already in the tree.
         while all.nodes.len() < group.links.len() {
-            let known = |link: usize| !group.links.contains(&link) || all.nodes.iter().any(|node| node.link == link);
-            let hung = |&joint: &usize| {
+            let known = |link: LinkId| !group.links.contains(&link) || all.nodes.iter().any(|node| node.link == link);
+            let hung = |&joint: &JointId| {
                 let (a, b) = (joints[joint].first.link, joints[joint].second.link);
                 match (known(a), known(b)) {
                     (true, false) => Some((joint, b)),
@@ -202,7 +202,7 @@ impl Contours {
     }
 
     /// The way to a closing joint over both of its links.
-    fn closing(&mut self, found: &Joint, joint: usize) -> Closing {
+    fn closing(&mut self, found: &Joint, joint: JointId) -> Closing {
         let mut ways = Vec::new();
         let mut way = |side: Side, sign: f64| {
             // Where sliders carry all links, an outer pin remains too. The way to it over the link outside is empty.

@@ -33,7 +33,7 @@ use linkage::case::Case;
 use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::input::Input;
 use linkage::math::{KeepNan, Vec2, cross, root, rotated, turned, unit};
-use linkage::mechanism::GROUND;
+use linkage::mechanism::{GROUND, LinkId};
 
 /// Largest turn of the crank between two poses (rad): one degree.
 const TRACKING_STEP: f64 = std::f64::consts::PI / 180.0;
@@ -106,7 +106,7 @@ impl ClassChange {
     /// [`ErrorKind::Geometry`] if the start pose is a dead point.
     pub fn new(case: &Case, triad: &Triad) -> Result<Self> {
         let (mechanism, drive) = (&case.mechanism, case.crank());
-        let hung_on = |link: usize| (0..3).filter(move |&k| triad.leads[k].support.link == link);
+        let hung_on = |link: LinkId| (0..3).filter(move |&k| triad.leads[k].support.link == link);
         let grounds: Vec<usize> = hung_on(GROUND).collect();
         let driven: Vec<usize> = hung_on(drive.link).collect();
         let joint = &mechanism.joints()[drive.joint];
@@ -119,7 +119,7 @@ impl ClassChange {
             Grounded { foot: lead.support.local, length: (lead.head - lead.foot).norm(), on_base: lead.on_base }
         });
         let spans = triad.leads.map(|lead| lead.head - lead.foot);
-        let start = |link: usize| unit(case.start.0[link].angle);
+        let start = |link: LinkId| unit(case.start.0[link].angle);
         let last = Transfer {
             directions: triad.links().map(start),
             first: [0.0; 4],

@@ -2,7 +2,7 @@ use super::super::random::{Random, group, mechanism, size};
 use super::super::transmission_sine;
 use super::*;
 use crate::math::KeepNan;
-use crate::mechanism::{Joint, JointKind};
+use crate::mechanism::{Joint, JointId, JointKind, LinkId};
 
 const CASES: usize = 100_000;
 
@@ -16,40 +16,43 @@ struct Case {
 fn case(random: &mut Random, kind: GroupKind) -> Case {
     let letters: Vec<bool> = kind.letters().unwrap().chars().map(|letter| letter == 'P').collect();
     let outer = if random.yes() { [letters[0], letters[2]] } else { [letters[2], letters[0]] };
-    let joints =
-        vec![random.joint("A", outer[0], 1, 3), random.joint("B", letters[1], 3, 4), random.joint("C", outer[1], 2, 4)];
+    let joints = vec![
+        random.joint("A", outer[0], LinkId(1), LinkId(3)),
+        random.joint("B", letters[1], LinkId(3), LinkId(4)),
+        random.joint("C", outer[1], LinkId(2), LinkId(4)),
+    ];
     let mechanism = mechanism(5, joints);
     let mut pose = Pose((0..5).map(|_| random.pose()).collect());
-    pose.0[0] = LinkPose::GROUND;
-    let group = group(&mechanism, &[3, 4], kind);
+    pose.0[LinkId(0)] = LinkPose::GROUND;
+    let group = group(&mechanism, &[LinkId(3), LinkId(4)], kind);
     Case { mechanism, group, pose }
 }
 
 impl Case {
-    fn joint(&self, index: usize) -> &Joint {
+    fn joint(&self, index: JointId) -> &Joint {
         &self.mechanism.joints()[index]
     }
 
-    fn place(&self, pose: &Pose, joint: usize, link: usize) -> Vec2 {
+    fn place(&self, pose: &Pose, joint: JointId, link: LinkId) -> Vec2 {
         pose.0[link].point(self.joint(joint).on(link).unwrap())
     }
 
-    fn axis(&self, pose: &Pose, joint: usize) -> Vec2 {
+    fn axis(&self, pose: &Pose, joint: JointId) -> Vec2 {
         let joint = self.joint(joint);
         rotated(unit(pose.0[joint.first.link].angle), joint.axis_on(joint.first.link).unwrap())
     }
 
     /// The pose with link `link` turned so that its prismatic `joint` has the axis of its other side.
-    fn with_turned(&self, mut pose: Pose, joint: usize, link: usize) -> Pose {
+    fn with_turned(&self, mut pose: Pose, joint: JointId, link: LinkId) -> Pose {
         let other = self.joint(joint).other(link).link;
         let angle = |axis: Vec2| axis.y.atan2(axis.x);
-        let axis = |of: usize| angle(self.joint(joint).axis_on(of).unwrap());
+        let axis = |of: LinkId| angle(self.joint(joint).axis_on(of).unwrap());
         pose.0[link].angle = pose.0[other].angle + axis(other) - axis(link);
         pose
     }
 
     /// Distance of the places of a prismatic `joint` from its line.
-    fn off_line(&self, pose: &Pose, joint: usize) -> f64 {
+    fn off_line(&self, pose: &Pose, joint: JointId) -> f64 {
         let own = self.joint(joint);
         cross(
             self.axis(pose, joint),
@@ -60,21 +63,24 @@ impl Case {
     /// Whether the dyad has configurations, from the zeros of a sampled function, not of a derived formula.
     /// Positive if it has, negative if not; the value is the margin.
     fn reach(&self) -> f64 {
-        let outer_pin = |joint: usize, link: usize| self.place(&self.pose, joint, self.joint(joint).other(link).link);
+        let outer_pin =
+            |joint: JointId, link: LinkId| self.place(&self.pose, joint, self.joint(joint).other(link).link);
         match self.group.kind {
             GroupKind::Rrr => {
                 // The triangle inequality, three times.
-                let span = |link: usize, outer: usize| {
-                    (self.joint(1).on(link).unwrap() - self.joint(outer).on(link).unwrap()).norm()
+                let span = |link: LinkId, outer: JointId| {
+                    (self.joint(JointId(1)).on(link).unwrap() - self.joint(outer).on(link).unwrap()).norm()
                 };
-                let (a, b) = (span(3, 0), span(4, 2));
-                let c = (outer_pin(0, 3) - outer_pin(2, 4)).norm();
+                let (a, b) = (span(LinkId(3), JointId(0)), span(LinkId(4), JointId(2)));
+                let c = (outer_pin(JointId(0), LinkId(3)) - outer_pin(JointId(2), LinkId(4))).norm();
                 (a + b - c).smaller(a + c - b).smaller(b + c - a)
             }
             GroupKind::Rrp => {
                 // Squared distance of the inner joint from the outer pin as a function of the slide:
                 // a parabola through three values.
-                let (slider, outer, rod, pin) = if self.joint(0).slides() { (3, 0, 4, 2) } else { (4, 2, 3, 0) };
+                let (slider, outer, rod, pin) =
+                    if self.joint(JointId(0)).slides() { (3, 0, 4, 2) } else { (4, 2, 3, 0) };
+                let ([slider, rod], [outer, pin]) = ([slider, rod].map(LinkId), [outer, pin].map(JointId));
                 let mut pose = self.with_turned(self.pose.clone(), outer, slider);
                 let axis = self.axis(&pose, outer);
                 let normal = turned(axis);
@@ -83,12 +89,12 @@ impl Case {
                 let squared = |slide: f64| {
                     let mut moved = pose.clone();
                     moved.0[slider].origin += axis * slide;
-                    (self.place(&moved, 1, slider) - outer_pin(pin, rod)).norm_squared()
+                    (self.place(&moved, JointId(1), slider) - outer_pin(pin, rod)).norm_squared()
                 };
                 let [before, here, after] = [-1.0, 0.0, 1.0].map(squared);
                 let (a, b) = ((before + after) / 2.0 - here, (after - before) / 2.0);
                 let least = here - b * b / (4.0 * a);
-                let rod = self.joint(1).on(rod).unwrap() - self.joint(pin).on(rod).unwrap();
+                let rod = self.joint(JointId(1)).on(rod).unwrap() - self.joint(pin).on(rod).unwrap();
                 rod.norm() - least.larger(0.0).sqrt()
             }
             GroupKind::Rpr => {
@@ -96,13 +102,13 @@ impl Case {
                 // from three values.
                 let off = |angle: f64| {
                     let mut pose = self.pose.clone();
-                    pose.0[3].angle = angle;
-                    pose = self.with_turned(pose, 1, 4);
-                    for (link, joint) in [(3, 0), (4, 2)] {
+                    pose.0[LinkId(3)].angle = angle;
+                    pose = self.with_turned(pose, JointId(1), LinkId(4));
+                    for (link, joint) in [(LinkId(3), JointId(0)), (LinkId(4), JointId(2))] {
                         let local = self.joint(joint).on(link).unwrap();
                         pose.0[link] = LinkPose::through(local, outer_pin(joint, link), pose.0[link].angle);
                     }
-                    self.off_line(&pose, 1)
+                    self.off_line(&pose, JointId(1))
                 };
                 let [f0, f1, f2] = [0.0, 2.0, 4.0].map(|k: f64| off(k * std::f64::consts::FRAC_PI_3));
                 let mean = (f0 + f1 + f2) / 3.0;
@@ -115,19 +121,19 @@ impl Case {
 
     /// The mode of an assembled dyad by the definitions of [`AssemblyMode`].
     fn mode(&self, pose: &Pose) -> AssemblyMode {
-        let inner = self.place(pose, 1, 3);
-        let (a, c) = (self.place(pose, 0, 3), self.place(pose, 2, 4));
+        let inner = self.place(pose, JointId(1), LinkId(3));
+        let (a, c) = (self.place(pose, JointId(0), LinkId(3)), self.place(pose, JointId(2), LinkId(4)));
         let ahead = |is: bool| if is { AssemblyMode::Ahead } else { AssemblyMode::Behind };
         match self.group.kind {
             GroupKind::Rrr if cross(c - a, inner - a) > 0.0 => AssemblyMode::Left,
             GroupKind::Rrr => AssemblyMode::Right,
             GroupKind::Rrp => {
-                let (guide, pin) = if self.joint(0).slides() { (0, c) } else { (2, a) };
+                let (guide, pin) = if self.joint(JointId(0)).slides() { (JointId(0), c) } else { (JointId(2), a) };
                 ahead(self.axis(pose, guide).dot(&(inner - pin)) > 0.0)
             }
             GroupKind::Rpr => {
-                let base = if self.joint(1).first.link == 3 { c - a } else { a - c };
-                ahead(self.axis(pose, 1).dot(&base) > 0.0)
+                let base = if self.joint(JointId(1)).first.link == LinkId(3) { c - a } else { a - c };
+                ahead(self.axis(pose, JointId(1)).dot(&base) > 0.0)
             }
             GroupKind::Rpp | GroupKind::Prp | GroupKind::Higher => AssemblyMode::Only,
         }
@@ -162,7 +168,7 @@ fn random_dyads_of_every_kind() {
                 .iter()
                 .map(|one| {
                     let mut pose = case.pose.clone();
-                    (pose.0[3], pose.0[4]) = (one.links[0], one.links[1]);
+                    (pose.0[LinkId(3)], pose.0[LinkId(4)]) = (one.links[0], one.links[1]);
                     pose
                 })
                 .collect();
@@ -201,7 +207,7 @@ fn parallel_axes_are_refused() {
         for _ in 0..1000 {
             let mut case = case(&mut random, kind);
             let (Some(joint), Some(other)) = (0..3)
-                .filter(|&k| case.joint(k).slides())
+                .filter(|&k| case.joint(JointId(k)).slides())
                 .fold((None, None), |(first, _), k| if first.is_none() { (Some(k), None) } else { (first, Some(k)) })
             else {
                 panic!("two prismatic joints");
@@ -209,16 +215,17 @@ fn parallel_axes_are_refused() {
             // PRP: turn one base until its guide is parallel to the other's. RPP: give the slider two parallel axes.
             let turned_by = |case: &mut Case, angle: f64| {
                 if kind == GroupKind::Prp {
-                    let guide = |k: usize, link: usize| {
+                    let guide = |k: JointId, link: LinkId| {
                         let base = case.joint(k).other(link).link;
                         let axis = case.joint(k).axis_on(base).unwrap();
                         case.pose.0[base].angle + axis.y.atan2(axis.x)
                     };
-                    let off = guide(joint, 3) - guide(other, 4) + angle;
-                    case.pose.0[2].angle += off;
+                    let off = guide(JointId(joint), LinkId(3)) - guide(JointId(other), LinkId(4)) + angle;
+                    case.pose.0[LinkId(2)].angle += off;
                 } else {
-                    let slider = if case.joint(0).slides() { 3 } else { 4 };
-                    let (outer, inner) = if slider == 3 { (0, 1) } else { (2, 1) };
+                    let slider = if case.joint(JointId(0)).slides() { LinkId(3) } else { LinkId(4) };
+                    let (outer, inner) =
+                        if slider == LinkId(3) { (JointId(0), JointId(1)) } else { (JointId(2), JointId(1)) };
                     let along = case.joint(outer).axis_on(slider).unwrap();
                     let mut joints = case.mechanism.joints().to_vec();
                     let side = usize::from(joints[inner].second.link == slider);

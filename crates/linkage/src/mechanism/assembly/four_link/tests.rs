@@ -4,7 +4,7 @@ use super::super::random::{Random, group, mechanism, size};
 use super::*;
 use crate::fixtures::class_four;
 use crate::math::KeepNan;
-use crate::mechanism::{GROUND, GroupKind, Structure};
+use crate::mechanism::{GROUND, GroupId, GroupKind, JointId, LinkId, Structure};
 use scan::{Scan, scanned};
 
 /// Whether each pair of the three leads slides: pair with the frame, pair with the base.
@@ -31,14 +31,15 @@ fn case(random: &mut Random, pairs: Pairs, triad: bool, fitted: bool) -> Case {
         [[[2, 3], [3, 5]], [[2, 4], [4, 5]], [[2, near], [far, 5]]]
     };
     let mut pose = Pose((0..6).map(|_| random.pose()).collect());
-    pose.0[0] = LinkPose::GROUND;
+    pose.0[LinkId(0)] = LinkPose::GROUND;
     let mut joints = Vec::new();
     for (lead, slides) in ends.iter().flatten().zip(pairs.iter().flatten()) {
-        let joint = random.joint(["A", "B", "C", "D", "E", "F"][joints.len()], *slides, lead[0], lead[1]);
+        let joint =
+            random.joint(["A", "B", "C", "D", "E", "F"][joints.len()], *slides, LinkId(lead[0]), LinkId(lead[1]));
         joints.push(if fitted { random.fitted(joint, &pose) } else { joint });
     }
     let mechanism = mechanism(6, joints);
-    let group = group(&mechanism, &[2, 3, 4, 5], GroupKind::Higher);
+    let group = group(&mechanism, &[2, 3, 4, 5].map(LinkId), GroupKind::Higher);
     Case { mechanism, group, pose }
 }
 
@@ -172,7 +173,7 @@ fn a_group_that_can_move_is_refused() {
             // The world is the third lead.
             let [a, b] = [4, 5].map(|k: usize| {
                 let joint = &joints[k];
-                if joint.first.link < 2 { joint.first } else { joint.second }
+                if joint.first.link < LinkId(2) { joint.first } else { joint.second }
             });
             let from = case.pose.0[a.link].point(a.local);
             let place = from + Vec2::new(0.3, 0.4);
@@ -181,7 +182,7 @@ fn a_group_that_can_move_is_refused() {
                 let own = case.pose.0[side.link];
                 side.local = rotated(unit(-own.angle), place - own.origin);
             }
-            assert!(b.link < 2);
+            assert!(b.link < LinkId(2));
         }
         case.mechanism = mechanism(6, joints);
         let error = configurations(&case.mechanism, &case.group, &case.pose).unwrap_err();
@@ -195,10 +196,10 @@ fn val_fourth_class_configurations_at_70_degrees() {
     let mut total = 0;
     for (side_b, side_d) in [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)] {
         let mechanism = class_four(side_b, side_d);
-        let structure = Structure::of(&mechanism, &[0]).unwrap();
-        let mut pose = Pose(vec![LinkPose::GROUND; 6]);
-        pose.0[1].angle = 70f64.to_radians();
-        let group = &structure.groups[0];
+        let structure = Structure::of(&mechanism, &[JointId(0)]).unwrap();
+        let mut pose = Pose(vec![LinkPose::GROUND; 6].into());
+        pose.0[LinkId(1)].angle = 70f64.to_radians();
+        let group = &structure.groups[GroupId(0)];
         let all = configurations(&mechanism, group, &pose).unwrap();
         for one in &all {
             for (&link, &place) in group.links.iter().zip(&one.links) {

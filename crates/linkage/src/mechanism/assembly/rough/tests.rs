@@ -1,22 +1,22 @@
 use super::super::random::{Random, group, mechanism, size};
 use super::*;
 use crate::math::KeepNan;
-use crate::mechanism::{GroupKind, Side};
+use crate::mechanism::{GroupKind, LinkId, Side};
 
 /// Two base links 6 and 5, pinned to each other, each on two leads: a group of six links and nine joints, closed in the
 /// pose.
 fn case(random: &mut Random, slides: impl Fn(&mut Random) -> bool) -> (Mechanism, Group, Pose) {
     let mut pose = Pose((0..7).map(|_| random.pose()).collect());
-    pose.0[0] = LinkPose::GROUND;
+    pose.0[LinkId(0)] = LinkPose::GROUND;
     let ends = [[0, 1], [0, 2], [3, 0], [4, 0], [1, 5], [5, 2], [3, 6], [6, 4], [5, 6]];
     let mut joints: Vec<Joint> = Vec::new();
     for (name, [a, b]) in ["A", "B", "C", "D", "E", "F", "G", "H", "I"].into_iter().zip(ends) {
         let slides = slides(random);
-        let joint = random.joint(name, slides, a, b);
+        let joint = random.joint(name, slides, LinkId(a), LinkId(b));
         joints.push(random.fitted(joint, &pose));
     }
     let mechanism = mechanism(7, joints);
-    let group = group(&mechanism, &[1, 2, 3, 4, 5, 6], GroupKind::Higher);
+    let group = group(&mechanism, &[1, 2, 3, 4, 5, 6].map(LinkId), GroupKind::Higher);
     (mechanism, group, pose)
 }
 

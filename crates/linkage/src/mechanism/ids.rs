@@ -1,0 +1,229 @@
+//! Numbers of links, joints, groups and drives. Each is a type of its own, so that none is taken for another.
+
+use std::fmt;
+use std::marker::PhantomData;
+use std::ops::{Deref, DerefMut, Index, IndexMut, RangeFrom};
+
+/// A number that says which of its like is meant.
+pub trait Id: Copy {
+    /// The one at the place `index`, counted from 0.
+    fn at(index: usize) -> Self;
+
+    /// Its place, counted from 0.
+    fn index(self) -> usize;
+}
+
+/// Declares numbers, and that slices and vectors of anything take them as they take a `usize`.
+macro_rules! ids {
+    ($($(#[$about:meta])* $name:ident,)*) => {$(
+        $(#[$about])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        pub struct $name(pub usize);
+
+        impl $name {
+            /// Its place, counted from 0.
+            #[inline]
+            #[must_use]
+            pub const fn index(self) -> usize {
+                self.0
+            }
+        }
+
+        impl Id for $name {
+            #[inline]
+            fn at(index: usize) -> Self {
+                $name(index)
+            }
+
+            #[inline]
+            fn index(self) -> usize {
+                self.0
+            }
+        }
+
+        impl fmt::Display for $name {
+            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                self.0.fmt(f)
+            }
+        }
+
+        impl<T> Index<$name> for [T] {
+            type Output = T;
+
+            #[inline]
+            fn index(&self, id: $name) -> &T {
+                &self[id.0]
+            }
+        }
+
+        impl<T> IndexMut<$name> for [T] {
+            #[inline]
+            fn index_mut(&mut self, id: $name) -> &mut T {
+                &mut self[id.0]
+            }
+        }
+
+        impl<T> Index<$name> for Vec<T> {
+            type Output = T;
+
+            #[inline]
+            fn index(&self, id: $name) -> &T {
+                &self[id.0]
+            }
+        }
+
+        impl<T> IndexMut<$name> for Vec<T> {
+            #[inline]
+            fn index_mut(&mut self, id: $name) -> &mut T {
+                &mut self[id.0]
+            }
+        }
+    )*};
+}
+
+ids! {
+    /// Number of a link in [`Mechanism::links`](super::Mechanism::links). 0 is the ground: [`GROUND`](super::GROUND).
+    LinkId,
+    /// Number of a joint in [`Mechanism::joints`](super::Mechanism::joints).
+    JointId,
+    /// Number of an Assur group in [`Structure::groups`](super::Structure::groups).
+    GroupId,
+}
+
+/// One value for each link, joint or group, in their order. It takes their numbers only; as a slice it has all else.
+#[derive(Debug, PartialEq, Eq)]
+pub struct Per<I, T>(Vec<T>, PhantomData<I>);
+
+/// One value for each link, the ground included.
+pub type PerLink<T> = Per<LinkId, T>;
+
+/// One value for each joint.
+pub type PerJoint<T> = Per<JointId, T>;
+
+/// One value for each Assur group.
+pub type PerGroup<T> = Per<GroupId, T>;
+
+impl<I: Id, T> Per<I, T> {
+    /// The numbers, ascending.
+    pub fn ids(&self) -> impl DoubleEndedIterator<Item = I> + ExactSizeIterator + Clone + use<I, T> {
+        (0..self.0.len()).map(I::at)
+    }
+
+    /// All values with their numbers.
+    pub fn entries(&self) -> impl DoubleEndedIterator<Item = (I, &T)> + ExactSizeIterator + Clone {
+        self.0.iter().enumerate().map(|(index, value)| (I::at(index), value))
+    }
+
+    /// The same, mutable.
+    pub fn entries_mut(&mut self) -> impl DoubleEndedIterator<Item = (I, &mut T)> + ExactSizeIterator {
+        self.0.iter_mut().enumerate().map(|(index, value)| (I::at(index), value))
+    }
+
+    /// The value of a number; `None` if there are fewer.
+    #[must_use]
+    pub fn get(&self, id: I) -> Option<&T> {
+        self.0.get(id.index())
+    }
+
+    /// Number of the first value that is `wanted`.
+    pub fn find(&self, wanted: impl FnMut(&T) -> bool) -> Option<I> {
+        self.0.iter().position(wanted).map(I::at)
+    }
+}
+
+impl<I, T: Clone> Clone for Per<I, T> {
+    fn clone(&self) -> Self {
+        Per(self.0.clone(), PhantomData)
+    }
+
+    /// Uses the memory of `self` again, which a derived one does not.
+    fn clone_from(&mut self, source: &Self) {
+        self.0.clone_from(&source.0);
+    }
+}
+
+impl<I, T> Default for Per<I, T> {
+    fn default() -> Self {
+        Per(Vec::new(), PhantomData)
+    }
+}
+
+impl<I, T> From<Vec<T>> for Per<I, T> {
+    fn from(values: Vec<T>) -> Self {
+        Per(values, PhantomData)
+    }
+}
+
+impl<I, T> FromIterator<T> for Per<I, T> {
+    fn from_iter<A: IntoIterator<Item = T>>(values: A) -> Self {
+        Per(values.into_iter().collect(), PhantomData)
+    }
+}
+
+impl<I, T> Deref for Per<I, T> {
+    type Target = [T];
+
+    #[inline]
+    fn deref(&self) -> &[T] {
+        &self.0
+    }
+}
+
+impl<I, T> DerefMut for Per<I, T> {
+    #[inline]
+    fn deref_mut(&mut self) -> &mut [T] {
+        &mut self.0
+    }
+}
+
+impl<'a, I, T> IntoIterator for &'a Per<I, T> {
+    type Item = &'a T;
+    type IntoIter = std::slice::Iter<'a, T>;
+
+    #[inline]
+    fn into_iter(self) -> Self::IntoIter {
+        self.0.iter()
+    }
+}
+
+impl<'a, I, T> IntoIterator for &'a mut Per<I, T> {
+    type Item = &'a mut T;
+    type IntoIter = std::slice::IterMut<'a, T>;
+
+    #[inline]
+    fn into_iter(self) -> Self::IntoIter {
+        self.0.iter_mut()
+    }
+}
+
+impl<I: Id, T> Index<I> for Per<I, T> {
+    type Output = T;
+
+    #[inline]
+    fn index(&self, id: I) -> &T {
+        &self.0[id.index()]
+    }
+}
+
+impl<I: Id, T> IndexMut<I> for Per<I, T> {
+    #[inline]
+    fn index_mut(&mut self, id: I) -> &mut T {
+        &mut self.0[id.index()]
+    }
+}
+
+impl<I, T> Index<RangeFrom<usize>> for Per<I, T> {
+    type Output = [T];
+
+    #[inline]
+    fn index(&self, from: RangeFrom<usize>) -> &[T] {
+        &self.0[from]
+    }
+}
+
+impl<I, T> IndexMut<RangeFrom<usize>> for Per<I, T> {
+    #[inline]
+    fn index_mut(&mut self, from: RangeFrom<usize>) -> &mut [T] {
+        &mut self.0[from]
+    }
+}
