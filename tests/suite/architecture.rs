@@ -54,7 +54,7 @@ const CRATES: &[(&str, &str, &str, &str)] = &[
 const ROOMS: &[(&str, &str)] = &[
     ("linkage::case", "drive error input math mechanism trajectory"),
     ("linkage::drive", "input math mechanism"),
-    ("linkage::engine", "case error math solver threads trajectory work"),
+    ("linkage::engine", "case error math solver threads trajectory"),
     ("linkage::error", "input"),
     ("linkage::input", ""),
     ("linkage::math", ""),
