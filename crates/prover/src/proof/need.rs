@@ -68,8 +68,9 @@ pub(super) struct Blame {
 /// The largest bound of a channel or check over what is wanted, `wanted` of its scale, and what is to blame.
 /// Those whose runs show no order come first.
 pub(super) fn need(judged: &Judged, wanted: f64) -> (Need, Blame) {
-    let channels = judged.channels.iter().map(|own| (own.parts, own.residual.scale, &own.convergence, &own.verdict));
-    let checks = judged.checks.iter().filter_map(|check| {
+    let channels =
+        judged.proof.channels.iter().map(|own| (own.parts, own.residual.scale, &own.convergence, &own.verdict));
+    let checks = judged.proof.checks.iter().filter_map(|check| {
         let (parts, convergence) = check.estimate.as_ref()?;
         Some((*parts, 1.0, convergence, &check.verdict))
     });

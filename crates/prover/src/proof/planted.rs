@@ -4,9 +4,10 @@
 use std::path::Path;
 
 use super::each_side::{EachSide, Reference};
+use super::engine_proof::ChannelProof;
 use super::entrants::{Sides, TRUE_SIDES};
 use super::figures::Measured;
-use super::judge::ChannelProof;
+use super::judge::Judge;
 use super::known::Known;
 use super::ledger::Ledger;
 use super::observe::{Observed, Watch, observe};
@@ -271,15 +272,8 @@ fn engine_proven(scenario: &Scenario, fault: Fault, size: f64, grows: bool, sear
     };
     let chosen = Chosen { engine, given, budget: settle::BUDGET }.by_motion_alone();
     let known = knowing(&scenario.case);
-    engines::prove(
-        Problem::of(scenario, &scenario.case),
-        &scenario.case,
-        &chosen,
-        &reference,
-        &known,
-        (&mut Ledger::default(), &mut |_| {}),
-    )
-    .unwrap()
+    let judge = Judge::new(Problem::of(scenario, &scenario.case), &reference, &known, chosen.engine.settings());
+    engines::prove(&judge, &scenario.case, &chosen, &mut Ledger::default(), &mut |_| {}).unwrap()
 }
 
 /// An opening that does not vanish with the step, and a moment that disagrees with its powers. Both are far below 1 %
