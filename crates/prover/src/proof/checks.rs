@@ -100,7 +100,7 @@ pub struct Beyond {
 
 /// Every channel in which the two sides differ by more than what is allowed: since when, and by how much.
 pub(super) fn beyond(sides: EachSide<&Observed>, known: &Known) -> Vec<Beyond> {
-    let [reference, other] = sides.into_pair().map(|own| &own.trajectory);
+    let [reference, other] = sides.pair().map(|own| &own.trajectory);
     let rows = ascending(reference.times());
     let errors = difference(reference, other).expect("both sides stand on one grid");
     let of = |(index, worst): (usize, Worst)| {
@@ -123,7 +123,7 @@ pub(super) fn sides_differ(sides: [&Trajectory; 2], known: &Known) -> bool {
 }
 
 fn between_sides(sides: EachSide<&Observed>, known: &Known) -> Vec<Check> {
-    let [reference, other] = sides.into_pair().map(|own| &own.trajectory);
+    let [reference, other] = sides.pair().map(|own| &own.trajectory);
     let all = worst_instants([reference, other], known);
     let [first, second] = Reference::ALL;
     let of_stage = |stage: Stage| {

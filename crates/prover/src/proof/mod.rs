@@ -23,7 +23,6 @@ mod options;
 mod oracle;
 mod order;
 mod own_forces;
-mod pace;
 mod parties;
 #[cfg(test)]
 mod planted;
@@ -35,7 +34,6 @@ mod sensitivity;
 mod settle;
 pub mod shifted;
 pub mod solved;
-mod stall;
 
 pub use each_side::{EachSide, Reference};
 pub use engine_proof::{ChannelProof, End, EngineInfo, EngineProof, ForceFault, Search};

@@ -14,12 +14,10 @@ use linkage::math::statistics::half_range;
 
 use super::engine_proof::{End, Search};
 use super::judge::{Judge, Judged};
-use super::need::{Blame, MOST_LEFT_OUT, Need, need};
+use super::need::{Blame, MOST_LEFT_OUT, Need, Next, Pace, Stall, need};
 use super::observe::Stopped;
 use super::order;
-use super::pace::Pace;
 use super::runs::{Bank, FEWER, other_sweeps, room, rungs};
-use super::stall::{Next, Stall};
 use crate::tolerance::Part;
 use scenario::EngineSettings;
 
