@@ -75,12 +75,8 @@ impl<'a> Stage<'a> {
     fn engine(&self, sides: &Sides, around: Around, own_forces: bool) -> Result<EngineProof> {
         let how = Engines { case: &self.case, around, own_forces };
         let engines = self.options.chosen(&self.scenario.engine, &self.case)?;
-        let mut proofs = sides.engines(
-            Problem::of(self.scenario, &self.case),
-            &how,
-            engines,
-            (&mut Ledger::default(), &mut |_| {}),
-        )?;
+        let problem = Problem::of(self.scenario, &self.case);
+        let mut proofs = sides.engines(problem, &how, engines, &mut Ledger::default(), &mut |_| {})?;
         Ok(proofs.swap_remove(0))
     }
 

@@ -242,14 +242,16 @@ fn sought(trial: &mut Trial, claim: &Claim, course: &Course) -> Option<Cause> {
     if trial.gives_one_number() && !trial.is_constant() {
         return Some(Cause::Constant);
     }
-    if let Some(found) = leaves(&rows, trial.formula.error.is_none()) {
+    // An approximation is right by chance where it crosses.
+    let is_exact = trial.formula.error.is_none();
+    if let Some(found) = leaves(&rows).filter(|_| is_exact) {
         return Some(found);
     }
     // Of as many that are as simple, one leaves as little at two independent instants by chance.
     let by_chance = |own: &Mended| (CHANCE / own.among as f64).sqrt().smaller(MOST_LEFT);
     let nearest = tried.nearest.filter(|own| !own.rank.0 && !is_weak && own.left <= by_chance(own));
     let mostly = |own: Mended| Cause::Mostly { cause: Box::new(Cause::Slip(own.slip)), left: own.left };
-    nearest.map(mostly).or_else(|| near(&rows, trial.formula.error.is_none()))
+    nearest.map(mostly).or_else(|| near(&rows).filter(|_| is_exact))
 }
 
 /// Chance that a slip leaves little of the difference though it is not the cause.
@@ -264,10 +266,10 @@ fn one_of(mut causes: Vec<Cause>) -> Option<Cause> {
 }
 
 /// Whether it is right to within a small share of its largest number, as a series or a formula for small angles is.
-fn near(rows: &[Row], is_exact: bool) -> Option<Cause> {
+fn near(rows: &[Row]) -> Option<Cause> {
     let largest = |of: &dyn Fn(&Row) -> f64| rows.iter().map(|row| of(row).abs()).fold(0.0, f64::larger);
     let (error, scale) = (largest(&|row| row[2] - row[3]), largest(&|row| row[3]));
-    let is_near = is_exact && rows.len() >= FEWEST && error <= NEAR * scale;
+    let is_near = rows.len() >= FEWEST && error <= NEAR * scale;
     is_near.then_some(Cause::Near { error, share: error / scale })
 }
 
@@ -310,14 +312,13 @@ fn of_numbers(rows: &[Row]) -> Option<Cause> {
     offset.or_else(|| by(&|row| row[3]).map(|more| Cause::Factor(1.0 + more)))
 }
 
-/// Right up to somewhere, and wrong from there on; an approximation is right by chance where it crosses.
-fn leaves(rows: &[Row], is_exact: bool) -> Option<Cause> {
+/// Right up to somewhere, and wrong from there on.
+fn leaves(rows: &[Row]) -> Option<Cause> {
     let mut order: Vec<&Row> = rows.iter().collect();
     order.sort_by(|a, b| a[0].total_cmp(&b[0]));
     let is_right = |row: &&Row| (row[2] - row[3]).abs() <= row[4];
     let right = order.iter().copied().take_while(is_right).count();
-    (is_exact && right >= 2 && right < order.len())
-        .then(|| Cause::Leaves { after: order[right - 1][1], before: order[right][1] })
+    (right >= 2 && right < order.len()).then(|| Cause::Leaves { after: order[right - 1][1], before: order[right][1] })
 }
 
 #[cfg(test)]

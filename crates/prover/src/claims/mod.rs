@@ -13,7 +13,6 @@ mod slips;
 mod terms;
 mod trial;
 mod undefined;
-mod values;
 
 pub use cause::{CUT, Cause, MOST_WORK, Search, cause};
 pub use course::{Course, needed, telling};

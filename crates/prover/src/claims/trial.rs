@@ -64,12 +64,10 @@ impl<'a> Trial<'a> {
         let formula = &formulas.list[index];
         let rows = course.rows(formula);
         let mut pairs = judge::pairs(formulas, (formula, claim), course, &rows)?;
-        let mut inputs: Vec<[Rounded; 4]> = rows.iter().map(|&row| course.inputs(row)).collect();
         // Where the claim has no number, as what is reduced to a crank that rests, nothing can be tried.
         let has_number = |pair: &Pair| pair.mechanism.value.is_finite() && pair.mechanism.error.is_finite();
-        let kept: Vec<bool> = pairs.iter().map(has_number).collect();
-        let mut keep = kept.iter();
-        inputs.retain(|_| *keep.next().unwrap_or(&true));
+        let kept = rows.iter().zip(&pairs).filter(|(_, pair)| has_number(pair));
+        let inputs: Vec<[Rounded; 4]> = kept.map(|(&row, _)| course.inputs(row)).collect();
         pairs.retain(has_number);
         let (index_of_file, (formulas, index)) = (index, formulas.derivation(index, BESIDE));
         let step = pairs.len().div_ceil(FIRST).max(1);

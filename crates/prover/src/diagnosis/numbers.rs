@@ -68,10 +68,8 @@ pub(super) fn numbers(tries: &Tries) -> Vec<Candidate> {
     let mut open = Vec::new();
     for guess in guesses(tries) {
         let named = meant(tries, &guess.knob, guess.value, false);
-        match named.iter().any(|one| one.1) {
-            true => {}
-            false if open.len() < GUESSED && is_likely(&guess) => open.push(guess),
-            false => {}
+        if open.len() < GUESSED && is_likely(&guess) && !named.iter().any(|one| one.1) {
+            open.push(guess);
         }
         candidates.extend(named.into_iter().map(|one| one.0));
     }

@@ -33,17 +33,13 @@ pub(super) fn whole_changes(tries: &Tries) -> Vec<Candidate> {
             (How::Turned(-FRAC_PI_2), Vec2::new(gravity.y, -gravity.x)),
         ];
         for (how, other) in turned {
-            let make: Make = Box::new(move |case| case.with(|parts| parts.gravity = other).ok());
-            all.push((Change { part: Part::Gravity, how }, make));
+            all.push(change(Part::Gravity, how, move |case| case.with(|parts| parts.gravity = other).ok()));
         }
     }
     let kinematic = tries.thin.is_moved();
     if !kinematic && !tries.is_free {
         let links: Vec<LinkId> = case.mechanism.links().ids().skip(1).collect();
-        all.push((
-            Change { part: Part::InertiaForces, how: How::Missing },
-            Box::new(move |case| without_inertia_forces(case, &links)),
-        ));
+        all.push(change(Part::InertiaForces, How::Missing, move |case| without_inertia_forces(case, &links)));
     }
     if !kinematic || tries.is_free {
         all.extend(masses(case));
@@ -55,6 +51,10 @@ pub(super) fn whole_changes(tries: &Tries) -> Vec<Candidate> {
         tries.candidate(&misfit, Rank::Change, change, make)
     });
     tried.collect()
+}
+
+fn change(part: Part, how: How, make: impl Fn(&Case) -> Option<Case> + 'static) -> (Change, Make) {
+    (Change { part, how }, Box::new(make))
 }
 
 /// The mass centre of every link at each of its joints, in the middle of two, measured from the other one, or on the
@@ -85,9 +85,10 @@ fn mass_centres(case: &Case) -> Vec<(Change, Make)> {
                 continue;
             }
             seen.push(at);
-            let make: Make =
-                Box::new(move |case| remade(case, |parts| changed(parts, |links, _| links[index].mass_centre = at)));
-            found.push((Change { part: Part::MassCentre(link.name.clone()), how }, make));
+            let part = Part::MassCentre(link.name.clone());
+            let moved =
+                move |case: &Case| remade(case, |parts| changed(parts, |links, _| links[index].mass_centre = at));
+            found.push(change(part, how, moved));
         }
     }
     found
@@ -95,20 +96,22 @@ fn mass_centres(case: &Case) -> Vec<(Change, Make)> {
 
 /// Every link without mass and inertia, without its weight, and without its resistance to acceleration.
 fn masses(case: &Case) -> Vec<(Change, Make)> {
-    let mut found: Vec<(Change, Make)> = Vec::new();
-    let mut put = |part: Part, make: Make| found.push((Change { part, how: How::Missing }, make));
+    let mut found = Vec::new();
     let heavy = |(_, link): &(LinkId, &Link)| link.mass > 0.0;
     let all: Vec<(LinkId, &Link)> = case.mechanism.links().entries().skip(1).filter(heavy).collect();
     // Of a single link all is the same as this one.
     for &(index, link) in all.iter().filter(|_| all.len() > 1) {
+        let mut put = |part: fn(String) -> Part, make: Make| {
+            found.push((Change { part: part(link.name.clone()), how: How::Missing }, make));
+        };
         if link.inertia > 0.0 && case.mechanism.can_turn(index) {
-            put(Part::Body(link.name.clone()), Box::new(move |case| without_masses(case, &[index])));
+            put(Part::Body, Box::new(move |case| without_masses(case, &[index])));
         }
         // Without weight, inertia forces are all that a mass does.
         if case.gravity.norm() > 0.0 {
             let lifted = move |case: &Case| case.with(|parts| parts.loads.push(weight(case, index, -1.0))).ok();
-            put(Part::Weight(link.name.clone()), Box::new(lifted));
-            put(Part::Inert(link.name.clone()), Box::new(move |case| without_inertia_forces(case, &[index])));
+            put(Part::Weight, Box::new(lifted));
+            put(Part::Inert, Box::new(move |case| without_inertia_forces(case, &[index])));
         }
     }
     found
@@ -122,9 +125,8 @@ fn loads(case: &Case) -> Vec<(Change, Make)> {
             let link = &case.mechanism.links()[side.link];
             for point in link.points.iter().filter(|point| point.local != side.local) {
                 let at = point.local;
-                let make: Make = Box::new(move |case| case.with(|parts| parts.loads[number].put_point(end, at)).ok());
-                let part = Part::Load(number + 1, load.sort());
-                found.push((Change { part, how: How::AtPoint(point.name.clone()) }, make));
+                let make = move |case: &Case| case.with(|parts| parts.loads[number].put_point(end, at)).ok();
+                found.push(change(Part::Load(number + 1, load.sort()), How::AtPoint(point.name.clone()), make));
             }
         }
     }

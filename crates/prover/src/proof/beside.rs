@@ -68,14 +68,11 @@ pub fn sides(case: &Case, truth: Option<&Trajectory>) -> Result<Sides> {
     let solve = |side: &dyn Solver| observe(case, side, Watch::Side, &mut |_| {}).map_err(Error::from);
     let found = EachSide::of(|side| counted(|| solve(TRUE_SIDES[side].solver)));
     let solved = |side: Reference| found[side].0.as_ref().ok();
-    let failed = |side: Reference, error: &Error| Side {
-        name: side.name(),
-        deviations: Vec::new(),
-        closure: None,
-        balance: None,
-        work: found[side].1,
-        failure: Some(error.clone()),
+    let bare = |side: Reference| {
+        let (name, work) = (side.name(), found[side].1);
+        Side { name, deviations: Vec::new(), closure: None, balance: None, work, failure: None }
     };
+    let failed = |side: Reference, error: &Error| Side { failure: Some(error.clone()), ..bare(side) };
     let Some(reference) = Reference::ALL.into_iter().find(|side| solved(*side).is_some()) else {
         let error = |side: Reference| found[side].0.as_ref().expect_err("no side has a trajectory");
         let sides = Reference::ALL.map(|side| failed(side, error(side)));
@@ -113,12 +110,10 @@ pub fn sides(case: &Case, truth: Option<&Trajectory>) -> Result<Sides> {
     let mut verdict = None;
     let sides = Reference::ALL.map(|side| match &found[side].0 {
         Ok(own) => Side {
-            name: side.name(),
             deviations: std::mem::take(&mut deviating[side]),
             closure: Some(own.closure() / size.larger(own.reach)),
             balance: (!own.power.is_empty()).then(|| own.two_ways()),
-            work: found[side].1,
-            failure: None,
+            ..bare(side)
         },
         Err(error) => {
             verdict = Some(Verdict::open(format!("{} fails: {}", side.name(), error.message())));

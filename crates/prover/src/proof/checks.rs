@@ -31,35 +31,27 @@ pub(super) fn rounding(bound: f64, why: &'static str) -> Tolerance {
 /// Checks on the two analytic sides.
 pub(super) fn of_sides(case: &Case, sides: EachSide<&Observed>, known: &Known) -> Vec<Check> {
     let size = case.mechanism.size();
-    let mut checks = Vec::new();
-    for (name, side) in sides.iter().map(|(side, own)| (side.name(), own)) {
-        let tolerance =
-            rounding(CLOSURE, "positions are good to a few units in the last place of the largest coordinate");
-        checks.push(Check::new(
-            format!("closure of all joints ({name})"),
-            side.closure() / size.larger(side.reach),
-            tolerance,
-            "",
-        ));
-    }
+    let check = |what: &str, side: Reference, value: f64, tolerance: Tolerance| {
+        Check::new(format!("{what} ({})", side.name()), value, tolerance, "")
+    };
+    let closure = |(side, own): (Reference, &&Observed)| {
+        let why = "positions are good to a few units in the last place of the largest coordinate";
+        check("closure of all joints", side, own.closure() / size.larger(own.reach), rounding(CLOSURE, why))
+    };
+    let powers = |(side, own): (Reference, &&Observed)| {
+        let tolerance = rounding(two_ways(own), "sums of a few forces and powers");
+        let what = "balancing moment from equilibrium and from powers";
+        (!own.power.is_empty()).then(|| check(what, side, own.two_ways(), tolerance))
+    };
+    let shaking = |(side, own): (Reference, &&Observed)| {
+        let tolerance = rounding(two_ways(own), "sums of as many forces as there are links");
+        let what = "shaking force and moment from reactions and from momentum";
+        own.unbalance.map(|share| check(what, side, share, tolerance))
+    };
+    let mut checks: Vec<Check> = sides.iter().map(closure).collect();
     checks.extend(between_sides(sides, known));
-    for (name, side) in sides.iter().filter(|(_, side)| !side.power.is_empty()) {
-        let name = name.name();
-        let tolerance = rounding(two_ways(side), "sums of a few forces and powers");
-        let name = format!("balancing moment from equilibrium and from powers ({name})");
-        checks.push(Check::new(name, side.two_ways(), tolerance, ""));
-    }
-    for (name, side) in sides.iter().map(|(side, own)| (side.name(), own)) {
-        checks.extend(side.unbalance.map(|share| {
-            let tolerance = rounding(two_ways(side), "sums of as many forces as there are links");
-            Check::new(
-                format!("shaking force and moment from reactions and from momentum ({name})"),
-                share,
-                tolerance,
-                "",
-            )
-        }));
-    }
+    checks.extend(sides.iter().filter_map(powers));
+    checks.extend(sides.iter().filter_map(shaking));
     checks
 }
 
@@ -108,12 +100,11 @@ pub struct Beyond {
 
 /// Every channel in which the two sides differ by more than what is allowed: since when, and by how much.
 pub(super) fn beyond(sides: EachSide<&Observed>, known: &Known) -> Vec<Beyond> {
-    let [reference, other] = sides.into_pair().map(|own| &own.trajectory);
+    let [reference, other] = sides.pair().map(|own| &own.trajectory);
     let rows = ascending(reference.times());
     let errors = difference(reference, other).expect("both sides stand on one grid");
-    let of = |worst: Worst| {
-        let index = reference.channels().iter().position(|own| own == worst.channel)?;
-        let values = errors.column(worst.channel)?;
+    let of = |(index, worst): (usize, Worst)| {
+        let values = errors.column_near(worst.channel, index)?;
         // Written so that NaN counts as beyond.
         let is_beyond = |row: &&usize| {
             let relative = share(values[**row].abs(), known.magnitude(index));
@@ -123,7 +114,7 @@ pub(super) fn beyond(sides: EachSide<&Observed>, known: &Known) -> Vec<Beyond> {
         let since = (reference.times()[first], reference.inputs()[first]);
         Some(Beyond { channel: worst.channel.clone(), since, margin: worst.used() })
     };
-    worst_instants([reference, other], known).into_iter().filter_map(of).collect()
+    worst_instants([reference, other], known).into_iter().enumerate().filter_map(of).collect()
 }
 
 /// Whether the two sides differ by more than what is allowed.
@@ -132,7 +123,7 @@ pub(super) fn sides_differ(sides: [&Trajectory; 2], known: &Known) -> bool {
 }
 
 fn between_sides(sides: EachSide<&Observed>, known: &Known) -> Vec<Check> {
-    let [reference, other] = sides.into_pair().map(|own| &own.trajectory);
+    let [reference, other] = sides.pair().map(|own| &own.trajectory);
     let all = worst_instants([reference, other], known);
     let [first, second] = Reference::ALL;
     let of_stage = |stage: Stage| {

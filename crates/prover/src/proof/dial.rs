@@ -32,9 +32,7 @@ fn scale_engine(engine: &mut EngineProof, dial: f64) {
     engine.checks.iter_mut().for_each(|check| scale(check, dial));
     engine.own_forces.iter_mut().for_each(|own| scale_engine(own, dial));
     if engine.failure.is_none() {
-        let channels = engine.channels.iter().map(|channel| &channel.verdict);
-        let all = channels.chain(engine.added()).chain(engine.checks.iter().map(|check| &check.verdict));
-        engine.verdict = overall(all);
+        engine.conclude();
     }
 }
 

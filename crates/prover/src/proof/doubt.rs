@@ -14,7 +14,7 @@ use linkage::engine::{Route, Settings};
 use linkage::math::Vec2;
 use linkage::trajectory::Stage;
 
-use super::observe::Senses;
+use super::observe::{Observed, Senses};
 use super::runs::Runs;
 
 /// Number of steps around a jump in which an engine's values are doubtful.
@@ -44,9 +44,10 @@ struct Doubtful {
 }
 
 impl Doubt {
-    /// What loads sense in the reference, and whether its pose is singular, by row; `settings` are those of the run that
-    /// is judged.
-    pub(super) fn of(case: &Case, (senses, singular): (&Senses, &[bool]), runs: &Runs, settings: Settings) -> Self {
+    /// By what loads sense in the reference, and whether its pose is singular; `settings` are those of the run that is
+    /// judged.
+    pub(super) fn of(case: &Case, reference: &Observed, runs: &Runs, settings: Settings) -> Self {
+        let Observed { senses, singular, .. } = reference;
         let Settings { resolution, route, extrapolated, .. } = settings;
         let times = &case.grid.times;
         let reach = STEPS * 2.0 * resolution;
@@ -157,7 +158,7 @@ mod tests {
             other_sweeps: OtherSweeps { runs: [None, None], factor: 1.0, growth: 0.0 },
         };
         let settings = Settings { resolution: 1.1e-3, sweeps: 16, substeps: 1, route, extrapolated: 0 };
-        (Doubt::of(case, (&own.senses, &own.singular), &runs, settings), own.trajectory.clone())
+        (Doubt::of(case, &own, &runs, settings), own.trajectory.clone())
     }
 
     fn text(file: &str) -> String {

@@ -91,11 +91,6 @@ impl<T> EachSide<T> {
     pub fn pair(&self) -> [&T; 2] {
         self.0.each_ref()
     }
-
-    /// The same, taken apart.
-    pub(crate) fn into_pair(self) -> [T; 2] {
-        self.0
-    }
 }
 
 impl<T> Index<Reference> for EachSide<T> {

@@ -2,11 +2,123 @@
 
 use std::fmt::Write;
 
-use super::judge::{ChannelProof, EngineInfo};
-use super::settle::Search;
-use crate::compare::{Check, Verdict};
-use linkage::error::Error;
-use linkage::trajectory::{Stage, Trajectory};
+use crate::compare::{Check, Convergence, Residual, Verdict, overall};
+use crate::tolerance::{Basis, Parts};
+use linkage::engine::{Engine, Settings};
+use linkage::error::{Advice, Error};
+use linkage::solver::Provision;
+use linkage::trajectory::{CHANNELS, Channel, Stage, Trajectory};
+
+/// What is known about an engine that was run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EngineInfo {
+    /// Name, as on the command line.
+    pub name: &'static str,
+    /// Software and version behind it.
+    pub version: String,
+    /// Its settings.
+    pub settings: Settings,
+    /// Whether its resolution is an accuracy, not a step.
+    pub controls_error: bool,
+    /// Settings that influence the result, by name, as text.
+    pub told: Vec<(&'static str, String)>,
+    /// How it provides each sort of channel: stage and provision.
+    pub provides: Vec<(&'static str, Provision)>,
+}
+
+impl EngineInfo {
+    pub(super) fn of(engine: &dyn Engine) -> Self {
+        let provides = Stage::ALL.map(|stage| {
+            let kind = CHANNELS.iter().find(|kind| kind.stage == stage).expect("every stage has a channel");
+            (stage.name(), engine.provides(&Channel { of: String::new(), kind }))
+        });
+        EngineInfo {
+            name: engine.name(),
+            version: engine.version(),
+            settings: engine.settings(),
+            controls_error: engine.controls_error(),
+            told: engine.told(),
+            provides: provides.into(),
+        }
+    }
+}
+
+/// Comparison of one channel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ChannelProof {
+    /// Residual of the engine against the reference.
+    pub residual: Residual,
+    /// Bound, in the channel's unit.
+    pub bound: f64,
+    /// What the bound is made of, in the channel's unit.
+    pub parts: Parts,
+    /// Convergence of the engine in this channel.
+    pub convergence: Convergence,
+    /// Largest difference between the limit of the engine's runs and the reference, in the channel's unit; `None` where
+    /// the runs have no limit that can be estimated.
+    pub limit: Option<f64>,
+    /// For a free motion: largest change over the run, as a share of the scale, per share of change in gravity and
+    /// motor torque.
+    pub sensitivity: Option<f64>,
+    /// Number of instants that are not judged: there a drive or a loaded link reverses, and the channel jumps, or a
+    /// free motion begins.
+    pub left_out: usize,
+    /// What the bound rests on.
+    pub basis: Basis,
+    /// The outcome.
+    pub verdict: Verdict,
+}
+
+/// How the settings of an engine were found.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Search {
+    /// Number of runs that were made, each at another step or with other sweeps.
+    pub runs: usize,
+    /// Work done, in steps without sweeps; twenty sweeps count as one step more.
+    pub effort: f64,
+    /// Work that was allowed, in the same unit.
+    pub budget: f64,
+    /// Why the search ended.
+    pub end: End,
+}
+
+/// Why a search of settings ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum End {
+    /// Every channel has the aimed accuracy, or is conclusive and the work for more is spent.
+    Decided,
+    /// A finer step would add more rounding than it takes away.
+    Rounding,
+    /// The work that was allowed is done.
+    Budget,
+    /// At the pace of its rounds the work that was allowed would not be enough.
+    Pace,
+    /// The settings that are left to choose have no better value.
+    Nothing,
+}
+
+impl End {
+    /// Puts into an inconclusive verdict what the search has tried, in place of advice to try it.
+    pub(super) fn tell(self, verdict: &mut Verdict, budget: f64) {
+        let Verdict::Inconclusive { reason, advice } = verdict else { return };
+        if advice.is_empty() {
+            return;
+        }
+        let (why, way_out) = match self {
+            // The settings that are given decide, and its own advice holds.
+            End::Decided | End::Nothing => return,
+            End::Rounding => ("a finer step adds more rounding than it takes away", vec![Advice::OtherEngine]),
+            End::Budget => ("the work that was allowed is done", vec![Advice::MoreWork { to: 10.0 * budget }]),
+            End::Pace => (
+                "at the pace of its rounds the work that was allowed would not be enough",
+                vec![Advice::MoreWork { to: 10.0 * budget }],
+            ),
+        };
+        reason.push_str("; ");
+        reason.push_str(why);
+        *advice = way_out;
+    }
+}
 
 /// One engine's part of a proof, or the part that the forces have which the engine itself exerts.
 #[derive(Clone, Debug)]
@@ -88,6 +200,31 @@ impl EngineProof {
             [false, true] if forces.into_iter().all(agrees) => Some(ForceFault::Exerted),
             [_, _] => None,
         }
+    }
+
+    /// Names of the channels and checks that disagree.
+    pub(super) fn against(&self) -> Vec<String> {
+        let disagrees = |verdict: &Verdict| matches!(verdict, Verdict::Disagree { .. });
+        let channels = self.channels.iter().filter(|own| disagrees(&own.verdict));
+        let checks = self.checks.iter().filter(|own| disagrees(&own.verdict));
+        channels.map(|own| own.residual.channel.to_string()).chain(checks.map(Check::name)).collect()
+    }
+
+    /// Leaves all disagreements open, with a reason and a way out.
+    pub(super) fn doubt(&mut self, why: &str, way_out: &Advice) {
+        for verdict in self.verdicts_mut() {
+            if let Verdict::Disagree { place } = verdict {
+                *verdict =
+                    Verdict::Inconclusive { reason: format!("{place}, but {why}"), advice: vec![way_out.clone()] };
+            }
+        }
+        self.conclude();
+    }
+
+    /// Takes the verdict again from those of all channels and checks, and of own forces.
+    pub(super) fn conclude(&mut self) {
+        let channels = self.channels.iter().map(|own| &own.verdict);
+        self.verdict = overall(channels.chain(self.added()).chain(self.checks.iter().map(|own| &own.verdict)));
     }
 
     /// The verdicts on channels and checks, and that on all of them.

@@ -2,15 +2,13 @@
 
 use std::sync::Arc;
 
-use super::engine_proof::EngineProof;
-use super::judge::{Judge, Judged, describe};
-use super::known::Known;
+use super::engine_proof::{End, EngineInfo, EngineProof};
+use super::judge::{Judge, Judged};
 use super::ledger::Ledger;
-use super::observe::{Observed, Stopped, Watch};
+use super::observe::{Stopped, Watch};
 use super::options::Chosen;
-use super::problem::Problem;
 use super::runs::{Bank, FEWER, other_sweeps, rungs};
-use super::settle::{BUDGET, End, FIRST, Settling, too_much};
+use super::settle::{BUDGET, FIRST, Settling, too_much};
 use super::{order, own_forces};
 use crate::compare::{Verdict, difference, overall};
 use crate::engines::coarse_step;
@@ -21,18 +19,15 @@ use linkage::error::{Advice, ErrorKind, Result};
 use linkage::math::KeepNan;
 use scenario::EngineSettings;
 
-/// Runs an engine on `case`, at the settings asked for or at those that it finds, and compares it with `reference`.
+/// Runs an engine on `case`, at the settings asked for or at those that it finds, and judges it.
 pub(super) fn prove(
-    problem: Problem,
+    judge: &Judge,
     case: &Case,
     chosen: &Chosen,
-    reference: &Observed,
-    known: &Known,
-    (ledger, progress): (&mut Ledger, &mut dyn FnMut(f64)),
+    ledger: &mut Ledger,
+    progress: &mut dyn FnMut(f64),
 ) -> Result<EngineProof> {
-    let engine = chosen.engine.as_ref();
-    let asked = engine.settings();
-    let judge = Judge::new(problem, reference, known, asked);
+    let (engine, asked) = (chosen.engine.as_ref(), judge.asked);
     let mut bank = Bank::new(case, engine, Watch::Engine);
     // A step that cannot be is refused by the engine.
     let is_step = asked.resolution > 0.0 && asked.resolution.is_finite();
@@ -42,12 +37,12 @@ pub(super) fn prove(
         if searches { "finds its settings, and its error from its own runs" } else { "its error from its own runs" };
     let found = ledger.done(engine.name(), why, || match searches {
         true => {
-            let search = Settling::new(&judge, &mut bank, engine, &given, chosen.budget);
-            search.run(progress).map(|(judged, search)| (judged, Some(search)))
+            let search = Settling::new(judge, &mut bank, engine, &given, chosen.budget);
+            search.run(progress)
         }
-        false => at_given(&judge, &mut bank, engine, (chosen.budget, progress)).map(|judged| (judged, None)),
+        false => at_given(judge, &mut bank, engine, chosen.budget, progress),
     });
-    let (judged, search) = match found {
+    let Judged { mut proof, run, .. } = match found {
         Ok(found) => found,
         Err(Stopped { error, kept, spent }) => {
             // Without work for finer steps nobody knows whether the engine fails or only its coarse steps.
@@ -65,17 +60,14 @@ pub(super) fn prove(
                     (Verdict::Inconclusive { reason, advice }, None)
                 }
             };
-            let bare = EngineProof::bare(describe(engine), verdict);
+            let bare = EngineProof::bare(EngineInfo::of(engine), verdict);
             return Ok(EngineProof { trajectory: kept.map(|kept| *kept), failure, ..bare });
         }
     };
-    let Judged { info, channels, checks, verdict, run, too_coarse: _, kept } = judged;
-    let mut proof = EngineProof { search, channels, checks, kept, ..EngineProof::bare(info, verdict) };
     let is_open = matches!(proof.verdict, Verdict::Inconclusive { .. });
     if is_open && !given.step.is_free() && !engine.controls_error() {
         let why = "the given step proves nothing: what a free one would";
-        let advice =
-            ledger.done(format!("{}, other settings", engine.name()), why, || tried(&judge, &mut bank, chosen));
+        let advice = ledger.done(format!("{}, other settings", engine.name()), why, || tried(judge, &mut bank, chosen));
         for verdict in proof.verdicts_mut() {
             if let Verdict::Inconclusive { advice: own, .. } = verdict {
                 own.push(advice.clone());
@@ -90,9 +82,9 @@ pub(super) fn prove(
     drop(bank);
     let trajectory = Arc::unwrap_or_clone(run).trajectory;
     let part = format!("{}, own forces", engine.name());
-    match own_forces::are_asked(&judge, chosen) {
+    match own_forces::are_asked(judge, chosen) {
         true => {
-            let own = || own_forces::judged(&judge, case, chosen, &proof, &mut |part| progress(0.7 + 0.3 * part));
+            let own = || own_forces::judged(judge, case, chosen, &proof, &mut |part| progress(0.7 + 0.3 * part));
             let why = "what it exerts itself, beside what follows from its motion";
             proof.own_forces = ledger.done(part, why, own).map(Box::new);
         }
@@ -101,7 +93,7 @@ pub(super) fn prove(
     if let Some(verdict) = proof.added() {
         proof.verdict = overall([&proof.verdict, verdict]);
     }
-    proof.errors = Some(difference(&reference.trajectory, &trajectory)?);
+    proof.errors = Some(difference(&judge.reference.trajectory, &trajectory)?);
     proof.trajectory = Some(trajectory);
     Ok(proof)
 }
@@ -115,7 +107,8 @@ fn at_given(
     judge: &Judge,
     bank: &mut Bank,
     engine: &dyn Engine,
-    (budget, progress): (f64, &mut dyn FnMut(f64)),
+    budget: f64,
+    progress: &mut dyn FnMut(f64),
 ) -> Outcome {
     if !engine.controls_error() {
         let budget = budget.larger(BUDGET);
@@ -128,20 +121,20 @@ fn at_given(
     };
     let judged = with(&others[..others.len().min(1)])?;
     // Sweeps that have hardly begun to converge differ little: a third run tells them from those that have.
-    let mut judged = match judged.against().is_empty() || others.len() < 2 {
+    let mut judged = match judged.proof.against().is_empty() || others.len() < 2 {
         true => judged,
         false => match with(&others) {
             Err(stopped) if stopped.error.kind() == ErrorKind::Numeric => {
                 let why = "a run with a quarter of the sweeps fails, so that nobody knows what they leave";
                 let mut judged = judged;
-                judged.doubt(why, &Advice::MoreSweeps { to: None });
+                judged.proof.doubt(why, &Advice::MoreSweeps { to: None });
                 judged
             }
             told => told?,
         },
     };
     if !engine.controls_error() {
-        order::look(judge, bank, &mut judged)?;
+        order::look(judge, bank, &mut judged.proof)?;
     }
     Ok(judged)
 }
@@ -153,10 +146,12 @@ fn tried(judge: &Judge, bank: &mut Bank, chosen: &Chosen) -> Advice {
     let judge = judge.asking(engine.settings());
     let free = EngineSettings::default();
     let found = Settling::new(&judge, bank, engine.as_ref(), &free, chosen.budget).run(&mut |_| {});
-    let Ok((judged, search)) = found else { return Advice::FreeSettings };
-    let Settings { resolution, sweeps, extrapolated, .. } = judged.info.settings;
-    let outcome = match (&judged.verdict, search.end) {
-        (Verdict::Inconclusive { .. }, End::Budget | End::Pace) => "the work allowed is not enough there either".into(),
+    let Ok(Judged { proof, .. }) = found else { return Advice::FreeSettings };
+    let Settings { resolution, sweeps, extrapolated, .. } = proof.info.settings;
+    let outcome = match (&proof.verdict, proof.search.map(|search| search.end)) {
+        (Verdict::Inconclusive { .. }, Some(End::Budget | End::Pace)) => {
+            "the work allowed is not enough there either".into()
+        }
         (Verdict::Inconclusive { .. }, _) => "nothing is proven there either".into(),
         (verdict, _) => format!("the verdict there is {}", verdict.word()),
     };

@@ -6,6 +6,7 @@ use super::checks::{self, Beyond};
 use super::each_side::{EachSide, Reference};
 use super::engine_proof::EngineProof;
 use super::formulas::Judgement;
+use super::judge::Judge;
 use super::known::Known;
 use super::ledger::Ledger;
 use super::observe::{Observed, Watch, observe};
@@ -243,7 +244,8 @@ impl Sides {
         problem: Problem,
         how: &Engines,
         engines: Vec<Chosen>,
-        (ledger, progress): (&mut Ledger, &mut dyn FnMut(f64)),
+        ledger: &mut Ledger,
+        progress: &mut dyn FnMut(f64),
     ) -> Result<Vec<EngineProof>> {
         let case = how.case.on(problem.case.grid.clone())?;
         let count = engines.len() as f64;
@@ -252,8 +254,8 @@ impl Sides {
             let chosen = chosen.with_engine(how.around);
             let chosen = if how.own_forces { chosen } else { chosen.by_motion_alone() };
             let mut part = |part: f64| progress(SIDES + (1.0 - SIDES) * (index as f64 + part) / count);
-            let told = (&mut *ledger, &mut part as &mut dyn FnMut(f64));
-            let mut proof = engines::prove(problem, &case, &chosen, self.own(), &self.known, told)?;
+            let judge = Judge::new(problem, self.own(), &self.known, chosen.engine.settings());
+            let mut proof = engines::prove(&judge, &case, &chosen, ledger, &mut part)?;
             proof.tell_sensitivity(self.trajectory(), &self.known.sensitivity);
             proofs.push(proof);
         }

@@ -32,7 +32,7 @@ pub(super) fn claimed(
     let mut found = EachSide::<Vec<_>>::default();
     for figure in asked {
         let values = EachSide::tried(|side| sides[side].value(figure))?;
-        let [first, second] = values.into_pair();
+        let [first, second] = values.pair();
         let error = KNOWN * first.abs() + 2.0 * (first - second).abs();
         for side in Reference::ALL {
             found[side].push((figure, Rounded { value: values[side], error }));

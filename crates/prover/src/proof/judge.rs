@@ -6,64 +6,21 @@ use std::sync::Arc;
 
 use super::checks;
 use super::doubt::Doubt;
+use super::engine_proof::{ChannelProof, EngineInfo, EngineProof};
 use super::known::Known;
-use super::observe::{Observed, Senses};
+use super::observe::Observed;
 use super::problem::Problem;
 use super::runs::Runs;
 use crate::compare::{
-    Check, Convergence, Ladder, Residual, Verdict, largest_difference, overall, residuals_on, scales_beyond,
+    Convergence, Ladder, Residual, Verdict, largest_difference, overall, residuals_on, scales_beyond,
 };
-use crate::tolerance::{Basis, Parts};
+use crate::tolerance::Parts;
 use linkage::case::{Case, Grid};
 use linkage::engine::{Engine, Settings};
 use linkage::error::{Advice, Result};
 use linkage::math::statistics::half_range;
 use linkage::math::{KeepNan, largest_size};
-use linkage::solver::Provision;
-use linkage::trajectory::{CHANNELS, Channel, ChannelKind, Stage, Subject, Trajectory, Unit};
-
-/// What is known about an engine that was run.
-#[derive(Clone, Debug, PartialEq)]
-pub struct EngineInfo {
-    /// Name, as on the command line.
-    pub name: &'static str,
-    /// Software and version behind it.
-    pub version: String,
-    /// Its settings.
-    pub settings: Settings,
-    /// Whether its resolution is an accuracy, not a step.
-    pub controls_error: bool,
-    /// Settings that influence the result, by name, as text.
-    pub told: Vec<(&'static str, String)>,
-    /// How it provides each sort of channel: stage and provision.
-    pub provides: Vec<(&'static str, Provision)>,
-}
-
-/// Comparison of one channel.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ChannelProof {
-    /// Residual of the engine against the reference.
-    pub residual: Residual,
-    /// Bound, in the channel's unit.
-    pub bound: f64,
-    /// What the bound is made of, in the channel's unit.
-    pub parts: Parts,
-    /// Convergence of the engine in this channel.
-    pub convergence: Convergence,
-    /// Largest difference between the limit of the engine's runs and the reference, in the channel's unit; `None` where
-    /// the runs have no limit that can be estimated.
-    pub limit: Option<f64>,
-    /// For a free motion: largest change over the run, as a share of the scale, per share of change in gravity and
-    /// motor torque.
-    pub sensitivity: Option<f64>,
-    /// Number of instants that are not judged: there a drive or a loaded link reverses, and the channel jumps, or a
-    /// free motion begins.
-    pub left_out: usize,
-    /// What the bound rests on.
-    pub basis: Basis,
-    /// The outcome.
-    pub verdict: Verdict,
-}
+use linkage::trajectory::{Channel, ChannelKind, Stage, Subject, Trajectory, Unit};
 
 /// Steps at the beginning of a free motion whose second differences come from later ones.
 const BEGINNING: f64 = 5.0;
@@ -102,14 +59,9 @@ impl Asks {
 /// What an engine's runs are judged by.
 pub(super) struct Judge<'a> {
     pub(super) problem: Problem<'a>,
-    /// The reference's trajectory.
-    reference: &'a Trajectory,
+    pub(super) reference: &'a Observed,
     /// Scales of its channels.
     scales: Vec<f64>,
-    /// What loads sense in it, instant by instant.
-    senses: &'a Senses,
-    /// Where its pose is singular, instant by instant.
-    singular: &'a [bool],
     /// How well it is known.
     known: &'a Known,
     /// Settings asked for; the search begins with them.
@@ -120,44 +72,11 @@ pub(super) struct Judge<'a> {
 
 /// An engine at some settings, judged.
 pub(super) struct Judged {
-    pub(super) info: EngineInfo,
-    pub(super) channels: Vec<ChannelProof>,
-    pub(super) checks: Vec<Check>,
-    pub(super) verdict: Verdict,
+    pub(super) proof: EngineProof,
     /// The run that is judged.
     pub(super) run: Arc<Observed>,
     /// Share of instants left out because the step is too coarse for them.
     pub(super) too_coarse: f64,
-    /// Whether forces are judged, by row of the grid.
-    pub(super) kept: Vec<bool>,
-}
-
-impl Judged {
-    /// Names of the channels and checks that disagree.
-    pub(super) fn against(&self) -> Vec<String> {
-        let disagrees = |verdict: &Verdict| matches!(verdict, Verdict::Disagree { .. });
-        let channels = self.channels.iter().filter(|own| disagrees(&own.verdict));
-        let checks = self.checks.iter().filter(|own| disagrees(&own.verdict));
-        channels.map(|own| own.residual.channel.to_string()).chain(checks.map(Check::name)).collect()
-    }
-
-    /// Leaves all disagreements open, with a reason and a way out.
-    pub(super) fn doubt(&mut self, why: &str, way_out: &Advice) {
-        let channels = self.channels.iter_mut().map(|own| &mut own.verdict);
-        for verdict in channels.chain(self.checks.iter_mut().map(|own| &mut own.verdict)) {
-            if let Verdict::Disagree { place } = verdict {
-                *verdict =
-                    Verdict::Inconclusive { reason: format!("{place}, but {why}"), advice: vec![way_out.clone()] };
-            }
-        }
-        self.conclude();
-    }
-
-    /// Takes the verdict again from those of all channels and checks.
-    pub(super) fn conclude(&mut self) {
-        let channels = self.channels.iter().map(|own| &own.verdict);
-        self.verdict = overall(channels.chain(self.checks.iter().map(|own| &own.verdict)));
-    }
 }
 
 /// An engine's runs at the instants at which the channels of one stage are judged.
@@ -190,8 +109,7 @@ impl<'a> Judge<'a> {
         let channels = reference.trajectory.channels().iter().enumerate();
         let errors: Vec<f64> = channels.map(|(index, channel)| known.error(channel.kind.stage, index)).collect();
         let scales = scales_beyond(&errors, &reference.trajectory, &problem.built());
-        let Observed { trajectory: reference, senses, singular, .. } = reference;
-        Judge { problem, reference, scales, senses, singular, known, asked, asks: Asks::All }
+        Judge { problem, reference, scales, known, asked, asks: Asks::All }
     }
 
     /// The same for a search that begins with other settings.
@@ -206,13 +124,13 @@ impl<'a> Judge<'a> {
 
     /// Whether the reference has a channel that is judged.
     pub(super) fn has_channels(&self) -> bool {
-        self.reference.channels().iter().any(|channel| self.asks.has(channel.kind))
+        self.reference.trajectory.channels().iter().any(|channel| self.asks.has(channel.kind))
     }
 
     /// Judges an engine by its runs.
     pub(super) fn judge(&self, engine: &dyn Engine, mut runs: Runs) -> Result<Judged> {
         runs.other_sweeps.growth = self.growth(&runs);
-        let doubt = Doubt::of(self.problem.case, (self.senses, self.singular), &runs, engine.settings());
+        let doubt = Doubt::of(self.problem.case, self.reference, &runs, engine.settings());
         let late = self.after_the_beginning(engine)?;
         let channels = self.channels(engine, &runs, &doubt, late.as_ref())?;
         let checks = match self.asks {
@@ -223,18 +141,18 @@ impl<'a> Judge<'a> {
         let case = late.as_ref().unwrap_or(self.problem.case);
         let (too_coarse, kept) = (doubt.too_coarse(), self.kept(&doubt, Stage::Reactions, case));
         let [_, run, _] = runs.resolutions;
-        let mut judged = Judged { info: describe(engine), channels, checks, verdict, run, too_coarse, kept };
+        let mut proof = EngineProof { channels, checks, kept, ..EngineProof::bare(EngineInfo::of(engine), verdict) };
         if !engine.controls_error() && self.outruns(engine.settings().resolution) {
             let why = "the motion changes within a fraction of a step, so that no runs at such steps show their error";
-            judged.doubt(why, &Advice::SmallerStep { to: None });
+            proof.doubt(why, &Advice::SmallerStep { to: None });
         }
-        Ok(judged)
+        Ok(Judged { proof, run, too_coarse })
     }
 
     /// Whether a link of a free motion would gain more speed in a step than it ever has, and many times so: as from a
     /// motor that is much too strong for what it moves. Runs at several such steps agree on what they all miss.
     fn outruns(&self, step: f64) -> bool {
-        let reference = self.reference;
+        let reference = &self.reference.trajectory;
         let times = reference.times();
         let span = 2.0 * half_range(times);
         if !self.problem.case.is_free() || !(span > 0.0) {
@@ -256,7 +174,7 @@ impl<'a> Judge<'a> {
             let (own, others) = single.column(channel).zip(other_sweeps.column(channel))?;
             Some(others.growth(own, COUNTS * self.problem.engine_rel * scale, channel.kind.periodic))
         };
-        let all = self.reference.channels().iter().zip(&self.scales);
+        let all = self.reference.trajectory.channels().iter().zip(&self.scales);
         let speaks = |channel: &Channel| match self.asks {
             Asks::All => channel.kind.stage == Stage::Positions,
             Asks::OwnForces => self.asks.has(channel.kind),
@@ -272,7 +190,7 @@ impl<'a> Judge<'a> {
         late: Option<&Case>,
     ) -> Result<Vec<ChannelProof>> {
         let finest = engine.at(engine.settings().resolution / 2.0);
-        let channels = self.reference.channels();
+        let channels = self.reference.trajectory.channels();
         let mut all = Vec::with_capacity(channels.len());
         // Channels of one stage are judged at the same instants.
         for stage in Stage::ALL {
@@ -296,7 +214,7 @@ impl<'a> Judge<'a> {
                 let others = ladder.other_sweeps.map(|run| thin(run));
                 let [double, single, half] = &resolutions;
                 let ladder = Ladder { resolutions: [double, single, half], other_sweeps: others.map(|run| run) };
-                let reference = &thin(self.reference);
+                let reference = &thin(&self.reference.trajectory);
                 let scales: Vec<f64> = indices.iter().map(|&index| self.scales[index]).collect();
                 let mut stand =
                     Stand { engine, finest: finest.as_ref(), case, ladder, reference, left_out, noise: Vec::new() };
@@ -312,7 +230,12 @@ impl<'a> Judge<'a> {
     /// Whether the channels of a stage are judged, by row: where nothing jumps, from the first instant of `case` on.
     fn kept(&self, doubt: &Doubt, stage: Stage, case: &Case) -> Vec<bool> {
         let first = case.grid.times.iter().copied().fold(f64::INFINITY, f64::smaller);
-        doubt.keeps(stage).into_iter().zip(self.reference.times()).map(|(kept, &t)| kept && t >= first).collect()
+        doubt
+            .keeps(stage)
+            .into_iter()
+            .zip(self.reference.trajectory.times())
+            .map(|(kept, &t)| kept && t >= first)
+            .collect()
     }
 
     /// The case without the instants of a beginning free motion at which second differences are carried back over
@@ -325,7 +248,7 @@ impl<'a> Judge<'a> {
             return Ok(None);
         }
         let wanted = self.problem.engine_rel;
-        let is_open = self.reference.channels().iter().zip(&self.scales).any(|(channel, scale)| {
+        let is_open = self.reference.trajectory.channels().iter().zip(&self.scales).any(|(channel, scale)| {
             let noise = engine.noise(case, channel.kind);
             let stage = channel.kind.stage;
             stage >= Stage::Accelerations && self.asks.has(channel.kind) && noise > MOST_ROUNDING * wanted * scale
@@ -358,21 +281,5 @@ impl<'a> Judge<'a> {
         let limit = limit.map(|limit| largest_difference(reference, &limit, kind.periodic));
         let bound = parts.sum();
         ChannelProof { residual, bound, parts, convergence, limit, sensitivity: None, left_out, basis, verdict }
-    }
-}
-
-/// What is known about an engine.
-pub(super) fn describe(engine: &dyn Engine) -> EngineInfo {
-    let provides = Stage::ALL.map(|stage| {
-        let kind = CHANNELS.iter().find(|kind| kind.stage == stage).expect("every stage has a channel");
-        (stage.name(), engine.provides(&Channel { of: String::new(), kind }))
-    });
-    EngineInfo {
-        name: engine.name(),
-        version: engine.version(),
-        settings: engine.settings(),
-        controls_error: engine.controls_error(),
-        told: engine.told(),
-        provides: provides.into(),
     }
 }

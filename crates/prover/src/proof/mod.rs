@@ -23,31 +23,27 @@ mod options;
 mod oracle;
 mod order;
 mod own_forces;
-mod pace;
 mod parties;
 #[cfg(test)]
 mod planted;
 #[cfg(test)]
 mod planted_forces;
 mod problem;
-mod room;
 mod runs;
 mod sensitivity;
 mod settle;
 pub mod shifted;
 pub mod solved;
-mod stall;
 
 pub use each_side::{EachSide, Reference};
-pub use engine_proof::{EngineProof, ForceFault};
+pub use engine_proof::{ChannelProof, End, EngineInfo, EngineProof, ForceFault, Search};
 pub use entrants::{Engines, Entrant, Sides, TRUE_SIDES};
 pub use formulas::{Judgement, checks as formula_checks};
-pub use judge::{ChannelProof, EngineInfo};
 pub use ledger::{Entry, Ledger};
 pub use options::Options;
 pub use parties::Dispute;
 pub use problem::Problem;
-pub use settle::{BUDGET, End, Search};
+pub use settle::BUDGET;
 
 use crate::compare::{Check, Verdict, overall};
 use crate::diagnosis::Diagnosis;
@@ -199,7 +195,7 @@ fn joined(scenario: &Scenario, engine_case: &Case, options: &Options, progress: 
         Some(only) => engine_case.wanting_only(only).scene()?.case,
         None => engine_case.clone(),
     };
-    let proofs = sides.engines(problem, &Engines::on(&engine_case), engines, (&mut ledger, progress))?;
+    let proofs = sides.engines(problem, &Engines::on(&engine_case), engines, &mut ledger, progress)?;
     let own = sides.own();
     let disputes = match proofs.len() {
         1 => Vec::new(),

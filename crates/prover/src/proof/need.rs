@@ -1,4 +1,6 @@
-//! How far an engine's judgement is from being conclusive, and which part of its bounds is to blame.
+//! How far an engine's judgement is from being conclusive, which part of its bounds is to blame, and how a search for
+//! its settings gets on: whether it becomes conclusive with the work that is allowed, and what to do where a smaller step
+//! brings it little.
 
 use linkage::math::KeepNan;
 use linkage::math::statistics::share;
@@ -68,8 +70,9 @@ pub(super) struct Blame {
 /// The largest bound of a channel or check over what is wanted, `wanted` of its scale, and what is to blame.
 /// Those whose runs show no order come first.
 pub(super) fn need(judged: &Judged, wanted: f64) -> (Need, Blame) {
-    let channels = judged.channels.iter().map(|own| (own.parts, own.residual.scale, &own.convergence, &own.verdict));
-    let checks = judged.checks.iter().filter_map(|check| {
+    let channels =
+        judged.proof.channels.iter().map(|own| (own.parts, own.residual.scale, &own.convergence, &own.verdict));
+    let checks = judged.proof.checks.iter().filter_map(|check| {
         let (parts, convergence) = check.estimate.as_ref()?;
         Some((*parts, 1.0, convergence, &check.verdict))
     });
@@ -93,4 +96,174 @@ pub(super) fn need(judged: &Judged, wanted: f64) -> (Need, Blame) {
         }
     }
     worst
+}
+
+/// Rounds before a pace is told: the first ones show whether the settings mean anything.
+const ROUNDS: usize = 4;
+/// Factor on the observed exponent: extrapolation may gain speed as the runs become smooth. Searches that end well
+/// gain twice as fast at the end as in their first rounds at most (all shipped scenarios).
+const OPTIMISM: f64 = 2.0;
+
+/// The rounds of a search: work so far, and the least need so far.
+#[derive(Default)]
+pub(super) struct Pace {
+    rounds: Vec<[f64; 2]>,
+}
+
+impl Pace {
+    /// Notes a round that ends with this work done. Returns whether `budget` is too little by far: the need falls with a
+    /// power of the work, and even with twice the power seen in the last rounds it stays above 1.
+    pub(super) fn is_too_slow(&mut self, effort: f64, need: Need, budget: f64) -> bool {
+        let least = self.rounds.last().map_or(f64::INFINITY, |[_, least]| *least).smaller(need.share);
+        self.rounds.push([effort, least]);
+        if self.rounds.len() < ROUNDS || need.is_within(1.0) {
+            return false;
+        }
+        // Rounds without any bound show no pace.
+        let last = &self.rounds[self.rounds.len() - ROUNDS..];
+        let Some([before, most]) = last.iter().find(|[_, least]| least.is_finite()) else { return false };
+        if *before >= effort {
+            return false;
+        }
+        let exponent = (most / least).ln() / (effort / before).ln();
+        least > (budget / effort).powf(OPTIMISM * exponent)
+    }
+}
+
+/// Rounds without an order of convergence after which more sweeps are tried instead of a smaller step.
+const MOST_VAGUE: usize = 2;
+/// Part of the bound down to which half the step must bring it, so that it is not the sweeps that are too few.
+const BRINGS: f64 = 0.7;
+/// Part of the bound down to which more sweeps must bring it to be worth their work.
+const HELPS: f64 = 0.5;
+/// Rounds with finer steps and wider bounds after which rounding is to blame, also where the engine's noise is thought
+/// to be less.
+const MOST_WIDER: usize = 2;
+/// Rounds that pass before more sweeps are tried again, where they have brought little.
+const PATIENCE: usize = 3;
+
+/// What a search has seen of steps that do not bring it on.
+#[derive(Default)]
+pub(super) struct Stall {
+    /// Need of the round before, with as many sweeps.
+    before: Option<Need>,
+    /// Rounds without an order of convergence, one after the other.
+    vague: usize,
+    /// Rounds in which half the step has made the bound wider, one after the other.
+    wider: usize,
+    /// Sweeps of the round before, and its need, if more sweeps are just tried.
+    tried: Option<(usize, Need)>,
+    /// Rounds until more sweeps may be tried again.
+    wait: usize,
+}
+
+/// What a search does next.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Next {
+    /// It changes what this part depends on.
+    Blames(Part),
+    /// It goes back to as many sweeps, and takes a smaller step.
+    Returns(usize),
+}
+
+impl Stall {
+    /// What to do after a round with `sweeps`, by its need and the part that is to blame. Too few sweeps may hide the
+    /// order of the step, and what they leave does not always show: where a smaller step brings little, more sweeps are
+    /// tried, if they are `free`, and are given up where they bring little too.
+    pub(super) fn look_closer(&mut self, need: Need, blame: Part, sweeps: usize, free: bool) -> Next {
+        self.vague = if need.is_vague { self.vague + 1 } else { 0 };
+        let before = self.before.replace(need);
+        let tried = self.tried.take();
+        self.wait = self.wait.saturating_sub(1);
+        if blame != Part::Discretisation || need.is_of_instants() {
+            return Next::Blames(blame);
+        }
+        if let Some((fewer, before)) = tried {
+            if need.is_less(HELPS, before) {
+                return Next::Blames(blame);
+            }
+            (self.wait, self.before) = (PATIENCE, Some(before));
+            return Next::Returns(fewer);
+        }
+        self.wider = if before.is_some_and(|before| before.is_less(0.5, need)) { self.wider + 1 } else { 0 };
+        if self.wider >= MOST_WIDER {
+            return Next::Blames(Part::Rounding);
+        }
+        let is_stalled = self.vague >= MOST_VAGUE || before.is_some_and(|before| !need.is_less(BRINGS, before));
+        if !is_stalled || self.wait > 0 || !free || need.is_within(1.0) {
+            return Next::Blames(blame);
+        }
+        self.tried = Some((sweeps, need));
+        Next::Blames(Part::Iteration)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Whether a search is given up in its last round, of rounds with work and need.
+    fn given_up(rounds: &[(f64, f64)], budget: f64) -> bool {
+        let mut pace = Pace::default();
+        let told = rounds
+            .iter()
+            .map(|&(effort, share)| pace.is_too_slow(effort, Need { is_vague: false, share, of: Of::Bound }, budget));
+        let told: Vec<bool> = told.collect();
+        let (last, before) = told.split_last().expect("there are rounds");
+        assert!(!before.contains(&true), "{told:?}");
+        *last
+    }
+
+    #[test]
+    fn impulses_that_no_step_makes_better_are_given_up_in_the_fourth_round() {
+        // The first rounds of a parallelogram that swings through its change points.
+        let flat = [(3.4e3, 1942.0), (7.4e3, 1893.0), (1.7e4, 1885.0), (2.5e4, 1917.0)];
+        assert!(given_up(&flat, 1e6) && !given_up(&flat[..3], 1e6));
+    }
+
+    #[test]
+    fn a_search_that_gets_on_is_not_given_up() {
+        assert!(!given_up(&[(1.8e3, 67.3), (3.7e3, 20.3), (7.4e3, 5.7), (1.6e4, 1.9)], 1e6));
+        // Nor one that has just begun to show a bound, or that has one that decides.
+        let infinite = f64::INFINITY;
+        assert!(!given_up(&[(1e3, infinite), (2e3, infinite), (4e3, infinite), (8e3, 3e4)], 1e6));
+        assert!(!given_up(&[(1e3, 0.9), (2e3, 0.9), (4e3, 0.9), (8e3, 0.9)], 1e6));
+    }
+
+    #[test]
+    fn the_same_rounds_may_do_with_more_work() {
+        // The need falls as the work grows: a hundredth of it is missing.
+        let rounds = [(1e3, 8e4), (2e3, 4e4), (4e3, 2e4), (8e3, 1e4)];
+        assert!(given_up(&rounds, 1e5) && !given_up(&rounds, 1e7));
+    }
+
+    fn need(share: f64) -> Need {
+        Need { is_vague: false, share, of: Of::Bound }
+    }
+
+    /// The rounds of a search: need, blame and sweeps, and what it does next.
+    fn follow(rounds: &[(f64, usize)]) -> Vec<Next> {
+        let mut stall = Stall::default();
+        let next = |&(share, sweeps): &(f64, usize)| stall.look_closer(need(share), Part::Discretisation, sweeps, true);
+        rounds.iter().map(next).collect()
+    }
+
+    #[test]
+    fn a_step_that_brings_little_asks_for_sweeps_and_they_stay_if_they_help() {
+        let [step, sweeps] = [Part::Discretisation, Part::Iteration].map(Next::Blames);
+        assert_eq!(
+            follow(&[(100.0, 16), (50.0, 16), (45.0, 16), (10.0, 64), (5.0, 64)]),
+            [step, step, sweeps, step, step]
+        );
+        let given_up = follow(&[(100.0, 16), (90.0, 16), (89.0, 64), (80.0, 16), (75.0, 16), (70.0, 16)]);
+        assert_eq!(given_up, [step, sweeps, Next::Returns(16), step, step, sweeps]);
+    }
+
+    #[test]
+    fn bounds_that_grow_with_finer_steps_are_rounding() {
+        let [step, rounding] = [Part::Discretisation, Part::Rounding].map(Next::Blames);
+        let mut stall = Stall::default();
+        let mut of = |share: f64| stall.look_closer(need(share), Part::Discretisation, 16, false);
+        assert_eq!([of(10.0), of(3.0), of(7.0), of(30.0)], [step, step, step, rounding]);
+    }
 }

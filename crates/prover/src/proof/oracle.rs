@@ -3,11 +3,10 @@
 use super::each_side::{EachSide, Reference};
 use super::figures::Measured;
 use super::problem::Problem;
-use super::shifted::{RoundedInstants, TELLING};
+use super::shifted::{Along, RoundedInstants, TELLING};
 use crate::compare::{Check, Verdict, magnitudes, scales};
 use crate::tolerance::{Basis, Origin, Tolerance};
-use linkage::case::{Case, Grid, Wanted};
-use linkage::drive::Drive;
+use linkage::case::{Case, Wanted};
 use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::math::KeepNan;
 use linkage::math::angle::wrapped;
@@ -66,10 +65,9 @@ impl<'a> Answers<'a> {
     ) -> Result<Self> {
         let channels: Vec<Channel> = series.iter().flat_map(|series| channels_of(series)).collect();
         let stages: Vec<Stage> = series.iter().map(|series| series.channel.kind.stage).collect();
-        let solved = |case: &Case, by_crank: bool| -> Result<Option<Solved>> {
-            let at: fn(When) -> Option<f64> = if by_crank { When::crank } else { When::time };
-            let grid: fn(&Drive, Vec<f64>) -> Grid = if by_crank { Grid::of_inputs } else { Grid::of_times };
-            let mut instants: Vec<f64> = series.iter().flat_map(|series| series.instants()).filter_map(at).collect();
+        let solved = |case: &Case, along: Along| -> Result<Option<Solved>> {
+            let all = series.iter().flat_map(|series| series.instants());
+            let mut instants: Vec<f64> = all.filter_map(|when| along.of(when)).collect();
             if instants.is_empty() {
                 return Ok(None);
             }
@@ -78,8 +76,8 @@ impl<'a> Answers<'a> {
             // Of many instants, what is asked is solved at all, and what its numbers are measured by at some.
             let step = instants.len().div_ceil(MOST);
             let few = instants.iter().copied().step_by(step).collect();
-            let whole = case.on(grid(case.crank(), few))?.wanting(Wanted::of(&stages));
-            let many = (step > 1).then(|| case.on(grid(case.crank(), instants))).transpose()?;
+            let whole = case.on(along.grid(case.crank(), few))?.wanting(Wanted::of(&stages));
+            let many = (step > 1).then(|| case.on(along.grid(case.crank(), instants))).transpose()?;
             let many = many.map(|many| many.wanting_only(&channels));
             let of = |solver: &dyn Solver| -> Result<Side> {
                 let found = solver.solve(&whole)?;
@@ -88,12 +86,12 @@ impl<'a> Answers<'a> {
                 Ok((many.as_ref().map_or(Ok(found), |many| solver.solve(many))?, sizes))
             };
             let points = series.iter().flat_map(|series| series.all());
-            let rounded = RoundedInstants::of(case, points, (at, by_crank), &channels, solvers[Reference::Assur])?;
+            let rounded = RoundedInstants::of(case, points, along, &channels, solvers[Reference::Assur])?;
             Ok(Some(Solved { sides: EachSide::tried(|side| of(solvers[side]))?, rounded }))
         };
         // Where forces decide the true motion, numbers at crank angles belong to the nominal motion.
-        let nominal = solved(&case.nominal(), true)?;
-        Ok(Answers { nominal, timed: solved(case, false)?, integration })
+        let nominal = solved(&case.nominal(), Along::Crank)?;
+        Ok(Answers { nominal, timed: solved(case, Along::Time)?, integration })
     }
 
     /// What a side answers for a series, in the nominal motion and in the motion itself.
@@ -203,7 +201,7 @@ fn of_one(oracle: &Oracle, series: &OracleSeries, answers: &Answers, side: Refer
     };
     let against = |family: &str, point: &OraclePoint, origin: Origin| -> Check {
         let Found { deviation, bound, instant, .. } = found(point);
-        let tolerance = tolerance(oracle, origin, (bound, instant), point.digits);
+        let tolerance = tolerance(oracle, origin, bound, instant, point.digits);
         let check = Check::new(family, deviation, tolerance, series.channel.kind.unit.symbol());
         check.located(|| format!("at {}", point.at))
     };
@@ -265,7 +263,7 @@ fn worst_of(checks: impl Iterator<Item = Check>) -> Option<Check> {
 
 /// Bound of a number: half a unit of its last digit, plus the known error of the number, but never less than what the
 /// analytic sides know; and the part of it that the rounding of its instant leaves open.
-fn tolerance(oracle: &Oracle, origin: Origin, (bound, instant): (f64, f64), digits: i32) -> Tolerance {
+fn tolerance(oracle: &Oracle, origin: Origin, bound: f64, instant: f64, digits: i32) -> Tolerance {
     Tolerance { bound, basis: Basis::Digits { origin, digits, source: oracle.source.clone(), instant } }
 }
 
@@ -311,7 +309,7 @@ fn of_figures(oracles: &[Oracle], case: &Case, solvers: EachSide<&dyn Solver>) -
             let known = ULPS * f64::EPSILON * value.abs() + 2.0 * (value - other).abs();
             let (family, unit) = (family(oracle, figure.wrong.is_some(), side.name()), figure.figure.unit());
             let against = |number: &FigureValue, origin: Origin| {
-                let tolerance = tolerance(oracle, origin, (number.bound.larger(known), 0.0), number.digits);
+                let tolerance = tolerance(oracle, origin, number.bound.larger(known), 0.0, number.digits);
                 Check::new(family.as_str(), (value - number.value).abs(), tolerance, unit)
                     .of(&figure.name)
                     .located(|| format!("given {} {unit}, found {value:.10}", number.value))

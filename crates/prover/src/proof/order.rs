@@ -9,7 +9,8 @@ use linkage::error::ErrorKind;
 use linkage::math::KeepNan;
 use linkage::trajectory::Stage;
 
-use super::judge::{ChannelProof, Judge, Judged};
+use super::engine_proof::{ChannelProof, EngineProof};
+use super::judge::Judge;
 use super::observe::Stopped;
 use super::runs::{Bank, FEWER, other_sweeps};
 use crate::compare::{Convergence, Verdict};
@@ -29,7 +30,7 @@ const NEGLIGIBLE: f64 = 0.01;
 ///
 /// # Errors
 /// Those of a run that is not numeric.
-pub(super) fn look(judge: &Judge, bank: &mut Bank, judged: &mut Judged) -> Result<bool, Stopped> {
+pub(super) fn look(judge: &Judge, bank: &mut Bank, proof: &mut EngineProof) -> Result<bool, Stopped> {
     let wanted = judge.problem.engine_rel;
     // Second differences across a knot of a law of motion, where its third derivative jumps, have order 1 by
     // themselves.
@@ -39,10 +40,10 @@ pub(super) fn look(judge: &Judge, bank: &mut Bank, judged: &mut Judged) -> Resul
         let has_order = is_smooth || own.residual.channel.kind.stage < Stage::Accelerations;
         has_order && observed > 0.0 && observed < LOW * formal && own.bound > NEGLIGIBLE * wanted * own.residual.scale
     };
-    if !judged.channels.iter().any(is_low) {
+    if !proof.channels.iter().any(is_low) {
         return Ok(false);
     }
-    let found = judged.info.settings;
+    let found = proof.info.settings;
     let finest = found.resolution * 0.5f64.powi(found.extrapolated as i32);
     let mut rung = |times: f64, asks_sweeps: bool| {
         let plain = Settings { resolution: times * finest, extrapolated: 0, ..found };
@@ -50,7 +51,7 @@ pub(super) fn look(judge: &Judge, bank: &mut Bank, judged: &mut Judged) -> Resul
         let mut others = other_sweeps(bank.case, own.as_ref(), plain.sweeps, FEWER);
         others.truncate(usize::from(asks_sweeps));
         match bank.runs(plain, &others, &mut |_| {}).and_then(|runs| Ok(judge.judge(own.as_ref(), runs)?)) {
-            Ok(own) => Ok(Some(own)),
+            Ok(own) => Ok(Some(own.proof)),
             // Too coarse a run shows nothing.
             Err(stopped) if stopped.error.kind() == ErrorKind::Numeric => Ok(None),
             Err(stopped) => Err(stopped),
@@ -64,16 +65,16 @@ pub(super) fn look(judge: &Judge, bank: &mut Bank, judged: &mut Judged) -> Resul
     // What the sweeps leave takes one more run, as long as half of the longest. Few orders are so steady that it is
     // asked.
     let may_be = |index: usize| {
-        is_low(&judged.channels[index]) && is_steady([0, 1, 2].map(|k| rungs[k].channels[index].convergence))
+        is_low(&proof.channels[index]) && is_steady([0, 1, 2].map(|k| rungs[k].channels[index].convergence))
     };
-    if !(0..judged.channels.len()).any(may_be) {
+    if !(0..proof.channels.len()).any(may_be) {
         return Ok(false);
     }
     let Some(fine) = rung(1.0, true)? else { return Ok(false) };
     let [coarse, middle, fine] = [&rungs[0], &rungs[1], &fine];
     let mut is_found = false;
-    for index in 0..judged.channels.len() {
-        if is_low(&judged.channels[index]) {
+    for index in 0..proof.channels.len() {
+        if is_low(&proof.channels[index]) {
             let rungs = [coarse, middle, fine].map(|rung| &rung.channels[index]);
             let (convergences, parts) = (rungs.map(|own| own.convergence), rungs[2].parts);
             if let Some(order) = steady(convergences, parts) {
@@ -85,12 +86,12 @@ pub(super) fn look(judge: &Judge, bank: &mut Bank, judged: &mut Judged) -> Resul
                     error(steps[1]),
                     convergences[2].formal
                 );
-                judged.channels[index].verdict = Verdict::Disagree { place };
+                proof.channels[index].verdict = Verdict::Disagree { place };
                 is_found = true;
             }
         }
     }
-    judged.conclude();
+    proof.conclude();
     Ok(is_found)
 }
 

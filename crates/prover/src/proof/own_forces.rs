@@ -6,8 +6,8 @@
 
 use std::sync::Arc;
 
-use super::engine_proof::EngineProof;
-use super::judge::{Judge, Judged, describe};
+use super::engine_proof::{EngineInfo, EngineProof};
+use super::judge::{Judge, Judged};
 use super::observe::{Stopped, Watch};
 use super::options::Chosen;
 use super::runs::Bank;
@@ -60,7 +60,7 @@ pub(super) fn judged(
     let sweeps = motion.info.settings.sweeps.min(ENOUGH);
     let mut found: Option<EngineProof> = None;
     for &route in chosen.engine.own_routes(case) {
-        let own = by_route(judge, case, chosen, (route, sweeps), progress);
+        let own = by_route(judge, case, chosen, route, sweeps, progress);
         let is_open = matches!(own.verdict, Verdict::Inconclusive { .. });
         // Of several open results, one with numbers tells more.
         let better = found.as_ref().is_none_or(|found| !is_open || found.failure.is_some());
@@ -80,14 +80,15 @@ fn failed(engine: &dyn Engine, failure: Error, work: Option<f64>) -> EngineProof
     let advice = work.map(|work| Advice::MoreWork { to: 10f64.powf((work / SHARE).log10().ceil()) });
     let reason = failure.message().to_string();
     let verdict = Verdict::Inconclusive { reason, advice: advice.into_iter().collect() };
-    EngineProof { failure: Some(failure), ..EngineProof::bare(describe(engine), verdict) }
+    EngineProof { failure: Some(failure), ..EngineProof::bare(EngineInfo::of(engine), verdict) }
 }
 
 fn by_route(
     judge: &Judge,
     case: &Case,
     chosen: &Chosen,
-    (route, sweeps): (Route, usize),
+    route: Route,
+    sweeps: usize,
     progress: &mut dyn FnMut(f64),
 ) -> EngineProof {
     let given = chosen.engine.settings();
@@ -111,12 +112,12 @@ fn by_route(
     let search =
         Settling::new(&judge, &mut bank, engine.as_ref(), &asked, SHARE * chosen.budget).conclusive(finest, sweeps);
     match search.run(progress) {
-        Ok((Judged { info, channels, verdict, run, kept, .. }, search)) => {
+        Ok(Judged { mut proof, run, .. }) => {
             drop(bank);
-            let trajectory = Some(Arc::unwrap_or_clone(run).trajectory);
-            let mut proof = EngineProof { channels, trajectory, kept, ..EngineProof::bare(info, verdict) };
-            proof.verdicts_mut().for_each(|verdict| search.end.tell(verdict, chosen.budget));
-            EngineProof { search: Some(search), ..proof }
+            if let Some(end) = proof.search.as_ref().map(|search| search.end) {
+                proof.verdicts_mut().for_each(|verdict| end.tell(verdict, chosen.budget));
+            }
+            EngineProof { trajectory: Some(Arc::unwrap_or_clone(run).trajectory), ..proof }
         }
         Err(Stopped { error, spent, .. }) => failed(engine.as_ref(), error, spent),
     }

@@ -4,9 +4,10 @@
 use std::path::Path;
 
 use super::each_side::{EachSide, Reference};
+use super::engine_proof::ChannelProof;
 use super::entrants::{Sides, TRUE_SIDES};
 use super::figures::Measured;
-use super::judge::ChannelProof;
+use super::judge::Judge;
 use super::known::Known;
 use super::ledger::Ledger;
 use super::observe::{Observed, Watch, observe};
@@ -257,29 +258,22 @@ enum Search {
 }
 
 fn engine_proof(scenario: &Scenario, fault: Fault, size: f64) -> EngineProof {
-    engine_proven(scenario, fault, size, false, Search::None)
+    engine_proven(scenario, Everywhere { fault, size, grows: false }, Search::None)
 }
 
-fn engine_proven(scenario: &Scenario, fault: Fault, size: f64, grows: bool, search: Search) -> EngineProof {
+fn engine_proven(scenario: &Scenario, hook: Everywhere, search: Search) -> EngineProof {
     let reference = seen(&scenario.case, &AssurSolver);
     let rapier = Rapier::all(STEP).into_iter().next().unwrap();
     let inner = Box::new(rapier) as Box<dyn Engine>;
-    let engine: Box<dyn Engine> = Box::new(Wrapped { hook: Everywhere { fault, size, grows }, inner });
+    let engine: Box<dyn Engine> = Box::new(Wrapped { hook, inner });
     let given = match search {
         Search::None => EngineSettings::exactly(engine.as_ref()),
         Search::Everything => EngineSettings::default(),
     };
     let chosen = Chosen { engine, given, budget: settle::BUDGET }.by_motion_alone();
     let known = knowing(&scenario.case);
-    engines::prove(
-        Problem::of(scenario, &scenario.case),
-        &scenario.case,
-        &chosen,
-        &reference,
-        &known,
-        (&mut Ledger::default(), &mut |_| {}),
-    )
-    .unwrap()
+    let judge = Judge::new(Problem::of(scenario, &scenario.case), &reference, &known, chosen.engine.settings());
+    engines::prove(&judge, &scenario.case, &chosen, &mut Ledger::default(), &mut |_| {}).unwrap()
 }
 
 /// An opening that does not vanish with the step, and a moment that disagrees with its powers. Both are far below 1 %
@@ -335,7 +329,7 @@ fn regress_what_is_read_too_late_converges_at_another_order_and_disagrees() {
     {
         let scenario = parsed(name, &text(name));
         for (fault, late, of) in [(velocities, 0.5, "omega"), (accelerations, 0.25, "alpha")] {
-            let proof = engine_proven(&scenario, fault, late * STEP, true, free);
+            let proof = engine_proven(&scenario, Everywhere { fault, size: late * STEP, grows: true }, free);
             assert_eq!(proof.verdict.word(), "disagree", "{name} {of} {free:?}: {:?}", proof.verdict);
             let told = |own: &ChannelProof| {
                 own.residual.channel.to_string().contains(of)
@@ -343,7 +337,7 @@ fn regress_what_is_read_too_late_converges_at_another_order_and_disagrees() {
             };
             assert!(proof.channels.iter().any(told), "{name} {of} {free:?}");
         }
-        let right = engine_proven(&scenario, nothing, 0.0, true, free);
+        let right = engine_proven(&scenario, Everywhere { fault: nothing, size: 0.0, grows: true }, free);
         assert_eq!(right.verdict.word(), "agree", "{name}");
     }
 }
@@ -482,7 +476,7 @@ fn a_fault_of_fixed_size_is_found_where_the_reference_is_zero() {
         let place = truth.channels().iter().position(|channel| channel.to_string() == own).unwrap();
         let natural = magnitudes(&truth)[place];
         for (size, word) in [(share * natural, "disagree"), (0.0, "agree")] {
-            let proof = engine_proven(&scenario, fault, size, false, Search::Everything);
+            let proof = engine_proven(&scenario, Everywhere { fault, size, grows: false }, Search::Everything);
             let found = proof.channels.iter().find(|channel| channel.residual.channel.to_string() == own).unwrap();
             assert_eq!(found.verdict.word(), word, "{own} at {size:e}: {found:?}");
         }
@@ -506,7 +500,7 @@ fn a_fault_of_fixed_size_is_found_where_nothing_has_a_size() {
     ];
     for (own, fault) in zeros {
         for (size, word) in [(1e-6, "disagree"), (0.0, "agree")] {
-            let proof = engine_proven(&rotor, fault, size, false, Search::Everything);
+            let proof = engine_proven(&rotor, Everywhere { fault, size, grows: false }, Search::Everything);
             let found = proof.channels.iter().find(|channel| channel.residual.channel.to_string() == own).unwrap();
             assert_eq!(found.verdict.word(), word, "{own} at {size:e}: {found:?}");
             assert_eq!(proof.verdict.word(), word, "{own} at {size:e}");

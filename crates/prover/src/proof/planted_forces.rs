@@ -1,5 +1,6 @@
 //! Faults that only one of the two judgements of an engine's forces can see.
 
+use super::judge::Judge;
 use super::known::Known;
 use super::ledger::Ledger;
 use super::observe::{Watch, observe};
@@ -54,15 +55,8 @@ fn proven(name: &str, by: &'static [Route], fault: Fault) -> EngineProof {
     let hook = ByRoute { fault, by, route: inner.settings().route };
     let engine = Box::new(Wrapped { hook, inner });
     let chosen = Chosen { engine, given: EngineSettings::default(), budget: settle::BUDGET };
-    engines::prove(
-        Problem::of(&scenario, case),
-        case,
-        &chosen,
-        &sides[0],
-        &known,
-        (&mut Ledger::default(), &mut |_| {}),
-    )
-    .unwrap()
+    let judge = Judge::new(Problem::of(&scenario, case), &sides[0], &known, chosen.engine.settings());
+    engines::prove(&judge, case, &chosen, &mut Ledger::default(), &mut |_| {}).unwrap()
 }
 
 const EXERTED: &[Route] = &[Route::Native, Route::Probe];

@@ -1,14 +1,16 @@
-//! An engine's runs, from which its error is estimated.
+//! An engine's runs, from which its error is estimated, and the room that they need.
 
 use std::sync::Arc;
 
 use super::observe::{Observed, Stopped, Watch, observe};
 use crate::compare::{Ladder, OtherSweeps};
 use crate::numbers::significant;
+use analytic::range::{ASIDE, Extent, reachable};
 use linkage::case::Case;
 use linkage::engine::{Engine, Kept, Settings, plain_runs, size_of_step};
 use linkage::error::Advice;
 use linkage::math::KeepNan;
+use linkage::work::limited;
 
 /// The runs that judge an engine at some settings.
 pub(super) struct Runs {
@@ -87,8 +89,7 @@ impl<'a> Bank<'a> {
 
     /// Work of plain runs over the case's grid. It is counted, so that the same input gives the same work.
     fn work(&self, runs: &[Settings]) -> f64 {
-        let times = &self.case.grid.times;
-        let [first, last] = times.iter().fold([0.0f64; 2], |[first, last], &t| [first.smaller(t), last.larger(t)]);
+        let [first, last] = ends(self.case);
         size_of_step(self.case) * runs.iter().map(|run| (last - first) * run.work()).sum::<f64>()
     }
 
@@ -179,4 +180,38 @@ fn in_ladder(stopped: Stopped, what: &str, asked: Settings, controls_error: bool
     // Values to try start from the settings that the user asked for.
     let advised = |advice: Advice| advice.from_settings(asked.resolution, controls_error, asked.sweeps);
     Stopped { error: stopped.error.map_message(told).map_advice(advised), kept: None, spent: None }
+}
+
+/// The first and the last time (s) that a run over a case comes to. It begins at zero.
+fn ends(case: &Case) -> [f64; 2] {
+    case.grid.times.iter().fold([0.0; 2], |[first, last], &t| [first.smaller(t), last.larger(t)])
+}
+
+/// The largest step (s) for which a run of this engine stays within the crank angles that can be reached. One of a
+/// prescribed motion begins some steps before the first instant and ends some after the last one: near a limit of
+/// rotation only a small step leaves room for them. It is infinite for a full turn, and where forces decide the motion.
+pub(super) fn room(case: &Case, engine: &dyn Engine) -> f64 {
+    let steps = engine.overrun();
+    let Some([from, to]) = limits(case).filter(|_| steps > 0.0) else { return f64::INFINITY };
+    let drive = case.crank();
+    let at = |t: f64| {
+        let own = drive.at(t);
+        // To the limit that lies ahead, in either sense of time.
+        let distance = (own.value - from).abs().smaller((to - own.value).abs());
+        distance / own.rate.abs() / steps
+    };
+    // Of a drive at rest there is no speed to judge by.
+    ends(case).map(at).into_iter().filter(|step| step.is_finite()).fold(f64::INFINITY, f64::smaller)
+}
+
+/// Crank angles (rad) between which a prescribed motion of one drive stays; `None` if nothing limits it, and
+/// where that is not known after some work: the engine then says itself where it cannot go on.
+fn limits(case: &Case) -> Option<[f64; 2]> {
+    if case.is_free() || case.drives.len() > 1 {
+        return None;
+    }
+    match limited(ASIDE, || reachable(case)).0 {
+        Ok(Extent::Limited(ends)) => Some(ends.map(|end| end.crank)),
+        Ok(Extent::FullTurn(_)) | Err(_) => None,
+    }
 }

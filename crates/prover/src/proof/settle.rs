@@ -12,45 +12,14 @@ use linkage::error::{Advice, Error, ErrorKind};
 use linkage::math::KeepNan;
 use linkage::math::statistics::half_range;
 
+use super::engine_proof::{End, Search};
 use super::judge::{Judge, Judged};
-use super::need::{Blame, MOST_LEFT_OUT, Need, need};
+use super::need::{Blame, MOST_LEFT_OUT, Need, Next, Pace, Stall, need};
 use super::observe::Stopped;
 use super::order;
-use super::pace::Pace;
-use super::room::room;
-use super::runs::{Bank, FEWER, other_sweeps, rungs};
-use super::stall::{Next, Stall};
-use crate::compare::Verdict;
+use super::runs::{Bank, FEWER, other_sweeps, room, rungs};
 use crate::tolerance::Part;
 use scenario::EngineSettings;
-
-/// How the settings of an engine were found.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Search {
-    /// Number of runs that were made, each at another step or with other sweeps.
-    pub runs: usize,
-    /// Work done, in steps without sweeps; twenty sweeps count as one step more.
-    pub effort: f64,
-    /// Work that was allowed, in the same unit.
-    pub budget: f64,
-    /// Why the search ended.
-    pub end: End,
-}
-
-/// Why a search of settings ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum End {
-    /// Every channel has the aimed accuracy, or is conclusive and the work for more is spent.
-    Decided,
-    /// A finer step would add more rounding than it takes away.
-    Rounding,
-    /// The work that was allowed is done.
-    Budget,
-    /// At the pace of its rounds the work that was allowed would not be enough.
-    Pace,
-    /// The settings that are left to choose have no better value.
-    Nothing,
-}
 
 /// Work allowed by default, in steps without sweeps.
 pub const BUDGET: f64 = 2e7;
@@ -78,29 +47,6 @@ const SWEEPS: Blame = Blame { part: Part::Iteration, is_shared: false };
 const MORE_SWEEPS: [usize; 2] = [4, 2];
 /// Largest bound, over what is wanted, that is near.
 const NEAR: f64 = 8.0;
-
-impl End {
-    /// Puts into an inconclusive verdict what the search has tried, in place of advice to try it.
-    pub(super) fn tell(self, verdict: &mut Verdict, budget: f64) {
-        let Verdict::Inconclusive { reason, advice } = verdict else { return };
-        if advice.is_empty() {
-            return;
-        }
-        let (why, way_out) = match self {
-            // The settings that are given decide, and its own advice holds.
-            End::Decided | End::Nothing => return,
-            End::Rounding => ("a finer step adds more rounding than it takes away", vec![Advice::OtherEngine]),
-            End::Budget => ("the work that was allowed is done", vec![Advice::MoreWork { to: 10.0 * budget }]),
-            End::Pace => (
-                "at the pace of its rounds the work that was allowed would not be enough",
-                vec![Advice::MoreWork { to: 10.0 * budget }],
-            ),
-        };
-        reason.push_str("; ");
-        reason.push_str(why);
-        *advice = way_out;
-    }
-}
 
 /// An error if the first runs of an engine, those of `rungs`, are more work than is allowed: `most` of the `budget` asked
 /// for. A step so small that no budget would be enough is a mistake, which the engine itself refuses.
@@ -214,7 +160,7 @@ impl<'a, 'b> Settling<'a, 'b> {
     ///
     /// # Errors
     /// The failure of the last run, if no run can be judged; an error if the first runs are more work than is allowed.
-    pub(super) fn run(mut self, progress: &mut dyn FnMut(f64)) -> Result<(Judged, Search), Stopped> {
+    pub(super) fn run(mut self, progress: &mut dyn FnMut(f64)) -> Result<Judged, Stopped> {
         let mut best: Option<Trial> = None;
         let mut failure = None;
         let (mut round, mut failed) = (0, 0);
@@ -233,12 +179,12 @@ impl<'a, 'b> Settling<'a, 'b> {
                 }
                 Ok(mut trial) => {
                     // No step and no sweeps help where the order is wrong.
-                    if round > QUICK && order::look(self.judge, self.bank, &mut trial.judged)? {
-                        borne_out = trial.judged.against();
+                    if round > QUICK && order::look(self.judge, self.bank, &mut trial.judged.proof)? {
+                        borne_out = trial.judged.proof.against();
                         best = Some(trial);
                         break End::Decided;
                     }
-                    let now = trial.judged.against();
+                    let now = trial.judged.proof.against();
                     borne_out = now.iter().filter(|name| against.contains(name)).cloned().collect();
                     against = now;
                     let disagrees = !against.is_empty();
@@ -265,7 +211,7 @@ impl<'a, 'b> Settling<'a, 'b> {
                     }
                     // A later round speaks for itself where it disagrees, or no longer does.
                     let better = best.as_ref().is_none_or(|best| {
-                        let refuted = decided && !best.judged.against().is_empty();
+                        let refuted = decided && !best.judged.proof.against().is_empty();
                         disagrees || refuted || trial.need < best.need
                     });
                     if better {
@@ -300,14 +246,17 @@ impl<'a, 'b> Settling<'a, 'b> {
                 let is_over = matches!(end, End::Budget | End::Pace);
                 let is_cut = self.given.sweeps.is_free() && is_over;
                 if (!self.is_finest() || is_cut) && borne_out.is_empty() {
-                    best.judged.doubt("no finer run bears it out", &Advice::SmallerStep { to: None });
+                    best.judged.proof.doubt("no finer run bears it out", &Advice::SmallerStep { to: None });
                 }
                 // Impulses are of first order, and sweeps leave more in them than in the motion: where the search is
                 // cut off before all are conclusive, none is disproven.
                 if self.conclusive && is_over {
-                    best.judged.doubt("the others are not conclusive", &Advice::MoreWork { to: 10.0 * self.budget });
+                    best.judged
+                        .proof
+                        .doubt("the others are not conclusive", &Advice::MoreWork { to: 10.0 * self.budget });
                 }
-                Ok((best.judged, search))
+                best.judged.proof.search = Some(search);
+                Ok(best.judged)
             }
             (None, Some(stopped)) => Err(Stopped { spent: (end == End::Budget).then_some(self.budget), ..stopped }),
             (None, None) => unreachable!("a round ends with a trial or a failure"),
@@ -316,7 +265,7 @@ impl<'a, 'b> Settling<'a, 'b> {
 
     /// Goes on at steps that leave out few enough instants, in proportion to the step. Coarser ones decide nothing.
     fn leave_out_less(&mut self, judged: &Judged) {
-        let most = judged.info.settings.resolution * MOST_LEFT_OUT / judged.too_coarse;
+        let most = judged.proof.info.settings.resolution * MOST_LEFT_OUT / judged.too_coarse;
         // The next round halves the step once more.
         while self.now.resolution > most && !self.is_finest() {
             self.now.resolution *= 0.5;
@@ -431,11 +380,11 @@ impl<'a, 'b> Settling<'a, 'b> {
         }
         let Some(best) = best else { return Err(failure.expect("every round has a candidate")) };
         // At first, what the sweeps leave is asked only where the step is not to blame.
-        let settings = best.judged.info.settings;
+        let settings = best.judged.proof.info.settings;
         let engine = self.bank.engine(settings);
         let share = if self.given.sweeps.is_free() { self.factor } else { FEWER };
         let others = other_sweeps(self.bank.case, engine.as_ref(), settings.sweeps, share);
-        let disagrees = !best.judged.against().is_empty();
+        let disagrees = !best.judged.proof.against().is_empty();
         let is_asking = is_long && !self.conclusive && !best.need.is_of_instants();
         if others.is_empty() || (best.need.share > 1.0 && !best.need.is_vague && !disagrees && !is_asking) {
             return Ok(best);
@@ -451,12 +400,12 @@ impl<'a, 'b> Settling<'a, 'b> {
         // anything is disproven: sweeps that have hardly begun to converge differ little.
         let is_asked =
             found.blame.part == Part::Iteration && !found.need.is_within(self.aim) && self.given.sweeps.is_free();
-        if others.len() < 2 || (!is_asked && found.judged.against().is_empty()) {
+        if others.len() < 2 || (!is_asked && found.judged.proof.against().is_empty()) {
             return Ok(found);
         }
         match self.trial(settings, &others, &mut |part| progress(0.9 + 0.1 * part)) {
             // What fails with fewer sweeps has hardly enough of them.
-            Err(stopped) if stopped.error.kind() == ErrorKind::Numeric && !found.judged.against().is_empty() => {
+            Err(stopped) if stopped.error.kind() == ErrorKind::Numeric && !found.judged.proof.against().is_empty() => {
                 Ok(Trial { need: Need { is_vague: true, ..found.need }, blame: SWEEPS, ..found })
             }
             Err(stopped) if stopped.error.kind() == ErrorKind::Numeric => Ok(found),

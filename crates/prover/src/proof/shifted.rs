@@ -23,6 +23,32 @@ const BETWEEN: [f64; 2] = [-0.5, 0.5];
 /// Share of its scale beyond which what digits, interpolation and instants leave open proves nothing.
 pub const TELLING: f64 = 1e-2;
 
+/// What instants are counted by.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Along {
+    /// The crank angle (rad).
+    Crank,
+    /// Time (s).
+    Time,
+}
+
+impl Along {
+    /// An instant that is counted so; `None` if it is counted otherwise.
+    pub(super) fn of(self, when: When) -> Option<f64> {
+        match self {
+            Along::Crank => when.crank(),
+            Along::Time => when.time(),
+        }
+    }
+
+    pub(super) fn grid(self, crank: &Drive, instants: Vec<f64>) -> Grid {
+        match self {
+            Along::Crank => Grid::of_inputs(crank, instants),
+            Along::Time => Grid::of_times(crank, instants),
+        }
+    }
+}
+
 /// Whether an instant with this error is as exact as a double.
 #[must_use]
 pub fn is_exact(at: f64, error: f64) -> bool {
@@ -30,7 +56,7 @@ pub fn is_exact(at: f64, error: f64) -> bool {
 }
 
 /// Solves a case beside the trajectory that was found at its instants: where these are off by shares of `slack`, row by
-/// row (rad of the crank if `by_crank`, else s). Every solution is handed to `then`, with its case. So a course whose
+/// row. Every solution is handed to `then`, with its case. So a course whose
 /// rate vanishes at an instant is followed too, and so are rates and forces.
 ///
 /// # Errors
@@ -38,7 +64,8 @@ pub fn is_exact(at: f64, error: f64) -> bool {
 pub fn shifted(
     case: &Case,
     own: &Trajectory,
-    (by_crank, slack): (bool, &[f64]),
+    along: Along,
+    slack: &[f64],
     solver: &dyn Solver,
     then: &mut dyn FnMut(&Case, &Trajectory) -> Result<()>,
 ) -> Result<()> {
@@ -46,11 +73,11 @@ pub fn shifted(
     let mut turned = 0.0;
     let mut at = |part: f64| -> Result<f64> {
         let off = |at: &[f64]| at.iter().zip(slack).map(|(at, slack)| at + part * slack).collect::<Vec<f64>>();
-        let grid = match by_crank {
-            true => Grid::of_inputs(crank, off(own.inputs())),
-            false => Grid::of_times(crank, off(own.times()).into_iter().map(|at| within(crank, at)).collect()),
+        let instants = match along {
+            Along::Crank => off(own.inputs()),
+            Along::Time => off(own.times()).into_iter().map(|at| within(crank, at)).collect(),
         };
-        let shifted = case.on(grid)?;
+        let shifted = case.on(along.grid(crank, instants))?;
         let found = solver.solve(&shifted)?;
         then(&shifted, &found)?;
         let turned = own.inputs().iter().zip(found.inputs()).map(|(before, after)| (after - before).abs());
@@ -86,20 +113,19 @@ pub(super) struct RoundedInstants {
 }
 
 impl RoundedInstants {
-    /// Those of some points of a case; `of` gives the instant of a point in the motion of the case, in rad of the crank
-    /// if `by_crank`, else in s. Where the case cannot be solved at both ends of an instant, the course from row to row
-    /// must do.
+    /// Those of some points of a case. Where the case cannot be solved at both ends of an instant, the course from row to
+    /// row must do.
     ///
     /// # Errors
     /// Those of the solver at the instants themselves.
     pub(super) fn of<'a>(
         case: &Case,
         points: impl Iterator<Item = &'a OraclePoint>,
-        (of, by_crank): (fn(When) -> Option<f64>, bool),
+        along: Along,
         channels: &[Channel],
         solver: &dyn Solver,
     ) -> Result<Self> {
-        let instant = |point: &OraclePoint| Some((of(point.at)?, point.at_error));
+        let instant = |point: &OraclePoint| Some((along.of(point.at)?, point.at_error));
         let mut at: Vec<(f64, f64)> = points.filter_map(instant).filter(|(at, error)| !is_exact(*at, *error)).collect();
         if at.is_empty() {
             return Ok(RoundedInstants { at, drift: Vec::new() });
@@ -107,18 +133,17 @@ impl RoundedInstants {
         at.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
         at.dedup();
         let (instants, slack): (Vec<f64>, Vec<f64>) = at.iter().copied().unzip();
-        let grid: fn(&Drive, Vec<f64>) -> Grid = if by_crank { Grid::of_inputs } else { Grid::of_times };
-        let case = case.on(grid(case.crank(), instants.clone()))?.wanting_only(channels);
+        let case = case.on(along.grid(case.crank(), instants.clone()))?.wanting_only(channels);
         let own = solver.solve(&case)?;
         let mut drift = vec![vec![0.0; at.len()]; own.channels().len()];
-        let solved = shifted(&case, &own, (by_crank, &slack), solver, &mut |_, found| {
+        let solved = shifted(&case, &own, along, &slack, solver, &mut |_, found| {
             for (drift, ((channel, before), (_, after))) in drift.iter_mut().zip(own.iter().zip(found.iter())) {
                 grow(drift, before.iter().zip(after).map(|(before, after)| after - before), turn(channel));
             }
             Ok(())
         });
         if solved.is_err() {
-            drift = along(&own, &instants, &slack);
+            drift = from_row_to_row(&own, &instants, &slack);
         }
         Ok(RoundedInstants { at, drift: own.channels().iter().cloned().zip(drift).collect() })
     }
@@ -135,7 +160,8 @@ impl RoundedInstants {
     }
 }
 
-fn along(own: &Trajectory, instants: &[f64], slack: &[f64]) -> Vec<Vec<f64>> {
+/// The same by the course from row to row.
+fn from_row_to_row(own: &Trajectory, instants: &[f64], slack: &[f64]) -> Vec<Vec<f64>> {
     let order: Vec<usize> = (0..instants.len()).collect();
     let of = |(channel, values): (&Channel, &[f64])| {
         let values: Vec<Rounded> = values.iter().copied().map(Rounded::exact).collect();

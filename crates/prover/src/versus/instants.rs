@@ -1,7 +1,7 @@
 //! What rounded instants leave open where a scenario can be solved beside them.
 
 use crate::claims::Course;
-use crate::proof::shifted::{grow, is_exact, shifted};
+use crate::proof::shifted::{Along, grow, is_exact, shifted};
 use crate::proof::solved::Solved;
 use crate::tables::{At, Column};
 use analytic::AssurSolver;
@@ -49,7 +49,8 @@ fn by_solving(solved: &Solved, columns: &[Column], at: &At, slack: &[f64]) -> Re
     let mut drift = Drift { claims: vec![vec![0.0; slack.len()]; columns.len()], crank: vec![0.0; slack.len()] };
     let values =
         |case: &Case, trajectory: &Trajectory, claim: &Claim| Course::new(case, trajectory, &|_, _| 0.0).values(claim);
-    shifted(case, own, (at.is_crank, slack), &AssurSolver, &mut |shifted, found| {
+    let along = if at.is_crank { Along::Crank } else { Along::Time };
+    shifted(case, own, along, slack, &AssurSolver, &mut |shifted, found| {
         let claims = columns.iter().map(|own| &own.claim);
         for (claim, drift) in claims.zip(&mut drift.claims).filter(|(claim, _)| claim.figures.is_empty()) {
             let (before, after) = (values(case, own, claim)?, values(shifted, found, claim)?);

@@ -84,7 +84,8 @@ pub(super) fn missing(trial: &mut Trial, dimensions: &Dimensions) -> Vec<Missing
                                     &monomials,
                                     dimensions,
                                     coefficient,
-                                    (&what, weight),
+                                    &what,
+                                    weight,
                                     units,
                                     is_weak.then(|| before(&all, depth)),
                                 )
@@ -193,7 +194,8 @@ fn is_believed(
     monomials: &Monomials,
     dimensions: &Dimensions,
     coefficient: f64,
-    (what, weight): (&Tree, usize),
+    what: &Tree,
+    weight: usize,
     units: f64,
     places: Option<usize>,
 ) -> bool {
