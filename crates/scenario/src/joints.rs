@@ -3,12 +3,12 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::keys::key::{Kind, Section, needed, optional};
-use super::links::{NAME_HELP, is_somewhere};
+use super::links::{is_somewhere, sound_name};
 use super::reader::{Faults, Table};
 use super::words::{Words, names, suggestion};
 use linkage::error::{ErrorKind, Result};
 use linkage::math::{Vec2, unit};
-use linkage::mechanism::{Guise, Joint, JointKind, Link, Side, is_sound_name};
+use linkage::mechanism::{Guise, Joint, JointKind, Link, Side};
 
 /// Reads what a type of joints needs: the kind, and how it is drawn.
 type ReadJoint = fn(&mut Table) -> Result<(JointKind, Option<Guise>)>;
@@ -61,10 +61,7 @@ pub fn read(tables: Vec<Table>, links: &[Link], faults: &mut Faults) -> Vec<Join
 }
 
 fn joint(table: &mut Table, links: &[Link], before: &[Joint]) -> Result<Joint> {
-    let name = table.string("name")?;
-    if !is_sound_name(&name) {
-        return table.refuse("name", format!("\"{name}\" cannot be the name of a joint"), NAME_HELP);
-    }
+    let name = sound_name(table, "a joint")?;
     if before.iter().any(|joint| joint.name == name) {
         let message = format!("two joints are called \"{name}\"");
         let help = "give every joint its own name; two joints on one pin share the point instead: `point = \"...\"`";

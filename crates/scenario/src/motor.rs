@@ -96,11 +96,8 @@ fn kloss(table: &mut Table) -> Result<MotorLaw> {
         (Some(slip), None) => {
             let help = "give (synchronous speed - speed of breakdown) over synchronous speed";
             let help = help;
-            return table.refuse(
-                "breakdown_slip",
-                format!("found {slip}, but the slip of breakdown is positive"),
-                help,
-            );
+            let message = format!("found {slip}, but the slip of breakdown is positive");
+            return table.refuse("breakdown_slip", message, help);
         }
         (None, Some(speed)) if speed < synchronous_speed => 1.0 - speed / synchronous_speed,
         (None, Some(speed)) => {

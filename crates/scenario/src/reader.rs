@@ -212,7 +212,7 @@ impl<'a> Table<'a> {
     }
 
     fn required<T>(&mut self, key: &str, value: Option<T>) -> Result<T> {
-        value.ok_or_else(|| self.missing(&[key.to_string()]))
+        value.ok_or_else(|| self.missing(vec![key.to_string()]))
     }
 
     /// What `read` makes of the value of `key`, if the key is there; in place of another value, `stand_in`, or nothing
@@ -303,7 +303,7 @@ impl<'a> Table<'a> {
     /// Finite number without a unit.
     pub fn number(&mut self, key: &str) -> Result<f64> {
         let Some(value) = self.take(key) else {
-            let error = self.missing(&[key.to_string()]);
+            let error = self.missing(vec![key.to_string()]);
             return if self.goes_on { Ok(1.0) } else { Err(error) };
         };
         self.finite(key, value).or_else(|error| self.instead(1.0, error))
