@@ -28,7 +28,7 @@ pub const SECTIONS: &[Section] = &[
     Section::at("clearance").with(&[
         optional("radius", Kind::LENGTHS.of(Sign::Positive), "every link needs an outline of its own").means(
             "radius, positive, of the capsules between the points of every link that has no outline of \
-                        its own",
+             its own",
         ),
         optional("wanted", Kind::LENGTHS.of(Sign::NotNegative), "only collisions count")
             .means("distance that no pair may fall to"),

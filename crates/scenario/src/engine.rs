@@ -212,7 +212,7 @@ pub const SECTIONS: &[Section] = &[Section::at("engine").with(&[
     .means("how reactions and balancing moment are obtained"),
     optional("extrapolated", Kind::IntegerOrBoolean, "found by `run`; 0 where the step is given").means(
         "a number N from 0 to 8: runs at the step, at half of it, ..., at its 2^N-th part are combined, \
-                    so that the N leading errors drop out; `true` is 1, `false` is 0",
+         so that the N leading errors drop out; `true` is 1, `false` is 0",
     ),
 ])];
 

@@ -22,19 +22,19 @@ pub const SECTIONS: &[Section] = &[Section::at("joints").with(&[
     needed("type", Kind::Choice(|| names(TYPES))).means("kind of joint"),
     needed("links", Kind::Texts).means(
         "first and second link; `\"ground\"` is the frame. The reaction of the joint is what the first \
-                    exerts on the second",
+         exerts on the second",
     ),
     optional("point", Kind::Text, "the joint's name")
         .means("revolute: the joint is at the point of this name, on both links"),
     optional("points", Kind::Texts, "required of a prismatic joint").means(
         "prismatic: `[\"G\", \"B\"]`, a point of the first link and one of the second; the line through \
-                    the first point along the axis passes through the second point",
+         the first point along the axis passes through the second point",
     ),
     optional("axis", Kind::ANGLES, "required of a prismatic joint")
         .means("prismatic: direction of sliding in the frame of the first link"),
     optional("second_axis", Kind::ANGLES, "0: along its x axis").means(
         "prismatic: the same direction in the frame of the second link; it fixes the angle of the second \
-                    link to the first",
+         link to the first",
     ),
     optional(
         "drawn",
@@ -43,7 +43,7 @@ pub const SECTIONS: &[Section] = &[Section::at("joints").with(&[
     )
     .means(
         "prismatic: what pictures show, a piston in a cylinder, or a block on rails or in a slot; nothing \
-                    is calculated from it",
+         is calculated from it",
     ),
 ])];
 

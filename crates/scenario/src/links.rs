@@ -17,7 +17,7 @@ pub const PLACE: &[Key] = &[
     optional("length", Kind::LENGTHS.of(Sign::NotNegative), "given with `from`").means("distance from that point"),
     optional("angle", Kind::ANGLES, "given with `from`").means(
         "direction from that point, counted from the x axis of the link; for ground points, from the x axis \
-                of the world",
+         of the world",
     ),
 ];
 

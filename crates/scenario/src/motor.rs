@@ -13,7 +13,7 @@ pub const SECTIONS: &[Section] = &[
         needed("ratio", Kind::Number).means("speed of the motor over that of the crank; 1 without a reducer"),
         optional("efficiency", Kind::Number, "1").means(
             "share of the power that the reducer transmits, above 0 and at most 1, the same in both \
-                        directions",
+             directions",
         ),
         optional("torque", Kind::MOMENTS.of(Sign::Positive), "required of this law")
             .means("constant law: the torque, positive"),
