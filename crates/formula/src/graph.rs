@@ -132,9 +132,7 @@ impl Graph {
     /// The names that formulas may use, in alphabetical order.
     #[must_use]
     pub fn names(&self) -> Vec<&str> {
-        let mut names: Vec<&str> = self.names.keys().map(String::as_str).collect();
-        names.sort_unstable();
-        names
+        self.names.keys().map(String::as_str).collect()
     }
 
     /// Adds a formula.
@@ -209,8 +207,8 @@ impl Graph {
 
     fn named(&self, name: &str, tree: &Tree) -> Result<Id, Fault> {
         self.names.get(name).copied().ok_or_else(|| {
-            let names = self.names();
-            Fault::new(format!("there is no `{name}`"), tree.at.clone(), format!("known are {}", names.join(", ")))
+            let help = format!("known are {}", self.names().join(", "));
+            Fault::new(format!("there is no `{name}`"), tree.at.clone(), help)
         })
     }
 

@@ -402,6 +402,18 @@ mod tests {
     }
 
     #[test]
+    fn a_key_is_told_in_words_and_carried_as_data() {
+        let links = vec!["coupler".to_string(), "rocker".to_string()];
+        let error =
+            Error::new(ErrorKind::Geometry, "open").key(Key::of_group("start.groups", links.clone())).key("drive");
+        assert_eq!(error.to_string(), "`start.groups (coupler, rocker)`: open");
+        let key = error.key_at_fault().unwrap();
+        assert_eq!((key.path(), key.links()), ("start.groups", &links[..]));
+        let plain = Key::from("joints.A");
+        assert_eq!((plain.path(), plain.links().len()), ("joints.A", 0));
+    }
+
+    #[test]
     fn the_mark_of_a_pose_out_of_reach_comes_off_once() {
         let error = Error::new(ErrorKind::Geometry, "too far").out_of_reach();
         assert!(error.is_out_of_reach() && !error.clone().explained().is_out_of_reach());

@@ -193,11 +193,9 @@ impl Start<'_> {
                 .groups
                 .iter()
                 .zip(choices)
-                .map(|(group, choice)| match group.kind {
-                    GroupKind::Higher => self.standing(group, &pose),
-                    GroupKind::Rrr | GroupKind::Rrp | GroupKind::Rpr | GroupKind::Rpp | GroupKind::Prp => {
-                        StartGroup { mode: Some(choice.mode), ..StartGroup::default() }
-                    }
+                .map(|(group, choice)| match group.kind == GroupKind::Higher {
+                    true => self.standing(group, &pose),
+                    false => StartGroup { mode: Some(choice.mode), ..StartGroup::default() },
                 })
                 .collect();
             pose = first_choices(self.mechanism, self.structure, &angles, &wanted).ok()?.0;

@@ -7,13 +7,13 @@ pub use outline::{Flaw, MOST_CORNERS, Outline};
 pub use question::{Body, Question};
 
 use super::keys::key::{Key, Kind, Section, needed, optional};
-use super::links::{NAME_HELP, PLACE, place};
+use super::links::{PLACE, place, sound_name};
 use super::reader::{Sign, Table};
 use super::unit::LENGTH;
 use super::words::suggestion;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::{KeepNan, Vec2};
-use linkage::mechanism::{GROUND, Link, LinkId, Mechanism, Point, is_sound_name};
+use linkage::mechanism::{GROUND, Link, LinkId, Mechanism, Point};
 use question::pairs;
 
 const RADIUS: Key = optional("radius", Kind::LENGTHS.of(Sign::NotNegative), "that of the section; of a polygon 0")
@@ -28,7 +28,7 @@ pub const SECTIONS: &[Section] = &[
     Section::at("clearance").with(&[
         optional("radius", Kind::LENGTHS.of(Sign::Positive), "every link needs an outline of its own").means(
             "radius, positive, of the capsules between the points of every link that has no outline of \
-                        its own",
+             its own",
         ),
         optional("wanted", Kind::LENGTHS.of(Sign::NotNegative), "only collisions count")
             .means("distance that no pair may fall to"),
@@ -168,28 +168,24 @@ fn of_link(mut table: Table, default_radius: Option<f64>, link: &Link) -> Result
     let sign = if solid { Sign::NotNegative } else { Sign::Positive };
     let radius = table.optional_quantity("radius", &LENGTH, sign)?;
     table.finish()?;
+    let Some(radius) = radius.or(if solid { Some(0.0) } else { default_radius }) else {
+        return Err(table.fault("the outline has no radius").help("add `radius_mm`, or give `corners`"));
+    };
     match drawn {
-        Some(("corners", corners)) => {
-            Outline::polygon(&corners, radius.unwrap_or(0.0)).map_err(|flaw| flawed(&table, "corners", flaw))
-        }
-        drawn => {
-            let Some(radius) = radius.or(default_radius) else {
-                return Err(table.fault("the outline has no radius").help("add `radius_mm`, or give `corners`"));
-            };
-            match drawn {
-                Some((key, places)) => Outline::line(&places, radius).map_err(|flaw| flawed(&table, key, flaw)),
-                None => default(&table, &link.points, radius),
-            }
-        }
+        Some(drawn) => rounded(&table, drawn, radius),
+        None => default(&table, &link.points, radius),
     }
+}
+
+/// A polygon by its `corners`, or a line, as [`drawn`].
+fn rounded(table: &Table, (key, places): (&'static str, Vec<Vec2>), radius: f64) -> Result<Outline> {
+    let outline = if key == "corners" { Outline::polygon(&places, radius) } else { Outline::line(&places, radius) };
+    outline.map_err(|flaw| flawed(table, key, flaw))
 }
 
 /// A part of the housing.
 fn wall(mut table: Table, mechanism: &Mechanism, before: &[Body]) -> Result<Body> {
-    let name = table.string("name")?;
-    if !is_sound_name(&name) {
-        return table.refuse("name", format!("\"{name}\" cannot be the name of a part of the housing"), NAME_HELP);
-    }
+    let name = sound_name(&mut table, "a part of the housing")?;
     if name == HOUSING || before.iter().any(|body| body.name == name) {
         let message = format!("\"{name}\" is taken");
         return table.refuse("name", message, "give every part a name of its own; \"housing\" stands for all parts");
@@ -197,17 +193,11 @@ fn wall(mut table: Table, mechanism: &Mechanism, before: &[Body]) -> Result<Body
     let drawn = drawn(&mut table, &mechanism.links()[GROUND].points)?;
     let radius = table.optional_si("radius")?.unwrap_or(0.0);
     table.finish()?;
-    let outline = match drawn {
-        Some(("corners", corners)) => {
-            Outline::polygon(&corners, radius).map_err(|flaw| flawed(&table, "corners", flaw))?
-        }
-        Some((key, places)) => Outline::line(&places, radius).map_err(|flaw| flawed(&table, key, flaw))?,
-        None => {
-            return Err(table
-                .fault("this part of the housing has no outline")
-                .help("add `corners` of a solid part, or the places of a wall as `line`"));
-        }
+    let Some(drawn) = drawn else {
+        let help = "add `corners` of a solid part, or the places of a wall as `line`";
+        return Err(table.fault("this part of the housing has no outline").help(help));
     };
+    let outline = rounded(&table, drawn, radius)?;
     Ok(Body { name, link: GROUND, outline })
 }
 

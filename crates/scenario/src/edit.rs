@@ -2,7 +2,7 @@
 
 use toml_edit::{DocumentMut, Item, Table, value};
 
-use super::engine::{EngineSettings, ROWS, Slot};
+use super::engine::{EngineSettings, ROWS, SECTIONS, Slot};
 use linkage::error::{Error, ErrorKind, Result};
 
 /// The text of a scenario with another `[engine]` section: the settings that are given. Comments, order and
@@ -35,7 +35,7 @@ pub fn engine_section(engine: EngineSettings) -> String {
 fn fill(table: &mut Table, mut engine: EngineSettings) {
     let count = |count: usize| value(i64::try_from(count).unwrap_or(i64::MAX));
     for row in ROWS {
-        let Some(key) = row.keys.first() else { continue };
+        let Some(key) = SECTIONS[0].keys.iter().find(|key| Some(key.name) == row.key) else { continue };
         let item = match (row.slot)(&mut engine) {
             Slot::Positive(number) => number.get().map(value),
             Slot::Engines(engines) => engines.value().and_then(|own| own.first().copied()).map(|own| value(own.name())),

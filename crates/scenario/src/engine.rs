@@ -1,11 +1,12 @@
 //! `[engine]`: engines by name, and their settings, given or free, from files and arguments to the proof.
 //!
-//! [`ROWS`] is the one place of a setting: reader, writer, argument, schema and documents follow from its row.
+//! [`ROWS`] is the one place of a setting: reader, writer and argument follow from its row, schema and documents from its
+//! key in [`SECTIONS`].
 
 use std::fmt;
 use std::ops::RangeInclusive;
 
-use super::keys::key::{Key, Kind, Section, optional};
+use super::keys::key::{Kind, Section, optional};
 use super::reader::{Sign, Table};
 use super::setting::Setting;
 use linkage::drive::Drive;
@@ -120,8 +121,8 @@ pub enum Slot<'a> {
 /// What a setting is called and means.
 #[derive(Debug)]
 pub struct Row {
-    /// Its keys in `[engine]`: none of a setting that is no matter of a file, two where it is stated in two ways.
-    pub keys: &'static [Key],
+    /// Its key in [`SECTIONS`], the first where it is stated in two ways; none of a setting that is no matter of a file.
+    pub key: Option<&'static str>,
     /// Its argument.
     pub argument: &'static str,
     /// What help calls the value of the argument.
@@ -138,12 +139,7 @@ pub const MOST_TIMES: usize = 8;
 /// All settings.
 pub const ROWS: &[Row] = &[
     Row {
-        keys: &[
-            optional("dt", Kind::TIMES.of(Sign::Positive), "found by `run`")
-                .means("time step of engines with a fixed step; at most one of `dt` and `step`"),
-            optional("step", Kind::ANGLES.of(Sign::NotZero), "found by `run`")
-                .means("the same as the angle that the crank turns through in a step"),
-        ],
+        key: Some("dt"),
         argument: "dt",
         value: "S",
         help: "Time step of the engine in seconds [default: the scenario's, else `run` finds it, and others take a \
@@ -151,7 +147,7 @@ pub const ROWS: &[Row] = &[
         slot: |own| Slot::Positive(&mut own.step),
     },
     Row {
-        keys: &[optional("name", Kind::Text, "the first").means("engine that judges unless another is asked for")],
+        key: Some("name"),
         argument: "engine",
         value: "ENGINE",
         help: "Engine, or `all` to run every one side by side. May be given several times [default: the scenario's, \
@@ -159,14 +155,14 @@ pub const ROWS: &[Row] = &[
         slot: |own| Slot::Engines(&mut own.engines),
     },
     Row {
-        keys: &[],
+        key: None,
         argument: "accuracy",
         value: "ACCURACY",
         help: "Relative accuracy of an engine that chooses its own steps [default: its tightest]",
         slot: |own| Slot::Positive(&mut own.accuracy),
     },
     Row {
-        keys: &[optional("sweeps", Kind::Integer, "found by `run`").means("sweeps of the engine's iteration in a step")],
+        key: Some("sweeps"),
         argument: "sweeps",
         value: "N",
         help: "Sweeps of the engine's iteration in a step [default: the scenario's, else `run` finds them, and others \
@@ -174,30 +170,21 @@ pub const ROWS: &[Row] = &[
         slot: |own| Slot::Count(&mut own.sweeps),
     },
     Row {
-        keys: &[optional("substeps", Kind::Integer, "the engine's")
-            .means("number of parts into which the engine itself divides a step")],
+        key: Some("substeps"),
         argument: "substeps",
         value: "N",
         help: "Number of substeps into which the engine divides a step",
         slot: |own| Slot::Count(&mut own.substeps),
     },
     Row {
-        keys: &[optional(
-            "route",
-            Kind::Choice(|| Route::ALL.map(Route::name).to_vec()),
-            "the engine's, and its own forces beside it",
-        )
-        .means("how reactions and balancing moment are obtained")],
+        key: Some("route"),
         argument: "route",
         value: "ROUTE",
         help: "Route by which reactions and balancing moment are computed",
         slot: |own| Slot::Route(&mut own.route),
     },
     Row {
-        keys: &[optional("extrapolated", Kind::IntegerOrBoolean, "found by `run`; 0 where the step is given").means(
-            "a number N from 0 to 8: runs at the step, at half of it, ..., at its 2^N-th part are combined, \
-                    so that the N leading errors drop out; `true` is 1, `false` is 0",
-        )],
+        key: Some("extrapolated"),
         argument: "extrapolate",
         value: "TIMES",
         help: "Combine runs at the step and at halves of it, so that the leading errors cancel: once if no number is \
@@ -207,31 +194,27 @@ pub const ROWS: &[Row] = &[
     },
 ];
 
-/// The keys of `[engine]`, in the order of their rows.
-const KEYS: [Key; COUNT] = {
-    let mut all = [ROWS[0].keys[0]; COUNT];
-    let (mut row, mut at) = (0, 0);
-    while row < ROWS.len() {
-        let mut own = 0;
-        while own < ROWS[row].keys.len() {
-            all[at] = ROWS[row].keys[own];
-            (own, at) = (own + 1, at + 1);
-        }
-        row += 1;
-    }
-    all
-};
-
-/// What is told of the keys that are read here.
-pub const SECTIONS: &[Section] = &[Section::at("engine").with(&KEYS)];
-
-const COUNT: usize = {
-    let (mut row, mut count) = (0, 0);
-    while row < ROWS.len() {
-        (row, count) = (row + 1, count + ROWS[row].keys.len());
-    }
-    count
-};
+/// What is told of the keys that are read here, in the order of the rows.
+pub const SECTIONS: &[Section] = &[Section::at("engine").with(&[
+    optional("dt", Kind::TIMES.of(Sign::Positive), "found by `run`")
+        .means("time step of engines with a fixed step; at most one of `dt` and `step`"),
+    optional("step", Kind::ANGLES.of(Sign::NotZero), "found by `run`")
+        .means("the same as the angle that the crank turns through in a step"),
+    optional("name", Kind::Text, "the first").means("engine that judges unless another is asked for"),
+    optional("sweeps", Kind::Integer, "found by `run`").means("sweeps of the engine's iteration in a step"),
+    optional("substeps", Kind::Integer, "the engine's")
+        .means("number of parts into which the engine itself divides a step"),
+    optional(
+        "route",
+        Kind::Choice(|| Route::ALL.map(Route::name).to_vec()),
+        "the engine's, and its own forces beside it",
+    )
+    .means("how reactions and balancing moment are obtained"),
+    optional("extrapolated", Kind::IntegerOrBoolean, "found by `run`; 0 where the step is given").means(
+        "a number N from 0 to 8: runs at the step, at half of it, ..., at its 2^N-th part are combined, \
+         so that the N leading errors drop out; `true` is 1, `false` is 0",
+    ),
+])];
 
 impl EngineSettings {
     /// All settings of an engine, given.
@@ -271,7 +254,7 @@ pub fn read(table: &mut Table, drive: &Drive) -> Result<EngineSettings> {
     let mut own = EngineSettings::default();
     let (time, angle) = (table.optional_si("dt")?, table.optional_si("step")?);
     for row in ROWS {
-        let Some(key) = row.keys.first().map(|key| key.name) else { continue };
+        let Some(key) = row.key else { continue };
         match (row.slot)(&mut own) {
             // The step is stated in two ways, which are read above.
             Slot::Positive(_) => {}

@@ -19,11 +19,11 @@ pub const SECTIONS: &[Section] = &[Section::at("formula").with(&[
     needed("name", Kind::Text).means("letters, digits and `_`; formulas after it may use it"),
     needed("expression", Kind::Text).means(
         "arithmetic of numbers, `phi`, `t`, `pi`, parameters (in SI, or by their keys as plain numbers) \
-                    and formulas before it",
+         and formulas before it",
     ),
     optional("channel", Kind::Text, "none: a step of a derivation").means(
         "what it claims: a channel, with the unit of its name (`link.rocker.angle_deg`, `point.B.x_mm`, \
-                    `joint.B.f_N`), or an arithmetic of channels; also what is reduced to the crank",
+         `joint.B.f_N`), or an arithmetic of channels; also what is reduced to the crank",
     ),
     optional("source", Kind::Text, "none").means("where it comes from"),
     optional("from", Kind::INPUTS, "the whole run").means("first crank angle for which it is claimed"),
@@ -137,12 +137,16 @@ impl Formulas {
         Fault { message: format!("there is no `{name}`"), at, help }
     }
 
+    /// The indices of the formulas up to `of`, by their names.
+    fn places(&self, of: usize) -> BTreeMap<&str, usize> {
+        self.list[..=of].iter().enumerate().map(|(index, own)| (own.name.as_str(), index)).collect()
+    }
+
     /// The first operation outside its domain where the formula `of` has no value, with the index of the formula in
     /// which it stands: that one, or one that it uses. `inputs` are the crank angle (rad) and the time (s).
     #[must_use]
     pub fn undefined(&self, of: usize, inputs: [Rounded; 2]) -> Option<(usize, Fault)> {
-        let places: BTreeMap<&str, usize> =
-            self.list[..=of].iter().enumerate().map(|(index, formula)| (formula.name.as_str(), index)).collect();
+        let places = self.places(of);
         let mut is_used = vec![false; of + 1];
         is_used[of] = true;
         for index in (0..=of).rev() {
@@ -195,8 +199,7 @@ impl Formulas {
     /// that nothing uses: what a search for its mistake knows, however long the file is. Also its index there.
     #[must_use]
     pub fn derivation(&self, of: usize, beside: usize) -> (Formulas, usize) {
-        let places: BTreeMap<&str, usize> =
-            self.list[..=of].iter().enumerate().map(|(index, own)| (own.name.as_str(), index)).collect();
+        let places = self.places(of);
         let mut kept: BTreeSet<usize> = (of.saturating_sub(beside)..=of).collect();
         let mut used: BTreeSet<&str> = BTreeSet::new();
         let mut next: Vec<usize> = kept.iter().copied().collect();

@@ -3,12 +3,12 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::keys::key::{Kind, Section, needed, optional};
-use super::links::{NAME_HELP, is_somewhere};
+use super::links::{is_somewhere, sound_name};
 use super::reader::{Faults, Table};
 use super::words::{Words, names, suggestion};
 use linkage::error::{ErrorKind, Result};
 use linkage::math::{Vec2, unit};
-use linkage::mechanism::{Guise, Joint, JointKind, Link, LinkId, Side, is_sound_name};
+use linkage::mechanism::{Guise, Joint, JointKind, Link, LinkId, Side};
 
 /// Reads what a type of joints needs: the kind, and how it is drawn.
 type ReadJoint = fn(&mut Table) -> Result<(JointKind, Option<Guise>)>;
@@ -22,19 +22,19 @@ pub const SECTIONS: &[Section] = &[Section::at("joints").with(&[
     needed("type", Kind::Choice(|| names(TYPES))).means("kind of joint"),
     needed("links", Kind::Texts).means(
         "first and second link; `\"ground\"` is the frame. The reaction of the joint is what the first \
-                    exerts on the second",
+         exerts on the second",
     ),
     optional("point", Kind::Text, "the joint's name")
         .means("revolute: the joint is at the point of this name, on both links"),
     optional("points", Kind::Texts, "required of a prismatic joint").means(
         "prismatic: `[\"G\", \"B\"]`, a point of the first link and one of the second; the line through \
-                    the first point along the axis passes through the second point",
+         the first point along the axis passes through the second point",
     ),
     optional("axis", Kind::ANGLES, "required of a prismatic joint")
         .means("prismatic: direction of sliding in the frame of the first link"),
     optional("second_axis", Kind::ANGLES, "0: along its x axis").means(
         "prismatic: the same direction in the frame of the second link; it fixes the angle of the second \
-                    link to the first",
+         link to the first",
     ),
     optional(
         "drawn",
@@ -43,7 +43,7 @@ pub const SECTIONS: &[Section] = &[Section::at("joints").with(&[
     )
     .means(
         "prismatic: what pictures show, a piston in a cylinder, or a block on rails or in a slot; nothing \
-                    is calculated from it",
+         is calculated from it",
     ),
 ])];
 
@@ -61,10 +61,7 @@ pub fn read(tables: Vec<Table>, links: &[Link], faults: &mut Faults) -> Vec<Join
 }
 
 fn joint(table: &mut Table, links: &[Link], before: &[Joint]) -> Result<Joint> {
-    let name = table.string("name")?;
-    if !is_sound_name(&name) {
-        return table.refuse("name", format!("\"{name}\" cannot be the name of a joint"), NAME_HELP);
-    }
+    let name = sound_name(table, "a joint")?;
     if before.iter().any(|joint| joint.name == name) {
         let message = format!("two joints are called \"{name}\"");
         let help = "give every joint its own name; two joints on one pin share the point instead: `point = \"...\"`";

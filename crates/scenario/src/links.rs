@@ -17,7 +17,7 @@ pub const PLACE: &[Key] = &[
     optional("length", Kind::LENGTHS.of(Sign::NotNegative), "given with `from`").means("distance from that point"),
     optional("angle", Kind::ANGLES, "given with `from`").means(
         "direction from that point, counted from the x axis of the link; for ground points, from the x axis \
-                of the world",
+         of the world",
     ),
 ];
 
@@ -79,8 +79,7 @@ pub fn read(ground: Option<Table>, links: Option<Table>, faults: &mut Faults) ->
 }
 
 fn fill(table: &mut Table, link: &mut Link) -> Result<()> {
-    let named = check_name(table, "link");
-    table.part(named);
+    table.part(check_name(table, "link"));
     link.points = named_points(table)?;
     let points = &link.points;
     let mass = table.optional_si("mass")?;
@@ -97,7 +96,7 @@ fn fill(table: &mut Table, link: &mut Link) -> Result<()> {
         return table.refuse("mass_centre", "the link has a mass centre but no mass", help);
     }
     if mass.is_some() && centre.is_none() {
-        let help = "add `mass_centre = { x_mm =..., y_mm =... }`, in the link's frame";
+        let help = "add `mass_centre = { x_mm = ..., y_mm = ... }`, in the link's frame";
         return table.refuse("mass", "the link has a mass but no mass centre", help);
     }
     link.mass = mass.unwrap_or(0.0);
@@ -156,6 +155,15 @@ fn place_of(table: &mut Table, known: &[Point]) -> Result<Vec2> {
     Ok(place)
 }
 
+/// The key `name`, if it can be that of `what`.
+pub fn sound_name(table: &mut Table, what: &str) -> Result<String> {
+    let name = table.string("name")?;
+    match is_sound_name(&name) {
+        true => Ok(name),
+        false => table.refuse("name", format!("\"{name}\" cannot be the name of {what}"), NAME_HELP),
+    }
+}
+
 fn check_name(table: &Table, what: &str) -> Result<()> {
     if is_sound_name(table.name()) {
         return Ok(());
@@ -164,4 +172,4 @@ fn check_name(table: &Table, what: &str) -> Result<()> {
 }
 
 /// Help for names that are not allowed.
-pub const NAME_HELP: &str = "names consist of letters, digits, `_`, `-` and `'`, 100 of them at most";
+const NAME_HELP: &str = "names consist of letters, digits, `_`, `-` and `'`, 100 of them at most";

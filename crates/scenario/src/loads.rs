@@ -3,7 +3,7 @@
 use super::joints::link;
 use super::keys::key::{Kind, Section, needed, optional};
 use super::reader::{Faults, Sign, Table};
-use super::unit::{ANGLE, DAMPING, FORCE, Family, LENGTH, MOMENT, MOMENT_PER_SPEED, STIFFNESS, TORSIONAL_STIFFNESS};
+use super::unit::{DAMPING, MOMENT, MOMENT_PER_SPEED, STIFFNESS, TORSIONAL_STIFFNESS};
 use super::words::{Words, names, suggestion};
 use linkage::drive::{Acts, Course, Load};
 use linkage::error::{Error, ErrorKind, Result};
@@ -36,11 +36,11 @@ pub const SECTIONS: &[Section] = &[
         optional("y", Kind::FORCES, "required by the type, or a table").means("force along y"),
         optional("frame", Kind::Choice(|| names(FRAMES)), "`\"world\"`")
             .means("axes of a force: those of the world, or of the link, turning with it"),
-        optional("force", Kind::FORCES, "required by the type")
+        optional("force", Kind::FORCES.of(Sign::NotNegative), "required by the type")
             .means("size of a force against the motion of the point, not negative"),
         optional("stiffness", Kind::STIFFNESSES_OR_TORSIONAL, "required by the type")
             .means("stiffness of a spring, not negative"),
-        optional("free_length", Kind::LENGTHS, "required by the type")
+        optional("free_length", Kind::LENGTHS.of(Sign::NotNegative), "required by the type")
             .means("length of the spring without force, not negative"),
         optional("free_angle", Kind::ANGLES, "required by the type").means("twist of the spring without moment"),
         optional("damping", Kind::DAMPINGS_OR_SLOPES, "required by the type").means("damping, not negative"),
@@ -48,7 +48,7 @@ pub const SECTIONS: &[Section] = &[
             .means("the load over the crank angle: crank angles ascending, within one period"),
         optional("interpolation", Kind::Choice(|| names(INTERPOLATIONS)), "`\"linear\"`").means(
             "of the table: straight lines, which do not overshoot, or a periodic cubic spline with \
-                        continuous second derivatives",
+             continuous second derivatives",
         ),
         optional("turns", Kind::Integer, "1")
             .means("turns of the crank after which the table repeats; 2 for a four-stroke engine"),
@@ -95,7 +95,7 @@ fn resistance(table: &mut Table, mechanism: &Mechanism) -> Result<Load> {
 
 fn moment(table: &mut Table, mechanism: &Mechanism) -> Result<Load> {
     let name = table.string("link")?;
-    let [moment] = courses(table, ["moment"], &MOMENT)?;
+    let [moment] = courses(table, ["moment"])?;
     let acts = table.optional_choice("acts", "does not say when the moment acts", ACTS)?.unwrap_or(Acts::Always);
     let link = match acts {
         Acts::Always => moving(table, &name, mechanism)?,
@@ -106,7 +106,7 @@ fn moment(table: &mut Table, mechanism: &Mechanism) -> Result<Load> {
 
 fn force(table: &mut Table, mechanism: &Mechanism) -> Result<Load> {
     let point = (table.string("link")?, table.string("point")?);
-    let force = courses(table, ["x", "y"], &FORCE)?;
+    let force = courses(table, ["x", "y"])?;
     let follows = table.optional_choice("frame", "is no frame of a force", FRAMES)?.unwrap_or(false);
     let at = loaded_point(table, mechanism, point)?;
     Ok(Load::Force { at, force, follows })
@@ -114,7 +114,7 @@ fn force(table: &mut Table, mechanism: &Mechanism) -> Result<Load> {
 
 fn resisting_force(table: &mut Table, mechanism: &Mechanism) -> Result<Load> {
     let point = (table.string("link")?, table.string("point")?);
-    let force = table.quantity("force", &FORCE, Sign::NotNegative)?;
+    let force = table.si("force")?;
     let at = loaded_point(table, mechanism, point)?;
     // The velocity of such a point would be the rounding of zero, and so would the direction of the force.
     let mut pins = mechanism.joints().iter().filter(|joint| joint.is_pin() && joint.on(GROUND).is_some());
@@ -127,7 +127,7 @@ fn resisting_force(table: &mut Table, mechanism: &Mechanism) -> Result<Load> {
 fn spring(table: &mut Table, mechanism: &Mechanism) -> Result<Load> {
     let named = (table.strings("links")?, table.strings("points")?);
     let stiffness = table.quantity("stiffness", &STIFFNESS, Sign::NotNegative)?;
-    let free_length = table.quantity("free_length", &LENGTH, Sign::NotNegative)?;
+    let free_length = table.si("free_length")?;
     Ok(Load::Spring { ends: ends(table, mechanism, named)?, stiffness, free_length })
 }
 
@@ -140,7 +140,7 @@ fn damper(table: &mut Table, mechanism: &Mechanism) -> Result<Load> {
 fn torsion_spring(table: &mut Table, mechanism: &Mechanism) -> Result<Load> {
     let names = table.strings("links")?;
     let stiffness = table.quantity("stiffness", &TORSIONAL_STIFFNESS, Sign::NotNegative)?;
-    let free_angle = table.quantity("free_angle", &ANGLE, Sign::Any)?;
+    let free_angle = table.si("free_angle")?;
     Ok(Load::TorsionSpring { links: pair(table, mechanism, &names)?, stiffness, free_angle })
 }
 
@@ -150,10 +150,10 @@ fn torsion_damper(table: &mut Table, mechanism: &Mechanism) -> Result<Load> {
     Ok(Load::TorsionDamper { links: pair(table, mechanism, &names)?, damping })
 }
 
-/// Quantities of one family: constants, or columns of a table over the crank angle.
-fn courses<const N: usize>(table: &mut Table, names: [&str; N], family: &'static Family) -> Result<[Course; N]> {
+/// Quantities: constants, or columns of a table over the crank angle.
+fn courses<const N: usize>(table: &mut Table, names: [&str; N]) -> Result<[Course; N]> {
     let rows = table.tables("table")?;
-    let constants = names.map(|name| table.optional_quantity(name, family, Sign::Any));
+    let constants = names.map(|name| table.optional_si(name));
     let smooth = table.optional_choice("interpolation", "is no interpolation", INTERPOLATIONS)?;
     let turns = table.optional_integer("turns")?;
     if !table.has("table") {
@@ -167,7 +167,7 @@ fn courses<const N: usize>(table: &mut Table, names: [&str; N], family: &'static
         for ((value, constant), name) in found.iter_mut().zip(constants).zip(names) {
             *value = match constant? {
                 Some(constant) => constant,
-                None => table.quantity(name, family, Sign::Any)?,
+                None => table.si(name)?,
             };
         }
         return Ok(found.map(Course::Constant));
@@ -181,9 +181,9 @@ fn courses<const N: usize>(table: &mut Table, names: [&str; N], family: &'static
     let (smooth, turns) = (smooth.unwrap_or(false), period(table, turns)?);
     for mut row in rows {
         let read = row.read(|row| {
-            let crank = row.quantity("crank", &ANGLE, Sign::Any)?;
+            let crank = row.si("crank")?;
             for (name, points) in names.into_iter().zip(&mut points) {
-                points.push((crank, row.quantity(name, family, Sign::Any)?));
+                points.push((crank, row.si(name)?));
             }
             row.finish()
         });

@@ -13,7 +13,7 @@ pub const SECTIONS: &[Section] = &[
         needed("ratio", Kind::Number).means("speed of the motor over that of the crank; 1 without a reducer"),
         optional("efficiency", Kind::Number, "1").means(
             "share of the power that the reducer transmits, above 0 and at most 1, the same in both \
-                        directions",
+             directions",
         ),
         optional("torque", Kind::MOMENTS.of(Sign::Positive), "required of this law")
             .means("constant law: the torque, positive"),
@@ -96,11 +96,8 @@ fn kloss(table: &mut Table) -> Result<MotorLaw> {
         (Some(slip), None) => {
             let help = "give (synchronous speed - speed of breakdown) over synchronous speed";
             let help = help;
-            return table.refuse(
-                "breakdown_slip",
-                format!("found {slip}, but the slip of breakdown is positive"),
-                help,
-            );
+            let message = format!("found {slip}, but the slip of breakdown is positive");
+            return table.refuse("breakdown_slip", message, help);
         }
         (None, Some(speed)) if speed < synchronous_speed => 1.0 - speed / synchronous_speed,
         (None, Some(speed)) => {

@@ -31,7 +31,7 @@ pub const SECTIONS: &[Section] = &[
         optional("name", Kind::Text, "none").means("name for reports"),
         optional("basis", Kind::Choice(|| OracleBasis::ALL.map(OracleBasis::word).to_vec()), "`\"published\"`").means(
             "how the numbers are known: printed in the source, computed anew from what it gives, or a \
-                        formula from given data",
+             formula from given data",
         ),
         optional("values", Kind::Tables, "one of `file`, `values` and `figures`").means("numbers at one instant"),
         optional("figures", Kind::Tables, "one of `file`, `values` and `figures`").means("figures of the mechanism"),
@@ -40,7 +40,7 @@ pub const SECTIONS: &[Section] = &[
         CRANK,
         optional("crank", Kind::Text, "with `file`: the other column is given").means(
             "column of the crank angles of the file, as this scenario measures them (ends in `_deg` or \
-                        `_rad`)",
+             `_rad`)",
         ),
         AT_TIME,
         optional("time", Kind::Text, "with `file`: the other column is given")

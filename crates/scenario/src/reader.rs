@@ -60,15 +60,10 @@ pub struct Table<'a> {
 impl<'a> Table<'a> {
     /// Reader of the whole file.
     pub fn root(source: &'a Source<'a>, tree: &'a Spanned<DeTable<'a>>) -> Self {
-        Table::new(source, [String::new(), String::new(), String::new()], 0..0, tree.get_ref())
+        Table::new(source, String::new(), 0..0, tree.get_ref())
     }
 
-    fn new(
-        source: &'a Source<'a>,
-        [name, path, section]: [String; 3],
-        span: Range<usize>,
-        table: &'a DeTable<'a>,
-    ) -> Self {
+    fn new(source: &'a Source<'a>, section: String, span: Range<usize>, table: &'a DeTable<'a>) -> Self {
         let mut entries: Vec<Entry> = table
             .iter()
             .map(|(key, value)| Entry { key: key.get_ref().as_ref(), key_span: key.span(), value })
@@ -78,8 +73,8 @@ impl<'a> Table<'a> {
         let places = entries.iter().enumerate().map(|(place, entry)| (entry.key, place)).collect();
         Table {
             source,
-            name,
-            path,
+            name: String::new(),
+            path: String::new(),
             span,
             entries,
             places,
@@ -212,7 +207,7 @@ impl<'a> Table<'a> {
     }
 
     fn required<T>(&mut self, key: &str, value: Option<T>) -> Result<T> {
-        value.ok_or_else(|| self.missing(&[key.to_string()]))
+        value.ok_or_else(|| self.missing(vec![key.to_string()]))
     }
 
     /// What `read` makes of the value of `key`, if the key is there; in place of another value, `stand_in`, or nothing
@@ -303,7 +298,7 @@ impl<'a> Table<'a> {
     /// Finite number without a unit.
     pub fn number(&mut self, key: &str) -> Result<f64> {
         let Some(value) = self.take(key) else {
-            let error = self.missing(&[key.to_string()]);
+            let error = self.missing(vec![key.to_string()]);
             return if self.goes_on { Ok(1.0) } else { Err(error) };
         };
         self.finite(key, value).or_else(|error| self.instead(1.0, error))
@@ -399,7 +394,7 @@ impl<'a> Table<'a> {
                 // A key that was not asked for by its name is a name itself.
                 let own = if self.asked.iter().any(|own| own == key) { key } else { "*" };
                 let section = if self.section.is_empty() { own.into() } else { format!("{}.{own}", self.section) };
-                Ok(Table::new(self.source, [key.into(), path, section], value.span(), table))
+                Ok(Table { name: key.into(), path, ..Table::new(self.source, section, value.span(), table) })
             }
             _ => Err(self.mistyped(key, value, Needed::Table)),
         }

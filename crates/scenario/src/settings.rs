@@ -12,7 +12,7 @@ pub const SECTIONS: &[Section] = &[
     Section::at("channels").with(&[needed("want", Kind::Texts).means("stages, subjects or channels that are wanted")]),
     Section::at("tolerances").with(&[optional("engine_rel", Kind::Number, "1e-2").means(
         "largest bound on the engine's error, as a share of a channel's scale, at which agreement still \
-                    proves something; between 0 and 1",
+         proves something; between 0 and 1",
     )]),
 ];
 

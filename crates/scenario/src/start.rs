@@ -28,7 +28,7 @@ pub const SECTIONS: &[Section] = &[
             .means("which of a dyad's two configurations; below. RPP and PRP dyads have one, and need no table"),
         optional("near", Kind::TableOrTables, "by `mode`").means(
             "approximate position in the world of one point of the group; or an array of several such \
-                        tables",
+             tables",
         ),
     ]),
     Section::at("start.groups.near").with(&[

@@ -74,11 +74,6 @@ fn parameters(document: &DocumentMut) -> Vec<(String, String)> {
     table.into_iter().flatten().map(|(key, item)| (key.into(), plain(item).unwrap_or_default())).collect()
 }
 
-/// The same as a list.
-fn dimensions(document: &DocumentMut) -> String {
-    parameters(document).iter().map(|(key, number)| format!("{key} = {number}")).collect::<Vec<_>>().join(", ")
-}
-
 impl Template {
     fn document(&self) -> DocumentMut {
         self.text.parse().expect("tests read every template")
@@ -99,7 +94,8 @@ impl Template {
     /// Its dimensions.
     #[must_use]
     pub fn dimensions(&self) -> String {
-        dimensions(&self.document())
+        let all = parameters(&self.document());
+        all.iter().map(|(key, number)| format!("{key} = {number}")).collect::<Vec<_>>().join(", ")
     }
 
     /// The text of a scenario: the template under a `name`, if that can be one of a scenario, with other dimensions.
@@ -123,15 +119,14 @@ impl Template {
     }
 
     fn lacks(&self, key: &str) -> Error {
-        let document = self.document();
-        let all = parameters(&document);
+        let all = parameters(&self.document());
         let keys = || all.iter().map(|(key, _)| key.as_str());
         // The same with its unit is nearer than any letter.
         let with_unit = keys().find(|own| own.strip_prefix(key).is_some_and(|unit| unit.starts_with('_')));
         let near = with_unit.or_else(|| nearest(key, keys()));
         let near = near.map_or(String::new(), |near| format!("did you mean `{near}`? "));
         Error::new(ErrorKind::Input, format!("the template \"{}\" has no dimension `{key}`", self.name))
-            .help(format!("{near}Its dimensions are: {}", dimensions(&document)))
+            .help(format!("{near}Its dimensions are: {}", self.dimensions()))
     }
 }
 

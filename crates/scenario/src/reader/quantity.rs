@@ -60,7 +60,7 @@ impl<'a> Table<'a> {
         if let Some(value) = self.optional_quantity(base, family, sign)? {
             return Ok(value);
         }
-        let error = self.missing(&family.keys(base));
+        let error = self.missing(family.keys(base));
         if self.goes_on { Ok(sign.stand_in()) } else { Err(error) }
     }
 

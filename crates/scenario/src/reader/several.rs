@@ -140,20 +140,21 @@ impl<'a> Table<'a> {
 
     /// The error for a key that is missing under all its spellings. What stands in its place is clear when all keys
     /// have been asked for.
-    pub(super) fn missing(&mut self, spellings: &[String]) -> Error {
+    pub(super) fn missing(&mut self, spellings: Vec<String>) -> Error {
+        self.lacking(spellings, None)
+    }
+
+    fn lacking(&mut self, spellings: Vec<String>, help: Option<&'static str>) -> Error {
+        let error = self.missing_by(&spellings, help).0;
         if self.goes_on {
-            self.missing.push((spellings.to_vec(), None));
+            self.missing.push((spellings, help));
         }
-        self.missing_by(spellings, None).0
+        error
     }
 
     /// The same for keys of which one is needed; `help` tells of them.
     pub fn lacks(&mut self, spellings: &[&str], help: &'static str) -> Error {
-        let spellings: Vec<String> = spellings.iter().map(|&spelling| spelling.into()).collect();
-        if self.goes_on {
-            self.missing.push((spellings.clone(), Some(help)));
-        }
-        self.missing_by(&spellings, Some(help)).0
+        self.lacking(spellings.iter().map(|&spelling| spelling.into()).collect(), Some(help))
     }
 
     /// That error, and the entry that misspells the key.
@@ -229,14 +230,8 @@ impl<'a> Table<'a> {
 
     /// Those that are sound; the errors of the others are noted.
     pub(super) fn sound<T>(&mut self, all: Vec<Result<T>>) -> Result<Vec<T>> {
-        let mut sound = Vec::with_capacity(all.len());
-        for one in all {
-            match one {
-                Ok(one) => sound.push(one),
-                Err(error) => self.instead((), error)?,
-            }
-        }
-        Ok(sound)
+        let sound = all.into_iter().map(|one| one.map(Some).or_else(|error| self.instead(None, error)));
+        sound.filter_map(Result::transpose).collect()
     }
 }
 
