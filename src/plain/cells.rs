@@ -96,3 +96,21 @@ pub fn trimmed(table: &Table) -> String {
 pub fn share(value: f64, scale: f64) -> String {
     numbers::significant(statistics::share(value, scale), 2)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_header_names_the_columns_and_says_which_hold_numbers() {
+        let mut numbers = table("channel | error> | ");
+        numbers.add_row(["x", "1", "m"]);
+        assert_eq!(trimmed(&numbers), " channel  error\n x            1  m");
+    }
+
+    #[test]
+    fn what_is_not_listed_is_counted() {
+        assert_eq!([some(&["a", "b"], 2), some(&["a", "b", "c"], 2)], ["a, b", "a, b and 1 more"]);
+        assert_eq!([counted(1, "row"), counted(2, "row")], ["1 row", "2 rows"]);
+    }
+}

@@ -88,3 +88,36 @@ impl Outcomes {
         self.entries.push(Entry { name, title: String::new(), verdict: "error", cases: Vec::new(), error });
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plain::brief;
+    use crate::plain::judged::{counts, verdicts};
+    use crate::report::{junit, markdown};
+    use linkage::error::Advice;
+    use prover::proof::{Options, prove};
+    use scenario::of_repository;
+
+    /// The step is so coarse that the engine proves little.
+    #[test]
+    fn the_line_of_the_verdict_and_reports_of_tests_count_the_same() {
+        let scenario = of_repository("scenarios/crank_rocker.toml");
+        let proof = prove(&scenario, &Options::default().step(5e-3).sweeps(2)).unwrap();
+        let [agree, expected, wrong, open] = counts(verdicts(&proof).into_iter().map(|(_, verdict)| verdict));
+        assert!(expected > 0 && wrong == 0 && open > 0, "{agree} {expected} {wrong} {open}");
+        let line = brief::verdict_line(&proof);
+        assert!(line.contains(&format!(" {open} of {} numbers are open;", agree + expected + open)), "{line}");
+        // Forces of an engine's own that are open take nothing from the verdict.
+        let forces = judged::of(&proof).into_iter().filter(|own| own.sort == Sort::OwnForce);
+        let open = open - forces.filter(|own| grade(own.verdict) == Grade::Open).count();
+        let mut outcomes = Outcomes::told_by(Advice::to_string);
+        outcomes.add(&proof);
+        let (table, xml) = (markdown::text(&outcomes), junit::xml(&outcomes));
+        assert!(table.contains(&format!("| {agree} | {expected} | {wrong} | {open} |\n")), "{table}");
+        let tests = agree + expected + open;
+        let head = format!("tests=\"{tests}\" skipped=\"0\" failures=\"{wrong}\" errors=\"{open}\"");
+        assert!(xml.contains(&head), "{xml}");
+        assert_eq!(xml.matches("<error ").count(), open);
+    }
+}

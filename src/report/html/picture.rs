@@ -120,6 +120,11 @@ fn number(value: f64) -> String {
     if short == "-0" { "0".into() } else { short.into() }
 }
 
+/// Name of a property of the page's own in its style.
+fn property(name: &str) -> String {
+    format!("--{name}")
+}
+
 /// Name of the colour of a link; that of its elements' class too.
 fn of_link(link: LinkId) -> String {
     format!("k{link}")
@@ -127,7 +132,9 @@ fn of_link(link: LinkId) -> String {
 
 /// Rules for the colours of all links and of what else is drawn: on light paper, or on dark.
 pub(super) fn colours(links: usize, dark: bool) -> String {
-    let rule = |name: &str, paint: palette::Paint| format!("--{name}:{}", if dark { paint.dark } else { paint.light });
+    let rule = |name: &str, paint: palette::Paint| {
+        format!("{}:{}", property(name), if dark { paint.dark } else { paint.light })
+    };
     let named =
         [("text", palette::TEXT), ("quiet", palette::QUIET), ("load", palette::LOAD), ("paper", palette::PAPER)];
     let mut rules: Vec<String> = named.into_iter().map(|(name, paint)| rule(name, paint)).collect();
@@ -137,5 +144,6 @@ pub(super) fn colours(links: usize, dark: bool) -> String {
 
 /// Rules that give the elements of each link its colour.
 pub(super) fn inks(links: usize) -> String {
-    (0..links).map(LinkId).map(of_link).map(|name| format!(".{name}{{--ink:var(--{name})}}")).collect()
+    let rule = |name: String| format!(".{name}{{{}:var({})}}", property("ink"), property(&name));
+    (0..links).map(LinkId).map(of_link).map(rule).collect()
 }
