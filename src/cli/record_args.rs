@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::PathBuf;
 
-use super::live::LiveArgs;
 use super::{advice, number, output};
 use crate::report::{layout, recorded};
 use files::{self, Target};
@@ -66,23 +65,27 @@ impl RecordArgs {
         self.no_record
     }
 
-    /// Tries whether recordings can be written, if there are to be any, before any work is done.
-    ///
-    /// # Errors
-    /// What is in the way; an option that nothing would follow, because nothing is recorded and nobody looks on live.
-    pub(super) fn target(&self, live: &LiveArgs) -> Result<()> {
-        if self.no_record {
-            let given = [
-                ("--slow", self.slow.is_some()),
-                ("--record-hz", self.record_hz.is_some()),
-                ("--record-forces", self.record_forces),
-            ];
-            let idle = given.into_iter().find(|&(_, is_given)| is_given && !live.is_on());
-            return idle.map_or(Ok(()), |(option, _)| {
+    /// Refuses an option that nothing would follow, where nobody looks on live.
+    pub(super) fn refuse_idle(&self) -> Result<()> {
+        let given = [
+            ("--slow", self.slow.is_some()),
+            ("--record-hz", self.record_hz.is_some()),
+            ("--record-forces", self.record_forces),
+        ];
+        match given.into_iter().find(|&(_, is_given)| is_given && self.no_record) {
+            None => Ok(()),
+            Some((option, _)) => {
                 let message =
                     format!("{option} cannot be used with --no-record: it shapes what is recorded or shown live");
                 Err(Error::new(ErrorKind::Input, message).help("leave out one of the two, or add --live"))
-            });
+            }
+        }
+    }
+
+    /// Tries whether recordings can be written, if there are to be any, before any work is done.
+    pub(super) fn target(&self) -> Result<()> {
+        if self.no_record {
+            return Ok(());
         }
         files::may_fill(&self.record).map_err(|found| {
             let message = format!("recordings cannot be written to {}: {found}", self.record.display());

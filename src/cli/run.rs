@@ -23,7 +23,10 @@ pub(super) use args::Args;
 /// Proves every file. A bad file does not stop the others from being proven.
 pub(super) fn run(args: &Args) -> Result<u8> {
     // The default directory need not be there if nothing is recorded.
-    args.record.target(&args.live)?;
+    if !args.live.is_on() {
+        args.record.refuse_idle()?;
+    }
+    args.record.target()?;
     args.reports.check(&[("--html", &args.html)])?;
     let live = args.live.start(&args.files)?;
     let pages = args.html.as_deref().map(|to| Pages::of(to, args.files.len())).transpose()?;

@@ -4,8 +4,8 @@ use std::f64::consts::TAU;
 
 use super::allowed::How;
 use super::interpolate::Course;
-use super::judge::Both;
-use super::pair::{Pair, Side, Which, crank_check};
+use super::judge::{Both, Which};
+use super::pair::{Pair, Side, crank_check};
 use crate::tables::{At, By, Column, Held, Instants};
 use columns::MISSING;
 use formula::Rounded;

@@ -4,8 +4,7 @@ use std::borrow::Cow;
 use std::collections::BTreeSet;
 use std::f64::consts::{PI, TAU};
 
-use super::judge::{Both, Compared};
-use super::pair::Which;
+use super::judge::{Both, Compared, Which};
 use crate::claims::{Course, Term, Wrong, missing_in_numbers};
 use crate::compare::largest_difference;
 use crate::diagnosis::{Cause, Change, Diagnosis, How, Judged, Part, Party, Question, Slip, diagnose, even};

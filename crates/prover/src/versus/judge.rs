@@ -53,6 +53,24 @@ fn has_no_number(own: &Judged) -> bool {
     own.since.is_some_and(|at| at.difference.is_nan())
 }
 
+/// One of two parties, by the order in which they were named.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Which {
+    First,
+    Second,
+}
+
+impl Which {
+    pub(super) fn other(self) -> Which {
+        if self == Which::First { Which::Second } else { Which::First }
+    }
+
+    /// Both in their order, `own` being of this party.
+    pub(super) fn beside<T>(self, own: T, other: T) -> [T; 2] {
+        if self == Which::First { [own, other] } else { [other, own] }
+    }
+}
+
 /// Both parties at the same rows.
 pub(super) struct Both<'a> {
     pub parties: [&'a Held; 2],

@@ -18,7 +18,8 @@ pub use cause::Explained;
 pub use judge::{Compared, Row};
 pub use pair::{Contradiction, Pair};
 
-use self::pair::{Side, Which};
+use self::judge::Which;
+use self::pair::Side;
 use self::scale::Scales;
 use crate::compare::{Verdict, overall};
 use crate::tables::{Held, May, load_within};

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::cause::Explained;
-use super::judge::{Both, Compared, Row, place};
+use super::judge::{Both, Compared, Row, Which, place};
 use crate::compare::{Check, Verdict, overall};
 use crate::tables::Held;
 use crate::tolerance::{Basis, Tolerance};
@@ -84,24 +84,6 @@ impl Pair {
     pub fn verdict(&self) -> Verdict {
         let channels = self.channels.iter().map(|channel| &channel.verdict);
         overall(channels.chain(self.checks.iter().map(|check| &check.verdict)))
-    }
-}
-
-/// One of two parties, by the order in which they were named.
-#[derive(Clone, Copy, PartialEq)]
-pub(super) enum Which {
-    First,
-    Second,
-}
-
-impl Which {
-    pub(super) fn other(self) -> Which {
-        if self == Which::First { Which::Second } else { Which::First }
-    }
-
-    /// Both in their order, `own` being of this party.
-    pub(super) fn beside<T>(self, own: T, other: T) -> [T; 2] {
-        if self == Which::First { [own, other] } else { [other, own] }
     }
 }
 
