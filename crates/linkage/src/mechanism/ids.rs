@@ -17,7 +17,7 @@ pub trait Id: Copy {
 macro_rules! ids {
     ($($(#[$about:meta])* $name:ident,)*) => {$(
         $(#[$about])*
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
         pub struct $name(pub usize);
 
         impl $name {
@@ -42,6 +42,12 @@ macro_rules! ids {
         }
 
         impl fmt::Display for $name {
+            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                self.0.fmt(f)
+            }
+        }
+
+        impl fmt::Debug for $name {
             fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
                 self.0.fmt(f)
             }
@@ -91,7 +97,21 @@ ids! {
 }
 
 /// One value for each link, joint or group, in their order. It takes their numbers only; as a slice it has all else.
-#[derive(Debug, PartialEq, Eq)]
+///
+/// ```
+/// use linkage::mechanism::{LinkId, PerLink};
+/// let masses = PerLink::from(vec![0.0, 2.0]);
+/// assert_eq!(masses[LinkId(1)], 2.0);
+/// ```
+///
+/// A joint's number is not taken for a link's:
+///
+/// ```compile_fail,E0277
+/// use linkage::mechanism::{JointId, PerLink};
+/// let masses = PerLink::from(vec![0.0, 2.0]);
+/// assert_eq!(masses[JointId(1)], 2.0);
+/// ```
+#[derive(PartialEq, Eq)]
 pub struct Per<I, T>(Vec<T>, PhantomData<I>);
 
 /// One value for each link, the ground included.
@@ -126,8 +146,15 @@ impl<I: Id, T> Per<I, T> {
     }
 
     /// Number of the first value that is `wanted`.
+    #[must_use]
     pub fn find(&self, wanted: impl FnMut(&T) -> bool) -> Option<I> {
         self.0.iter().position(wanted).map(I::at)
+    }
+}
+
+impl<I, T: fmt::Debug> fmt::Debug for Per<I, T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.fmt(f)
     }
 }
 
