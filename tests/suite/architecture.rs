@@ -303,6 +303,23 @@ fn the_map_has_the_edges_of_the_table() {
     }
 }
 
+/// The file or directory that the map calls so: from the root, or by its crate.
+fn of_the_map(name: &str) -> PathBuf {
+    match name.split_once('/') {
+        Some((own, rest)) if top().join("crates").join(own).is_dir() => top().join("crates").join(own).join("src").join(rest),
+        Some(_) | None => top().join(name),
+    }
+}
+
+#[test]
+fn every_file_that_the_map_names_is_there() {
+    let map = fs::read_to_string(top().join("ARCHITECTURE.md")).unwrap();
+    let named: Vec<&str> = map.split('`').skip(1).step_by(2).collect();
+    let files = named.into_iter().filter(|name| name.contains('/') && (name.ends_with(".rs") || name.ends_with('/')));
+    let missing: Vec<String> = files.filter(|name| !of_the_map(name).exists()).map(String::from).collect();
+    nothing(missing);
+}
+
 #[test]
 fn rooms_know_only_what_the_table_allows() {
     let allowed: BTreeSet<(String, String)> =
