@@ -53,10 +53,9 @@
 //! let solved = solve(&scenario.case)?;
 //! let found = compare([scenario.clone().into(), solved.into()], &How::default())?;
 //! assert_eq!(found.verdict.word(), "agree");
-//! # let file = std::env::temp_dir().join("linkproof_compared.csv");
-//! # std::fs::write(&file, "crank_deg,link.rocker.angle_deg\n90,12.5\n120,17.25\n")?;
 //!
-//! let table = Party::table(&file, &Mapping::default())?;
+//! let mapping = Mapping::load("examples/foreign/mujoco_crank_rocker.map.toml".as_ref())?;
+//! let table = Party::table("examples/foreign/data/wrong_mujoco_late.csv", &mapping)?;
 //! let found = compare([scenario.into(), table], &How::default())?;
 //! assert_eq!(found.verdict.word(), "disagree");
 //! println!("{}", found.pairs[0].channels[0].since.unwrap().difference);

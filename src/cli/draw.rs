@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use super::engine_args::side;
 use super::output::{self, refused};
 use super::{exit_code, load, number};
-use crate::draw::{Drawn, Medium, Wish, picture};
+use crate::draw::{Drawn, Medium, Note, Wish, picture};
 use linkage::error::{Error, ErrorKind, Result};
 use prover::proof::Reference;
 use scenario::Asked;
@@ -109,6 +109,14 @@ pub(super) fn draw(args: &Args) -> Result<u8> {
     output::write_bytes(&picture(&all, &wish, medium)?, &args.output)?;
     let faults: Vec<&Error> = all.iter().filter_map(|own| own.fault.as_ref()).collect();
     faults.iter().for_each(|error| output::show(error));
-    all.iter().filter_map(|own| own.note.as_ref()).for_each(|note| output::note(note));
+    for own in &all {
+        match &own.note {
+            Some(Note::Said(note)) => output::note(note),
+            Some(Note::OneOfMany) => {
+                output::note(&format!("{}: --each-mode draws all configurations, with their names", own.name));
+            }
+            None => {}
+        }
+    }
     Ok(if faults.is_empty() { exit_code::AGREE } else { exit_code::BAD_INPUT })
 }

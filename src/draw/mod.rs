@@ -10,7 +10,7 @@ use linkage::math::Vec2;
 use scenario::Scenario;
 
 pub use media::{Medium, Wish};
-pub(crate) use subject::Drawn;
+pub(crate) use subject::{Drawn, Note};
 
 /// Room of a picture that stands alone, and of one among others (mm).
 const ALONE: [f64; 2] = [150.0, 120.0];

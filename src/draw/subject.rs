@@ -19,6 +19,14 @@ use scenario::{Draft, Scenario};
 const MOST: usize = 24;
 const SHOWN: usize = 3;
 
+/// What is said beside a picture.
+pub(crate) enum Note {
+    /// What is wrong, or guessed.
+    Said(String),
+    /// The picture shows one of several configurations.
+    OneOfMany,
+}
+
 /// A file as it is drawn.
 pub(crate) struct Drawn {
     pub(crate) name: String,
@@ -38,7 +46,7 @@ pub(crate) struct Drawn {
     pub(crate) fault: Option<Error>,
     /// Whether the file has mistakes, which are then told below the picture.
     has_mistakes: bool,
-    pub(crate) note: Option<String>,
+    pub(crate) note: Option<Note>,
 }
 
 impl Drawn {
@@ -181,10 +189,10 @@ impl Drawn {
             })
             .collect();
         let note = match (&gaps[..], &draft.structure) {
-            _ if draft.mistakes.is_some() => of_guess(&draft),
-            ([], Ok(_)) => Some(format!("{}: --each-mode draws all configurations, with their names", draft.name)),
+            _ if draft.mistakes.is_some() => of_guess(&draft).map(Note::Said),
+            ([], Ok(_)) => Some(Note::OneOfMany),
             ([], Err(_)) => None,
-            (gaps, _) => Some(format!("{}: {}", draft.name, gaps.join(", "))),
+            (gaps, _) => Some(Note::Said(format!("{}: {}", draft.name, gaps.join(", ")))),
         };
         let shots = vec![Shot { laid, acting: Vec::new() }];
         Drawn { fault: Some(error), note, ..Drawn::new(draft, crank, shots) }
@@ -204,7 +212,7 @@ impl Drawn {
         let cut = is_cut.then(|| format!("only the first {MOST} configurations are drawn"));
         let open = error.as_ref().filter(|_| is_answered).map(|error| error.message().to_string());
         let told: Vec<String> = open.into_iter().chain(cut).collect();
-        let note = (!told.is_empty()).then(|| format!("{}: {}", draft.name, told.join("; ")));
+        let note = (!told.is_empty()).then(|| Note::Said(format!("{}: {}", draft.name, told.join("; "))));
         let first = all.first().and_then(|laid| laid.faults.first().cloned());
         let fault = error.or(first).filter(|_| !is_answered);
         let shots = all.into_iter().map(|laid| Shot { laid, acting: Vec::new() }).collect();

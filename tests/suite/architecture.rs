@@ -19,7 +19,7 @@ const CRATES: &[(&str, &str, &str, &str)] = &[
         "design",
         "crates/design",
         "analytic drawing files linkage scenario",
-        "chacha20 cobyla parry2d-f64 quick-xml rand toml_edit",
+        "chacha20 cobyla parry2d-f64 quick-xml toml_edit",
     ),
     ("drawing", "crates/drawing", "linkage", "gif image-webp svg tiny-skia ttf-parser"),
     ("files", "crates/files", "linkage", "tempfile"),
@@ -187,7 +187,6 @@ const HOMES: &[(&str, &str)] = &[
     ("num_integer", "analytic::reduced"),
     ("pulp", "analytic::assur"),
     ("cobyla", "design::synthesis"),
-    ("rand", "design::synthesis"),
     ("chacha20", "lab::specimens design::synthesis"),
     ("qd", "precise::long"),
     ("parry2d_f64", "design::clearance rapier_twin::double scenario::clearance"),
@@ -306,7 +305,9 @@ fn the_map_has_the_edges_of_the_table() {
 /// The file or directory that the map calls so: from the root, or by its crate.
 fn of_the_map(name: &str) -> PathBuf {
     match name.split_once('/') {
-        Some((own, rest)) if top().join("crates").join(own).is_dir() => top().join("crates").join(own).join("src").join(rest),
+        Some((own, rest)) if top().join("crates").join(own).is_dir() => {
+            top().join("crates").join(own).join("src").join(rest)
+        }
         Some(_) | None => top().join(name),
     }
 }

@@ -2,24 +2,38 @@
 
 use std::fmt;
 
-linkage::words! {
-    /// How a bound, or the number compared with, is known; its word is that of reports and scenario files.
-    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-    pub enum Origin: word {
-        /// Claimed by the formula that is judged.
-        Claimed = "claimed",
-        /// Derived from given data by a formula.
-        Derived = "derived",
-        /// Estimated from an engine's own runs at several resolutions.
-        Estimated = "estimated",
-        /// Measured on cases like this one, with a margin added.
-        Measured = "measured",
-        /// Chosen: the wanted size of the number.
-        Wanted = "wanted",
-        /// Recomputed with this project's own solvers, from data published by others.
-        Recomputed = "recomputed",
-        /// Printed in a source.
-        Published = "published",
+/// How a bound, or the number compared with, is known.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Origin {
+    /// Claimed by the formula that is judged.
+    Claimed,
+    /// Derived from given data by a formula.
+    Derived,
+    /// Estimated from an engine's own runs at several resolutions.
+    Estimated,
+    /// Measured on cases like this one, with a margin added.
+    Measured,
+    /// Chosen: the wanted size of the number.
+    Wanted,
+    /// Recomputed with this project's own solvers, from data published by others.
+    Recomputed,
+    /// Printed in a source.
+    Published,
+}
+
+impl Origin {
+    /// Word for reports and scenario files, such as `measured`.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Origin::Claimed => "claimed",
+            Origin::Derived => "derived",
+            Origin::Estimated => "estimated",
+            Origin::Measured => "measured",
+            Origin::Wanted => "wanted",
+            Origin::Recomputed => "recomputed",
+            Origin::Published => "published",
+        }
     }
 }
 

@@ -50,9 +50,11 @@ pub enum Size {
     OfValue(f64),
 }
 
-/// Keys of differences that are allowed, each with its kind, in the order of the kinds.
-const SIZES: [(&str, fn(f64) -> Size); 3] =
-    [("abs", Size::Absolute), ("rel", Size::Relative), ("rel_value", Size::OfValue)];
+/// A key of differences that are allowed, and its kind.
+type Sized = (&'static str, fn(f64) -> Size);
+
+/// All of them, in the order of the kinds.
+const SIZES: [Sized; 3] = [("abs", Size::Absolute), ("rel", Size::Relative), ("rel_value", Size::OfValue)];
 
 impl Size {
     /// Its kind, from 0: in units, of the scale, of each value.

@@ -95,7 +95,6 @@ fn kloss(table: &mut Table) -> Result<MotorLaw> {
         (Some(slip), None) if slip > 0.0 => slip,
         (Some(slip), None) => {
             let help = "give (synchronous speed - speed of breakdown) over synchronous speed";
-            let help = help;
             let message = format!("found {slip}, but the slip of breakdown is positive");
             return table.refuse("breakdown_slip", message, help);
         }

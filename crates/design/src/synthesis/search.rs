@@ -11,12 +11,12 @@ mod candidate;
 mod refine;
 
 use chacha20::ChaCha8Rng;
-use chacha20::rand_core::{Rng, SeedableRng};
+use chacha20::rand_core::SeedableRng;
 
 use super::evaluate::Evaluator;
 use super::rating::Rater;
 use crate::task::Task;
-use candidate::{Candidate, free_zero, of_share, values};
+use candidate::{Candidate, even, free_zero, of_share, values};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::threads::{cores, made};
 
@@ -203,11 +203,6 @@ impl<'a> Random<'a> {
         }
         Some((best.0 + excess, best.1))
     }
-}
-
-/// A number of 0 to 1: the upper 53 bits of a draw.
-fn even(rng: &mut ChaCha8Rng) -> f64 {
-    (rng.next_u64() >> 11) as f64 / (1u64 << 53) as f64
 }
 
 #[cfg(test)]

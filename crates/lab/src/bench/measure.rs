@@ -51,7 +51,7 @@ impl Desk<'_> {
                 match &mut point.outcome {
                     Outcome::Answered(run) if round > 0 => self.again(runner, round, run),
                     Outcome::Answered(_) | Outcome::Failed(_) if round > 0 => {}
-                    outcome => {
+                    outcome @ (Outcome::Answered(_) | Outcome::Failed(_)) => {
                         let found = self.first(runner, versions);
                         *outcome = found.map_or_else(|reason| Outcome::Failed(short(&reason)), Outcome::Answered);
                     }

@@ -112,7 +112,7 @@ impl Stage<'_> {
     /// What a mistake changes: in a value that is claimed, or in what is claimed.
     pub(super) fn formula_effect(&self, own: &Planting) -> Result<Effect> {
         let right = &self.scenario.formulas;
-        self.sides.on_course(&self.case, Reference::Assur, &|course: &Course| {
+        self.sides.on_course(&self.case, Reference::Assur, |course: &Course| {
             let [ours, theirs] = [right, &own.formulas].map(|formulas| course.given(formulas));
             let (mut largest, mut beyond, mut unsolved) = (0.0f64, false, false);
             let judged = self.judged_formulas();

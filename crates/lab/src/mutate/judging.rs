@@ -117,8 +117,10 @@ fn what_is_wrong_in_a_side_by_a_fixed_size_is_seen_by_every_check_that_must() {
     }
 }
 
-/// Faults of what an engine answers: scenario, fault, its size, channels that must disagree, families of checks that must.
-static IN_THE_ENGINE: [(&str, &str, f64, &[&str], &[&str]); 8] = [
+/// A fault of what an engine answers: scenario, fault, its size, channels that must disagree, families of checks that must.
+type InTheEngine = (&'static str, &'static str, f64, &'static [&'static str], &'static [&'static str]);
+
+static IN_THE_ENGINE: [InTheEngine; 8] = [
     ("crank_rocker", "an angle at the first instant", 1e-4, &["link.coupler.angle_rad"], &[]),
     ("crank_rocker", "an angle at the last instant", 1e-4, &["link.coupler.angle_rad"], &[]),
     ("crank_rocker", "an angular velocity", 1e-2, &["link.rocker.omega_rad_s"], &[OF_POWERS]),

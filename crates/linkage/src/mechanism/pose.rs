@@ -2,7 +2,7 @@
 
 use super::{Joint, Mechanism, Side};
 use crate::math::{KeepNan, Vec2, cross, rotated, unit};
-use crate::mechanism::PerLink;
+use crate::mechanism::{LinkId, PerLink};
 
 /// Place of one link's frame in the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,6 +34,16 @@ impl LinkPose {
     #[must_use]
     pub fn point(&self, local: Vec2) -> Vec2 {
         self.origin + rotated(unit(self.angle), local)
+    }
+}
+
+impl Joint {
+    /// The pose of `link`, one of the joint's, that a drive gives to it: the joint's coordinate is `coordinate`, counted
+    /// as [`Drive::world_angle`](crate::drive::Drive::world_angle) does, and its other link stands in the pose `base`.
+    #[must_use]
+    pub fn driven(&self, link: LinkId, base: &LinkPose, coordinate: f64) -> LinkPose {
+        let local = self.on(link).expect("the driven joint is on the driving link");
+        LinkPose::through(local, base.point(self.other(link).local), coordinate)
     }
 }
 

@@ -2,6 +2,9 @@
 
 use std::f64::consts::TAU;
 
+use chacha20::ChaCha8Rng;
+use chacha20::rand_core::Rng;
+
 use crate::task::{Entry, Task, Variable};
 use linkage::mechanism::GroupKind;
 
@@ -15,6 +18,11 @@ pub(super) struct Candidate {
     pub(super) cost: f64,
     /// Its number: of equal candidates the first is kept.
     pub(super) number: usize,
+}
+
+/// A number of 0 to 1: the upper 53 bits of a draw.
+pub(super) fn even(rng: &mut ChaCha8Rng) -> f64 {
+    (rng.next_u64() >> 11) as f64 / (1u64 << 53) as f64
 }
 
 /// Values (SI) from shares of the bounds.

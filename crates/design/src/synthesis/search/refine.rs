@@ -6,8 +6,7 @@ use chacha20::ChaCha8Rng;
 use chacha20::rand_core::SeedableRng;
 use cobyla::{RhoBeg, minimize};
 
-use super::candidate::{Candidate, free_zero, values};
-use super::even;
+use super::candidate::{Candidate, even, free_zero, values};
 use crate::synthesis::evaluate::Evaluator;
 use crate::synthesis::rating::Rater;
 use crate::task::Task;

@@ -1,0 +1,271 @@
+//! Links with their points, and joints with their two sides.
+
+use super::ids::LinkId;
+use crate::input::Input;
+use crate::math::{KeepNan, Vec2, cross, rotated};
+
+/// The ground (frame) in [`Mechanism::links`](super::Mechanism::links).
+pub const GROUND: LinkId = LinkId(0);
+
+/// Rigid member of a mechanism. Its points and mass centre are given in its own frame.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Link {
+    /// Name, unique in the mechanism.
+    pub name: String,
+    /// Named points with their coordinates in the link's frame (m).
+    pub points: Vec<Point>,
+    /// Mass (kg), not negative; 0 for the ground.
+    pub mass: f64,
+    /// Mass centre in the link's frame (m).
+    pub mass_centre: Vec2,
+    /// Moment of inertia about the mass centre (kg m^2), not negative.
+    pub inertia: f64,
+}
+
+impl Link {
+    /// Largest distance between two of its points (m).
+    #[must_use]
+    pub fn size(&self) -> f64 {
+        let pairs = self.points.iter().enumerate().flat_map(|(i, a)| self.points[i + 1..].iter().map(move |b| (a, b)));
+        pairs.map(|(a, b)| (a.local - b.local).norm()).fold(0.0, f64::larger)
+    }
+
+    /// Largest distance between two of its points, its mass centre included (m): the lever arm of forces on the link.
+    /// Of a link that is a single point, as a flywheel is, it is the radius of gyration; 0 without mass.
+    #[must_use]
+    pub fn extent(&self) -> f64 {
+        if self.mass <= 0.0 {
+            return self.size();
+        }
+        let from_centre = self.points.iter().map(|point| (point.local - self.mass_centre).norm());
+        let extent = from_centre.fold(self.size(), f64::larger);
+        if extent > 0.0 { extent } else { (self.inertia / self.mass).sqrt() }
+    }
+}
+
+/// Named point of a link.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Point {
+    /// Name. Points of different links with the same name are the same place: a joint holds them together.
+    pub name: String,
+    /// Coordinates in the link's frame (m).
+    pub local: Vec2,
+}
+
+/// Kind of kinematic pair. How many equations it has, and so how many relative degrees of freedom it leaves, is its own
+/// property: [`JointKind::equations`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum JointKind {
+    /// Revolute pair (pin): the joint's places on both links coincide.
+    Revolute,
+    /// Prismatic pair (slider in a guide).
+    /// The second link's place lies on the line through the first link's place along the axis, and the two links turn
+    /// together.
+    Prismatic {
+        /// Unit vector of the axis in the frame of the first link and in that of the second. Both are the same
+        /// direction in the world.
+        axes: [Vec2; 2],
+    },
+}
+
+/// Properties of a pair for all crates. A new kind is added here and where its equations are written out by kind.
+impl JointKind {
+    /// The line on which the second link's place must lie: unit vector in the frame of the first link, through the place
+    /// there. That is one equation. `None` where the two places must coincide, which is two.
+    #[inline]
+    #[must_use]
+    pub fn line(self) -> Option<Vec2> {
+        match self {
+            JointKind::Revolute => None,
+            JointKind::Prismatic { axes } => Some(axes[0]),
+        }
+    }
+
+    /// Axes along which the links slide: unit vectors in the frames of the first and the second link. `None` if they
+    /// do not slide.
+    #[inline]
+    #[must_use]
+    pub fn axes(self) -> Option<[Vec2; 2]> {
+        match self {
+            JointKind::Revolute => None,
+            JointKind::Prismatic { axes } => Some(axes),
+        }
+    }
+
+    /// Number of constraint equations. Where they stand in a list of all equations: [`Mechanism::rows`].
+    #[inline]
+    #[must_use]
+    pub fn equations(self) -> usize {
+        match self {
+            JointKind::Revolute | JointKind::Prismatic { .. } => 2,
+        }
+    }
+
+    /// Whether the links slide along each other. Then there is a guide, a block, and a slide between them.
+    #[inline]
+    #[must_use]
+    pub fn slides(self) -> bool {
+        match self {
+            JointKind::Revolute => false,
+            JointKind::Prismatic { .. } => true,
+        }
+    }
+
+    /// Whether the joint is one common point of both links, about which they turn.
+    #[inline]
+    #[must_use]
+    pub fn is_pin(self) -> bool {
+        match self {
+            JointKind::Revolute => true,
+            JointKind::Prismatic { .. } => false,
+        }
+    }
+
+    /// Whether the links turn together: the angle between them is constant and the reaction includes a moment.
+    #[inline]
+    #[must_use]
+    pub fn keeps_angle(self) -> bool {
+        match self {
+            JointKind::Revolute => false,
+            JointKind::Prismatic { .. } => true,
+        }
+    }
+
+    /// What its coordinate measures where a drive gives it; `None` for a kind that no drive moves.
+    #[must_use]
+    pub fn input(self) -> Option<Input> {
+        match self {
+            JointKind::Revolute => Some(Input::Angle),
+            JointKind::Prismatic { .. } => None,
+        }
+    }
+
+    /// Name, as in scenario files.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            JointKind::Revolute => "revolute",
+            JointKind::Prismatic { .. } => "prismatic",
+        }
+    }
+}
+
+/// What a prismatic pair looks like in pictures. Nothing is calculated from it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Guise {
+    /// A piston in a cylinder.
+    Cylinder,
+    /// A block: on rails of the ground, or in a slot of a moving link.
+    Block,
+}
+
+impl Guise {
+    /// All of them.
+    pub const ALL: [Guise; 2] = [Guise::Cylinder, Guise::Block];
+
+    /// Name, as in scenario files.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Guise::Cylinder => "cylinder",
+            Guise::Block => "block",
+        }
+    }
+}
+
+/// One side of a joint: a point of a link.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Side {
+    /// Index of the link.
+    pub link: LinkId,
+    /// Coordinates of the joint in that link's frame (m).
+    pub local: Vec2,
+}
+
+/// Kinematic pair between two links. Its reaction is what the first link exerts on the second.
+/// It is a force, and in a prismatic pair also a moment about the joint's place on the second link.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Joint {
+    /// Name, unique in the mechanism.
+    pub name: String,
+    /// Kind of pair.
+    pub kind: JointKind,
+    /// First link and the joint's place on it.
+    pub first: Side,
+    /// Second link and the joint's place on it.
+    pub second: Side,
+    /// What it is drawn as, if that is said; of prismatic pairs only.
+    pub drawn: Option<Guise>,
+}
+
+impl Joint {
+    /// The joint's place on `link`, if the joint is on that link.
+    #[must_use]
+    pub fn on(&self, link: LinkId) -> Option<Vec2> {
+        [self.first, self.second].into_iter().find(|side| side.link == link).map(|side| side.local)
+    }
+
+    /// The side on the link other than `link`.
+    #[must_use]
+    pub fn other(&self, link: LinkId) -> Side {
+        if self.first.link == link { self.second } else { self.first }
+    }
+
+    /// Where the joint's reaction acts on `link`, by the side that is known there: a pin's two places are the same
+    /// point, and that of other joints is the place on the second link.
+    #[must_use]
+    pub fn acts_at(&self, link: LinkId) -> Side {
+        match self.kind {
+            JointKind::Revolute if self.first.link == link => self.first,
+            JointKind::Revolute | JointKind::Prismatic { .. } => self.second,
+        }
+    }
+
+    /// [`JointKind::slides`] of its kind.
+    #[inline]
+    #[must_use]
+    pub fn slides(&self) -> bool {
+        self.kind.slides()
+    }
+
+    /// [`JointKind::is_pin`] of its kind.
+    #[inline]
+    #[must_use]
+    pub fn is_pin(&self) -> bool {
+        self.kind.is_pin()
+    }
+
+    /// [`JointKind::keeps_angle`] of its kind.
+    #[inline]
+    #[must_use]
+    pub fn keeps_angle(&self) -> bool {
+        self.kind.keeps_angle()
+    }
+
+    /// Unit vector of the sliding axis in the frame of `link`. `None` if the links do not slide or the joint is not on
+    /// `link`.
+    #[must_use]
+    pub fn axis_on(&self, link: LinkId) -> Option<Vec2> {
+        let axes = self.kind.axes()?;
+        let sides = [self.first, self.second];
+        sides.iter().position(|side| side.link == link).map(|index| axes[index])
+    }
+
+    /// How far the joint is from being closed: a distance and the sine of an angle.
+    /// The distance is that of its places (m), in a prismatic pair measured across the axis.
+    /// The angle is that between the axes (0 in a revolute pair).
+    /// `places` are the joint's places on both links in the world, `directions` the (cos, sin) of both links' angles.
+    #[must_use]
+    pub fn opening(&self, places: [Vec2; 2], directions: [Vec2; 2]) -> (f64, f64) {
+        let gap = places[1] - places[0];
+        match self.kind {
+            JointKind::Revolute => (gap.norm(), 0.0),
+            JointKind::Prismatic { axes } => {
+                let [first, second] = [0, 1].map(|k| rotated(directions[k], axes[k]));
+                // Opposite axes have the largest possible opening.
+                let turn = if first.dot(&second) > 0.0 { cross(first, second).abs() } else { 1.0 };
+                (cross(first, gap).abs(), turn)
+            }
+        }
+    }
+}
