@@ -30,7 +30,7 @@ const CRATES: &[(&str, &str, &str, &str)] = &[
         "analytic columns files formula linkage precise prover scenario",
         "chacha20 csv serde serde_json tempfile",
     ),
-    ("precise", "crates/precise", "linkage", "qd"),
+    ("precise", "crates/precise", "linkage", ""),
     (
         "prover",
         "crates/prover",
@@ -188,7 +188,6 @@ const HOMES: &[(&str, &str)] = &[
     ("pulp", "analytic::assur"),
     ("cobyla", "design::synthesis"),
     ("chacha20", "lab::specimens design::synthesis"),
-    ("qd", "precise::long"),
     ("parry2d_f64", "design::clearance rapier_twin::double scenario::clearance"),
     ("svg", "drawing::paper"),
     ("tiny_skia", "drawing::bitmap"),
