@@ -143,12 +143,12 @@ fn printed(fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<()> {
 /// Columns below which a table is not worth reading; a narrower terminal breaks the lines itself.
 const LEAST: usize = 60;
 
-/// Columns of the terminal, or 80 if standard output is none.
+/// Columns of the terminal, or 80 where standard output is no terminal.
 pub(super) fn columns() -> usize {
     width().unwrap_or(COLUMNS)
 }
 
-/// Columns of the terminal; `None` if standard output is none.
+/// Columns of the terminal; `None` where standard output is no terminal.
 pub(super) fn width() -> Option<usize> {
     let out = io::stdout();
     let known = if out.is_terminal() { terminal_size_of(&out) } else { None };

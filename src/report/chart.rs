@@ -1,6 +1,6 @@
 //! A diagram with two logarithmic axes on paper, and the marks of the parties in it.
 
-use drawing::paper::figure::{Figure, Style, Tint, Type, solid, words};
+use drawing::paper::figure::{Figure, Style, Tint, Type, rectangle, solid, words};
 use drawing::paper::style::{self, GREY};
 use linkage::math::Vec2;
 use linkage::mechanism::LinkId;
@@ -56,8 +56,8 @@ impl Chart {
     /// A band between two values of the upright axis.
     pub(super) fn band(&mut self, [from, to]: [f64; 2], fill: &'static str) {
         let [left, right] = self.ends[0];
-        let corners = [[left, from], [right, from], [right, to], [left, to]].map(|place| self.at(place));
-        self.figure.area(corners.to_vec(), Some(Tint::opaque(fill)), solid(fill, 0.0));
+        let corners = rectangle([self.at([left, from]), self.at([right, to])]);
+        self.figure.area(corners, Some(Tint::opaque(fill)), solid(fill, 0.0));
     }
 
     /// A line across at a value of the upright axis.
@@ -79,8 +79,7 @@ impl Chart {
             let y = self.at([self.ends[0][0], value]).y;
             self.figure.text(Vec2::new(low.x - 1.5, y - 1.0), label(value), Type { anchor: "end", ..words(SMALL) });
         }
-        let corners = [low, Vec2::new(high.x, low.y), high, Vec2::new(low.x, high.y)];
-        self.figure.area(corners.to_vec(), None, solid(GREY, 0.25));
+        self.figure.area(rectangle([low, high]), None, solid(GREY, 0.25));
         self.figure.text(Vec2::new(low.x, high.y + 2.0), title, Type { bold: true, ..words(3.6) });
         let middle = Vec2::new((low.x + high.x) / 2.0, low.y - 9.0);
         self.figure.text(middle, below, Type { anchor: "middle", ..words(3.2) });

@@ -2,8 +2,6 @@
 
 use std::f64::consts::{PI, TAU};
 
-use linkage::input::Input;
-
 /// One unit of a family.
 #[derive(Debug, PartialEq)]
 pub struct Unit {
@@ -96,13 +94,6 @@ pub static POWER: Family = Family::of("a power", &[si("W"), unit("kW", 1e3, 1.0)
 pub static INPUTS: [&Family; 1] = [&ANGLE];
 /// The same, or times.
 pub static INPUTS_OR_TIMES: [&Family; 2] = [&ANGLE, &TIME];
-
-/// The units in which an input is written, and those of its rate.
-pub fn of_input(input: Input) -> [&'static Family; 2] {
-    match input {
-        Input::Angle => [&ANGLE, &ANGULAR_SPEED],
-    }
-}
 
 /// All families.
 pub static ALL: [&Family; 15] = [

@@ -1,4 +1,4 @@
-//! Numbers of links, joints, groups and drives. Each is a type of its own, so that none is taken for another.
+//! Numbers of links, joints and groups. Each is a separate type: a joint cannot be taken for a link.
 
 use std::fmt;
 use std::marker::PhantomData;

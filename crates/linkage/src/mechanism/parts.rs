@@ -92,7 +92,7 @@ impl JointKind {
         }
     }
 
-    /// Number of constraint equations. Where they stand in a list of all equations: [`Mechanism::rows`].
+    /// Number of constraint equations. Where they stand in a list of all equations: [`Mechanism::rows`](super::Mechanism::rows).
     #[inline]
     #[must_use]
     pub fn equations(self) -> usize {

@@ -139,7 +139,7 @@ pub(super) fn all(case: &Case) -> Vec<Knob> {
     knobs
 }
 
-/// The case with other parts; `None` where there is none.
+/// The case with other parts; `None` where they make no case.
 pub(super) fn remade(case: &Case, change: impl FnOnce(&mut CaseParts) -> Option<()>) -> Option<Case> {
     let mut parts = case.clone().into_parts();
     change(&mut parts)?;

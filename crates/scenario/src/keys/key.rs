@@ -97,7 +97,7 @@ impl Key {
 impl Kind {
     pub(crate) const ACCELERATIONS: Kind = Kind::Quantity(&[&ACCELERATION], Sign::Any);
     pub(crate) const ANGLES: Kind = Kind::Quantity(&[&ANGLE], Sign::Any);
-    /// Values of an input: see [`unit::of_input`](crate::unit::of_input).
+    /// Values of an input, whatever it measures.
     pub(crate) const INPUTS: Kind = Kind::Quantity(&INPUTS, Sign::Any);
     pub(crate) const INPUTS_OR_TIMES: Kind = Kind::Quantity(&INPUTS_OR_TIMES, Sign::Any);
     pub(crate) const DAMPINGS_OR_SLOPES: Kind = Kind::Quantity(&[&DAMPING, &MOMENT_PER_SPEED], Sign::Any);
