@@ -7,8 +7,12 @@
 //! With `--no-step` the files have no `[engine]` section.
 
 #[allow(dead_code, unused_imports)]
-#[path = "../tests/suite/common/mod.rs"]
-mod common;
+#[path = "../tests/suite"]
+mod suite {
+    pub mod common;
+}
+
+use suite::common;
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;

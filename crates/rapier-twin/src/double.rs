@@ -16,5 +16,5 @@ fn wide(value: Real) -> f64 {
     value
 }
 
-#[path = "twins/mod.rs"]
+#[path = "twins/worlds.rs"]
 pub(super) mod twins;

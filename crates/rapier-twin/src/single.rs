@@ -19,5 +19,5 @@ fn wide(value: Real) -> f64 {
 // The engine is two crates, one for each precision, with the same names in them.
 // Code that compiles against one also compiles against the other.
 #[expect(clippy::duplicate_mod, reason = "the same sources against another crate and another number")]
-#[path = "twins/mod.rs"]
+#[path = "twins/worlds.rs"]
 pub(super) mod twins;

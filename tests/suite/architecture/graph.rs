@@ -148,9 +148,7 @@ fn take(modules: &mut BTreeMap<Vec<String>, Module>, at: Vec<String>, file: &Pat
                     let under = own.parent().unwrap().to_path_buf();
                     read(modules, path, &own, &under);
                 } else {
-                    let flat = below.with_extension("rs");
-                    let source = if flat.exists() { flat } else { below.join("mod.rs") };
-                    read(modules, path, &source, &below);
+                    read(modules, path, &below.with_extension("rs"), &below);
                 }
             }
             Item::Use(import) => {

@@ -107,6 +107,6 @@ fn engines_and_solvers_have_no_defaults_but_what_follows_from_their_other_method
         });
         methods.collect()
     };
-    assert_eq!(defaults("engine/mod.rs", "Engine"), ["at", "rows"]);
+    assert_eq!(defaults("engine.rs", "Engine"), ["at", "rows"]);
     assert_eq!(defaults("solver.rs", "Solver"), ["each", "solve", "solve_with"]);
 }

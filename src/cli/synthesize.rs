@@ -7,7 +7,7 @@ mod target;
 use linkage::error::Result;
 
 #[derive(Debug, clap::Args)]
-#[command(after_help = include_str!("../help/synthesize.txt").trim_ascii_end())]
+#[command(after_help = include_str!("help/synthesize.txt").trim_ascii_end())]
 pub(super) struct Args {
     #[command(subcommand)]
     command: Command,

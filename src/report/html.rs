@@ -24,19 +24,19 @@ use prover::proof::Proof;
 use serde_json::Value;
 use thinned::Thinned;
 
-const TEMPLATE: &str = include_str!("page.html");
-const STYLE: &str = include_str!("page.css");
+const TEMPLATE: &str = include_str!("html/page.html");
+const STYLE: &str = include_str!("html/page.css");
 /// The script, in the order in which its parts need each other.
 const SCRIPT: [&str; 9] = [
-    include_str!("script/read.js"),
-    include_str!("script/svg.js"),
-    include_str!("script/motion.js"),
-    include_str!("script/loads.js"),
-    include_str!("script/names.js"),
-    include_str!("script/charts.js"),
-    include_str!("script/plans.js"),
-    include_str!("script/curves.js"),
-    include_str!("script/main.js"),
+    include_str!("html/script/read.js"),
+    include_str!("html/script/svg.js"),
+    include_str!("html/script/motion.js"),
+    include_str!("html/script/loads.js"),
+    include_str!("html/script/names.js"),
+    include_str!("html/script/charts.js"),
+    include_str!("html/script/plans.js"),
+    include_str!("html/script/curves.js"),
+    include_str!("html/script/main.js"),
 ];
 
 /// What a page tells besides the proof itself.

@@ -52,7 +52,7 @@ const WIDEST: usize = 100;
 
 /// Builds planar mechanisms twice, analytically and as a Rapier multibody, and proves that the two agree.
 #[derive(Debug, Parser)]
-#[command(name = "linkproof", version, after_help = include_str!("help/linkproof.txt").trim_ascii_end())]
+#[command(name = "linkproof", version, after_help = include_str!("cli/help/linkproof.txt").trim_ascii_end())]
 struct Cli {
     #[command(subcommand)]
     command: Command,
