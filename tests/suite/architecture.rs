@@ -269,11 +269,16 @@ fn nothing(wrong: Vec<String>) {
     assert!(wrong.is_empty(), "\n{}\n", wrong.join("\n"));
 }
 
-/// The dependencies that a manifest has for users: names of packages.
+/// The dependencies that a manifest has for users: names of packages, whatever the code calls them.
 fn dependencies(manifest: &Path) -> BTreeSet<String> {
-    let text = fs::read_to_string(manifest).unwrap();
-    let manifest: toml::Table = text.parse().unwrap();
-    manifest.get("dependencies").and_then(toml::Value::as_table).into_iter().flat_map(|of| of.keys().cloned()).collect()
+    let read = |manifest: &Path| fs::read_to_string(manifest).unwrap().parse::<toml::Table>().unwrap();
+    let shared = read(&top().join("Cargo.toml"));
+    let package = |name: &String| {
+        let renamed = shared["workspace"]["dependencies"].get(name).and_then(|shared| shared.get("package"));
+        renamed.and_then(toml::Value::as_str).unwrap_or(name).to_string()
+    };
+    let all = read(manifest);
+    all.get("dependencies").and_then(toml::Value::as_table).into_iter().flat_map(|of| of.keys().map(package)).collect()
 }
 
 #[test]

@@ -10,7 +10,7 @@
 //! - [`judge`]: two columns against each other.
 //!
 //! ```
-//! let table = columns::read("t_s,x\n0,1.25\n0.1,1.5\n").unwrap();
+//! let table = linkproof_columns::read("t_s,x\n0,1.25\n0.1,1.5\n").unwrap();
 //! assert_eq!(table.names, ["t_s", "x"]);
 //! assert!((table.columns[1][1].error - 0.005).abs() < 1e-9);
 //! ```

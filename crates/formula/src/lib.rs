@@ -7,7 +7,7 @@
 //! - [`Sheet`]: a derivation part by part, for the search of what is wrong in it; [`Products`]: numbers as products.
 //!
 //! ```
-//! use formula::{Graph, Program, Rounded, Tree};
+//! use linkproof_formula::{Graph, Program, Rounded, Tree};
 //!
 //! let mut graph = Graph::new(&["phi", "r"], 0);
 //! let place = graph.add(&Tree::parse("r*cos(phi)")?)?;
@@ -15,7 +15,7 @@
 //! let mut program = Program::of(&graph, &[place, speed]);
 //! let values = program.run(&[Rounded::exact(0.0), Rounded::exact(2.0)]);
 //! assert_eq!([values[0].value, values[1].value], [2.0, 0.0]);
-//! # Ok::<(), formula::Fault>(())
+//! # Ok::<(), linkproof_formula::Fault>(())
 //! ```
 
 mod derivative;
