@@ -5,6 +5,7 @@
 //! what lies less than a hundred times above it is marked, because there the reference is measured too.
 //!
 //! This room has no clock: times come from the function that it is given.
+//! See docs/numerics/laboratory.md.
 
 mod effort;
 mod front;

@@ -5,6 +5,7 @@
 //! The error falls with a power of the step, so a few runs are enough. The step is then priced, and the cheapest
 //! settings win. The error that the engine's own runs at three steps predict, without the reference, is given beside
 //! the measured one.
+//! See docs/numerics/laboratory.md.
 
 mod bench;
 mod candidate;

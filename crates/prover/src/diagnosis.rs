@@ -3,6 +3,7 @@
 //!
 //! Pure functions of data: trajectories, bounds, and the case with a solver that can try a changed case. Nothing here
 //! knows engines, files or proofs.
+//! See docs/numerics/diagnosis.md.
 
 mod alone;
 mod bench;

@@ -4,6 +4,7 @@
 //!
 //! It takes only these from the case: geometry, masses, drive and the pose at t = 0, nothing later.
 //! A second run with reversed time covers the instants before t = 0.
+//! See docs/numerics/twins.md.
 
 mod free;
 mod model;

@@ -1,5 +1,6 @@
 //! What a run costs, by the work that its settings mean: the same on every machine and in every run, so that no clock
 //! decides what is found.
+//! See docs/numerics/laboratory.md.
 
 use crate::steps::span;
 use linkage::case::Case;

@@ -5,6 +5,7 @@
 //! Forces are handed on inwards: a reaction depends on the motion and the loads of its own group and of those that hang
 //! on it. What is left over is neither placed, nor a body of an engine, nor recorded.
 //! Where forces decide the motion, everything that has a mass counts, and nothing is left out.
+//! See docs/numerics/settings.md.
 
 use super::{Case, CaseParts, Seat};
 use crate::drive::{Drive, Drives, Load};

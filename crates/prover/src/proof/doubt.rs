@@ -7,6 +7,7 @@
 //! it. A load that vanishes there does not jump, and nothing is left out.
 //! At a change point itself an engine's equations have many solutions, of which it takes one: its rates there say nothing
 //! about the branch that it is on, and the instants after it say all.
+//! See docs/numerics/bounds.md.
 
 use linkage::case::Case;
 use linkage::drive::DriveMotion;

@@ -5,6 +5,7 @@
 //! run shows it.
 //!
 //! No bound on anything else is less than this.
+//! See docs/numerics/bounds.md.
 
 use super::dependence::Dependence;
 use super::each_side::{EachSide, Reference};

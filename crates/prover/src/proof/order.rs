@@ -3,6 +3,7 @@
 //! Half a step is lost somewhere, or a weight is wrong: what is read is not what the method gives. A bound from the
 //! engine's own runs follows such an error down to any step, so that it never disagrees by its size. Five runs tell:
 //! they show the order three times, and it is always the same whole number.
+//! See docs/numerics/bounds.md.
 
 use linkage::engine::Settings;
 use linkage::error::ErrorKind;

@@ -3,6 +3,7 @@
 //! A search of its own, by the engine's own routes. It ends as soon as every force is conclusive; coarse runs,
 //! extrapolated, usually are. With a given step no run is finer than those that estimate the error of that step:
 //! coarser ones are extrapolated.
+//! See docs/numerics/forces.md.
 
 use std::sync::Arc;
 

@@ -5,6 +5,7 @@
 //! them counts. A channel that is not conclusive blames its step, its sweeps or its rounding.
 //!
 //! Everything is decided by the engine's own runs and by counted work, so that the same input gives the same settings.
+//! See docs/numerics/settings.md.
 
 use crate::numbers::error;
 use linkage::engine::{Engine, Settings};
