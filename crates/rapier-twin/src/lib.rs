@@ -1,4 +1,4 @@
-//! Rapier as an engine, in two builds and two precisions.
+#![doc = include_str!("../README.md")]
 //!
 //! A world takes only these from the case: geometry, masses, drives and the pose at t = 0, nothing later.
 //! It first drives itself backwards to shortly before the first output time, and then forwards.
