@@ -1,4 +1,14 @@
 //! `--live`: what a proof has found, moving in viewers that listen to Foxglove's WebSocket.
+//!
+//! - Source: a `recording::Reel` in memory, the same `Sink` that a recording fills.
+//! - Protocol: the former name (`foxglove.websocket.v1`) and the present one (`foxglove.sdk.v1`). The server of Foxglove's
+//!   library speaks the present one only; Lichtblick and the open Foxglove Studio offer the former one only. So `tungstenite`
+//!   does handshake and frames, and `report::live` has the messages.
+//! - Clock: times sent are log times of the recording. The clock of the machine decides only when they are sent; no byte
+//!   depends on it.
+//! - Viewers have a thread and a place in the reel each, so that one that pauses, seeks or is slow disturbs no other.
+//! - Stage: the reference is shown while the engine is at work, the whole afterwards. Channels get new numbers then, and
+//!   viewers ask for them again.
 
 #[cfg(feature = "live")]
 mod player;

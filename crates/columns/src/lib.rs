@@ -1,4 +1,4 @@
-//! Columns of numbers as other programs write them: read with their digits, and held side by side.
+#![doc = include_str!("../README.md")]
 //!
 //! Loops over rows stand here, because this crate is compiled with optimisation.
 //!
@@ -8,12 +8,6 @@
 //! - [`numbers_beside`]: the same in a file, where other columns tell what a constant does not show.
 //! - [`chosen`]: whether instants were chosen as they are printed, or rounded.
 //! - [`judge`]: two columns against each other.
-//!
-//! ```
-//! let table = columns::read("t_s,x\n0,1.25\n0.1,1.5\n").unwrap();
-//! assert_eq!(table.names, ["t_s", "x"]);
-//! assert!((table.columns[1][1].error - 0.005).abs() < 1e-9);
-//! ```
 
 mod cell;
 mod constant;

@@ -6,7 +6,7 @@
 //! ```
 //! # use linkage::fixtures::four_bar;
 //! # use linkage::mechanism::LinkPose;
-//! use drawing::{Sketch, Travels, unit};
+//! use linkproof_drawing::{Sketch, Travels, unit};
 //!
 //! # let mechanism = four_bar();
 //! let sketch = Sketch::of(&mechanism, &Travels::none(&mechanism), unit(&mechanism));

@@ -1,10 +1,7 @@
-//! Work and precision: what every solver, engine and setting costs for the error that it leaves.
+//! Work and precision: error against time and exact effort of every solver, engine and setting.
 //!
-//! Each way of solving a scenario is a [`Point`]: its error against the reference by stage of channels, its times and
-//! its exact effort. Ways that fail stay, with their reason. The reference's own error is the floor of the diagram:
-//! what lies less than a hundred times above it is marked, because there the reference is measured too.
-//!
-//! This room has no clock: times come from the function that it is given.
+//! Each way of solving a scenario is a [`Point`]. Ways that fail are kept, with their reason. The command line passes the
+//! clock in. See docs/numerics/laboratory.md.
 
 mod effort;
 mod front;

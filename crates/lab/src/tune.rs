@@ -1,10 +1,8 @@
-//! The cheapest settings of an engine that meet a wanted error, found by measurement.
+//! The cheapest settings of an engine that keep a wanted error, found by measurement.
 //!
-//! An engine's error depends on its step, its sweeps, its substeps, its extrapolation, and the route to its reactions.
-//! For every setting of all but the step, runs against the reference find the largest step that meets the wanted error.
-//! The error falls with a power of the step, so a few runs are enough. The step is then priced, and the cheapest
-//! settings win. The error that the engine's own runs at three steps predict, without the reference, is given beside
-//! the measured one.
+//! The error falls with a power of the step, so a few runs against the reference find the largest step of each way. The
+//! error that three runs of the engine predict, without the reference, is given beside the measured one.
+//! See docs/numerics/laboratory.md.
 
 mod bench;
 mod candidate;

@@ -1,10 +1,8 @@
-//! Planar mechanisms, and the interfaces that their solvers and engines share.
+#![doc = include_str!("../README.md")]
 //!
 //! Links, joints and Assur groups are in [`mechanism`], drives and loads in [`drive`], what an input measures in [`input`].
 //! [`case`] has the problem as every solver receives it, [`trajectory`] the result that every solver returns.
 //! [`solver`] and [`engine`] have the traits of solvers and engines, [`work`] counts what they do, [`threads`] does it side by side.
-//!
-//! SI units and world axes (x right, y up, angles counter-clockwise from +x) everywhere.
 
 pub mod case;
 pub mod drive;

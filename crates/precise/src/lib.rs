@@ -1,4 +1,4 @@
-//! Planar mechanisms in double-double arithmetic (some 31 digits): the reference that double precision is judged by.
+#![doc = include_str!("../README.md")]
 //!
 //! [`solve`] takes dyads of revolute pairs in closed form ([`dyads`]) and every other mechanism by all its equations at
 //! once ([`whole`]). Neither shares an equation or code with the analytic sides; only the case is common.

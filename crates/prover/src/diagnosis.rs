@@ -1,8 +1,5 @@
-//! Diagnosis of a disagreement: which party stands alone, since when and in which channels, and which simple cause
-//! explains it.
-//!
-//! Pure functions of data: trajectories, bounds, and the case with a solver that can try a changed case. Nothing here
-//! knows engines, files or proofs.
+//! Diagnosis of a disagreement: which party is alone, since when and in which channels, and the simple cause that
+//! explains it. Pure functions of data. See docs/numerics/diagnosis.md.
 
 mod alone;
 mod bench;

@@ -1,4 +1,5 @@
 //! Bounds and their justification.
+//! See docs/numerics/bounds.md.
 
 use std::fmt;
 

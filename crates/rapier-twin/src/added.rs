@@ -6,6 +6,7 @@
 //! With the true accelerations the motion is that of the case: (M + M') a = f + M' a is M a = f.
 //! A step knows the accelerations of the step before. The error is of first order, as that of the whole step is.
 //! It decays from step to step, because no added mass is larger than the whole: M' / (M + M') is below 1.
+//! See docs/numerics/twins.md.
 
 use super::masses::added;
 use super::tree::Tree;

@@ -1,4 +1,5 @@
 //! Motor and loads of a free motion. They are set again before every step, from the engine's own state.
+//! See docs/numerics/twins.md.
 
 use super::added::Added;
 use super::guard::Guard;

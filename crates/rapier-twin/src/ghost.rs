@@ -4,6 +4,7 @@
 //! For a given motion, reactions and driving moment are linear in masses, inertias and loads.
 //! The share of the differences alone is therefore computed and subtracted.
 //! It follows from the Newton-Euler equations with the engine's own accelerations.
+//! See docs/numerics/twins.md.
 
 use super::masses::{added, masses, masses_with_flywheels};
 use super::newton_euler::NewtonEuler;

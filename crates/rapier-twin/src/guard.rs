@@ -1,5 +1,6 @@
 //! A world under supervision. Any of these becomes an error with its time, crank angle and place:
 //! a loop that opens, a link that turns too far in one step, NaN or infinity, or a panic inside the engine.
+//! See docs/numerics/twins.md.
 
 use std::fmt;
 

@@ -1,4 +1,5 @@
 //! A mechanism as a Rapier world, independent of build and precision.
+//! See docs/numerics/twins.md.
 
 use std::f64::consts::TAU;
 

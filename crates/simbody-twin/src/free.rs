@@ -1,4 +1,5 @@
 //! A free motion: motor and loads as forces that Simbody requests at every evaluation.
+//! See docs/numerics/twins.md.
 
 use std::cell::RefCell;
 use std::rc::Rc;

@@ -1,9 +1,6 @@
 //! Simbody as an engine: bodies on mobilizers, loops closed by constraints, an integrator that controls its error.
-//! It shares no code with the other engines.
-//! None of its results are derived here: motion, reactions and driving moments are Simbody's own.
-//!
-//! It takes only these from the case: geometry, masses, drive and the pose at t = 0, nothing later.
-//! A second run with reversed time covers the instants before t = 0.
+//! It shares no code with the other engines, and takes from the case only geometry, masses, drive and the pose at t = 0.
+//! See docs/numerics/twins.md.
 
 mod free;
 mod model;

@@ -11,6 +11,7 @@
 //!
 //! Bounds are kept for the next steps. They are those of a band that is wider than the step needs, so that they hold
 //! until a gauge leaves it, a step is longer, or the crank has gone far.
+//! See docs/numerics/change_points.md.
 
 use crate::assur::groups::{Bound, Limit, Misfit, OutOfReach, Plan, SINGULAR};
 use linkage::case::Case;

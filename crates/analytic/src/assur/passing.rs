@@ -6,6 +6,7 @@
 //! and the sign that the closed form keeps is another one on the far side.
 //! Around such an angle (a [`Window`]) nothing is calculated from the equations of the pose, but from polynomials
 //! through poses on both sides of it.
+//! See docs/numerics/change_points.md.
 
 mod forces;
 mod search;

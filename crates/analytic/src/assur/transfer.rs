@@ -4,6 +4,7 @@
 //! v_j and w_j are the first transfer functions of a link's mass centre and angle for driving link j alone.
 //! Then A_ij = sum of m v_i . v_j + J w_i w_j, and A alpha = T + sum of v_i . (F - m a0) + w_i (M - J alpha0).
 //! a0 and alpha0 are the accelerations that remain when no free driving link accelerates.
+//! See docs/numerics/forces.md.
 
 use super::forces::Kinetostatics;
 use super::passing::{self, Passing};

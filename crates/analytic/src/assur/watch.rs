@@ -4,6 +4,7 @@
 //! clearance falls to zero and rises again.
 //! This is an estimate: how fast the carrying links turn between two poses is taken from the poses. It misses a
 //! clearance that falls to zero, rises and turns again within one step, which is 2 degrees behind a higher group.
+//! See docs/numerics/change_points.md.
 
 use super::gauges::Gauges;
 use crate::assur::groups::{Clearance, Plan};

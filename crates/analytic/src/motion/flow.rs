@@ -1,4 +1,5 @@
 //! The pieces of a free motion: what each keeps constant, and where it ends.
+//! See docs/numerics/forces.md.
 
 use std::cell::{Cell, RefCell};
 

@@ -4,6 +4,7 @@
 //! V = J^-1 E has one column per drive. Then q'' = a0 + V alpha, and V^T J^T lambda = E^T lambda are the moments of the
 //! drives, which motor and rotor give: (V^T M V + added) alpha = T + V^T (Q - M a0).
 //! The multipliers then are the reactions (Haug, chapters 3 and 8).
+//! See docs/numerics/forces.md.
 
 use super::passing::Passing;
 use super::steps::TRACKING_STEP;

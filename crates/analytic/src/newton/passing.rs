@@ -4,6 +4,7 @@
 //! The way is followed over the crank's angle, with the first and second derivatives of all coordinates by it.
 //! Around a change point (a [`Window`]) no system of equations is solved: the coordinates are an osculating polynomial
 //! through poses on both sides, and velocities and accelerations follow by its derivatives.
+//! See docs/numerics/change_points.md.
 
 mod multipliers;
 mod osculating;

@@ -1,4 +1,5 @@
 //! A family: its dial, and what runs at a point of it.
+//! See docs/numerics/laboratory.md.
 
 use linkage::case::Case;
 use linkage::error::Result;

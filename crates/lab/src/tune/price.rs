@@ -1,5 +1,5 @@
-//! What a run costs, by the work that its settings mean: the same on every machine and in every run, so that no clock
-//! decides what is found.
+//! The cost of a run, counted as work by its settings, so that no clock decides the result.
+//! See docs/numerics/laboratory.md.
 
 use crate::steps::span;
 use linkage::case::Case;

@@ -25,8 +25,8 @@ struct Wish {
 /// The single steps check nothing. [`CaseBuilder::build`] checks everything and names what is wrong.
 ///
 /// ```
-/// use linkage::case::Case;
-/// use linkage::mechanism::AssemblyMode;
+/// use linkproof_linkage::case::Case;
+/// use linkproof_linkage::mechanism::AssemblyMode;
 ///
 /// let four_bar = Case::builder()
 ///     .ground(&[("O", [0.0, 0.0]), ("C", [0.4, 0.0])])
@@ -42,7 +42,7 @@ struct Wish {
 ///     .mode(&["coupler", "rocker"], AssemblyMode::Left)
 ///     .build()?;
 /// assert_eq!(four_bar.grid.len(), 361);
-/// # Ok::<(), linkage::Error>(())
+/// # Ok::<(), linkproof_linkage::Error>(())
 /// ```
 #[derive(Clone, Debug)]
 pub struct CaseBuilder {

@@ -1,10 +1,4 @@
-//! The smallest case that has the same values in the wanted channels.
-//!
-//! A mechanism stays one when Assur groups are taken off that no other group hangs on.
-//! Motion is handed on from the drives outwards: a link depends on its own group and those before it.
-//! Forces are handed on inwards: a reaction depends on the motion and the loads of its own group and of those that hang
-//! on it. What is left over is neither placed, nor a body of an engine, nor recorded.
-//! Where forces decide the motion, everything that has a mass counts, and nothing is left out.
+//! The smallest case that has the same values in the wanted channels. See docs/skip.md and docs/numerics/settings.md.
 
 use super::{Case, CaseParts, Seat};
 use crate::drive::{Drive, Drives, Load};

@@ -1,5 +1,6 @@
 //! Richardson extrapolation of any engine with a fixed step to step zero (Richardson 1911).
 //! The engine solves at h, h / 2, h / 4, ...; their states are combined so that the leading errors cancel.
+//! See docs/numerics/twins.md.
 
 use super::{Engine, Settings, StandIn};
 use crate::case::Case;

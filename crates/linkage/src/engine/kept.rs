@@ -1,4 +1,5 @@
 //! An engine that remembers its runs.
+//! See docs/numerics/settings.md.
 
 use std::ops::ControlFlow;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};

@@ -99,7 +99,7 @@ ids! {
 /// One value for each link, joint or group, in their order. It takes their numbers only; as a slice it has all else.
 ///
 /// ```
-/// use linkage::mechanism::{LinkId, PerLink};
+/// use linkproof_linkage::mechanism::{LinkId, PerLink};
 /// let masses = PerLink::from(vec![0.0, 2.0]);
 /// assert_eq!(masses[LinkId(1)], 2.0);
 /// ```
@@ -107,7 +107,7 @@ ids! {
 /// A joint's number is not taken for a link's:
 ///
 /// ```compile_fail,E0277
-/// use linkage::mechanism::{JointId, PerLink};
+/// use linkproof_linkage::mechanism::{JointId, PerLink};
 /// let masses = PerLink::from(vec![0.0, 2.0]);
 /// assert_eq!(masses[JointId(1)], 2.0);
 /// ```

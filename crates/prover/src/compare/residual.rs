@@ -1,4 +1,5 @@
 //! Differences between two trajectories, channel by channel.
+//! See docs/numerics/bounds.md.
 
 use std::collections::BTreeMap;
 

@@ -1,4 +1,5 @@
 //! The verdict: agree, disagree, expected or inconclusive.
+//! See docs/numerics/bounds.md.
 
 use std::fmt;
 

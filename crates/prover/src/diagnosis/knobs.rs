@@ -1,4 +1,5 @@
 //! Parts of a case that one number changes: which there are, and how each is turned.
+//! See docs/numerics/diagnosis.md.
 
 use std::f64::consts::PI;
 

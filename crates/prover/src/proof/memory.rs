@@ -2,6 +2,7 @@
 //!
 //! A run holds whole trajectories: 8 bytes for every value. Which runs an engine needs is not known beforehand; the
 //! estimate takes what most searches need. Measured peaks lie between half of it and twice.
+//! See docs/numerics/settings.md.
 
 use linkage::case::Case;
 use linkage::engine::Rows;

@@ -1,6 +1,5 @@
-//! How far an engine's judgement is from being conclusive, which part of its bounds is to blame, and how a search for
-//! its settings gets on: whether it becomes conclusive with the work that is allowed, and what to do where a smaller step
-//! brings it little.
+//! How far an engine's channels are from being conclusive, which part of its bounds dominates, and whether the remaining
+//! work suffices. See docs/numerics/settings.md.
 
 use linkage::math::KeepNan;
 use linkage::math::statistics::share;

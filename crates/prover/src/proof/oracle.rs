@@ -1,4 +1,5 @@
 //! Numbers of other sources against both analytic sides.
+//! See docs/numerics/bounds.md.
 
 use super::each_side::{EachSide, Reference};
 use super::figures::Measured;

@@ -1,8 +1,8 @@
-//! An engine that keeps converging at a lower order than its method has.
+//! An engine that converges with a lower order than that of its method.
 //!
-//! Half a step is lost somewhere, or a weight is wrong: what is read is not what the method gives. A bound from the
-//! engine's own runs follows such an error down to any step, so that it never disagrees by its size. Five runs tell:
-//! they show the order three times, and it is always the same whole number.
+//! A reading is half a step late, or a weight is wrong. A bound from the engine's runs follows such an error down to any
+//! step, so that the size of the error never shows it. Five runs show the order three times, always the same whole
+//! number. See docs/numerics/bounds.md.
 
 use linkage::engine::Settings;
 use linkage::error::ErrorKind;

@@ -1,8 +1,5 @@
-//! Forces as an engine itself exerts them, judged besides those that follow from its motion by Newton and Euler.
-//!
-//! A search of its own, by the engine's own routes. It ends as soon as every force is conclusive; coarse runs,
-//! extrapolated, usually are. With a given step no run is finer than those that estimate the error of that step:
-//! coarser ones are extrapolated.
+//! Forces that an engine exerts, judged besides those that follow from its motion by Newton-Euler equations: a second
+//! search, by the engine's routes. See docs/numerics/forces.md.
 
 use std::sync::Arc;
 

@@ -1,4 +1,5 @@
 //! An engine's runs, from which its error is estimated, and the room that they need.
+//! See docs/numerics/settings.md.
 
 use std::sync::Arc;
 

@@ -1,10 +1,5 @@
-//! An engine that finds its own settings: coarse first, refined by what is to blame, until every channel is conclusive.
-//!
-//! Each round has one run more, at half the finest step so far. Its runs are combined in all ways: the engine as it is,
-//! extrapolated once, twice, ..., each judged at the step that leaves the finest run to tell the error. The best of
-//! them counts. A channel that is not conclusive blames its step, its sweeps or its rounding.
-//!
-//! Everything is decided by the engine's own runs and by counted work, so that the same input gives the same settings.
+//! Search of an engine's settings: coarse runs first, refined by the dominant part of the bound, until every channel is
+//! conclusive. Only the engine's runs and counted work decide. See docs/numerics/settings.md.
 
 use crate::numbers::error;
 use linkage::engine::{Engine, Settings};
