@@ -84,6 +84,8 @@ mod draw;
 #[cfg(feature = "command")]
 #[doc(hidden)]
 pub mod report;
+#[cfg_attr(not(feature = "command"), allow(dead_code, reason = "most belong to the command"))]
+mod sentences;
 #[cfg(feature = "command")]
 mod shipped;
 pub mod testing;

@@ -8,6 +8,7 @@
 mod folder;
 
 #[cfg(feature = "testing")]
+use crate::sentences;
 pub use folder::{Folder, main};
 
 use std::path::{Path, PathBuf};
@@ -93,7 +94,7 @@ fn failure(proof: &Proof) -> Option<String> {
         Verdict::Agree { .. } | Verdict::Expected { .. } => return None,
         Verdict::Disagree { .. } | Verdict::Inconclusive { .. } => proof.verdict.word(),
     };
-    let mut told = format!("{} is not proven: {word}\n\n{}", proof.scenario, proof.report());
+    let mut told = sentences::is_not_proven(&proof.scenario, &word, &proof.report());
     for error in proof.engines.iter().filter_map(|engine| engine.failure.as_ref()) {
         told += &format!("\n{}\n", errors::text(error, Advice::to_string));
     }
@@ -223,8 +224,8 @@ impl Proving {
         }
         if let Some(share) = self.tolerance {
             if !(share > 0.0 && share < 1.0) {
-                let message = format!("found {share} as tolerance, but this is a share of a channel's scale");
-                return Err(Error::new(ErrorKind::Input, message).help("give a number between 0 and 1, such as 1e-2"));
+                let message = sentences::found_as_tolerance_but_this_is_a_share(&share);
+                return Err(Error::new(ErrorKind::Input, message).help(sentences::GIVE_A_NUMBER_BETWEEN_AND_SUCH_AS));
             }
             scenario.engine_rel = share;
         }
@@ -236,8 +237,8 @@ impl Instants {
     fn grid(&self, scenario: &Scenario) -> Result<Grid> {
         let crank = scenario.case.crank();
         let wrong = |message: String| {
-            Error::new(ErrorKind::Input, format!("the grid cannot be: {message}"))
-                .help("give every instant once, crank angles in rad or times in s")
+            Error::new(ErrorKind::Input, sentences::the_grid_cannot_be(&message))
+                .help(sentences::GIVE_EVERY_INSTANT_ONCE_CRANK)
         };
         let grid = (self.grid)(crank, listed(self.values.clone()).map_err(wrong)?);
         grid.check(crank).map_err(wrong)?;

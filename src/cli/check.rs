@@ -1,5 +1,6 @@
 //! `linkproof check`.
 
+use crate::sentences;
 use std::path::PathBuf;
 
 use super::grid::GridArgs;
@@ -53,7 +54,7 @@ pub(super) struct Args {
 
 /// Reads `NAME=EXPR`.
 fn step(text: &str) -> std::result::Result<(String, String), String> {
-    let (name, expression) = text.split_once('=').ok_or("expected NAME=EXPR, such as 'u=a*sin(phi)'")?;
+    let (name, expression) = text.split_once('=').ok_or(sentences::EXPECTED_NAME_EXPR_SUCH_AS_A_SIN)?;
     Ok((name.trim().into(), expression.trim().into()))
 }
 

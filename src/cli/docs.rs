@@ -1,6 +1,7 @@
 //! `linkproof docs`: the documents, in the program itself.
 
 use super::output;
+use crate::sentences;
 use linkage::error::{Error, ErrorKind, Result};
 use scenario::words::suggestion;
 
@@ -36,13 +37,13 @@ pub(super) fn docs(args: &Args) -> Result<()> {
     let Some((_, text)) = PAGES.iter().find(|(own, _)| *own == name) else {
         let names = PAGES.iter().map(|(own, _)| *own);
         return Err(
-            Error::new(ErrorKind::Input, format!("there is no page \"{name}\"")).help(suggestion(name, names, "\""))
+            Error::new(ErrorKind::Input, sentences::there_is_no_page(&name)).help(suggestion(name, names, "\""))
         );
     };
     match section {
         None => output::print(text),
         Some(anchor) => output::print(&part(text, anchor).ok_or_else(|| {
-            Error::new(ErrorKind::Input, format!("the page \"{name}\" has no section \"{anchor}\"")).help(suggestion(
+            Error::new(ErrorKind::Input, sentences::the_page_has_no_section(&name, &anchor)).help(suggestion(
                 anchor,
                 headings(text).map(|(_, _, own)| own).collect::<Vec<_>>().iter().map(String::as_str),
                 "\"",
@@ -91,7 +92,8 @@ mod tests {
         let pages = |folder: &str| {
             let files = std::fs::read_dir(std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("docs").join(folder));
             let name = |file: std::io::Result<std::fs::DirEntry>| file.unwrap().file_name().into_string().unwrap();
-            let names = files.unwrap().map(name).filter_map(|name| Some(format!("{folder}{}", name.strip_suffix(".md")?)));
+            let names =
+                files.unwrap().map(name).filter_map(|name| Some(format!("{folder}{}", name.strip_suffix(".md")?)));
             names.collect::<Vec<String>>()
         };
         let mut names = [pages(""), pages("numerics/")].concat();

@@ -1,5 +1,6 @@
 //! `linkproof drive`.
 
+use crate::sentences;
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 
@@ -117,10 +118,10 @@ fn driven(args: &Args, scenario: &Scenario) -> Result<()> {
 fn check(args: &Args) -> Result<()> {
     let wrong = |message: String, help: &str| Err(Error::new(ErrorKind::Input, message).help(help));
     if !(360.0 / args.step_deg <= MOST_ROWS) {
-        return wrong(format!("--step-deg is {}", args.step_deg), "give a number of degrees above zero, such as 10");
+        return wrong(sentences::step_deg_is(&args.step_deg), sentences::GIVE_A_NUMBER_OF_DEGREES);
     }
     if args.points as f64 > MOST_ROWS {
-        return wrong(format!("--points is {}", args.points), "give a number from 1 to 1000000");
+        return wrong(sentences::points_is(&args.points), sentences::GIVE_A_NUMBER_FROM_TO);
     }
     output::apart(&[("--run-up", &args.run_up), ("--svg", &args.svg), ("--json", &args.json)])
 }
@@ -177,8 +178,8 @@ fn choose(args: &Choosing, file: &Path, scenario: &Scenario, json_to: &Option<Pa
     if let Some(rpm) = args.synchronous_rpm {
         motors.retain(|motor| (motor.synchronous_speed * 60.0 / TAU - rpm).abs() < 0.5);
         if motors.is_empty() {
-            let message = format!("the catalogue has no motor of {rpm} rpm");
-            return output::refused("--synchronous-rpm", message, "give 3000 or 1500, or leave it out");
+            let message = sentences::the_catalogue_has_no_motor(&rpm);
+            return output::refused("--synchronous-rpm", message, sentences::GIVE_OR_OR_LEAVE_IT_OUT);
         }
     }
     let own = scenario.case.crank().motor().map_or(1.0, |motor| motor.efficiency);

@@ -1,5 +1,6 @@
 //! The `[engine]` section that keeps settings which a command has found.
 
+use crate::sentences;
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -37,7 +38,7 @@ pub(super) fn keys(scenario: &Scenario, name: &str, settings: Settings) -> Engin
 pub(super) fn write(file: &Path, scenario: &Scenario, keys: EngineSettings) -> Result<()> {
     let text = edit::with_engine(&scenario.text, keys)?;
     files::replace(&Target::Named(file), |mut to| to.write_all(text.as_bytes())).map_err(|error: io::Error| {
-        let usual = "check that the file may be written to, or copy the section by hand";
+        let usual = sentences::CHECK_THAT_THE_FILE_MAY_BE_WRITTEN;
         files::unwritten(&file.display().to_string(), &error, Some(text.len() as u64), usual)
     })
 }

@@ -21,6 +21,7 @@ mod viewer;
 #[cfg(feature = "live")]
 mod wants;
 
+use crate::sentences;
 use std::path::PathBuf;
 
 #[cfg(feature = "live")]
@@ -61,8 +62,8 @@ impl LiveArgs {
     pub(super) fn start(&self, files: &[PathBuf]) -> Result<Option<Live>> {
         let Some(address) = &self.live else { return Ok(None) };
         if let [_, _, ..] = files {
-            let message = format!("--live shows one scenario, but {} are given", files.len());
-            return Err(Error::new(ErrorKind::Input, message).help("name one file"));
+            let message = sentences::live_shows_one_scenario_but_are_given(&files.len());
+            return Err(Error::new(ErrorKind::Input, message).help(sentences::NAME_ONE_FILE));
         }
         let on_this_machine = |port| format!("127.0.0.1:{port}");
         Live::at(&address.parse::<u16>().map_or(address.clone(), on_this_machine)).map(Some)
@@ -76,10 +77,10 @@ pub(super) enum Live {}
 #[cfg(not(feature = "live"))]
 impl Live {
     fn at(_: &str) -> Result<Live> {
-        let message = "--live is asked for, but this build does not have it";
+        let message = sentences::LIVE_IS_ASKED_FOR_BUT_THIS_BUILD;
         Err(Error::new(ErrorKind::Unsupported, message)
-            .help("build with the cargo feature \"live\": in the repository, `cargo install --path . --features live`")
-            .or_help("leave out --live, and open the recording: linkproof view FILE.mcap"))
+            .help(sentences::BUILD_WITH_THE_CARGO_FEATURE)
+            .or_help(sentences::LEAVE_OUT_LIVE_AND_OPEN_THE_RECORDING))
     }
 
     pub(super) fn show_reference(&self, _: &RecordArgs, _: &Scenario, _: Reference) {

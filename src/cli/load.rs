@@ -1,5 +1,6 @@
 //! The common first step of every command: a scenario from a file, or from standard input in its place.
 
+use crate::sentences;
 use std::io::{self, IsTerminal};
 use std::path::Path;
 use std::sync::OnceLock;
@@ -54,8 +55,8 @@ pub(super) fn only(scenario: Scenario, words: &[String]) -> Result<Scenario> {
 
 /// Reads `KEY=NUMBER`.
 pub(super) fn setting(text: &str) -> std::result::Result<(String, f64), String> {
-    let (key, value) = text.split_once('=').ok_or("expected KEY=NUMBER, such as a_mm=30")?;
-    Ok((key.trim().into(), number::decimal(value, "a finite number behind the `=`, such as a_mm=30")?))
+    let (key, value) = text.split_once('=').ok_or(sentences::EXPECTED_KEY_NUMBER_SUCH_AS_A_MM)?;
+    Ok((key.trim().into(), number::decimal(value, sentences::A_FINITE_NUMBER_BEHIND_THE_SUCH_AS_A_MM)?))
 }
 
 /// Reads a scenario as it is.
@@ -120,11 +121,11 @@ fn standard_input() -> Result<&'static str> {
     static TEXT: OnceLock<Result<String>> = OnceLock::new();
     let read = || {
         if io::stdin().is_terminal() {
-            output::note("the scenario is read from standard input, up to its end (Ctrl-D)");
+            output::note(sentences::THE_SCENARIO_IS_READ_FROM_STANDARD);
         }
         files::text_from(io::stdin().lock()).map_err(|error| {
-            let usual = "give a scenario, as in: linkproof run - < four_bar.toml";
-            Error::new(ErrorKind::Io, format!("{NAME} cannot be read: {error}")).help(files::way_out(&error, usual))
+            let usual = sentences::GIVE_A_SCENARIO_AS_IN_LINKPROOF;
+            Error::new(ErrorKind::Io, sentences::cannot_be_read(&NAME, &error)).help(files::way_out(&error, usual))
         })
     };
     TEXT.get_or_init(read).as_ref().map(String::as_str).map_err(Error::clone)
@@ -135,6 +136,6 @@ pub(super) fn refuse_writing(path: &Path) -> Result<()> {
     if !is_standard_input(path) {
         return Ok(());
     }
-    let help = "save the scenario to a file and name that, or leave --write out: the report tells the settings";
-    output::refused("--write", format!("settings cannot be written to {NAME}"), help)
+    let help = sentences::SAVE_THE_SCENARIO_TO_A_FILE;
+    output::refused("--write", sentences::settings_cannot_be_written_to(&NAME), help)
 }

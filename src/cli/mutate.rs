@@ -1,5 +1,6 @@
 //! `linkproof mutate`.
 
+use crate::sentences;
 use std::path::PathBuf;
 
 use clap::builder::PossibleValuesParser;
@@ -53,8 +54,8 @@ pub(super) fn run(args: &Args) -> Result<u8> {
     output::apart(&[("--json", &args.json), ("--markdown", &args.markdown)])?;
     let options = args.engine.options(Reference::Assur);
     if options.engine_count() > 1 {
-        let message = format!("found {} engines, but faults are planted in one", options.engine_count());
-        return output::refused("--engine", message, "give one engine");
+        let message = sentences::found_engines_but_faults_are_planted(&options.engine_count());
+        return output::refused("--engine", message, sentences::GIVE_ONE_ENGINE);
     }
     let parties = args.party.iter().filter_map(|name| Party::named(name)).collect();
     let asked = Asked { kinds: args.kind.clone(), parties, with_sizes: !args.no_sizes, jobs: args.jobs, options };
@@ -94,5 +95,5 @@ fn kind(text: &str) -> std::result::Result<String, String> {
     if named(text).is_some() || all().any(|kind| kind.family.name() == text) {
         return Ok(text.into());
     }
-    Err("there is no such kind and no such family; `linkproof mutate --list` has them all".into())
+    Err(sentences::THERE_IS_NO_SUCH_KIND_AND_NO_SUCH_FAMILY.into())
 }

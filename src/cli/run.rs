@@ -3,6 +3,7 @@
 mod args;
 mod session;
 
+use crate::sentences;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -74,7 +75,7 @@ fn prove_file(
     let needed = memory::of_proof(&scenario.case, options.engine_count()) + memory::of_oracles(&scenario.oracles);
     room.take(index, needed, || bar.hidden(|| args.engine.memory.tell(&scenario.case, needed)));
     if let Some(live) = live {
-        bar.hidden(|| output::note(&format!("viewers can listen at {} from now on", live.address())));
+        bar.hidden(|| output::note(&sentences::viewers_can_listen_at_from_now(&live.address())));
         live.show_reference(&args.record, &scenario, options.reference);
     }
     let proof = prove_with(&scenario, &options, &mut |part| bar.at(index, part))?;

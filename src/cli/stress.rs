@@ -1,5 +1,6 @@
 //! `linkproof stress`.
 
+use crate::sentences;
 use std::path::{Path, PathBuf};
 
 use clap::builder::PossibleValuesParser;
@@ -41,14 +42,14 @@ pub(super) struct Args {
 pub(super) fn run(args: &Args) -> Result<u8> {
     let chosen = |family: &&Family| args.families.is_empty() || args.families.iter().any(|name| name == family.name);
     let families: Vec<&'static Family> = FAMILIES.iter().filter(chosen).collect();
-    output::make_directory(&args.out, "--out", "name a directory, or a place where one can be made")?;
+    output::make_directory(&args.out, "--out", sentences::NAME_A_DIRECTORY_OR_A_PLACE)?;
     let mut all: Vec<Job> = Vec::new();
     for &family in &families {
         let kept = files::text(&json_of(&args.out, family)).map_err(|error| {
             let place = json_of(&args.out, family);
-            Error::new(ErrorKind::Io, format!("{} cannot be read: {error}", place.display()))
+            Error::new(ErrorKind::Io, sentences::cannot_be_read_2(&place.display(), &error))
                 .key("--out")
-                .help("name another directory, or remove what is in the way")
+                .help(sentences::NAME_ANOTHER_DIRECTORY_OR_REMOVE)
         })?;
         all.extend(jobs(family, args.quick, args.seed, &kept.map_or_else(Vec::new, |text| report::outcomes(&text))));
     }
@@ -81,10 +82,12 @@ pub(super) fn run(args: &Args) -> Result<u8> {
     }
     let text = report::text(&found);
     output::make(&text, &args.out.join("report.txt"))?;
-    output::print(&format!(
-        "{text}Seed {}. {open} of {total} points were run, the others were in {} already.\n",
-        args.seed,
-        args.out.display()
+    output::print(&sentences::seed_of_points_were_run_the_others(
+        &text,
+        &args.seed,
+        &open,
+        &total,
+        &args.out.display(),
     ))?;
     let tally = report::Tally::of(found.iter().flat_map(|(_, all)| all.iter().copied()));
     Ok(if tally.silent == 0 && tally.panics == 0 { exit_code::AGREE } else { exit_code::DISAGREE })
@@ -113,11 +116,11 @@ fn write_json(args: &Args, family: &'static Family, jobs: &[Job]) -> Result<()> 
 fn write_page(args: &Args, to: &Path, found: &[(&Family, Vec<&Outcome>)]) -> Result<()> {
     let stem = to.file_stem().and_then(|stem| stem.to_str()).unwrap_or("stress");
     let maps = to.with_file_name(stem);
-    output::make_directory(&maps, "--page", "name a file in a directory that may be written to")?;
+    output::make_directory(&maps, "--page", sentences::NAME_A_FILE_IN_A_DIRECTORY)?;
     for (family, outcomes) in found {
         output::make(&report::map(family, outcomes), &maps.join(format!("{}.svg", family.name)))?;
     }
     let quick = if args.quick { " --quick" } else { "" };
-    let command = format!("linkproof stress{quick} --out DIR --page {}", to.display());
+    let command = sentences::linkproof_stress_out_dir_page(&quick, &to.display());
     output::write(&report::page(found, &command, stem), to)
 }

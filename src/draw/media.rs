@@ -1,5 +1,6 @@
 //! What is asked of a picture, and how it is written: by its ending.
 
+use crate::sentences;
 use std::path::Path;
 
 use drawing::bitmap::{Bitmap, bitmap, to_gif, to_png, to_webp};
@@ -63,8 +64,8 @@ impl Medium {
             Some("png") => Ok(Medium::Png),
             Some("gif") => Ok(Medium::Gif),
             Some("webp") => Ok(Medium::WebP),
-            Some(other) => Err(format!("no pictures end in .{other}; expected .svg, .png, .gif or .webp")),
-            None => Err("expected a file that ends in .svg, .png, .gif or .webp, or `-`".into()),
+            Some(other) => Err(sentences::no_pictures_end_in_expected(&other)),
+            None => Err(sentences::EXPECTED_A_FILE_THAT_ENDS.into()),
         }
     }
 

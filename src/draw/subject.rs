@@ -2,6 +2,7 @@
 
 use super::media::{Medium, Wish};
 use super::motion::{swung, turned, with_travels};
+use crate::sentences;
 use design::diagram::draw::significant;
 use design::diagram::plan::state_at;
 use drawing::lay::{Laid, Standing, all_modes, lay, lay_loose};
@@ -78,7 +79,7 @@ impl Drawn {
 
     /// The name, and the crank angle in words.
     pub(super) fn headline(&self) -> String {
-        format!("{}, crank at {}°", self.name, (self.crank.to_degrees() * 1e6).round() / 1e6 + 0.0)
+        sentences::crank_at(&self.name, &((self.crank.to_degrees() * 1e6).round() / 1e6 + 0.0))
     }
 
     /// The cells of all shots, in a room of this size (mm).
@@ -185,7 +186,7 @@ impl Drawn {
             .iter()
             .map(|(joint, [from, to])| {
                 let name = &draft.mechanism.joints()[*joint].name;
-                format!("joint {name} stays open by {} mm", significant((to - from).norm() * 1e3))
+                sentences::joint_stays_open_by_mm(&name, &significant((to - from).norm() * 1e3))
             })
             .collect();
         let note = match (&gaps[..], &draft.structure) {
@@ -209,7 +210,7 @@ impl Drawn {
         let headings = all.iter().map(|laid| heading(&draft.mechanism, &structure, laid, &own)).collect();
         // A file that leaves its mode open is answered by the list, and a configuration that does not close is no fault.
         let is_answered = draft.mistakes.is_none() && all.iter().any(Laid::is_whole);
-        let cut = is_cut.then(|| format!("only the first {MOST} configurations are drawn"));
+        let cut = is_cut.then(|| sentences::only_the_first_configurations_are_drawn(&MOST));
         let open = error.as_ref().filter(|_| is_answered).map(|error| error.message().to_string());
         let told: Vec<String> = open.into_iter().chain(cut).collect();
         let note = (!told.is_empty()).then(|| Note::Said(format!("{}: {}", draft.name, told.join("; "))));
@@ -229,7 +230,7 @@ fn mistakes(fault: &Error) -> Vec<String> {
     };
     let mut lines: Vec<String> = fault.each().take(SHOWN).map(short).collect();
     let more = fault.each().count().saturating_sub(SHOWN) + fault.left_out();
-    lines.extend((more > 0).then(|| format!("and {more} more")));
+    lines.extend((more > 0).then(|| sentences::and_more(&more)));
     lines
 }
 
@@ -237,7 +238,7 @@ fn mistakes(fault: &Error) -> Vec<String> {
 fn of_guess(draft: &Draft) -> Option<String> {
     let drive = draft.drives.first().filter(|_| draft.is_driven_by_guess)?;
     let link = &draft.mechanism.links()[drive.link].name;
-    Some(format!("{}: no drive could be read; drawn as if \"{link}\" were driven", draft.name))
+    Some(sentences::no_drive_could_be_read_drawn(&draft.name, &link))
 }
 
 /// World angles of the driving links with the crank at an angle (rad), the others at their start.
@@ -293,8 +294,8 @@ fn traced(mechanism: &Mechanism, wish: &Wish) -> (Vec<(LinkId, Vec2)>, Vec<Error
             Some((_, side)) => found.push((side.link, side.local)),
             None => {
                 let names: Vec<&str> = points.iter().map(|(own, _)| *own).collect();
-                let message = format!("no point that moves is called \"{name}\"");
-                let error = Error::new(ErrorKind::Input, message).help(format!("name one of {}", names.join(", ")));
+                let message = sentences::no_point_that_moves_is_called(&name);
+                let error = Error::new(ErrorKind::Input, message).help(sentences::name_one_of(&names.join(", ")));
                 unknown.push(error.key(wish.traces_key.unwrap_or("traces")));
             }
         }
@@ -316,7 +317,7 @@ fn heading(mechanism: &Mechanism, structure: &Structure, laid: &Laid, own: &Laid
     };
     let mut lines: Vec<String> = laid.modes.iter().filter_map(line).collect();
     if lines.is_empty() {
-        lines.push("the only configuration".into());
+        lines.push(sentences::THE_ONLY_CONFIGURATION.into());
     }
     let near = |(a, b): (&drawing::picture::Place, &drawing::picture::Place)| match (a.pose(), b.pose()) {
         (Some(a), Some(b)) => {
@@ -327,9 +328,9 @@ fn heading(mechanism: &Mechanism, structure: &Structure, laid: &Laid, own: &Laid
     };
     let is_own = own.is_whole() && laid.places.iter().zip(&own.places).all(near);
     let remark = match laid.is_whole() {
-        _ if is_own => " (as in the file)",
+        _ if is_own => sentences::AS_IN_THE_FILE,
         true => "",
-        false => " (does not close)",
+        false => sentences::DOES_NOT_CLOSE,
     };
     lines.last_mut().into_iter().for_each(|last| *last += remark);
     lines

@@ -1,6 +1,7 @@
 //! The model that every report of a proof is a view of: each channel, each force that an engine exerts itself and each
 //! check with its verdict, decided once for text, JSON, JUnit, Markdown, logs and pages.
 
+use crate::sentences;
 use std::cmp::Reverse;
 
 use linkage::math::statistics::share;
@@ -85,7 +86,7 @@ fn of_engine(engine: &EngineProof) -> impl Iterator<Item = Judged<'_>> {
     let forces = engine.own_forces.iter().flat_map(|own| &own.channels).map(|own| (Sort::OwnForce, own));
     channels.chain(forces).map(|(sort, own)| {
         let ChannelProof { residual, bound, basis, verdict, .. } = own;
-        let how = if sort == Sort::OwnForce { " as the engine exerts it" } else { "" };
+        let how = if sort == Sort::OwnForce { sentences::AS_THE_ENGINE_EXERTS_IT } else { "" };
         Judged {
             sort,
             engine: Some(engine),
@@ -125,8 +126,8 @@ pub fn verdicts(proof: &Proof) -> Vec<(String, &Verdict)> {
         all.extend(of_engine(engine).map(|own| (name(own.name), own.verdict)));
         let failed = engine.own_forces.iter().filter(|own| own.failure.is_some());
         let whole = match several {
-            true => format!("forces as {} itself exerts them", engine.info.name),
-            false => "the engine's own forces".into(),
+            true => sentences::forces_as_itself_exerts_them_2(&engine.info.name),
+            false => sentences::THE_ENGINE_OWN_FORCES.into(),
         };
         all.extend(failed.map(|own| (whole.clone(), &own.verdict)));
     }

@@ -1,5 +1,6 @@
 //! Points of a work-precision diagram as text, CSV and JSON.
 
+use crate::sentences;
 use serde_json::{Value, json};
 
 use super::pretty::{list, pretty};
@@ -25,7 +26,7 @@ pub(crate) fn error(errors: Errors, floor: f64) -> String {
     match (errors.is_limited, errors.max > floor) {
         (false, _) => format!("{:.1e}", errors.max),
         (true, true) => format!("{:.1e}, limited", errors.max),
-        (true, false) => "at the floor".into(),
+        (true, false) => sentences::AT_THE_FLOOR.into(),
     }
 }
 
@@ -55,14 +56,11 @@ pub(crate) fn text(bench: &Bench) -> String {
     let mut text = format!("{}: {}\n\n", bench.scenario[0], bench.scenario[1]);
     let failed = bench.points.iter().filter(|point| point.run().is_none()).count();
     let (settings, instants, reference) = (bench.points.len(), bench.instants, &bench.floor.reference);
-    say!(
-        text,
-        "{settings} settings on {instants} instants, {failed} failed; times over that of side 1 (assur). Reference: {reference}."
-    );
-    say!(text, "The fronts: what nothing beats, then what no engine and no peer beats.");
+    say!(text, "{}", sentences::settings_on_instants_failed_times(&settings, &instants, &failed, &reference));
+    say!(text, "{}", sentences::THE_FRONTS_WHAT_NOTHING_BEATS);
     for &stage in &bench.stages {
         let floor = bench.floor.errors[stage as usize];
-        say!(text, "\n{}: the reference is known to {floor:.1e}", stage.name());
+        say!(text, "{}", sentences::the_reference_is_known_to(&stage.name(), &format_args!("{floor:.1e}")));
         let sides = front(&bench.points, stage, Axis::Time, floor, &|_| true);
         let others = front(&bench.points, stage, Axis::Time, floor, &|point| point.party != Party::Side);
         let others = others.into_iter().filter(|index| !sides.contains(index));
@@ -76,17 +74,21 @@ pub(crate) fn text(bench: &Bench) -> String {
         for within in DECADES {
             let other = fastest(bench, stage, within, &|point| point.party != Party::Side);
             let told = other.and_then(|point| Some(format!("{} {}", short(ratio(bench, point)?), point.program)));
-            say!(text, "  other programs at {within:e}: {}", told.unwrap_or_else(|| "none".into()));
+            say!(
+                text,
+                "{}",
+                sentences::other_programs_at(&format_args!("{within:e}"), &told.unwrap_or_else(|| "none".into()))
+            );
         }
     }
     for (reason, times) in super::bench_plot::reasons(bench) {
-        say!(text, "\nfailed {times} times: {reason}");
+        say!(text, "{}", sentences::failed_times(&times, &reason));
     }
     for (gap, times) in super::bench_plot::gaps(bench) {
-        say!(text, "\njudged in part {times} times: {gap}");
+        say!(text, "{}", sentences::judged_in_part_times(&times, &gap));
     }
     if bench.left_out > 0 {
-        say!(text, "\n{} finer settings were not run: the work that was allowed is done.", bench.left_out);
+        say!(text, "{}", sentences::finer_settings_were_not_run(&bench.left_out));
     }
     text
 }
@@ -196,7 +198,7 @@ fn scenario(bench: &Bench) -> Value {
     json!({
         "scenario": bench.scenario[0], "title": bench.scenario[1], "instants": bench.instants, "span_s": bench.span,
         "free": bench.is_free, "reference": bench.floor.reference, "floor_basis": bench.floor.basis,
-        "floor": by_stage(&|stage| json!(bench.floor.errors[stage as usize])), "ratio_to": "side 1 (assur)",
+        "floor": by_stage(&|stage| json!(bench.floor.errors[stage as usize])), "ratio_to": sentences::SIDE_ASSUR,
         "versions": bench.versions.iter().cloned().collect::<Value>(), "not_run": bench.left_out,
         "absent": list(&bench.absent, |(name, reason)| json!({ "peer": name, "reason": reason })),
         "front": fronts, "points": points,

@@ -1,5 +1,6 @@
 //! Diagrams of error against cost, one panel for each stage of channels, as SVG.
 
+use crate::sentences;
 use std::ops::RangeInclusive;
 
 use super::chart::{Chart, DASHED, Filling, colour, decades, mark};
@@ -32,7 +33,7 @@ pub(crate) fn drawing(bench: &Bench, axis: Axis) -> Option<String> {
     let panels = bench.stages.iter().map(|&stage| panel(bench, stage, axis, costs));
     let columns = (bench.stages.len() + 1).min(3);
     let [name, about] = &bench.scenario;
-    let title = cut(&format!("{name}: error against {}. {about}", label(axis)), 150);
+    let title = cut(&sentences::error_against(&name, &label(axis), &about), 150);
     let mut sheet = Figure::default();
     sheet.text(Vec2::new(5.0, -8.0), title.as_str(), words(5.0));
     for (index, cell) in panels.chain([legend(bench, axis)]).enumerate() {
@@ -46,9 +47,9 @@ pub(crate) fn drawing(bench: &Bench, axis: Axis) -> Option<String> {
 /// The cost in words.
 fn label(axis: Axis) -> &'static str {
     match axis {
-        Axis::Time => "time over that of side 1 (assur)",
-        Axis::Solutions => "evaluations, or steps and probes, or poses",
-        Axis::Inner => "sweeps, factorisations, iterations or groups",
+        Axis::Time => sentences::TIME_OVER_THAT_OF_SIDE_ASSUR,
+        Axis::Solutions => sentences::EVALUATIONS_OR_STEPS_AND_PROBES,
+        Axis::Inner => sentences::SWEEPS_FACTORISATIONS_ITERATIONS_OR_GROUPS,
     }
 }
 
@@ -121,7 +122,7 @@ fn panel(bench: &Bench, stage: Stage, axis: Axis, [left, right]: [f64; 2]) -> Fi
         chart.figure.disc(at, RING, "none", solid(GREY, 0.25));
     }
     if is_empty {
-        chart.empty("no setting that answered counts this");
+        chart.empty(sentences::NO_SETTING_THAT_ANSWERED_COUNTS);
     }
     chart.figure
 }
@@ -132,7 +133,7 @@ fn caption(stage: Stage) -> &'static str {
         Stage::Velocities => "velocities",
         Stage::Accelerations => "accelerations",
         Stage::Reactions => "reactions",
-        Stage::BalancingMoment => "balancing moment, shaking force and moment",
+        Stage::BalancingMoment => sentences::BALANCING_MOMENT_SHAKING_FORCE_AND_MOMENT,
     }
 }
 
@@ -175,7 +176,7 @@ fn legend(bench: &Bench, axis: Axis) -> Figure {
         };
         let failed = if failed > 0 { format!(", {failed} failed") } else { String::new() };
         let is_drawn = own().any(|point| cost(bench, axis, point).is_some());
-        let absent = if is_drawn { "" } else { "; it counts none of these" };
+        let absent = if is_drawn { "" } else { sentences::IT_COUNTS_NONE_OF_THESE };
         figure.text(Vec2::new(17.0, y - 1.2), format!("{program}{version}, {settings}{failed}{absent}"), words(3.7));
         y -= 5.3;
     }
@@ -187,17 +188,17 @@ fn legend(bench: &Bench, axis: Axis) -> Figure {
         }
     };
     for text in [
-        "Line: what no other setting of the same program beats; ring: nothing, or no engine and peer, beats it.",
-        &format!("Grey line: the reference's own error ({}).", bench.floor.basis),
-        &format!("Hollow: less than {CLEAR} times above it (dashes), limited by the reference."),
-        "Cross in the band above: failed.",
-        "Errors: largest over instants and channels, as a share of the channel's scale.",
+        sentences::LINE_WHAT_NO_OTHER_SETTING,
+        &sentences::grey_line_the_reference_own(&bench.floor.basis),
+        &sentences::hollow_less_than_times_above(&CLEAR),
+        sentences::CROSS_IN_THE_BAND_ABOVE_FAILED,
+        sentences::ERRORS_LARGEST_OVER_INSTANTS_AND_CHANNELS,
     ] {
         write(&mut y, text, 3.2);
     }
     y -= 2.0;
     let failed = reasons(bench).into_iter().map(|(text, times)| format!("x {times}: {text}"));
-    let gaps = gaps(bench).into_iter().map(|(text, times)| format!("in part {times}: {text}"));
+    let gaps = gaps(bench).into_iter().map(|(text, times)| sentences::in_part(&times, &text));
     let reasons: Vec<String> = failed.chain(gaps).map(|text| cut(&text, 2 * WIDTH)).collect();
     let mut left = reasons.len();
     for text in &reasons {
@@ -209,7 +210,7 @@ fn legend(bench: &Bench, axis: Axis) -> Figure {
         left -= 1;
     }
     if left > 0 {
-        write(&mut y, &format!("and {left} more reasons: see the table"), 2.9);
+        write(&mut y, &sentences::and_more_reasons_see_the_table(&left), 2.9);
     }
     figure
 }

@@ -1,5 +1,6 @@
 //! A diagram with two logarithmic axes on paper, and the marks of the parties in it.
 
+use crate::sentences;
 use drawing::paper::figure::{Figure, Style, Tint, Type, rectangle, solid, words};
 use drawing::paper::style::{self, GREY};
 use linkage::math::Vec2;
@@ -88,7 +89,7 @@ impl Chart {
     /// Says in the middle of the frame why there is nothing in it.
     pub(super) fn empty(&mut self, why: &str) {
         let middle = self.low + self.size / 2.0;
-        self.figure.text(middle, format!("nothing to draw: {why}"), Type { anchor: "middle", ..words(3.6) });
+        self.figure.text(middle, sentences::nothing_to_draw(&why), Type { anchor: "middle", ..words(3.6) });
     }
 }
 

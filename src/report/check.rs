@@ -1,5 +1,6 @@
 //! Judgements of formulas as text and JSON.
 
+use crate::sentences;
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -156,14 +157,14 @@ fn reasons(lines: &[Line], claimed: &Claimed, tell: Tell, width: usize, text: &m
         }
         let Some(cause) = causes.get(name.as_str()) else { continue };
         below(&match cause {
-            Some(found) if is_cut => format!("  cause  {found}.\n         Perhaps another: {CUT}."),
+            Some(found) if is_cut => sentences::cause_perhaps_another(&found, &CUT),
             Some(found @ (Cause::Leaves { .. } | Cause::Mostly { .. } | Cause::Near { .. } | Cause::Constant)) => {
                 format!("  cause  {found}.")
             }
-            Some(found) => format!("  cause  {found}.\n         With that, nothing is left over."),
-            None if is_cut => format!("  cause  not found: {CUT}."),
+            Some(found) => sentences::cause_with_that_nothing_is_left(&found),
+            None if is_cut => sentences::cause_not_found(&CUT),
             None if undefined.is_some() => continue,
-            None => "  cause  none that is simple: no single slip, offset, factor or term explains it.".into(),
+            None => sentences::CAUSE_NONE_THAT_IS_SIMPLE.into(),
         });
     }
     for check in &claimed.checks {
@@ -188,11 +189,11 @@ fn sentence(lines: &[Line], claimed: &Claimed) -> String {
     match &claimed.verdict {
         Verdict::Agree { .. } | Verdict::Expected { .. } => {
             let (claims, instants) = (counted(claims, "formula"), counted(instants, "instant"));
-            format!("{claims} at {instants}, {first} and {second}")
+            sentences::at_and(&claims, &instants, &first, &second)
         }
-        Verdict::Disagree { .. } if names.is_empty() => format!("{first} and {second} contradict each other"),
-        Verdict::Disagree { .. } => format!("{} of {} wrong", names.len(), counted(claims, "formula")),
-        Verdict::Inconclusive { .. } => "something is open".into(),
+        Verdict::Disagree { .. } if names.is_empty() => sentences::and_contradict_each_other(&first, &second),
+        Verdict::Disagree { .. } => sentences::of_wrong(&names.len(), &counted(claims, "formula")),
+        Verdict::Inconclusive { .. } => sentences::SOMETHING_IS_OPEN.into(),
     }
 }
 
@@ -206,15 +207,13 @@ fn reason(line: &Line, tell: Tell) -> String {
             format!("{of}{}: {reason}; {}", line.judged.name, advice.join(", or "))
         }
         Outcome::Wrong => {
-            let mut text =
-                format!("{of}{} = {}\n  is not {of}{claim} ({})", line.judged.name, line.formula.text, line.side);
+            let mut text = sentences::is_not(&of, &line.judged.name, &line.formula.text, &claim, &line.side);
             let says = |word: &str, at: At| {
-                let place =
-                    format!("crank angle {}, t = {} s", fixed_in(at.crank.to_degrees(), 3, "deg"), fixed(at.time, 6));
+                let place = sentences::crank_angle(&fixed_in(at.crank.to_degrees(), 3, "deg"), &fixed(at.time, 6));
                 let [found, right] = values(at);
                 let found = if at.formula.is_nan() { found } else { with_unit(&found, unit) };
                 let right = with_unit(&right, unit);
-                format!("\n  {word:6} {place}: formula {found}, mechanism {right}")
+                sentences::formula_mechanism(&word, &place, &found, &right)
             };
             if let (Some(since), Some(worst)) = (line.judged.since, line.judged.worst) {
                 text += &says("first", since);
@@ -231,7 +230,7 @@ fn reason(line: &Line, tell: Tell) -> String {
 fn of(order: usize) -> String {
     match order {
         0 => String::new(),
-        order => format!("the {} of ", WORDS[order]),
+        order => sentences::the_of(&WORDS[order]),
     }
 }
 
@@ -245,7 +244,7 @@ fn cause_json(cause: &Cause) -> Value {
         Cause::Offset(offset) => json!({ "kind": "an offset", "offset": offset }),
         Cause::Factor(factor) => json!({ "kind": "a factor", "factor": factor }),
         Cause::Missing(Missing { formula, beside, what, is_factor }) => {
-            let kind = if *is_factor { "a missing factor" } else { "a missing term" };
+            let kind = if *is_factor { sentences::A_MISSING_FACTOR } else { sentences::A_MISSING_TERM };
             json!({ "kind": kind, "in": formula, "beside": beside, "missing": what })
         }
         Cause::Terms(terms) => json!({ "kind": "missing terms", "terms": list(terms, term) }),
@@ -256,7 +255,7 @@ fn cause_json(cause: &Cause) -> Value {
         Cause::Constant => json!({ "kind": "a constant" }),
         Cause::Near { error, share } => json!({ "kind": "nearly right", "error": error, "share": share }),
         Cause::Mostly { cause, left } => {
-            json!({ "kind": "for the most part", "cause": cause_json(cause), "left": left })
+            json!({ "kind": sentences::FOR_THE_MOST_PART, "cause": cause_json(cause), "left": left })
         }
         Cause::Leaves { after, before } => {
             json!({ "kind": "another branch", "after_deg": after.to_degrees(), "before_deg": before.to_degrees() })

@@ -1,6 +1,7 @@
 //! The reduced quantities and the steady motion of a mechanism as graphs.
 
 use super::drive::Found;
+use crate::sentences;
 use analytic::steady::Regime;
 use analytic::steady::course::{Extremes, Row};
 use design::diagram::{Graph, Graphs, Mark, draw};
@@ -37,14 +38,13 @@ pub(crate) fn graphs(scenario: &Scenario, found: &Found, curves: &Curves) -> Gra
         Graph { name, symbol, unit, points: points(of), mean, mean_word: "mean", marks, size }
     };
     let (means, [inertia, resistance]) = (&found.means, &found.extremes);
-    let rate =
-        reduced(["derivative of the reduced moment of inertia", "dI*/dφ", "kg m^2"], |row| row.slope, 0.0, slope);
+    let rate = reduced([sentences::DERIVATIVE_OF_THE_REDUCED_MOMENT, "dI*/dφ", "kg m^2"], |row| row.slope, 0.0, slope);
     let mut graphs = vec![
-        reduced(["reduced moment of inertia", "I*", "kg m^2"], |row| row.inertia, means.inertia, inertia),
+        reduced([sentences::REDUCED_MOMENT_OF_INERTIA, "I*", "kg m^2"], |row| row.inertia, means.inertia, inertia),
         // The inertia is periodic, so the mean of its derivative is zero. If it is constant, that is only rounding.
         Graph { size: inertia.greatest.1.larger(slope.greatest.1), ..rate },
         reduced(
-            ["reduced moment of resistance", "M_r", "N m"],
+            [sentences::REDUCED_MOMENT_OF_RESISTANCE, "M_r", "N m"],
             |row| row.resistance,
             sense * means.resistance,
             resistance,
@@ -52,24 +52,23 @@ pub(crate) fn graphs(scenario: &Scenario, found: &Found, curves: &Curves) -> Gra
     ];
     let turns = (period / std::f64::consts::TAU).round();
     let over = if turns > 1.0 { format!("{turns} turns") } else { "one turn".into() };
-    let mut note =
-        format!("over {over} of the crank in the sense of its motion; motor, reducer and flywheel left out of I*");
+    let mut note = sentences::over_of_the_crank_in_the_sense(&over);
     if let Some(regime) = steady {
         let mut marks = [("slowest", regime.slowest), ("fastest", regime.fastest)]
             .map(|(word, at)| Mark { at: [at.crank, at.omega], word });
         // The lower mark in the drawing comes first.
         marks.sort_by(|a, b| a.at[1].total_cmp(&b.at[1]));
         graphs.push(Graph {
-            name: "angular velocity of the crank in the steady motion",
+            name: sentences::ANGULAR_VELOCITY_OF_THE_CRANK,
             symbol: "ω",
             unit: "rad/s",
             points: regime.samples.iter().map(|at| [at.crank, at.omega]).collect(),
             mean: regime.mean_speed,
-            mean_word: "mean over time",
+            mean_word: sentences::MEAN_OVER_TIME,
             marks,
             size: regime.mean_speed,
         });
-        note += &format!("; non-uniformity {:.6}", regime.non_uniformity());
+        note += &sentences::non_uniformity(&regime.non_uniformity());
     }
     Graphs { period: [start, start + sense * period], graphs, notes: vec![scenario.title.clone(), note] }
 }

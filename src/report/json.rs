@@ -1,5 +1,6 @@
 //! Proofs as JSON, schema 2. Numbers that are not finite (an order that is hidden by rounding) are `null`.
 
+use crate::sentences;
 use std::collections::BTreeMap;
 
 use serde::Serialize;
@@ -130,7 +131,7 @@ rows! {
             End::Rounding => "rounding",
             End::Budget => "budget",
             End::Pace => "pace",
-            End::Nothing => "nothing left to choose",
+            End::Nothing => sentences::NOTHING_LEFT_TO_CHOOSE,
         },
         extrapolated_times: usize = info.settings.extrapolated,
     }

@@ -3,6 +3,7 @@
 //! Its name has changed, the messages used here have not. Playback control came with the new name.
 //! Numbers are little-endian; a message of bytes begins with the number of its kind.
 
+use crate::sentences;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use serde_json::{Value, json};
@@ -78,9 +79,9 @@ pub(crate) fn pace(reel: &Reel) -> f64 {
 pub(crate) fn pace_told(reel: &Reel) -> String {
     let [slow, lasts] = [reel.slow, reel.lasts() as f64 * 1e-9].map(|own| significant(own / pace(reel), 3));
     match reel.lasts() {
-        0 => "one instant, at rest".into(),
-        _ if slow == "1" => format!("as fast as the mechanism, anew every {lasts} s"),
-        _ => format!("{slow} times slower than the mechanism, anew every {lasts} s"),
+        0 => sentences::ONE_INSTANT_AT_REST.into(),
+        _ if slow == "1" => sentences::as_fast_as_the_mechanism(&lasts),
+        _ => sentences::times_slower_than_the_mechanism(&slow, &lasts),
     }
 }
 

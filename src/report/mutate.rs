@@ -1,5 +1,6 @@
 //! Planted faults: which were found, by what, and which escape.
 
+use crate::sentences;
 use serde_json::{Value, json};
 
 use super::pretty::{list, pretty};
@@ -14,8 +15,8 @@ pub(crate) fn text(found: &[Mutated]) -> String {
     let mut text = format!("{}\n\n", headline(&tally));
     for one in found.iter().filter(|one| !one.instead.is_empty()) {
         let (name, instead) = (&one.scenario, one.instead.join(", "));
-        let formulas = if one.formulas == 0 { "; no formula of it claims an exact value" } else { "" };
-        say!(text, "{name}: no fault of the kinds asked for changes anything; kinds that would: {instead}{formulas}\n");
+        let formulas = if one.formulas == 0 { sentences::NO_FORMULA_OF_IT_CLAIMS_AN_EXACT } else { "" };
+        say!(text, "{}", sentences::no_fault_of_the_kinds_asked(&name, &instead, &formulas));
     }
     say!(text, "{}\n", scenarios(found));
     say!(text, "{}\n", trimmed(table(KINDS).add_rows(kinds(found))));
@@ -26,15 +27,13 @@ pub(crate) fn text(found: &[Mutated]) -> String {
     text
 }
 
-const LEGEND: &str = "\
-least margin: difference over its bound of what sees the fault most clearly, where it is least clear.
-found down to: sizes above this are found in every scenario, to a factor of two; relative, angles in rad.";
+const LEGEND: &str = sentences::LEAST_MARGIN_DIFFERENCE_OVER_ITS_BOUND;
 
 /// One sentence with the figures.
 fn headline(tally: &Tally) -> String {
     let Tally { planted, formulas, trunk_kinds, trunk_found, kinds, .. } = tally;
     if tally.end() == End::Nothing {
-        return "NOTHING PLANTED  no fault of the kinds asked for changes anything: nothing is shown".into();
+        return sentences::NOTHING_PLANTED_NO_FAULT_OF_THE_KINDS.into();
     }
     let word = match tally.end() {
         End::AllFound => "ALL FOUND",
@@ -45,11 +44,11 @@ fn headline(tally: &Tally) -> String {
     };
     let mut line = format!("{word}  {} kinds", kinds.len());
     if *planted != Share::default() || *formulas == Share::default() {
-        put!(line, "; {}", of_share(planted, "faults in one party"));
+        put!(line, "; {}", of_share(planted, sentences::FAULTS_IN_ONE_PARTY));
     }
     if !trunk_kinds.is_empty() {
         let [found, all] = [trunk_found.len(), trunk_kinds.len()];
-        put!(line, "; in the trunk {found} of {all} kinds are found from outside ({})", percent(found, all));
+        put!(line, "{}", sentences::in_the_trunk_of_kinds_are_found(&found, &all, &percent(found, all)));
     }
     if *formulas != Share::default() {
         put!(line, "\nformulas: {}", of_share(formulas, "mistakes"));
@@ -61,9 +60,7 @@ fn headline(tally: &Tally) -> String {
 fn of_share(share: &Share, what: &str) -> String {
     let Share { inconclusive, escaped, equivalent, .. } = share;
     let ([found, real], part) = ([share.found(), share.real()], percent(share.found(), share.real()));
-    format!(
-        "{found} of {real} {what} found ({part}), {inconclusive} inconclusive, {escaped} escaped; {equivalent} change nothing"
-    )
+    sentences::of_found_inconclusive_escaped_change(&found, &real, &what, &part, &inconclusive, &escaped, &equivalent)
 }
 
 fn percent(part: usize, whole: usize) -> String {
@@ -155,16 +152,14 @@ fn not_found(found: &[Mutated]) -> Vec<String> {
         for mutant in &one.mutants {
             let why = match &mutant.outcome {
                 Outcome::Inconclusive(reason) => format!("inconclusive: {reason}"),
-                Outcome::Escaped => "every comparison agrees".into(),
+                Outcome::Escaped => sentences::EVERY_COMPARISON_AGREES.into(),
                 Outcome::Detected { .. } | Outcome::Refused(_) | Outcome::Equivalent(_) => continue,
             };
             if mutant.party != Party::All {
                 let change = mutant.effect.map_or(String::new(), |change| format!(" (changes {change:.1e})"));
                 let (scenario, kind) = (&one.scenario, mutant.kind.name);
                 let party = match &mutant.formula {
-                    Some(Spoiled { formula, right, wrong }) => {
-                        format!("the formula {formula}, `{wrong}` for `{right}`")
-                    }
+                    Some(Spoiled { formula, right, wrong }) => sentences::the_formula_for(&formula, &wrong, &right),
                     None => mutant.party.name().into(),
                 };
                 lines.push(format!("{scenario}: {kind} in {party}{change}: {why}"));
@@ -176,7 +171,7 @@ fn not_found(found: &[Mutated]) -> Vec<String> {
 
 /// What is not found, below a title: faults in one party, kinds in the trunk.
 fn lists(found: &[Mutated], tally: &Tally) -> [(&'static str, Vec<String>); 2] {
-    [("Not found in one party:", not_found(found)), ("Open in the trunk:", open(tally))]
+    [(sentences::NOT_FOUND_IN_ONE_PARTY, not_found(found)), (sentences::OPEN_IN_THE_TRUNK, open(tally))]
 }
 
 /// Kinds in the trunk that nothing from outside finds in any scenario.

@@ -1,5 +1,6 @@
 //! How far a mechanism can be followed: limits, singular and extreme positions, transmission angles.
 
+use crate::sentences;
 use std::f64::consts::TAU;
 
 use serde_json::{Value, json};
@@ -21,13 +22,10 @@ pub(crate) fn text(scenario: &Scenario, range: &Range) -> String {
     if let Some(four_bar) = &range.four_bar {
         let [frame, driver, coupler, output] = four_bar.lengths;
         say!(text, "four-bar   {}", four_bar.of_type.name());
-        say!(
-            text,
-            "           frame {frame:.6} m, driving link {driver:.6} m, coupler {coupler:.6} m, output link {output:.6} m"
-        );
+        say!(text, "{}", sentences::frame_driving_link_coupler_output(&frame, &driver, &coupler, &output));
     }
     say!(text, "\n{}", singularities(scenario, range));
-    say!(text, "Groups, nearest to a singular pose:\n{}", groups(scenario, range));
+    say!(text, "{}", sentences::groups_nearest_to_a_singular(&groups(scenario, range)));
     say!(text, "\nLinks:\n{}", links(scenario, range));
     text
 }
@@ -35,11 +33,11 @@ pub(crate) fn text(scenario: &Scenario, range: &Range) -> String {
 fn extent(range: &Range) -> String {
     match range.extent {
         Extent::FullTurn(1) => "turns fully".into(),
-        Extent::FullTurn(turns) => format!("turns fully; the mechanism is back at its first pose after {turns} turns"),
+        Extent::FullTurn(turns) => sentences::turns_fully_the_mechanism_is_back(&turns),
         Extent::Limited([from, to]) => {
             let span = numbers::fixed((to.crank - from.crank).to_degrees(), 6);
             let [from, to] = [from, to].map(|end| degrees(end.crank, range));
-            format!("from {from} to {to} deg, {span} deg in all")
+            sentences::from_to_deg_deg_in_all(&from, &to, &span)
         }
     }
 }
@@ -68,7 +66,7 @@ fn transmission(scenario: &Scenario, group: GroupId, determinant: f64) -> Option
 
 fn singularities(scenario: &Scenario, range: &Range) -> String {
     if range.singularities.is_empty() {
-        return "No singular pose on the way.\n".into();
+        return sentences::NO_SINGULAR_POSE_ON_THE_WAY.into();
     }
     let rows = range.singularities.iter().map(|Singularity { kind, crank, group, determinant }| {
         let (crank, determinant) = (degrees(*crank, range), numbers::significant(*determinant, 2));
@@ -108,10 +106,10 @@ fn links(scenario: &Scenario, range: &Range) -> String {
 fn motion(link: &LinkRange) -> String {
     let swing = (link.angles[1].value - link.angles[0].value).to_degrees();
     match link.turns {
-        0 if swing < 1e-9 => "does not turn".into(),
-        0 => format!("over {swing:.6} deg"),
+        0 if swing < 1e-9 => sentences::DOES_NOT_TURN.into(),
+        0 => sentences::over_deg(&swing),
         1 | -1 => "turns fully".into(),
-        turns => format!("turns fully, {} times", turns.abs()),
+        turns => sentences::turns_fully_times(&turns.abs()),
     }
 }
 
@@ -121,7 +119,7 @@ fn positions(extremes: &[Extreme], range: &Range) -> String {
         format!("{} ({word}, {})", numbers::fixed(extreme.angle.to_degrees(), 6), degrees(extreme.crank, range))
     };
     let more = extremes.len().saturating_sub(EXTREMES);
-    let more = (more > 0).then(|| format!("and {more} more"));
+    let more = (more > 0).then(|| sentences::and_more(&more));
     extremes.iter().take(EXTREMES).map(one).chain(more).collect::<Vec<_>>().join("\n")
 }
 
@@ -146,8 +144,7 @@ pub(super) fn json(scenario: &Scenario, range: &Range) -> Value {
             "largest_condition": group.condition.as_ref().map(|worst| at(worst, "condition")),
         });
         if group.condition.is_none() {
-            value["largest_condition_absent"] =
-                "the group is singular at a limit: the condition number has no bound".into();
+            value["largest_condition_absent"] = sentences::THE_GROUP_IS_SINGULAR_AT_A_LIMIT.into();
         }
         value
     });

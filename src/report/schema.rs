@@ -1,5 +1,6 @@
 //! The format of scenario files as a JSON Schema, for editors of TOML.
 
+use crate::sentences;
 use serde_json::{Map, Value, json};
 
 use super::pretty::pretty;
@@ -11,7 +12,7 @@ pub fn scenario() -> String {
     let mut schema = object("");
     let head = schema.as_object_mut().expect("a section is an object");
     head.insert("$schema".into(), json!("http://json-schema.org/draft-07/schema#"));
-    head.insert("title".into(), json!("Scenario of linkproof"));
+    head.insert("title".into(), json!(sentences::SCENARIO_OF_LINKPROOF));
     pretty(&schema)
 }
 

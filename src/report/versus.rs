@@ -1,5 +1,6 @@
 //! Comparisons of two parties as text and JSON.
 
+use crate::sentences;
 use std::path::Path;
 
 use serde_json::json;
@@ -52,7 +53,11 @@ fn of_pair(pair: &Pair, all: bool, tell: Tell, width: usize) -> String {
     let more = order.len() - shown;
     if more > 0 {
         let is_fine = order[shown..].iter().all(|own| rank(own) <= 1.0);
-        put!(told, "\nand {more} more{}", if is_fine { ", all within their bounds" } else { "" });
+        put!(
+            told,
+            "{}",
+            sentences::and_more_6(&more, &(if is_fine { sentences::ALL_WITHIN_THEIR_BOUNDS } else { "" }))
+        );
     }
     told += &notes(pair);
     say!(text, "\n{told}");
@@ -94,9 +99,7 @@ fn row(own: &Compared, by_crank: bool) -> [String; 7] {
     [own.claim.text.clone(), at, first, second, difference, bound, word.into()]
 }
 
-const SIMULATION: &str = "The rest is off by less than a fiftieth of its scale, as by the error of a method or of its \
-                          step. Bounds are what digits and the analytic sides leave open: say what the other party is \
-                          trusted to.";
+const SIMULATION: &str = sentences::THE_REST_IS_OFF_BY_LESS_THAN_A_FIFTIETH;
 
 /// Whether a channel is off by as little as a simulation is wrong, and no cause was found.
 fn looks_like_a_simulation(pair: &Pair, own: &Compared) -> bool {
@@ -117,16 +120,16 @@ fn sentence(paths: [&Path; 2], pair: &Pair) -> String {
     let [agree, _, disagree, open] = counts(pair.channels.iter().map(|own| &own.verdict));
     let all = pair.channels.len();
     let told = match (disagree, open, pair.crank_is_off()) {
-        (0, 0, false) => format!("all {agree} channels"),
-        (0, 0, true) => format!("the crank angle, and none of {all} channels"),
-        (0, open, false) => format!("{open} of {all} channels"),
-        (disagree, _, true) => format!("the crank angle, and {disagree} of {all} channels"),
-        (disagree, _, false) => format!("{disagree} of {all} channels"),
+        (0, 0, false) => sentences::all_channels(&agree),
+        (0, 0, true) => sentences::the_crank_angle_and_none(&all),
+        (0, open, false) => sentences::of_channels_2(&open, &all),
+        (disagree, _, true) => sentences::the_crank_angle_and_of_channels(&disagree, &all),
+        (disagree, _, false) => sentences::of_channels(&disagree, &all),
     };
     let by = counted(pair.instants - pair.unshared, if pair.by_crank { "crank angle" } else { "time" });
     let values = match pair.values() {
         [judged, of] if judged == of => counted(judged, "value"),
-        [judged, of] => format!("{judged} of {of} values"),
+        [judged, of] => sentences::of_values(&judged, &of),
     };
     format!("{}: {told} at {by}, {values}: {}", style::verdict(&pair.verdict()), who(paths, pair))
 }
@@ -145,12 +148,12 @@ fn rank(own: &Compared) -> f64 {
 fn notes(pair: &Pair) -> String {
     let mut text = String::new();
     if pair.unshared > 0 {
-        put!(text, "\nleft out: {} instants of the second that the first does not have", pair.unshared);
+        put!(text, "{}", sentences::left_out_instants_of_the_second(&pair.unshared));
     }
     let missing: usize = pair.channels.iter().map(|own| own.missing).max().unwrap_or(0);
     if missing > pair.unshared {
         let count = missing - pair.unshared;
-        put!(text, "\nleft out: up to {count} instants of a channel at which nothing was measured");
+        put!(text, "{}", sentences::left_out_up_to_instants_of_a_channel(&count));
     }
     let (what, factor, unit) = if pair.by_crank { ("angle", 1f64.to_degrees(), "deg") } else { ("time", 1.0, "s") };
     if let Some(Contradiction { rows: [one, other], at, channel, values }) = &pair.contradiction {
@@ -158,19 +161,26 @@ fn notes(pair: &Pair) -> String {
         let [first, second] = numbers::beside(*values, 0.0);
         put!(
             text,
-            "\nrows {} and {} hold at the same {what}, {at} {unit}, and contradict each other: {channel} is {first} and \
-             {second}",
-            one + 1,
-            other + 1
+            "{}",
+            sentences::rows_and_hold_at_the_same(
+                &(one + 1),
+                &(other + 1),
+                &what,
+                &at,
+                &unit,
+                &channel,
+                &first,
+                &second
+            )
         );
     }
     if let Some((row, [from, to])) = pair.turns_back {
         let [from, to] = [from, to].map(|at| numbers::significant(factor * at, 6));
-        put!(text, "\nthe {what} jumps back in row {}, from {from} to {to} {unit}: has it begun anew?", row + 1);
+        put!(text, "{}", sentences::the_jumps_back_in_row_from_to_has_it_begun(&what, &(row + 1), &from, &to, &unit));
     }
     for (side, which) in ["first", "second"].into_iter().enumerate() {
         if !pair.alone[side].is_empty() {
-            put!(text, "\nonly in the {which}: {}", some(&pair.alone[side], NAMED));
+            put!(text, "{}", sentences::only_in_the(&which, &some(&pair.alone[side], NAMED)));
         }
     }
     text
@@ -184,7 +194,7 @@ fn cause(pair: &Pair, explained: &Explained, width: usize) -> String {
     };
     if let Some(since) = pair.since(of) {
         let [time, crank] = [numbers::fixed(since.time, 6), numbers::fixed(since.crank.to_degrees(), 3)];
-        line("since", &format!("t = {time} s, crank angle {crank} deg"));
+        line("since", &sentences::crank_angle_deg(&time, &crank));
     }
     let Some(cause) = cause_of(explained) else {
         line("cause", "nothing simple");
@@ -193,19 +203,19 @@ fn cause(pair: &Pair, explained: &Explained, width: usize) -> String {
         }
         return text;
     };
-    let most = if *left > 0.0 { "for the most part, " } else { "" };
+    let most = if *left > 0.0 { sentences::FOR_THE_MOST_PART_2 } else { "" };
     line("cause", &format!("{most}{cause}"));
     for one in found.also.iter().filter(|_| explained.terms.is_empty()) {
-        line("or", &format!("{}, which explains as much", diagnosis::cause(one)));
+        line("or", &sentences::which_explains_as_much_2(&diagnosis::cause(one)));
     }
-    let but = explained.but.map_or(String::new(), |time| {
-        format!(", but for the row at t = {} s, which is off by itself", numbers::fixed(time, 6))
-    });
+    let but = explained
+        .but
+        .map_or(String::new(), |time| sentences::but_for_the_row_at_which_is_off(&numbers::fixed(time, 6)));
     line(
         "left",
         &match *left {
-            0.0 => format!("nothing beyond the bounds{but}"),
-            left => format!("at most {} of the difference{but}", numbers::percent(left)),
+            0.0 => sentences::nothing_beyond_the_bounds(&but),
+            left => sentences::at_most_of_the_difference(&numbers::percent(left), &but),
         },
     );
     text

@@ -5,6 +5,7 @@ use crate::assur::transfer::TransferSide;
 use crate::motion::free;
 use crate::motion::march::{NARROWER, TIGHTER};
 use crate::reduced::{ACCURACY, End, Model, run_up};
+use crate::sentences;
 use linkage::case::Case;
 use linkage::drive::Load;
 use linkage::error::{Error, ErrorKind, Result};
@@ -109,11 +110,11 @@ fn free_motion(case: &Case, accuracy: f64, visit: Visit, progress: Progress) -> 
 /// The error of a motion that ends before the grid does.
 fn ended(case: &Case, end: End) -> Error {
     let (what, t, crank) = match end {
-        End::Held(t, crank) => ("loads hold the mechanism", t, crank),
-        End::Limit(t, crank) => ("the crank comes to a limit of its rotation", t, crank),
-        End::Reached => ("the motion ends", 0.0, 0.0),
+        End::Held(t, crank) => (sentences::LOADS_HOLD_THE_MECHANISM, t, crank),
+        End::Limit(t, crank) => (sentences::THE_CRANK_COMES_TO_A_LIMIT, t, crank),
+        End::Reached => (sentences::THE_MOTION_ENDS, 0.0, 0.0),
     };
     let at = case.told(crank);
     let error = Error::new(ErrorKind::Numeric, format!("{what} at t = {t:.6} s, {at}")).at_time(t).at_input(at);
-    error.help("let the grid end before, or give the motor more torque")
+    error.help(sentences::LET_THE_GRID_END_BEFORE_OR_GIVE)
 }

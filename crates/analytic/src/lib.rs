@@ -9,6 +9,7 @@ pub mod motion;
 pub mod newton;
 pub mod range;
 pub mod reduced;
+mod sentences;
 pub mod steady;
 pub mod witness;
 

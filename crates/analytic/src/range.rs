@@ -15,6 +15,7 @@ mod measure;
 mod singularity;
 mod tracking;
 
+use crate::sentences;
 pub use extremes::{Extreme, LinkRange};
 pub use grashof::{FourBar, FourBarType};
 pub use measure::Measure;
@@ -133,10 +134,10 @@ pub fn explained(case: &Case, error: Error) -> Error {
     }
     let (reached, is_too_much) = limited(ASIDE, || reachable(case));
     let reached = match reached {
-        Ok(Extent::Limited(limits)) => format!("; crank angles can be reached {}", interval(limits)),
+        Ok(Extent::Limited(limits)) => sentences::crank_angles_can_be_reached(&interval(limits)),
         Ok(Extent::FullTurn(_)) => String::new(),
         Err(why) if why.kind() == ErrorKind::Geometry => format!("; {}", why.message()),
-        Err(why) if is_too_much => format!("; which crank angles can be reached is not known: {}", why.message()),
+        Err(why) if is_too_much => sentences::which_crank_angles_can_be_reached(&why.message()),
         Err(_) => String::new(),
     };
     error.map_message(|message| format!("{message}{reached}")).explained()
@@ -147,7 +148,7 @@ fn interval([from, to]: [Singularity; 2]) -> String {
     // An angle within 1e-9 deg of a printed number counts as that number.
     let from = (from.crank.to_degrees() * 1e6 - 1e-3).ceil() / 1e6 + 0.0;
     let to = (to.crank.to_degrees() * 1e6 + 1e-3).floor() / 1e6 + 0.0;
-    format!("from {from:.6} to {to:.6} deg on this branch")
+    sentences::from_to_deg_on_this_branch(&from, &to)
 }
 
 /// Whether two configurations of a group coincide in this pose to rounding, so that velocities are not determined.

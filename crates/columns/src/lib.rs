@@ -14,6 +14,7 @@ mod constant;
 mod instants;
 mod judge;
 mod records;
+mod sentences;
 mod text;
 
 pub use cell::{Cell, MISSING, UNDEFINED, is_missing, numbers};

@@ -1,6 +1,7 @@
 //! Text with separated columns, as programs write it: with commas, semicolons, tabs or blanks, with or without a
 //! header, with lines of comment.
 
+use crate::sentences;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::fmt;
@@ -35,8 +36,8 @@ impl Table {
     #[must_use]
     pub fn place(&self, row: usize) -> String {
         match self.lines.get(row) {
-            Some(line) => format!("line {line} of the table"),
-            None => format!("row {} of the table", row + 1),
+            Some(line) => sentences::line_of_the_table(&line),
+            None => sentences::row_of_the_table(&(row + 1)),
         }
     }
 
@@ -69,7 +70,7 @@ pub struct Twice {
 
 impl Twice {
     /// The way out.
-    pub const HELP: &str = "give every column a name of its own, or take one of the two out";
+    pub const HELP: &str = sentences::GIVE_EVERY_COLUMN_A_NAME;
 
     /// The first name that stands twice. Columns without a name are nobody's: nothing can ask for them.
     pub fn of<T: AsRef<str>>(names: impl IntoIterator<Item = T>) -> Option<Twice> {
@@ -90,7 +91,7 @@ impl Twice {
 impl fmt::Display for Twice {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let [first, second] = self.columns;
-        write!(f, "the columns {first} and {second} of the table are both called \"{}\"", self.name)
+        write!(f, "{}", sentences::the_columns_and_of_the_table(&first, &second, &self.name))
     }
 }
 
@@ -114,7 +115,7 @@ pub fn read(text: &str) -> Result<Table, Fault> {
         lines(text).last().and_then(|(_, line)| ['\t', ';', ','].into_iter().find(|sign| line.trim().contains(*sign)));
     let mut rows = lines(text).peekable();
     let Some(&(header_at, first)) = rows.peek() else {
-        return Err(wrong(0, "the table is empty".into(), "give a table with a header and one row per instant"));
+        return Err(wrong(0, sentences::THE_TABLE_IS_EMPTY.into(), sentences::GIVE_A_TABLE_WITH_A_HEADER));
     };
     let mut first_cells = Vec::new();
     divide(first, separator, &mut |cell| first_cells.push(cell.trim().to_string()));
@@ -144,12 +145,12 @@ pub fn read(text: &str) -> Result<Table, Fault> {
             count += 1;
         });
         if count != names.len() {
-            let message = format!("the row has {count} cells, but the first line has {}", names.len());
-            return Err(wrong(start, message, "give every row as many cells as the header"));
+            let message = sentences::the_row_has_cells_but_the_first(&count, &names.len());
+            return Err(wrong(start, message, sentences::GIVE_EVERY_ROW_AS_MANY_CELLS));
         }
         if let Some((column, cell)) = fault {
-            let message = format!("in the column \"{}\" stands \"{cell}\", which is no number", names[column]);
-            let help = "write decimals with a point; leave a cell empty where nothing was measured";
+            let message = sentences::in_the_column_stands_which_is_no_number(&names[column], &cell);
+            let help = sentences::WRITE_DECIMALS_WITH_A_POINT;
             return Err(wrong(start, message, help));
         }
     }

@@ -8,6 +8,7 @@ mod swept;
 mod tests;
 mod tube;
 
+use crate::sentences;
 pub use search::{Meeting, Smallest};
 pub use swept::Area;
 
@@ -208,9 +209,9 @@ fn cranks(case: &Case) -> Result<Vec<f64>> {
         return Ok(case.grid.inputs.clone());
     }
     if !case.drives.further().is_empty() {
-        let message = "clearance is looked for over crank angles, but forces decide several freedoms of the motion";
+        let message = sentences::CLEARANCE_IS_LOOKED_FOR_OVER;
         let error = Error::new(ErrorKind::Unsupported, message);
-        return Err(error.help("prescribe the drives, or let no more than one link move freely"));
+        return Err(error.help(sentences::PRESCRIBE_THE_DRIVES_OR_LET));
     }
     Ok(AssurSolver.solve(&case.wanting(Wanted::of(&[Stage::Positions])))?.inputs().to_vec())
 }

@@ -5,6 +5,7 @@
 //! Courses of machine design choose in this way.
 //! It is conservative, because inertia carries the crank over peaks.
 
+use crate::sentences;
 use analytic::AssurSolver;
 use analytic::reduced::means::{self, means_over_turn};
 use analytic::reduced::{ACCURACY, Model};
@@ -91,8 +92,8 @@ impl Choice {
     /// Those of [`Model::of`] and of its extremes.
     pub fn of(case: &Case, catalogue: &[CatalogueMotor], efficiency: f64) -> Result<Self> {
         if !(efficiency > 0.0 && efficiency <= 1.0) {
-            return Err(Error::new(ErrorKind::Input, format!("the efficiency is {efficiency}"))
-                .help("give a share above 0 and at most 1: 0.92 for 92 %"));
+            return Err(Error::new(ErrorKind::Input, sentences::the_efficiency_is(&efficiency))
+                .help(sentences::GIVE_A_SHARE_ABOVE_AND_AT_MOST));
         }
         let model = Model::of(case)?;
         let [_, resistance] = model.extremes()?;
@@ -101,19 +102,14 @@ impl Choice {
         let wanted = omega.abs();
         let power = resistance.greatest.1 * wanted;
         if !(power > 0.0) {
-            let message =
-                format!("the greatest moment of resistance is {:.6} N m: nothing needs a motor", resistance.greatest.1);
-            return Err(Error::new(ErrorKind::Numeric, message)
-                .help("give the scenario the loads that the drive works against"));
+            let message = sentences::the_greatest_moment_of_resistance(&resistance.greatest.1);
+            return Err(Error::new(ErrorKind::Numeric, message).help(sentences::GIVE_THE_SCENARIO_THE_LOADS));
         }
         let asked = power / efficiency;
         let Some(motor) = weakest_sufficient(catalogue, asked) else {
             let strongest = catalogue.iter().map(|motor| motor.power).fold(0.0, f64::larger);
-            let message =
-                format!("the drive asks for {:.4} kW, the strongest motor has {:.4} kW", asked / 1e3, strongest / 1e3);
-            return Err(Error::new(ErrorKind::Input, message).help(
-                "give a catalogue with stronger motors, or lower the peak: a flywheel on the crank carries over it",
-            ));
+            let message = sentences::the_drive_asks_for_kw_the_strongest(&(asked / 1e3), &(strongest / 1e3));
+            return Err(Error::new(ErrorKind::Input, message).help(sentences::GIVE_A_CATALOGUE_WITH_STRONGER));
         };
         let geared = motor.geared_to(wanted, efficiency);
         let Some(averaged) = geared.steady_speed(mean) else { return Err(means::no_steady_speed(mean)) };

@@ -3,6 +3,7 @@
 
 mod timing;
 
+use crate::sentences;
 pub use timing::{Phase, Sense, Timing};
 
 use linkage::case::Case;
@@ -145,23 +146,23 @@ impl Task {
             Err(Error::new(kind, message).key(key).help(help))
         };
         if !self.case.drives.further().is_empty() {
-            let message = "the mechanism has several drives, but a timing belongs to one crank";
-            return wrong(ErrorKind::Unsupported, "scenario", message, "take a scenario with one `[drive]`");
+            let message = sentences::THE_MECHANISM_HAS_SEVERAL_DRIVES;
+            return wrong(ErrorKind::Unsupported, "scenario", message, sentences::TAKE_A_SCENARIO_WITH_ONE_DRIVE);
         }
         if self.variables.is_empty() {
-            let help = "add a table `[[vary]]` for each length or pivot to be found";
-            return wrong(ErrorKind::Input, "vary", "nothing may vary", help);
+            let help = sentences::ADD_A_TABLE_VARY_FOR_EACH;
+            return wrong(ErrorKind::Input, "vary", sentences::NOTHING_MAY_VARY, help);
         }
         let higher = self.case.structure.groups.iter().any(|group| group.kind == GroupKind::Higher);
         if higher && self.transmission > 0.0 {
-            let message = "a smallest transmission angle is asked for, but higher groups have none";
-            return wrong(ErrorKind::Unsupported, "limits", message, "leave `transmission` out");
+            let message = sentences::A_SMALLEST_TRANSMISSION_ANGLE_IS_ASKED;
+            return wrong(ErrorKind::Unsupported, "limits", message, sentences::LEAVE_TRANSMISSION_OUT);
         }
         let effort = &self.effort;
         let counts = [effort.candidates, effort.refined, effort.evaluations];
         if counts.iter().any(|count| !(1..=MOST).contains(count)) || effort.refined > effort.candidates {
-            let help = "give counts of 1 or more, and no more refinements than candidates";
-            let message = "the search has no candidates, no refinements or no evaluations";
+            let help = sentences::GIVE_COUNTS_OF_OR_MORE_AND_NO_MORE;
+            let message = sentences::THE_SEARCH_HAS_NO_CANDIDATES;
             return wrong(ErrorKind::Input, "search", message, help);
         }
         Ok(())

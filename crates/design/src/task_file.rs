@@ -1,6 +1,7 @@
 //! Synthesis files: the dimensions of a drawing that may vary, and the wanted motion of its output. docs/synthesis.md
 //! describes the format.
 
+use crate::sentences;
 use std::path::Path;
 
 use crate::task::{Effort, Entry, Output, Phase, Place, Sense, Task, Timing, Variable};
@@ -35,8 +36,8 @@ impl TaskFile {
     /// [`Scenario::load`] and [`Task::check`].
     pub fn load(path: &Path) -> Result<Self> {
         let text = files::read_text(path).map_err(|error| {
-            Error::new(ErrorKind::Io, format!("the synthesis file {} cannot be read: {error}", path.display()))
-                .help(files::way_out(&error, "give the path of a synthesis file, such as sinker_task.toml"))
+            Error::new(ErrorKind::Io, sentences::the_synthesis_file_cannot_be_read(&path.display(), &error))
+                .help(files::way_out(&error, sentences::GIVE_THE_PATH_OF_A_SYNTHESIS))
         })?;
         let source = Source::new(path, &text);
         let tree = source.tree()?;
@@ -60,8 +61,7 @@ fn read(root: &mut Table) -> Result<TaskFile> {
         if error.place().is_some() {
             error
         } else {
-            root.wrong(error.kind(), "scenario", error.message())
-                .help("name the scenario file of the drawing, beside this file")
+            root.wrong(error.kind(), "scenario", error.message()).help(sentences::NAME_THE_SCENARIO_FILE_OF_THE_DRAWING)
         }
     })?;
     let mechanism = &drawing.case.mechanism;
@@ -111,7 +111,7 @@ fn timing(tables: Vec<Table>) -> Result<Timing> {
         let word = table.string("sense")?;
         let all = [Sense::Dwell, Sense::Forward, Sense::Back];
         let Some(&sense) = all.iter().find(|sense| sense.name() == word) else {
-            let error = table.wrong(ErrorKind::Input, "sense", format!("\"{word}\" is no sense of a phase"));
+            let error = table.wrong(ErrorKind::Input, "sense", sentences::is_no_sense_of_a_phase(&word));
             return Err(error.help(suggestion(&word, all.map(Sense::name), "\"")));
         };
         let (level, least) = (table.optional_number("level")?, table.optional_number("least")?.unwrap_or(LEAST));
@@ -136,7 +136,7 @@ fn read_output(mut table: Table, mechanism: &Mechanism) -> Result<(Output, Optio
         Some("positive") => Some(1.0),
         Some("negative") => Some(-1.0),
         Some(other) => {
-            let error = table.wrong(ErrorKind::Input, "forward", format!("\"{other}\" is no sense of an output"));
+            let error = table.wrong(ErrorKind::Input, "forward", sentences::is_no_sense_of_an_output(&other));
             return Err(error.help(suggestion(other, ["positive", "negative"], "\"")));
         }
     };
@@ -145,8 +145,8 @@ fn read_output(mut table: Table, mechanism: &Mechanism) -> Result<(Output, Optio
         (Some(name), None) => {
             let link = link(&mut table, &name, mechanism.links())?;
             if link == GROUND {
-                let error = table.wrong(ErrorKind::Input, "link", "the ground does not turn");
-                return Err(error.help("name the moving link whose angle is watched"));
+                let error = table.wrong(ErrorKind::Input, "link", sentences::THE_GROUND_DOES_NOT_TURN);
+                return Err(error.help(sentences::NAME_THE_MOVING_LINK_WHOSE));
             }
             Output::Angle { link }
         }
@@ -157,15 +157,14 @@ fn read_output(mut table: Table, mechanism: &Mechanism) -> Result<(Output, Optio
                 .find_map(|(link, body)| Some((link, body.points.iter().position(|point| point.name == name)?)));
             let Some((link, point)) = found else {
                 let names = moving().flat_map(|(_, body)| body.points.iter().map(|point| point.name.as_str()));
-                let error = table.wrong(ErrorKind::Input, "point", format!("no moving link has a point \"{name}\""));
+                let error = table.wrong(ErrorKind::Input, "point", sentences::no_moving_link_has_a_point(&name));
                 return Err(error.help(suggestion(&name, names, "\"")));
             };
             Output::Coordinate { link, point, along }
         }
         _ => {
-            let help =
-                "write `link = \"lever\"` for its angle, or `point = \"F\"` and `along_deg = 90` for a coordinate";
-            return Err(table.fault("an output is one link or one point").help(help));
+            let help = sentences::WRITE_LINK_LEVER_FOR_ITS_ANGLE;
+            return Err(table.fault(sentences::AN_OUTPUT_IS_ONE_LINK_OR_ONE_POINT).help(help));
         }
     };
     table.finish()?;
@@ -177,11 +176,8 @@ fn read_limits(table: Option<Table>, family: &'static Family) -> Result<([f64; 2
     let Some(mut table) = table else { return Ok(([0.0, f64::INFINITY], 0.0)) };
     let transmission = table.optional_quantity("transmission", &ANGLE, Sign::NotNegative)?.unwrap_or(0.0);
     if transmission >= std::f64::consts::FRAC_PI_2 {
-        let message =
-            format!("a transmission angle of {:.6} deg cannot be kept over a turn", transmission.to_degrees());
-        return Err(table
-            .wrong(ErrorKind::Input, "transmission", message)
-            .help("give less than 90 deg; 30 to 45 deg are usual"));
+        let message = sentences::a_transmission_angle_of_deg(&transmission.to_degrees());
+        return Err(table.wrong(ErrorKind::Input, "transmission", message).help(sentences::GIVE_LESS_THAN_DEG_TO_DEG));
     }
     let stroke = match table.optional_table("stroke")? {
         None => [0.0, f64::INFINITY],
@@ -200,8 +196,8 @@ fn read_effort(mut table: Table) -> Result<Effort> {
         let found = table.optional_integer(key)?.unwrap_or(default);
         u64::try_from(found).map_err(|_| {
             table
-                .wrong(ErrorKind::Input, key, format!("found {found}, but a count is not negative"))
-                .help("give a whole number from 0 on")
+                .wrong(ErrorKind::Input, key, sentences::found_but_a_count_is_not_negative(&found))
+                .help(sentences::GIVE_A_WHOLE_NUMBER_FROM_ON)
         })
     };
     let seed = count("seed", 1)?;
@@ -216,8 +212,8 @@ fn read_effort(mut table: Table) -> Result<Effort> {
 fn bounds(table: &mut Table, family: &'static Family) -> Result<[f64; 2]> {
     let (from, to) = (table.quantity("from", family, Sign::Any)?, table.quantity("to", family, Sign::Any)?);
     if !(from <= to) {
-        let error = table.fault("the greatest value is below the least one");
-        return Err(error.help("let `from` be the smaller of the two"));
+        let error = table.fault(sentences::THE_GREATEST_VALUE_IS_BELOW);
+        return Err(error.help(sentences::LET_FROM_BE_THE_SMALLER_OF_THE_TWO));
     }
     Ok([from, to])
 }
@@ -235,22 +231,18 @@ fn place(mut table: Table, mechanism: &Mechanism, variables: &mut Vec<Variable>,
     let names = || points.iter().map(|point| point.name.as_str());
     let index = |table: &Table, key: &str, name: &str| {
         points.iter().position(|point| point.name == name).ok_or_else(|| {
-            let error = table.wrong(ErrorKind::Input, key, format!("link \"{link_name}\" has no point \"{name}\""));
+            let error = table.wrong(ErrorKind::Input, key, sentences::link_has_no_point(&link_name, &name));
             error.help(suggestion(name, names(), "\""))
         })
     };
     let point = index(&table, "point", &point_name)?;
     let Some(handle) = mechanism.handle(own, point) else {
-        let message = format!(
-            "point \"{point_name}\" of the drawing lies on another point of the link: its joints cannot be told apart"
-        );
-        return Err(table.wrong(ErrorKind::Input, "point", message).help("draw the two points in different places"));
+        let message = sentences::point_of_the_drawing_lies(&point_name);
+        return Err(table.wrong(ErrorKind::Input, "point", message).help(sentences::DRAW_THE_TWO_POINTS_IN_DIFFERENT));
     };
     if before.iter().any(|place| place.handle == handle) {
-        let message = "this point varies already";
-        return Err(table
-            .wrong(ErrorKind::Input, "point", message)
-            .help("put all that varies about a point into one table"));
+        let message = sentences::THIS_POINT_VARIES_ALREADY;
+        return Err(table.wrong(ErrorKind::Input, "point", message).help(sentences::PUT_ALL_THAT_VARIES_ABOUT));
     }
     let from = table.optional_string("from")?.map(|name| index(&table, "from", &name)).transpose()?;
     let drawn = points[point].local;
@@ -271,7 +263,7 @@ fn place(mut table: Table, mechanism: &Mechanism, variables: &mut Vec<Variable>,
     table.finish()?;
     if entries.iter().all(|entry| matches!(entry, Entry::Fixed(_))) {
         let help = format!("add `{0} = {{ from_mm = ..., to_mm = ... }}`", keys[0]);
-        return Err(table.fault("nothing about this point varies").help(help));
+        return Err(table.fault(sentences::NOTHING_ABOUT_THIS_POINT_VARIES).help(help));
     }
     Ok(Place { handle, from, entries })
 }

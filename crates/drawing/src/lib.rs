@@ -28,6 +28,7 @@ pub mod palette;
 pub mod paper;
 pub mod picture;
 mod pins;
+mod sentences;
 pub mod sheet;
 mod sign;
 mod sketch;

@@ -4,6 +4,7 @@
 //! the file. So a run that fails or is killed leaves an older file alone, and two runs to one path do not mix.
 
 mod seal;
+mod sentences;
 mod target;
 mod temporary;
 mod text;

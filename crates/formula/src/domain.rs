@@ -1,5 +1,6 @@
 //! Operations outside their domain, in words.
 
+use crate::sentences;
 use std::fmt::Write;
 
 use crate::rounded::Rounded;
@@ -52,29 +53,29 @@ pub(crate) fn undefined(tree: &Tree, arguments: &[Rounded]) -> Fault {
             }
             (call + ")", rule_of_function(*function))
         }
-        Shape::Name(name) => (format!("`{name}`"), "what it stands for has no value"),
+        Shape::Name(name) => (format!("`{name}`"), sentences::WHAT_IT_STANDS_FOR_HAS_NO_VALUE),
         Shape::Number(_) | Shape::Negative(_) => (tree.to_string(), EVERYWHERE),
     };
-    Fault::new(format!("{what} is undefined"), tree.at.clone(), rule)
+    Fault::new(sentences::is_undefined(&what), tree.at.clone(), rule)
 }
 
 /// What is defined for every number.
-const EVERYWHERE: &str = "its parts must have values";
+const EVERYWHERE: &str = sentences::ITS_PARTS_MUST_HAVE_VALUES;
 
 fn rule_of_operator(operator: Operator) -> &'static str {
     match operator {
-        Operator::Over => "a divisor must not be zero",
-        Operator::Power => "a negative base takes a whole exponent, and zero none below zero",
+        Operator::Over => sentences::A_DIVISOR_MUST_NOT_BE_ZERO,
+        Operator::Power => sentences::A_NEGATIVE_BASE_TAKES_A_WHOLE,
         Operator::Plus | Operator::Minus | Operator::Times => EVERYWHERE,
     }
 }
 
 fn rule_of_function(function: Function) -> &'static str {
     match function {
-        Function::Ln => "ln takes a positive number",
-        Function::Sqrt => "sqrt takes zero or a positive number",
-        Function::Asin | Function::Acos => "asin and acos take a number from -1 to 1",
-        Function::Atan2 => "atan2 takes two numbers of which one is not zero",
+        Function::Ln => sentences::LN_TAKES_A_POSITIVE_NUMBER,
+        Function::Sqrt => sentences::SQRT_TAKES_ZERO_OR_A_POSITIVE,
+        Function::Asin | Function::Acos => sentences::ASIN_AND_ACOS_TAKE_A_NUMBER,
+        Function::Atan2 => sentences::ATAN2_TAKES_TWO_NUMBERS_OF_WHICH_ONE_IS_NOT_ZERO,
         Function::Sin
         | Function::Cos
         | Function::Tan

@@ -1,5 +1,6 @@
 //! Formulas as a graph: what two of them share stands in it once.
 
+use crate::sentences;
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::domain::undefined;
@@ -207,8 +208,8 @@ impl Graph {
 
     fn named(&self, name: &str, tree: &Tree) -> Result<Id, Fault> {
         self.names.get(name).copied().ok_or_else(|| {
-            let help = format!("known are {}", self.names().join(", "));
-            Fault::new(format!("there is no `{name}`"), tree.at.clone(), help)
+            let help = sentences::known_are(&self.names().join(", "));
+            Fault::new(sentences::there_is_no(&name), tree.at.clone(), help)
         })
     }
 

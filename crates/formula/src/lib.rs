@@ -13,6 +13,7 @@ mod parse;
 mod products;
 mod program;
 mod rounded;
+mod sentences;
 mod sheet;
 #[cfg(test)]
 mod tests;

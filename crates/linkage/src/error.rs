@@ -4,6 +4,7 @@
 mod advice;
 mod several;
 
+use crate::sentences;
 pub use advice::{Advice, rounded_up};
 
 use std::fmt;
@@ -122,8 +123,8 @@ pub enum Reached {
 impl fmt::Display for Reached {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Reached::Time(t) => write!(f, "the run stands up to t = {t:.6} s"),
-            Reached::Input(at) => write!(f, "the run stands up to {at}"),
+            Reached::Time(t) => write!(f, "{}", sentences::the_run_stands_up_to_2(&t)),
+            Reached::Input(at) => write!(f, "{}", sentences::the_run_stands_up_to(&at)),
         }
     }
 }

@@ -10,6 +10,7 @@ pub mod pose;
 pub mod spanning_tree;
 pub mod structure;
 
+use crate::sentences;
 pub use assembly::{AssemblyMode, StartGroup, first_pose};
 pub use ids::{GroupId, Id, JointId, LinkId, Per, PerGroup, PerJoint, PerLink};
 pub use name::{LONGEST_NAME, is_sound_name, is_unseen};
@@ -172,16 +173,15 @@ impl Mechanism {
         let points = self.links.iter().flat_map(|link| &link.points).map(|point| &point.name);
         let names = self.links.iter().map(|link| &link.name).chain(self.joints.iter().map(|joint| &joint.name));
         if let Some(name) = names.chain(points).find(|name| !is_sound_name(name)) {
-            let message = format!("\"{}\" cannot be a name", name.chars().take(LONGEST_NAME).collect::<String>());
-            return Err(Error::new(ErrorKind::Input, message)
-                .help("names consist of letters, digits, `_`, `-` and `'`, 100 of them at most"));
+            let message = sentences::cannot_be_a_name(&(name.chars().take(LONGEST_NAME).collect::<String>()));
+            return Err(Error::new(ErrorKind::Input, message).help(sentences::NAMES_CONSIST_OF_LETTERS_DIGITS));
         }
         let mut taken = BTreeSet::new();
         for link in &self.links {
             if !taken.insert(&link.name) {
-                return Err(Error::new(ErrorKind::Input, format!("two links are called \"{}\"", link.name))
+                return Err(Error::new(ErrorKind::Input, sentences::two_links_are_called(&link.name))
                     .key(format!("links.{}", link.name))
-                    .help("give every link its own name (\"ground\" is taken)"));
+                    .help(sentences::GIVE_EVERY_LINK_ITS_OWN_NAME));
             }
         }
         let mut taken = BTreeSet::new();
@@ -190,17 +190,17 @@ impl Mechanism {
                 Err(Error::new(ErrorKind::Input, message).key(format!("joints.{}", joint.name)).help(help))
             };
             if !taken.insert(&joint.name) {
-                return wrong(format!("two joints are called \"{}\"", joint.name), "give every joint its own name");
+                return wrong(sentences::two_joints_are_called(&joint.name), sentences::GIVE_EVERY_JOINT_ITS_OWN);
             }
             if let Some(axes) = joint.kind.axes()
                 && !axes.iter().all(|axis| (axis.norm() - 1.0).abs() <= 1e-12)
             {
-                return wrong("its axis is no unit vector".into(), "give the axis by its angle");
+                return wrong(sentences::ITS_AXIS_IS_NO_UNIT_VECTOR.into(), sentences::GIVE_THE_AXIS_BY_ITS_ANGLE);
             }
             if joint.first.link == joint.second.link {
                 return wrong(
-                    format!("it joins \"{}\" with itself", self.links[joint.first.link].name),
-                    "name two different links",
+                    sentences::it_joins_with_itself(&self.links[joint.first.link].name),
+                    sentences::NAME_TWO_DIFFERENT_LINKS,
                 );
             }
         }
@@ -214,20 +214,19 @@ impl Mechanism {
                 let key = || format!("links.{}.points.{}", body.name, point.name);
                 let others = carriers.entry(&point.name).or_default();
                 if others.contains(&link) {
-                    return Err(Error::new(ErrorKind::Input, "the link has two points of this name").key(key()));
+                    return Err(
+                        Error::new(ErrorKind::Input, sentences::THE_LINK_HAS_TWO_POINTS_OF_THIS_NAME).key(key())
+                    );
                 }
                 if let Some(&other) = others.first()
                     && !self.held_together(&point.name, link, other)
                 {
                     return Err(Error::new(
                         ErrorKind::Input,
-                        format!(
-                            "links \"{}\" and \"{}\" both have a point \"{}\", but no joint holds the two together",
-                            self.links[other].name, body.name, point.name
-                        ),
+                        sentences::links_and_both_have_a_point(&self.links[other].name, &body.name, &point.name),
                     )
                     .key(key())
-                    .help("rename one of the points, or add the joint"));
+                    .help(sentences::RENAME_ONE_OF_THE_POINTS));
                 }
                 others.push(link);
             }
@@ -260,15 +259,15 @@ impl Mechanism {
 
 fn check_masses(link: &Link) -> Result<()> {
     let wrong = |message: String, help: &str| Err(Error::new(ErrorKind::Input, message).help(help));
-    for (what, value) in [("mass", link.mass), ("moment of inertia", link.inertia)] {
+    for (what, value) in [("mass", link.mass), (sentences::MOMENT_OF_INERTIA, link.inertia)] {
         if !(value >= 0.0 && value.is_finite()) {
-            return wrong(format!("the {what} is {value}"), "give a number that is zero or positive");
+            return wrong(sentences::the_is(&what, &value), sentences::GIVE_A_NUMBER_THAT_IS_ZERO);
         }
     }
     if link.mass == 0.0 && link.inertia > 0.0 {
         return wrong(
-            format!("the link has a moment of inertia ({} kg m^2) but no mass", link.inertia),
-            "give the mass too, or leave both out",
+            sentences::the_link_has_a_moment_of_inertia(&link.inertia),
+            sentences::GIVE_THE_MASS_TOO_OR_LEAVE,
         );
     }
     Ok(())

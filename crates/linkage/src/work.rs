@@ -3,6 +3,7 @@
 //! Whoever does the work counts it in a [`Tally`] of its own; whoever wants to know asks with [`counted`].
 //! Counts say what a run costs on any machine. They never enter a result.
 
+use crate::sentences;
 use std::cell::Cell;
 
 use crate::error::{Advice, Error, ErrorKind, Result};
@@ -158,7 +159,7 @@ pub fn spend(work: f64) -> Result<()> {
 
 #[cold]
 fn spent(allowed: f64) -> Error {
-    let message = format!("the work that is allowed here, {allowed:.1e} steps, is done before the motion is solved");
+    let message = sentences::the_work_that_is_allowed(&format_args!("{allowed:.1e}"));
     Error::new(ErrorKind::Unsupported, message).or_help(Advice::MoreWork { to: 10.0 * allowed })
 }
 

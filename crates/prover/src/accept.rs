@@ -1,6 +1,7 @@
 //! What is kept of a proof to judge later ones by, and what has moved since. Judged within the bounds of both, never by
 //! bytes.
 
+use crate::sentences;
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::compare::{Verdict, overall};
@@ -190,8 +191,8 @@ pub fn compared(accepted: &Accepted, found: &Accepted) -> Comparison {
     let is_open = !wider.is_empty() || !looser.is_empty() || proof.is_some() || found.channels.is_empty();
     let parts = [
         Verdict::Agree { margin: least_margin },
-        if is_other { Verdict::Disagree { place: "not as accepted".into() } } else { AGREE },
-        if is_open { Verdict::open("too little is known, now or when it was accepted") } else { AGREE },
+        if is_other { Verdict::Disagree { place: sentences::NOT_AS_ACCEPTED.into() } } else { AGREE },
+        if is_open { Verdict::open(sentences::TOO_LITTLE_IS_KNOWN_NOW_OR_WHEN) } else { AGREE },
     ];
     let verdict = overall(&parts);
     Comparison { channels: found.channels.len(), moved, wider, looser, new, gone, is_other_grid, proof, verdict }

@@ -35,6 +35,7 @@ mod settle;
 pub mod shifted;
 pub mod solved;
 
+use crate::sentences;
 pub use each_side::{EachSide, Reference};
 pub use engine_proof::{ChannelProof, End, EngineInfo, EngineProof, ForceFault, Search};
 pub use entrants::{Engines, Entrant, Sides, TRUE_SIDES};
@@ -185,7 +186,7 @@ fn joined(scenario: &Scenario, engine_case: &Case, options: &Options, progress: 
     let main = options.reference.solver();
     let engines = options.chosen(&scenario.engine, case)?;
     memory::check(case, memory::of_proof(case, engines.len()), options.memory)?;
-    memory::check_input("what [[oracle]] says", memory::of_oracles(&scenario.oracles), options.memory)?;
+    memory::check_input(sentences::WHAT_ORACLE_SAYS, memory::of_oracles(&scenario.oracles), options.memory)?;
     let mut ledger = Ledger::default();
     let budget = options.budget.unwrap_or(settle::BUDGET);
     let (sides, _) =
@@ -209,7 +210,7 @@ fn joined(scenario: &Scenario, engine_case: &Case, options: &Options, progress: 
             let (found, is_cut) =
                 limited(DIAGNOSIS * budget, || ledger.done("diagnosis", "something disagrees", examined));
             if is_cut {
-                ledger.skipped("rest of the diagnosis", "its share of the work that was allowed is done");
+                ledger.skipped(sentences::REST_OF_THE_DIAGNOSIS, sentences::ITS_SHARE_OF_THE_WORK_THAT_WAS_ALLOWED);
             }
             (found, is_cut)
         }

@@ -1,6 +1,7 @@
 //! Bounds and their justification.
 //! See docs/numerics/bounds.md.
 
+use crate::sentences;
 use std::fmt;
 
 /// How a bound, or the number compared with, is known.
@@ -154,30 +155,38 @@ impl fmt::Display for Basis {
             Basis::Truncation { observed, formal, resolution, safety, parts, noise } => {
                 let Parts { discretisation, iteration, rounding, reference } = parts;
                 let order = match observed.is_nan() {
-                    true => format!("below round-off, order {formal} assumed"),
-                    false => format!("observed order {observed:.2} (formal {formal})"),
+                    true => sentences::below_round_off_order_assumed(&formal),
+                    false => sentences::observed_order_formal(&observed, &formal),
                 };
                 write!(
                     f,
-                    "{}: truncation, {order} at resolutions {:e}, {resolution:e} and {:e}, safety factor {safety}; \
-                     discretisation {discretisation:.1e}, iteration {iteration:.1e}, rounding {rounding:.1e} ({}), reference {reference:.1e}",
-                    self.origin().word(),
-                    2.0 * resolution,
-                    resolution / 2.0,
-                    noise.word()
+                    "{}",
+                    sentences::truncation_at_resolutions_and_safety(
+                        &self.origin().word(),
+                        &order,
+                        &format_args!("{:e}", 2.0 * resolution),
+                        &format_args!("{resolution:e}"),
+                        &format_args!("{:e}", resolution / 2.0),
+                        &safety,
+                        &format_args!("{discretisation:.1e}"),
+                        &format_args!("{iteration:.1e}"),
+                        &format_args!("{rounding:.1e}"),
+                        &noise.word(),
+                        &format_args!("{reference:.1e}")
+                    )
                 )
             }
             Basis::Digits { origin, digits, source, instant } => {
-                write!(f, "{} with {digits} decimals: {source}", origin.word())?;
+                write!(f, "{}", sentences::with_decimals(&origin.word(), &digits, &source))?;
                 match *instant > 0.0 {
-                    true => write!(f, "; {instant:.1e} of the bound for the rounding of the instant"),
+                    true => write!(f, "{}", sentences::of_the_bound_for_the_rounding(&format_args!("{instant:.1e}"))),
                     false => Ok(()),
                 }
             }
             Basis::Formula { claimed } => {
-                let error = if *claimed { "the error that the formula claims, its" } else { "the formula's" };
+                let error = if *claimed { sentences::THE_ERROR_THAT_THE_FORMULA } else { "the formula's" };
                 let origin = self.origin().word();
-                write!(f, "{origin}: {error} rounding, passed through its operations, and what the side knows")
+                write!(f, "{}", sentences::rounding_passed_through_its_operations(&origin, &error))
             }
             Basis::Noted(basis, note) => write!(f, "{basis}; {note}"),
         }

@@ -13,6 +13,7 @@ mod judge;
 mod pair;
 mod scale;
 
+use crate::sentences;
 pub use allowed::How;
 pub use cause::Explained;
 pub use judge::{Compared, Row};
@@ -157,8 +158,8 @@ fn asked(all: Vec<(String, Trajectory)>, how: &How) -> Result<Vec<Side>> {
     };
     let asked: Vec<Side> = all.into_iter().filter(|(name, _)| is_asked(name)).map(held).collect();
     match (&how.side, asked.is_empty()) {
-        (Some(side), true) => Err(Error::new(ErrorKind::Input, format!("a recording has no side {side}"))
-            .help(format!("it has {}", choice(names.iter().map(String::as_str), "")))),
+        (Some(side), true) => Err(Error::new(ErrorKind::Input, sentences::a_recording_has_no_side(&side))
+            .help(sentences::it_has(&choice(names.iter().map(String::as_str), "")))),
         _ => Ok(asked),
     }
 }
@@ -174,8 +175,8 @@ fn paired<'a>(ones: &'a [Side], others: &'a [Side], names: &[String; 2]) -> Resu
         }
     };
     if pairs.is_empty() {
-        let message = format!("{} and {} have no side of the same name", names[0], names[1]);
-        return Err(Error::new(ErrorKind::Input, message).help("name a side that both have, such as reference"));
+        let message = sentences::and_have_no_side_of_the_same(&names[0], &names[1]);
+        return Err(Error::new(ErrorKind::Input, message).help(sentences::NAME_A_SIDE_THAT_BOTH_HAVE_SUCH_AS_REFERENCE));
     }
     Ok(pairs)
 }

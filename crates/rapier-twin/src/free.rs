@@ -5,6 +5,7 @@ use super::added::Added;
 use super::guard::Guard;
 use super::rapier::Precision;
 use super::window::Window;
+use crate::sentences;
 use linkage::case::Case;
 use linkage::drive::load::sense_of;
 use linkage::drive::{Branch, Drive, Load, Wrench};
@@ -54,7 +55,7 @@ impl Acting {
     pub(super) fn new(case: &Case, precision: Precision, worlds: &[Guard]) -> Result<Self> {
         if precision != Precision::Double {
             // Second differences of its positions are rounding and cannot take away what an added mass does.
-            check_inertias(case, "Rapier in single precision")?;
+            check_inertias(case, sentences::RAPIER_IN_SINGLE_PRECISION)?;
         }
         let links = case.mechanism.links().len();
         Ok(Acting {

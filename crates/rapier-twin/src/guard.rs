@@ -2,6 +2,7 @@
 //! a loop that opens, a link that turns too far in one step, NaN or infinity, or a panic inside the engine.
 //! See docs/numerics/twins.md.
 
+use crate::sentences;
 use std::fmt;
 
 use super::masses::{Loading, masses};
@@ -179,8 +180,7 @@ impl<'a> Guard<'a> {
             // Written so that NaN also stops the run.
             if !(turn <= LARGEST_TURN) {
                 let (name, degrees, place) = (&body.name, turn.to_degrees(), place(before));
-                let message =
-                    format!("the engine's link \"{name}\" has turned by {degrees:.1} deg in one step, {place}");
+                let message = sentences::the_engine_link_has_turned(&name, &degrees, &place);
                 return Err(place.failed(message).of_link(name).beyond(turn, LARGEST_TURN, "rad"));
             }
             let [mass, inertia] = masses[link];
@@ -194,7 +194,7 @@ impl<'a> Guard<'a> {
         let first = std::mem::take(&mut self.first) && energy.is_finite();
         if !first && !(energy <= LARGEST_GROWTH * self.energy) {
             let (growth, place) = (energy / self.energy, place(before));
-            let message = format!("the engine's kinetic energy has grown {growth:.1e} times in one step, {place}");
+            let message = sentences::the_engine_kinetic_energy_has_grown(&format_args!("{growth:.1e}"), &place);
             return Err(place.failed(message).beyond(growth, LARGEST_GROWTH, ""));
         }
         self.energy = self.energy.larger(energy);
@@ -202,7 +202,7 @@ impl<'a> Guard<'a> {
             let gap = opening(frames, &joints[joint], *size);
             if !(gap <= self.largest_gap) {
                 let (name, place) = (&joints[joint].name, place(before));
-                let message = format!("the engine's loop has opened by {gap:.3e} m at joint \"{name}\", {place}");
+                let message = sentences::the_engine_loop_has_opened(&format_args!("{gap:.3e}"), &name, &place);
                 return Err(place.failed(message).of_joint(name).beyond(gap, self.largest_gap, "m"));
             }
         }
@@ -223,17 +223,14 @@ impl<'a> Guard<'a> {
             // Written so that NaN also stops the run.
             if !(far <= self.largest_gap) {
                 let at = case.told(case.crank().start);
-                let message = format!(
-                    "the engine ran up from a few steps before the grid and came back to the start at {at} with link \"{}\" {far:.3e} m off: it has passed a dead point on the way",
-                    link.name
-                );
+                let message = sentences::the_engine_ran_up_from_a_few(&at, &link.name, &format_args!("{far:.3e}"));
                 return Err(Error::new(ErrorKind::Numeric, message)
                     .at_time(0.0)
                     .at_input(at)
                     .of_link(&link.name)
                     .beyond(far, self.largest_gap, "m")
                     .help(Advice::SmallerStep { to: None })
-                    .or_help("begin the grid farther from the dead point"));
+                    .or_help(sentences::BEGIN_THE_GRID_FARTHER_FROM_THE_DEAD));
             }
         }
         Ok(())
@@ -275,7 +272,7 @@ impl Moment {
     }
 
     fn failed(self, message: String) -> Error {
-        self.error(message).or_help("check that the pose can be assembled there")
+        self.error(message).or_help(sentences::CHECK_THAT_THE_POSE_CAN_BE_ASSEMBLED)
     }
 }
 
@@ -288,7 +285,7 @@ impl fmt::Display for Moment {
 fn panicked(place: Moment, cause: &(dyn std::any::Any + Send)) -> Error {
     let words = cause.downcast_ref::<&str>().copied().or_else(|| cause.downcast_ref::<String>().map(String::as_str));
     let words = words.unwrap_or("no message");
-    place.error(format!("the engine has panicked (\"{words}\"), {place}")).or_help(Advice::OtherEngine)
+    place.error(sentences::the_engine_has_panicked(&words, &place)).or_help(Advice::OtherEngine)
 }
 
 #[cfg(test)]

@@ -18,6 +18,7 @@ mod rapier;
 mod reactions;
 mod ring;
 mod run;
+mod sentences;
 #[cfg(feature = "f32")]
 mod single;
 mod steer;

@@ -19,6 +19,7 @@
 mod seam;
 mod stages;
 
+use crate::sentences;
 use std::ops::Range;
 
 use linkage::case::Case;
@@ -136,12 +137,9 @@ impl NewtonEuler {
         self.begin(case, state);
         self.pass_on();
         if !self.find() {
-            return Err(Error::new(
-                ErrorKind::Numeric,
-                format!("the reactions are not determined at t = {t:.6} s (dead point)"),
-            )
-            .at_time(t)
-            .help("shorten the grid to the crank angles before the dead point"));
+            return Err(Error::new(ErrorKind::Numeric, sentences::the_reactions_are_not_determined(&t))
+                .at_time(t)
+                .help(sentences::SHORTEN_THE_GRID_TO_THE_CRANK));
         }
         self.read(state);
         Ok(())

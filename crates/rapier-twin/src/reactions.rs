@@ -8,6 +8,7 @@ use super::probe::{Probe, probe_turn};
 use super::rapier::{Build, Rapier};
 use super::tree::Tree;
 use super::window::Window;
+use crate::sentences;
 use linkage::case::Case;
 use linkage::engine::{Route, Settings};
 use linkage::error::{Advice, Error, ErrorKind, Result};
@@ -51,7 +52,7 @@ impl<'a> Reactions<'a> {
                 Ok((Reactions::Native(Native::new(case, &worlds, &engine.settings, from)), worlds))
             }
             Route::Probe if case.is_free() => {
-                let message = "the motion is free, but a probe needs prescribed speeds";
+                let message = sentences::THE_MOTION_IS_FREE_BUT_A_PROBE;
                 let help = Advice::OtherRoute { routes: &["differences", "native"] };
                 Err(Error::new(ErrorKind::Unsupported, message).help(help))
             }

@@ -6,6 +6,7 @@ use super::shapes::rgba;
 use super::table::topic_name;
 use super::view::{Plot, View, plots, turn};
 use super::{beside, messages, read, schema};
+use crate::sentences;
 use crate::viewers::{FrameTransforms, LineType, Pose, SceneEntity, SceneUpdate, Vector3};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::unit;
@@ -82,8 +83,8 @@ pub fn film(path: &Path) -> Result<Film> {
         Ok(())
     })?;
     let Some(links) = found.links.filter(|_| !found.frames.is_empty()) else {
-        let message = format!("the recording {} has no picture: no positions were recorded", path.display());
-        return Err(Error::new(ErrorKind::Input, message).help("record the scenario again with its positions"));
+        let message = sentences::the_recording_has_no_picture(&path.display());
+        return Err(Error::new(ErrorKind::Input, message).help(sentences::RECORD_THE_SCENARIO_AGAIN_WITH_ITS_POSITIONS));
     };
     let plots = plotted(&sides, &found.topics);
     let lasts = found.frames.last().map_or(0.0, |(last, _)| *last as f64 * 1e-9);

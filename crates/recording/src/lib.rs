@@ -39,6 +39,7 @@ mod recording;
 mod reel;
 mod scene;
 mod schema;
+mod sentences;
 mod shapes;
 mod sink;
 mod table;

@@ -5,6 +5,7 @@ use super::recording::Recording;
 use super::sink::{Kind, Sink};
 use super::view::turn;
 use super::write::{as_shown, check};
+use crate::sentences;
 use linkage::error::{Error, ErrorKind, Result};
 use mcap::{McapError, McapResult};
 
@@ -55,7 +56,7 @@ pub fn reel(recording: &Recording) -> Result<Reel> {
         let mut reel = Reel { topics: Vec::new(), slow, turn, entries: Vec::new(), own: Vec::new(), data: Vec::new() };
         pour(recording, drawn, &mut reel).map(|()| reel)
     });
-    poured.map_err(|error| Error::new(ErrorKind::Unsupported, format!("the recording cannot be played: {error}")))
+    poured.map_err(|error| Error::new(ErrorKind::Unsupported, sentences::the_recording_cannot_be_played(&error)))
 }
 
 impl Reel {

@@ -6,6 +6,7 @@ use super::recording::{Recording, Side};
 use super::schema::small_unit;
 use super::table::topic_name;
 use super::write::as_shown;
+use crate::sentences;
 use crate::viewers::FrameTransforms;
 use linkage::math::Vec2;
 use linkage::math::statistics::ends;
@@ -101,7 +102,7 @@ pub(super) fn plots(sides: &[Side], errors: &[Channel]) -> Vec<Plot> {
         plots.push(Plot { title: channel.to_string(), lines });
         if errors.contains(channel) {
             let field = small_unit(kind).0;
-            let title = format!("error of {}.{field}", channel.subject());
+            let title = sentences::error_of(&channel.subject(), &field);
             let topic = topic_name("error", kind.subject, of);
             plots.push(Plot { lines: vec![Line { topic, field, label: title.clone(), side: None }], title });
         }

@@ -2,6 +2,7 @@
 //!
 //! It is TOML, but not called so: `*.toml` are scenarios.
 
+use crate::sentences;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
@@ -60,8 +61,8 @@ pub fn beside(scenario: &Path) -> PathBuf {
 /// [`ErrorKind::Io`] if the file cannot be read, [`ErrorKind::Input`] for anything wrong in it, with the place.
 pub fn load(path: &Path, name: &str) -> Result<Option<Accepted>> {
     let text = files::text(path).map_err(|error| {
-        Error::new(ErrorKind::Io, format!("the accepted figures {} cannot be read: {error}", path.display()))
-            .help("restore the file, or delete it and accept the figures anew")
+        Error::new(ErrorKind::Io, sentences::the_accepted_figures_cannot_be_read(&path.display(), &error))
+            .help(sentences::RESTORE_THE_FILE_OR_DELETE)
     })?;
     text.map(|text| parse(&text, path, name)).transpose()
 }
@@ -74,23 +75,28 @@ fn parse(text: &str, path: &Path, name: &str) -> Result<Accepted> {
 
 fn read(root: &mut Table, name: &str) -> Result<Accepted> {
     if root.is_empty() {
-        let error = root.fault("the file holds no accepted figures");
-        return Err(error.help("restore the file, or delete it and accept the figures anew"));
+        let error = root.fault(sentences::THE_FILE_HOLDS_NO_ACCEPTED);
+        return Err(error.help(sentences::RESTORE_THE_FILE_OR_DELETE));
     }
     check_format(root)?;
     let scenario = root.string("scenario")?;
     if scenario != name {
-        let message = format!("these are accepted figures of \"{scenario}\", not of \"{name}\"");
-        let help = "move the file to its own scenario; if the scenario was renamed, change the name here too";
+        let message = sentences::these_are_accepted_figures_of_not_of(&scenario, &name);
+        let help = sentences::MOVE_THE_FILE_TO_ITS_OWN;
         return root.refuse("scenario", message, help);
     }
     let verdict = root.string("verdict")?;
     if !["agree", "disagree", "inconclusive"].contains(&verdict.as_str()) {
-        return root.refuse("verdict", format!("\"{verdict}\" is no verdict"), "write agree, disagree or inconclusive");
+        return root.refuse(
+            "verdict",
+            sentences::is_no_verdict(&verdict),
+            sentences::WRITE_AGREE_DISAGREE_OR_INCONCLUSIVE,
+        );
     }
     let instants = root.integer("instants")?;
     let instants = usize::try_from(instants).map_err(|_| {
-        root.wrong(ErrorKind::Input, "instants", format!("found {instants} instants")).help("give their number")
+        root.wrong(ErrorKind::Input, "instants", sentences::found_instants(&instants))
+            .help(sentences::GIVE_THEIR_NUMBER)
     })?;
     let times = root.numbers("times_s")?;
     let tables = root.tables("channels")?.into_iter();
@@ -104,12 +110,16 @@ fn kept(mut table: Table, count: usize) -> Result<Kept> {
     let name = table.string("name")?;
     let bound = table.number("bound")?;
     if bound < 0.0 {
-        return table.refuse("bound", format!("the bound {bound:e} is negative"), "accept the figures anew");
+        return table.refuse(
+            "bound",
+            sentences::the_bound_is_negative(&format_args!("{bound:e}")),
+            sentences::ACCEPT_THE_FIGURES_ANEW,
+        );
     }
     let at = table.numbers("at")?;
     if at.len() != count {
-        let help = "give one value for each of `times_s`, or accept the figures anew";
-        return table.refuse("at", format!("{} values are kept for {count} instants", at.len()), help);
+        let help = sentences::GIVE_ONE_VALUE_FOR_EACH_OF_TIMES;
+        return table.refuse("at", sentences::values_are_kept_for_instants(&at.len(), &count), help);
     }
     let (least, greatest) = (table.number("least")?, table.number("greatest")?);
     let rms = table.optional_number("rms")?;
@@ -123,7 +133,9 @@ fn twice(root: &Table, channels: &[Kept]) -> Result<()> {
     names.sort_unstable();
     match names.windows(2).find(|pair| pair[0] == pair[1]) {
         None => Ok(()),
-        Some(pair) => root.refuse("channels", format!("the channel {} stands twice", pair[0]), "delete one of the two"),
+        Some(pair) => {
+            root.refuse("channels", sentences::the_channel_stands_twice(&pair[0]), sentences::DELETE_ONE_OF_THE_TWO)
+        }
     }
 }
 

@@ -1,6 +1,7 @@
 //! What is asked for in place of the file's own start: assembly modes, and the crank angle at t = 0.
 
 use super::start;
+use crate::sentences;
 use linkage::drive::Drives;
 use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::math::KeepNan;
@@ -216,12 +217,8 @@ impl Start<'_> {
 
     fn lost(&self, group: &Group, crank: f64) -> Error {
         let names = group.names(self.mechanism);
-        let message = format!(
-            "the configuration of the group ({names}) at the start, crank angle {:.4} deg, cannot be followed to {:.4} deg",
-            self.crank.to_degrees(),
-            crank.to_degrees()
-        );
-        let give = "an angle nearer to the file's start, or ask for a configuration by its number".to_string();
+        let message = sentences::the_configuration_of_the_group(&names, &self.crank.to_degrees(), &crank.to_degrees());
+        let give = sentences::AN_ANGLE_NEARER_TO_THE_FILE.to_string();
         Error::new(ErrorKind::Geometry, message)
             .help(Advice::Configuration { give })
             .key(group.key(self.mechanism))

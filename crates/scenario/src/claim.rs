@@ -4,6 +4,7 @@ use super::figure::Figure;
 use super::printed::PrintedChannel;
 use super::reduced::QUANTITIES;
 use super::words::nearest;
+use crate::sentences;
 use formula::{Fault, Graph, Operator, Shape, Tree};
 use linkage::case::Case;
 use linkage::trajectory::Channel;
@@ -81,8 +82,8 @@ impl Claim {
         claim.figures.sort_by(|one, other| one.0.cmp(&other.0));
         claim.figures.dedup_by(|one, other| one.0 == other.0);
         if claim.channels.is_empty() && claim.figures.is_empty() {
-            let help = "name a channel, such as link.rocker.angle_deg".to_string();
-            return Err(Fault { message: "the claim names no channel".into(), at: 0..text.len(), help });
+            let help = sentences::NAME_A_CHANNEL_SUCH_AS_LINK.to_string();
+            return Err(Fault { message: sentences::THE_CLAIM_NAMES_NO_CHANNEL.into(), at: 0..text.len(), help });
         }
         let names = written.names().into_iter().map(|(name, _)| name).collect::<Vec<&str>>();
         Graph::new(&names, 0).add_defined(&written)?;
@@ -123,8 +124,8 @@ fn unknown(name: &str, all: &[Channel]) -> (String, String) {
     let figures: Vec<String> = Figure::claims().collect();
     let all = known.iter().chain(&figures).map(String::as_str).chain(reduced);
     let help = match nearest(name, all) {
-        Some(near) => format!("did you mean `{near}`?"),
-        None => "name one of this scenario, such as link.rocker.angle_deg or point.B.x_mm".into(),
+        Some(near) => sentences::did_you_mean(&near),
+        None => sentences::NAME_ONE_OF_THIS_SCENARIO.into(),
     };
-    (format!("there is no channel {name} here"), help)
+    (sentences::there_is_no_channel_here(&name), help)
 }

@@ -3,6 +3,7 @@
 //! [`ROWS`] is the one place of a setting: reader, writer and argument follow from its row, schema and documents from its
 //! key in [`SECTIONS`].
 
+use crate::sentences;
 use std::fmt;
 use std::ops::RangeInclusive;
 
@@ -142,54 +143,49 @@ pub const ROWS: &[Row] = &[
         key: Some("dt"),
         argument: "dt",
         value: "S",
-        help: "Time step of the engine in seconds [default: the scenario's, else `run` finds it, and others take a \
-               quarter of a degree of the crank or less]",
+        help: sentences::TIME_STEP_OF_THE_ENGINE_IN_SECONDS,
         slot: |own| Slot::Positive(&mut own.step),
     },
     Row {
         key: Some("name"),
         argument: "engine",
         value: "ENGINE",
-        help: "Engine, or `all` to run every one side by side. May be given several times [default: the scenario's, \
-               else the first]",
+        help: sentences::ENGINE_OR_ALL_TO_RUN_EVERY_ONE_SIDE,
         slot: |own| Slot::Engines(&mut own.engines),
     },
     Row {
         key: None,
         argument: "accuracy",
         value: "ACCURACY",
-        help: "Relative accuracy of an engine that chooses its own steps [default: its tightest]",
+        help: sentences::RELATIVE_ACCURACY_OF_AN_ENGINE,
         slot: |own| Slot::Positive(&mut own.accuracy),
     },
     Row {
         key: Some("sweeps"),
         argument: "sweeps",
         value: "N",
-        help: "Sweeps of the engine's iteration in a step [default: the scenario's, else `run` finds them, and others \
-               take the engine's]",
+        help: sentences::SWEEPS_OF_THE_ENGINE_ITERATION,
         slot: |own| Slot::Count(&mut own.sweeps),
     },
     Row {
         key: Some("substeps"),
         argument: "substeps",
         value: "N",
-        help: "Number of substeps into which the engine divides a step",
+        help: sentences::NUMBER_OF_SUBSTEPS_INTO_WHICH_THE_ENGINE,
         slot: |own| Slot::Count(&mut own.substeps),
     },
     Row {
         key: Some("route"),
         argument: "route",
         value: "ROUTE",
-        help: "Route by which reactions and balancing moment are computed",
+        help: sentences::ROUTE_BY_WHICH_REACTIONS_AND_BALANCING,
         slot: |own| Slot::Route(&mut own.route),
     },
     Row {
         key: Some("extrapolated"),
         argument: "extrapolate",
         value: "TIMES",
-        help: "Combine runs at the step and at halves of it, so that the leading errors cancel: once if no number is \
-               given [default: the scenario's, else `run` finds it unless the step is given, and others do not \
-               extrapolate]",
+        help: sentences::COMBINE_RUNS_AT_THE_STEP,
         slot: |own| Slot::Times(&mut own.extrapolated),
     },
 ];
@@ -259,14 +255,20 @@ pub fn read(table: &mut Table, drive: &Drive) -> Result<EngineSettings> {
             // The step is stated in two ways, which are read above.
             Slot::Positive(_) => {}
             Slot::Engines(engines) => {
-                let engine =
-                    table.optional_choice(key, "is no engine", &EngineName::ALL.map(|own| (own.name(), own)))?;
+                let engine = table.optional_choice(
+                    key,
+                    sentences::IS_NO_ENGINE,
+                    &EngineName::ALL.map(|own| (own.name(), own)),
+                )?;
                 *engines = table.given(key, engine.map(|engine| vec![engine]));
             }
             Slot::Count(number) => *number = whole(table, key, 1..=usize::MAX)?,
             Slot::Route(route) => {
-                let found =
-                    table.optional_choice(key, "is no route to reactions", &Route::ALL.map(|own| (own.name(), own)))?;
+                let found = table.optional_choice(
+                    key,
+                    sentences::IS_NO_ROUTE_TO_REACTIONS,
+                    &Route::ALL.map(|own| (own.name(), own)),
+                )?;
                 *route = table.given(key, found);
             }
             Slot::Times(times) if table.is_boolean(key) => {
@@ -282,15 +284,15 @@ pub fn read(table: &mut Table, drive: &Drive) -> Result<EngineSettings> {
         (Some(dt), None) => table.given("dt", Some(dt)),
         (None, Some(angle)) => table.given("step", Some((angle / omega).abs())),
         (Some(_), Some(_)) => {
-            let help = "keep either `dt` (a time) or `step` (a crank angle)";
-            return table.refuse("step", "the engine's step is given twice", help);
+            let help = sentences::KEEP_EITHER_DT_A_TIME_OR_STEP;
+            return table.refuse("step", sentences::THE_ENGINE_STEP_IS_GIVEN, help);
         }
         (None, None) => Setting::Free,
     };
     match own.step.get() {
         Some(dt) if !(dt.is_finite() && dt > 0.0) => {
-            let error = table.fault(format!("the engine's step would be {dt} s"));
-            Err(error.help("check the step and `drive.speed`"))
+            let error = table.fault(sentences::the_engine_step_would_be(&dt));
+            Err(error.help(sentences::CHECK_THE_STEP_AND_DRIVE))
         }
         _ => Ok(own),
     }
@@ -303,13 +305,8 @@ fn whole(table: &mut Table, key: &str, range: RangeInclusive<usize>) -> Result<S
         return Ok(table.given(key, Some(count)));
     }
     let (message, help) = match *range.end() {
-        usize::MAX => (
-            format!("found {number}, but an engine needs at least one"),
-            "give a whole number greater than zero".into(),
-        ),
-        most => {
-            (format!("found {number} extrapolations"), format!("give a whole number from 0 to {most}, or true for 1"))
-        }
+        usize::MAX => (sentences::found_but_an_engine_needs(&number), sentences::GIVE_A_WHOLE_NUMBER_GREATER.into()),
+        most => (sentences::found_extrapolations(&number), sentences::give_a_whole_number_from_to_or_true(&most)),
     };
     let error = table.wrong(ErrorKind::Input, key, message);
     table.instead(Setting::Free, error.help(help))

@@ -4,6 +4,7 @@ use super::printed::{Correction, Printed, number};
 use super::reader::Table;
 use super::unit::{LENGTH, Unit};
 use super::words::suggestion;
+use crate::sentences;
 use linkage::case::Case;
 use linkage::error::Result;
 use linkage::mechanism::{LinkId, Side};
@@ -93,10 +94,9 @@ impl Figure {
     /// What a case lacks for the figure, and the way out.
     fn lacks(self, case: &Case) -> Option<(&'static str, &'static str)> {
         match self {
-            Figure::SteadyCrankSpeed | Figure::SteadyMotorSpeed if case.crank().motor().is_none() => Some((
-                "a steady speed needs a motor, and the scenario has none",
-                "add a `[motor]` section: its law, and the ratio of the reducer",
-            )),
+            Figure::SteadyCrankSpeed | Figure::SteadyMotorSpeed if case.crank().motor().is_none() => {
+                Some((sentences::A_STEADY_SPEED_NEEDS_A_MOTOR, sentences::ADD_A_MOTOR_SECTION_ITS_LAW))
+            }
             Figure::SteadyCrankSpeed | Figure::SteadyMotorSpeed => None,
             Figure::ReducedInertiaMean | Figure::ReducedResistanceMean | Figure::Distance(_) => None,
         }
@@ -112,7 +112,7 @@ pub(super) fn read(table: &mut Table, case: &Case) -> Result<Vec<OracleFigure>> 
     }
     if figures.is_empty() {
         let names = suggestion("", names(), "\"");
-        return table.refuse("figures", "there is no figure", names);
+        return table.refuse("figures", sentences::THERE_IS_NO_FIGURE_2, names);
     }
     Ok(figures)
 }
@@ -123,7 +123,7 @@ fn one(entry: &mut Table, case: &Case) -> Result<OracleFigure> {
         Some((_, figure)) => (*figure, String::new()),
         None if OF_POINTS.contains(&name.as_str()) => distance(entry, case)?,
         None => {
-            return entry.refuse("figure", format!("there is no figure \"{name}\""), suggestion(&name, names(), "\""));
+            return entry.refuse("figure", sentences::there_is_no_figure(&name), suggestion(&name, names(), "\""));
         }
     };
     if let Some((message, help)) = figure.lacks(case) {
@@ -151,7 +151,7 @@ fn names() -> impl Iterator<Item = &'static str> {
 fn distance(entry: &mut Table, case: &Case) -> Result<(Figure, String)> {
     let names = entry.strings("points")?;
     let [first, second] = names.as_slice() else {
-        let message = format!("a distance lies between two points, found {}", names.len());
+        let message = sentences::a_distance_lies_between_two(&names.len());
         return entry.refuse("points", message, "write `points = [\"A\", \"B\"]`");
     };
     let places = [places(entry, case, first)?, places(entry, case, second)?];
@@ -160,9 +160,8 @@ fn distance(entry: &mut Table, case: &Case) -> Result<(Figure, String)> {
     let has = |link: LinkId, of: &[Side]| of.iter().any(|side| side.link == link);
     let measured = |this: usize| places[this].iter().find(|side| !has(side.link, &places[1 - this])).copied();
     let (Some(first), Some(second)) = (measured(0), measured(1)) else {
-        let message =
-            format!("the distance of {} stands in the file: only one link has both points", names.join(" and "));
-        let help = "name points whose distance follows from how the links stand together";
+        let message = sentences::the_distance_of_stands_in_the_file(&names.join(" and "));
+        let help = sentences::NAME_POINTS_WHOSE_DISTANCE_FOLLOWS;
         return entry.refuse("points", message, help);
     };
     Ok((Figure::Distance([first, second]), names.join(" ")))
@@ -178,7 +177,7 @@ fn places(entry: &Table, case: &Case, name: &str) -> Result<Vec<Side>> {
     let places: Vec<Side> = links().filter_map(on).collect();
     if places.is_empty() {
         let names = links().flat_map(|(_, body)| body.points.iter().map(|point| point.name.as_str()));
-        return entry.refuse("points", format!("the mechanism has no point \"{name}\""), suggestion(name, names, "\""));
+        return entry.refuse("points", sentences::the_mechanism_has_no_point(&name), suggestion(name, names, "\""));
     }
     Ok(places)
 }

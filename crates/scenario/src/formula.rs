@@ -1,5 +1,6 @@
 //! `[[formula]]`: formulas as they were derived, and the channels that they claim.
 
+use crate::sentences;
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::claim::Claim;
@@ -121,8 +122,8 @@ impl Formulas {
             return Err(Error::new(ErrorKind::Input, message).help(help));
         }
         if self.graph.knows(name) {
-            let message = format!("`{name}` is a parameter or a formula already");
-            return Err(Error::new(ErrorKind::Input, message).help("choose another name"));
+            let message = sentences::is_a_parameter_or_a_formula(&name);
+            return Err(Error::new(ErrorKind::Input, message).help(sentences::CHOOSE_ANOTHER_NAME));
         }
         Ok(())
     }
@@ -131,10 +132,10 @@ impl Formulas {
     fn unknown(&self, name: &str, at: Range<usize>) -> Fault {
         let units = self.parameters.iter().find(|own| own.short() == Some(name));
         let help = match units {
-            Some(own) => format!("write `{name}` or `{}`", own.key),
+            Some(own) => sentences::write_or(&name, &own.key),
             None => suggestion(name, self.graph.names(), "`"),
         };
-        Fault { message: format!("there is no `{name}`"), at, help }
+        Fault { message: sentences::there_is_no(&name), at, help }
     }
 
     /// The indices of the formulas up to `of`, by their names.
@@ -267,10 +268,10 @@ pub fn fault_of_claim(
     if let [Some(from), Some(to)] = valid
         && !(from <= to)
     {
-        return Some(("to", "the last crank angle is less than the first", "exchange them"));
+        return Some(("to", sentences::THE_LAST_CRANK_ANGLE_IS_LESS, "exchange them"));
     }
     let is_wrong = error.is_some_and(|error| !(error > 0.0) || !error.is_finite());
-    is_wrong.then_some(("error", "a claimed error must be a positive number", "leave it out if the formula is exact"))
+    is_wrong.then_some(("error", sentences::A_CLAIMED_ERROR_MUST_BE_A_POSITIVE, sentences::LEAVE_IT_OUT_IF_THE_FORMULA))
 }
 
 /// An error of a text that is no key of a file, such as an argument: `what` it is.
@@ -309,8 +310,8 @@ fn formula(table: &mut Table, formulas: &mut Formulas, case: &Case) -> Result<()
     if claimed.is_none() {
         let of_claim = ["from_deg", "to_deg", "from_rad", "to_rad", "error"];
         if let Some(key) = of_claim.into_iter().find(|key| table.has(key)) {
-            let message = format!("`{key}` belongs to a claim, and this formula claims nothing");
-            return table.refuse(key, message, "add `channel`, or take it out");
+            let message = sentences::belongs_to_a_claim_and_this_formula(&key);
+            return table.refuse(key, message, sentences::ADD_CHANNEL_OR_TAKE_IT_OUT);
         }
     }
     let formula = formulas.add(&name, &text).map_err(|fault| table.fault_in("expression", &fault))?;

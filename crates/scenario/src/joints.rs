@@ -1,5 +1,6 @@
 //! `[[joints]]`: which links are joined, how, and where.
 
+use crate::sentences;
 use std::f64::consts::FRAC_PI_2;
 
 use super::keys::key::{Kind, Section, needed, optional};
@@ -63,8 +64,8 @@ pub fn read(tables: Vec<Table>, links: &[Link], faults: &mut Faults) -> Vec<Join
 fn joint(table: &mut Table, links: &[Link], before: &[Joint]) -> Result<Joint> {
     let name = sound_name(table, "a joint")?;
     if before.iter().any(|joint| joint.name == name) {
-        let message = format!("two joints are called \"{name}\"");
-        let help = "give every joint its own name; two joints on one pin share the point instead: `point = \"...\"`";
+        let message = sentences::two_joints_are_called(&name);
+        let help = sentences::GIVE_EVERY_JOINT_ITS_OWN;
         return table.refuse("name", message, help);
     }
     let (kind, drawn) = kind(table)?;
@@ -72,26 +73,23 @@ fn joint(table: &mut Table, links: &[Link], before: &[Joint]) -> Result<Joint> {
     let places = places(table, kind, &name)?;
     table.finish()?;
     let [first, second] = &pair[..] else {
-        let message = format!("found {} links, but a joint has two", pair.len());
+        let message = sentences::found_links_but_a_joint_has_two(&pair.len());
         return table.refuse("links", message, "write `links = [\"ground\", \"crank\"]`");
     };
     let (first, second) = (link(table, first, links)?, link(table, second, links)?);
     if first == second {
-        let message = format!("it joins \"{}\" with itself", links[first].name);
-        return table.refuse("links", message, "name two different links");
+        let message = sentences::it_joins_with_itself(&links[first].name);
+        return table.refuse("links", message, sentences::NAME_TWO_DIFFERENT_LINKS);
     }
     if let Some(other) = before.iter().find(|joint| joint.on(first).is_some() && joint.on(second).is_some()) {
-        let message = format!(
-            "joint \"{}\" joins \"{}\" and \"{}\" already; two joints lock two links together",
-            other.name, links[first].name, links[second].name
-        );
-        return table.refuse("links", message, "make the two one link with all their points, or join other links");
+        let message = sentences::joint_joins_and_already_two(&other.name, &links[first].name, &links[second].name);
+        return table.refuse("links", message, sentences::MAKE_THE_TWO_ONE_LINK_WITH_ALL);
     }
     let side = |link: LinkId, point: &str| -> Result<Side> {
         let points = &links[link].points;
         let found = points.iter().find(|found| found.name == point);
         let local = found.map(|found| found.local).ok_or_else(|| {
-            let message = format!("link \"{}\" has no point \"{point}\"", links[link].name);
+            let message = sentences::link_has_no_point(&links[link].name, &point);
             let near = suggestion(point, points.iter().map(|point| point.name.as_str()), "\"");
             table.wrong(ErrorKind::Input, places.key, message).help(format!("{}; {near}", places.rule))
         })?;
@@ -117,7 +115,7 @@ fn places(table: &mut Table, kind: JointKind, name: &str) -> Result<Places> {
 }
 
 fn pinned(table: &mut Table, name: &str) -> Result<Places> {
-    let rule = "a joint lies at the point of its name, or of its key `point`, on both links";
+    let rule = sentences::A_JOINT_LIES_AT_THE_POINT;
     Ok(match table.optional_string("point")? {
         Some(point) => Places { names: [point.clone(), point], key: "point", rule },
         None => Places { names: [name.to_string(), name.to_string()], key: "name", rule },
@@ -127,16 +125,16 @@ fn pinned(table: &mut Table, name: &str) -> Result<Places> {
 fn guided(table: &mut Table) -> Result<Places> {
     let names = table.strings("points")?;
     let [first, second] = &names[..] else {
-        let message = format!("found {} points, but a guide takes two", names.len());
-        return table.refuse("points", message, "write `points = [\"O\", \"B\"]`: a point of the first link on the guide's line, and the point of the second that slides along it");
+        let message = sentences::found_points_but_a_guide(&names.len());
+        return table.refuse("points", message, sentences::WRITE_POINTS_A_POINT_OF_THE_FIRST);
     };
-    let rule = "`points` names a point of the first link and one of the second";
+    let rule = sentences::POINTS_NAMES_A_POINT_OF_THE_FIRST;
     Ok(Places { names: [first.clone(), second.clone()], key: "points", rule })
 }
 
 /// The kind of a joint, and what it is drawn as if the file says so.
 fn kind(table: &mut Table) -> Result<(JointKind, Option<Guise>)> {
-    table.choice("type", "is no type of joint", TYPES)?(table)
+    table.choice("type", sentences::IS_NO_TYPE_OF_JOINT, TYPES)?(table)
 }
 
 fn revolute(_: &mut Table) -> Result<(JointKind, Option<Guise>)> {
@@ -147,7 +145,7 @@ fn prismatic(table: &mut Table) -> Result<(JointKind, Option<Guise>)> {
     let first = table.si("axis")?;
     let second = table.optional_si("second_axis")?.unwrap_or(0.0);
     let guises = Guise::ALL.map(|guise| (guise.name(), guise));
-    let drawn = table.optional_choice("drawn", "is not how a prismatic pair is drawn", &guises)?;
+    let drawn = table.optional_choice("drawn", sentences::IS_NOT_HOW_A_PRISMATIC_PAIR, &guises)?;
     Ok((JointKind::Prismatic { axes: [first, second].map(direction) }, drawn))
 }
 
@@ -173,6 +171,6 @@ pub fn link(table: &mut Table, name: &str, links: &[Link]) -> Result<LinkId> {
     }
     let key = if table.has("links") { "links" } else { "link" };
     let names = links.iter().map(|link| link.name.as_str());
-    let error = table.wrong(ErrorKind::Input, key, format!("there is no link \"{name}\""));
+    let error = table.wrong(ErrorKind::Input, key, sentences::there_is_no_link(&name));
     table.unknown_name(LinkId(links.len() - 1), error.help(suggestion(name, names, "\"")))
 }

@@ -27,6 +27,7 @@ mod parameters;
 mod printed;
 pub mod reader;
 mod reduced;
+mod sentences;
 mod series;
 mod setting;
 mod settings;
@@ -114,7 +115,7 @@ pub struct Scenario {
 /// [`ErrorKind::Io`] if the directory cannot be read.
 pub fn files_in(directory: impl AsRef<Path>) -> Result<Vec<PathBuf>> {
     let entries = std::fs::read_dir(directory.as_ref()).map_err(|error| {
-        Error::new(ErrorKind::Io, format!("the directory {} cannot be read: {error}", directory.as_ref().display()))
+        Error::new(ErrorKind::Io, sentences::the_directory_cannot_be_read(&directory.as_ref().display(), &error))
     })?;
     let mut files: Vec<PathBuf> = entries
         .filter_map(|entry| entry.ok().map(|entry| entry.path()))
@@ -202,7 +203,7 @@ impl Scenario {
     /// [`ErrorKind::Input`] for a name with other characters than lower-case letters, digits and `_`.
     pub fn of_case(name: &str, case: Case) -> Result<Scenario> {
         if !is_name(name) {
-            let message = format!("\"{name}\" cannot be the name of a scenario");
+            let message = sentences::cannot_be_the_name_of_a_scenario(&name);
             return Err(Error::new(ErrorKind::Input, message).key("name").help(NAME_HELP));
         }
         Ok(Scenario {
@@ -334,10 +335,10 @@ fn finished(
     let series = oracles.iter().flat_map(|oracle| &oracle.series);
     let cranks: Vec<f64> = series.flat_map(OracleSeries::instants).filter_map(When::crank).collect();
     if let Err(message) = Grid::of_inputs(case.crank(), cranks).check(case.crank()) {
-        let error = Error::new(ErrorKind::Input, format!("published numbers: {message}")).key("oracle");
+        let error = Error::new(ErrorKind::Input, sentences::published_numbers(&message)).key("oracle");
         return Err(error.help(match case.crank().is_free() {
-            true => "give the numbers at times (`time_s`)",
-            false => "take the numbers out, or give them at crank angles to which the drive comes",
+            true => sentences::GIVE_THE_NUMBERS_AT_TIMES,
+            false => sentences::TAKE_THE_NUMBERS_OUT_OR_GIVE,
         }));
     }
     let scenario = Scenario {

@@ -1,5 +1,6 @@
 //! `[ground]` and `[links]`: points and masses.
 
+use crate::sentences;
 use std::collections::BTreeSet;
 
 use super::keys::key::{Key, Kind, Section, needed, optional};
@@ -61,7 +62,7 @@ pub fn read(ground: Option<Table>, links: Option<Table>, faults: &mut Faults) ->
         faults.read(&mut links, |links| {
             let tables = links.all_tables()?;
             match tables.is_empty() {
-                true => Err(links.fault("there is no link").help("add a section `[links.NAME]` for each moving link")),
+                true => Err(links.fault(sentences::THERE_IS_NO_LINK_2).help(sentences::ADD_A_SECTION_LINKS_NAME)),
                 false => Ok(tables),
             }
         })
@@ -88,16 +89,16 @@ fn fill(table: &mut Table, link: &mut Link) -> Result<()> {
     let centre = table.part(centre);
     table.finish()?;
     if mass.is_none() && inertia.is_some() {
-        let help = "add `mass_kg`, or leave out the inertia";
-        return table.refuse("inertia", "the link has a moment of inertia but no mass", help);
+        let help = sentences::ADD_MASS_KG_OR_LEAVE_OUT;
+        return table.refuse("inertia", sentences::THE_LINK_HAS_A_MOMENT_OF_INERTIA, help);
     }
     if mass.is_none() && centre.is_some() {
-        let help = "add `mass_kg` (0 is allowed), or leave out the mass centre";
-        return table.refuse("mass_centre", "the link has a mass centre but no mass", help);
+        let help = sentences::ADD_MASS_KG_IS_ALLOWED_OR_LEAVE;
+        return table.refuse("mass_centre", sentences::THE_LINK_HAS_A_MASS_CENTRE, help);
     }
     if mass.is_some() && centre.is_none() {
-        let help = "add `mass_centre = { x_mm = ..., y_mm = ... }`, in the link's frame";
-        return table.refuse("mass", "the link has a mass but no mass centre", help);
+        let help = sentences::ADD_MASS_CENTRE_IN_THE_LINK;
+        return table.refuse("mass", sentences::THE_LINK_HAS_A_MASS_BUT_NO_MASS, help);
     }
     link.mass = mass.unwrap_or(0.0);
     link.mass_centre = centre.unwrap_or_else(Vec2::zeros);
@@ -117,7 +118,7 @@ fn named_points(link: &mut Table) -> Result<Vec<Point>> {
             points.push(Point { name, local });
         }
         match points.is_empty() {
-            true => Err(table.fault("there is no point").help("add a point: `A = { x_mm = 0, y_mm = 0 }`")),
+            true => Err(table.fault(sentences::THERE_IS_NO_POINT).help(sentences::ADD_A_POINT_A)),
             false => Ok(()),
         }
     });
@@ -143,7 +144,7 @@ fn place_of(table: &mut Table, known: &[Point]) -> Result<Vec2> {
         Some(from) => {
             let names = known.iter().map(|point| point.name.as_str());
             let Some(origin) = known.iter().find(|point| point.name == from) else {
-                let message = format!("no point \"{from}\" stands before this one");
+                let message = sentences::no_point_stands_before_this_one(&from);
                 return table.refuse("from", message, suggestion(&from, names, "\""));
             };
             let length = table.si("length")?;
@@ -160,7 +161,7 @@ pub fn sound_name(table: &mut Table, what: &str) -> Result<String> {
     let name = table.string("name")?;
     match is_sound_name(&name) {
         true => Ok(name),
-        false => table.refuse("name", format!("\"{name}\" cannot be the name of {what}"), NAME_HELP),
+        false => table.refuse("name", sentences::cannot_be_the_name_of(&name, &what), NAME_HELP),
     }
 }
 
@@ -168,8 +169,8 @@ fn check_name(table: &Table, what: &str) -> Result<()> {
     if is_sound_name(table.name()) {
         return Ok(());
     }
-    Err(table.fault(format!("\"{}\" cannot be the name of a {what}", table.name())).help(NAME_HELP))
+    Err(table.fault(sentences::cannot_be_the_name_of_a(&table.name(), &what)).help(NAME_HELP))
 }
 
 /// Help for names that are not allowed.
-const NAME_HELP: &str = "names consist of letters, digits, `_`, `-` and `'`, 100 of them at most";
+const NAME_HELP: &str = sentences::NAMES_CONSIST_OF_LETTERS_DIGITS;

@@ -1,5 +1,6 @@
 //! Mapping files: which numbers of another program's table are which channels of a mechanism.
 
+use crate::sentences;
 use std::path::Path;
 
 use super::reader::Table;
@@ -93,9 +94,9 @@ impl Mapped {
                 let start = text.len() - text.trim_start().len();
                 Ok(Mapped { name: right.into(), text: left.into(), place, start })
             }
-            _ => Err(Error::new(ErrorKind::Input, "a mapping is an arithmetic over columns, `=`, and a channel")
+            _ => Err(Error::new(ErrorKind::Input, sentences::A_MAPPING_IS_AN_ARITHMETIC)
                 .at(place)
-                .help("write it such as phi3*180/pi=link.rocker.angle_deg")),
+                .help(sentences::WRITE_IT_SUCH_AS_PHI3_PI)),
         }
     }
 
@@ -134,8 +135,8 @@ impl Mapping {
     /// [`ErrorKind::Io`] if it cannot be read, [`ErrorKind::Input`] for anything wrong in it, with the place.
     pub fn load(path: &Path) -> Result<Self> {
         let text = files::read_text(path).map_err(|error| {
-            Error::new(ErrorKind::Io, format!("the mapping {} cannot be read: {error}", path.display()))
-                .help("give a mapping file, or one column after the other as EXPR=CHANNEL")
+            Error::new(ErrorKind::Io, sentences::the_mapping_cannot_be_read(&path.display(), &error))
+                .help(sentences::GIVE_A_MAPPING_FILE_OR_ONE_COLUMN)
         })?;
         let source = Source::new(path, &text);
         let tree = source.tree()?;
@@ -208,7 +209,7 @@ fn read(root: &mut Table) -> Result<Mapping> {
             let mapped = line(&mut at, &name)?;
             if mapped.instant().is_none() {
                 let help = suggestion(&name, INSTANTS.map(|(name, ..)| name), "`");
-                return at.refuse(&name, format!("rows do not hold at `{name}`"), help);
+                return at.refuse(&name, sentences::rows_do_not_hold_at(&name), help);
             }
             mapping.at.push(mapped);
         }
@@ -227,7 +228,7 @@ fn read(root: &mut Table) -> Result<Mapping> {
             for (key, size) in SIZES {
                 let Some(number) = entry.optional_number(key)? else { continue };
                 if number < 0.0 {
-                    let help = "a difference that is allowed is zero or more";
+                    let help = sentences::A_DIFFERENCE_THAT_IS_ALLOWED;
                     return entry.refuse(key, format!("found {number}"), help);
                 }
                 mapping.allowed.push(Allowed { of: of.clone(), size: size(number) });

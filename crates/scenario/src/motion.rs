@@ -1,5 +1,6 @@
 //! `[drive]`, with `[motor]`, and `[gravity]`.
 
+use crate::sentences;
 use std::sync::Arc;
 
 use super::keys::key::{Kind, Section, needed, optional};
@@ -79,12 +80,12 @@ fn check_beside(table: &Table, drive: &Drive, before: &[Drive]) -> Result<()> {
     let all = || before.iter().chain([drive]);
     // Several drives are coupled by the crank angle, which determines the time only at constant speeds.
     if all().any(|drive| drive.constant_speed().is_none()) {
-        let message = "one of several drives has a speed that changes";
-        return table.unsupported("law", message, "give all drives constant speeds");
+        let message = sentences::ONE_OF_SEVERAL_DRIVES_HAS_A_SPEED;
+        return table.unsupported("law", message, sentences::GIVE_ALL_DRIVES_CONSTANT_SPEEDS);
     }
     if all().any(|drive| drive.through) {
-        let message = "change points are passed with one drive only, and there are several";
-        return table.unsupported("through", message, "take the key out");
+        let message = sentences::CHANGE_POINTS_ARE_PASSED_WITH_ONE_DRIVE;
+        return table.unsupported("through", message, sentences::TAKE_THE_KEY_OUT);
     }
     Ok(())
 }
@@ -102,10 +103,10 @@ fn drive(table: &mut Table, mechanism: &Mechanism, before: &[Drive], start: f64)
     table.finish()?;
     let Some(index) = known else {
         let names = mechanism.joints().iter().map(|joint| joint.name.as_str());
-        return table.refuse("joint", format!("there is no joint \"{name}\""), suggestion(&name, names, "\""));
+        return table.refuse("joint", sentences::there_is_no_joint(&name), suggestion(&name, names, "\""));
     };
     if before.iter().any(|other| other.joint == index) {
-        return table.refuse("joint", "this joint is driven already", "give every drive a joint of its own");
+        return table.refuse("joint", sentences::THIS_JOINT_IS_DRIVEN_ALREADY, sentences::GIVE_EVERY_DRIVE_A_JOINT);
     }
     let joint = &mechanism.joints()[index];
     let hangs_on = |side: Side| side.link == GROUND || before.iter().any(|drive| drive.link == side.link);
@@ -114,22 +115,21 @@ fn drive(table: &mut Table, mechanism: &Mechanism, before: &[Drive], start: f64)
         .find_map(|[base, side]| (hangs_on(base) && !hangs_on(side)).then_some(side.link))
     else {
         let names = [joint.first, joint.second].map(|side| &mechanism.links()[side.link].name);
-        let message =
-            format!("joint \"{name}\" joins \"{}\" and \"{}\", not a link and the ground", names[0], names[1]);
+        let message = sentences::joint_joins_and_not_a_link(&name, &names[0], &names[1]);
         let hinges = mechanism.joints().iter().filter(|joint| joint.on(GROUND).is_some() && joint.is_pin());
         let hinges: Vec<&str> = hinges.map(|joint| joint.name.as_str()).collect();
-        let help = format!("drive a link that is hinged to the ground: {}", choice(hinges, "\""));
+        let help = sentences::drive_a_link_that_is_hinged_to_the_ground(&(choice(hinges, "\"")));
         return table.unsupported("joint", message, help);
     };
     let drive = Drive { input, joint: index, link, zero, start, motion, through };
     if joint.on(GROUND).is_none() && !drive.is_free() {
-        let message = format!("joint \"{name}\" hangs on a moving link, but the motion of its link is prescribed");
-        let help = "only a free link may hang on a moving one: write `motion = \"free\"`, or drive a link that is hinged to the ground";
+        let message = sentences::joint_hangs_on_a_moving_link(&name);
+        let help = sentences::ONLY_A_FREE_LINK_MAY_HANG;
         return table.unsupported("joint", message, help);
     }
     if joint.kind.input().is_none() {
-        let message = format!("joint \"{name}\" is {}, but the crank turns", joint.kind.name());
-        let help = "drive a link that is hinged to the ground by a revolute joint";
+        let message = sentences::joint_is_but_the_crank_turns(&name, &joint.kind.name());
+        let help = sentences::DRIVE_A_LINK_THAT_IS_HINGED;
         return table.unsupported("joint", message, help);
     }
     Ok(drive)
@@ -141,23 +141,20 @@ fn motion(table: &mut Table, law: MotionLaw) -> Result<DriveMotion> {
     match table.optional_string("motion")?.as_deref() {
         Some("free") => {
             let Some(nominal_speed) = law.constant() else {
-                let help = "forces decide a free motion: give its nominal speed only (`speed_rpm`)";
-                return table.refuse("law", "the motion is free, but a law is given", help);
+                let help = sentences::FORCES_DECIDE_A_FREE_MOTION;
+                return table.refuse("law", sentences::THE_MOTION_IS_FREE_BUT_A_LAW, help);
             };
             Ok(DriveMotion::Free { initial_speed: initial.unwrap_or(0.0), nominal_speed, motor: None })
         }
-        None if initial.is_some() => Err(table.lacks(
-            &["motion"],
-            "a link with a speed at t = 0 moves freely: write `motion = \"free\"`, or take `initial_speed` out",
-        )),
+        None if initial.is_some() => Err(table.lacks(&["motion"], sentences::A_LINK_WITH_A_SPEED_AT_MOVES)),
         Some("prescribed") if initial.is_some() => {
-            let help = "write `motion = \"free\"` to leave it to its motor and the loads, or take the key out";
-            table.refuse("initial_speed", "the link is given a speed at t = 0, but its motion is prescribed", help)
+            let help = sentences::WRITE_MOTION_FREE_TO_LEAVE;
+            table.refuse("initial_speed", sentences::THE_LINK_IS_GIVEN_A_SPEED, help)
         }
         None | Some("prescribed") => Ok(DriveMotion::Prescribed { law, motor: None }),
         Some(other) => {
             let help = suggestion(other, ["prescribed", "free"], "\"");
-            table.refuse("motion", format!("\"{other}\" is no sort of motion"), help)
+            table.refuse("motion", sentences::is_no_sort_of_motion(&other), help)
         }
     }
 }
@@ -168,13 +165,13 @@ fn through(table: &mut Table) -> Result<bool> {
         None => Ok(false),
         Some("smooth") => Ok(true),
         Some("jump") => {
-            let message = "on the other branch velocities jump at a change point, which takes infinite forces";
-            let help = "write `through = \"smooth\"` for the branch on which they go on, or take the key out";
+            let message = sentences::ON_THE_OTHER_BRANCH_VELOCITIES;
+            let help = sentences::WRITE_THROUGH_SMOOTH_FOR_THE_BRANCH_ON_WHICH_THEY;
             table.unsupported("through", message, help)
         }
         Some(other) => {
-            let help = "write `through = \"smooth\"` for the branch on which velocities go on, or take the key out";
-            table.refuse("through", format!("\"{other}\" is no way through a change point"), help)
+            let help = sentences::WRITE_THROUGH_SMOOTH_FOR_THE_BRANCH;
+            table.refuse("through", sentences::is_no_way_through_a_change(&other), help)
         }
     }
 }
@@ -185,7 +182,7 @@ const LAWS: Words<fn(&mut Table, InputValue) -> Result<MotionLaw>> =
 
 fn law(table: &mut Table, start: InputValue) -> Result<MotionLaw> {
     if table.has("law") || table.has("points") || table.has_si("to") || table.has_si("time") {
-        return table.choice("law", "is no law of motion", LAWS)?(table, start);
+        return table.choice("law", sentences::IS_NO_LAW_OF_MOTION, LAWS)?(table, start);
     }
     table.optional_string("law")?;
     constant(table, start)
@@ -204,8 +201,8 @@ fn cycloidal(table: &mut Table, start: InputValue) -> Result<MotionLaw> {
     let rise = table.si("to")? - start.value;
     let time = table.si("time")?;
     if rise == 0.0 {
-        let message = "the crank is to stay where it starts";
-        return table.refuse("to", message, "give a crank angle other than that of the start");
+        let message = sentences::THE_CRANK_IS_TO_STAY_WHERE;
+        return table.refuse("to", message, sentences::GIVE_A_CRANK_ANGLE_OTHER);
     }
     Ok(MotionLaw::Cycloidal { rise, time })
 }
@@ -224,23 +221,19 @@ fn points(table: &mut Table, start: InputValue) -> Result<MotionLaw> {
         let (time, gone) = read?;
         match points.last() {
             None if time != 0.0 || gone.abs() > 1e-12 => {
-                let message = format!(
-                    "the table does not begin with the start of the crank, {} {} at 0 s",
-                    input.shown(start),
-                    input.shown_in().0
-                );
-                return Err(point.fault(message).help("write the start as the first point"));
+                let message = sentences::the_table_does_not_begin(&input.shown(start), &input.shown_in().0);
+                return Err(point.fault(message).help(sentences::WRITE_THE_START_AS_THE_FIRST));
             }
             Some((last, _)) if !(time > *last) => {
-                let message = format!("the times do not ascend: {time} s comes after {last} s");
-                return Err(point.fault(message).help("write the points in ascending order of time, each time once"));
+                let message = sentences::the_times_do_not_ascend_comes(&time, &last);
+                return Err(point.fault(message).help(sentences::WRITE_THE_POINTS_IN_ASCENDING_ORDER));
             }
             _ => points.push((time, gone)),
         }
     }
     if points.len() < 2 || points.iter().all(|&(_, gone)| gone == 0.0) {
         let help = "write `points = [{ time_s = 0, angle_deg = 0 }, { time_s = 0.5, angle_deg = 90 }]`";
-        return table.refuse("points", "a table of angles needs two points or more that are not all one angle", help);
+        return table.refuse("points", sentences::A_TABLE_OF_ANGLES_NEEDS_TWO, help);
     }
     Ok(MotionLaw::Table(Arc::new(Piecewise::clamped_spline(&points, [0.0; 2]))))
 }

@@ -3,6 +3,7 @@
 use super::keys::key::{Kind, Section, needed, optional};
 use super::reader::{Sign, Table};
 use super::words::{Words, names};
+use crate::sentences;
 use linkage::drive::{Motor, MotorLaw, ShaftInertia};
 use linkage::error::{ErrorKind, Result};
 
@@ -51,16 +52,16 @@ const LAWS: Words<fn(&mut Table) -> Result<MotorLaw>> =
 
 /// The motor.
 pub fn read(table: &mut Table) -> Result<Motor> {
-    let law = table.choice("law", "is no law of a motor", LAWS)?(table)?;
+    let law = table.choice("law", sentences::IS_NO_LAW_OF_A_MOTOR, LAWS)?(table)?;
     let ratio = table.number("ratio")?;
     if ratio <= 0.0 {
-        let error = table.wrong(ErrorKind::Input, "ratio", format!("found {ratio}, but a ratio of speeds is positive"));
-        table.instead((), error.help("give the speed of the motor over that of the crank; 1 without a reducer"))?;
+        let error = table.wrong(ErrorKind::Input, "ratio", sentences::found_but_a_ratio_of_speeds(&ratio));
+        table.instead((), error.help(sentences::GIVE_THE_SPEED_OF_THE_MOTOR))?;
     }
     let efficiency = table.optional_number("efficiency")?.unwrap_or(1.0);
     if !(efficiency > 0.0 && efficiency <= 1.0) {
-        let message = format!("found {efficiency}, but an efficiency lies above 0 and at most at 1");
-        let error = table.wrong(ErrorKind::Input, "efficiency", message).help("give a share: 0.92 for 92 %");
+        let message = sentences::found_but_an_efficiency_lies(&efficiency);
+        let error = table.wrong(ErrorKind::Input, "efficiency", message).help(sentences::GIVE_A_SHARE_FOR);
         table.instead((), error)?;
     }
     let inertia = inertia(table)?;
@@ -83,10 +84,10 @@ fn kloss(table: &mut Table) -> Result<MotorLaw> {
     let synchronous_speed = table.si("synchronous_speed")?;
     let slip = table.optional_number("breakdown_slip")?;
     let speed = table.optional_si("breakdown_speed")?;
-    let help = "give one of the two: `breakdown_slip`, or `breakdown_speed_rpm` or `breakdown_speed_rad_s`";
+    let help = sentences::GIVE_ONE_OF_THE_TWO_BREAKDOWN;
     let breakdown_slip = match (slip, speed) {
         (Some(_), Some(_)) => {
-            return table.refuse("breakdown_slip", "the slip and the speed of breakdown are both given", help);
+            return table.refuse("breakdown_slip", sentences::THE_SLIP_AND_THE_SPEED_OF_BREAKDOWN, help);
         }
         (None, None) => {
             let keys = ["breakdown_slip", "breakdown_speed_rpm", "breakdown_speed_rad_s"];
@@ -94,16 +95,14 @@ fn kloss(table: &mut Table) -> Result<MotorLaw> {
         }
         (Some(slip), None) if slip > 0.0 => slip,
         (Some(slip), None) => {
-            let help = "give (synchronous speed - speed of breakdown) over synchronous speed";
-            let message = format!("found {slip}, but the slip of breakdown is positive");
+            let help = sentences::GIVE_SYNCHRONOUS_SPEED_SPEED_OF_BREAKDOWN;
+            let message = sentences::found_but_the_slip_of_breakdown(&slip);
             return table.refuse("breakdown_slip", message, help);
         }
         (None, Some(speed)) if speed < synchronous_speed => 1.0 - speed / synchronous_speed,
         (None, Some(speed)) => {
-            let message = format!(
-                "the motor breaks down at {speed:.6} rad/s, not below synchronous speed, {synchronous_speed:.6} rad/s"
-            );
-            return Err(table.fault(message).help("check `breakdown_speed` and `synchronous_speed` and their units"));
+            let message = sentences::the_motor_breaks_down_at_rad(&speed, &synchronous_speed);
+            return Err(table.fault(message).help(sentences::CHECK_BREAKDOWN_SPEED_AND_SYNCHRONOUS));
         }
     };
     Ok(MotorLaw::Kloss { breakdown_torque, breakdown_slip, synchronous_speed })
@@ -122,14 +121,14 @@ fn points(table: &mut Table) -> Result<MotorLaw> {
         if let Some(last) = speeds.last()
             && !(speed > *last)
         {
-            let message = format!("the speeds do not ascend: {speed} rad/s comes after {last} rad/s");
-            return Err(point.fault(message).help("write the points in ascending order of speed, each speed once"));
+            let message = sentences::the_speeds_do_not_ascend(&speed, &last);
+            return Err(point.fault(message).help(sentences::WRITE_THE_POINTS_IN_ASCENDING_ORDER_OF_SPEED));
         }
         speeds.push(speed);
     }
     if speeds.len() < 2 {
         let help = "write `points = [{ speed_rpm = 0, torque_N_m = 4 }, { speed_rpm = 3000, torque_N_m = 0 }]`";
-        let message = format!("a table of torques needs two points or more, found {}", speeds.len());
+        let message = sentences::a_table_of_torques_needs(&speeds.len());
         return table.refuse("points", message, help);
     }
     Ok(MotorLaw::Table { speeds, torques })
@@ -143,13 +142,13 @@ fn inertia(table: &mut Table) -> Result<ShaftInertia> {
     let ratio = table.optional_number("intermediate_ratio")?;
     match ratio {
         Some(ratio) if ratio <= 0.0 => {
-            let message = format!("found {ratio}, but a ratio of speeds is positive");
-            let help = "give the speed of the intermediate shaft over that of the crank";
+            let message = sentences::found_but_a_ratio_of_speeds(&ratio);
+            let help = sentences::GIVE_THE_SPEED_OF_THE_INTERMEDIATE;
             return table.refuse("intermediate_ratio", message, help);
         }
         None if intermediate > 0.0 => {
-            let message = "the intermediate shaft has a moment of inertia, but its speed is not known";
-            let help = "add `intermediate_ratio`: its speed over that of the crank";
+            let message = sentences::THE_INTERMEDIATE_SHAFT_HAS_A_MOMENT;
+            let help = sentences::ADD_INTERMEDIATE_RATIO_ITS_SPEED;
             return table.refuse("intermediate_inertia_kg_m2", message, help);
         }
         _ => {}

@@ -7,6 +7,7 @@ use super::printed::{Correction, Printed, PrintedChannel, number};
 use super::reader::{Faults, Table};
 use super::series::{ExpectedCell, Known, OraclePoint, OracleSeries, When, instant};
 use super::table_file;
+use crate::sentences;
 use linkage::case::Case;
 use linkage::error::Result;
 
@@ -142,7 +143,9 @@ impl OracleBasis {
     /// Reads the key `basis`; published if the key is missing.
     fn read(table: &mut Table) -> Result<Self> {
         let words = Self::ALL.map(|basis| (basis.word(), basis));
-        Ok(table.optional_choice("basis", "is no way to know numbers", &words)?.unwrap_or(OracleBasis::Published))
+        Ok(table
+            .optional_choice("basis", sentences::IS_NO_WAY_TO_KNOW_NUMBERS, &words)?
+            .unwrap_or(OracleBasis::Published))
     }
 }
 
@@ -169,12 +172,12 @@ fn oracle(table: &mut Table, known: &Known, case: &Case, inline: &mut usize) -> 
         [false, true, false] => oracle.series = values(table, known, case)?,
         [false, false, true] => oracle.figures = figure::read(table, case)?,
         [false, false, false] => {
-            return Err(table.lacks(&["file", "values", "figures"], "give the numbers: docs/scenario.md tells how"));
+            return Err(table.lacks(&["file", "values", "figures"], sentences::GIVE_THE_NUMBERS_DOCS_SCENARIO));
         }
         _ => {
             return Err(table
-                .fault("an oracle has exactly one of `file`, `values` and `figures`")
-                .help("split it into several [[oracle]] tables"));
+                .fault(sentences::AN_ORACLE_HAS_EXACTLY_ONE_OF_FILE)
+                .help(sentences::SPLIT_IT_INTO_SEVERAL_ORACLE));
         }
     }
     if !forms[0] {
@@ -198,7 +201,7 @@ fn values(table: &mut Table, known: &Known, case: &Case) -> Result<Vec<OracleSer
     }
     if series.is_empty() {
         let help = "write `values = [{ channel = \"link.rocker.angle_deg\", value = 82, digits = 3 }]`";
-        return table.refuse("values", "there is no value", help);
+        return table.refuse("values", sentences::THERE_IS_NO_VALUE, help);
     }
     Ok(series)
 }

@@ -3,6 +3,7 @@
 
 use super::reader::Table;
 use super::unit::{ANGLE, Family, LENGTH, Unit};
+use crate::sentences;
 use columns::Cell;
 use formula::Rounded;
 use linkage::error::Result;
@@ -174,8 +175,7 @@ impl Correction {
 /// Reads the anchor under the key `finding`, which needs the key `right` beside it.
 pub(super) fn finding(entry: &mut Table) -> Result<Option<String>> {
     let finding = entry.optional_string("finding")?;
-    let help = "a number known to be wrong has a `finding`, which says why, and the number that is `right` instead: \
-                `right = { value = 2.6, digits = 1 }`";
+    let help = sentences::A_NUMBER_KNOWN_TO_BE_WRONG;
     match (finding, entry.has("right")) {
         (Some(finding), true) => Ok(Some(finding)),
         (None, false) => Ok(None),
@@ -189,11 +189,8 @@ pub(super) fn check_apart(entry: &Table, printed: &Printed, right: &Printed) -> 
     if (printed.value - right.value).abs() > printed.half_unit() + right.half_unit() {
         return Ok(());
     }
-    let message = format!(
-        "{} with {} decimals is not apart from the printed {} with {}",
-        right.value, right.digits, printed.value, printed.digits
-    );
-    let help = "give the right number with more decimals, or take `finding` and `right` out if the printed one holds";
+    let message = sentences::with_decimals_is_not_apart(&right.value, &right.digits, &printed.value, &printed.digits);
+    let help = sentences::GIVE_THE_RIGHT_NUMBER_WITH_MORE;
     entry.refuse("right", message, help)
 }
 
@@ -203,8 +200,8 @@ pub(super) fn digits(entry: &mut Table) -> Result<i32> {
     match i32::try_from(digits) {
         Ok(digits) if digits.abs() <= MOST_DIGITS => Ok(digits),
         _ => {
-            let help = format!("give the count of printed decimals, from {} to {MOST_DIGITS}", -MOST_DIGITS);
-            entry.refuse("digits", format!("found {digits}, but no number is printed with as many decimals"), help)
+            let help = sentences::give_the_count_of_printed(&(-MOST_DIGITS), &MOST_DIGITS);
+            entry.refuse("digits", sentences::found_but_no_number_is_printed(&digits), help)
         }
     }
 }

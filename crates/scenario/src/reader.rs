@@ -7,6 +7,7 @@ mod quantity;
 mod several;
 
 pub use super::keys::key::Sign;
+use crate::sentences;
 pub use several::Faults;
 #[cfg(test)]
 pub use several::asked;
@@ -190,7 +191,7 @@ impl<'a> Table<'a> {
     }
 
     fn mistyped(&self, key: &str, value: &Spanned<DeValue>, needed: Needed) -> Error {
-        let message = format!("found {}, but {} is needed", found(self.source, value), needed.words());
+        let message = sentences::found_but_is_needed(&found(self.source, value), &needed.words());
         self.wrong_at(key, value.span(), message).help(needed.help(&self.path_of(key), value.get_ref()))
     }
 
@@ -439,34 +440,32 @@ impl Needed {
     fn words(self) -> &'static str {
         match self {
             Needed::Text => "text",
-            Needed::Texts => "an array of texts",
+            Needed::Texts => sentences::AN_ARRAY_OF_TEXTS,
             Needed::Number => "a number",
-            Needed::FiniteNumber => "a finite number",
-            Needed::Numbers => "an array of numbers",
-            Needed::WholeNumber => "a whole number",
-            Needed::Boolean => "true or false",
+            Needed::FiniteNumber => sentences::A_FINITE_NUMBER,
+            Needed::Numbers => sentences::AN_ARRAY_OF_NUMBERS,
+            Needed::WholeNumber => sentences::A_WHOLE_NUMBER,
+            Needed::Boolean => sentences::TRUE_OR_FALSE,
             Needed::Table => "a table",
-            Needed::Tables => "an array of tables",
+            Needed::Tables => sentences::AN_ARRAY_OF_TABLES,
         }
     }
 
     /// How to correct what was found instead at a dotted path.
     fn help(self, path: &str, found: &DeValue) -> String {
         let help = match (self, found) {
-            (Needed::Text, DeValue::Integer(_) | DeValue::Float(_)) => "put the text in \"quotes\"",
-            (Needed::Text, _) => "put a text in \"quotes\" there",
-            (Needed::Texts, _) => "write texts in brackets, such as [\"ground\", \"crank\"]",
-            (Needed::Number, _) => "write a decimal number, such as 12.5, without quotes",
-            (Needed::FiniteNumber, _) => "write a decimal number; nan and inf stand for no quantity",
-            (Needed::Numbers, _) => "write numbers in brackets, such as [0, 0.1, 0.3]",
-            (Needed::WholeNumber, _) => "write a whole number, such as 3",
-            (Needed::Boolean, _) => "write `true` or `false`, without quotes",
+            (Needed::Text, DeValue::Integer(_) | DeValue::Float(_)) => sentences::PUT_THE_TEXT_IN_QUOTES,
+            (Needed::Text, _) => sentences::PUT_A_TEXT_IN_QUOTES_THERE,
+            (Needed::Texts, _) => sentences::WRITE_TEXTS_IN_BRACKETS_SUCH_AS_GROUND,
+            (Needed::Number, _) => sentences::WRITE_A_DECIMAL_NUMBER_SUCH_AS_WITHOUT,
+            (Needed::FiniteNumber, _) => sentences::WRITE_A_DECIMAL_NUMBER_NAN,
+            (Needed::Numbers, _) => sentences::WRITE_NUMBERS_IN_BRACKETS_SUCH_AS,
+            (Needed::WholeNumber, _) => sentences::WRITE_A_WHOLE_NUMBER_SUCH_AS,
+            (Needed::Boolean, _) => sentences::WRITE_TRUE_OR_FALSE_WITHOUT,
             (Needed::Table, DeValue::Array(_)) => return format!("write [{path}]"),
-            (Needed::Table, _) => {
-                "write keys with their values in braces, such as { x_mm = 0, y_mm = 0 }, or a section"
-            }
+            (Needed::Table, _) => sentences::WRITE_KEYS_WITH_THEIR_VALUES,
             (Needed::Tables, DeValue::Table(_)) => return format!("write [[{path}]]"),
-            (Needed::Tables, _) => return format!("write a section [[{path}]] for each"),
+            (Needed::Tables, _) => return sentences::write_a_section_for_each(&path),
         };
         help.into()
     }

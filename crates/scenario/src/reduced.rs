@@ -3,6 +3,7 @@
 //! They are twice the kinetic energy, and the balance of powers, of whatever motion a side has found. Each side finds
 //! velocities, accelerations and the drive's moment by equations of its own.
 
+use crate::sentences;
 use formula::{Operator, Tree};
 use linkage::case::Case;
 use linkage::mechanism::{GROUND, Link};
@@ -36,8 +37,8 @@ impl Quantity {
         match case.drives.len() {
             1 => (self.tree)(case),
             count => Err((
-                format!("{} is of one crank, but the mechanism has {count} drives", self.name),
-                "take a scenario with one [drive], or claim channels of single links".into(),
+                sentences::is_of_one_crank_but_the_mechanism(&self.name, &count),
+                sentences::TAKE_A_SCENARIO_WITH_ONE_DRIVE.into(),
             )),
         }
     }
@@ -50,8 +51,8 @@ fn inertia(case: &Case) -> Found {
         of_inertias(link, across, square(link, "omega_rad_s"))
     });
     let Some(sum) = sum(energies) else {
-        let help = "give the links mass_kg and inertia_kg_m2; a motor's rotor is not counted".into();
-        return Err(("nothing in the mechanism has a mass, so that no inertia is reduced to the crank".into(), help));
+        let help = sentences::GIVE_THE_LINKS_MASS_KG_AND_INERTIA.into();
+        return Err((sentences::NOTHING_IN_THE_MECHANISM_HAS_A_MASS.into(), help));
     };
     Ok(Tree::pair(Operator::Over, sum, square(crank(case), "omega_rad_s")))
 }

@@ -3,6 +3,7 @@
 use super::keys::key::{Kind, Section, needed, optional};
 use super::reader::Table;
 use super::words::{choice, nearest, suggestion};
+use crate::sentences;
 use linkage::case::Case;
 use linkage::error::Result;
 use linkage::trajectory::{Channel, Stage};
@@ -22,9 +23,8 @@ pub fn wanted(table: &mut Table) -> Result<Vec<String>> {
     table.finish()?;
     let stages = || Stage::ALL.into_iter().map(Stage::name);
     if names.is_empty() {
-        let help =
-            format!("name at least one, or leave the section out to get all; {}", suggestion("", stages(), "\""));
-        return table.refuse("want", "nothing is wanted", help);
+        let help = sentences::name_at_least_one_or_leave(&(suggestion("", stages(), "\"")));
+        return table.refuse("want", sentences::NOTHING_IS_WANTED, help);
     }
     Ok(names)
 }
@@ -49,15 +49,14 @@ pub fn called(case: &Case, words: &[String]) -> std::result::Result<Vec<Channel>
             let ends = known.iter().find(|known| known.split_once('.').is_some_and(|(_, name)| name == word));
             let near = ends.map(String::as_str).or_else(|| nearest(word, known.iter().map(String::as_str)));
             let help = match near {
-                Some(near) => format!("did you mean \"{near}\"?"),
-                None => format!(
-                    "ask for {}, for a subject such as \"{}\", for its stage, \"{}.positions\", or for one channel",
-                    choice(stages, "\""),
-                    known[Stage::ALL.len()],
-                    known[Stage::ALL.len()],
+                Some(near) => sentences::did_you_mean_2(&near),
+                None => sentences::ask_for_for_a_subject_such_as_for_its_stage(
+                    &(choice(stages, "\"")),
+                    &known[Stage::ALL.len()],
+                    &known[Stage::ALL.len()],
                 ),
             };
-            return Err((format!("there are no channels \"{word}\""), help));
+            return Err((sentences::there_are_no_channels(&word), help));
         }
         channels.extend(own);
     }
@@ -74,6 +73,6 @@ pub fn engine_rel(table: &mut Table) -> Result<f64> {
     if share > 0.0 && share < 1.0 {
         return Ok(share);
     }
-    let message = format!("found {share}, but this is a share of a channel's scale");
-    table.refuse("engine_rel", message, "give a number between 0 and 1, such as 1e-2")
+    let message = sentences::found_but_this_is_a_share(&share);
+    table.refuse("engine_rel", message, sentences::GIVE_A_NUMBER_BETWEEN_AND_SUCH_AS)
 }

@@ -1,5 +1,6 @@
 //! Units of scenario files. Every key of a physical quantity ends in its unit; inside the program everything is SI.
 
+use crate::sentences;
 use std::f64::consts::{PI, TAU};
 
 /// One unit of a family.
@@ -64,19 +65,20 @@ pub static LENGTH: Family = Family::of("a length", &[si("m"), unit("mm", 1.0, 1e
 /// Angles.
 pub static ANGLE: Family = Family::of("an angle", &[si("rad"), unit("deg", PI / 180.0, 1.0)], 1e9);
 /// Angular velocities; rpm are turns per minute.
-pub static ANGULAR_SPEED: Family = Family::of("an angular velocity", &[si("rad_s"), unit("rpm", TAU, 60.0)], 1e9);
+pub static ANGULAR_SPEED: Family =
+    Family::of(sentences::AN_ANGULAR_VELOCITY, &[si("rad_s"), unit("rpm", TAU, 60.0)], 1e9);
 /// Times.
 pub static TIME: Family = Family::of("a time", &[si("s"), unit("ms", 1.0, 1e3)], 1e12);
 /// Masses.
 pub static MASS: Family = Family::of("a mass", &[si("kg"), unit("g", 1.0, 1e3)], 1e30);
 /// Moments of inertia.
-pub static INERTIA: Family = Family::of("a moment of inertia", &[si("kg_m2")], 1e30);
+pub static INERTIA: Family = Family::of(sentences::A_MOMENT_OF_INERTIA, &[si("kg_m2")], 1e30);
 /// Accelerations.
 pub static ACCELERATION: Family = Family::of("an acceleration", &[si("m_s2")], 1e12);
 /// Moments of forces.
 pub static MOMENT: Family = Family::of("a moment", &[si("N_m")], 1e20);
 /// Moments per angular velocity.
-pub static MOMENT_PER_SPEED: Family = Family::of("a change of a moment with an angular velocity", &[si("N_m_s")], 1e20);
+pub static MOMENT_PER_SPEED: Family = Family::of(sentences::A_CHANGE_OF_A_MOMENT_WITH_AN_ANGULAR, &[si("N_m_s")], 1e20);
 /// Forces.
 pub static FORCE: Family = Family::of("a force", &[si("N"), unit("kN", 1e3, 1.0)], 1e20);
 /// Forces per length.
@@ -84,9 +86,9 @@ pub static STIFFNESS: Family = Family::of("a stiffness", &[si("N_m"), unit("N_mm
 /// Forces per velocity.
 pub static DAMPING: Family = Family::of("a damping", &[si("N_s_m")], 1e20);
 /// Moments per angle.
-pub static TORSIONAL_STIFFNESS: Family = Family::of("a torsional stiffness", &[si("N_m_rad")], 1e20);
+pub static TORSIONAL_STIFFNESS: Family = Family::of(sentences::A_TORSIONAL_STIFFNESS, &[si("N_m_rad")], 1e20);
 /// Masses of bars per length.
-pub static MASS_PER_LENGTH: Family = Family::of("a mass per length", &[si("kg_per_m")], 1e20);
+pub static MASS_PER_LENGTH: Family = Family::of(sentences::A_MASS_PER_LENGTH, &[si("kg_per_m")], 1e20);
 /// Powers.
 pub static POWER: Family = Family::of("a power", &[si("W"), unit("kW", 1e3, 1.0)], 1e20);
 

@@ -1,5 +1,6 @@
 //! A mechanism as a Simbody model: the tree of bodies, the joints that close loops, and the prescribed motion.
 
+use crate::sentences;
 use linkproof_simbody::{Body, BodyState, Closing, Failure, Inertia, Joint, Law, LoopState, Model};
 
 use linkage::case::Case;
@@ -39,7 +40,7 @@ impl Linkage {
     /// Without them, free links turn with their initial speeds, like prescribed ones.
     pub(super) fn new(case: &Case, sense: f64, rates: Option<&[f64]>) -> Result<Self> {
         let wrong = |failure: Failure| {
-            Error::new(ErrorKind::Input, format!("Simbody cannot take the mechanism: {}", failure.message))
+            Error::new(ErrorKind::Input, sentences::simbody_cannot_take_the_mechanism(&failure.message))
         };
         let mechanism = &case.mechanism;
         let driven: Vec<JointId> = case.drives.iter().map(|drive| drive.joint).collect();
@@ -135,16 +136,14 @@ impl Linkage {
         // Written so that NaN counts as the largest.
         let widest = failure.gaps.iter().zip(&self.tree.cut).reduce(|a, b| if a.0 >= b.0 { a } else { b });
         let gap = widest.map_or(String::new(), |(gap, &joint)| {
-            format!(", joint \"{}\" open by {gap:.3e} m", case.mechanism.joints()[joint].name)
+            sentences::joint_open_by(&case.mechanism.joints()[joint].name, &format_args!("{gap:.3e}"))
         });
-        let message = format!("Simbody stopped at t = {t:.6} s, {at}{gap}: {}", failure.message);
+        let message = sentences::simbody_stopped_at(&t, &at, &gap, &failure.message);
         let mut error = Error::new(ErrorKind::Numeric, message).at_time(t).at_input(at);
         if let Some((_, &joint)) = widest {
             error = error.of_joint(&case.mechanism.joints()[joint].name);
         }
-        error
-            .help("check that the pose can be assembled there")
-            .or_help("shorten the grid to the crank angles before the dead point")
+        error.help(sentences::CHECK_THAT_THE_POSE_CAN_BE_ASSEMBLED).or_help(sentences::SHORTEN_THE_GRID_TO_THE_CRANK)
     }
 }
 

@@ -1,5 +1,6 @@
 //! The boundary to C++: the only unsafe code. Every declaration repeats one of `shim.h`.
 
+use crate::sentences;
 use std::ffi::{c_char, c_int, c_void};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::ptr::{self, NonNull};
@@ -136,7 +137,7 @@ fn told(call: impl FnOnce(*mut c_char, usize) -> c_int) -> Result<(), Failure> {
 /// Simbody's message in one line, without the source locations of its exceptions.
 fn plain(words: &str) -> String {
     let line = words.split_whitespace().collect::<Vec<_>>().join(" ");
-    let mut parts = line.split("SimTK Exception thrown at ");
+    let mut parts = line.split(sentences::SIMTK_EXCEPTION_THROWN_AT);
     let first = parts.next().unwrap_or_default().to_string();
     parts.fold(first, |told, part| told + part.split_once(": ").map_or(part, |(_, rest)| rest))
 }
@@ -215,7 +216,7 @@ impl Run {
                 )
             }
         })?;
-        let raw = NonNull::new(raw).ok_or_else(|| Failure::of("Simbody gave no system"))?;
+        let raw = NonNull::new(raw).ok_or_else(|| Failure::of(sentences::SIMBODY_GAVE_NO_SYSTEM))?;
         let state =
             State { bodies: vec![BodyState::default(); bodies.len()], loops: vec![LoopState::default(); loops.len()] };
         let mut run = Run { raw, _acting: kept, state, time: 0.0, pace: (settings.steps, settings.time_scale) };
@@ -230,7 +231,7 @@ impl Run {
     /// A time before the one reached; any failure in Simbody, with its message, the time reached and all gaps there.
     pub fn advance(&mut self, time: f64) -> Result<(), Failure> {
         if !(time >= self.time && time.is_finite()) {
-            return Err(Failure::of(format!("t = {time} s is asked for after t = {} s", self.time)));
+            return Err(Failure::of(sentences::is_asked_for_after(&time, &self.time)));
         }
         let (raw, (steps, time_scale)) = (self.raw.as_ptr(), self.pace);
         // A cast saturates: a number that is too large gives the largest.
@@ -251,10 +252,10 @@ impl Run {
     /// A number of loads that differs from that of the bodies, or a number that is not finite.
     pub fn load(&mut self, loads: &[[f64; 3]]) -> Result<(), Failure> {
         if loads.len() != self.state.bodies.len() {
-            return Err(Failure::of(format!("{} loads are given for {} bodies", loads.len(), self.state.bodies.len())));
+            return Err(Failure::of(sentences::loads_are_given_for_bodies(&loads.len(), &self.state.bodies.len())));
         }
         if !loads.as_flattened().iter().all(|number| number.is_finite()) {
-            return Err(Failure::of("a load is not finite"));
+            return Err(Failure::of(sentences::A_LOAD_IS_NOT_FINITE));
         }
         // SAFETY: the run is alive and nobody else has it; there are three numbers for every body, and the shim copies them.
         unsafe { linkproof_simbody_load(self.raw.as_ptr(), loads.as_ptr().cast()) };
@@ -276,7 +277,7 @@ impl Run {
         });
         read.map_err(|failure| self.located(failure))?;
         if !(self.state.bodies.iter().all(BodyState::is_finite) && self.state.loops.iter().all(LoopState::is_finite)) {
-            return Err(self.located(Failure::of("Simbody answered with a number that is not finite")));
+            return Err(self.located(Failure::of(sentences::SIMBODY_ANSWERED_WITH_A_NUMBER)));
         }
         Ok(&self.state)
     }

@@ -10,6 +10,7 @@
 mod ffi;
 mod model;
 mod parts;
+mod sentences;
 mod state;
 
 pub use ffi::{Act, Run, version};

@@ -1,5 +1,6 @@
 //! What `linkproof run` shows and writes.
 
+use crate::sentences;
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -181,7 +182,7 @@ impl<'a> Session<'a> {
 
 /// What the command does about the recording.
 fn recording_told(args: &Args) -> Entry {
-    let why = if args.record.is_off() { "not asked for" } else { "written below" };
+    let why = if args.record.is_off() { sentences::NOT_ASKED_FOR } else { "written below" };
     let work = (!args.record.is_off()).then_some(Work::NONE);
     Entry { part: "recording".into(), why, work }
 }

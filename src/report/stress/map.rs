@@ -5,6 +5,7 @@
 use super::super::chart::{Chart, DASHED, Filling, colour, decades, mark};
 use super::summary::names;
 use crate::plain::cells::distinct;
+use crate::sentences;
 use drawing::paper::document::document;
 use drawing::paper::figure::{Figure, Style, solid, width, words};
 use drawing::paper::style::{BLACK, GREY};
@@ -79,7 +80,7 @@ fn panel(family: &Family, outcomes: &[&Outcome], names: &[&str], group: Group) -
     let mut chart = Chart::new(PANEL, [along, [ERRORS[0], FAILED[2]]]);
     // Where the dial spans less than a decade, its own values stand below the axis.
     let numbers = if along[1] / along[0] < 10.0 { distinct(dials()) } else { decades(along, 13) };
-    chart.axes([&numbers, &decades(ERRORS, 7)], &format!("{}: error over the scale", group.name()), family.dial);
+    chart.axes([&numbers, &decades(ERRORS, 7)], &sentences::error_over_the_scale(&group.name()), family.dial);
     chart.level(FAILED[0], solid(GREY, 0.3));
     let clipped = |error: f64| if error.is_nan() { ERRORS[1] } else { error.clamp(3.0 * ERRORS[0], ERRORS[1]) };
     let mut is_empty = true;
@@ -115,7 +116,7 @@ fn panel(family: &Family, outcomes: &[&Outcome], names: &[&str], group: Group) -
         }
     }
     if is_empty {
-        chart.empty("no solver and no engine has numbers here");
+        chart.empty(sentences::NO_SOLVER_AND_NO_ENGINE_HAS_NUMBERS);
     }
     chart.figure
 }

@@ -1,5 +1,6 @@
 //! Stability as text, verdict first: where every solver and engine holds to, and what does not.
 
+use crate::sentences;
 use std::collections::BTreeMap;
 
 use linkage::math::KeepNan;
@@ -43,19 +44,23 @@ impl Tally {
     pub(crate) fn verdict(&self) -> String {
         let [agree, open, against, fails] = self.verdicts;
         let silent = match self.silent {
-            0 => "no silent wrong number".to_string(),
+            0 => sentences::NO_SILENT_WRONG_NUMBER.to_string(),
             count => format!("{count} SILENT WRONG NUMBERS"),
         };
         let panics = match self.panics {
             0 => "no panic".to_string(),
             count => format!("{count} PANICS"),
         };
-        format!(
-            "{} points: {silent}, {panics}; of {} results {agree} agree, {open} are inconclusive, {against} disagree, \
-             {fails} fail with a reason; {} points are no mechanism, with a reason",
-            self.points,
-            self.verdicts.iter().sum::<usize>(),
-            self.refused
+        sentences::points_of_results_agree_are_inconclusive(
+            &self.points,
+            &silent,
+            &panics,
+            &(self.verdicts.iter().sum::<usize>()),
+            &agree,
+            &open,
+            &against,
+            &fails,
+            &self.refused,
         )
     }
 }
@@ -84,7 +89,7 @@ pub(super) fn body(outcomes: &[&Outcome]) -> String {
         }
     }
     for (at, why) in refused(outcomes) {
-        say!(reasons, "  no mechanism at {at}: {why}");
+        say!(reasons, "{}", sentences::no_mechanism_at(&at, &why));
     }
     format!("{found}\n{reasons}")
 }

@@ -13,6 +13,7 @@ mod search;
 mod window;
 
 use crate::assur::groups::{Clearance, OutOfReach, Plan};
+use crate::sentences;
 use linkage::case::Case;
 use linkage::error::{Error, ErrorKind};
 use linkage::input::InputValue;
@@ -188,24 +189,19 @@ impl Passing {
 
 /// The error for reactions at a change point that grow without bound.
 pub(super) fn unbounded(at: InputValue) -> Error {
-    let message = format!(
-        "{at}: this is a change point, and towards it reactions grow without bound: \
-         they must do what the links no longer can"
-    );
+    let message = sentences::this_is_a_change_point_and_towards(&at);
     let error = Error::new(ErrorKind::Numeric, message).at_input(at);
     error.help(WITHOUT_POLE)
 }
 
 /// The way out where reactions have a pole.
-const WITHOUT_POLE: &str = "leave this very instant out by another step or start of the grid, or leave out \
-                                       the reactions: want = [\"positions\", \"velocities\", \"accelerations\"] in \
-                                       [channels]";
+const WITHOUT_POLE: &str = sentences::LEAVE_THIS_VERY_INSTANT_OUT;
 
 /// The way through a pose that may be a change point.
 pub(super) fn way_through(case: &Case) -> &'static str {
     match case.crank().passes() || !case.drives.further().is_empty() {
         // It is passed already, or there are several drives, with which none is passed.
-        true => "let the grid end before it",
-        false => "pass it with `through = \"smooth\"` in [drive], if two branches meet there",
+        true => sentences::LET_THE_GRID_END_BEFORE_IT,
+        false => sentences::PASS_IT_WITH_THROUGH_SMOOTH,
     }
 }

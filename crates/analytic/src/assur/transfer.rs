@@ -12,6 +12,7 @@ use super::pose_solver::HALVINGS;
 use super::turns::{CLOSED_FORM_STEP, FOLLOWED_STEP, Turns};
 use crate::assur::groups::{Misfit, OutOfReach, Plan};
 use crate::motion::side::{Held, Inputs, Side, embed, loads_held};
+use crate::sentences;
 use linkage::case::Case;
 use linkage::drive::Wrench;
 use linkage::error::{Error, ErrorKind, Result};
@@ -172,18 +173,16 @@ impl<'a> TransferSide<'a> {
         let group = self.case.structure.groups[reach.group].names(&self.case.mechanism);
         let at = self.case.told(self.case.crank().from_world(self.target[0]));
         let message = match reach.why {
-            Misfit::Lost => format!("the group ({group}) cannot be followed beyond {at}: it has a dead point there"),
-            Misfit::Singular | Misfit::Passed { .. } => {
-                format!("the group ({group}) is singular at {at}: two of its branches meet there")
-            }
+            Misfit::Lost => sentences::the_group_cannot_be_followed(&group, &at),
+            Misfit::Singular | Misfit::Passed { .. } => sentences::the_group_is_singular_at_two(&group, &at),
             Misfit::Span { .. } | Misfit::Guide { .. } | Misfit::Swing { .. } | Misfit::Parallel => {
-                format!("the group ({group}) cannot be assembled at {at}")
+                sentences::the_group_cannot_be_assembled(&group, &at)
             }
         };
         Error::new(ErrorKind::Geometry, message)
             .at_input(at)
             .of_group(group)
-            .help("let the grid end before the motion comes there")
+            .help(sentences::LET_THE_GRID_END_BEFORE_THE_MOTION)
     }
 
     /// Angles of all links, turns kept.

@@ -1,6 +1,7 @@
 //! The pieces of a free motion: what each keeps constant, and where it ends.
 //! See docs/numerics/forces.md.
 
+use crate::sentences;
 use std::cell::{Cell, RefCell};
 
 use differential_equations::ode::ODE;
@@ -239,7 +240,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
             if self.branch.get() != forwards {
                 self.go_on(work, place, &stood)?;
                 if self.crank_acceleration(work) > 0.0 {
-                    return Err(self.is_held(place, self.case.crank().link, "the losses of the reducer hold"));
+                    return Err(self.is_held(place, self.case.crank().link, sentences::THE_LOSSES_OF_THE_REDUCER));
                 }
             }
         }
@@ -343,7 +344,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
         };
         match stood.iter().enumerate().find_map(is_held) {
             Some((_, Senses::Link(link) | Senses::Point(Side { link, .. }))) => {
-                Err(self.is_held(place, link, "its resistance holds"))
+                Err(self.is_held(place, link, sentences::ITS_RESISTANCE_HOLDS))
             }
             Some((_, Senses::Nothing)) | None => Ok(()),
         }
@@ -412,11 +413,11 @@ impl<'a, const N: usize> Pieces<'a, N> {
 
     fn is_held(&self, place: &Place<N>, link: LinkId, what: &str) -> Error {
         let name = &self.case.mechanism.links()[link].name;
-        let message = format!("{what} link \"{name}\" at rest at t = {:.6} s", place.x);
+        let message = sentences::link_at_rest_at(&what, &name, &place.x);
         Error::new(ErrorKind::Numeric, message)
             .at_time(place.x)
             .of_link(name)
-            .help("give the motor more torque or the mechanism more speed, or let the grid end before")
+            .help(sentences::GIVE_THE_MOTOR_MORE_TORQUE)
     }
 
     /// The crank angle (rad, as the scenario states it).

@@ -10,6 +10,7 @@ use super::passing::Passing;
 use super::steps::TRACKING_STEP;
 use super::system::System;
 use crate::motion::side::{Held, Inputs, Side, embed, loads_held};
+use crate::sentences;
 use linkage::drive::Wrench;
 use linkage::error::Result;
 use linkage::math::dense::Lu;
@@ -108,7 +109,7 @@ impl<'a> Embedded<'a> {
         for (index, (q, predicted)) in system.q.iter().zip(&system.predicted).enumerate() {
             let allowed = JUMP * if index % 3 == 2 { 1.0 } else { size };
             if !((q - predicted).abs() <= allowed) {
-                return Err(system.lost("the solution has jumped to another branch"));
+                return Err(system.lost(sentences::THE_SOLUTION_HAS_JUMPED_TO_ANOTHER));
             }
         }
         Ok(())

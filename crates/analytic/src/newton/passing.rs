@@ -15,6 +15,7 @@ mod window;
 
 use super::steps::{HALVINGS, TRACKING_STEP};
 use super::system::System;
+use crate::sentences;
 use linkage::error::Result;
 use linkage::math::KeepNan;
 use spot::{Spot, place, walked};
@@ -169,6 +170,4 @@ impl Passing {
 }
 
 /// The way out where reactions have a pole.
-const WITHOUT_POLE: &str = "leave this very instant out by another step or start of the grid, or leave out \
-                                       the reactions: want = [\"positions\", \"velocities\", \"accelerations\"] in \
-                                       [channels]";
+const WITHOUT_POLE: &str = sentences::LEAVE_THIS_VERY_INSTANT_OUT;

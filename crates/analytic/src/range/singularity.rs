@@ -1,5 +1,6 @@
 //! Singular poses, and values at a crank angle.
 
+use crate::sentences;
 use linkage::mechanism::GroupId;
 
 /// Kind of a singular pose.
@@ -21,7 +22,7 @@ impl Kind {
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
-            Kind::DeadPoint => "limit of rotation (dead point)",
+            Kind::DeadPoint => sentences::LIMIT_OF_ROTATION_DEAD_POINT,
             Kind::ChangePoint => "change point",
             Kind::ParallelAxes => "parallel axes",
             Kind::BranchContact => "branch contact",

@@ -8,6 +8,7 @@
 //! The smallest singular value of the Jacobian is a lower bound on the distance to another branch.
 //! Steps are kept below it, so that no step jumps to another branch.
 
+use crate::sentences;
 use std::cell::{OnceCell, RefCell};
 use std::f64::consts::TAU;
 
@@ -178,16 +179,11 @@ impl<'a> Tracker<'a> {
         for (group, measure) in self.case.structure.groups.iter().zip(&start.measures) {
             if !(measure.determinant.abs() > MEET) {
                 let (names, at) = (group.names(&self.case.mechanism), self.case.told(self.case.crank().start));
-                return Err(Error::new(
-                    ErrorKind::Geometry,
-                    format!(
-                        "the start pose at {at:.6} is singular: two configurations of the group ({names}) meet there"
-                    ),
-                )
-                .key("start")
-                .at_input(at)
-                .of_group(names)
-                .help("start at another crank angle, where the configurations are apart"));
+                return Err(Error::new(ErrorKind::Geometry, sentences::the_start_pose_at_is_singular(&at, &names))
+                    .key("start")
+                    .at_input(at)
+                    .of_group(names)
+                    .help(sentences::START_AT_ANOTHER_CRANK_ANGLE));
             }
         }
         Ok(())
@@ -472,9 +468,9 @@ fn weakest(measures: &[Measure]) -> Option<usize> {
 }
 
 fn lost(at: InputValue) -> Error {
-    Error::new(ErrorKind::Numeric, format!("the poses of the mechanism cannot be followed at {at}"))
+    Error::new(ErrorKind::Numeric, sentences::the_poses_of_the_mechanism(&at))
         .at_input(at)
-        .help("check the lengths, or start at another crank angle")
+        .help(sentences::CHECK_THE_LENGTHS_OR_START)
 }
 
 /// A Jacobian with one more row.

@@ -2,6 +2,7 @@
 
 use super::means::{self, Kinks};
 use crate::PoseSolver;
+use crate::sentences;
 use linkage::case::Case;
 use linkage::drive::{Branch, Load, Motor, Setting};
 use linkage::error::{Error, ErrorKind, Result};
@@ -81,11 +82,8 @@ impl<'a> Model<'a> {
     /// masses, and those of [`Range::of`](crate::range::Range::of).
     pub fn of(case: &'a Case) -> Result<Self> {
         if !case.drives.further().is_empty() {
-            let message = format!(
-                "the motion under forces is asked for, but the mechanism has {} freedoms: this version reduces to one crank",
-                case.drives.len()
-            );
-            return Err(Error::new(ErrorKind::Unsupported, message).help("take a scenario with one `[drive]`"));
+            let message = sentences::the_motion_under_forces_is_asked_for_but_the_mechanism(&case.drives.len());
+            return Err(Error::new(ErrorKind::Unsupported, message).help(sentences::TAKE_A_SCENARIO_WITH_ONE_DRIVE));
         }
         let links = case.mechanism.links().entries();
         let masses = links.filter(|(link, body)| *link != GROUND && (body.mass > 0.0 || body.inertia > 0.0));
@@ -109,8 +107,8 @@ impl<'a> Model<'a> {
             added: case.crank().motor().map_or(0.0, Motor::inertia_on_crank),
         };
         if model.masses.is_empty() && model.added == 0.0 {
-            let message = "the motion under forces is asked for, but nothing in the mechanism has a mass";
-            return Err(Error::new(ErrorKind::Input, message).help("give the links masses, or the motor a rotor"));
+            let message = sentences::THE_MOTION_UNDER_FORCES_IS_ASKED;
+            return Err(Error::new(ErrorKind::Input, message).help(sentences::GIVE_THE_LINKS_MASSES_OR_THE_MOTOR));
         }
         model.find_senses()?;
         Ok(model)
@@ -281,13 +279,13 @@ impl<'a> Model<'a> {
 /// Checks that the reduction to the crank supports all loads.
 fn check_loads(case: &Case, kinks: &Kinks) -> Result<()> {
     let refuse = |load: &Load, why: &str, help: &str| {
-        let message = format!("the motion under forces is asked for, but a load of type \"{}\" {why}", load.sort());
+        let message = sentences::the_motion_under_forces_is_asked_for_but_a_load(&load.sort(), &why);
         Err(Error::new(ErrorKind::Unsupported, message).help(help))
     };
     for load in &case.loads {
         if load.is_viscous() {
-            let why = "depends on the size of speeds, which this reduction to the crank does not know";
-            return refuse(load, why, "leave it out, or take its part into the motor's law");
+            let why = sentences::DEPENDS_ON_THE_SIZE_OF_SPEEDS;
+            return refuse(load, why, sentences::LEAVE_IT_OUT_OR_TAKE_ITS_PART);
         }
         if let (Some(links), Some(period)) = (load.nature().twist, kinks.period) {
             let (mut poses, start) = (PoseSolver::new(case)?, case.crank().start);
@@ -297,8 +295,8 @@ fn check_loads(case: &Case, kinks: &Kinks) -> Result<()> {
                 Ok(state.angles[links[1]] - state.angles[links[0]])
             };
             if (twist(start + period)? - twist(start)?).abs() > 1.0 {
-                let why = "is wound up by every turn of the crank";
-                return refuse(load, why, "fasten it to links that do not turn against each other");
+                let why = sentences::IS_WOUND_UP_BY_EVERY_TURN;
+                return refuse(load, why, sentences::FASTEN_IT_TO_LINKS_THAT_DO_NOT_TURN);
             }
         }
     }

@@ -5,6 +5,7 @@ use super::model::{Model, Piece};
 use crate::PoseSolver;
 use crate::motion::march::{MOST_EMPTY, Pace, Place, Stop, march};
 use crate::motion::step::Step;
+use crate::sentences;
 use linkage::case::{Case, Grid};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::KeepNan;
@@ -55,11 +56,8 @@ pub fn motion(model: &Model, omega: f64, times: &[f64], accuracy: f64) -> Result
         || times.first().is_some_and(|&first| first < 0.0)
         || times.windows(2).any(|pair| !(pair[0] < pair[1]))
     {
-        let error = Error::new(
-            ErrorKind::Input,
-            "the instants of a motion do not ascend from zero, or the speed is not finite",
-        );
-        return Err(error.help("give finite times in ascending order, from 0 s on"));
+        let error = Error::new(ErrorKind::Input, sentences::THE_INSTANTS_OF_A_MOTION);
+        return Err(error.help(sentences::GIVE_FINITE_TIMES_IN_ASCENDING));
     }
     followed(model, omega, times, accuracy, Stage::BalancingMoment)
 }
@@ -119,9 +117,8 @@ impl<'m, 'a> Runner<'m, 'a> {
             empty = if self.place.x > from { 0 } else { empty + 1 };
             if empty > MOST_EMPTY {
                 let at = self.flow.0.model.case.told(self.place.y[0]);
-                let message = format!("the motion does not get away from {at:.6} at {from:.9} s");
-                return Err(Error::new(ErrorKind::Numeric, message)
-                    .help("a load that turns about just there holds and lets go in turn: start it a little aside"));
+                let message = sentences::the_motion_does_not_get_away_from_at(&at, &from);
+                return Err(Error::new(ErrorKind::Numeric, message).help(sentences::A_LOAD_THAT_TURNS_ABOUT_JUST_THERE));
             }
             if let Stop::Bound(bound) = stop {
                 pace.piece(self.place.x, last)?;
@@ -182,14 +179,11 @@ impl<'m, 'a> Runner<'m, 'a> {
             }
             if omega == 0.0 && way > 0.0 && self.starts_back(crank) {
                 let at = forces.model.case.told(crank + self.gone);
-                let message = format!(
-                    "at t = {t:.6} s, {at}, the crank may start from rest in either sense: a load that acts in one sense \
-                     only drives it"
-                );
+                let message = sentences::at_the_crank_may_start_from_rest(&t, &at);
                 return Err(Error::new(ErrorKind::Unsupported, message)
                     .at_time(t)
                     .at_input(at)
-                    .help("give the crank a speed at t = 0, or let the load act in both senses"));
+                    .help(sentences::GIVE_THE_CRANK_A_SPEED_AT_OR_LET));
             }
             if omega != 0.0 {
                 forces.branch.set(forces.model.branch(omega, alpha));

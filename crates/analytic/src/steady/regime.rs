@@ -1,5 +1,6 @@
 //! Steady periodic motion: the crank has the same speed after every period.
 
+use crate::sentences;
 use linkage::math::KeepNan;
 use std::f64::consts::TAU;
 
@@ -71,9 +72,8 @@ impl Model<'_> {
     /// [`ErrorKind::Numeric`] if the motor has no stable speed or does not carry the crank over a period.
     pub fn regime(&self, cranks: &[f64], accuracy: f64) -> Result<Regime> {
         let Some(motor) = &self.motor else {
-            let message = "a steady motion is asked for, but there is no motor";
-            return Err(Error::new(ErrorKind::Input, message)
-                .help("add a `[motor]` section: its law, and the ratio of the reducer"));
+            let message = sentences::A_STEADY_MOTION_IS_ASKED;
+            return Err(Error::new(ErrorKind::Input, message).help(sentences::ADD_A_MOTOR_SECTION_ITS_LAW));
         };
         let Some(period) = self.kinks().period else { return Err(no_turn(self.kinks())) };
         let turn = Turn::of(self, period)?;
@@ -94,10 +94,8 @@ impl Model<'_> {
             let next = energy + change / (1.0 - multiplier);
             energy = if next > 0.0 && next.is_finite() { next } else { after };
         }
-        let message =
-            format!("no steady motion was found in {MOST_SHOTS} turns: a deviation is left by {share:.3} after a turn");
-        Err(Error::new(ErrorKind::Numeric, message)
-            .help("follow the run-up instead, and look what the crank's speed does"))
+        let message = sentences::no_steady_motion_was_found(&MOST_SHOTS, &share);
+        Err(Error::new(ErrorKind::Numeric, message).help(sentences::FOLLOW_THE_RUN_UP_INSTEAD))
     }
 
     /// A steady motion of this model at other crank angles, in the form of [`Model::regime`].
@@ -232,15 +230,11 @@ fn extreme(
 }
 
 fn outside(crank: f64) -> Error {
-    let message =
-        format!("the steady speed is asked for at {:.6} deg, which is not in the first period", crank.to_degrees());
-    Error::new(ErrorKind::Input, message).help("give crank angles from the start on, in the sense of motion")
+    let message = sentences::the_steady_speed_is_asked(&crank.to_degrees());
+    Error::new(ErrorKind::Input, message).help(sentences::GIVE_CRANK_ANGLES_FROM_THE_START)
 }
 
 fn stalled(crank: f64) -> Error {
-    let message = format!(
-        "the motor does not carry the crank over a turn: it comes to a standstill beyond {:.3} deg",
-        crank.to_degrees()
-    );
-    Error::new(ErrorKind::Numeric, message).help("choose a stronger motor or a larger ratio, or add a flywheel")
+    let message = sentences::the_motor_does_not_carry(&crank.to_degrees());
+    Error::new(ErrorKind::Numeric, message).help(sentences::CHOOSE_A_STRONGER_MOTOR_OR_A_LARGER_RATIO)
 }

@@ -13,6 +13,7 @@ pub mod class_change;
 pub mod cramer;
 pub mod linear_system;
 
+use crate::sentences;
 use linkage::case::Case;
 use linkage::drive::Wrench;
 use linkage::error::{Error, ErrorKind};
@@ -175,9 +176,6 @@ pub struct Reactions {
 }
 
 fn singular(method: &str) -> Error {
-    Error::new(
-        ErrorKind::Numeric,
-        format!("{method}: the lines of the three leads meet in one point or are parallel, the group has a dead point"),
-    )
-    .help("take a crank angle at which the lines of the leads form a triangle")
+    Error::new(ErrorKind::Numeric, sentences::the_lines_of_the_three_leads(&method))
+        .help(sentences::TAKE_A_CRANK_ANGLE_AT_WHICH_THE_LINES)
 }

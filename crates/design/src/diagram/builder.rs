@@ -3,6 +3,7 @@
 use super::names::{Named, Place, fixed_guide, pair, pivot, primed};
 use super::sliding::Slide;
 use super::vectors::{Part, Plan, Quantity, ROOM, Tip, TipKind, Vector};
+use crate::sentences;
 use drawing::paper::scale::factor;
 use linkage::math::{KeepNan, Motion, Vec2, turned};
 use linkage::mechanism::{LinkId, Mechanism};
@@ -81,7 +82,7 @@ impl<'a> Builder<'a> {
             let value = self.of_point(&self.state.motions[number], link.mass_centre);
             let letter = self.tip(format!("s{number}"), TipKind::MassCentre, value);
             let guide = fixed_guide(self.mechanism, number).map_or_else(String::new, |guide| along(&guide.name));
-            let meaning = format!("{word} of the mass centre of link {number} ({}){guide}", link.name);
+            let meaning = sentences::of_the_mass_centre_of_link(&word, &number, &link.name, &guide);
             self.push(format!("{symbol}_S{number}"), Part::MassCentre, [pole, &letter], value, number, meaning);
         }
     }
@@ -89,7 +90,7 @@ impl<'a> Builder<'a> {
     /// The direction that is known in advance for the vector of a point of `link`.
     fn direction(&self, link: LinkId, name: &str) -> String {
         match (self.quantity, pivot(self.mechanism, link), fixed_guide(self.mechanism, link)) {
-            (Quantity::Velocity, Some((_, pivot)), _) => format!(", perpendicular to {}", pair(&pivot, name)),
+            (Quantity::Velocity, Some((_, pivot)), _) => sentences::perpendicular_to(&pair(&pivot, name)),
             (_, None, Some(guide)) => along(&guide.name),
             _ => String::new(),
         }
@@ -104,10 +105,8 @@ impl<'a> Builder<'a> {
             let value = self.of_point(&self.state.motions[guide], slide.place_under(self.state));
             self.tips.push(Tip { letter: under.letter.clone(), kind: TipKind::Coincident, at: value });
             let direction = self.direction(guide, &under.name);
-            let meaning = format!(
-                "{word} of {}, the point of link {guide} under {}{direction}",
-                under.name, slide.place.named.name
-            );
+            let meaning =
+                sentences::of_the_point_of_link_under(&word, &under.name, &guide, &slide.place.named.name, &direction);
             self.push(format!("{symbol}_{}", under.name), Part::Absolute, [pole, &under.letter], value, guide, meaning);
         }
     }
@@ -121,9 +120,9 @@ impl<'a> Builder<'a> {
             let value =
                 self.quantity.of(turned(arm) * motion.omega, turned(arm) * motion.alpha - arm * motion.omega.powi(2));
             let (from, to) = (from.named, to.named);
-            let line = format!(", perpendicular to {}", pair(&from.name, &to.name));
+            let line = sentences::perpendicular_to(&pair(&from.name, &to.name));
             let line = self.quantity.of(line.as_str(), "");
-            let meaning = format!("{word} of {} relative to {}{line}", to.name, from.name);
+            let meaning = sentences::of_relative_to_2(&word, &to.name, &from.name, &line);
             let name = format!("{symbol}_{}", pair(&to.name, &from.name));
             self.push(name, Part::Relative, [&from.letter, &to.letter], value, link, meaning);
         }
@@ -141,8 +140,7 @@ impl<'a> Builder<'a> {
             let to = if *fixed { self.quantity.pole() } else { &own.letter };
             let of = pair(&own.name, &under.name);
             let Some([speed, growth]) = slide.rates(self.mechanism, self.state) else { continue };
-            let meaning =
-                format!("{} of {} relative to {}{}", self.quantity.word(), own.name, under.name, along(joint));
+            let meaning = sentences::of_relative_to(&self.quantity.word(), &own.name, &under.name, &along(joint));
             if self.quantity == Quantity::Velocity {
                 self.push(format!("v_{of}"), Part::Sliding, [from, to], speed, link, meaning);
                 continue;
@@ -153,7 +151,7 @@ impl<'a> Builder<'a> {
             } else {
                 number += 1;
                 let letter = self.tip(format!("k{number}"), TipKind::Coriolis, self.end(from) + coriolis);
-                let meaning = format!("Coriolis part, 2 omega x v, perpendicular to the guide {joint}");
+                let meaning = sentences::coriolis_part_omega_perpendicular_to_the_guide(&joint);
                 self.push(format!("a_{of}^cor"), Part::Coriolis, [from, &letter], coriolis, link, meaning);
                 letter
             };
@@ -191,10 +189,10 @@ impl<'a> Builder<'a> {
                     number += 1;
                     self.tip(format!("n{number}"), TipKind::Normal, self.end(&from.letter) + normal)
                 };
-                let meaning = format!("normal part along {of}, omega^2 l");
+                let meaning = sentences::normal_part_along_omega(&of);
                 self.push(format!("a_{of}^n"), Part::Normal, [start, &end], normal, link, meaning);
                 if !uniform {
-                    let meaning = format!("tangential part, alpha l, perpendicular to {line}");
+                    let meaning = sentences::tangential_part_alpha_perpendicular_to(&line);
                     self.push(format!("a_{of}^t"), Part::Tangential, [&end, &to.letter], tangential, link, meaning);
                 }
             }
@@ -243,5 +241,5 @@ impl<'a> Builder<'a> {
 
 /// The direction along the guide of a joint, as part of a vector's meaning.
 fn along(joint: &str) -> String {
-    format!(", along the guide {joint}")
+    sentences::along_the_guide(&joint)
 }

@@ -8,6 +8,7 @@
 //! Each starts from its exact first value.
 
 use super::chord::{closed_slopes, integral, slopes};
+use crate::sentences;
 use linkage::case::{Case, Grid, Wanted};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::KeepNan;
@@ -42,7 +43,7 @@ impl Course {
         let all = case.wanting(Wanted::ALL).channels();
         let wrong = |message: String, help: String| Error::new(ErrorKind::Input, message).help(help);
         let Some(channel) = all.iter().find(|channel| channel.to_string() == name) else {
-            return Err(wrong(format!("the mechanism has no channel \"{name}\""), help(&all, name)));
+            return Err(wrong(sentences::the_mechanism_has_no_channel(&name), help(&all, name)));
         };
         let stem = name.strip_suffix(channel.kind.suffix).unwrap_or(name);
         match ENDINGS.into_iter().find(|endings| endings.contains(&channel.kind.suffix)) {
@@ -50,10 +51,10 @@ impl Course {
                 Channel::named(&format!("{stem}{ending}")).expect("links and points have all derivatives")
             }))),
             Some(endings) => Err(wrong(
-                format!("\"{name}\" is a derivative already; a motion diagram starts from a position or an angle"),
-                format!("ask for {stem}{}: its diagram shows this one too", endings[0]),
+                sentences::is_a_derivative_already_a_motion(&name),
+                sentences::ask_for_its_diagram_shows(&stem, &endings[0]),
             )),
-            None => Err(wrong(format!("\"{name}\" is neither a position nor an angle"), help(&all, ""))),
+            None => Err(wrong(sentences::is_neither_a_position_nor(&name), help(&all, ""))),
         }
     }
 }
@@ -64,7 +65,7 @@ fn help(all: &[Channel], name: &str) -> String {
     let parts: Vec<&str> = name.splitn(2, '.').collect();
     let sort = [Subject::Link, Subject::Point].into_iter().find(|sort| parts.first() == Some(&sort.word()));
     let Some(sort) = sort else {
-        return "channels are named like point.B.x_m, point.B.y_m or link.crank.angle_rad".into();
+        return sentences::CHANNELS_ARE_NAMED_LIKE_POINT.into();
     };
     let of = parts.get(1).and_then(|rest| rest.rsplit_once('.')).map_or("", |(of, _)| of);
     let names: Vec<String> = positions
@@ -74,7 +75,7 @@ fn help(all: &[Channel], name: &str) -> String {
         })
         .map(ToString::to_string)
         .collect();
-    format!("allowed here: {}", names.join(", "))
+    sentences::allowed_here(&names.join(", "))
 }
 
 linkage::words! {
@@ -156,12 +157,12 @@ impl MotionDiagram {
     pub fn of(case: &Case, solver: &dyn Solver, course: &Course, divisions: usize) -> Result<Self> {
         if !DIVISIONS.contains(&divisions) {
             let (least, most) = DIVISIONS.into_inner();
-            return Err(Error::new(ErrorKind::Input, format!("a turn cannot be divided into {divisions} parts here"))
-                .help(format!("give from {least} to {most} divisions")));
+            return Err(Error::new(ErrorKind::Input, sentences::a_turn_cannot_be_divided(&divisions))
+                .help(sentences::give_from_to_divisions(&least, &most)));
         }
         if !case.is_steady() {
-            let message = "the chord method divides a turn into equal times, but the drive's speed changes";
-            return Err(Error::new(ErrorKind::Unsupported, message).help("give the drive a constant speed"));
+            let message = sentences::THE_CHORD_METHOD_DIVIDES_A_TURN;
+            return Err(Error::new(ErrorKind::Unsupported, message).help(sentences::GIVE_THE_DRIVE_A_CONSTANT));
         }
         // Divisions, their halves and their quarters all have their midpoints among the rows.
         let stride = 8 * CURVE.div_ceil(8 * divisions);
@@ -173,8 +174,8 @@ impl MotionDiagram {
         let trajectory = solver.solve(&case.on(grid)?.wanting(wanted))?;
         let column = |channel: &Channel| {
             trajectory.column(channel).map(<[f64]>::to_vec).ok_or_else(|| {
-                Error::new(ErrorKind::Unsupported, format!("{} does not provide {channel}", solver.name()))
-                    .help("solve with another solver")
+                Error::new(ErrorKind::Unsupported, sentences::does_not_provide(&solver.name(), &channel))
+                    .help(sentences::SOLVE_WITH_ANOTHER_SOLVER)
             })
         };
         let [x, v, a] = &course.0;

@@ -20,6 +20,7 @@ use super::names::{Named, Place, places};
 use super::scheme::Scheme;
 use super::sliding::{Slide, slides, travels};
 use super::vectors::{Plan, Quantity};
+use crate::sentences;
 use linkage::case::{Case, Grid, Wanted};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::mechanism::{LinkId, Mechanism};
@@ -78,8 +79,8 @@ impl Plans {
             if letters.len() == before {
                 let points = self.points.iter().map(|(own, _)| own.name.as_str());
                 let all: Vec<&str> = points.chain(self.scheme.links.iter().map(|link| link.name.as_str())).collect();
-                return Err(Error::new(ErrorKind::Input, format!("no point and no link is called \"{name}\""))
-                    .help(format!("name some of {}", all.join(", "))));
+                return Err(Error::new(ErrorKind::Input, sentences::no_point_and_no_link_is_called(&name))
+                    .help(sentences::name_some_of(&all.join(", "))));
             }
         }
         self.velocity.keep(&letters);
@@ -124,7 +125,7 @@ impl<'a> Planner<'a> {
 pub fn state_at(case: &Case, solver: &dyn Solver, crank: f64) -> Result<State> {
     let grid = Grid::of_inputs(case.crank(), vec![crank]);
     grid.check(case.crank())
-        .map_err(|message| Error::new(ErrorKind::Input, message).help("give a crank angle in degrees, as 70 or -30"))?;
+        .map_err(|message| Error::new(ErrorKind::Input, message).help(sentences::GIVE_A_CRANK_ANGLE_IN_DEGREES))?;
     let wanted = Wanted::of(&[Stage::Positions, Stage::Velocities, Stage::Accelerations]);
     let case = case.on(grid)?.wanting(wanted);
     let mut found = State::at_start(&case);

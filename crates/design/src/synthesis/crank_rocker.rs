@@ -4,6 +4,7 @@
 //! With both positions of B given, the two lengths are half the sum and half the difference of the two distances.
 //! Source: Artobolevsky, "Theory of mechanisms and machines", synthesis of the four-bar from two extreme positions.
 
+use crate::sentences;
 use std::f64::consts::{PI, TAU};
 
 use super::{time_ratio, wrong};
@@ -75,31 +76,25 @@ impl CrankRocker {
         let distances = arms.map(|arm| arm.norm());
         let (far, near) = if distances[0] >= distances[1] { (0, 1) } else { (1, 0) };
         let (crank, coupler) = ((distances[far] - distances[near]) / 2.0, (distances[far] + distances[near]) / 2.0);
-        let told =
-            format!("O is {:.6} m from B in one extreme position and {:.6} m in the other", distances[0], distances[1]);
+        let told = sentences::is_from_in_one_extreme_position(&distances[0], &distances[1]);
         if !(crank > 1e-9 * coupler) {
-            let message = format!("{told}: a crank of no length would be needed");
-            return Err(Error::new(ErrorKind::Geometry, message)
-                .help("move a pivot, or turn the extreme positions, so that one lies farther from the crank's pivot"));
+            let message = sentences::a_crank_of_no_length_would(&told);
+            return Err(
+                Error::new(ErrorKind::Geometry, message).help(sentences::MOVE_A_PIVOT_OR_TURN_THE_EXTREME_POSITIONS)
+            );
         }
         let sides = arms.map(|arm| cross(frame, arm));
         if !(sides[0] * sides[1] > 0.0) {
-            let message = "the line of the two pivots goes between the two extreme positions, or through one: no crank leads from one to the other \
-                           without taking the dyad apart";
-            return Err(Error::new(ErrorKind::Geometry, message)
-                .help("choose a smaller swing, or pivots whose line leaves both positions of B on one side"));
+            let message = sentences::THE_LINE_OF_THE_TWO_PIVOTS;
+            return Err(Error::new(ErrorKind::Geometry, message).help(sentences::CHOOSE_A_SMALLER_SWING_OR_PIVOTS));
         }
         let lengths = [frame.norm(), crank, coupler, wish.rocker];
         let found = FourBar::of_lengths(lengths).of_type;
         // The triangles O, B, C of both positions make the crank the shortest link, and let it turn fully.
         // Only rounding can put them on one line.
         if found != FourBarType::CrankRocker {
-            let message = format!(
-                "{told}: an extreme position lies on the line of the pivots but for rounding, a {}",
-                found.name()
-            );
-            return Err(Error::new(ErrorKind::Geometry, message)
-                .help("move a pivot, or turn the extreme positions away from the line of the pivots"));
+            let message = sentences::an_extreme_position_lies_on_the_line(&told, &found.name());
+            return Err(Error::new(ErrorKind::Geometry, message).help(sentences::MOVE_A_PIVOT_OR_TURN_THE_EXTREME));
         }
         let direction = |k: usize| arms[k].y.atan2(arms[k].x);
         let at = |k: usize, turn: f64| Extreme { rocker: angles[k], crank: (direction(k) + turn).rem_euclid(TAU) };
@@ -121,18 +116,22 @@ impl CrankRocker {
 fn check(wish: &Wish) -> Result<()> {
     let finite = [wish.crank_pivot.x, wish.crank_pivot.y, wish.rocker_pivot.x, wish.rocker_pivot.y, wish.extreme];
     if !finite.iter().all(|value| value.is_finite()) {
-        return Err(wrong("pivots", "a coordinate or an angle is not finite".into(), "give decimal numbers"));
+        return Err(wrong("pivots", sentences::A_COORDINATE_OR_AN_ANGLE.into(), sentences::GIVE_DECIMAL_NUMBERS));
     }
     if !(wish.rocker > 0.0 && wish.rocker.is_finite()) {
-        let message = format!("the rocker's length is {} m", wish.rocker);
-        return Err(wrong("rocker", message, "give a length greater than zero"));
+        let message = sentences::the_rocker_length_is(&wish.rocker);
+        return Err(wrong("rocker", message, sentences::GIVE_A_LENGTH_GREATER_THAN_ZERO));
     }
     if !(wish.swing != 0.0 && wish.swing.abs() < PI) {
-        let message = format!("the swing is {} deg", wish.swing.to_degrees());
-        return Err(wrong("swing", message, "give an angle between -180 and 180 deg that is not zero"));
+        let message = sentences::the_swing_is_deg(&wish.swing.to_degrees());
+        return Err(wrong("swing", message, sentences::GIVE_AN_ANGLE_BETWEEN_AND_DEG));
     }
     if !((wish.rocker_pivot - wish.crank_pivot).norm() > 0.0) {
-        return Err(wrong("pivots", "both pivots are one point".into(), "give the rocker a pivot of its own"));
+        return Err(wrong(
+            "pivots",
+            sentences::BOTH_PIVOTS_ARE_ONE_POINT.into(),
+            sentences::GIVE_THE_ROCKER_A_PIVOT_OF_ITS_OWN,
+        ));
     }
     Ok(())
 }

@@ -1,5 +1,6 @@
 //! Scenario files for linkages that were found in closed form.
 
+use crate::sentences;
 use std::fmt::Write;
 
 use super::crank_rocker::CrankRocker;
@@ -53,7 +54,7 @@ impl Sheet {
 /// Pins, each between two links.
 fn pins(all: &[(&str, [&str; 2])]) -> String {
     let pin = |(name, [first, second]): &(&str, [&str; 2])| {
-        format!("[[joints]]\nname = \"{name}\"\ntype = \"revolute\"\nlinks = [\"{first}\", \"{second}\"]\n\n")
+        sentences::joints_name_type_revolute_links(&name, &first, &second)
     };
     all.iter().map(pin).collect()
 }
@@ -83,11 +84,7 @@ impl SliderCrank {
     #[must_use]
     pub fn scenario(&self, sheet: &Sheet) -> String {
         let mut text = sheet.head();
-        let _ = writeln!(
-            text,
-            "[ground.points]\nO = {{ x_m = 0, y_m = 0 }}\nG = {{ x_m = 0, y_m = {:?} }} # on the slider's line\n",
-            self.offset
-        );
+        let _ = writeln!(text, "{}", sentences::ground_points_on_the_slider(&format_args!("{:?}", self.offset)));
         text += &sheet.bar("crank", ["O", "A"], self.crank);
         text += &sheet.bar("rod", ["A", "B"], self.rod);
         let mass = sheet.bar * self.crank;
@@ -97,7 +94,7 @@ impl SliderCrank {
              [links.slider.points]\nB = {{ x_m = 0, y_m = 0 }}\n"
         );
         text += &pins(&[("O", ["ground", "crank"]), ("A", ["crank", "rod"]), ("B", ["rod", "slider"])]);
-        text += "[[joints]]\nname = \"guide\"\ntype = \"prismatic\"\nlinks = [\"ground\", \"slider\"]\npoints = [\"G\", \"B\"]\naxis_deg = 0\n\n";
+        text += sentences::JOINTS_NAME_GUIDE_TYPE_PRISMATIC;
         text + &sheet.tail("\"rod\", \"slider\"", "ahead")
     }
 }

@@ -10,6 +10,7 @@
 mod candidate;
 mod refine;
 
+use crate::sentences;
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::SeedableRng;
 
@@ -97,12 +98,8 @@ pub fn search(task: &Task, threads: usize, progress: &mut dyn FnMut(f64)) -> Res
 }
 
 fn none(task: &Task) -> Error {
-    let message = format!(
-        "none of {} candidates can be assembled over a whole turn of the crank with the transmission angle and the stroke asked for",
-        task.effort.candidates
-    );
-    Error::new(ErrorKind::Numeric, message)
-        .help("draw more candidates, narrow the bounds about a drawing that turns fully, or ask for less in `limits`")
+    let message = sentences::none_of_candidates_can_be_assembled(&task.effort.candidates);
+    Error::new(ErrorKind::Numeric, message).help(sentences::DRAW_MORE_CANDIDATES_NARROW_THE_BOUNDS)
 }
 
 /// Keeps the cheapest `count`, in order; of equal ones the first drawn is first.

@@ -1,6 +1,7 @@
 //! Writes a drawing as an SVG document.
 
 use super::figure::Figure;
+use crate::sentences;
 use svg::Document;
 
 /// The document of a figure on white paper: its upper left corner is the figure's origin, its size is in mm.
@@ -10,7 +11,7 @@ pub fn document(figure: &Figure, [width, height]: [f64; 2], title: &str) -> Stri
         .set("width", format!("{width:.0}mm"))
         .set("height", format!("{height:.0}mm"))
         .set("viewBox", format!("0 0 {width:.0} {height:.0}"))
-        .set("font-family", "Liberation Sans, Arial, Helvetica, sans-serif")
+        .set("font-family", sentences::LIBERATION_SANS_ARIAL_HELVETICA_SANS)
         .set("stroke-linecap", "round")
         .set("stroke-linejoin", "round")
         .add(svg::node::element::Title::new(super::figure::clean(title)))

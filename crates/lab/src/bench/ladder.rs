@@ -3,6 +3,7 @@
 use super::options::Options;
 use super::peer::Way;
 use super::point::{Outcome, Party, Point};
+use crate::sentences;
 use crate::steps::work_of_run;
 use analytic::reduced::ACCURACY;
 use analytic::{AssurAt, NewtonAt};
@@ -44,7 +45,7 @@ pub(super) struct Planned {
 impl Planned {
     fn new(program: &str, party: Party, resolution: String, runner: Runner) -> Self {
         let (program, way) = (program.to_string(), String::new());
-        let outcome = Outcome::Failed("it was not run".into());
+        let outcome = Outcome::Failed(sentences::IT_WAS_NOT_RUN.into());
         Planned { point: Point { program, party, way, resolution, settings: None, is_usual: false, outcome }, runner }
     }
 
@@ -180,7 +181,7 @@ fn told(engine: &dyn Engine, settings: &Settings, case: &Case) -> String {
         0 => {}
         1 => words.push("extrapolated once".into()),
         2 => words.push("extrapolated twice".into()),
-        times => words.push(format!("extrapolated {times} times")),
+        times => words.push(sentences::extrapolated_times(&times)),
     }
     words.join(", ")
 }

@@ -7,6 +7,7 @@ use super::options::Clock;
 use super::peer::{Answer, Peer};
 use super::point::{Outcome, Point, Run};
 use super::reference::{Floor, apart};
+use crate::sentences;
 use linkage::case::Case;
 use linkage::error::Error;
 use linkage::math::KeepNan;
@@ -126,23 +127,18 @@ impl Desk<'_> {
     /// A peer's answer as a run; everything that is wrong with it is a reason.
     fn judged(&self, answer: Answer) -> Result<Run, String> {
         let column = |name: &str| answer.columns.iter().find(|(own, _)| own == name).map(|(_, values)| values);
-        let times = column("t_s").ok_or("the answer has no column t_s")?;
+        let times = column("t_s").ok_or(sentences::THE_ANSWER_HAS_NO_COLUMN)?;
         let wanted = &self.case.grid.times;
         if times.len() != wanted.len() {
-            return Err(format!("the answer has {} instants, and {} are wanted", times.len(), wanted.len()));
+            return Err(sentences::the_answer_has_instants_and_are_wanted(&times.len(), &wanted.len()));
         }
         let span = wanted.iter().fold(0.0f64, |most, t| most.larger(t.abs()));
         if let Some(row) = (0..times.len()).find(|&row| !((times[row] - wanted[row]).abs() <= SAME * span)) {
-            return Err(format!(
-                "row {} of the answer is at {} s, and {} s is wanted",
-                row + 1,
-                times[row],
-                wanted[row]
-            ));
+            return Err(sentences::row_of_the_answer_is_at_and_is_wanted(&(row + 1), &times[row], &wanted[row]));
         }
         let seconds: Vec<f64> = answer.seconds.iter().copied().filter(|&own| own > 0.0 && own.is_finite()).collect();
         if seconds.is_empty() {
-            return Err("the answer has no time above 0 s".into());
+            return Err(sentences::THE_ANSWER_HAS_NO_TIME_ABOVE.into());
         }
         let (mut errors, mut failed, mut without) = ([None; Stage::ALL.len()], Vec::new(), Vec::new());
         for stage in Stage::ALL.into_iter().filter(|&stage| self.case.wanted.has(stage)) {
@@ -169,18 +165,18 @@ impl Desk<'_> {
         match (errors.iter().any(Option::is_some), failed.first()) {
             (true, _) => Ok(Run { errors, failed, without, seconds, effort: answer.effort }),
             (false, Some((_, reason))) => Err(reason.clone()),
-            (false, None) => Err("the answer has none of the wanted channels".into()),
+            (false, None) => Err(sentences::THE_ANSWER_HAS_NONE_OF_THE_WANTED.into()),
         }
     }
 }
 
 fn and_more(more: usize) -> String {
-    if more == 0 { String::new() } else { format!(" and {more} more") }
+    if more == 0 { String::new() } else { sentences::and_more(&more) }
 }
 
 /// The first line of a reason, not too long for a diagram.
 fn short(reason: &str) -> String {
-    let line = reason.lines().find(|line| !line.trim().is_empty()).unwrap_or("no reason was given").trim();
+    let line = reason.lines().find(|line| !line.trim().is_empty()).unwrap_or(sentences::NO_REASON_WAS_GIVEN).trim();
     match line.char_indices().nth(REASON) {
         Some((end, _)) => format!("{}...", &line[..end]),
         None => line.to_string(),

@@ -8,6 +8,7 @@ use super::mutant::{Mutant, Mutated, Party};
 use super::planted::Fault;
 use super::seen::Outcome;
 use super::stage::Stage;
+use crate::sentences;
 use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::threads::{cores, made};
 use prover::proof::{BUDGET, Options};
@@ -49,8 +50,8 @@ impl Asked {
 pub fn mutate(scenario: &Scenario, asked: &Asked, progress: &mut dyn FnMut(f64)) -> Result<Mutated> {
     let stage = Stage::new(scenario, &asked.options)?;
     if stage.verdict == "disagree" {
-        let message = format!("{} disagrees without a fault, so that every fault would count as found", scenario.name);
-        let help = "prove it without a fault, and mend what disagrees";
+        let message = sentences::disagrees_without_a_fault_so(&scenario.name);
+        let help = sentences::PROVE_IT_WITHOUT_A_FAULT;
         return Err(Error::new(ErrorKind::Input, message).help(help));
     }
     let kinds = asked.kinds();
@@ -102,12 +103,13 @@ fn allowed(stage: &Stage, kinds: &[&'static Kind], asked: &Asked) -> Result<()> 
     if work <= PROOFS * budget {
         return Ok(());
     }
-    let message = format!(
-        "{}: planting {faults} faults takes the work of about {work:.1e} steps of a four-bar, {:.1e} are allowed",
-        stage.scenario.name,
-        PROOFS * budget
+    let message = sentences::planting_faults_takes_the_work(
+        &stage.scenario.name,
+        &faults,
+        &format_args!("{work:.1e}"),
+        &format_args!("{:.1e}", PROOFS * budget),
     );
-    let help = "plant fewer of them: some kinds, one party, or no sizes";
+    let help = sentences::PLANT_FEWER_OF_THEM_SOME;
     Err(Error::new(ErrorKind::Unsupported, message).help(help).or_help(Advice::MoreWork { to: work / PROOFS }))
 }
 

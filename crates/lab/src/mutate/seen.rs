@@ -1,5 +1,6 @@
 //! Who sees a fault: channels and checks beyond their bounds, since when, by how much.
 
+use crate::sentences;
 use linkage::math::statistics::ascending;
 use linkage::trajectory::Trajectory;
 use prover::compare::{Check, Verdict, differences, overall};
@@ -92,7 +93,7 @@ impl Eyes {
             let beyond = sides.beyond();
             self.channels += beyond.len();
             let sights = beyond.into_iter().map(|own| Sight {
-                what: format!("{} (assur against newton)", own.channel),
+                what: sentences::assur_against_newton_2(&own.channel),
                 since: Some(own.since),
                 margin: own.margin,
             });
@@ -113,7 +114,7 @@ impl Eyes {
             && let Some(trajectory) = &own.trajectory
             && proof.added().is_some()
         {
-            self.channels(&own.channels, reference, trajectory, &[], &format!("{name}'s own forces"));
+            self.channels(&own.channels, reference, trajectory, &[], &sentences::own_forces(&name));
         }
         self.checks(proof.checks.iter());
         self.verdicts.push(proof.verdict.clone());

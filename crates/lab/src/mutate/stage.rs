@@ -1,5 +1,6 @@
 //! One scenario with its true parties, and proofs in which one of them has a fault.
 
+use crate::sentences;
 use std::sync::OnceLock;
 
 use super::kinds::Plant;
@@ -86,7 +87,7 @@ impl<'a> Stage<'a> {
             Party::Assur | Party::Newton => self.in_side(fault, party),
             Party::Engine => self.in_engine(fault),
             Party::All => self.in_all(fault),
-            Party::Formulas => Ok(Outcome::Refused("mistakes of formulas are planted in formulas".into())),
+            Party::Formulas => Ok(Outcome::Refused(sentences::MISTAKES_OF_FORMULAS_ARE_PLANTED.into())),
         };
         outcome.unwrap_or_else(|error| Outcome::Refused(error.message().into()))
     }
@@ -167,7 +168,7 @@ impl<'a> Stage<'a> {
     fn in_all(&self, fault: Fault) -> Result<Outcome> {
         let case = match fault.kind.plant {
             Plant::Case(change) => match change(&self.case, fault.size) {
-                None => return Ok(Outcome::Refused("the case cannot be put together".into())),
+                None => return Ok(Outcome::Refused(sentences::THE_CASE_CANNOT_BE_PUT_TOGETHER.into())),
                 // Whoever asks names the instants. What is wrong is when the sides take them to be.
                 Some(case) if self.is_late(&case) => None,
                 Some(case) => Some(case),

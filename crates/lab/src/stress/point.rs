@@ -1,5 +1,6 @@
 //! One point: both sides and all engines on one case.
 
+use crate::sentences;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use linkage::case::Case;
@@ -75,8 +76,8 @@ fn parties(family: &Family, setup: &Setup) -> Result<Vec<Party>> {
     let found = sides(case, truth.as_ref())?;
     let against = match &truth {
         Some(_) => precise::method(case).to_string(),
-        None if without.is_empty() => "the other side".into(),
-        None => format!("the other side ({without})"),
+        None if without.is_empty() => sentences::THE_OTHER_SIDE_2.into(),
+        None => sentences::the_other_side(&without),
     };
     let mut all: Vec<Party> = found.sides.iter().map(|side| of_side(side, &found, &against)).collect();
     let reference = truth.as_ref().map(|truth| (truth, against.as_str()));
@@ -135,7 +136,7 @@ fn of_proof(case: &Case, proof: &EngineProof, whole: &Verdict, truth: Option<(&T
         return Party::failed(name, &told(error));
     }
     let (Some(trajectory), Some((truth, against))) = (&proof.trajectory, truth) else {
-        return Party::failed(name, "there is nothing to hold it against");
+        return Party::failed(name, sentences::THERE_IS_NOTHING_TO_HOLD);
     };
     let deviations = match deviations(truth, trajectory, proof) {
         Ok(deviations) => deviations,

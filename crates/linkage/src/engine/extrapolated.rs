@@ -6,6 +6,7 @@ use super::{Engine, Settings, StandIn};
 use crate::case::Case;
 use crate::error::Result;
 use crate::math::{Motion, Vec2, unit};
+use crate::sentences;
 use crate::solver::{Progress, Provision, Solver, State, Visit};
 use crate::trajectory::{CHANNELS, Channel, ChannelKind, Stage};
 
@@ -117,7 +118,7 @@ impl Solver for Extrapolated {
 
     fn provides(&self, channel: &Channel) -> Provision {
         match self.coarsest().provides(channel) {
-            Provision::Computed => Provision::Derived("extrapolated from runs at the step and at halves of it"),
+            Provision::Computed => Provision::Derived(sentences::EXTRAPOLATED_FROM_RUNS_AT_THE_STEP),
             other @ Provision::Derived(_) => other,
         }
     }
@@ -177,7 +178,7 @@ impl StandIn for Extrapolated {
     fn own_told(&self) -> Vec<(&'static str, String)> {
         let mut told = self.coarsest().told();
         let halves = (0..=self.times()).map(|time| if time == 0 { "h".into() } else { format!("h/{}", 1 << time) });
-        told.push(("extrapolated", format!("from runs at {}", halves.collect::<Vec<String>>().join(", "))));
+        told.push(("extrapolated", sentences::from_runs_at(&(halves.collect::<Vec<String>>().join(", ")))));
         told
     }
 }

@@ -1,5 +1,6 @@
 //! The only table of channels: which quantities a trajectory can hold, in which unit, and which stage they need.
 
+use crate::sentences;
 use std::fmt;
 
 use super::reading::{OfDrive, OfFrame, OfJoint, OfLink, OfPoint, OfSlider, Reading, Subject};
@@ -92,12 +93,24 @@ const TABLE: [ChannelKind; 26] = {
         ChannelKind { periodic: true, ..row(Link(OfLink::Angle), "angle_rad", "angle", Radian, Positions) },
         row(Link(OfLink::Omega), "omega_rad_s", "angular velocity", RadianPerSecond, Velocities),
         row(Link(OfLink::Alpha), "alpha_rad_s2", "angular acceleration", RadianPerSecondSquared, Accelerations),
-        row(centre(X), "x_m", "mass centre position", Metre, Positions),
-        row(centre(Y), "y_m", "mass centre position", Metre, Positions),
-        row(centre(VelocityX), "vx_m_s", "mass centre velocity", MetrePerSecond, Velocities),
-        row(centre(VelocityY), "vy_m_s", "mass centre velocity", MetrePerSecond, Velocities),
-        row(centre(AccelerationX), "ax_m_s2", "mass centre acceleration", MetrePerSecondSquared, Accelerations),
-        row(centre(AccelerationY), "ay_m_s2", "mass centre acceleration", MetrePerSecondSquared, Accelerations),
+        row(centre(X), "x_m", sentences::MASS_CENTRE_POSITION, Metre, Positions),
+        row(centre(Y), "y_m", sentences::MASS_CENTRE_POSITION, Metre, Positions),
+        row(centre(VelocityX), "vx_m_s", sentences::MASS_CENTRE_VELOCITY, MetrePerSecond, Velocities),
+        row(centre(VelocityY), "vy_m_s", sentences::MASS_CENTRE_VELOCITY, MetrePerSecond, Velocities),
+        row(
+            centre(AccelerationX),
+            "ax_m_s2",
+            sentences::MASS_CENTRE_ACCELERATION,
+            MetrePerSecondSquared,
+            Accelerations,
+        ),
+        row(
+            centre(AccelerationY),
+            "ay_m_s2",
+            sentences::MASS_CENTRE_ACCELERATION,
+            MetrePerSecondSquared,
+            Accelerations,
+        ),
         row(Point(X), "x_m", "point position", Metre, Positions),
         row(Point(Y), "y_m", "point position", Metre, Positions),
         row(Point(VelocityX), "vx_m_s", "point velocity", MetrePerSecond, Velocities),

@@ -1,5 +1,6 @@
 //! Why a formula is wrong.
 
+use crate::sentences;
 use std::collections::BTreeSet;
 use std::fmt;
 
@@ -65,49 +66,48 @@ impl fmt::Display for Cause {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Cause::Slip(Slip { formula, kind, written, right, everywhere }) => {
-                let wherever = if *everywhere { " wherever it stands" } else { "" };
-                write!(f, "{}, in {formula}: `{right}` instead of `{written}`{wherever}", kind.words())
+                let wherever = if *everywhere { sentences::WHEREVER_IT_STANDS } else { "" };
+                write!(f, "{}", sentences::in_instead_of(&kind.words(), &formula, &right, &written, &wherever))
             }
-            Cause::Offset(offset) => write!(f, "{} too much everywhere", significant(*offset, 6)),
-            Cause::Factor(factor) => write!(f, "too large by the factor {} everywhere", significant(*factor, 6)),
+            Cause::Offset(offset) => write!(f, "{}", sentences::too_much_everywhere(&significant(*offset, 6))),
+            Cause::Factor(factor) => {
+                write!(f, "{}", sentences::too_large_by_the_factor_everywhere(&significant(*factor, 6)))
+            }
             Cause::Missing(Missing { formula, beside, what, is_factor }) => {
                 let noun = match is_factor {
-                    true if what.starts_with('/') => "divisor, or a factor too many",
+                    true if what.starts_with('/') => sentences::DIVISOR_OR_A_FACTOR_TOO_MANY,
                     true => "factor",
                     false => "term",
                 };
                 let beside = beside.as_ref().map_or(String::new(), |part| format!(" beside `{part}`"));
-                write!(f, "a missing {noun}, in {formula}: `{what}`{beside}")
+                write!(f, "{}", sentences::a_missing_in(&noun, &formula, &what, &beside))
             }
             Cause::Terms(terms) => {
-                let noun = if terms.len() == 1 { "a missing term" } else { "missing terms" };
+                let noun = if terms.len() == 1 { sentences::A_MISSING_TERM } else { "missing terms" };
                 let terms: Vec<String> = terms.iter().map(Term::to_string).collect();
                 write!(f, "{noun}, {}", terms.join(" and "))
             }
             Cause::Leaves { after, before } => {
                 let [after, before] = [after, before].map(|crank| fixed(crank.to_degrees(), 3));
-                write!(
-                    f,
-                    "another branch: it is right up to crank angle {after} deg, and no longer at {before} deg; \
-                     atan2 in place of acos, asin or atan follows it"
-                )
+                write!(f, "{}", sentences::another_branch_it_is_right(&after, &before))
             }
             Cause::Several { causes, more } => {
                 let told: Vec<String> = causes.iter().map(Cause::to_string).collect();
-                write!(f, "one of several that fit equally: {}", told.join("; or "))?;
-                if *more > 0 { write!(f, "; or {more} more") } else { Ok(()) }
+                write!(f, "{}", sentences::one_of_several_that_fit_equally(&(told.join("; or "))))?;
+                if *more > 0 { write!(f, "{}", sentences::or_more(&more)) } else { Ok(()) }
             }
-            Cause::Other(channel) => write!(f, "another quantity is claimed: it is {channel}"),
-            Cause::Constant => write!(f, "it is a constant, and what it claims changes with the crank"),
+            Cause::Other(channel) => write!(f, "{}", sentences::another_quantity_is_claimed_it_is(&channel)),
+            Cause::Constant => write!(f, "{}", sentences::IT_IS_A_CONSTANT_AND_WHAT),
             Cause::Near { error, share } => write!(
                 f,
-                "no single slip or term; it is right to {} % of the largest number, as an approximation or a rounded \
-                 number is: `error = {}` claims it as one",
-                significant(100.0 * share, 2),
-                significant(1.06 * error, 2)
+                "{}",
+                sentences::no_single_slip_or_term_it_is_right(
+                    &significant(100.0 * share, 2),
+                    &significant(1.06 * error, 2)
+                )
             ),
             Cause::Mostly { cause, left } => {
-                write!(f, "for the most part {cause}; with that, {:.2} % of the difference stays over", 100.0 * left)
+                write!(f, "{}", sentences::for_the_most_part_with_that_of_the_difference(&cause, &(100.0 * left)))
             }
         }
     }
@@ -144,7 +144,7 @@ pub struct Search {
 }
 
 /// Why a search has found no cause, where it is cut.
-pub const CUT: &str = "the search ended at its limit of work, before all slips and terms were tried";
+pub const CUT: &str = sentences::THE_SEARCH_ENDED_AT_ITS_LIMIT;
 
 /// Most operations of the search for the cause of one formula.
 pub const MOST_WORK: u64 = 60_000_000;

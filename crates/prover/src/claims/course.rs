@@ -1,5 +1,6 @@
 //! What a side found, with how well it knows it.
 
+use crate::sentences;
 use formula::{Function, Operator, Rounded};
 use linkage::case::Case;
 use linkage::error::{Error, ErrorKind, Result};
@@ -244,7 +245,7 @@ impl<'a> Course<'a> {
 }
 
 fn missing(what: &dyn std::fmt::Display) -> Error {
-    Error::new(ErrorKind::Input, format!("{what} was not asked for"))
+    Error::new(ErrorKind::Input, sentences::was_not_asked_for(&what))
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! A formula's course against that of the mechanism.
 
+use crate::sentences;
 use formula::Rounded;
 use linkage::error::Advice;
 use linkage::math::KeepNan;
@@ -168,18 +169,16 @@ impl Judged {
         let open = |reason: String, advice: &str| Outcome::Open { reason, advice: vec![advice.into()] };
         let all = self.judged + self.lost;
         match self.worst {
-            None if all == 0 && self.undefined > 0 => open(
-                format!("the claim has no number at any of {} instants: it divides by zero", self.undefined),
-                "claim it where the crank turns",
-            ),
-            None if all == 0 => open(
-                "no instant lies between the crank angles for which the formula is claimed".into(),
-                "let the grid come to them, or claim it for others",
-            ),
+            None if all == 0 && self.undefined > 0 => {
+                open(sentences::the_claim_has_no_number_at_any(&self.undefined), sentences::CLAIM_IT_WHERE_THE_CRANK)
+            }
+            None if all == 0 => {
+                open(sentences::NO_INSTANT_LIES_BETWEEN_THE_CRANK.into(), sentences::LET_THE_GRID_COME_TO_THEM)
+            }
             Some(_) if self.lost as f64 <= MOST_LOST * all as f64 => Outcome::Right,
             _ => open(
-                format!("rounding leaves the formula less than six digits at {} of {all} instants", self.lost),
-                "write it so that no digits cancel, for example with atan2 in place of acos",
+                sentences::rounding_leaves_the_formula_less(&self.lost, &all),
+                sentences::WRITE_IT_SO_THAT_NO_DIGITS,
             ),
         }
     }

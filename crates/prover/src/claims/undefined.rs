@@ -1,5 +1,6 @@
 //! Where a formula has no value.
 
+use crate::sentences;
 use std::fmt;
 
 use super::Course;
@@ -28,8 +29,8 @@ impl fmt::Display for Undefined {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Undefined { formula, fault: Fault { message, at, help }, written, crank, .. } = self;
         let crank = fixed(crank.to_degrees(), 3);
-        let place = format!("`{written}` in {formula}, from its letter {}", at.start + 1);
-        write!(f, "{message} at crank angle {crank} deg, {place}: {help}, whatever the result is multiplied by")
+        let place = sentences::in_from_its_letter(&written, &formula, &(at.start + 1));
+        write!(f, "{}", sentences::at_crank_angle_deg_whatever(&message, &crank, &place, &help))
     }
 }
 

@@ -1,6 +1,7 @@
 //! Parts of a case that one number changes: which there are, and how each is turned.
 //! See docs/numerics/diagnosis.md.
 
+use crate::sentences;
 use std::f64::consts::PI;
 
 use super::cause::{Axis, How, Part};
@@ -67,7 +68,7 @@ impl Knob {
             vec![(0.0, How::Missing), (-given, How::Reversed), (2.0 * given, How::Twice), (given / 2.0, How::Half)];
         let (nudge, turn) = (1e-3 * given, Box::new(turn));
         let knob = Knob { part, given, unit, plain, nudge, shows: Shows::Forces, is_far: false, turn };
-        knob.times([(1e3, "as g for kg, or m for mm"), (1e-3, "as kg for g, or mm for m")])
+        knob.times([(1e3, sentences::AS_FOR_KG_OR_FOR_MM), (1e-3, sentences::AS_KG_FOR_OR_MM_FOR)])
     }
 
     /// A place or an angle, whose size has no meaning; `natural` is what it is measured by.
@@ -176,10 +177,7 @@ fn load(case: &Case, index: usize) -> Knob {
         Some(())
     };
     Knob::amount(Part::Load(index + 1, sort), 1.0, "", turn).times(ratio.into_iter().flat_map(|ratio| {
-        [
-            (1.0 / ratio, "divided by the reducer's ratio once more"),
-            (ratio, "multiplied by the reducer's ratio once more"),
-        ]
+        [(1.0 / ratio, sentences::DIVIDED_BY_THE_REDUCER_RATIO), (ratio, sentences::MULTIPLIED_BY_THE_REDUCER_RATIO)]
     }))
 }
 
@@ -293,7 +291,11 @@ fn of_drive(case: &Case, index: usize, drive: &Drive) -> Vec<Knob> {
     };
     let given = if drive.is_free() { drive.initial_speed() } else { drive.top_speed() };
     let part = if drive.is_free() { Part::InitialSpeed(joint) } else { Part::Speed(joint) };
-    let units = [(30.0 / PI, "as rpm for rad/s"), (PI / 30.0, "as rad/s for rpm"), (PI / 180.0, "as rad/s for deg/s")];
+    let units = [
+        (30.0 / PI, sentences::AS_RPM_FOR_RAD),
+        (PI / 30.0, sentences::AS_RAD_FOR_RPM),
+        (PI / 180.0, sentences::AS_RAD_FOR_DEG),
+    ];
     let mut speed = Knob::amount(part, given, "rad/s", speed).moving().times(units);
     if given == 0.0 {
         (speed.plain, speed.nudge) = (Vec::new(), 1e-3 * drive.top_speed());
@@ -341,12 +343,13 @@ fn motor(case: &Case) -> Vec<Knob> {
     let mut moment = of_motor(Part::MotorMoment, |motor, factor| motor.law = motor.law.scaled(factor));
     if efficiency < 1.0 {
         moment = moment.times([
-            (1.0 / efficiency, "without the efficiency"),
-            (efficiency, "with the efficiency twice"),
-            (1.0 / (efficiency * efficiency), "divided by the efficiency instead of multiplied"),
+            (1.0 / efficiency, sentences::WITHOUT_THE_EFFICIENCY),
+            (efficiency, sentences::WITH_THE_EFFICIENCY_TWICE),
+            (1.0 / (efficiency * efficiency), sentences::DIVIDED_BY_THE_EFFICIENCY_INSTEAD),
         ]);
     }
-    let by_ratio = [(1.0 / ratio, "without the reducer's ratio"), (ratio, "with the reducer's ratio twice")];
+    let by_ratio =
+        [(1.0 / ratio, sentences::WITHOUT_THE_REDUCER_RATIO), (ratio, sentences::WITH_THE_REDUCER_RATIO_TWICE)];
     let mut knobs = vec![moment.times(by_ratio)];
     if motor.inertia_on_crank() > 0.0 {
         knobs.push(of_motor(Part::RotorInertia, |motor, factor| {

@@ -1,5 +1,6 @@
 //! Values of other instants: late or early, or by a clock that runs too fast.
 
+use crate::sentences;
 use std::ops::RangeInclusive;
 
 use super::bench::{Bench, Column, Misfit};
@@ -19,10 +20,10 @@ const NEAR: f64 = 1e-2;
 const PARTS: [f64; 7] = [0.25, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0];
 /// Factors on the time of a row, with their meaning.
 const CLOCKS: [(f64, &str); 4] = [
-    (1e-3, "milliseconds taken for seconds"),
-    (1e3, "seconds taken for milliseconds"),
-    (1.0 / 60.0, "seconds taken for minutes"),
-    (60.0, "minutes taken for seconds"),
+    (1e-3, sentences::MILLISECONDS_TAKEN_FOR_SECONDS),
+    (1e3, sentences::SECONDS_TAKEN_FOR_MILLISECONDS),
+    (1.0 / 60.0, sentences::SECONDS_TAKEN_FOR_MINUTES),
+    (60.0, sentences::MINUTES_TAKEN_FOR_SECONDS),
 ];
 
 /// Values of another instant: of all channels, or of those of one stage; or of a clock that runs too fast.

@@ -1,5 +1,6 @@
 //! Causes that are seen in the values alone: sign, unit, factor, offset, whole turns.
 
+use crate::sentences;
 use std::f64::consts::{PI, TAU};
 
 use super::cause::{Plain, Slip};
@@ -16,21 +17,21 @@ pub(super) const KNOWN: f64 = 1e-10;
 /// A factor on the values of a channel, and the unit that is meant by it.
 type Mistaken = (f64, &'static str);
 
-const DEGREES: Mistaken = (180.0 / PI, "degrees instead of radians");
-const TWICE_CONVERTED: Mistaken = (PI / 180.0, "radians taken for degrees and converted once more");
-const TURNS: Mistaken = (1.0 / TAU, "turns instead of radians");
-const MILLIMETRES: Mistaken = (1e3, "millimetres instead of metres");
-const FROM_MILLIMETRES: Mistaken = (1e-3, "metres taken for millimetres");
-const CENTIMETRES: Mistaken = (1e2, "centimetres instead of metres");
-const FROM_CENTIMETRES: Mistaken = (1e-2, "metres taken for centimetres");
-const INCHES: Mistaken = (1.0 / 0.0254, "inches instead of metres");
-const FEET: Mistaken = (1.0 / 0.3048, "feet instead of metres");
-const PER_MINUTE: Mistaken = (60.0, "per minute instead of per second");
-const FROM_MINUTE: Mistaken = (1.0 / 60.0, "per second taken for per minute");
-const THOUSANDFOLD: Mistaken = (1e3, "a thousandfold, as g for kg or mN for N");
-const THOUSANDTH: Mistaken = (1e-3, "a thousandth, as kg for g or kN for N");
-const KILOPONDS: Mistaken = (1.0 / G, "kiloponds instead of newtons");
-const FROM_KILOPONDS: Mistaken = (G, "newtons taken for kiloponds");
+const DEGREES: Mistaken = (180.0 / PI, sentences::DEGREES_INSTEAD_OF_RADIANS);
+const TWICE_CONVERTED: Mistaken = (PI / 180.0, sentences::RADIANS_TAKEN_FOR_DEGREES_AND_CONVERTED);
+const TURNS: Mistaken = (1.0 / TAU, sentences::TURNS_INSTEAD_OF_RADIANS);
+const MILLIMETRES: Mistaken = (1e3, sentences::MILLIMETRES_INSTEAD_OF_METRES);
+const FROM_MILLIMETRES: Mistaken = (1e-3, sentences::METRES_TAKEN_FOR_MILLIMETRES);
+const CENTIMETRES: Mistaken = (1e2, sentences::CENTIMETRES_INSTEAD_OF_METRES);
+const FROM_CENTIMETRES: Mistaken = (1e-2, sentences::METRES_TAKEN_FOR_CENTIMETRES);
+const INCHES: Mistaken = (1.0 / 0.0254, sentences::INCHES_INSTEAD_OF_METRES);
+const FEET: Mistaken = (1.0 / 0.3048, sentences::FEET_INSTEAD_OF_METRES);
+const PER_MINUTE: Mistaken = (60.0, sentences::PER_MINUTE_INSTEAD_OF_PER);
+const FROM_MINUTE: Mistaken = (1.0 / 60.0, sentences::PER_SECOND_TAKEN_FOR_PER);
+const THOUSANDFOLD: Mistaken = (1e3, sentences::A_THOUSANDFOLD_AS_FOR_KG);
+const THOUSANDTH: Mistaken = (1e-3, sentences::A_THOUSANDTH_AS_KG_FOR_OR_KN);
+const KILOPONDS: Mistaken = (1.0 / G, sentences::KILOPONDS_INSTEAD_OF_NEWTONS);
+const FROM_KILOPONDS: Mistaken = (G, sentences::NEWTONS_TAKEN_FOR_KILOPONDS);
 /// Standard gravity (m/s^2).
 const G: f64 = 9.806_65;
 /// A pound-force (N).
@@ -48,24 +49,24 @@ fn mistaken(unit: Unit) -> Vec<Mistaken> {
         Unit::RadianPerSecond => (
             &[DEGREES, TWICE_CONVERTED],
             &[
-                (30.0 / PI, "revolutions per minute instead of rad/s"),
-                (PI / 30.0, "rad/s taken for revolutions per minute"),
+                (30.0 / PI, sentences::REVOLUTIONS_PER_MINUTE_INSTEAD_OF_RAD),
+                (PI / 30.0, sentences::RAD_TAKEN_FOR_REVOLUTIONS_PER),
                 TURNS,
                 PER_MINUTE,
                 FROM_MINUTE,
             ],
         ),
         Unit::Metre => (&LENGTHS, &[]),
-        Unit::MetrePerSecond => (&LENGTHS, &[PER_MINUTE, FROM_MINUTE, (3.6, "km/h instead of m/s")]),
-        Unit::MetrePerSecondSquared => (&LENGTHS, &[(1.0 / G, "multiples of standard gravity instead of m/s^2")]),
-        Unit::Newton => (&FORCES, &[(1.0 / POUND, "pounds-force instead of newtons")]),
+        Unit::MetrePerSecond => (&LENGTHS, &[PER_MINUTE, FROM_MINUTE, (3.6, sentences::KM_INSTEAD_OF)]),
+        Unit::MetrePerSecondSquared => (&LENGTHS, &[(1.0 / G, sentences::MULTIPLES_OF_STANDARD_GRAVITY_INSTEAD)]),
+        Unit::Newton => (&FORCES, &[(1.0 / POUND, sentences::POUNDS_FORCE_INSTEAD_OF_NEWTONS)]),
         Unit::NewtonMetre => (
             &FORCES,
             &[
-                (1e2, "N cm instead of N m"),
-                (1e-2, "N m taken for N cm"),
-                (1.0 / (POUND * 0.3048), "pound-feet instead of N m"),
-                (1.0 / (POUND * 0.0254), "pound-inches instead of N m"),
+                (1e2, sentences::CM_INSTEAD_OF),
+                (1e-2, sentences::TAKEN_FOR_CM),
+                (1.0 / (POUND * 0.3048), sentences::POUND_FEET_INSTEAD_OF),
+                (1.0 / (POUND * 0.0254), sentences::POUND_INCHES_INSTEAD_OF),
             ],
         ),
     };

@@ -1,5 +1,6 @@
 //! One engine's part of a proof.
 
+use crate::sentences;
 use std::fmt::Write;
 
 use crate::compare::{Check, Convergence, Residual, Verdict, overall};
@@ -107,12 +108,9 @@ impl End {
         let (why, way_out) = match self {
             // The settings that are given decide, and its own advice holds.
             End::Decided | End::Nothing => return,
-            End::Rounding => ("a finer step adds more rounding than it takes away", vec![Advice::OtherEngine]),
-            End::Budget => ("the work that was allowed is done", vec![Advice::MoreWork { to: 10.0 * budget }]),
-            End::Pace => (
-                "at the pace of its rounds the work that was allowed would not be enough",
-                vec![Advice::MoreWork { to: 10.0 * budget }],
-            ),
+            End::Rounding => (sentences::A_FINER_STEP_ADDS_MORE_ROUNDING, vec![Advice::OtherEngine]),
+            End::Budget => (sentences::THE_WORK_THAT_WAS_ALLOWED, vec![Advice::MoreWork { to: 10.0 * budget }]),
+            End::Pace => (sentences::AT_THE_PACE_OF_ITS_ROUNDS, vec![Advice::MoreWork { to: 10.0 * budget }]),
         };
         reason.push_str("; ");
         reason.push_str(why);
@@ -244,10 +242,7 @@ impl EngineProof {
                 let share = change / own.residual.scale;
                 own.sensitivity = Some(share);
                 if let Verdict::Inconclusive { reason, .. } = &mut own.verdict {
-                    let _ = write!(
-                        reason,
-                        "; a millionth more of gravity and motor torque changes the channel by {share:.2} millionths of its scale"
-                    );
+                    let _ = write!(reason, "{}", sentences::a_millionth_more_of_gravity(&share));
                 }
             }
         }

@@ -1,5 +1,6 @@
 //! Who takes part in a proof, and the two halves of a proof: the analytic sides, and the engines against one of them.
 
+use crate::sentences;
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::checks::{self, Beyond};
@@ -89,34 +90,36 @@ impl Sides {
     ) -> Result<Self> {
         let Problem { case, oracles, formulas: own_formulas, .. } = problem;
         let sides = EachSide::tried(|side| {
-            let why = if side == reference { "the reference" } else { "checks the reference" };
+            let why = if side == reference { "the reference" } else { sentences::CHECKS_THE_REFERENCE };
             ledger.done(side.name(), why, || observe(case, entrants[side].solver, Watch::Side, &mut |_| {}))
         })?;
         let main = entrants[reference].solver;
         let beside = EachSide::of(|side| (entrants[side].tight, &sides[side].trajectory));
         let tighter = || Known::beside(case, reference, main, beside);
         let mut known = match case.is_free() {
-            true => ledger.done("tighter integration", "shows the error that both sides share", tighter)?,
+            true => ledger.done("tighter integration", sentences::SHOWS_THE_ERROR_THAT_BOTH, tighter)?,
             false => {
-                ledger.skipped("integration", "the motion is prescribed");
+                ledger.skipped("integration", sentences::THE_MOTION_IS_PRESCRIBED);
                 tighter()?
             }
         };
         match checks::sides_differ(sides.pair().map(|own| &own.trajectory), &known) {
-            true => ledger.done("condition of every pose", "the sides differ by more than usual", || {
+            true => ledger.done(sentences::CONDITION_OF_EVERY_POSE, sentences::THE_SIDES_DIFFER_BY_MORE, || {
                 known.measure(case, entrants[Reference::Assur].solver)
             })?,
-            false => ledger.skipped("condition of every pose", "the sides differ by usual rounding"),
+            false => ledger.skipped(sentences::CONDITION_OF_EVERY_POSE, sentences::THE_SIDES_DIFFER_BY_USUAL),
         }
         let mut checks = checks::of_sides(case, sides.each_ref(), &known);
         match methods::apply(case) {
-            true => checks.extend(
-                ledger.done("published methods", "others than ours for its triad", || methods::checks(case, main))?,
-            ),
-            false => ledger.skipped("published methods", "there is no triad of class III"),
+            true => {
+                checks.extend(ledger.done("published methods", sentences::OTHERS_THAN_OURS_FOR_ITS_TRIAD, || {
+                    methods::checks(case, main)
+                })?)
+            }
+            false => ledger.skipped("published methods", sentences::THERE_IS_NO_TRIAD_OF_CLASS),
         }
         match oracles.is_empty() {
-            true => ledger.skipped("published numbers", "there are none of wanted channels"),
+            true => ledger.skipped("published numbers", sentences::THERE_ARE_NONE_OF_WANTED),
             false => {
                 let channels = sides[reference].trajectory.channels();
                 let integration = |side: Reference, channel: &Channel| {
@@ -125,15 +128,15 @@ impl Sides {
                 };
                 let solvers = EachSide::of(|side| entrants[side].solver);
                 let numbers = || oracle::checks(problem, whole, solvers, &integration);
-                checks.extend(ledger.done("published numbers", "solved at their own instants", numbers)?);
+                checks.extend(ledger.done("published numbers", sentences::SOLVED_AT_THEIR_OWN_INSTANTS, numbers)?);
             }
         }
         let figures = EachSide::default();
         let mut own = Sides { reference, observed: sides, known, checks, figures, judgement: None };
         match own_formulas.claims().next() {
-            None => ledger.skipped("formulas", "none claims a wanted channel"),
+            None => ledger.skipped("formulas", sentences::NONE_CLAIMS_A_WANTED_CHANNEL),
             Some(_) => {
-                let judged = ledger.done("formulas", "by value and by derivative, on both sides", || {
+                let judged = ledger.done("formulas", sentences::BY_VALUE_AND_BY_DERIVATIVE, || {
                     // As with published figures: means over a turn belong to the nominal motion.
                     let solvers = EachSide::of(|side| entrants[side].solver);
                     own.figures = figures::claimed(own_formulas, &whole.nominal(), solvers)?;

@@ -1,6 +1,7 @@
 //! Figures of a mechanism as the analytic sides find them.
 
 use super::each_side::{EachSide, Reference};
+use crate::sentences;
 use analytic::reduced::means::{self as reduced, Means};
 use formula::Rounded;
 use linkage::case::{Case, Grid, Wanted};
@@ -81,8 +82,8 @@ impl<'a> Measured<'a> {
     fn steady(&mut self) -> Result<[f64; 2]> {
         let case = self.case;
         // A scenario with this figure has one; a case that is changed afterwards may not.
-        let no_motor = || Error::new(ErrorKind::Input, "the steady speed needs a motor, and the crank has none");
-        let motor = case.crank().motor().ok_or_else(|| no_motor().help("add `[motor]`, or leave the figure out"))?;
+        let no_motor = || Error::new(ErrorKind::Input, sentences::THE_STEADY_SPEED_NEEDS_A_MOTOR);
+        let motor = case.crank().motor().ok_or_else(|| no_motor().help(sentences::ADD_MOTOR_OR_LEAVE_THE_FIGURE))?;
         // The motor acts in the direction in which the crank is driven.
         let sense = case.crank().sense();
         let resistance = sense * self.means()?.resistance;

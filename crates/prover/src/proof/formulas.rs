@@ -1,5 +1,6 @@
 //! Formulas as checks of a proof.
 
+use crate::sentences;
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::each_side::{EachSide, Reference};
@@ -43,11 +44,9 @@ pub fn checks(judgement: &Judgement) -> Vec<Check> {
         .iter()
         .filter_map(|(name, cause)| {
             let words = match cause {
-                Some(cause) if judgement.unsought.contains(name) => {
-                    format!("cause: {cause}; perhaps another: {CUT}")
-                }
+                Some(cause) if judgement.unsought.contains(name) => sentences::cause_perhaps_another(&cause, &CUT),
                 Some(cause) => format!("cause: {cause}"),
-                None if judgement.unsought.contains(name) => format!("cause not found: {CUT}"),
+                None if judgement.unsought.contains(name) => sentences::cause_not_found(&CUT),
                 None => return None,
             };
             Some((name.as_str(), words))
@@ -90,13 +89,16 @@ fn name(judged: &Judged) -> String {
 /// Since when, in words.
 fn place(since: &At) -> String {
     let At { time, crank, formula, mechanism, .. } = since;
-    let found =
-        if formula.is_nan() { "it has no value".to_string() } else { format!("it gives {}", significant(*formula, 9)) };
-    format!(
-        "first at t = {} s, crank angle {} deg: {found}, the mechanism {}",
-        fixed(*time, 6),
-        fixed(crank.to_degrees(), 3),
-        significant(*mechanism, 9)
+    let found = if formula.is_nan() {
+        sentences::IT_HAS_NO_VALUE.to_string()
+    } else {
+        sentences::it_gives(&significant(*formula, 9))
+    };
+    sentences::first_at_crank_angle_deg(
+        &fixed(*time, 6),
+        &fixed(crank.to_degrees(), 3),
+        &found,
+        &significant(*mechanism, 9),
     )
 }
 

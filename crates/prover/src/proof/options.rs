@@ -3,6 +3,7 @@
 use super::each_side::Reference;
 use super::settle;
 use crate::engines::{self, EngineName};
+use crate::sentences;
 use linkage::case::Case;
 use linkage::engine::{Engine, Route, Settings};
 use linkage::error::{Error, ErrorKind, Result};
@@ -181,8 +182,8 @@ fn set(engine: Box<dyn Engine>, given: &EngineSettings, several: bool) -> Result
     };
     let count = |own: &Setting<usize>, default: usize, what: &str| match own.get() {
         Some(0) => {
-            let error = Error::new(ErrorKind::Input, format!("found 0 {what}, but an engine needs at least one"));
-            Err(own.blamed(error.help("give a whole number greater than zero")))
+            let error = Error::new(ErrorKind::Input, sentences::found_but_an_engine_needs(&what));
+            Err(own.blamed(error.help(sentences::GIVE_A_WHOLE_NUMBER_GREATER)))
         }
         // An engine that does not iterate does not use sweeps.
         Some(_) if default == 0 => Ok(0),
@@ -193,8 +194,8 @@ fn set(engine: Box<dyn Engine>, given: &EngineSettings, several: bool) -> Result
         Some(asked) if engine.routes().contains(&asked) => asked,
         Some(asked) if !several => {
             let offered: Vec<&str> = engine.routes().iter().map(|route| route.name()).collect();
-            let message = format!("there is no route of engine {} called \"{}\"", engine.name(), asked.name());
-            let error = Error::new(ErrorKind::Input, message).help(format!("choose one of: {}", offered.join(", ")));
+            let message = sentences::there_is_no_route_of_engine(&engine.name(), &asked.name());
+            let error = Error::new(ErrorKind::Input, message).help(sentences::choose_one_of(&offered.join(", ")));
             return Err(given.route.blamed(error));
         }
         Some(_) | None => defaults.route,

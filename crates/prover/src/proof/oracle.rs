@@ -6,6 +6,7 @@ use super::figures::Measured;
 use super::problem::Problem;
 use super::shifted::{Along, RoundedInstants, TELLING};
 use crate::compare::{Check, Verdict, magnitudes, scales};
+use crate::sentences;
 use crate::tolerance::{Basis, Origin, Tolerance};
 use linkage::case::{Case, Wanted};
 use linkage::error::{Advice, Error, ErrorKind, Result};
@@ -236,12 +237,8 @@ fn of_one(oracle: &Oracle, series: &OracleSeries, answers: &Answers, side: Refer
 
 /// The verdict on a number that may be wrong by as much as its instant is rounded.
 fn unproven(point: &OraclePoint) -> Verdict {
-    let reason = format!(
-        "at {} the rounding of the instant leaves more open than a hundredth of the channel's scale, and the number is \
-         off by more",
-        point.at
-    );
-    let advice = vec![Advice::Text("print the instants with more digits, zeros at their ends included".into())];
+    let reason = sentences::at_the_rounding_of_the_instant(&point.at);
+    let advice = vec![Advice::Text(sentences::PRINT_THE_INSTANTS_WITH_MORE.into())];
     Verdict::Inconclusive { reason, advice }
 }
 
@@ -286,8 +283,8 @@ fn channels_of(series: &OracleSeries) -> impl Iterator<Item = Channel> {
 fn values(oracle: &Oracle, series: &OracleSeries, solved: &Trajectory) -> Result<Vec<f64>> {
     let named = |channel: Channel| {
         solved.column(&channel).ok_or_else(|| {
-            Error::new(ErrorKind::Input, format!("oracle {}: there is no channel {channel}", oracle.name))
-                .help("name a link, point or joint of this scenario")
+            Error::new(ErrorKind::Input, sentences::oracle_there_is_no_channel(&oracle.name, &channel))
+                .help(sentences::NAME_A_LINK_POINT_OR_JOINT)
         })
     };
     let components = channels_of(series).map(named).collect::<Result<Vec<&[f64]>>>()?;
@@ -313,7 +310,7 @@ fn of_figures(oracles: &[Oracle], case: &Case, solvers: EachSide<&dyn Solver>) -
                 let tolerance = tolerance(oracle, origin, number.bound.larger(known), 0.0, number.digits);
                 Check::new(family.as_str(), (value - number.value).abs(), tolerance, unit)
                     .of(&figure.name)
-                    .located(|| format!("given {} {unit}, found {value:.10}", number.value))
+                    .located(|| sentences::given_found(&number.value, &unit, &value))
             };
             let printed = against(&figure.printed, origin(oracle));
             checks.push(match &figure.wrong {
@@ -327,7 +324,7 @@ fn of_figures(oracles: &[Oracle], case: &Case, solvers: EachSide<&dyn Solver>) -
 
 /// Heading of the checks of an oracle.
 fn family(oracle: &Oracle, wrong: bool, side: &str) -> String {
-    let known = if wrong { ", known to be wrong" } else { "" };
+    let known = if wrong { sentences::KNOWN_TO_BE_WRONG } else { "" };
     format!("{} {}{known} ({side})", origin(oracle).word(), oracle.name)
 }
 

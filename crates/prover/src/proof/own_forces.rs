@@ -1,6 +1,7 @@
 //! Forces that an engine exerts, judged besides those that follow from its motion by Newton-Euler equations: a second
 //! search, by the engine's routes. See docs/numerics/forces.md.
 
+use crate::sentences;
 use std::sync::Arc;
 
 use super::engine_proof::{EngineInfo, EngineProof};
@@ -41,12 +42,7 @@ pub(super) fn judged(
     let effort = motion.search.as_ref().map_or(0.0, |search| search.effort);
     // Impulses are of a lower order than the motion, and need as many sweeps with the true masses.
     if effort > SHARE * chosen.budget {
-        let told = format!(
-            "the motion has taken the work of {} steps, and the forces that the engine exerts need no less; {} are \
-             allowed for them",
-            error(effort),
-            error(SHARE * chosen.budget)
-        );
+        let told = sentences::the_motion_has_taken_the_work(&error(effort), &error(SHARE * chosen.budget));
         let failure = Error::new(ErrorKind::Unsupported, told);
         return Some(failed(chosen.engine.as_ref(), failure, Some(effort)));
     }

@@ -1,6 +1,7 @@
 //! An engine's runs, from which its error is estimated, and the room that they need.
 //! See docs/numerics/settings.md.
 
+use crate::sentences;
 use std::sync::Arc;
 
 use super::observe::{Observed, Stopped, Watch, observe};
@@ -150,7 +151,7 @@ impl<'a> Bank<'a> {
         let mut auxiliary = |rung: Settings| {
             let what = match rung.sweeps == settings.sweeps {
                 true => format!("at {}{unit}", significant(rung.resolution, 5)),
-                false => format!("with {} sweeps", rung.sweeps),
+                false => sentences::with_sweeps(&rung.sweeps),
             };
             let failed = |stopped| in_ladder(stopped, &what, settings, controls_error);
             self.observed(rung).map_err(failed)
@@ -175,9 +176,7 @@ pub(super) fn rungs(settings: Settings, others: &[usize]) -> Vec<Settings> {
 
 /// The same failure, with a message that says which auxiliary run failed: the user did not ask for that run.
 fn in_ladder(stopped: Stopped, what: &str, asked: Settings, controls_error: bool) -> Stopped {
-    let told = |message: &str| {
-        format!("the run {what}, from which the error of the run asked for is estimated, failed: {message}")
-    };
+    let told = |message: &str| sentences::the_run_from_which_the_error(&what, &message);
     // Values to try start from the settings that the user asked for.
     let advised = |advice: Advice| advice.from_settings(asked.resolution, controls_error, asked.sweeps);
     Stopped { error: stopped.error.map_message(told).map_advice(advised), kept: None, spent: None }

@@ -2,6 +2,7 @@
 //! conclusive. Only the engine's runs and counted work decide. See docs/numerics/settings.md.
 
 use crate::numbers::error;
+use crate::sentences;
 use linkage::engine::{Engine, Settings};
 use linkage::error::{Advice, Error, ErrorKind};
 use linkage::math::KeepNan;
@@ -57,11 +58,7 @@ pub(super) fn too_much(
     if first <= most || is_mistake {
         return Ok(());
     }
-    let message = format!(
-        "the first runs of the engine, with all their substeps, take the work of {} steps of a four-bar, {} are allowed",
-        error(first),
-        error(budget)
-    );
+    let message = sentences::the_first_runs_of_the_engine(&error(first), &error(budget));
     let error = Error::new(ErrorKind::Unsupported, message);
     Err(Stopped { error, kept: None, spent: Some(first) })
 }
@@ -241,14 +238,14 @@ impl<'a, 'b> Settling<'a, 'b> {
                 let is_over = matches!(end, End::Budget | End::Pace);
                 let is_cut = self.given.sweeps.is_free() && is_over;
                 if (!self.is_finest() || is_cut) && borne_out.is_empty() {
-                    best.judged.proof.doubt("no finer run bears it out", &Advice::SmallerStep { to: None });
+                    best.judged.proof.doubt(sentences::NO_FINER_RUN_BEARS_IT_OUT, &Advice::SmallerStep { to: None });
                 }
                 // Impulses are of first order, and sweeps leave more in them than in the motion: where the search is
                 // cut off before all are conclusive, none is disproven.
                 if self.conclusive && is_over {
                     best.judged
                         .proof
-                        .doubt("the others are not conclusive", &Advice::MoreWork { to: 10.0 * self.budget });
+                        .doubt(sentences::THE_OTHERS_ARE_NOT_CONCLUSIVE, &Advice::MoreWork { to: 10.0 * self.budget });
                 }
                 best.judged.proof.search = Some(search);
                 Ok(best.judged)

@@ -9,6 +9,7 @@ use super::ledger::Ledger;
 use super::problem::Problem;
 use crate::claims::{Cause, Course, MOST_WORK, needed, telling};
 use crate::compare::{Check, Verdict, magnitudes, magnitudes_by};
+use crate::sentences;
 use crate::tolerance::Basis;
 use analytic::range::explained;
 use linkage::case::{Case, Grid};
@@ -127,10 +128,8 @@ pub fn judge(scenario: &Scenario) -> Result<Claimed> {
         asked.extend(needed(claim, &scenario.case));
     }
     if asked.is_empty() {
-        let message = format!("no formula of the scenario {} claims a channel", scenario.name);
-        return Err(Error::new(ErrorKind::Input, message)
-            .key("formula")
-            .help("add `channel` to a [[formula]], or give a formula as an argument; docs/formulas.md has examples"));
+        let message = sentences::no_formula_of_the_scenario(&scenario.name);
+        return Err(Error::new(ErrorKind::Input, message).key("formula").help(sentences::ADD_CHANNEL_TO_A_FORMULA));
     }
     let (_, mut sides) = of_asked(scenario, &scenario.case, &asked, &scenario.formulas)?;
     let is_open = |own: &Judgement| {
@@ -149,9 +148,9 @@ pub fn judge(scenario: &Scenario) -> Result<Claimed> {
     }
     let verdict = sides.verdict();
     let judgement = sides.judgement.ok_or_else(|| {
-        Error::new(ErrorKind::Input, "no claimed channel was solved")
+        Error::new(ErrorKind::Input, sentences::NO_CLAIMED_CHANNEL_WAS_SOLVED)
             .key("formula")
-            .help("claim a channel of the scenario")
+            .help(sentences::CLAIM_A_CHANNEL_OF_THE_SCENARIO)
     })?;
     let is_own = |check: &Check| !matches!(check.basis, Basis::Formula { .. });
     Ok(Claimed { judgement, verdict, checks: sides.checks.into_iter().filter(is_own).collect() })

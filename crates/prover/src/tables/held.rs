@@ -1,5 +1,6 @@
 //! What a table says of a mechanism: claims of channels, at instants.
 
+use crate::sentences;
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -137,7 +138,7 @@ impl Held {
         let own: Vec<Mapped> = if mapping.at.is_empty() { instants_of(raw) } else { Vec::new() };
         for mapped in mapping.at.iter().chain(&own) {
             let (factor, is_crank) =
-                mapped.instant().ok_or_else(|| mapped.wrong("this is no instant", "map a time"))?;
+                mapped.instant().ok_or_else(|| mapped.wrong(sentences::THIS_IS_NO_INSTANT, sentences::MAP_A_TIME))?;
             let printed = reader.column(mapped)?;
             let chosen = if mapped.name == "crank_deg" { columns::degrees_chosen } else { columns::chosen };
             let is_chosen = chosen(&printed);
@@ -145,15 +146,14 @@ impl Held {
             let exact = |own: Rounded| if is_chosen { Rounded::nearly(own.value) } else { own };
             let values: Vec<Rounded> = printed.into_iter().map(|own| exact(scaled(own, factor))).collect();
             if let Some(row) = values.iter().position(|own| !(own.value + own.error).is_finite()) {
-                let message = format!("{} holds at no instant: `{}` is no number there", raw.place(row), mapped.text);
-                return Err(mapped.wrong(&message, "take the row out, or complete it"));
+                let message = sentences::holds_at_no_instant_is_no_number(&raw.place(row), &mapped.text);
+                return Err(mapped.wrong(&message, sentences::TAKE_THE_ROW_OUT_OR_COMPLETE));
             }
             *(if is_crank { &mut at.cranks } else { &mut at.times }) = Some(values);
         }
         if at.times.is_none() && at.cranks.is_none() {
-            let message =
-                format!("nothing says where the rows of the table hold; its columns are {}", some(&raw.names));
-            let help = "map a column to time_s, time_ms, crank_deg or crank_rad, such as time=time_s";
+            let message = sentences::nothing_says_where_the_rows(&some(&raw.names));
+            let help = sentences::MAP_A_COLUMN_TO_TIME_TIME;
             return Err(Error::new(ErrorKind::Input, message).help(help));
         }
         let mapped: BTreeSet<&str> = mapping.channels.iter().map(|mapped| mapped.name.as_str()).collect();
@@ -172,8 +172,8 @@ impl Held {
             columns.push(column(mapped)?);
         }
         if columns.is_empty() {
-            let message = format!("no column of the table is a channel; they are {}", some(&raw.names));
-            let help = "map columns to channels, such as phi3*180/pi=link.rocker.angle_deg";
+            let message = sentences::no_column_of_the_table_is_a_channel(&some(&raw.names));
+            let help = sentences::MAP_COLUMNS_TO_CHANNELS_SUCH_AS_PHI3;
             return Err(Error::new(ErrorKind::Input, message).help(help));
         }
         let unused = raw.names.iter().filter(|name| !reader.used.contains(name.as_str())).cloned().collect();
@@ -205,8 +205,8 @@ impl Held {
         let found = if is_crank { cranks } else { times };
         let [lacks, has] = if is_crank { ["crank angles", "times"] } else { ["times", "crank angles"] };
         let values = found.clone().ok_or_else(|| {
-            Error::new(ErrorKind::Input, format!("the rows of a table have {has}, and no {lacks}"))
-                .help(format!("compare by {has}, or map a column to {lacks}"))
+            Error::new(ErrorKind::Input, sentences::the_rows_of_a_table_have_and_no(&has, &lacks))
+                .help(sentences::compare_by_or_map_a_column(&has, &lacks))
         })?;
         Ok(At { values, is_crank })
     }
@@ -322,7 +322,7 @@ fn some(names: &[String]) -> String {
     let shown = names.iter().take(NAMED).map(String::as_str);
     match names.len().saturating_sub(NAMED) {
         0 => choice(shown, "`"),
-        more => format!("{} and {more} more", shown.map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")),
+        more => sentences::and_more(&(shown.map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")), &more),
     }
 }
 
@@ -381,7 +381,7 @@ impl<'a> Reader<'a> {
             if found.is_undefined() && used.iter().all(|&index| !inputs[index].is_undefined()) {
                 let of = |name: &str| column(name).map_or(Rounded::nearly(std::f64::consts::PI), |own| inputs[own]);
                 if let Err(fault) = tree.evaluated(&of) {
-                    let help = format!("{}; else leave the row out, or its cell empty", fault.help);
+                    let help = sentences::else_leave_the_row_out_or_its_cell(&fault.help);
                     let message = format!("in {} {}", self.raw.place(row), fault.message);
                     return Err(mapped.refused(&Fault { message, help, ..fault }));
                 }
@@ -393,10 +393,10 @@ impl<'a> Reader<'a> {
 
     /// The fault of a name that is not known, with the columns that are.
     fn unknown(&self, name: &str, at: Range<usize>) -> Fault {
-        let message = format!("the table has no column `{name}`");
+        let message = sentences::the_table_has_no_column(&name);
         let help = match nearest(name, self.raw.names.iter().map(String::as_str)) {
-            Some(near) => format!("did you mean `{near}`?"),
-            None => format!("its columns are {}; backquotes hold a name with blanks or signs", some(&self.raw.names)),
+            Some(near) => sentences::did_you_mean(&near),
+            None => sentences::its_columns_are_backquotes_hold(&some(&self.raw.names)),
         };
         Fault { message, at, help }
     }

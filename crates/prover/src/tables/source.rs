@@ -1,5 +1,6 @@
 //! What is asked before a table is read, what is said where it cannot be, and text with separated columns.
 
+use crate::sentences;
 use std::io::{self, Read};
 use std::path::Path;
 
@@ -14,8 +15,8 @@ pub(super) const MAGIC: [u8; 4] = *b"PAR1";
 pub type May<'a> = &'a dyn Fn(f64, usize) -> Result<()>;
 
 pub(super) fn unread(path: &Path, error: &io::Error) -> Error {
-    Error::new(ErrorKind::Io, format!("the table {} cannot be read: {error}", path.display()))
-        .help("give a scenario (.toml), a recording (.mcap), a table of text (.csv) or a Parquet file")
+    Error::new(ErrorKind::Io, sentences::the_table_cannot_be_read(&path.display(), &error))
+        .help(sentences::GIVE_A_SCENARIO_TOML_A_RECORDING)
 }
 
 /// Reads what is left to read of a text of `size` bytes; `None` of what is no regular file, such as a pipe.

@@ -1,5 +1,6 @@
 //! Two tables side by side: rows of the same instants, or the first interpolated at those of the second.
 
+use crate::sentences;
 use std::f64::consts::TAU;
 
 use super::allowed::How;
@@ -34,8 +35,8 @@ pub(super) fn beside(one: &Side, other: &Side, how: &How) -> Result<Pair> {
     let alone = [lacks(one, other), lacks(other, one)];
     if claims.is_empty() {
         let some = |names: &[String]| names.iter().take(5).cloned().collect::<Vec<_>>().join(", ");
-        let message = format!("the two have no channel in common: {} against {}", some(&alone[0]), some(&alone[1]));
-        return Err(Error::new(ErrorKind::Input, message).help("map the columns of both to the same channels"));
+        let message = sentences::the_two_have_no_channel_in_common(&some(&alone[0]), &some(&alone[1]));
+        return Err(Error::new(ErrorKind::Input, message).help(sentences::MAP_THE_COLUMNS_OF_BOTH_TO_THE_SAME));
     }
     let places = places(&from, &to, how);
     let unshared = places.iter().filter(|place| matches!(place, Place::Nowhere)).count();
@@ -44,9 +45,8 @@ pub(super) fn beside(one: &Side, other: &Side, how: &How) -> Result<Pair> {
     if shared == 0 || shared == 1 && unshared > 0 {
         let what = if from.is_crank { "crank angle" } else { "time" };
         let which = if shared == 0 { "no" } else { "only one" };
-        let message = format!("{which} {what} of the second party is one of the first");
-        return Err(Error::new(ErrorKind::Input, message)
-            .help("allow interpolation, or give both the same instants; check the units of both"));
+        let message = sentences::of_the_second_party_is_one_of_the_first(&which, &what);
+        return Err(Error::new(ErrorKind::Input, message).help(sentences::ALLOW_INTERPOLATION_OR_GIVE_BOTH));
     }
     let column = |claim: &Claim| {
         let values = at_places(&one.values_of(claim)?, &from, &places, claim.turn());

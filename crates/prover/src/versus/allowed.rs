@@ -1,5 +1,6 @@
 //! What a comparison is asked, and what is allowed besides what is known.
 
+use crate::sentences;
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::tables::By;
@@ -77,8 +78,8 @@ impl How {
             None => Ok(()),
             Some((_, word)) => {
                 let all: Vec<&str> = compared.map(|claim| claim.text.as_str()).take(5).collect();
-                let message = format!("no channel that is compared is called {word}");
-                let help = format!("name one of them ({}, ...), a subject or a stage", all.join(", "));
+                let message = sentences::no_channel_that_is_compared(&word);
+                let help = sentences::name_one_of_them_a_subject(&all.join(", "));
                 Err(Error::new(ErrorKind::Input, message).help(help))
             }
         }

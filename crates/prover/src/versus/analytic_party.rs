@@ -1,5 +1,6 @@
 //! A scenario beside another party: solved at its instants.
 
+use crate::sentences;
 use std::collections::BTreeSet;
 
 use super::allowed::How;
@@ -44,7 +45,7 @@ pub(super) fn beside(scenario: &Scenario, which: Which, other: Side, how: &How) 
     let asked = claims.iter().flat_map(|claim| asked(claim, &scenario.case));
     let channels: BTreeSet<String> = asked.map(|channel| channel.to_string()).collect();
     let needed = memory::of_comparison(at.values.len(), claims.len(), channels.len());
-    memory::check_input(&format!("comparing {} rows", at.values.len()), needed, how.memory)?;
+    memory::check_input(&sentences::comparing_rows(&at.values.len()), needed, how.memory)?;
     let (grid, rows) = grid(scenario, &at)?;
     let scales = Scales::of(scenario, &grid);
     let solved = Solved::of(scenario, grid, &claims)?.known_at_least(&|channel| scales.known(channel));
@@ -90,13 +91,13 @@ fn claims(scenario: &Scenario, held: &Held, how: &How) -> Result<(Vec<Claim>, Ve
         }
     }
     if claims.is_empty() && !how.only.is_empty() {
-        let message = format!("no channel that both have is called {}", how.only.join(" or "));
-        return Err(Error::new(ErrorKind::Input, message).help("name a channel, a subject or a stage of both"));
+        let message = sentences::no_channel_that_both_have_is_called(&how.only.join(" or "));
+        return Err(Error::new(ErrorKind::Input, message).help(sentences::NAME_A_CHANNEL_A_SUBJECT));
     }
     if claims.is_empty() {
-        let message = format!("the scenario {} has no channel of the other party", scenario.name);
+        let message = sentences::the_scenario_has_no_channel(&scenario.name);
         let error = Error::new(ErrorKind::Input, message);
-        return Err(error.help("compare the same mechanism, or map columns to channels of the scenario"));
+        return Err(error.help(sentences::COMPARE_THE_SAME_MECHANISM_OR_MAP));
     }
     Ok((claims, alone))
 }
@@ -119,10 +120,10 @@ fn grid(scenario: &Scenario, at: &At) -> Result<(Grid, Vec<usize>)> {
     let grid = if at.is_crank { Grid::of_inputs(crank, all) } else { Grid::of_times(crank, all) };
     grid.check(crank).map_err(|message| {
         let help = match at.is_crank && crank.is_free() {
-            true => "give the table a column of times",
-            false => "check the unit of the instants, and where they begin",
+            true => sentences::GIVE_THE_TABLE_A_COLUMN_OF_TIMES,
+            false => sentences::CHECK_THE_UNIT_OF_THE_INSTANTS,
         };
-        Error::new(ErrorKind::Input, format!("the instants of the other party: {message}")).help(help)
+        Error::new(ErrorKind::Input, sentences::the_instants_of_the_other(&message)).help(help)
     })?;
     Ok((grid, rows))
 }

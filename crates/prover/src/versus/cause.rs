@@ -1,5 +1,6 @@
 //! Why a table is off, where that is simple.
 
+use crate::sentences;
 use std::borrow::Cow;
 use std::collections::BTreeSet;
 use std::f64::consts::{PI, TAU};
@@ -321,11 +322,12 @@ impl Stage {
                 Some(Judged { channel: channel.clone(), bound: bound.larger(left * largest), disagrees: true })
             })
             .collect();
-        let parties =
-            [("the analytic sides", &self.right), ("the other party", &self.found)].map(|(name, trajectory)| {
+        let parties = [(sentences::THE_ANALYTIC_SIDES, &self.right), (sentences::THE_OTHER_PARTY, &self.found)].map(
+            |(name, trajectory)| {
                 let bounds = judged.iter().map(|judged| (judged.channel.clone(), judged.bound)).collect();
                 Party { name, trajectory, bounds }
-            });
+            },
+        );
         let question = Question {
             suspect: parties[1].name,
             reference: &self.right,

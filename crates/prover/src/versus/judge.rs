@@ -1,5 +1,6 @@
 //! Channel by channel: differences, bounds, verdicts.
 
+use crate::sentences;
 use std::ops::Deref;
 
 use super::allowed::{Allowances, How};
@@ -141,7 +142,7 @@ impl Both<'_> {
 
     fn verdict(&self, own: &Judged, scale: f64, is_derived: bool) -> Verdict {
         let Some(worst) = own.worst else {
-            return Verdict::open("at no instant do both have a number");
+            return Verdict::open(sentences::AT_NO_INSTANT_DO_BOTH_HAVE_A_NUMBER);
         };
         let open = |reason: String, advice: &str| Verdict::Inconclusive {
             reason,
@@ -150,17 +151,14 @@ impl Both<'_> {
         let largest = own.largest.map_or(0.0, |largest| largest.difference.abs());
         match own.since {
             Some(_) if is_derived && !self.measure().is_analytic && !has_no_number(own) => open(
-                format!("they differ by up to {largest:.3e}, and neither is analytic, so that no bound is known"),
-                "say what difference is allowed",
+                sentences::they_differ_by_up_to_and_neither(&format_args!("{largest:.3e}")),
+                sentences::SAY_WHAT_DIFFERENCE_IS_ALLOWED,
             ),
             Some(since) => Verdict::Disagree { place: place(&since) },
             // Numbers that are as near as that prove it, whatever their digits leave open.
             None if is_derived && own.widest > TELLING * scale && largest > TELLING * scale => open(
-                format!(
-                    "the numbers are known to {:.1e} of their scale only: digits, instants or interpolation",
-                    own.widest / scale
-                ),
-                "give more digits or closer instants, or say what difference is allowed",
+                sentences::the_numbers_are_known_to_of_their(&format_args!("{:.1e}", own.widest / scale)),
+                sentences::GIVE_MORE_DIGITS_OR_CLOSER,
             ),
             None => Verdict::Agree { margin: 1.0 / worst.used() },
         }
@@ -177,8 +175,8 @@ pub(super) fn place(at: &Row) -> String {
     };
     let told = |value: &f64| if value.is_nan() { "no number".into() } else { format!("{value:.9e}") };
     let way_out = match at.difference.is_nan() {
-        true => "; leave a cell empty where nothing was measured",
+        true => sentences::LEAVE_A_CELL_EMPTY_WHERE,
         false => "",
     };
-    format!("first at {when}: {} against {}{way_out}", told(one), told(other))
+    sentences::first_at_against(&when, &told(one), &told(other), &way_out)
 }

@@ -1,5 +1,6 @@
 //! What is known of two sides after they were compared.
 
+use crate::sentences;
 use std::f64::consts::TAU;
 
 use super::cause::Explained;
@@ -140,14 +141,13 @@ pub(super) fn crank_check(both: &Both, cranks: [&[Rounded]; 2], drift: &[f64]) -
     allowance.fixed += 4.0 * f64::EPSILON * TAU;
     let found = judge(&Beside { values: cranks, places: both.places(), drift, turn: Some(TAU), allowance, measure });
     let worst = found.worst.filter(|_| both.how.asks_for_crank())?;
-    let basis =
-        Basis::Wanted("both are said to count the crank angle alike: digits, rounding and integration allow this");
+    let basis = Basis::Wanted(sentences::BOTH_ARE_SAID_TO_COUNT_THE_CRANK);
     let tolerance = Tolerance { bound: worst.bound, basis };
     let mut check = Check::new(CRANK, worst.difference.abs(), tolerance, "rad");
     check.verdict = match found.since {
-        Some(_) if !measure.is_analytic && allowed.is_none() => Verdict::open(
-            "the crank angles differ, and neither party is analytic: say by how much the channel crank may differ",
-        ),
+        Some(_) if !measure.is_analytic && allowed.is_none() => {
+            Verdict::open(sentences::THE_CRANK_ANGLES_DIFFER_AND_NEITHER)
+        }
         Some(at) => Verdict::Disagree { place: place(&Row { values: at.values.map(f64::to_degrees), ..at }) },
         None => Verdict::Agree { margin: 1.0 / worst.used() },
     };

@@ -6,6 +6,7 @@ mod motion;
 mod reading;
 
 use super::{Real, parry, rapier, real, wide};
+use crate::sentences;
 
 use rapier::prelude::{
     GenericJoint, ImpulseJointHandle, JointAxis, MultibodyJointHandle, PhysicsWorld, RigidBodyBuilder, RigidBodyHandle,
@@ -132,7 +133,7 @@ impl Twin {
             };
             let Some(own) = own else {
                 let name = &found.name;
-                return Err(Error::new(ErrorKind::Unsupported, format!("Rapier refuses the tree joint \"{name}\"")));
+                return Err(Error::new(ErrorKind::Unsupported, sentences::rapier_refuses_the_tree_joint(&name)));
             };
             home[branch.link] = own;
         }

@@ -1,5 +1,6 @@
 //! Quantities: numbers whose key ends in their unit.
 
+use crate::sentences;
 use toml::Spanned;
 use toml::de::DeValue;
 
@@ -88,7 +89,7 @@ impl<'a> Table<'a> {
         let entry = &self.entries[at];
         let number = self.finite(entry.key, entry.value)?;
         if let Some((rule, way_out)) = sign.broken_by(number) {
-            let message = format!("found {}, but {} {rule} here", found(self.source, entry.value), family.noun);
+            let message = sentences::found_but_here(&found(self.source, entry.value), &family.noun, &rule);
             return self.refuse(entry.key, message, way_out);
         }
         self.in_range(entry.key, entry.value, unit.to_si(number), family)
@@ -122,8 +123,14 @@ impl<'a> Table<'a> {
         }
         let Family { noun, units, most } = family;
         let (found, unit) = (found(self.source, value), units[0].suffix);
-        let message = format!("found {found}, but {noun} is zero or of a size from {SMALLEST:e} to {most:e} {unit}");
-        Err(self.wrong_at(key, value.span(), message).help("check the unit and the exponent"))
+        let message = sentences::found_but_is_zero_or_of_a_size(
+            &found,
+            &noun,
+            &format_args!("{:e}", SMALLEST),
+            &format_args!("{most:e}"),
+            &unit,
+        );
+        Err(self.wrong_at(key, value.span(), message).help(sentences::CHECK_THE_UNIT_AND_THE_EXPONENT))
     }
 
     /// The one entry that spells `base` in a unit of the families: its family, its own index, and the unit. All
@@ -144,8 +151,8 @@ impl<'a> Table<'a> {
         let key = self.entries[at].key;
         if let Some(second) = present.get(1).map(|&second| &self.entries[second]) {
             self.asked.extend(spellings);
-            let message = format!("`{key}` and `{}` are both given", second.key);
-            return self.refuse(second.key, message, "keep one of the two");
+            let message = sentences::and_are_both_given(&key, &second.key);
+            return self.refuse(second.key, message, sentences::KEEP_ONE_OF_THE_TWO);
         }
         let unit = |&family: &&'static Family| Some((family, at, family.unit_of(base, key)?));
         let found = families.iter().find_map(unit).expect("the key is one of the spellings");
@@ -160,14 +167,11 @@ impl<'a> Table<'a> {
         let is_number =
             |entry: &&Entry| !matches!(entry.value.get_ref(), DeValue::Table(_)) && !self.used.contains(&entry.key);
         if let Some(entry) = self.entry(base).filter(is_number) {
-            return Some((
-                entry.key,
-                self.wrong(ErrorKind::Input, base, format!("`{base}` carries no unit")).help(help),
-            ));
+            return Some((entry.key, self.wrong(ErrorKind::Input, base, sentences::carries_no_unit(&base)).help(help)));
         }
         let prefixed = |entry: &&Entry| entry.key.strip_prefix(base).is_some_and(|rest| rest.starts_with('_'));
         let entry = self.entries.iter().filter(is_number).find(prefixed)?;
-        let message = format!("`{}` does not end in a unit that {} has here", entry.key, family.noun);
+        let message = sentences::does_not_end_in_a_unit_that_has_here(&entry.key, &family.noun);
         Some((entry.key, self.wrong(ErrorKind::Input, entry.key, message).help(help)))
     }
 }

@@ -10,6 +10,7 @@
 //! infinity.
 
 use super::{Known, Places, Reactions, singular};
+use crate::sentences;
 use linkage::error::Result;
 use linkage::math::{Vec2, cross, turned};
 
@@ -71,7 +72,7 @@ pub fn reactions(places: &Places, known: &[Known; 4]) -> Result<Reactions> {
     feet[k] += along[k] * axial_k;
     let heads = [0, 1, 2].map(|lead| feet[lead] + known[lead].force);
     let finite = feet.iter().chain(&heads).all(|force| force.x.is_finite() && force.y.is_finite());
-    if finite { Ok(Reactions { feet, heads }) } else { Err(singular("singular Assur point")) }
+    if finite { Ok(Reactions { feet, heads }) } else { Err(singular(sentences::SINGULAR_ASSUR_POINT)) }
 }
 
 #[cfg(test)]

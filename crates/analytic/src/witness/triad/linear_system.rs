@@ -7,6 +7,7 @@
 //! The system is solved without any order among the links.
 
 use super::{Known, Places, Reactions, singular};
+use crate::sentences;
 use linkage::error::Result;
 use linkage::math::dense::Lu;
 use linkage::math::{KeepNan, Vec2, cross};
@@ -30,12 +31,12 @@ pub fn reactions(places: &Places, known: &[Known; 4]) -> Result<Reactions> {
         system.force(3, 3 + lead, 1.0, (heads[lead] - heads[0]) / length);
     }
     if !system.matrix.factor() {
-        return Err(singular("linear system of the group"));
+        return Err(singular(sentences::LINEAR_SYSTEM_OF_THE_GROUP));
     }
     system.matrix.solve(&mut system.right);
     let force = |unknown: usize| Vec2::new(system.right[2 * unknown], system.right[2 * unknown + 1]);
     if !system.right.iter().all(|value| value.is_finite()) {
-        return Err(singular("linear system of the group"));
+        return Err(singular(sentences::LINEAR_SYSTEM_OF_THE_GROUP));
     }
     Ok(Reactions { feet: [0, 1, 2].map(force), heads: [3, 4, 5].map(force) })
 }

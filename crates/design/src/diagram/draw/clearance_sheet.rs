@@ -2,6 +2,7 @@
 //! smallest distance or the first collision is.
 
 use crate::clearance::{Clearance, PairClearance, poses};
+use crate::sentences;
 use drawing::paper::document::document;
 use drawing::paper::figure::{Figure, Tint, solid};
 use drawing::paper::style::{GREY, colour, significant};
@@ -55,7 +56,7 @@ pub fn clearance(case: &Case, name: &str, asked: &Question, found: &Clearance) -
     for body in asked.bodies.iter().filter(|body| body.moves()) {
         let mut swept = Figure::default();
         all.iter().for_each(|pose| draw(&mut swept, &body.outline, &pose[body.link], colour(body.link), scale));
-        picture.figure.group(swept, SWEPT, format!("swept by {}", body.name));
+        picture.figure.group(swept, SWEPT, sentences::swept_by(&body.name));
     }
     for body in &asked.bodies {
         let (pose, paint, opacity) = match body.moves() {
@@ -68,11 +69,11 @@ pub fn clearance(case: &Case, name: &str, asked: &Question, found: &Clearance) -
     }
     picture.draw_marks();
     picture.number_links();
-    let crank = format!("crank angle {} deg", significant(shown.to_degrees()));
+    let crank = sentences::crank_angle_deg(&significant(shown.to_degrees()));
     let names = |pair: &PairClearance| pair.bodies.map(|body| asked.bodies[body].name.as_str()).join(" and ");
     let words = if let Some((pair, meeting)) = collision {
         picture.figure.disc(meeting.place / scale, 2.2, "none", solid(ALARM, 0.8));
-        format!("first collision: {} at {crank}", names(pair))
+        sentences::first_collision_at(&names(pair), &crank)
     } else if let Some(pair) = smallest {
         let ends = pair.smallest.points.map(|point| point / scale);
         picture.figure.line(ends, solid(ALARM, 0.8));
@@ -80,7 +81,7 @@ pub fn clearance(case: &Case, name: &str, asked: &Question, found: &Clearance) -
         let distance = format!("{} mm", significant(1e3 * pair.smallest.distance));
         let middle = (ends[0] + ends[1]) / 2.0;
         picture.letters(middle, Vec2::zeros(), 1.2, distance.clone(), ALARM);
-        format!("smallest distance {distance}: {} at {crank}", names(pair))
+        sentences::smallest_distance_at(&distance, &names(pair), &crank)
     } else {
         crank
     };

@@ -2,6 +2,7 @@
 
 use super::axes::{Axis, GRID, Room, frame, stacked};
 use crate::diagram::graphs::{Graph, Graphs};
+use crate::sentences;
 use drawing::paper::figure::{Figure, Style, Type, scripted, solid, words};
 use drawing::paper::style::{COLOURS, GREY, significant};
 use linkage::math::{KeepNan, Vec2};
@@ -63,7 +64,7 @@ fn panel(graph: &Graph, [start, end]: [f64; 2]) -> Figure {
     }
     let [symbol, unit] = [graph.symbol, graph.unit].map(scripted);
     let per = if graph.unit.contains([' ', '/']) { format!("({unit})/mm") } else { format!("{unit}/mm") };
-    let heading = format!("{} {symbol}, {unit}; scale factor {} {per}", graph.name, axis.scale);
+    let heading = sentences::scale_factor(&graph.name, &symbol, &unit, &axis.scale, &per);
     figure.text(Vec2::new(0.0, axis.height() + 3.0), heading, Type { bold: true, ..words(3.6) });
     figure
 }
@@ -80,5 +81,5 @@ fn angles(figure: &mut Figure, [start, end]: [f64; 2], height: f64) {
         figure.line([Vec2::new(x, 0.0), Vec2::new(x, height)], GRID);
         figure.text(Vec2::new(x, -4.0), format!("{degrees}°"), Type { anchor: "middle", ..words(2.8) });
     }
-    figure.text(Vec2::new(LONG / 2.0, -8.4), "crank angle φ, deg", Type { anchor: "middle", ..words(2.8) });
+    figure.text(Vec2::new(LONG / 2.0, -8.4), sentences::CRANK_ANGLE_DEG_2, Type { anchor: "middle", ..words(2.8) });
 }

@@ -5,6 +5,7 @@ use super::scheme_figure;
 use crate::diagram::builder::NOTHING;
 use crate::diagram::plan::Plans;
 use crate::diagram::vectors::{Part, Plan, Tip, TipKind, Vector};
+use crate::sentences;
 use drawing::paper::document::document;
 use drawing::paper::figure::{Figure, Style, Type, scripted, solid, sub, words};
 use drawing::paper::labels::{Label, Obstacles, label_size, letter, place_among};
@@ -31,7 +32,7 @@ const POINT: f64 = 0.15;
 #[must_use]
 pub fn plans(plans: &Plans, name: &str, title: &str) -> String {
     let heading = |words: &str, symbol: &str, index: &str, scale: f64, unit: &str| {
-        (words.to_string(), format!("scale factor {symbol}{} = {scale} {}", sub(index), scripted(unit)))
+        (words.to_string(), sentences::scale_factor_3(&symbol, &sub(index), &scale, &scripted(unit)))
     };
     let of_plan = |plan: &Plan, words: &str| {
         let unit = format!("({})/mm", plan.quantity.unit());
@@ -50,7 +51,7 @@ pub fn plans(plans: &Plans, name: &str, title: &str) -> String {
     ];
     let mut sheet = Figure::default();
     let large = Type { bold: true, ..words(5.5) };
-    sheet.text(Vec2::new(MARGIN, -MARGIN - 4.0), format!("{name}, crank at {}°", degrees(plans.crank)), large);
+    sheet.text(Vec2::new(MARGIN, -MARGIN - 4.0), sentences::crank_at(&name, &degrees(plans.crank)), large);
     sheet.text(Vec2::new(MARGIN, -MARGIN - 10.0), title, words(3.6));
     let columns = columns.map(|(heading, figure, table)| (heading, figure, table.figure()));
     let wide = |figure: &Figure| figure.bounds()[1].x - figure.bounds()[0].x;
@@ -200,5 +201,5 @@ fn table(plan: &Plan) -> Table {
         (style(vector), cells)
     });
     let unit = if plan.quantity.unit() == "m/s" { "m/s" } else { "m/s²" };
-    Table { head: vec!["vector", "from → to", unit, "mm", "meaning"], rows: rows.collect(), numbers: &[2, 3] }
+    Table { head: vec!["vector", sentences::FROM_TO, unit, "mm", "meaning"], rows: rows.collect(), numbers: &[2, 3] }
 }

@@ -1,5 +1,6 @@
 //! The sheet of a timing diagram.
 
+use crate::sentences;
 use std::f64::consts::TAU;
 
 use super::axes::{GRID, frame, framed};
@@ -92,6 +93,6 @@ fn legend(figure: &mut Figure, diagram: &TimingDiagram) {
         figure.text(Vec2::new(left + 10.0, -10.0), text, words(2.8));
         left += 62.0;
     };
-    entry(solid(COLOURS[0], 0.5), "achieved, share of the stroke");
-    entry(WANTED, if diagram.wanted.is_empty() { "wanted: rest, or at least so far" } else { "wanted, cycloidal" });
+    entry(solid(COLOURS[0], 0.5), sentences::ACHIEVED_SHARE_OF_THE_STROKE);
+    entry(WANTED, if diagram.wanted.is_empty() { sentences::WANTED_REST_OR_AT_LEAST_SO } else { "wanted, cycloidal" });
 }

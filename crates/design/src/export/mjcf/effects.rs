@@ -1,5 +1,6 @@
 //! Motors and loads in the document: sites, tendons, actuators.
 
+use crate::sentences;
 use std::fmt::Write;
 
 use quick_xml::escape::escape;
@@ -25,7 +26,7 @@ pub(super) fn sites(xml: &mut Xml, forces: &Forces, link: LinkId) {
     }
     let is_world = |target: &Target| matches!(target, Target::Place { follows: false, .. });
     if link == GROUND && forces.actuators.iter().any(|own| is_world(&own.target)) {
-        xml.comment("Forces in world axes refer to it.");
+        xml.comment(sentences::FORCES_IN_WORLD_AXES_REFER);
         site(xml, AXES, Vec2::zeros());
     }
 }
@@ -48,13 +49,13 @@ pub(super) fn tendons<'a>(xml: &mut Xml, model: &Model, forces: &'a Forces) {
         for friction in long {
             let name = escape(model.case.mechanism.links()[friction.link].name.as_str());
             let loss = number(friction.moment);
-            xml.comment("Its length is the link's angle.");
+            xml.comment(sentences::ITS_LENGTH_IS_THE_LINK_ANGLE);
             xml.nest(format_args!(r#"fixed name="{name}" frictionloss="{loss}""#), |xml| {
                 friction.hinges.iter().for_each(|&branch| hinge(xml, branch, 1.0));
             });
         }
         for (name, sum) in sums {
-            xml.comment("Its length is the angle that the load depends on.");
+            xml.comment(sentences::ITS_LENGTH_IS_THE_ANGLE_THAT_THE_LOAD);
             xml.nest(format_args!(r#"fixed name="{name}""#), |xml| {
                 sum.iter().for_each(|&(branch, factor)| hinge(xml, branch, factor));
             });

@@ -2,6 +2,7 @@
 
 use super::limits;
 use super::names;
+use crate::sentences;
 use linkage::case::Case;
 use linkage::drive::Load;
 use linkage::error::{Error, ErrorKind, Result};
@@ -55,8 +56,8 @@ impl<'a> Model<'a> {
     /// Those of [`mjcf`](super::mjcf), without the solver's.
     pub fn new(case: &'a Case, start: &State, name: &'a str, step: f64) -> Result<Self> {
         if !(step > 0.0 && step.is_finite()) {
-            return Err(Error::new(ErrorKind::Input, format!("the time step is {step} s, but must be positive"))
-                .help("give a step such as 1e-3"));
+            return Err(Error::new(ErrorKind::Input, sentences::the_time_step_is_but_must(&step))
+                .help(sentences::GIVE_A_STEP_SUCH_AS));
         }
         names::check(&case.mechanism)?;
         for drive in case.drives.iter() {

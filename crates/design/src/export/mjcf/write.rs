@@ -1,5 +1,6 @@
 //! The XML document.
 
+use crate::sentences;
 use std::fmt::Write;
 
 use quick_xml::escape::escape;
@@ -65,7 +66,7 @@ fn options(xml: &mut Xml, model: &Model) {
         // View from above: x right, y up.
         xml.leaf(r#"global azimuth="90" elevation="-90""#);
     });
-    xml.comment("As stiff as a step allows: the time constant is raised to twice the time step, whatever that is.");
+    xml.comment(sentences::AS_STIFF_AS_A_STEP_ALLOWS);
     xml.nest("default", |xml| {
         xml.leaf(format_args!(r#"equality solref="{STIFF}" solimp="{HARD}""#));
         let friction = format!(r#"solreffriction="{STIFF}" solimpfriction="{HARD}""#);
@@ -94,7 +95,7 @@ fn body(xml: &mut Xml, model: &Model, forces: &Forces, link: LinkId) {
     xml.nest(format_args!(r#"body name="{name}" pos="{at}" axisangle="{turn}""#), |xml| {
         let (mass, inertia) = model.inertial(link);
         if model.is_lent(link) {
-            xml.comment("It has no mass or no inertia: MuJoCo gets a small one.");
+            xml.comment(sentences::IT_HAS_NO_MASS_OR_NO_INERTIA);
         }
         // Three equal moments satisfy the triangle inequality; those about x and y have no effect in planar motion.
         let (centre, mass, inertia) = (flat(data.mass_centre), number(mass), numbers([inertia; 3]));
@@ -119,8 +120,8 @@ fn joint(xml: &mut Xml, model: &Model, index: usize) {
     if let Some(inertia) = model.armature(branch.joint) {
         let _ = write!(tag, r#" armature="{}""#, number(inertia));
         xml.comment(match model.case.drives.iter().any(|drive| drive.joint == branch.joint && drive.is_free()) {
-            true => "Rotor and reducer of the motor.",
-            false => "Drive: a rotor so heavy that its speed stays what it is at the start.",
+            true => sentences::ROTOR_AND_REDUCER_OF_THE_MOTOR,
+            false => sentences::DRIVE_A_ROTOR_SO_HEAVY_THAT_ITS_SPEED,
         });
     }
     if let Some(found) = model.frictions.iter().find(|friction| friction.link == branch.link && friction.own_hinge) {
@@ -159,9 +160,7 @@ fn loops(xml: &mut Xml, model: &Model) {
 
 /// Reactions in the joints of the tree, and moments where there are any.
 fn sensors(xml: &mut Xml, model: &Model) {
-    xml.comment(
-        "What acts on the body in the joint that carries it, in the body's frame; moments about the joint's place, without frictionloss.",
-    );
+    xml.comment(sentences::WHAT_ACTS_ON_THE_BODY_IN_THE_JOINT);
     xml.nest("sensor", |xml| {
         for branch in &model.tree.branches {
             let joint = &model.case.mechanism.joints()[branch.joint];

@@ -3,6 +3,7 @@
 use super::{StartGroup, configurations, first_choices};
 use crate::error::{Advice, Error, ErrorKind, Part};
 use crate::mechanism::{AssemblyMode, Group, GroupId, Mechanism, Structure};
+use crate::sentences;
 
 /// A group whose configuration leaves no place for a later one.
 #[derive(Clone, Debug, PartialEq)]
@@ -99,11 +100,8 @@ pub fn blamed(mechanism: &Mechanism, structure: &Structure, blame: &Blame, error
             format!("mode \"{}\"", blame.mode.name())
         }
     };
-    let message = format!(
-        "this configuration of the group ({own}) leaves no place for the group ({later}), but {fits} does: {}",
-        error.message()
-    );
-    let give = format!("{fits} of the group ({own}), or check the lengths and rough places of ({later})");
+    let message = sentences::this_configuration_of_the_group(&own, &later, &fits, &error.message());
+    let give = sentences::of_the_group_or_check_the_lengths(&fits, &own, &later);
     Error::new(error.kind(), message)
         .help(Advice::Configuration { give })
         .key(structure.groups[blame.group].key(mechanism))

@@ -1,5 +1,6 @@
 //! Slips as rules: what is written, and what may have been meant by it.
 
+use crate::sentences;
 use std::sync::LazyLock;
 
 use super::slip::Kind;
@@ -23,8 +24,8 @@ const RULES: [(Kind, &str); 52] = [
     (Kind::Branch, "atan(a/b) => atan2(a, b)"),
     (Kind::Branch, "atan2(a, b) => atan2(a, b) + pi"),
     // Degrees, turns a minute, seconds in a minute, turns, and powers of ten.
-    (Kind::Unit, "t => t*(180/pi); t/(180/pi)"),
-    (Kind::Unit, "r => r*(180/pi); r/(180/pi); r*(30/pi); r/(30/pi); r*60; r/60; r*(2*pi); r/(2*pi)"),
+    (Kind::Unit, sentences::PI_PI),
+    (Kind::Unit, sentences::PI_PI_PI_PI_PI_PI),
     (Kind::Unit, "r => r*1e3; r/1e3; r*1e6; r/1e6"),
     (Kind::Unit, "g => g*9.81; g/9.81; g*9.80665; g/9.80665"),
     (Kind::Unit, "1e3 => 1"),
@@ -53,7 +54,7 @@ const RULES: [(Kind, &str); 52] = [
     (Kind::PerSecond, "q => q/w; q/w^2"),
     (Kind::Term, "a + b => a; b"),
     (Kind::Term, "a - b => a; -b"),
-    (Kind::Reference, "q => q + pi/2; q - pi/2; q + pi; q - pi; q + 2*pi; q - 2*pi; pi - q; pi/2 - q"),
+    (Kind::Reference, sentences::PI_PI_PI_PI_PI_PI_PI_PI),
     (Kind::Factor, "q => q*2; q/2; q*3; q/3; q*4; q/4"),
     (Kind::Operator, "a*b => a/b"),
     (Kind::Operator, "a*n => a^n"),
