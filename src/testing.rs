@@ -8,12 +8,12 @@
 mod folder;
 
 #[cfg(feature = "testing")]
-use crate::sentences;
 pub use folder::{Folder, main};
 
 use std::path::{Path, PathBuf};
 
 use crate::plain::{brief, errors, style};
+use crate::sentences;
 use linkage::case::Grid;
 use linkage::drive::Drive;
 use linkage::error::{Advice, Error, ErrorKind, Result};
