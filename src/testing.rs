@@ -20,7 +20,7 @@ use linkage::error::{Advice, Error, ErrorKind, Result};
 use prover::compare::Verdict;
 use prover::proof::{Options, Proof, prove};
 use scenario::grid::listed;
-use scenario::{Asked, Scenario};
+use scenario::{Scenario, StartRequest};
 
 /// Proves a scenario file, and panics with the report unless it agrees; gives the [`Proof`].
 ///
@@ -106,7 +106,7 @@ fn failure(proof: &Proof) -> Option<String> {
 #[must_use = "nothing is proven before `prove` or `assert`"]
 pub struct Proving {
     file: PathBuf,
-    asked: Asked,
+    asked: StartRequest,
     instants: Option<Instants>,
     only: Vec<String>,
     options: Options,
@@ -132,7 +132,7 @@ impl Proving {
     pub fn of(path: impl AsRef<Path>) -> Self {
         Proving {
             file: path.as_ref().into(),
-            asked: Asked::default(),
+            asked: StartRequest::default(),
             instants: None,
             only: Vec::new(),
             options: Options::default(),
@@ -213,7 +213,7 @@ impl Proving {
 
     /// The scenario with what was set.
     fn scenario(&self) -> Result<Scenario> {
-        let asked = Asked { without_grid: self.instants.is_some(), ..self.asked.clone() };
+        let asked = StartRequest { without_grid: self.instants.is_some(), ..self.asked.clone() };
         let mut scenario = Scenario::load_as(&self.file, &asked)?;
         if let Some(instants) = &self.instants {
             let grid = instants.grid(&scenario)?;

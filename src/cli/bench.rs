@@ -12,7 +12,7 @@ use crate::report::{bench as report, bench_page, bench_plot, case_json};
 use analytic::AssurSolver;
 use analytic::range::explained;
 use design::export::{first_state, mjcf};
-use lab::bench::{Axis, Bench, Clock, Options, Peer, bench};
+use lab::bench::{Bench, BenchOptions, Clock, CostAxis, Peer, bench};
 
 use lab::outside::{Command, Exports, machine, processor_time};
 
@@ -81,12 +81,12 @@ pub(super) fn run(args: &Args) -> Result<()> {
     }
     let machine = machine();
     let options =
-        Options { engines: args.engine.clone(), is_quick: args.quick, budget: args.budget, rounds: args.rounds };
+        BenchOptions { engines: args.engine.clone(), is_quick: args.quick, budget: args.budget, rounds: args.rounds };
     for engine in &options.engines {
         with_step(*engine, 1.0)?;
     }
     output::make_directory(&args.out, "--out", sentences::GIVE_A_DIRECTORY_THAT_MAY)?;
-    let endings = || Axis::ALL.map(|axis| format!("{}.svg", axis.name())).into_iter().chain(["csv".into()]);
+    let endings = || CostAxis::ALL.map(|axis| format!("{}.svg", axis.name())).into_iter().chain(["csv".into()]);
     let places = scenarios.iter().flat_map(|own| endings().map(|ending| place(args, &own.name, &ending)));
     output::may_make(&places.chain([args.out.join(TOTAL)]).collect::<Vec<_>>())?;
     let since = Instant::now();
@@ -118,7 +118,7 @@ fn used(since: Instant) -> f64 {
 }
 
 /// One scenario, with a progress bar. Runs are timed by the first clock, peers stopped by the second.
-fn one(args: &Args, scenario: &Scenario, options: &Options, used: Clock, wall: Clock) -> Result<Bench> {
+fn one(args: &Args, scenario: &Scenario, options: &BenchOptions, used: Clock, wall: Clock) -> Result<Bench> {
     let case = &scenario.case;
     let exports = match args.peer.is_empty() {
         true => None,
@@ -152,7 +152,7 @@ fn place(args: &Args, name: &str, ending: &str) -> PathBuf {
 fn put(args: &Args, found: &Bench, machine: &report::Machine) -> Result<()> {
     let place = |end: &str| place(args, &found.scenario[0], end);
     output::make(&report::rows(found, machine)?, &place("csv"))?;
-    for axis in Axis::ALL {
+    for axis in CostAxis::ALL {
         if let Some(text) = bench_plot::drawing(found, axis) {
             output::make(&text, &place(&format!("{}.svg", axis.name())))?;
         }

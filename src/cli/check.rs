@@ -6,11 +6,11 @@ use std::path::PathBuf;
 use super::grid::GridArgs;
 use super::load::StartArgs;
 use super::{advice, exit_code, number, output};
-use crate::check::{Question, Words, check as judged};
+use crate::check::{FormulaQuestion, Words, check as judged};
 use crate::plain::style::Detail;
 use crate::report::check as report;
 use linkage::error::Result;
-use scenario::{Asked, Scenario};
+use scenario::{Scenario, StartRequest};
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = include_str!("help/check.txt").trim_ascii_end())]
@@ -85,13 +85,13 @@ fn asked(args: &Args) -> Result<Scenario> {
     let (Some(formula), Some(channel)) = (&args.expression, &args.channel) else {
         return args.start.load(&args.file, &args.grid);
     };
-    let question = Question {
+    let question = FormulaQuestion {
         formula: formula.clone(),
         channel: channel.clone(),
         steps: args.steps.clone(),
         valid: [args.from_deg, args.to_deg].map(|degrees| degrees.map(f64::to_radians)),
         error: args.error,
     };
-    let besides = Asked { adds_parameters: true, ..Asked::default() };
+    let besides = StartRequest { adds_parameters: true, ..Asked::default() };
     question.of_scenario(args.start.load_as(&args.file, &args.grid, besides)?, &WORDS)
 }

@@ -9,11 +9,11 @@ use super::progress::Bar;
 use super::{exit_code, load, output};
 use crate::report::clearance::{self as report, Standing};
 use analytic::range::explained;
-use design::clearance::{Clearance, course, find};
+use design::clearance::{ClearanceResult, course, find};
 use design::diagram::draw;
 use linkage::error::{Error, ErrorKind, Result};
 use scenario::Scenario;
-use scenario::clearance::Question;
+use scenario::clearance::ClearanceQuestion;
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = include_str!("help/clearance.txt").trim_ascii_end())]
@@ -66,11 +66,11 @@ pub(super) fn clearance(args: &Args) -> Result<u8> {
     Ok(worst)
 }
 
-fn question(scenario: &Scenario) -> &Question {
+fn question(scenario: &Scenario) -> &ClearanceQuestion {
     scenario.clearance.as_ref().expect("only scenarios that ask are answered")
 }
 
-fn answer(args: &Args, file: &Path) -> Result<(Scenario, Clearance)> {
+fn answer(args: &Args, file: &Path) -> Result<(Scenario, ClearanceResult)> {
     let scenario = plain(file)?;
     let Some(asked) = &scenario.clearance else {
         let message = sentences::the_scenario_asks_nothing_about(&file.display());

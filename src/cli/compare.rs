@@ -16,7 +16,7 @@ use crate::report::versus as report;
 use linkage::error::Result;
 use prover::proof::memory;
 use prover::tables::By;
-use prover::versus::{How, Party, compare as compared};
+use prover::versus::{ComparedParty, ComparisonRule, compare as compared};
 use scenario::mapping::{Allowed, Mapped, Mapping, Size};
 
 #[derive(Debug, clap::Args)]
@@ -123,7 +123,7 @@ pub(super) fn compare(args: &Args) -> Result<u8> {
     if let Some(to) = &args.write_map {
         output::write(&mapping.text(), to)?;
     }
-    let how = How {
+    let how = ComparisonRule {
         allowed: mapping.allowed,
         by: args.by,
         interpolates: args.interpolate,
@@ -196,12 +196,12 @@ fn mapping(lines: &[String], option: &str) -> Result<Mapping> {
 }
 
 /// A party; `other` is the path of the one beside it.
-fn party(args: &Args, path: &Path, other: &Path, mapping: &Mapping) -> Result<Party> {
+fn party(args: &Args, path: &Path, other: &Path, mapping: &Mapping) -> Result<ComparedParty> {
     let path = if load::is_standard_input(path) { Path::new("/dev/stdin") } else { path };
     let ending = path.extension().and_then(|ending| ending.to_str());
     Ok(match ending {
         Some("toml") => args.start.load(path, &GridArgs::default())?.into(),
-        Some("mcap") => Party::recording(path.display().to_string(), recording::load(path)?),
+        Some("mcap") => ComparedParty::recording(path.display().to_string(), recording::load(path)?),
         Some(_) | None => {
             let claims = mapping.channels.len().max(1);
             let is_solved = other.extension().is_some_and(|ending| ending == "toml");
@@ -212,7 +212,7 @@ fn party(args: &Args, path: &Path, other: &Path, mapping: &Mapping) -> Result<Pa
                 let compared = if is_solved && rows > 0 { memory::of_comparison(rows, claims, claims) } else { 0.0 };
                 memory::check_input(&sentences::comparing_rows(&rows), compared, most)
             };
-            Party::table_within(path, mapping, &may)?
+            ComparedParty::table_within(path, mapping, &may)?
         }
     })
 }

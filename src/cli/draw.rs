@@ -6,10 +6,10 @@ use std::path::PathBuf;
 use super::engine_args::side;
 use super::output::{self, refused};
 use super::{exit_code, load, number};
-use crate::draw::{Drawn, Medium, Note, Wish, picture};
+use crate::draw::{Drawn, Medium, Note, PictureOptions, picture};
 use linkage::error::{Error, ErrorKind, Result};
 use prover::proof::Reference;
-use scenario::Asked;
+use scenario::StartRequest;
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = include_str!("help/draw.txt").trim_ascii_end())]
@@ -87,7 +87,7 @@ fn fits(args: &Args, medium: Medium) -> Result<()> {
 pub(super) fn draw(args: &Args) -> Result<u8> {
     let medium = Medium::of(&args.output).map_err(|message| Error::new(ErrorKind::Input, message).key("--output"))?;
     fits(args, medium)?;
-    let wish = Wish {
+    let wish = PictureOptions {
         crank: args.crank_deg.map(f64::to_radians),
         each_mode: args.each_mode,
         loads: args.loads,
@@ -100,7 +100,7 @@ pub(super) fn draw(args: &Args) -> Result<u8> {
         seconds: args.seconds,
         traces_key: Some("--trace"),
     };
-    let asked = Asked { modes: args.mode.clone(), set: args.set.clone(), ..Asked::default() };
+    let asked = StartRequest { modes: args.mode.clone(), set: args.set.clone(), ..Asked::default() };
     let drawn = |file: &PathBuf| match load::as_asked(file, &asked) {
         Ok(scenario) => Drawn::of(scenario, &wish, medium).map_err(|error| error.key("--crank-deg")),
         // What is wrong with the text itself is told by the reading of the draft.

@@ -10,7 +10,7 @@ use super::{advice, drive, output};
 use crate::report::drive_graphs;
 use crate::report::html::{self, Beside};
 use analytic::range::explained;
-use analytic::reduced::Model;
+use analytic::reduced::ReducedModel;
 use design::diagram::Graphs;
 use linkage::error::{Error, ErrorKind, Result};
 use prover::proof::Proof;
@@ -98,7 +98,7 @@ pub(super) fn target(text: &str) -> std::result::Result<PathBuf, String> {
 fn reduced(scenario: &Scenario) -> std::result::Result<Graphs, String> {
     let scenario = scenario.clone().nominal();
     let graphs = || {
-        let model = Model::of(&scenario.case)?;
+        let model = ReducedModel::of(&scenario.case)?;
         let found = drive::find(&scenario, &model, STEP_DEG, None)?;
         Ok(drive_graphs::graphs(&scenario, &found, &drive::curves(&scenario, &model, &found)?))
     };

@@ -8,7 +8,7 @@ use std::sync::OnceLock;
 use super::grid::GridArgs;
 use super::{number, output};
 use linkage::error::{Error, ErrorKind, Result};
-use scenario::{Asked, Draft, Scenario, Undecided};
+use scenario::{Draft, Scenario, StartRequest, Undecided};
 
 /// Another start than that of the file.
 #[derive(Clone, Debug, clap::Args)]
@@ -31,13 +31,13 @@ pub(super) struct StartArgs {
 impl StartArgs {
     /// Reads a scenario with this start, on the grid given, else on its own.
     pub(super) fn load(&self, file: &Path, grid: &GridArgs) -> Result<Scenario> {
-        self.load_as(file, grid, Asked::default())
+        self.load_as(file, grid, StartRequest::default())
     }
 
     /// The same with what is asked `besides`.
-    pub(super) fn load_as(&self, file: &Path, grid: &GridArgs, besides: Asked) -> Result<Scenario> {
+    pub(super) fn load_as(&self, file: &Path, grid: &GridArgs, besides: StartRequest) -> Result<Scenario> {
         let crank = self.start_crank_deg.map(f64::to_radians);
-        let asked = Asked {
+        let asked = StartRequest {
             modes: self.mode.clone(),
             crank,
             without_grid: grid.told().is_some(),
@@ -61,15 +61,15 @@ pub(super) fn setting(text: &str) -> std::result::Result<(String, f64), String> 
 
 /// Reads a scenario as it is.
 pub(super) fn plain(file: &Path) -> Result<Scenario> {
-    as_asked(file, &Asked::default())
+    as_asked(file, &StartRequest::default())
 }
 
 /// Reads a scenario and starts its groups in the given `modes`.
 pub(super) fn load(file: &Path, modes: &[String]) -> Result<Scenario> {
-    as_asked(file, &Asked { modes: modes.to_vec(), ..Asked::default() })
+    as_asked(file, &StartRequest { modes: modes.to_vec(), ..Asked::default() })
 }
 
-pub(super) fn as_asked(file: &Path, asked: &Asked) -> Result<Scenario> {
+pub(super) fn as_asked(file: &Path, asked: &StartRequest) -> Result<Scenario> {
     let found = match is_standard_input(file) {
         true => Scenario::parse_as(standard_input()?, named(file), asked),
         false => Scenario::load_as(file, asked),
@@ -78,7 +78,7 @@ pub(super) fn as_asked(file: &Path, asked: &Asked) -> Result<Scenario> {
 }
 
 /// The same for a list of configurations: with the groups that the file does not decide.
-pub(super) fn to_list(file: &Path, asked: &Asked) -> Result<(Scenario, Vec<Undecided>)> {
+pub(super) fn to_list(file: &Path, asked: &StartRequest) -> Result<(Scenario, Vec<Undecided>)> {
     let found = match is_standard_input(file) {
         true => Scenario::parse_to_list(standard_input()?, named(file), asked),
         false => Scenario::load_to_list(file, asked),
@@ -87,7 +87,7 @@ pub(super) fn to_list(file: &Path, asked: &Asked) -> Result<(Scenario, Vec<Undec
 }
 
 /// The mechanism of a file that cannot be assembled, as far as the file states it.
-pub(super) fn draft(file: &Path, asked: &Asked) -> Result<Draft> {
+pub(super) fn draft(file: &Path, asked: &StartRequest) -> Result<Draft> {
     match is_standard_input(file) {
         true => Draft::parse(standard_input()?, named(file), asked),
         false => Draft::load(file, asked),
@@ -95,7 +95,7 @@ pub(super) fn draft(file: &Path, asked: &Asked) -> Result<Draft> {
 }
 
 /// An error that has no place in the file is one of the modes asked for.
-fn of_mode(asked: &Asked, error: Error) -> Error {
+fn of_mode(asked: &StartRequest, error: Error) -> Error {
     let is_asked = !asked.modes.is_empty() && error.place().is_none() && error.kind() != ErrorKind::Io;
     if is_asked { error.key("--mode") } else { error }
 }

@@ -9,7 +9,7 @@ use super::{advice, exit_code};
 use crate::plain::errors;
 use crate::plain::style::COLUMNS;
 use anstream::AutoStream;
-use files::{self, Target};
+use files::{self, OutputTarget};
 use linkage::error::{Error, ErrorKind, Result};
 use terminal_size::{Width, terminal_size_of};
 
@@ -82,13 +82,13 @@ pub(super) fn write(text: &str, to: &Path) -> Result<()> {
 pub(super) fn write_bytes(bytes: &[u8], to: &Path) -> Result<()> {
     match is_standard(to) {
         true => printed(|out| out.write_all(bytes)),
-        false => put(&Target::Named(to), to, Some(bytes.len() as u64), |out| out.write_all(bytes)),
+        false => put(&OutputTarget::Named(to), to, Some(bytes.len() as u64), |out| out.write_all(bytes)),
     }
 }
 
 /// Lets `fill` write piece by piece to a file that the caller named, or to standard output for `-`.
 pub(super) fn stream(to: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<()> {
-    if is_standard(to) { printed(fill) } else { put(&Target::Named(to), to, None, fill) }
+    if is_standard(to) { printed(fill) } else { put(&OutputTarget::Named(to), to, None, fill) }
 }
 
 /// Writes text with its seal to a file whose name the program made up. What is there is replaced if its seal is
@@ -100,13 +100,13 @@ pub(super) fn make(text: &str, to: &Path) -> Result<()> {
 /// Writes bytes to a file whose name the program made up. What is there is replaced if `is_ours` says so, else it is an
 /// error.
 pub(super) fn make_by(bytes: &[u8], to: &Path, is_ours: &dyn Fn(&[u8]) -> bool) -> Result<()> {
-    put(&Target::Made(to, is_ours), to, Some(bytes.len() as u64), |out| out.write_all(bytes))
+    put(&OutputTarget::Made(to, is_ours), to, Some(bytes.len() as u64), |out| out.write_all(bytes))
 }
 
 /// Why [`make`] would be refused at one of these places: what is there may not be replaced.
 pub(super) fn may_make(places: &[PathBuf]) -> Result<()> {
     for to in places {
-        if let Some(why) = Target::Made(to, &files::is_sealed).in_the_way() {
+        if let Some(why) = OutputTarget::Made(to, &files::is_sealed).in_the_way() {
             let error = io::Error::new(io::ErrorKind::AlreadyExists, why);
             return Err(files::unwritten(&to.display().to_string(), &error, None, ""));
         }
@@ -115,7 +115,7 @@ pub(super) fn may_make(places: &[PathBuf]) -> Result<()> {
 }
 
 fn put(
-    target: &Target,
+    target: &OutputTarget,
     to: &Path,
     needs: Option<u64>,
     fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,

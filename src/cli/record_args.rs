@@ -7,11 +7,11 @@ use std::path::PathBuf;
 
 use super::{advice, number, output};
 use crate::report::{layout, recorded};
-use files::{self, Target};
+use files::{self, OutputTarget};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::KeepNan;
 use prover::proof::Proof;
-use recording::{self, Place, Recording, Show, Side};
+use recording::{self, Recording, RecordingPlace, Show, Side};
 use scenario::Scenario;
 #[cfg(feature = "live")]
 use {
@@ -109,7 +109,7 @@ impl RecordArgs {
                 .help(sentences::NAME_ANOTHER_DIRECTORY_WITH_RECORD)
         })?;
         metadata.extend(self.record_hz.map(|hz| ("record_hz".into(), hz.to_string())));
-        let Place { path, other } = recording::place(directory, &scenario.name, &scenario.text, &metadata)?;
+        let RecordingPlace { path, other } = recording::place(directory, &scenario.name, &scenario.text, &metadata)?;
         let view = self.as_recorded(scenario, proof, &metadata, |recording| {
             recording::write(recording, &path).map(|()| recording::view(recording))
         })?;
@@ -122,7 +122,7 @@ impl RecordArgs {
         let layout = view.as_ref().map(|_| path.with_extension("foxglove.json"));
         if let (Some(view), Some(to)) = (&view, &layout) {
             told += &format!("\nlayout     {}", to.display());
-            match Target::Made(to, &files::is_sealed).in_the_way() {
+            match OutputTarget::Made(to, &files::is_sealed).in_the_way() {
                 Some(why) => {
                     told += &sentences::it_is_kept_linkproof_view(&why, &path.display());
                 }

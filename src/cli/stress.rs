@@ -8,7 +8,7 @@ use clap::builder::PossibleValuesParser;
 use super::progress::Bar;
 use super::{exit_code, number, output};
 use crate::report::stress as report;
-use lab::stress::{FAMILIES, Family, Job, Outcome, jobs, run_all};
+use lab::stress::{FAMILIES, Job, StressFamily, StressOutcome, jobs, run_all};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::threads::cores;
 
@@ -40,8 +40,9 @@ pub(super) struct Args {
 
 /// Runs what is open, writes everything, and returns the exit code.
 pub(super) fn run(args: &Args) -> Result<u8> {
-    let chosen = |family: &&Family| args.families.is_empty() || args.families.iter().any(|name| name == family.name);
-    let families: Vec<&'static Family> = FAMILIES.iter().filter(chosen).collect();
+    let chosen =
+        |family: &&StressFamily| args.families.is_empty() || args.families.iter().any(|name| name == family.name);
+    let families: Vec<&'static StressFamily> = FAMILIES.iter().filter(chosen).collect();
     output::make_directory(&args.out, "--out", sentences::NAME_A_DIRECTORY_OR_A_PLACE)?;
     let mut all: Vec<Job> = Vec::new();
     for &family in &families {
@@ -69,7 +70,7 @@ pub(super) fn run(args: &Args) -> Result<u8> {
     let threads = args.jobs.unwrap_or_else(cores);
     let all = run_all(all, args.seed, threads, done)?;
     drop(bar);
-    let found: Vec<(&Family, Vec<&Outcome>)> =
+    let found: Vec<(&StressFamily, Vec<&StressOutcome>)> =
         families.iter().map(|&family| (family, of(family, &all).collect())).collect();
     for (family, outcomes) in &found {
         let place = |extension: &str| args.out.join(format!("{}.{extension}", family.name));
@@ -98,22 +99,22 @@ fn first_line(bytes: &[u8]) -> Option<&[u8]> {
     bytes.split(|&byte| byte == b'\n').next().map(<[u8]>::trim_ascii_end)
 }
 
-fn json_of(out: &Path, family: &Family) -> PathBuf {
+fn json_of(out: &Path, family: &StressFamily) -> PathBuf {
     out.join(format!("{}.json", family.name))
 }
 
-fn of<'a>(family: &'static Family, jobs: &'a [Job]) -> impl Iterator<Item = &'a Outcome> {
+fn of<'a>(family: &'static StressFamily, jobs: &'a [Job]) -> impl Iterator<Item = &'a StressOutcome> {
     jobs.iter().filter(move |job| job.family.name == family.name).filter_map(|job| job.outcome.as_ref())
 }
 
 /// Writes what is finished of a family.
-fn write_json(args: &Args, family: &'static Family, jobs: &[Job]) -> Result<()> {
+fn write_json(args: &Args, family: &'static StressFamily, jobs: &[Job]) -> Result<()> {
     let text = report::json(family, args.seed, of(family, jobs));
     output::make_by(text.as_bytes(), &json_of(&args.out, family), &|old| report::is_kept(old, family))
 }
 
 /// The page, and the maps in a directory of its name.
-fn write_page(args: &Args, to: &Path, found: &[(&Family, Vec<&Outcome>)]) -> Result<()> {
+fn write_page(args: &Args, to: &Path, found: &[(&StressFamily, Vec<&StressOutcome>)]) -> Result<()> {
     let stem = to.file_stem().and_then(|stem| stem.to_str()).unwrap_or("stress");
     let maps = to.with_file_name(stem);
     output::make_directory(&maps, "--page", sentences::NAME_A_FILE_IN_A_DIRECTORY)?;

@@ -1,13 +1,13 @@
 //! What is drawn of a file: the mechanism in its poses, or as far as it can be laid.
 
-use super::media::{Medium, Wish};
+use super::media::{Medium, PictureOptions};
 use super::motion::{swung, turned, with_travels};
 use crate::sentences;
 use design::diagram::draw::significant;
 use design::diagram::plan::state_at;
-use drawing::lay::{Laid, Standing, all_modes, lay, lay_loose};
-use drawing::sheet::Cell;
-use drawing::view::{Extras, Shot, Subject, Trace, cells};
+use drawing::lay::{GroupPlacement, Laid, all_modes, lay, lay_loose};
+use drawing::sheet::SheetCell;
+use drawing::view::{DrawnSubject, Extras, Shot, Trace, cells};
 use drawing::{Sketch, Travels, acting, unit};
 use linkage::drive::Drive;
 use linkage::error::{Error, ErrorKind, Result};
@@ -52,7 +52,7 @@ pub(crate) struct Drawn {
 
 impl Drawn {
     /// A mechanism that can be assembled somewhere.
-    pub(crate) fn of(scenario: Scenario, wish: &Wish, medium: Medium) -> Result<Drawn> {
+    pub(crate) fn of(scenario: Scenario, wish: &PictureOptions, medium: Medium) -> Result<Drawn> {
         let crank = wish.crank.unwrap_or(scenario.case.crank().start);
         let drawn = match wish.each_mode {
             true => Drawn::each_mode(draft_of(&scenario), crank, None),
@@ -62,7 +62,7 @@ impl Drawn {
     }
 
     /// What a file states of a mechanism that cannot be read as a scenario, because of an error.
-    pub(crate) fn of_draft(draft: Draft, wish: &Wish, error: Error) -> Result<Drawn> {
+    pub(crate) fn of_draft(draft: Draft, wish: &PictureOptions, error: Error) -> Result<Drawn> {
         let crank = wish.crank.unwrap_or(draft.crank);
         let drawn = match wish.each_mode && draft.structure.is_ok() {
             true => Drawn::each_mode(draft, crank, Some(error))?,
@@ -71,7 +71,7 @@ impl Drawn {
         Ok(drawn.with_unknown_traces(wish))
     }
 
-    fn with_unknown_traces(mut self, wish: &Wish) -> Drawn {
+    fn with_unknown_traces(mut self, wish: &PictureOptions) -> Drawn {
         let (_, unknown) = traced(&self.mechanism, wish);
         self.fault = Error::all(self.fault.take().into_iter().chain(unknown));
         self
@@ -83,9 +83,9 @@ impl Drawn {
     }
 
     /// The cells of all shots, in a room of this size (mm).
-    pub(super) fn cells(&self, wish: &Wish, medium: Medium, room: Vec2) -> Vec<Cell> {
+    pub(super) fn cells(&self, wish: &PictureOptions, medium: Medium, room: Vec2) -> Vec<SheetCell> {
         let Drawn { mechanism, drives, loads, gravity, .. } = self;
-        let subject = Subject { mechanism, drives, loads, gravity: *gravity };
+        let subject = DrawnSubject { mechanism, drives, loads, gravity: *gravity };
         let extras = Extras { loads: wish.loads, dimensions: wish.dimensions, is_moving: medium.moves() };
         let mut all = cells(&subject, &self.shots, &self.travels, &self.traces, extras, room);
         for (index, cell) in all.iter_mut().enumerate() {
@@ -130,7 +130,7 @@ impl Drawn {
     }
 
     /// The mechanism at a crank angle (rad), or its motion.
-    fn whole(scenario: Scenario, crank: f64, wish: &Wish, medium: Medium) -> Result<Drawn> {
+    fn whole(scenario: Scenario, crank: f64, wish: &PictureOptions, medium: Medium) -> Result<Drawn> {
         let (frames, solver) = (medium.frames(wish), wish.solver.solver());
         let (points, _) = traced(&scenario.case.mechanism, wish);
         let is_motion_seen = frames > 1 || !points.is_empty();
@@ -283,7 +283,7 @@ fn poses(state: &State) -> Vec<LinkPose> {
 }
 
 /// The points whose paths are asked for, each with its link, and an error for each that there is not.
-fn traced(mechanism: &Mechanism, wish: &Wish) -> (Vec<(LinkId, Vec2)>, Vec<Error>) {
+fn traced(mechanism: &Mechanism, wish: &PictureOptions) -> (Vec<(LinkId, Vec2)>, Vec<Error>) {
     let points: Vec<_> = mechanism.moving_points().collect();
     let is_joint = |link, local| mechanism.joints().iter().any(|joint| joint.on(link) == Some(local));
     let free = points.iter().filter(|(_, side)| wish.all_traces && !is_joint(side.link, side.local));
@@ -305,7 +305,7 @@ fn traced(mechanism: &Mechanism, wish: &Wish) -> (Vec<(LinkId, Vec2)>, Vec<Error
 
 /// The modes of a configuration: what the key `mode` takes, or the number where there are no names.
 fn heading(mechanism: &Mechanism, structure: &Structure, laid: &Laid, own: &Laid) -> Vec<String> {
-    let line = |&Standing { group, mode, number }: &Standing| {
+    let line = |&GroupPlacement { group, mode, number }: &GroupPlacement| {
         let names = structure.groups[group].names(mechanism).replace(", ", ",");
         match mode {
             AssemblyMode::Left | AssemblyMode::Right | AssemblyMode::Ahead | AssemblyMode::Behind => {
@@ -319,7 +319,8 @@ fn heading(mechanism: &Mechanism, structure: &Structure, laid: &Laid, own: &Laid
     if lines.is_empty() {
         lines.push(sentences::THE_ONLY_CONFIGURATION.into());
     }
-    let near = |(a, b): (&drawing::picture::Place, &drawing::picture::Place)| match (a.pose(), b.pose()) {
+    let near = |(a, b): (&drawing::picture::LinkPlacement, &drawing::picture::LinkPlacement)| match (a.pose(), b.pose())
+    {
         (Some(a), Some(b)) => {
             let size = mechanism.size();
             (a.origin - b.origin).norm() < 1e-6 * size && ((a.angle - b.angle) / 2.0).sin().abs() < 1e-6

@@ -3,7 +3,10 @@
 use super::cells::{counted, some};
 use crate::sentences;
 use linkage::trajectory::{Channel, Stage};
-use prover::diagnosis::{Arm, Axis, Cause, Change, Diagnosis, How, Nature, Over, Part, Plain, Since, Slip, Standing};
+use prover::diagnosis::{
+    Arm, CasePart, Change, DataSlip, Diagnosis, DisagreementCause, ErrorNature, FrameAxis, Over, PartChange,
+    PartyStanding, Plain, Since,
+};
 use prover::numbers::{fixed, significant, with_unit};
 
 /// Column at which the text of a line begins.
@@ -51,12 +54,12 @@ pub fn text(diagnosis: &Diagnosis) -> String {
 
 /// Who stands against whom.
 #[must_use]
-pub fn standing(standing: &Standing) -> String {
+pub fn standing(standing: &PartyStanding) -> String {
     match standing {
-        Standing::Together => sentences::NOBODY_EACH_IS_WITHIN_THE_BOUNDS.into(),
-        Standing::Alone(name) => sentences::all_others_agree_with_each(&name),
-        Standing::Camps([one, other]) => sentences::nobody_stand_against(&one.join(" and "), &other.join(" and ")),
-        Standing::Open(pairs) => {
+        PartyStanding::Together => sentences::NOBODY_EACH_IS_WITHIN_THE_BOUNDS.into(),
+        PartyStanding::Alone(name) => sentences::all_others_agree_with_each(&name),
+        PartyStanding::Camps([one, other]) => sentences::nobody_stand_against(&one.join(" and "), &other.join(" and ")),
+        PartyStanding::Open(pairs) => {
             let pairs: Vec<String> = pairs.iter().map(|[one, other]| format!("{one} and {other}")).collect();
             sentences::cannot_be_told_differ(&pairs.join(", "))
         }
@@ -84,46 +87,48 @@ fn names(channels: &[Channel]) -> String {
 
 /// A cause in words.
 #[must_use]
-pub fn cause(cause: &Cause) -> String {
+pub fn cause(cause: &DisagreementCause) -> String {
     match cause {
-        Cause::Values { slip: own, channels } => slip(own, channels),
-        Cause::Case(own) => change(own),
+        DisagreementCause::Values { slip: own, channels } => slip(own, channels),
+        DisagreementCause::Case(own) => change(own),
     }
 }
 
-fn slip(slip: &Slip, channels: &[Channel]) -> String {
+fn slip(slip: &DataSlip, channels: &[Channel]) -> String {
     let of = names(channels);
     let unit = channels.first().map_or("", |channel| channel.kind.unit.symbol());
     match slip {
-        Slip::Plain(own) => plain(*own, &of),
-        Slip::Unit { factor: _, told } => sentences::another_unit_in(&told, &of),
-        Slip::Offset(by) => sentences::added_at_every_instant_to(&amount(*by, unit), &of),
-        Slip::Mirrored(by) => sentences::counted_the_other_way_round(&of, &amount(*by, unit)),
-        Slip::Instead(other) => sentences::the_values_of_in_place_of(&other, &of),
-        Slip::Opposite(other) => sentences::the_values_of_with_the_opposite(&other, &of),
-        Slip::Magnitude([one, other]) => sentences::the_magnitude_of_and_in_place(&one, &other, &of),
-        Slip::Differences { of: other, order, over } => {
+        DataSlip::Plain(own) => plain(*own, &of),
+        DataSlip::Unit { factor: _, told } => sentences::another_unit_in(&told, &of),
+        DataSlip::Offset(by) => sentences::added_at_every_instant_to(&amount(*by, unit), &of),
+        DataSlip::Mirrored(by) => sentences::counted_the_other_way_round(&of, &amount(*by, unit)),
+        DataSlip::Instead(other) => sentences::the_values_of_in_place_of(&other, &of),
+        DataSlip::Opposite(other) => sentences::the_values_of_with_the_opposite(&other, &of),
+        DataSlip::Magnitude([one, other]) => sentences::the_magnitude_of_and_in_place(&one, &other, &of),
+        DataSlip::Differences { of: other, order, over } => {
             let (order, over) = (if *order == 1 { "" } else { "second " }, rows_of(*over));
             sentences::differences_of_over_or_such_of_its_like(&order, &other, &over, &of)
         }
-        Slip::NoCoriolis(joint) => sentences::the_coriolis_acceleration_of_the_block(&joint, &of),
-        Slip::About(Arm::Constant([x, y])) => sentences::about_another_point_by_away(&of, &number(*x), &number(*y)),
-        Slip::About(Arm::Between(None, to)) => sentences::about_instead_of_the_origin(&of, &to),
-        Slip::About(Arm::Between(Some(from), to)) => sentences::about_instead_of(&of, &to, &from),
-        Slip::Outlier(time) => sentences::one_row_alone_at_in_an_outlier(&number(*time), &of),
-        Slip::Clock { factor, told: Some(told) } => sentences::another_unit_of_time_times(&told, &number(*factor)),
-        Slip::Clock { factor, told: None } => {
+        DataSlip::NoCoriolis(joint) => sentences::the_coriolis_acceleration_of_the_block(&joint, &of),
+        DataSlip::About(Arm::Constant([x, y])) => sentences::about_another_point_by_away(&of, &number(*x), &number(*y)),
+        DataSlip::About(Arm::Between(None, to)) => sentences::about_instead_of_the_origin(&of, &to),
+        DataSlip::About(Arm::Between(Some(from), to)) => sentences::about_instead_of(&of, &to, &from),
+        DataSlip::Outlier(time) => sentences::one_row_alone_at_in_an_outlier(&number(*time), &of),
+        DataSlip::Clock { factor, told: Some(told) } => sentences::another_unit_of_time_times(&told, &number(*factor)),
+        DataSlip::Clock { factor, told: None } => {
             let how = if *factor < 1.0 { "fast" } else { "slow" };
             let by = told_apart(factor.recip(), 1.0);
             sentences::the_clock_of_all_rows_is_too(&how, &by)
         }
-        Slip::Exchanged([one, other]) => sentences::and_exchanged_2(&one, &other),
-        Slip::Between { of: [first, second], offset: 0.0 } => sentences::less_in_place_of_counted(&first, &second, &of),
-        Slip::Between { of: [first, second], offset } => {
+        DataSlip::Exchanged([one, other]) => sentences::and_exchanged_2(&one, &other),
+        DataSlip::Between { of: [first, second], offset: 0.0 } => {
+            sentences::less_in_place_of_counted(&first, &second, &of)
+        }
+        DataSlip::Between { of: [first, second], offset } => {
             sentences::less_and_more_in_place_of_counted(&first, &second, &amount(*offset, unit), &of)
         }
-        Slip::Factor(factor) => sentences::times_the_values_of(&number(*factor), &of),
-        Slip::Late { by, steps, stage } => {
+        DataSlip::Factor(factor) => sentences::times_the_values_of(&number(*factor), &of),
+        DataSlip::Late { by, steps, stage } => {
             let what = stage.map_or("all channels".to_string(), |stage| stage.name().replace('_', " "));
             let how = if *by >= 0.0 { "late" } else { "early" };
             let size = duration(by.abs());
@@ -167,18 +172,18 @@ fn duration(seconds: f64) -> String {
 
 /// What an error without a simple cause looks like.
 #[must_use]
-pub fn nature(nature: Nature) -> String {
+pub fn nature(nature: ErrorNature) -> String {
     let percent = prover::numbers::percent;
     match nature {
-        Nature::Growing(power) => {
+        ErrorNature::Growing(power) => {
             let how = power.map_or(String::new(), |power| match power {
                 1 => sentences::ABOUT_IN_PROPORTION_TO_IT.into(),
                 power => sentences::about_with_its_power_of(&power),
             });
             sentences::the_error_grows_with_time(&how)
         }
-        Nature::Smooth(share) => sentences::the_error_is_smooth_at_most(&percent(share)),
-        Nature::Noise(share) => sentences::the_error_has_no_order_at_most(&percent(share)),
+        ErrorNature::Smooth(share) => sentences::the_error_is_smooth_at_most(&percent(share)),
+        ErrorNature::Noise(share) => sentences::the_error_has_no_order_at_most(&percent(share)),
     }
 }
 
@@ -191,21 +196,21 @@ fn amount(by: f64, unit: &str) -> String {
 #[must_use]
 pub fn change(change: &Change) -> String {
     let how = match &change.how {
-        How::Missing => "missing".into(),
-        How::Reversed => sentences::OF_THE_OPPOSITE_SIGN.into(),
-        How::Twice => "counted twice".into(),
-        How::Half => "counted half".into(),
-        How::Times(factor, told) => sentences::times_as_large(&number(*factor), &told),
-        How::AtJoint(joint) => sentences::at_joint(&joint),
-        How::AtPoint(point) => sentences::at_point(&point),
-        How::FromJoint([one, other]) => sentences::measured_from_the_wrong_end(&one, &other),
-        How::Across([one, other]) => sentences::mirrored_at_the_line_of_and(&one, &other),
-        How::Middle([one, other]) => sentences::in_the_middle_of_and(&one, &other),
-        How::Turned(by) => sentences::turned_by_deg(&number(by.to_degrees())),
-        How::AboutJoint(joint) => sentences::taken_about_joint_instead_of_the_mass(&joint),
-        How::Swapped => sentences::AND_EXCHANGED.into(),
-        How::Other(mode) => (*mode).to_string(),
-        How::Instead { found, given, unit } => {
+        PartChange::Missing => "missing".into(),
+        PartChange::Reversed => sentences::OF_THE_OPPOSITE_SIGN.into(),
+        PartChange::Twice => "counted twice".into(),
+        PartChange::Half => "counted half".into(),
+        PartChange::Times(factor, told) => sentences::times_as_large(&number(*factor), &told),
+        PartChange::AtJoint(joint) => sentences::at_joint(&joint),
+        PartChange::AtPoint(point) => sentences::at_point(&point),
+        PartChange::FromJoint([one, other]) => sentences::measured_from_the_wrong_end(&one, &other),
+        PartChange::Across([one, other]) => sentences::mirrored_at_the_line_of_and(&one, &other),
+        PartChange::Middle([one, other]) => sentences::in_the_middle_of_and(&one, &other),
+        PartChange::Turned(by) => sentences::turned_by_deg(&number(by.to_degrees())),
+        PartChange::AboutJoint(joint) => sentences::taken_about_joint_instead_of_the_mass(&joint),
+        PartChange::Swapped => sentences::AND_EXCHANGED.into(),
+        PartChange::Other(mode) => (*mode).to_string(),
+        PartChange::Instead { found, given, unit } => {
             let (factor, unit) = if *unit == "rad" { (1f64.to_degrees(), "deg") } else { (1.0, *unit) };
             let [found, given] = [found, given].map(|value| factor * value);
             let [found, given] = [told_apart(found, given), number(given)].map(|own| with_unit(&own, unit));
@@ -215,33 +220,33 @@ pub fn change(change: &Change) -> String {
     format!("{}: {how}", part(&change.part))
 }
 
-fn part(part: &Part) -> String {
-    let axis = |axis: &Axis| match axis {
-        Axis::X => "x",
-        Axis::Y => "y",
+fn part(part: &CasePart) -> String {
+    let axis = |axis: &FrameAxis| match axis {
+        FrameAxis::X => "x",
+        FrameAxis::Y => "y",
     };
     match part {
-        Part::Gravity => "gravity".into(),
-        Part::InertiaForces => sentences::INERTIA_FORCES_OF_ALL_LINKS.into(),
-        Part::Inertias => sentences::MOMENTS_OF_INERTIA_OF_ALL.into(),
-        Part::Masses => sentences::MASSES_OF_ALL_LINKS.into(),
-        Part::Inertia(link) => sentences::moment_of_inertia_of(&link),
-        Part::Mass(link) => sentences::mass_of(&link),
-        Part::Body(link) => sentences::mass_and_inertia_of(&link),
-        Part::Weight(link) => sentences::weight_of(&link),
-        Part::Inert(link) => sentences::inertia_forces_of(&link),
-        Part::Length(one, other, link) => sentences::distance_of_and_on(&one, &other, &link),
-        Part::MassCentre(link) => sentences::mass_centre_of_2(&link),
-        Part::MassCentreAlong(link, along) => sentences::mass_centre_of(&link, &axis(along)),
-        Part::Load(number, sort) => format!("load {number}, {}", sort.replace('_', " ")),
-        Part::Free(number) => sentences::free_length_of_load_spring(&number),
-        Part::Configuration(group) => sentences::another_configuration_of(&group),
-        Part::Speed(joint) => sentences::speed_of_the_drive_at(&joint),
-        Part::StartAngle(joint) => sentences::angle_of_the_drive_at_at(&joint),
-        Part::InitialSpeed(joint) => sentences::speed_at_at(&joint),
-        Part::MotorMoment => sentences::MOMENT_OF_THE_MOTOR.into(),
-        Part::RotorInertia => sentences::INERTIA_OF_ROTOR_AND_REDUCER.into(),
-        Part::Place(joint, link, along) => sentences::place_of_on(&joint, &link, &axis(along)),
+        CasePart::Gravity => "gravity".into(),
+        CasePart::InertiaForces => sentences::INERTIA_FORCES_OF_ALL_LINKS.into(),
+        CasePart::Inertias => sentences::MOMENTS_OF_INERTIA_OF_ALL.into(),
+        CasePart::Masses => sentences::MASSES_OF_ALL_LINKS.into(),
+        CasePart::Inertia(link) => sentences::moment_of_inertia_of(&link),
+        CasePart::Mass(link) => sentences::mass_of(&link),
+        CasePart::Body(link) => sentences::mass_and_inertia_of(&link),
+        CasePart::Weight(link) => sentences::weight_of(&link),
+        CasePart::Inert(link) => sentences::inertia_forces_of(&link),
+        CasePart::Length(one, other, link) => sentences::distance_of_and_on(&one, &other, &link),
+        CasePart::MassCentre(link) => sentences::mass_centre_of_2(&link),
+        CasePart::MassCentreAlong(link, along) => sentences::mass_centre_of(&link, &axis(along)),
+        CasePart::Load(number, sort) => format!("load {number}, {}", sort.replace('_', " ")),
+        CasePart::Free(number) => sentences::free_length_of_load_spring(&number),
+        CasePart::Configuration(group) => sentences::another_configuration_of(&group),
+        CasePart::Speed(joint) => sentences::speed_of_the_drive_at(&joint),
+        CasePart::StartAngle(joint) => sentences::angle_of_the_drive_at_at(&joint),
+        CasePart::InitialSpeed(joint) => sentences::speed_at_at(&joint),
+        CasePart::MotorMoment => sentences::MOMENT_OF_THE_MOTOR.into(),
+        CasePart::RotorInertia => sentences::INERTIA_OF_ROTOR_AND_REDUCER.into(),
+        CasePart::Place(joint, link, along) => sentences::place_of_on(&joint, &link, &axis(along)),
     }
 }
 

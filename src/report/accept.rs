@@ -13,7 +13,7 @@ use crate::plain::diagnosis::{number, told_apart};
 use crate::plain::judged::{Grade, grade};
 use linkage::error::Error;
 use linkage::trajectory::Channel;
-use prover::accept::{Comparison, Figure, Moved, Wider};
+use prover::accept::{ChannelFigure, FigureComparison, Moved, Wider};
 use prover::proof::Proof;
 use scenario::accepted::Accepted;
 
@@ -44,7 +44,7 @@ pub(crate) struct Item<'a> {
     /// What was found.
     pub(crate) found: &'a Accepted,
     /// What has moved; `None` if nothing was accepted before.
-    pub(crate) comparison: Option<&'a Comparison>,
+    pub(crate) comparison: Option<&'a FigureComparison>,
     /// What was done.
     pub(crate) deed: Deed,
     /// The file of accepted figures.
@@ -91,8 +91,8 @@ fn channels(count: usize) -> String {
 }
 
 /// What has changed, in numbers.
-fn counts(comparison: &Comparison) -> String {
-    let Comparison { wider, looser, new, gone, is_other_grid, proof, .. } = comparison;
+fn counts(comparison: &FigureComparison) -> String {
+    let FigureComparison { wider, looser, new, gone, is_other_grid, proof, .. } = comparison;
     let moved = comparison.moved_channels().len();
     let mut parts = Vec::new();
     if let Some([accepted, found]) = proof {
@@ -122,7 +122,7 @@ fn counts(comparison: &Comparison) -> String {
 }
 
 /// The worst figure of every channel that has moved, and the channels that are new, gone or known worse.
-fn changes(comparison: &Comparison, text: &mut String) {
+fn changes(comparison: &FigureComparison, text: &mut String) {
     let worst_of = |channel: &&str| {
         let own = comparison.moved.iter().filter(|moved| moved.channel == *channel);
         own.max_by(|a, b| a.bounds().total_cmp(&b.bounds()))
@@ -178,12 +178,12 @@ fn unit(channel: &str) -> &'static str {
 }
 
 /// The word of a figure, and its instant (s) if it has one.
-fn figure(figure: Figure) -> (&'static str, Option<f64>) {
+fn figure(figure: ChannelFigure) -> (&'static str, Option<f64>) {
     match figure {
-        Figure::At(t) => ("at", Some(t)),
-        Figure::Least => ("least", None),
-        Figure::Greatest => ("greatest", None),
-        Figure::Rms => ("rms", None),
+        ChannelFigure::At(t) => ("at", Some(t)),
+        ChannelFigure::Least => ("least", None),
+        ChannelFigure::Greatest => ("greatest", None),
+        ChannelFigure::Rms => ("rms", None),
     }
 }
 

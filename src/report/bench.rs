@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use super::pretty::{list, pretty};
 use super::table_csv::csv;
 use crate::plain::cells::{distinct, table};
-use lab::bench::{Axis, Bench, Errors, Outcome, Party, Point, front};
+use lab::bench::{Bench, BenchOutcome, BenchPoint, CostAxis, Errors, MethodOwner, front};
 use linkage::error::Result;
 use linkage::trajectory::Stage;
 
@@ -17,7 +17,7 @@ pub(crate) type Machine = [(&'static str, String)];
 const DECADES: [f64; 4] = [1e-3, 1e-6, 1e-9, 1e-12];
 
 /// Time of a point over that of side 1.
-pub(crate) fn ratio(bench: &Bench, point: &Point) -> Option<f64> {
+pub(crate) fn ratio(bench: &Bench, point: &BenchPoint) -> Option<f64> {
     Some(point.seconds()? / bench.unit)
 }
 
@@ -44,9 +44,9 @@ pub(crate) fn fastest<'a>(
     bench: &'a Bench,
     stage: Stage,
     within: f64,
-    of: &dyn Fn(&Point) -> bool,
-) -> Option<&'a Point> {
-    let meets = |point: &&Point| of(point) && point.error(stage).is_some_and(|errors| errors.max <= within);
+    of: &dyn Fn(&BenchPoint) -> bool,
+) -> Option<&'a BenchPoint> {
+    let meets = |point: &&BenchPoint| of(point) && point.error(stage).is_some_and(|errors| errors.max <= within);
     let timed = bench.points.iter().filter(meets).filter_map(|point| Some((point.seconds()?, point)));
     timed.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, point)| point)
 }
@@ -61,18 +61,18 @@ pub(crate) fn text(bench: &Bench) -> String {
     for &stage in &bench.stages {
         let floor = bench.floor.errors[stage as usize];
         say!(text, "{}", sentences::the_reference_is_known_to(&stage.name(), &format_args!("{floor:.1e}")));
-        let sides = front(&bench.points, stage, Axis::Time, floor, &|_| true);
-        let others = front(&bench.points, stage, Axis::Time, floor, &|point| point.party != Party::Side);
+        let sides = front(&bench.points, stage, CostAxis::Time, floor, &|_| true);
+        let others = front(&bench.points, stage, CostAxis::Time, floor, &|point| point.party != MethodOwner::Side);
         let others = others.into_iter().filter(|index| !sides.contains(index));
         let rows = sides.iter().copied().chain(others).filter_map(|index| {
             let point = &bench.points[index];
             let time = ratio(bench, point).map_or_else(String::new, short);
-            let solutions = Axis::Solutions.of(point).map_or_else(String::new, |count| count.to_string());
+            let solutions = CostAxis::Solutions.of(point).map_or_else(String::new, |count| count.to_string());
             Some([error(point.error(stage)?, floor), time, solutions, point.program.clone(), point.told()])
         });
         say!(text, "{}", table("error> | time> | solutions> | program | settings").add_rows(rows));
         for within in DECADES {
-            let other = fastest(bench, stage, within, &|point| point.party != Party::Side);
+            let other = fastest(bench, stage, within, &|point| point.party != MethodOwner::Side);
             let told = other.and_then(|point| Some(format!("{} {}", short(ratio(bench, point)?), point.program)));
             say!(
                 text,
@@ -146,8 +146,8 @@ pub(crate) fn rows(bench: &Bench, machine: &Machine) -> Result<String> {
         row.push(all.iter().map(|seconds| format!("{seconds:.6e}")).collect::<Vec<_>>().join(" "));
         let joined = |all: &[(Stage, String)]| all.iter().map(|(_, what)| what.as_str()).collect::<Vec<_>>().join("; ");
         row.extend(match &point.outcome {
-            Outcome::Failed(reason) => [reason.clone(), String::new()],
-            Outcome::Answered(run) => [&run.failed, &run.without].map(|all| joined(all)),
+            BenchOutcome::Failed(reason) => [reason.clone(), String::new()],
+            BenchOutcome::Answered(run) => [&run.failed, &run.without].map(|all| joined(all)),
         });
         rows.push(row);
     }
@@ -156,12 +156,15 @@ pub(crate) fn rows(bench: &Bench, machine: &Machine) -> Result<String> {
 
 /// Names of everything that was counted, in the order of its first appearance.
 fn counts(bench: &Bench) -> Vec<String> {
-    distinct(bench.points.iter().filter_map(Point::run).flat_map(|run| &run.effort.0).map(|(name, _)| name.clone()))
+    distinct(
+        bench.points.iter().filter_map(BenchPoint::run).flat_map(|run| &run.effort.0).map(|(name, _)| name.clone()),
+    )
 }
 
 /// The front over time of every stage.
 fn fronts(bench: &Bench) -> Vec<Vec<usize>> {
-    let of = |&stage: &Stage| front(&bench.points, stage, Axis::Time, bench.floor.errors[stage as usize], &|_| true);
+    let of =
+        |&stage: &Stage| front(&bench.points, stage, CostAxis::Time, bench.floor.errors[stage as usize], &|_| true);
     bench.stages.iter().map(of).collect()
 }
 
@@ -190,7 +193,7 @@ fn scenario(bench: &Bench) -> Value {
         })
     });
     let fronts = by_stage(&|stage| {
-        list(Axis::ALL, |axis| {
+        list(CostAxis::ALL, |axis| {
             let floor = bench.floor.errors[stage as usize];
             json!({ "over": axis.name(), "points": front(&bench.points, stage, axis, floor, &|_| true) })
         })

@@ -6,7 +6,7 @@ use super::html::filled;
 use super::markdown::foreign;
 use crate::plain::cells::distinct;
 use crate::sentences;
-use lab::bench::{Axis, Bench, CLEAR, Party, Point, front};
+use lab::bench::{Bench, BenchPoint, CLEAR, CostAxis, MethodOwner, front};
 use linkage::trajectory::Stage;
 
 /// Errors in the cells of the tables.
@@ -49,7 +49,7 @@ fn scenario(text: &mut String, bench: &Bench, pictures: &str) {
     }
     text.push('\n');
     for &stage in &bench.stages {
-        let of_others = told(bench, stage, &|point| point.party != Party::Side);
+        let of_others = told(bench, stage, &|point| point.party != MethodOwner::Side);
         say!(text, "{}", sentences::front_of(&stage.name(), &told(bench, stage, &|_| true)));
         say!(text, "{}", sentences::of_engines_and_peers(&(if of_others.is_empty() { "none" } else { &of_others })));
     }
@@ -66,9 +66,9 @@ fn scenario(text: &mut String, bench: &Bench, pictures: &str) {
 }
 
 /// A front over time, by name.
-fn told(bench: &Bench, stage: Stage, of: &dyn Fn(&Point) -> bool) -> String {
+fn told(bench: &Bench, stage: Stage, of: &dyn Fn(&BenchPoint) -> bool) -> String {
     let floor = bench.floor.errors[stage as usize];
-    let told = front(&bench.points, stage, Axis::Time, floor, of).into_iter().filter_map(|index| {
+    let told = front(&bench.points, stage, CostAxis::Time, floor, of).into_iter().filter_map(|index| {
         let point = &bench.points[index];
         let errors = point.error(stage)?;
         Some(format!("{} ({}; time {})", named(point), error(errors, floor), short(ratio(bench, point)?)))
@@ -76,14 +76,14 @@ fn told(bench: &Bench, stage: Stage, of: &dyn Fn(&Point) -> bool) -> String {
     told.collect::<Vec<_>>().join("; ")
 }
 
-fn named(point: &Point) -> String {
+fn named(point: &BenchPoint) -> String {
     let told = foreign(&point.told());
     if told.is_empty() { point.program.clone() } else { format!("{} {told}", point.program) }
 }
 
 /// Times at which a program reaches the errors of the table.
 fn cell(bench: &Bench, program: &str, stage: Stage) -> String {
-    let own = |point: &Point| point.program == program;
+    let own = |point: &BenchPoint| point.program == program;
     if !bench.points.iter().any(|point| own(point) && point.error(stage).is_some()) {
         return String::new();
     }

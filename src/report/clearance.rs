@@ -6,12 +6,12 @@ use serde_json::{Value, json};
 use super::pretty::{list, pretty};
 use super::table_csv::csv;
 use crate::plain::cells::{table, trimmed};
-use design::clearance::{Clearance, Course, Meeting, PairClearance, Work};
+use design::clearance::{ClearanceResult, ClearanceWork, DistanceCurve, Meeting, PairClearance};
 use linkage::error::{Error, Result};
 use linkage::math::Vec2;
 use prover::numbers;
 use scenario::Scenario;
-use scenario::clearance::Question;
+use scenario::clearance::ClearanceQuestion;
 
 linkage::words! {
     /// How a question is answered.
@@ -29,7 +29,7 @@ linkage::words! {
 }
 
 /// How a question is answered.
-pub(crate) fn standing(found: &Clearance) -> Standing {
+pub(crate) fn standing(found: &ClearanceResult) -> Standing {
     if found.first_collision().is_some() {
         Standing::Collides
     } else if found.first_too_near().is_some() {
@@ -53,12 +53,12 @@ fn place(point: Vec2) -> String {
     format!("({}, {})", numbers::fixed(1e3 * point.x, 3), numbers::fixed(1e3 * point.y, 3))
 }
 
-fn names<'a>(asked: &'a Question, pair: &PairClearance) -> [&'a str; 2] {
+fn names<'a>(asked: &'a ClearanceQuestion, pair: &PairClearance) -> [&'a str; 2] {
     pair.bodies.map(|body| asked.bodies[body].name.as_str())
 }
 
 /// The answer as text.
-pub(crate) fn text(scenario: &Scenario, asked: &Question, found: &Clearance) -> String {
+pub(crate) fn text(scenario: &Scenario, asked: &ClearanceQuestion, found: &ClearanceResult) -> String {
     let mut text = String::new();
     let [from, to] = found.range.map(degrees);
     say!(text, "{}", sentences::clearance_over_crank_angles_to_deg(&scenario.name, &scenario.title, &from, &to));
@@ -101,13 +101,13 @@ pub(crate) fn text(scenario: &Scenario, asked: &Question, found: &Clearance) -> 
     if let (Some(wanted), Some(first)) = (asked.wanted, found.first_too_near()) {
         said(&mut text, &sentences::first_nearer_than_the_mm(&millimetres(wanted)), first);
     }
-    let (word, Work { poses, distances, positions, squares }) = (standing(found).word(), found.work);
+    let (word, ClearanceWork { poses, distances, positions, squares }) = (standing(found).word(), found.work);
     say!(text, "{}", sentences::poses_and_distances_of_convex(&word, &poses, &distances, &positions, &squares));
     text
 }
 
 /// The answer as JSON: one entry of the document.
-pub(crate) fn value(scenario: &Scenario, asked: &Question, found: &Clearance) -> Value {
+pub(crate) fn value(scenario: &Scenario, asked: &ClearanceQuestion, found: &ClearanceResult) -> Value {
     let time =
         |crank: f64| Some(scenario.case.crank().time_of(crank)).filter(|t| t.is_finite() && !scenario.case.is_free());
     let point = |point: Vec2| json!([point.x, point.y]);
@@ -169,7 +169,7 @@ pub(crate) fn json(scenarios: Vec<Value>) -> String {
 ///
 /// # Errors
 /// [`ErrorKind::Io`](linkage::ErrorKind::Io) if the table cannot be written.
-pub(crate) fn distances(asked: &Question, times: &[f64], course: &Course) -> Result<String> {
+pub(crate) fn distances(asked: &ClearanceQuestion, times: &[f64], course: &DistanceCurve) -> Result<String> {
     let name = |&[a, b]: &[usize; 2]| format!("{}.{}.distance_m", asked.bodies[a].name, asked.bodies[b].name);
     let header = ["t_s", "crank_rad"].map(String::from).into_iter().chain(asked.pairs.iter().map(name));
     let rows = times.iter().zip(&course.cranks).zip(&course.rows).map(|((t, crank), row)| {

@@ -4,7 +4,7 @@ use crate::sentences;
 use serde_json::json;
 
 use super::pretty::pretty;
-use design::synthesis::crank_rocker::{CrankRocker, Extreme};
+use design::synthesis::crank_rocker::{CrankRocker, RockerExtreme};
 use design::synthesis::slider_crank::SliderCrank;
 use prover::numbers::fixed_in;
 
@@ -29,7 +29,7 @@ pub(crate) fn crank_rocker(found: &CrankRocker, rocker: f64) -> Told {
     let at = fixed_in(found.transmission_at.to_degrees(), 4, "deg");
     say!(text, "{}", sentences::transmission_deg_at_least_at_crank(&transmission.to_degrees(), &at));
     say!(text, "{}", sentences::time_ratio_mode(&time_ratio, &found.mode.name()));
-    let extreme = |extreme: Extreme| json!({"crank_rad": extreme.crank, "rocker_rad": extreme.rocker});
+    let extreme = |extreme: RockerExtreme| json!({"crank_rad": extreme.crank, "rocker_rad": extreme.rocker});
     let json = pretty(&json!({
         "schema": 1, "crank_m": found.crank, "coupler_m": found.coupler, "rocker_m": rocker,
         "stretched": extreme(found.stretched), "folded": extreme(found.folded), "mode": found.mode.name(),

@@ -6,9 +6,9 @@ use serde_json::{Value, json};
 use super::pretty::pretty;
 use crate::plain::cells::{table, trimmed};
 use analytic::reduced::means::Means;
-use analytic::reduced::{End, RunUp};
-use analytic::steady::course::{Extremes, Row};
-use analytic::steady::regime::At;
+use analytic::reduced::{RunUp, RunUpEnd};
+use analytic::steady::course::{Extremes, ReducedRow};
+use analytic::steady::regime::SpeedAtCrank;
 use analytic::steady::{Averaged, Regime};
 use design::flywheel::Flywheel;
 use prover::numbers::{error, fixed, fixed_in};
@@ -24,7 +24,7 @@ pub(crate) struct Found {
     /// Moment of inertia that motor and reducer add to the crank (kg m^2).
     pub(crate) added: f64,
     /// The reduced quantities at the crank angles of the table.
-    pub(crate) rows: Vec<Row>,
+    pub(crate) rows: Vec<ReducedRow>,
     /// Speeds of crank and motor by the averaged model, and the steady motion; `None` without a motor.
     pub(crate) steady: Option<([f64; 2], Regime)>,
     /// The averaged model, if it has a closed form.
@@ -69,7 +69,9 @@ pub(crate) fn text(scenario: &Scenario, found: &Found, by_angle: bool) -> String
 }
 
 fn of_regime(regime: &Regime) -> String {
-    let at = |at: &At| format!("{} at {}", fixed_in(at.omega, 9, "rad/s"), fixed_in(at.crank.to_degrees(), 4, "deg"));
+    let at = |at: &SpeedAtCrank| {
+        format!("{} at {}", fixed_in(at.omega, 9, "rad/s"), fixed_in(at.crank.to_degrees(), 4, "deg"))
+    };
     let mut text = sentences::mean_rad_period(&regime.mean_speed, &regime.period);
     say!(text, "{}", sentences::at_start_rad(&regime.start_speed));
     say!(text, "{}", sentences::slowest_fastest(&at(&regime.slowest), &at(&regime.fastest)));
@@ -96,7 +98,7 @@ pub(crate) fn json(scenario: &Scenario, found: &Found) -> String {
         let end = |(crank, value): (f64, f64)| json!({"crank_rad": crank, "value": value});
         json!({"mean": mean, "least": end(extremes.least), "greatest": end(extremes.greatest)})
     };
-    let at = |at: &At| json!({"crank_rad": at.crank, "omega_rad_s": at.omega, "alpha_rad_s2": at.alpha});
+    let at = |at: &SpeedAtCrank| json!({"crank_rad": at.crank, "omega_rad_s": at.omega, "alpha_rad_s2": at.alpha});
     let regime = |regime: &Regime| {
         json!({
             "period_s": regime.period, "turns": regime.turns, "mean_rad_s": regime.mean_speed,
@@ -104,7 +106,7 @@ pub(crate) fn json(scenario: &Scenario, found: &Found) -> String {
             "non_uniformity": regime.non_uniformity(), "multiplier": regime.multiplier,
         })
     };
-    let column = |of: fn(&Row) -> f64| found.rows.iter().map(of).collect::<Vec<f64>>();
+    let column = |of: fn(&ReducedRow) -> f64| found.rows.iter().map(of).collect::<Vec<f64>>();
     let mut by_angle = json!({
         "crank_rad": column(|row| row.crank), "inertia_kg_m2": column(|row| row.inertia),
         "inertia_slope_kg_m2": column(|row| row.slope), "resistance_N_m": column(|row| row.resistance),
@@ -138,9 +140,9 @@ pub(crate) fn json(scenario: &Scenario, found: &Found) -> String {
 pub(crate) fn run_up(run_up: &RunUp) -> String {
     let degrees = |crank: f64| fixed_in(crank.to_degrees(), 6, "deg");
     let mut text = match run_up.end {
-        End::Reached => sentences::RUN_UP_FOLLOWED_TO_ITS_END.to_string(),
-        End::Held(t, crank) => sentences::run_up_held_at_crank_angle(&t, &degrees(crank)),
-        End::Limit(t, crank) => sentences::run_up_at_a_limit_of_rotation(&t, &degrees(crank)),
+        RunUpEnd::Reached => sentences::RUN_UP_FOLLOWED_TO_ITS_END.to_string(),
+        RunUpEnd::Held(t, crank) => sentences::run_up_held_at_crank_angle(&t, &degrees(crank)),
+        RunUpEnd::Limit(t, crank) => sentences::run_up_at_a_limit_of_rotation(&t, &degrees(crank)),
     };
     if let Some(residual) = run_up.power_residual() {
         put!(text, "{}", sentences::motor_against_reactions_of_the_largest(&error(residual)));

@@ -5,11 +5,11 @@ use crate::sentences;
 use linkage::case::{Case, LeftOut};
 use linkage::trajectory::Stage;
 use linkage::work::Work;
-use prover::proof::{Entry, Proof};
+use prover::proof::{LedgerEntry, Proof};
 
 /// The page of one proof. `further` are parts that the command adds: recording, other files.
 #[must_use]
-pub fn text(proof: &Proof, further: &[Entry]) -> String {
+pub fn text(proof: &Proof, further: &[LedgerEntry]) -> String {
     let case = &proof.scene.case;
     let mut text = sentences::what_ran_how_often_and_why(&proof.scenario);
     say!(text, "asked      {}", asked(case));
@@ -62,7 +62,7 @@ fn counts(work: &Work) -> String {
     if all.is_empty() { sentences::NOTHING_THAT_IS_COUNTED.into() } else { all.join(", ") }
 }
 
-fn skipped<'a>(case: &'a Case, entries: impl Iterator<Item = &'a Entry>) -> Vec<(String, String)> {
+fn skipped<'a>(case: &'a Case, entries: impl Iterator<Item = &'a LedgerEntry>) -> Vec<(String, String)> {
     let stages = Stage::ALL.into_iter().filter(|&stage| stage > case.wanted.deepest());
     let mut all: Vec<(String, String)> =
         stages.map(|stage| (stage.name().replace('_', " "), sentences::NOTHING_ASKED_NEEDS_THEM.into())).collect();

@@ -7,7 +7,7 @@ use super::pretty::{list, pretty};
 use super::{modes, range};
 use analytic::modes::Modes;
 use analytic::range::Range;
-use linkage::mechanism::assembly::{Choice, transmission_sine};
+use linkage::mechanism::assembly::{ConfigurationChoice, transmission_sine};
 use linkage::mechanism::{GROUND, Joint, JointId, LinkId, Mechanism};
 use prover::numbers::{fixed_in, significant};
 use scenario::{Scenario, Undecided};
@@ -55,7 +55,7 @@ pub(crate) fn text(scenario: &Scenario) -> String {
 }
 
 /// How far the configuration is from the rough places given in the file, and how far the next one is.
-fn from_rough_place(choice: &Choice) -> String {
+fn from_rough_place(choice: &ConfigurationChoice) -> String {
     let mm = |distance: f64| format!("{:.*} mm", if distance < 0.01 { 1 } else { 0 }, distance * 1e3);
     match (choice.nearest_m, choice.next_m) {
         (None, _) => String::new(),

@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 use super::layout::{TURN, speed};
 use linkage::math::KeepNan;
 use prover::numbers::significant;
-use recording::{Kind, Reel, Told};
+use recording::{MessageKind, Reel, ReelMessage};
 
 linkage::words! {
     /// A name of the protocol. Viewers offer the names that they know.
@@ -101,7 +101,7 @@ fn stamp(nanoseconds: u64) -> Value {
 }
 
 /// The channels of topics; the first one has the number `first`.
-pub(crate) fn advertised(topics: &[(String, Kind)], first: u64) -> String {
+pub(crate) fn advertised(topics: &[(String, MessageKind)], first: u64) -> String {
     let channels = topics.iter().zip(first..).map(|((topic, kind), id)| {
         // Schemas of bytes are written as base64, those of text as they are.
         let schema = match kind.encoding.as_str() {
@@ -127,7 +127,7 @@ pub(crate) fn unadvertised(first: u64, count: usize) -> String {
 }
 
 /// A message of a channel, to whoever asked for it by that number.
-pub(crate) fn message(subscription: u32, told: &Told) -> Vec<u8> {
+pub(crate) fn message(subscription: u32, told: &ReelMessage) -> Vec<u8> {
     [&[1][..], &subscription.to_le_bytes(), &told.time.to_le_bytes(), told.data].concat()
 }
 
@@ -197,7 +197,7 @@ mod tests {
 
     #[test]
     fn messages_have_the_bytes_of_the_protocol() {
-        let told = Told { time: 0x0102, topic: 7, data: b"ab" };
+        let told = ReelMessage { time: 0x0102, topic: 7, data: b"ab" };
         assert_eq!(message(3, &told), [1, 3, 0, 0, 0, 2, 1, 0, 0, 0, 0, 0, 0, b'a', b'b']);
         assert_eq!(time(5), [2, 5, 0, 0, 0, 0, 0, 0, 0]);
         let state_of = State { plays: false, time: 1, speed: 1.0, jumped: true };

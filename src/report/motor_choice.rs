@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 use serde_json::json;
 
 use super::pretty::pretty;
-use design::motor::Choice;
+use design::motor::MotorChoice;
 use linkage::drive::MotorLaw;
 use prover::numbers::fixed_in;
 use scenario::Scenario;
@@ -16,7 +16,7 @@ fn rpm(omega: f64) -> f64 {
 }
 
 /// Torque at rest and slope of the chosen motor law.
-fn line(choice: &Choice) -> [f64; 2] {
+fn line(choice: &MotorChoice) -> [f64; 2] {
     match choice.geared.law {
         MotorLaw::Linear { at_rest, slope } => [at_rest, slope],
         MotorLaw::Constant { .. } | MotorLaw::Kloss { .. } | MotorLaw::Table { .. } => [f64::NAN; 2],
@@ -24,7 +24,7 @@ fn line(choice: &Choice) -> [f64; 2] {
 }
 
 /// The choice as text, with the `[motor]` section for the scenario.
-pub(crate) fn text(scenario: &Scenario, choice: &Choice) -> String {
+pub(crate) fn text(scenario: &Scenario, choice: &MotorChoice) -> String {
     let (motor, geared) = (&choice.motor, &choice.geared);
     let [at_rest, slope] = line(choice);
     let mut text = format!("{}: {}\n\n", scenario.name, scenario.title);
@@ -61,7 +61,7 @@ pub(crate) fn text(scenario: &Scenario, choice: &Choice) -> String {
 }
 
 /// The choice as JSON, schema 1.
-pub(crate) fn json(scenario: &Scenario, choice: &Choice) -> String {
+pub(crate) fn json(scenario: &Scenario, choice: &MotorChoice) -> String {
     let (motor, geared) = (&choice.motor, &choice.geared);
     let [at_rest, slope] = line(choice);
     pretty(&json!({

@@ -6,7 +6,7 @@ use serde_json::json;
 use super::pretty::{list, pretty};
 use crate::plain::Tell;
 use design::diagram::draw::significant;
-use design::diagram::{Plan, Plans, SingularPoint};
+use design::diagram::{Plans, SingularPoint, VectorPlan};
 use linkage::case::Case;
 use linkage::error::Result;
 use prover::numbers::fixed_in;
@@ -66,7 +66,7 @@ fn singular_text(text: &mut String, case: &Case, point: &SingularPoint) {
 
 /// The plans as JSON, schema 1. Arguments as in [`text`].
 pub(crate) fn json(scenario: &Scenario, plans: &Plans, singular: &[Result<SingularPoint>], tell: Tell) -> String {
-    let plan = |plan: &Plan| {
+    let plan = |plan: &VectorPlan| {
         let vectors = list(&plan.vectors, |vector| {
             json!({
                 "name": vector.name, "from": vector.from, "to": vector.to, "x": vector.value.x, "y": vector.value.y,

@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 
 use super::pretty::list;
 use crate::plain::cells::{table, trimmed};
-use analytic::range::{At, Extent, Extreme, LinkRange, Measure, Range, Singularity};
+use analytic::range::{Extent, ExtremePosition, GroupCondition, LinkRange, Range, Singularity, ValueAtCrank};
 use linkage::mechanism::GroupId;
 use prover::numbers;
 use scenario::Scenario;
@@ -77,7 +77,7 @@ fn singularities(scenario: &Scenario, range: &Range) -> String {
 
 fn groups(scenario: &Scenario, range: &Range) -> String {
     let rows = range.groups.entries().map(|(index, group)| {
-        let At { crank, value } = group.determinant;
+        let ValueAtCrank { crank, value } = group.determinant;
         let transmission = transmission(scenario, index, value);
         let transmission = transmission.map_or("-".into(), |angle| numbers::fixed(angle.to_degrees(), 4));
         let (condition, at) = match group.condition {
@@ -94,7 +94,8 @@ fn groups(scenario: &Scenario, range: &Range) -> String {
 fn links(scenario: &Scenario, range: &Range) -> String {
     let rows = range.links.iter().map(|link| {
         // For a link that rotates fully, the interval of its angle has no meaning.
-        let end = |at: At| if link.turns == 0 { numbers::fixed(at.value.to_degrees(), 6) } else { "-".into() };
+        let end =
+            |at: ValueAtCrank| if link.turns == 0 { numbers::fixed(at.value.to_degrees(), 6) } else { "-".into() };
         let [least, most] = link.angles.map(end);
         let name = scenario.case.mechanism.links()[link.link].name.clone();
         [name, motion(link), least, most, positions(&link.extremes, range)]
@@ -113,8 +114,8 @@ fn motion(link: &LinkRange) -> String {
     }
 }
 
-fn positions(extremes: &[Extreme], range: &Range) -> String {
-    let one = |extreme: &Extreme| {
+fn positions(extremes: &[ExtremePosition], range: &Range) -> String {
+    let one = |extreme: &ExtremePosition| {
         let word = if extreme.is_greatest { "greatest" } else { "smallest" };
         format!("{} ({word}, {})", numbers::fixed(extreme.angle.to_degrees(), 6), degrees(extreme.crank, range))
     };
@@ -125,7 +126,7 @@ fn positions(extremes: &[Extreme], range: &Range) -> String {
 
 /// The range as JSON.
 pub(super) fn json(scenario: &Scenario, range: &Range) -> Value {
-    let at = |at: &At, key: &str| json!({"crank_rad": at.crank, key: at.value});
+    let at = |at: &ValueAtCrank, key: &str| json!({"crank_rad": at.crank, key: at.value});
     let extent = match range.extent {
         Extent::FullTurn(turns) => json!({"full_turn": true, "turns_to_same_pose": turns}),
         Extent::Limited([from, to]) => json!({"full_turn": false, "from_rad": from.crank, "to_rad": to.crank}),
@@ -148,7 +149,8 @@ pub(super) fn json(scenario: &Scenario, range: &Range) -> Value {
         }
         value
     });
-    let extreme = |own: &Extreme| json!({"crank_rad": own.crank, "angle_rad": own.angle, "greatest": own.is_greatest});
+    let extreme =
+        |own: &ExtremePosition| json!({"crank_rad": own.crank, "angle_rad": own.angle, "greatest": own.is_greatest});
     let links = list(&range.links, |link| {
         json!({
             "name": scenario.case.mechanism.links()[link.link].name, "least": at(&link.angles[0], "angle_rad"),
@@ -157,7 +159,7 @@ pub(super) fn json(scenario: &Scenario, range: &Range) -> Value {
         })
     });
     let sampled = list(range.groups.ids(), |group| {
-        let of = |of: fn(&Measure) -> f64| list(&range.samples, |sample| json!(of(&sample.groups[group])));
+        let of = |of: fn(&GroupCondition) -> f64| list(&range.samples, |sample| json!(of(&sample.groups[group])));
         json!({
             "links": names(scenario, group), "determinant": of(|own| own.determinant),
             "condition": of(|own| own.condition),

@@ -7,8 +7,8 @@ use super::pretty::{list, pretty};
 use crate::plain::cells::table;
 use design::diagram::timing::{Stretch, TimingDiagram};
 use design::synthesis::achieved::{BAND, PhaseDone};
-use design::synthesis::{Achieved, Found};
-use design::task::{Output, Phase, Sense, Task};
+use design::synthesis::{Achieved, SearchResult};
+use design::task::{OutputQuantity, Phase, Sense, Task};
 use prover::numbers;
 
 /// A task, what was achieved, and how it was found.
@@ -19,14 +19,14 @@ pub(crate) struct Story<'a> {
     /// How well the motion keeps it.
     pub(crate) achieved: &'a Achieved,
     /// What the search found, and the values as written.
-    pub(crate) search: Option<(&'a Found, &'a [f64])>,
+    pub(crate) search: Option<(&'a SearchResult, &'a [f64])>,
 }
 
 /// The stroke with its unit.
 fn stroke(task: &Task, achieved: &Achieved) -> String {
     match task.output {
-        Output::Angle { .. } => numbers::fixed_in(achieved.stroke.to_degrees(), 4, "deg"),
-        Output::Coordinate { .. } => numbers::fixed_in(achieved.stroke * 1e3, 4, "mm"),
+        OutputQuantity::Angle { .. } => numbers::fixed_in(achieved.stroke.to_degrees(), 4, "deg"),
+        OutputQuantity::Coordinate { .. } => numbers::fixed_in(achieved.stroke * 1e3, 4, "mm"),
     }
 }
 

@@ -1,14 +1,14 @@
 //! Proofs as text for the terminal.
 
 use crate::plain::cells::{counted, distinct, fitted, share, table, trimmed};
-use crate::plain::judged::{self, Judged, Sort, counts, verdicts, worst};
+use crate::plain::judged::{self, JudgedNumber, Sort, counts, verdicts, worst};
 use crate::plain::style::wrapped;
 use crate::plain::{Tell, brief, engines, reasons};
 use crate::sentences;
 use linkage::math::statistics;
 use prover::compare::{Check, Verdict, overall};
 use prover::numbers;
-use prover::proof::{ChannelProof, End, EngineInfo, EngineProof, Proof, Search};
+use prover::proof::{ChannelProof, EngineInfo, EngineProof, Proof, SearchEnd, SettingsSearch};
 
 /// Number of reasons that are shown in full; the others are only counted.
 const REASONS: usize = 5;
@@ -103,18 +103,18 @@ fn own_how(own: &EngineProof) -> String {
 }
 
 /// The settings that a proof has found, and the work it took.
-fn found(info: &EngineInfo, search: &Search) -> String {
+fn found(info: &EngineInfo, search: &SettingsSearch) -> String {
     let times = match info.settings.extrapolated {
         0 => "not extrapolated".into(),
         1 => "extrapolated once".into(),
         times => sentences::extrapolated_times(&times),
     };
     let why = match search.end {
-        End::Decided => "",
-        End::Nothing => sentences::NO_OTHER_SETTING_WAS_LEFT,
-        End::Rounding => sentences::FINER_STEPS_WOULD_ADD_ROUNDING,
-        End::Budget => sentences::THE_WORK_THAT_WAS_ALLOWED,
-        End::Pace => sentences::AT_THIS_PACE_THE_WORK_THAT_WAS_ALLOWED,
+        SearchEnd::Decided => "",
+        SearchEnd::Nothing => sentences::NO_OTHER_SETTING_WAS_LEFT,
+        SearchEnd::Rounding => sentences::FINER_STEPS_WOULD_ADD_ROUNDING,
+        SearchEnd::Budget => sentences::THE_WORK_THAT_WAS_ALLOWED,
+        SearchEnd::Pace => sentences::AT_THIS_PACE_THE_WORK_THAT_WAS_ALLOWED,
     };
     let (sweeps, runs, effort) = (counted(info.settings.sweeps, "sweep"), search.runs, numbers::error(search.effort));
     sentences::found_from_runs_with_the_work(&sweeps, &times, &runs, &effort, &why)
@@ -215,7 +215,7 @@ pub fn residuals(proof: &Proof) -> String {
     let mut all = judged::of(proof);
     all.sort_by_key(|own| own.sort == Sort::Check);
     let rows = all.into_iter().map(|own| {
-        let Judged { sort, engine, name, value, bound, unit, verdict, .. } = own;
+        let JudgedNumber { sort, engine, name, value, bound, unit, verdict, .. } = own;
         let side = engine.filter(|_| sort != Sort::Check).map_or("", |engine| engine.info.name);
         let used = numbers::significant(statistics::share(value, bound), 3);
         let [value, bound] = [value, bound].map(|number| numbers::significant(number, 4));

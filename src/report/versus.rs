@@ -12,10 +12,10 @@ use crate::plain::judged::{Grade, counts, grade};
 use crate::plain::style::{self, Detail};
 use crate::plain::{Tell, diagnosis};
 use linkage::math::KeepNan;
-use prover::claims::Cause;
+use prover::claims::FormulaCause;
 use prover::compare::Check;
 use prover::numbers;
-use prover::versus::{Compared, Comparison, Contradiction, Explained, Pair, Row};
+use prover::versus::{Compared, Contradiction, Explained, PartyComparison, RowPair, SidePair};
 
 /// Channels of agreeing pairs that a short report shows.
 const SHOWN: usize = 3;
@@ -27,7 +27,7 @@ const NAMED: usize = 3;
 /// The report in lines of at most `width` columns: the verdict, the channels that use most of their bounds, and why
 /// others are off.
 #[must_use]
-pub fn text(paths: [&Path; 2], comparison: &Comparison, detail: Detail, tell: Tell, width: usize) -> String {
+pub fn text(paths: [&Path; 2], comparison: &PartyComparison, detail: Detail, tell: Tell, width: usize) -> String {
     let mut text = String::new();
     for pair in &comparison.pairs {
         if !text.is_empty() && detail != Detail::Verdict {
@@ -41,7 +41,7 @@ pub fn text(paths: [&Path; 2], comparison: &Comparison, detail: Detail, tell: Te
     text
 }
 
-fn of_pair(pair: &Pair, all: bool, tell: Tell, width: usize) -> String {
+fn of_pair(pair: &SidePair, all: bool, tell: Tell, width: usize) -> String {
     let mut text = String::new();
     let mut order: Vec<&Compared> = pair.channels.iter().collect();
     order.sort_by(|a, b| rank(b).total_cmp(&rank(a)));
@@ -102,13 +102,13 @@ fn row(own: &Compared, by_crank: bool) -> [String; 7] {
 const SIMULATION: &str = sentences::THE_REST_IS_OFF_BY_LESS_THAN_A_FIFTIETH;
 
 /// Whether a channel is off by as little as a simulation is wrong, and no cause was found.
-fn looks_like_a_simulation(pair: &Pair, own: &Compared) -> bool {
+fn looks_like_a_simulation(pair: &SidePair, own: &Compared) -> bool {
     let is_explained = pair.causes.iter().any(|cause| cause.of.contains(&own.claim.text));
     own.is_derived && own.since.is_some() && !own.is_gross() && !is_explained
 }
 
 /// Which two are compared.
-pub(super) fn who(paths: [&Path; 2], pair: &Pair) -> String {
+pub(super) fn who(paths: [&Path; 2], pair: &SidePair) -> String {
     let [first, second] = [0, 1].map(|side: usize| match pair.names[side].as_str() {
         "" => paths[side].display().to_string(),
         own => format!("{} ({own})", paths[side].display()),
@@ -116,7 +116,7 @@ pub(super) fn who(paths: [&Path; 2], pair: &Pair) -> String {
     format!("{second} against {first}")
 }
 
-fn sentence(paths: [&Path; 2], pair: &Pair) -> String {
+fn sentence(paths: [&Path; 2], pair: &SidePair) -> String {
     let [agree, _, disagree, open] = counts(pair.channels.iter().map(|own| &own.verdict));
     let all = pair.channels.len();
     let told = match (disagree, open, pair.crank_is_off()) {
@@ -145,7 +145,7 @@ fn rank(own: &Compared) -> f64 {
 }
 
 /// What was not compared.
-fn notes(pair: &Pair) -> String {
+fn notes(pair: &SidePair) -> String {
     let mut text = String::new();
     if pair.unshared > 0 {
         put!(text, "{}", sentences::left_out_instants_of_the_second(&pair.unshared));
@@ -186,7 +186,7 @@ fn notes(pair: &Pair) -> String {
     text
 }
 
-fn cause(pair: &Pair, explained: &Explained, width: usize) -> String {
+fn cause(pair: &SidePair, explained: &Explained, width: usize) -> String {
     let Explained { of, diagnosis: found, left, .. } = explained;
     let mut text = style::wrapped(&format!("{}:", some(of, NAMED)), Some(width), 2);
     let mut line = |what: &str, told: &str| {
@@ -223,7 +223,7 @@ fn cause(pair: &Pair, explained: &Explained, width: usize) -> String {
 
 /// The cause in words, if one was found.
 fn cause_of(explained: &Explained) -> Option<String> {
-    let terms = (!explained.terms.is_empty()).then(|| Cause::Terms(explained.terms.clone()).to_string());
+    let terms = (!explained.terms.is_empty()).then(|| FormulaCause::Terms(explained.terms.clone()).to_string());
     terms.or_else(|| explained.diagnosis.cause.as_ref().map(diagnosis::cause))
 }
 
@@ -235,9 +235,9 @@ pub fn why(explained: &Explained) -> Option<String> {
 
 /// The comparison as JSON, schema 1.
 #[must_use]
-pub fn json(paths: [&Path; 2], comparison: &Comparison, tell: Tell) -> String {
+pub fn json(paths: [&Path; 2], comparison: &PartyComparison, tell: Tell) -> String {
     // What is no number is `null`.
-    let instant = |at: &Row| {
+    let instant = |at: &RowPair| {
         json!({
             "t_s": at.time, "crank_deg": at.crank.to_degrees(), "first": at.values[0], "second": at.values[1],
             "difference": at.difference, "bound": at.bound, "known": at.known,
@@ -265,7 +265,7 @@ pub fn json(paths: [&Path; 2], comparison: &Comparison, tell: Tell) -> String {
             "reason": check.verdict.reason(tell),
         })
     };
-    let pair = |pair: &Pair| {
+    let pair = |pair: &SidePair| {
         json!({
             "first": pair.names[0], "second": pair.names[1], "by": if pair.by_crank { "crank angle" } else { "time" },
             "instants": pair.instants, "unshared": pair.unshared, "values": pair.values()[0],

@@ -12,5 +12,5 @@ pub mod run_up;
 mod turn;
 
 pub use crate::motion::march::ACCURACY;
-pub use model::{Model, Reduced};
-pub use run_up::{CrankState, End, RunUp, motion};
+pub use model::{Reduced, ReducedModel};
+pub use run_up::{CrankState, RunUp, RunUpEnd, motion};

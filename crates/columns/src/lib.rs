@@ -2,9 +2,9 @@
 //!
 //! Loops over rows stand here, because this crate is compiled with optimisation.
 //!
-//! - [`read`]: a text with separated columns as a [`Table`].
+//! - [`read`]: a text with separated columns as a [`TextTable`].
 //! - [`Records`]: the rows of a table whose cells are not all numbers.
-//! - [`Cell`] and [`numbers`]: what the digits of a column leave open.
+//! - [`TableCell`] and [`numbers`]: what the digits of a column leave open.
 //! - [`numbers_beside`]: the same in a file, where other columns tell what a constant does not show.
 //! - [`chosen`]: whether instants were chosen as they are printed, or rounded.
 //! - [`judge`]: two columns against each other.
@@ -17,9 +17,9 @@ mod records;
 mod sentences;
 mod text;
 
-pub use cell::{Cell, MISSING, UNDEFINED, is_missing, numbers};
+pub use cell::{MISSING, TableCell, UNDEFINED, is_missing, numbers};
 pub use constant::numbers_beside;
 pub use instants::{chosen, degrees_chosen, drift};
-pub use judge::{Allowance, Beside, Judged, Measure, Row, judge};
+pub use judge::{Allowance, Beside, JudgedColumns, RowPair, ScaleColumn, judge};
 pub use records::Records;
-pub use text::{Fault, Table, Twice, bytes, read};
+pub use text::{TableFault, TextTable, Twice, bytes, read};

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::ops::Range;
 
-use super::cell::Cell;
+use super::cell::TableCell;
 use super::constant::numbers_beside;
 use formula::Rounded;
 
@@ -16,7 +16,7 @@ const COMMENTS: [char; 3] = ['#', '%', ';'];
 
 /// A table as it stands in a file, whatever its columns mean. All have the same length.
 #[derive(Clone, Debug, Default)]
-pub struct Table {
+pub struct TextTable {
     /// Names of the columns; `c1`, `c2`, ... where the text has none.
     pub names: Vec<String>,
     /// Their numbers, each with what its digits leave open.
@@ -25,7 +25,7 @@ pub struct Table {
     pub lines: Vec<u32>,
 }
 
-impl Table {
+impl TextTable {
     /// Number of rows.
     #[must_use]
     pub fn len(&self) -> usize {
@@ -50,7 +50,7 @@ impl Table {
 
 /// Why a text is no table.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Fault {
+pub struct TableFault {
     /// Bytes of the line.
     pub at: Range<usize>,
     /// What was found.
@@ -99,17 +99,17 @@ impl fmt::Display for Twice {
 #[must_use]
 pub fn bytes(text: &str) -> f64 {
     let cells = text.bytes().filter(|byte| matches!(byte, b',' | b';' | b'\t' | b' ' | b'\n')).count() + 1;
-    (cells * (size_of::<Cell>() + size_of::<Rounded>())) as f64
+    (cells * (size_of::<TableCell>() + size_of::<Rounded>())) as f64
 }
 
 /// Reads a table. The last line shows which sign separates the columns.
 ///
 /// # Errors
 /// A line with another number of cells than the header, a cell that is no number, two columns of one name, no line.
-pub fn read(text: &str) -> Result<Table, Fault> {
+pub fn read(text: &str) -> Result<TextTable, TableFault> {
     let wrong = |start: usize, message: String, help: &str| {
         let length = text[start..].find(['\r', '\n']).unwrap_or(text.len() - start);
-        Fault { at: start..start + length, message, help: help.into() }
+        TableFault { at: start..start + length, message, help: help.into() }
     };
     let separator =
         lines(text).last().and_then(|(_, line)| ['\t', ';', ','].into_iter().find(|sign| line.trim().contains(*sign)));
@@ -129,7 +129,7 @@ pub fn read(text: &str) -> Result<Table, Fault> {
     if let Some(twice) = Twice::of(&names) {
         return Err(wrong(header_at, twice.to_string(), Twice::HELP));
     }
-    let mut columns: Vec<Vec<Cell>> = vec![Vec::new(); names.len()];
+    let mut columns: Vec<Vec<TableCell>> = vec![Vec::new(); names.len()];
     let (mut places, mut seen, mut place) = (Vec::new(), 0, 1u32);
     for (start, line) in rows {
         place += text.as_bytes()[seen..start].iter().filter(|&&byte| byte == b'\n').count() as u32;
@@ -155,14 +155,15 @@ pub fn read(text: &str) -> Result<Table, Fault> {
         }
     }
     let others = |own: usize| columns.iter().enumerate().filter(move |(other, _)| *other != own);
-    let of = |(own, cells): (usize, &Vec<Cell>)| numbers_beside(cells, || others(own).map(|(_, cells)| cells));
+    let of = |(own, cells): (usize, &Vec<TableCell>)| numbers_beside(cells, || others(own).map(|(_, cells)| cells));
     let columns = columns.iter().enumerate().map(of).collect();
-    Ok(Table { names, columns, lines: places })
+    Ok(TextTable { names, columns, lines: places })
 }
 
 /// A cell; decimal commas are taken where cells are not separated by commas.
-fn number(cell: &str) -> Option<Cell> {
-    Cell::parse(cell).or_else(|| (cell.matches(',').count() == 1).then(|| Cell::parse(&cell.replace(',', ".")))?)
+fn number(cell: &str) -> Option<TableCell> {
+    TableCell::parse(cell)
+        .or_else(|| (cell.matches(',').count() == 1).then(|| TableCell::parse(&cell.replace(',', ".")))?)
 }
 
 /// The lines that are no comments, each with its first byte. Tabs at an end may separate empty cells.

@@ -6,7 +6,7 @@ use std::path::Path;
 use crate::motor::CatalogueMotor;
 use linkage::error::{Error, ErrorKind, Result};
 use scenario::header::check_format;
-use scenario::reader::{Sign, Table};
+use scenario::reader::{Sign, TomlTable};
 use scenario::source::Source;
 use scenario::unit::{ANGULAR_SPEED, POWER};
 
@@ -21,10 +21,10 @@ pub fn load(path: &Path) -> Result<Vec<CatalogueMotor>> {
     })?;
     let source = Source::new(path, &text);
     let tree = source.tree()?;
-    read(&mut Table::root(&source, &tree)).map_err(|error| source.located(tree.get_ref(), error))
+    read(&mut TomlTable::root(&source, &tree)).map_err(|error| source.located(tree.get_ref(), error))
 }
 
-fn read(root: &mut Table) -> Result<Vec<CatalogueMotor>> {
+fn read(root: &mut TomlTable) -> Result<Vec<CatalogueMotor>> {
     check_format(root)?;
     root.optional_string("source")?;
     let motors = root.tables("motors")?.into_iter().map(motor).collect::<Result<Vec<_>>>()?;
@@ -38,7 +38,7 @@ fn read(root: &mut Table) -> Result<Vec<CatalogueMotor>> {
     Ok(motors)
 }
 
-fn motor(mut table: Table) -> Result<CatalogueMotor> {
+fn motor(mut table: TomlTable) -> Result<CatalogueMotor> {
     let name = table.string("name")?;
     let power = table.quantity("power", &POWER, Sign::Positive)?;
     let rated_speed = table.quantity("rated_speed", &ANGULAR_SPEED, Sign::Positive)?;

@@ -1,7 +1,7 @@
 //! Flywheel for a required coefficient of non-uniformity.
 
 use crate::sentences;
-use analytic::reduced::Model;
+use analytic::reduced::ReducedModel;
 use analytic::steady::Regime;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::KeepNan;
@@ -32,8 +32,8 @@ impl Flywheel {
     /// # Errors
     /// [`ErrorKind::Input`] for a coefficient that is not positive.
     /// [`ErrorKind::Numeric`] for one that no flywheel reaches.
-    /// Those of [`Model::regime`].
-    pub fn of(model: &Model, wanted: f64, accuracy: f64) -> Result<Self> {
+    /// Those of [`ReducedModel::regime`].
+    pub fn of(model: &ReducedModel, wanted: f64, accuracy: f64) -> Result<Self> {
         if !(wanted > 0.0 && wanted.is_finite()) {
             let message = sentences::a_coefficient_of_non_uniformity(&wanted);
             return Err(Error::new(ErrorKind::Input, message).help(sentences::GIVE_A_NUMBER_ABOVE_ZERO));

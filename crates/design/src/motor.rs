@@ -8,7 +8,7 @@
 use crate::sentences;
 use analytic::AssurSolver;
 use analytic::reduced::means::{self, means_over_turn};
-use analytic::reduced::{ACCURACY, Model};
+use analytic::reduced::{ACCURACY, ReducedModel};
 use analytic::steady::Regime;
 use linkage::case::Case;
 use linkage::drive::{Motor, MotorLaw};
@@ -62,7 +62,7 @@ pub fn weakest_sufficient(motors: &[CatalogueMotor], power: f64) -> Option<&Cata
 
 /// A motor chosen for a mechanism, and the resulting motion.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Choice {
+pub struct MotorChoice {
     /// Crank angle (rad) and value (N m) of the greatest reduced moment of resistance.
     pub peak: (f64, f64),
     /// Mean reduced moment of resistance (N m).
@@ -83,19 +83,19 @@ pub struct Choice {
     pub regime: Regime,
 }
 
-impl Choice {
+impl MotorChoice {
     /// The weakest motor of the catalogue that has the peak's power, for the crank's speed in the scenario.
     ///
     /// # Errors
     /// [`ErrorKind::Input`] for an efficiency that is not above 0 and at most 1, or if every motor is too weak.
     /// [`ErrorKind::Numeric`] if the mechanism needs no motor, or the motor has no steady speed.
-    /// Those of [`Model::of`] and of its extremes.
+    /// Those of [`ReducedModel::of`] and of its extremes.
     pub fn of(case: &Case, catalogue: &[CatalogueMotor], efficiency: f64) -> Result<Self> {
         if !(efficiency > 0.0 && efficiency <= 1.0) {
             return Err(Error::new(ErrorKind::Input, sentences::the_efficiency_is(&efficiency))
                 .help(sentences::GIVE_A_SHARE_ABOVE_AND_AT_MOST));
         }
-        let model = Model::of(case)?;
+        let model = ReducedModel::of(case)?;
         let [_, resistance] = model.extremes()?;
         let omega = case.crank().at(0.0).rate;
         let mean = omega.signum() * means_over_turn(case, &AssurSolver)?.resistance;
@@ -114,8 +114,8 @@ impl Choice {
         let geared = motor.geared_to(wanted, efficiency);
         let Some(averaged) = geared.steady_speed(mean) else { return Err(means::no_steady_speed(mean)) };
         let driven = case.with_motor(Some(geared.clone()))?;
-        let regime = Model::of(&driven)?.regime(&[], ACCURACY)?;
-        Ok(Choice {
+        let regime = ReducedModel::of(&driven)?.regime(&[], ACCURACY)?;
+        Ok(MotorChoice {
             peak: resistance.greatest,
             mean,
             wanted,

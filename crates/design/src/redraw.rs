@@ -3,7 +3,7 @@
 use crate::sentences;
 use toml_edit::{DocumentMut, InlineTable, Item, TableLike, value};
 
-use crate::task::{Entry, Task};
+use crate::task::{Task, TaskNumber};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::Vec2;
 use linkage::mechanism::{GROUND, Link, LinkId};
@@ -62,7 +62,7 @@ pub fn redrawn(task: &Task, text: &str, values: &[f64], comment: &str) -> Result
         let points = owner.get_mut("points").and_then(Item::as_table_like_mut).ok_or_else(|| foreign(&body.name))?;
         points.insert(&body.points[place.handle.point].name, value(written));
     }
-    if let Entry::Free(index) = task.zero {
+    if let TaskNumber::Free(index) = task.zero {
         let drive = match &mut document["drive"] {
             Item::ArrayOfTables(drives) => drives.get_mut(0).map(|table| table as &mut dyn TableLike),
             item => item.as_table_like_mut(),

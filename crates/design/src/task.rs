@@ -13,7 +13,7 @@ use linkage::mechanism::{GroupKind, Handle, LinkId, Mechanism, StartGroup};
 
 /// The output quantity.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Output {
+pub enum OutputQuantity {
     /// The angle of a link (rad, counter-clockwise positive).
     Angle {
         /// The link.
@@ -43,37 +43,37 @@ pub struct Variable {
 
 /// A fixed number or a variable.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Entry {
+pub enum TaskNumber {
     /// Fixed (SI).
     Fixed(f64),
     /// The variable with this index.
     Free(usize),
 }
 
-impl Entry {
+impl TaskNumber {
     /// Its value (SI), given the values of the variables.
     #[inline]
     #[must_use]
     pub fn value(self, values: &[f64]) -> f64 {
         match self {
-            Entry::Fixed(value) => value,
-            Entry::Free(index) => values[index],
+            TaskNumber::Fixed(value) => value,
+            TaskNumber::Free(index) => values[index],
         }
     }
 }
 
 /// The position of a point in its link.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Place {
+pub struct PointPosition {
     /// The point, and the joints that move with it.
     pub handle: Handle,
     /// Point of the same link from which length and angle are measured. Without it the entries are x and y.
     pub from: Option<usize>,
     /// x and y (m), or length (m) and angle (rad) in the link's frame.
-    pub entries: [Entry; 2],
+    pub entries: [TaskNumber; 2],
 }
 
-impl Place {
+impl PointPosition {
     /// Moves the point to the position that `values` define.
     #[inline]
     pub fn apply(&self, values: &[f64], mechanism: &mut Mechanism) {
@@ -88,7 +88,7 @@ impl Place {
 
 /// Effort of the search.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Effort {
+pub struct SearchEffort {
     /// Seed of all random numbers.
     pub seed: u64,
     /// Number of random candidates.
@@ -113,11 +113,11 @@ pub struct Task {
     /// The variable quantities.
     pub variables: Vec<Variable>,
     /// Positions that follow from them, in the order in which they must be set.
-    pub places: Vec<Place>,
+    pub places: Vec<PointPosition>,
     /// World direction of the crank at crank angle zero (rad).
-    pub zero: Entry,
+    pub zero: TaskNumber,
     /// The output quantity.
-    pub output: Output,
+    pub output: OutputQuantity,
     /// Sense of the output that counts as forward: +1 or -1; `None` leaves it to the search.
     pub forward: Option<f64>,
     /// The wanted motion of the output.
@@ -127,7 +127,7 @@ pub struct Task {
     /// Smallest permitted transmission angle of any dyad (rad).
     pub transmission: f64,
     /// Effort of the search.
-    pub effort: Effort,
+    pub effort: SearchEffort,
     /// Mass of the links found, per metre of their length (kg/m). Without it links keep the masses of the drawing.
     pub bar: Option<f64>,
 }

@@ -4,16 +4,16 @@
 use crate::sentences;
 use std::path::Path;
 
-use crate::task::{Effort, Entry, Output, Phase, Place, Sense, Task, Timing, Variable};
+use crate::task::{OutputQuantity, Phase, PointPosition, SearchEffort, Sense, Task, TaskNumber, Timing, Variable};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::unit;
 use linkage::mechanism::{GROUND, Mechanism};
 use scenario::Scenario;
 use scenario::header::{check_format, name};
 use scenario::joints::link;
-use scenario::reader::{Sign, Table};
+use scenario::reader::{Sign, TomlTable};
 use scenario::source::Source;
-use scenario::unit::{ANGLE, Family, LENGTH, MASS_PER_LENGTH};
+use scenario::unit::{ANGLE, LENGTH, MASS_PER_LENGTH, UnitFamily};
 use scenario::words::suggestion;
 
 /// Least displacement of a moving phase (share of the stroke), unless the file states another one.
@@ -41,11 +41,11 @@ impl TaskFile {
         })?;
         let source = Source::new(path, &text);
         let tree = source.tree()?;
-        read(&mut Table::root(&source, &tree)).map_err(|error| source.located(tree.get_ref(), error))
+        read(&mut TomlTable::root(&source, &tree)).map_err(|error| source.located(tree.get_ref(), error))
     }
 }
 
-fn read(root: &mut Table) -> Result<TaskFile> {
+fn read(root: &mut TomlTable) -> Result<TaskFile> {
     check_format(root)?;
     let (own_name, title) = (name(root)?, root.string("title")?);
     let file = root.string("scenario")?;
@@ -68,7 +68,7 @@ fn read(root: &mut Table) -> Result<TaskFile> {
     let timing = timing(phases)?;
     let timing = if follow { timing.followed()? } else { timing };
     let (output, forward) = read_output(output, mechanism)?;
-    let family = if matches!(output, Output::Angle { .. }) { &ANGLE } else { &LENGTH };
+    let family = if matches!(output, OutputQuantity::Angle { .. }) { &ANGLE } else { &LENGTH };
     let (stroke, transmission) = read_limits(limits, family)?;
     let mut variables = Vec::new();
     let mut places = Vec::new();
@@ -77,7 +77,7 @@ fn read(root: &mut Table) -> Result<TaskFile> {
         places.push(found);
     }
     let zero = match zero {
-        None => Entry::Fixed(drawing.case.crank().zero),
+        None => TaskNumber::Fixed(drawing.case.crank().zero),
         Some(mut table) => {
             let bounds = bounds(&mut table, &ANGLE)?;
             table.finish()?;
@@ -104,7 +104,7 @@ fn read(root: &mut Table) -> Result<TaskFile> {
     Ok(TaskFile { task, drawing })
 }
 
-fn timing(tables: Vec<Table>) -> Result<Timing> {
+fn timing(tables: Vec<TomlTable>) -> Result<Timing> {
     let (mut from, mut phases, mut places) = (0.0, Vec::new(), Vec::new());
     for mut table in tables {
         let to = table.quantity("to", &ANGLE, Sign::Positive)?;
@@ -130,7 +130,7 @@ fn timing(tables: Vec<Table>) -> Result<Timing> {
 }
 
 /// Output, and the sense of forward motion.
-fn read_output(mut table: Table, mechanism: &Mechanism) -> Result<(Output, Option<f64>)> {
+fn read_output(mut table: TomlTable, mechanism: &Mechanism) -> Result<(OutputQuantity, Option<f64>)> {
     let forward = match table.optional_string("forward")?.as_deref() {
         None => None,
         Some("positive") => Some(1.0),
@@ -148,7 +148,7 @@ fn read_output(mut table: Table, mechanism: &Mechanism) -> Result<(Output, Optio
                 let error = table.wrong(ErrorKind::Input, "link", sentences::THE_GROUND_DOES_NOT_TURN);
                 return Err(error.help(sentences::NAME_THE_MOVING_LINK_WHOSE));
             }
-            Output::Angle { link }
+            OutputQuantity::Angle { link }
         }
         (None, Some(name)) => {
             let along = unit(table.quantity("along", &ANGLE, Sign::Any)?);
@@ -160,7 +160,7 @@ fn read_output(mut table: Table, mechanism: &Mechanism) -> Result<(Output, Optio
                 let error = table.wrong(ErrorKind::Input, "point", sentences::no_moving_link_has_a_point(&name));
                 return Err(error.help(suggestion(&name, names, "\"")));
             };
-            Output::Coordinate { link, point, along }
+            OutputQuantity::Coordinate { link, point, along }
         }
         _ => {
             let help = sentences::WRITE_LINK_LEVER_FOR_ITS_ANGLE;
@@ -172,7 +172,7 @@ fn read_output(mut table: Table, mechanism: &Mechanism) -> Result<(Output, Optio
 }
 
 /// Limits of the stroke, a quantity of this family, and the smallest transmission angle.
-fn read_limits(table: Option<Table>, family: &'static Family) -> Result<([f64; 2], f64)> {
+fn read_limits(table: Option<TomlTable>, family: &'static UnitFamily) -> Result<([f64; 2], f64)> {
     let Some(mut table) = table else { return Ok(([0.0, f64::INFINITY], 0.0)) };
     let transmission = table.optional_quantity("transmission", &ANGLE, Sign::NotNegative)?.unwrap_or(0.0);
     if transmission >= std::f64::consts::FRAC_PI_2 {
@@ -191,7 +191,7 @@ fn read_limits(table: Option<Table>, family: &'static Family) -> Result<([f64; 2
     Ok((stroke, transmission))
 }
 
-fn read_effort(mut table: Table) -> Result<Effort> {
+fn read_effort(mut table: TomlTable) -> Result<SearchEffort> {
     let mut count = |key: &str, default: i64| -> Result<u64> {
         let found = table.optional_integer(key)?.unwrap_or(default);
         u64::try_from(found).map_err(|_| {
@@ -205,11 +205,11 @@ fn read_effort(mut table: Table) -> Result<Effort> {
     let (candidates, refined) = (size(count("candidates", 200_000)?), size(count("refined", 16)?));
     let evaluations = size(count("evaluations", 20_000)?);
     table.finish()?;
-    Ok(Effort { seed, candidates, refined, evaluations })
+    Ok(SearchEffort { seed, candidates, refined, evaluations })
 }
 
 /// `from` and `to` of a quantity (SI).
-fn bounds(table: &mut Table, family: &'static Family) -> Result<[f64; 2]> {
+fn bounds(table: &mut TomlTable, family: &'static UnitFamily) -> Result<[f64; 2]> {
     let (from, to) = (table.quantity("from", family, Sign::Any)?, table.quantity("to", family, Sign::Any)?);
     if !(from <= to) {
         let error = table.fault(sentences::THE_GREATEST_VALUE_IS_BELOW);
@@ -218,18 +218,23 @@ fn bounds(table: &mut Table, family: &'static Family) -> Result<[f64; 2]> {
     Ok([from, to])
 }
 
-fn free(variables: &mut Vec<Variable>, variable: Variable) -> Entry {
+fn free(variables: &mut Vec<Variable>, variable: Variable) -> TaskNumber {
     variables.push(variable);
-    Entry::Free(variables.len() - 1)
+    TaskNumber::Free(variables.len() - 1)
 }
 
 /// One `[[vary]]`: a point, by its coordinates or relative to another point of its link.
-fn place(mut table: Table, mechanism: &Mechanism, variables: &mut Vec<Variable>, before: &[Place]) -> Result<Place> {
+fn place(
+    mut table: TomlTable,
+    mechanism: &Mechanism,
+    variables: &mut Vec<Variable>,
+    before: &[PointPosition],
+) -> Result<PointPosition> {
     let (link_name, point_name) = (table.string("link")?, table.string("point")?);
     let own = link(&mut table, &link_name, mechanism.links())?;
     let points = &mechanism.links()[own].points;
     let names = || points.iter().map(|point| point.name.as_str());
-    let index = |table: &Table, key: &str, name: &str| {
+    let index = |table: &TomlTable, key: &str, name: &str| {
         points.iter().position(|point| point.name == name).ok_or_else(|| {
             let error = table.wrong(ErrorKind::Input, key, sentences::link_has_no_point(&link_name, &name));
             error.help(suggestion(name, names(), "\""))
@@ -250,7 +255,7 @@ fn place(mut table: Table, mechanism: &Mechanism, variables: &mut Vec<Variable>,
         None => (["x", "y"], [drawn.x, drawn.y]),
         Some(arm) => (["length", "angle"], [arm.norm(), arm.y.atan2(arm.x)]),
     };
-    let mut entries = drawn.map(Entry::Fixed);
+    let mut entries = drawn.map(TaskNumber::Fixed);
     for (entry, key) in entries.iter_mut().zip(keys) {
         if let Some(mut own) = table.optional_table(key)? {
             let is_angle = key == "angle";
@@ -261,9 +266,9 @@ fn place(mut table: Table, mechanism: &Mechanism, variables: &mut Vec<Variable>,
         }
     }
     table.finish()?;
-    if entries.iter().all(|entry| matches!(entry, Entry::Fixed(_))) {
+    if entries.iter().all(|entry| matches!(entry, TaskNumber::Fixed(_))) {
         let help = format!("add `{0} = {{ from_mm = ..., to_mm = ... }}`", keys[0]);
         return Err(table.fault(sentences::NOTHING_ABOUT_THIS_POINT_VARIES).help(help));
     }
-    Ok(Place { handle, from, entries })
+    Ok(PointPosition { handle, from, entries })
 }

@@ -15,7 +15,7 @@ const SEEN: u64 = 64 << 20;
 
 /// A file to be written, and what may be replaced there. This is the one place for the rule: a file is replaced only if
 /// the caller named it or this program wrote it, and a symbolic link is followed only where the caller named it.
-pub enum Target<'a> {
+pub enum OutputTarget<'a> {
     /// The caller named this very file.
     Named(&'a Path),
     /// The program made the name up, or a part of it; an older file is replaced if `is_ours` says so of its beginning.
@@ -30,21 +30,21 @@ pub(super) enum Place {
     File(PathBuf, Option<fs::Metadata>),
 }
 
-impl Target<'_> {
+impl OutputTarget<'_> {
     /// Where the content goes.
     ///
     /// # Errors
     /// [`io::ErrorKind::AlreadyExists`] for what may not be replaced, and those of the file system.
     pub(super) fn place(&self) -> io::Result<Place> {
         match *self {
-            Target::Named(path) => {
+            OutputTarget::Named(path) => {
                 let old = fs::metadata(path).ok();
                 if is_open_already(path) || old.as_ref().is_some_and(|old| !old.is_file()) {
                     return Ok(Place::Open(path.to_path_buf()));
                 }
                 Ok(Place::File(followed(path)?, old))
             }
-            Target::Made(path, is_ours) => {
+            OutputTarget::Made(path, is_ours) => {
                 let in_the_way = |what: &str| Err(io::Error::new(io::ErrorKind::AlreadyExists, what));
                 let old = match fs::symlink_metadata(path) {
                     Err(error) if error.kind() == io::ErrorKind::NotFound => None,
@@ -101,7 +101,7 @@ pub fn may_write(path: &Path) -> Result<(), String> {
     if fs::metadata(path).is_ok_and(|old| old.is_dir()) || path.as_os_str().to_string_lossy().ends_with('/') {
         return Err(sentences::THIS_IS_A_DIRECTORY_EXPECTED.into());
     }
-    let place = match Target::Named(path).place() {
+    let place = match OutputTarget::Named(path).place() {
         // A pipe or a device is opened when there is something to write.
         Ok(Place::Open(_)) => return Ok(()),
         Ok(Place::File(place, _)) => place,

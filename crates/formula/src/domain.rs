@@ -4,30 +4,32 @@ use crate::sentences;
 use std::fmt::Write;
 
 use crate::rounded::Rounded;
-use crate::tree::{Fault, Function, Operator, Shape, Tree};
+use crate::tree::{FormulaFault, FormulaTree, Function, NodeShape, Operator};
 
-impl Tree {
+impl FormulaTree {
     /// Its value, where `of` gives the values of names.
     ///
     /// # Errors
     /// The first operation that is outside its domain there, with its place.
-    pub fn evaluated(&self, of: &dyn Fn(&str) -> Rounded) -> Result<Rounded, Fault> {
+    pub fn evaluated(&self, of: &dyn Fn(&str) -> Rounded) -> Result<Rounded, FormulaFault> {
         let mut lower: Option<Rounded> = None;
         for tree in self.left_parts().into_iter().rev() {
             let others = &tree.parts()[usize::from(lower.is_some())..];
             let others: Vec<Rounded> = others.iter().map(|part| part.evaluated(of)).collect::<Result<_, _>>()?;
             let parts: Vec<Rounded> = lower.into_iter().chain(others).collect();
             let value = match &tree.shape {
-                Shape::Number(number) => Rounded::decimal(*number),
-                Shape::Name(name) => of(name),
-                Shape::Negative(_) => parts[0].negative(),
-                Shape::Pair(Operator::Minus, own)
+                NodeShape::Number(number) => Rounded::decimal(*number),
+                NodeShape::Name(name) => of(name),
+                NodeShape::Negative(_) => parts[0].negative(),
+                NodeShape::Pair(Operator::Minus, own)
                     if parts[0] == parts[1] && own[0].to_string() == own[1].to_string() =>
                 {
                     Rounded::pair(Operator::Times, Rounded::exact(0.0), parts[0])
                 }
-                Shape::Pair(operator, _) => Rounded::pair(*operator, parts[0], parts[1]),
-                Shape::Call(function, _) => Rounded::call(*function, [parts[0], *parts.last().unwrap_or(&parts[0])]),
+                NodeShape::Pair(operator, _) => Rounded::pair(*operator, parts[0], parts[1]),
+                NodeShape::Call(function, _) => {
+                    Rounded::call(*function, [parts[0], *parts.last().unwrap_or(&parts[0])])
+                }
             };
             if value.is_undefined() {
                 return Err(undefined(tree, &parts));
@@ -39,24 +41,24 @@ impl Tree {
 }
 
 /// The fault of an operation that is undefined for these arguments.
-pub(crate) fn undefined(tree: &Tree, arguments: &[Rounded]) -> Fault {
+pub(crate) fn undefined(tree: &FormulaTree, arguments: &[Rounded]) -> FormulaFault {
     let of = |index: usize| arguments.get(index).map_or_else(|| "?".into(), |number| short(number.value));
     let (what, rule) = match &tree.shape {
-        Shape::Pair(operator, _) => {
+        NodeShape::Pair(operator, _) => {
             let base = if of(0).starts_with('-') { format!("({})", of(0)) } else { of(0) };
             (format!("{base}{}{}", operator.sign(), of(1)), rule_of_operator(*operator))
         }
-        Shape::Call(function, parts) => {
+        NodeShape::Call(function, parts) => {
             let mut call = format!("{}({}", function.name(), of(0));
             if parts.len() > 1 {
                 let _ = write!(call, ", {}", of(1));
             }
             (call + ")", rule_of_function(*function))
         }
-        Shape::Name(name) => (format!("`{name}`"), sentences::WHAT_IT_STANDS_FOR_HAS_NO_VALUE),
-        Shape::Number(_) | Shape::Negative(_) => (tree.to_string(), EVERYWHERE),
+        NodeShape::Name(name) => (format!("`{name}`"), sentences::WHAT_IT_STANDS_FOR_HAS_NO_VALUE),
+        NodeShape::Number(_) | NodeShape::Negative(_) => (tree.to_string(), EVERYWHERE),
     };
-    Fault::new(sentences::is_undefined(&what), tree.at.clone(), rule)
+    FormulaFault::new(sentences::is_undefined(&what), tree.at.clone(), rule)
 }
 
 /// What is defined for every number.

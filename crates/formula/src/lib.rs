@@ -1,10 +1,10 @@
 #![doc = include_str!("../README.md")]
 //!
-//! - [`Tree`]: what somebody wrote, with the place of every part.
-//! - [`Graph`]: many formulas at once; what two of them share stands in it once. Derivatives are taken here.
+//! - [`FormulaTree`]: what somebody wrote, with the place of every part.
+//! - [`FormulaGraph`]: many formulas at once; what two of them share stands in it once. Derivatives are taken here.
 //! - [`Program`]: the part of a graph that some of its nodes need, to be run for many inputs.
 //! - [`Rounded`]: a number, and how far it may be from the exact one.
-//! - [`Sheet`]: a derivation part by part, for the search of what is wrong in it; [`Products`]: numbers as products.
+//! - [`DerivationSheet`]: a derivation part by part, for the search of what is wrong in it; [`Products`]: numbers as products.
 
 mod derivative;
 mod domain;
@@ -19,9 +19,9 @@ mod sheet;
 mod tests;
 mod tree;
 
-pub use graph::{Graph, Id};
+pub use graph::{FormulaGraph, NodeId};
 pub use products::{Product, Products, information};
 pub use program::Program;
 pub use rounded::Rounded;
-pub use sheet::{Sheet, Target};
-pub use tree::{Fault, Function, Operator, Shape, Tree};
+pub use sheet::{DerivationSheet, FormulaTarget};
+pub use tree::{FormulaFault, FormulaTree, Function, NodeShape, Operator};

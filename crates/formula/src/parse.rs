@@ -8,7 +8,7 @@ use winnow::error::{ErrMode, ParserError};
 use winnow::stream::{LocatingSlice, Location, Stream};
 use winnow::{ModalResult, Parser};
 
-use crate::tree::{Fault, Function, Operator, Shape, Tree};
+use crate::tree::{FormulaFault, FormulaTree, Function, NodeShape, Operator};
 
 /// Longest text of a formula (bytes): a notebook page has some thousand.
 const LONGEST: usize = 20_000;
@@ -19,7 +19,7 @@ type Input<'a> = LocatingSlice<&'a str>;
 
 /// A fault while reading; without one, another alternative may fit.
 #[derive(Debug)]
-struct Found(Option<Fault>);
+struct Found(Option<FormulaFault>);
 
 impl<'a> ParserError<Input<'a>> for Found {
     type Inner = Self;
@@ -36,32 +36,34 @@ impl<'a> ParserError<Input<'a>> for Found {
 type Read<T> = ModalResult<T, Found>;
 
 fn refused<T>(message: impl Into<String>, at: Range<usize>, help: impl Into<String>) -> Read<T> {
-    Err(ErrMode::Cut(Found(Some(Fault::new(message, at, help)))))
+    Err(ErrMode::Cut(Found(Some(FormulaFault::new(message, at, help)))))
 }
 
-impl Tree {
+impl FormulaTree {
     /// Reads a formula: numbers, names (they may contain dots), `+ - * / ^`, parentheses and calls of a [`Function`].
     /// A name with other signs in it, such as a column's, stands between backquotes.
     /// `^` binds to the right, and closer than a minus before it: -x^2 is -(x^2), 2^3^2 is 2^9.
     ///
     /// # Errors
     /// What cannot be read, with its place and the way out.
-    pub fn parse(text: &str) -> Result<Tree, Fault> {
+    pub fn parse(text: &str) -> Result<FormulaTree, FormulaFault> {
         bounded(text)?;
         whole(&mut LocatingSlice::new(text)).map_err(|error| match error {
             ErrMode::Cut(Found(Some(fault))) | ErrMode::Backtrack(Found(Some(fault))) => fault,
-            ErrMode::Cut(Found(None)) | ErrMode::Backtrack(Found(None)) | ErrMode::Incomplete(_) => {
-                Fault::new(sentences::THIS_IS_NO_FORMULA, 0..text.len(), sentences::WRITE_AN_EXPRESSION_SUCH_AS_A_COS)
-            }
+            ErrMode::Cut(Found(None)) | ErrMode::Backtrack(Found(None)) | ErrMode::Incomplete(_) => FormulaFault::new(
+                sentences::THIS_IS_NO_FORMULA,
+                0..text.len(),
+                sentences::WRITE_AN_EXPRESSION_SUCH_AS_A_COS,
+            ),
         })
     }
 }
 
 /// Whether reading it can use up neither memory nor stack.
-fn bounded(text: &str) -> Result<(), Fault> {
+fn bounded(text: &str) -> Result<(), FormulaFault> {
     if text.len() > LONGEST {
         let message = sentences::the_formula_has_bytes_more(&text.len(), &LONGEST);
-        return Err(Fault::new(message, LONGEST..text.len(), sentences::DIVIDE_IT_A_FORMULA_MAY_USE));
+        return Err(FormulaFault::new(message, LONGEST..text.len(), sentences::DIVIDE_IT_A_FORMULA_MAY_USE));
     }
     let (mut open, mut signs, mut powers) = (0usize, 0usize, 0usize);
     for (index, byte) in text.bytes().enumerate() {
@@ -76,13 +78,13 @@ fn bounded(text: &str) -> Result<(), Fault> {
         }
         if open.max(signs).max(powers) > DEEPEST {
             let message = sentences::the_formula_is_nested_deeper(&DEEPEST);
-            return Err(Fault::new(message, index..index + 1, sentences::DIVIDE_IT_A_FORMULA_MAY_USE));
+            return Err(FormulaFault::new(message, index..index + 1, sentences::DIVIDE_IT_A_FORMULA_MAY_USE));
         }
     }
     Ok(())
 }
 
-fn whole(input: &mut Input<'_>) -> Read<Tree> {
+fn whole(input: &mut Input<'_>) -> Read<FormulaTree> {
     let found = sum(input)?;
     let at = input.current_token_start();
     let rest: &str = input;
@@ -128,13 +130,13 @@ fn skip(input: &mut Input<'_>) {
     let _ = input.next_slice(spaces);
 }
 
-fn sum(input: &mut Input<'_>) -> Read<Tree> {
+fn sum(input: &mut Input<'_>) -> Read<FormulaTree> {
     skip(input);
     expression(operand).prefix(sign).infix(between).parse_next(input)
 }
 
 /// A minus or plus before a part.
-fn sign<'a>(input: &mut Input<'a>) -> Read<Prefix<Input<'a>, Tree, ErrMode<Found>>> {
+fn sign<'a>(input: &mut Input<'a>) -> Read<Prefix<Input<'a>, FormulaTree, ErrMode<Found>>> {
     let at = input.current_token_start();
     let first = input.chars().next();
     match first {
@@ -151,13 +153,13 @@ fn sign<'a>(input: &mut Input<'a>) -> Read<Prefix<Input<'a>, Tree, ErrMode<Found
     }
 }
 
-fn negative(part: Tree) -> Tree {
+fn negative(part: FormulaTree) -> FormulaTree {
     // The minus stands before it, with blanks between at most.
     let at = part.at.start.saturating_sub(1)..part.at.end;
-    Tree { shape: Shape::Negative(Box::new(part)), at }
+    FormulaTree { shape: NodeShape::Negative(Box::new(part)), at }
 }
 
-fn between<'a>(input: &mut Input<'a>) -> Read<Infix<Input<'a>, Tree, ErrMode<Found>>> {
+fn between<'a>(input: &mut Input<'a>) -> Read<Infix<Input<'a>, FormulaTree, ErrMode<Found>>> {
     let text: &str = input;
     let (length, found) = match text.as_bytes() {
         // Python and Fortran write powers like that.
@@ -179,9 +181,9 @@ fn between<'a>(input: &mut Input<'a>) -> Read<Infix<Input<'a>, Tree, ErrMode<Fou
     })
 }
 
-fn pair(operator: Operator, left: Tree, right: Tree) -> Tree {
+fn pair(operator: Operator, left: FormulaTree, right: FormulaTree) -> FormulaTree {
     let at = left.at.start..right.at.end;
-    Tree { shape: Shape::Pair(operator, Box::new([left, right])), at }
+    FormulaTree { shape: NodeShape::Pair(operator, Box::new([left, right])), at }
 }
 
 fn none<T>() -> Read<T> {
@@ -194,7 +196,7 @@ fn take(input: &mut Input<'_>, bytes: usize) {
     skip(input);
 }
 
-fn operand(input: &mut Input<'_>) -> Read<Tree> {
+fn operand(input: &mut Input<'_>) -> Read<FormulaTree> {
     let start = input.current_token_start();
     let text: &str = input;
     match text.chars().next() {
@@ -216,7 +218,7 @@ fn operand(input: &mut Input<'_>) -> Read<Tree> {
     }
 }
 
-fn parentheses(input: &mut Input<'_>, start: usize) -> Read<Tree> {
+fn parentheses(input: &mut Input<'_>, start: usize) -> Read<FormulaTree> {
     take(input, 1);
     let mut inner = sum(input)?;
     closed(input, start)?;
@@ -238,7 +240,7 @@ fn closed(input: &mut Input<'_>, start: usize) -> Read<()> {
     }
 }
 
-fn number(input: &mut Input<'_>, start: usize) -> Read<Tree> {
+fn number(input: &mut Input<'_>, start: usize) -> Read<FormulaTree> {
     let text: &str = input;
     let bytes = text.as_bytes();
     let digits = |from: usize| from + bytes[from..].iter().take_while(|byte| byte.is_ascii_digit()).count();
@@ -259,10 +261,10 @@ fn number(input: &mut Input<'_>, start: usize) -> Read<Tree> {
         return refused(message, start..start + end, sentences::WRITE_A_NUMBER_SUCH_AS);
     };
     take(input, end);
-    Ok(Tree { shape: Shape::Number(value), at: start..start + end })
+    Ok(FormulaTree { shape: NodeShape::Number(value), at: start..start + end })
 }
 
-fn name(input: &mut Input<'_>, start: usize) -> Read<Tree> {
+fn name(input: &mut Input<'_>, start: usize) -> Read<FormulaTree> {
     let text: &str = input;
     let belongs = |byte: &u8| byte.is_ascii_alphanumeric() || matches!(byte, b'_' | b'.');
     let end = text.bytes().take_while(belongs).count();
@@ -288,12 +290,12 @@ fn name(input: &mut Input<'_>, start: usize) -> Read<Tree> {
             };
             refused(sentences::there_is_no_function(&name), at, help)
         }
-        None => Ok(Tree { shape: Shape::Name(name.into()), at }),
+        None => Ok(FormulaTree { shape: NodeShape::Name(name.into()), at }),
     }
 }
 
 /// A name between backquotes.
-fn quoted(input: &mut Input<'_>, start: usize) -> Read<Tree> {
+fn quoted(input: &mut Input<'_>, start: usize) -> Read<FormulaTree> {
     let text: &str = input;
     let Some(length) = text[1..].find('`').filter(|&length| length > 0) else {
         return refused(sentences::THIS_BACKQUOTE_OPENS_NO_NAME, start..start + 1, sentences::CLOSE_IT_BEHIND_THE_NAME);
@@ -301,10 +303,10 @@ fn quoted(input: &mut Input<'_>, start: usize) -> Read<Tree> {
     let name = text[1..=length].to_string();
     let at = start..start + length + 2;
     take(input, length + 2);
-    Ok(Tree { shape: Shape::Name(name), at })
+    Ok(FormulaTree { shape: NodeShape::Name(name), at })
 }
 
-fn call(input: &mut Input<'_>, function: Function, name: Range<usize>) -> Read<Tree> {
+fn call(input: &mut Input<'_>, function: Function, name: Range<usize>) -> Read<FormulaTree> {
     let open = input.current_token_start();
     take(input, 1);
     let mut parts = vec![sum(input)?];
@@ -319,5 +321,5 @@ fn call(input: &mut Input<'_>, function: Function, name: Range<usize>) -> Read<T
     closed(input, open)?;
     let at = name.start..input.previous_token_end();
     skip(input);
-    Ok(Tree { shape: Shape::Call(function, parts), at })
+    Ok(FormulaTree { shape: NodeShape::Call(function, parts), at })
 }

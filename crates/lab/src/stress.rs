@@ -8,8 +8,8 @@ mod point;
 mod work;
 
 pub use families::{FAMILIES, named};
-pub use family::{Engines, Family, Setup, WORK};
-pub use outcome::{End, Group, Outcome, Party, Reached};
+pub use family::{EngineUse, Setup, StressFamily, WORK};
+pub use outcome::{PartyAtPoint, PointEnd, QuantityGroup, StressOutcome, WorstOfGroup};
 pub use point::fnv;
 pub use point::run;
 pub use work::{Job, jobs, run_all};

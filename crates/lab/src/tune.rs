@@ -33,7 +33,7 @@ const BUDGET: f64 = 5e6;
 
 /// The wanted accuracy.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Wish {
+pub struct WantedAccuracy {
     /// Largest error, as a share of each channel's scale (half its range over the run).
     pub within: f64,
     /// Channels by name, or stages (`positions`, `reactions`, ...). If empty: all channels that the scenario wants.
@@ -70,7 +70,7 @@ pub struct Tuning {
 /// with how far each comes; those of the analytic solver.
 pub fn tune(
     scenario: &Scenario,
-    wish: &Wish,
+    wish: &WantedAccuracy,
     options: &Options,
     price: Price,
     progress: &mut dyn FnMut(f64),
@@ -150,7 +150,7 @@ pub fn tune(
 }
 
 /// The channels of a wish.
-fn wanted_channels(scenario: &Scenario, wish: &Wish) -> Result<Vec<Channel>> {
+fn wanted_channels(scenario: &Scenario, wish: &WantedAccuracy) -> Result<Vec<Channel>> {
     let all = scenario.case.channels();
     if wish.channels.is_empty() {
         return Ok(all);

@@ -12,13 +12,13 @@ pub mod structure;
 
 use crate::sentences;
 pub use assembly::{AssemblyMode, StartGroup, first_pose};
-pub use ids::{GroupId, Id, JointId, LinkId, Per, PerGroup, PerJoint, PerLink};
+pub use ids::{GroupId, JointId, LinkId, Ordinal, Per, PerGroup, PerJoint, PerLink};
 pub use name::{LONGEST_NAME, is_sound_name, is_unseen};
 pub use outline::ring;
-pub use parts::{GROUND, Guise, Joint, JointKind, Link, Point, Side};
+pub use parts::{GROUND, Guise, Joint, JointKind, JointSide, Link, Point};
 pub use placing::Handle;
 pub use pose::{LinkPose, Pose};
-pub use spanning_tree::{Branch, Tree};
+pub use spanning_tree::{SpanningTree, TreeBranch};
 pub use structure::{Group, GroupKind, Structure};
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -125,20 +125,20 @@ impl Mechanism {
     /// Guide and block of a joint that slides; `None` for other joints.
     /// The ground is always the guide. Of two moving links the larger is the guide, of equal ones the first.
     #[must_use]
-    pub fn guide_and_block(&self, joint: &Joint) -> Option<[Side; 2]> {
-        let size = |side: Side| if side.link == GROUND { f64::INFINITY } else { self.links[side.link].size() };
+    pub fn guide_and_block(&self, joint: &Joint) -> Option<[JointSide; 2]> {
+        let size = |side: JointSide| if side.link == GROUND { f64::INFINITY } else { self.links[side.link].size() };
         let (first, second) = (joint.first, joint.second);
         joint.slides().then(|| if size(first) >= size(second) { [first, second] } else { [second, first] })
     }
 
     /// Points that move, each name once: the first link that carries the point, and its place there.
-    pub fn moving_points(&self) -> impl Iterator<Item = (&str, Side)> {
+    pub fn moving_points(&self) -> impl Iterator<Item = (&str, JointSide)> {
         let mut seen: BTreeSet<&str> = self.links[GROUND].points.iter().map(|point| point.name.as_str()).collect();
         let mut points = Vec::new();
         for (link, body) in self.links.entries().skip(1) {
             for point in &body.points {
                 if seen.insert(&point.name) {
-                    points.push((point.name.as_str(), Side { link, local: point.local }));
+                    points.push((point.name.as_str(), JointSide { link, local: point.local }));
                 }
             }
         }
@@ -237,7 +237,7 @@ impl Mechanism {
     /// Whether revolute joints at points with the name `name` connect link `a` with link `b`, directly or through
     /// others.
     fn held_together(&self, name: &str, a: LinkId, b: LinkId) -> bool {
-        let at = |side: Side| self.links[side.link].points.iter().any(|p| p.name == name && p.local == side.local);
+        let at = |side: JointSide| self.links[side.link].points.iter().any(|p| p.name == name && p.local == side.local);
         let mut reached = vec![a];
         let mut next = 0;
         while let Some(&link) = reached.get(next) {

@@ -6,7 +6,7 @@ mod unit;
 
 use crate::sentences;
 pub use channel::{CHANNELS, Channel, ChannelKind, Stage};
-pub use reading::{OfDrive, OfFrame, OfJoint, OfLink, OfPoint, OfSlider, Reading, Subject};
+pub use reading::{ChannelSubject, OfDrive, OfFrame, OfJoint, OfLink, OfPoint, OfSlider, Reading};
 pub use unit::Unit;
 
 use crate::error::{Error, ErrorKind, Result};

@@ -6,7 +6,7 @@
 use crate::sentences;
 use linkage::case::Case;
 use linkage::error::{Error, ErrorKind, Result};
-use linkage::mechanism::{Group, GroupKind, JointId, LinkId, Side};
+use linkage::mechanism::{Group, GroupKind, JointId, JointSide, LinkId};
 use linkage::trajectory::Trajectory;
 
 use super::Long;
@@ -21,7 +21,7 @@ struct Dyad {
     outer: [JointId; 2],
     inner: JointId,
     /// The outer joints' places on the links before.
-    bases: [Side; 2],
+    bases: [JointSide; 2],
     /// The outer joints' places on the dyad's own links, and the inner joint's.
     locals: [[linkage::math::Vec2; 2]; 2],
     /// Whether the inner joint is to the left of the way from the first outer joint to the second.

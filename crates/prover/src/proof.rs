@@ -37,10 +37,10 @@ pub mod solved;
 
 use crate::sentences;
 pub use each_side::{EachSide, Reference};
-pub use engine_proof::{ChannelProof, End, EngineInfo, EngineProof, ForceFault, Search};
-pub use entrants::{Engines, Entrant, Sides, TRUE_SIDES};
+pub use engine_proof::{ChannelProof, EngineInfo, EngineProof, ForceFault, SearchEnd, SettingsSearch};
+pub use entrants::{EngineRole, Entrant, ObservedSides, TRUE_SIDES};
 pub use formulas::{Judgement, checks as formula_checks};
-pub use ledger::{Entry, Ledger};
+pub use ledger::{Ledger, LedgerEntry};
 pub use options::Options;
 pub use parties::Dispute;
 pub use problem::Problem;
@@ -106,7 +106,7 @@ pub struct Proof {
     /// The part of the scenario's case that was solved, and what nothing wanted depends on.
     pub scene: Scene,
     /// What was done, part by part, and what was not needed.
-    pub work: Vec<Entry>,
+    pub work: Vec<LedgerEntry>,
 }
 
 impl Proof {
@@ -190,13 +190,13 @@ fn joined(scenario: &Scenario, engine_case: &Case, options: &Options, progress: 
     let mut ledger = Ledger::default();
     let budget = options.budget.unwrap_or(settle::BUDGET);
     let (sides, _) =
-        limited(budget.larger(SIDES), || Sides::of(problem, whole, TRUE_SIDES, options.reference, &mut ledger));
+        limited(budget.larger(SIDES), || ObservedSides::of(problem, whole, TRUE_SIDES, options.reference, &mut ledger));
     let sides = sides?;
     let engine_case = match &whole.only {
         Some(only) => engine_case.wanting_only(only).scene()?.case,
         None => engine_case.clone(),
     };
-    let proofs = sides.engines(problem, &Engines::on(&engine_case), engines, &mut ledger, progress)?;
+    let proofs = sides.engines(problem, &EngineRole::on(&engine_case), engines, &mut ledger, progress)?;
     let own = sides.own();
     let disputes = match proofs.len() {
         1 => Vec::new(),

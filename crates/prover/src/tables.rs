@@ -6,8 +6,8 @@ mod parquet_file;
 mod source;
 
 use crate::sentences;
-pub use columns::Table as Raw;
-pub use held::{At, By, Column, Held, Instants};
+pub use columns::TextTable as Raw;
+pub use held::{By, Held, Instants, PartyColumn, RowKey};
 pub use source::May;
 
 use std::fs::File;

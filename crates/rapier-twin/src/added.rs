@@ -9,7 +9,7 @@
 //! See docs/numerics/twins.md.
 
 use super::masses::added;
-use super::tree::Tree;
+use super::tree::SpanningTree;
 use super::window::Window;
 use linkage::case::Case;
 use linkage::drive::Wrench;
@@ -26,7 +26,7 @@ pub(super) struct Added {
 
 impl Added {
     /// The added masses in a world with this tree; `None` if no link needs one.
-    pub(super) fn of(case: &Case, tree: &Tree) -> Option<Self> {
+    pub(super) fn of(case: &Case, tree: &SpanningTree) -> Option<Self> {
         let masses: Vec<[f64; 2]> = case.mechanism.links().ids().map(|link| added(case, link, tree)).collect();
         let accelerations = vec![[0.0; 3]; masses.len()];
         masses.iter().flatten().any(|&mass| mass > 0.0).then_some(Added { masses, accelerations })

@@ -2,7 +2,7 @@
 
 use super::newton_euler::NewtonEuler;
 use super::rapier::{Build, Precision, Rapier};
-use super::tree::Tree;
+use super::tree::SpanningTree;
 use super::{noise, run};
 use crate::sentences;
 use linkage::case::Case;
@@ -50,7 +50,7 @@ impl Engine for Rapier {
     }
 
     fn sweeps(&self, case: &Case) -> Option<[usize; 2]> {
-        let alone = case.drives.len() == 1 && Tree::of(&case.mechanism).cut.is_empty();
+        let alone = case.drives.len() == 1 && SpanningTree::of(&case.mechanism).cut.is_empty();
         let reports = self.settings.route == Route::Native;
         let begins = case.is_free() && case.drives.iter().any(|drive| drive.initial_speed() != 0.0);
         match self.build {

@@ -7,7 +7,7 @@ use std::fmt;
 
 use super::masses::{Loading, masses};
 use super::rapier::Rapier;
-use super::tree::Tree;
+use super::tree::SpanningTree;
 use super::world::{LinkFrame, World, opening};
 use linkage::case::Case;
 use linkage::drive::{Drive, DriveMotion, Wrench};
@@ -15,10 +15,10 @@ use linkage::engine::Settings;
 use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::input::InputValue;
 use linkage::math::{KeepNan, Vec2};
-use linkage::mechanism::{LinkId, LinkPose, Side};
+use linkage::mechanism::{JointSide, LinkId, LinkPose};
 use linkage::quiet::guarded;
 use linkage::solver::State;
-use linkage::work::{Count, Tally};
+use linkage::work::{Count, WorkTally};
 
 /// Largest opening of a loop before the run is stopped, as a share of the mechanism's size.
 const LARGEST_GAP: f64 = 0.05;
@@ -45,7 +45,7 @@ pub(super) struct Guard<'a> {
     step: f64,
     /// Sweeps in a step, its substeps together.
     sweeps: usize,
-    tally: Tally,
+    tally: WorkTally,
     /// The largest kinetic energy so far (J).
     /// Its lower limit is the energy of all links at one mechanism size from an axis, turning with the fastest drive.
     energy: f64,
@@ -56,7 +56,7 @@ pub(super) struct Guard<'a> {
 impl<'a> Guard<'a> {
     /// Supervises a world in its start pose with the settings that it was built with.
     pub(super) fn new(case: &'a Case, world: Box<dyn World>, settings: &Settings) -> Self {
-        let mut tally = Tally::default();
+        let mut tally = WorkTally::default();
         tally.one(Count::Worlds);
         let size = case.mechanism.size();
         let masses = masses(case, world.tree());
@@ -218,7 +218,7 @@ impl<'a> Guard<'a> {
     pub(super) fn check_start(&self) -> Result<()> {
         let case = self.case;
         for ((id, link), pose) in case.mechanism.links().entries().zip(&case.start.0).skip(1) {
-            let off = |local| (self.world.point(Side { link: id, local }) - pose.point(local)).norm();
+            let off = |local| (self.world.point(JointSide { link: id, local }) - pose.point(local)).norm();
             let far = link.points.iter().map(|point| off(point.local)).fold(off(link.mass_centre), f64::larger);
             // Written so that NaN also stops the run.
             if !(far <= self.largest_gap) {
@@ -244,7 +244,7 @@ impl<'a> Guard<'a> {
 pub(super) fn guards<'a>(
     engine: &Rapier,
     case: &'a Case,
-    trees: Vec<Tree>,
+    trees: Vec<SpanningTree>,
     loading: Loading,
 ) -> Result<Vec<Guard<'a>>> {
     let world = |tree| Ok(Guard::new(case, engine.world_for(case, tree, loading)?, &engine.settings));
@@ -308,7 +308,7 @@ mod tests {
     }
 
     impl World for Broken {
-        fn tree(&self) -> &Tree {
+        fn tree(&self) -> &SpanningTree {
             self.world.tree()
         }
         fn step(&mut self) {
@@ -376,7 +376,11 @@ mod tests {
     fn step_after(healthy: usize, build: Build, wrong: fn(&mut dyn World), off: (Vec2, f64)) -> Result<()> {
         let case = turning(four_bar());
         let engine = Rapier::new(build, Precision::Double, 1e-3);
-        let tree = if build == Build::Impulse { Tree::none(&case.mechanism) } else { Tree::of(&case.mechanism) };
+        let tree = if build == Build::Impulse {
+            SpanningTree::none(&case.mechanism)
+        } else {
+            SpanningTree::of(&case.mechanism)
+        };
         let world = engine.world(&case, tree, false).unwrap();
         let frames = world.frames().to_vec();
         let mut guard = Guard::new(&case, Box::new(Broken { world, wrong, off, healthy, frames }), &engine.settings);

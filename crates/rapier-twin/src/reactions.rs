@@ -6,7 +6,7 @@ use super::native::Native;
 use super::newton_euler::NewtonEuler;
 use super::probe::{Probe, probe_turn};
 use super::rapier::{Build, Rapier};
-use super::tree::Tree;
+use super::tree::SpanningTree;
 use super::window::Window;
 use crate::sentences;
 use linkage::case::Case;
@@ -33,14 +33,14 @@ impl<'a> Reactions<'a> {
     pub(super) fn of(engine: &Rapier, case: &'a Case, from: i64) -> Result<(Self, Vec<Guard<'a>>)> {
         let mechanism = &case.mechanism;
         let moving = || match engine.build {
-            Build::Multibody => guards(engine, case, vec![Tree::of(mechanism)], Loading::Moving),
-            Build::Impulse => guards(engine, case, vec![Tree::none(mechanism)], Loading::Moving),
+            Build::Multibody => guards(engine, case, vec![SpanningTree::of(mechanism)], Loading::Moving),
+            Build::Impulse => guards(engine, case, vec![SpanningTree::none(mechanism)], Loading::Moving),
         };
         let reporting = |engine: &Rapier| match engine.build {
             Build::Multibody => {
-                guards(engine, case, Tree::covering(mechanism, &case.wanted_reactions()), Loading::Read)
+                guards(engine, case, SpanningTree::covering(mechanism, &case.wanted_reactions()), Loading::Read)
             }
-            Build::Impulse => guards(engine, case, vec![Tree::none(mechanism)], Loading::Read),
+            Build::Impulse => guards(engine, case, vec![SpanningTree::none(mechanism)], Loading::Read),
         };
         if case.wanted.deepest() < Stage::Reactions {
             return Ok((Reactions::Unwanted, moving()?));

@@ -9,7 +9,7 @@ use super::window::Window;
 use crate::sentences;
 use linkage::case::Case;
 use linkage::engine::Settings;
-use linkage::error::{Advice, Error, ErrorKind, Reached, Result};
+use linkage::error::{Advice, Error, ErrorKind, Result, RunReached};
 use linkage::math::KeepNan;
 use linkage::solver::{Progress, State, Visit, check_instants};
 
@@ -188,8 +188,8 @@ impl<'a> Run<'a> {
 fn reached(error: Error, case: &Case, visited: Option<usize>) -> Error {
     let (Some(row), ErrorKind::Numeric) = (visited, error.kind()) else { return error };
     let until = match case.is_free() {
-        true => Reached::Time(case.grid.times[row]),
-        false => Reached::Input(case.told(case.grid.inputs[row])),
+        true => RunReached::Time(case.grid.times[row]),
+        false => RunReached::Input(case.told(case.grid.inputs[row])),
     };
     error.after(until)
 }

@@ -23,7 +23,7 @@ const ENGINE: &str = "engine";
 
 /// Where a recording goes.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Place {
+pub struct RecordingPlace {
     /// Its file.
     pub path: PathBuf,
     /// How the recording differs that keeps the usual name; `None` if it has that name itself.
@@ -35,7 +35,7 @@ pub struct Place {
 ///
 /// # Errors
 /// [`ErrorKind::Io`](linkage::ErrorKind::Io) if there are a thousand recordings of other runs.
-pub fn place(directory: &Path, name: &str, text: &str, metadata: &BTreeMap<String, String>) -> Result<Place> {
+pub fn place(directory: &Path, name: &str, text: &str, metadata: &BTreeMap<String, String>) -> Result<RecordingPlace> {
     let mut other = None;
     for number in 1..=MOST {
         let path = match number {
@@ -43,7 +43,7 @@ pub fn place(directory: &Path, name: &str, text: &str, metadata: &BTreeMap<Strin
             _ => directory.join(format!("{name}-{number}.mcap")),
         };
         match difference(&path, text, metadata) {
-            None => return Ok(Place { path, other }),
+            None => return Ok(RecordingPlace { path, other }),
             Some(found) => other = other.or(Some(found)),
         }
     }

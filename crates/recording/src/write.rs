@@ -2,12 +2,12 @@
 
 use super::beside::is_ours;
 use super::forces::Forces;
-use super::output::Output;
-use super::pour::{Drawn, lasts, pour, start};
-use super::recording::{Recording, Show, Side};
-use super::scene::Scene;
+use super::output::RecordingFile;
+use super::pour::{DrawnRecording, lasts, pour, start};
+use super::recording::{RecordedSide, Recording, Show};
+use super::scene::ViewerScene;
 use crate::sentences;
-use files::{self, Target};
+use files::{self, OutputTarget};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::statistics::ascending;
 use linkage::trajectory::Trajectory;
@@ -30,7 +30,7 @@ const EARLY: f64 = 1e-6;
 #[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the MCAP library")]
 pub fn write(recording: &Recording, path: &Path) -> Result<()> {
     check(recording)?;
-    files::replace(&Target::Made(path, &is_ours), |file| fill(recording, file.try_clone()?)).map_err(|error| {
+    files::replace(&OutputTarget::Made(path, &is_ours), |file| fill(recording, file.try_clone()?)).map_err(|error| {
         let what = sentences::the_recording(&path.display());
         let usual = sentences::CHECK_THAT_THE_DIRECTORY_EXISTS;
         match error {
@@ -70,7 +70,7 @@ pub(super) fn check(recording: &Recording) -> Result<()> {
 
 fn fill(recording: &Recording, file: File) -> McapResult<()> {
     as_shown(recording, |recording, drawn| {
-        let mut output = Output::create(file)?;
+        let mut output = RecordingFile::create(file)?;
         output.describe(recording, start(recording), drawn.forces.as_ref().map(|forces| forces.scale))?;
         pour(recording, drawn, &mut output)?;
         output.finish()
@@ -78,17 +78,17 @@ fn fill(recording: &Recording, file: File) -> McapResult<()> {
 }
 
 /// Calls `visit` with the samples that are kept and with what is drawn of them.
-pub(super) fn as_shown<T>(recording: &Recording, visit: impl FnOnce(&Recording, &Drawn) -> T) -> T {
+pub(super) fn as_shown<T>(recording: &Recording, visit: impl FnOnce(&Recording, &DrawnRecording) -> T) -> T {
     let thin = |trajectory: &Trajectory| recording.show.hz.map(|hz| thinned(trajectory, hz));
     let fewer: Vec<Option<Trajectory>> = recording.sides.iter().map(|side| thin(side.trajectory)).collect();
     let fewer_errors = recording.errors.and_then(thin);
-    let sides: Vec<Side> = (recording.sides.iter().zip(&fewer))
-        .map(|(side, fewer)| Side { name: side.name, trajectory: fewer.as_ref().unwrap_or(side.trajectory) })
+    let sides: Vec<RecordedSide> = (recording.sides.iter().zip(&fewer))
+        .map(|(side, fewer)| RecordedSide { name: side.name, trajectory: fewer.as_ref().unwrap_or(side.trajectory) })
         .collect();
     let shown = Recording { sides: &sides, errors: fewer_errors.as_ref().or(recording.errors), ..*recording };
-    let scene = Scene::new(shown.mechanism, shown.sides);
+    let scene = ViewerScene::new(shown.mechanism, shown.sides);
     let forces = scene.as_ref().filter(|_| shown.show.forces).and_then(Forces::new);
-    visit(&shown, &Drawn { scene: &scene, forces: &forces })
+    visit(&shown, &DrawnRecording { scene: &scene, forces: &forces })
 }
 
 /// The trajectory with at most `hz` samples a second beside its first and its last.

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use toml_edit::Value;
 
 use super::header::check_format;
-use super::reader::Table;
+use super::reader::TomlTable;
 use super::source::Source;
 use linkage::error::{Error, ErrorKind, Result};
 
@@ -25,12 +25,12 @@ pub struct Accepted {
     /// The instants at which values are kept (s), in the order of the grid.
     pub times: Vec<f64>,
     /// Channels, in the order of columns.
-    pub channels: Vec<Kept>,
+    pub channels: Vec<AcceptedChannel>,
 }
 
 /// Figures of one channel, in its unit.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Kept {
+pub struct AcceptedChannel {
     /// Name of the channel.
     pub name: String,
     /// How far every figure is known.
@@ -70,10 +70,10 @@ pub fn load(path: &Path, name: &str) -> Result<Option<Accepted>> {
 fn parse(text: &str, path: &Path, name: &str) -> Result<Accepted> {
     let source = Source::new(path, text);
     let tree = source.tree()?;
-    read(&mut Table::root(&source, &tree), name).map_err(|error| source.located(tree.get_ref(), error))
+    read(&mut TomlTable::root(&source, &tree), name).map_err(|error| source.located(tree.get_ref(), error))
 }
 
-fn read(root: &mut Table, name: &str) -> Result<Accepted> {
+fn read(root: &mut TomlTable, name: &str) -> Result<Accepted> {
     if root.is_empty() {
         let error = root.fault(sentences::THE_FILE_HOLDS_NO_ACCEPTED);
         return Err(error.help(sentences::RESTORE_THE_FILE_OR_DELETE));
@@ -100,13 +100,13 @@ fn read(root: &mut Table, name: &str) -> Result<Accepted> {
     })?;
     let times = root.numbers("times_s")?;
     let tables = root.tables("channels")?.into_iter();
-    let channels: Vec<Kept> = tables.map(|table| kept(table, times.len())).collect::<Result<_>>()?;
+    let channels: Vec<AcceptedChannel> = tables.map(|table| kept(table, times.len())).collect::<Result<_>>()?;
     root.finish()?;
     twice(root, &channels)?;
     Ok(Accepted { scenario, verdict, instants, times, channels })
 }
 
-fn kept(mut table: Table, count: usize) -> Result<Kept> {
+fn kept(mut table: TomlTable, count: usize) -> Result<AcceptedChannel> {
     let name = table.string("name")?;
     let bound = table.number("bound")?;
     if bound < 0.0 {
@@ -124,11 +124,11 @@ fn kept(mut table: Table, count: usize) -> Result<Kept> {
     let (least, greatest) = (table.number("least")?, table.number("greatest")?);
     let rms = table.optional_number("rms")?;
     table.finish()?;
-    Ok(Kept { name, bound, at, least, greatest, rms })
+    Ok(AcceptedChannel { name, bound, at, least, greatest, rms })
 }
 
 /// Refuses a channel that stands twice.
-fn twice(root: &Table, channels: &[Kept]) -> Result<()> {
+fn twice(root: &TomlTable, channels: &[AcceptedChannel]) -> Result<()> {
     let mut names: Vec<&str> = channels.iter().map(|own| own.name.as_str()).collect();
     names.sort_unstable();
     match names.windows(2).find(|pair| pair[0] == pair[1]) {
@@ -153,7 +153,7 @@ pub fn text(accepted: &Accepted) -> String {
         quoted(verdict),
         list(times, 0.0)
     );
-    for Kept { name, bound, at, least, greatest, rms } in channels {
+    for AcceptedChannel { name, bound, at, least, greatest, rms } in channels {
         let [least, greatest] = [least, greatest].map(|figure| number(*figure, *bound));
         let _ = write!(
             text,
@@ -245,8 +245,14 @@ mod tests {
 
     #[test]
     fn what_is_written_is_read_back() {
-        let kept =
-            |name: &str, rms| Kept { name: name.into(), bound: 1e-9, at: vec![0.5], least: -1.0, greatest: 1.0, rms };
+        let kept = |name: &str, rms| AcceptedChannel {
+            name: name.into(),
+            bound: 1e-9,
+            at: vec![0.5],
+            least: -1.0,
+            greatest: 1.0,
+            rms,
+        };
         let accepted = Accepted {
             scenario: "four_bar".into(),
             verdict: "agree".into(),

@@ -5,11 +5,11 @@ pub mod question;
 
 use crate::sentences;
 pub use outline::{Flaw, MOST_CORNERS, Outline};
-pub use question::{Body, Question};
+pub use question::{ClearanceBody, ClearanceQuestion};
 
-use super::keys::key::{Key, Kind, Section, needed, optional};
+use super::keys::key::{FileKey, Section, ValueKind, needed, optional};
 use super::links::{PLACE, place, sound_name};
-use super::reader::{Sign, Table};
+use super::reader::{Sign, TomlTable};
 use super::unit::LENGTH;
 use super::words::suggestion;
 use linkage::error::{Error, ErrorKind, Result};
@@ -17,44 +17,46 @@ use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::{GROUND, Link, LinkId, Mechanism, Point};
 use question::pairs;
 
-const RADIUS: Key = optional("radius", Kind::LENGTHS.of(Sign::NotNegative), "that of the section; of a polygon 0")
-    .means("radius of the rounding: positive of a line, not negative of a polygon or of a part of the housing");
-const CORNERS: Key = optional("corners", Kind::Tables, "a line")
+const RADIUS: FileKey =
+    optional("radius", ValueKind::LENGTHS.of(Sign::NotNegative), "that of the section; of a polygon 0")
+        .means("radius of the rounding: positive of a line, not negative of a polygon or of a part of the housing");
+const CORNERS: FileKey = optional("corners", ValueKind::Tables, "a line")
     .means("places, three or more: a polygon with its interior, convex or not, in either sense");
-const LINE: Key = optional("line", Kind::Tables, "through the link's points, if there are no corners")
+const LINE: FileKey = optional("line", ValueKind::Tables, "through the link's points, if there are no corners")
     .means("places: capsules from place to place; a single one is a disc");
 
 /// What is told of the keys that are read here.
 pub const SECTIONS: &[Section] = &[
     Section::at("clearance").with(&[
-        optional("radius", Kind::LENGTHS.of(Sign::Positive), "every link needs an outline of its own").means(
+        optional("radius", ValueKind::LENGTHS.of(Sign::Positive), "every link needs an outline of its own").means(
             "radius, positive, of the capsules between the points of every link that has no outline of \
              its own",
         ),
-        optional("wanted", Kind::LENGTHS.of(Sign::NotNegative), "only collisions count")
+        optional("wanted", ValueKind::LENGTHS.of(Sign::NotNegative), "only collisions count")
             .means("distance that no pair may fall to"),
-        optional("tolerance", Kind::LENGTHS.of(Sign::Positive), "a millionth of the mechanism's size")
+        optional("tolerance", ValueKind::LENGTHS.of(Sign::Positive), "a millionth of the mechanism's size")
             .means("error that a smallest distance may have"),
-        optional("area_rel", Kind::Number, "5e-3")
+        optional("area_rel", ValueKind::Number, "5e-3")
             .means("error that a swept area may have, as a share of it; from 1e-5 to 1"),
-        optional("outlines", Kind::Table, "capsules between the points").means("outlines of links by name"),
-        optional("housing", Kind::Tables, "none").means("parts of the housing"),
-        optional("ignore", Kind::Tables, "none").means("pairs that cannot meet, because they lie in different planes"),
+        optional("outlines", ValueKind::Table, "capsules between the points").means("outlines of links by name"),
+        optional("housing", ValueKind::Tables, "none").means("parts of the housing"),
+        optional("ignore", ValueKind::Tables, "none")
+            .means("pairs that cannot meet, because they lie in different planes"),
     ]),
     Section::at("clearance.outlines.*").with(&[CORNERS, LINE, RADIUS]),
     Section::at("clearance.outlines.*.corners").with(PLACE),
     Section::at("clearance.outlines.*.line").with(PLACE),
     Section::at("clearance.housing").with(&[
-        needed("name", Kind::Text).means("name, unique, not that of a link"),
+        needed("name", ValueKind::Text).means("name, unique, not that of a link"),
         CORNERS,
         LINE,
         RADIUS,
     ]),
     Section::at("clearance.housing.corners").with(PLACE),
     Section::at("clearance.housing.line").with(PLACE),
-    Section::at("clearance.ignore").with(&[
-        needed("bodies", Kind::Texts).means("the two that cannot meet; `\"housing\"` stands for all its parts")
-    ]),
+    Section::at("clearance.ignore")
+        .with(&[needed("bodies", ValueKind::Texts)
+            .means("the two that cannot meet; `\"housing\"` stands for all its parts")]),
 ];
 
 /// Share of a swept area that its error may have, unless the file says otherwise.
@@ -70,7 +72,7 @@ const MOST_PARTS: usize = 200;
 const HOUSING: &str = "housing";
 
 /// The question that a file asks about clearance.
-pub fn read(table: &mut Table, mechanism: &Mechanism) -> Result<Question> {
+pub fn read(table: &mut TomlTable, mechanism: &Mechanism) -> Result<ClearanceQuestion> {
     let radius = table.optional_si("radius")?;
     let wanted = table.optional_si("wanted")?;
     let tolerance = table.optional_si("tolerance")?;
@@ -106,10 +108,10 @@ pub fn read(table: &mut Table, mechanism: &Mechanism) -> Result<Question> {
     }
     let ignored = ignored.into_iter().map(|pair| ignore(pair, &bodies)).collect::<Result<Vec<_>>>()?.concat();
     let pairs = pairs(mechanism, &bodies, &ignored);
-    Ok(Question { bodies, pairs, wanted, tolerance, area })
+    Ok(ClearanceQuestion { bodies, pairs, wanted, tolerance, area })
 }
 
-fn area(table: &mut Table) -> Result<f64> {
+fn area(table: &mut TomlTable) -> Result<f64> {
     let share = table.optional_number("area_rel")?.unwrap_or(AREA);
     if (SMALLEST_AREA..1.0).contains(&share) {
         return Ok(share);
@@ -120,7 +122,12 @@ fn area(table: &mut Table) -> Result<f64> {
 }
 
 /// The moving links with their outlines, in the order of the mechanism.
-fn links(table: &Table, outlines: Option<Table>, radius: Option<f64>, mechanism: &Mechanism) -> Result<Vec<Body>> {
+fn links(
+    table: &TomlTable,
+    outlines: Option<TomlTable>,
+    radius: Option<f64>,
+    mechanism: &Mechanism,
+) -> Result<Vec<ClearanceBody>> {
     let links = mechanism.links();
     let mut given: Vec<Option<Outline>> = vec![None; links.len()];
     if let Some(mut outlines) = outlines {
@@ -150,18 +157,18 @@ fn links(table: &Table, outlines: Option<Table>, radius: Option<f64>, mechanism:
                 return Err(table.fault(message).help(sentences::give_all_links_capsules_with_radius(&name)));
             }
         };
-        Ok(Body { name: name.clone(), link, outline })
+        Ok(ClearanceBody { name: name.clone(), link, outline })
     };
     links.ids().zip(given).skip(1).map(body).collect()
 }
 
-fn default(table: &Table, points: &[Point], radius: f64) -> Result<Outline> {
+fn default(table: &TomlTable, points: &[Point], radius: f64) -> Result<Outline> {
     let places: Vec<Vec2> = points.iter().map(|point| point.local).collect();
     Outline::of_points(&places, radius).map_err(|flaw| flawed(table, "radius", flaw))
 }
 
 /// The outline that a link states: corners, a line, or the radius of its capsules alone.
-fn of_link(mut table: Table, default_radius: Option<f64>, link: &Link) -> Result<Outline> {
+fn of_link(mut table: TomlTable, default_radius: Option<f64>, link: &Link) -> Result<Outline> {
     let drawn = drawn(&mut table, &link.points)?;
     let solid = matches!(drawn, Some(("corners", _)));
     // A line without a radius has no interior.
@@ -178,13 +185,13 @@ fn of_link(mut table: Table, default_radius: Option<f64>, link: &Link) -> Result
 }
 
 /// A polygon by its `corners`, or a line, as [`drawn`].
-fn rounded(table: &Table, (key, places): (&'static str, Vec<Vec2>), radius: f64) -> Result<Outline> {
+fn rounded(table: &TomlTable, (key, places): (&'static str, Vec<Vec2>), radius: f64) -> Result<Outline> {
     let outline = if key == "corners" { Outline::polygon(&places, radius) } else { Outline::line(&places, radius) };
     outline.map_err(|flaw| flawed(table, key, flaw))
 }
 
 /// A part of the housing.
-fn wall(mut table: Table, mechanism: &Mechanism, before: &[Body]) -> Result<Body> {
+fn wall(mut table: TomlTable, mechanism: &Mechanism, before: &[ClearanceBody]) -> Result<ClearanceBody> {
     let name = sound_name(&mut table, sentences::A_PART_OF_THE_HOUSING)?;
     if name == HOUSING || before.iter().any(|body| body.name == name) {
         let message = sentences::is_taken(&name);
@@ -198,11 +205,11 @@ fn wall(mut table: Table, mechanism: &Mechanism, before: &[Body]) -> Result<Body
         return Err(table.fault(sentences::THIS_PART_OF_THE_HOUSING).help(help));
     };
     let outline = rounded(&table, drawn, radius)?;
-    Ok(Body { name, link: GROUND, outline })
+    Ok(ClearanceBody { name, link: GROUND, outline })
 }
 
 /// `corners` of a polygon or the places of a `line`, if there are any; places may count from the points `known`.
-fn drawn(table: &mut Table, known: &[Point]) -> Result<Option<(&'static str, Vec<Vec2>)>> {
+fn drawn(table: &mut TomlTable, known: &[Point]) -> Result<Option<(&'static str, Vec<Vec2>)>> {
     let mut found = None;
     for key in ["corners", "line"] {
         let places = table.tables(key)?;
@@ -222,7 +229,7 @@ fn drawn(table: &mut Table, known: &[Point]) -> Result<Option<(&'static str, Vec
 }
 
 /// The error of a flawed outline.
-fn flawed(table: &Table, key: &str, flaw: Flaw) -> Error {
+fn flawed(table: &TomlTable, key: &str, flaw: Flaw) -> Error {
     let (message, help) = match flaw {
         Flaw::Few(0) if key == "line" => {
             (sentences::A_LINE_NEEDS_A_PLACE_OR_MORE.into(), sentences::ONE_PLACE_IS_A_DISC_TWO_ARE_A_CAPSULE)
@@ -244,7 +251,7 @@ fn flawed(table: &Table, key: &str, flaw: Flaw) -> Error {
 }
 
 /// The pairs of bodies that one entry of `ignore` names.
-fn ignore(mut table: Table, bodies: &[Body]) -> Result<Vec<[usize; 2]>> {
+fn ignore(mut table: TomlTable, bodies: &[ClearanceBody]) -> Result<Vec<[usize; 2]>> {
     let names = table.strings("bodies")?;
     table.finish()?;
     let [first, second] = &names[..] else {
@@ -252,7 +259,7 @@ fn ignore(mut table: Table, bodies: &[Body]) -> Result<Vec<[usize; 2]>> {
         return table.refuse("bodies", sentences::found_names_but_a_pair_has_two(&names.len()), help);
     };
     let numbers = |name: &str| -> Result<Vec<usize>> {
-        let is_named = |body: &Body| body.name == name || (name == HOUSING && !body.moves());
+        let is_named = |body: &ClearanceBody| body.name == name || (name == HOUSING && !body.moves());
         let found: Vec<usize> = (0..bodies.len()).filter(|&body| is_named(&bodies[body])).collect();
         if found.is_empty() {
             let message = sentences::there_is_no_link_and_no_part(&name);

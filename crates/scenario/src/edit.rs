@@ -55,20 +55,20 @@ fn fill(table: &mut Table, mut engine: EngineSettings) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{EngineName, Setting};
+    use crate::{EngineName, EngineSetting};
 
     #[test]
     fn only_the_engine_section_changes() {
         let text =
             "# mine\nname = 'a'  # kept\n\n[engine]\nstep_deg = 0.5 # coarse\n\n[tolerances]\nengine_rel = 1e-2\n";
         let keys = EngineSettings {
-            engines: Setting::of(vec![EngineName::Impulse]),
-            step: Setting::of(2.5e-4),
-            sweeps: Setting::of(64),
-            extrapolated: Setting::of(1),
+            engines: EngineSetting::of(vec![EngineName::Impulse]),
+            step: EngineSetting::of(2.5e-4),
+            sweeps: EngineSetting::of(64),
+            extrapolated: EngineSetting::of(1),
             ..EngineSettings::default()
         };
-        let stepped = || EngineSettings { step: Setting::of(1.0), ..EngineSettings::default() };
+        let stepped = || EngineSettings { step: EngineSetting::of(1.0), ..EngineSettings::default() };
         let changed = with_engine(text, keys.clone()).unwrap();
         assert!(changed.starts_with("# mine\nname = 'a'  # kept\n\n[engine]\n"), "{changed}");
         assert!(changed.ends_with("[tolerances]\nengine_rel = 1e-2\n"), "{changed}");

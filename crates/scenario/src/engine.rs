@@ -7,9 +7,9 @@ use crate::sentences;
 use std::fmt;
 use std::ops::RangeInclusive;
 
-use super::keys::key::{Kind, Section, optional};
-use super::reader::{Sign, Table};
-use super::setting::Setting;
+use super::keys::key::{Section, ValueKind, optional};
+use super::reader::{Sign, TomlTable};
+use super::setting::EngineSetting;
 use linkage::drive::Drive;
 use linkage::engine::{Engine, Route, Settings};
 use linkage::error::{ErrorKind, Result};
@@ -74,7 +74,7 @@ macro_rules! settings {
         /// Engines and their settings, as far as they are given.
         #[derive(Clone, Debug, Default, PartialEq)]
         pub struct EngineSettings {
-            $($(#[$doc])* pub $name: Setting<$kind>,)*
+            $($(#[$doc])* pub $name: EngineSetting<$kind>,)*
         }
 
         impl EngineSettings {
@@ -108,20 +108,20 @@ settings! {
 #[derive(Debug)]
 pub enum Slot<'a> {
     /// Engines by name.
-    Engines(&'a mut Setting<Vec<EngineName>>),
+    Engines(&'a mut EngineSetting<Vec<EngineName>>),
     /// A number greater than zero.
-    Positive(&'a mut Setting<f64>),
+    Positive(&'a mut EngineSetting<f64>),
     /// A whole number greater than zero.
-    Count(&'a mut Setting<usize>),
+    Count(&'a mut EngineSetting<usize>),
     /// A route.
-    Route(&'a mut Setting<Route>),
+    Route(&'a mut EngineSetting<Route>),
     /// A number of extrapolations.
-    Times(&'a mut Setting<usize>),
+    Times(&'a mut EngineSetting<usize>),
 }
 
 /// What a setting is called and means.
 #[derive(Debug)]
-pub struct Row {
+pub struct SettingRow {
     /// Its key in [`SECTIONS`], the first where it is stated in two ways; none of a setting that is no matter of a file.
     pub key: Option<&'static str>,
     /// Its argument.
@@ -138,50 +138,50 @@ pub struct Row {
 pub const MOST_TIMES: usize = 8;
 
 /// All settings.
-pub const ROWS: &[Row] = &[
-    Row {
+pub const ROWS: &[SettingRow] = &[
+    SettingRow {
         key: Some("dt"),
         argument: "dt",
         value: "S",
         help: sentences::TIME_STEP_OF_THE_ENGINE_IN_SECONDS,
         slot: |own| Slot::Positive(&mut own.step),
     },
-    Row {
+    SettingRow {
         key: Some("name"),
         argument: "engine",
         value: "ENGINE",
         help: sentences::ENGINE_OR_ALL_TO_RUN_EVERY_ONE_SIDE,
         slot: |own| Slot::Engines(&mut own.engines),
     },
-    Row {
+    SettingRow {
         key: None,
         argument: "accuracy",
         value: "ACCURACY",
         help: sentences::RELATIVE_ACCURACY_OF_AN_ENGINE,
         slot: |own| Slot::Positive(&mut own.accuracy),
     },
-    Row {
+    SettingRow {
         key: Some("sweeps"),
         argument: "sweeps",
         value: "N",
         help: sentences::SWEEPS_OF_THE_ENGINE_ITERATION,
         slot: |own| Slot::Count(&mut own.sweeps),
     },
-    Row {
+    SettingRow {
         key: Some("substeps"),
         argument: "substeps",
         value: "N",
         help: sentences::NUMBER_OF_SUBSTEPS_INTO_WHICH_THE_ENGINE,
         slot: |own| Slot::Count(&mut own.substeps),
     },
-    Row {
+    SettingRow {
         key: Some("route"),
         argument: "route",
         value: "ROUTE",
         help: sentences::ROUTE_BY_WHICH_REACTIONS_AND_BALANCING,
         slot: |own| Slot::Route(&mut own.route),
     },
-    Row {
+    SettingRow {
         key: Some("extrapolated"),
         argument: "extrapolate",
         value: "TIMES",
@@ -192,21 +192,21 @@ pub const ROWS: &[Row] = &[
 
 /// What is told of the keys that are read here, in the order of the rows.
 pub const SECTIONS: &[Section] = &[Section::at("engine").with(&[
-    optional("dt", Kind::TIMES.of(Sign::Positive), "found by `run`")
+    optional("dt", ValueKind::TIMES.of(Sign::Positive), "found by `run`")
         .means("time step of engines with a fixed step; at most one of `dt` and `step`"),
-    optional("step", Kind::ANGLES.of(Sign::NotZero), "found by `run`")
+    optional("step", ValueKind::ANGLES.of(Sign::NotZero), "found by `run`")
         .means("the same as the angle that the crank turns through in a step"),
-    optional("name", Kind::Text, "the first").means("engine that judges unless another is asked for"),
-    optional("sweeps", Kind::Integer, "found by `run`").means("sweeps of the engine's iteration in a step"),
-    optional("substeps", Kind::Integer, "the engine's")
+    optional("name", ValueKind::Text, "the first").means("engine that judges unless another is asked for"),
+    optional("sweeps", ValueKind::Integer, "found by `run`").means("sweeps of the engine's iteration in a step"),
+    optional("substeps", ValueKind::Integer, "the engine's")
         .means("number of parts into which the engine itself divides a step"),
     optional(
         "route",
-        Kind::Choice(|| Route::ALL.map(Route::name).to_vec()),
+        ValueKind::Choice(|| Route::ALL.map(Route::name).to_vec()),
         "the engine's, and its own forces beside it",
     )
     .means("how reactions and balancing moment are obtained"),
-    optional("extrapolated", Kind::IntegerOrBoolean, "found by `run`; 0 where the step is given").means(
+    optional("extrapolated", ValueKind::IntegerOrBoolean, "found by `run`; 0 where the step is given").means(
         "a number N from 0 to 8: runs at the step, at half of it, ..., at its 2^N-th part are combined, \
          so that the N leading errors drop out; `true` is 1, `false` is 0",
     ),
@@ -219,13 +219,13 @@ impl EngineSettings {
         let Settings { resolution, sweeps, substeps, route, extrapolated } = engine.settings();
         let is_stepped = !engine.controls_error();
         EngineSettings {
-            engines: Setting::from(EngineName::named(engine.name()).map(|name| vec![name])),
-            step: Setting::from(is_stepped.then_some(resolution)),
-            accuracy: Setting::from((!is_stepped).then_some(resolution)),
-            sweeps: Setting::from((sweeps > 0).then_some(sweeps)),
-            substeps: Setting::from(is_stepped.then_some(substeps)),
-            route: Setting::of(route),
-            extrapolated: Setting::from(is_stepped.then_some(extrapolated)),
+            engines: EngineSetting::from(EngineName::named(engine.name()).map(|name| vec![name])),
+            step: EngineSetting::from(is_stepped.then_some(resolution)),
+            accuracy: EngineSetting::from((!is_stepped).then_some(resolution)),
+            sweeps: EngineSetting::from((sweeps > 0).then_some(sweeps)),
+            substeps: EngineSetting::from(is_stepped.then_some(substeps)),
+            route: EngineSetting::of(route),
+            extrapolated: EngineSetting::from(is_stepped.then_some(extrapolated)),
         }
     }
 
@@ -233,7 +233,7 @@ impl EngineSettings {
     #[must_use]
     pub fn of_motion(mut self) -> Self {
         if !self.step.is_free() && self.extrapolated.is_free() {
-            self.extrapolated = Setting::of(0);
+            self.extrapolated = EngineSetting::of(0);
         }
         self
     }
@@ -246,7 +246,7 @@ impl EngineSettings {
 }
 
 /// What the section says.
-pub fn read(table: &mut Table, drive: &Drive) -> Result<EngineSettings> {
+pub fn read(table: &mut TomlTable, drive: &Drive) -> Result<EngineSettings> {
     let mut own = EngineSettings::default();
     let (time, angle) = (table.optional_si("dt")?, table.optional_si("step")?);
     for row in ROWS {
@@ -287,7 +287,7 @@ pub fn read(table: &mut Table, drive: &Drive) -> Result<EngineSettings> {
             let help = sentences::KEEP_EITHER_DT_A_TIME_OR_STEP;
             return table.refuse("step", sentences::THE_ENGINE_STEP_IS_GIVEN, help);
         }
-        (None, None) => Setting::Free,
+        (None, None) => EngineSetting::Free,
     };
     match own.step.get() {
         Some(dt) if !(dt.is_finite() && dt > 0.0) => {
@@ -299,8 +299,8 @@ pub fn read(table: &mut Table, drive: &Drive) -> Result<EngineSettings> {
 }
 
 /// A whole number of a range; one without an end begins at one.
-fn whole(table: &mut Table, key: &str, range: RangeInclusive<usize>) -> Result<Setting<usize>> {
-    let Some(number) = table.optional_integer(key)? else { return Ok(Setting::Free) };
+fn whole(table: &mut TomlTable, key: &str, range: RangeInclusive<usize>) -> Result<EngineSetting<usize>> {
+    let Some(number) = table.optional_integer(key)? else { return Ok(EngineSetting::Free) };
     if let Some(count) = usize::try_from(number).ok().filter(|count| range.contains(count)) {
         return Ok(table.given(key, Some(count)));
     }
@@ -309,13 +309,13 @@ fn whole(table: &mut Table, key: &str, range: RangeInclusive<usize>) -> Result<S
         most => (sentences::found_extrapolations(&number), sentences::give_a_whole_number_from_to_or_true(&most)),
     };
     let error = table.wrong(ErrorKind::Input, key, message);
-    table.instead(Setting::Free, error.help(help))
+    table.instead(EngineSetting::Free, error.help(help))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Origin, Scenario, of_repository};
+    use crate::{Scenario, SettingOrigin, of_repository};
 
     fn with(section: &str) -> Result<Scenario> {
         let Scenario { text, path, .. } = of_repository("scenarios/pendulum.toml");
@@ -325,7 +325,9 @@ mod tests {
     #[test]
     fn a_setting_knows_the_line_that_gives_it() {
         let given = with("substeps = 2\nroute = \"native\"").unwrap().engine;
-        let Setting::Given(Route::Native, Origin::Key(key, place)) = &given.route else { panic!("{given:?}") };
+        let EngineSetting::Given(Route::Native, SettingOrigin::Key(key, place)) = &given.route else {
+            panic!("{given:?}")
+        };
         assert_eq!((key.as_str(), &place.text[place.span.clone()]), ("engine.route", "\"native\""));
         assert!(given.step.is_free() && given.substeps.get() == Some(2));
     }
@@ -348,15 +350,19 @@ mod tests {
 
     #[test]
     fn what_is_given_twice_counts_where_it_is_asked_for_last() {
-        let file = EngineSettings { sweeps: Setting::of(7), substeps: Setting::of(2), ..EngineSettings::default() };
-        let asked = EngineSettings { sweeps: Setting::of(9), ..EngineSettings::default() };
+        let file = EngineSettings {
+            sweeps: EngineSetting::of(7),
+            substeps: EngineSetting::of(2),
+            ..EngineSettings::default()
+        };
+        let asked = EngineSettings { sweeps: EngineSetting::of(9), ..EngineSettings::default() };
         let both = asked.or(&file);
         assert_eq!((both.sweeps.get(), both.substeps.get(), both.step.get()), (Some(9), Some(2), None));
     }
 
     #[test]
     fn a_step_that_is_given_is_kept_to() {
-        let given = EngineSettings { step: Setting::of(1e-3), ..EngineSettings::default() }.of_motion();
+        let given = EngineSettings { step: EngineSetting::of(1e-3), ..EngineSettings::default() }.of_motion();
         assert!(!given.extrapolated.is_free() && given.leaves_a_choice());
         assert!(EngineSettings::default().of_motion().extrapolated.is_free());
     }

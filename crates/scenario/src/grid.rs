@@ -3,22 +3,22 @@
 use crate::sentences;
 use std::cmp::Ordering;
 
-use super::keys::key::{Kind, Section, optional};
-use super::reader::{Sign, Table};
-use super::unit::{Family, TIME};
+use super::keys::key::{Section, ValueKind, optional};
+use super::reader::{Sign, TomlTable};
+use super::unit::{TIME, UnitFamily};
 use linkage::case::Grid;
 use linkage::drive::Drive;
 use linkage::error::Result;
 
 /// What is told of the keys that are read here.
 pub const SECTIONS: &[Section] = &[Section::at("grid").with(&[
-    optional("from", Kind::INPUTS_OR_TIMES, "given with `to` and `step`")
+    optional("from", ValueKind::INPUTS_OR_TIMES, "given with `to` and `step`")
         .means("first crank angle, or first time from the start"),
-    optional("to", Kind::INPUTS_OR_TIMES, "given with `from`").means("last one, in the same kind of unit"),
-    optional("step", Kind::INPUTS_OR_TIMES, "given with `from`").means("distance of instants; may be negative"),
-    optional("angles", Kind::LIST_OF_ANGLES, "a range")
+    optional("to", ValueKind::INPUTS_OR_TIMES, "given with `from`").means("last one, in the same kind of unit"),
+    optional("step", ValueKind::INPUTS_OR_TIMES, "given with `from`").means("distance of instants; may be negative"),
+    optional("angles", ValueKind::LIST_OF_ANGLES, "a range")
         .means("crank angles, one by one, in any order; not for a free motion"),
-    optional("times", Kind::LIST_OF_TIMES, "a range").means("times, one by one, in any order"),
+    optional("times", ValueKind::LIST_OF_TIMES, "a range").means("times, one by one, in any order"),
 ])];
 
 /// Largest number of points of a range.
@@ -71,7 +71,7 @@ pub fn listed(values: Vec<f64>) -> std::result::Result<Vec<f64>, String> {
 
 /// The grid of a scenario, by crank angle or by time: a range or a list. An empty one if it is not wanted: it is read,
 /// but not checked against the drive.
-pub fn read(table: &mut Table, drive: &Drive, is_replaced: bool) -> Result<Grid> {
+pub fn read(table: &mut TomlTable, drive: &Drive, is_replaced: bool) -> Result<Grid> {
     let mut lists = Vec::new();
     for key in ["angles", "times"] {
         lists.extend(table.optional_si_list(key)?.map(|(family, values)| (key, family, values)));
@@ -107,7 +107,7 @@ pub fn read(table: &mut Table, drive: &Drive, is_replaced: bool) -> Result<Grid>
     Ok(grid)
 }
 
-fn ranged_points(table: &mut Table, family: &'static Family, from: f64) -> Result<Vec<f64>> {
+fn ranged_points(table: &mut TomlTable, family: &'static UnitFamily, from: f64) -> Result<Vec<f64>> {
     let to = table.quantity("to", family, Sign::Any)?;
     let step = table.quantity("step", family, Sign::NotZero)?;
     let help = sentences::CHECK_FROM_TO_AND_THE_SIZE;

@@ -1,6 +1,6 @@
 //! `format` and `name`, which every file has.
 
-use super::reader::Table;
+use super::reader::TomlTable;
 use crate::sentences;
 use linkage::error::{ErrorKind, Result};
 use linkage::mechanism::LONGEST_NAME;
@@ -9,7 +9,7 @@ use linkage::mechanism::LONGEST_NAME;
 pub const FORMAT: i64 = 1;
 
 /// Checks the version of the format.
-pub fn check_format(root: &mut Table) -> Result<()> {
+pub fn check_format(root: &mut TomlTable) -> Result<()> {
     if root.is_empty() {
         let error = root.fault(sentences::THE_FILE_HOLDS_NO_SCENARIO);
         return Err(error.help(sentences::A_SCENARIO_STARTS_WITH_FORMAT));
@@ -39,7 +39,7 @@ pub fn is_name(name: &str) -> bool {
 pub const NAME_HELP: &str = sentences::IT_NAMES_FILES_USE_AT_MOST;
 
 /// The scenario's name.
-pub fn name(root: &mut Table) -> Result<String> {
+pub fn name(root: &mut TomlTable) -> Result<String> {
     let name = root.string("name")?;
     if is_name(&name) {
         return Ok(name);

@@ -3,20 +3,21 @@
 use crate::sentences;
 use std::collections::BTreeSet;
 
-use super::keys::key::{Key, Kind, Section, needed, optional};
-use super::reader::{Faults, Sign, Table};
+use super::keys::key::{FileKey, Section, ValueKind, needed, optional};
+use super::reader::{Faults, Sign, TomlTable};
 use super::words::suggestion;
 use linkage::error::Result;
 use linkage::math::{Vec2, unit};
 use linkage::mechanism::{Link, Point, is_sound_name};
 
 /// A place: coordinates, or distance and direction from an earlier point.
-pub const PLACE: &[Key] = &[
-    optional("x", Kind::LENGTHS, "given with `y`, in place of `from`").means("coordinate along x"),
-    optional("y", Kind::LENGTHS, "given with `x`").means("coordinate along y"),
-    optional("from", Kind::Text, "given in place of `x` and `y`").means("point that stands earlier in the same table"),
-    optional("length", Kind::LENGTHS.of(Sign::NotNegative), "given with `from`").means("distance from that point"),
-    optional("angle", Kind::ANGLES, "given with `from`").means(
+pub const PLACE: &[FileKey] = &[
+    optional("x", ValueKind::LENGTHS, "given with `y`, in place of `from`").means("coordinate along x"),
+    optional("y", ValueKind::LENGTHS, "given with `x`").means("coordinate along y"),
+    optional("from", ValueKind::Text, "given in place of `x` and `y`")
+        .means("point that stands earlier in the same table"),
+    optional("length", ValueKind::LENGTHS.of(Sign::NotNegative), "given with `from`").means("distance from that point"),
+    optional("angle", ValueKind::ANGLES, "given with `from`").means(
         "direction from that point, counted from the x axis of the link; for ground points, from the x axis \
          of the world",
     ),
@@ -24,14 +25,14 @@ pub const PLACE: &[Key] = &[
 
 /// What is told of the keys that are read here.
 pub const SECTIONS: &[Section] = &[
-    Section::at("ground").with(&[needed("points", Kind::Table).means("fixed points by name")]),
+    Section::at("ground").with(&[needed("points", ValueKind::Table).means("fixed points by name")]),
     Section::at("ground.points.*").with(PLACE),
     Section::at("links.*").with(&[
-        needed("points", Kind::Table).means("points in the link's own frame by name, at least one"),
-        optional("mass", Kind::MASSES.of(Sign::NotNegative), "none: a massless link").means("mass, not negative"),
-        optional("mass_centre", Kind::Table, "required with a mass, refused without")
+        needed("points", ValueKind::Table).means("points in the link's own frame by name, at least one"),
+        optional("mass", ValueKind::MASSES.of(Sign::NotNegative), "none: a massless link").means("mass, not negative"),
+        optional("mass_centre", ValueKind::Table, "required with a mass, refused without")
             .means("place of the mass centre in the link's frame; may refer to any point of the link"),
-        optional("inertia", Kind::INERTIAS.of(Sign::NotNegative), "0")
+        optional("inertia", ValueKind::INERTIAS.of(Sign::NotNegative), "0")
             .means("moment of inertia about the mass centre, not negative; needs a mass"),
     ]),
     Section::at("links.*.points.*").with(PLACE),
@@ -48,7 +49,7 @@ pub fn is_somewhere(place: Vec2) -> bool {
 
 /// The ground and all links, in the order of the file. Those with mistakes keep their names and those of their points;
 /// points whose places could not be read are nowhere.
-pub fn read(ground: Option<Table>, links: Option<Table>, faults: &mut Faults) -> Vec<Link> {
+pub fn read(ground: Option<TomlTable>, links: Option<TomlTable>, faults: &mut Faults) -> Vec<Link> {
     let mut points = Vec::new();
     if let Some(mut ground) = ground {
         faults.read(&mut ground, |ground| {
@@ -79,7 +80,7 @@ pub fn read(ground: Option<Table>, links: Option<Table>, faults: &mut Faults) ->
     all
 }
 
-fn fill(table: &mut Table, link: &mut Link) -> Result<()> {
+fn fill(table: &mut TomlTable, link: &mut Link) -> Result<()> {
     table.part(check_name(table, "link"));
     link.points = named_points(table)?;
     let points = &link.points;
@@ -107,7 +108,7 @@ fn fill(table: &mut Table, link: &mut Link) -> Result<()> {
 }
 
 /// The points of a link. Those with mistakes keep their names.
-fn named_points(link: &mut Table) -> Result<Vec<Point>> {
+fn named_points(link: &mut TomlTable) -> Result<Vec<Point>> {
     let Ok(mut table) = link.table("points") else { return Ok(Vec::new()) };
     let mut points: Vec<Point> = Vec::new();
     let read = table.read(|table| {
@@ -130,11 +131,11 @@ fn named_points(link: &mut Table) -> Result<Vec<Point>> {
 }
 
 /// A place: coordinates, or a distance and an angle from one of the points read before.
-pub fn place(mut table: Table, known: &[Point]) -> Result<Vec2> {
+pub fn place(mut table: TomlTable, known: &[Point]) -> Result<Vec2> {
     table.read(|table| place_of(table, known))
 }
 
-fn place_of(table: &mut Table, known: &[Point]) -> Result<Vec2> {
+fn place_of(table: &mut TomlTable, known: &[Point]) -> Result<Vec2> {
     let from = match table.has_si("length") || table.has_si("angle") {
         true => Some(table.string("from")?),
         false => table.optional_string("from")?,
@@ -157,7 +158,7 @@ fn place_of(table: &mut Table, known: &[Point]) -> Result<Vec2> {
 }
 
 /// The key `name`, if it can be that of `what`.
-pub fn sound_name(table: &mut Table, what: &str) -> Result<String> {
+pub fn sound_name(table: &mut TomlTable, what: &str) -> Result<String> {
     let name = table.string("name")?;
     match is_sound_name(&name) {
         true => Ok(name),
@@ -165,7 +166,7 @@ pub fn sound_name(table: &mut Table, what: &str) -> Result<String> {
     }
 }
 
-fn check_name(table: &Table, what: &str) -> Result<()> {
+fn check_name(table: &TomlTable, what: &str) -> Result<()> {
     if is_sound_name(table.name()) {
         return Ok(());
     }

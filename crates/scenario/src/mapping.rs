@@ -3,10 +3,10 @@
 use crate::sentences;
 use std::path::Path;
 
-use super::reader::Table;
+use super::reader::TomlTable;
 use super::source::Source;
 use super::words::suggestion;
-use formula::Fault;
+use formula::FormulaFault;
 use linkage::error::{Error, ErrorKind, Place, Result};
 
 /// Which numbers of a table are what.
@@ -115,7 +115,7 @@ impl Mapped {
 
     /// An error about its arithmetic.
     #[must_use]
-    pub fn refused(&self, fault: &Fault) -> Error {
+    pub fn refused(&self, fault: &FormulaFault) -> Error {
         let span = self.start + fault.at.start..self.start + fault.at.end;
         let place = Place { span, ..self.place.clone() };
         Error::new(ErrorKind::Input, fault.message.clone()).at(place).help(fault.help.clone())
@@ -140,7 +140,7 @@ impl Mapping {
         })?;
         let source = Source::new(path, &text);
         let tree = source.tree()?;
-        read(&mut Table::root(&source, &tree)).map_err(|error| source.located(tree.get_ref(), error))
+        read(&mut TomlTable::root(&source, &tree)).map_err(|error| source.located(tree.get_ref(), error))
     }
 
     /// Adds what another mapping says.
@@ -199,7 +199,7 @@ impl Mapping {
 /// Stands for all channels among tolerances.
 const ALL: &str = "all";
 
-fn read(root: &mut Table) -> Result<Mapping> {
+fn read(root: &mut TomlTable) -> Result<Mapping> {
     let (at, channels) = (root.optional_table("at")?, root.optional_table("channels")?);
     let tolerances = root.optional_table("tolerance")?;
     root.finish()?;
@@ -240,9 +240,9 @@ fn read(root: &mut Table) -> Result<Mapping> {
     Ok(mapping)
 }
 
-fn line(table: &mut Table, name: &str) -> Result<Mapped> {
+fn line(table: &mut TomlTable, name: &str) -> Result<Mapped> {
     let text = table.string(name)?;
-    let whole = Fault { message: String::new(), at: 0..text.len(), help: String::new() };
+    let whole = FormulaFault { message: String::new(), at: 0..text.len(), help: String::new() };
     let place = table.fault_in(name, &whole).place().cloned();
     let place = place.unwrap_or_else(|| Place { file: table.source().path.into(), text: "".into(), span: 0..0 });
     Ok(Mapped { name: name.into(), text, start: place.span.start, place })

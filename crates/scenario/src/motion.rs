@@ -3,50 +3,60 @@
 use crate::sentences;
 use std::sync::Arc;
 
-use super::keys::key::{Kind, Section, needed, optional};
+use super::keys::key::{Section, ValueKind, needed, optional};
 use super::motor;
-use super::reader::{Faults, Sign, Table};
+use super::reader::{Faults, Sign, TomlTable};
 use super::words::{Words, choice, names, suggestion};
 use linkage::drive::{Drive, DriveMotion, Drives, MotionLaw};
 use linkage::error::Result;
 use linkage::input::InputValue;
 use linkage::math::{Piecewise, Vec2};
-use linkage::mechanism::{GROUND, JointKind, Mechanism, Side};
+use linkage::mechanism::{GROUND, JointKind, JointSide, Mechanism};
 
 /// What is told of the keys that are read here.
 pub const SECTIONS: &[Section] = &[
     Section::at("drive").with(&[
-        needed("joint", Kind::Text).means("revolute joint between the ground and the driving link"),
-        optional("law", Kind::Choice(|| names(LAWS)), "`\"constant\"`").means("crank angle over time; below"),
-        optional("zero", Kind::INPUTS, "0").means("world direction from which the crank angle is measured"),
-        optional("motion", Kind::Choice(|| vec!["prescribed", "free"]), "`\"prescribed\"`")
+        needed("joint", ValueKind::Text).means("revolute joint between the ground and the driving link"),
+        optional("law", ValueKind::Choice(|| names(LAWS)), "`\"constant\"`").means("crank angle over time; below"),
+        optional("zero", ValueKind::INPUTS, "0").means("world direction from which the crank angle is measured"),
+        optional("motion", ValueKind::Choice(|| vec!["prescribed", "free"]), "`\"prescribed\"`")
             .means("`\"free\"`: forces determine the motion, see below"),
-        optional("initial_speed", Kind::SPEEDS, "0").means("of a free link: its angular velocity at t = 0"),
-        optional("through", Kind::Choice(|| vec!["smooth"]), "a change point is an error; a free motion passes it")
-            .means("the mechanism passes change points on the branch on which velocities go on; see below"),
-        optional("start", Kind::ANGLES, "required there, refused on the first")
+        optional("initial_speed", ValueKind::SPEEDS, "0").means("of a free link: its angular velocity at t = 0"),
+        optional(
+            "through",
+            ValueKind::Choice(|| vec!["smooth"]),
+            "a change point is an error; a free motion passes it",
+        )
+        .means("the mechanism passes change points on the branch on which velocities go on; see below"),
+        optional("start", ValueKind::ANGLES, "required there, refused on the first")
             .means("of every drive but the first: its angle at t = 0"),
-        optional("speed", Kind::SPEEDS.of(Sign::NotZero), "required but of the laws `\"cycloidal\"` and `\"table\"`")
-            .means("angular velocity, counter-clockwise positive, not zero"),
-        optional("time", Kind::TIMES.of(Sign::Positive), "required of these laws")
+        optional(
+            "speed",
+            ValueKind::SPEEDS.of(Sign::NotZero),
+            "required but of the laws `\"cycloidal\"` and `\"table\"`",
+        )
+        .means("angular velocity, counter-clockwise positive, not zero"),
+        optional("time", ValueKind::TIMES.of(Sign::Positive), "required of these laws")
             .means("duration of a ramp, or of a cycloidal law"),
-        optional("to", Kind::INPUTS, "required of this law").means("last crank angle of a cycloidal law"),
-        optional("points", Kind::Tables, "required of the law `\"table\"`")
+        optional("to", ValueKind::INPUTS, "required of this law").means("last crank angle of a cycloidal law"),
+        optional("points", ValueKind::Tables, "required of the law `\"table\"`")
             .means("points of a table, two or more: times ascending from 0, the first angle that of the start"),
     ]),
     Section::at("drive.points").with(&[
-        needed("time", Kind::TIMES.of(Sign::NotNegative)).means("time"),
-        needed("angle", Kind::INPUTS).means("crank angle at that time"),
+        needed("time", ValueKind::TIMES.of(Sign::NotNegative)).means("time"),
+        needed("angle", ValueKind::INPUTS).means("crank angle at that time"),
     ]),
-    Section::at("gravity")
-        .with(&[needed("x", Kind::ACCELERATIONS).means("along x"), needed("y", Kind::ACCELERATIONS).means("along y")]),
+    Section::at("gravity").with(&[
+        needed("x", ValueKind::ACCELERATIONS).means("along x"),
+        needed("y", ValueKind::ACCELERATIONS).means("along y"),
+    ]),
 ];
 
 /// The drives of the mechanism: the crank, with `start` as its angle at t = 0 (rad) and with the motor, and further
 /// drives, which state their own start. `None` after a mistake.
 pub fn drives(
-    tables: Vec<Table>,
-    motor: Option<Table>,
+    tables: Vec<TomlTable>,
+    motor: Option<TomlTable>,
     mechanism: &Mechanism,
     start: f64,
     faults: &mut Faults,
@@ -54,7 +64,7 @@ pub fn drives(
     let mut drives: Vec<Drive> = Vec::new();
     let count = tables.len();
     for (index, mut table) in tables.into_iter().enumerate() {
-        let own = |table: &mut Table| {
+        let own = |table: &mut TomlTable| {
             let start = if index == 0 { start } else { table.si("start")? };
             let drive = drive(table, mechanism, &drives, start)?;
             check_beside(table, &drive, &drives)?;
@@ -73,7 +83,7 @@ pub fn drives(
 }
 
 /// Checks that a drive may stand beside those before it.
-fn check_beside(table: &Table, drive: &Drive, before: &[Drive]) -> Result<()> {
+fn check_beside(table: &TomlTable, drive: &Drive, before: &[Drive]) -> Result<()> {
     if before.is_empty() {
         return Ok(());
     }
@@ -91,7 +101,7 @@ fn check_beside(table: &Table, drive: &Drive, before: &[Drive]) -> Result<()> {
 }
 
 /// A drive; `before` are the drives already read.
-fn drive(table: &mut Table, mechanism: &Mechanism, before: &[Drive], start: f64) -> Result<Drive> {
+fn drive(table: &mut TomlTable, mechanism: &Mechanism, before: &[Drive], start: f64) -> Result<Drive> {
     let name = table.string("joint")?;
     let known = mechanism.joint_named(&name);
     let kind = known.map(|index| mechanism.joints()[index].kind);
@@ -109,7 +119,7 @@ fn drive(table: &mut Table, mechanism: &Mechanism, before: &[Drive], start: f64)
         return table.refuse("joint", sentences::THIS_JOINT_IS_DRIVEN_ALREADY, sentences::GIVE_EVERY_DRIVE_A_JOINT);
     }
     let joint = &mechanism.joints()[index];
-    let hangs_on = |side: Side| side.link == GROUND || before.iter().any(|drive| drive.link == side.link);
+    let hangs_on = |side: JointSide| side.link == GROUND || before.iter().any(|drive| drive.link == side.link);
     let Some(link) = [[joint.first, joint.second], [joint.second, joint.first]]
         .into_iter()
         .find_map(|[base, side]| (hangs_on(base) && !hangs_on(side)).then_some(side.link))
@@ -136,7 +146,7 @@ fn drive(table: &mut Table, mechanism: &Mechanism, before: &[Drive], start: f64)
 }
 
 /// Whether the link follows `law`, or is free from t = 0 on with `law` as its nominal motion.
-fn motion(table: &mut Table, law: MotionLaw) -> Result<DriveMotion> {
+fn motion(table: &mut TomlTable, law: MotionLaw) -> Result<DriveMotion> {
     let initial = table.optional_si("initial_speed")?;
     match table.optional_string("motion")?.as_deref() {
         Some("free") => {
@@ -160,7 +170,7 @@ fn motion(table: &mut Table, law: MotionLaw) -> Result<DriveMotion> {
 }
 
 /// Whether change points are passed.
-fn through(table: &mut Table) -> Result<bool> {
+fn through(table: &mut TomlTable) -> Result<bool> {
     match table.optional_string("through")?.as_deref() {
         None => Ok(false),
         Some("smooth") => Ok(true),
@@ -177,10 +187,10 @@ fn through(table: &mut Table) -> Result<bool> {
 }
 
 /// Laws, each with its reader, which gets the input at t = 0.
-const LAWS: Words<fn(&mut Table, InputValue) -> Result<MotionLaw>> =
+const LAWS: Words<fn(&mut TomlTable, InputValue) -> Result<MotionLaw>> =
     &[("constant", constant), ("ramp", ramp), ("cycloidal", cycloidal), ("table", points)];
 
-fn law(table: &mut Table, start: InputValue) -> Result<MotionLaw> {
+fn law(table: &mut TomlTable, start: InputValue) -> Result<MotionLaw> {
     if table.has("law") || table.has("points") || table.has_si("to") || table.has_si("time") {
         return table.choice("law", sentences::IS_NO_LAW_OF_MOTION, LAWS)?(table, start);
     }
@@ -188,16 +198,16 @@ fn law(table: &mut Table, start: InputValue) -> Result<MotionLaw> {
     constant(table, start)
 }
 
-fn constant(table: &mut Table, _: InputValue) -> Result<MotionLaw> {
+fn constant(table: &mut TomlTable, _: InputValue) -> Result<MotionLaw> {
     Ok(MotionLaw::ConstantSpeed(table.si("speed")?))
 }
 
-fn ramp(table: &mut Table, _: InputValue) -> Result<MotionLaw> {
+fn ramp(table: &mut TomlTable, _: InputValue) -> Result<MotionLaw> {
     let speed = table.si("speed")?;
     Ok(MotionLaw::Ramp { speed, time: table.si("time")? })
 }
 
-fn cycloidal(table: &mut Table, start: InputValue) -> Result<MotionLaw> {
+fn cycloidal(table: &mut TomlTable, start: InputValue) -> Result<MotionLaw> {
     let rise = table.si("to")? - start.value;
     let time = table.si("time")?;
     if rise == 0.0 {
@@ -208,7 +218,7 @@ fn cycloidal(table: &mut Table, start: InputValue) -> Result<MotionLaw> {
 }
 
 /// From rest at the start, at t = 0, to rest at the last point.
-fn points(table: &mut Table, start: InputValue) -> Result<MotionLaw> {
+fn points(table: &mut TomlTable, start: InputValue) -> Result<MotionLaw> {
     let InputValue { input, value: start } = start;
     let mut points: Vec<(f64, f64)> = Vec::new();
     for mut point in table.tables("points")? {
@@ -239,7 +249,7 @@ fn points(table: &mut Table, start: InputValue) -> Result<MotionLaw> {
 }
 
 /// Acceleration of gravity (m/s^2).
-pub fn gravity(table: &mut Table) -> Result<Vec2> {
+pub fn gravity(table: &mut TomlTable) -> Result<Vec2> {
     let (x, y) = (table.si("x")?, table.si("y")?);
     table.finish()?;
     Ok(Vec2::new(x, y))

@@ -1,7 +1,7 @@
 //! `[motor]`: the motor's law and the reducer behind it.
 
-use super::keys::key::{Kind, Section, needed, optional};
-use super::reader::{Sign, Table};
+use super::keys::key::{Section, ValueKind, needed, optional};
+use super::reader::{Sign, TomlTable};
 use super::words::{Words, names};
 use crate::sentences;
 use linkage::drive::{Motor, MotorLaw, ShaftInertia};
@@ -10,48 +10,49 @@ use linkage::error::{ErrorKind, Result};
 /// What is told of the keys that are read here.
 pub const SECTIONS: &[Section] = &[
     Section::at("motor").with(&[
-        needed("law", Kind::Choice(|| names(LAWS))).means("torque over the motor's own speed"),
-        needed("ratio", Kind::Number).means("speed of the motor over that of the crank; 1 without a reducer"),
-        optional("efficiency", Kind::Number, "1").means(
+        needed("law", ValueKind::Choice(|| names(LAWS))).means("torque over the motor's own speed"),
+        needed("ratio", ValueKind::Number).means("speed of the motor over that of the crank; 1 without a reducer"),
+        optional("efficiency", ValueKind::Number, "1").means(
             "share of the power that the reducer transmits, above 0 and at most 1, the same in both \
              directions",
         ),
-        optional("torque", Kind::MOMENTS.of(Sign::Positive), "required of this law")
+        optional("torque", ValueKind::MOMENTS.of(Sign::Positive), "required of this law")
             .means("constant law: the torque, positive"),
-        optional("torque_at_rest", Kind::MOMENTS.of(Sign::Positive), "required of this law")
+        optional("torque_at_rest", ValueKind::MOMENTS.of(Sign::Positive), "required of this law")
             .means("linear law: torque at rest, positive"),
-        optional("slope", Kind::SLOPES.of(Sign::Negative), "required of this law")
+        optional("slope", ValueKind::SLOPES.of(Sign::Negative), "required of this law")
             .means("linear law: change with the speed, negative"),
-        optional("breakdown_torque", Kind::MOMENTS.of(Sign::Positive), "required of this law")
+        optional("breakdown_torque", ValueKind::MOMENTS.of(Sign::Positive), "required of this law")
             .means("Kloss: largest torque"),
-        optional("synchronous_speed", Kind::SPEEDS.of(Sign::Positive), "required of this law")
+        optional("synchronous_speed", ValueKind::SPEEDS.of(Sign::Positive), "required of this law")
             .means("Kloss: synchronous speed"),
-        optional("breakdown_slip", Kind::Number, "the speed is given").means("Kloss: slip at breakdown, or"),
-        optional("breakdown_speed", Kind::SPEEDS.of(Sign::NotNegative), "the slip is given")
+        optional("breakdown_slip", ValueKind::Number, "the speed is given").means("Kloss: slip at breakdown, or"),
+        optional("breakdown_speed", ValueKind::SPEEDS.of(Sign::NotNegative), "the slip is given")
             .means("Kloss: speed at breakdown"),
-        optional("points", Kind::Tables, "required of this law").means("table: two or more, speeds ascending"),
-        optional("rotor_inertia", Kind::INERTIAS.of(Sign::NotNegative), "0")
+        optional("points", ValueKind::Tables, "required of this law").means("table: two or more, speeds ascending"),
+        optional("rotor_inertia", ValueKind::INERTIAS.of(Sign::NotNegative), "0")
             .means("moment of inertia of the rotor about its shaft"),
-        optional("input_inertia", Kind::INERTIAS.of(Sign::NotNegative), "0")
+        optional("input_inertia", ValueKind::INERTIAS.of(Sign::NotNegative), "0")
             .means("of the reducer's input shaft, which turns with the motor"),
-        optional("intermediate_inertia", Kind::INERTIAS.of(Sign::NotNegative), "0").means("of its intermediate shaft"),
-        optional("intermediate_ratio", Kind::Number, "required with its inertia")
+        optional("intermediate_inertia", ValueKind::INERTIAS.of(Sign::NotNegative), "0")
+            .means("of its intermediate shaft"),
+        optional("intermediate_ratio", ValueKind::Number, "required with its inertia")
             .means("speed of the intermediate shaft over that of the crank"),
-        optional("output_inertia", Kind::INERTIAS.of(Sign::NotNegative), "0")
+        optional("output_inertia", ValueKind::INERTIAS.of(Sign::NotNegative), "0")
             .means("of its output shaft, which turns with the crank"),
     ]),
     Section::at("motor.points").with(&[
-        needed("speed", Kind::SPEEDS).means("speed of the motor"),
-        needed("torque", Kind::MOMENTS).means("its torque"),
+        needed("speed", ValueKind::SPEEDS).means("speed of the motor"),
+        needed("torque", ValueKind::MOMENTS).means("its torque"),
     ]),
 ];
 
 /// Laws, each with its reader.
-const LAWS: Words<fn(&mut Table) -> Result<MotorLaw>> =
+const LAWS: Words<fn(&mut TomlTable) -> Result<MotorLaw>> =
     &[("constant", constant), ("linear", linear), ("kloss", kloss), ("table", points)];
 
 /// The motor.
-pub fn read(table: &mut Table) -> Result<Motor> {
+pub fn read(table: &mut TomlTable) -> Result<Motor> {
     let law = table.choice("law", sentences::IS_NO_LAW_OF_A_MOTOR, LAWS)?(table)?;
     let ratio = table.number("ratio")?;
     if ratio <= 0.0 {
@@ -69,17 +70,17 @@ pub fn read(table: &mut Table) -> Result<Motor> {
     Ok(Motor { law, ratio, efficiency, inertia })
 }
 
-fn constant(table: &mut Table) -> Result<MotorLaw> {
+fn constant(table: &mut TomlTable) -> Result<MotorLaw> {
     Ok(MotorLaw::Constant { torque: table.si("torque")? })
 }
 
-fn linear(table: &mut Table) -> Result<MotorLaw> {
+fn linear(table: &mut TomlTable) -> Result<MotorLaw> {
     let at_rest = table.si("torque_at_rest")?;
     Ok(MotorLaw::Linear { at_rest, slope: table.si("slope")? })
 }
 
 /// The breakdown point is given by its slip or by its speed, whichever the catalogue has.
-fn kloss(table: &mut Table) -> Result<MotorLaw> {
+fn kloss(table: &mut TomlTable) -> Result<MotorLaw> {
     let breakdown_torque = table.si("breakdown_torque")?;
     let synchronous_speed = table.si("synchronous_speed")?;
     let slip = table.optional_number("breakdown_slip")?;
@@ -108,7 +109,7 @@ fn kloss(table: &mut Table) -> Result<MotorLaw> {
     Ok(MotorLaw::Kloss { breakdown_torque, breakdown_slip, synchronous_speed })
 }
 
-fn points(table: &mut Table) -> Result<MotorLaw> {
+fn points(table: &mut TomlTable) -> Result<MotorLaw> {
     let (mut speeds, mut torques) = (Vec::new(), Vec::new());
     for mut point in table.tables("points")? {
         let (speed, torque) = point.read(|point| {
@@ -135,7 +136,7 @@ fn points(table: &mut Table) -> Result<MotorLaw> {
 }
 
 /// Moments of inertia that turn with the motor and the reducer; zero without a table.
-fn inertia(table: &mut Table) -> Result<ShaftInertia> {
+fn inertia(table: &mut TomlTable) -> Result<ShaftInertia> {
     let mut shaft = |name: &str| -> Result<f64> { Ok(table.optional_si(name)?.unwrap_or(0.0)) };
     let (rotor, input) = (shaft("rotor_inertia")?, shaft("input_inertia")?);
     let (intermediate, output) = (shaft("intermediate_inertia")?, shaft("output_inertia")?);

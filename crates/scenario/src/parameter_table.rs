@@ -1,7 +1,7 @@
 //! `[parameters]`: parameters as a file gives them.
 
 use super::parameters::{Parameter, Parameters, fault_of_name};
-use super::reader::Table;
+use super::reader::TomlTable;
 use super::words::suggestion;
 use crate::sentences;
 use linkage::error::{Error, ErrorKind, Result};
@@ -12,7 +12,11 @@ use linkage::error::{Error, ErrorKind, Result};
 ///
 /// # Errors
 /// Those of `set`.
-pub(super) fn read(table: Option<Table>, set: &[(String, f64)], may_add: bool) -> Result<(Parameters, Option<Error>)> {
+pub(super) fn read(
+    table: Option<TomlTable>,
+    set: &[(String, f64)],
+    may_add: bool,
+) -> Result<(Parameters, Option<Error>)> {
     let mut parameters = Parameters::default();
     let mut first = None;
     if let Some(mut table) = table {
@@ -48,7 +52,7 @@ pub(super) fn read(table: Option<Table>, set: &[(String, f64)], may_add: bool) -
 }
 
 /// The parameter of a key; `before` are those read already.
-fn own(table: &mut Table, key: &str, before: &Parameters) -> Result<Parameter> {
+fn own(table: &mut TomlTable, key: &str, before: &Parameters) -> Result<Parameter> {
     let parameter = Parameter::new(key, table.number_with(key, before)?);
     let faulty = parameter.names().find_map(|(name, _)| fault_of_name(name));
     match faulty.or_else(|| twice(before, &parameter)) {

@@ -1,9 +1,9 @@
 //! Parameters: numbers with names, for other numbers and for formulas.
 
-use super::unit::{self, Unit};
+use super::unit::{self, NamedUnit};
 use super::words::suggestion;
 use crate::sentences;
-use formula::{Fault, Function, Rounded, Tree};
+use formula::{FormulaFault, FormulaTree, Function, Rounded};
 use std::collections::BTreeMap;
 
 /// A number with a name.
@@ -13,7 +13,7 @@ pub struct Parameter {
     pub key: String,
     /// The number as it was given, in the unit of the key.
     pub given: f64,
-    unit: Option<&'static Unit>,
+    unit: Option<&'static NamedUnit>,
 }
 
 impl Parameter {
@@ -96,8 +96,8 @@ impl Parameters {
 ///
 /// # Errors
 /// What is wrong with the text, with its place.
-pub(super) fn arithmetic(text: &str, key: &str, parameters: &Parameters) -> std::result::Result<f64, Fault> {
-    let tree = Tree::parse(text)?;
+pub(super) fn arithmetic(text: &str, key: &str, parameters: &Parameters) -> std::result::Result<f64, FormulaFault> {
+    let tree = FormulaTree::parse(text)?;
     let wanted = unit::ending(key).map(|(_, unit)| unit);
     let of = |name: &str| {
         let own = parameters.called(name)?;
@@ -117,14 +117,14 @@ pub(super) fn arithmetic(text: &str, key: &str, parameters: &Parameters) -> std:
             true => sentences::WRITE_A_NUMBER_OR_GIVE_IT_A_NAME.into(),
             false => suggestion(name, parameters.places.keys().map(String::as_str).chain(["pi"]), "`"),
         };
-        return Err(Fault { message: sentences::there_is_no(&name), at, help });
+        return Err(FormulaFault { message: sentences::there_is_no(&name), at, help });
     }
     let found = tree.evaluated(&|name| of(name).unwrap_or(Rounded::UNDEFINED))?;
     if found.error.is_finite() {
         return Ok(found.value);
     }
     let help = sentences::CHECK_ITS_UNITS_AND_WHETHER.to_string();
-    Err(Fault { message: sentences::NOTHING_IS_KNOWN_OF_ITS_VALUE.into(), at: 0..text.len(), help })
+    Err(FormulaFault { message: sentences::NOTHING_IS_KNOWN_OF_ITS_VALUE.into(), at: 0..text.len(), help })
 }
 
 /// Names that stand for something else in every formula.

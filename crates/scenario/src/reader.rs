@@ -1,7 +1,7 @@
 //! Typed reading of a spanned TOML table. A reader knows its dotted path, returns typed values, remembers the keys that
 //! were asked for, and at the end refuses the keys that nobody asked for.
 //!
-//! A table that is read by [`Table::read`] tells all mistakes of its keys and values at once.
+//! A table that is read by [`TomlTable::read`] tells all mistakes of its keys and values at once.
 
 mod quantity;
 mod several;
@@ -18,12 +18,12 @@ use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::keys::key::Key;
+use super::keys::key::FileKey;
 use super::parameters::{Parameters, arithmetic};
-use super::setting::{Origin, Setting};
+use super::setting::{EngineSetting, SettingOrigin};
 use super::source::Source;
 use super::words::suggested;
-use formula::Fault;
+use formula::FormulaFault;
 use linkage::error::{Advice, Error, ErrorKind, Place, Result};
 
 struct Entry<'a> {
@@ -33,7 +33,7 @@ struct Entry<'a> {
 }
 
 /// A table being read.
-pub struct Table<'a> {
+pub struct TomlTable<'a> {
     source: &'a Source<'a>,
     name: String,
     path: String,
@@ -55,13 +55,13 @@ pub struct Table<'a> {
     /// Keys that lead here, with `*` for names: its section in the table of keys.
     section: String,
     /// The rows of that section.
-    rows: &'static [Key],
+    rows: &'static [FileKey],
 }
 
-impl<'a> Table<'a> {
+impl<'a> TomlTable<'a> {
     /// Reader of the whole file.
     pub fn root(source: &'a Source<'a>, tree: &'a Spanned<DeTable<'a>>) -> Self {
-        Table::new(source, String::new(), 0..0, tree.get_ref())
+        TomlTable::new(source, String::new(), 0..0, tree.get_ref())
     }
 
     fn new(source: &'a Source<'a>, section: String, span: Range<usize>, table: &'a DeTable<'a>) -> Self {
@@ -72,7 +72,7 @@ impl<'a> Table<'a> {
         // The parser moves a table if its header comes after one of its children.
         entries.sort_by_key(|entry| entry.key_span.start);
         let places = entries.iter().enumerate().map(|(place, entry)| (entry.key, place)).collect();
-        Table {
+        TomlTable {
             source,
             name: String::new(),
             path: String::new(),
@@ -138,7 +138,7 @@ impl<'a> Table<'a> {
         Error::new(kind, message).key(key).at(place)
     }
 
-    /// Refuses the value of `key`, as [`Table::wrong`], with the way out.
+    /// Refuses the value of `key`, as [`TomlTable::wrong`], with the way out.
     pub fn refuse<T>(&self, key: &str, message: impl Into<String>, help: impl Into<Advice>) -> Result<T> {
         Err(self.wrong(ErrorKind::Input, key, message).help(help))
     }
@@ -149,10 +149,10 @@ impl<'a> Table<'a> {
     }
 
     /// A setting whose value was read from `key`, if it was.
-    pub fn given<T>(&self, key: &str, value: Option<T>) -> Setting<T> {
-        value.map_or(Setting::Free, |value| {
+    pub fn given<T>(&self, key: &str, value: Option<T>) -> EngineSetting<T> {
+        value.map_or(EngineSetting::Free, |value| {
             let (key, place) = self.spot(key);
-            Setting::Given(value, Origin::Key(key, place))
+            EngineSetting::Given(value, SettingOrigin::Key(key, place))
         })
     }
 
@@ -167,14 +167,14 @@ impl<'a> Table<'a> {
     }
 
     /// An error about a part of the text of `key`.
-    pub fn fault_in(&self, key: &str, fault: &Fault) -> Error {
+    pub fn fault_in(&self, key: &str, fault: &FormulaFault) -> Error {
         match self.entry(key) {
             Some(entry) => self.fault_at(key, entry.value, fault),
             None => self.wrong(ErrorKind::Input, key, fault.message.clone()).help(fault.help.clone()),
         }
     }
 
-    fn fault_at(&self, key: &str, value: &Spanned<DeValue>, fault: &Fault) -> Error {
+    fn fault_at(&self, key: &str, value: &Spanned<DeValue>, fault: &FormulaFault) -> Error {
         let (mut span, text) = (value.span(), value.get_ref().as_str().unwrap_or_default());
         // The text stands there as it is, unless it has escapes.
         if let Some(offset) = self.source.text[span.clone()].find(text) {
@@ -336,13 +336,13 @@ impl<'a> Table<'a> {
     }
 
     /// Table, if the key is there.
-    pub fn optional_table(&mut self, key: &str) -> Result<Option<Table<'a>>> {
+    pub fn optional_table(&mut self, key: &str) -> Result<Option<TomlTable<'a>>> {
         let Some(value) = self.take(key) else { return Ok(None) };
         self.child(key, self.path_of(key), value).map(Some).or_else(|error| self.instead(None, error))
     }
 
     /// Table.
-    pub fn table(&mut self, key: &str) -> Result<Table<'a>> {
+    pub fn table(&mut self, key: &str) -> Result<TomlTable<'a>> {
         let value = self.take(key);
         let value = self.required(key, value)?;
         self.child(key, self.path_of(key), value).map_err(|error| self.noted(error))
@@ -350,7 +350,7 @@ impl<'a> Table<'a> {
 
     /// Elements of an array of tables; empty if the key is missing. Their paths contain their name if they have one
     /// (`joints.A`), else their number, counted from 1 (`oracle[2]`).
-    pub fn tables(&mut self, key: &str) -> Result<Vec<Table<'a>>> {
+    pub fn tables(&mut self, key: &str) -> Result<Vec<TomlTable<'a>>> {
         let Some(value) = self.take(key) else { return Ok(Vec::new()) };
         let Some(array) = value.get_ref().as_array() else {
             return self.instead(Vec::new(), self.mistyped(key, value, Needed::Tables));
@@ -367,21 +367,21 @@ impl<'a> Table<'a> {
     }
 
     /// A table or an array of tables; empty if the key is missing.
-    pub fn table_or_tables(&mut self, key: &str) -> Result<Vec<Table<'a>>> {
+    pub fn table_or_tables(&mut self, key: &str) -> Result<Vec<TomlTable<'a>>> {
         match self.entry(key).map(|entry| entry.value.get_ref()) {
             Some(DeValue::Array(_)) => self.tables(key),
             _ => Ok(self.optional_table(key)?.into_iter().collect()),
         }
     }
 
-    /// As [`Table::table_or_tables`], with at least one table.
-    pub fn needed_tables(&mut self, key: &str) -> Result<Vec<Table<'a>>> {
+    /// As [`TomlTable::table_or_tables`], with at least one table.
+    pub fn needed_tables(&mut self, key: &str) -> Result<Vec<TomlTable<'a>>> {
         let tables = self.table_or_tables(key)?;
         if tables.is_empty() { Ok(vec![self.table(key)?]) } else { Ok(tables) }
     }
 
     /// All entries, each of which must be a table, in the order of the file.
-    pub fn all_tables(&mut self) -> Result<Vec<Table<'a>>> {
+    pub fn all_tables(&mut self) -> Result<Vec<TomlTable<'a>>> {
         self.used = self.entries.iter().map(|entry| entry.key).collect();
         let child = |entry: &Entry<'a>| self.child(entry.key, self.path_of(entry.key), entry.value);
         let all: Vec<_> = self.entries.iter().map(child).collect();
@@ -389,15 +389,15 @@ impl<'a> Table<'a> {
     }
 
     #[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the TOML parser")]
-    fn child(&self, key: &str, path: String, value: &'a Spanned<DeValue<'a>>) -> Result<Table<'a>> {
+    fn child(&self, key: &str, path: String, value: &'a Spanned<DeValue<'a>>) -> Result<TomlTable<'a>> {
         match value.get_ref() {
             DeValue::Table(table) => {
                 // A key that was not asked for by its name is a name itself.
                 let own = if self.asked.iter().any(|own| own == key) { key } else { "*" };
                 let section = if self.section.is_empty() { own.into() } else { format!("{}.{own}", self.section) };
-                Ok(Table { name: key.into(), path, ..Table::new(self.source, section, value.span(), table) })
+                Ok(TomlTable { name: key.into(), path, ..TomlTable::new(self.source, section, value.span(), table) })
             }
-            _ => Err(self.mistyped(key, value, Needed::Table)),
+            _ => Err(self.mistyped(key, value, Needed::TomlTable)),
         }
     }
 
@@ -432,7 +432,7 @@ enum Needed {
     Numbers,
     WholeNumber,
     Boolean,
-    Table,
+    TomlTable,
     Tables,
 }
 
@@ -446,7 +446,7 @@ impl Needed {
             Needed::Numbers => sentences::AN_ARRAY_OF_NUMBERS,
             Needed::WholeNumber => sentences::A_WHOLE_NUMBER,
             Needed::Boolean => sentences::TRUE_OR_FALSE,
-            Needed::Table => "a table",
+            Needed::TomlTable => "a table",
             Needed::Tables => sentences::AN_ARRAY_OF_TABLES,
         }
     }
@@ -462,8 +462,8 @@ impl Needed {
             (Needed::Numbers, _) => sentences::WRITE_NUMBERS_IN_BRACKETS_SUCH_AS,
             (Needed::WholeNumber, _) => sentences::WRITE_A_WHOLE_NUMBER_SUCH_AS,
             (Needed::Boolean, _) => sentences::WRITE_TRUE_OR_FALSE_WITHOUT,
-            (Needed::Table, DeValue::Array(_)) => return format!("write [{path}]"),
-            (Needed::Table, _) => sentences::WRITE_KEYS_WITH_THEIR_VALUES,
+            (Needed::TomlTable, DeValue::Array(_)) => return format!("write [{path}]"),
+            (Needed::TomlTable, _) => sentences::WRITE_KEYS_WITH_THEIR_VALUES,
             (Needed::Tables, DeValue::Table(_)) => return format!("write [[{path}]]"),
             (Needed::Tables, _) => return sentences::write_a_section_for_each(&path),
         };

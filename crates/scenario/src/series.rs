@@ -5,8 +5,8 @@ use crate::sentences;
 use std::fmt;
 
 use super::printed::{self, PrintedChannel};
-use super::reader::Table;
-use super::unit::{ANGLE, TIME, Unit};
+use super::reader::TomlTable;
+use super::unit::{ANGLE, NamedUnit, TIME};
 use super::words::suggestion;
 use formula::Rounded;
 use linkage::case::{Case, Grid};
@@ -133,7 +133,7 @@ impl Known<'_> {
     }
 
     /// The channel under the key `channel` of `table`.
-    pub fn channel(&self, table: &mut Table) -> Result<(String, PrintedChannel)> {
+    pub fn channel(&self, table: &mut TomlTable) -> Result<(String, PrintedChannel)> {
         let name = table.string("channel")?;
         let found = PrintedChannel::named(&name).filter(|found| self.channels.contains(&found.channel));
         let Some(found) = found else {
@@ -174,7 +174,7 @@ const ROUNDING: f64 = 1e-12;
 const HELP: &str = sentences::A_NUMBER_HOLDS_AT_A_CRANK;
 
 /// The instant of a table under `crank` or `time` with a unit.
-pub(super) fn instant(table: &mut Table, case: &Case) -> Result<When> {
+pub(super) fn instant(table: &mut TomlTable, case: &Case) -> Result<When> {
     let crank = table.optional_si("crank")?;
     let time = table.optional_si("time")?;
     match (crank, time) {
@@ -196,13 +196,13 @@ pub(super) struct Rows {
     pub column: String,
     /// The key that names it.
     pub key: &'static str,
-    unit: &'static Unit,
+    unit: &'static NamedUnit,
     is_time: bool,
 }
 
 impl Rows {
     /// The column under `crank` or `time`, with its unit as ending.
-    pub fn read(table: &mut Table) -> Result<Self> {
+    pub fn read(table: &mut TomlTable) -> Result<Self> {
         let (crank, time) = (table.optional_string("crank")?, table.optional_string("time")?);
         let (key, column, is_time) = match (crank, time) {
             (Some(column), None) => ("crank", column, false),

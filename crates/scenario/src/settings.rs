@@ -1,7 +1,7 @@
 //! `[channels]` and `[tolerances]`: the wanted channels and the limits of judgement.
 
-use super::keys::key::{Kind, Section, needed, optional};
-use super::reader::Table;
+use super::keys::key::{Section, ValueKind, needed, optional};
+use super::reader::TomlTable;
 use super::words::{choice, nearest, suggestion};
 use crate::sentences;
 use linkage::case::Case;
@@ -10,15 +10,16 @@ use linkage::trajectory::{Channel, Stage};
 
 /// What is told of the keys that are read here.
 pub const SECTIONS: &[Section] = &[
-    Section::at("channels").with(&[needed("want", Kind::Texts).means("stages, subjects or channels that are wanted")]),
-    Section::at("tolerances").with(&[optional("engine_rel", Kind::Number, "1e-2").means(
+    Section::at("channels")
+        .with(&[needed("want", ValueKind::Texts).means("stages, subjects or channels that are wanted")]),
+    Section::at("tolerances").with(&[optional("engine_rel", ValueKind::Number, "1e-2").means(
         "largest bound on the engine's error, as a share of a channel's scale, at which agreement still \
          proves something; between 0 and 1",
     )]),
 ];
 
 /// The words of `[channels]`; there is one at least.
-pub fn wanted(table: &mut Table) -> Result<Vec<String>> {
+pub fn wanted(table: &mut TomlTable) -> Result<Vec<String>> {
     let names = table.strings("want")?;
     table.finish()?;
     let stages = || Stage::ALL.into_iter().map(Stage::name);
@@ -30,7 +31,7 @@ pub fn wanted(table: &mut Table) -> Result<Vec<String>> {
 }
 
 /// The case with the channels wanted that the words of `[channels]` ask for.
-pub fn wanting(table: &Table, names: &[String], case: Case) -> Result<Case> {
+pub fn wanting(table: &TomlTable, names: &[String], case: Case) -> Result<Case> {
     let channels = called(&case, names).or_else(|(message, help)| table.refuse("want", message, help))?;
     Ok(case.wanting_only(&channels))
 }
@@ -67,7 +68,7 @@ pub fn called(case: &Case, words: &[String]) -> std::result::Result<Vec<Channel>
 pub const ENGINE_REL: f64 = 1e-2;
 
 /// Largest bound on the error of the engine, as a share of a channel's scale, at which agreement is still a proof.
-pub fn engine_rel(table: &mut Table) -> Result<f64> {
+pub fn engine_rel(table: &mut TomlTable) -> Result<f64> {
     let share = table.optional_number("engine_rel")?.unwrap_or(ENGINE_REL);
     table.finish()?;
     if share > 0.0 && share < 1.0 {

@@ -12,7 +12,7 @@ use toml::de::{DeTable, DeValue};
 use super::keys::key;
 use super::malformed;
 use super::parameters::Parameters;
-use linkage::error::{Error, ErrorKind, Key, Place, Result};
+use linkage::error::{Error, ErrorKind, KeyPath, Place, Result};
 use linkage::mechanism::{LONGEST_NAME, is_unseen};
 
 /// Longest text (characters).
@@ -46,7 +46,7 @@ pub struct Source<'a> {
     /// Parameters that its numbers may use.
     pub parameters: Parameters,
     /// The rows of the table of keys for a section, by its path; none of files that are no scenarios.
-    pub rows: fn(&str) -> &'static [key::Key],
+    pub rows: fn(&str) -> &'static [key::FileKey],
     /// The text once more, for places.
     shared: Arc<str>,
 }
@@ -58,7 +58,7 @@ impl<'a> Source<'a> {
     }
 
     /// The same file with parameters, whose sections have these rows.
-    pub fn with(self, parameters: Parameters, rows: fn(&str) -> &'static [key::Key]) -> Self {
+    pub fn with(self, parameters: Parameters, rows: fn(&str) -> &'static [key::FileKey]) -> Self {
         Source { parameters, rows, ..self }
     }
 
@@ -154,7 +154,7 @@ impl<'a> Source<'a> {
 /// Place of a key, or else of the nearest existing parent. Elements of an array are found by their name (`joints.A`),
 /// Assur groups by their links.
 #[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the TOML parser")]
-fn locate(tree: &DeTable, key: &Key) -> Range<usize> {
+fn locate(tree: &DeTable, key: &KeyPath) -> Range<usize> {
     let mut segments = key.path().split('.');
     let Some(mut found) = segments.next().and_then(|first| tree.get(first)) else { return 0..0 };
     for segment in segments {
@@ -195,8 +195,8 @@ mod tests {
     fn keys_are_found_in_the_file() {
         let source = Source::new(Path::new("x.toml"), TEXT);
         let tree = source.tree().unwrap();
-        let line = |key: Key| source.place(locate(tree.get_ref(), &key)).line();
-        let group = |links: [&str; 2]| line(Key::of_group("start.groups", links.map(String::from).to_vec()));
+        let line = |key: KeyPath| source.place(locate(tree.get_ref(), &key)).line();
+        let group = |links: [&str; 2]| line(KeyPath::of_group("start.groups", links.map(String::from).to_vec()));
         assert_eq!((group(["d", "c"]), group(["a", "d"])), (10, 8));
         let line = |key: &str| line(key.into());
         assert_eq!(line("links.rocker.points.B"), 2);

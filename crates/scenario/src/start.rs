@@ -1,13 +1,13 @@
 //! `[[start.groups]]`: the assembly mode in which each Assur group starts, and the same from the command line.
 
 use super::joints::link;
-use super::keys::key::{Kind, Section, needed, optional};
-use super::reader::{Faults, Table};
+use super::keys::key::{Section, ValueKind, needed, optional};
+use super::reader::{Faults, TomlTable};
 use super::words::{Words, names, suggestion};
 use crate::sentences;
 use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::math::Vec2;
-use linkage::mechanism::{AssemblyMode, Group, GroupId, GroupKind, Mechanism, Side, StartGroup, Structure};
+use linkage::mechanism::{AssemblyMode, Group, GroupId, GroupKind, JointSide, Mechanism, StartGroup, Structure};
 use linkage::mechanism::{LinkId, pose::SidePoint};
 
 const MODES: Words<AssemblyMode> = &[
@@ -20,36 +20,37 @@ const MODES: Words<AssemblyMode> = &[
 /// What is told of the keys that are read here.
 pub const SECTIONS: &[Section] = &[
     Section::at("start").with(&[
-        needed("crank", Kind::INPUTS).means("crank angle at t = 0, of the first drive"),
-        optional("groups", Kind::Tables, "none: a mechanism without groups").means("one table for each Assur group"),
+        needed("crank", ValueKind::INPUTS).means("crank angle at t = 0, of the first drive"),
+        optional("groups", ValueKind::Tables, "none: a mechanism without groups")
+            .means("one table for each Assur group"),
     ]),
     Section::at("start.groups").with(&[
-        needed("links", Kind::Texts).means("all links of the group"),
-        optional("mode", Kind::Choice(|| names(MODES)), "by `near`")
+        needed("links", ValueKind::Texts).means("all links of the group"),
+        optional("mode", ValueKind::Choice(|| names(MODES)), "by `near`")
             .means("which of a dyad's two configurations; below. RPP and PRP dyads have one, and need no table"),
-        optional("near", Kind::TableOrTables, "by `mode`").means(
+        optional("near", ValueKind::TableOrTables, "by `mode`").means(
             "approximate position in the world of one point of the group; or an array of several such \
              tables",
         ),
     ]),
     Section::at("start.groups.near").with(&[
-        needed("point", Kind::Text).means("a point of the group"),
-        needed("x", Kind::LENGTHS).means("coordinate along x in the world"),
-        needed("y", Kind::LENGTHS).means("coordinate along y in the world"),
+        needed("point", ValueKind::Text).means("a point of the group"),
+        needed("x", ValueKind::LENGTHS).means("coordinate along x in the world"),
+        needed("y", ValueKind::LENGTHS).means("coordinate along y in the world"),
     ]),
 ];
 
 /// A table of `[[start.groups]]` as it stands there.
-pub struct Stated<'a> {
-    table: Table<'a>,
+pub struct StatedGroup<'a> {
+    table: TomlTable<'a>,
     links: Vec<LinkId>,
     mode: Option<AssemblyMode>,
-    near: Vec<(Table<'a>, String, Vec2)>,
+    near: Vec<(TomlTable<'a>, String, Vec2)>,
 }
 
 /// The tables of `[[start.groups]]`, but those with mistakes.
-pub fn stated<'a>(tables: Vec<Table<'a>>, mechanism: &Mechanism, faults: &mut Faults) -> Vec<Stated<'a>> {
-    let one = |mut table: Table<'a>| {
+pub fn stated<'a>(tables: Vec<TomlTable<'a>>, mechanism: &Mechanism, faults: &mut Faults) -> Vec<StatedGroup<'a>> {
+    let one = |mut table: TomlTable<'a>| {
         let (links, mode, near) = faults.read(&mut table, |table| {
             let names = table.strings("links")?;
             let mode = table.optional_choice("mode", sentences::IS_NO_ASSEMBLY_MODE, MODES)?;
@@ -59,7 +60,7 @@ pub fn stated<'a>(tables: Vec<Table<'a>>, mechanism: &Mechanism, faults: &mut Fa
             let links = names.iter().map(|name| link(table, name, mechanism.links())).collect::<Result<_>>()?;
             Ok((links, mode, near))
         })?;
-        Some(Stated { table, links, mode, near })
+        Some(StatedGroup { table, links, mode, near })
     };
     tables.into_iter().filter_map(one).collect()
 }
@@ -67,8 +68,8 @@ pub fn stated<'a>(tables: Vec<Table<'a>>, mechanism: &Mechanism, faults: &mut Fa
 /// The start that the file asks for each group, in the order of the structure. `start` is the table that contains the
 /// groups. Those that are `asked` for elsewhere may be missing.
 pub fn groups(
-    start: &Table,
-    stated: Vec<Stated>,
+    start: &TomlTable,
+    stated: Vec<StatedGroup>,
     mechanism: &Mechanism,
     structure: &Structure,
     asked: &[(GroupId, StartGroup)],
@@ -96,7 +97,7 @@ pub fn groups(
 }
 
 fn group(
-    Stated { table, links, mode, near }: Stated,
+    StatedGroup { table, links, mode, near }: StatedGroup,
     mechanism: &Mechanism,
     structure: &Structure,
     before: &[Option<StartGroup>],
@@ -172,7 +173,7 @@ fn modes_of(kind: GroupKind) -> &'static [AssemblyMode] {
     }
 }
 
-fn foreign_mode(table: &Table, asked: AssemblyMode, group: &Group) -> Error {
+fn foreign_mode(table: &TomlTable, asked: AssemblyMode, group: &Group) -> Error {
     let message = sentences::mode_does_not_belong_to_a_group(&asked.name(), &group.pairs());
     let help = match modes_of(group.kind) {
         [one, other] => sentences::write_or_2(&one.name(), &other.name()),
@@ -183,7 +184,7 @@ fn foreign_mode(table: &Table, asked: AssemblyMode, group: &Group) -> Error {
 }
 
 /// A rough place: the table that states it, the name of the point, and the coordinates (m).
-fn rough_place(mut table: Table) -> Result<(Table, String, Vec2)> {
+fn rough_place(mut table: TomlTable) -> Result<(TomlTable, String, Vec2)> {
     let (name, place) = table.read(|table| {
         let name = table.string("point")?;
         let place = Vec2::new(table.si("x")?, table.si("y")?);
@@ -194,12 +195,15 @@ fn rough_place(mut table: Table) -> Result<(Table, String, Vec2)> {
 }
 
 fn side_point(
-    (table, name, place): (Table, String, Vec2),
+    (table, name, place): (TomlTable, String, Vec2),
     mechanism: &Mechanism,
     group: &Group,
 ) -> Result<(SidePoint, Vec2)> {
     let points = group.links.iter().flat_map(|&link| {
-        mechanism.links()[link].points.iter().map(move |point| (point.name.as_str(), Side { link, local: point.local }))
+        mechanism.links()[link]
+            .points
+            .iter()
+            .map(move |point| (point.name.as_str(), JointSide { link, local: point.local }))
     });
     match points.clone().find(|&(point, _)| point == name) {
         Some((_, side)) => Ok((SidePoint { name, side }, place)),
@@ -216,7 +220,7 @@ fn side_point(
     }
 }
 
-fn unknown_group(table: &Table, links: &[LinkId], mechanism: &Mechanism, structure: &Structure) -> Error {
+fn unknown_group(table: &TomlTable, links: &[LinkId], mechanism: &Mechanism, structure: &Structure) -> Error {
     let names: Vec<&str> = links.iter().map(|&link| mechanism.links()[link].name.as_str()).collect();
     let message = sentences::the_mechanism_has_no_assur(&names.join(", "));
     let groups: Vec<&Group> = structure.groups.iter().collect();

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use super::malformed::has_decimal_comma;
 use super::printed::{Correction, Printed, PrintedChannel, check_apart, digits, finding};
-use super::reader::{Sign, Table};
+use super::reader::{Sign, TomlTable};
 use super::series::{self, ExpectedCell, Known, OraclePoint, OracleSeries, When, instant};
 use super::source::Source;
 use super::words::suggestion;
@@ -23,12 +23,12 @@ const SAME: f64 = 1e-9;
 const OF_ROW: f64 = (size_of::<u32>() + size_of::<(When, f64)>()) as f64;
 /// Memory of a number (bytes): as a cell, as it was printed, and as it is kept.
 const OF_NUMBER: f64 =
-    (size_of::<columns::Cell>() + size_of::<Rounded>() + size_of::<Printed>() + size_of::<OraclePoint>()) as f64;
+    (size_of::<columns::TableCell>() + size_of::<Rounded>() + size_of::<Printed>() + size_of::<OraclePoint>()) as f64;
 /// Memory allowed where nothing is said (bytes), as for a proof.
 const MOST: f64 = 4e9;
 
 /// Name and series of the table that an oracle with the key `file` describes.
-pub fn read(oracle: &mut Table, known: &Known, case: &Case) -> Result<(String, Vec<OracleSeries>)> {
+pub fn read(oracle: &mut TomlTable, known: &Known, case: &Case) -> Result<(String, Vec<OracleSeries>)> {
     let file = oracle.string("file")?;
     let path: PathBuf = oracle.source().path.parent().unwrap_or(Path::new("")).join(&file);
     let text = files::read_named(&path).map_err(|error| {
@@ -71,7 +71,7 @@ pub fn read(oracle: &mut Table, known: &Known, case: &Case) -> Result<(String, V
 }
 
 fn series(
-    table: &mut Table,
+    table: &mut TomlTable,
     rows: &Rows,
     instants: &[(When, f64)],
     known: &Known,
@@ -120,7 +120,7 @@ fn series(
 
 /// The cells under `expect`: their rows, and the correct values there.
 fn single_cells(
-    table: &mut Table,
+    table: &mut TomlTable,
     instants: &[(When, f64)],
     printed: &[Printed],
     case: &Case,
@@ -152,7 +152,7 @@ fn single_cells(
 }
 
 /// The finding for a whole column and the correct value in every row: under the keys `finding` and `right`.
-fn whole_column(table: &mut Table, printed: &[Printed]) -> Result<Option<(String, Vec<Printed>)>> {
+fn whole_column(table: &mut TomlTable, printed: &[Printed]) -> Result<Option<(String, Vec<Printed>)>> {
     let Some(finding) = finding(table)? else { return Ok(None) };
     let mut right = table.table("right")?;
     let values = right.numbers("values")?;
@@ -168,7 +168,7 @@ fn whole_column(table: &mut Table, printed: &[Printed]) -> Result<Option<(String
 }
 
 /// Known error of the published numbers, in the printed unit; the file must explain it.
-fn slack(oracle: &mut Table) -> Result<f64> {
+fn slack(oracle: &mut TomlTable) -> Result<f64> {
     let Some(slack) = oracle.optional_number("slack")? else {
         return match oracle.has("why") {
             true => Err(oracle.lacks(&["slack"], sentences::WHY_EXPLAINS_SLACK_BY_WHICH_ALL)),
@@ -184,7 +184,7 @@ fn slack(oracle: &mut Table) -> Result<f64> {
 }
 
 /// Printed values minus the channel, in SI; zero if it is not given.
-fn offset(table: &mut Table, channel: &PrintedChannel) -> Result<f64> {
+fn offset(table: &mut TomlTable, channel: &PrintedChannel) -> Result<f64> {
     match channel.family {
         Some(family) => Ok(table.optional_quantity("offset", family, Sign::Any)?.unwrap_or(0.0)),
         None => Ok(0.0),
@@ -237,7 +237,7 @@ impl<'a> Rows<'a> {
         })
     }
 
-    fn numbers(&self, column: usize) -> Result<Vec<columns::Cell>> {
+    fn numbers(&self, column: usize) -> Result<Vec<columns::TableCell>> {
         (0..self.records.len()).map(|row| self.number(row, column)).collect()
     }
 
@@ -253,10 +253,12 @@ impl<'a> Rows<'a> {
     }
 
     /// The other columns that hold numbers, whether the oracle reads them or not.
-    fn others(&self, column: usize) -> impl Iterator<Item = Vec<columns::Cell>> {
+    fn others(&self, column: usize) -> impl Iterator<Item = Vec<columns::TableCell>> {
         let others = (0..self.records.header.len()).filter(move |other| *other != column);
         let rows = || 0..self.records.len();
-        others.filter_map(move |other| rows().map(|row| columns::Cell::parse(&self.records.cell(row, other))).collect())
+        others.filter_map(move |other| {
+            rows().map(|row| columns::TableCell::parse(&self.records.cell(row, other))).collect()
+        })
     }
 
     /// Where the rows hold, and by how much that may be off because it was rounded.
@@ -274,7 +276,7 @@ impl<'a> Rows<'a> {
         numbers.into_iter().enumerate().map(of).collect()
     }
 
-    fn number(&self, row: usize, column: usize) -> Result<columns::Cell> {
+    fn number(&self, row: usize, column: usize) -> Result<columns::TableCell> {
         let text = self.records.cell(row, column);
         Printed::cell(&text).ok_or_else(|| {
             let comma = if has_decimal_comma(&text) { sentences::AND_DECIMALS_TAKE_A_POINT } else { "" };

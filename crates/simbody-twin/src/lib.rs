@@ -7,7 +7,7 @@ mod model;
 mod noise;
 mod sentences;
 
-use linkproof_simbody::{Failure, Run};
+use linkproof_simbody::{Failure, LinkageRun};
 
 use linkage::case::Case;
 use linkage::drive::{Load, Wrench};
@@ -16,7 +16,7 @@ use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::math::{KeepNan, unit};
 use linkage::solver::{Progress, Provision, Solver, State, Visit, check_instants};
 use linkage::trajectory::{Channel, ChannelKind, Stage};
-use linkage::work::{Count, Tally};
+use linkage::work::{Count, WorkTally};
 use model::Linkage;
 
 /// Largest opening of the start pose as a share of the mechanism's size.
@@ -47,7 +47,7 @@ impl Simbody {
         Simbody { accuracy }
     }
 
-    fn start(self, case: &Case, sense: f64) -> Result<(Linkage, Run)> {
+    fn start(self, case: &Case, sense: f64) -> Result<(Linkage, LinkageRun)> {
         if !(self.accuracy > 0.0 && self.accuracy < 1.0) {
             let message = sentences::the_engine_accuracy_is(&self.accuracy);
             return Err(Error::new(ErrorKind::Input, message).help(sentences::GIVE_AN_ACCURACY_BETWEEN_AND_FOR_ONE));
@@ -66,8 +66,8 @@ impl Simbody {
         Ok((linkage, run))
     }
 
-    fn settings_for(self, case: &Case) -> linkproof_simbody::Settings {
-        linkproof_simbody::Settings {
+    fn settings_for(self, case: &Case) -> linkproof_simbody::IntegrationSettings {
+        linkproof_simbody::IntegrationSettings {
             accuracy: self.accuracy,
             tolerance: tolerance(case),
             time_scale: 1.0 / case.drives.top_speed(),
@@ -165,7 +165,7 @@ impl Solver for Simbody {
         // Resistances are forces inside Simbody; the other loads are set wherever reactions are read.
         let others = case.with(|parts| parts.loads = other_loads(case))?;
         let mut wrenches = vec![Wrench::ZERO; case.mechanism.links().len()];
-        let mut tally = Tally::default();
+        let mut tally = WorkTally::default();
         for (sense, rows, end) in [(-1.0, backwards.as_slice(), ends[0]), (1.0, after, ends[1])] {
             if rows.is_empty() {
                 continue;

@@ -1,7 +1,9 @@
 //! A mechanism as a Simbody model: the tree of bodies, the joints that close loops, and the prescribed motion.
 
 use crate::sentences;
-use linkproof_simbody::{Body, BodyState, Closing, Failure, Inertia, Joint, Law, LoopState, Model};
+use linkproof_simbody::{
+    BodyState, Failure, Inertia, Law, LoopClosure, LoopState, SimbodyBody, SimbodyJoint, SimbodyModel,
+};
 
 use linkage::case::Case;
 use linkage::drive::{Drive, Load, Wrench};
@@ -11,7 +13,7 @@ use linkage::math::{Vec2, cross};
 use linkage::mechanism;
 use linkage::mechanism::{
     JointId, LinkId,
-    spanning_tree::{Branch, Tree, coordinate},
+    spanning_tree::{SpanningTree, TreeBranch, coordinate},
 };
 use linkage::solver::State;
 
@@ -19,9 +21,9 @@ use linkage::solver::State;
 #[derive(Clone, Debug)]
 pub(super) struct Linkage {
     /// Simbody's model: bodies in the order of the tree's branches, loops in the order of its cuts.
-    pub(super) model: Model,
+    pub(super) model: SimbodyModel,
     /// The spanning tree, which contains all drives.
-    pub(super) tree: Tree,
+    pub(super) tree: SpanningTree,
     /// +1 forwards, -1 backwards in time.
     sense: f64,
     /// Angle of the child minus that of its parent (rad), for every branch whose joint keeps it constant.
@@ -44,8 +46,8 @@ impl Linkage {
         };
         let mechanism = &case.mechanism;
         let driven: Vec<JointId> = case.drives.iter().map(|drive| drive.joint).collect();
-        let tree = Tree::with(mechanism, &driven);
-        let mut model = Model::new(case.gravity.into());
+        let tree = SpanningTree::with(mechanism, &driven);
+        let mut model = SimbodyModel::new(case.gravity.into());
         // Bodies are numbered in the order of the branches; the ground is 0 on both sides.
         let mut numbers = vec![0; mechanism.links().len()];
         let mut twists = Vec::new();
@@ -53,7 +55,7 @@ impl Linkage {
             let found = &mechanism.joints()[branch.joint];
             let [parent, child] = [branch.parent, branch.link].map(|link| case.start.0[link].angle);
             let drive = case.drives.iter().find(|drive| drive.joint == branch.joint);
-            let body = Body {
+            let body = SimbodyBody {
                 parent: numbers[branch.parent],
                 joint: joint(found, branch),
                 inertia: inertia(case, branch.link),
@@ -72,8 +74,10 @@ impl Linkage {
         for &cut in &tree.cut {
             let mechanism::Joint { first, second, .. } = &mechanism.joints()[cut];
             let sides = [first, second];
-            let closing =
-                Closing { bodies: sides.map(|side| numbers[side.link]), places: sides.map(|side| side.local.into()) };
+            let closing = LoopClosure {
+                bodies: sides.map(|side| numbers[side.link]),
+                places: sides.map(|side| side.local.into()),
+            };
             model.close(closing).map_err(wrong)?;
         }
         Ok(Linkage { model, tree, sense, twists })
@@ -148,7 +152,7 @@ impl Linkage {
 }
 
 /// Rate of a driven coordinate, or `None` if forces move it.
-fn law(case: &Case, branch: &Branch, drive: &Drive, moving: bool) -> Option<f64> {
+fn law(case: &Case, branch: &TreeBranch, drive: &Drive, moving: bool) -> Option<f64> {
     if moving && drive.is_free() {
         return None;
     }
@@ -157,14 +161,14 @@ fn law(case: &Case, branch: &Branch, drive: &Drive, moving: bool) -> Option<f64>
     Some(drive.initial_speed() - parent.map_or(0.0, Drive::initial_speed))
 }
 
-fn joint(found: &mechanism::Joint, branch: &Branch) -> Joint {
+fn joint(found: &mechanism::Joint, branch: &TreeBranch) -> SimbodyJoint {
     let [parent, child] = [branch.parent, branch.link];
     let on = |link: LinkId| found.on(link).expect("the joint is on the link").into();
     match found.kind {
-        mechanism::JointKind::Revolute => Joint::Pin { on_parent: on(parent), on_child: on(child) },
+        mechanism::JointKind::Revolute => SimbodyJoint::Pin { on_parent: on(parent), on_child: on(child) },
         mechanism::JointKind::Prismatic { .. } => {
             let axis = |link: LinkId| found.axis_on(link).expect("the joint is on the link").into();
-            Joint::Slider {
+            SimbodyJoint::Slider {
                 on_parent: on(parent),
                 on_child: on(child),
                 axis_parent: axis(parent),

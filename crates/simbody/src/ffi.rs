@@ -5,8 +5,8 @@ use std::ffi::{c_char, c_int, c_void};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::ptr::{self, NonNull};
 
-use crate::parts::{Body, Closing, Failure, Joint, Settings};
-use crate::state::{BodyState, LoopState, State};
+use crate::parts::{Failure, IntegrationSettings, LoopClosure, SimbodyBody, SimbodyJoint};
+use crate::state::{BodyState, LoopState, SimbodyState};
 
 /// `linkproof_body`.
 #[repr(C)]
@@ -30,11 +30,11 @@ pub(crate) struct RawBody {
 }
 
 impl RawBody {
-    pub(crate) fn of(body: &Body) -> Self {
+    pub(crate) fn of(body: &SimbodyBody) -> Self {
         let x = [1.0, 0.0];
         let (slides, on_parent, on_child, axis_parent, axis_child) = match body.joint {
-            Joint::Pin { on_parent, on_child } => (0, on_parent, on_child, x, x),
-            Joint::Slider { on_parent, on_child, axis_parent, axis_child } => {
+            SimbodyJoint::Pin { on_parent, on_child } => (0, on_parent, on_child, x, x),
+            SimbodyJoint::Slider { on_parent, on_child, axis_parent, axis_child } => {
                 (1, on_parent, on_child, axis_parent, axis_child)
             }
         };
@@ -80,7 +80,7 @@ unsafe extern "C" {
     fn linkproof_simbody_new(
         bodies: *const RawBody,
         body_count: usize,
-        loops: *const Closing,
+        loops: *const LoopClosure,
         loop_count: usize,
         gravity: &[f64; 2],
         accuracy: f64,
@@ -170,22 +170,22 @@ unsafe extern "C" fn acting(user: *mut c_void, bodies: *const BodyState, loads: 
 }
 
 /// A run of a linkage, forwards in time.
-pub struct Run {
+pub struct LinkageRun {
     raw: NonNull<RawRun>,
     /// Kept at a fixed address for Simbody.
     _acting: Option<Box<Acting>>,
-    state: State,
+    state: SimbodyState,
     time: f64,
     /// Internal steps allowed per time scale, and the time scale (s).
     pace: (usize, f64),
 }
 
-impl Run {
+impl LinkageRun {
     pub(crate) fn start(
         bodies: &[RawBody],
-        loops: &[Closing],
+        loops: &[LoopClosure],
         gravity: [f64; 2],
-        settings: Settings,
+        settings: IntegrationSettings,
         act: Option<Act>,
     ) -> Result<Self, Failure> {
         let mut raw = ptr::null_mut();
@@ -193,7 +193,7 @@ impl Run {
         let user = kept.as_mut().map_or(ptr::null_mut(), |kept| ptr::from_mut(kept.as_mut()).cast());
         let call = kept.is_some().then_some(acting as Callback);
         told(|text, size| {
-            let Settings { accuracy, tolerance, time_scale, .. } = settings;
+            let IntegrationSettings { accuracy, tolerance, time_scale, .. } = settings;
             // SAFETY: pointers and counts are those of slices that outlive the call, and the shim copies what it keeps.
             // The model has checked that bodies and loops refer only to bodies before them.
             // The callback's data is kept until the run is freed.
@@ -217,9 +217,11 @@ impl Run {
             }
         })?;
         let raw = NonNull::new(raw).ok_or_else(|| Failure::of(sentences::SIMBODY_GAVE_NO_SYSTEM))?;
-        let state =
-            State { bodies: vec![BodyState::default(); bodies.len()], loops: vec![LoopState::default(); loops.len()] };
-        let mut run = Run { raw, _acting: kept, state, time: 0.0, pace: (settings.steps, settings.time_scale) };
+        let state = SimbodyState {
+            bodies: vec![BodyState::default(); bodies.len()],
+            loops: vec![LoopState::default(); loops.len()],
+        };
+        let mut run = LinkageRun { raw, _acting: kept, state, time: 0.0, pace: (settings.steps, settings.time_scale) };
         // A free mobilizer without inertia is not an error in Simbody, but it has no finite acceleration.
         run.read(false)?;
         Ok(run)
@@ -265,9 +267,9 @@ impl Run {
     /// Reads the state; without `reactions`, no forces.
     ///
     /// # Errors
-    /// Simbody's own, as in [`Run::advance`]: loops that cannot take any force, or a number that is not finite.
-    pub fn read(&mut self, reactions: bool) -> Result<&State, Failure> {
-        let State { bodies, loops } = &mut self.state;
+    /// Simbody's own, as in [`LinkageRun::advance`]: loops that cannot take any force, or a number that is not finite.
+    pub fn read(&mut self, reactions: bool) -> Result<&SimbodyState, Failure> {
+        let SimbodyState { bodies, loops } = &mut self.state;
         let raw = self.raw.as_ptr();
         // SAFETY: the run is alive and nobody else has it.
         // The vectors are as long as the bodies and loops that it was built from, and the shim fills all of them.
@@ -302,13 +304,13 @@ impl Run {
     }
 }
 
-impl std::fmt::Debug for Run {
+impl std::fmt::Debug for LinkageRun {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_struct("Run").field("time", &self.time).field("state", &self.state).finish_non_exhaustive()
     }
 }
 
-impl Drop for Run {
+impl Drop for LinkageRun {
     fn drop(&mut self) {
         // SAFETY: the run came from `linkproof_simbody_new` and is freed only here.
         unsafe { linkproof_simbody_free(self.raw.as_ptr()) }
@@ -330,7 +332,7 @@ mod tests {
     fn both_sides_of_the_boundary_have_the_same_structures() {
         let mut sizes = [0; 4];
         linkproof_simbody_sizes(&mut sizes);
-        let own = [size_of::<RawBody>(), size_of::<Closing>(), size_of::<BodyState>(), size_of::<LoopState>()];
+        let own = [size_of::<RawBody>(), size_of::<LoopClosure>(), size_of::<BodyState>(), size_of::<LoopState>()];
         assert_eq!(sizes, own);
     }
 }

@@ -13,7 +13,7 @@ mod parts;
 mod sentences;
 mod state;
 
-pub use ffi::{Act, Run, version};
-pub use model::Model;
-pub use parts::{Body, Closing, Failure, GROUND, Inertia, Joint, Law, Settings};
-pub use state::{BodyState, LoopState, State};
+pub use ffi::{Act, LinkageRun, version};
+pub use model::SimbodyModel;
+pub use parts::{Failure, GROUND, Inertia, IntegrationSettings, Law, LoopClosure, SimbodyBody, SimbodyJoint};
+pub use state::{BodyState, LoopState, SimbodyState};

@@ -1,29 +1,29 @@
 //! The description of a linkage, checked before any part of it reaches C++.
 
-use crate::ffi::{Act, RawBody, Run};
-use crate::parts::{Body, Closing, Failure, Inertia, Joint, Settings};
+use crate::ffi::{Act, LinkageRun, RawBody};
+use crate::parts::{Failure, Inertia, IntegrationSettings, LoopClosure, SimbodyBody, SimbodyJoint};
 use crate::sentences;
 
 /// A planar linkage.
 #[derive(Clone, Debug)]
-pub struct Model {
+pub struct SimbodyModel {
     gravity: [f64; 2],
     bodies: Vec<RawBody>,
-    loops: Vec<Closing>,
+    loops: Vec<LoopClosure>,
 }
 
-impl Model {
+impl SimbodyModel {
     /// A model with the ground only, under the acceleration of gravity `gravity` (m/s^2).
     #[must_use]
     pub fn new(gravity: [f64; 2]) -> Self {
-        Model { gravity, bodies: Vec::new(), loops: Vec::new() }
+        SimbodyModel { gravity, bodies: Vec::new(), loops: Vec::new() }
     }
 
     /// Adds a body and returns its number.
     ///
     /// # Errors
     /// A parent that does not exist, a number that is not finite, a negative mass or inertia, or an axis that is not a unit vector.
-    pub fn add(&mut self, body: Body) -> Result<usize, Failure> {
+    pub fn add(&mut self, body: SimbodyBody) -> Result<usize, Failure> {
         let number = self.bodies.len() + 1;
         let wrong = |what: &str| Err(Failure::of(format!("body {number}: {what}")));
         if body.parent >= number {
@@ -37,7 +37,7 @@ impl Model {
         if [mass, inertia, extra_mass, extra_inertia].iter().any(|&value| value < 0.0) {
             return wrong(sentences::A_MASS_OR_A_MOMENT_OF_INERTIA);
         }
-        if let Joint::Slider { axis_parent, axis_child, .. } = body.joint
+        if let SimbodyJoint::Slider { axis_parent, axis_child, .. } = body.joint
             && [axis_parent, axis_child].iter().any(|axis| (axis[0].hypot(axis[1]) - 1.0).abs() > 1e-9)
         {
             return wrong(sentences::THE_AXIS_OF_ITS_SLIDER_IS_NO_UNIT);
@@ -50,7 +50,7 @@ impl Model {
     ///
     /// # Errors
     /// A body that does not exist, the same body twice, or a position that is not finite.
-    pub fn close(&mut self, closing: Closing) -> Result<usize, Failure> {
+    pub fn close(&mut self, closing: LoopClosure) -> Result<usize, Failure> {
         let number = self.loops.len();
         let wrong = |what: &str| Err(Failure::of(format!("loop {number}: {what}")));
         let [first, second] = closing.bodies;
@@ -69,16 +69,16 @@ impl Model {
     /// # Errors
     /// Settings out of their ranges, and Simbody's own errors.
     /// The model may not assemble from the given coordinates, or a free mobilizer may carry no inertia.
-    pub fn run(&self, settings: Settings) -> Result<Run, Failure> {
+    pub fn run(&self, settings: IntegrationSettings) -> Result<LinkageRun, Failure> {
         self.run_under(settings, None)
     }
 
-    /// Like [`Model::run`], with `act` acting on the bodies.
+    /// Like [`SimbodyModel::run`], with `act` acting on the bodies.
     ///
     /// # Errors
-    /// Those of [`Model::run`].
-    pub fn run_under(&self, settings: Settings, act: Option<Act>) -> Result<Run, Failure> {
-        let Settings { accuracy, tolerance, time_scale, .. } = settings;
+    /// Those of [`SimbodyModel::run`].
+    pub fn run_under(&self, settings: IntegrationSettings, act: Option<Act>) -> Result<LinkageRun, Failure> {
+        let IntegrationSettings { accuracy, tolerance, time_scale, .. } = settings;
         if !(accuracy > 0.0 && accuracy < 1.0) {
             return Err(Failure::of(sentences::the_accuracy_is_it_must_lie(&accuracy)));
         }
@@ -93,6 +93,6 @@ impl Model {
         if self.bodies.is_empty() {
             return Err(Failure::of(sentences::THERE_IS_NO_BODY));
         }
-        Run::start(&self.bodies, &self.loops, self.gravity, settings, act)
+        LinkageRun::start(&self.bodies, &self.loops, self.gravity, settings, act)
     }
 }

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use super::target::{scenario_target, write_scenario};
 use crate::cli::{number, output};
 use crate::report::closed_form::{self as report, Told};
-use design::synthesis::Sheet;
+use design::synthesis::DraftContents;
 use design::synthesis::crank_rocker::{self, CrankRocker};
 use design::synthesis::slider_crank::{Given, SliderCrank};
 use linkage::error::Result;
@@ -32,10 +32,10 @@ struct Target {
 }
 
 impl Target {
-    fn sheet(&self, name: &str, title: &str, comment: String) -> Sheet {
+    fn sheet(&self, name: &str, title: &str, comment: String) -> DraftContents {
         let stem = self.output.as_deref().and_then(Path::file_stem).map_or("-".into(), |stem| stem.to_string_lossy());
         let name = if stem == "-" { name.to_string() } else { stem.to_string() };
-        Sheet { name, title: title.into(), comment, speed: self.rpm * TAU / 60.0, bar: self.bar_kg_per_m }
+        DraftContents { name, title: title.into(), comment, speed: self.rpm * TAU / 60.0, bar: self.bar_kg_per_m }
     }
 
     /// Writes the scenario, if one is wanted. Then writes the other results, unless the scenario went to standard

@@ -10,7 +10,7 @@ use crate::report::pretty::list;
 use drawing::{Sketch, acting, tensions, weights};
 use linkage::case::{Case, Seat};
 use linkage::drive::{Load, Senses};
-use linkage::mechanism::{GROUND, LinkId, Mechanism, Side};
+use linkage::mechanism::{GROUND, JointSide, LinkId, Mechanism};
 use linkage::trajectory::{Channel, Trajectory};
 
 /// Numbers in single precision that a row takes.
@@ -53,7 +53,7 @@ pub(super) fn of(case: &Case, sketch: &Sketch, placed: &Placed, rows: &[usize], 
         // A scenario may want no moments.
         let torque = reference.channels().iter().position(is_its_moment)?;
         let what = if drive.is_free() { sentences::MOMENT_OF_THE_MOTOR } else { "balancing moment" };
-        let at = Side { link: drive.link, local: joint.on(drive.link).expect("a drive's joint is on its link") };
+        let at = JointSide { link: drive.link, local: joint.on(drive.link).expect("a drive's joint is on its link") };
         let name = format!("{what} on {}", mechanism.links()[drive.link].name);
         Some(json!({ "name": name, "on": side(at), "torque": torque }))
     });
@@ -91,7 +91,7 @@ fn name(mechanism: &Mechanism, load: &Load) -> String {
 }
 
 /// The point or joint in this place of a link.
-fn point(mechanism: &Mechanism, at: Side) -> Option<&str> {
+fn point(mechanism: &Mechanism, at: JointSide) -> Option<&str> {
     let points = mechanism.links()[at.link].points.iter();
     let named = points.filter(|own| own.local == at.local).map(|own| own.name.as_str()).next();
     let joints = mechanism.joints().iter();

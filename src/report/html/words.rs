@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use super::markup::escaped;
 use crate::plain::brief;
-use crate::plain::judged::{self, Grade, Judged, Sort, grade};
+use crate::plain::judged::{self, Grade, JudgedNumber, Sort, grade};
 use crate::report::text;
 use linkage::mechanism::{JointId, LinkId, Mechanism};
 use prover::numbers::{error_in, fixed, significant};
@@ -36,7 +36,7 @@ pub(super) fn sentence(proof: &Proof) -> String {
 
 /// Checks, and forces as engines themselves exert them, as a table; what uses most of its bound first.
 pub(super) fn checks(proof: &Proof) -> String {
-    let share = |own: &Judged| if own.bound > 0.0 { own.value / own.bound } else { f64::from(own.value > 0.0) };
+    let share = |own: &JudgedNumber| if own.bound > 0.0 { own.value / own.bound } else { f64::from(own.value > 0.0) };
     let mut all = judged::of(proof);
     all.retain(|own| own.sort != Sort::Channel);
     // Of those that use as much, checks stand first.

@@ -12,7 +12,7 @@ mod forces;
 mod search;
 mod window;
 
-use crate::assur::groups::{Clearance, OutOfReach, Plan};
+use crate::assur::groups::{OutOfReach, SingularityDistance, SolutionPlan};
 use crate::sentences;
 use linkage::case::Case;
 use linkage::error::{Error, ErrorKind};
@@ -76,7 +76,7 @@ impl Passing {
     pub(super) fn place(
         &mut self,
         [from, to]: [f64; 2],
-        plan: &mut Plan,
+        plan: &mut SolutionPlan,
         motions: &mut [Motion],
     ) -> Result<(), OutOfReach> {
         if self.enter(to, plan, motions) {
@@ -120,7 +120,7 @@ impl Passing {
     }
 
     /// Places the mechanism by a window, if there is one at this angle.
-    fn enter(&mut self, angle: f64, plan: &Plan, motions: &mut [Motion]) -> bool {
+    fn enter(&mut self, angle: f64, plan: &SolutionPlan, motions: &mut [Motion]) -> bool {
         self.inside = self.windows.iter().position(|window| (angle - window.at).abs() < window.reach);
         if let Some(window) = self.inside() {
             window.positions(angle, motions);
@@ -130,7 +130,7 @@ impl Passing {
     }
 
     /// Looks for change points near a pose that has just been placed.
-    fn look(&mut self, angle: f64, plan: &mut Plan, motions: &[Motion]) -> Result<(), OutOfReach> {
+    fn look(&mut self, angle: f64, plan: &mut SolutionPlan, motions: &[Motion]) -> Result<(), OutOfReach> {
         self.motions.clear();
         self.motions.extend_from_slice(motions);
         plan.velocities(&[1.0], &mut self.motions);
@@ -140,9 +140,9 @@ impl Passing {
             let (now, last) = (plan.determinant(group)?.abs(), dets.get(group.index()).copied().flatten()?.abs());
             (angle != *before).then(|| now * (angle - before) / (now - last))
         };
-        let near = |(group, clearance): (GroupId, Option<Clearance>)| {
+        let near = |(group, clearance): (GroupId, Option<SingularityDistance>)| {
             let ahead = match clearance {
-                Some(Clearance { sine, rate }) => -sine / rate,
+                Some(SingularityDistance { sine, rate }) => -sine / rate,
                 None => -slope(group)?,
             };
             (ahead.abs() < LOOK).then_some((group, ahead))

@@ -8,7 +8,7 @@ use super::gauges::Gauges;
 use super::passing::{self, Passing, way_through};
 use super::turns::{CLOSED_FORM_STEP, FOLLOWED_STEP, Turns};
 use super::watch::Watch;
-use crate::assur::groups::{Misfit, OutOfReach, Plan};
+use crate::assur::groups::{Misfit, OutOfReach, SolutionPlan};
 use linkage::case::Case;
 use linkage::drive::{Load, Wrench};
 use linkage::error::{Advice, Error, ErrorKind, Result};
@@ -29,7 +29,7 @@ const MEET: &str = sentences::THERE_THE_LINKS_OF_THE_GROUP;
 #[derive(Debug)]
 pub struct PoseSolver<'a> {
     pub(super) case: &'a Case,
-    pub(super) plan: Plan,
+    pub(super) plan: SolutionPlan,
     statics: Kinetostatics,
     pub(super) state: State,
     /// Turns of the links, if the caller or a load needs their angles.
@@ -60,7 +60,7 @@ impl<'a> PoseSolver<'a> {
     /// # Errors
     /// [`ErrorKind::Geometry`] if the start pose is singular.
     pub fn new(case: &'a Case) -> Result<Self> {
-        let plan = Plan::of(&case.mechanism, &case.structure, &case.modes);
+        let plan = SolutionPlan::of(&case.mechanism, &case.structure, &case.modes);
         let step = case.step(if plan.is_closed_form() { CLOSED_FORM_STEP } else { FOLLOWED_STEP });
         let (statics, state) = (Kinetostatics::of(case, &plan), State::at_start(case));
         let inputs = vec![0.0; case.drives.len()];

@@ -10,7 +10,7 @@ use super::forces::Kinetostatics;
 use super::passing::{self, Passing};
 use super::pose_solver::HALVINGS;
 use super::turns::{CLOSED_FORM_STEP, FOLLOWED_STEP, Turns};
-use crate::assur::groups::{Misfit, OutOfReach, Plan};
+use crate::assur::groups::{Misfit, OutOfReach, SolutionPlan};
 use crate::motion::side::{Held, Inputs, Side, embed, loads_held};
 use crate::sentences;
 use linkage::case::Case;
@@ -26,7 +26,7 @@ use linkage::work;
 /// The equations of motion of a case by its Assur groups.
 pub(crate) struct TransferSide<'a> {
     case: &'a Case,
-    plan: Plan,
+    plan: SolutionPlan,
     statics: Kinetostatics,
     state: State,
     turns: Turns,
@@ -58,7 +58,7 @@ impl<'a> TransferSide<'a> {
     /// # Errors
     /// [`ErrorKind::Geometry`] if the start pose is singular.
     pub(crate) fn new(case: &'a Case, share: f64) -> Result<Self> {
-        let plan = Plan::of(&case.mechanism, &case.structure, &case.modes);
+        let plan = SolutionPlan::of(&case.mechanism, &case.structure, &case.modes);
         let step = if plan.is_closed_form() { CLOSED_FORM_STEP } else { FOLLOWED_STEP };
         let (statics, state) = (Kinetostatics::of(case, &plan), State::at_start(case));
         let free: Vec<usize> = case.drives.free().map(|(index, _)| index).collect();
@@ -259,12 +259,12 @@ impl Side for TransferSide<'_> {
         Ok(self.state.motions[link].omega)
     }
 
-    fn velocity(&mut self, inputs: &Inputs, at: mechanism::Side) -> Result<Vec2> {
+    fn velocity(&mut self, inputs: &Inputs, at: mechanism::JointSide) -> Result<Vec2> {
         self.spin(inputs, at.link)?;
         Ok(self.state.motions[at.link].point_velocity(at.local))
     }
 
-    fn acceleration(&self, at: mechanism::Side) -> Vec2 {
+    fn acceleration(&self, at: mechanism::JointSide) -> Vec2 {
         self.state.motions[at.link].point_acceleration(at.local)
     }
 

@@ -12,12 +12,12 @@ use super::side::{self, Held, Inputs};
 use super::step::Flow;
 use linkage::case::Case;
 use linkage::drive::load::sense_of;
-use linkage::drive::{Branch, Load, Senses};
+use linkage::drive::{Load, MotorBranch, Senses};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::{KeepNan, Vec2, cross, root};
-use linkage::mechanism::{LinkId, Side};
+use linkage::mechanism::{JointSide, LinkId};
 use linkage::solver::State;
-use linkage::work::{Count, Tally};
+use linkage::work::{Count, WorkTally};
 
 /// Largest turn of a driving link within a step (rad). The first trial of a step may lead anywhere; such a trial must
 /// be refused.
@@ -78,7 +78,7 @@ pub(super) struct Pieces<'a, const N: usize> {
     fastest: RefCell<Vec<f64>>,
     /// Time at which the present piece began (s).
     entered: Cell<f64>,
-    branch: Cell<Option<Branch>>,
+    branch: Cell<Option<MotorBranch>>,
     knots: Knots,
     /// Crank angles (rad) between which the loads' tables are smooth on the present piece.
     smooth: Cell<[f64; 2]>,
@@ -91,7 +91,7 @@ struct Work<'a> {
     inputs: Inputs,
     held: Held,
     fault: Option<Error>,
-    tally: Tally,
+    tally: WorkTally,
 }
 
 impl Held {
@@ -152,7 +152,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
         let inputs = Inputs { angles: zeros(), speeds: zeros(), accelerations: zeros() };
         Pieces {
             case,
-            work: RefCell::new(Work { side, inputs, held, fault: None, tally: Tally::default() }),
+            work: RefCell::new(Work { side, inputs, held, fault: None, tally: WorkTally::default() }),
             sensed: sensed.filter(|(_, senses)| *senses != Senses::Nothing).collect(),
             fastest: RefCell::new(vec![0.0; loads]),
             entered: Cell::new(0.0),
@@ -343,7 +343,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
             (!is_idle && !(second.dot(&work.held.sense(own)) >= 0.0)).then_some(own)
         };
         match stood.iter().enumerate().find_map(is_held) {
-            Some((_, Senses::Link(link) | Senses::Point(Side { link, .. }))) => {
+            Some((_, Senses::Link(link) | Senses::Point(JointSide { link, .. }))) => {
                 Err(self.is_held(place, link, sentences::ITS_RESISTANCE_HOLDS))
             }
             Some((_, Senses::Nothing)) | None => Ok(()),

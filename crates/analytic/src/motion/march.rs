@@ -17,7 +17,7 @@ use super::inside::{Course, Remembering, Targets, parts};
 use super::step::{Flow, Method, Step, a_step, checked, lost, rate};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::root;
-use linkage::work::{self, Count, Tally};
+use linkage::work::{self, Count, WorkTally};
 
 /// Relative and absolute error allowed in each step, with the states inside it.
 /// The run-up of `crank_rocker` is then exact to 5e-12 rad, and to 1e-14 at its end.
@@ -99,7 +99,7 @@ pub(crate) fn march<const N: usize, F: Flow<N>>(
     checked(flow, begun, place.x)?;
     let mut begins = known.rate(place.x, &place.y);
     let (mut refused, mut short, mut steps) = (None, 0, 0);
-    let mut tally = Tally::default();
+    let mut tally = WorkTally::default();
     loop {
         steps += 1;
         work::spend(1.0)?;

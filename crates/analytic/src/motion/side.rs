@@ -8,7 +8,7 @@ use linkage::drive::{Load, Wrench};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::dense::Lu;
 use linkage::math::{Motion, Vec2};
-use linkage::mechanism::{LinkId, Side as Place};
+use linkage::mechanism::{JointSide as Place, LinkId};
 use linkage::solver::State;
 
 /// The driving links at one instant, in the order of the drives: angles in the world (rad), angular velocities (rad/s)

@@ -177,12 +177,12 @@ impl Side for Embedded<'_> {
         Ok(self.link_rates(link)[0])
     }
 
-    fn velocity(&mut self, inputs: &Inputs, at: mechanism::Side) -> Result<Vec2> {
+    fn velocity(&mut self, inputs: &Inputs, at: mechanism::JointSide) -> Result<Vec2> {
         self.spin(inputs, at.link)?;
         Ok(self.system.velocity(at))
     }
 
-    fn acceleration(&self, at: mechanism::Side) -> Vec2 {
+    fn acceleration(&self, at: mechanism::JointSide) -> Vec2 {
         self.system.motion(at.link).0.point_acceleration(at.local)
     }
 

@@ -8,7 +8,7 @@ use num_integer::Integer;
 
 use super::turn::FullTurn;
 use crate::PoseSolver;
-use crate::range::{Extent, Kind, Range};
+use crate::range::{Extent, Range, SingularityKind};
 use linkage::case::{Case, Grid, Wanted};
 use linkage::drive::{Course, Load};
 use linkage::error::{Advice, Error, ErrorKind, Result};
@@ -74,7 +74,7 @@ impl Reach {
         let (turns, limits, meets) = match range.extent {
             Extent::FullTurn(turns) => (Some(turns.unsigned_abs()), None, false),
             Extent::Limited(ends) => {
-                (None, Some(ends.map(|end| end.crank)), ends.iter().any(|end| end.kind == Kind::ChangePoint))
+                (None, Some(ends.map(|end| end.crank)), ends.iter().any(|end| end.kind == SingularityKind::ChangePoint))
             }
         };
         let mut poses = PoseSolver::new(case)?;

@@ -4,7 +4,7 @@ use super::means::{self, Kinks};
 use crate::PoseSolver;
 use crate::sentences;
 use linkage::case::Case;
-use linkage::drive::{Branch, Load, Motor, Setting};
+use linkage::drive::{Load, LoadState, Motor, MotorBranch};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::{Motion, Vec2};
 use linkage::mechanism::{GROUND, LinkId};
@@ -54,7 +54,7 @@ impl Piece {
 /// A mechanism of one degree of freedom under forces: the coefficients of its equation of motion
 /// `omega^2 / 2 dI*/dphi + I* domega/dt = M`, and the crank angles at which they have kinks.
 #[derive(Clone, Debug)]
-pub struct Model<'a> {
+pub struct ReducedModel<'a> {
     pub(crate) case: &'a Case,
     masses: Vec<Mass>,
     /// Loads that change with the sense of a link's rotation, and these links.
@@ -74,7 +74,7 @@ pub struct Model<'a> {
     pub(crate) added: f64,
 }
 
-impl<'a> Model<'a> {
+impl<'a> ReducedModel<'a> {
     /// The model of a case. Its motor drives in the sense of the prescribed speed, which is not used otherwise.
     ///
     /// # Errors
@@ -94,7 +94,7 @@ impl<'a> Model<'a> {
         let steady = case.loads.iter().filter(|load| load.sensed_link().is_none()).cloned();
         let sensed = case.loads.iter().filter_map(|load| Some((load.sensed_link()?, load.clone())));
         let sensed = sensed.filter(|&(link, _)| case.can_turn(link));
-        let mut model = Model {
+        let mut model = ReducedModel {
             case,
             masses: masses.collect(),
             sensed: sensed.collect(),
@@ -123,7 +123,7 @@ impl<'a> Model<'a> {
     /// A negative value takes inertia away; the total must stay positive.
     #[must_use]
     pub fn with_flywheel(&self, inertia: f64) -> Self {
-        Model { added: self.added + inertia, ..self.clone() }
+        ReducedModel { added: self.added + inertia, ..self.clone() }
     }
 
     /// Kinks, period and limits of the reduced quantities.
@@ -231,7 +231,7 @@ impl<'a> Model<'a> {
     /// Moment of inertia reduced to the crank at its start angle, with what turns with the crank (kg m^2).
     ///
     /// # Errors
-    /// Those of [`Model::at`].
+    /// Those of [`ReducedModel::at`].
     pub fn inertia_at_start(&self) -> Result<f64> {
         let mut poses = PoseSolver::new(self.case)?;
         Ok(self.at(&mut poses, self.case.crank().start, self.sense)?.inertia + self.added)
@@ -246,7 +246,7 @@ impl<'a> Model<'a> {
     fn of_pose(&self, state: &State, crank: f64) -> Reduced {
         let mut found = self.of_masses(&state.motions);
         let (motions, angles) = (&*state.motions, &*state.angles);
-        let setting = Setting { motions, angles, start: &self.case.start.0, crank };
+        let setting = LoadState { motions, angles, start: &self.case.start.0, crank };
         for load in &self.steady {
             load.act(&setting, &mut |action| found.applied += action.power(&motions[action.link]));
         }
@@ -270,7 +270,7 @@ impl<'a> Model<'a> {
 
     /// Smooth piece of the motor's moment that is valid while the crank turns with `omega` (rad/s) and accelerates in
     /// the sense of `towards` (rad/s^2).
-    pub(crate) fn branch(&self, omega: f64, towards: f64) -> Option<Branch> {
+    pub(crate) fn branch(&self, omega: f64, towards: f64) -> Option<MotorBranch> {
         let motor = self.motor.as_ref()?;
         Some(motor.branch(self.sense * omega, self.sense * towards))
     }

@@ -14,7 +14,7 @@ use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::KeepNan;
 use linkage::math::statistics::{half_range, rms, share};
 use linkage::solver::Solver;
-use linkage::trajectory::{Channel, Stage, Subject};
+use linkage::trajectory::{Channel, ChannelSubject, Stage};
 use std::f64::consts::TAU;
 
 /// Useful numbers of divisions of the turn: fewer do not show the motion, more only cost time.
@@ -32,9 +32,9 @@ const ENDINGS: [[&str; 3]; 3] =
 
 /// A displacement or angle and its two derivatives with respect to time.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Course(pub [Channel; 3]);
+pub struct MotionCurve(pub [Channel; 3]);
 
-impl Course {
+impl MotionCurve {
     /// The course of the channel `name`, which must be a position or an angle of a moving link or point of `case`.
     ///
     /// # Errors
@@ -47,7 +47,7 @@ impl Course {
         };
         let stem = name.strip_suffix(channel.kind.suffix).unwrap_or(name);
         match ENDINGS.into_iter().find(|endings| endings.contains(&channel.kind.suffix)) {
-            Some(endings) if endings[0] == channel.kind.suffix => Ok(Course(endings.map(|ending| {
+            Some(endings) if endings[0] == channel.kind.suffix => Ok(MotionCurve(endings.map(|ending| {
                 Channel::named(&format!("{stem}{ending}")).expect("links and points have all derivatives")
             }))),
             Some(endings) => Err(wrong(
@@ -63,7 +63,8 @@ impl Course {
 fn help(all: &[Channel], name: &str) -> String {
     let positions = all.iter().filter(|channel| channel.kind.stage == Stage::Positions);
     let parts: Vec<&str> = name.splitn(2, '.').collect();
-    let sort = [Subject::Link, Subject::Point].into_iter().find(|sort| parts.first() == Some(&sort.word()));
+    let sort =
+        [ChannelSubject::Link, ChannelSubject::Point].into_iter().find(|sort| parts.first() == Some(&sort.word()));
     let Some(sort) = sort else {
         return sentences::CHANNELS_ARE_NAMED_LIKE_POINT.into();
     };
@@ -107,7 +108,7 @@ impl Method {
 
 /// Result of a method, and its error.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Found {
+pub struct MethodResult {
     /// The method.
     pub method: Method,
     /// Rows of [`MotionDiagram::cranks`] that its values belong to.
@@ -132,7 +133,7 @@ pub struct Found {
 #[derive(Clone, Debug, PartialEq)]
 pub struct MotionDiagram {
     /// The channels.
-    pub course: Course,
+    pub course: MotionCurve,
     /// Divisions of the turn.
     pub divisions: usize,
     /// Rows between the two ends of a division, an even number.
@@ -144,7 +145,7 @@ pub struct MotionDiagram {
     /// Exact displacement, velocity, acceleration in every row (SI).
     pub exact: [Vec<f64>; 3],
     /// Results of the methods, in the order of [`Method::ALL`].
-    pub found: Vec<Found>,
+    pub found: Vec<MethodResult>,
 }
 
 impl MotionDiagram {
@@ -154,7 +155,7 @@ impl MotionDiagram {
     /// # Errors
     /// [`ErrorKind::Input`] for a number of divisions outside [`DIVISIONS`].
     /// Those of the solver, if the crank cannot turn fully.
-    pub fn of(case: &Case, solver: &dyn Solver, course: &Course, divisions: usize) -> Result<Self> {
+    pub fn of(case: &Case, solver: &dyn Solver, course: &MotionCurve, divisions: usize) -> Result<Self> {
         if !DIVISIONS.contains(&divisions) {
             let (least, most) = DIVISIONS.into_inner();
             return Err(Error::new(ErrorKind::Input, sentences::a_turn_cannot_be_divided(&divisions))
@@ -195,7 +196,7 @@ impl MotionDiagram {
             let [(rows, values), ..] = runs;
             // A curve without any motion has no scale, and no error either.
             let share = share(largest, scale);
-            Found { method, rows, values, largest, rms: size[0], share, orders }
+            MethodResult { method, rows, values, largest, rms: size[0], share, orders }
         });
         let found = found.collect();
         Ok(MotionDiagram { course: course.clone(), divisions, stride, cranks, times, exact, found })

@@ -16,10 +16,10 @@
 //! No vector is the difference of two others, so the closure of the polygons is a result.
 
 use super::builder::Builder;
-use super::names::{Named, Place, places};
+use super::names::{Named, NamedPoint, places};
 use super::scheme::Scheme;
 use super::sliding::{Slide, slides, travels};
-use super::vectors::{Plan, Quantity};
+use super::vectors::{Quantity, VectorPlan};
 use crate::sentences;
 use linkage::case::{Case, Grid, Wanted};
 use linkage::error::{Error, ErrorKind, Result};
@@ -35,9 +35,9 @@ pub struct Plans {
     /// The mechanism.
     pub scheme: Scheme,
     /// The velocity plan.
-    pub velocity: Plan,
+    pub velocity: VectorPlan,
     /// The acceleration plan.
-    pub acceleration: Plan,
+    pub acceleration: VectorPlan,
     /// Points, each with the links that have it.
     points: Vec<(Named, Vec<LinkId>)>,
 }
@@ -93,7 +93,7 @@ impl Plans {
 #[derive(Debug)]
 pub struct Planner<'a> {
     mechanism: &'a Mechanism,
-    places: Vec<Place>,
+    places: Vec<NamedPoint>,
     slides: Vec<Slide>,
 }
 
@@ -113,7 +113,7 @@ impl<'a> Planner<'a> {
 
     /// The plan of a state that contains motions up to its quantity.
     #[must_use]
-    pub fn plan(&self, quantity: Quantity, state: &State) -> Plan {
+    pub fn plan(&self, quantity: Quantity, state: &State) -> VectorPlan {
         Builder::new(quantity, self.mechanism, state, &self.places, &self.slides).plan()
     }
 }

@@ -8,7 +8,7 @@ use super::slider_crank::SliderCrank;
 
 /// Contents of a scenario besides the dimensions.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Sheet {
+pub struct DraftContents {
     /// Name of the scenario, usable in file names.
     pub name: String,
     /// Title for the reader, in one line.
@@ -21,7 +21,7 @@ pub struct Sheet {
     pub bar: f64,
 }
 
-impl Sheet {
+impl DraftContents {
     fn head(&self) -> String {
         let mut text: String = self.comment.lines().map(|line| format!("# {line}\n")).collect();
         let _ = writeln!(text, "format = 1\nname = {:?}\ntitle = {:?}\n", self.name, self.title);
@@ -62,7 +62,7 @@ fn pins(all: &[(&str, [&str; 2])]) -> String {
 impl CrankRocker {
     /// The scenario file.
     #[must_use]
-    pub fn scenario(&self, sheet: &Sheet) -> String {
+    pub fn scenario(&self, sheet: &DraftContents) -> String {
         let [o, c] = [self.wish.crank_pivot, self.wish.rocker_pivot];
         let mut text = sheet.head();
         let _ = writeln!(
@@ -82,7 +82,7 @@ impl CrankRocker {
 impl SliderCrank {
     /// The scenario file.
     #[must_use]
-    pub fn scenario(&self, sheet: &Sheet) -> String {
+    pub fn scenario(&self, sheet: &DraftContents) -> String {
         let mut text = sheet.head();
         let _ = writeln!(text, "{}", sentences::ground_points_on_the_slider(&format_args!("{:?}", self.offset)));
         text += &sheet.bar("crank", ["O", "A"], self.crank);

@@ -40,7 +40,7 @@ const NEAR: f64 = 1.5;
 
 /// Result of a search.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Found {
+pub struct SearchResult {
     /// Values of the variables (SI), in the order of [`Task::variables`].
     pub values: Vec<f64>,
     /// Sense of the output that is forward: +1 or -1.
@@ -60,7 +60,7 @@ pub struct Found {
 ///
 /// # Errors
 /// Those of [`Task::check`]; [`ErrorKind::Numeric`] if no candidate can be assembled over the whole turn.
-pub fn search(task: &Task, threads: usize, progress: &mut dyn FnMut(f64)) -> Result<Found> {
+pub fn search(task: &Task, threads: usize, progress: &mut dyn FnMut(f64)) -> Result<SearchResult> {
     task.check()?;
     let threads = if threads == 0 { cores() } else { threads.min(MOST_THREADS) };
     let effort = task.effort;
@@ -87,7 +87,7 @@ pub fn search(task: &Task, threads: usize, progress: &mut dyn FnMut(f64)) -> Res
     let count = refined.len();
     keep(&mut refined, count);
     let best = &refined[0];
-    Ok(Found {
+    Ok(SearchResult {
         values: values(task, &best.shares),
         forward: best.forward,
         cost: best.cost,

@@ -6,7 +6,7 @@ use tiny_skia::{
 };
 
 use super::glyphs::Glyphs;
-use crate::paper::figure::{Figure, Ink, Style, Tint, head};
+use crate::paper::figure::{DrawnFigure, Ink, Style, Tint, head};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::Vec2;
 
@@ -28,7 +28,7 @@ pub struct Bitmap {
 ///
 /// # Errors
 /// [`ErrorKind::Input`] for more than forty million pixels, or none.
-pub fn bitmap(figure: &Figure, [width, height]: [f64; 2], pixels: u32) -> Result<Bitmap> {
+pub fn bitmap(figure: &DrawnFigure, [width, height]: [f64; 2], pixels: u32) -> Result<Bitmap> {
     let scale = f64::from(pixels) / width;
     let rows = (height * scale).round();
     if !(rows >= 1.0 && rows * f64::from(pixels) <= MOST) {
@@ -136,7 +136,7 @@ mod tests {
         let square = |from: f64| {
             [(0.0, 0.0), (4.0, 0.0), (4.0, -4.0), (0.0, -4.0)].map(|(x, y)| Vec2::new(x + from, y - 3.0)).to_vec()
         };
-        let (mut group, mut figure) = (Figure::default(), Figure::default());
+        let (mut group, mut figure) = (DrawnFigure::default(), DrawnFigure::default());
         for from in [1.0, 3.0] {
             group.area(square(from), Some(Tint::opaque("#000000")), solid("#000000", 0.0));
         }

@@ -1,6 +1,6 @@
 //! Solvers and engines with one fault.
 
-use super::kinds::{At, Kind, Plant};
+use super::kinds::{FaultInstant, FaultKind, Plant};
 use crate::sentences;
 use linkage::case::Case;
 use linkage::engine::{Hook, Wrapped};
@@ -13,7 +13,7 @@ pub(super) type Planted<S> = Wrapped<Fault, S>;
 /// A kind of fault with its size.
 #[derive(Clone, Copy)]
 pub(super) struct Fault {
-    pub(super) kind: &'static Kind,
+    pub(super) kind: &'static FaultKind,
     pub(super) size: f64,
 }
 
@@ -33,7 +33,7 @@ impl Hook for Fault {
             Plant::Case(_) | Plant::Formula(_) => {}
             Plant::Answer(change) => {
                 // What has no such part stays as it is.
-                let _ = change(At { case, row }, state, self.size);
+                let _ = change(FaultInstant { case, row }, state, self.size);
             }
         }
     }

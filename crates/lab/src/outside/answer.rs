@@ -5,7 +5,7 @@ use std::ops::RangeInclusive;
 
 use serde_json::{Map, Value};
 
-use crate::bench::{Answer, Effort, Way};
+use crate::bench::{Answer, RunEffort, Way};
 use columns::Twice;
 use files::visible;
 
@@ -69,7 +69,7 @@ pub(super) fn answer(output: &str, table: impl FnOnce() -> Result<String, String
         Some(one) => vec![seconds(one)?],
         None => return Err(sentences::ITS_ANSWER_HAS_NO_SECONDS.into()),
     };
-    let effort = Effort(counts(object.get("work"))?);
+    let effort = RunEffort(counts(object.get("work"))?);
     Ok(Answer { version: word(object, "version").unwrap_or_default(), columns: columns(&table()?)?, seconds, effort })
 }
 

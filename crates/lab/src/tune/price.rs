@@ -5,7 +5,7 @@ use crate::steps::span;
 use linkage::case::Case;
 use linkage::engine::{Engine, Route};
 use linkage::error::Result;
-use linkage::mechanism::Tree;
+use linkage::mechanism::SpanningTree;
 use linkage::work::{Count, counted};
 use prover::engines::EngineName;
 
@@ -80,7 +80,7 @@ pub fn price_of(case: &Case, engine: &dyn Engine) -> f64 {
     let settings = engine.settings();
     let costs = named(engine);
     let worlds = match engine.name().starts_with("rapier") {
-        true => Tree::covering(&case.mechanism, &case.wanted_reactions()).len() as f64,
+        true => SpanningTree::covering(&case.mechanism, &case.wanted_reactions()).len() as f64,
         false => 1.0,
     };
     let (span, instants) = (span(case), case.grid.len() as f64);

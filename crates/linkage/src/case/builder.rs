@@ -8,7 +8,8 @@ use crate::drive::{Drive, DriveMotion, Drives, Load, MotionLaw, Motor};
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::{Vec2, unit};
 use crate::mechanism::{
-    AssemblyMode, GROUND, Joint, JointKind, Link, LinkId, Mechanism, Point, Side, StartGroup, Structure, first_pose,
+    AssemblyMode, GROUND, Joint, JointKind, JointSide, Link, LinkId, Mechanism, Point, StartGroup, Structure,
+    first_pose,
 };
 
 /// A joint by names.
@@ -246,13 +247,13 @@ impl CaseBuilder {
 
     fn made(&self, wish: &Wish) -> Result<Joint> {
         let key = format!("joints.{}", wish.name);
-        let side = |[link, name]: &[String; 2]| -> Result<Side> {
+        let side = |[link, name]: &[String; 2]| -> Result<JointSide> {
             let index = self.link_of(link, &key)?;
             let points = &self.links[index].points;
             let point = points.iter().find(|point| point.name == *name).ok_or_else(|| {
                 unknown(&sentences::point_of_link(&link), name, &key, points.iter().map(|own| own.name.as_str()))
             })?;
-            Ok(Side { link: index, local: point.local })
+            Ok(JointSide { link: index, local: point.local })
         };
         let kind = match wish.axes {
             None => JointKind::Revolute,

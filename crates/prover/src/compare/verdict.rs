@@ -6,7 +6,7 @@ use std::fmt;
 
 use super::{Convergence, Residual};
 use crate::numbers::{error_in, fixed, percent};
-use crate::tolerance::{Basis, Part, Parts, Tolerance};
+use crate::tolerance::{BoundBasis, BoundPart, Parts, Tolerance};
 use linkage::error::Advice;
 use linkage::math::KeepNan;
 use linkage::math::statistics::share;
@@ -167,12 +167,12 @@ const DISPROVEN: f64 = 3.0;
 /// The largest part of an engine's error, to be added to a reason, and how to make it smaller.
 fn way_out(parts: Parts) -> (&'static str, Vec<Advice>) {
     match parts.largest() {
-        Part::Rounding => {
+        BoundPart::Rounding => {
             (sentences::MOST_OF_IT_IS_ROUNDING, vec![Advice::LargerStep { to: None }, Advice::DoublePrecision])
         }
-        Part::Iteration => (sentences::MOST_OF_IT_IS_LEFT_BY_THE_SWEEPS, vec![Advice::MoreSweeps { to: None }]),
-        Part::Discretisation => ("", vec![Advice::SmallerStep { to: None }]),
-        Part::Reference => (sentences::MOST_OF_IT_IS_THE_REFERENCE, vec![Advice::ShortenGrid]),
+        BoundPart::Iteration => (sentences::MOST_OF_IT_IS_LEFT_BY_THE_SWEEPS, vec![Advice::MoreSweeps { to: None }]),
+        BoundPart::Discretisation => ("", vec![Advice::SmallerStep { to: None }]),
+        BoundPart::Reference => (sentences::MOST_OF_IT_IS_THE_REFERENCE, vec![Advice::ShortenGrid]),
     }
 }
 
@@ -190,7 +190,7 @@ pub struct Check {
     /// Unit of both; empty for relative numbers.
     pub unit: &'static str,
     /// What the bound rests on.
-    pub basis: Basis,
+    pub basis: BoundBasis,
     /// For a bound that comes from an engine's own runs: its parts, and how the runs converge.
     pub estimate: Option<(Parts, Convergence)>,
     /// The outcome.
@@ -214,7 +214,7 @@ impl Check {
         value: f64,
         convergence: &Convergence,
         parts: Parts,
-        basis: Basis,
+        basis: BoundBasis,
         wanted: f64,
     ) -> Self {
         let own = Check::new(family, value, Tolerance { bound: parts.sum(), basis }, "");
@@ -347,7 +347,7 @@ mod tests {
     #[test]
     fn a_check_without_a_number_uses_more_of_its_bound_than_any_other() {
         let used = |value: f64, bound: f64| {
-            Check::new("f", value, Tolerance { bound, basis: Basis::Wanted("test") }, "").used()
+            Check::new("f", value, Tolerance { bound, basis: BoundBasis::Wanted("test") }, "").used()
         };
         assert_eq!([used(1.0, 4.0), used(0.0, 0.0), used(3.0, 0.0)], [0.25, 0.0, f64::INFINITY]);
         assert_eq!([used(f64::NAN, 1.0), used(1.0, f64::NAN)], [f64::INFINITY; 2]);
@@ -390,7 +390,7 @@ mod tests {
     fn a_bound_on_a_check_must_be_borne_out_and_small_like_one_on_a_channel() {
         let check = |value: f64, observed: f64, discretisation: f64| {
             let parts = Parts { discretisation, ..Parts::default() };
-            Check::estimated("f", value, &converging(observed), parts, Basis::Wanted("test"), 1e-2).verdict
+            Check::estimated("f", value, &converging(observed), parts, BoundBasis::Wanted("test"), 1e-2).verdict
         };
         assert_eq!(check(1e-4, 2.0, 1e-3).word(), "agree");
         assert_eq!(check(2e-3, 2.0, 1e-3).word(), "disagree");
@@ -403,7 +403,7 @@ mod tests {
     /// A number of which 5 is printed and 7 is correct, each to half a unit.
     fn known_wrong(found: f64) -> Verdict {
         let against = |number: f64| {
-            Check::new("f", (found - number).abs(), Tolerance { bound: 0.5, basis: Basis::Wanted("test") }, "N")
+            Check::new("f", (found - number).abs(), Tolerance { bound: 0.5, basis: BoundBasis::Wanted("test") }, "N")
         };
         against(7.0).expected("why", &against(5.0)).verdict
     }

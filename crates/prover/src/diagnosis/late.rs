@@ -4,9 +4,9 @@ use crate::sentences;
 use std::ops::RangeInclusive;
 
 use super::bench::{Bench, Column, Misfit};
-use super::cause::{Cause, Slip};
+use super::cause::{DataSlip, DisagreementCause};
 use super::knobs::significant;
-use super::question::{Question, Rank};
+use super::question::{DiagnosisInput, Rank};
 use super::tries::{Candidate, Make};
 use linkage::case::{Case, Grid};
 use linkage::math::KeepNan;
@@ -27,7 +27,7 @@ const CLOCKS: [(f64, &str); 4] = [
 ];
 
 /// Values of another instant: of all channels, or of those of one stage; or of a clock that runs too fast.
-pub(super) fn late(question: &Question, bench: &Bench, start: &Misfit) -> Vec<Candidate> {
+pub(super) fn late(question: &DiagnosisInput, bench: &Bench, start: &Misfit) -> Vec<Candidate> {
     let mut stages: Vec<Option<Stage>> = vec![None];
     let stage = |column: &Column| Some(column.channel.kind.stage);
     for column in bench.columns.iter().filter(|column| column.disagrees) {
@@ -49,7 +49,7 @@ pub(super) fn late(question: &Question, bench: &Bench, start: &Misfit) -> Vec<Ca
 }
 
 struct Search<'a, 'b> {
-    question: &'a Question<'b>,
+    question: &'a DiagnosisInput<'b>,
     bench: &'a Bench<'b>,
     start: &'a Misfit,
 }
@@ -90,8 +90,8 @@ impl Search<'_, '_> {
     }
 
     /// All channels, by what those of one stage are late.
-    fn late_by(&self, cause: &Cause) -> Option<Candidate> {
-        let &Cause::Values { slip: Slip::Late { by, steps, .. }, .. } = cause else { return None };
+    fn late_by(&self, cause: &DisagreementCause) -> Option<Candidate> {
+        let &DisagreementCause::Values { slip: DataSlip::Late { by, steps, .. }, .. } = cause else { return None };
         let misfit = self.bench.tried(&shifted(&self.bench.case, by)?)?;
         self.late_candidate(&misfit, by, steps, None)
     }
@@ -186,16 +186,22 @@ impl Search<'_, '_> {
             (None, None) => Rank::Number,
             (None, Some(_)) => Rank::Fitted,
         };
-        self.candidate(misfit, rank, Slip::Late { by, steps, stage }, Box::new(move |case| shifted(case, by)))
+        self.candidate(misfit, rank, DataSlip::Late { by, steps, stage }, Box::new(move |case| shifted(case, by)))
     }
 
     fn clock_candidate(&self, misfit: &Misfit, factor: f64, told: Option<&'static str>) -> Option<Candidate> {
         let rank = if told.is_some() { Rank::Scale } else { Rank::Number };
-        self.candidate(misfit, rank, Slip::Clock { factor, told }, Box::new(move |case| on_clock(case, factor)))
+        self.candidate(misfit, rank, DataSlip::Clock { factor, told }, Box::new(move |case| on_clock(case, factor)))
     }
 
-    fn candidate(&self, misfit: &Misfit, rank: Rank, slip: Slip, make: Make) -> Option<Candidate> {
-        Candidate::of(self.bench, [self.start, misfit], rank, |channels| Cause::Values { slip, channels }, make)
+    fn candidate(&self, misfit: &Misfit, rank: Rank, slip: DataSlip, make: Make) -> Option<Candidate> {
+        Candidate::of(
+            self.bench,
+            [self.start, misfit],
+            rank,
+            |channels| DisagreementCause::Values { slip, channels },
+            make,
+        )
     }
 }
 

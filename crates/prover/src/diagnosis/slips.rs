@@ -3,9 +3,9 @@
 use crate::sentences;
 use std::f64::consts::{PI, TAU};
 
-use super::cause::{Plain, Slip};
+use super::cause::{DataSlip, Plain};
 use super::knobs::significant_in;
-use super::question::{Found, Judged, Question, Rank};
+use super::question::{DiagnosisInput, Found, Rank, SuspectChannel};
 use crate::compare::{differences, magnitudes};
 use linkage::math::angle::wrapped;
 use linkage::math::{KeepNan, largest_size};
@@ -92,7 +92,7 @@ pub(super) fn found(wrong: &[Wrong]) -> Vec<Found> {
         let explained: Vec<Channel> =
             wrong.iter().filter(|wrong| wrong.is_explained_by(&slip)).map(|wrong| wrong.channel.clone()).collect();
         if !explained.is_empty() {
-            causes.push(Found::of_values(slip, Rank::Slip, explained));
+            causes.push(Found::of_values(slip, Rank::DataSlip, explained));
         }
     }
     for Fitted { slip, number, is_angle } in fitted(wrong) {
@@ -107,10 +107,10 @@ pub(super) fn found(wrong: &[Wrong]) -> Vec<Found> {
 }
 
 /// The disagreeing channels.
-pub(super) fn wrong<'a>(question: &'a Question) -> Vec<Wrong<'a>> {
+pub(super) fn wrong<'a>(question: &'a DiagnosisInput) -> Vec<Wrong<'a>> {
     let sizes = magnitudes(question.reference);
     let speed = question.case.crank().constant_speed().filter(|_| question.case.is_steady());
-    let of = |judged: &'a Judged| {
+    let of = |judged: &'a SuspectChannel| {
         let channel = &judged.channel;
         let place = question.reference.channels().iter().position(|own| own == channel)?;
         let (right, found) = (question.reference.column(channel)?, question.suspicious.column(channel)?);
@@ -121,15 +121,15 @@ pub(super) fn wrong<'a>(question: &'a Question) -> Vec<Wrong<'a>> {
 }
 
 /// Slips without a free number, the simplest first.
-fn plain(wrong: &[Wrong]) -> Vec<Slip> {
-    let mut slips: Vec<Slip> = Plain::ALL.iter().map(|&plain| Slip::Plain(plain)).collect();
+fn plain(wrong: &[Wrong]) -> Vec<DataSlip> {
+    let mut slips: Vec<DataSlip> = Plain::ALL.iter().map(|&plain| DataSlip::Plain(plain)).collect();
     for (factor, told) in wrong.iter().flat_map(|wrong| mistaken(wrong.channel.kind.unit)) {
-        let slip = Slip::Unit { factor, told };
+        let slip = DataSlip::Unit { factor, told };
         if !slips.contains(&slip) {
             slips.push(slip);
         }
     }
-    slips.extend(lonely(wrong).map(Slip::Outlier));
+    slips.extend(lonely(wrong).map(DataSlip::Outlier));
     slips
 }
 
@@ -147,7 +147,7 @@ const MANY: usize = 8;
 
 /// A slip with a number, which has its digits in degrees if it is an angle.
 struct Fitted {
-    slip: fn(f64) -> Slip,
+    slip: fn(f64) -> DataSlip,
     number: f64,
     is_angle: bool,
 }
@@ -166,13 +166,13 @@ fn fitted(wrong: &[Wrong]) -> Vec<Fitted> {
     if gaps.len() >= FEWEST {
         if same_unit {
             let mean = |gaps: &[f64]| gaps.iter().sum::<f64>() / gaps.len() as f64;
-            slips.push(Fitted { slip: Slip::Offset, number: mean(&gaps), is_angle });
+            slips.push(Fitted { slip: DataSlip::Offset, number: mean(&gaps), is_angle });
             let negative: Vec<f64> = worst.right.iter().map(|value| -value).collect();
             let number = mean(&differences(&negative, worst.found, worst.channel.kind.periodic));
-            slips.extend((number.abs() > worst.bound).then_some(Fitted { slip: Slip::Mirrored, number, is_angle }));
+            slips.extend((number.abs() > worst.bound).then_some(Fitted { slip: DataSlip::Mirrored, number, is_angle }));
         }
         if squares > 0.0 {
-            slips.push(Fitted { slip: Slip::Factor, number: products / squares, is_angle: false });
+            slips.push(Fitted { slip: DataSlip::Factor, number: products / squares, is_angle: false });
         }
     }
     slips
@@ -188,23 +188,23 @@ const FEWEST: usize = 4;
 
 impl Wrong<'_> {
     /// Whether the slip, done to the right values, gives those found.
-    fn is_explained_by(&self, slip: &Slip) -> bool {
+    fn is_explained_by(&self, slip: &DataSlip) -> bool {
         let unit = self.channel.kind.unit;
         match *slip {
-            Slip::Plain(plain) => self.is_plainly(plain),
-            Slip::Factor(factor) => self.meets(|value| factor * value),
-            Slip::Offset(by) => self.meets(|value| value + by),
-            Slip::Mirrored(by) => self.meets(|value| by - value),
-            Slip::Unit { factor, told } => {
+            DataSlip::Plain(plain) => self.is_plainly(plain),
+            DataSlip::Factor(factor) => self.meets(|value| factor * value),
+            DataSlip::Offset(by) => self.meets(|value| value + by),
+            DataSlip::Mirrored(by) => self.meets(|value| by - value),
+            DataSlip::Unit { factor, told } => {
                 mistaken(unit).iter().any(|(_, own)| *own == told) && self.meets(|value| factor * value)
             }
-            Slip::Outlier(time) => {
+            DataSlip::Outlier(time) => {
                 (0..self.times.len()).all(|row| self.times[row] == time || self.gap(row).abs() <= self.bound)
             }
             // Need the solution at other instants, or of other channels: see `late`, `others` and `derived`.
-            Slip::Late { .. } | Slip::Clock { .. } | Slip::Instead(_) | Slip::Opposite(_) => false,
-            Slip::Exchanged(_) | Slip::Between { .. } | Slip::Magnitude(_) => false,
-            Slip::Differences { .. } | Slip::NoCoriolis(_) | Slip::About(_) => false,
+            DataSlip::Late { .. } | DataSlip::Clock { .. } | DataSlip::Instead(_) | DataSlip::Opposite(_) => false,
+            DataSlip::Exchanged(_) | DataSlip::Between { .. } | DataSlip::Magnitude(_) => false,
+            DataSlip::Differences { .. } | DataSlip::NoCoriolis(_) | DataSlip::About(_) => false,
         }
     }
 

@@ -7,7 +7,7 @@ use super::problem::Problem;
 use super::runs::Runs;
 use crate::compare::{Check, Convergence, difference};
 use crate::sentences;
-use crate::tolerance::{Basis, Origin, Tolerance};
+use crate::tolerance::{BoundBasis, BoundOrigin, Tolerance};
 use linkage::case::Case;
 use linkage::engine::{Engine, Route};
 use linkage::math::statistics::{ascending, share};
@@ -26,7 +26,7 @@ fn two_ways(side: &Observed) -> f64 {
 }
 
 pub(super) fn rounding(bound: f64, why: &'static str) -> Tolerance {
-    Tolerance { bound, basis: Basis::Wanted(why) }
+    Tolerance { bound, basis: BoundBasis::Wanted(why) }
 }
 
 /// Checks on the two analytic sides.
@@ -215,12 +215,12 @@ impl Vanishing<'_> {
         let found = found.extrapolated(engine.settings().extrapolated);
         let parts = found.parts(noise(engine));
         let basis = found.tolerance(resolution, parts, noise_origin(engine)).basis;
-        let basis = Basis::Noted(Box::new(basis), self.note);
+        let basis = BoundBasis::Noted(Box::new(basis), self.note);
         Check::estimated(self.family, self.value, &found, parts, basis, problem.engine_rel)
     }
 }
 
 /// How the rounding of an engine is known.
-pub(super) fn noise_origin(engine: &dyn Engine) -> Origin {
-    if engine.is_noise_measured() { Origin::Measured } else { Origin::Wanted }
+pub(super) fn noise_origin(engine: &dyn Engine) -> BoundOrigin {
+    if engine.is_noise_measured() { BoundOrigin::Measured } else { BoundOrigin::Wanted }
 }

@@ -3,7 +3,7 @@
 use crate::sentences;
 use std::sync::Arc;
 
-use super::engine_proof::{End, EngineInfo, EngineProof};
+use super::engine_proof::{EngineInfo, EngineProof, SearchEnd};
 use super::judge::{Judge, Judged};
 use super::ledger::Ledger;
 use super::observe::{Stopped, Watch};
@@ -150,7 +150,7 @@ fn tried(judge: &Judge, bank: &mut Bank, chosen: &Chosen) -> Advice {
     let Ok(Judged { proof, .. }) = found else { return Advice::FreeSettings };
     let Settings { resolution, sweeps, extrapolated, .. } = proof.info.settings;
     let outcome = match (&proof.verdict, proof.search.map(|search| search.end)) {
-        (Verdict::Inconclusive { .. }, Some(End::Budget | End::Pace)) => {
+        (Verdict::Inconclusive { .. }, Some(SearchEnd::Budget | SearchEnd::Pace)) => {
             sentences::THE_WORK_ALLOWED_IS_NOT_ENOUGH.into()
         }
         (Verdict::Inconclusive { .. }, _) => sentences::NOTHING_IS_PROVEN_THERE_EITHER.into(),

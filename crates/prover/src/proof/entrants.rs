@@ -14,7 +14,7 @@ use super::observe::{Observed, Watch, observe};
 use super::options::Chosen;
 use super::problem::Problem;
 use super::{engines, figures, formulas, methods, oracle};
-use crate::claims::{self, Course, Judged, Outcome};
+use crate::claims::{self, FormulaOutcome, JudgedFormula, KnownTrajectory};
 use crate::compare::{Check, Verdict, overall};
 use analytic::{AssurSolver, NewtonSolver, TIGHT_ASSUR, TIGHT_NEWTON};
 use formula::Rounded;
@@ -23,7 +23,7 @@ use linkage::engine::Engine;
 use linkage::error::Result;
 use linkage::solver::Solver;
 use linkage::trajectory::{Channel, Trajectory};
-use scenario::{Figure, Formulas};
+use scenario::{Formulas, MechanismFigure};
 
 /// Share of the progress that the analytic sides are given.
 const SIDES: f64 = 0.1;
@@ -47,7 +47,7 @@ pub const TRUE_SIDES: EachSide<Entrant<'static>> = EachSide::new(
 );
 
 /// How engines take part.
-pub struct Engines<'a> {
+pub struct EngineRole<'a> {
     /// What they solve, on the scenario's instants.
     pub case: &'a Case,
     /// Puts something around each of them.
@@ -56,27 +56,27 @@ pub struct Engines<'a> {
     pub own_forces: bool,
 }
 
-impl<'a> Engines<'a> {
+impl<'a> EngineRole<'a> {
     /// Engines as they are, on a case.
     pub(crate) fn on(case: &'a Case) -> Self {
-        Engines { case, around: &|engine| engine, own_forces: true }
+        EngineRole { case, around: &|engine| engine, own_forces: true }
     }
 }
 
 /// The two analytic sides of a proof, observed and checked.
-pub struct Sides {
+pub struct ObservedSides {
     reference: Reference,
     pub(super) observed: EachSide<Observed>,
     pub(super) known: Known,
     /// Checks on both, published numbers among them.
     pub checks: Vec<Check>,
     /// Figures that formulas claim.
-    figures: EachSide<Vec<(Figure, Rounded)>>,
+    figures: EachSide<Vec<(MechanismFigure, Rounded)>>,
     /// What formulas come to, if any claims something.
     pub(super) judgement: Option<Judgement>,
 }
 
-impl Sides {
+impl ObservedSides {
     /// Both sides on a problem, whose case may be the scene of the `whole`.
     ///
     /// # Errors
@@ -132,7 +132,7 @@ impl Sides {
             }
         }
         let figures = EachSide::default();
-        let mut own = Sides { reference, observed: sides, known, checks, figures, judgement: None };
+        let mut own = ObservedSides { reference, observed: sides, known, checks, figures, judgement: None };
         match own_formulas.claims().next() {
             None => ledger.skipped("formulas", sentences::NONE_CLAIMS_A_WANTED_CHANNEL),
             Some(_) => {
@@ -157,7 +157,7 @@ impl Sides {
         let sides = self.claimed(case, formulas)?;
         let (mut causes, mut undefined) = (Vec::new(), BTreeMap::new());
         let (mut unsought, mut work) = (BTreeSet::new(), 0);
-        let is_wrong = |all: &&Vec<Judged>| all.iter().any(|judged| judged.outcome() == Outcome::Wrong);
+        let is_wrong = |all: &&Vec<JudgedFormula>| all.iter().any(|judged| judged.outcome() == FormulaOutcome::Wrong);
         for index in 0..sides[Reference::Assur].len() {
             // The side that it contradicts, or both: the first of them.
             let all = EachSide::of(|side| &sides[side][index]);
@@ -188,18 +188,23 @@ impl Sides {
     ///
     /// # Errors
     /// Those of [`claims::judge`].
-    pub fn claimed(&self, case: &Case, formulas: &Formulas) -> Result<EachSide<Vec<Vec<Judged>>>> {
+    pub fn claimed(&self, case: &Case, formulas: &Formulas) -> Result<EachSide<Vec<Vec<JudgedFormula>>>> {
         EachSide::tried(|side| self.on_course(case, side, |course| claims::judge(formulas, course)))
     }
 
     /// What one side found on a case, with how well it knows it.
-    pub fn on_course<T>(&self, case: &Case, side: Reference, then: impl FnOnce(&Course) -> Result<T>) -> Result<T> {
+    pub fn on_course<T>(
+        &self,
+        case: &Case,
+        side: Reference,
+        then: impl FnOnce(&KnownTrajectory) -> Result<T>,
+    ) -> Result<T> {
         let trajectory = &self.observed[side].trajectory;
         let error = |column: usize, row: usize| {
             // Both sides have the same channels in the same order.
             self.known.at(side, trajectory.channels()[column].kind.stage, column, row)
         };
-        then(&Course::new(case, trajectory, &error).with_figures(&self.figures[side]))
+        then(&KnownTrajectory::new(case, trajectory, &error).with_figures(&self.figures[side]))
     }
 
     /// What formulas come to, if any claims something.
@@ -245,7 +250,7 @@ impl Sides {
     pub fn engines(
         &self,
         problem: Problem,
-        how: &Engines,
+        how: &EngineRole,
         engines: Vec<Chosen>,
         ledger: &mut Ledger,
         progress: &mut dyn FnMut(f64),

@@ -21,7 +21,7 @@ use linkage::engine::{Engine, Settings};
 use linkage::error::{Advice, Result};
 use linkage::math::statistics::half_range;
 use linkage::math::{KeepNan, largest_size};
-use linkage::trajectory::{Channel, ChannelKind, Stage, Subject, Trajectory, Unit};
+use linkage::trajectory::{Channel, ChannelKind, ChannelSubject, Stage, Trajectory, Unit};
 
 /// Steps at the beginning of a free motion whose second differences come from later ones.
 const BEGINNING: f64 = 5.0;
@@ -52,7 +52,7 @@ impl Asks {
     fn has(self, kind: &ChannelKind) -> bool {
         match self {
             Asks::All => true,
-            Asks::OwnForces => kind.stage >= Stage::Reactions && kind.subject != Subject::Frame,
+            Asks::OwnForces => kind.stage >= Stage::Reactions && kind.subject != ChannelSubject::Frame,
         }
     }
 }

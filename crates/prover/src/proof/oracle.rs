@@ -7,7 +7,7 @@ use super::problem::Problem;
 use super::shifted::{Along, RoundedInstants, TELLING};
 use crate::compare::{Check, Verdict, magnitudes, scales};
 use crate::sentences;
-use crate::tolerance::{Basis, Origin, Tolerance};
+use crate::tolerance::{BoundBasis, BoundOrigin, Tolerance};
 use linkage::case::{Case, Wanted};
 use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::math::KeepNan;
@@ -201,7 +201,7 @@ fn of_one(oracle: &Oracle, series: &OracleSeries, answers: &Answers, side: Refer
         let told = if matches!(point.at, When::Crank(_)) { &nominal } else { &timed };
         told.as_ref().expect("solved at every instant").of(series, point)
     };
-    let against = |family: &str, point: &OraclePoint, origin: Origin| -> Check {
+    let against = |family: &str, point: &OraclePoint, origin: BoundOrigin| -> Check {
         let Found { deviation, bound, instant, .. } = found(point);
         let tolerance = tolerance(oracle, origin, bound, instant, point.digits);
         let check = Check::new(family, deviation, tolerance, series.channel.kind.unit.symbol());
@@ -210,7 +210,7 @@ fn of_one(oracle: &Oracle, series: &OracleSeries, answers: &Answers, side: Refer
     let [family, wrong] = [false, true].map(|wrong| family(oracle, wrong, side.name()));
     let corrected = |cell: &ExpectedCell| -> Check {
         let printed = against(&wrong, &cell.point, origin(oracle));
-        against(&wrong, &cell.right, Origin::Recomputed).expected(&cell.finding, &printed)
+        against(&wrong, &cell.right, BoundOrigin::Recomputed).expected(&cell.finding, &printed)
     };
     // Each cell has its own bound: the worst cell is the one that uses the largest share of it. NaN is the worst.
     let (mut worst, mut open): (Option<(f64, &OraclePoint)>, Option<&OraclePoint>) = (None, None);
@@ -261,16 +261,16 @@ fn worst_of(checks: impl Iterator<Item = Check>) -> Option<Check> {
 
 /// Bound of a number: half a unit of its last digit, plus the known error of the number, but never less than what the
 /// analytic sides know; and the part of it that the rounding of its instant leaves open.
-fn tolerance(oracle: &Oracle, origin: Origin, bound: f64, instant: f64, digits: i32) -> Tolerance {
-    Tolerance { bound, basis: Basis::Digits { origin, digits, source: oracle.source.clone(), instant } }
+fn tolerance(oracle: &Oracle, origin: BoundOrigin, bound: f64, instant: f64, digits: i32) -> Tolerance {
+    Tolerance { bound, basis: BoundBasis::Digits { origin, digits, source: oracle.source.clone(), instant } }
 }
 
 /// How the numbers of an oracle are known.
-fn origin(oracle: &Oracle) -> Origin {
+fn origin(oracle: &Oracle) -> BoundOrigin {
     match oracle.basis {
-        OracleBasis::Published => Origin::Published,
-        OracleBasis::Recomputed => Origin::Recomputed,
-        OracleBasis::Derived => Origin::Derived,
+        OracleBasis::Published => BoundOrigin::Published,
+        OracleBasis::Recomputed => BoundOrigin::Recomputed,
+        OracleBasis::Derived => BoundOrigin::Derived,
     }
 }
 
@@ -306,7 +306,7 @@ fn of_figures(oracles: &[Oracle], case: &Case, solvers: EachSide<&dyn Solver>) -
             let [value, other] = [values[side][index], values[side.other()][index]];
             let known = ULPS * f64::EPSILON * value.abs() + 2.0 * (value - other).abs();
             let (family, unit) = (family(oracle, figure.wrong.is_some(), side.name()), figure.figure.unit());
-            let against = |number: &FigureValue, origin: Origin| {
+            let against = |number: &FigureValue, origin: BoundOrigin| {
                 let tolerance = tolerance(oracle, origin, number.bound.larger(known), 0.0, number.digits);
                 Check::new(family.as_str(), (value - number.value).abs(), tolerance, unit)
                     .of(&figure.name)
@@ -314,7 +314,7 @@ fn of_figures(oracles: &[Oracle], case: &Case, solvers: EachSide<&dyn Solver>) -
             };
             let printed = against(&figure.printed, origin(oracle));
             checks.push(match &figure.wrong {
-                Some((finding, right)) => against(right, Origin::Recomputed).expected(finding, &printed),
+                Some((finding, right)) => against(right, BoundOrigin::Recomputed).expected(finding, &printed),
                 None => printed,
             });
         }
@@ -335,7 +335,7 @@ mod tests {
     #[test]
     fn what_is_not_as_expected_comes_before_what_uses_most() {
         let check = |value: f64, verdict: Verdict| {
-            let tolerance = Tolerance { bound: 1.0, basis: Basis::Wanted("test") };
+            let tolerance = Tolerance { bound: 1.0, basis: BoundBasis::Wanted("test") };
             Check { verdict, ..Check::new("f", value, tolerance, "") }
         };
         let expected = |value: f64| check(value, Verdict::Expected { finding: "why".into(), off: 1.0 });

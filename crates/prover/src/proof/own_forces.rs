@@ -17,7 +17,7 @@ use linkage::case::Case;
 use linkage::engine::{Engine, Route, Settings};
 use linkage::error::{Advice, Error, ErrorKind};
 use linkage::trajectory::Stage;
-use scenario::Setting;
+use scenario::EngineSetting;
 
 /// Sweeps to begin with at the most, if the motion has needed as many.
 const ENOUGH: usize = 32;
@@ -94,7 +94,7 @@ fn by_route(
     let mut asked = chosen.given.clone();
     let extrapolated = match asked.extrapolated.is_free() {
         true => {
-            asked.step = Setting::Free;
+            asked.step = EngineSetting::Free;
             0
         }
         false => given.extrapolated,

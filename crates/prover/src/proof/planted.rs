@@ -6,7 +6,7 @@ use std::path::Path;
 
 use super::each_side::{EachSide, Reference};
 use super::engine_proof::ChannelProof;
-use super::entrants::{Sides, TRUE_SIDES};
+use super::entrants::{ObservedSides, TRUE_SIDES};
 use super::figures::Measured;
 use super::judge::Judge;
 use super::known::Known;
@@ -29,7 +29,7 @@ use linkage::mechanism::{GROUND, JointId, LinkId};
 use linkage::solver::{Solver, State};
 use linkage::trajectory::Channel;
 use rapier_twin::Rapier;
-use scenario::{EngineSettings, Figure, Scenario};
+use scenario::{EngineSettings, MechanismFigure, Scenario};
 
 /// Step of the engines (s).
 const STEP: f64 = 1e-3;
@@ -351,7 +351,7 @@ fn a_side_is_known_by_its_own_integration() {
     let scenario = parsed("crank_rocker_runup", &short);
     let problem = Problem::of(&scenario, &scenario.case);
     let known = |reference: Reference| {
-        let sides = Sides::of(problem, &scenario.case, TRUE_SIDES, reference, &mut Ledger::default()).unwrap();
+        let sides = ObservedSides::of(problem, &scenario.case, TRUE_SIDES, reference, &mut Ledger::default()).unwrap();
         Reference::ALL.map(|side| sides.on_course(&scenario.case, side, |course| Ok(course.crank(2).error)).unwrap())
     };
     let [by_first, by_second] = [known(Reference::Assur), known(Reference::Newton)];
@@ -373,7 +373,10 @@ fn what_the_sides_differ_by_is_told_in_times_of_what_is_allowed() {
     let beyond = checks::beyond(EachSide::new(&wrong, &other), &knowing(&case));
     let own = beyond.iter().find(|own| own.channel.to_string() == "joint.O.fx_N").unwrap();
     assert!((2.0..3.5).contains(&own.margin) && own.since.0 == case.grid.times[0], "{own:?}");
-    assert!(beyond.iter().all(|own| own.channel.kind.subject != linkage::trajectory::Subject::Point), "{beyond:?}");
+    assert!(
+        beyond.iter().all(|own| own.channel.kind.subject != linkage::trajectory::ChannelSubject::Point),
+        "{beyond:?}"
+    );
 }
 
 /// A resistance opposes either sense, and weights are lifted as far as they fall.
@@ -383,7 +386,8 @@ fn a_reversed_drive_has_the_reversed_steady_speed() {
         let text = text("crank_rocker").replace("speed_rpm = 130", rpm);
         let scenario = parsed("crank_rocker", &text[..text.find("[[oracle]]").unwrap()]);
         let mut measured = Measured::of(&scenario.case, &AssurSolver);
-        [Figure::SteadyCrankSpeed, Figure::SteadyMotorSpeed].map(|figure| measured.value(figure).unwrap())
+        [MechanismFigure::SteadyCrankSpeed, MechanismFigure::SteadyMotorSpeed]
+            .map(|figure| measured.value(figure).unwrap())
     };
     let [forwards, backwards] = [speeds("speed_rpm = 130"), speeds("speed_rpm = -130")];
     for (one, other) in forwards.into_iter().zip(backwards) {

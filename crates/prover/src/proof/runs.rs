@@ -9,7 +9,7 @@ use crate::compare::{Ladder, OtherSweeps};
 use crate::numbers::significant;
 use analytic::range::{ASIDE, Extent, reachable};
 use linkage::case::Case;
-use linkage::engine::{Engine, Kept, Settings, plain_runs, size_of_step};
+use linkage::engine::{CachedEngine, Engine, Settings, plain_runs, size_of_step};
 use linkage::error::Advice;
 use linkage::math::KeepNan;
 use linkage::work::limited;
@@ -57,7 +57,7 @@ pub(super) const FEW: usize = 1_000_000;
 /// All runs of one engine on one case. Each is made and observed once, those of many instants as often as needed.
 pub(super) struct Bank<'a> {
     pub(super) case: &'a Case,
-    kept: Kept,
+    kept: CachedEngine,
     seen: Vec<(Settings, Arc<Observed>)>,
     watch: Watch,
     /// Number of plain runs made so far.
@@ -68,7 +68,7 @@ pub(super) struct Bank<'a> {
 
 impl<'a> Bank<'a> {
     pub(super) fn new(case: &'a Case, engine: &dyn Engine, watch: Watch) -> Self {
-        Bank { case, kept: Kept::new(engine), seen: Vec::new(), watch, count: 0, effort: 0.0 }
+        Bank { case, kept: CachedEngine::new(engine), seen: Vec::new(), watch, count: 0, effort: 0.0 }
     }
 
     /// The engine at `settings`. Its runs are those of the bank.

@@ -16,7 +16,7 @@ use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::schema::types::ColumnDescriptor;
 
 use super::source::May;
-use columns::{MISSING, Table, Twice, UNDEFINED};
+use columns::{MISSING, TextTable, Twice, UNDEFINED};
 use formula::Rounded;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::quiet::guarded;
@@ -26,7 +26,7 @@ const MOST: u64 = 1 << 26;
 /// Values that are read at a time.
 const BATCH: usize = 1 << 12;
 
-pub(super) fn read(path: &Path, size: u64, may: May) -> Result<Table> {
+pub(super) fn read(path: &Path, size: u64, may: May) -> Result<TextTable> {
     let damaged = |error: &dyn Display| {
         Error::new(ErrorKind::Io, sentences::the_table_is_cut_off_or_damaged(&path.display(), &error))
             .help(sentences::WRITE_IT_AGAIN_AS_PARQUET)
@@ -40,7 +40,7 @@ pub(super) fn read(path: &Path, size: u64, may: May) -> Result<Table> {
 }
 
 /// The columns that hold numbers; others, such as names, are passed over.
-fn of_file(path: &Path, size: u64, may: May) -> std::result::Result<Result<Table>, ParquetError> {
+fn of_file(path: &Path, size: u64, may: May) -> std::result::Result<Result<TextTable>, ParquetError> {
     let file = File::open(path)?;
     // An error of the file system would call itself external.
     let wrong = |error: std::io::Error| ParquetError::General(error.to_string());
@@ -87,7 +87,7 @@ fn of_file(path: &Path, size: u64, may: May) -> std::result::Result<Result<Table
         names.push(name);
         columns.push(column);
     }
-    Ok(Ok(Table { names, columns, lines: Vec::new() }))
+    Ok(Ok(TextTable { names, columns, lines: Vec::new() }))
 }
 
 /// Name of a compression that is not read.

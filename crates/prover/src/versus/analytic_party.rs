@@ -3,15 +3,15 @@
 use crate::sentences;
 use std::collections::BTreeSet;
 
-use super::allowed::How;
+use super::allowed::ComparisonRule;
 use super::cause;
 use super::instants;
 use super::judge::{Both, Which};
-use super::pair::{Pair, Side, crank_check};
+use super::pair::{Side, SidePair, crank_check};
 use super::scale::Scales;
 use crate::proof::memory;
 use crate::proof::solved::{Solved, asked};
-use crate::tables::{At, Column, Held};
+use crate::tables::{Held, PartyColumn, RowKey};
 use formula::Rounded;
 use linkage::case::Grid;
 use linkage::error::{Error, ErrorKind, Result};
@@ -28,17 +28,17 @@ pub(super) fn held(scenario: &Scenario) -> Result<Held> {
 }
 
 /// What the sides say of claims, `of(row)` being the instant of a row.
-fn columns(solved: &Solved, claims: &[Claim], of: &dyn Fn(usize) -> usize, rows: usize) -> Result<Vec<Column>> {
+fn columns(solved: &Solved, claims: &[Claim], of: &dyn Fn(usize) -> usize, rows: usize) -> Result<Vec<PartyColumn>> {
     let column = |claim: &Claim| {
         let values = solved.on_course(|course| course.values(claim))?;
         let values = (0..rows).map(|row| values[of(row)]).collect();
-        Ok(Column { claim: claim.clone(), values, scale: None, mapped: None })
+        Ok(PartyColumn { claim: claim.clone(), values, scale: None, mapped: None })
     };
     claims.iter().map(column).collect()
 }
 
 /// Compares a scenario, which is this party, with the other, which gives the instants.
-pub(super) fn beside(scenario: &Scenario, which: Which, other: Side, how: &How) -> Result<Pair> {
+pub(super) fn beside(scenario: &Scenario, which: Which, other: Side, how: &ComparisonRule) -> Result<SidePair> {
     let Side { name, held } = other;
     let at = held.at(how.by)?;
     let (claims, alone) = claims(scenario, &held, how)?;
@@ -63,11 +63,11 @@ pub(super) fn beside(scenario: &Scenario, which: Which, other: Side, how: &How) 
         drift: drift.claims,
         how,
     };
-    let mut pair = Pair {
+    let mut pair = SidePair {
         names: which.beside(String::new(), name),
         alone: which.beside(Vec::new(), alone),
         checks: solved.checks().to_vec(),
-        ..Pair::of(&both, which.other(), &claims)
+        ..SidePair::of(&both, which.other(), &claims)
     };
     if pair.contradiction.is_none() {
         pair.causes = cause::explained(scenario, which, &both, &pair.channels)?;
@@ -80,7 +80,7 @@ pub(super) fn beside(scenario: &Scenario, which: Which, other: Side, how: &How) 
 }
 
 /// What a party says of channels that the scenario has, and the names of its other ones.
-fn claims(scenario: &Scenario, held: &Held, how: &How) -> Result<(Vec<Claim>, Vec<String>)> {
+fn claims(scenario: &Scenario, held: &Held, how: &ComparisonRule) -> Result<(Vec<Claim>, Vec<String>)> {
     let (mut claims, mut alone) = (Vec::new(), Vec::new());
     let asked = how.asked();
     for column in held.columns.iter().filter(|column| asked(&column.claim)) {
@@ -103,7 +103,7 @@ fn claims(scenario: &Scenario, held: &Held, how: &How) -> Result<(Vec<Claim>, Ve
 }
 
 /// The grid of some instants, every one once, and for every row its place in it.
-fn grid(scenario: &Scenario, at: &At) -> Result<(Grid, Vec<usize>)> {
+fn grid(scenario: &Scenario, at: &RowKey) -> Result<(Grid, Vec<usize>)> {
     let mut rows = vec![0; at.values.len()];
     let mut all: Vec<f64> = Vec::with_capacity(rows.len());
     for row in at.ascending() {

@@ -3,12 +3,12 @@
 use crate::sentences;
 use std::ops::Deref;
 
-use super::allowed::{Allowances, How};
+use super::allowed::{Allowances, ComparisonRule};
 use crate::compare::Verdict;
 use crate::proof::shifted::TELLING;
-use crate::tables::{At, Held};
-use columns::{Beside, Judged, Measure, judge};
-use formula::{Rounded, Shape};
+use crate::tables::{Held, RowKey};
+use columns::{Beside, JudgedColumns, ScaleColumn, judge};
+use formula::{NodeShape, Rounded};
 use linkage::error::Advice;
 use linkage::input::Input;
 use linkage::math::statistics::half_range;
@@ -16,7 +16,7 @@ use linkage::math::{KeepNan, largest_size};
 use linkage::trajectory::Unit;
 use scenario::Claim;
 
-pub use columns::Row;
+pub use columns::RowPair;
 
 /// A channel, or an arithmetic of channels, of both parties.
 #[derive(Clone, Debug)]
@@ -27,7 +27,7 @@ pub struct Compared {
     /// the claim's unit. The same whatever else is compared.
     pub scale: f64,
     /// What the numbers of both come to, in the claim's unit.
-    pub found: Judged,
+    pub found: JudgedColumns,
     /// Whether the bound is what is known of both parties, and nothing is allowed besides.
     pub is_derived: bool,
     /// Agreement within the bounds of all instants.
@@ -35,9 +35,9 @@ pub struct Compared {
 }
 
 impl Deref for Compared {
-    type Target = Judged;
+    type Target = JudgedColumns;
 
-    fn deref(&self) -> &Judged {
+    fn deref(&self) -> &JudgedColumns {
         &self.found
     }
 }
@@ -50,7 +50,7 @@ impl Compared {
     }
 }
 
-fn has_no_number(own: &Judged) -> bool {
+fn has_no_number(own: &JudgedColumns) -> bool {
     own.since.is_some_and(|at| at.difference.is_nan())
 }
 
@@ -75,12 +75,12 @@ impl Which {
 /// Both parties at the same rows.
 pub(super) struct Both<'a> {
     pub parties: [&'a Held; 2],
-    pub at: &'a At,
+    pub at: &'a RowKey,
     /// Times and crank angles of rows as far as somebody knows them.
     pub instants: [Vec<f64>; 2],
     /// What the digits of the instants leave open, claim by claim and row by row; an empty column for nothing.
     pub drift: Vec<Vec<f64>>,
-    pub how: &'a How,
+    pub how: &'a ComparisonRule,
 }
 
 impl Both<'_> {
@@ -96,8 +96,8 @@ impl Both<'_> {
     }
 
     /// The party that is measured by.
-    pub(super) fn measure(&self) -> Measure {
-        Measure::among(self.parties.map(|party| party.is_analytic))
+    pub(super) fn measure(&self) -> ScaleColumn {
+        ScaleColumn::among(self.parties.map(|party| party.is_analytic))
     }
 
     pub(super) fn places(&self) -> [&[f64]; 2] {
@@ -112,7 +112,7 @@ impl Both<'_> {
         let complete = [measure, 1 - measure].into_iter().find_map(|party| self.parties[party].scale_of(claim));
         complete.unwrap_or_else(|| {
             let numbers: Vec<f64> = values.iter().map(|own| own.value).filter(|value| value.is_finite()).collect();
-            let is_coordinate = matches!(claim.tree.shape, Shape::Name(_))
+            let is_coordinate = matches!(claim.tree.shape, NodeShape::Name(_))
                 && matches!(claim.channels[0].1.channel.kind.unit, Unit::Radian | Unit::Metre);
             let share = match (numbers.len(), is_coordinate) {
                 // One instant has no range.
@@ -140,7 +140,7 @@ impl Both<'_> {
         Compared { claim: claim.clone(), scale, is_derived, verdict: self.verdict(&found, scale, is_derived), found }
     }
 
-    fn verdict(&self, own: &Judged, scale: f64, is_derived: bool) -> Verdict {
+    fn verdict(&self, own: &JudgedColumns, scale: f64, is_derived: bool) -> Verdict {
         let Some(worst) = own.worst else {
             return Verdict::open(sentences::AT_NO_INSTANT_DO_BOTH_HAVE_A_NUMBER);
         };
@@ -166,8 +166,8 @@ impl Both<'_> {
 }
 
 /// Where, and what stands there.
-pub(super) fn place(at: &Row) -> String {
-    let Row { time, crank, values: [one, other], .. } = at;
+pub(super) fn place(at: &RowPair) -> String {
+    let RowPair { time, crank, values: [one, other], .. } = at;
     let when = match (time.is_nan(), crank.is_nan()) {
         (false, false) => format!("t = {time:.6} s, {:.3}", Input::Angle.at(*crank)),
         (false, true) => format!("t = {time:.6} s"),

@@ -14,7 +14,7 @@ use rapier::prelude::{
 
 use crate::masses::{Loading, world_masses};
 use crate::steer::steered;
-use crate::tree::Tree;
+use crate::tree::SpanningTree;
 use crate::world::{LinkAngle, LinkFrame};
 use linkage::case::Case;
 use linkage::engine::Settings;
@@ -68,7 +68,7 @@ struct Place {
 /// The Rapier world of a case.
 pub(crate) struct Twin {
     world: PhysicsWorld,
-    tree: Tree,
+    tree: SpanningTree,
     joints: Vec<Joint>,
     bodies: Vec<RigidBodyHandle>,
     /// The multibodies, each given by one of its links; none if all links are separate bodies. See [`LARGE`].
@@ -98,7 +98,7 @@ impl Twin {
     ///
     /// # Errors
     /// [`ErrorKind::Unsupported`] if Rapier refuses a joint.
-    pub(crate) fn new(case: &Case, tree: Tree, settings: &Settings, loading: Loading) -> Result<Self> {
+    pub(crate) fn new(case: &Case, tree: SpanningTree, settings: &Settings, loading: Loading) -> Result<Self> {
         let mechanism = &case.mechanism;
         let masses = world_masses(case, &tree, loading);
         let read = loading != Loading::Moving;

@@ -4,22 +4,22 @@ use crate::sentences;
 use toml::Spanned;
 use toml::de::DeValue;
 
-use super::{Entry, Needed, Sign, Table, found};
-use crate::keys::key::Key;
-use crate::unit::{Family, Unit};
+use super::{Entry, Needed, Sign, TomlTable, found};
+use crate::keys::key::FileKey;
+use crate::unit::{NamedUnit, UnitFamily};
 use crate::words::choice;
 use linkage::error::{Error, ErrorKind, Result};
 
 /// A quantity's family, the index of its entry, and its unit.
-type Spelled = (&'static Family, usize, &'static Unit);
+type Spelled = (&'static UnitFamily, usize, &'static NamedUnit);
 
 /// Smallest size of a quantity in SI whose products with others, and their squares, are numbers.
 const SMALLEST: f64 = 1e-100;
 
-impl<'a> Table<'a> {
+impl<'a> TomlTable<'a> {
     /// The row of a quantity in the table of keys, which has its units and its sign.
-    fn row(&self, key: &str) -> &'static Key {
-        let is_own = |row: &&Key| row.name == key && !row.kind.families().is_empty();
+    fn row(&self, key: &str) -> &'static FileKey {
+        let is_own = |row: &&FileKey| row.name == key && !row.kind.families().is_empty();
         self.rows.iter().find(is_own).unwrap_or_else(|| panic!("section `{}` has no quantity `{key}`", self.section))
     }
 
@@ -34,13 +34,13 @@ impl<'a> Table<'a> {
     }
 
     /// The same with the family that it is of.
-    pub fn optional_si_of(&mut self, key: &str) -> Result<Option<(&'static Family, f64)>> {
+    pub fn optional_si_of(&mut self, key: &str) -> Result<Option<(&'static UnitFamily, f64)>> {
         let row = self.row(key);
         self.quantity_in(key, row.kind.families(), row.kind.sign())
     }
 
     /// A list of quantities in SI, as its row tells, and the family that they are of; `None` if it is not there.
-    pub fn optional_si_list(&mut self, key: &str) -> Result<Option<(&'static Family, Vec<f64>)>> {
+    pub fn optional_si_list(&mut self, key: &str) -> Result<Option<(&'static UnitFamily, Vec<f64>)>> {
         let family = self.row(key).kind.families()[0];
         Ok(self.optional_quantities(key, family)?.map(|values| (family, values)))
     }
@@ -52,12 +52,12 @@ impl<'a> Table<'a> {
     }
 
     /// Quantity under one of the spellings of `base` in `family`, in SI; `None` if there is none.
-    pub fn optional_quantity(&mut self, base: &str, family: &'static Family, sign: Sign) -> Result<Option<f64>> {
+    pub fn optional_quantity(&mut self, base: &str, family: &'static UnitFamily, sign: Sign) -> Result<Option<f64>> {
         Ok(self.quantity_in(base, &[family], sign)?.map(|(_, value)| value))
     }
 
     /// Quantity under one of the spellings of `base` in `family`, in SI.
-    pub fn quantity(&mut self, base: &str, family: &'static Family, sign: Sign) -> Result<f64> {
+    pub fn quantity(&mut self, base: &str, family: &'static UnitFamily, sign: Sign) -> Result<f64> {
         if let Some(value) = self.optional_quantity(base, family, sign)? {
             return Ok(value);
         }
@@ -69,9 +69,9 @@ impl<'a> Table<'a> {
     fn quantity_in(
         &mut self,
         base: &str,
-        families: &[&'static Family],
+        families: &[&'static UnitFamily],
         sign: Sign,
-    ) -> Result<Option<(&'static Family, f64)>> {
+    ) -> Result<Option<(&'static UnitFamily, f64)>> {
         let (family, at, unit) = match self.spelled(base, families) {
             Ok(None) => return Ok(None),
             Ok(Some(found)) => found,
@@ -85,7 +85,7 @@ impl<'a> Table<'a> {
     }
 
     /// The number of an entry in SI, if it is one of those that are allowed.
-    fn allowed(&self, at: usize, unit: &Unit, family: &Family, sign: Sign) -> Result<f64> {
+    fn allowed(&self, at: usize, unit: &NamedUnit, family: &UnitFamily, sign: Sign) -> Result<f64> {
         let entry = &self.entries[at];
         let number = self.finite(entry.key, entry.value)?;
         if let Some((rule, way_out)) = sign.broken_by(number) {
@@ -96,7 +96,7 @@ impl<'a> Table<'a> {
     }
 
     /// Array of quantities under one of the spellings of `base` in `family`, in SI; `None` if there is none.
-    fn optional_quantities(&mut self, base: &str, family: &'static Family) -> Result<Option<Vec<f64>>> {
+    fn optional_quantities(&mut self, base: &str, family: &'static UnitFamily) -> Result<Option<Vec<f64>>> {
         let (at, unit) = match self.spelled(base, &[family]) {
             Ok(None) => return Ok(None),
             Ok(Some((_, at, unit))) => (at, unit),
@@ -117,11 +117,11 @@ impl<'a> Table<'a> {
     }
 
     /// A number in SI that a mechanism may have: zero, or of a size between those of its family.
-    fn in_range(&self, key: &str, value: &Spanned<DeValue>, si: f64, family: &Family) -> Result<f64> {
+    fn in_range(&self, key: &str, value: &Spanned<DeValue>, si: f64, family: &UnitFamily) -> Result<f64> {
         if si == 0.0 || (SMALLEST..=family.most).contains(&si.abs()) {
             return Ok(si);
         }
-        let Family { noun, units, most } = family;
+        let UnitFamily { noun, units, most } = family;
         let (found, unit) = (found(self.source, value), units[0].suffix);
         let message = sentences::found_but_is_zero_or_of_a_size(
             &found,
@@ -135,7 +135,7 @@ impl<'a> Table<'a> {
 
     /// The one entry that spells `base` in a unit of the families: its family, its own index, and the unit. All
     /// spellings are recorded as asked for.
-    fn spelled(&mut self, base: &str, families: &[&'static Family]) -> Result<Option<Spelled>> {
+    fn spelled(&mut self, base: &str, families: &[&'static UnitFamily]) -> Result<Option<Spelled>> {
         let spellings: Vec<String> = families.iter().flat_map(|family| family.keys(base)).collect();
         let mut present: Vec<usize> =
             spellings.iter().filter_map(|spelling| self.places.get(spelling.as_str()).copied()).collect();
@@ -154,7 +154,7 @@ impl<'a> Table<'a> {
             let message = sentences::and_are_both_given(&key, &second.key);
             return self.refuse(second.key, message, sentences::KEEP_ONE_OF_THE_TWO);
         }
-        let unit = |&family: &&'static Family| Some((family, at, family.unit_of(base, key)?));
+        let unit = |&family: &&'static UnitFamily| Some((family, at, family.unit_of(base, key)?));
         let found = families.iter().find_map(unit).expect("the key is one of the spellings");
         self.settled.extend_from_slice(&spellings);
         self.asked.extend(spellings);
@@ -162,7 +162,7 @@ impl<'a> Table<'a> {
     }
 
     /// A key that is `base` without its unit or with an unknown unit, and its error.
-    fn misspelt_unit(&self, base: &str, family: &Family, spellings: &[String]) -> Option<(&'a str, Error)> {
+    fn misspelt_unit(&self, base: &str, family: &UnitFamily, spellings: &[String]) -> Option<(&'a str, Error)> {
         let help = format!("write {}", choice(spellings.iter().map(String::as_str), "`"));
         let is_number =
             |entry: &&Entry| !matches!(entry.value.get_ref(), DeValue::Table(_)) && !self.used.contains(&entry.key);

@@ -3,7 +3,7 @@
 use crate::sentences;
 use toml::de::DeValue;
 
-use super::{Entry, Table};
+use super::{Entry, TomlTable};
 use crate::words::{choice, nearest};
 use linkage::error::{Error, ErrorKind, Result};
 
@@ -27,7 +27,11 @@ impl Faults {
     }
 
     /// What `read` makes of a table; `None` after a mistake, which is noted.
-    pub fn read<'a, T>(&mut self, table: &mut Table<'a>, read: impl FnOnce(&mut Table<'a>) -> Result<T>) -> Option<T> {
+    pub fn read<'a, T>(
+        &mut self,
+        table: &mut TomlTable<'a>,
+        read: impl FnOnce(&mut TomlTable<'a>) -> Result<T>,
+    ) -> Option<T> {
         let (found, own) = table.tried(self.names, read);
         self.all.extend(own);
         match found {
@@ -54,7 +58,7 @@ impl Faults {
     }
 }
 
-impl<'a> Table<'a> {
+impl<'a> TomlTable<'a> {
     /// What `read` makes of the table. All mistakes of its keys and values come together. What `read` says beyond them,
     /// about what the values mean, counts only without them: it might follow from one of them.
     pub fn read<T>(&mut self, read: impl FnOnce(&mut Self) -> Result<T>) -> Result<T> {

@@ -1,9 +1,9 @@
 //! The sheet of graphs over the crank angle, arranged vertically.
 
-use super::axes::{Axis, GRID, Room, frame, stacked};
-use crate::diagram::graphs::{Graph, Graphs};
+use super::axes::{GRID, Room, ValueAxis, frame, stacked};
+use crate::diagram::graphs::{CrankGraph, Graphs};
 use crate::sentences;
-use drawing::paper::figure::{Figure, Style, Type, scripted, solid, words};
+use drawing::paper::figure::{DrawnFigure, Style, Type, scripted, solid, words};
 use drawing::paper::style::{COLOURS, GREY, significant};
 use linkage::math::{KeepNan, Vec2};
 
@@ -27,15 +27,15 @@ pub fn graphs(graphs: &Graphs, title: &str) -> String {
 }
 
 /// One graph; the lower left corner of its frame is the origin.
-fn panel(graph: &Graph, [start, end]: [f64; 2]) -> Figure {
-    let mut figure = Figure::default();
+fn panel(graph: &CrankGraph, [start, end]: [f64; 2]) -> DrawnFigure {
+    let mut figure = DrawnFigure::default();
     let constant = graph.is_constant();
     // Rounding errors relative to the quantity's size are shown as zero.
     let clear = |value: f64| if value.abs() <= 1e-9 * graph.size.abs() { 0.0 } else { value };
     let mean = clear(graph.mean);
     let [low, high] = if constant { [mean.smaller(0.0), mean.larger(0.0)] } else { graph.range() };
     let room = if constant { 0.0 } else { ASIDES * (high - low) };
-    let axis = Axis::of([low - room, high + room], HIGH);
+    let axis = ValueAxis::of([low - room, high + room], HIGH);
     let share = |crank: f64| (crank - start) / (end - start);
     axis.draw(&mut figure, LONG);
     angles(&mut figure, [start, end], axis.height());
@@ -70,7 +70,7 @@ fn panel(graph: &Graph, [start, end]: [f64; 2]) -> Figure {
 }
 
 /// Grid lines at round crank angles, their numbers, and the axis title.
-fn angles(figure: &mut Figure, [start, end]: [f64; 2], height: f64) {
+fn angles(figure: &mut DrawnFigure, [start, end]: [f64; 2], height: f64) {
     let (from, to) = (start.to_degrees(), end.to_degrees());
     let every = 30.0 * ((to - from).abs() / 360.0).ceil().larger(1.0);
     // An angle beyond an end by rounding counts as the end.

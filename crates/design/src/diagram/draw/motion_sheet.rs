@@ -1,9 +1,9 @@
 //! The sheet of motion diagrams: displacement, velocity and acceleration over the crank angle, arranged vertically.
 
-use super::axes::{Axis, GRID, Room, frame, stacked};
-use crate::diagram::motion::{Found, Method, MotionDiagram};
+use super::axes::{GRID, Room, ValueAxis, frame, stacked};
+use crate::diagram::motion::{Method, MethodResult, MotionDiagram};
 use crate::sentences;
-use drawing::paper::figure::{Figure, Style, Type, solid, sub, words};
+use drawing::paper::figure::{DrawnFigure, Style, Type, solid, sub, words};
 use drawing::paper::style::{BLACK, COLOURS, GREY, significant};
 use linkage::math::Vec2;
 use linkage::math::statistics::ends;
@@ -29,11 +29,11 @@ pub fn motion(diagram: &MotionDiagram, title: &str) -> String {
 }
 
 /// One diagram; the lower left corner of its frame is the origin.
-fn panel(diagram: &MotionDiagram, which: usize) -> Figure {
-    let mut figure = Figure::default();
+fn panel(diagram: &MotionDiagram, which: usize) -> DrawnFigure {
+    let mut figure = DrawnFigure::default();
     let exact = &diagram.exact[which];
-    let found: Vec<&Found> = diagram.found.iter().filter(|found| found.method.gives() == which).collect();
-    let axis = Axis::of(ends(exact.iter().chain(found.iter().flat_map(|found| &found.values)).copied()), HIGH);
+    let found: Vec<&MethodResult> = diagram.found.iter().filter(|found| found.method.gives() == which).collect();
+    let axis = ValueAxis::of(ends(exact.iter().chain(found.iter().flat_map(|found| &found.values)).copied()), HIGH);
     let rows = exact.len() - 1;
     let at = |row: usize, value: f64| Vec2::new(LONG * row as f64 / rows as f64, axis.y(value));
     let (height, scale) = (axis.height(), axis.scale);
@@ -63,7 +63,7 @@ fn panel(diagram: &MotionDiagram, which: usize) -> Figure {
 }
 
 /// The legend: the method of each mark, and its error relative to the curve.
-fn caption(figure: &mut Figure, found: &[&Found], which: usize, unit: &str) {
+fn caption(figure: &mut DrawnFigure, found: &[&MethodResult], which: usize, unit: &str) {
     let mut line = -14.5;
     let lines = [
         (solid(BLACK, 0.45), sentences::EXACT_BY_THE_SOLVER),
@@ -90,7 +90,7 @@ fn caption(figure: &mut Figure, found: &[&Found], which: usize, unit: &str) {
     }
 }
 
-fn mark(figure: &mut Figure, method: Method, at: Vec2) {
+fn mark(figure: &mut DrawnFigure, method: Method, at: Vec2) {
     let corner = |x: f64, y: f64| at + Vec2::new(x, y);
     match method {
         Method::ChordVelocity | Method::ChordAcceleration => figure.disc(at, 0.95, "white", solid(COLOURS[0], 0.4)),
@@ -102,7 +102,7 @@ fn mark(figure: &mut Figure, method: Method, at: Vec2) {
 }
 
 /// Frame, grid lines at round values and at the divisions of the turn, and their numbers.
-fn axes(figure: &mut Figure, diagram: &MotionDiagram, axis: &Axis) {
+fn axes(figure: &mut DrawnFigure, diagram: &MotionDiagram, axis: &ValueAxis) {
     let height = axis.height();
     axis.draw(figure, LONG);
     let every = diagram.divisions.div_ceil(24);

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 
 use super::axes::{GRID, frame, framed};
 use crate::diagram::timing::TimingDiagram;
-use drawing::paper::figure::{Figure, Style, Tint, Type, rectangle, solid, words};
+use drawing::paper::figure::{DrawnFigure, Style, Tint, Type, rectangle, solid, words};
 use drawing::paper::style::{BLACK, COLOURS, GREY};
 use linkage::math::Vec2;
 
@@ -26,7 +26,7 @@ const REST: &str = "#e3edf4";
 /// The diagram as an SVG document; `title` is written above it.
 #[must_use]
 pub fn timing(diagram: &TimingDiagram, title: &str) -> String {
-    let mut figure = Figure::default();
+    let mut figure = DrawnFigure::default();
     let x = |crank: f64| LONG * crank / TAU;
     let at = |[crank, share]: [f64; 2]| Vec2::new(x(crank), HIGH * share);
     for stretch in &diagram.stretches {
@@ -57,7 +57,7 @@ pub fn timing(diagram: &TimingDiagram, title: &str) -> String {
     }
     figure.curve(diagram.curve.iter().copied().map(at).collect(), None, solid(COLOURS[0], 0.5));
     legend(&mut figure, diagram);
-    let mut sheet = Figure::default();
+    let mut sheet = DrawnFigure::default();
     let [low, high] = figure.bounds();
     sheet.text(Vec2::new(MARGIN, -MARGIN), title, Type { bold: true, ..words(4.4) });
     sheet.add(&figure, Vec2::new(MARGIN + LEFT, -MARGIN - 6.0 - high.y));
@@ -71,7 +71,7 @@ pub fn timing(diagram: &TimingDiagram, title: &str) -> String {
 }
 
 /// Frame, grid and numbers.
-fn axes(figure: &mut Figure, x: &dyn Fn(f64) -> f64) {
+fn axes(figure: &mut DrawnFigure, x: &dyn Fn(f64) -> f64) {
     for share in 0..=4 {
         let y = HIGH * f64::from(share) / 4.0;
         figure.line([Vec2::new(0.0, y), Vec2::new(LONG, y)], GRID);
@@ -86,7 +86,7 @@ fn axes(figure: &mut Figure, x: &dyn Fn(f64) -> f64) {
     frame(figure, Vec2::new(LONG, HIGH), BLACK);
 }
 
-fn legend(figure: &mut Figure, diagram: &TimingDiagram) {
+fn legend(figure: &mut DrawnFigure, diagram: &TimingDiagram) {
     let mut left = 0.0;
     let mut entry = |style: Style, text: &str| {
         figure.line([Vec2::new(left, -9.0), Vec2::new(left + 8.0, -9.0)], style);

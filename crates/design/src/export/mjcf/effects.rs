@@ -6,10 +6,10 @@ use std::fmt::Write;
 use quick_xml::escape::escape;
 
 use super::forces::{Actuator, Forces, Target};
-use super::model::Model;
+use super::model::MjcfModel;
 use super::xml::{Xml, flat, number, numbers};
 use linkage::math::Vec2;
-use linkage::mechanism::{GROUND, LinkId, Side};
+use linkage::mechanism::{GROUND, JointSide, LinkId};
 
 /// Site on the ground to which forces in world axes refer.
 const AXES: &str = "world.axes";
@@ -32,7 +32,7 @@ pub(super) fn sites(xml: &mut Xml, forces: &Forces, link: LinkId) {
 }
 
 /// Tendons: sums of angles that frictions and actuators act on, and springs and dampers between points.
-pub(super) fn tendons<'a>(xml: &mut Xml, model: &Model, forces: &'a Forces) {
+pub(super) fn tendons<'a>(xml: &mut Xml, model: &MjcfModel, forces: &'a Forces) {
     let long: Vec<_> = model.frictions.iter().filter(|friction| !friction.own_hinge).collect();
     let sum = |own: &'a Actuator| match &own.target {
         Target::Sum(sum) => Some((&own.name, sum)),
@@ -74,7 +74,7 @@ pub(super) fn tendons<'a>(xml: &mut Xml, model: &Model, forces: &'a Forces) {
 }
 
 /// Name of the joint of a branch.
-fn joint<'a>(model: &'a Model, branch: usize) -> std::borrow::Cow<'a, str> {
+fn joint<'a>(model: &'a MjcfModel, branch: usize) -> std::borrow::Cow<'a, str> {
     escape(model.case.mechanism.joints()[model.tree.branches[branch].joint].name.as_str())
 }
 
@@ -86,7 +86,7 @@ fn end(load: &str, index: usize) -> String {
 /// Places at which loads act on a link, with the names of their sites.
 fn places(forces: &Forces, link: LinkId) -> Vec<(String, Vec2)> {
     let ends = forces.tendons.iter().flat_map(|tendon| {
-        let named = |(index, side): (usize, &Side)| (*side, end(&tendon.name, index));
+        let named = |(index, side): (usize, &JointSide)| (*side, end(&tendon.name, index));
         tendon.ends.iter().enumerate().map(named).collect::<Vec<_>>()
     });
     let pushed = forces.actuators.iter().filter_map(|own| match own.target {
@@ -97,7 +97,7 @@ fn places(forces: &Forces, link: LinkId) -> Vec<(String, Vec2)> {
 }
 
 /// Motors and loads: no control enters, the force is `biasprm[0] + biasprm[1] length + biasprm[2] rate`.
-pub(super) fn actuators(xml: &mut Xml, model: &Model, forces: &Forces) {
+pub(super) fn actuators(xml: &mut Xml, model: &MjcfModel, forces: &Forces) {
     if forces.actuators.is_empty() {
         return;
     }

@@ -1,7 +1,7 @@
 //! Which group is to blame if one cannot be placed: perhaps not that one, but an earlier one in the wrong configuration.
 
 use super::{StartGroup, configurations, first_choices};
-use crate::error::{Advice, Error, ErrorKind, Part};
+use crate::error::{Advice, Error, ErrorKind, ErrorSubject};
 use crate::mechanism::{AssemblyMode, Group, GroupId, Mechanism, Structure};
 use crate::sentences;
 
@@ -20,8 +20,8 @@ pub struct Blame {
 #[must_use]
 pub fn group_of(mechanism: &Mechanism, structure: &Structure, error: &Error) -> Option<GroupId> {
     match error.part() {
-        Some(Part::Group(names)) => structure.groups.find(|group| group.names(mechanism) == *names),
-        Some(Part::Link(_) | Part::Joint(_)) | None => None,
+        Some(ErrorSubject::Group(names)) => structure.groups.find(|group| group.names(mechanism) == *names),
+        Some(ErrorSubject::Link(_) | ErrorSubject::Joint(_)) | None => None,
     }
 }
 
@@ -91,7 +91,7 @@ pub fn blamed(mechanism: &Mechanism, structure: &Structure, blame: &Blame, error
     let names = |group: &Group| group.names(mechanism);
     let own = names(&structure.groups[blame.group]);
     let later = match error.part() {
-        Some(Part::Group(names) | Part::Link(names) | Part::Joint(names)) => names.clone(),
+        Some(ErrorSubject::Group(names) | ErrorSubject::Link(names) | ErrorSubject::Joint(names)) => names.clone(),
         None => String::new(),
     };
     let fits = match blame.mode {

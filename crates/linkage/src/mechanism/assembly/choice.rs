@@ -1,7 +1,7 @@
 //! The configuration of a group at the start: that of the required mode, number or rough places.
 
 use super::configurations::configurations;
-use super::mode::{AssemblyMode, Choice, Configuration, StartGroup};
+use super::mode::{AssemblyMode, Configuration, ConfigurationChoice, StartGroup};
 use super::{four_link, rough};
 use crate::error::{Advice, Error, ErrorKind, Result};
 use crate::math::KeepNan;
@@ -9,7 +9,12 @@ use crate::mechanism::{Group, GroupKind, Mechanism, Pose};
 use crate::sentences;
 
 /// Poses the links of a group as required.
-pub(super) fn place(mechanism: &Mechanism, group: &Group, wanted: &StartGroup, pose: &mut Pose) -> Result<Choice> {
+pub(super) fn place(
+    mechanism: &Mechanism,
+    group: &Group,
+    wanted: &StartGroup,
+    pose: &mut Pose,
+) -> Result<ConfigurationChoice> {
     let all_known = group.kind != GroupKind::Higher || four_link::is_handled(mechanism, group, pose);
     if !all_known && wanted.rank.is_none() && !wanted.near.is_empty() {
         return rough::place(mechanism, group, &wanted.near, pose);
@@ -19,7 +24,7 @@ pub(super) fn place(mechanism: &Mechanism, group: &Group, wanted: &StartGroup, p
     for (&link, &place) in group.links.iter().zip(&chosen.links) {
         pose.0[link] = place;
     }
-    Ok(Choice { mode: chosen.mode, nearest_m, next_m })
+    Ok(ConfigurationChoice { mode: chosen.mode, nearest_m, next_m })
 }
 
 fn choose<'a>(

@@ -7,7 +7,7 @@
 //! The leads are the two binary links and the links before the group, taken as one body.
 
 use super::mode::{AssemblyMode, Configuration};
-use super::three_leads::{Conditions, End, Lead, Pair};
+use super::three_leads::{Conditions, LeadPair, PairEnd, PlatformLead};
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::angle::wrapped;
 use crate::math::{Vec2, rotated, unit};
@@ -30,7 +30,7 @@ enum Body {
 struct Layout {
     frame: Body,
     base: LinkId,
-    leads: [(Body, Lead); 3],
+    leads: [(Body, PlatformLead); 3],
 }
 
 impl Layout {
@@ -55,10 +55,10 @@ impl Layout {
             let side = [joint.first, joint.second].into_iter().find(|side| body_of(side.link) == body)?;
             let axis = joint.axis_on(side.link).unwrap_or_else(Vec2::zeros);
             Some(match body {
-                Body::Link(_) => End { place: side.local, axis },
+                Body::Link(_) => PairEnd { place: side.local, axis },
                 Body::World => {
                     let hung_on = pose.0[side.link];
-                    End { place: hung_on.point(side.local), axis: rotated(unit(hung_on.angle), axis) }
+                    PairEnd { place: hung_on.point(side.local), axis: rotated(unit(hung_on.angle), axis) }
                 }
             })
         };
@@ -71,9 +71,9 @@ impl Layout {
         let lead = |body: Body| {
             let pair = |other: Body| {
                 let joint = between(body, other)?;
-                Some(Pair { slides: joints[joint].slides(), lead: end(joint, body)?, body: end(joint, other)? })
+                Some(LeadPair { slides: joints[joint].slides(), lead: end(joint, body)?, body: end(joint, other)? })
             };
-            Some((body, Lead { near: pair(frame)?, far: pair(Body::Link(base))? }))
+            Some((body, PlatformLead { near: pair(frame)?, far: pair(Body::Link(base))? }))
         };
         let bodies = group.links.iter().map(|&link| Body::Link(link)).chain([Body::World]);
         let mut bodies = bodies.filter(|&body| body != frame && body != Body::Link(base));

@@ -6,7 +6,7 @@
 //! (J^T J + lambda) dx = -J^T f with the gaps f of all joints, as many as unknowns.
 
 use super::dyads::turn;
-use super::mode::{AssemblyMode, Choice};
+use super::mode::{AssemblyMode, ConfigurationChoice};
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::angle::wrapped;
 use crate::math::dense::Lu;
@@ -27,7 +27,7 @@ const CLOSED: f64 = 1e-13;
 const STEPS: usize = 200;
 
 /// Poses the links of the group near the rough places `near`.
-pub(super) fn place(mechanism: &Mechanism, group: &Group, near: &Near, pose: &mut Pose) -> Result<Choice> {
+pub(super) fn place(mechanism: &Mechanism, group: &Group, near: &Near, pose: &mut Pose) -> Result<ConfigurationChoice> {
     let mut drawn = pose.clone();
     lay_out(mechanism, group, near, &mut drawn)?;
     let system = System { mechanism, group, size: mechanism.size() };
@@ -49,7 +49,7 @@ pub(super) fn place(mechanism: &Mechanism, group: &Group, near: &Near, pose: &mu
         farthest = farthest.larger(distance);
     }
     *pose = drawn;
-    Ok(Choice { mode: AssemblyMode::Followed, nearest_m: Some(farthest), next_m: None })
+    Ok(ConfigurationChoice { mode: AssemblyMode::Followed, nearest_m: Some(farthest), next_m: None })
 }
 
 /// Half the length of the shortest link of the group that carries the point and has a length, otherwise of the longest

@@ -1,6 +1,6 @@
 //! An Assur group and its kind.
 
-use crate::error::Key;
+use crate::error::KeyPath;
 use crate::mechanism::{JointId, LinkId, Mechanism};
 use crate::sentences;
 
@@ -93,8 +93,8 @@ impl Group {
 
     /// The group's key in a description: the one of `start.groups` with its links.
     #[must_use]
-    pub fn key(&self, mechanism: &Mechanism) -> Key {
+    pub fn key(&self, mechanism: &Mechanism) -> KeyPath {
         let links = self.links.iter().map(|&link| mechanism.links()[link].name.clone());
-        Key::of_group("start.groups", links.collect())
+        KeyPath::of_group("start.groups", links.collect())
     }
 }
