@@ -1,4 +1,4 @@
-//! Sentences of the command and of tests.
+//! Sentences of the command line, which alone names options and commands.
 
 linkage::sentences! {
     // cli/accept.rs
@@ -201,27 +201,4 @@ linkage::sentences! {
     rerun_viewer_has_not_shown(to, found) = "Rerun's viewer has not shown {to}: {found}";
     PYTHON3_PIP_INSTALL_RERUN_SDK = "`python3 -m pip install rerun-sdk`, or name a Python that has it with --python";
     cannot_be_written_by(to, python, found) = "{to} cannot be written by `{python}`: {found}";
-    // draw/media.rs
-    EXPECTED_A_FILE_THAT_ENDS = "expected a file that ends in .svg, .png, .gif or .webp, or `-`";
-    no_pictures_end_in_expected(other) = "no pictures end in .{other}; expected .svg, .png, .gif or .webp";
-    // draw/subject.rs
-    DOES_NOT_CLOSE = " (does not close)";
-    AS_IN_THE_FILE = " (as in the file)";
-    THE_ONLY_CONFIGURATION = "the only configuration";
-    name_one_of(names) = "name one of {names}";
-    no_point_that_moves_is_called(name) = "no point that moves is called \"{name}\"";
-    no_drive_could_be_read_drawn(draft, link) = "{draft}: no drive could be read; drawn as if \"{link}\" were driven";
-    and_more(more) = "and {more} more";
-    only_the_first_configurations_are_drawn(most) = "only the first {most} configurations are drawn";
-    joint_stays_open_by_mm(name, significant) = "joint {name} stays open by {significant} mm";
-    crank_at(name, crank) = "{name}, crank at {crank}°";
-    // testing.rs
-    GIVE_EVERY_INSTANT_ONCE_CRANK = "give every instant once, crank angles in rad or times in s";
-    the_grid_cannot_be(message) = "the grid cannot be: {message}";
-    GIVE_A_NUMBER_BETWEEN_AND_SUCH_AS = "give a number between 0 and 1, such as 1e-2";
-    found_as_tolerance_but_this_is_a_share(share) = "found {share} as tolerance, but this is a share of a channel's scale";
-    is_not_proven(scenario, word, proof) = "{scenario} is not proven: {word}\n\n{proof}";
-    // testing/folder.rs
-    is_to_be_ignored_but_no_scenario(own) = "\"{own}\" is to be ignored, but no scenario is called so";
-    THERE_IS_NO_SCENARIO_TOML = "there is no scenario (*.toml) in this folder";
 }

@@ -15,7 +15,7 @@ use std::io::BufWriter;
 const CHUNK: u64 = 768 * 1024;
 
 /// The file being written.
-pub struct RecordingFile {
+pub struct RecordingOutput {
     writer: Writer<NoSeek<BufWriter<File>>>,
     /// Last flush, in whole seconds of log time.
     flushed: u64,
@@ -23,7 +23,7 @@ pub struct RecordingFile {
     pending: usize,
 }
 
-impl RecordingFile {
+impl RecordingOutput {
     /// Starts the file.
     pub fn create(file: File) -> McapResult<Self> {
         let writer = WriteOptions::new()
@@ -36,7 +36,7 @@ impl RecordingFile {
             // open the file.
             .disable_seeking(true)
             .create(NoSeek::new(BufWriter::new(file)))?;
-        Ok(RecordingFile { writer, flushed: 0, pending: 0 })
+        Ok(RecordingOutput { writer, flushed: 0, pending: 0 })
     }
 
     /// Writes the metadata record and the scenario first, so that a file that is cut off has them too.
@@ -68,7 +68,7 @@ impl RecordingFile {
     }
 }
 
-impl Sink for RecordingFile {
+impl Sink for RecordingOutput {
     fn topic(&mut self, name: &str, kind: &MessageKind) -> McapResult<u16> {
         let schema = self.writer.add_schema(&kind.schema, &kind.encoding, &kind.data)?;
         self.writer.add_channel(schema, name, &kind.message, &BTreeMap::new())

@@ -2,7 +2,7 @@
 
 use super::beside::is_ours;
 use super::forces::Forces;
-use super::output::RecordingFile;
+use super::output::RecordingOutput;
 use super::pour::{DrawnRecording, lasts, pour, start};
 use super::recording::{RecordedSide, Recording, Show};
 use super::scene::ViewerScene;
@@ -70,7 +70,7 @@ pub(super) fn check(recording: &Recording) -> Result<()> {
 
 fn fill(recording: &Recording, file: File) -> McapResult<()> {
     as_shown(recording, |recording, drawn| {
-        let mut output = RecordingFile::create(file)?;
+        let mut output = RecordingOutput::create(file)?;
         output.describe(recording, start(recording), drawn.forces.as_ref().map(|forces| forces.scale))?;
         pour(recording, drawn, &mut output)?;
         output.finish()
