@@ -10,7 +10,7 @@ use linkage::case::Grid;
 use linkage::math::KeepNan;
 use linkage::solver::Solver;
 use linkage::trajectory::Trajectory;
-use prover::claims::{Course, judge, needed};
+use prover::claims::{KnownTrajectory, judge, needed};
 use scenario::{Scenario, files_in};
 
 /// Timings, of which the shortest counts: other activity of the machine only adds time.
@@ -56,7 +56,7 @@ fn main() {
             }
             let error = |_: usize, _: usize| 1e-12;
             let on = |trajectory: &Trajectory| {
-                let _ = black_box(judge(black_box(&alone), &Course::new(&case, trajectory, &error)));
+                let _ = black_box(judge(black_box(&alone), &KnownTrajectory::new(&case, trajectory, &error)));
             };
             let judging = shortest(|| {
                 on(&first);

@@ -6,7 +6,7 @@
 use std::path::Path;
 use std::sync::LazyLock;
 
-use analytic::reduced::{ACCURACY, Model, RunUp, motion};
+use analytic::reduced::{ACCURACY, ReducedModel, RunUp, motion};
 use divan::{Bencher, black_box};
 use linkage::case::Case;
 use scenario::Scenario;
@@ -30,23 +30,23 @@ fn main() {
 #[divan::bench]
 fn model(bencher: Bencher) {
     let case = &*CASE;
-    bencher.bench(|| Model::of(black_box(case)).unwrap());
+    bencher.bench(|| ReducedModel::of(black_box(case)).unwrap());
 }
 
 #[divan::bench]
 fn steady_motion(bencher: Bencher) {
-    let model = Model::of(&CASE).unwrap();
+    let model = ReducedModel::of(&CASE).unwrap();
     bencher.bench(|| model.regime(&[], ACCURACY).unwrap());
 }
 
 #[divan::bench(args = ACCURACIES)]
 fn crank_alone(bencher: Bencher, accuracy: f64) {
-    let (model, times) = (Model::of(&CASE).unwrap(), times());
+    let (model, times) = (ReducedModel::of(&CASE).unwrap(), times());
     bencher.bench(|| motion(&model, 0.0, black_box(&times), accuracy).unwrap());
 }
 
 #[divan::bench(args = ACCURACIES)]
 fn all_channels(bencher: Bencher, accuracy: f64) {
-    let (model, times) = (Model::of(&CASE).unwrap(), times());
+    let (model, times) = (ReducedModel::of(&CASE).unwrap(), times());
     bencher.bench(|| RunUp::of(&model, 0.0, black_box(&times), accuracy).unwrap());
 }

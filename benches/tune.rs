@@ -11,7 +11,7 @@ use std::hint::black_box;
 use std::path::Path;
 use std::time::Instant;
 
-use lab::tune::{Wish, tune};
+use lab::tune::{WantedAccuracy, tune};
 use linkage::case::{Case, Grid, Wanted};
 use linkage::engine::{Engine, Route, Settings};
 use linkage::trajectory::Stage;
@@ -98,7 +98,7 @@ fn compare(name: &str) {
     let engines = prover::engines::all(1e-3).into_iter().filter(|engine| !engine.controls_error());
     let named = engines.filter_map(|engine| EngineName::named(engine.name()));
     let options = named.fold(Options::default(), Options::engine);
-    let wish = Wish { within: WITHIN, channels: Vec::new() };
+    let wish = WantedAccuracy { within: WITHIN, channels: Vec::new() };
     let mut price = |_: &dyn Engine, run: &mut dyn FnMut() -> linkage::Result<()>| {
         let mut shortest = f64::INFINITY;
         for _ in 0..2 {

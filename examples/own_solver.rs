@@ -2,7 +2,8 @@
 //!
 //! It takes the geometry from the case, finds only angles and angular velocities, and is compared in these.
 //!
-//! `cargo run --release --example own_solver`
+//! `cargo run --release --example own_solver`. In a crate that takes them from the registry, the manifest names them as this
+//! workspace does: `linkage = { package = "linkproof-linkage", version = "0.1" }`, and `prover` in the same way.
 
 use linkage::error::Result;
 use linkage::math::{Motion, Vec2, unit};

@@ -7,7 +7,7 @@ use scenario::{Claim, Scenario};
 
 /// A formula that is claimed to be a channel of a mechanism: what [`check_formula`] judges.
 #[derive(Clone, Debug, Default)]
-pub struct Question {
+pub struct FormulaQuestion {
     /// The formula, over the crank angle `phi` (rad), the time `t` (s), parameters and formulas of the scenario.
     pub formula: String,
     /// What it claims to be: a channel in its unit, such as `link.rocker.angle_deg`, or an arithmetic of channels.
@@ -20,7 +20,7 @@ pub struct Question {
     pub error: Option<f64>,
 }
 
-/// What messages call the parts of a [`Question`].
+/// What messages call the parts of a [`FormulaQuestion`].
 pub(crate) struct Words {
     pub formula: &'static str,
     pub channel: &'static str,
@@ -31,10 +31,10 @@ pub(crate) struct Words {
 
 const WORDS: Words = Words { formula: "formula", channel: "channel", step: "steps", valid: "valid", error: "error" };
 
-impl Question {
+impl FormulaQuestion {
     /// Whether `formula` is `channel`.
-    pub fn of(formula: impl Into<String>, channel: impl Into<String>) -> Question {
-        Question { formula: formula.into(), channel: channel.into(), ..Question::default() }
+    pub fn of(formula: impl Into<String>, channel: impl Into<String>) -> FormulaQuestion {
+        FormulaQuestion { formula: formula.into(), channel: channel.into(), ..Question::default() }
     }
 
     /// The scenario that asks this, and nothing of what its file claims.
@@ -93,6 +93,6 @@ pub fn check(scenario: &Scenario) -> Result<Claimed> {
 ///
 /// # Errors
 /// [`ErrorKind::Input`] for a formula or channel that is not understood, with its place; those of [`check`].
-pub fn check_formula(scenario: &Scenario, question: &Question) -> Result<Claimed> {
+pub fn check_formula(scenario: &Scenario, question: &FormulaQuestion) -> Result<Claimed> {
     check(&question.of_scenario(scenario.clone(), &WORDS)?)
 }

@@ -4,12 +4,12 @@ mod media;
 mod motion;
 mod subject;
 
-use drawing::sheet::{Cell, columns, sheet};
+use drawing::sheet::{SheetCell, columns, sheet};
 use linkage::error::Result;
 use linkage::math::Vec2;
 use scenario::Scenario;
 
-pub use media::{Medium, Wish};
+pub use media::{Medium, PictureOptions};
 pub(crate) use subject::{Drawn, Note};
 
 /// Room of a picture that stands alone, and of one among others (mm).
@@ -32,7 +32,7 @@ const AMONG: [f64; 2] = [100.0, 96.0];
 /// # Errors
 /// [`ErrorKind::Input`](crate::parts::ErrorKind::Input) for a crank angle or a point that there is not; what keeps the
 /// mechanism from being assembled at the crank angle.
-pub fn draw(scenario: Scenario, wish: &Wish, medium: Medium) -> Result<Vec<u8>> {
+pub fn draw(scenario: Scenario, wish: &PictureOptions, medium: Medium) -> Result<Vec<u8>> {
     let drawn = Drawn::of(scenario, wish, medium)?;
     match &drawn.fault {
         None => picture(&[drawn], wish, medium),
@@ -41,12 +41,12 @@ pub fn draw(scenario: Scenario, wish: &Wish, medium: Medium) -> Result<Vec<u8>> 
 }
 
 /// The picture of several files, those that have faults as far as they go.
-pub(crate) fn picture(all: &[Drawn], wish: &Wish, medium: Medium) -> Result<Vec<u8>> {
+pub(crate) fn picture(all: &[Drawn], wish: &PictureOptions, medium: Medium) -> Result<Vec<u8>> {
     let frames = medium.frames(wish);
     let count: usize = all.iter().map(|own| if wish.each_mode { own.shots.len() } else { 1 }).sum();
     let room = Vec2::from(if columns(count) == 1 { ALONE } else { AMONG });
     // Per frame, the cells of all files.
-    let mut sheets: Vec<Vec<Cell>> = vec![Vec::new(); frames];
+    let mut sheets: Vec<Vec<SheetCell>> = vec![Vec::new(); frames];
     for own in all {
         let mut cells = own.cells(wish, medium, room);
         if all.len() > 1 {

@@ -84,6 +84,8 @@ mod draw;
 #[cfg(feature = "command")]
 #[doc(hidden)]
 pub mod report;
+#[cfg_attr(not(feature = "command"), allow(dead_code, reason = "most belong to the command"))]
+mod sentences;
 #[cfg(feature = "command")]
 mod shipped;
 pub mod testing;
@@ -104,9 +106,9 @@ pub use scenario::Scenario;
 
 /// What the front door's signatures name besides: errors, choices, what a proof and a solution consist of.
 pub mod parts {
-    pub use crate::check::Question;
+    pub use crate::check::FormulaQuestion;
     #[cfg(feature = "command")]
-    pub use crate::draw::{Medium, Wish};
+    pub use crate::draw::{Medium, PictureOptions};
     pub use linkage::case::{CaseBuilder, Grid, Wanted};
     pub use linkage::drive::{Load, MotionLaw};
     pub use linkage::engine::Route;
@@ -118,7 +120,7 @@ pub mod parts {
     pub use prover::proof::solved::Claimed;
     pub use prover::proof::{ChannelProof, EngineInfo, EngineProof, Reference, prove_with};
     pub use prover::tables::By;
-    pub use prover::versus::{Compared, Comparison, How, Pair, Party, Row};
+    pub use prover::versus::{Compared, ComparedParty, ComparisonRule, PartyComparison, RowPair, SidePair};
     pub use scenario::mapping::{Allowed, Mapped, Mapping, Size};
-    pub use scenario::{EngineSettings, Origin, Setting};
+    pub use scenario::{EngineSetting, EngineSettings, SettingOrigin};
 }

@@ -13,13 +13,14 @@ pub use folder::{Folder, main};
 use std::path::{Path, PathBuf};
 
 use crate::plain::{brief, errors, style};
+use crate::sentences;
 use linkage::case::Grid;
 use linkage::drive::Drive;
 use linkage::error::{Advice, Error, ErrorKind, Result};
 use prover::compare::Verdict;
 use prover::proof::{Options, Proof, prove};
 use scenario::grid::listed;
-use scenario::{Asked, Scenario};
+use scenario::{Scenario, StartRequest};
 
 /// Proves a scenario file, and panics with the report unless it agrees; gives the [`Proof`].
 ///
@@ -93,7 +94,7 @@ fn failure(proof: &Proof) -> Option<String> {
         Verdict::Agree { .. } | Verdict::Expected { .. } => return None,
         Verdict::Disagree { .. } | Verdict::Inconclusive { .. } => proof.verdict.word(),
     };
-    let mut told = format!("{} is not proven: {word}\n\n{}", proof.scenario, proof.report());
+    let mut told = sentences::is_not_proven(&proof.scenario, &word, &proof.report());
     for error in proof.engines.iter().filter_map(|engine| engine.failure.as_ref()) {
         told += &format!("\n{}\n", errors::text(error, Advice::to_string));
     }
@@ -105,7 +106,7 @@ fn failure(proof: &Proof) -> Option<String> {
 #[must_use = "nothing is proven before `prove` or `assert`"]
 pub struct Proving {
     file: PathBuf,
-    asked: Asked,
+    asked: StartRequest,
     instants: Option<Instants>,
     only: Vec<String>,
     options: Options,
@@ -131,7 +132,7 @@ impl Proving {
     pub fn of(path: impl AsRef<Path>) -> Self {
         Proving {
             file: path.as_ref().into(),
-            asked: Asked::default(),
+            asked: StartRequest::default(),
             instants: None,
             only: Vec::new(),
             options: Options::default(),
@@ -212,7 +213,7 @@ impl Proving {
 
     /// The scenario with what was set.
     fn scenario(&self) -> Result<Scenario> {
-        let asked = Asked { without_grid: self.instants.is_some(), ..self.asked.clone() };
+        let asked = StartRequest { without_grid: self.instants.is_some(), ..self.asked.clone() };
         let mut scenario = Scenario::load_as(&self.file, &asked)?;
         if let Some(instants) = &self.instants {
             let grid = instants.grid(&scenario)?;
@@ -223,8 +224,8 @@ impl Proving {
         }
         if let Some(share) = self.tolerance {
             if !(share > 0.0 && share < 1.0) {
-                let message = format!("found {share} as tolerance, but this is a share of a channel's scale");
-                return Err(Error::new(ErrorKind::Input, message).help("give a number between 0 and 1, such as 1e-2"));
+                let message = sentences::found_as_tolerance_but_this_is_a_share(&share);
+                return Err(Error::new(ErrorKind::Input, message).help(sentences::GIVE_A_NUMBER_BETWEEN_AND_SUCH_AS));
             }
             scenario.engine_rel = share;
         }
@@ -236,8 +237,8 @@ impl Instants {
     fn grid(&self, scenario: &Scenario) -> Result<Grid> {
         let crank = scenario.case.crank();
         let wrong = |message: String| {
-            Error::new(ErrorKind::Input, format!("the grid cannot be: {message}"))
-                .help("give every instant once, crank angles in rad or times in s")
+            Error::new(ErrorKind::Input, sentences::the_grid_cannot_be(&message))
+                .help(sentences::GIVE_EVERY_INSTANT_ONCE_CRANK)
         };
         let grid = (self.grid)(crank, listed(self.values.clone()).map_err(wrong)?);
         grid.check(crank).map_err(wrong)?;

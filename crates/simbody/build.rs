@@ -9,6 +9,10 @@ fn main() {
     for file in ["src/shim.cpp", "src/shim.h"] {
         println!("cargo::rerun-if-changed={file}");
     }
+    // docs.rs has no Simbody, and documentation needs no library.
+    if env::var_os("DOCS_RS").is_some() {
+        return;
+    }
     // First the variable that Simbody's own build files read; then the prefixes of Debian and of a build from source.
     let home = env::var_os("SIMBODY_HOME").map(PathBuf::from);
     let prefixes: Vec<PathBuf> = match &home {

@@ -1,5 +1,6 @@
 //! `linkproof accept`.
 
+use crate::sentences;
 use std::path::{Path, PathBuf};
 
 use super::engine_args::EngineArgs;
@@ -58,8 +59,8 @@ fn one(args: &Args, file: &Path, document: &mut Document) -> Result<u8> {
     let place = beside(file);
     let kept = accepted::load(&place, &scenario.name)?;
     if args.check && kept.is_none() {
-        let message = format!("nothing was accepted of {}: there is no {}", file.display(), place.display());
-        let help = format!("`linkproof accept {}` writes it", file.display());
+        let message = sentences::nothing_was_accepted_of_there(&file.display(), &place.display());
+        let help = sentences::linkproof_accept_writes_it(&file.display());
         return Err(Error::new(ErrorKind::Io, message).help(help));
     }
     let proof = proven(args, &scenario)?;

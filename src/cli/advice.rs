@@ -1,38 +1,33 @@
 //! Advice in the words of the command line: it names the options and commands.
 
+use crate::sentences;
 use linkage::error::{Advice, rounded_up};
 
 /// Advice as text for a user of the command line.
 pub(super) fn told(advice: &Advice) -> String {
     match advice {
-        Advice::SmallerStep { to } => format!("choose a smaller time step{}", option("--dt", *to)),
-        Advice::LargerStep { to } => format!("choose a larger time step{}", option("--dt", *to)),
-        Advice::TighterAccuracy { to } => format!("choose a tighter accuracy{}", option("--accuracy", Some(*to))),
-        Advice::LooserAccuracy { to } => format!("choose a looser accuracy{}", option("--accuracy", Some(*to))),
-        Advice::MoreSweeps { to: None } => "raise the number of sweeps (--sweeps)".into(),
-        Advice::MoreSweeps { to: Some(to) } => format!("raise the number of sweeps, such as --sweeps {to}"),
-        Advice::FreeSettings => "leave out the engine's settings, and the run finds its own".into(),
-        Advice::MoreWork { to } => format!("allow more work, such as --budget {to:e}"),
-        Advice::MoreMemory { to } => format!("allow more memory, such as --memory {:.1}", rounded_up(*to / 1e9)),
-        Advice::OtherEngine => format!("{advice}: `linkproof list --solvers` names them"),
+        Advice::SmallerStep { to } => sentences::choose_a_smaller_time_step(&option("--dt", *to)),
+        Advice::LargerStep { to } => sentences::choose_a_larger_time_step(&option("--dt", *to)),
+        Advice::TighterAccuracy { to } => sentences::choose_a_tighter_accuracy(&option("--accuracy", Some(*to))),
+        Advice::LooserAccuracy { to } => sentences::choose_a_looser_accuracy(&option("--accuracy", Some(*to))),
+        Advice::MoreSweeps { to: None } => sentences::RAISE_THE_NUMBER_OF_SWEEPS_SWEEPS.into(),
+        Advice::MoreSweeps { to: Some(to) } => sentences::raise_the_number_of_sweeps(&to),
+        Advice::FreeSettings => sentences::LEAVE_OUT_THE_ENGINE_SETTINGS.into(),
+        Advice::MoreWork { to } => sentences::allow_more_work_such_as_budget(&format_args!("{to:e}")),
+        Advice::MoreMemory { to } => sentences::allow_more_memory_such_as_memory(&(rounded_up(*to / 1e9))),
+        Advice::OtherEngine => sentences::linkproof_list_solvers_names_them(&advice),
         Advice::OtherRoute { routes } => {
             let options: Vec<String> = routes.iter().map(|route| format!("--route {route}")).collect();
-            format!("take another way to the reactions: {}", options.join(" or "))
+            sentences::take_another_way_to_the_reactions(&options.join(" or "))
         }
-        Advice::OtherReference { solver } => format!("take side \"{solver}\": --reference {solver}"),
-        Advice::OtherSolver { solver } => format!("solve the scenario with `linkproof solve FILE --with {solver}`"),
-        Advice::LookAtRange => {
-            "`linkproof inspect FILE --range` shows what limits the crank and which links turn fully".into()
-        }
-        Advice::Configuration { .. } => format!("{advice}; `linkproof inspect FILE --modes` lists them"),
-        Advice::SolutionTable => "read them off a table of `linkproof solve` instead".into(),
-        Advice::OtherChannel { groups } => {
-            format!("name a column of `linkproof solve`, such as joint.A.fx_N, or one of: {groups}")
-        }
-        Advice::WeakerWish => {
-            "ask for a larger error, other channels (--channel) or further engines (--engine all)".into()
-        }
-        Advice::AllResults => "all of them with --json".into(),
+        Advice::OtherReference { solver } => sentences::take_side_reference(&solver),
+        Advice::OtherSolver { solver } => sentences::solve_the_scenario_with_linkproof(&solver),
+        Advice::LookAtRange => sentences::LINKPROOF_INSPECT_FILE_RANGE_SHOWS.into(),
+        Advice::Configuration { .. } => sentences::linkproof_inspect_file_modes_lists(&advice),
+        Advice::SolutionTable => sentences::READ_THEM_OFF_A_TABLE_OF_LINKPROOF.into(),
+        Advice::OtherChannel { groups } => sentences::name_a_column_of_linkproof(&groups),
+        Advice::WeakerWish => sentences::ASK_FOR_A_LARGER_ERROR_OTHER.into(),
+        Advice::AllResults => sentences::ALL_OF_THEM_WITH_JSON.into(),
         Advice::Text(text) => as_commands(text),
         Advice::DoublePrecision | Advice::FewerInstants | Advice::ShortenGrid => advice.to_string(),
     }
@@ -41,7 +36,7 @@ pub(super) fn told(advice: &Advice) -> String {
 /// An option with a value to try, or the option alone.
 fn option(name: &str, to: Option<f64>) -> String {
     match to {
-        Some(to) => format!(", such as {name} {to:e}"),
+        Some(to) => sentences::such_as(&name, &format_args!("{to:e}")),
         None => format!(" ({name})"),
     }
 }

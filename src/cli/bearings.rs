@@ -1,5 +1,6 @@
 //! `linkproof bearings`.
 
+use crate::sentences;
 use std::path::PathBuf;
 
 use super::load::plain;
@@ -29,7 +30,9 @@ pub(super) struct Args {
 pub(super) fn bearings(args: &Args) -> Result<()> {
     for (name, value) in [("--lever-mm", args.lever_mm), ("--stress-mpa", args.stress_mpa)] {
         if !(value > 0.0 && value.is_finite()) {
-            return Err(Error::new(ErrorKind::Input, format!("{name} is {value}")).help("give a number above zero"));
+            return Err(
+                Error::new(ErrorKind::Input, format!("{name} is {value}")).help(sentences::GIVE_A_NUMBER_ABOVE_ZERO)
+            );
         }
     }
     let scenario = plain(&args.file)?.nominal();

@@ -1,5 +1,6 @@
 //! `linkproof bench`.
 
+use crate::sentences;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -11,7 +12,7 @@ use crate::report::{bench as report, bench_page, bench_plot, case_json};
 use analytic::AssurSolver;
 use analytic::range::explained;
 use design::export::{first_state, mjcf};
-use lab::bench::{Axis, Bench, Clock, Options, Peer, bench};
+use lab::bench::{Bench, BenchOptions, Clock, CostAxis, Peer, bench};
 
 use lab::outside::{Command, Exports, machine, processor_time};
 
@@ -62,12 +63,12 @@ pub(super) struct Args {
 
 /// Reads a peer's name and command.
 fn peer(text: &str) -> std::result::Result<(String, String), String> {
-    let (name, command) = text.split_once('=').ok_or("expected NAME=COMMAND, for example mujoco='python3 peer.py'")?;
+    let (name, command) = text.split_once('=').ok_or(sentences::EXPECTED_NAME_COMMAND_FOR_EXAMPLE)?;
     let is_name = !name.is_empty() && name.chars().all(|c| c.is_ascii_alphanumeric() || "-_.".contains(c));
     match (is_name, command.trim().is_empty()) {
         (true, false) => Ok((name.into(), command.trim().into())),
-        (false, _) => Err(format!("\"{name}\" is no name: letters, digits, -, _ and . are possible")),
-        (true, true) => Err("the command is empty".into()),
+        (false, _) => Err(sentences::is_no_name_letters_digits(&name)),
+        (true, true) => Err(sentences::THE_COMMAND_IS_EMPTY.into()),
     }
 }
 
@@ -75,17 +76,17 @@ pub(super) fn run(args: &Args) -> Result<()> {
     let scenarios = args.files.iter().map(|file| only(plain(file)?, &args.only)).collect::<Result<Vec<_>>>()?;
     if let Some(twice) = (1..scenarios.len()).find(|&k| scenarios[..k].iter().any(|own| own.name == scenarios[k].name))
     {
-        return Err(Error::new(ErrorKind::Input, format!("two scenarios are called \"{}\"", scenarios[twice].name))
-            .help("their files in the directory would have the same names: give each a directory of its own"));
+        return Err(Error::new(ErrorKind::Input, sentences::two_scenarios_are_called(&scenarios[twice].name))
+            .help(sentences::THEIR_FILES_IN_THE_DIRECTORY));
     }
     let machine = machine();
     let options =
-        Options { engines: args.engine.clone(), is_quick: args.quick, budget: args.budget, rounds: args.rounds };
+        BenchOptions { engines: args.engine.clone(), is_quick: args.quick, budget: args.budget, rounds: args.rounds };
     for engine in &options.engines {
         with_step(*engine, 1.0)?;
     }
-    output::make_directory(&args.out, "--out", "give a directory that may be made or written to")?;
-    let endings = || Axis::ALL.map(|axis| format!("{}.svg", axis.name())).into_iter().chain(["csv".into()]);
+    output::make_directory(&args.out, "--out", sentences::GIVE_A_DIRECTORY_THAT_MAY)?;
+    let endings = || CostAxis::ALL.map(|axis| format!("{}.svg", axis.name())).into_iter().chain(["csv".into()]);
     let places = scenarios.iter().flat_map(|own| endings().map(|ending| place(args, &own.name, &ending)));
     output::may_make(&places.chain([args.out.join(TOTAL)]).collect::<Vec<_>>())?;
     let since = Instant::now();
@@ -117,7 +118,7 @@ fn used(since: Instant) -> f64 {
 }
 
 /// One scenario, with a progress bar. Runs are timed by the first clock, peers stopped by the second.
-fn one(args: &Args, scenario: &Scenario, options: &Options, used: Clock, wall: Clock) -> Result<Bench> {
+fn one(args: &Args, scenario: &Scenario, options: &BenchOptions, used: Clock, wall: Clock) -> Result<Bench> {
     let case = &scenario.case;
     let exports = match args.peer.is_empty() {
         true => None,
@@ -151,7 +152,7 @@ fn place(args: &Args, name: &str, ending: &str) -> PathBuf {
 fn put(args: &Args, found: &Bench, machine: &report::Machine) -> Result<()> {
     let place = |end: &str| place(args, &found.scenario[0], end);
     output::make(&report::rows(found, machine)?, &place("csv"))?;
-    for axis in Axis::ALL {
+    for axis in CostAxis::ALL {
         if let Some(text) = bench_plot::drawing(found, axis) {
             output::make(&text, &place(&format!("{}.svg", axis.name())))?;
         }

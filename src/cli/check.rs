@@ -1,15 +1,16 @@
 //! `linkproof check`.
 
+use crate::sentences;
 use std::path::PathBuf;
 
 use super::grid::GridArgs;
 use super::load::StartArgs;
 use super::{advice, exit_code, number, output};
-use crate::check::{Question, Words, check as judged};
+use crate::check::{FormulaQuestion, Words, check as judged};
 use crate::plain::style::Detail;
 use crate::report::check as report;
 use linkage::error::Result;
-use scenario::{Asked, Scenario};
+use scenario::{Scenario, StartRequest};
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = include_str!("help/check.txt").trim_ascii_end())]
@@ -53,7 +54,7 @@ pub(super) struct Args {
 
 /// Reads `NAME=EXPR`.
 fn step(text: &str) -> std::result::Result<(String, String), String> {
-    let (name, expression) = text.split_once('=').ok_or("expected NAME=EXPR, such as 'u=a*sin(phi)'")?;
+    let (name, expression) = text.split_once('=').ok_or(sentences::EXPECTED_NAME_EXPR_SUCH_AS_A_SIN)?;
     Ok((name.trim().into(), expression.trim().into()))
 }
 
@@ -84,13 +85,13 @@ fn asked(args: &Args) -> Result<Scenario> {
     let (Some(formula), Some(channel)) = (&args.expression, &args.channel) else {
         return args.start.load(&args.file, &args.grid);
     };
-    let question = Question {
+    let question = FormulaQuestion {
         formula: formula.clone(),
         channel: channel.clone(),
         steps: args.steps.clone(),
         valid: [args.from_deg, args.to_deg].map(|degrees| degrees.map(f64::to_radians)),
         error: args.error,
     };
-    let besides = Asked { adds_parameters: true, ..Asked::default() };
+    let besides = StartRequest { adds_parameters: true, ..Asked::default() };
     question.of_scenario(args.start.load_as(&args.file, &args.grid, besides)?, &WORDS)
 }

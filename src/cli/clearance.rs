@@ -1,5 +1,6 @@
 //! `linkproof clearance`.
 
+use crate::sentences;
 use std::path::{Path, PathBuf};
 
 use super::exit_code::graver;
@@ -8,11 +9,11 @@ use super::progress::Bar;
 use super::{exit_code, load, output};
 use crate::report::clearance::{self as report, Standing};
 use analytic::range::explained;
-use design::clearance::{Clearance, course, find};
+use design::clearance::{ClearanceResult, course, find};
 use design::diagram::draw;
 use linkage::error::{Error, ErrorKind, Result};
 use scenario::Scenario;
-use scenario::clearance::Question;
+use scenario::clearance::ClearanceQuestion;
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = include_str!("help/clearance.txt").trim_ascii_end())]
@@ -36,8 +37,8 @@ pub(super) struct Args {
 /// Answers for every file. A bad file does not stop the others.
 pub(super) fn clearance(args: &Args) -> Result<u8> {
     if (args.svg.is_some() || args.csv.is_some()) && args.files.len() > 1 {
-        let message = format!("{} scenarios are given, but a drawing or table is of one", args.files.len());
-        return Err(Error::new(ErrorKind::Input, message).help("give one scenario, or write --json"));
+        let message = sentences::scenarios_are_given_but_a_drawing(&args.files.len());
+        return Err(Error::new(ErrorKind::Input, message).help(sentences::GIVE_ONE_SCENARIO_OR_WRITE));
     }
     let mut worst = exit_code::AGREE;
     let mut documents = Vec::new();
@@ -65,17 +66,17 @@ pub(super) fn clearance(args: &Args) -> Result<u8> {
     Ok(worst)
 }
 
-fn question(scenario: &Scenario) -> &Question {
+fn question(scenario: &Scenario) -> &ClearanceQuestion {
     scenario.clearance.as_ref().expect("only scenarios that ask are answered")
 }
 
-fn answer(args: &Args, file: &Path) -> Result<(Scenario, Clearance)> {
+fn answer(args: &Args, file: &Path) -> Result<(Scenario, ClearanceResult)> {
     let scenario = plain(file)?;
     let Some(asked) = &scenario.clearance else {
-        let message = format!("the scenario {} asks nothing about clearance", file.display());
-        return Err(Error::new(ErrorKind::Input, message).key("clearance").help(
-            "add a section `[clearance]`, for example with `radius_mm = 5` for all links; `linkproof docs scenario` describes it",
-        ));
+        let message = sentences::the_scenario_asks_nothing_about(&file.display());
+        return Err(Error::new(ErrorKind::Input, message)
+            .key("clearance")
+            .help(sentences::ADD_A_SECTION_CLEARANCE_FOR_EXAMPLE));
     };
     let mut bar = Bar::new(&scenario.name);
     let found =

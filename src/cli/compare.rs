@@ -1,5 +1,6 @@
 //! `linkproof compare`.
 
+use crate::sentences;
 use std::path::{Path, PathBuf};
 
 use super::engine_args::{MemoryArgs, word};
@@ -15,7 +16,7 @@ use crate::report::versus as report;
 use linkage::error::Result;
 use prover::proof::memory;
 use prover::tables::By;
-use prover::versus::{How, Party, compare as compared};
+use prover::versus::{ComparedParty, ComparisonRule, compare as compared};
 use scenario::mapping::{Allowed, Mapped, Mapping, Size};
 
 #[derive(Debug, clap::Args)]
@@ -85,10 +86,10 @@ fn by(word: &str) -> Option<By> {
 fn mapping_target(text: &str) -> std::result::Result<PathBuf, String> {
     let path = output::writable(PathBuf::from(text))?;
     if path.extension().is_none_or(|ending| ending != "toml") {
-        return Err("a mapping file ends in .toml, by which --map knows it".into());
+        return Err(sentences::A_MAPPING_FILE_ENDS_IN_TOML.into());
     }
     if path.exists() && Mapping::load(&path).is_err() {
-        return Err("this file is no mapping and would be overwritten".into());
+        return Err(sentences::THIS_FILE_IS_NO_MAPPING_AND_WOULD.into());
     }
     Ok(path)
 }
@@ -105,7 +106,7 @@ fn share(size: fn(f64) -> Size) -> impl Fn(&str) -> std::result::Result<Allowed,
 fn size(text: &str) -> std::result::Result<Allowed, String> {
     match text.contains('=') {
         true => share(Size::Absolute)(text),
-        false => Err("expected CHANNEL=SIZE, such as point.B.x_mm=0.01: sizes have units".into()),
+        false => Err(sentences::EXPECTED_CHANNEL_SIZE_SUCH_AS_POINT.into()),
     }
 }
 
@@ -122,7 +123,7 @@ pub(super) fn compare(args: &Args) -> Result<u8> {
     if let Some(to) = &args.write_map {
         output::write(&mapping.text(), to)?;
     }
-    let how = How {
+    let how = ComparisonRule {
         allowed: mapping.allowed,
         by: args.by,
         interpolates: args.interpolate,
@@ -149,22 +150,22 @@ fn check_parties(args: &Args) -> Result<()> {
     if !args.map.is_empty() && tables == [false; 2] {
         return output::refused(
             "--map",
-            "neither of the two is a table",
-            "scenarios and recordings have channels by name",
+            sentences::NEITHER_OF_THE_TWO_IS_A_TABLE,
+            sentences::SCENARIOS_AND_RECORDINGS_HAVE_CHANNELS,
         );
     }
     if !args.map_a.is_empty() && !tables[0] {
-        return output::refused("--map-a", "A is no table", "--map is for B");
+        return output::refused("--map-a", sentences::A_IS_NO_TABLE, sentences::MAP_IS_FOR);
     }
     if args.interpolate && tables.iter().filter(|is_table| **is_table).count() == 0 && !has_recording {
         return output::refused(
             "--interpolate",
-            "both are scenarios, which are solved where they are asked",
-            "leave it out",
+            sentences::BOTH_ARE_SCENARIOS_WHICH_ARE_SOLVED,
+            sentences::LEAVE_IT_OUT,
         );
     }
     if args.side.is_some() && !has_recording {
-        return output::refused("--side", "neither of the two is a recording", "leave it out");
+        return output::refused("--side", sentences::NEITHER_OF_THE_TWO_IS_A_RECORDING, sentences::LEAVE_IT_OUT);
     }
     Ok(())
 }
@@ -195,23 +196,23 @@ fn mapping(lines: &[String], option: &str) -> Result<Mapping> {
 }
 
 /// A party; `other` is the path of the one beside it.
-fn party(args: &Args, path: &Path, other: &Path, mapping: &Mapping) -> Result<Party> {
+fn party(args: &Args, path: &Path, other: &Path, mapping: &Mapping) -> Result<ComparedParty> {
     let path = if load::is_standard_input(path) { Path::new("/dev/stdin") } else { path };
     let ending = path.extension().and_then(|ending| ending.to_str());
     Ok(match ending {
         Some("toml") => args.start.load(path, &GridArgs::default())?.into(),
-        Some("mcap") => Party::recording(path.display().to_string(), recording::load(path)?),
+        Some("mcap") => ComparedParty::recording(path.display().to_string(), recording::load(path)?),
         Some(_) | None => {
             let claims = mapping.channels.len().max(1);
             let is_solved = other.extension().is_some_and(|ending| ending == "toml");
             let may = |bytes: f64, rows: usize| {
                 let most = Some(args.memory.bytes());
-                memory::check_input(&format!("the table {}", path.display()), bytes, most)?;
+                memory::check_input(&sentences::the_table(&path.display()), bytes, most)?;
                 // At least that: columns that are called as channels may come to it.
                 let compared = if is_solved && rows > 0 { memory::of_comparison(rows, claims, claims) } else { 0.0 };
-                memory::check_input(&format!("comparing {rows} rows"), compared, most)
+                memory::check_input(&sentences::comparing_rows(&rows), compared, most)
             };
-            Party::table_within(path, mapping, &may)?
+            ComparedParty::table_within(path, mapping, &may)?
         }
     })
 }

@@ -7,7 +7,7 @@ use super::load::plain;
 use super::{number, output};
 use crate::report::diagram as report;
 use analytic::range::explained;
-use design::diagram::{Course, MotionDiagram, draw};
+use design::diagram::{MotionCurve, MotionDiagram, draw};
 use linkage::error::Result;
 use prover::proof::Reference;
 
@@ -40,7 +40,7 @@ pub(super) struct Args {
 pub(super) fn diagram(args: &Args) -> Result<()> {
     let scenario = plain(&args.file)?.nominal();
     let solver = args.with.solver();
-    let course = Course::named(&scenario.case, &args.channel)?;
+    let course = MotionCurve::named(&scenario.case, &args.channel)?;
     let diagram = MotionDiagram::of(&scenario.case, solver, &course, args.divisions)
         .map_err(|error| explained(&scenario.case, error))?;
     if let Some(to) = &args.svg {

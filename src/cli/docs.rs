@@ -1,6 +1,7 @@
 //! `linkproof docs`: the documents, in the program itself.
 
 use super::output;
+use crate::sentences;
 use linkage::error::{Error, ErrorKind, Result};
 use scenario::words::suggestion;
 
@@ -13,15 +14,17 @@ pub(super) struct Args {
 }
 
 macro_rules! pages {
-    ($($name:ident)*) => {
-        &[$((stringify!($name), include_str!(concat!("../../docs/", stringify!($name), ".md")))),*]
+    ($($name:literal)*) => {
+        &[$(($name, include_str!(concat!("../../docs/", $name, ".md")))),*]
     };
 }
 
 /// Names and texts.
 static PAGES: &[(&str, &str)] = pages! {
-    bench clearance compare draw engines findings foreign formulas gallery mjcf mutate notation peers plans rapier
-    recording report scenario skip stories stress synthesis testing tutorial variants60
+    "bench" "clearance" "compare" "draw" "engines" "extending" "findings" "foreign" "formulas" "gallery" "mjcf" "mutate"
+    "notation" "numerics/bounds" "numerics/change_points" "numerics/diagnosis" "numerics/forces" "numerics/laboratory"
+    "numerics/settings" "numerics/twins" "peers" "plans" "rapier" "recording" "report" "scenario" "skip" "stories"
+    "stress" "synthesis" "testing" "tutorial" "variants60"
 };
 
 pub(super) fn docs(args: &Args) -> Result<()> {
@@ -34,13 +37,13 @@ pub(super) fn docs(args: &Args) -> Result<()> {
     let Some((_, text)) = PAGES.iter().find(|(own, _)| *own == name) else {
         let names = PAGES.iter().map(|(own, _)| *own);
         return Err(
-            Error::new(ErrorKind::Input, format!("there is no page \"{name}\"")).help(suggestion(name, names, "\""))
+            Error::new(ErrorKind::Input, sentences::there_is_no_page(&name)).help(suggestion(name, names, "\""))
         );
     };
     match section {
         None => output::print(text),
         Some(anchor) => output::print(&part(text, anchor).ok_or_else(|| {
-            Error::new(ErrorKind::Input, format!("the page \"{name}\" has no section \"{anchor}\"")).help(suggestion(
+            Error::new(ErrorKind::Input, sentences::the_page_has_no_section(&name, &anchor)).help(suggestion(
                 anchor,
                 headings(text).map(|(_, _, own)| own).collect::<Vec<_>>().iter().map(String::as_str),
                 "\"",
@@ -86,12 +89,14 @@ mod tests {
 
     #[test]
     fn every_page_is_there() {
-        let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("docs");
-        let mut names: Vec<String> = std::fs::read_dir(folder)
-            .unwrap()
-            .map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned())
-            .filter_map(|name| name.strip_suffix(".md").map(str::to_string))
-            .collect();
+        let pages = |folder: &str| {
+            let files = std::fs::read_dir(std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("docs").join(folder));
+            let name = |file: std::io::Result<std::fs::DirEntry>| file.unwrap().file_name().into_string().unwrap();
+            let names =
+                files.unwrap().map(name).filter_map(|name| Some(format!("{folder}{}", name.strip_suffix(".md")?)));
+            names.collect::<Vec<String>>()
+        };
+        let mut names = [pages(""), pages("numerics/")].concat();
         names.sort();
         assert_eq!(PAGES.iter().map(|(name, _)| *name).collect::<Vec<_>>(), names);
     }

@@ -1,14 +1,15 @@
 //! `linkproof draw`.
 
+use crate::sentences;
 use std::path::PathBuf;
 
 use super::engine_args::side;
 use super::output::{self, refused};
 use super::{exit_code, load, number};
-use crate::draw::{Drawn, Medium, Note, Wish, picture};
+use crate::draw::{Drawn, Medium, Note, PictureOptions, picture};
 use linkage::error::{Error, ErrorKind, Result};
 use prover::proof::Reference;
-use scenario::Asked;
+use scenario::StartRequest;
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = include_str!("help/draw.txt").trim_ascii_end())]
@@ -69,14 +70,14 @@ fn fits(args: &Args, medium: Medium) -> Result<()> {
     let still = [("--frames", args.frames.is_some()), ("--seconds", args.seconds.is_some())];
     match still.iter().find(|(_, is_given)| *is_given) {
         Some((option, _)) if !medium.moves() => {
-            refused(option, "the picture does not move", "leave it out, or write a .gif or a .webp")
+            refused(option, sentences::THE_PICTURE_DOES_NOT_MOVE, sentences::LEAVE_IT_OUT_OR_WRITE_A_GIF)
         }
         _ if args.each_mode && medium.moves() => {
-            let message = "an animation shows one configuration, but all of them are asked for";
-            refused("--each-mode", message, "write an SVG or a PNG")
+            let message = sentences::AN_ANIMATION_SHOWS_ONE_CONFIGURATION;
+            refused("--each-mode", message, sentences::WRITE_AN_SVG_OR_A_PNG)
         }
         _ if args.width.is_some() && medium == Medium::Svg => {
-            refused("--width", "an SVG has no pixels", "leave it out, or write a .png, .gif or .webp")
+            refused("--width", sentences::AN_SVG_HAS_NO_PIXELS, sentences::LEAVE_IT_OUT_OR_WRITE_A_PNG)
         }
         _ => Ok(()),
     }
@@ -86,7 +87,7 @@ fn fits(args: &Args, medium: Medium) -> Result<()> {
 pub(super) fn draw(args: &Args) -> Result<u8> {
     let medium = Medium::of(&args.output).map_err(|message| Error::new(ErrorKind::Input, message).key("--output"))?;
     fits(args, medium)?;
-    let wish = Wish {
+    let wish = PictureOptions {
         crank: args.crank_deg.map(f64::to_radians),
         each_mode: args.each_mode,
         loads: args.loads,
@@ -99,7 +100,7 @@ pub(super) fn draw(args: &Args) -> Result<u8> {
         seconds: args.seconds,
         traces_key: Some("--trace"),
     };
-    let asked = Asked { modes: args.mode.clone(), set: args.set.clone(), ..Asked::default() };
+    let asked = StartRequest { modes: args.mode.clone(), set: args.set.clone(), ..Asked::default() };
     let drawn = |file: &PathBuf| match load::as_asked(file, &asked) {
         Ok(scenario) => Drawn::of(scenario, &wish, medium).map_err(|error| error.key("--crank-deg")),
         // What is wrong with the text itself is told by the reading of the draft.
@@ -113,7 +114,7 @@ pub(super) fn draw(args: &Args) -> Result<u8> {
         match &own.note {
             Some(Note::Said(note)) => output::note(note),
             Some(Note::OneOfMany) => {
-                output::note(&format!("{}: --each-mode draws all configurations, with their names", own.name));
+                output::note(&sentences::each_mode_draws_all_configurations(&own.name));
             }
             None => {}
         }

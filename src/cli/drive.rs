@@ -1,5 +1,6 @@
 //! `linkproof drive`.
 
+use crate::sentences;
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 
@@ -11,11 +12,11 @@ use crate::report::{motor_choice, table_csv};
 use analytic::AssurSolver;
 use analytic::range::explained;
 use analytic::reduced::means as reduced;
-use analytic::reduced::{ACCURACY, Model, RunUp};
+use analytic::reduced::{ACCURACY, ReducedModel, RunUp};
 use analytic::steady::Averaged;
 use design::catalogue;
 use design::flywheel::Flywheel;
-use design::motor::Choice;
+use design::motor::MotorChoice;
 use linkage::error::{Error, ErrorKind, Result};
 use scenario::Scenario;
 
@@ -90,7 +91,7 @@ fn driven(args: &Args, scenario: &Scenario) -> Result<()> {
     if let Some(file) = &args.choice.catalogue {
         return choose(&args.choice, file, scenario, &args.json);
     }
-    let model = Model::of(&scenario.case)?;
+    let model = ReducedModel::of(&scenario.case)?;
     let targets = [&args.run_up, &args.json, &args.svg];
     let told_there = targets.into_iter().any(output::is_said);
     if let Some(to) = &args.run_up {
@@ -117,16 +118,21 @@ fn driven(args: &Args, scenario: &Scenario) -> Result<()> {
 fn check(args: &Args) -> Result<()> {
     let wrong = |message: String, help: &str| Err(Error::new(ErrorKind::Input, message).help(help));
     if !(360.0 / args.step_deg <= MOST_ROWS) {
-        return wrong(format!("--step-deg is {}", args.step_deg), "give a number of degrees above zero, such as 10");
+        return wrong(sentences::step_deg_is(&args.step_deg), sentences::GIVE_A_NUMBER_OF_DEGREES);
     }
     if args.points as f64 > MOST_ROWS {
-        return wrong(format!("--points is {}", args.points), "give a number from 1 to 1000000");
+        return wrong(sentences::points_is(&args.points), sentences::GIVE_A_NUMBER_FROM_TO);
     }
     output::apart(&[("--run-up", &args.run_up), ("--svg", &args.svg), ("--json", &args.json)])
 }
 
 /// The reduced quantities every `step_deg` of the crank, the steady motion, and the flywheel for a wanted non-uniformity.
-pub(super) fn find(scenario: &Scenario, model: &Model, step_deg: f64, non_uniformity: Option<f64>) -> Result<Found> {
+pub(super) fn find(
+    scenario: &Scenario,
+    model: &ReducedModel,
+    step_deg: f64,
+    non_uniformity: Option<f64>,
+) -> Result<Found> {
     let case = &scenario.case;
     let means = reduced::means_over_turn(case, &AssurSolver)?;
     let sense = case.crank().sense();
@@ -153,7 +159,7 @@ pub(super) fn find(scenario: &Scenario, model: &Model, step_deg: f64, non_unifor
 }
 
 /// Data of the graphs: at equal intervals, and at the kinks of the reduced quantities.
-pub(super) fn curves(scenario: &Scenario, model: &Model, found: &Found) -> Result<Curves> {
+pub(super) fn curves(scenario: &Scenario, model: &ReducedModel, found: &Found) -> Result<Curves> {
     let (start, sense) = (scenario.case.crank().start, scenario.case.crank().sense());
     let period = model.kinks().period.unwrap_or(TAU);
     let even: Vec<f64> = (0..=PARTS).map(|k| start + sense * period * (f64::from(k) / f64::from(PARTS))).collect();
@@ -166,7 +172,7 @@ pub(super) fn curves(scenario: &Scenario, model: &Model, found: &Found) -> Resul
     Ok(Curves { period, rows, slope, steady })
 }
 
-fn run_up(args: &Args, model: &Model) -> Result<RunUp> {
+fn run_up(args: &Args, model: &ReducedModel) -> Result<RunUp> {
     let times: Vec<f64> = (0..=args.points).map(|k| args.seconds * (k as f64 / args.points as f64)).collect();
     RunUp::of(model, args.from_rpm * TAU / 60.0, &times, ACCURACY)
 }
@@ -177,11 +183,11 @@ fn choose(args: &Choosing, file: &Path, scenario: &Scenario, json_to: &Option<Pa
     if let Some(rpm) = args.synchronous_rpm {
         motors.retain(|motor| (motor.synchronous_speed * 60.0 / TAU - rpm).abs() < 0.5);
         if motors.is_empty() {
-            let message = format!("the catalogue has no motor of {rpm} rpm");
-            return output::refused("--synchronous-rpm", message, "give 3000 or 1500, or leave it out");
+            let message = sentences::the_catalogue_has_no_motor(&rpm);
+            return output::refused("--synchronous-rpm", message, sentences::GIVE_OR_OR_LEAVE_IT_OUT);
         }
     }
     let own = scenario.case.crank().motor().map_or(1.0, |motor| motor.efficiency);
-    let choice = Choice::of(&scenario.case, &motors, args.efficiency.unwrap_or(own))?;
+    let choice = MotorChoice::of(&scenario.case, &motors, args.efficiency.unwrap_or(own))?;
     output::either(json_to, || motor_choice::json(scenario, &choice), || motor_choice::text(scenario, &choice))
 }

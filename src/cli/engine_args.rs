@@ -9,8 +9,8 @@ use linkage::engine::{Engine, Route};
 use linkage::error::Error;
 use prover::engines::EngineName;
 use prover::proof::{Options, Reference, memory};
-use scenario::engine::{ROWS, Row, Slot};
-use scenario::{EngineSettings, Origin, Scenario, Setting};
+use scenario::engine::{ROWS, SettingRow, Slot};
+use scenario::{EngineSetting, EngineSettings, Scenario, SettingOrigin};
 
 type Result<T, E = Error> = std::result::Result<T, E>;
 
@@ -118,7 +118,7 @@ impl FromArgMatches for SettingArgs {
 }
 
 /// The argument of a row; `None` for that of the engines, which commands have in their own ways.
-fn argument(row: &'static Row) -> Option<Arg> {
+fn argument(row: &'static SettingRow) -> Option<Arg> {
     let own = Arg::new(row.argument).long(row.argument).value_name(row.value).help(row.help);
     Some(match (row.slot)(&mut EngineSettings::default()) {
         Slot::Engines(_) => return None,
@@ -131,9 +131,9 @@ fn argument(row: &'static Row) -> Option<Arg> {
     })
 }
 
-fn given<T: Clone + Send + Sync + 'static>(matches: &ArgMatches, row: &Row) -> Setting<T> {
+fn given<T: Clone + Send + Sync + 'static>(matches: &ArgMatches, row: &SettingRow) -> EngineSetting<T> {
     let value = matches.get_one::<T>(row.argument).cloned();
-    value.map_or(Setting::Free, |value| Setting::Given(value, Origin::Argument(row.argument)))
+    value.map_or(EngineSetting::Free, |value| EngineSetting::Given(value, SettingOrigin::Argument(row.argument)))
 }
 
 /// What one of these words stands for.

@@ -1,14 +1,15 @@
 //! The `[engine]` section that keeps settings which a command has found.
 
+use crate::sentences;
 use std::io::{self, Write};
 use std::path::Path;
 
-use files::{self, Target};
+use files::{self, OutputTarget};
 use linkage::engine::Settings;
 use linkage::error::Result;
 use prover::engines::named;
 
-use scenario::{EngineSettings, Setting};
+use scenario::{EngineSetting, EngineSettings};
 use scenario::{Scenario, edit};
 
 /// What a scenario must state to run an engine at `settings`. The engine's usual route is left out unless the scenario
@@ -23,10 +24,10 @@ pub(super) fn keys(scenario: &Scenario, name: &str, settings: Settings) -> Engin
         keys.step = own.step.clone();
     }
     if own.route.is_free() && usual == Some(settings.route) {
-        keys.route = Setting::Free;
+        keys.route = EngineSetting::Free;
     }
-    keys.substeps = Setting::from(Some(settings.substeps).filter(|&substeps| substeps > 1));
-    keys.extrapolated = Setting::from(Some(settings.extrapolated).filter(|&times| times > 0));
+    keys.substeps = EngineSetting::from(Some(settings.substeps).filter(|&substeps| substeps > 1));
+    keys.extrapolated = EngineSetting::from(Some(settings.extrapolated).filter(|&times| times > 0));
     keys
 }
 
@@ -36,8 +37,8 @@ pub(super) fn keys(scenario: &Scenario, name: &str, settings: Settings) -> Engin
 /// [`ErrorKind::Io`] if the file cannot be written, and those of [`edit::with_engine`].
 pub(super) fn write(file: &Path, scenario: &Scenario, keys: EngineSettings) -> Result<()> {
     let text = edit::with_engine(&scenario.text, keys)?;
-    files::replace(&Target::Named(file), |mut to| to.write_all(text.as_bytes())).map_err(|error: io::Error| {
-        let usual = "check that the file may be written to, or copy the section by hand";
+    files::replace(&OutputTarget::Named(file), |mut to| to.write_all(text.as_bytes())).map_err(|error: io::Error| {
+        let usual = sentences::CHECK_THAT_THE_FILE_MAY_BE_WRITTEN;
         files::unwritten(&file.display().to_string(), &error, Some(text.len() as u64), usual)
     })
 }

@@ -1,5 +1,6 @@
 //! Grids on the command line.
 
+use crate::sentences;
 use std::str::FromStr;
 
 use linkage::case::{Case, Grid};
@@ -33,13 +34,13 @@ impl GridArgs {
             (Some(Values { values, .. }), _) => {
                 let cranks = values.iter().map(|angle| angle.to_radians()).collect();
                 let help = match crank.is_free() {
-                    true => "give times by --times FROM:TO:STEP",
-                    false => "check the unit and size of --crank-deg",
+                    true => sentences::GIVE_TIMES_BY_TIMES_FROM_TO_STEP,
+                    false => sentences::CHECK_THE_UNIT_AND_SIZE_OF_CRANK,
                 };
                 (Grid::of_inputs(crank, cranks), help)
             }
             (None, Some(Values { values, .. })) => {
-                (Grid::of_times(crank, values.clone()), "check the unit and size of --times")
+                (Grid::of_times(crank, values.clone()), sentences::CHECK_THE_UNIT_AND_SIZE_OF_TIMES)
             }
             (None, None) => return Ok(case.clone()),
         };
@@ -63,7 +64,7 @@ pub(super) struct Values {
     values: Vec<f64>,
 }
 
-const EXPECTED: &str = "expected FROM:TO:STEP or values separated by commas, for example 0:360:30 or 0,45,90";
+const EXPECTED: &str = sentences::EXPECTED_FROM_TO_STEP_OR_VALUES;
 
 impl FromStr for Values {
     type Err = String;
@@ -71,8 +72,8 @@ impl FromStr for Values {
     fn from_str(text: &str) -> std::result::Result<Self, String> {
         let number = |part: &str| match part.trim().parse::<f64>() {
             Ok(number) if number.is_finite() => Ok(number),
-            Ok(_) => Err(format!("\"{part}\" is not finite; {EXPECTED}")),
-            Err(_) => Err(format!("\"{part}\" is not a number; {EXPECTED}")),
+            Ok(_) => Err(sentences::is_not_finite(&part, &EXPECTED)),
+            Err(_) => Err(sentences::is_not_a_number(&part, &EXPECTED)),
         };
         let mut values = Vec::new();
         for item in text.split(',') {

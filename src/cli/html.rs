@@ -1,5 +1,6 @@
 //! Pages of `linkproof run --html`.
 
+use crate::sentences;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::iter::once;
@@ -9,7 +10,7 @@ use super::{advice, drive, output};
 use crate::report::drive_graphs;
 use crate::report::html::{self, Beside};
 use analytic::range::explained;
-use analytic::reduced::Model;
+use analytic::reduced::ReducedModel;
 use design::diagram::Graphs;
 use linkage::error::{Error, ErrorKind, Result};
 use prover::proof::Proof;
@@ -35,10 +36,14 @@ impl Pages {
         let is_directory = scenarios > 1 || to.is_dir() || to.as_os_str().to_string_lossy().ends_with('/');
         let tried = if is_directory { files::may_fill(to) } else { files::may_write(to) };
         let wrong = |found: String| {
-            let what = if is_directory { "pages cannot be written to" } else { "the page cannot be written to" };
+            let what = if is_directory {
+                sentences::PAGES_CANNOT_BE_WRITTEN_TO
+            } else {
+                sentences::THE_PAGE_CANNOT_BE_WRITTEN
+            };
             Error::new(ErrorKind::Io, format!("{what} {}: {found}", to.display()))
                 .key("--html")
-                .help("name a file for one scenario, or a directory for several")
+                .help(sentences::NAME_A_FILE_FOR_ONE_SCENARIO)
         };
         tried.map_err(wrong)?;
         Ok(Pages { to: to.to_path_buf(), is_directory, taken: BTreeSet::new() })
@@ -71,8 +76,8 @@ impl Pages {
             return Ok(self.to.clone());
         }
         fs::create_dir_all(&self.to).map_err(|error| {
-            Error::new(ErrorKind::Io, format!("the directory {} cannot be made: {error}", self.to.display()))
-                .help("name another directory with --html")
+            Error::new(ErrorKind::Io, sentences::the_directory_cannot_be_made(&self.to.display(), &error))
+                .help(sentences::NAME_ANOTHER_DIRECTORY_WITH_HTML)
         })?;
         let mut names = once(name.to_string()).chain((2..).map(|number| format!("{name}-{number}")));
         let own = names.find(|own| self.taken.insert(own.clone())).expect("numbers do not end");
@@ -83,7 +88,7 @@ impl Pages {
 /// Path for a page or for several; standard output has the report.
 pub(super) fn target(text: &str) -> std::result::Result<PathBuf, String> {
     match text {
-        "-" => Err("a page goes to a file; expected one, or a directory for several scenarios".into()),
+        "-" => Err(sentences::A_PAGE_GOES_TO_A_FILE_EXPECTED.into()),
         _ if text.ends_with(".toml") => output::target(text),
         _ => Ok(PathBuf::from(text)),
     }
@@ -93,7 +98,7 @@ pub(super) fn target(text: &str) -> std::result::Result<PathBuf, String> {
 fn reduced(scenario: &Scenario) -> std::result::Result<Graphs, String> {
     let scenario = scenario.clone().nominal();
     let graphs = || {
-        let model = Model::of(&scenario.case)?;
+        let model = ReducedModel::of(&scenario.case)?;
         let found = drive::find(&scenario, &model, STEP_DEG, None)?;
         Ok(drive_graphs::graphs(&scenario, &found, &drive::curves(&scenario, &model, &found)?))
     };

@@ -9,7 +9,7 @@ use linkage::case::Grid;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::work::limited;
 use prover::proof::BUDGET;
-use scenario::Asked;
+use scenario::StartRequest;
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = include_str!("help/inspect.txt").trim_ascii_end())]
@@ -39,7 +39,7 @@ pub(super) struct Args {
 }
 
 pub(super) fn inspect(args: &Args) -> Result<()> {
-    let asked = Asked { modes: args.mode.clone(), ..Asked::default() };
+    let asked = StartRequest { modes: args.mode.clone(), ..Asked::default() };
     // A list of configurations is wanted above all where the file does not decide between them.
     let (scenario, undecided) = match args.modes {
         true => load::to_list(&args.file, &asked)?,

@@ -1,5 +1,6 @@
 //! Work on several files side by side, with results in the order of the files whatever the number of threads.
 
+use crate::sentences;
 use std::any::Any;
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
@@ -105,8 +106,8 @@ pub(super) fn side_by_side<T, R: Send>(
 /// A panic as an error. Its place is on standard error already.
 fn panicked(panic: &(dyn Any + Send)) -> Error {
     let text = panic.downcast_ref::<&str>().copied().or(panic.downcast_ref::<String>().map(String::as_str));
-    let message = format!("this is a fault of the program: {}", text.unwrap_or("it panicked"));
-    Error::new(ErrorKind::Numeric, message).help("report it with the scenario; the other files are not concerned")
+    let message = sentences::this_is_a_fault_of_the_program(&text.unwrap_or("it panicked"));
+    Error::new(ErrorKind::Numeric, message).help(sentences::REPORT_IT_WITH_THE_SCENARIO)
 }
 
 #[cfg(test)]

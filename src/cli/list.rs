@@ -1,5 +1,6 @@
 //! `linkproof list`.
 
+use crate::sentences;
 use std::path::{Path, PathBuf};
 
 use super::load::plain;
@@ -34,8 +35,8 @@ pub(super) fn list(args: &Args) -> Result<()> {
         lists::solvers(solvers.iter().map(|solver| solver.name()), engines)
     } else {
         let directory = args.place.as_deref().unwrap_or(Path::new("scenarios"));
-        let files = scenario::files_in(directory)
-            .map_err(|error| error.help("name the directory that holds your scenario files: linkproof list DIR; `linkproof new --shipped` writes some to scenarios/"))?;
+        let files =
+            scenario::files_in(directory).map_err(|error| error.help(sentences::NAME_THE_DIRECTORY_THAT_HOLDS))?;
         let all: Vec<_> = files.into_iter().map(|file| (Scenario::load(&file), file)).collect();
         lists::scenarios(directory, &all, advice::told)
     };

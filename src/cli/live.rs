@@ -1,4 +1,14 @@
 //! `--live`: what a proof has found, moving in viewers that listen to Foxglove's WebSocket.
+//!
+//! - Source: a `recording::Reel` in memory, the same `Sink` that a recording fills.
+//! - Protocol: the former name (`foxglove.websocket.v1`) and the present one (`foxglove.sdk.v1`). The server of Foxglove's
+//!   library speaks the present one only; Lichtblick and the open Foxglove Studio offer the former one only. So `tungstenite`
+//!   does handshake and frames, and `report::live` has the messages.
+//! - Clock: times sent are log times of the recording. The clock of the machine decides only when they are sent; no byte
+//!   depends on it.
+//! - Viewers have a thread and a place in the reel each, so that one that pauses, seeks or is slow disturbs no other.
+//! - Stage: the reference is shown while the engine is at work, the whole afterwards. Channels get new numbers then, and
+//!   viewers ask for them again.
 
 #[cfg(feature = "live")]
 mod player;
@@ -11,6 +21,7 @@ mod viewer;
 #[cfg(feature = "live")]
 mod wants;
 
+use crate::sentences;
 use std::path::PathBuf;
 
 #[cfg(feature = "live")]
@@ -51,8 +62,8 @@ impl LiveArgs {
     pub(super) fn start(&self, files: &[PathBuf]) -> Result<Option<Live>> {
         let Some(address) = &self.live else { return Ok(None) };
         if let [_, _, ..] = files {
-            let message = format!("--live shows one scenario, but {} are given", files.len());
-            return Err(Error::new(ErrorKind::Input, message).help("name one file"));
+            let message = sentences::live_shows_one_scenario_but_are_given(&files.len());
+            return Err(Error::new(ErrorKind::Input, message).help(sentences::NAME_ONE_FILE));
         }
         let on_this_machine = |port| format!("127.0.0.1:{port}");
         Live::at(&address.parse::<u16>().map_or(address.clone(), on_this_machine)).map(Some)
@@ -66,10 +77,10 @@ pub(super) enum Live {}
 #[cfg(not(feature = "live"))]
 impl Live {
     fn at(_: &str) -> Result<Live> {
-        let message = "--live is asked for, but this build does not have it";
+        let message = sentences::LIVE_IS_ASKED_FOR_BUT_THIS_BUILD;
         Err(Error::new(ErrorKind::Unsupported, message)
-            .help("build with the cargo feature \"live\": in the repository, `cargo install --path . --features live`")
-            .or_help("leave out --live, and open the recording: linkproof view FILE.mcap"))
+            .help(sentences::BUILD_WITH_THE_CARGO_FEATURE)
+            .or_help(sentences::LEAVE_OUT_LIVE_AND_OPEN_THE_RECORDING))
     }
 
     pub(super) fn show_reference(&self, _: &RecordArgs, _: &Scenario, _: Reference) {

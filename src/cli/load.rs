@@ -1,5 +1,6 @@
 //! The common first step of every command: a scenario from a file, or from standard input in its place.
 
+use crate::sentences;
 use std::io::{self, IsTerminal};
 use std::path::Path;
 use std::sync::OnceLock;
@@ -7,7 +8,7 @@ use std::sync::OnceLock;
 use super::grid::GridArgs;
 use super::{number, output};
 use linkage::error::{Error, ErrorKind, Result};
-use scenario::{Asked, Draft, Scenario, Undecided};
+use scenario::{Draft, Scenario, StartRequest, Undecided};
 
 /// Another start than that of the file.
 #[derive(Clone, Debug, clap::Args)]
@@ -30,13 +31,13 @@ pub(super) struct StartArgs {
 impl StartArgs {
     /// Reads a scenario with this start, on the grid given, else on its own.
     pub(super) fn load(&self, file: &Path, grid: &GridArgs) -> Result<Scenario> {
-        self.load_as(file, grid, Asked::default())
+        self.load_as(file, grid, StartRequest::default())
     }
 
     /// The same with what is asked `besides`.
-    pub(super) fn load_as(&self, file: &Path, grid: &GridArgs, besides: Asked) -> Result<Scenario> {
+    pub(super) fn load_as(&self, file: &Path, grid: &GridArgs, besides: StartRequest) -> Result<Scenario> {
         let crank = self.start_crank_deg.map(f64::to_radians);
-        let asked = Asked {
+        let asked = StartRequest {
             modes: self.mode.clone(),
             crank,
             without_grid: grid.told().is_some(),
@@ -54,21 +55,21 @@ pub(super) fn only(scenario: Scenario, words: &[String]) -> Result<Scenario> {
 
 /// Reads `KEY=NUMBER`.
 pub(super) fn setting(text: &str) -> std::result::Result<(String, f64), String> {
-    let (key, value) = text.split_once('=').ok_or("expected KEY=NUMBER, such as a_mm=30")?;
-    Ok((key.trim().into(), number::decimal(value, "a finite number behind the `=`, such as a_mm=30")?))
+    let (key, value) = text.split_once('=').ok_or(sentences::EXPECTED_KEY_NUMBER_SUCH_AS_A_MM)?;
+    Ok((key.trim().into(), number::decimal(value, sentences::A_FINITE_NUMBER_BEHIND_THE_SUCH_AS_A_MM)?))
 }
 
 /// Reads a scenario as it is.
 pub(super) fn plain(file: &Path) -> Result<Scenario> {
-    as_asked(file, &Asked::default())
+    as_asked(file, &StartRequest::default())
 }
 
 /// Reads a scenario and starts its groups in the given `modes`.
 pub(super) fn load(file: &Path, modes: &[String]) -> Result<Scenario> {
-    as_asked(file, &Asked { modes: modes.to_vec(), ..Asked::default() })
+    as_asked(file, &StartRequest { modes: modes.to_vec(), ..Asked::default() })
 }
 
-pub(super) fn as_asked(file: &Path, asked: &Asked) -> Result<Scenario> {
+pub(super) fn as_asked(file: &Path, asked: &StartRequest) -> Result<Scenario> {
     let found = match is_standard_input(file) {
         true => Scenario::parse_as(standard_input()?, named(file), asked),
         false => Scenario::load_as(file, asked),
@@ -77,7 +78,7 @@ pub(super) fn as_asked(file: &Path, asked: &Asked) -> Result<Scenario> {
 }
 
 /// The same for a list of configurations: with the groups that the file does not decide.
-pub(super) fn to_list(file: &Path, asked: &Asked) -> Result<(Scenario, Vec<Undecided>)> {
+pub(super) fn to_list(file: &Path, asked: &StartRequest) -> Result<(Scenario, Vec<Undecided>)> {
     let found = match is_standard_input(file) {
         true => Scenario::parse_to_list(standard_input()?, named(file), asked),
         false => Scenario::load_to_list(file, asked),
@@ -86,7 +87,7 @@ pub(super) fn to_list(file: &Path, asked: &Asked) -> Result<(Scenario, Vec<Undec
 }
 
 /// The mechanism of a file that cannot be assembled, as far as the file states it.
-pub(super) fn draft(file: &Path, asked: &Asked) -> Result<Draft> {
+pub(super) fn draft(file: &Path, asked: &StartRequest) -> Result<Draft> {
     match is_standard_input(file) {
         true => Draft::parse(standard_input()?, named(file), asked),
         false => Draft::load(file, asked),
@@ -94,7 +95,7 @@ pub(super) fn draft(file: &Path, asked: &Asked) -> Result<Draft> {
 }
 
 /// An error that has no place in the file is one of the modes asked for.
-fn of_mode(asked: &Asked, error: Error) -> Error {
+fn of_mode(asked: &StartRequest, error: Error) -> Error {
     let is_asked = !asked.modes.is_empty() && error.place().is_none() && error.kind() != ErrorKind::Io;
     if is_asked { error.key("--mode") } else { error }
 }
@@ -120,11 +121,11 @@ fn standard_input() -> Result<&'static str> {
     static TEXT: OnceLock<Result<String>> = OnceLock::new();
     let read = || {
         if io::stdin().is_terminal() {
-            output::note("the scenario is read from standard input, up to its end (Ctrl-D)");
+            output::note(sentences::THE_SCENARIO_IS_READ_FROM_STANDARD);
         }
         files::text_from(io::stdin().lock()).map_err(|error| {
-            let usual = "give a scenario, as in: linkproof run - < four_bar.toml";
-            Error::new(ErrorKind::Io, format!("{NAME} cannot be read: {error}")).help(files::way_out(&error, usual))
+            let usual = sentences::GIVE_A_SCENARIO_AS_IN_LINKPROOF;
+            Error::new(ErrorKind::Io, sentences::cannot_be_read(&NAME, &error)).help(files::way_out(&error, usual))
         })
     };
     TEXT.get_or_init(read).as_ref().map(String::as_str).map_err(Error::clone)
@@ -135,6 +136,6 @@ pub(super) fn refuse_writing(path: &Path) -> Result<()> {
     if !is_standard_input(path) {
         return Ok(());
     }
-    let help = "save the scenario to a file and name that, or leave --write out: the report tells the settings";
-    output::refused("--write", format!("settings cannot be written to {NAME}"), help)
+    let help = sentences::SAVE_THE_SCENARIO_TO_A_FILE;
+    output::refused("--write", sentences::settings_cannot_be_written_to(&NAME), help)
 }

@@ -1,5 +1,6 @@
 //! `linkproof mutate`.
 
+use crate::sentences;
 use std::path::PathBuf;
 
 use clap::builder::PossibleValuesParser;
@@ -10,7 +11,7 @@ use super::progress::Bar;
 use super::{advice, exit_code, load, output};
 use crate::plain::errors;
 use crate::report::mutate as report;
-use lab::mutate::{Asked, End, Party, all, mutate, named, tally};
+use lab::mutate::{FaultTally, FaultyParty, MutationPlan, all, mutate, named, tally};
 use linkage::error::Result;
 use prover::proof::Reference;
 
@@ -24,7 +25,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "KIND", value_parser = kind)]
     kind: Vec<String>,
     /// Who gets the fault. May be given several times [default: each in turn]
-    #[arg(long, value_name = "PARTY", value_parser = PossibleValuesParser::new(Party::ALL.map(Party::name)))]
+    #[arg(long, value_name = "PARTY", value_parser = PossibleValuesParser::new(FaultyParty::ALL.map(FaultyParty::name)))]
     party: Vec<String>,
     /// Do not search the size at which a fault is lost
     #[arg(long)]
@@ -53,11 +54,12 @@ pub(super) fn run(args: &Args) -> Result<u8> {
     output::apart(&[("--json", &args.json), ("--markdown", &args.markdown)])?;
     let options = args.engine.options(Reference::Assur);
     if options.engine_count() > 1 {
-        let message = format!("found {} engines, but faults are planted in one", options.engine_count());
-        return output::refused("--engine", message, "give one engine");
+        let message = sentences::found_engines_but_faults_are_planted(&options.engine_count());
+        return output::refused("--engine", message, sentences::GIVE_ONE_ENGINE);
     }
-    let parties = args.party.iter().filter_map(|name| Party::named(name)).collect();
-    let asked = Asked { kinds: args.kind.clone(), parties, with_sizes: !args.no_sizes, jobs: args.jobs, options };
+    let parties = args.party.iter().filter_map(|name| FaultyParty::named(name)).collect();
+    let asked =
+        MutationPlan { kinds: args.kind.clone(), parties, with_sizes: !args.no_sizes, jobs: args.jobs, options };
     let (mut found, mut failures) = (Vec::new(), Vec::new());
     for file in &args.files {
         let one = plain(file).and_then(|scenario| {
@@ -83,9 +85,9 @@ pub(super) fn run(args: &Args) -> Result<u8> {
     }
     Ok(match tally(&found).end() {
         _ if !failures.is_empty() => exit_code::BAD_INPUT,
-        End::AllFound => exit_code::AGREE,
-        End::NoneEscapes | End::TrunkOpen | End::Nothing => exit_code::INCONCLUSIVE,
-        End::SomeEscape => exit_code::DISAGREE,
+        FaultTally::AllFound => exit_code::AGREE,
+        FaultTally::NoneEscapes | FaultTally::TrunkOpen | FaultTally::Nothing => exit_code::INCONCLUSIVE,
+        FaultTally::SomeEscape => exit_code::DISAGREE,
     })
 }
 
@@ -94,5 +96,5 @@ fn kind(text: &str) -> std::result::Result<String, String> {
     if named(text).is_some() || all().any(|kind| kind.family.name() == text) {
         return Ok(text.into());
     }
-    Err("there is no such kind and no such family; `linkproof mutate --list` has them all".into())
+    Err(sentences::THERE_IS_NO_SUCH_KIND_AND_NO_SUCH_FAMILY.into())
 }

@@ -1,5 +1,6 @@
 //! `linkproof new`.
 
+use crate::sentences;
 use std::path::{Path, PathBuf};
 
 use super::{exit_code, load, output};
@@ -50,17 +51,14 @@ fn list() -> String {
     let width = TEMPLATES.iter().map(|template| template.name.len()).max().unwrap_or_default();
     let line = |template: &Template| format!("{:width$}  {}\n", template.name, template.title());
     let lines: String = TEMPLATES.iter().map(line).collect();
-    format!("{lines}\nlinkproof new TEMPLATE writes one; its dimensions are set there, or with --set\n")
+    sentences::linkproof_new_template_writes_one_its_dimensions(&lines)
 }
 
 /// What has been written, and what to do with it.
 fn begun(template: &Template, file: &str) -> String {
     let stem = Path::new(file).with_extension("");
     let stem = stem.display();
-    format!(
-        "{file}: {}\n\nnext  linkproof draw {file} -o {stem}.svg\n      linkproof run {file} --html {stem}.html\n",
-        template.title()
-    )
+    sentences::next_linkproof_draw_svg_linkproof(&file, &template.title(), &stem)
 }
 
 /// Refuses what would replace a file.
@@ -68,8 +66,8 @@ fn free(path: &Path, args: &Args, other: &str) -> Result<()> {
     if args.force || path.symlink_metadata().is_err() {
         return Ok(());
     }
-    Err(Error::new(ErrorKind::Input, format!("{} is there already", path.display()))
-        .help(format!("{other}, or replace what is there with --force")))
+    Err(Error::new(ErrorKind::Input, sentences::is_there_already(&path.display()))
+        .help(sentences::or_replace_what_is_there(&other)))
 }
 
 fn begin(name: &str, args: &Args) -> Result<u8> {
@@ -82,7 +80,7 @@ fn begin(name: &str, args: &Args) -> Result<u8> {
         output::print(&text)?;
         return Ok(told(&text, Path::new("standard output"), template));
     }
-    free(path, args, "give another name with --output")?;
+    free(path, args, sentences::GIVE_ANOTHER_NAME_WITH_OUTPUT)?;
     match args.output {
         Some(_) => output::write(&text, path)?,
         None => output::make_by(text.as_bytes(), path, &|_| args.force)?,
@@ -100,28 +98,23 @@ fn told(text: &str, path: &Path, template: &Template) -> u8 {
         return exit_code::AGREE;
     };
     output::show(&error);
-    output::note(&format!(
-        "{0} is written nevertheless, to be corrected: `linkproof draw {0} -o picture.svg` shows how far it goes. Lengths that \
-         fit together are the template's own: {1}",
-        path.display(),
-        template.dimensions(),
-    ));
+    output::note(&sentences::is_written_nevertheless_to_be_corrected(&path.display(), &template.dimensions()));
     exit_code::BAD_INPUT
 }
 
 fn ship(directory: &Path, args: &Args) -> Result<()> {
     let files = shipped::files();
     for (path, _) in &files {
-        free(&directory.join(path), args, "name another directory, as in --shipped DIR")?;
+        free(&directory.join(path), args, sentences::NAME_ANOTHER_DIRECTORY_AS_IN_SHIPPED)?;
     }
     for (path, bytes) in &files {
         let path = directory.join(path);
         let made = path.parent().map_or(Ok(()), std::fs::create_dir_all);
         made.map_err(|error| {
-            Error::new(ErrorKind::Io, format!("cannot make the directory of {}: {error}", path.display()))
-                .help("check that this directory may be written to")
+            Error::new(ErrorKind::Io, sentences::cannot_make_the_directory_of(&path.display(), &error))
+                .help(sentences::CHECK_THAT_THIS_DIRECTORY_MAY)
         })?;
         output::make_by(bytes, &path, &|_| args.force)?;
     }
-    output::print(&format!("{} files in {}\n", files.len(), directory.display()))
+    output::print(&sentences::files_in(&files.len(), &directory.display()))
 }

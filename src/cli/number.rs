@@ -1,5 +1,6 @@
 //! Numbers on the command line: what a value may be, and what is said of another.
 
+use crate::sentences;
 use std::fmt::Display;
 use std::str::FromStr;
 
@@ -9,44 +10,44 @@ type Parsed<T> = std::result::Result<T, String>;
 
 /// A finite number.
 pub(super) fn finite(text: &str) -> Parsed<f64> {
-    allowed(text, "a finite number, such as 12.5", |_| true)
+    allowed(text, sentences::A_FINITE_NUMBER_SUCH_AS, |_| true)
 }
 
 /// A finite number greater than zero.
 pub(super) fn positive(text: &str) -> Parsed<f64> {
-    allowed(text, "a finite number greater than 0", |number| number > 0.0)
+    allowed(text, sentences::A_FINITE_NUMBER_GREATER_THAN, |number| number > 0.0)
 }
 
 /// A finite number from zero on.
 pub(super) fn not_negative(text: &str) -> Parsed<f64> {
-    allowed(text, "a finite number that is 0 or greater", |number| number >= 0.0)
+    allowed(text, sentences::A_FINITE_NUMBER_THAT_IS_OR_GREATER, |number| number >= 0.0)
 }
 
 /// A finite number other than zero.
 pub(super) fn not_zero(text: &str) -> Parsed<f64> {
-    allowed(text, "a finite number that is not 0", |number| number != 0.0)
+    allowed(text, sentences::A_FINITE_NUMBER_THAT_IS_NOT, |number| number != 0.0)
 }
 
 /// A number above 0 and below 1.
 pub(super) fn share(text: &str) -> Parsed<f64> {
-    allowed(text, "a number between 0 and 1, such as 1e-4", |number| number > 0.0 && number < 1.0)
+    allowed(text, sentences::A_NUMBER_BETWEEN_AND_SUCH_AS, |number| number > 0.0 && number < 1.0)
 }
 
 /// A number above 0 and at most 1.
 pub(super) fn efficiency(text: &str) -> Parsed<f64> {
-    allowed(text, "a number above 0 and at most 1, such as 0.92", |number| number > 0.0 && number <= 1.0)
+    allowed(text, sentences::A_NUMBER_ABOVE_AND_AT_MOST, |number| number > 0.0 && number <= 1.0)
 }
 
 /// A whole number from one on.
 pub(super) fn count(text: &str) -> Parsed<usize> {
     let count = text.trim().parse().ok().filter(|count| *count > 0);
-    count.ok_or_else(|| "expected a whole number from 1 on".into())
+    count.ok_or_else(|| sentences::EXPECTED_A_WHOLE_NUMBER_FROM_ON.into())
 }
 
 /// A number of extrapolations.
 pub(super) fn times(text: &str) -> Parsed<usize> {
     let times = text.trim().parse().ok().filter(|times| *times <= MOST_TIMES);
-    times.ok_or_else(|| format!("expected a whole number from 0 to {MOST_TIMES}"))
+    times.ok_or_else(|| sentences::expected_a_whole_number_from_to(&MOST_TIMES))
 }
 
 /// A decimal number from a text.
@@ -58,7 +59,7 @@ pub(super) fn decimal(text: &str, such: impl Display) -> Parsed<f64> {
     match f64::from_str(text) {
         Ok(number) if number.is_finite() => Ok(number),
         _ if text.contains(',') && f64::from_str(&text.replacen(',', ".", 1)).is_ok() => {
-            Err(format!("expected {such}; decimals take a point: {}", text.replacen(',', ".", 1)))
+            Err(sentences::expected_decimals_take_a_point(&such, &(text.replacen(',', ".", 1))))
         }
         _ => Err(format!("expected {such}")),
     }

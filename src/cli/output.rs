@@ -1,5 +1,6 @@
 //! Writing to standard output, files and the terminal.
 
+use crate::sentences;
 use std::fs;
 use std::io::{self, IsTerminal, Write};
 use std::path::{Path, PathBuf};
@@ -8,7 +9,7 @@ use super::{advice, exit_code};
 use crate::plain::errors;
 use crate::plain::style::COLUMNS;
 use anstream::AutoStream;
-use files::{self, Target};
+use files::{self, OutputTarget};
 use linkage::error::{Error, ErrorKind, Result};
 use terminal_size::{Width, terminal_size_of};
 
@@ -17,7 +18,7 @@ use terminal_size::{Width, terminal_size_of};
 pub(super) fn target(text: &str) -> std::result::Result<PathBuf, String> {
     let path = PathBuf::from(text);
     if path.extension().is_some_and(|extension| extension == "toml") {
-        return Err("this is a scenario file and would be overwritten; expected a file for the results, or `-`".into());
+        return Err(sentences::THIS_IS_A_SCENARIO_FILE_AND_WOULD.into());
     }
     writable(path)
 }
@@ -49,8 +50,8 @@ pub(super) fn apart(targets: &[(&str, &Option<PathBuf>)]) -> Result<()> {
     let named: Vec<_> = targets.iter().filter_map(|(option, to)| Some((option, place(to.as_ref()?)))).collect();
     for (k, (one, to)) in named.iter().enumerate() {
         if let Some((other, _)) = named[k + 1..].iter().find(|(_, other)| to == other && to != Path::new("/dev/null")) {
-            let message = format!("{one} and {other} both name {}", to.display());
-            return Err(Error::new(ErrorKind::Input, message).help("give two files, or leave one of the two out"));
+            let message = sentences::and_both_name(&one, &other, &to.display());
+            return Err(Error::new(ErrorKind::Input, message).help(sentences::GIVE_TWO_FILES_OR_LEAVE_ONE_OF_THE_TWO));
         }
     }
     Ok(())
@@ -81,13 +82,13 @@ pub(super) fn write(text: &str, to: &Path) -> Result<()> {
 pub(super) fn write_bytes(bytes: &[u8], to: &Path) -> Result<()> {
     match is_standard(to) {
         true => printed(|out| out.write_all(bytes)),
-        false => put(&Target::Named(to), to, Some(bytes.len() as u64), |out| out.write_all(bytes)),
+        false => put(&OutputTarget::Named(to), to, Some(bytes.len() as u64), |out| out.write_all(bytes)),
     }
 }
 
 /// Lets `fill` write piece by piece to a file that the caller named, or to standard output for `-`.
 pub(super) fn stream(to: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<()> {
-    if is_standard(to) { printed(fill) } else { put(&Target::Named(to), to, None, fill) }
+    if is_standard(to) { printed(fill) } else { put(&OutputTarget::Named(to), to, None, fill) }
 }
 
 /// Writes text with its seal to a file whose name the program made up. What is there is replaced if its seal is
@@ -99,13 +100,13 @@ pub(super) fn make(text: &str, to: &Path) -> Result<()> {
 /// Writes bytes to a file whose name the program made up. What is there is replaced if `is_ours` says so, else it is an
 /// error.
 pub(super) fn make_by(bytes: &[u8], to: &Path, is_ours: &dyn Fn(&[u8]) -> bool) -> Result<()> {
-    put(&Target::Made(to, is_ours), to, Some(bytes.len() as u64), |out| out.write_all(bytes))
+    put(&OutputTarget::Made(to, is_ours), to, Some(bytes.len() as u64), |out| out.write_all(bytes))
 }
 
 /// Why [`make`] would be refused at one of these places: what is there may not be replaced.
 pub(super) fn may_make(places: &[PathBuf]) -> Result<()> {
     for to in places {
-        if let Some(why) = Target::Made(to, &files::is_sealed).in_the_way() {
+        if let Some(why) = OutputTarget::Made(to, &files::is_sealed).in_the_way() {
             let error = io::Error::new(io::ErrorKind::AlreadyExists, why);
             return Err(files::unwritten(&to.display().to_string(), &error, None, ""));
         }
@@ -114,13 +115,13 @@ pub(super) fn may_make(places: &[PathBuf]) -> Result<()> {
 }
 
 fn put(
-    target: &Target,
+    target: &OutputTarget,
     to: &Path,
     needs: Option<u64>,
     fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> Result<()> {
     files::replace(target, |mut file| fill(&mut file)).map_err(|error: io::Error| {
-        let usual = "check that the directory exists, may be written to and has room";
+        let usual = sentences::CHECK_THAT_THE_DIRECTORY_EXISTS;
         files::unwritten(&to.display().to_string(), &error, needs, usual)
     })
 }
@@ -134,7 +135,7 @@ fn printed(fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<()> {
     let mut out = io::stdout().lock();
     match fill(&mut out).and_then(|()| out.flush()) {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
-            Err(files::unwritten("standard output", &error, None, "check where it goes to"))
+            Err(files::unwritten("standard output", &error, None, sentences::CHECK_WHERE_IT_GOES_TO))
         }
         _ => Ok(()),
     }
@@ -210,7 +211,7 @@ pub(super) fn either(
 /// Makes a directory for results; `option` names it.
 pub(super) fn make_directory(path: &Path, option: &str, help: &str) -> Result<()> {
     fs::create_dir_all(path).map_err(|error| {
-        Error::new(ErrorKind::Io, format!("{} cannot be made: {error}", path.display())).key(option).help(help)
+        Error::new(ErrorKind::Io, sentences::cannot_be_made(&path.display(), &error)).key(option).help(help)
     })
 }
 

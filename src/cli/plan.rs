@@ -1,5 +1,6 @@
 //! `linkproof plan`.
 
+use crate::sentences;
 use std::path::PathBuf;
 
 use super::engine_args::side;
@@ -46,10 +47,8 @@ pub(super) fn plan(args: &Args) -> Result<()> {
     let case = &scenario.case;
     if let Some(link) = case.mechanism.links().iter().find(|link| link.points.len() > POINTS) {
         let (name, count) = (&link.name, link.points.len());
-        let message =
-            format!("{name} has {count} points, and a plan has a vector for every two of them: at most {POINTS}");
-        return Err(Error::new(ErrorKind::Input, message)
-            .help("leave out points that the plan does not need; `linkproof solve` has the numbers of all"));
+        let message = sentences::has_points_and_a_plan_has_a_vector(&name, &count, &POINTS);
+        return Err(Error::new(ErrorKind::Input, message).help(sentences::LEAVE_OUT_POINTS_THAT_THE_PLAN));
     }
     let crank = args.crank_deg.map_or(case.crank().start, f64::to_radians);
     let solver = args.with.solver();

@@ -1,16 +1,17 @@
 //! Options of recordings, and what is said of one that is written.
 
+use crate::sentences;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::PathBuf;
 
 use super::{advice, number, output};
 use crate::report::{layout, recorded};
-use files::{self, Target};
+use files::{self, OutputTarget};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::KeepNan;
 use prover::proof::Proof;
-use recording::{self, Place, Recording, Show, Side};
+use recording::{self, Recording, RecordingPlace, Show, Side};
 use scenario::Scenario;
 #[cfg(feature = "live")]
 use {
@@ -75,9 +76,8 @@ impl RecordArgs {
         match given.into_iter().find(|&(_, is_given)| is_given && self.no_record) {
             None => Ok(()),
             Some((option, _)) => {
-                let message =
-                    format!("{option} cannot be used with --no-record: it shapes what is recorded or shown live");
-                Err(Error::new(ErrorKind::Input, message).help("leave out one of the two, or add --live"))
+                let message = sentences::cannot_be_used_with_no_record(&option);
+                Err(Error::new(ErrorKind::Input, message).help(sentences::LEAVE_OUT_ONE_OF_THE_TWO))
             }
         }
     }
@@ -88,8 +88,8 @@ impl RecordArgs {
             return Ok(());
         }
         files::may_fill(&self.record).map_err(|found| {
-            let message = format!("recordings cannot be written to {}: {found}", self.record.display());
-            Error::new(ErrorKind::Io, message).key("--record").help("name another directory, or use --no-record")
+            let message = sentences::recordings_cannot_be_written_to(&self.record.display(), &found);
+            Error::new(ErrorKind::Io, message).key("--record").help(sentences::NAME_ANOTHER_DIRECTORY_OR_USE)
         })
     }
 
@@ -105,30 +105,26 @@ impl RecordArgs {
         }
         let directory = &self.record;
         fs::create_dir_all(directory).map_err(|error| {
-            Error::new(ErrorKind::Io, format!("the directory {} cannot be made: {error}", directory.display()))
-                .help("name another directory with --record, or use --no-record")
+            Error::new(ErrorKind::Io, sentences::the_directory_cannot_be_made_2(&directory.display(), &error))
+                .help(sentences::NAME_ANOTHER_DIRECTORY_WITH_RECORD)
         })?;
         metadata.extend(self.record_hz.map(|hz| ("record_hz".into(), hz.to_string())));
-        let Place { path, other } = recording::place(directory, &scenario.name, &scenario.text, &metadata)?;
+        let RecordingPlace { path, other } = recording::place(directory, &scenario.name, &scenario.text, &metadata)?;
         let view = self.as_recorded(scenario, proof, &metadata, |recording| {
             recording::write(recording, &path).map(|()| recording::view(recording))
         })?;
         let bytes = fs::metadata(&path).map_or(0, |found| found.len());
         let mut told = format!("\nrecording  {} ({})", path.display(), files::size(bytes));
         if let Some(found) = other {
-            told += &format!("\n           {}.mcap is of another run and is kept: {found}", scenario.name);
+            told += &sentences::mcap_is_of_another_run_and_is_kept(&scenario.name, &found);
         }
         told += &large(bytes, proof.reference_trajectory.times(), self.record_hz);
         let layout = view.as_ref().map(|_| path.with_extension("foxglove.json"));
         if let (Some(view), Some(to)) = (&view, &layout) {
             told += &format!("\nlayout     {}", to.display());
-            match Target::Made(to, &files::is_sealed).in_the_way() {
+            match OutputTarget::Made(to, &files::is_sealed).in_the_way() {
                 Some(why) => {
-                    told += &format!(
-                        "\n           {why}: it is kept;\n           \
-                         linkproof view {} --with foxglove -o OTHER.json writes a new one",
-                        path.display()
-                    );
+                    told += &sentences::it_is_kept_linkproof_view(&why, &path.display());
                 }
                 None => output::make(&layout::text(view), to)?,
             }
@@ -145,7 +141,7 @@ impl RecordArgs {
     /// The same before there is a proof: the reference alone.
     #[cfg(feature = "live")]
     pub(super) fn first_reel(&self, scenario: &Scenario, case: &Case, reference: &Trajectory) -> Result<Reel> {
-        let text = "the engine is at work; its side appears as soon as the proof is done";
+        let text = sentences::THE_ENGINE_IS_AT_WORK_ITS_SIDE;
         let time = reference.times().iter().copied().fold(f64::INFINITY, f64::smaller);
         recording::reel(&Recording {
             name: &scenario.name,
@@ -209,7 +205,7 @@ fn large(bytes: u64, times: &[f64], hz: Option<f64>) -> String {
     let fewer = rate * HANDY / bytes as f64;
     let digit = 10f64.powf(fewer.log10().floor());
     let fewer = (fewer / digit).floor() * digit;
-    format!("\n           it is large; --record-hz {fewer} would make about {} of it", files::size(HANDY as u64))
+    sentences::it_is_large_record_hz_would(&fewer, &files::size(HANDY as u64))
 }
 
 #[cfg(test)]

@@ -3,6 +3,7 @@
 mod args;
 mod session;
 
+use crate::sentences;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -15,7 +16,7 @@ use super::{load, output};
 use linkage::error::Result;
 use linkage::threads::cores;
 use prover::proof::{Proof, memory, prove_with};
-use scenario::{Asked, Scenario};
+use scenario::{Scenario, StartRequest};
 use session::Session;
 
 pub(super) use args::Args;
@@ -68,13 +69,13 @@ fn prove_file(
     if args.write {
         load::refuse_writing(file)?;
     }
-    let besides = Asked { memory: Some(args.engine.memory.bytes()), ..Asked::default() };
+    let besides = StartRequest { memory: Some(args.engine.memory.bytes()), ..Asked::default() };
     let scenario = load::only(args.start.load_as(file, &args.grid, besides)?, &args.only)?;
     let options = args.engine.options(args.reference);
     let needed = memory::of_proof(&scenario.case, options.engine_count()) + memory::of_oracles(&scenario.oracles);
     room.take(index, needed, || bar.hidden(|| args.engine.memory.tell(&scenario.case, needed)));
     if let Some(live) = live {
-        bar.hidden(|| output::note(&format!("viewers can listen at {} from now on", live.address())));
+        bar.hidden(|| output::note(&sentences::viewers_can_listen_at_from_now(&live.address())));
         live.show_reference(&args.record, &scenario, options.reference);
     }
     let proof = prove_with(&scenario, &options, &mut |part| bar.at(index, part))?;

@@ -1,6 +1,7 @@
 //! `linkproof completions` and `linkproof man`: what a shell and a manual know of the command line, from the same
 //! arguments.
 
+use crate::sentences;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -62,6 +63,6 @@ fn pages(command: &Command, all: &mut Vec<(String, String)>) -> io::Result<()> {
 }
 
 fn failed(to: &Path, error: &io::Error) -> Error {
-    Error::new(ErrorKind::Io, format!("the manual cannot be written to {}: {error}", to.display()))
-        .help("name another directory with -o")
+    Error::new(ErrorKind::Io, sentences::the_manual_cannot_be_written(&to.display(), &error))
+        .help(sentences::NAME_ANOTHER_DIRECTORY_WITH)
 }

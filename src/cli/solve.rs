@@ -1,5 +1,6 @@
 //! `linkproof solve`.
 
+use crate::sentences;
 use std::path::PathBuf;
 
 use clap::builder::TypedValueParser;
@@ -81,9 +82,6 @@ pub(super) fn solve(args: &Args) -> Result<()> {
 
 /// The error for an engine's setting given to an analytic solver: it shows a misunderstanding, so it is not ignored.
 fn no_engine(solver: &str, option: &str) -> Error {
-    Error::new(ErrorKind::Input, format!("{option} is a setting of an engine, but {solver} is analytic and has none"))
-        .help(format!(
-            "leave {option} out, or solve --with one of: {}",
-            EngineName::ALL.map(EngineName::name).join(", ")
-        ))
+    Error::new(ErrorKind::Input, sentences::is_a_setting_of_an_engine(&option, &solver))
+        .help(sentences::leave_out_or_solve_with_one_of(&option, &EngineName::ALL.map(EngineName::name).join(", ")))
 }

@@ -1,5 +1,6 @@
 //! `linkproof stress`.
 
+use crate::sentences;
 use std::path::{Path, PathBuf};
 
 use clap::builder::PossibleValuesParser;
@@ -7,7 +8,7 @@ use clap::builder::PossibleValuesParser;
 use super::progress::Bar;
 use super::{exit_code, number, output};
 use crate::report::stress as report;
-use lab::stress::{FAMILIES, Family, Job, Outcome, jobs, run_all};
+use lab::stress::{FAMILIES, Job, StressFamily, StressOutcome, jobs, run_all};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::threads::cores;
 
@@ -39,16 +40,17 @@ pub(super) struct Args {
 
 /// Runs what is open, writes everything, and returns the exit code.
 pub(super) fn run(args: &Args) -> Result<u8> {
-    let chosen = |family: &&Family| args.families.is_empty() || args.families.iter().any(|name| name == family.name);
-    let families: Vec<&'static Family> = FAMILIES.iter().filter(chosen).collect();
-    output::make_directory(&args.out, "--out", "name a directory, or a place where one can be made")?;
+    let chosen =
+        |family: &&StressFamily| args.families.is_empty() || args.families.iter().any(|name| name == family.name);
+    let families: Vec<&'static StressFamily> = FAMILIES.iter().filter(chosen).collect();
+    output::make_directory(&args.out, "--out", sentences::NAME_A_DIRECTORY_OR_A_PLACE)?;
     let mut all: Vec<Job> = Vec::new();
     for &family in &families {
         let kept = files::text(&json_of(&args.out, family)).map_err(|error| {
             let place = json_of(&args.out, family);
-            Error::new(ErrorKind::Io, format!("{} cannot be read: {error}", place.display()))
+            Error::new(ErrorKind::Io, sentences::cannot_be_read_2(&place.display(), &error))
                 .key("--out")
-                .help("name another directory, or remove what is in the way")
+                .help(sentences::NAME_ANOTHER_DIRECTORY_OR_REMOVE)
         })?;
         all.extend(jobs(family, args.quick, args.seed, &kept.map_or_else(Vec::new, |text| report::outcomes(&text))));
     }
@@ -68,7 +70,7 @@ pub(super) fn run(args: &Args) -> Result<u8> {
     let threads = args.jobs.unwrap_or_else(cores);
     let all = run_all(all, args.seed, threads, done)?;
     drop(bar);
-    let found: Vec<(&Family, Vec<&Outcome>)> =
+    let found: Vec<(&StressFamily, Vec<&StressOutcome>)> =
         families.iter().map(|&family| (family, of(family, &all).collect())).collect();
     for (family, outcomes) in &found {
         let place = |extension: &str| args.out.join(format!("{}.{extension}", family.name));
@@ -81,10 +83,12 @@ pub(super) fn run(args: &Args) -> Result<u8> {
     }
     let text = report::text(&found);
     output::make(&text, &args.out.join("report.txt"))?;
-    output::print(&format!(
-        "{text}Seed {}. {open} of {total} points were run, the others were in {} already.\n",
-        args.seed,
-        args.out.display()
+    output::print(&sentences::seed_of_points_were_run_the_others(
+        &text,
+        &args.seed,
+        &open,
+        &total,
+        &args.out.display(),
     ))?;
     let tally = report::Tally::of(found.iter().flat_map(|(_, all)| all.iter().copied()));
     Ok(if tally.silent == 0 && tally.panics == 0 { exit_code::AGREE } else { exit_code::DISAGREE })
@@ -95,29 +99,29 @@ fn first_line(bytes: &[u8]) -> Option<&[u8]> {
     bytes.split(|&byte| byte == b'\n').next().map(<[u8]>::trim_ascii_end)
 }
 
-fn json_of(out: &Path, family: &Family) -> PathBuf {
+fn json_of(out: &Path, family: &StressFamily) -> PathBuf {
     out.join(format!("{}.json", family.name))
 }
 
-fn of<'a>(family: &'static Family, jobs: &'a [Job]) -> impl Iterator<Item = &'a Outcome> {
+fn of<'a>(family: &'static StressFamily, jobs: &'a [Job]) -> impl Iterator<Item = &'a StressOutcome> {
     jobs.iter().filter(move |job| job.family.name == family.name).filter_map(|job| job.outcome.as_ref())
 }
 
 /// Writes what is finished of a family.
-fn write_json(args: &Args, family: &'static Family, jobs: &[Job]) -> Result<()> {
+fn write_json(args: &Args, family: &'static StressFamily, jobs: &[Job]) -> Result<()> {
     let text = report::json(family, args.seed, of(family, jobs));
     output::make_by(text.as_bytes(), &json_of(&args.out, family), &|old| report::is_kept(old, family))
 }
 
 /// The page, and the maps in a directory of its name.
-fn write_page(args: &Args, to: &Path, found: &[(&Family, Vec<&Outcome>)]) -> Result<()> {
+fn write_page(args: &Args, to: &Path, found: &[(&StressFamily, Vec<&StressOutcome>)]) -> Result<()> {
     let stem = to.file_stem().and_then(|stem| stem.to_str()).unwrap_or("stress");
     let maps = to.with_file_name(stem);
-    output::make_directory(&maps, "--page", "name a file in a directory that may be written to")?;
+    output::make_directory(&maps, "--page", sentences::NAME_A_FILE_IN_A_DIRECTORY)?;
     for (family, outcomes) in found {
         output::make(&report::map(family, outcomes), &maps.join(format!("{}.svg", family.name)))?;
     }
     let quick = if args.quick { " --quick" } else { "" };
-    let command = format!("linkproof stress{quick} --out DIR --page {}", to.display());
+    let command = sentences::linkproof_stress_out_dir_page(&quick, &to.display());
     output::write(&report::page(found, &command, stem), to)
 }

@@ -7,7 +7,7 @@ use super::engine_section::{self, keys};
 use super::progress::Bar;
 use super::{load, number, output};
 use crate::report::tune as report;
-use lab::tune::{Candidate, Wish, by_work, tune};
+use lab::tune::{Candidate, WantedAccuracy, by_work, tune};
 use linkage::engine::Engine;
 use linkage::error::{Advice, Error, Result};
 use prover::proof::Reference;
@@ -41,7 +41,7 @@ pub(super) fn run(args: &Args) -> Result<()> {
         load::refuse_writing(&args.file)?;
     }
     let scenario = load::plain(&args.file)?;
-    let wish = Wish { within: args.within, channels: args.channel.clone() };
+    let wish = WantedAccuracy { within: args.within, channels: args.channel.clone() };
     let mut options = args.engine.options(Reference::Assur);
     if options.settings.engines.is_free() {
         options = options.every_engine();

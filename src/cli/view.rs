@@ -1,5 +1,6 @@
 //! `linkproof view`.
 
+use crate::sentences;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -48,8 +49,8 @@ pub(super) fn view(args: &Args) -> Result<()> {
             let python = &args.python;
             let made = outside::converted(&layout::film(&film), python, &|| since.elapsed().as_secs_f64());
             let made = made.map_err(|found| {
-                Error::new(ErrorKind::Io, format!("{} cannot be written by `{python}`: {found}", to.display()))
-                    .help("`python3 -m pip install rerun-sdk`, or name a Python that has it with --python")
+                Error::new(ErrorKind::Io, sentences::cannot_be_written_by(&to.display(), &python, &found))
+                    .help(sentences::PYTHON3_PIP_INSTALL_RERUN_SDK)
             })?;
             match args.output {
                 Some(_) => output::write_bytes(&made, &to)?,
@@ -58,8 +59,8 @@ pub(super) fn view(args: &Args) -> Result<()> {
             output::print(&format!("rerun      {}\n", to.display()))?;
             if args.output.is_none() {
                 outside::opened(&to, python).map_err(|found| {
-                    Error::new(ErrorKind::Io, format!("Rerun's viewer has not shown {}: {found}", to.display()))
-                        .help("open the file from Rerun itself; it holds the whole picture")
+                    Error::new(ErrorKind::Io, sentences::rerun_viewer_has_not_shown(&to.display(), &found))
+                        .help(sentences::OPEN_THE_FILE_FROM_RERUN)
                 })?;
             }
         }
@@ -67,23 +68,13 @@ pub(super) fn view(args: &Args) -> Result<()> {
             let film = recording::film(&args.file)?;
             let to = beside("foxglove.json");
             put(args, &layout::text(&film.view), &to)?;
-            output::print(&format!(
-                "layout     {}\n\
-                 1. Open {} in Foxglove or Lichtblick (open local file).\n\
-                 2. Layouts, import from file: the layout above. The mechanism then moves beside its plots.\n",
-                to.display(),
-                args.file.display()
-            ))?;
+            output::print(&sentences::layout_open_in_foxglove_or_lichtblick(&to.display(), &args.file.display()))?;
         }
         Viewer::Plotjuggler => {
             let to = beside("plotjuggler.xml");
             let numbers = recording::numbers(&args.file)?;
             put(args, &plotjuggler::text(&numbers, &seen_from(&to, &args.file)), &to)?;
-            output::print(&format!(
-                "layout     {}\n\
-                 plotjuggler -l FILE, FILE being the layout above: it reads the recording by itself.\n",
-                to.display()
-            ))?;
+            output::print(&sentences::layout_plotjuggler_file_file_being(&to.display()))?;
         }
     }
     Ok(())

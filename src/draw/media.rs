@@ -1,16 +1,17 @@
 //! What is asked of a picture, and how it is written: by its ending.
 
+use crate::sentences;
 use std::path::Path;
 
 use drawing::bitmap::{Bitmap, bitmap, to_gif, to_png, to_webp};
 use drawing::paper::document::document;
-use drawing::paper::figure::Figure;
+use drawing::paper::figure::DrawnFigure;
 use linkage::error::Result;
 use prover::proof::Reference;
 
 /// What is asked of a picture.
 #[derive(Clone, Debug, Default)]
-pub struct Wish {
+pub struct PictureOptions {
     /// Crank angle (rad, as the scenario states it); `None` for that of the start.
     pub crank: Option<f64>,
     /// All configurations at the crank angle, each with the modes of its groups.
@@ -63,8 +64,8 @@ impl Medium {
             Some("png") => Ok(Medium::Png),
             Some("gif") => Ok(Medium::Gif),
             Some("webp") => Ok(Medium::WebP),
-            Some(other) => Err(format!("no pictures end in .{other}; expected .svg, .png, .gif or .webp")),
-            None => Err("expected a file that ends in .svg, .png, .gif or .webp, or `-`".into()),
+            Some(other) => Err(sentences::no_pictures_end_in_expected(&other)),
+            None => Err(sentences::EXPECTED_A_FILE_THAT_ENDS.into()),
         }
     }
 
@@ -77,12 +78,17 @@ impl Medium {
         }
     }
 
-    pub(super) fn frames(self, wish: &Wish) -> usize {
+    pub(super) fn frames(self, wish: &PictureOptions) -> usize {
         if self.moves() && !wish.each_mode { wish.frames.unwrap_or(48) } else { 1 }
     }
 
     /// The picture: figures with their sizes (mm).
-    pub(super) fn bytes(self, pages: &[(Figure, [f64; 2])], title: &str, wish: &Wish) -> Result<Vec<u8>> {
+    pub(super) fn bytes(
+        self,
+        pages: &[(DrawnFigure, [f64; 2])],
+        title: &str,
+        wish: &PictureOptions,
+    ) -> Result<Vec<u8>> {
         let width = wish.width.unwrap_or(800);
         let seconds = wish.seconds.unwrap_or(4.0) / self.frames(wish) as f64;
         let bitmaps =

@@ -1,12 +1,13 @@
 //! What is drawn of a file: the mechanism in its poses, or as far as it can be laid.
 
-use super::media::{Medium, Wish};
+use super::media::{Medium, PictureOptions};
 use super::motion::{swung, turned, with_travels};
+use crate::sentences;
 use design::diagram::draw::significant;
 use design::diagram::plan::state_at;
-use drawing::lay::{Laid, Standing, all_modes, lay, lay_loose};
-use drawing::sheet::Cell;
-use drawing::view::{Extras, Shot, Subject, Trace, cells};
+use drawing::lay::{GroupPlacement, Laid, all_modes, lay, lay_loose};
+use drawing::sheet::SheetCell;
+use drawing::view::{DrawnSubject, Extras, Shot, Trace, cells};
 use drawing::{Sketch, Travels, acting, unit};
 use linkage::drive::Drive;
 use linkage::error::{Error, ErrorKind, Result};
@@ -51,7 +52,7 @@ pub(crate) struct Drawn {
 
 impl Drawn {
     /// A mechanism that can be assembled somewhere.
-    pub(crate) fn of(scenario: Scenario, wish: &Wish, medium: Medium) -> Result<Drawn> {
+    pub(crate) fn of(scenario: Scenario, wish: &PictureOptions, medium: Medium) -> Result<Drawn> {
         let crank = wish.crank.unwrap_or(scenario.case.crank().start);
         let drawn = match wish.each_mode {
             true => Drawn::each_mode(draft_of(&scenario), crank, None),
@@ -61,7 +62,7 @@ impl Drawn {
     }
 
     /// What a file states of a mechanism that cannot be read as a scenario, because of an error.
-    pub(crate) fn of_draft(draft: Draft, wish: &Wish, error: Error) -> Result<Drawn> {
+    pub(crate) fn of_draft(draft: Draft, wish: &PictureOptions, error: Error) -> Result<Drawn> {
         let crank = wish.crank.unwrap_or(draft.crank);
         let drawn = match wish.each_mode && draft.structure.is_ok() {
             true => Drawn::each_mode(draft, crank, Some(error))?,
@@ -70,7 +71,7 @@ impl Drawn {
         Ok(drawn.with_unknown_traces(wish))
     }
 
-    fn with_unknown_traces(mut self, wish: &Wish) -> Drawn {
+    fn with_unknown_traces(mut self, wish: &PictureOptions) -> Drawn {
         let (_, unknown) = traced(&self.mechanism, wish);
         self.fault = Error::all(self.fault.take().into_iter().chain(unknown));
         self
@@ -78,13 +79,13 @@ impl Drawn {
 
     /// The name, and the crank angle in words.
     pub(super) fn headline(&self) -> String {
-        format!("{}, crank at {}°", self.name, (self.crank.to_degrees() * 1e6).round() / 1e6 + 0.0)
+        sentences::crank_at(&self.name, &((self.crank.to_degrees() * 1e6).round() / 1e6 + 0.0))
     }
 
     /// The cells of all shots, in a room of this size (mm).
-    pub(super) fn cells(&self, wish: &Wish, medium: Medium, room: Vec2) -> Vec<Cell> {
+    pub(super) fn cells(&self, wish: &PictureOptions, medium: Medium, room: Vec2) -> Vec<SheetCell> {
         let Drawn { mechanism, drives, loads, gravity, .. } = self;
-        let subject = Subject { mechanism, drives, loads, gravity: *gravity };
+        let subject = DrawnSubject { mechanism, drives, loads, gravity: *gravity };
         let extras = Extras { loads: wish.loads, dimensions: wish.dimensions, is_moving: medium.moves() };
         let mut all = cells(&subject, &self.shots, &self.travels, &self.traces, extras, room);
         for (index, cell) in all.iter_mut().enumerate() {
@@ -129,7 +130,7 @@ impl Drawn {
     }
 
     /// The mechanism at a crank angle (rad), or its motion.
-    fn whole(scenario: Scenario, crank: f64, wish: &Wish, medium: Medium) -> Result<Drawn> {
+    fn whole(scenario: Scenario, crank: f64, wish: &PictureOptions, medium: Medium) -> Result<Drawn> {
         let (frames, solver) = (medium.frames(wish), wish.solver.solver());
         let (points, _) = traced(&scenario.case.mechanism, wish);
         let is_motion_seen = frames > 1 || !points.is_empty();
@@ -185,7 +186,7 @@ impl Drawn {
             .iter()
             .map(|(joint, [from, to])| {
                 let name = &draft.mechanism.joints()[*joint].name;
-                format!("joint {name} stays open by {} mm", significant((to - from).norm() * 1e3))
+                sentences::joint_stays_open_by_mm(&name, &significant((to - from).norm() * 1e3))
             })
             .collect();
         let note = match (&gaps[..], &draft.structure) {
@@ -209,7 +210,7 @@ impl Drawn {
         let headings = all.iter().map(|laid| heading(&draft.mechanism, &structure, laid, &own)).collect();
         // A file that leaves its mode open is answered by the list, and a configuration that does not close is no fault.
         let is_answered = draft.mistakes.is_none() && all.iter().any(Laid::is_whole);
-        let cut = is_cut.then(|| format!("only the first {MOST} configurations are drawn"));
+        let cut = is_cut.then(|| sentences::only_the_first_configurations_are_drawn(&MOST));
         let open = error.as_ref().filter(|_| is_answered).map(|error| error.message().to_string());
         let told: Vec<String> = open.into_iter().chain(cut).collect();
         let note = (!told.is_empty()).then(|| Note::Said(format!("{}: {}", draft.name, told.join("; "))));
@@ -229,7 +230,7 @@ fn mistakes(fault: &Error) -> Vec<String> {
     };
     let mut lines: Vec<String> = fault.each().take(SHOWN).map(short).collect();
     let more = fault.each().count().saturating_sub(SHOWN) + fault.left_out();
-    lines.extend((more > 0).then(|| format!("and {more} more")));
+    lines.extend((more > 0).then(|| sentences::and_more(&more)));
     lines
 }
 
@@ -237,7 +238,7 @@ fn mistakes(fault: &Error) -> Vec<String> {
 fn of_guess(draft: &Draft) -> Option<String> {
     let drive = draft.drives.first().filter(|_| draft.is_driven_by_guess)?;
     let link = &draft.mechanism.links()[drive.link].name;
-    Some(format!("{}: no drive could be read; drawn as if \"{link}\" were driven", draft.name))
+    Some(sentences::no_drive_could_be_read_drawn(&draft.name, &link))
 }
 
 /// World angles of the driving links with the crank at an angle (rad), the others at their start.
@@ -282,7 +283,7 @@ fn poses(state: &State) -> Vec<LinkPose> {
 }
 
 /// The points whose paths are asked for, each with its link, and an error for each that there is not.
-fn traced(mechanism: &Mechanism, wish: &Wish) -> (Vec<(LinkId, Vec2)>, Vec<Error>) {
+fn traced(mechanism: &Mechanism, wish: &PictureOptions) -> (Vec<(LinkId, Vec2)>, Vec<Error>) {
     let points: Vec<_> = mechanism.moving_points().collect();
     let is_joint = |link, local| mechanism.joints().iter().any(|joint| joint.on(link) == Some(local));
     let free = points.iter().filter(|(_, side)| wish.all_traces && !is_joint(side.link, side.local));
@@ -293,8 +294,8 @@ fn traced(mechanism: &Mechanism, wish: &Wish) -> (Vec<(LinkId, Vec2)>, Vec<Error
             Some((_, side)) => found.push((side.link, side.local)),
             None => {
                 let names: Vec<&str> = points.iter().map(|(own, _)| *own).collect();
-                let message = format!("no point that moves is called \"{name}\"");
-                let error = Error::new(ErrorKind::Input, message).help(format!("name one of {}", names.join(", ")));
+                let message = sentences::no_point_that_moves_is_called(&name);
+                let error = Error::new(ErrorKind::Input, message).help(sentences::name_one_of(&names.join(", ")));
                 unknown.push(error.key(wish.traces_key.unwrap_or("traces")));
             }
         }
@@ -304,7 +305,7 @@ fn traced(mechanism: &Mechanism, wish: &Wish) -> (Vec<(LinkId, Vec2)>, Vec<Error
 
 /// The modes of a configuration: what the key `mode` takes, or the number where there are no names.
 fn heading(mechanism: &Mechanism, structure: &Structure, laid: &Laid, own: &Laid) -> Vec<String> {
-    let line = |&Standing { group, mode, number }: &Standing| {
+    let line = |&GroupPlacement { group, mode, number }: &GroupPlacement| {
         let names = structure.groups[group].names(mechanism).replace(", ", ",");
         match mode {
             AssemblyMode::Left | AssemblyMode::Right | AssemblyMode::Ahead | AssemblyMode::Behind => {
@@ -316,9 +317,10 @@ fn heading(mechanism: &Mechanism, structure: &Structure, laid: &Laid, own: &Laid
     };
     let mut lines: Vec<String> = laid.modes.iter().filter_map(line).collect();
     if lines.is_empty() {
-        lines.push("the only configuration".into());
+        lines.push(sentences::THE_ONLY_CONFIGURATION.into());
     }
-    let near = |(a, b): (&drawing::picture::Place, &drawing::picture::Place)| match (a.pose(), b.pose()) {
+    let near = |(a, b): (&drawing::picture::LinkPlacement, &drawing::picture::LinkPlacement)| match (a.pose(), b.pose())
+    {
         (Some(a), Some(b)) => {
             let size = mechanism.size();
             (a.origin - b.origin).norm() < 1e-6 * size && ((a.angle - b.angle) / 2.0).sin().abs() < 1e-6
@@ -327,9 +329,9 @@ fn heading(mechanism: &Mechanism, structure: &Structure, laid: &Laid, own: &Laid
     };
     let is_own = own.is_whole() && laid.places.iter().zip(&own.places).all(near);
     let remark = match laid.is_whole() {
-        _ if is_own => " (as in the file)",
+        _ if is_own => sentences::AS_IN_THE_FILE,
         true => "",
-        false => " (does not close)",
+        false => sentences::DOES_NOT_CLOSE,
     };
     lines.last_mut().into_iter().for_each(|last| *last += remark);
     lines

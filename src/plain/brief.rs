@@ -4,6 +4,7 @@ use super::cells::{flush, trimmed};
 use super::judged::{self, Grade, counts, grade, ranked, verdicts};
 use super::style::{self, wrapped};
 use super::{Tell, engines, reasons};
+use crate::sentences;
 use linkage::trajectory::{Channel, Trajectory, Unit};
 use prover::numbers;
 use prover::proof::{EngineInfo, Proof};
@@ -21,11 +22,11 @@ pub fn verdict_line(proof: &Proof) -> String {
         proof.engines.iter().filter(|engine| engine.failure.is_some()).map(|engine| engine.info.name).collect();
     let [.., wrong, open] = counts(verdicts(proof).into_iter().map(|(_, verdict)| verdict));
     let what = match grade(&proof.verdict) {
-        Grade::Agree => format!("{channels} channels and {checks} checks"),
-        Grade::Disagree => format!("{wrong} of {all} numbers differ"),
+        Grade::Agree => sentences::channels_and_checks(&channels, &checks),
+        Grade::Disagree => sentences::of_numbers_differ(&wrong, &all),
         Grade::Open if !failed.is_empty() => format!("{} failed", failed.join(", ")),
-        Grade::Open if proof.engines.iter().all(|engine| engine.channels.is_empty()) => "no run stands".into(),
-        Grade::Open => format!("{open} of {all} numbers are open"),
+        Grade::Open if proof.engines.iter().all(|engine| engine.channels.is_empty()) => sentences::NO_RUN_STANDS.into(),
+        Grade::Open => sentences::of_numbers_are_open(&open, &all),
     };
     format!("{}: {}: {what}; {}", proof.scenario, style::verdict(&proof.verdict), resolution(proof))
 }
@@ -42,7 +43,7 @@ fn of_engine(info: &EngineInfo) -> String {
     let resolution = info.settings.resolution;
     match info.controls_error {
         true => format!("accuracy {}", numbers::error(resolution)),
-        false => format!("step {} ms", numbers::significant(1e3 * resolution, 4)),
+        false => sentences::step_ms(&numbers::significant(1e3 * resolution, 4)),
     }
 }
 
@@ -59,7 +60,7 @@ pub fn proof(proof: &Proof, tell: Tell, width: usize) -> String {
     for engine in &proof.engines {
         if let Some(error) = engine.own_forces.as_ref().and_then(|own| own.failure.as_ref()) {
             let name = engine.info.name;
-            paragraph(&format!("Forces as {name} itself exerts them are not judged: {}", error.message()));
+            paragraph(&sentences::forces_as_itself_exerts_them(&name, &error.message()));
         }
         if let Some(fault) = engine.force_fault() {
             paragraph(engines::sentence(fault));

@@ -1,5 +1,6 @@
 //! Tables, cells and lists that several reports use.
 
+use crate::sentences;
 use comfy_table::{CellAlignment, ColumnConstraint, ContentArrangement, Table, Width, presets};
 
 use linkage::math::statistics;
@@ -45,7 +46,7 @@ pub fn some<T: ToString>(names: &[T], most: usize) -> String {
     let named = names.iter().take(most).map(ToString::to_string).collect::<Vec<_>>().join(", ");
     match names.len().saturating_sub(most) {
         0 => named,
-        more => format!("{named} and {more} more"),
+        more => sentences::and_more_2(&named, &more),
     }
 }
 

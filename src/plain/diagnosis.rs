@@ -1,16 +1,19 @@
 //! Diagnoses in words.
 
 use super::cells::{counted, some};
+use crate::sentences;
 use linkage::trajectory::{Channel, Stage};
-use prover::diagnosis::{Arm, Axis, Cause, Change, Diagnosis, How, Nature, Over, Part, Plain, Since, Slip, Standing};
+use prover::diagnosis::{
+    Arm, CasePart, Change, DataSlip, Diagnosis, DisagreementCause, ErrorNature, FrameAxis, Over, PartChange,
+    PartyStanding, Plain, Since,
+};
 use prover::numbers::{fixed, significant, with_unit};
 
 /// Column at which the text of a line begins.
 pub const INDENT: usize = 12;
 
 /// Note on a diagnosis that ended early.
-pub const CUT: &str =
-    "The search for a cause ended at its limit of work, before all causes were tried: allow more work.";
+pub const CUT: &str = sentences::THE_SEARCH_FOR_A_CAUSE_ENDED;
 
 /// Channels that are named; the others are counted.
 const NAMED: usize = 3;
@@ -18,7 +21,7 @@ const NAMED: usize = 3;
 /// A diagnosis as lines of text, without a newline at the end.
 #[must_use]
 pub fn text(diagnosis: &Diagnosis) -> String {
-    let mut text = format!("Diagnosis of {}:", diagnosis.suspect);
+    let mut text = sentences::diagnosis_of(&diagnosis.suspect);
     let mut line = |what: &str, told: String| {
         put!(text, "\n  {what:<10}{told}");
     };
@@ -29,13 +32,13 @@ pub fn text(diagnosis: &Diagnosis) -> String {
     let (wrong, solved) = (counted(diagnosis.since.len(), "channel"), diagnosis.solved);
     match &diagnosis.cause {
         None => {
-            line("cause", format!("nothing simple: {solved} changed cases and all simple slips explain none of it"));
+            line("cause", sentences::nothing_simple_changed_cases_and_all(&solved));
         }
         Some(found) if diagnosis.is_explained() => {
-            line("cause", format!("{}; that explains all {wrong} to within their bounds", cause(found)));
+            line("cause", sentences::that_explains_all_to_within(&cause(found), &wrong));
         }
         Some(found) => {
-            line("cause", format!("no single one; a part is explained by this: {}", cause(found)));
+            line("cause", sentences::no_single_one_a_part_is_explained(&cause(found)));
             let left = &diagnosis.left_over;
             line("left over", format!("{} of {wrong}: {}", left.len(), names(left)));
         }
@@ -44,21 +47,21 @@ pub fn text(diagnosis: &Diagnosis) -> String {
         line("error", nature(own));
     }
     for one in &diagnosis.also {
-        line("or", format!("{}, which explains as much", cause(one)));
+        line("or", sentences::which_explains_as_much(&cause(one)));
     }
     text
 }
 
 /// Who stands against whom.
 #[must_use]
-pub fn standing(standing: &Standing) -> String {
+pub fn standing(standing: &PartyStanding) -> String {
     match standing {
-        Standing::Together => "nobody: each is within the bounds of all others".into(),
-        Standing::Alone(name) => format!("{name}; all others agree with each other"),
-        Standing::Camps([one, other]) => format!("nobody: {} stand against {}", one.join(" and "), other.join(" and ")),
-        Standing::Open(pairs) => {
+        PartyStanding::Together => sentences::NOBODY_EACH_IS_WITHIN_THE_BOUNDS.into(),
+        PartyStanding::Alone(name) => sentences::all_others_agree_with_each(&name),
+        PartyStanding::Camps([one, other]) => sentences::nobody_stand_against(&one.join(" and "), &other.join(" and ")),
+        PartyStanding::Open(pairs) => {
             let pairs: Vec<String> = pairs.iter().map(|[one, other]| format!("{one} and {other}")).collect();
-            format!("cannot be told: {} differ", pairs.join(", "))
+            sentences::cannot_be_told_differ(&pairs.join(", "))
         }
     }
 }
@@ -66,14 +69,13 @@ pub fn standing(standing: &Standing) -> String {
 fn since(diagnosis: &Diagnosis, first: &Since) -> String {
     let together: Vec<Channel> = diagnosis.first().iter().map(|one| one.channel.clone()).collect();
     let (time, crank) = (first.time, first.crank.to_degrees());
-    let mut told =
-        format!("t = {} s, crank angle {} deg, first in {}", fixed(time, 6), fixed(crank, 3), names(&together));
+    let mut told = sentences::crank_angle_deg_first_in(&fixed(time, 6), &fixed(crank, 3), &names(&together));
     if let Some(next) = diagnosis.since.get(together.len()) {
         let (time, crank) = (next.time, next.crank.to_degrees());
-        put!(told, "; from {} s, {} deg, in {}", fixed(time, 6), fixed(crank, 3), next.channel);
+        put!(told, "{}", sentences::from_deg_in(&fixed(time, 6), &fixed(crank, 3), &next.channel));
         let more = diagnosis.since.len() - together.len() - 1;
         if more > 0 {
-            put!(told, " and later in {more} more");
+            put!(told, "{}", sentences::and_later_in_more(&more));
         }
     }
     told
@@ -85,57 +87,48 @@ fn names(channels: &[Channel]) -> String {
 
 /// A cause in words.
 #[must_use]
-pub fn cause(cause: &Cause) -> String {
+pub fn cause(cause: &DisagreementCause) -> String {
     match cause {
-        Cause::Values { slip: own, channels } => slip(own, channels),
-        Cause::Case(own) => change(own),
+        DisagreementCause::Values { slip: own, channels } => slip(own, channels),
+        DisagreementCause::Case(own) => change(own),
     }
 }
 
-fn slip(slip: &Slip, channels: &[Channel]) -> String {
+fn slip(slip: &DataSlip, channels: &[Channel]) -> String {
     let of = names(channels);
     let unit = channels.first().map_or("", |channel| channel.kind.unit.symbol());
     match slip {
-        Slip::Plain(own) => plain(*own, &of),
-        Slip::Unit { factor: _, told } => format!("another unit, {told}, in {of}"),
-        Slip::Offset(by) => format!("{} added at every instant to {of}", amount(*by, unit)),
-        Slip::Mirrored(by) => {
-            format!("{of} counted the other way round, from another axis: {} less the right value", amount(*by, unit))
-        }
-        Slip::Instead(other) => format!("the values of {other} in place of {of}"),
-        Slip::Opposite(other) => format!("the values of {other} with the opposite sign in place of {of}"),
-        Slip::Magnitude([one, other]) => format!("the magnitude of {one} and {other} in place of {of}"),
-        Slip::Differences { of: other, order, over } => {
+        DataSlip::Plain(own) => plain(*own, &of),
+        DataSlip::Unit { factor: _, told } => sentences::another_unit_in(&told, &of),
+        DataSlip::Offset(by) => sentences::added_at_every_instant_to(&amount(*by, unit), &of),
+        DataSlip::Mirrored(by) => sentences::counted_the_other_way_round(&of, &amount(*by, unit)),
+        DataSlip::Instead(other) => sentences::the_values_of_in_place_of(&other, &of),
+        DataSlip::Opposite(other) => sentences::the_values_of_with_the_opposite(&other, &of),
+        DataSlip::Magnitude([one, other]) => sentences::the_magnitude_of_and_in_place(&one, &other, &of),
+        DataSlip::Differences { of: other, order, over } => {
             let (order, over) = (if *order == 1 { "" } else { "second " }, rows_of(*over));
-            format!(
-                "{order}differences of {other} over {over}, or such of its like, in place of {of}: take closer rows"
-            )
+            sentences::differences_of_over_or_such_of_its_like(&order, &other, &over, &of)
         }
-        Slip::NoCoriolis(joint) => format!("the Coriolis acceleration of the block at {joint} is missing in {of}"),
-        Slip::About(Arm::Constant([x, y])) => {
-            format!("{of} about another point, by ({}, {}) m away", number(*x), number(*y))
-        }
-        Slip::About(Arm::Between(None, to)) => format!("{of} about {to} instead of the origin"),
-        Slip::About(Arm::Between(Some(from), to)) => format!("{of} about {to} instead of {from}"),
-        Slip::Outlier(time) => format!("one row alone, at t = {} s, in {of}: an outlier", number(*time)),
-        Slip::Clock { factor, told: Some(told) } => {
-            format!("another unit of time: {told}, {} times the time of a row", number(*factor))
-        }
-        Slip::Clock { factor, told: None } => {
+        DataSlip::NoCoriolis(joint) => sentences::the_coriolis_acceleration_of_the_block(&joint, &of),
+        DataSlip::About(Arm::Constant([x, y])) => sentences::about_another_point_by_away(&of, &number(*x), &number(*y)),
+        DataSlip::About(Arm::Between(None, to)) => sentences::about_instead_of_the_origin(&of, &to),
+        DataSlip::About(Arm::Between(Some(from), to)) => sentences::about_instead_of(&of, &to, &from),
+        DataSlip::Outlier(time) => sentences::one_row_alone_at_in_an_outlier(&number(*time), &of),
+        DataSlip::Clock { factor, told: Some(told) } => sentences::another_unit_of_time_times(&told, &number(*factor)),
+        DataSlip::Clock { factor, told: None } => {
             let how = if *factor < 1.0 { "fast" } else { "slow" };
             let by = told_apart(factor.recip(), 1.0);
-            format!("the clock of all rows is too {how}: the time of a row is {by} times that of its values")
+            sentences::the_clock_of_all_rows_is_too(&how, &by)
         }
-        Slip::Exchanged([one, other]) => format!("{one} and {other} exchanged"),
-        Slip::Between { of: [first, second], offset: 0.0 } => {
-            format!("{first} less {second} in place of {of}: counted from another link")
+        DataSlip::Exchanged([one, other]) => sentences::and_exchanged_2(&one, &other),
+        DataSlip::Between { of: [first, second], offset: 0.0 } => {
+            sentences::less_in_place_of_counted(&first, &second, &of)
         }
-        Slip::Between { of: [first, second], offset } => format!(
-            "{first} less {second} and {} more in place of {of}: counted from another link",
-            amount(*offset, unit)
-        ),
-        Slip::Factor(factor) => format!("{} times the values of {of}", number(*factor)),
-        Slip::Late { by, steps, stage } => {
+        DataSlip::Between { of: [first, second], offset } => {
+            sentences::less_and_more_in_place_of_counted(&first, &second, &amount(*offset, unit), &of)
+        }
+        DataSlip::Factor(factor) => sentences::times_the_values_of(&number(*factor), &of),
+        DataSlip::Late { by, steps, stage } => {
             let what = stage.map_or("all channels".to_string(), |stage| stage.name().replace('_', " "));
             let how = if *by >= 0.0 { "late" } else { "early" };
             let size = duration(by.abs());
@@ -151,24 +144,24 @@ fn slip(slip: &Slip, channels: &[Channel]) -> String {
 
 fn plain(slip: Plain, of: &str) -> String {
     match slip {
-        Plain::Sign => format!("the opposite sign of {of}"),
-        Plain::Turns => format!("whole turns too much or too little in {of}"),
-        Plain::HalfTurns => format!("half turns too much or too little in {of}, as an arc tangent of a quotient gives"),
-        Plain::Twice => format!("twice the values of {of}"),
-        Plain::Half => format!("half the values of {of}"),
-        Plain::Zero => format!("zero instead of {of}"),
-        Plain::Size => format!("the sign of {of} is lost"),
-        Plain::ArcSine => format!("{of} from its sine: beyond a quarter turn it is folded back"),
-        Plain::PerRadian => format!("rates per radian of the crank instead of per second in {of}"),
+        Plain::Sign => sentences::the_opposite_sign_of(&of),
+        Plain::Turns => sentences::whole_turns_too_much_or_too(&of),
+        Plain::HalfTurns => sentences::half_turns_too_much_or_too(&of),
+        Plain::Twice => sentences::twice_the_values_of(&of),
+        Plain::Half => sentences::half_the_values_of(&of),
+        Plain::Zero => sentences::zero_instead_of(&of),
+        Plain::Size => sentences::the_sign_of_is_lost(&of),
+        Plain::ArcSine => sentences::from_its_sine_beyond_a_quarter(&of),
+        Plain::PerRadian => sentences::rates_per_radian_of_the_crank(&of),
     }
 }
 
 fn rows_of(over: Over) -> String {
     match over {
-        Over::Either(1) => "the row before and the one behind".into(),
-        Over::Either(rows) => format!("{rows} rows before and behind"),
-        Over::Before => "the row and the one before".into(),
-        Over::Behind => "the row and the one behind".into(),
+        Over::Either(1) => sentences::THE_ROW_BEFORE_AND_THE_ONE_BEHIND.into(),
+        Over::Either(rows) => sentences::rows_before_and_behind(&rows),
+        Over::Before => sentences::THE_ROW_AND_THE_ONE_BEFORE.into(),
+        Over::Behind => sentences::THE_ROW_AND_THE_ONE_BEHIND.into(),
     }
 }
 
@@ -179,22 +172,18 @@ fn duration(seconds: f64) -> String {
 
 /// What an error without a simple cause looks like.
 #[must_use]
-pub fn nature(nature: Nature) -> String {
+pub fn nature(nature: ErrorNature) -> String {
     let percent = prover::numbers::percent;
     match nature {
-        Nature::Growing(power) => {
+        ErrorNature::Growing(power) => {
             let how = power.map_or(String::new(), |power| match power {
-                1 => ", about in proportion to it".into(),
-                power => format!(", about with its power of {power}"),
+                1 => sentences::ABOUT_IN_PROPORTION_TO_IT.into(),
+                power => sentences::about_with_its_power_of(&power),
             });
-            format!("the error grows with time{how}: integration, or the step of it")
+            sentences::the_error_grows_with_time(&how)
         }
-        Nature::Smooth(share) => {
-            format!("the error is smooth, at most {} of the scale: integration or step", percent(share))
-        }
-        Nature::Noise(share) => {
-            format!("the error has no order, at most {} of the scale: noise, or few digits on the way", percent(share))
-        }
+        ErrorNature::Smooth(share) => sentences::the_error_is_smooth_at_most(&percent(share)),
+        ErrorNature::Noise(share) => sentences::the_error_has_no_order_at_most(&percent(share)),
     }
 }
 
@@ -207,57 +196,57 @@ fn amount(by: f64, unit: &str) -> String {
 #[must_use]
 pub fn change(change: &Change) -> String {
     let how = match &change.how {
-        How::Missing => "missing".into(),
-        How::Reversed => "of the opposite sign".into(),
-        How::Twice => "counted twice".into(),
-        How::Half => "counted half".into(),
-        How::Times(factor, told) => format!("{} times as large, {told}", number(*factor)),
-        How::AtJoint(joint) => format!("at joint {joint}"),
-        How::AtPoint(point) => format!("at point {point}"),
-        How::FromJoint([one, other]) => format!("measured from the wrong end, {one} and {other} exchanged"),
-        How::Across([one, other]) => format!("mirrored at the line of {one} and {other}"),
-        How::Middle([one, other]) => format!("in the middle of {one} and {other}"),
-        How::Turned(by) => format!("turned by {} deg", number(by.to_degrees())),
-        How::AboutJoint(joint) => format!("taken about joint {joint} instead of the mass centre"),
-        How::Swapped => "x and y exchanged".into(),
-        How::Other(mode) => (*mode).to_string(),
-        How::Instead { found, given, unit } => {
+        PartChange::Missing => "missing".into(),
+        PartChange::Reversed => sentences::OF_THE_OPPOSITE_SIGN.into(),
+        PartChange::Twice => "counted twice".into(),
+        PartChange::Half => "counted half".into(),
+        PartChange::Times(factor, told) => sentences::times_as_large(&number(*factor), &told),
+        PartChange::AtJoint(joint) => sentences::at_joint(&joint),
+        PartChange::AtPoint(point) => sentences::at_point(&point),
+        PartChange::FromJoint([one, other]) => sentences::measured_from_the_wrong_end(&one, &other),
+        PartChange::Across([one, other]) => sentences::mirrored_at_the_line_of_and(&one, &other),
+        PartChange::Middle([one, other]) => sentences::in_the_middle_of_and(&one, &other),
+        PartChange::Turned(by) => sentences::turned_by_deg(&number(by.to_degrees())),
+        PartChange::AboutJoint(joint) => sentences::taken_about_joint_instead_of_the_mass(&joint),
+        PartChange::Swapped => sentences::AND_EXCHANGED.into(),
+        PartChange::Other(mode) => (*mode).to_string(),
+        PartChange::Instead { found, given, unit } => {
             let (factor, unit) = if *unit == "rad" { (1f64.to_degrees(), "deg") } else { (1.0, *unit) };
             let [found, given] = [found, given].map(|value| factor * value);
             let [found, given] = [told_apart(found, given), number(given)].map(|own| with_unit(&own, unit));
-            format!("{found} instead of {given}")
+            sentences::instead_of(&found, &given)
         }
     };
     format!("{}: {how}", part(&change.part))
 }
 
-fn part(part: &Part) -> String {
-    let axis = |axis: &Axis| match axis {
-        Axis::X => "x",
-        Axis::Y => "y",
+fn part(part: &CasePart) -> String {
+    let axis = |axis: &FrameAxis| match axis {
+        FrameAxis::X => "x",
+        FrameAxis::Y => "y",
     };
     match part {
-        Part::Gravity => "gravity".into(),
-        Part::InertiaForces => "inertia forces of all links".into(),
-        Part::Inertias => "moments of inertia of all links".into(),
-        Part::Masses => "masses of all links".into(),
-        Part::Inertia(link) => format!("moment of inertia of {link}"),
-        Part::Mass(link) => format!("mass of {link}"),
-        Part::Body(link) => format!("mass and inertia of {link}"),
-        Part::Weight(link) => format!("weight of {link}"),
-        Part::Inert(link) => format!("inertia forces of {link}"),
-        Part::Length(one, other, link) => format!("distance of {one} and {other} on {link}"),
-        Part::MassCentre(link) => format!("mass centre of {link}"),
-        Part::MassCentreAlong(link, along) => format!("mass centre of {link}, {}", axis(along)),
-        Part::Load(number, sort) => format!("load {number}, {}", sort.replace('_', " ")),
-        Part::Free(number) => format!("free length of load {number}, spring"),
-        Part::Configuration(group) => format!("another configuration of {group}"),
-        Part::Speed(joint) => format!("speed of the drive at {joint}"),
-        Part::StartAngle(joint) => format!("angle of the drive at {joint} at t = 0"),
-        Part::InitialSpeed(joint) => format!("speed at {joint} at t = 0"),
-        Part::MotorMoment => "moment of the motor".into(),
-        Part::RotorInertia => "inertia of rotor and reducer".into(),
-        Part::Place(joint, link, along) => format!("place of {joint} on {link}, {}", axis(along)),
+        CasePart::Gravity => "gravity".into(),
+        CasePart::InertiaForces => sentences::INERTIA_FORCES_OF_ALL_LINKS.into(),
+        CasePart::Inertias => sentences::MOMENTS_OF_INERTIA_OF_ALL.into(),
+        CasePart::Masses => sentences::MASSES_OF_ALL_LINKS.into(),
+        CasePart::Inertia(link) => sentences::moment_of_inertia_of(&link),
+        CasePart::Mass(link) => sentences::mass_of(&link),
+        CasePart::Body(link) => sentences::mass_and_inertia_of(&link),
+        CasePart::Weight(link) => sentences::weight_of(&link),
+        CasePart::Inert(link) => sentences::inertia_forces_of(&link),
+        CasePart::Length(one, other, link) => sentences::distance_of_and_on(&one, &other, &link),
+        CasePart::MassCentre(link) => sentences::mass_centre_of_2(&link),
+        CasePart::MassCentreAlong(link, along) => sentences::mass_centre_of(&link, &axis(along)),
+        CasePart::Load(number, sort) => format!("load {number}, {}", sort.replace('_', " ")),
+        CasePart::Free(number) => sentences::free_length_of_load_spring(&number),
+        CasePart::Configuration(group) => sentences::another_configuration_of(&group),
+        CasePart::Speed(joint) => sentences::speed_of_the_drive_at(&joint),
+        CasePart::StartAngle(joint) => sentences::angle_of_the_drive_at_at(&joint),
+        CasePart::InitialSpeed(joint) => sentences::speed_at_at(&joint),
+        CasePart::MotorMoment => sentences::MOMENT_OF_THE_MOTOR.into(),
+        CasePart::RotorInertia => sentences::INERTIA_OF_ROTOR_AND_REDUCER.into(),
+        CasePart::Place(joint, link, along) => sentences::place_of_on(&joint, &link, &axis(along)),
     }
 }
 

@@ -3,6 +3,7 @@
 
 use super::cells::{fitted, share, trimmed};
 use super::judged::{Grade, grade, worst};
+use crate::sentences;
 use linkage::solver::Provision;
 use linkage::trajectory::Stage;
 use prover::compare::overall;
@@ -42,20 +43,20 @@ pub fn disputes(proof: &Proof) -> String {
         }
     }
     if proof.disputes.is_empty() {
-        text.push_str("No two of them differ by more than both may be wrong.");
+        text.push_str(sentences::NO_TWO_OF_THEM_DIFFER_BY_MORE);
         return text;
     }
     for party in [proof.reference].into_iter().chain(proof.engines.iter().map(|engine| engine.info.name)) {
         let alone = proof.disputes.iter().filter(|dispute| dispute.odd == Some(party));
         if let Some(first) = alone.clone().next() {
-            say!(text, "The odd one out in {} channels is {party}, first in {}.", alone.count(), first.channel);
+            say!(text, "{}", sentences::the_odd_one_out_in_channels(&alone.count(), &party, &first.channel));
         }
     }
     let open = proof.disputes.iter().filter(|dispute| dispute.odd.is_none());
     if let Some(first) = open.clone().next() {
         let pairs: Vec<String> = first.pairs.iter().map(|[a, b]| format!("{a} and {b}")).collect();
         let (count, channel, pairs) = (open.count(), &first.channel, pairs.join(", "));
-        say!(text, "In {count} channels no single one stands alone, first in {channel}: {pairs} differ.");
+        say!(text, "{}", sentences::in_channels_no_single_one_stands(&count, &channel, &pairs));
     }
     text.truncate(text.trim_end().len());
     text
@@ -74,21 +75,15 @@ pub fn exerted(own: &EngineProof) -> String {
     let Some(worst) = worst(&own.channels) else { return "none".into() };
     let (residual, unit) = (&worst.residual, worst.residual.channel.kind.unit);
     let [error, bound] = [residual.max, worst.bound].map(|value| numbers::error_in(value, unit.symbol()));
-    let numbers = format!("{error} of {bound} in {}", residual.channel);
-    format!("{} channels {}, at most {numbers}", own.channels.len(), own.verdict.word())
+    let numbers = sentences::of_in(&error, &bound, &residual.channel);
+    sentences::channels_at_most(&own.channels.len(), &own.verdict.word(), &numbers)
 }
 
 /// What both judgements of an engine's forces say together.
 pub fn sentence(fault: ForceFault) -> &'static str {
     match fault {
-        ForceFault::Reading => {
-            "The engine's motion and the forces that it exerts agree: wrong are the forces that Newton and Euler's \
-             equations make of this motion."
-        }
-        ForceFault::Exerted => {
-            "The engine's motion and the forces that belong to it agree: wrong are those that it exerts itself, or how \
-             they are read."
-        }
-        ForceFault::Both => "The motion agrees, and the forces disagree in both ways: from the motion and as exerted.",
+        ForceFault::Reading => sentences::THE_ENGINE_MOTION_AND_THE_FORCES_THAT_IT_EXERTS,
+        ForceFault::Exerted => sentences::THE_ENGINE_MOTION_AND_THE_FORCES,
+        ForceFault::Both => sentences::THE_MOTION_AGREES_AND_THE_FORCES,
     }
 }

@@ -1,6 +1,7 @@
 //! The model that every report of a proof is a view of: each channel, each force that an engine exerts itself and each
 //! check with its verdict, decided once for text, JSON, JUnit, Markdown, logs and pages.
 
+use crate::sentences;
 use std::cmp::Reverse;
 
 use linkage::math::statistics::share;
@@ -56,7 +57,7 @@ pub enum Sort {
 }
 
 /// A number with its bound and its verdict.
-pub struct Judged<'a> {
+pub struct JudgedNumber<'a> {
     pub sort: Sort,
     /// The engine; `None` where the analytic sides are judged.
     pub engine: Option<&'a EngineProof>,
@@ -74,19 +75,19 @@ pub struct Judged<'a> {
 
 /// All that is judged: checks of the sides, then for each engine its channels, the forces that it exerts itself, and its
 /// checks.
-pub fn of(proof: &Proof) -> Vec<Judged<'_>> {
+pub fn of(proof: &Proof) -> Vec<JudgedNumber<'_>> {
     let of_engine = |engine| of_engine(engine).chain(checks(Some(engine), &engine.checks));
     checks(None, &proof.checks).chain(proof.engines.iter().flat_map(of_engine)).collect()
 }
 
 /// Channels of an engine, and the forces that it exerts itself.
-fn of_engine(engine: &EngineProof) -> impl Iterator<Item = Judged<'_>> {
+fn of_engine(engine: &EngineProof) -> impl Iterator<Item = JudgedNumber<'_>> {
     let channels = engine.channels.iter().map(|own| (Sort::Channel, own));
     let forces = engine.own_forces.iter().flat_map(|own| &own.channels).map(|own| (Sort::OwnForce, own));
     channels.chain(forces).map(|(sort, own)| {
         let ChannelProof { residual, bound, basis, verdict, .. } = own;
-        let how = if sort == Sort::OwnForce { " as the engine exerts it" } else { "" };
-        Judged {
+        let how = if sort == Sort::OwnForce { sentences::AS_THE_ENGINE_EXERTS_IT } else { "" };
+        JudgedNumber {
             sort,
             engine: Some(engine),
             name: format!("{}{how}", residual.channel),
@@ -100,8 +101,8 @@ fn of_engine(engine: &EngineProof) -> impl Iterator<Item = Judged<'_>> {
     })
 }
 
-fn checks<'a>(engine: Option<&'a EngineProof>, checks: &'a [Check]) -> impl Iterator<Item = Judged<'a>> {
-    checks.iter().map(move |check| Judged {
+fn checks<'a>(engine: Option<&'a EngineProof>, checks: &'a [Check]) -> impl Iterator<Item = JudgedNumber<'a>> {
+    checks.iter().map(move |check| JudgedNumber {
         sort: Sort::Check,
         engine,
         name: check.name(),
@@ -125,8 +126,8 @@ pub fn verdicts(proof: &Proof) -> Vec<(String, &Verdict)> {
         all.extend(of_engine(engine).map(|own| (name(own.name), own.verdict)));
         let failed = engine.own_forces.iter().filter(|own| own.failure.is_some());
         let whole = match several {
-            true => format!("forces as {} itself exerts them", engine.info.name),
-            false => "the engine's own forces".into(),
+            true => sentences::forces_as_itself_exerts_them_2(&engine.info.name),
+            false => sentences::THE_ENGINE_OWN_FORCES.into(),
         };
         all.extend(failed.map(|own| (whole.clone(), &own.verdict)));
     }

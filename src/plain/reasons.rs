@@ -5,6 +5,7 @@ use super::cells::distinct;
 use super::judged::{Grade, grade, unproven};
 use super::style::wrapped;
 use super::{Tell, diagnosis};
+use crate::sentences;
 use linkage::error::Advice;
 use prover::compare::{Check, Verdict};
 use prover::proof::Proof;
@@ -17,7 +18,7 @@ pub fn reasons(proof: &Proof, tell: Tell, width: Option<usize>, most: usize, tex
         say!(text, "\n{}", wrapped(&reason, width, 2));
     }
     if open.len() > most {
-        say!(text, "\n... and {} more ({})", open.len() - most, tell(&Advice::AllResults));
+        say!(text, "{}", sentences::and_more_3(&(open.len() - most), &tell(&Advice::AllResults)));
     }
 }
 
@@ -41,7 +42,7 @@ pub fn expected(proof: &Proof, tell: Tell, text: &mut String) {
     }
     let (count, told) = (findings.len(), distinct(findings));
     // One a line: a command that is broken cannot be copied.
-    say!(text, "\n{count} checks disagree as expected, see\n  {}", told.join(",\n  "));
+    say!(text, "{}", sentences::checks_disagree_as_expected_see(&count, &(told.join(",\n  "))));
 }
 
 /// How many instants are not judged, and of what.
@@ -50,11 +51,11 @@ pub fn left_out(proof: &Proof, width: Option<usize>, text: &mut String) {
         let left = || engine.channels.iter().filter(|channel| channel.left_out > 0);
         let Some(most) = left().map(|channel| channel.left_out).max() else { continue };
         let quantities = distinct(left().map(|channel| channel.residual.channel.kind.stage.name()));
-        let told = format!(
-            "Up to {most} of {} instants are not judged in {} ({}): a drive or a loaded link reverses there, or the motion begins.",
-            proof.reference_trajectory.times().len(),
-            quantities.join(", ").replace('_', " "),
-            engine.info.name
+        let told = sentences::up_to_of_instants_are_not_judged(
+            &most,
+            &proof.reference_trajectory.times().len(),
+            &(quantities.join(", ").replace('_', " ")),
+            &engine.info.name,
         );
         say!(text, "\n{}", wrapped(&told, width, 2));
     }

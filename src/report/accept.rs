@@ -1,5 +1,6 @@
 //! What has become of accepted figures, as text and as JSON.
 
+use crate::sentences;
 use std::path::Path;
 
 use serde_json::{Value, json};
@@ -12,7 +13,7 @@ use crate::plain::diagnosis::{number, told_apart};
 use crate::plain::judged::{Grade, grade};
 use linkage::error::Error;
 use linkage::trajectory::Channel;
-use prover::accept::{Comparison, Figure, Moved, Wider};
+use prover::accept::{ChannelFigure, FigureComparison, Moved, Wider};
 use prover::proof::Proof;
 use scenario::accepted::Accepted;
 
@@ -43,7 +44,7 @@ pub(crate) struct Item<'a> {
     /// What was found.
     pub(crate) found: &'a Accepted,
     /// What has moved; `None` if nothing was accepted before.
-    pub(crate) comparison: Option<&'a Comparison>,
+    pub(crate) comparison: Option<&'a FigureComparison>,
     /// What was done.
     pub(crate) deed: Deed,
     /// The file of accepted figures.
@@ -64,7 +65,7 @@ pub(crate) fn text(item: &Item) -> String {
         changes(comparison, &mut text);
     }
     if item.without_figures() > 0 {
-        say!(text, "{} have no finite bound and no figures.", channels(item.without_figures()));
+        say!(text, "{}", sentences::have_no_finite_bound_and_no_figures(&channels(item.without_figures())));
     }
     text
 }
@@ -74,16 +75,14 @@ fn headline(item: &Item) -> String {
     let all = channels(item.found.channels.len());
     match (item.deed, item.comparison) {
         (Deed::Checked, Some(comparison)) => match grade(&comparison.verdict) {
-            Grade::Agree => format!("AGREE: {name} is as accepted in {file}, {all} within their bounds."),
-            Grade::Open => {
-                format!("INCONCLUSIVE: {name} is not proven to be as accepted in {file}: {}.", counts(comparison))
-            }
-            Grade::Disagree => format!("DISAGREE: {name} is not as accepted in {file}: {}.", counts(comparison)),
+            Grade::Agree => sentences::agree_is_as_accepted_in_within(&name, &file, &all),
+            Grade::Open => sentences::inconclusive_is_not_proven_to_be_as_accepted(&name, &file, &counts(comparison)),
+            Grade::Disagree => sentences::disagree_is_not_as_accepted(&name, &file, &counts(comparison)),
         },
-        (Deed::Renewed, Some(comparison)) => format!("{name}: accepted anew in {file}: {}.", counts(comparison)),
-        (Deed::Kept, _) => format!("{name}: nothing has moved, {file} stays as it is ({all})."),
-        (Deed::Refused, _) => format!("{name}: not accepted, the proof is {}.", item.proof.verdict.word()),
-        (Deed::Written | Deed::Checked | Deed::Renewed, _) => format!("{name}: accepted, {all} in {file}."),
+        (Deed::Renewed, Some(comparison)) => sentences::accepted_anew_in(&name, &file, &counts(comparison)),
+        (Deed::Kept, _) => sentences::nothing_has_moved_stays_as_it_is(&name, &file, &all),
+        (Deed::Refused, _) => sentences::not_accepted_the_proof_is(&name, &item.proof.verdict.word()),
+        (Deed::Written | Deed::Checked | Deed::Renewed, _) => sentences::accepted_in(&name, &all, &file),
     }
 }
 
@@ -92,25 +91,25 @@ fn channels(count: usize) -> String {
 }
 
 /// What has changed, in numbers.
-fn counts(comparison: &Comparison) -> String {
-    let Comparison { wider, looser, new, gone, is_other_grid, proof, .. } = comparison;
+fn counts(comparison: &FigureComparison) -> String {
+    let FigureComparison { wider, looser, new, gone, is_other_grid, proof, .. } = comparison;
     let moved = comparison.moved_channels().len();
     let mut parts = Vec::new();
     if let Some([accepted, found]) = proof {
         let now = if accepted == found { "still is" } else { &format!("is {found}") };
-        parts.push(format!("the proof was accepted as {accepted} and {now}"));
+        parts.push(sentences::the_proof_was_accepted_as_and(&accepted, &now));
     }
     if *is_other_grid {
-        parts.push("its instants are others, values are not compared".into());
+        parts.push(sentences::ITS_INSTANTS_ARE_OTHERS_VALUES.into());
     }
     let all = comparison.channels;
     if all == 0 {
-        parts.push("there is no figure".into());
+        parts.push(sentences::THERE_IS_NO_FIGURE.into());
     }
     let counted = [
         (moved, "moved"),
-        (wider.len(), "known 100 times worse or more"),
-        (looser.len(), "accepted within 100 times the bound of now or more"),
+        (wider.len(), sentences::KNOWN_TIMES_WORSE_OR_MORE),
+        (looser.len(), sentences::ACCEPTED_WITHIN_TIMES_THE_BOUND),
         (new.len(), "new"),
         (gone.len(), "gone"),
     ];
@@ -123,7 +122,7 @@ fn counts(comparison: &Comparison) -> String {
 }
 
 /// The worst figure of every channel that has moved, and the channels that are new, gone or known worse.
-fn changes(comparison: &Comparison, text: &mut String) {
+fn changes(comparison: &FigureComparison, text: &mut String) {
     let worst_of = |channel: &&str| {
         let own = comparison.moved.iter().filter(|moved| moved.channel == *channel);
         own.max_by(|a, b| a.bounds().total_cmp(&b.bounds()))
@@ -146,7 +145,7 @@ fn changes(comparison: &Comparison, text: &mut String) {
         say!(text, "\n{}", trimmed(table.add_rows(worst.iter().take(SHOWN).map(row))));
     }
     if worst.len() > SHOWN {
-        say!(text, "... and {} more channels; the JSON has all of them.", worst.len() - SHOWN);
+        say!(text, "{}", sentences::and_more_channels_the_json(&(worst.len() - SHOWN)));
     }
     for (word, names) in [("new", &comparison.new), ("gone", &comparison.gone)] {
         if !names.is_empty() {
@@ -155,14 +154,23 @@ fn changes(comparison: &Comparison, text: &mut String) {
     }
     for other in comparison.wider.iter().take(SHOWN).chain(comparison.looser.iter().take(SHOWN)) {
         let (channel, unit) = (&other.channel, unit(&other.channel));
-        say!(text, "\n{channel}: its bound was {:.1e} {unit}, now {:.1e}", other.accepted, other.found);
+        say!(
+            text,
+            "{}",
+            sentences::its_bound_was_now(
+                &channel,
+                &format_args!("{:.1e}", other.accepted),
+                &unit,
+                &format_args!("{:.1e}", other.found)
+            )
+        );
     }
 }
 
 fn listed(names: &[String]) -> String {
     let more = names.len().saturating_sub(SHOWN);
     let names = names.iter().take(SHOWN).map(String::as_str).collect::<Vec<_>>().join(", ");
-    if more == 0 { names } else { format!("{names}, and {more} more") }
+    if more == 0 { names } else { sentences::and_more_4(&names, &more) }
 }
 
 fn unit(channel: &str) -> &'static str {
@@ -170,12 +178,12 @@ fn unit(channel: &str) -> &'static str {
 }
 
 /// The word of a figure, and its instant (s) if it has one.
-fn figure(figure: Figure) -> (&'static str, Option<f64>) {
+fn figure(figure: ChannelFigure) -> (&'static str, Option<f64>) {
     match figure {
-        Figure::At(t) => ("at", Some(t)),
-        Figure::Least => ("least", None),
-        Figure::Greatest => ("greatest", None),
-        Figure::Rms => ("rms", None),
+        ChannelFigure::At(t) => ("at", Some(t)),
+        ChannelFigure::Least => ("least", None),
+        ChannelFigure::Greatest => ("greatest", None),
+        ChannelFigure::Rms => ("rms", None),
     }
 }
 

@@ -1,5 +1,6 @@
 //! Largest reactions over the range of the grid, and the smallest journals that carry them.
 
+use crate::sentences;
 use serde_json::json;
 
 use super::pretty::{list, pretty};
@@ -41,9 +42,9 @@ pub(crate) fn text(journals: Journals, scenario: &Scenario, peaks: &Peaks) -> St
     for (name, peak, unit) in
         [("shaking force", peaks.shaking_force, "N"), ("balancing moment", peaks.balancing_moment, "N m")]
     {
-        say!(text, "largest {name:16} {:.6} {unit} at {} deg", peak.value, degrees(peak));
+        say!(text, "{}", sentences::largest_at_deg(&name, &peak.value, &unit, &degrees(peak)));
     }
-    say!(text, "\njournals: lever {} mm, bending stress {} MPa", journals.lever_mm, journals.stress_mpa);
+    say!(text, "{}", sentences::journals_lever_mm_bending_stress(&journals.lever_mm, &journals.stress_mpa));
     text
 }
 

@@ -1,11 +1,12 @@
 //! Points of a work-precision diagram as text, CSV and JSON.
 
+use crate::sentences;
 use serde_json::{Value, json};
 
 use super::pretty::{list, pretty};
 use super::table_csv::csv;
 use crate::plain::cells::{distinct, table};
-use lab::bench::{Axis, Bench, Errors, Outcome, Party, Point, front};
+use lab::bench::{Bench, BenchOutcome, BenchPoint, CostAxis, Errors, MethodOwner, front};
 use linkage::error::Result;
 use linkage::trajectory::Stage;
 
@@ -16,7 +17,7 @@ pub(crate) type Machine = [(&'static str, String)];
 const DECADES: [f64; 4] = [1e-3, 1e-6, 1e-9, 1e-12];
 
 /// Time of a point over that of side 1.
-pub(crate) fn ratio(bench: &Bench, point: &Point) -> Option<f64> {
+pub(crate) fn ratio(bench: &Bench, point: &BenchPoint) -> Option<f64> {
     Some(point.seconds()? / bench.unit)
 }
 
@@ -25,7 +26,7 @@ pub(crate) fn error(errors: Errors, floor: f64) -> String {
     match (errors.is_limited, errors.max > floor) {
         (false, _) => format!("{:.1e}", errors.max),
         (true, true) => format!("{:.1e}, limited", errors.max),
-        (true, false) => "at the floor".into(),
+        (true, false) => sentences::AT_THE_FLOOR.into(),
     }
 }
 
@@ -43,9 +44,9 @@ pub(crate) fn fastest<'a>(
     bench: &'a Bench,
     stage: Stage,
     within: f64,
-    of: &dyn Fn(&Point) -> bool,
-) -> Option<&'a Point> {
-    let meets = |point: &&Point| of(point) && point.error(stage).is_some_and(|errors| errors.max <= within);
+    of: &dyn Fn(&BenchPoint) -> bool,
+) -> Option<&'a BenchPoint> {
+    let meets = |point: &&BenchPoint| of(point) && point.error(stage).is_some_and(|errors| errors.max <= within);
     let timed = bench.points.iter().filter(meets).filter_map(|point| Some((point.seconds()?, point)));
     timed.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, point)| point)
 }
@@ -55,38 +56,39 @@ pub(crate) fn text(bench: &Bench) -> String {
     let mut text = format!("{}: {}\n\n", bench.scenario[0], bench.scenario[1]);
     let failed = bench.points.iter().filter(|point| point.run().is_none()).count();
     let (settings, instants, reference) = (bench.points.len(), bench.instants, &bench.floor.reference);
-    say!(
-        text,
-        "{settings} settings on {instants} instants, {failed} failed; times over that of side 1 (assur). Reference: {reference}."
-    );
-    say!(text, "The fronts: what nothing beats, then what no engine and no peer beats.");
+    say!(text, "{}", sentences::settings_on_instants_failed_times(&settings, &instants, &failed, &reference));
+    say!(text, "{}", sentences::THE_FRONTS_WHAT_NOTHING_BEATS);
     for &stage in &bench.stages {
         let floor = bench.floor.errors[stage as usize];
-        say!(text, "\n{}: the reference is known to {floor:.1e}", stage.name());
-        let sides = front(&bench.points, stage, Axis::Time, floor, &|_| true);
-        let others = front(&bench.points, stage, Axis::Time, floor, &|point| point.party != Party::Side);
+        say!(text, "{}", sentences::the_reference_is_known_to(&stage.name(), &format_args!("{floor:.1e}")));
+        let sides = front(&bench.points, stage, CostAxis::Time, floor, &|_| true);
+        let others = front(&bench.points, stage, CostAxis::Time, floor, &|point| point.party != MethodOwner::Side);
         let others = others.into_iter().filter(|index| !sides.contains(index));
         let rows = sides.iter().copied().chain(others).filter_map(|index| {
             let point = &bench.points[index];
             let time = ratio(bench, point).map_or_else(String::new, short);
-            let solutions = Axis::Solutions.of(point).map_or_else(String::new, |count| count.to_string());
+            let solutions = CostAxis::Solutions.of(point).map_or_else(String::new, |count| count.to_string());
             Some([error(point.error(stage)?, floor), time, solutions, point.program.clone(), point.told()])
         });
         say!(text, "{}", table("error> | time> | solutions> | program | settings").add_rows(rows));
         for within in DECADES {
-            let other = fastest(bench, stage, within, &|point| point.party != Party::Side);
+            let other = fastest(bench, stage, within, &|point| point.party != MethodOwner::Side);
             let told = other.and_then(|point| Some(format!("{} {}", short(ratio(bench, point)?), point.program)));
-            say!(text, "  other programs at {within:e}: {}", told.unwrap_or_else(|| "none".into()));
+            say!(
+                text,
+                "{}",
+                sentences::other_programs_at(&format_args!("{within:e}"), &told.unwrap_or_else(|| "none".into()))
+            );
         }
     }
     for (reason, times) in super::bench_plot::reasons(bench) {
-        say!(text, "\nfailed {times} times: {reason}");
+        say!(text, "{}", sentences::failed_times(&times, &reason));
     }
     for (gap, times) in super::bench_plot::gaps(bench) {
-        say!(text, "\njudged in part {times} times: {gap}");
+        say!(text, "{}", sentences::judged_in_part_times(&times, &gap));
     }
     if bench.left_out > 0 {
-        say!(text, "\n{} finer settings were not run: the work that was allowed is done.", bench.left_out);
+        say!(text, "{}", sentences::finer_settings_were_not_run(&bench.left_out));
     }
     text
 }
@@ -144,8 +146,8 @@ pub(crate) fn rows(bench: &Bench, machine: &Machine) -> Result<String> {
         row.push(all.iter().map(|seconds| format!("{seconds:.6e}")).collect::<Vec<_>>().join(" "));
         let joined = |all: &[(Stage, String)]| all.iter().map(|(_, what)| what.as_str()).collect::<Vec<_>>().join("; ");
         row.extend(match &point.outcome {
-            Outcome::Failed(reason) => [reason.clone(), String::new()],
-            Outcome::Answered(run) => [&run.failed, &run.without].map(|all| joined(all)),
+            BenchOutcome::Failed(reason) => [reason.clone(), String::new()],
+            BenchOutcome::Answered(run) => [&run.failed, &run.without].map(|all| joined(all)),
         });
         rows.push(row);
     }
@@ -154,12 +156,15 @@ pub(crate) fn rows(bench: &Bench, machine: &Machine) -> Result<String> {
 
 /// Names of everything that was counted, in the order of its first appearance.
 fn counts(bench: &Bench) -> Vec<String> {
-    distinct(bench.points.iter().filter_map(Point::run).flat_map(|run| &run.effort.0).map(|(name, _)| name.clone()))
+    distinct(
+        bench.points.iter().filter_map(BenchPoint::run).flat_map(|run| &run.effort.0).map(|(name, _)| name.clone()),
+    )
 }
 
 /// The front over time of every stage.
 fn fronts(bench: &Bench) -> Vec<Vec<usize>> {
-    let of = |&stage: &Stage| front(&bench.points, stage, Axis::Time, bench.floor.errors[stage as usize], &|_| true);
+    let of =
+        |&stage: &Stage| front(&bench.points, stage, CostAxis::Time, bench.floor.errors[stage as usize], &|_| true);
     bench.stages.iter().map(of).collect()
 }
 
@@ -188,7 +193,7 @@ fn scenario(bench: &Bench) -> Value {
         })
     });
     let fronts = by_stage(&|stage| {
-        list(Axis::ALL, |axis| {
+        list(CostAxis::ALL, |axis| {
             let floor = bench.floor.errors[stage as usize];
             json!({ "over": axis.name(), "points": front(&bench.points, stage, axis, floor, &|_| true) })
         })
@@ -196,7 +201,7 @@ fn scenario(bench: &Bench) -> Value {
     json!({
         "scenario": bench.scenario[0], "title": bench.scenario[1], "instants": bench.instants, "span_s": bench.span,
         "free": bench.is_free, "reference": bench.floor.reference, "floor_basis": bench.floor.basis,
-        "floor": by_stage(&|stage| json!(bench.floor.errors[stage as usize])), "ratio_to": "side 1 (assur)",
+        "floor": by_stage(&|stage| json!(bench.floor.errors[stage as usize])), "ratio_to": sentences::SIDE_ASSUR,
         "versions": bench.versions.iter().cloned().collect::<Value>(), "not_run": bench.left_out,
         "absent": list(&bench.absent, |(name, reason)| json!({ "peer": name, "reason": reason })),
         "front": fronts, "points": points,

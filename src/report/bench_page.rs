@@ -5,7 +5,8 @@ use super::bench_plot::{gaps, programs, reasons};
 use super::html::filled;
 use super::markdown::foreign;
 use crate::plain::cells::distinct;
-use lab::bench::{Axis, Bench, CLEAR, Party, Point, front};
+use crate::sentences;
+use lab::bench::{Bench, BenchPoint, CLEAR, CostAxis, MethodOwner, front};
 use linkage::trajectory::Stage;
 
 /// Errors in the cells of the tables.
@@ -34,9 +35,8 @@ fn scenario(text: &mut String, bench: &Bench, pictures: &str) {
     say!(text, "## {name}\n\n{}.\n", foreign(title));
     say!(
         text,
-        "{} settings on {} instants, {failed} failed. [Diagram]({pictures}{name}.time.svg), [numbers]({pictures}{name}.csv).\n",
-        bench.points.len(),
-        bench.instants
+        "{}",
+        sentences::settings_on_instants_failed_diagram(&bench.points.len(), &bench.instants, &failed, &pictures, &name)
     );
     let stages: Vec<&str> = bench.stages.iter().map(|stage| stage.name()).collect();
     say!(text, "| | {} |", stages.join(" | "));
@@ -49,26 +49,26 @@ fn scenario(text: &mut String, bench: &Bench, pictures: &str) {
     }
     text.push('\n');
     for &stage in &bench.stages {
-        let of_others = told(bench, stage, &|point| point.party != Party::Side);
-        say!(text, "- Front of {}: {}.", stage.name(), told(bench, stage, &|_| true));
-        say!(text, "  Of engines and peers: {}.", if of_others.is_empty() { "none" } else { &of_others });
+        let of_others = told(bench, stage, &|point| point.party != MethodOwner::Side);
+        say!(text, "{}", sentences::front_of(&stage.name(), &told(bench, stage, &|_| true)));
+        say!(text, "{}", sentences::of_engines_and_peers(&(if of_others.is_empty() { "none" } else { &of_others })));
     }
     for (reason, times) in reasons(bench).into_iter().take(REASONS) {
-        say!(text, "- Failed {times} times: {}", foreign(&reason));
+        say!(text, "{}", sentences::failed_times_2(&times, &foreign(&reason)));
     }
     for (gap, times) in gaps(bench).into_iter().take(REASONS) {
-        say!(text, "- Judged in part {times} times: {}", foreign(&gap));
+        say!(text, "{}", sentences::judged_in_part_times_2(&times, &foreign(&gap)));
     }
     if bench.left_out > 0 {
-        say!(text, "- {} finer settings were not run: the work allowed was done.", bench.left_out);
+        say!(text, "{}", sentences::finer_settings_were_not_run_the_work(&bench.left_out));
     }
     text.push('\n');
 }
 
 /// A front over time, by name.
-fn told(bench: &Bench, stage: Stage, of: &dyn Fn(&Point) -> bool) -> String {
+fn told(bench: &Bench, stage: Stage, of: &dyn Fn(&BenchPoint) -> bool) -> String {
     let floor = bench.floor.errors[stage as usize];
-    let told = front(&bench.points, stage, Axis::Time, floor, of).into_iter().filter_map(|index| {
+    let told = front(&bench.points, stage, CostAxis::Time, floor, of).into_iter().filter_map(|index| {
         let point = &bench.points[index];
         let errors = point.error(stage)?;
         Some(format!("{} ({}; time {})", named(point), error(errors, floor), short(ratio(bench, point)?)))
@@ -76,14 +76,14 @@ fn told(bench: &Bench, stage: Stage, of: &dyn Fn(&Point) -> bool) -> String {
     told.collect::<Vec<_>>().join("; ")
 }
 
-fn named(point: &Point) -> String {
+fn named(point: &BenchPoint) -> String {
     let told = foreign(&point.told());
     if told.is_empty() { point.program.clone() } else { format!("{} {told}", point.program) }
 }
 
 /// Times at which a program reaches the errors of the table.
 fn cell(bench: &Bench, program: &str, stage: Stage) -> String {
-    let own = |point: &Point| point.program == program;
+    let own = |point: &BenchPoint| point.program == program;
     if !bench.points.iter().any(|point| own(point) && point.error(stage).is_some()) {
         return String::new();
     }

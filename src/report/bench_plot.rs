@@ -1,13 +1,14 @@
 //! Diagrams of error against cost, one panel for each stage of channels, as SVG.
 
+use crate::sentences;
 use std::ops::RangeInclusive;
 
 use super::chart::{Chart, DASHED, Filling, colour, decades, mark};
 use crate::plain::cells::distinct;
 use drawing::paper::document::document;
-use drawing::paper::figure::{Figure, solid, words};
+use drawing::paper::figure::{DrawnFigure, solid, words};
 use drawing::paper::style::GREY;
-use lab::bench::{Axis, Bench, CLEAR, Party, Point, front};
+use lab::bench::{Bench, BenchPoint, CLEAR, CostAxis, MethodOwner, front};
 use linkage::math::{KeepNan, Vec2};
 use linkage::trajectory::Stage;
 
@@ -27,13 +28,13 @@ const WIDTH: usize = 72;
 const LINE: f64 = 3.8;
 
 /// The diagram of one axis of cost; `None` if no point has that cost.
-pub(crate) fn drawing(bench: &Bench, axis: Axis) -> Option<String> {
+pub(crate) fn drawing(bench: &Bench, axis: CostAxis) -> Option<String> {
     let costs = costs(bench, axis)?;
     let panels = bench.stages.iter().map(|&stage| panel(bench, stage, axis, costs));
     let columns = (bench.stages.len() + 1).min(3);
     let [name, about] = &bench.scenario;
-    let title = cut(&format!("{name}: error against {}. {about}", label(axis)), 150);
-    let mut sheet = Figure::default();
+    let title = cut(&sentences::error_against(&name, &label(axis), &about), 150);
+    let mut sheet = DrawnFigure::default();
     sheet.text(Vec2::new(5.0, -8.0), title.as_str(), words(5.0));
     for (index, cell) in panels.chain([legend(bench, axis)]).enumerate() {
         let [column, row] = [index % columns, index / columns].map(|count| count as f64);
@@ -44,26 +45,26 @@ pub(crate) fn drawing(bench: &Bench, axis: Axis) -> Option<String> {
 }
 
 /// The cost in words.
-fn label(axis: Axis) -> &'static str {
+fn label(axis: CostAxis) -> &'static str {
     match axis {
-        Axis::Time => "time over that of side 1 (assur)",
-        Axis::Solutions => "evaluations, or steps and probes, or poses",
-        Axis::Inner => "sweeps, factorisations, iterations or groups",
+        CostAxis::Time => sentences::TIME_OVER_THAT_OF_SIDE_ASSUR,
+        CostAxis::Solutions => sentences::EVALUATIONS_OR_STEPS_AND_PROBES,
+        CostAxis::Inner => sentences::SWEEPS_FACTORISATIONS_ITERATIONS_OR_GROUPS,
     }
 }
 
 /// Cost of a point in the unit of its axis.
-fn cost(bench: &Bench, axis: Axis, point: &Point) -> Option<f64> {
+fn cost(bench: &Bench, axis: CostAxis, point: &BenchPoint) -> Option<f64> {
     let own = axis.of(point)?;
     let unit = match axis {
-        Axis::Time => bench.unit,
-        Axis::Solutions | Axis::Inner => 1.0,
+        CostAxis::Time => bench.unit,
+        CostAxis::Solutions | CostAxis::Inner => 1.0,
     };
     Some(own / unit).filter(|cost| DRAWN.contains(cost))
 }
 
 /// Least and greatest cost of all points, with room beside them; `None` without any.
-fn costs(bench: &Bench, axis: Axis) -> Option<[f64; 2]> {
+fn costs(bench: &Bench, axis: CostAxis) -> Option<[f64; 2]> {
     let all = || bench.points.iter().filter_map(|point| cost(bench, axis, point));
     Some([all().reduce(f64::smaller)? / 2.0, all().reduce(f64::larger)? * 2.0])
 }
@@ -73,7 +74,7 @@ pub(super) fn programs(bench: &Bench) -> Vec<&str> {
     distinct(bench.points.iter().map(|point| point.program.as_str()))
 }
 
-fn panel(bench: &Bench, stage: Stage, axis: Axis, [left, right]: [f64; 2]) -> Figure {
+fn panel(bench: &Bench, stage: Stage, axis: CostAxis, [left, right]: [f64; 2]) -> DrawnFigure {
     let floor = bench.floor.errors[stage as usize];
     let shown = |error: f64| error.larger(floor).smaller(1e3);
     let errors = bench.points.iter().filter_map(|point| point.error(stage)).map(|errors| shown(errors.max));
@@ -94,7 +95,7 @@ fn panel(bench: &Bench, stage: Stage, axis: Axis, [left, right]: [f64; 2]) -> Fi
     };
     let mut is_empty = true;
     for (number, program) in programs(bench).into_iter().enumerate() {
-        let own = |point: &Point| point.program == program;
+        let own = |point: &BenchPoint| point.program == program;
         let best = front(&bench.points, stage, axis, floor, &own);
         let best: Vec<Vec2> = best.iter().filter_map(place).map(|at| chart.at(at)).collect();
         if best.len() > 1 {
@@ -116,12 +117,12 @@ fn panel(bench: &Bench, stage: Stage, axis: Axis, [left, right]: [f64; 2]) -> Fi
     }
     // The sides are so far ahead that nothing else would have a ring.
     let best = front(&bench.points, stage, axis, floor, &|_| true);
-    let others = front(&bench.points, stage, axis, floor, &|point| point.party != Party::Side);
+    let others = front(&bench.points, stage, axis, floor, &|point| point.party != MethodOwner::Side);
     for at in best.iter().chain(&others).filter_map(place).map(|at| chart.at(at)).collect::<Vec<_>>() {
         chart.figure.disc(at, RING, "none", solid(GREY, 0.25));
     }
     if is_empty {
-        chart.empty("no setting that answered counts this");
+        chart.empty(sentences::NO_SETTING_THAT_ANSWERED_COUNTS);
     }
     chart.figure
 }
@@ -132,7 +133,7 @@ fn caption(stage: Stage) -> &'static str {
         Stage::Velocities => "velocities",
         Stage::Accelerations => "accelerations",
         Stage::Reactions => "reactions",
-        Stage::BalancingMoment => "balancing moment, shaking force and moment",
+        Stage::BalancingMoment => sentences::BALANCING_MOMENT_SHAKING_FORCE_AND_MOMENT,
     }
 }
 
@@ -159,8 +160,8 @@ fn wrapped(text: &str, most: usize) -> Vec<String> {
 }
 
 /// Programs with their colours, what marks mean, and the reasons of failures.
-fn legend(bench: &Bench, axis: Axis) -> Figure {
-    let mut figure = Figure::default();
+fn legend(bench: &Bench, axis: CostAxis) -> DrawnFigure {
+    let mut figure = DrawnFigure::default();
     let mut y = -6.0;
     for (number, program) in programs(bench).into_iter().enumerate() {
         let own = || bench.points.iter().filter(|point| point.program == program);
@@ -175,7 +176,7 @@ fn legend(bench: &Bench, axis: Axis) -> Figure {
         };
         let failed = if failed > 0 { format!(", {failed} failed") } else { String::new() };
         let is_drawn = own().any(|point| cost(bench, axis, point).is_some());
-        let absent = if is_drawn { "" } else { "; it counts none of these" };
+        let absent = if is_drawn { "" } else { sentences::IT_COUNTS_NONE_OF_THESE };
         figure.text(Vec2::new(17.0, y - 1.2), format!("{program}{version}, {settings}{failed}{absent}"), words(3.7));
         y -= 5.3;
     }
@@ -187,17 +188,17 @@ fn legend(bench: &Bench, axis: Axis) -> Figure {
         }
     };
     for text in [
-        "Line: what no other setting of the same program beats; ring: nothing, or no engine and peer, beats it.",
-        &format!("Grey line: the reference's own error ({}).", bench.floor.basis),
-        &format!("Hollow: less than {CLEAR} times above it (dashes), limited by the reference."),
-        "Cross in the band above: failed.",
-        "Errors: largest over instants and channels, as a share of the channel's scale.",
+        sentences::LINE_WHAT_NO_OTHER_SETTING,
+        &sentences::grey_line_the_reference_own(&bench.floor.basis),
+        &sentences::hollow_less_than_times_above(&CLEAR),
+        sentences::CROSS_IN_THE_BAND_ABOVE_FAILED,
+        sentences::ERRORS_LARGEST_OVER_INSTANTS_AND_CHANNELS,
     ] {
         write(&mut y, text, 3.2);
     }
     y -= 2.0;
     let failed = reasons(bench).into_iter().map(|(text, times)| format!("x {times}: {text}"));
-    let gaps = gaps(bench).into_iter().map(|(text, times)| format!("in part {times}: {text}"));
+    let gaps = gaps(bench).into_iter().map(|(text, times)| sentences::in_part(&times, &text));
     let reasons: Vec<String> = failed.chain(gaps).map(|text| cut(&text, 2 * WIDTH)).collect();
     let mut left = reasons.len();
     for text in &reasons {
@@ -209,7 +210,7 @@ fn legend(bench: &Bench, axis: Axis) -> Figure {
         left -= 1;
     }
     if left > 0 {
-        write(&mut y, &format!("and {left} more reasons: see the table"), 2.9);
+        write(&mut y, &sentences::and_more_reasons_see_the_table(&left), 2.9);
     }
     figure
 }
@@ -227,7 +228,7 @@ pub(crate) fn reasons(bench: &Bench) -> Vec<(String, usize)> {
 
 /// Channels that peers do not give, stage by stage, with the number of settings that are judged without them.
 pub(crate) fn gaps(bench: &Bench) -> Vec<(String, usize)> {
-    let of = |point: &Point, stage: Stage| {
+    let of = |point: &BenchPoint, stage: Stage| {
         let what = point.without(stage)?;
         Some(format!("{}: {} without {what}", point.program, stage.name().replace('_', " ")))
     };

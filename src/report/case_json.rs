@@ -4,10 +4,10 @@ use serde_json::{Map, Value, json};
 
 use super::pretty::pretty;
 use linkage::case::Case;
-use linkage::drive::load::{Acts, Part};
+use linkage::drive::load::{Acts, LoadPart};
 use linkage::drive::{Course, Drive, DriveMotion, Load, MotionLaw, Motor, MotorLaw, On};
 use linkage::math::Vec2;
-use linkage::mechanism::{LinkId, Side};
+use linkage::mechanism::{JointSide, LinkId};
 use linkage::solver::State;
 
 /// Version of the form.
@@ -58,7 +58,7 @@ fn name(case: &Case, link: LinkId) -> &str {
     &case.mechanism.links()[link].name
 }
 
-fn side(case: &Case, side: Side) -> Value {
+fn side(case: &Case, side: JointSide) -> Value {
     json!({ "link": name(case, side.link), "at_m": pair(side.local) })
 }
 
@@ -124,14 +124,14 @@ fn load(case: &Case, load: &Load) -> Value {
     let mut all = Map::from_iter([("type".into(), json!(load.sort())), (place.into(), on)]);
     for part in load.clone().parts() {
         let (name, value) = match part {
-            Part::Link(_) | Part::Point(_) => continue,
-            Part::Number { role: _, name, value } => (name, json!(value)),
-            Part::Courses { name, values: [one] } => (name, course(one)),
-            Part::Courses { name, values } => (name, values.iter().map(course).collect()),
-            Part::Acts(Acts::Always) => ("acts", json!("always")),
-            Part::Acts(Acts::CounterClockwise) => ("acts", json!("counter_clockwise")),
-            Part::Acts(Acts::Clockwise) => ("acts", json!("clockwise")),
-            Part::Follows(follows) => ("follows", json!(follows)),
+            LoadPart::Link(_) | LoadPart::Point(_) => continue,
+            LoadPart::Number { role: _, name, value } => (name, json!(value)),
+            LoadPart::Courses { name, values: [one] } => (name, course(one)),
+            LoadPart::Courses { name, values } => (name, values.iter().map(course).collect()),
+            LoadPart::Acts(Acts::Always) => ("acts", json!("always")),
+            LoadPart::Acts(Acts::CounterClockwise) => ("acts", json!("counter_clockwise")),
+            LoadPart::Acts(Acts::Clockwise) => ("acts", json!("clockwise")),
+            LoadPart::Follows(follows) => ("follows", json!(follows)),
         };
         all.insert(name.into(), value);
     }

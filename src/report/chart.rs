@@ -1,6 +1,7 @@
 //! A diagram with two logarithmic axes on paper, and the marks of the parties in it.
 
-use drawing::paper::figure::{Figure, Style, Tint, Type, rectangle, solid, words};
+use crate::sentences;
+use drawing::paper::figure::{DrawnFigure, Style, Tint, Type, rectangle, solid, words};
 use drawing::paper::style::{self, GREY};
 use linkage::math::Vec2;
 use linkage::mechanism::LinkId;
@@ -28,7 +29,7 @@ pub(super) enum Filling {
 
 /// A diagram. The upper left corner of its cell is the origin.
 pub(super) struct Chart {
-    pub(super) figure: Figure,
+    pub(super) figure: DrawnFigure,
     /// Lower left corner of the frame, and its size (mm).
     low: Vec2,
     size: Vec2,
@@ -41,7 +42,7 @@ impl Chart {
     pub(super) fn new([width, height]: [f64; 2], ends: [[f64; 2]; 2]) -> Self {
         let [left, right, above, below] = ROOM;
         let size = Vec2::new(width - left - right, height - above - below);
-        Chart { figure: Figure::default(), low: Vec2::new(left, below - height), size, ends }
+        Chart { figure: DrawnFigure::default(), low: Vec2::new(left, below - height), size, ends }
     }
 
     /// Where a pair of values lies on the paper.
@@ -88,7 +89,7 @@ impl Chart {
     /// Says in the middle of the frame why there is nothing in it.
     pub(super) fn empty(&mut self, why: &str) {
         let middle = self.low + self.size / 2.0;
-        self.figure.text(middle, format!("nothing to draw: {why}"), Type { anchor: "middle", ..words(3.6) });
+        self.figure.text(middle, sentences::nothing_to_draw(&why), Type { anchor: "middle", ..words(3.6) });
     }
 }
 
@@ -112,7 +113,7 @@ pub(super) fn colour(party: usize) -> &'static str {
 }
 
 /// The mark of a party, `size` (mm) from its middle to its edge: its colour and its shape by number, its filling.
-pub(super) fn mark(figure: &mut Figure, at: Vec2, size: f64, party: usize, filling: Filling) {
+pub(super) fn mark(figure: &mut DrawnFigure, at: Vec2, size: f64, party: usize, filling: Filling) {
     let paint = colour(party);
     let corners: &[[f64; 2]] = match party % 5 {
         1 => &[[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]],
@@ -159,7 +160,7 @@ mod tests {
     #[test]
     fn regress_no_two_parties_look_alike() {
         let looks = |party: usize, filling: Filling| {
-            let mut figure = Figure::default();
+            let mut figure = DrawnFigure::default();
             mark(&mut figure, Vec2::zeros(), 1.0, party, filling);
             document(&figure, [10.0, 10.0], "")
         };

@@ -1,5 +1,6 @@
 //! Judgements of formulas as text and JSON.
 
+use crate::sentences;
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -10,7 +11,7 @@ use crate::plain::Tell;
 use crate::plain::cells::{counted, flush, trimmed};
 use crate::plain::judged::Grade;
 use crate::plain::style::{self, wrapped};
-use prover::claims::{At, CUT, Cause, Judged, Missing, Outcome, Term, WORDS};
+use prover::claims::{CUT, FormulaAtInstant, FormulaCause, FormulaOutcome, JudgedFormula, Missing, Term, WORDS};
 use prover::compare::Verdict;
 use prover::numbers::{beside, error, fixed, fixed_in, with_unit};
 use prover::proof::Reference;
@@ -23,11 +24,11 @@ const WORST: usize = 3;
 const INDENT: usize = 9;
 
 /// What a claim comes to.
-fn grade(judged: &Judged) -> Grade {
+fn grade(judged: &JudgedFormula) -> Grade {
     match judged.outcome() {
-        Outcome::Right => Grade::Agree,
-        Outcome::Open { .. } => Grade::Open,
-        Outcome::Wrong => Grade::Disagree,
+        FormulaOutcome::Right => Grade::Agree,
+        FormulaOutcome::Open { .. } => Grade::Open,
+        FormulaOutcome::Wrong => Grade::Disagree,
     }
 }
 
@@ -35,7 +36,7 @@ fn grade(judged: &Judged) -> Grade {
 struct Line<'a> {
     side: &'static str,
     formula: &'a Formula,
-    judged: &'a Judged,
+    judged: &'a JudgedFormula,
     grade: Grade,
 }
 
@@ -57,7 +58,7 @@ fn lines<'a>(scenario: &'a Scenario, claimed: &'a Claimed) -> Vec<Line<'a>> {
     let [one, two] = Reference::ALL.map(Reference::name);
     let formulas = formulas(scenario);
     let both = first.iter().zip(second).flat_map(|(own, other)| own.iter().zip(other));
-    let line = |(own, other): (&'a Judged, &'a Judged)| {
+    let line = |(own, other): (&'a JudgedFormula, &'a JudgedFormula)| {
         let formula = formulas.get(own.name.as_str()).expect("only the scenario's formulas are judged");
         let [own, other] = [(one, own), (two, other)];
         let (side, judged) = if grade(other.1) > grade(own.1) { other } else { own };
@@ -80,7 +81,7 @@ pub fn brief(scenario: &Scenario, claimed: &Claimed, tell: Tell, width: usize) -
     let lines = lines(scenario, claimed);
     let wrong = wrong_values(&lines);
     let is_told = |line: &&Line| line.judged.worst.is_some() && !is_consequence(&wrong, line);
-    let mut worst: Vec<(&Line, At)> =
+    let mut worst: Vec<(&Line, FormulaAtInstant)> =
         lines.iter().filter(is_told).filter_map(|line| Some((line, line.judged.worst?))).collect();
     worst.sort_by(|(_, a), (_, b)| b.used().total_cmp(&a.used()));
     worst.sort_by_key(|(line, _)| Reverse(line.grade));
@@ -106,7 +107,8 @@ pub fn text(scenario: &Scenario, claimed: &Claimed, tell: Tell, width: usize) ->
         claims.remove_constraint();
     }
     table.add_rows(lines.iter().map(|line| {
-        let numbers = |at: At| [fixed(at.crank.to_degrees(), 1), error(at.difference.abs()), error(at.bound)];
+        let numbers =
+            |at: FormulaAtInstant| [fixed(at.crank.to_degrees(), 1), error(at.difference.abs()), error(at.bound)];
         let [at, off, bound] = line.judged.worst.map(numbers).unwrap_or_default();
         let claim = if line.judged.order == 0 { line.judged.claim.clone() } else { String::new() };
         let word = match line.grade {
@@ -122,7 +124,7 @@ pub fn text(scenario: &Scenario, claimed: &Claimed, tell: Tell, width: usize) ->
 }
 
 /// What the formula and the mechanism say, with the digits in which they differ.
-fn values(at: At) -> [String; 2] {
+fn values(at: FormulaAtInstant) -> [String; 2] {
     let [found, right] = beside([at.formula, at.mechanism], at.bound);
     [if at.formula.is_nan() { "no value".into() } else { found }, right]
 }
@@ -156,14 +158,19 @@ fn reasons(lines: &[Line], claimed: &Claimed, tell: Tell, width: usize, text: &m
         }
         let Some(cause) = causes.get(name.as_str()) else { continue };
         below(&match cause {
-            Some(found) if is_cut => format!("  cause  {found}.\n         Perhaps another: {CUT}."),
-            Some(found @ (Cause::Leaves { .. } | Cause::Mostly { .. } | Cause::Near { .. } | Cause::Constant)) => {
+            Some(found) if is_cut => sentences::cause_perhaps_another(&found, &CUT),
+            Some(
+                found @ (FormulaCause::Leaves { .. }
+                | FormulaCause::Mostly { .. }
+                | FormulaCause::Near { .. }
+                | FormulaCause::Constant),
+            ) => {
                 format!("  cause  {found}.")
             }
-            Some(found) => format!("  cause  {found}.\n         With that, nothing is left over."),
-            None if is_cut => format!("  cause  not found: {CUT}."),
+            Some(found) => sentences::cause_with_that_nothing_is_left(&found),
+            None if is_cut => sentences::cause_not_found(&CUT),
             None if undefined.is_some() => continue,
-            None => "  cause  none that is simple: no single slip, offset, factor or term explains it.".into(),
+            None => sentences::CAUSE_NONE_THAT_IS_SIMPLE.into(),
         });
     }
     for check in &claimed.checks {
@@ -174,7 +181,7 @@ fn reasons(lines: &[Line], claimed: &Claimed, tell: Tell, width: usize, text: &m
 }
 
 /// The causes of wrong formulas by name, if there are simple ones.
-fn causes(claimed: &Claimed) -> BTreeMap<&str, Option<&Cause>> {
+fn causes(claimed: &Claimed) -> BTreeMap<&str, Option<&FormulaCause>> {
     claimed.judgement.causes.iter().map(|(name, cause)| (name.as_str(), cause.as_ref())).collect()
 }
 
@@ -188,33 +195,31 @@ fn sentence(lines: &[Line], claimed: &Claimed) -> String {
     match &claimed.verdict {
         Verdict::Agree { .. } | Verdict::Expected { .. } => {
             let (claims, instants) = (counted(claims, "formula"), counted(instants, "instant"));
-            format!("{claims} at {instants}, {first} and {second}")
+            sentences::at_and(&claims, &instants, &first, &second)
         }
-        Verdict::Disagree { .. } if names.is_empty() => format!("{first} and {second} contradict each other"),
-        Verdict::Disagree { .. } => format!("{} of {} wrong", names.len(), counted(claims, "formula")),
-        Verdict::Inconclusive { .. } => "something is open".into(),
+        Verdict::Disagree { .. } if names.is_empty() => sentences::and_contradict_each_other(&first, &second),
+        Verdict::Disagree { .. } => sentences::of_wrong(&names.len(), &counted(claims, "formula")),
+        Verdict::Inconclusive { .. } => sentences::SOMETHING_IS_OPEN.into(),
     }
 }
 
 fn reason(line: &Line, tell: Tell) -> String {
-    let Judged { claim, unit, order, .. } = line.judged;
+    let JudgedFormula { claim, unit, order, .. } = line.judged;
     let of = of(*order);
     match line.judged.outcome() {
-        Outcome::Right => String::new(),
-        Outcome::Open { reason, advice } => {
+        FormulaOutcome::Right => String::new(),
+        FormulaOutcome::Open { reason, advice } => {
             let advice: Vec<String> = advice.iter().map(tell).collect();
             format!("{of}{}: {reason}; {}", line.judged.name, advice.join(", or "))
         }
-        Outcome::Wrong => {
-            let mut text =
-                format!("{of}{} = {}\n  is not {of}{claim} ({})", line.judged.name, line.formula.text, line.side);
-            let says = |word: &str, at: At| {
-                let place =
-                    format!("crank angle {}, t = {} s", fixed_in(at.crank.to_degrees(), 3, "deg"), fixed(at.time, 6));
+        FormulaOutcome::Wrong => {
+            let mut text = sentences::is_not(&of, &line.judged.name, &line.formula.text, &claim, &line.side);
+            let says = |word: &str, at: FormulaAtInstant| {
+                let place = sentences::crank_angle(&fixed_in(at.crank.to_degrees(), 3, "deg"), &fixed(at.time, 6));
                 let [found, right] = values(at);
                 let found = if at.formula.is_nan() { found } else { with_unit(&found, unit) };
                 let right = with_unit(&right, unit);
-                format!("\n  {word:6} {place}: formula {found}, mechanism {right}")
+                sentences::formula_mechanism(&word, &place, &found, &right)
             };
             if let (Some(since), Some(worst)) = (line.judged.since, line.judged.worst) {
                 text += &says("first", since);
@@ -231,34 +236,34 @@ fn reason(line: &Line, tell: Tell) -> String {
 fn of(order: usize) -> String {
     match order {
         0 => String::new(),
-        order => format!("the {} of ", WORDS[order]),
+        order => sentences::the_of(&WORDS[order]),
     }
 }
 
-fn cause_json(cause: &Cause) -> Value {
+fn cause_json(cause: &FormulaCause) -> Value {
     let term = |term: &Term| json!({ "coefficient": term.coefficient, "factor": term.factor, "of": term.of });
     let mut value = match cause {
-        Cause::Slip(slip) => json!({
+        FormulaCause::Slip(slip) => json!({
             "kind": slip.kind.words(), "in": slip.formula, "written": slip.written, "right": slip.right,
             "everywhere": slip.everywhere,
         }),
-        Cause::Offset(offset) => json!({ "kind": "an offset", "offset": offset }),
-        Cause::Factor(factor) => json!({ "kind": "a factor", "factor": factor }),
-        Cause::Missing(Missing { formula, beside, what, is_factor }) => {
-            let kind = if *is_factor { "a missing factor" } else { "a missing term" };
+        FormulaCause::Offset(offset) => json!({ "kind": "an offset", "offset": offset }),
+        FormulaCause::Factor(factor) => json!({ "kind": "a factor", "factor": factor }),
+        FormulaCause::Missing(Missing { formula, beside, what, is_factor }) => {
+            let kind = if *is_factor { sentences::A_MISSING_FACTOR } else { sentences::A_MISSING_TERM };
             json!({ "kind": kind, "in": formula, "beside": beside, "missing": what })
         }
-        Cause::Terms(terms) => json!({ "kind": "missing terms", "terms": list(terms, term) }),
-        Cause::Several { causes, more } => {
+        FormulaCause::Terms(terms) => json!({ "kind": "missing terms", "terms": list(terms, term) }),
+        FormulaCause::Several { causes, more } => {
             json!({ "kind": "several", "causes": list(causes, cause_json), "more": more })
         }
-        Cause::Other(channel) => json!({ "kind": "another channel", "channel": channel }),
-        Cause::Constant => json!({ "kind": "a constant" }),
-        Cause::Near { error, share } => json!({ "kind": "nearly right", "error": error, "share": share }),
-        Cause::Mostly { cause, left } => {
-            json!({ "kind": "for the most part", "cause": cause_json(cause), "left": left })
+        FormulaCause::Other(channel) => json!({ "kind": "another channel", "channel": channel }),
+        FormulaCause::Constant => json!({ "kind": "a constant" }),
+        FormulaCause::Near { error, share } => json!({ "kind": "nearly right", "error": error, "share": share }),
+        FormulaCause::Mostly { cause, left } => {
+            json!({ "kind": sentences::FOR_THE_MOST_PART, "cause": cause_json(cause), "left": left })
         }
-        Cause::Leaves { after, before } => {
+        FormulaCause::Leaves { after, before } => {
             json!({ "kind": "another branch", "after_deg": after.to_degrees(), "before_deg": before.to_degrees() })
         }
     };
@@ -269,14 +274,14 @@ fn cause_json(cause: &Cause) -> Value {
 /// The judgement as JSON, schema 1. Numbers that are not finite are `null`.
 #[must_use]
 pub fn json(scenario: &Scenario, claimed: &Claimed, tell: Tell) -> String {
-    let at = |at: &At| {
+    let at = |at: &FormulaAtInstant| {
         json!({
             "time_s": at.time, "crank_deg": at.crank.to_degrees(), "formula": at.formula, "mechanism": at.mechanism,
             "difference": at.difference, "bound": at.bound,
         })
     };
     let (causes, formulas) = (causes(claimed), formulas(scenario));
-    let no_value = |judged: &Judged| {
+    let no_value = |judged: &JudgedFormula| {
         claimed.judgement.undefined(&judged.name).map(|undefined| {
             json!({
                 "in": undefined.formula, "written": undefined.written, "from": undefined.fault.at.start,
@@ -284,7 +289,7 @@ pub fn json(scenario: &Scenario, claimed: &Claimed, tell: Tell) -> String {
             })
         })
     };
-    let row = |side: Reference, judged: &Judged| {
+    let row = |side: Reference, judged: &JudgedFormula| {
         let formula = formulas.get(judged.name.as_str());
         let verdict = match grade(judged) {
             Grade::Agree => "agree",

@@ -1,16 +1,17 @@
 //! Clearance: smallest distances, first collision, swept areas.
 
+use crate::sentences;
 use serde_json::{Value, json};
 
 use super::pretty::{list, pretty};
 use super::table_csv::csv;
 use crate::plain::cells::{table, trimmed};
-use design::clearance::{Clearance, Course, Meeting, PairClearance, Work};
+use design::clearance::{ClearanceResult, ClearanceWork, DistanceCurve, Meeting, PairClearance};
 use linkage::error::{Error, Result};
 use linkage::math::Vec2;
 use prover::numbers;
 use scenario::Scenario;
-use scenario::clearance::Question;
+use scenario::clearance::ClearanceQuestion;
 
 linkage::words! {
     /// How a question is answered.
@@ -28,7 +29,7 @@ linkage::words! {
 }
 
 /// How a question is answered.
-pub(crate) fn standing(found: &Clearance) -> Standing {
+pub(crate) fn standing(found: &ClearanceResult) -> Standing {
     if found.first_collision().is_some() {
         Standing::Collides
     } else if found.first_too_near().is_some() {
@@ -52,17 +53,17 @@ fn place(point: Vec2) -> String {
     format!("({}, {})", numbers::fixed(1e3 * point.x, 3), numbers::fixed(1e3 * point.y, 3))
 }
 
-fn names<'a>(asked: &'a Question, pair: &PairClearance) -> [&'a str; 2] {
+fn names<'a>(asked: &'a ClearanceQuestion, pair: &PairClearance) -> [&'a str; 2] {
     pair.bodies.map(|body| asked.bodies[body].name.as_str())
 }
 
 /// The answer as text.
-pub(crate) fn text(scenario: &Scenario, asked: &Question, found: &Clearance) -> String {
+pub(crate) fn text(scenario: &Scenario, asked: &ClearanceQuestion, found: &ClearanceResult) -> String {
     let mut text = String::new();
     let [from, to] = found.range.map(degrees);
-    say!(text, "{}: {}\n\nclearance over crank angles {from} to {to} deg\n", scenario.name, scenario.title);
+    say!(text, "{}", sentences::clearance_over_crank_angles_to_deg(&scenario.name, &scenario.title, &from, &to));
     if found.pairs.is_empty() {
-        say!(text, "no two bodies can meet: all links are joined, and there is no housing\n");
+        say!(text, "{}", sentences::NO_TWO_BODIES_CAN_MEET_ALL);
     } else {
         let rows = found.pairs.iter().map(|pair| {
             let ([first, second], smallest) = (names(asked, pair).map(String::from), &pair.smallest);
@@ -72,7 +73,7 @@ pub(crate) fn text(scenario: &Scenario, asked: &Question, found: &Clearance) -> 
         });
         let header = "bodies | | smallest mm> | at crank deg> | nearest points mm | | first contact at deg>";
         say!(text, "{}\n", trimmed(table(header).add_rows(rows)));
-        say!(text, "no distance is smaller by more than {} mm", numbers::significant(1e3 * found.tolerance, 2));
+        say!(text, "{}", sentences::no_distance_is_smaller_by_more(&numbers::significant(1e3 * found.tolerance, 2)));
     }
     if !found.swept.is_empty() {
         let rows = found.swept.iter().map(|(body, area)| {
@@ -83,33 +84,30 @@ pub(crate) fn text(scenario: &Scenario, asked: &Question, found: &Clearance) -> 
         say!(text, "{}\n", trimmed(table(header).add_rows(rows)));
         if let Some((body, area)) = found.swept.iter().find(|(_, area)| area.error() > asked.area * area.value) {
             let (name, share) = (&asked.bodies[*body].name, area.error() / area.value);
-            say!(text, "the area of {name} is known to {} only: the work allowed is done", numbers::percent(share));
+            say!(text, "{}", sentences::the_area_of_is_known_to_only_the_work(&name, &numbers::percent(share)));
         }
     }
     for &[from, to] in &found.open {
-        let why = "the mechanism is singular there, or the work allowed is done";
-        say!(text, "not proven from {} to {} deg: {why}", degrees(from), degrees(to));
+        let why = sentences::THE_MECHANISM_IS_SINGULAR_THERE;
+        say!(text, "{}", sentences::not_proven_from_to_deg(&degrees(from), &degrees(to), &why));
     }
     let said = |text: &mut String, what: &str, (pair, meeting): (&PairClearance, Meeting)| {
         let ([one, two], crank) = (names(asked, pair), degrees(meeting.cranks[1]));
-        say!(text, "{what}: {one} and {two} at crank angle {crank} deg, place {} mm", place(meeting.place));
+        say!(text, "{}", sentences::and_at_crank_angle_deg_place(&what, &one, &two, &crank, &place(meeting.place)));
     };
     if let Some(first) = found.first_collision() {
         said(&mut text, "first collision", first);
     }
     if let (Some(wanted), Some(first)) = (asked.wanted, found.first_too_near()) {
-        said(&mut text, &format!("first nearer than the {} mm wanted", millimetres(wanted)), first);
+        said(&mut text, &sentences::first_nearer_than_the_mm(&millimetres(wanted)), first);
     }
-    let (word, Work { poses, distances, positions, squares }) = (standing(found).word(), found.work);
-    say!(
-        text,
-        "{word}: {poses} poses and {distances} distances of convex parts; for areas {positions} poses and {squares} tests of squares\n"
-    );
+    let (word, ClearanceWork { poses, distances, positions, squares }) = (standing(found).word(), found.work);
+    say!(text, "{}", sentences::poses_and_distances_of_convex(&word, &poses, &distances, &positions, &squares));
     text
 }
 
 /// The answer as JSON: one entry of the document.
-pub(crate) fn value(scenario: &Scenario, asked: &Question, found: &Clearance) -> Value {
+pub(crate) fn value(scenario: &Scenario, asked: &ClearanceQuestion, found: &ClearanceResult) -> Value {
     let time =
         |crank: f64| Some(scenario.case.crank().time_of(crank)).filter(|t| t.is_finite() && !scenario.case.is_free());
     let point = |point: Vec2| json!([point.x, point.y]);
@@ -171,7 +169,7 @@ pub(crate) fn json(scenarios: Vec<Value>) -> String {
 ///
 /// # Errors
 /// [`ErrorKind::Io`](linkage::ErrorKind::Io) if the table cannot be written.
-pub(crate) fn distances(asked: &Question, times: &[f64], course: &Course) -> Result<String> {
+pub(crate) fn distances(asked: &ClearanceQuestion, times: &[f64], course: &DistanceCurve) -> Result<String> {
     let name = |&[a, b]: &[usize; 2]| format!("{}.{}.distance_m", asked.bodies[a].name, asked.bodies[b].name);
     let header = ["t_s", "crank_rad"].map(String::from).into_iter().chain(asked.pairs.iter().map(name));
     let rows = times.iter().zip(&course.cranks).zip(&course.rows).map(|((t, crank), row)| {

@@ -1,5 +1,6 @@
 //! Velocity and acceleration by the chord method, and their errors.
 
+use crate::sentences;
 use serde_json::json;
 
 use super::pretty::{list, pretty};
@@ -11,12 +12,12 @@ use scenario::Scenario;
 /// The diagram as text: the largest and the mean error of every method.
 pub(crate) fn text(scenario: &Scenario, diagram: &MotionDiagram) -> String {
     let mut text = String::new();
-    say!(text, "{}: {} over one turn in {} divisions", scenario.name, diagram.course.0[0], diagram.divisions);
+    say!(text, "{}", sentences::over_one_turn_in_divisions(&scenario.name, &diagram.course.0[0], &diagram.divisions));
     for (which, channel) in diagram.course.0.iter().enumerate() {
         let half = significant(diagram.half_range(which));
-        say!(text, "  {:28} half range {half:>10} {}", channel.to_string(), channel.kind.unit);
+        say!(text, "{}", sentences::half_range(&channel.to_string(), &half, &channel.kind.unit));
     }
-    let [method, largest, rms, share, order] = ["method", "largest error", "rms", "of half range", "order"];
+    let [method, largest, rms, share, order] = ["method", "largest error", "rms", sentences::OF_HALF_RANGE, "order"];
     say!(text, "\n  {method:34} {largest:>20} {rms:>20} {share:>14} {order:>6} {order:>6}");
     for found in &diagram.found {
         let unit = diagram.course.0[found.method.gives()].kind.unit.symbol();
@@ -27,7 +28,11 @@ pub(crate) fn text(scenario: &Scenario, diagram: &MotionDiagram) -> String {
         say!(text, "  {:34} {largest:>20} {rms:>20} {share:>12.3} % {first:>6} {second:>6}", found.method.words());
     }
     let n = diagram.divisions;
-    say!(text, "\norders: of the rms error, from {n} to {} and from {} to {} divisions", 2 * n, 2 * n, 4 * n);
+    say!(
+        text,
+        "{}",
+        sentences::orders_of_the_rms_error_from_to_and_from_to_divisions(&n, &(2 * n), &(2 * n), &(4 * n))
+    );
     text
 }
 

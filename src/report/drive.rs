@@ -1,13 +1,14 @@
 //! A mechanism reduced to its crank, its steady motion under its motor, its flywheel.
 
+use crate::sentences;
 use serde_json::{Value, json};
 
 use super::pretty::pretty;
 use crate::plain::cells::{table, trimmed};
 use analytic::reduced::means::Means;
-use analytic::reduced::{End, RunUp};
-use analytic::steady::course::{Extremes, Row};
-use analytic::steady::regime::At;
+use analytic::reduced::{RunUp, RunUpEnd};
+use analytic::steady::course::{Extremes, ReducedRow};
+use analytic::steady::regime::SpeedAtCrank;
 use analytic::steady::{Averaged, Regime};
 use design::flywheel::Flywheel;
 use prover::numbers::{error, fixed, fixed_in};
@@ -23,7 +24,7 @@ pub(crate) struct Found {
     /// Moment of inertia that motor and reducer add to the crank (kg m^2).
     pub(crate) added: f64,
     /// The reduced quantities at the crank angles of the table.
-    pub(crate) rows: Vec<Row>,
+    pub(crate) rows: Vec<ReducedRow>,
     /// Speeds of crank and motor by the averaged model, and the steady motion; `None` without a motor.
     pub(crate) steady: Option<([f64; 2], Regime)>,
     /// The averaged model, if it has a closed form.
@@ -35,30 +36,30 @@ pub(crate) struct Found {
 /// The drive as text; with `by_angle` also the table by crank angle.
 pub(crate) fn text(scenario: &Scenario, found: &Found, by_angle: bool) -> String {
     let mut text = format!("{}: {}\n\n", scenario.name, scenario.title);
-    let names = [("reduced moment of inertia", "kg m^2"), ("reduced moment of resistance", "N m")];
+    let names = [(sentences::REDUCED_MOMENT_OF_INERTIA, "kg m^2"), (sentences::REDUCED_MOMENT_OF_RESISTANCE, "N m")];
     let means = [found.means.inertia, found.means.resistance * scenario.case.crank().sense()];
     for (((name, unit), mean), extremes) in names.into_iter().zip(means).zip(&found.extremes) {
         let end = |(crank, value): (f64, f64)| {
             format!("{} at {}", fixed_in(value, 9, unit), fixed_in(crank.to_degrees(), 4, "deg"))
         };
         say!(text, "{name}\n  mean      {}", fixed_in(mean, 9, unit));
-        say!(text, "  least     {}\n  greatest  {}", end(extremes.least), end(extremes.greatest));
+        say!(text, "{}", sentences::least_greatest(&end(extremes.least), &end(extremes.greatest)));
     }
     if found.added > 0.0 {
-        say!(text, "motor and reducer on the crank\n  inertia   {:.9} kg m^2", found.added);
+        say!(text, "{}", sentences::motor_and_reducer_on_the_crank(&found.added));
     }
     match &found.steady {
-        None => text.push_str("no motor: add a `[motor]` section to learn the steady motion\n"),
+        None => text.push_str(sentences::NO_MOTOR_ADD_A_MOTOR_SECTION),
         Some(([crank, motor], regime)) => {
-            say!(text, "averaged model\n  crank     {crank:.6} rad/s\n  motor     {motor:.6} rad/s");
+            say!(text, "{}", sentences::averaged_model_crank_rad_motor(&crank, &motor));
             let constant = found.averaged.as_ref().map(|averaged| format!(" {:.9} s", averaged.time_constant));
-            let none = ": none, the motor's law is not one straight line from rest on";
-            say!(text, "  time constant{}", constant.as_deref().unwrap_or(none));
-            say!(text, "steady motion\n{}", of_regime(regime));
+            let none = sentences::NONE_THE_MOTOR_LAW_IS_NOT_ONE_STRAIGHT;
+            say!(text, "{}", sentences::time_constant(&constant.as_deref().unwrap_or(none)));
+            say!(text, "{}", sentences::steady_motion(&of_regime(regime)));
         }
     }
     if let Some((wanted, flywheel)) = &found.flywheel {
-        say!(text, "flywheel for a non-uniformity of {wanted}\n  inertia   {:.9} kg m^2", flywheel.inertia);
+        say!(text, "{}", sentences::flywheel_for_a_non_uniformity(&wanted, &flywheel.inertia));
         say!(text, "{}", of_regime(&flywheel.regime));
     }
     if by_angle {
@@ -68,10 +69,12 @@ pub(crate) fn text(scenario: &Scenario, found: &Found, by_angle: bool) -> String
 }
 
 fn of_regime(regime: &Regime) -> String {
-    let at = |at: &At| format!("{} at {}", fixed_in(at.omega, 9, "rad/s"), fixed_in(at.crank.to_degrees(), 4, "deg"));
-    let mut text = format!("  mean      {:.10} rad/s, period {:.13} s\n", regime.mean_speed, regime.period);
-    say!(text, "  at start  {:.10} rad/s", regime.start_speed);
-    say!(text, "  slowest   {}\n  fastest   {}", at(&regime.slowest), at(&regime.fastest));
+    let at = |at: &SpeedAtCrank| {
+        format!("{} at {}", fixed_in(at.omega, 9, "rad/s"), fixed_in(at.crank.to_degrees(), 4, "deg"))
+    };
+    let mut text = sentences::mean_rad_period(&regime.mean_speed, &regime.period);
+    say!(text, "{}", sentences::at_start_rad(&regime.start_speed));
+    say!(text, "{}", sentences::slowest_fastest(&at(&regime.slowest), &at(&regime.fastest)));
     put!(text, "  non-uniformity {:.6}", regime.non_uniformity());
     text
 }
@@ -95,7 +98,7 @@ pub(crate) fn json(scenario: &Scenario, found: &Found) -> String {
         let end = |(crank, value): (f64, f64)| json!({"crank_rad": crank, "value": value});
         json!({"mean": mean, "least": end(extremes.least), "greatest": end(extremes.greatest)})
     };
-    let at = |at: &At| json!({"crank_rad": at.crank, "omega_rad_s": at.omega, "alpha_rad_s2": at.alpha});
+    let at = |at: &SpeedAtCrank| json!({"crank_rad": at.crank, "omega_rad_s": at.omega, "alpha_rad_s2": at.alpha});
     let regime = |regime: &Regime| {
         json!({
             "period_s": regime.period, "turns": regime.turns, "mean_rad_s": regime.mean_speed,
@@ -103,7 +106,7 @@ pub(crate) fn json(scenario: &Scenario, found: &Found) -> String {
             "non_uniformity": regime.non_uniformity(), "multiplier": regime.multiplier,
         })
     };
-    let column = |of: fn(&Row) -> f64| found.rows.iter().map(of).collect::<Vec<f64>>();
+    let column = |of: fn(&ReducedRow) -> f64| found.rows.iter().map(of).collect::<Vec<f64>>();
     let mut by_angle = json!({
         "crank_rad": column(|row| row.crank), "inertia_kg_m2": column(|row| row.inertia),
         "inertia_slope_kg_m2": column(|row| row.slope), "resistance_N_m": column(|row| row.resistance),
@@ -128,7 +131,7 @@ pub(crate) fn json(scenario: &Scenario, found: &Found) -> String {
         "by_angle": by_angle,
     });
     if found.steady.is_none() {
-        value["steady_absent"] = Value::from("the scenario has no motor");
+        value["steady_absent"] = Value::from(sentences::THE_SCENARIO_HAS_NO_MOTOR);
     }
     pretty(&value)
 }
@@ -137,14 +140,12 @@ pub(crate) fn json(scenario: &Scenario, found: &Found) -> String {
 pub(crate) fn run_up(run_up: &RunUp) -> String {
     let degrees = |crank: f64| fixed_in(crank.to_degrees(), 6, "deg");
     let mut text = match run_up.end {
-        End::Reached => "run-up followed to its end".to_string(),
-        End::Held(t, crank) => format!("run-up: held at {t:.9} s, crank angle {}", degrees(crank)),
-        End::Limit(t, crank) => {
-            format!("run-up: at a limit of rotation at {t:.9} s, crank angle {}", degrees(crank))
-        }
+        RunUpEnd::Reached => sentences::RUN_UP_FOLLOWED_TO_ITS_END.to_string(),
+        RunUpEnd::Held(t, crank) => sentences::run_up_held_at_crank_angle(&t, &degrees(crank)),
+        RunUpEnd::Limit(t, crank) => sentences::run_up_at_a_limit_of_rotation(&t, &degrees(crank)),
     };
     if let Some(residual) = run_up.power_residual() {
-        put!(text, "; motor against reactions: {} of the largest moment", error(residual));
+        put!(text, "{}", sentences::motor_against_reactions_of_the_largest(&error(residual)));
     }
     text.push_str("\n\n");
     text

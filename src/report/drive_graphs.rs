@@ -1,9 +1,10 @@
 //! The reduced quantities and the steady motion of a mechanism as graphs.
 
 use super::drive::Found;
+use crate::sentences;
 use analytic::steady::Regime;
-use analytic::steady::course::{Extremes, Row};
-use design::diagram::{Graph, Graphs, Mark, draw};
+use analytic::steady::course::{Extremes, ReducedRow};
+use design::diagram::{CrankGraph, GraphPoint, Graphs, draw};
 use linkage::math::KeepNan;
 use scenario::Scenario;
 
@@ -13,7 +14,7 @@ pub(crate) struct Curves {
     /// The crank angle after which the reduced quantities repeat (rad).
     pub(crate) period: f64,
     /// The reduced quantities over one period, in the sense of the motion.
-    pub(crate) rows: Vec<Row>,
+    pub(crate) rows: Vec<ReducedRow>,
     /// Extremes of dI*/dphi.
     pub(crate) slope: Extremes,
     /// The steady motion with samples over one period, if there is a motor.
@@ -29,22 +30,21 @@ pub(crate) fn draw(scenario: &Scenario, found: &Found, curves: &Curves) -> Strin
 pub(crate) fn graphs(scenario: &Scenario, found: &Found, curves: &Curves) -> Graphs {
     let Curves { period, rows, slope, steady } = curves;
     let (start, sense) = (scenario.case.crank().start, scenario.case.crank().sense());
-    let points = |of: fn(&Row) -> f64| rows.iter().map(|row| [row.crank, of(row)]).collect::<Vec<[f64; 2]>>();
-    let reduced = |[name, symbol, unit]: [&'static str; 3], of: fn(&Row) -> f64, mean, ends: &Extremes| {
+    let points = |of: fn(&ReducedRow) -> f64| rows.iter().map(|row| [row.crank, of(row)]).collect::<Vec<[f64; 2]>>();
+    let reduced = |[name, symbol, unit]: [&'static str; 3], of: fn(&ReducedRow) -> f64, mean, ends: &Extremes| {
         let marks = [("least", ends.least), ("greatest", ends.greatest)];
-        let marks = marks.map(|(word, (crank, value))| Mark { at: [crank, value], word });
+        let marks = marks.map(|(word, (crank, value))| GraphPoint { at: [crank, value], word });
         let size = ends.least.1.abs().larger(ends.greatest.1.abs());
-        Graph { name, symbol, unit, points: points(of), mean, mean_word: "mean", marks, size }
+        CrankGraph { name, symbol, unit, points: points(of), mean, mean_word: "mean", marks, size }
     };
     let (means, [inertia, resistance]) = (&found.means, &found.extremes);
-    let rate =
-        reduced(["derivative of the reduced moment of inertia", "dI*/dφ", "kg m^2"], |row| row.slope, 0.0, slope);
+    let rate = reduced([sentences::DERIVATIVE_OF_THE_REDUCED_MOMENT, "dI*/dφ", "kg m^2"], |row| row.slope, 0.0, slope);
     let mut graphs = vec![
-        reduced(["reduced moment of inertia", "I*", "kg m^2"], |row| row.inertia, means.inertia, inertia),
+        reduced([sentences::REDUCED_MOMENT_OF_INERTIA, "I*", "kg m^2"], |row| row.inertia, means.inertia, inertia),
         // The inertia is periodic, so the mean of its derivative is zero. If it is constant, that is only rounding.
-        Graph { size: inertia.greatest.1.larger(slope.greatest.1), ..rate },
+        CrankGraph { size: inertia.greatest.1.larger(slope.greatest.1), ..rate },
         reduced(
-            ["reduced moment of resistance", "M_r", "N m"],
+            [sentences::REDUCED_MOMENT_OF_RESISTANCE, "M_r", "N m"],
             |row| row.resistance,
             sense * means.resistance,
             resistance,
@@ -52,24 +52,23 @@ pub(crate) fn graphs(scenario: &Scenario, found: &Found, curves: &Curves) -> Gra
     ];
     let turns = (period / std::f64::consts::TAU).round();
     let over = if turns > 1.0 { format!("{turns} turns") } else { "one turn".into() };
-    let mut note =
-        format!("over {over} of the crank in the sense of its motion; motor, reducer and flywheel left out of I*");
+    let mut note = sentences::over_of_the_crank_in_the_sense(&over);
     if let Some(regime) = steady {
         let mut marks = [("slowest", regime.slowest), ("fastest", regime.fastest)]
-            .map(|(word, at)| Mark { at: [at.crank, at.omega], word });
+            .map(|(word, at)| GraphPoint { at: [at.crank, at.omega], word });
         // The lower mark in the drawing comes first.
         marks.sort_by(|a, b| a.at[1].total_cmp(&b.at[1]));
-        graphs.push(Graph {
-            name: "angular velocity of the crank in the steady motion",
+        graphs.push(CrankGraph {
+            name: sentences::ANGULAR_VELOCITY_OF_THE_CRANK,
             symbol: "ω",
             unit: "rad/s",
             points: regime.samples.iter().map(|at| [at.crank, at.omega]).collect(),
             mean: regime.mean_speed,
-            mean_word: "mean over time",
+            mean_word: sentences::MEAN_OVER_TIME,
             marks,
             size: regime.mean_speed,
         });
-        note += &format!("; non-uniformity {:.6}", regime.non_uniformity());
+        note += &sentences::non_uniformity(&regime.non_uniformity());
     }
     Graphs { period: [start, start + sense * period], graphs, notes: vec![scenario.title.clone(), note] }
 }

@@ -1,18 +1,19 @@
 //! What a proof has done, how often and why, and what it did not need.
 
 use crate::plain::cells::some;
+use crate::sentences;
 use linkage::case::{Case, LeftOut};
 use linkage::trajectory::Stage;
 use linkage::work::Work;
-use prover::proof::{Entry, Proof};
+use prover::proof::{LedgerEntry, Proof};
 
 /// The page of one proof. `further` are parts that the command adds: recording, other files.
 #[must_use]
-pub fn text(proof: &Proof, further: &[Entry]) -> String {
+pub fn text(proof: &Proof, further: &[LedgerEntry]) -> String {
     let case = &proof.scene.case;
-    let mut text = format!("{}: what ran, how often, and why\n", proof.scenario);
+    let mut text = sentences::what_ran_how_often_and_why(&proof.scenario);
     say!(text, "asked      {}", asked(case));
-    say!(text, "left out   {}\n", left_out(&proof.scene.left_out));
+    say!(text, "{}", sentences::left_out(&left_out(&proof.scene.left_out)));
     let entries = || proof.work.iter().chain(further);
     say!(text, "Ran:");
     for entry in entries() {
@@ -33,8 +34,8 @@ fn asked(case: &Case) -> String {
     let stages: Vec<&str> = Stage::ALL.into_iter().filter(|&stage| case.wanted.has(stage)).map(Stage::name).collect();
     let instants = case.grid.len();
     match &case.only {
-        None => format!("{} of everything at {instants} instants: {} of {all} channels", stages.join(", "), own.len()),
-        Some(only) => format!("{} at {instants} instants", some(&only[..], SHOWN)),
+        None => sentences::of_everything_at_instants_of_channels(&stages.join(", "), &instants, &own.len(), &all),
+        Some(only) => sentences::at_instants(&some(&only[..], SHOWN), &instants),
     }
 }
 
@@ -43,7 +44,7 @@ const SHOWN: usize = 8;
 
 fn left_out(left: &LeftOut) -> String {
     if left.is_empty() {
-        return "nothing: every part of the mechanism is needed".into();
+        return sentences::NOTHING_EVERY_PART_OF_THE_MECHANISM.into();
     }
     let listed = |what: &str, names: &[String]| match names.len() {
         0 => None,
@@ -52,19 +53,19 @@ fn left_out(left: &LeftOut) -> String {
     };
     let loads = (left.loads > 0).then(|| format!("{} loads", left.loads));
     let all = [listed("links", &left.links), listed("joints", &left.joints), listed("drives", &left.drives), loads];
-    format!("{}: nothing asked depends on them", all.into_iter().flatten().collect::<Vec<_>>().join("; "))
+    sentences::nothing_asked_depends_on_them(&(all.into_iter().flatten().collect::<Vec<_>>().join("; ")))
 }
 
 /// `361 poses, 722 groups`, or that nothing is counted there.
 fn counts(work: &Work) -> String {
     let all: Vec<String> = work.iter().map(|(what, times)| format!("{times} {}", what.name())).collect();
-    if all.is_empty() { "nothing that is counted".into() } else { all.join(", ") }
+    if all.is_empty() { sentences::NOTHING_THAT_IS_COUNTED.into() } else { all.join(", ") }
 }
 
-fn skipped<'a>(case: &'a Case, entries: impl Iterator<Item = &'a Entry>) -> Vec<(String, String)> {
+fn skipped<'a>(case: &'a Case, entries: impl Iterator<Item = &'a LedgerEntry>) -> Vec<(String, String)> {
     let stages = Stage::ALL.into_iter().filter(|&stage| stage > case.wanted.deepest());
     let mut all: Vec<(String, String)> =
-        stages.map(|stage| (stage.name().replace('_', " "), "nothing asked needs them".into())).collect();
+        stages.map(|stage| (stage.name().replace('_', " "), sentences::NOTHING_ASKED_NEEDS_THEM.into())).collect();
     all.extend(entries.filter(|entry| entry.work.is_none()).map(|entry| (entry.part.clone(), entry.why.into())));
     all
 }

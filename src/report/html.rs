@@ -12,6 +12,7 @@ mod plans;
 mod thinned;
 mod words;
 
+use crate::sentences;
 use std::collections::BTreeMap;
 
 use crate::plain::Tell;
@@ -116,9 +117,6 @@ fn told(thinned: &Thinned) -> String {
     let (shown, all) = (thinned.rows.len(), thinned.all);
     match shown == all {
         true => format!("{all} instants."),
-        false => format!(
-            "{shown} of {all} instants: evenly chosen, and those with the least and greatest values and errors. Verdicts, \
-             errors and bounds in numbers are about all of them."
-        ),
+        false => sentences::of_instants_evenly_chosen_and_those(&shown, &all),
     }
 }

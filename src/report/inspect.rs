@@ -1,12 +1,13 @@
 //! The structure of a mechanism: links, joints, mobility, driving link and Assur groups.
 
+use crate::sentences;
 use serde_json::{Value, json};
 
 use super::pretty::{list, pretty};
 use super::{modes, range};
 use analytic::modes::Modes;
 use analytic::range::Range;
-use linkage::mechanism::assembly::{Choice, transmission_sine};
+use linkage::mechanism::assembly::{ConfigurationChoice, transmission_sine};
 use linkage::mechanism::{GROUND, Joint, JointId, LinkId, Mechanism};
 use prover::numbers::{fixed_in, significant};
 use scenario::{Scenario, Undecided};
@@ -24,7 +25,7 @@ pub(crate) fn text(scenario: &Scenario) -> String {
         say!(text, "source     {source}");
     }
     say!(text, "mobility   W = 3*{links} - 2*{joints} = {}", structure.mobility);
-    say!(text, "structure  {}\n\nlinks", structure.formula(mechanism));
+    say!(text, "{}", sentences::structure_links(&structure.formula(mechanism)));
     for ((id, link), pose) in mechanism.links().entries().zip(&case.start.0) {
         let points: Vec<&str> = link.points.iter().map(|point| point.name.as_str()).collect();
         let at = format!("at {}", fixed_in(pose.angle.to_degrees(), 3, "deg"));
@@ -32,7 +33,7 @@ pub(crate) fn text(scenario: &Scenario) -> String {
         let body = match link.mass {
             _ if id == GROUND => "fixed".to_string(),
             0.0 => format!("massless, {at}"),
-            _ => format!("m = {mass} kg, J = {inertia} kg m^2, {at}"),
+            _ => sentences::kg_kg(&mass, &inertia, &at),
         };
         say!(text, "  {:14} points {:14} {body}", link.name, points.join(" "));
     }
@@ -42,26 +43,24 @@ pub(crate) fn text(scenario: &Scenario) -> String {
         let driven = if joint.name == mechanism.joints()[case.crank().joint].name { ", driven" } else { "" };
         say!(text, "  {:14} {}, {first} - {second}{driven}", joint.name, joint.kind.name());
     }
-    say!(text, "\ngroups at the start (crank {})", fixed_in(case.crank().start.to_degrees(), 3, "deg"));
+    say!(text, "{}", sentences::groups_at_the_start_crank(&fixed_in(case.crank().start.to_degrees(), 3, "deg")));
     for ((group, &mode), choice) in structure.groups.iter().zip(&case.modes).zip(&scenario.choices) {
         let transmission = transmission_sine(mechanism, group, &case.start)
-            .map_or_else(String::new, |sine| format!(", transmission angle {:.2} deg", sine.abs().asin().to_degrees()));
+            .map_or_else(String::new, |sine| sentences::transmission_angle_deg(&sine.abs().asin().to_degrees()));
         let (names, from) = (group.names(mechanism), from_rough_place(choice));
         let (class, order, pairs, mode) = (group.class, group.order(), group.pairs(), mode.name());
-        say!(text, "  {names:28} class {class}, order {order}, {pairs}, mode {mode}{transmission}{from}");
+        say!(text, "{}", sentences::class_order_mode_2(&names, &class, &order, &pairs, &mode, &transmission, &from));
     }
     text
 }
 
 /// How far the configuration is from the rough places given in the file, and how far the next one is.
-fn from_rough_place(choice: &Choice) -> String {
+fn from_rough_place(choice: &ConfigurationChoice) -> String {
     let mm = |distance: f64| format!("{:.*} mm", if distance < 0.01 { 1 } else { 0 }, distance * 1e3);
     match (choice.nearest_m, choice.next_m) {
         (None, _) => String::new(),
-        (Some(nearest), None) => format!(", {} from the rough place", mm(nearest)),
-        (Some(nearest), Some(next)) => {
-            format!(", {} from the rough place, the next configuration {}", mm(nearest), mm(next))
-        }
+        (Some(nearest), None) => sentences::from_the_rough_place(&mm(nearest)),
+        (Some(nearest), Some(next)) => sentences::from_the_rough_place_the_next(&mm(nearest), &mm(next)),
     }
 }
 

@@ -1,5 +1,6 @@
 //! Proofs as JSON, schema 2. Numbers that are not finite (an order that is hidden by rounding) are `null`.
 
+use crate::sentences;
 use std::collections::BTreeMap;
 
 use serde::Serialize;
@@ -13,8 +14,10 @@ use linkage::error::{Advice, Error};
 use linkage::solver::Provision;
 use linkage::work::Work;
 use prover::compare::{Check, Verdict};
-use prover::diagnosis::{Diagnosis, Since, Standing};
-use prover::proof::{ChannelProof, Dispute, End, EngineInfo, EngineProof, Entry, ForceFault, Proof, Search};
+use prover::diagnosis::{Diagnosis, PartyStanding, Since};
+use prover::proof::{
+    ChannelProof, Dispute, EngineInfo, EngineProof, ForceFault, LedgerEntry, Proof, SearchEnd, SettingsSearch,
+};
 
 /// Words by name.
 type Words = BTreeMap<&'static str, String>;
@@ -64,7 +67,7 @@ rows! {
         loads: usize = left.loads,
     }
 
-    struct Part = |entry: &Entry| {
+    struct Part = |entry: &LedgerEntry| {
         let counts = |work: &Work| work.iter().map(|(what, times)| (what.name(), times)).collect();
     } {
         part: String = entry.part.clone(),
@@ -121,16 +124,16 @@ rows! {
         failure["Option::is_none"]: Option<String> = own.failure.as_ref().map(|error| error.message().to_string()),
     }
 
-    struct SearchRow = |search: &Search, info: &EngineInfo| {} {
+    struct SearchRow = |search: &SettingsSearch, info: &EngineInfo| {} {
         runs: usize = search.runs,
         effort_steps: f64 = search.effort,
         budget_steps: f64 = search.budget,
         end: &'static str = match search.end {
-            End::Decided => "decided",
-            End::Rounding => "rounding",
-            End::Budget => "budget",
-            End::Pace => "pace",
-            End::Nothing => "nothing left to choose",
+            SearchEnd::Decided => "decided",
+            SearchEnd::Rounding => "rounding",
+            SearchEnd::Budget => "budget",
+            SearchEnd::Pace => "pace",
+            SearchEnd::Nothing => sentences::NOTHING_LEFT_TO_CHOOSE,
         },
         extrapolated_times: usize = info.settings.extrapolated,
     }
@@ -146,8 +149,8 @@ rows! {
         suspect: String = diagnosis.suspect.clone(),
         /// The party that stands alone, if one does, and how all of them stand to each other.
         alone: Option<String> = match &diagnosis.alone {
-            Standing::Alone(name) => Some(name.clone()),
-            Standing::Together | Standing::Camps(_) | Standing::Open(_) => None,
+            PartyStanding::Alone(name) => Some(name.clone()),
+            PartyStanding::Together | PartyStanding::Camps(_) | PartyStanding::Open(_) => None,
         },
         standing: String = standing(&diagnosis.alone),
         /// The channels beyond their bounds, the earliest first.

@@ -5,7 +5,7 @@ use serde_json::{Map, Value, json};
 
 use super::pretty::{list, pretty};
 use linkage::math::KeepNan;
-use recording::{Film, Line, Part, Plot, View};
+use recording::{DrawnLink, Film, Line, Plot, View};
 
 /// Speeds that the players offer.
 const SPEEDS: [f64; 8] = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 0.8, 1.0];
@@ -147,7 +147,7 @@ pub(crate) fn film(film: &Film) -> String {
     document.to_string()
 }
 
-fn part(part: &Part) -> Value {
+fn part(part: &DrawnLink) -> Value {
     json!({
         "frame": part.frame,
         "lines": list(&part.lines, |(points, thickness, rgba)| {

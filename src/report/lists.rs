@@ -1,5 +1,6 @@
 //! Lists of scenarios, channels and solvers.
 
+use crate::sentences;
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
@@ -15,13 +16,13 @@ pub(crate) fn scenarios(directory: &Path, all: &[(Result<Scenario>, PathBuf)], t
     let mut text = String::new();
     for (scenario, file) in all {
         let told = scenario.as_ref().map_or_else(
-            |error| format!("cannot be read: {}", error.lines_by(tell).replace('\n', "\n    ")),
+            |error| sentences::cannot_be_read_3(&(error.lines_by(tell).replace('\n', "\n    "))),
             |own| format!("{}\n    {}", own.title, own.case.structure.formula(&own.case.mechanism)),
         );
         say!(text, "{}\n    {told}", file.display());
     }
     if all.is_empty() {
-        say!(text, "no scenario files (*.toml) in {}", directory.display());
+        say!(text, "{}", sentences::no_scenario_files_toml_in(&directory.display()));
     }
     text
 }
@@ -59,18 +60,18 @@ fn meaning(channel: &Channel, seat: Seat, case: &Case) -> String {
     let (mechanism, of, quantity) = (&case.mechanism, channel.of.as_str(), channel.kind.quantity);
     let name = |link: LinkId| mechanism.links()[link].name.as_str();
     let what = match seat {
-        Seat::Link(_) => format!("{quantity} of link {of}"),
+        Seat::Link(_) => sentences::of_link(&quantity, &of),
         Seat::Point(_) => format!("{quantity}, {of}"),
         Seat::Joint(joint) => {
             let joint = &mechanism.joints()[joint];
-            format!("{quantity} in {of}, {} on {}", name(joint.first.link), name(joint.second.link))
+            sentences::in_on(&quantity, &of, &name(joint.first.link), &name(joint.second.link))
         }
-        Seat::Frame => format!("{quantity} on the frame"),
-        Seat::Drive(drive) => format!("{quantity} on link {}", name(case.drives[drive].link)),
+        Seat::Frame => sentences::on_the_frame(&quantity),
+        Seat::Drive(drive) => sentences::on_link(&quantity, &name(case.drives[drive].link)),
     };
     let letters = channel.kind.suffix.split('_').next().unwrap_or_default();
     match letters.chars().next_back().filter(|_| letters.len() <= 2) {
-        Some(axis @ ('x' | 'y')) => format!("{what}, along world {axis}"),
+        Some(axis @ ('x' | 'y')) => sentences::along_world(&what, &axis),
         _ => what,
     }
 }

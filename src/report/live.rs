@@ -3,6 +3,7 @@
 //! Its name has changed, the messages used here have not. Playback control came with the new name.
 //! Numbers are little-endian; a message of bytes begins with the number of its kind.
 
+use crate::sentences;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use serde_json::{Value, json};
@@ -10,7 +11,7 @@ use serde_json::{Value, json};
 use super::layout::{TURN, speed};
 use linkage::math::KeepNan;
 use prover::numbers::significant;
-use recording::{Kind, Reel, Told};
+use recording::{MessageKind, Reel, ReelMessage};
 
 linkage::words! {
     /// A name of the protocol. Viewers offer the names that they know.
@@ -78,9 +79,9 @@ pub(crate) fn pace(reel: &Reel) -> f64 {
 pub(crate) fn pace_told(reel: &Reel) -> String {
     let [slow, lasts] = [reel.slow, reel.lasts() as f64 * 1e-9].map(|own| significant(own / pace(reel), 3));
     match reel.lasts() {
-        0 => "one instant, at rest".into(),
-        _ if slow == "1" => format!("as fast as the mechanism, anew every {lasts} s"),
-        _ => format!("{slow} times slower than the mechanism, anew every {lasts} s"),
+        0 => sentences::ONE_INSTANT_AT_REST.into(),
+        _ if slow == "1" => sentences::as_fast_as_the_mechanism(&lasts),
+        _ => sentences::times_slower_than_the_mechanism(&slow, &lasts),
     }
 }
 
@@ -100,7 +101,7 @@ fn stamp(nanoseconds: u64) -> Value {
 }
 
 /// The channels of topics; the first one has the number `first`.
-pub(crate) fn advertised(topics: &[(String, Kind)], first: u64) -> String {
+pub(crate) fn advertised(topics: &[(String, MessageKind)], first: u64) -> String {
     let channels = topics.iter().zip(first..).map(|((topic, kind), id)| {
         // Schemas of bytes are written as base64, those of text as they are.
         let schema = match kind.encoding.as_str() {
@@ -126,7 +127,7 @@ pub(crate) fn unadvertised(first: u64, count: usize) -> String {
 }
 
 /// A message of a channel, to whoever asked for it by that number.
-pub(crate) fn message(subscription: u32, told: &Told) -> Vec<u8> {
+pub(crate) fn message(subscription: u32, told: &ReelMessage) -> Vec<u8> {
     [&[1][..], &subscription.to_le_bytes(), &told.time.to_le_bytes(), told.data].concat()
 }
 
@@ -196,7 +197,7 @@ mod tests {
 
     #[test]
     fn messages_have_the_bytes_of_the_protocol() {
-        let told = Told { time: 0x0102, topic: 7, data: b"ab" };
+        let told = ReelMessage { time: 0x0102, topic: 7, data: b"ab" };
         assert_eq!(message(3, &told), [1, 3, 0, 0, 0, 2, 1, 0, 0, 0, 0, 0, 0, b'a', b'b']);
         assert_eq!(time(5), [2, 5, 0, 0, 0, 0, 0, 0, 0]);
         let state_of = State { plays: false, time: 1, speed: 1.0, jumped: true };

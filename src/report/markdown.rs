@@ -1,5 +1,6 @@
 //! Outcomes as Markdown: the comment to a pull request. The verdict first, then what stands in its way.
 
+use crate::sentences;
 use std::cmp::Reverse;
 
 use super::outcomes::{Case, Entry, Outcomes};
@@ -14,7 +15,7 @@ const REASONS: usize = 10;
 pub fn text(outcomes: &Outcomes) -> String {
     let (entries, noun) = (&outcomes.entries, outcomes.noun);
     let words = ["disagree", "error", "inconclusive", "agree"];
-    let told = ["disagree", "cannot be proven", "prove nothing", "agree"];
+    let told = ["disagree", sentences::CANNOT_BE_PROVEN, "prove nothing", "agree"];
     let parts = words.into_iter().zip(told).filter_map(|(word, told)| {
         let count = entries.iter().filter(|entry| entry.verdict == word).count();
         (count > 0).then(|| format!("{count} {told}"))
@@ -49,7 +50,7 @@ fn reasons(entry: &Entry, text: &mut String) {
         say!(text, "- `{name}` ({by}): {}", line(reason.as_deref().unwrap_or_default()));
     }
     if all.len() > REASONS {
-        say!(text, "- ... and {} more", all.len() - REASONS);
+        say!(text, "{}", sentences::and_more_5(&(all.len() - REASONS)));
     }
 }
 

@@ -1,5 +1,6 @@
 //! All real configurations of the groups at one crank angle.
 
+use crate::sentences;
 use serde_json::{Value, json};
 
 use super::pretty::list;
@@ -9,7 +10,7 @@ use prover::numbers::{fixed, fixed_in};
 use scenario::{Scenario, Undecided};
 
 /// Why a configuration has no angular velocities.
-const SINGULAR: &str = "the configuration is singular: angular velocities are not determined";
+const SINGULAR: &str = sentences::THE_CONFIGURATION_IS_SINGULAR_ANGULAR;
 
 /// What stands beside the list of a group that the scenario does not decide, or that comes after such a group.
 enum Open<'a> {
@@ -33,22 +34,22 @@ fn open<'a>(scenario: &Scenario, all: &[Modes], undecided: &'a [Undecided], inde
 /// The configurations as text. `undecided`: groups for which the scenario does not decide.
 pub(crate) fn text(scenario: &Scenario, crank: f64, all: &[Modes], undecided: &[Undecided]) -> String {
     let mechanism = &scenario.case.mechanism;
-    let mut text = format!("{} at crank angle {}\n", scenario.name, fixed_in(crank.to_degrees(), 4, "deg"));
+    let mut text = sentences::at_crank_angle(&scenario.name, &fixed_in(crank.to_degrees(), 4, "deg"));
     for ((index, group), found) in scenario.case.structure.groups.entries().zip(all) {
         let names = group.names(mechanism);
         let open = open(scenario, all, undecided, index);
         match &found.unknown {
-            None => say!(text, "\n{names}: {} real configurations", found.modes.len()),
-            Some(why) => say!(text, "\n{names}: only the followed one is shown; {why}"),
+            None => say!(text, "{}", sentences::real_configurations(&names, &found.modes.len())),
+            Some(why) => say!(text, "{}", sentences::only_the_followed_one_is_shown(&names, &why)),
         };
         match &open {
             None => {}
-            Some(Open::Undecided(why)) => say!(text, "  not decided by the scenario: {why}"),
-            Some(Open::After(names, number)) => say!(text, "  for configuration {number} of {names}"),
+            Some(Open::Undecided(why)) => say!(text, "{}", sentences::not_decided_by_the_scenario(&why)),
+            Some(Open::After(names, number)) => say!(text, "{}", sentences::for_configuration_of(&number, &names)),
         };
         for (number, mode) in found.modes.iter().enumerate() {
             let name = (mode.mode != AssemblyMode::Followed).then(|| format!(", {}", mode.mode.name()));
-            let followed = if mode.is_followed && open.is_none() { ", followed by the scenario" } else { "" };
+            let followed = if mode.is_followed && open.is_none() { sentences::FOLLOWED_BY_THE_SCENARIO } else { "" };
             say!(text, "  {}{}{followed}", number + 1, name.unwrap_or_default());
             for (k, (&link, pose)) in group.links.iter().zip(&mode.poses).enumerate() {
                 let omega = mode.omegas.as_ref().map(|all| format!("{:>12} rad/s", fixed(all[k], 5)));

@@ -1,11 +1,12 @@
 //! A motor chosen from a catalogue.
 
+use crate::sentences;
 use std::f64::consts::TAU;
 
 use serde_json::json;
 
 use super::pretty::pretty;
-use design::motor::Choice;
+use design::motor::MotorChoice;
 use linkage::drive::MotorLaw;
 use prover::numbers::fixed_in;
 use scenario::Scenario;
@@ -15,7 +16,7 @@ fn rpm(omega: f64) -> f64 {
 }
 
 /// Torque at rest and slope of the chosen motor law.
-fn line(choice: &Choice) -> [f64; 2] {
+fn line(choice: &MotorChoice) -> [f64; 2] {
     match choice.geared.law {
         MotorLaw::Linear { at_rest, slope } => [at_rest, slope],
         MotorLaw::Constant { .. } | MotorLaw::Kloss { .. } | MotorLaw::Table { .. } => [f64::NAN; 2],
@@ -23,46 +24,44 @@ fn line(choice: &Choice) -> [f64; 2] {
 }
 
 /// The choice as text, with the `[motor]` section for the scenario.
-pub(crate) fn text(scenario: &Scenario, choice: &Choice) -> String {
+pub(crate) fn text(scenario: &Scenario, choice: &MotorChoice) -> String {
     let (motor, geared) = (&choice.motor, &choice.geared);
     let [at_rest, slope] = line(choice);
     let mut text = format!("{}: {}\n\n", scenario.name, scenario.title);
     let (at, peak) = (fixed_in(choice.peak.0.to_degrees(), 4, "deg"), choice.peak.1);
     let ([power, asked], wanted) = ([choice.power, choice.asked].map(|own| own / 1e3), choice.wanted);
-    say!(text, "power\n  peak      {peak:.6} N m at {at}, times {wanted:.6} rad/s: {power:.6} kW");
-    say!(text, "  asked     {asked:.6} kW with an efficiency of {}", geared.efficiency);
+    say!(text, "{}", sentences::power_peak_at_times_rad_kw(&peak, &at, &wanted, &power));
+    say!(text, "{}", sentences::asked_kw_with_an_efficiency(&asked, &geared.efficiency));
     let [rated, synchronous, turning] = [motor.rated_speed, motor.synchronous_speed, wanted].map(rpm);
     let (name, kilowatts, torque) = (&motor.name, motor.power / 1e3, motor.rated_torque());
-    say!(
-        text,
-        "motor\n  {name}: {kilowatts} kW, {rated:.0} rpm, synchronous {synchronous:.0} rpm, rated torque {torque:.4} N m"
-    );
-    say!(text, "  ratio     {:.6} ({rated:.0} rpm to {turning:.4} rpm)", geared.ratio);
+    say!(text, "{}", sentences::motor_kw_rpm_synchronous_rpm(&name, &kilowatts, &rated, &synchronous, &torque));
+    say!(text, "{}", sentences::ratio_rpm_to_rpm(&geared.ratio, &rated, &turning));
     let share = |torque: f64| torque / motor.rated_torque();
     let [mean, peak] = [choice.mean_torque(), choice.peak_torque()];
-    say!(text, "on the motor's shaft\n  mean      {mean:.4} N m, {:.3} of the rated torque", share(mean));
-    say!(text, "  peak      {peak:.4} N m, {:.3} of it, without what inertia carries", share(peak));
+    say!(text, "{}", sentences::on_the_motor_shaft_mean_of_the_rated(&mean, &share(mean)));
+    say!(text, "{}", sentences::peak_of_it_without_what_inertia(&peak, &share(peak)));
     if let Some(breakdown) = motor.breakdown {
-        let holds = if share(choice.peak_torque()) < breakdown { "above the peak" } else { "BELOW THE PEAK" };
-        say!(text, "  breakdown {:.4} N m, {breakdown} of it: {holds}", breakdown * motor.rated_torque());
+        let holds = if share(choice.peak_torque()) < breakdown { sentences::ABOVE_THE_PEAK } else { "BELOW THE PEAK" };
+        say!(text, "{}", sentences::breakdown_of_it(&(breakdown * motor.rated_torque()), &breakdown, &holds));
     }
     let off = |omega: f64| 100.0 * (omega / choice.wanted - 1.0);
     let mean = choice.regime.mean_speed.abs();
     let (averaged, geared_up) = (choice.averaged, choice.averaged * geared.ratio);
     let [off_averaged, off_mean, unrest] = [off(averaged), off(mean), choice.regime.non_uniformity()];
-    say!(
-        text,
-        "steady speed\n  averaged  crank {averaged:.6} rad/s ({off_averaged:+.2} % of the wanted), motor {geared_up:.4} rad/s"
-    );
-    say!(text, "  periodic  crank {mean:.6} rad/s ({off_mean:+.2} %), non-uniformity {unrest:.4}");
+    say!(text, "{}", sentences::steady_speed_averaged_crank_rad(&averaged, &off_averaged, &geared_up));
+    say!(text, "{}", sentences::periodic_crank_rad_non_uniformity(&mean, &off_mean, &unrest));
     say!(text, "\nFor the scenario:\n\n[motor] # {name}, {kilowatts} kW, {rated:.0} rpm\nlaw = \"linear\"");
     say!(text, "torque_at_rest_N_m = {at_rest:?}\nslope_N_m_s = {slope:?}");
-    say!(text, "ratio = {:?}\nefficiency = {:?}", geared.ratio, geared.efficiency);
+    say!(
+        text,
+        "{}",
+        sentences::ratio_efficiency(&format_args!("{:?}", geared.ratio), &format_args!("{:?}", geared.efficiency))
+    );
     text
 }
 
 /// The choice as JSON, schema 1.
-pub(crate) fn json(scenario: &Scenario, choice: &Choice) -> String {
+pub(crate) fn json(scenario: &Scenario, choice: &MotorChoice) -> String {
     let (motor, geared) = (&choice.motor, &choice.geared);
     let [at_rest, slope] = line(choice);
     pretty(&json!({

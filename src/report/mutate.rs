@@ -1,11 +1,15 @@
 //! Planted faults: which were found, by what, and which escape.
 
+use crate::sentences;
 use serde_json::{Value, json};
 
 use super::pretty::{list, pretty};
 use crate::plain::cells::{marked, table, trimmed};
 
-use lab::mutate::{End, Kind, Mutant, Mutated, Outcome, Party, Plant, Share, Sight, Spoiled, Tally, all, tally};
+use lab::mutate::{
+    FaultCounts, FaultKind, FaultTally, FaultyParty, FaultyProof, Mutant, Mutated, Plant, Share, Sight, Spoiled, all,
+    tally,
+};
 use linkage::math::KeepNan;
 
 /// The result as text, the verdict first.
@@ -14,8 +18,8 @@ pub(crate) fn text(found: &[Mutated]) -> String {
     let mut text = format!("{}\n\n", headline(&tally));
     for one in found.iter().filter(|one| !one.instead.is_empty()) {
         let (name, instead) = (&one.scenario, one.instead.join(", "));
-        let formulas = if one.formulas == 0 { "; no formula of it claims an exact value" } else { "" };
-        say!(text, "{name}: no fault of the kinds asked for changes anything; kinds that would: {instead}{formulas}\n");
+        let formulas = if one.formulas == 0 { sentences::NO_FORMULA_OF_IT_CLAIMS_AN_EXACT } else { "" };
+        say!(text, "{}", sentences::no_fault_of_the_kinds_asked(&name, &instead, &formulas));
     }
     say!(text, "{}\n", scenarios(found));
     say!(text, "{}\n", trimmed(table(KINDS).add_rows(kinds(found))));
@@ -26,30 +30,28 @@ pub(crate) fn text(found: &[Mutated]) -> String {
     text
 }
 
-const LEGEND: &str = "\
-least margin: difference over its bound of what sees the fault most clearly, where it is least clear.
-found down to: sizes above this are found in every scenario, to a factor of two; relative, angles in rad.";
+const LEGEND: &str = sentences::LEAST_MARGIN_DIFFERENCE_OVER_ITS_BOUND;
 
 /// One sentence with the figures.
-fn headline(tally: &Tally) -> String {
-    let Tally { planted, formulas, trunk_kinds, trunk_found, kinds, .. } = tally;
-    if tally.end() == End::Nothing {
-        return "NOTHING PLANTED  no fault of the kinds asked for changes anything: nothing is shown".into();
+fn headline(tally: &FaultCounts) -> String {
+    let FaultCounts { planted, formulas, trunk_kinds, trunk_found, kinds, .. } = tally;
+    if tally.end() == FaultTally::Nothing {
+        return sentences::NOTHING_PLANTED_NO_FAULT_OF_THE_KINDS.into();
     }
     let word = match tally.end() {
-        End::AllFound => "ALL FOUND",
-        End::NoneEscapes => "NONE ESCAPES",
-        End::SomeEscape => "SOME ESCAPE",
-        End::TrunkOpen => "OPEN IN THE TRUNK",
-        End::Nothing => "NOTHING PLANTED",
+        FaultTally::AllFound => "ALL FOUND",
+        FaultTally::NoneEscapes => "NONE ESCAPES",
+        FaultTally::SomeEscape => "SOME ESCAPE",
+        FaultTally::TrunkOpen => "OPEN IN THE TRUNK",
+        FaultTally::Nothing => "NOTHING PLANTED",
     };
     let mut line = format!("{word}  {} kinds", kinds.len());
     if *planted != Share::default() || *formulas == Share::default() {
-        put!(line, "; {}", of_share(planted, "faults in one party"));
+        put!(line, "; {}", of_share(planted, sentences::FAULTS_IN_ONE_PARTY));
     }
     if !trunk_kinds.is_empty() {
         let [found, all] = [trunk_found.len(), trunk_kinds.len()];
-        put!(line, "; in the trunk {found} of {all} kinds are found from outside ({})", percent(found, all));
+        put!(line, "{}", sentences::in_the_trunk_of_kinds_are_found(&found, &all, &percent(found, all)));
     }
     if *formulas != Share::default() {
         put!(line, "\nformulas: {}", of_share(formulas, "mistakes"));
@@ -61,9 +63,7 @@ fn headline(tally: &Tally) -> String {
 fn of_share(share: &Share, what: &str) -> String {
     let Share { inconclusive, escaped, equivalent, .. } = share;
     let ([found, real], part) = ([share.found(), share.real()], percent(share.found(), share.real()));
-    format!(
-        "{found} of {real} {what} found ({part}), {inconclusive} inconclusive, {escaped} escaped; {equivalent} change nothing"
-    )
+    sentences::of_found_inconclusive_escaped_change(&found, &real, &what, &part, &inconclusive, &escaped, &equivalent)
 }
 
 fn percent(part: usize, whole: usize) -> String {
@@ -72,7 +72,7 @@ fn percent(part: usize, whole: usize) -> String {
 
 fn scenarios(found: &[Mutated]) -> String {
     let rows = found.iter().map(|one| {
-        let Tally { planted, trunk, formulas, .. } = tally(std::slice::from_ref(one));
+        let FaultCounts { planted, trunk, formulas, .. } = tally(std::slice::from_ref(one));
         let Share { inconclusive, escaped, equivalent, .. } = planted;
         let of_trunk = [trunk.real(), trunk.found(), formulas.real(), formulas.found()];
         let counts = [planted.real(), planted.found(), inconclusive, escaped, equivalent].into_iter().chain(of_trunk);
@@ -95,7 +95,7 @@ struct OfKind {
     size: [Option<f64>; 2],
 }
 
-fn of_kind(found: &[Mutated], kind: &Kind) -> Option<OfKind> {
+fn of_kind(found: &[Mutated], kind: &FaultKind) -> Option<OfKind> {
     let own: Vec<&Mutant> =
         found.iter().flat_map(|one| &one.mutants).filter(|mutant| mutant.kind.name == kind.name).collect();
     if own.is_empty() {
@@ -104,23 +104,23 @@ fn of_kind(found: &[Mutated], kind: &Kind) -> Option<OfKind> {
     let mut all = OfKind { margin: f64::INFINITY, ..OfKind::default() };
     for mutant in own {
         let (share, size) = match mutant.party {
-            Party::Assur | Party::Newton => (&mut all.sides, Some(&mut all.size[0])),
-            Party::Engine => (&mut all.engine, Some(&mut all.size[1])),
-            Party::All => (&mut all.trunk, None),
-            Party::Formulas => (&mut all.formulas, Some(&mut all.size[0])),
+            FaultyParty::Assur | FaultyParty::Newton => (&mut all.sides, Some(&mut all.size[0])),
+            FaultyParty::Engine => (&mut all.engine, Some(&mut all.size[1])),
+            FaultyParty::All => (&mut all.trunk, None),
+            FaultyParty::Formulas => (&mut all.formulas, Some(&mut all.size[0])),
         };
         share.add(&mutant.outcome);
         if let (Some(size), Some(smallest)) = (size, mutant.smallest) {
             *size = Some(size.map_or(smallest, |most| most.larger(smallest)));
         }
-        if mutant.party != Party::All {
+        if mutant.party != FaultyParty::All {
             all.margin = all.margin.smaller(mutant.outcome.margin().unwrap_or(f64::INFINITY));
         }
     }
     Some(all)
 }
 
-fn cells(kind: &Kind, own: &OfKind) -> [String; 9] {
+fn cells(kind: &FaultKind, own: &OfKind) -> [String; 9] {
     let of = |share: &Share| match share.real() {
         0 => "-".into(),
         real => format!("{} of {real}", share.found()),
@@ -154,17 +154,15 @@ fn not_found(found: &[Mutated]) -> Vec<String> {
     for one in found {
         for mutant in &one.mutants {
             let why = match &mutant.outcome {
-                Outcome::Inconclusive(reason) => format!("inconclusive: {reason}"),
-                Outcome::Escaped => "every comparison agrees".into(),
-                Outcome::Detected { .. } | Outcome::Refused(_) | Outcome::Equivalent(_) => continue,
+                FaultyProof::Inconclusive(reason) => format!("inconclusive: {reason}"),
+                FaultyProof::Escaped => sentences::EVERY_COMPARISON_AGREES.into(),
+                FaultyProof::Detected { .. } | FaultyProof::Refused(_) | FaultyProof::Equivalent(_) => continue,
             };
-            if mutant.party != Party::All {
+            if mutant.party != FaultyParty::All {
                 let change = mutant.effect.map_or(String::new(), |change| format!(" (changes {change:.1e})"));
                 let (scenario, kind) = (&one.scenario, mutant.kind.name);
                 let party = match &mutant.formula {
-                    Some(Spoiled { formula, right, wrong }) => {
-                        format!("the formula {formula}, `{wrong}` for `{right}`")
-                    }
+                    Some(Spoiled { formula, right, wrong }) => sentences::the_formula_for(&formula, &wrong, &right),
                     None => mutant.party.name().into(),
                 };
                 lines.push(format!("{scenario}: {kind} in {party}{change}: {why}"));
@@ -175,12 +173,12 @@ fn not_found(found: &[Mutated]) -> Vec<String> {
 }
 
 /// What is not found, below a title: faults in one party, kinds in the trunk.
-fn lists(found: &[Mutated], tally: &Tally) -> [(&'static str, Vec<String>); 2] {
-    [("Not found in one party:", not_found(found)), ("Open in the trunk:", open(tally))]
+fn lists(found: &[Mutated], tally: &FaultCounts) -> [(&'static str, Vec<String>); 2] {
+    [(sentences::NOT_FOUND_IN_ONE_PARTY, not_found(found)), (sentences::OPEN_IN_THE_TRUNK, open(tally))]
 }
 
 /// Kinds in the trunk that nothing from outside finds in any scenario.
-fn open(tally: &Tally) -> Vec<String> {
+fn open(tally: &FaultCounts) -> Vec<String> {
     let open = all().filter(|kind| tally.trunk_kinds.contains(&kind.name) && !tally.trunk_found.contains(&kind.name));
     open.map(|kind| format!("{}: {}", kind.name, kind.says)).collect()
 }
@@ -190,7 +188,7 @@ pub(crate) fn all_kinds() -> String {
     format!("{}\n", trimmed(table("kind | family | where | size> | what is wrong").add_rows(all().map(described))))
 }
 
-fn described(kind: &Kind) -> [String; 5] {
+fn described(kind: &FaultKind) -> [String; 5] {
     [
         kind.name.into(),
         kind.family.name().into(),
@@ -200,7 +198,7 @@ fn described(kind: &Kind) -> [String; 5] {
     ]
 }
 
-fn place(kind: &Kind) -> &'static str {
+fn place(kind: &FaultKind) -> &'static str {
     match kind.plant {
         Plant::Case(_) => "case",
         Plant::Answer(_) => "answer",
@@ -276,14 +274,14 @@ fn mutant(mutant: &Mutant) -> Value {
         value["formula"] = json!({ "name": formula, "right": right, "wrong": wrong });
     }
     match &mutant.outcome {
-        Outcome::Detected { first, clearest, channels, checks } => {
+        FaultyProof::Detected { first, clearest, channels, checks } => {
             value["first"] = sight(first);
             value["clearest"] = sight(clearest);
             value["channels"] = json!(channels);
             value["checks"] = json!(checks);
         }
-        Outcome::Refused(reason) | Outcome::Inconclusive(reason) => value["reason"] = json!(reason),
-        Outcome::Escaped | Outcome::Equivalent(_) => {}
+        FaultyProof::Refused(reason) | FaultyProof::Inconclusive(reason) => value["reason"] = json!(reason),
+        FaultyProof::Escaped | FaultyProof::Equivalent(_) => {}
     }
     value
 }

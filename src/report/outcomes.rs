@@ -4,11 +4,11 @@ use std::path::Path;
 
 use super::versus;
 use crate::plain::Tell;
-use crate::plain::judged::{self, Grade, Judged, Sort, grade};
+use crate::plain::judged::{self, Grade, JudgedNumber, Sort, grade};
 use linkage::error::Error;
 use prover::compare::Verdict;
 use prover::proof::Proof;
-use prover::versus::{Comparison, Pair};
+use prover::versus::{PartyComparison, SidePair};
 
 /// One channel or check.
 #[derive(Clone, Debug)]
@@ -52,9 +52,9 @@ impl Outcomes {
 
     /// Those of a comparison: every channel and every check of every pair.
     #[must_use]
-    pub fn of_comparison(paths: [&Path; 2], comparison: &Comparison, tell: Tell) -> Self {
+    pub fn of_comparison(paths: [&Path; 2], comparison: &PartyComparison, tell: Tell) -> Self {
         let mut all = Outcomes { noun: "comparison", entries: Vec::new(), tell };
-        let entry = |pair: &Pair| {
+        let entry = |pair: &SidePair| {
             let channels = pair.channels.iter().map(|own| all.case("comparison", own.claim.text.clone(), &own.verdict));
             let checks = pair.checks.iter().map(|check| all.case(SIDES, check.name(), &check.verdict));
             let (name, cases) = (versus::who(paths, pair), channels.chain(checks).collect());
@@ -71,9 +71,9 @@ impl Outcomes {
     /// Adds a proof: every channel of every engine, and every check.
     pub fn add(&mut self, proof: &Proof) {
         // Forces of an engine's own that prove nothing take nothing from the verdict.
-        let counts = |own: &Judged| own.sort != Sort::OwnForce || grade(own.verdict) != Grade::Open;
+        let counts = |own: &JudgedNumber| own.sort != Sort::OwnForce || grade(own.verdict) != Grade::Open;
         let judged = judged::of(proof).into_iter().filter(counts);
-        let by = |own: &Judged| own.engine.map_or(SIDES, |engine| engine.info.name);
+        let by = |own: &JudgedNumber| own.engine.map_or(SIDES, |engine| engine.info.name);
         let cases = judged.map(|own| self.case(by(&own), own.name, own.verdict)).collect();
         let error =
             proof.engines.iter().find_map(|engine| engine.failure.as_ref()).map(|own| own.message().to_string());

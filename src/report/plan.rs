@@ -1,11 +1,12 @@
 //! Velocity and acceleration plans at one crank angle.
 
+use crate::sentences;
 use serde_json::json;
 
 use super::pretty::{list, pretty};
 use crate::plain::Tell;
 use design::diagram::draw::significant;
-use design::diagram::{Plan, Plans, SingularPoint};
+use design::diagram::{Plans, SingularPoint, VectorPlan};
 use linkage::case::Case;
 use linkage::error::Result;
 use prover::numbers::fixed_in;
@@ -20,21 +21,21 @@ pub(crate) fn text(
     singular: &[Result<SingularPoint>],
     tell: Tell,
 ) -> String {
-    let mut text = format!("{} at crank angle {}\n", scenario.name, fixed_in(plans.crank.to_degrees(), 4, "deg"));
+    let mut text = sentences::at_crank_angle(&scenario.name, &fixed_in(plans.crank.to_degrees(), 4, "deg"));
     if is_free {
         let speed = significant(scenario.case.crank().top_speed());
-        say!(text, "the motion is free: these plans are of the nominal motion, the crank turning at {speed} rad/s");
+        say!(text, "{}", sentences::the_motion_is_free_these(&speed));
     }
-    say!(text, "kinematic diagram   mu_l = {} m/mm", plans.scheme.scale);
+    say!(text, "{}", sentences::kinematic_diagram_mu_mm(&plans.scheme.scale));
     for link in &plans.scheme.links {
         let (omega, alpha) = (significant(link.omega), significant(link.alpha));
-        say!(text, "  {} {:14} omega {omega:>10} rad/s   alpha {alpha:>10} rad/s^2", link.number, link.name);
+        say!(text, "{}", sentences::omega_rad_alpha_rad_2(&link.number, &link.name, &omega, &alpha));
     }
     for plan in [&plans.velocity, &plans.acceleration] {
         let (word, symbol, unit) = (plan.quantity.word(), plan.quantity.symbol(), plan.quantity.unit());
-        say!(text, "\n{word} plan   pole {}, mu_{symbol} = {} ({unit})/mm", plan.quantity.pole(), plan.scale);
+        say!(text, "{}", sentences::plan_pole_mu_mm(&word, &plan.quantity.pole(), &symbol, &plan.scale, &unit));
         let [x, y] = ["x", "y"].map(|axis| format!("{axis}, {unit}"));
-        say!(text, "  vector     from, to   {unit:>10} {x:>11} {y:>11}       mm  meaning");
+        say!(text, "{}", sentences::vector_from_to_mm_meaning(&unit, &x, &y));
         for vector in &plan.vectors {
             let (ends, value) = (format!("{}, {}", vector.from, vector.to), vector.value);
             let [size, x, y] = [value.norm(), value.x, value.y].map(significant);
@@ -45,7 +46,7 @@ pub(crate) fn text(
     for found in singular {
         match found {
             Ok(point) => singular_text(&mut text, &scenario.case, point),
-            Err(error) => say!(text, "\nsingular point: {}", error.line_by(tell)),
+            Err(error) => say!(text, "{}", sentences::singular_point(&error.line_by(tell))),
         };
     }
     text
@@ -53,19 +54,19 @@ pub(crate) fn text(
 
 fn singular_text(text: &mut String, case: &Case, point: &SingularPoint) {
     let shown = |v: linkage::math::Vec2| format!("({}, {})", significant(v.x), significant(v.y));
-    say!(text, "\nsingular point of the class IV group   S = {} at {} m", point.lines(), shown(point.at));
-    say!(text, "  v_S {} m/s on both base links", shown(point.velocity));
+    say!(text, "{}", sentences::singular_point_of_the_class(&point.lines(), &shown(point.at)));
+    say!(text, "{}", sentences::on_both_base_links(&shown(point.velocity)));
     let [first, second] = point.accelerations;
-    say!(text, "  a_S {} m/s^2 on the first, {} m/s^2 on the second", shown(first), shown(second));
+    say!(text, "{}", sentences::a_on_the_first_on_the_second(&shown(first), &shown(second)));
     for (link, omega, alpha) in point.links {
         let (name, omega, alpha) = (&case.mechanism.links()[link].name, significant(omega), significant(alpha));
-        say!(text, "  {link} {name:14} omega {omega:>10} rad/s   alpha {alpha:>10} rad/s^2");
+        say!(text, "{}", sentences::omega_rad_alpha_rad(&link, &name, &omega, &alpha));
     }
 }
 
 /// The plans as JSON, schema 1. Arguments as in [`text`].
 pub(crate) fn json(scenario: &Scenario, plans: &Plans, singular: &[Result<SingularPoint>], tell: Tell) -> String {
-    let plan = |plan: &Plan| {
+    let plan = |plan: &VectorPlan| {
         let vectors = list(&plan.vectors, |vector| {
             json!({
                 "name": vector.name, "from": vector.from, "to": vector.to, "x": vector.value.x, "y": vector.value.y,

@@ -1,12 +1,13 @@
 //! How far a mechanism can be followed: limits, singular and extreme positions, transmission angles.
 
+use crate::sentences;
 use std::f64::consts::TAU;
 
 use serde_json::{Value, json};
 
 use super::pretty::list;
 use crate::plain::cells::{table, trimmed};
-use analytic::range::{At, Extent, Extreme, LinkRange, Measure, Range, Singularity};
+use analytic::range::{Extent, ExtremePosition, GroupCondition, LinkRange, Range, Singularity, ValueAtCrank};
 use linkage::mechanism::GroupId;
 use prover::numbers;
 use scenario::Scenario;
@@ -21,13 +22,10 @@ pub(crate) fn text(scenario: &Scenario, range: &Range) -> String {
     if let Some(four_bar) = &range.four_bar {
         let [frame, driver, coupler, output] = four_bar.lengths;
         say!(text, "four-bar   {}", four_bar.of_type.name());
-        say!(
-            text,
-            "           frame {frame:.6} m, driving link {driver:.6} m, coupler {coupler:.6} m, output link {output:.6} m"
-        );
+        say!(text, "{}", sentences::frame_driving_link_coupler_output(&frame, &driver, &coupler, &output));
     }
     say!(text, "\n{}", singularities(scenario, range));
-    say!(text, "Groups, nearest to a singular pose:\n{}", groups(scenario, range));
+    say!(text, "{}", sentences::groups_nearest_to_a_singular(&groups(scenario, range)));
     say!(text, "\nLinks:\n{}", links(scenario, range));
     text
 }
@@ -35,11 +33,11 @@ pub(crate) fn text(scenario: &Scenario, range: &Range) -> String {
 fn extent(range: &Range) -> String {
     match range.extent {
         Extent::FullTurn(1) => "turns fully".into(),
-        Extent::FullTurn(turns) => format!("turns fully; the mechanism is back at its first pose after {turns} turns"),
+        Extent::FullTurn(turns) => sentences::turns_fully_the_mechanism_is_back(&turns),
         Extent::Limited([from, to]) => {
             let span = numbers::fixed((to.crank - from.crank).to_degrees(), 6);
             let [from, to] = [from, to].map(|end| degrees(end.crank, range));
-            format!("from {from} to {to} deg, {span} deg in all")
+            sentences::from_to_deg_deg_in_all(&from, &to, &span)
         }
     }
 }
@@ -68,7 +66,7 @@ fn transmission(scenario: &Scenario, group: GroupId, determinant: f64) -> Option
 
 fn singularities(scenario: &Scenario, range: &Range) -> String {
     if range.singularities.is_empty() {
-        return "No singular pose on the way.\n".into();
+        return sentences::NO_SINGULAR_POSE_ON_THE_WAY.into();
     }
     let rows = range.singularities.iter().map(|Singularity { kind, crank, group, determinant }| {
         let (crank, determinant) = (degrees(*crank, range), numbers::significant(*determinant, 2));
@@ -79,7 +77,7 @@ fn singularities(scenario: &Scenario, range: &Range) -> String {
 
 fn groups(scenario: &Scenario, range: &Range) -> String {
     let rows = range.groups.entries().map(|(index, group)| {
-        let At { crank, value } = group.determinant;
+        let ValueAtCrank { crank, value } = group.determinant;
         let transmission = transmission(scenario, index, value);
         let transmission = transmission.map_or("-".into(), |angle| numbers::fixed(angle.to_degrees(), 4));
         let (condition, at) = match group.condition {
@@ -96,7 +94,8 @@ fn groups(scenario: &Scenario, range: &Range) -> String {
 fn links(scenario: &Scenario, range: &Range) -> String {
     let rows = range.links.iter().map(|link| {
         // For a link that rotates fully, the interval of its angle has no meaning.
-        let end = |at: At| if link.turns == 0 { numbers::fixed(at.value.to_degrees(), 6) } else { "-".into() };
+        let end =
+            |at: ValueAtCrank| if link.turns == 0 { numbers::fixed(at.value.to_degrees(), 6) } else { "-".into() };
         let [least, most] = link.angles.map(end);
         let name = scenario.case.mechanism.links()[link.link].name.clone();
         [name, motion(link), least, most, positions(&link.extremes, range)]
@@ -108,26 +107,26 @@ fn links(scenario: &Scenario, range: &Range) -> String {
 fn motion(link: &LinkRange) -> String {
     let swing = (link.angles[1].value - link.angles[0].value).to_degrees();
     match link.turns {
-        0 if swing < 1e-9 => "does not turn".into(),
-        0 => format!("over {swing:.6} deg"),
+        0 if swing < 1e-9 => sentences::DOES_NOT_TURN.into(),
+        0 => sentences::over_deg(&swing),
         1 | -1 => "turns fully".into(),
-        turns => format!("turns fully, {} times", turns.abs()),
+        turns => sentences::turns_fully_times(&turns.abs()),
     }
 }
 
-fn positions(extremes: &[Extreme], range: &Range) -> String {
-    let one = |extreme: &Extreme| {
+fn positions(extremes: &[ExtremePosition], range: &Range) -> String {
+    let one = |extreme: &ExtremePosition| {
         let word = if extreme.is_greatest { "greatest" } else { "smallest" };
         format!("{} ({word}, {})", numbers::fixed(extreme.angle.to_degrees(), 6), degrees(extreme.crank, range))
     };
     let more = extremes.len().saturating_sub(EXTREMES);
-    let more = (more > 0).then(|| format!("and {more} more"));
+    let more = (more > 0).then(|| sentences::and_more(&more));
     extremes.iter().take(EXTREMES).map(one).chain(more).collect::<Vec<_>>().join("\n")
 }
 
 /// The range as JSON.
 pub(super) fn json(scenario: &Scenario, range: &Range) -> Value {
-    let at = |at: &At, key: &str| json!({"crank_rad": at.crank, key: at.value});
+    let at = |at: &ValueAtCrank, key: &str| json!({"crank_rad": at.crank, key: at.value});
     let extent = match range.extent {
         Extent::FullTurn(turns) => json!({"full_turn": true, "turns_to_same_pose": turns}),
         Extent::Limited([from, to]) => json!({"full_turn": false, "from_rad": from.crank, "to_rad": to.crank}),
@@ -146,12 +145,12 @@ pub(super) fn json(scenario: &Scenario, range: &Range) -> Value {
             "largest_condition": group.condition.as_ref().map(|worst| at(worst, "condition")),
         });
         if group.condition.is_none() {
-            value["largest_condition_absent"] =
-                "the group is singular at a limit: the condition number has no bound".into();
+            value["largest_condition_absent"] = sentences::THE_GROUP_IS_SINGULAR_AT_A_LIMIT.into();
         }
         value
     });
-    let extreme = |own: &Extreme| json!({"crank_rad": own.crank, "angle_rad": own.angle, "greatest": own.is_greatest});
+    let extreme =
+        |own: &ExtremePosition| json!({"crank_rad": own.crank, "angle_rad": own.angle, "greatest": own.is_greatest});
     let links = list(&range.links, |link| {
         json!({
             "name": scenario.case.mechanism.links()[link.link].name, "least": at(&link.angles[0], "angle_rad"),
@@ -160,7 +159,7 @@ pub(super) fn json(scenario: &Scenario, range: &Range) -> Value {
         })
     });
     let sampled = list(range.groups.ids(), |group| {
-        let of = |of: fn(&Measure) -> f64| list(&range.samples, |sample| json!(of(&sample.groups[group])));
+        let of = |of: fn(&GroupCondition) -> f64| list(&range.samples, |sample| json!(of(&sample.groups[group])));
         json!({
             "links": names(scenario, group), "determinant": of(|own| own.determinant),
             "condition": of(|own| own.condition),

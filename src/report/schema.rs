@@ -1,9 +1,10 @@
 //! The format of scenario files as a JSON Schema, for editors of TOML.
 
+use crate::sentences;
 use serde_json::{Map, Value, json};
 
 use super::pretty::pretty;
-use scenario::keys::{Key, Kind, section};
+use scenario::keys::{FileKey, ValueKind, section};
 
 /// The schema (draft 7), with a line feed at its end.
 #[must_use]
@@ -11,7 +12,7 @@ pub fn scenario() -> String {
     let mut schema = object("");
     let head = schema.as_object_mut().expect("a section is an object");
     head.insert("$schema".into(), json!("http://json-schema.org/draft-07/schema#"));
-    head.insert("title".into(), json!("Scenario of linkproof"));
+    head.insert("title".into(), json!(sentences::SCENARIO_OF_LINKPROOF));
     pretty(&schema)
 }
 
@@ -43,22 +44,22 @@ fn object(path: &str) -> Value {
     object
 }
 
-fn of_key(key: &Key, path: &str) -> Value {
+fn of_key(key: &FileKey, path: &str) -> Value {
     let child = if path.is_empty() { key.name.to_string() } else { format!("{path}.{}", key.name) };
     // Any number may be an arithmetic of parameters.
     let number = || json!({ "type": ["number", "string"] });
     let list = |items: Value| json!({ "type": "array", "items": items });
     let mut value = match key.kind {
-        Kind::Text => json!({ "type": "string" }),
-        Kind::Choice(words) => json!({ "enum": words() }),
-        Kind::Texts => list(json!({ "type": "string" })),
-        Kind::Number | Kind::Quantity(..) => number(),
-        Kind::Numbers | Kind::Quantities(_) => list(number()),
-        Kind::Integer => json!({ "type": "integer" }),
-        Kind::IntegerOrBoolean => json!({ "type": ["integer", "boolean"] }),
-        Kind::Table => table(&child),
-        Kind::Tables => list(table(&child)),
-        Kind::TableOrTables => json!({ "anyOf": [table(&child), list(table(&child))] }),
+        ValueKind::Text => json!({ "type": "string" }),
+        ValueKind::Choice(words) => json!({ "enum": words() }),
+        ValueKind::Texts => list(json!({ "type": "string" })),
+        ValueKind::Number | ValueKind::Quantity(..) => number(),
+        ValueKind::Numbers | ValueKind::Quantities(_) => list(number()),
+        ValueKind::Integer => json!({ "type": "integer" }),
+        ValueKind::IntegerOrBoolean => json!({ "type": ["integer", "boolean"] }),
+        ValueKind::Table => table(&child),
+        ValueKind::Tables => list(table(&child)),
+        ValueKind::TableOrTables => json!({ "anyOf": [table(&child), list(table(&child))] }),
     };
     value["description"] = json!(key.meaning);
     value

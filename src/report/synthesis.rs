@@ -1,13 +1,14 @@
 //! Reports on a motion and its timing: text, JSON, picture.
 
+use crate::sentences;
 use serde_json::json;
 
 use super::pretty::{list, pretty};
 use crate::plain::cells::table;
 use design::diagram::timing::{Stretch, TimingDiagram};
 use design::synthesis::achieved::{BAND, PhaseDone};
-use design::synthesis::{Achieved, Found};
-use design::task::{Output, Phase, Sense, Task};
+use design::synthesis::{Achieved, SearchResult};
+use design::task::{OutputQuantity, Phase, Sense, Task};
 use prover::numbers;
 
 /// A task, what was achieved, and how it was found.
@@ -18,27 +19,24 @@ pub(crate) struct Story<'a> {
     /// How well the motion keeps it.
     pub(crate) achieved: &'a Achieved,
     /// What the search found, and the values as written.
-    pub(crate) search: Option<(&'a Found, &'a [f64])>,
+    pub(crate) search: Option<(&'a SearchResult, &'a [f64])>,
 }
 
 /// The stroke with its unit.
 fn stroke(task: &Task, achieved: &Achieved) -> String {
     match task.output {
-        Output::Angle { .. } => numbers::fixed_in(achieved.stroke.to_degrees(), 4, "deg"),
-        Output::Coordinate { .. } => numbers::fixed_in(achieved.stroke * 1e3, 4, "mm"),
+        OutputQuantity::Angle { .. } => numbers::fixed_in(achieved.stroke.to_degrees(), 4, "deg"),
+        OutputQuantity::Coordinate { .. } => numbers::fixed_in(achieved.stroke * 1e3, 4, "mm"),
     }
 }
 
 /// The main figures, in two lines.
 pub(crate) fn summary(task: &Task, achieved: &Achieved) -> String {
-    let angle = |angle: f64| format!(", smallest transmission angle {:.2} deg", angle.to_degrees());
+    let angle = |angle: f64| sentences::smallest_transmission_angle_deg(&angle.to_degrees());
     let (stroke, angle) = (stroke(task, achieved), achieved.transmission.map_or(String::new(), angle));
     let [unrest, wrong] = [achieved.unrest(task), achieved.wrong()].map(|share| 100.0 * share);
     let [late, short] = [achieved.late(task), achieved.short(task)].map(f64::to_degrees);
-    format!(
-        "Stroke {stroke}{angle}. Largest motion in a dwell {unrest:.3} % of the stroke,\n\
-         largest way in a wrong sense {wrong:.3} %. Extreme positions within {late:.2} deg of the table, dwells short by {short:.2} deg at most."
-    )
+    sentences::stroke_largest_motion_in_a_dwell(&stroke, &angle, &unrest, &wrong, &late, &short)
 }
 
 /// The motion and its timing as text.
@@ -49,10 +47,7 @@ pub(crate) fn text(story: &Story) -> String {
         let [drawn, assembled] = found.candidates;
         let worst = found.refined.last().copied().unwrap_or(f64::NAN);
         let [cost, refined, worst] = [found.random_cost, found.cost, worst].map(|cost| numbers::significant(cost, 4));
-        say!(
-            text,
-            "{drawn} random candidates, {assembled} of them assembled near the limits; cost {cost}, refined {refined} (worst of the refined {worst})\n"
-        );
+        say!(text, "{}", sentences::random_candidates_of_them_assembled(&drawn, &assembled, &cost, &refined, &worst));
         let rows = task.variables.iter().zip(values).map(|(variable, &value)| {
             let show = |value: f64| match variable.is_angle {
                 true => numbers::fixed_in(value.to_degrees(), 4, "deg"),
@@ -75,11 +70,7 @@ pub(crate) fn text(story: &Story) -> String {
     let mut phases = table(header);
     phases.add_rows(rows);
     say!(text, "{phases}\n\n{}", summary(task, achieved));
-    say!(
-        text,
-        "A dwell ends where the output leaves the middle of its extremes by {} % of the stroke, a motion at its extreme position.",
-        100.0 * BAND
-    );
+    say!(text, "{}", sentences::a_dwell_ends_where_the_output(&(100.0 * BAND)));
     text
 }
 

@@ -1,5 +1,6 @@
 //! Solutions as CSV, one row per instant, with 17 significant digits, so that every double is read back exactly.
 
+use crate::sentences;
 use std::io::{Error, Result, Write};
 
 use analytic::reduced::RunUp;
@@ -11,7 +12,7 @@ use linkage::trajectory::Trajectory;
 /// [`Io`](linkage::error::ErrorKind::Io) if it cannot be written.
 pub(crate) fn csv<R: IntoIterator<Item = String>>(rows: impl IntoIterator<Item = R>) -> linkage::error::Result<String> {
     let failed = |error: csv::Error| {
-        linkage::error::Error::new(linkage::error::ErrorKind::Io, format!("the table cannot be written: {error}"))
+        linkage::error::Error::new(linkage::error::ErrorKind::Io, sentences::the_table_cannot_be_written(&error))
     };
     let mut writer = csv::Writer::from_writer(Vec::new());
     rows.into_iter().try_for_each(|row| writer.write_record(row).map_err(failed))?;

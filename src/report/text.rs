@@ -1,13 +1,14 @@
 //! Proofs as text for the terminal.
 
 use crate::plain::cells::{counted, distinct, fitted, share, table, trimmed};
-use crate::plain::judged::{self, Judged, Sort, counts, verdicts, worst};
+use crate::plain::judged::{self, JudgedNumber, Sort, counts, verdicts, worst};
 use crate::plain::style::wrapped;
 use crate::plain::{Tell, brief, engines, reasons};
+use crate::sentences;
 use linkage::math::statistics;
 use prover::compare::{Check, Verdict, overall};
 use prover::numbers;
-use prover::proof::{ChannelProof, End, EngineInfo, EngineProof, Proof, Search};
+use prover::proof::{ChannelProof, EngineInfo, EngineProof, Proof, SearchEnd, SettingsSearch};
 
 /// Number of reasons that are shown in full; the others are only counted.
 const REASONS: usize = 5;
@@ -36,11 +37,11 @@ pub fn proof(proof: &Proof, tell: Tell, width: Option<usize>) -> String {
     match proof.engines.as_slice() {
         [only] => {
             let table = channels(&only.channels, width);
-            say!(text, "\nEngine against reference, the worst channel of each quantity:\n{table}");
+            say!(text, "{}", sentences::engine_against_reference_the_worst(&table));
         }
         several => {
             let table = engines::table(several, width);
-            say!(text, "\nSide by side, the largest error over its scale (and its bound):\n{table}");
+            say!(text, "{}", sentences::side_by_side_the_largest(&table));
             say!(text, "\n{}", wrapped(&engines::disputes(proof), width, 2));
         }
     }
@@ -61,8 +62,8 @@ fn described(info: &EngineInfo) -> String {
     let [at, coarse, fine] = [resolution, 2.0 * resolution, resolution / 2.0].map(seconds);
     let name = &info.version;
     match info.controls_error {
-        true => format!("{name}, accuracy {at}, and its own error from {coarse} and {fine}"),
-        false => format!("{name}, step {at} s, and its own error from {coarse} and {fine} s"),
+        true => sentences::accuracy_and_its_own_error(&name, &at, &coarse, &fine),
+        false => sentences::step_and_its_own_error_from_and(&name, &at, &coarse, &fine),
     }
 }
 
@@ -74,15 +75,15 @@ fn own_section(engine: &EngineProof, several: bool, width: Option<usize>, text: 
     match &own.failure {
         Some(error) => {
             let why = error.message();
-            paragraph(&format!("Forces as {name} itself exerts them (route {route}) are not judged: {why}"));
+            paragraph(&sentences::forces_as_itself_exerts_them_route_are_not_judged(&name, &route, &why));
         }
         None if several => {
             let how = engines::exerted(own);
-            paragraph(&format!("Forces as {name} itself exerts them (route {route}): {how}"));
+            paragraph(&sentences::forces_as_itself_exerts_them_route(&name, &route, &how));
         }
         None => {
             let (source, how, table) = (engines::source(engine), own_how(own), channels(&own.channels, width));
-            paragraph(&format!("The forces above: {source}.\nForces as the engine itself exerts them, by {how}"));
+            paragraph(&sentences::the_forces_above_forces_as_the_engine(&source, &how));
             say!(text, "{table}");
         }
     }
@@ -98,25 +99,25 @@ fn own_how(own: &EngineProof) -> String {
     let told = told.map_or_else(|| settings.route.name().to_string(), |(_, told)| told.clone());
     let step = seconds(settings.resolution);
     let search = own.search.as_ref().map(|search| found(&own.info, search)).unwrap_or_default();
-    format!("{told}\n(route {}, step {step} s; {search}):", settings.route.name())
+    sentences::route_step(&told, &settings.route.name(), &step, &search)
 }
 
 /// The settings that a proof has found, and the work it took.
-fn found(info: &EngineInfo, search: &Search) -> String {
+fn found(info: &EngineInfo, search: &SettingsSearch) -> String {
     let times = match info.settings.extrapolated {
         0 => "not extrapolated".into(),
         1 => "extrapolated once".into(),
-        times => format!("extrapolated {times} times"),
+        times => sentences::extrapolated_times(&times),
     };
     let why = match search.end {
-        End::Decided => "",
-        End::Nothing => "; no other setting was left to choose",
-        End::Rounding => "; finer steps would add rounding",
-        End::Budget => "; the work that was allowed is done",
-        End::Pace => "; at this pace the work that was allowed would not be enough",
+        SearchEnd::Decided => "",
+        SearchEnd::Nothing => sentences::NO_OTHER_SETTING_WAS_LEFT,
+        SearchEnd::Rounding => sentences::FINER_STEPS_WOULD_ADD_ROUNDING,
+        SearchEnd::Budget => sentences::THE_WORK_THAT_WAS_ALLOWED,
+        SearchEnd::Pace => sentences::AT_THIS_PACE_THE_WORK_THAT_WAS_ALLOWED,
     };
     let (sweeps, runs, effort) = (counted(info.settings.sweeps, "sweep"), search.runs, numbers::error(search.effort));
-    format!("found: {sweeps}, {times}, from {runs} runs with the work of {effort} steps{why}")
+    sentences::found_from_runs_with_the_work(&sweeps, &times, &runs, &effort, &why)
 }
 
 /// A step with at most five significant digits; the JSON has all digits.
@@ -134,27 +135,31 @@ pub(super) fn sentence(proof: &Proof) -> String {
     let channels = match own {
         0 => format!("{channels} channels"),
         _ if open > 0 && matches!(proof.verdict, Verdict::Agree { .. }) => {
-            format!("{channels} channels, {closed} of {own} forces that the engine itself exerts (the others are open)")
+            sentences::channels_of_forces_that_the_engine(&channels, &closed, &own)
         }
-        _ => format!("{channels} channels, {own} forces that the engine itself exerts"),
+        _ => sentences::channels_forces_that_the_engine(&channels, &own),
     };
     let checks = proof.all_checks().count();
     let [within, known, wrong, open] = counts(verdicts(proof).into_iter().map(|(_, verdict)| verdict));
     match proof.verdict {
         Verdict::Agree { .. } | Verdict::Expected { .. } => {
-            let expected = if known == 0 { String::new() } else { format!(", {known} disagree as expected") };
+            let expected = if known == 0 { String::new() } else { sentences::disagree_as_expected(&known) };
             match proof.engines.len() {
-                1 => format!("{channels} and {} checks are within their bounds{expected}.", checks - known),
-                _ => format!("{within} channels and checks are within their bounds{expected}."),
+                1 => sentences::and_checks_are_within_their(&channels, &(checks - known), &expected),
+                _ => sentences::channels_and_checks_are_within(&within, &expected),
             }
         }
         Verdict::Disagree { .. } => {
-            let are = if wrong == 1 { "number is beyond its bound" } else { "numbers are beyond their bounds" };
-            format!("{wrong} {are}, of {channels} and {checks} checks.")
+            let are = if wrong == 1 {
+                sentences::NUMBER_IS_BEYOND_ITS_BOUND
+            } else {
+                sentences::NUMBERS_ARE_BEYOND_THEIR_BOUNDS
+            };
+            sentences::of_and_checks(&wrong, &are, &channels, &checks)
         }
         Verdict::Inconclusive { .. } => {
             let prove = if open == 1 { "number proves" } else { "numbers prove" };
-            format!("{open} {prove} nothing either way, of {channels} and {checks} checks.")
+            sentences::nothing_either_way_of_and_checks(&open, &prove, &channels, &checks)
         }
     }
 }
@@ -188,7 +193,7 @@ fn checks(proof: &Proof, width: Option<usize>) -> String {
     let rows = families.into_iter().filter_map(|name| {
         let family = || proof.all_checks().filter(|check| check.family == name);
         let worst: &Check = family().max_by(|a, b| a.used().total_cmp(&b.used()))?;
-        let detail = if worst.detail.is_empty() { String::new() } else { format!(", worst in {}", worst.detail) };
+        let detail = if worst.detail.is_empty() { String::new() } else { sentences::worst_in(&worst.detail) };
         let [_, known, wrong, open] = counts(family().map(|check| &check.verdict));
         let is_known = known > 0 && wrong + open == 0;
         Some([
@@ -210,7 +215,7 @@ pub fn residuals(proof: &Proof) -> String {
     let mut all = judged::of(proof);
     all.sort_by_key(|own| own.sort == Sort::Check);
     let rows = all.into_iter().map(|own| {
-        let Judged { sort, engine, name, value, bound, unit, verdict, .. } = own;
+        let JudgedNumber { sort, engine, name, value, bound, unit, verdict, .. } = own;
         let side = engine.filter(|_| sort != Sort::Check).map_or("", |engine| engine.info.name);
         let used = numbers::significant(statistics::share(value, bound), 3);
         let [value, bound] = [value, bound].map(|number| numbers::significant(number, 4));

@@ -1,5 +1,6 @@
 //! Comparisons of two parties as text and JSON.
 
+use crate::sentences;
 use std::path::Path;
 
 use serde_json::json;
@@ -11,10 +12,10 @@ use crate::plain::judged::{Grade, counts, grade};
 use crate::plain::style::{self, Detail};
 use crate::plain::{Tell, diagnosis};
 use linkage::math::KeepNan;
-use prover::claims::Cause;
+use prover::claims::FormulaCause;
 use prover::compare::Check;
 use prover::numbers;
-use prover::versus::{Compared, Comparison, Contradiction, Explained, Pair, Row};
+use prover::versus::{Compared, Contradiction, Explained, PartyComparison, RowPair, SidePair};
 
 /// Channels of agreeing pairs that a short report shows.
 const SHOWN: usize = 3;
@@ -26,7 +27,7 @@ const NAMED: usize = 3;
 /// The report in lines of at most `width` columns: the verdict, the channels that use most of their bounds, and why
 /// others are off.
 #[must_use]
-pub fn text(paths: [&Path; 2], comparison: &Comparison, detail: Detail, tell: Tell, width: usize) -> String {
+pub fn text(paths: [&Path; 2], comparison: &PartyComparison, detail: Detail, tell: Tell, width: usize) -> String {
     let mut text = String::new();
     for pair in &comparison.pairs {
         if !text.is_empty() && detail != Detail::Verdict {
@@ -40,7 +41,7 @@ pub fn text(paths: [&Path; 2], comparison: &Comparison, detail: Detail, tell: Te
     text
 }
 
-fn of_pair(pair: &Pair, all: bool, tell: Tell, width: usize) -> String {
+fn of_pair(pair: &SidePair, all: bool, tell: Tell, width: usize) -> String {
     let mut text = String::new();
     let mut order: Vec<&Compared> = pair.channels.iter().collect();
     order.sort_by(|a, b| rank(b).total_cmp(&rank(a)));
@@ -52,7 +53,11 @@ fn of_pair(pair: &Pair, all: bool, tell: Tell, width: usize) -> String {
     let more = order.len() - shown;
     if more > 0 {
         let is_fine = order[shown..].iter().all(|own| rank(own) <= 1.0);
-        put!(told, "\nand {more} more{}", if is_fine { ", all within their bounds" } else { "" });
+        put!(
+            told,
+            "{}",
+            sentences::and_more_6(&more, &(if is_fine { sentences::ALL_WITHIN_THEIR_BOUNDS } else { "" }))
+        );
     }
     told += &notes(pair);
     say!(text, "\n{told}");
@@ -94,18 +99,16 @@ fn row(own: &Compared, by_crank: bool) -> [String; 7] {
     [own.claim.text.clone(), at, first, second, difference, bound, word.into()]
 }
 
-const SIMULATION: &str = "The rest is off by less than a fiftieth of its scale, as by the error of a method or of its \
-                          step. Bounds are what digits and the analytic sides leave open: say what the other party is \
-                          trusted to.";
+const SIMULATION: &str = sentences::THE_REST_IS_OFF_BY_LESS_THAN_A_FIFTIETH;
 
 /// Whether a channel is off by as little as a simulation is wrong, and no cause was found.
-fn looks_like_a_simulation(pair: &Pair, own: &Compared) -> bool {
+fn looks_like_a_simulation(pair: &SidePair, own: &Compared) -> bool {
     let is_explained = pair.causes.iter().any(|cause| cause.of.contains(&own.claim.text));
     own.is_derived && own.since.is_some() && !own.is_gross() && !is_explained
 }
 
 /// Which two are compared.
-pub(super) fn who(paths: [&Path; 2], pair: &Pair) -> String {
+pub(super) fn who(paths: [&Path; 2], pair: &SidePair) -> String {
     let [first, second] = [0, 1].map(|side: usize| match pair.names[side].as_str() {
         "" => paths[side].display().to_string(),
         own => format!("{} ({own})", paths[side].display()),
@@ -113,20 +116,20 @@ pub(super) fn who(paths: [&Path; 2], pair: &Pair) -> String {
     format!("{second} against {first}")
 }
 
-fn sentence(paths: [&Path; 2], pair: &Pair) -> String {
+fn sentence(paths: [&Path; 2], pair: &SidePair) -> String {
     let [agree, _, disagree, open] = counts(pair.channels.iter().map(|own| &own.verdict));
     let all = pair.channels.len();
     let told = match (disagree, open, pair.crank_is_off()) {
-        (0, 0, false) => format!("all {agree} channels"),
-        (0, 0, true) => format!("the crank angle, and none of {all} channels"),
-        (0, open, false) => format!("{open} of {all} channels"),
-        (disagree, _, true) => format!("the crank angle, and {disagree} of {all} channels"),
-        (disagree, _, false) => format!("{disagree} of {all} channels"),
+        (0, 0, false) => sentences::all_channels(&agree),
+        (0, 0, true) => sentences::the_crank_angle_and_none(&all),
+        (0, open, false) => sentences::of_channels_2(&open, &all),
+        (disagree, _, true) => sentences::the_crank_angle_and_of_channels(&disagree, &all),
+        (disagree, _, false) => sentences::of_channels(&disagree, &all),
     };
     let by = counted(pair.instants - pair.unshared, if pair.by_crank { "crank angle" } else { "time" });
     let values = match pair.values() {
         [judged, of] if judged == of => counted(judged, "value"),
-        [judged, of] => format!("{judged} of {of} values"),
+        [judged, of] => sentences::of_values(&judged, &of),
     };
     format!("{}: {told} at {by}, {values}: {}", style::verdict(&pair.verdict()), who(paths, pair))
 }
@@ -142,15 +145,15 @@ fn rank(own: &Compared) -> f64 {
 }
 
 /// What was not compared.
-fn notes(pair: &Pair) -> String {
+fn notes(pair: &SidePair) -> String {
     let mut text = String::new();
     if pair.unshared > 0 {
-        put!(text, "\nleft out: {} instants of the second that the first does not have", pair.unshared);
+        put!(text, "{}", sentences::left_out_instants_of_the_second(&pair.unshared));
     }
     let missing: usize = pair.channels.iter().map(|own| own.missing).max().unwrap_or(0);
     if missing > pair.unshared {
         let count = missing - pair.unshared;
-        put!(text, "\nleft out: up to {count} instants of a channel at which nothing was measured");
+        put!(text, "{}", sentences::left_out_up_to_instants_of_a_channel(&count));
     }
     let (what, factor, unit) = if pair.by_crank { ("angle", 1f64.to_degrees(), "deg") } else { ("time", 1.0, "s") };
     if let Some(Contradiction { rows: [one, other], at, channel, values }) = &pair.contradiction {
@@ -158,25 +161,32 @@ fn notes(pair: &Pair) -> String {
         let [first, second] = numbers::beside(*values, 0.0);
         put!(
             text,
-            "\nrows {} and {} hold at the same {what}, {at} {unit}, and contradict each other: {channel} is {first} and \
-             {second}",
-            one + 1,
-            other + 1
+            "{}",
+            sentences::rows_and_hold_at_the_same(
+                &(one + 1),
+                &(other + 1),
+                &what,
+                &at,
+                &unit,
+                &channel,
+                &first,
+                &second
+            )
         );
     }
     if let Some((row, [from, to])) = pair.turns_back {
         let [from, to] = [from, to].map(|at| numbers::significant(factor * at, 6));
-        put!(text, "\nthe {what} jumps back in row {}, from {from} to {to} {unit}: has it begun anew?", row + 1);
+        put!(text, "{}", sentences::the_jumps_back_in_row_from_to_has_it_begun(&what, &(row + 1), &from, &to, &unit));
     }
     for (side, which) in ["first", "second"].into_iter().enumerate() {
         if !pair.alone[side].is_empty() {
-            put!(text, "\nonly in the {which}: {}", some(&pair.alone[side], NAMED));
+            put!(text, "{}", sentences::only_in_the(&which, &some(&pair.alone[side], NAMED)));
         }
     }
     text
 }
 
-fn cause(pair: &Pair, explained: &Explained, width: usize) -> String {
+fn cause(pair: &SidePair, explained: &Explained, width: usize) -> String {
     let Explained { of, diagnosis: found, left, .. } = explained;
     let mut text = style::wrapped(&format!("{}:", some(of, NAMED)), Some(width), 2);
     let mut line = |what: &str, told: &str| {
@@ -184,7 +194,7 @@ fn cause(pair: &Pair, explained: &Explained, width: usize) -> String {
     };
     if let Some(since) = pair.since(of) {
         let [time, crank] = [numbers::fixed(since.time, 6), numbers::fixed(since.crank.to_degrees(), 3)];
-        line("since", &format!("t = {time} s, crank angle {crank} deg"));
+        line("since", &sentences::crank_angle_deg(&time, &crank));
     }
     let Some(cause) = cause_of(explained) else {
         line("cause", "nothing simple");
@@ -193,19 +203,19 @@ fn cause(pair: &Pair, explained: &Explained, width: usize) -> String {
         }
         return text;
     };
-    let most = if *left > 0.0 { "for the most part, " } else { "" };
+    let most = if *left > 0.0 { sentences::FOR_THE_MOST_PART_2 } else { "" };
     line("cause", &format!("{most}{cause}"));
     for one in found.also.iter().filter(|_| explained.terms.is_empty()) {
-        line("or", &format!("{}, which explains as much", diagnosis::cause(one)));
+        line("or", &sentences::which_explains_as_much_2(&diagnosis::cause(one)));
     }
-    let but = explained.but.map_or(String::new(), |time| {
-        format!(", but for the row at t = {} s, which is off by itself", numbers::fixed(time, 6))
-    });
+    let but = explained
+        .but
+        .map_or(String::new(), |time| sentences::but_for_the_row_at_which_is_off(&numbers::fixed(time, 6)));
     line(
         "left",
         &match *left {
-            0.0 => format!("nothing beyond the bounds{but}"),
-            left => format!("at most {} of the difference{but}", numbers::percent(left)),
+            0.0 => sentences::nothing_beyond_the_bounds(&but),
+            left => sentences::at_most_of_the_difference(&numbers::percent(left), &but),
         },
     );
     text
@@ -213,7 +223,7 @@ fn cause(pair: &Pair, explained: &Explained, width: usize) -> String {
 
 /// The cause in words, if one was found.
 fn cause_of(explained: &Explained) -> Option<String> {
-    let terms = (!explained.terms.is_empty()).then(|| Cause::Terms(explained.terms.clone()).to_string());
+    let terms = (!explained.terms.is_empty()).then(|| FormulaCause::Terms(explained.terms.clone()).to_string());
     terms.or_else(|| explained.diagnosis.cause.as_ref().map(diagnosis::cause))
 }
 
@@ -225,9 +235,9 @@ pub fn why(explained: &Explained) -> Option<String> {
 
 /// The comparison as JSON, schema 1.
 #[must_use]
-pub fn json(paths: [&Path; 2], comparison: &Comparison, tell: Tell) -> String {
+pub fn json(paths: [&Path; 2], comparison: &PartyComparison, tell: Tell) -> String {
     // What is no number is `null`.
-    let instant = |at: &Row| {
+    let instant = |at: &RowPair| {
         json!({
             "t_s": at.time, "crank_deg": at.crank.to_degrees(), "first": at.values[0], "second": at.values[1],
             "difference": at.difference, "bound": at.bound, "known": at.known,
@@ -255,7 +265,7 @@ pub fn json(paths: [&Path; 2], comparison: &Comparison, tell: Tell) -> String {
             "reason": check.verdict.reason(tell),
         })
     };
-    let pair = |pair: &Pair| {
+    let pair = |pair: &SidePair| {
         json!({
             "first": pair.names[0], "second": pair.names[1], "by": if pair.by_crank { "crank angle" } else { "time" },
             "instants": pair.instants, "unshared": pair.unshared, "values": pair.values()[0],

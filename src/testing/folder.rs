@@ -1,5 +1,6 @@
 //! One test for every scenario of a folder, on a test harness that knows filters, `list` and ignored tests.
 
+use crate::sentences;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -82,14 +83,13 @@ impl Folder {
     /// A test for each scenario. What is wrong with the folder is a test that fails: no list of tests hides it.
     fn trials(self) -> Vec<Trial> {
         let files = match files_in(&self.path) {
-            Ok(files) if files.is_empty() => return vec![self.wrong("there is no scenario (*.toml) in this folder")],
+            Ok(files) if files.is_empty() => return vec![self.wrong(sentences::THERE_IS_NO_SCENARIO_TOML)],
             Ok(files) => files,
             Err(error) => return vec![self.wrong(&errors::text(&error, Advice::to_string))],
         };
         let names: Vec<String> = files.iter().map(|file| name(file)).collect();
         let unknown = self.ignored.iter().filter(|own| !names.contains(own));
-        let unknown =
-            unknown.map(|own| self.wrong(&format!("\"{own}\" is to be ignored, but no scenario is called so")));
+        let unknown = unknown.map(|own| self.wrong(&sentences::is_to_be_ignored_but_no_scenario(&own)));
         let mut trials: Vec<Trial> = unknown.collect();
         for (file, name) in files.into_iter().zip(names) {
             let (options, is_ignored) = (self.options.clone(), self.ignored.contains(&name));

@@ -269,11 +269,16 @@ fn nothing(wrong: Vec<String>) {
     assert!(wrong.is_empty(), "\n{}\n", wrong.join("\n"));
 }
 
-/// The dependencies that a manifest has for users: names of packages.
+/// The dependencies that a manifest has for users: names of packages, whatever the code calls them.
 fn dependencies(manifest: &Path) -> BTreeSet<String> {
-    let text = fs::read_to_string(manifest).unwrap();
-    let manifest: toml::Table = text.parse().unwrap();
-    manifest.get("dependencies").and_then(toml::Value::as_table).into_iter().flat_map(|of| of.keys().cloned()).collect()
+    let read = |manifest: &Path| fs::read_to_string(manifest).unwrap().parse::<toml::Table>().unwrap();
+    let shared = read(&top().join("Cargo.toml"));
+    let package = |name: &String| {
+        let renamed = shared["workspace"]["dependencies"].get(name).and_then(|shared| shared.get("package"));
+        renamed.and_then(toml::Value::as_str).unwrap_or(name).to_string()
+    };
+    let all = read(manifest);
+    all.get("dependencies").and_then(toml::Value::as_table).into_iter().flat_map(|of| of.keys().map(package)).collect()
 }
 
 #[test]
@@ -311,13 +316,38 @@ fn of_the_map(name: &str) -> PathBuf {
     }
 }
 
+/// ARCHITECTURE.md, and the pages that belong to it: name and text.
+fn map_pages() -> Vec<(String, String)> {
+    let numerics = fs::read_dir(top().join("docs/numerics")).unwrap().map(|page| page.unwrap().path());
+    let pages = ["ARCHITECTURE.md", "docs/extending.md"].map(|page| top().join(page)).into_iter().chain(numerics);
+    pages.map(|page| (page.display().to_string(), fs::read_to_string(&page).unwrap())).collect()
+}
+
 #[test]
 fn every_file_that_the_map_names_is_there() {
-    let map = fs::read_to_string(top().join("ARCHITECTURE.md")).unwrap();
-    let named: Vec<&str> = map.split('`').skip(1).step_by(2).collect();
-    let files = named.into_iter().filter(|name| name.contains('/') && (name.ends_with(".rs") || name.ends_with('/')));
-    let missing: Vec<String> = files.filter(|name| !of_the_map(name).exists()).map(String::from).collect();
+    let mut missing = Vec::new();
+    for (page, text) in map_pages() {
+        let named = text.split('`').skip(1).step_by(2);
+        let files = named.filter(|name| name.contains('/') && (name.ends_with(".rs") || name.ends_with('/')));
+        missing.extend(files.filter(|name| !of_the_map(name).exists()).map(|name| format!("{page}: {name}")));
+    }
     nothing(missing);
+}
+
+#[test]
+fn the_map_is_short() {
+    assert!(fs::metadata(top().join("ARCHITECTURE.md")).unwrap().len() <= 15_000);
+}
+
+/// A page of numerics is linked from the files that implement it.
+#[test]
+fn every_page_of_numerics_is_named_by_a_file() {
+    let files = ["src", "crates"].map(|directory| rust_files(&top().join(directory))).concat();
+    let code: Vec<String> = files.iter().map(|file| fs::read_to_string(file).unwrap()).collect();
+    for page in fs::read_dir(top().join("docs/numerics")).unwrap() {
+        let name = format!("docs/numerics/{}", page.unwrap().file_name().into_string().unwrap());
+        assert!(code.iter().any(|text| text.contains(&name)), "no file says: see {name}");
+    }
 }
 
 #[test]

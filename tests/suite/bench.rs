@@ -3,7 +3,9 @@
 use std::cell::Cell;
 
 use analytic::NewtonSolver;
-use lab::bench::{Answer, Axis, Bench, CLEAR, Effort, Options, Party, Peer, Point, Way, bench, front};
+use lab::bench::{
+    Answer, Bench, BenchOptions, BenchPoint, CLEAR, CostAxis, MethodOwner, Peer, RunEffort, Way, bench, front,
+};
 use linkage::case::Grid;
 use linkage::solver::Solver;
 use linkage::trajectory::{Stage, Trajectory};
@@ -19,7 +21,7 @@ fn measured(scenario: &Scenario, peers: &[&dyn Peer]) -> Bench {
         now.set(now.get() + 1.0);
         now.get()
     };
-    let options = Options { is_quick: true, engines: vec![EngineName::Rapier], ..Options::default() };
+    let options = BenchOptions { is_quick: true, engines: vec![EngineName::Rapier], ..Options::default() };
     bench(scenario, &options, peers, &clock, &mut |_| {}).unwrap()
 }
 
@@ -40,7 +42,7 @@ fn engines_are_measured_clear_of_the_floor() {
         assert_eq!(found.stages, Stage::ALL);
         for stage in Stage::ALL {
             let floor = found.floor.errors[stage as usize];
-            let engines = found.points.iter().filter(|point| point.party == Party::Engine);
+            let engines = found.points.iter().filter(|point| point.party == MethodOwner::Engine);
             let errors: Vec<_> = engines.filter_map(|point| point.error(stage)).collect();
             assert!(errors.len() >= 6, "{name} {stage:?}: {}", errors.len());
             for errors in errors {
@@ -48,9 +50,10 @@ fn engines_are_measured_clear_of_the_floor() {
                 assert!(errors.rms <= errors.max, "{name} {stage:?}: {errors:?}");
             }
             // The sides are on the floor and say so.
-            let sides = found.points.iter().filter(|point| point.party == Party::Side && point.is_usual);
+            let sides = found.points.iter().filter(|point| point.party == MethodOwner::Side && point.is_usual);
             assert!(sides.filter_map(|point| point.error(stage)).all(|errors| errors.is_limited), "{name} {stage:?}");
-            let best = front(&found.points, stage, Axis::Solutions, floor, &|point| point.party == Party::Engine);
+            let best =
+                front(&found.points, stage, CostAxis::Solutions, floor, &|point| point.party == MethodOwner::Engine);
             assert!(!best.is_empty(), "{name} {stage:?}");
         }
     }
@@ -80,7 +83,7 @@ fn what_fails_stays_with_its_reason() {
 #[test]
 fn errors_and_counts_are_the_same_again() {
     let of = |bench: Bench| {
-        let told = |point: &lab::bench::Point| {
+        let told = |point: &lab::bench::BenchPoint| {
             format!("{:?} {:?}", point.settings, point.run().map(|run| (run.errors, run.effort.clone())))
         };
         bench.points.iter().map(told).collect::<Vec<_>>()
@@ -93,7 +96,7 @@ fn errors_and_counts_are_the_same_again() {
 #[test]
 fn sides_keep_their_accuracy() {
     let found = measured(&few("crank_rocker_runup.toml"), &[]);
-    let sides: Vec<_> = found.points.iter().filter(|point| point.party == Party::Side).collect();
+    let sides: Vec<_> = found.points.iter().filter(|point| point.party == MethodOwner::Side).collect();
     assert_eq!(sides.len(), 4);
     for point in sides {
         let error = point.error(Stage::Positions).unwrap().max;
@@ -119,7 +122,7 @@ impl Peer for Planted {
     fn run(&self, _: &Way) -> Result<Answer, String> {
         let columns = self.1.iter().map(|(channel, values)| (channel.to_string(), values.to_vec()));
         let columns = std::iter::once(("t_s".to_string(), self.1.times().to_vec())).chain(columns).collect();
-        let effort = Effort(vec![("steps".into(), 7)]);
+        let effort = RunEffort(vec![("steps".into(), 7)]);
         let mut answer = Answer { version: "planted 1".into(), columns, seconds: vec![0.5, 0.25], effort };
         (self.2)(&mut answer);
         Ok(answer)
@@ -131,11 +134,11 @@ fn answers_that_are_none_are_failures_with_a_reason() {
     let scenario = few("crank_rocker.toml");
     let exact = NewtonSolver.solve(&scenario.case).unwrap();
     // One measurement for all of them.
-    let with = |changes: Vec<Change>| -> Vec<Point> {
+    let with = |changes: Vec<Change>| -> Vec<BenchPoint> {
         let planted = |(index, change)| Planted(format!("planted {index}"), exact.clone(), change);
         let peers: Vec<Planted> = changes.into_iter().enumerate().map(planted).collect();
         let peers: Vec<&dyn Peer> = peers.iter().map(|peer| peer as &dyn Peer).collect();
-        measured(&scenario, &peers).points.into_iter().filter(|point| point.party == Party::Peer).collect()
+        measured(&scenario, &peers).points.into_iter().filter(|point| point.party == MethodOwner::Peer).collect()
     };
     let of = |name: &'static str, change: fn(&mut Vec<f64>)| -> Change {
         Box::new(move |answer| change(&mut answer.columns.iter_mut().find(|(own, _)| own == name).unwrap().1))
@@ -187,7 +190,7 @@ fn a_peer_without_some_channels_is_judged_in_the_others_and_told() {
         Planted(format!("planted {more}"), exact.clone(), Box::new(change))
     };
     let found = measured(&scenario, &[&with(0.0), &with(1e-3)]);
-    let mut peers = found.points.iter().filter(|point| point.party == Party::Peer);
+    let mut peers = found.points.iter().filter(|point| point.party == MethodOwner::Peer);
     let [right, wrong] = [(); 2].map(|()| peers.next().unwrap());
     assert_eq!(
         (right.without(Stage::Reactions), right.failure(Stage::Reactions)),

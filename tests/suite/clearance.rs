@@ -5,14 +5,14 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use analytic::NewtonSolver;
-use design::clearance::{Clearance, course, find};
+use design::clearance::{ClearanceResult, course, find};
 use linkage::case::{Case, Grid};
 use linkage::math::{KeepNan, Vec2, cross};
 use linkage::mechanism::{GROUND, LinkId};
 use linkage::solver::{Solver, State};
 use scenario::Scenario;
 use scenario::clearance::question::{are_joined, pairs};
-use scenario::clearance::{Body, Outline, Question};
+use scenario::clearance::{ClearanceBody, ClearanceQuestion, Outline};
 
 use crate::common::sketch::Random;
 use crate::common::specimens::specimen;
@@ -65,9 +65,9 @@ fn apart(one: &Shape, two: &Shape) -> f64 {
 }
 
 /// The distance of a pair of bodies in a state (m).
-fn distance(asked: &Question, state: &State, pair: [usize; 2]) -> f64 {
+fn distance(asked: &ClearanceQuestion, state: &State, pair: [usize; 2]) -> f64 {
     let [one, two] = pair.map(|body| {
-        let Body { link, outline, .. } = &asked.bodies[body];
+        let ClearanceBody { link, outline, .. } = &asked.bodies[body];
         let corners = outline.corners().iter().map(|&corner| state.motions[*link].point(corner)).collect();
         (corners, outline.is_solid())
     });
@@ -83,7 +83,7 @@ fn at(case: &Case, cranks: &[f64]) -> Vec<State> {
 }
 
 /// All links with outlines of random width, every third a random polygon, and a housing of pins and plates.
-fn asked(random: &mut Random, case: &Case) -> Question {
+fn asked(random: &mut Random, case: &Case) -> ClearanceQuestion {
     let mechanism = &case.mechanism;
     let size = mechanism.size();
     let mut bodies = Vec::new();
@@ -102,7 +102,7 @@ fn asked(random: &mut Random, case: &Case) -> Question {
         } else {
             Outline::of_points(&places, radius).unwrap()
         };
-        bodies.push(Body { name: own.name.clone(), link, outline });
+        bodies.push(ClearanceBody { name: own.name.clone(), link, outline });
     }
     for part in 0..3 {
         let centre = mechanism.links()[GROUND].points[0].local + random.vector(0.2 * size, 1.2 * size);
@@ -115,10 +115,10 @@ fn asked(random: &mut Random, case: &Case) -> Question {
                 Outline::polygon(&[centre, centre + arm, centre + turned * 0.7], 0.01 * size).unwrap()
             }
         };
-        bodies.push(Body { name: format!("part_{part}"), link: GROUND, outline });
+        bodies.push(ClearanceBody { name: format!("part_{part}"), link: GROUND, outline });
     }
     let pairs = pairs(mechanism, &bodies, &[]);
-    Question { bodies, pairs, wanted: Some(0.02 * size), tolerance: None, area: 0.05 }
+    ClearanceQuestion { bodies, pairs, wanted: Some(0.02 * size), tolerance: None, area: 0.05 }
 }
 
 /// What brute force has seen.
@@ -133,7 +133,7 @@ struct Seen {
 }
 
 /// No sample is below what is proven, what is found is there, and nothing meets before the first meeting.
-fn check(case: &Case, asked: &Question, found: &Clearance, seen: &mut Seen, name: &str) {
+fn check(case: &Case, asked: &ClearanceQuestion, found: &ClearanceResult, seen: &mut Seen, name: &str) {
     assert!(found.open.is_empty(), "{name}: {:?}", found.open);
     let ([from, to], size) = (found.range, case.mechanism.size());
     let cranks: Vec<f64> = (0..=FINE).map(|k| from + (to - from) * (k as f64 / FINE as f64)).collect();
@@ -232,10 +232,11 @@ fn planted_thin_crossings_are_found() {
             let depth = 1e-12 * size;
             let nail = place + linkage::math::turned(way) * (2.0 * radius - depth);
             let bodies = vec![
-                Body { name: "link".into(), link, outline: Outline::line(&[local], radius).unwrap() },
-                Body { name: "nail".into(), link: GROUND, outline: Outline::line(&[nail], radius).unwrap() },
+                ClearanceBody { name: "link".into(), link, outline: Outline::line(&[local], radius).unwrap() },
+                ClearanceBody { name: "nail".into(), link: GROUND, outline: Outline::line(&[nail], radius).unwrap() },
             ];
-            let asked = Question { bodies, pairs: vec![[0, 1]], wanted: None, tolerance: None, area: f64::INFINITY };
+            let asked =
+                ClearanceQuestion { bodies, pairs: vec![[0, 1]], wanted: None, tolerance: None, area: f64::INFINITY };
             let found = find(&case, &asked, &mut |_| ()).unwrap();
             let meeting = found.pairs[0].collision.unwrap_or_else(|| panic!("{name}: {crank} {:?}", found.pairs));
             planted += 1;
@@ -275,7 +276,7 @@ fn a_grid_longer_than_a_turn_has_the_distances_and_areas_of_one_turn() {
 #[test]
 fn a_swept_area_is_its_closed_form_to_a_ten_thousandth() {
     let scenario = shipped("crankcase.toml");
-    let asked = Question { area: 1e-4, pairs: Vec::new(), ..scenario.clearance.clone().unwrap() };
+    let asked = ClearanceQuestion { area: 1e-4, pairs: Vec::new(), ..scenario.clearance.clone().unwrap() };
     let found = find(&scenario.case, &asked, &mut |_| ()).unwrap();
     // The piston's outline over its stroke: see below.
     let expected = (70.0 * 130.0 - 44.0 * 32.0) * 1e-6;

@@ -14,7 +14,7 @@ use linkage::solver::Solver;
 use linkage::trajectory::{Stage, Trajectory};
 use linkproof::plain::diagnosis::cause;
 use prover::compare::{differences, scales};
-use prover::diagnosis::{Diagnosis, Judged, Question, diagnose};
+use prover::diagnosis::{Diagnosis, DiagnosisInput, SuspectChannel, diagnose};
 use scenario::Scenario;
 
 fn text(name: &str) -> String {
@@ -92,7 +92,7 @@ fn examined(case: &Case, suspect: &Trajectory, step: Option<f64>) -> Option<Diag
         let own: Vec<f64> =
             found.iter().enumerate().map(|(row, value)| value + bound * (0.4 * wave(row) + 0.3 * noise())).collect();
         let gaps = differences(values, &own, channel.kind.periodic);
-        judged.push(Judged {
+        judged.push(SuspectChannel {
             channel: channel.clone(),
             bound,
             disagrees: gaps.iter().any(|gap| !(gap.abs() <= bound)),
@@ -101,7 +101,7 @@ fn examined(case: &Case, suspect: &Trajectory, step: Option<f64>) -> Option<Diag
     }
     let (times, cranks) = (reference.times().to_vec(), reference.inputs().to_vec());
     let suspicious = Trajectory::new(times, cranks, reference.channels().to_vec(), columns).unwrap();
-    let question = Question {
+    let question = DiagnosisInput {
         suspect: "the other",
         reference: &reference,
         suspicious: &suspicious,

@@ -336,7 +336,7 @@ fn numbers_ride_on_links_in_an_animation() {
         drawing::lay::Laid::whole(state.motions.iter().map(pose))
     };
     let shots = [20.0, 60.0].map(|degrees| drawing::view::Shot { laid: places(degrees), acting: Vec::new() });
-    let subject = drawing::view::Subject {
+    let subject = drawing::view::DrawnSubject {
         mechanism: &case.mechanism,
         drives: &case.drives,
         loads: &case.loads,

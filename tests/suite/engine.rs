@@ -17,10 +17,10 @@ use crate::common::spec::four_bar;
 use crate::common::{assert_within, shipped};
 use analytic::AssurSolver;
 use linkage::case::Case;
-use linkage::engine::{Engine, Kept, Settings};
+use linkage::engine::{CachedEngine, Engine, Settings};
 use linkage::math::KeepNan;
 use linkage::solver::Solver;
-use linkage::trajectory::{Channel, Stage, Subject, Trajectory};
+use linkage::trajectory::{Channel, ChannelSubject, Stage, Trajectory};
 use prover::compare::convergence::observed_order;
 use prover::compare::residuals;
 
@@ -96,7 +96,7 @@ fn kept_runs_are_those_made_alone() {
             let asked = Settings { sweeps: own.sweeps.min(64), extrapolated, ..own };
             let at = |factor: f64| Settings { resolution: asked.resolution * factor, ..asked };
             let rungs = [asked, at(0.5), at(2.0), Settings { sweeps: asked.sweeps / 2, ..asked }];
-            let kept = Kept::new(engine.as_ref());
+            let kept = CachedEngine::new(engine.as_ref());
             kept.prepare(&case, kept.missing(&case, &rungs), &mut |_| {});
             for settings in rungs {
                 let (together, alone) = (kept.with(settings), engine.with(settings));
@@ -182,7 +182,7 @@ fn regress_03_massless_links_move_alike_and_carry_no_force() {
         let (with, without) = (solve(engine.as_ref(), &with), solve(engine.as_ref(), &without));
         for (channel, values) in without.iter() {
             // The mass centre of a massless link is its frame's origin, which is another point.
-            let centre = channel.kind.subject == Subject::Link && channel.kind.unit.symbol().starts_with('m');
+            let centre = channel.kind.subject == ChannelSubject::Link && channel.kind.unit.symbol().starts_with('m');
             if channel.kind.stage >= Stage::Reactions {
                 // Where applied forces carry the stand-ins, only rounding is left.
                 let left = if engine.controls_error() { engine.noise(case, channel.kind) } else { 0.0 };

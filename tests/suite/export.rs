@@ -5,12 +5,12 @@ mod model;
 
 use crate::common::assert_within;
 use analytic::AssurSolver;
-use design::export::mjcf::{Model, mjcf};
+use design::export::mjcf::{MjcfModel, mjcf};
 use linkage::ErrorKind;
 use linkage::case::Case;
 use linkage::drive::Load;
 use linkage::math::{KeepNan, Vec2, cross, rotated, unit};
-use linkage::mechanism::{GROUND, JointKind, LinkId, Mechanism, Side, Tree};
+use linkage::mechanism::{GROUND, JointKind, JointSide, LinkId, Mechanism, SpanningTree};
 use linkage::solver::State;
 use model::{Document, Kind};
 use scenario::Scenario;
@@ -51,7 +51,7 @@ fn bodies_are_the_links_on_the_spanning_tree() {
         let case = &scenario.case;
         let (links, joints) = (case.mechanism.links(), case.mechanism.joints());
         let document = Document::read(&exported(case, &scenario.name));
-        let tree = Tree::of(&case.mechanism);
+        let tree = SpanningTree::of(&case.mechanism);
         assert_eq!(document.name, scenario.name);
         assert_eq!(document.bodies.len(), links.len() - 1, "{}", scenario.name);
         for branch in &tree.branches {
@@ -202,7 +202,7 @@ fn the_rotor_outweighs_the_mechanism() {
     for scenario in all() {
         let case = &scenario.case;
         let state = start(case);
-        let model = Model::new(case, &state, &scenario.name, STEP).unwrap();
+        let model = MjcfModel::new(case, &state, &scenario.name, STEP).unwrap();
         // Inertia reduced to the crank: twice the kinetic energy over the square of its speed.
         let energy = |link: LinkId| {
             let (body, motion) = (&case.mechanism.links()[link], &state.motions[link]);
@@ -282,7 +282,7 @@ fn rods_lie_between_joints_and_nothing_touches() {
         assert!(places.iter().all(|place| rods.iter().flatten().any(|end| end == place)), "{}", body.name);
     }
     assert!(document.nothing_touches);
-    let sides: Vec<Side> = case.mechanism.moving_points().map(|(_, side)| side).collect();
+    let sides: Vec<JointSide> = case.mechanism.moving_points().map(|(_, side)| side).collect();
     for ((name, _), side) in case.mechanism.moving_points().zip(sides) {
         let (owner, local) = document.site(name);
         assert_eq!((owner, local), (Some(case.mechanism.links()[side.link].name.as_str()), side.local));

@@ -12,7 +12,7 @@ use linkage::solver::{Solver, State};
 use linkage::trajectory::{Channel, Stage, Trajectory};
 use prover::compare::{Verdict, difference, residuals, scales};
 use prover::proof::{Options, Proof, prove};
-use prover::tolerance::{Basis, Origin};
+use prover::tolerance::{BoundBasis, BoundOrigin};
 use scenario::Scenario;
 
 const ALL: [&str; 5] = ["crank_rocker", "ov7_base", "ov7_new", "ov7_new_tabulated", "fourth_class"];
@@ -51,8 +51,11 @@ fn val_ov7_base_every_printed_number_by_both_sides() {
     );
 
     let proof = proof("ov7_base", None);
-    let published: Vec<_> =
-        proof.checks.iter().filter(|c| matches!(c.basis, Basis::Digits { origin: Origin::Published, .. })).collect();
+    let published: Vec<_> = proof
+        .checks
+        .iter()
+        .filter(|c| matches!(c.basis, BoundBasis::Digits { origin: BoundOrigin::Published, .. }))
+        .collect();
     assert_eq!(published.len(), 2 * 51);
     for check in published {
         assert!(matches!(check.verdict, Verdict::Agree { .. }), "{}: {:?}", check.name(), check.verdict);

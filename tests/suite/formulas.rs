@@ -13,7 +13,7 @@ mod wrong_input;
 
 use std::path::{Path, PathBuf};
 
-use prover::claims::Outcome;
+use prover::claims::FormulaOutcome;
 use prover::proof::solved::{Claimed, judge};
 use scenario::{Formulas, Scenario, files_in};
 
@@ -47,7 +47,8 @@ fn judged(scenario: &Scenario) -> Claimed {
 /// Whether a side says that a formula is wrong by value.
 fn is_wrong(claimed: &Claimed, name: &str) -> bool {
     let all = claimed.judgement.sides.iter().flat_map(|(_, all)| all.iter().flatten());
-    all.filter(|judged| judged.name == name && judged.order == 0).any(|judged| judged.outcome() == Outcome::Wrong)
+    all.filter(|judged| judged.name == name && judged.order == 0)
+        .any(|judged| judged.outcome() == FormulaOutcome::Wrong)
 }
 
 /// Whether words have all words of one of the alternatives, `a & b | c`.

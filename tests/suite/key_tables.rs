@@ -2,30 +2,30 @@
 
 use std::path::Path;
 
-use scenario::keys::{Key, Kind, Section, section, sections};
+use scenario::keys::{FileKey, Section, ValueKind, section, sections};
 
 const DOCUMENT: &str = include_str!("../../docs/scenario.md");
 const BEGIN: &str = "<!-- keys of ";
 const END: &str = "<!-- end of keys -->\n";
 
 /// What stands at a key, for the second column.
-fn kind(key: &Key) -> String {
+fn kind(key: &FileKey) -> String {
     let word = |word: &&str| format!("`\"{word}\"`");
     match key.kind {
-        Kind::Text => "text".into(),
-        Kind::Choice(words) => words().iter().map(word).collect::<Vec<_>>().join(", "),
-        Kind::Texts => "list of texts".into(),
-        Kind::Number | Kind::Quantity(..) => "number".into(),
-        Kind::Numbers | Kind::Quantities(_) => "list of numbers".into(),
-        Kind::Integer => "whole number".into(),
-        Kind::IntegerOrBoolean => "whole number, or `true`, `false`".into(),
-        Kind::Table => "table".into(),
-        Kind::Tables => "list of tables".into(),
-        Kind::TableOrTables => "table, or list of tables".into(),
+        ValueKind::Text => "text".into(),
+        ValueKind::Choice(words) => words().iter().map(word).collect::<Vec<_>>().join(", "),
+        ValueKind::Texts => "list of texts".into(),
+        ValueKind::Number | ValueKind::Quantity(..) => "number".into(),
+        ValueKind::Numbers | ValueKind::Quantities(_) => "list of numbers".into(),
+        ValueKind::Integer => "whole number".into(),
+        ValueKind::IntegerOrBoolean => "whole number, or `true`, `false`".into(),
+        ValueKind::Table => "table".into(),
+        ValueKind::Tables => "list of tables".into(),
+        ValueKind::TableOrTables => "table, or list of tables".into(),
     }
 }
 
-fn row(key: &Key) -> String {
+fn row(key: &FileKey) -> String {
     let spellings: Vec<String> = key.spellings().iter().map(|spelling| format!("`{spelling}`")).collect();
     let default = if key.is_needed { "required" } else { key.default };
     let cells = [spellings.join(", "), kind(key), key.meaning.into(), default.into()];
@@ -91,7 +91,7 @@ fn every_word_is_explained() {
         .collect();
     for own in sections() {
         for key in own.keys {
-            let Kind::Choice(words) = key.kind else { continue };
+            let ValueKind::Choice(words) = key.kind else { continue };
             for word in words() {
                 assert!(outside.contains(word), "{}.{}: \"{word}\"", own.path, key.name);
             }

@@ -10,7 +10,7 @@ use linkage::solver::Solver;
 use linkage::trajectory::{Channel, Trajectory};
 use prover::compare::Check;
 use prover::proof::{Options, prove};
-use prover::tolerance::Basis;
+use prover::tolerance::BoundBasis;
 use scenario::Scenario;
 
 use crate::versus::digits::{Format, Random};
@@ -131,7 +131,7 @@ fn checks(scenario: &str, tables: &[Table]) -> Vec<Check> {
     let path = directory.path().join("x.toml");
     let scenario = Scenario::parse(&text, &path).unwrap_or_else(|error| panic!("{error}"));
     let proof = prove(&scenario, &Options::default().budget(100.0)).unwrap_or_else(|error| panic!("{error}"));
-    let is_table = |check: &Check| matches!(check.basis, Basis::Digits { .. });
+    let is_table = |check: &Check| matches!(check.basis, BoundBasis::Digits { .. });
     proof.checks.into_iter().filter(is_table).collect()
 }
 

@@ -4,7 +4,7 @@ use analytic::AssurSolver;
 use linkage::case::Wanted;
 use linkage::engine::{Engine, Route};
 use linkage::math::{KeepNan, Vec2};
-use linkage::trajectory::{Channel, Stage, Subject};
+use linkage::trajectory::{Channel, ChannelSubject, Stage};
 use prover::engines::EngineName;
 use prover::proof::{EngineProof, Options, Proof, prove};
 use rapier_twin::{Build, Precision, Rapier};
@@ -28,8 +28,9 @@ fn every_force_is_judged_twice_and_says_where_it_comes_from() {
         assert_eq!((proof.verdict.word(), own.verdict.word()), ("agree", "agree"), "{name}");
         let wanted: Vec<_> = engine.channels.iter().map(|channel| &channel.residual.channel).collect();
         // Shaking force and moment are sums of the frame's reactions.
-        let exerted =
-            |channel: &&Channel| channel.kind.stage >= Stage::Reactions && channel.kind.subject != Subject::Frame;
+        let exerted = |channel: &&Channel| {
+            channel.kind.stage >= Stage::Reactions && channel.kind.subject != ChannelSubject::Frame
+        };
         let wanted: Vec<_> = wanted.into_iter().filter(exerted).collect();
         let judged: Vec<_> = own.channels.iter().map(|channel| &channel.residual.channel).collect();
         assert_eq!((wanted, judged.len()), (judged.clone(), forces), "{name}");

@@ -13,7 +13,7 @@ use std::path::Path;
 
 use analytic::{AssurSolver, NewtonSolver};
 use design::diagram::plan::state_at;
-use design::diagram::{Part, Plan, Plans, SingularPoint, TipKind, Vector};
+use design::diagram::{Plans, SingularPoint, TipKind, Vector, VectorKind, VectorPlan};
 use linkage::case::Case;
 use linkage::math::{KeepNan, Vec2, rotated, unit};
 use linkage::mechanism::GroupId;
@@ -54,7 +54,7 @@ trait Named {
     fn tip(&self, letter: &str) -> Option<Vec2>;
 }
 
-impl Named for Plan {
+impl Named for VectorPlan {
     fn vector(&self, name: &str) -> Option<&Vector> {
         self.vectors.iter().find(|vector| vector.name == name)
     }
@@ -77,13 +77,13 @@ fn angles() -> impl Iterator<Item = f64> {
     (0..12).map(|k| 7.0 + 30.0 * f64::from(k))
 }
 
-fn longest(plan: &Plan) -> f64 {
+fn longest(plan: &VectorPlan) -> f64 {
     plan.vectors.iter().map(|vector| vector.value.norm()).fold(0.0, f64::larger)
 }
 
 /// Walks from the pole along vectors to every letter. Each vector that is not needed for this closes a contour. Returns
 /// the number of contours and the largest gap.
-fn contours(plan: &Plan) -> (usize, f64) {
+fn contours(plan: &VectorPlan) -> (usize, f64) {
     let pole = |letter: &str| {
         let fixed = plan.tips.iter().any(|tip| tip.letter == letter && tip.kind == TipKind::Fixed);
         if fixed { plan.quantity.pole().to_string() } else { letter.to_string() }
@@ -134,7 +134,7 @@ fn the_image_of_a_link_is_similar_to_it() {
         let mechanism = scenario(name).case.mechanism.clone();
         let plans = plans(name, degrees);
         // Points of the ground are in the pole, and have no vector.
-        let end = |plan: &Plan, name: &str| {
+        let end = |plan: &VectorPlan, name: &str| {
             let vector = plan.vector(&format!("{}_{name}", plan.quantity.symbol()));
             vector.map_or_else(Vec2::zeros, |vector| plan.tip(&vector.to).unwrap())
         };
@@ -147,7 +147,7 @@ fn the_image_of_a_link_is_similar_to_it() {
                 for b in &names[k + 1..] {
                     let side = place(b) - place(a);
                     let (omega, alpha) = (link.omega, link.alpha);
-                    let image = |plan: &Plan| end(plan, b) - end(plan, a);
+                    let image = |plan: &VectorPlan| end(plan, b) - end(plan, a);
                     let turned = rotated(unit(PI / 2.0 * omega.signum()), side) * omega.abs();
                     let size = (alpha * alpha + omega.powi(4)).sqrt();
                     let spun = rotated(unit(PI - alpha.atan2(omega * omega)), side) * size;
@@ -177,12 +177,12 @@ fn parts_stand_as_their_names_say() {
     let place = |name: char| plans.scheme.points.iter().find(|(own, _)| own.starts_with(name)).unwrap().1;
     let plan = &plans.acceleration;
     let mut seen = 0;
-    for vector in plan.vectors.iter().filter(|v| matches!(v.part, Part::Normal | Part::Tangential)) {
+    for vector in plan.vectors.iter().filter(|v| matches!(v.part, VectorKind::Normal | VectorKind::Tangential)) {
         let letters: Vec<char> = vector.name.trim_start_matches("a_").chars().collect();
         let line = place(letters[0]) - place(letters[1]);
         let share = vector.value.dot(&line) / (vector.value.norm() * line.norm());
         // Rounding of a product of unit vectors.
-        let want = if vector.part == Part::Normal { -1.0 } else { 0.0 };
+        let want = if vector.part == VectorKind::Normal { -1.0 } else { 0.0 };
         assert_within!((share - want).abs(), 1e-12, "{}: {share}", vector.name);
         seen += 1;
     }

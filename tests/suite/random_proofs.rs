@@ -8,7 +8,7 @@ use crate::common::higher::{Among, FAMILIES, mechanism};
 use crate::common::random::{SORTS, for_each_of};
 use crate::common::sketch::Random;
 use prover::proof::{Options, prove};
-use scenario::{Scenario, Setting};
+use scenario::{EngineSetting, Scenario};
 
 /// Symptom: correct mechanisms disagree in their velocities, by up to twice the bound. Cause: too few sweeps leave an
 /// error of first order there. In the differences from which the bound is made, it cancels against the error of second
@@ -29,7 +29,7 @@ fn never_disagree(sorts: &[[bool; 3]], count: usize) {
     let [proven, open, refused] = [const { Cell::new(0) }; 3];
     for_each_of(sorts, 3, count as u32, |sample| {
         let mut scenario = sample.scenario.clone();
-        scenario.engine.step = Setting::of(0.005 / scenario.case.crank().at(0.0).rate.abs());
+        scenario.engine.step = EngineSetting::of(0.005 / scenario.case.crank().at(0.0).rate.abs());
         match prove(&scenario, &Options::default()) {
             Ok(proof) => {
                 let word = proof.verdict.word();
@@ -83,7 +83,7 @@ fn regress_random_higher_groups_never_disagree() {
         for among in (0..draws(1).min(all.len())).map(|k| all[(index + k) % all.len()]) {
             let mut drawn = std::iter::repeat_with(|| mechanism(&mut random, family, among).0.scenario()).take(100);
             let mut scenario = drawn.find_map(Result::ok).expect("a mechanism that can be assembled");
-            scenario.engine.step = Setting::of(0.005 / scenario.case.crank().at(0.0).rate.abs());
+            scenario.engine.step = EngineSetting::of(0.005 / scenario.case.crank().at(0.0).rate.abs());
             let word = match prove(&scenario, &Options::default().budget(WORK)) {
                 Ok(proof) => {
                     for channel in &proof.engine().channels {

@@ -8,7 +8,7 @@ use crate::common::random;
 use crate::common::shipped;
 use crate::common::spec::{Dyad, Pin, Spec, four_bar};
 use crate::common::{assert_within, four_link};
-use analytic::range::{Extent, FourBar, FourBarType, Kind, Range, Singularity, explained};
+use analytic::range::{Extent, FourBar, FourBarType, Range, Singularity, SingularityKind, explained};
 use analytic::{AssurSolver, NewtonSolver, PoseSolver, all, modes};
 use linkage::ErrorKind;
 use linkage::case::{Case, Grid};
@@ -82,7 +82,7 @@ fn limits_of_random_four_bars_are_those_of_the_law_of_cosines() {
             (Some(found), Some(expected)) => {
                 limited += 1;
                 for (limit, expected) in found.iter().zip(expected) {
-                    assert_eq!((limit.kind, limit.group), (Kind::DeadPoint, GroupId(0)), "{lengths:?}");
+                    assert_eq!((limit.kind, limit.group), (SingularityKind::DeadPoint, GroupId(0)), "{lengths:?}");
                     worst = worst.larger((limit.crank - expected).abs());
                 }
             }
@@ -208,7 +208,7 @@ fn a_parallelogram_has_change_points_at_0_and_180_degrees() {
     for left in [true, false] {
         let range = range(&parallelogram(0.1, left));
         let [from, to] = limits(&range).unwrap();
-        assert_eq!([from.kind, to.kind], [Kind::ChangePoint; 2]);
+        assert_eq!([from.kind, to.kind], [SingularityKind::ChangePoint; 2]);
         assert_within!(from.crank.abs(), EXACT, "{:e} {:e}", from.crank, to.crank - PI);
         assert_within!((to.crank - PI).abs(), EXACT, "{:e} {:e}", from.crank, to.crank - PI);
         assert_eq!(range.four_bar.unwrap().of_type, FourBarType::ChangePoint);
@@ -228,8 +228,12 @@ fn near_a_parallelogram_branches_touch_or_end() {
     for off in [1e-4, 1e-6, 1e-8] {
         let touching = range(&parallelogram(0.1 + off, true));
         assert_eq!(touching.extent, Extent::FullTurn(1), "{off:e}");
-        let contacts: Vec<f64> =
-            touching.singularities.iter().filter(|s| s.kind == Kind::BranchContact).map(|s| wrapped(s.crank)).collect();
+        let contacts: Vec<f64> = touching
+            .singularities
+            .iter()
+            .filter(|s| s.kind == SingularityKind::BranchContact)
+            .map(|s| wrapped(s.crank))
+            .collect();
         // Transmission angle there: A is on the line of the pivots, law of cosines for the triangle A B C.
         let sine = |reach: f64| {
             let (b, c) = (0.4, 0.1 + off);
@@ -239,7 +243,7 @@ fn near_a_parallelogram_branches_touch_or_end() {
         let expected: Vec<f64> = [0.3, 0.5].map(sine).into_iter().filter(|sine| *sine < 1e-3).collect();
         assert_eq!(contacts.len(), expected.len(), "{off:e}: {:?} for {expected:?}", touching.singularities);
         let ended = limits(&range(&parallelogram(0.1 - off, true))).unwrap();
-        assert_eq!(ended.map(|limit| limit.kind), [Kind::DeadPoint; 2], "{off:e}");
+        assert_eq!(ended.map(|limit| limit.kind), [SingularityKind::DeadPoint; 2], "{off:e}");
         let expected = closed_form([0.4, 0.1, 0.4, 0.1 - off], 0.5).unwrap();
         for (limit, expected) in ended.iter().zip(expected) {
             // Accuracy of the closed form itself: rounding of the lengths over the sine of the crank angle.
@@ -272,7 +276,7 @@ fn two_groups_with_one_dead_point() {
     let found = Range::of(&scenario.case).unwrap();
     let expected = closed_form(lengths, spec.start).unwrap();
     for (limit, expected) in limits(&found).unwrap().iter().zip(expected) {
-        assert_eq!(limit.kind, Kind::DeadPoint);
+        assert_eq!(limit.kind, SingularityKind::DeadPoint);
         assert_within!((limit.crank - expected).abs(), EXACT, "{} for {expected}", limit.crank);
     }
 }
@@ -303,7 +307,11 @@ fn groups_of_four_links_lose_two_configurations_at_their_limits() {
             for (limit, outwards) in [(from, -1.0), (to, 1.0)] {
                 // Near a double zero the polynomial's own zeros have an error of the square root of rounding.
                 let [inside, outside] = [-1e-6, 1e-6].map(|d| count(limit.crank + outwards * d));
-                assert_eq!((limit.kind, inside - outside), (Kind::DeadPoint, 2), "{limit:?}: {inside}, {outside}");
+                assert_eq!(
+                    (limit.kind, inside - outside),
+                    (SingularityKind::DeadPoint, 2),
+                    "{limit:?}: {inside}, {outside}"
+                );
                 limits_seen += 1;
             }
         }

@@ -5,9 +5,9 @@ mod sliders;
 
 use linkage::ErrorKind;
 use linkage::math::{Motion, Vec2, cross, turned, unit};
-use linkage::mechanism::{Joint, JointKind, Link, LinkId, Mechanism, Point, Side as On};
-use linkage::trajectory::{CHANNELS, Channel, Stage, Subject, Trajectory};
-use recording::{Level, LogEntry, Recording, Show, Side, load, write};
+use linkage::mechanism::{Joint, JointKind, JointSide as On, Link, LinkId, Mechanism, Point};
+use linkage::trajectory::{CHANNELS, Channel, ChannelSubject, Stage, Trajectory};
+use recording::{JointSide, Level, LogEntry, Recording, Show, load, write};
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 use std::fs;
@@ -113,19 +113,19 @@ fn value(mechanism: &Mechanism, channel: &Channel, time: f64) -> f64 {
         }
     };
     match channel.kind.subject {
-        Subject::Link => {
+        ChannelSubject::Link => {
             let link = mechanism.link_named(&channel.of).unwrap();
             on(link, mechanism.links()[link].mass_centre)
         }
-        Subject::Point => {
+        ChannelSubject::Point => {
             let (_, side) = mechanism.moving_points().find(|(name, _)| *name == channel.of).unwrap();
             on(side.link, side.local)
         }
-        Subject::Joint => {
+        ChannelSubject::Joint => {
             let force = reactions(mechanism, &motions).0[mechanism.joint_named(&channel.of).unwrap()];
             if channel.kind.suffix == "fx_N" { force.x } else { force.y }
         }
-        Subject::Frame => {
+        ChannelSubject::Frame => {
             let ([o, _, _, c], torque) = reactions(mechanism, &motions);
             match channel.kind.suffix {
                 "fx_N" => -o.x - c.x,
@@ -133,18 +133,20 @@ fn value(mechanism: &Mechanism, channel: &Channel, time: f64) -> f64 {
                 _ => -cross(Vec2::new(0.4, 0.0), c) - torque,
             }
         }
-        Subject::Drive => reactions(mechanism, &motions).1,
-        Subject::Slider | Subject::Motor => panic!("a four-bar on a crank has no {channel}"),
+        ChannelSubject::Drive => reactions(mechanism, &motions).1,
+        ChannelSubject::Slider | ChannelSubject::Motor => panic!("a four-bar on a crank has no {channel}"),
     }
 }
 
 /// Every channel of the mechanism that `wanted` accepts.
 fn channels(mechanism: &Mechanism, wanted: impl Fn(&Channel) -> bool) -> Vec<Channel> {
-    let links = mechanism.links()[1..].iter().map(|link| (Subject::Link, link.name.clone()));
-    let points = mechanism.moving_points().map(|(name, _)| (Subject::Point, name.to_string()));
-    let joints = mechanism.joints().iter().map(|joint| (Subject::Joint, joint.name.clone()));
-    let subjects =
-        links.chain(points).chain(joints).chain([(Subject::Frame, String::new()), (Subject::Drive, String::new())]);
+    let links = mechanism.links()[1..].iter().map(|link| (ChannelSubject::Link, link.name.clone()));
+    let points = mechanism.moving_points().map(|(name, _)| (ChannelSubject::Point, name.to_string()));
+    let joints = mechanism.joints().iter().map(|joint| (ChannelSubject::Joint, joint.name.clone()));
+    let subjects = links
+        .chain(points)
+        .chain(joints)
+        .chain([(ChannelSubject::Frame, String::new()), (ChannelSubject::Drive, String::new())]);
     let rows = subjects.flat_map(|(subject, of)| {
         let kinds = CHANNELS.iter().filter(move |kind| kind.subject == subject);
         kinds.map(move |kind| Channel { of: of.clone(), kind })
@@ -202,13 +204,13 @@ impl Run {
 
     fn write(&self, path: &Path) -> linkage::Result<()> {
         let sides = [
-            Side { name: "reference", trajectory: &self.reference },
-            Side { name: "engine", trajectory: &self.engine },
+            JointSide { name: "reference", trajectory: &self.reference },
+            JointSide { name: "engine", trajectory: &self.engine },
         ];
         write(&self.recording(&sides), path)
     }
 
-    fn recording<'a>(&'a self, sides: &'a [Side<'a>]) -> Recording<'a> {
+    fn recording<'a>(&'a self, sides: &'a [JointSide<'a>]) -> Recording<'a> {
         Recording {
             name: "four_bar",
             scenario_text: "name = \"four_bar\"\n",
@@ -242,9 +244,9 @@ fn errors_are_the_engine_less_the_reference_in_small_units() {
     run.write(&path).unwrap();
     let bytes = fs::read(&path).unwrap();
     for (topic, subject, of, factor) in [
-        ("/error/point/B", Subject::Point, "B", 1e6),
-        ("/error/link/rocker", Subject::Link, "rocker", 1e6),
-        ("/error/joint/A", Subject::Joint, "A", 1e3),
+        ("/error/point/B", ChannelSubject::Point, "B", 1e6),
+        ("/error/link/rocker", ChannelSubject::Link, "rocker", 1e6),
+        ("/error/joint/A", ChannelSubject::Joint, "A", 1e3),
     ] {
         let columns: Vec<Vec<f64>> = (run.engine.iter().zip(run.reference.iter()))
             .filter(|((channel, _), _)| channel.kind.subject == subject && channel.of == of)
@@ -309,8 +311,9 @@ fn rows_in_any_order_with_negative_times_keep_their_order() {
 fn zeros_of_both_signs_and_extremes_survive_and_absent_channels_stay_absent() {
     let (_directory, path) = place("few.mcap");
     let mut run = Run::over(turn(5));
-    let few =
-        channels(&run.mechanism, |channel| channel.kind.subject != Subject::Link || channel.kind.suffix == "vy_m_s");
+    let few = channels(&run.mechanism, |channel| {
+        channel.kind.subject != ChannelSubject::Link || channel.kind.suffix == "vy_m_s"
+    });
     const VALUES: [f64; 5] = [0.0, -0.0, f64::MAX, f64::MIN_POSITIVE / 8.0, -f64::MAX];
     run.reference = trajectory(turn(5), few, |_, row| VALUES[row]);
     run.write(&path).unwrap();
@@ -393,7 +396,7 @@ fn names_that_would_mix_topics_are_refused() {
     let directory = tempfile::tempdir().unwrap();
     let run = Run::over(turn(3));
     for names in [["", "b"], ["a/b", "c"], ["a", "a"], ["error", "b"], ["mechanism", "b"]] {
-        let sides = names.map(|name| Side { name, trajectory: &run.reference });
+        let sides = names.map(|name| JointSide { name, trajectory: &run.reference });
         let error = write(&run.recording(&sides), &directory.path().join("x.mcap")).unwrap_err();
         assert_eq!(error.kind(), ErrorKind::Input, "{names:?}");
     }

@@ -5,7 +5,7 @@ use std::path::Path;
 use linkage::case::Grid;
 use linkage::engine::Route;
 use prover::engines::EngineName;
-use prover::proof::{End, Options, Proof, prove, prove_against};
+use prover::proof::{Options, Proof, SearchEnd, prove, prove_against};
 use scenario::Scenario;
 
 use crate::common::spec::four_bar;
@@ -110,7 +110,7 @@ fn work_is_limited_and_told() {
     let scenario = shipped("crank_rocker_runup.toml");
     let proof = prove(&scenario, &Options::default().budget(500.0)).unwrap();
     let search = proof.engine().search.clone().unwrap();
-    assert_eq!((search.end, proof.verdict.word()), (End::Budget, "inconclusive"));
+    assert_eq!((search.end, proof.verdict.word()), (SearchEnd::Budget, "inconclusive"));
     assert!(search.effort <= 4000.0, "{search:?}");
     let told = proof.verdict.reason(linkproof::parts::Advice::to_string).unwrap();
     assert!(told.contains("the work that was allowed is done; allow more work, such as 5e3 steps"), "{told}");

@@ -203,7 +203,7 @@ fn loads_of_all_sorts_agree() {
     let case = shipped("loaded_slider.toml").case;
     let ram = case.mechanism.link_named("ram").unwrap();
     let local = case.mechanism.links()[ram].points[2].local;
-    let at = linkage::mechanism::Side { link: ram, local };
+    let at = linkage::mechanism::JointSide { link: ram, local };
     let rod = case.mechanism.link_named("rod").unwrap();
     let more = [
         linkage::drive::Load::ResistingForce { at, force: 200.0 },

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use crate::common::sliders::short_rod;
 use crate::common::{assert_within, shipped};
-use analytic::range::{Extent, Kind, Range, explained};
+use analytic::range::{Extent, Range, SingularityKind, explained};
 use analytic::{self, AssurSolver};
 use linkage::ErrorKind;
 use linkage::case::{Case, Grid};
@@ -24,7 +24,7 @@ fn regress_a_slide_that_goes_to_infinity_ends_the_range() {
     let range = Range::of(&shipped("tangent.toml").case).unwrap();
     let Extent::Limited(limits) = range.extent else { panic!("{:?}", range.extent) };
     for (limit, expected) in limits.iter().zip([-FRAC_PI_2, FRAC_PI_2]) {
-        assert_eq!((limit.kind, limit.group), (Kind::ParallelAxes, GroupId(0)));
+        assert_eq!((limit.kind, limit.group), (SingularityKind::ParallelAxes, GroupId(0)));
         // Promised accuracy of limits.
         assert_within!((limit.crank - expected).abs(), 1e-9, "{:e}", limit.crank - expected);
     }
@@ -107,7 +107,7 @@ fn a_short_rod_limits_the_crank_where_it_stands_across_the_guide() {
             if let Some(expected) = expected {
                 assert_within!((found.crank - expected).abs(), 1e-9, "{rod}, {offset}: {found:?}, {expected}");
             }
-            assert_eq!(found.kind, Kind::DeadPoint);
+            assert_eq!(found.kind, SingularityKind::DeadPoint);
         }
     }
     assert_eq!(Range::of(&slider_crank(0.15, 0.04)).unwrap().extent, Extent::FullTurn(1));

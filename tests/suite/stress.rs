@@ -3,7 +3,7 @@
 
 mod precise;
 
-use lab::stress::{End, FAMILIES, named, run};
+use lab::stress::{FAMILIES, PointEnd, named, run};
 use linkage::case::Wanted;
 use linkage::math::KeepNan;
 use linkage::mechanism::AssemblyMode;
@@ -104,13 +104,13 @@ fn points_are_results_whatever_comes_of_them() {
     let near = run(named("transmission_angle").unwrap(), 0.01, 0, 1);
     for party in &near.parties {
         assert_eq!(party.silent, 0, "{party:?}");
-        assert!(party.verdict == End::Agree || !party.why.is_empty(), "{party:?}");
+        assert!(party.verdict == PointEnd::Agree || !party.why.is_empty(), "{party:?}");
         if ["assur", "newton"].contains(&party.name.as_str()) {
-            assert_eq!((party.verdict, party.reached.len()), (End::Agree, 3), "{party:?}");
+            assert_eq!((party.verdict, party.reached.len()), (PointEnd::Agree, 3), "{party:?}");
             assert_within!(party.reached[0].error, 1e-9, "{party:?}");
         }
     }
-    assert!(near.parties.iter().any(|party| party.verdict == End::Fails));
+    assert!(near.parties.iter().any(|party| party.verdict == PointEnd::Fails));
 }
 
 /// A truth that is wrong in one length by a millionth is contradicted by both sides, while they agree with each other:

@@ -3,7 +3,7 @@
 mod exhaustive;
 mod near;
 
-use lab::tune::{Wish, tune};
+use lab::tune::{WantedAccuracy, tune};
 use linkage::engine::{Engine, Settings};
 use prover::engines::EngineName;
 use prover::proof::{Options, prove};
@@ -93,7 +93,7 @@ fn a_route_that_is_refused_is_given_up_at_once() {
     let scenario = shipped("pendulum.toml");
     let options = Options::default().engine(EngineName::Rapier).route(linkage::engine::Route::Probe);
     let mut runs = 0;
-    let wish = Wish { within: 1e-3, channels: Vec::new() };
+    let wish = WantedAccuracy { within: 1e-3, channels: Vec::new() };
     let mut price = |_: &dyn Engine, run: &mut dyn FnMut() -> linkage::Result<()>| {
         runs += 1;
         run()?;

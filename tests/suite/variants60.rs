@@ -12,7 +12,7 @@ mod plan;
 use crate::common::assert_within;
 use std::path::{Path, PathBuf};
 
-use analytic::range::{Extent, Kind, Range};
+use analytic::range::{Extent, Range, SingularityKind};
 use analytic::{AssurSolver, NewtonSolver};
 use linkage::math::Vec2;
 use linkage::math::angle::wrapped;
@@ -81,7 +81,7 @@ fn ranges_are_those_of_the_curves_that_are_followed() {
                 for (found, expected) in found.iter().zip(expected) {
                     let error = (found.crank.to_degrees() - expected).abs();
                     assert_within!(error, BOUND, "{number}: {error:e}, {found:?}");
-                    if found.kind != Kind::DeadPoint {
+                    if found.kind != SingularityKind::DeadPoint {
                         crossed.push((number, found.kind));
                     }
                 }
@@ -90,7 +90,7 @@ fn ranges_are_those_of_the_curves_that_are_followed() {
             (found, expected) => panic!("{number}: {found:?} for {expected:?}"),
         }
     }
-    assert_eq!((full, crossed), (19, vec![(16, Kind::ChangePoint)]));
+    assert_eq!((full, crossed), (19, vec![(16, SingularityKind::ChangePoint)]));
 }
 
 /// Angle (deg) from the direction `from` to the direction `to`, counter-clockwise, minus `expected`.

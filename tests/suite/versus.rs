@@ -14,7 +14,7 @@ use formula::Rounded;
 use linkage::solver::Solver;
 use linkage::trajectory::Trajectory;
 use prover::tables::{Held, Raw};
-use prover::versus::{Comparison, How, Party, compare};
+use prover::versus::{ComparedParty, ComparisonRule, PartyComparison, compare};
 use scenario::Scenario;
 use scenario::mapping::{Mapped, Mapping};
 
@@ -45,10 +45,10 @@ fn mapping(lines: &[&str]) -> Mapping {
     mapping
 }
 
-fn held(raw: &Raw) -> Party {
+fn held(raw: &Raw) -> ComparedParty {
     Held::of_table(raw, &Mapping::default()).unwrap().into()
 }
 
-pub(crate) fn against(scenario: &Scenario, raw: &Raw, how: &How) -> Comparison {
+pub(crate) fn against(scenario: &Scenario, raw: &Raw, how: &ComparisonRule) -> PartyComparison {
     compare([scenario.clone().into(), held(raw)], how).unwrap()
 }

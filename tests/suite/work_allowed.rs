@@ -3,12 +3,12 @@
 use std::path::Path;
 
 use analytic::range::{Range, explained};
-use lab::mutate::{Asked, Party, mutate};
+use lab::mutate::{FaultyParty, MutationPlan, mutate};
 use lab::stress::named;
 use linkage::error::{Error, ErrorKind};
 use linkage::work::{Count, Work, counted, limited};
 use linkproof::parts::Advice;
-use prover::proof::{End, Options, Proof, prove};
+use prover::proof::{Options, Proof, SearchEnd, prove};
 use scenario::Scenario;
 
 use crate::common::shipped;
@@ -75,14 +75,14 @@ fn regress_the_range_of_a_large_mechanism_is_work() {
 fn regress_faults_are_planted_within_the_work_that_is_allowed() {
     let chain = named("chain").expect("there are chains");
     let large = Scenario::of_case("chain", (chain.setup)(100.0, 0, 0).unwrap().case).unwrap();
-    let asked = Asked { options: Options::default().budget(1e4), ..Asked::default() };
+    let asked = MutationPlan { options: Options::default().budget(1e4), ..Asked::default() };
     let (found, work) = counted(|| mutate(&large, &asked, &mut |_| {}));
     let error = found.err().expect("600 faults in 100 four-bars are too many");
     assert!(error.message().contains("planting") && error.message().contains("1.0e5 are allowed"), "{error}");
     assert!(error.advice().iter().any(|own| own.to_string().contains("some kinds")), "{error}");
     // Both sides without a fault, and once more their exact answers; no step of an engine.
     assert!(work.of(Count::Groups) < 1_000_000 && work.of(Count::Steps) == 0, "{work:?}");
-    let few = Asked { kinds: vec!["gravity-sign".into()], parties: vec![Party::Assur], ..asked };
+    let few = MutationPlan { kinds: vec!["gravity-sign".into()], parties: vec![FaultyParty::Assur], ..asked };
     assert_eq!(mutate(&large, &few, &mut |_| {}).unwrap().mutants.len(), 1);
 }
 
@@ -93,7 +93,7 @@ fn regress_forces_that_no_step_makes_better_are_given_up_in_their_first_rounds()
     let (proof, work) = proven(&shipped("n_four_bar_1.toml"), &Options::default());
     assert_eq!(proof.verdict.word(), "agree");
     let own = proof.engine().own_forces.as_ref().unwrap();
-    assert_eq!(own.search.as_ref().map(|search| search.end), Some(End::Pace));
+    assert_eq!(own.search.as_ref().map(|search| search.end), Some(SearchEnd::Pace));
     assert!(own.verdict.reason(Advice::to_string).unwrap().contains("at the pace of its rounds"), "{:?}", own.verdict);
     assert!(work.of(Count::Sweeps) < 5_000_000, "{work:?}");
 }

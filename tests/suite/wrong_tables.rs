@@ -15,7 +15,7 @@ use linkage::trajectory::Trajectory;
 use linkproof::plain::diagnosis::{cause, nature};
 use linkproof::report::versus::why;
 use prover::tables::{Held, load};
-use prover::versus::{Comparison, Explained, How, compare};
+use prover::versus::{ComparisonRule, Explained, PartyComparison, compare};
 use scenario::Scenario;
 use scenario::mapping::{Allowed, Mapped, Mapping, Size};
 
@@ -85,12 +85,12 @@ fn solved(case: &Case, times: &[f64]) -> Trajectory {
 }
 
 impl Wrong {
-    fn compared(&self) -> Comparison {
-        self.compared_by(&How::default(), |_| ())
+    fn compared(&self) -> PartyComparison {
+        self.compared_by(&ComparisonRule::default(), |_| ())
     }
 
     /// The comparison of the table, printed in another way.
-    fn compared_by(&self, how: &How, printed: impl Fn(&mut Sheet)) -> Comparison {
+    fn compared_by(&self, how: &ComparisonRule, printed: impl Fn(&mut Sheet)) -> PartyComparison {
         let (right, path) = text(self.scenario);
         let scenario = Scenario::parse(&right, &path).unwrap();
         let times = &scenario.case.grid.times;
@@ -201,12 +201,12 @@ fn told(scenario: &str, table: &str, lines: &[&str]) -> Vec<(Vec<String>, Option
     let file = Path::new("tests/suite/wrong_tables/tables").join(table);
     let held = Held::of_table(&load(&file).unwrap(), &mapping).unwrap();
     let scenario = Scenario::parse(&right, &path).unwrap();
-    let found = compare([scenario.into(), held.into()], &How::default()).unwrap();
+    let found = compare([scenario.into(), held.into()], &ComparisonRule::default()).unwrap();
     assert_eq!(found.verdict.word(), "disagree");
     words(&found)
 }
 
-fn words(found: &Comparison) -> Vec<(Vec<String>, Option<f64>)> {
+fn words(found: &PartyComparison) -> Vec<(Vec<String>, Option<f64>)> {
     let causes = found.pairs.iter().flat_map(|pair| &pair.causes);
     let all = |one: &Explained| why(one).into_iter().chain(one.diagnosis.also.iter().map(cause)).collect();
     causes.map(|one| (all(one), one.but)).collect()
@@ -248,7 +248,7 @@ fn angles_within_one_turn_hide_no_cause() {
         named: &[],
     };
     let turned = |sheet: &mut Sheet| sheet.each("link.crank.angle_rad", |_, value| value.sin().atan2(value.cos()));
-    let found = wrong.compared_by(&How::default(), turned);
+    let found = wrong.compared_by(&ComparisonRule::default(), turned);
     assert_eq!(words(&found), [(vec!["gravity: of the opposite sign".to_string()], None)]);
 }
 
@@ -268,7 +268,7 @@ fn a_drift_is_no_number_of_the_case() {
         }),
         named: &[],
     };
-    let how = How { allowed: vec![Allowed { of: None, size: Size::Relative(1e-5) }], ..How::default() };
+    let how = ComparisonRule { allowed: vec![Allowed { of: None, size: Size::Relative(1e-5) }], ..How::default() };
     let found = wrong.compared_by(&how, |_| ());
     let told = "the error grows with time, about with its power of 2: integration, or the step of it";
     assert_eq!(words(&found), [(vec![told.to_string()], None)]);

@@ -4,7 +4,8 @@ use crate::assur::PoseSolver;
 use crate::assur::transfer::TransferSide;
 use crate::motion::free;
 use crate::motion::march::{NARROWER, TIGHTER};
-use crate::reduced::{ACCURACY, End, Model, run_up};
+use crate::reduced::{ACCURACY, ReducedModel, RunUpEnd, run_up};
+use crate::sentences;
 use linkage::case::Case;
 use linkage::drive::Load;
 use linkage::error::{Error, ErrorKind, Result};
@@ -78,7 +79,7 @@ fn free_motion(case: &Case, accuracy: f64, visit: Visit, progress: Progress) -> 
     let rows = case.grid.ascending();
     let mut times: Vec<f64> = rows.iter().map(|&row| case.grid.times[row]).collect();
     times.dedup();
-    let model = match Model::of(case) {
+    let model = match ReducedModel::of(case) {
         // Loads that are no functions of the crank angle over some whole turns, or a branch that is not known all the
         // way round.
         Err(error) if matches!(error.kind(), ErrorKind::Unsupported | ErrorKind::Numeric) => {
@@ -107,13 +108,13 @@ fn free_motion(case: &Case, accuracy: f64, visit: Visit, progress: Progress) -> 
 }
 
 /// The error of a motion that ends before the grid does.
-fn ended(case: &Case, end: End) -> Error {
+fn ended(case: &Case, end: RunUpEnd) -> Error {
     let (what, t, crank) = match end {
-        End::Held(t, crank) => ("loads hold the mechanism", t, crank),
-        End::Limit(t, crank) => ("the crank comes to a limit of its rotation", t, crank),
-        End::Reached => ("the motion ends", 0.0, 0.0),
+        RunUpEnd::Held(t, crank) => (sentences::LOADS_HOLD_THE_MECHANISM, t, crank),
+        RunUpEnd::Limit(t, crank) => (sentences::THE_CRANK_COMES_TO_A_LIMIT, t, crank),
+        RunUpEnd::Reached => (sentences::THE_MOTION_ENDS, 0.0, 0.0),
     };
     let at = case.told(crank);
     let error = Error::new(ErrorKind::Numeric, format!("{what} at t = {t:.6} s, {at}")).at_time(t).at_input(at);
-    error.help("let the grid end before, or give the motor more torque")
+    error.help(sentences::LET_THE_GRID_END_BEFORE_OR_GIVE)
 }

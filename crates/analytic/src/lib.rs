@@ -1,4 +1,4 @@
-//! The analytic side: two solvers that share only the mechanism and small mathematics.
+#![doc = include_str!("../README.md")]
 //!
 //! Side 1 ([`assur`]) solves group by group, side 2 ([`newton`]) solves the whole mechanism at once.
 
@@ -9,6 +9,7 @@ pub mod motion;
 pub mod newton;
 pub mod range;
 pub mod reduced;
+mod sentences;
 pub mod steady;
 pub mod witness;
 

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use super::range::is_singular;
 use crate::PoseSolver;
-use crate::assur::groups::Plan;
+use crate::assur::groups::SolutionPlan;
 use linkage::case::Case;
 use linkage::error::{ErrorKind, Result};
 use linkage::math::unit;
@@ -90,7 +90,7 @@ pub fn all(case: &Case, crank: f64) -> Result<Vec<Modes>> {
             }
             let mut chosen = case.modes[..=index.index()].to_vec();
             chosen[index] = one.mode;
-            let mut plan = Plan::of(mechanism, &part, &chosen);
+            let mut plan = SolutionPlan::of(mechanism, &part, &chosen);
             // The configurations are exact already. Solving them again only prepares the velocities.
             let solved = plan.positions(&angles, &mut motions).is_ok();
             let mut placed = pose.clone();

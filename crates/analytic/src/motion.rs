@@ -1,4 +1,5 @@
 //! The integration of equations of motion that both sides share, whatever the equations are.
+//! See docs/numerics/forces.md.
 
 pub(crate) mod flow;
 pub(crate) mod free;

@@ -15,10 +15,11 @@ mod measure;
 mod singularity;
 mod tracking;
 
-pub use extremes::{Extreme, LinkRange};
+use crate::sentences;
+pub use extremes::{ExtremePosition, LinkRange};
 pub use grashof::{FourBar, FourBarType};
-pub use measure::Measure;
-pub use singularity::{At, Kind, Singularity};
+pub use measure::GroupCondition;
+pub use singularity::{Singularity, SingularityKind, ValueAtCrank};
 
 use constraints::Constraints;
 use linkage::case::Case;
@@ -28,7 +29,7 @@ use linkage::mechanism::{Group, GroupId, Mechanism, PerGroup, Pose};
 use linkage::work::limited;
 use tracking::{End, Point, Tracker};
 
-/// Below this, a determinant that is not zero is reported as [`Kind::BranchContact`].
+/// Below this, a determinant that is not zero is reported as [`SingularityKind::BranchContact`].
 /// It is a transmission angle of 0.06 deg, at which accelerations have lost six digits.
 const CONTACT: f64 = 1e-3;
 /// Below this, a pose counts as singular. Rounding separates configurations that meet by its square root, 1e-8 to 1e-7.
@@ -52,20 +53,20 @@ pub enum Extent {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GroupRange {
     /// Normalised determinant of smallest size, with its sign.
-    pub determinant: At,
+    pub determinant: ValueAtCrank,
     /// Largest condition number; `None` if the group is singular at a limit, where it grows without bound.
-    pub condition: Option<At>,
+    pub condition: Option<ValueAtCrank>,
 }
 
 /// The measures of all groups at one pose.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Sample {
+pub struct GroupMeasures {
     /// Crank angle (rad, as the scenario states it).
     pub crank: f64,
     /// Determinant and condition number of each group, in the order of the structure.
     /// The determinant of a dyad is positive in the mode
     /// [`AssemblyMode::Left`](linkage::mechanism::AssemblyMode::Left), that of a higher group at the start.
-    pub groups: Vec<Measure>,
+    pub groups: Vec<GroupCondition>,
 }
 
 /// The range of motion of a mechanism on its branch.
@@ -81,7 +82,7 @@ pub struct Range {
     pub links: Vec<LinkRange>,
     /// Measures of all groups along the way, in ascending order of the crank angle, at most two degrees apart, without
     /// the limits themselves.
-    pub samples: Vec<Sample>,
+    pub samples: Vec<GroupMeasures>,
     /// Grashof's type, if the mechanism is a four-bar.
     pub four_bar: Option<FourBar>,
 }
@@ -97,9 +98,9 @@ impl Range {
         let (points, extent) = both_ways(&tracker, &start)?;
         let closed = matches!(extent, Extent::FullTurn(_));
         let inside = if closed { &points[..points.len() - 1] } else { &points[1..points.len() - 1] };
-        let samples: Vec<Sample> = inside
+        let samples: Vec<GroupMeasures> = inside
             .iter()
-            .map(|point| Sample { crank: tracker.crank_of(&point.q), groups: point.measures.clone() })
+            .map(|point| GroupMeasures { crank: tracker.crank_of(&point.q), groups: point.measures.clone() })
             .collect();
         let contacts = extremes::contacts(&tracker, &points, closed, CONTACT);
         let mut singularities: Vec<Singularity> = match extent {
@@ -133,10 +134,10 @@ pub fn explained(case: &Case, error: Error) -> Error {
     }
     let (reached, is_too_much) = limited(ASIDE, || reachable(case));
     let reached = match reached {
-        Ok(Extent::Limited(limits)) => format!("; crank angles can be reached {}", interval(limits)),
+        Ok(Extent::Limited(limits)) => sentences::crank_angles_can_be_reached(&interval(limits)),
         Ok(Extent::FullTurn(_)) => String::new(),
         Err(why) if why.kind() == ErrorKind::Geometry => format!("; {}", why.message()),
-        Err(why) if is_too_much => format!("; which crank angles can be reached is not known: {}", why.message()),
+        Err(why) if is_too_much => sentences::which_crank_angles_can_be_reached(&why.message()),
         Err(_) => String::new(),
     };
     error.map_message(|message| format!("{message}{reached}")).explained()
@@ -147,7 +148,7 @@ fn interval([from, to]: [Singularity; 2]) -> String {
     // An angle within 1e-9 deg of a printed number counts as that number.
     let from = (from.crank.to_degrees() * 1e6 - 1e-3).ceil() / 1e6 + 0.0;
     let to = (to.crank.to_degrees() * 1e6 + 1e-3).floor() / 1e6 + 0.0;
-    format!("from {from:.6} to {to:.6} deg on this branch")
+    sentences::from_to_deg_on_this_branch(&from, &to)
 }
 
 /// Whether two configurations of a group coincide in this pose to rounding, so that velocities are not determined.
@@ -191,13 +192,13 @@ fn worst(tracker: &Tracker, points: &[Point], extent: Extent, group: GroupId) ->
         Extent::Limited(limits) => limits.into_iter().find(|limit| limit.group == group),
     };
     if let Some(limit) = limits {
-        return GroupRange { determinant: At { crank: limit.crank, value: 0.0 }, condition: None };
+        return GroupRange { determinant: ValueAtCrank { crank: limit.crank, value: 0.0 }, condition: None };
     }
     let closed = matches!(extent, Extent::FullTurn(_));
     let least = |f: &dyn Fn(&Point) -> f64| extremes::least(tracker, points, closed, f);
     let flattest = least(&|point| point.measures[group].determinant.abs());
     let stiffest = least(&|point| 1.0 / point.measures[group].condition);
-    let at = |point: &Point, value: f64| At { crank: tracker.crank_of(&point.q), value };
+    let at = |point: &Point, value: f64| ValueAtCrank { crank: tracker.crank_of(&point.q), value };
     GroupRange {
         determinant: at(&flattest, flattest.measures[group].determinant),
         condition: Some(at(&stiffest, stiffest.measures[group].condition)),

@@ -3,6 +3,7 @@
 //! `omega^2 / 2 dI*/dphi + I* domega/dt = M`. I* and dI*/dphi follow from first and second transfer functions, M from
 //! the powers of motor, gravity and loads.
 //! Artobolevsky, "Theory of mechanisms and machines", motion of a machine under given forces.
+//! See docs/numerics/forces.md.
 
 pub(crate) mod flow;
 pub mod means;
@@ -11,5 +12,5 @@ pub mod run_up;
 mod turn;
 
 pub use crate::motion::march::ACCURACY;
-pub use model::{Model, Reduced};
-pub use run_up::{CrankState, End, RunUp, motion};
+pub use model::{Reduced, ReducedModel};
+pub use run_up::{CrankState, RunUp, RunUpEnd, motion};

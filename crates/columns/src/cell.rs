@@ -6,7 +6,7 @@ use linkage::math::KeepNan;
 
 /// A cell as it was read.
 #[derive(Clone, Copy, Debug)]
-pub struct Cell {
+pub struct TableCell {
     /// The number; NaN where the cell has no number.
     value: f64,
     /// Decimals printed, less the exponent.
@@ -36,17 +36,17 @@ pub fn is_missing(number: &Rounded) -> bool {
     number.value.is_nan() && number.error == 0.0
 }
 
-impl Cell {
+impl TableCell {
     /// Reads a cell; `None` if it is neither a number nor a word for a missing one.
     #[must_use]
-    pub fn parse(text: &str) -> Option<Cell> {
-        let Some(decimal) = Cell::decimal(text) else { return Cell::word(text) };
+    pub fn parse(text: &str) -> Option<TableCell> {
+        let Some(decimal) = TableCell::decimal(text) else { return TableCell::word(text) };
         // Python ends whole numbers with a point and a zero, whatever digits they have.
-        Some(text.strip_suffix(".0").and_then(Cell::decimal).unwrap_or(decimal))
+        Some(text.strip_suffix(".0").and_then(TableCell::decimal).unwrap_or(decimal))
     }
 
     /// A number with a point and an exponent, or without.
-    fn decimal(text: &str) -> Option<Cell> {
+    fn decimal(text: &str) -> Option<TableCell> {
         let (mut decimals, mut significant, mut telling, mut point, mut exponent) = (0i32, 0u16, 0u16, false, 0i32);
         for (at, byte) in text.bytes().enumerate() {
             match byte {
@@ -66,14 +66,14 @@ impl Cell {
             }
         }
         let value: f64 = text.parse().ok().filter(|value: &f64| value.is_finite())?;
-        Some(Cell { value, decimals: decimals.checked_sub(exponent)?, significant, telling, is_missing: false })
+        Some(TableCell { value, decimals: decimals.checked_sub(exponent)?, significant, telling, is_missing: false })
     }
 
-    fn word(text: &str) -> Option<Cell> {
+    fn word(text: &str) -> Option<TableCell> {
         let is = |words: &[&str], text: &str| words.iter().any(|word| text.eq_ignore_ascii_case(word));
         let is_missing = text.is_empty() || is(&EMPTY, text);
         let is_word = is_missing || is(&NO_NUMBER, text.strip_prefix(['+', '-']).unwrap_or(text));
-        is_word.then_some(Cell { value: f64::NAN, decimals: 0, significant: 0, telling: 0, is_missing })
+        is_word.then_some(TableCell { value: f64::NAN, decimals: 0, significant: 0, telling: 0, is_missing })
     }
 
     /// The number; NaN where there is none.
@@ -100,7 +100,7 @@ impl Cell {
 
     /// The same number with the zeros at its end that were not printed: as many as neither so many decimals nor so many
     /// significant digits forbid.
-    pub(crate) fn with_zeros(mut self, decimals: i32, significant: u16) -> Cell {
+    pub(crate) fn with_zeros(mut self, decimals: i32, significant: u16) -> TableCell {
         let mut zeros = decimals.saturating_sub(self.decimals).max(0);
         if self.has_digits() {
             zeros = zeros.min(i32::from(significant.saturating_sub(self.significant)));
@@ -127,19 +127,19 @@ impl Cell {
 /// Numbers in single precision, which are printed with up to nine digits, hold less than these; the shortest text that
 /// tells one from its neighbours may lie half way to these, so that it is read in single precision again.
 #[must_use]
-pub fn numbers(cells: &[Cell]) -> Vec<Rounded> {
+pub fn numbers(cells: &[TableCell]) -> Vec<Rounded> {
     numbers_as(cells, Precision::of(cells))
 }
 
-pub(crate) fn numbers_as(cells: &[Cell], precision: Precision) -> Vec<Rounded> {
+pub(crate) fn numbers_as(cells: &[TableCell], precision: Precision) -> Vec<Rounded> {
     let shown = || cells.iter().filter(|cell| !cell.value.is_nan());
     let decimals = shown().map(|cell| cell.decimals).max().unwrap_or(0);
-    let [all, telling] = [|cell: &Cell| cell.significant, |cell: &Cell| cell.telling]
+    let [all, telling] = [|cell: &TableCell| cell.significant, |cell: &TableCell| cell.telling]
         .map(|of| i32::from(shown().map(of).max().unwrap_or(0)));
     let is_single = precision == Precision::Single;
     let binary = if is_single { 0.5 * f64::from(f32::EPSILON) } else { f64::EPSILON };
     let with = |significant: i32| -> Vec<Rounded> {
-        let of = |cell: &Cell| {
+        let of = |cell: &TableCell| {
             if cell.value.is_nan() {
                 return if cell.is_missing { MISSING } else { UNDEFINED };
             }
@@ -175,10 +175,10 @@ pub(crate) enum Precision {
 }
 
 impl Precision {
-    pub(crate) fn of(cells: &[Cell]) -> Precision {
+    pub(crate) fn of(cells: &[TableCell]) -> Precision {
         let shown = || cells.iter().filter(|cell| !cell.value.is_nan());
         let are_few = shown().filter(|cell| cell.significant >= 8).count() < TELLING;
-        let is_single = |cell: &Cell| (cell.value as f32).to_string().parse::<f64>() == Ok(cell.value);
+        let is_single = |cell: &TableCell| (cell.value as f32).to_string().parse::<f64>() == Ok(cell.value);
         match are_few || shown().any(|cell| cell.significant > 9) || !shown().all(is_single) {
             true => Precision::Double,
             false => Precision::Single,
@@ -191,7 +191,7 @@ mod tests {
     use super::*;
 
     fn errors(cells: &[&str]) -> Vec<f64> {
-        let cells: Vec<Cell> = cells.iter().map(|text| Cell::parse(text).unwrap()).collect();
+        let cells: Vec<TableCell> = cells.iter().map(|text| TableCell::parse(text).unwrap()).collect();
         numbers(&cells).iter().map(|number| number.error).collect()
     }
 
@@ -228,14 +228,14 @@ mod tests {
     #[test]
     fn what_is_no_number_is_none() {
         for wrong in ["1,5", "x", "1.2.3", "0x10", "12 mm", "--1", "1e", ".", "+", "nano", "1e1.5"] {
-            assert!(Cell::parse(wrong).is_none(), "{wrong}");
+            assert!(TableCell::parse(wrong).is_none(), "{wrong}");
         }
-        let of = |text: &str| numbers(&[Cell::parse(text).unwrap()])[0];
+        let of = |text: &str| numbers(&[TableCell::parse(text).unwrap()])[0];
         for missing in ["", "-", "NULL", "None", "NA", "n/a", "<NA>"] {
             assert!(is_missing(&of(missing)), "{missing}");
         }
         for none in ["nan", "-NaN", "inf", "-Infinity", "-1.#IND", "1e999"] {
-            let Some(found) = Cell::parse(none) else {
+            let Some(found) = TableCell::parse(none) else {
                 assert_eq!(none, "1e999");
                 continue;
             };
@@ -248,7 +248,7 @@ mod tests {
     fn single_precision_has_fewer_digits_than_it_is_printed_with() {
         let printed: Vec<String> = (1..40).map(|row| (0.1f32 + (row as f32).sqrt()).to_string()).collect();
         let texts: Vec<&str> = printed.iter().map(String::as_str).collect();
-        let cells: Vec<Cell> = texts.iter().map(|text| Cell::parse(text).unwrap()).collect();
+        let cells: Vec<TableCell> = texts.iter().map(|text| TableCell::parse(text).unwrap()).collect();
         for (row, Rounded { value, error }) in numbers(&cells).into_iter().enumerate() {
             let exact = 0.1f32 + ((row + 1) as f32).sqrt();
             assert!(value == f64::from(exact) && error > 5.9e-8 * value, "{row}: {value} {error}");

@@ -1,6 +1,6 @@
 //! Columns of one number throughout: a moment that is zero, a constant speed.
 
-use crate::cell::{Cell, Precision, numbers, numbers_as};
+use crate::cell::{Precision, TableCell, numbers, numbers_as};
 use crate::instants::chosen;
 use formula::Rounded;
 
@@ -17,13 +17,13 @@ const SINGLE: u16 = 7;
 /// `%.6f` prints, or whole numbers that are no steps, each column may have its own format, and a constant be rounded to
 /// it.
 #[must_use]
-pub fn numbers_beside<Others>(cells: &[Cell], others: impl FnOnce() -> Others) -> Vec<Rounded>
+pub fn numbers_beside<Others>(cells: &[TableCell], others: impl FnOnce() -> Others) -> Vec<Rounded>
 where
-    Others: IntoIterator<Item: AsRef<[Cell]>>,
+    Others: IntoIterator<Item: AsRef<[TableCell]>>,
 {
     match is_zero(cells).then(|| vouched(others())).flatten() {
         Some(Vouched { decimals, significant, precision }) => {
-            let cells: Vec<Cell> = cells.iter().map(|cell| cell.with_zeros(decimals, significant)).collect();
+            let cells: Vec<TableCell> = cells.iter().map(|cell| cell.with_zeros(decimals, significant)).collect();
             numbers_as(&cells, precision)
         }
         None => numbers(cells),
@@ -39,7 +39,7 @@ struct Vouched {
 }
 
 /// What other columns vouch for; `None` if they say nothing.
-fn vouched(others: impl IntoIterator<Item: AsRef<[Cell]>>) -> Option<Vouched> {
+fn vouched(others: impl IntoIterator<Item: AsRef<[TableCell]>>) -> Option<Vouched> {
     let mut coarsest: Option<Vouched> = None;
     for column in others {
         let cells = column.as_ref();
@@ -48,7 +48,7 @@ fn vouched(others: impl IntoIterator<Item: AsRef<[Cell]>>) -> Option<Vouched> {
         }
         let shown = || cells.iter().filter(|cell| cell.has_digits());
         let (Some(decimals), Some(significant)) =
-            (shown().map(Cell::decimals).max(), shown().map(Cell::significant).max())
+            (shown().map(TableCell::decimals).max(), shown().map(TableCell::significant).max())
         else {
             continue;
         };
@@ -69,37 +69,37 @@ fn vouched(others: impl IntoIterator<Item: AsRef<[Cell]>>) -> Option<Vouched> {
 
 /// Whether all numbers of a column are zero: of a format by significant digits that is exact, however few they are. Any
 /// other constant may have been rounded to fewer digits than the other columns have.
-fn is_zero(cells: &[Cell]) -> bool {
+fn is_zero(cells: &[TableCell]) -> bool {
     is_constant(cells) && cells.iter().any(|cell| cell.value() == 0.0)
 }
 
 /// Whether all numbers of a column are the same.
-fn is_constant(cells: &[Cell]) -> bool {
-    let mut shown = cells.iter().map(Cell::value).filter(|value| !value.is_nan());
+fn is_constant(cells: &[TableCell]) -> bool {
+    let mut shown = cells.iter().map(TableCell::value).filter(|value| !value.is_nan());
     let Some(first) = shown.next() else { return false };
     shown.all(|value| value == first)
 }
 
-fn leaves_zeros_out(cells: &[Cell]) -> bool {
-    fn differ<T: PartialEq>(cells: &[Cell], of: fn(&Cell) -> T) -> bool {
+fn leaves_zeros_out(cells: &[TableCell]) -> bool {
+    fn differ<T: PartialEq>(cells: &[TableCell], of: fn(&TableCell) -> T) -> bool {
         let mut all = cells.iter().filter(|cell| cell.has_digits()).map(of);
         let first = all.next();
         all.any(|own| Some(own) != first)
     }
-    differ(cells, Cell::decimals) && differ(cells, Cell::significant)
+    differ(cells, TableCell::decimals) && differ(cells, TableCell::significant)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn cells(texts: &[&str]) -> Vec<Cell> {
-        texts.iter().map(|text| Cell::parse(text).unwrap()).collect()
+    fn cells(texts: &[&str]) -> Vec<TableCell> {
+        texts.iter().map(|text| TableCell::parse(text).unwrap()).collect()
     }
 
     /// What the digits of the first number of a column leave open beside others.
     fn error(column: &[&str], others: &[&[&str]]) -> f64 {
-        let others: Vec<Vec<Cell>> = others.iter().map(|texts| cells(texts)).collect();
+        let others: Vec<Vec<TableCell>> = others.iter().map(|texts| cells(texts)).collect();
         numbers_beside(&cells(column), || others)[0].error
     }
 

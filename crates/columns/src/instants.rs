@@ -119,10 +119,10 @@ pub fn drift(values: &[Rounded], at: &[f64], slack: &[f64], order: &[usize], tur
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cell::{Cell, numbers};
+    use crate::cell::{TableCell, numbers};
 
     fn of(texts: &[String]) -> Vec<Rounded> {
-        numbers(&texts.iter().map(|text| Cell::parse(text).unwrap()).collect::<Vec<_>>())
+        numbers(&texts.iter().map(|text| TableCell::parse(text).unwrap()).collect::<Vec<_>>())
     }
 
     #[test]

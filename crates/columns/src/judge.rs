@@ -6,7 +6,7 @@ use linkage::math::KeepNan;
 
 /// One row of both columns.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Row {
+pub struct RowPair {
     /// Its number in the party that gives the instants.
     pub row: usize,
     /// Time (s); NaN where none is known.
@@ -23,7 +23,7 @@ pub struct Row {
     pub known: f64,
 }
 
-impl Row {
+impl RowPair {
     /// Share of the bound that is used; infinite for no number.
     #[must_use]
     pub fn used(&self) -> f64 {
@@ -55,29 +55,29 @@ pub struct Beside<'a> {
     /// What is allowed.
     pub allowance: Allowance,
     /// Which of the two is measured by.
-    pub measure: Measure,
+    pub measure: ScaleColumn,
 }
 
 /// Which of two columns is measured by: the first, unless the second alone is of an analytic side.
 #[derive(Clone, Copy, Debug)]
-pub struct Measure {
+pub struct ScaleColumn {
     /// Its number, from 0.
     pub party: usize,
     /// Whether its numbers are those of an analytic side: where that has none, nothing is expected.
     pub is_analytic: bool,
 }
 
-impl Measure {
+impl ScaleColumn {
     /// By whether each of the two is of an analytic side.
     #[must_use]
     pub fn among([one, other]: [bool; 2]) -> Self {
-        Measure { party: usize::from(!one && other), is_analytic: one || other }
+        ScaleColumn { party: usize::from(!one && other), is_analytic: one || other }
     }
 }
 
 /// What two columns come to.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Judged {
+pub struct JudgedColumns {
     /// Number of rows compared.
     pub judged: usize,
     /// Number of rows at which nothing was measured, or nothing is defined.
@@ -89,19 +89,19 @@ pub struct Judged {
     /// The widest bound.
     pub loosest: f64,
     /// The largest difference between numbers.
-    pub largest: Option<Row>,
+    pub largest: Option<RowPair>,
     /// The row that uses most of its bound.
-    pub worst: Option<Row>,
+    pub worst: Option<RowPair>,
     /// The first row beyond its bound.
-    pub since: Option<Row>,
+    pub since: Option<RowPair>,
 }
 
 /// Judges row by row. Where only one of the two has a number although the other says that it has computed one, they
 /// differ: such a NaN is beyond every bound.
 #[must_use]
-pub fn judge(both: &Beside) -> Judged {
+pub fn judge(both: &Beside) -> JudgedColumns {
     let Beside { values, places, drift, turn, allowance, measure } = *both;
-    let (mut own, mut squares, mut numbers) = (Judged::default(), 0.0, 0usize);
+    let (mut own, mut squares, mut numbers) = (JudgedColumns::default(), 0.0, 0usize);
     for (row, (&one, &other)) in values[0].iter().zip(values[1]).enumerate() {
         let measured = [one, other][measure.party];
         let nothing_expected = match measure.is_analytic {
@@ -117,7 +117,7 @@ pub fn judge(both: &Beside) -> Judged {
         let known = one.error + other.error + drift.get(row).copied().unwrap_or(0.0);
         let bound = known + allowance.fixed.larger(allowance.of_value * measured.value.abs());
         let [time, crank] = places.map(|of| of[row]);
-        let at = Row { row, time, crank, values: [one.value, other.value], difference, bound, known };
+        let at = RowPair { row, time, crank, values: [one.value, other.value], difference, bound, known };
         own.judged += 1;
         if difference.is_finite() {
             numbers += 1;
@@ -130,7 +130,7 @@ pub fn judge(both: &Beside) -> Judged {
         if own.worst.is_none_or(|worst| at.used() > worst.used()) {
             own.worst = Some(at);
         }
-        let is_earlier = |since: Row| if time.is_nan() { crank < since.crank } else { time < since.time };
+        let is_earlier = |since: RowPair| if time.is_nan() { crank < since.crank } else { time < since.time };
         if !(at.used() <= 1.0) && own.since.is_none_or(is_earlier) {
             own.since = Some(at);
         }
@@ -144,10 +144,10 @@ mod tests {
     use super::*;
     use crate::cell::{MISSING, UNDEFINED};
 
-    fn judged(first: &[Rounded], second: &[Rounded], is_analytic: [bool; 2]) -> Judged {
+    fn judged(first: &[Rounded], second: &[Rounded], is_analytic: [bool; 2]) -> JudgedColumns {
         let at: Vec<f64> = (0..first.len()).map(|row| row as f64).collect();
         let (places, allowance) = ([&at[..], &at], Allowance::default());
-        let measure = Measure::among(is_analytic);
+        let measure = ScaleColumn::among(is_analytic);
         judge(&Beside { values: [first, second], places, drift: &[], turn: None, allowance, measure })
     }
 
@@ -160,7 +160,7 @@ mod tests {
         let (at, nowhere, drift) = ([5.0, 4.0, 3.0, 2.0, 1.0], [f64::NAN; 5], [0.5, 0.0, 0.0, 0.0, 0.0]);
         for places in [[&at[..], &nowhere], [&nowhere, &at]] {
             let allowance = Allowance { fixed: 0.25, of_value: 0.1 };
-            let measure = Measure { party: 0, is_analytic: true };
+            let measure = ScaleColumn { party: 0, is_analytic: true };
             let both = Beside { values: [&first, &second], places, drift: &drift, turn: None, allowance, measure };
             let found = judge(&both);
             // Differences 0, 1, -4 and none; bounds 0.8 + 1, 2, 3 and 4.
@@ -171,7 +171,7 @@ mod tests {
             // What is no number uses most, and is beyond its bound at the earliest instant.
             assert_eq!([found.worst, found.since].map(|own| own.unwrap().row), [4, 4]);
             // By the second party, whose numbers are other ones.
-            let by_other = judge(&Beside { measure: Measure { party: 1, is_analytic: false }, ..both });
+            let by_other = judge(&Beside { measure: ScaleColumn { party: 1, is_analytic: false }, ..both });
             assert_eq!(by_other.largest.unwrap().bound, 0.1 * 26.0);
             // An angle of 4 turned by 5 is one of -1.
             let turned = judge(&Beside { turn: Some(5.0), ..both });

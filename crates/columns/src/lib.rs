@@ -1,30 +1,25 @@
-//! Columns of numbers as other programs write them: read with their digits, and held side by side.
+#![doc = include_str!("../README.md")]
 //!
 //! Loops over rows stand here, because this crate is compiled with optimisation.
 //!
-//! - [`read`]: a text with separated columns as a [`Table`].
+//! - [`read`]: a text with separated columns as a [`TextTable`].
 //! - [`Records`]: the rows of a table whose cells are not all numbers.
-//! - [`Cell`] and [`numbers`]: what the digits of a column leave open.
+//! - [`TableCell`] and [`numbers`]: what the digits of a column leave open.
 //! - [`numbers_beside`]: the same in a file, where other columns tell what a constant does not show.
 //! - [`chosen`]: whether instants were chosen as they are printed, or rounded.
 //! - [`judge`]: two columns against each other.
-//!
-//! ```
-//! let table = columns::read("t_s,x\n0,1.25\n0.1,1.5\n").unwrap();
-//! assert_eq!(table.names, ["t_s", "x"]);
-//! assert!((table.columns[1][1].error - 0.005).abs() < 1e-9);
-//! ```
 
 mod cell;
 mod constant;
 mod instants;
 mod judge;
 mod records;
+mod sentences;
 mod text;
 
-pub use cell::{Cell, MISSING, UNDEFINED, is_missing, numbers};
+pub use cell::{MISSING, TableCell, UNDEFINED, is_missing, numbers};
 pub use constant::numbers_beside;
 pub use instants::{chosen, degrees_chosen, drift};
-pub use judge::{Allowance, Beside, Judged, Measure, Row, judge};
+pub use judge::{Allowance, Beside, JudgedColumns, RowPair, ScaleColumn, judge};
 pub use records::Records;
-pub use text::{Fault, Table, Twice, bytes, read};
+pub use text::{TableFault, TextTable, Twice, bytes, read};

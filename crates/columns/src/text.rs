@@ -1,12 +1,13 @@
 //! Text with separated columns, as programs write it: with commas, semicolons, tabs or blanks, with or without a
 //! header, with lines of comment.
 
+use crate::sentences;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::fmt;
 use std::ops::Range;
 
-use super::cell::Cell;
+use super::cell::TableCell;
 use super::constant::numbers_beside;
 use formula::Rounded;
 
@@ -15,7 +16,7 @@ const COMMENTS: [char; 3] = ['#', '%', ';'];
 
 /// A table as it stands in a file, whatever its columns mean. All have the same length.
 #[derive(Clone, Debug, Default)]
-pub struct Table {
+pub struct TextTable {
     /// Names of the columns; `c1`, `c2`, ... where the text has none.
     pub names: Vec<String>,
     /// Their numbers, each with what its digits leave open.
@@ -24,7 +25,7 @@ pub struct Table {
     pub lines: Vec<u32>,
 }
 
-impl Table {
+impl TextTable {
     /// Number of rows.
     #[must_use]
     pub fn len(&self) -> usize {
@@ -35,8 +36,8 @@ impl Table {
     #[must_use]
     pub fn place(&self, row: usize) -> String {
         match self.lines.get(row) {
-            Some(line) => format!("line {line} of the table"),
-            None => format!("row {} of the table", row + 1),
+            Some(line) => sentences::line_of_the_table(&line),
+            None => sentences::row_of_the_table(&(row + 1)),
         }
     }
 
@@ -49,7 +50,7 @@ impl Table {
 
 /// Why a text is no table.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Fault {
+pub struct TableFault {
     /// Bytes of the line.
     pub at: Range<usize>,
     /// What was found.
@@ -69,7 +70,7 @@ pub struct Twice {
 
 impl Twice {
     /// The way out.
-    pub const HELP: &str = "give every column a name of its own, or take one of the two out";
+    pub const HELP: &str = sentences::GIVE_EVERY_COLUMN_A_NAME;
 
     /// The first name that stands twice. Columns without a name are nobody's: nothing can ask for them.
     pub fn of<T: AsRef<str>>(names: impl IntoIterator<Item = T>) -> Option<Twice> {
@@ -90,7 +91,7 @@ impl Twice {
 impl fmt::Display for Twice {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let [first, second] = self.columns;
-        write!(f, "the columns {first} and {second} of the table are both called \"{}\"", self.name)
+        write!(f, "{}", sentences::the_columns_and_of_the_table(&first, &second, &self.name))
     }
 }
 
@@ -98,23 +99,23 @@ impl fmt::Display for Twice {
 #[must_use]
 pub fn bytes(text: &str) -> f64 {
     let cells = text.bytes().filter(|byte| matches!(byte, b',' | b';' | b'\t' | b' ' | b'\n')).count() + 1;
-    (cells * (size_of::<Cell>() + size_of::<Rounded>())) as f64
+    (cells * (size_of::<TableCell>() + size_of::<Rounded>())) as f64
 }
 
 /// Reads a table. The last line shows which sign separates the columns.
 ///
 /// # Errors
 /// A line with another number of cells than the header, a cell that is no number, two columns of one name, no line.
-pub fn read(text: &str) -> Result<Table, Fault> {
+pub fn read(text: &str) -> Result<TextTable, TableFault> {
     let wrong = |start: usize, message: String, help: &str| {
         let length = text[start..].find(['\r', '\n']).unwrap_or(text.len() - start);
-        Fault { at: start..start + length, message, help: help.into() }
+        TableFault { at: start..start + length, message, help: help.into() }
     };
     let separator =
         lines(text).last().and_then(|(_, line)| ['\t', ';', ','].into_iter().find(|sign| line.trim().contains(*sign)));
     let mut rows = lines(text).peekable();
     let Some(&(header_at, first)) = rows.peek() else {
-        return Err(wrong(0, "the table is empty".into(), "give a table with a header and one row per instant"));
+        return Err(wrong(0, sentences::THE_TABLE_IS_EMPTY.into(), sentences::GIVE_A_TABLE_WITH_A_HEADER));
     };
     let mut first_cells = Vec::new();
     divide(first, separator, &mut |cell| first_cells.push(cell.trim().to_string()));
@@ -128,7 +129,7 @@ pub fn read(text: &str) -> Result<Table, Fault> {
     if let Some(twice) = Twice::of(&names) {
         return Err(wrong(header_at, twice.to_string(), Twice::HELP));
     }
-    let mut columns: Vec<Vec<Cell>> = vec![Vec::new(); names.len()];
+    let mut columns: Vec<Vec<TableCell>> = vec![Vec::new(); names.len()];
     let (mut places, mut seen, mut place) = (Vec::new(), 0, 1u32);
     for (start, line) in rows {
         place += text.as_bytes()[seen..start].iter().filter(|&&byte| byte == b'\n').count() as u32;
@@ -144,24 +145,25 @@ pub fn read(text: &str) -> Result<Table, Fault> {
             count += 1;
         });
         if count != names.len() {
-            let message = format!("the row has {count} cells, but the first line has {}", names.len());
-            return Err(wrong(start, message, "give every row as many cells as the header"));
+            let message = sentences::the_row_has_cells_but_the_first(&count, &names.len());
+            return Err(wrong(start, message, sentences::GIVE_EVERY_ROW_AS_MANY_CELLS));
         }
         if let Some((column, cell)) = fault {
-            let message = format!("in the column \"{}\" stands \"{cell}\", which is no number", names[column]);
-            let help = "write decimals with a point; leave a cell empty where nothing was measured";
+            let message = sentences::in_the_column_stands_which_is_no_number(&names[column], &cell);
+            let help = sentences::WRITE_DECIMALS_WITH_A_POINT;
             return Err(wrong(start, message, help));
         }
     }
     let others = |own: usize| columns.iter().enumerate().filter(move |(other, _)| *other != own);
-    let of = |(own, cells): (usize, &Vec<Cell>)| numbers_beside(cells, || others(own).map(|(_, cells)| cells));
+    let of = |(own, cells): (usize, &Vec<TableCell>)| numbers_beside(cells, || others(own).map(|(_, cells)| cells));
     let columns = columns.iter().enumerate().map(of).collect();
-    Ok(Table { names, columns, lines: places })
+    Ok(TextTable { names, columns, lines: places })
 }
 
 /// A cell; decimal commas are taken where cells are not separated by commas.
-fn number(cell: &str) -> Option<Cell> {
-    Cell::parse(cell).or_else(|| (cell.matches(',').count() == 1).then(|| Cell::parse(&cell.replace(',', ".")))?)
+fn number(cell: &str) -> Option<TableCell> {
+    TableCell::parse(cell)
+        .or_else(|| (cell.matches(',').count() == 1).then(|| TableCell::parse(&cell.replace(',', ".")))?)
 }
 
 /// The lines that are no comments, each with its first byte. Tabs at an end may separate empty cells.

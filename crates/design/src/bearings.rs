@@ -1,5 +1,6 @@
 //! Largest reactions and moments over the grid's range, refined between samples, and the journal diameters they require.
 
+use crate::sentences;
 use linkage::math::KeepNan;
 use std::f64::consts::PI;
 
@@ -49,8 +50,7 @@ pub fn journal_diameter(force: f64, lever: f64, stress: f64) -> f64 {
 /// Those of [`PoseSolver::solve`], for crank angles within the range that cannot be reached.
 pub fn over_range(case: &Case) -> Result<Peaks> {
     if case.grid.inputs.iter().any(|&crank| case.crank().time_of(crank).is_nan()) {
-        let message =
-            "peaks are looked for over the crank angle, but the drive's law may come to an angle more than once";
+        let message = sentences::PEAKS_ARE_LOOKED_FOR_OVER;
         return Err(Error::new(ErrorKind::Unsupported, message).help(Advice::SolutionTable));
     }
     let mut poses = PoseSolver::new(case)?;

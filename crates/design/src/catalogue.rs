@@ -1,11 +1,12 @@
 //! Catalogue files: motors to choose from.
 
+use crate::sentences;
 use std::path::Path;
 
 use crate::motor::CatalogueMotor;
 use linkage::error::{Error, ErrorKind, Result};
 use scenario::header::check_format;
-use scenario::reader::{Sign, Table};
+use scenario::reader::{Sign, TomlTable};
 use scenario::source::Source;
 use scenario::unit::{ANGULAR_SPEED, POWER};
 
@@ -15,38 +16,43 @@ use scenario::unit::{ANGULAR_SPEED, POWER};
 /// [`ErrorKind::Io`] if the file cannot be read, [`ErrorKind::Input`] for anything wrong in it, with the place.
 pub fn load(path: &Path) -> Result<Vec<CatalogueMotor>> {
     let text = files::read_text(path).map_err(|error| {
-        Error::new(ErrorKind::Io, format!("the catalogue {} cannot be read: {error}", path.display()))
-            .help(files::way_out(&error, "give the path of a catalogue of motors, such as catalogues/motors.toml"))
+        Error::new(ErrorKind::Io, sentences::the_catalogue_cannot_be_read(&path.display(), &error))
+            .help(files::way_out(&error, sentences::GIVE_THE_PATH_OF_A_CATALOGUE))
     })?;
     let source = Source::new(path, &text);
     let tree = source.tree()?;
-    read(&mut Table::root(&source, &tree)).map_err(|error| source.located(tree.get_ref(), error))
+    read(&mut TomlTable::root(&source, &tree)).map_err(|error| source.located(tree.get_ref(), error))
 }
 
-fn read(root: &mut Table) -> Result<Vec<CatalogueMotor>> {
+fn read(root: &mut TomlTable) -> Result<Vec<CatalogueMotor>> {
     check_format(root)?;
     root.optional_string("source")?;
     let motors = root.tables("motors")?.into_iter().map(motor).collect::<Result<Vec<_>>>()?;
     root.finish()?;
     if motors.is_empty() {
-        return Err(root.fault("the catalogue holds no motor").key("motors").help("add a table `[[motors]]` for each"));
+        return Err(root
+            .fault(sentences::THE_CATALOGUE_HOLDS_NO_MOTOR)
+            .key("motors")
+            .help(sentences::ADD_A_TABLE_MOTORS_FOR_EACH));
     }
     Ok(motors)
 }
 
-fn motor(mut table: Table) -> Result<CatalogueMotor> {
+fn motor(mut table: TomlTable) -> Result<CatalogueMotor> {
     let name = table.string("name")?;
     let power = table.quantity("power", &POWER, Sign::Positive)?;
     let rated_speed = table.quantity("rated_speed", &ANGULAR_SPEED, Sign::Positive)?;
     let synchronous_speed = table.quantity("synchronous_speed", &ANGULAR_SPEED, Sign::Positive)?;
     let breakdown = table.optional_number("breakdown_ratio")?;
     if !(rated_speed < synchronous_speed) {
-        let message = "the rated speed is not below the synchronous one";
-        return Err(table.wrong(ErrorKind::Input, "rated_speed", message).help("check the two speeds and their units"));
+        let message = sentences::THE_RATED_SPEED_IS_NOT_BELOW;
+        return Err(table
+            .wrong(ErrorKind::Input, "rated_speed", message)
+            .help(sentences::CHECK_THE_TWO_SPEEDS_AND_THEIR));
     }
     if breakdown.is_some_and(|ratio| ratio <= 1.0) {
-        let message = "the breakdown torque is not above the rated one";
-        let help = "give breakdown torque over rated torque, 2 to 3 as a rule, or leave it out";
+        let message = sentences::THE_BREAKDOWN_TORQUE_IS_NOT_ABOVE;
+        let help = sentences::GIVE_BREAKDOWN_TORQUE_OVER_RATED;
         return Err(table.wrong(ErrorKind::Input, "breakdown_ratio", message).help(help));
     }
     table.finish()?;

@@ -8,6 +8,7 @@ mod swept;
 mod tests;
 mod tube;
 
+use crate::sentences;
 pub use search::{Meeting, Smallest};
 pub use swept::Area;
 
@@ -21,10 +22,10 @@ use linkage::math::statistics::ends;
 use linkage::mechanism::GroupKind;
 use linkage::solver::Solver;
 use linkage::trajectory::Stage;
-use scenario::clearance::{Body, Question};
+use scenario::clearance::{ClearanceBody, ClearanceQuestion};
 
 use gap::Solid;
-use search::Search;
+use search::DistanceSearch;
 use swept::Sweep;
 use tube::Tubes;
 
@@ -51,7 +52,7 @@ pub struct PairClearance {
 
 /// Exact work of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Work {
+pub struct ClearanceWork {
     /// Poses of side 1 for distances.
     pub poses: usize,
     /// Further poses of side 1 for swept areas.
@@ -64,7 +65,7 @@ pub struct Work {
 
 /// The answer to a question of clearance.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Clearance {
+pub struct ClearanceResult {
     /// Range of crank angles (rad), in the order of the motion.
     pub range: [f64; 2],
     /// All pairs that were asked for.
@@ -76,10 +77,10 @@ pub struct Clearance {
     /// Error that the smallest distances may have (m).
     pub tolerance: f64,
     /// What it took.
-    pub work: Work,
+    pub work: ClearanceWork,
 }
 
-impl Clearance {
+impl ClearanceResult {
     /// The pair that meets first, and where. Among pairs that meet at the start the first of the question.
     #[must_use]
     pub fn first_collision(&self) -> Option<(&PairClearance, Meeting)> {
@@ -113,14 +114,14 @@ impl Clearance {
 /// # Errors
 /// [`ErrorKind::Unsupported`] for a free motion of several freedoms.
 /// Those of [`analytic::PoseSolver::solve`] for crank angles that cannot be reached.
-pub fn find(case: &Case, question: &Question, progress: &mut dyn FnMut(f64)) -> Result<Clearance> {
+pub fn find(case: &Case, question: &ClearanceQuestion, progress: &mut dyn FnMut(f64)) -> Result<ClearanceResult> {
     let range = range(case)?;
     let case = &case.nominal();
     let size = case.mechanism.size();
     let mut tubes = Tubes::new(case, range, question.extent())?;
     let solids: Vec<Solid> = question.bodies.iter().map(|body| Solid::new(body.link, &body.outline, size)).collect();
     let tolerance = question.tolerance.unwrap_or(TOLERANCE * size);
-    let mut search = Search {
+    let mut search = DistanceSearch {
         tubes: &mut tubes,
         solids: &solids,
         tolerance,
@@ -146,7 +147,7 @@ pub fn find(case: &Case, question: &Question, progress: &mut dyn FnMut(f64)) -> 
     let moving: Vec<usize> = (0..question.bodies.len()).filter(|&body| question.bodies[body].moves()).collect();
     let (mut swept, mut squares) = (Vec::with_capacity(moving.len()), 0);
     for (done, &body) in moving.iter().enumerate() {
-        let Body { link, outline, .. } = &question.bodies[body];
+        let ClearanceBody { link, outline, .. } = &question.bodies[body];
         let mut sweep = Sweep::new(&mut tubes, *link, outline);
         swept.push((body, sweep.area(question.area, AREA_BUDGET)?));
         squares += sweep.tests;
@@ -154,13 +155,13 @@ pub fn find(case: &Case, question: &Question, progress: &mut dyn FnMut(f64)) -> 
         progress(0.5 + 0.5 * (done + 1) as f64 / moving.len() as f64);
     }
     let open = merged(open, range);
-    let work = Work { poses, positions: tubes.poses - poses, distances, squares };
-    Ok(Clearance { range, pairs, swept, open, tolerance, work })
+    let work = ClearanceWork { poses, positions: tubes.poses - poses, distances, squares };
+    Ok(ClearanceResult { range, pairs, swept, open, tolerance, work })
 }
 
 /// Distances of all pairs at the instants of a grid: samples, for graphs.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Course {
+pub struct DistanceCurve {
     /// Crank angles (rad), one an instant.
     pub cranks: Vec<f64>,
     /// The distance of every pair of the question (m), a row an instant.
@@ -171,7 +172,7 @@ pub struct Course {
 ///
 /// # Errors
 /// Those of [`find`].
-pub fn course(case: &Case, question: &Question) -> Result<Course> {
+pub fn course(case: &Case, question: &ClearanceQuestion) -> Result<DistanceCurve> {
     let cranks = cranks(case)?;
     let case = &case.nominal();
     let size = case.mechanism.size();
@@ -181,14 +182,14 @@ pub fn course(case: &Case, question: &Question) -> Result<Course> {
     let mut rows = Vec::with_capacity(cranks.len());
     for &crank in &cranks {
         let slice = tubes.slice(crank, 0.0)?;
-        let placed: Vec<gap::Placed> = solids.iter().map(|solid| solid.placed(&slice)).collect();
+        let placed: Vec<gap::PlacedSolid> = solids.iter().map(|solid| solid.placed(&slice)).collect();
         let of = |&[a, b]: &[usize; 2]| {
             let bodies = [&solids[a], &solids[b]];
             gap::gap(bodies, [&placed[a], &placed[b]], &slice, rounding, f64::INFINITY, &mut 0).now
         };
         rows.push(question.pairs.iter().map(of).collect());
     }
-    Ok(Course { cranks, rows })
+    Ok(DistanceCurve { cranks, rows })
 }
 
 /// Poses of all links at crank angles (rad), for drawings.
@@ -208,9 +209,9 @@ fn cranks(case: &Case) -> Result<Vec<f64>> {
         return Ok(case.grid.inputs.clone());
     }
     if !case.drives.further().is_empty() {
-        let message = "clearance is looked for over crank angles, but forces decide several freedoms of the motion";
+        let message = sentences::CLEARANCE_IS_LOOKED_FOR_OVER;
         let error = Error::new(ErrorKind::Unsupported, message);
-        return Err(error.help("prescribe the drives, or let no more than one link move freely"));
+        return Err(error.help(sentences::PRESCRIBE_THE_DRIVES_OR_LET));
     }
     Ok(AssurSolver.solve(&case.wanting(Wanted::of(&[Stage::Positions])))?.inputs().to_vec())
 }

@@ -15,10 +15,10 @@ mod sliding;
 pub mod timing;
 mod vectors;
 
-pub use graphs::{Graph, Graphs, Mark};
-pub use motion::{Course, MotionDiagram};
+pub use graphs::{CrankGraph, GraphPoint, Graphs};
+pub use motion::{MotionCurve, MotionDiagram};
 pub use plan::{Planner, Plans};
 pub use scheme::Scheme;
 pub use singular::SingularPoint;
 pub use timing::TimingDiagram;
-pub use vectors::{Part, Plan, Quantity, Tip, TipKind, Vector};
+pub use vectors::{Quantity, Tip, TipKind, Vector, VectorKind, VectorPlan};

@@ -1,6 +1,7 @@
 //! Flywheel for a required coefficient of non-uniformity.
 
-use analytic::reduced::Model;
+use crate::sentences;
+use analytic::reduced::ReducedModel;
 use analytic::steady::Regime;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::KeepNan;
@@ -31,11 +32,11 @@ impl Flywheel {
     /// # Errors
     /// [`ErrorKind::Input`] for a coefficient that is not positive.
     /// [`ErrorKind::Numeric`] for one that no flywheel reaches.
-    /// Those of [`Model::regime`].
-    pub fn of(model: &Model, wanted: f64, accuracy: f64) -> Result<Self> {
+    /// Those of [`ReducedModel::regime`].
+    pub fn of(model: &ReducedModel, wanted: f64, accuracy: f64) -> Result<Self> {
         if !(wanted > 0.0 && wanted.is_finite()) {
-            let message = format!("a coefficient of non-uniformity of {wanted} is asked for");
-            return Err(Error::new(ErrorKind::Input, message).help("give a number above zero, such as 0.02"));
+            let message = sentences::a_coefficient_of_non_uniformity(&wanted);
+            return Err(Error::new(ErrorKind::Input, message).help(sentences::GIVE_A_NUMBER_ABOVE_ZERO));
         }
         let mut last = Flywheel { inertia: 0.0, regime: model.with_flywheel(0.0).regime(&[], accuracy)? };
         // The inverse is nearly linear in the flywheel: delta J is about the largest surplus of work over omega^2.
@@ -50,15 +51,14 @@ impl Flywheel {
         };
         let guess = model.inertia_at_start()?.larger(f64::MIN_POSITIVE);
         let Some(ends) = root::widened(none, guess, guess * LARGEST, &mut with)? else {
-            let message = format!("no flywheel makes the coefficient of non-uniformity {wanted}");
-            return Err(Error::new(ErrorKind::Numeric, message).help("ask for a larger coefficient"));
+            let message = sentences::no_flywheel_makes_the_coefficient(&wanted);
+            return Err(Error::new(ErrorKind::Numeric, message).help(sentences::ASK_FOR_A_LARGER_COEFFICIENT));
         };
         let close = Close { value: CLOSE / wanted, width: 0.0 };
         if root::regula_falsi(ends, close, STEPS, with)?.is_some() {
             return Ok(last);
         }
-        let message =
-            format!("the flywheel for a coefficient of non-uniformity of {wanted} was not found in {STEPS} steps");
-        Err(Error::new(ErrorKind::Numeric, message).help("ask for a larger coefficient"))
+        let message = sentences::the_flywheel_for_a_coefficient(&wanted, &STEPS);
+        Err(Error::new(ErrorKind::Numeric, message).help(sentences::ASK_FOR_A_LARGER_COEFFICIENT))
     }
 }

@@ -9,6 +9,7 @@ pub mod export;
 pub mod flywheel;
 pub mod motor;
 pub mod redraw;
+mod sentences;
 pub mod synthesis;
 pub mod task;
 pub mod task_file;

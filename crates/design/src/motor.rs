@@ -5,9 +5,10 @@
 //! Courses of machine design choose in this way.
 //! It is conservative, because inertia carries the crank over peaks.
 
+use crate::sentences;
 use analytic::AssurSolver;
 use analytic::reduced::means::{self, means_over_turn};
-use analytic::reduced::{ACCURACY, Model};
+use analytic::reduced::{ACCURACY, ReducedModel};
 use analytic::steady::Regime;
 use linkage::case::Case;
 use linkage::drive::{Motor, MotorLaw};
@@ -61,7 +62,7 @@ pub fn weakest_sufficient(motors: &[CatalogueMotor], power: f64) -> Option<&Cata
 
 /// A motor chosen for a mechanism, and the resulting motion.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Choice {
+pub struct MotorChoice {
     /// Crank angle (rad) and value (N m) of the greatest reduced moment of resistance.
     pub peak: (f64, f64),
     /// Mean reduced moment of resistance (N m).
@@ -82,44 +83,39 @@ pub struct Choice {
     pub regime: Regime,
 }
 
-impl Choice {
+impl MotorChoice {
     /// The weakest motor of the catalogue that has the peak's power, for the crank's speed in the scenario.
     ///
     /// # Errors
     /// [`ErrorKind::Input`] for an efficiency that is not above 0 and at most 1, or if every motor is too weak.
     /// [`ErrorKind::Numeric`] if the mechanism needs no motor, or the motor has no steady speed.
-    /// Those of [`Model::of`] and of its extremes.
+    /// Those of [`ReducedModel::of`] and of its extremes.
     pub fn of(case: &Case, catalogue: &[CatalogueMotor], efficiency: f64) -> Result<Self> {
         if !(efficiency > 0.0 && efficiency <= 1.0) {
-            return Err(Error::new(ErrorKind::Input, format!("the efficiency is {efficiency}"))
-                .help("give a share above 0 and at most 1: 0.92 for 92 %"));
+            return Err(Error::new(ErrorKind::Input, sentences::the_efficiency_is(&efficiency))
+                .help(sentences::GIVE_A_SHARE_ABOVE_AND_AT_MOST));
         }
-        let model = Model::of(case)?;
+        let model = ReducedModel::of(case)?;
         let [_, resistance] = model.extremes()?;
         let omega = case.crank().at(0.0).rate;
         let mean = omega.signum() * means_over_turn(case, &AssurSolver)?.resistance;
         let wanted = omega.abs();
         let power = resistance.greatest.1 * wanted;
         if !(power > 0.0) {
-            let message =
-                format!("the greatest moment of resistance is {:.6} N m: nothing needs a motor", resistance.greatest.1);
-            return Err(Error::new(ErrorKind::Numeric, message)
-                .help("give the scenario the loads that the drive works against"));
+            let message = sentences::the_greatest_moment_of_resistance(&resistance.greatest.1);
+            return Err(Error::new(ErrorKind::Numeric, message).help(sentences::GIVE_THE_SCENARIO_THE_LOADS));
         }
         let asked = power / efficiency;
         let Some(motor) = weakest_sufficient(catalogue, asked) else {
             let strongest = catalogue.iter().map(|motor| motor.power).fold(0.0, f64::larger);
-            let message =
-                format!("the drive asks for {:.4} kW, the strongest motor has {:.4} kW", asked / 1e3, strongest / 1e3);
-            return Err(Error::new(ErrorKind::Input, message).help(
-                "give a catalogue with stronger motors, or lower the peak: a flywheel on the crank carries over it",
-            ));
+            let message = sentences::the_drive_asks_for_kw_the_strongest(&(asked / 1e3), &(strongest / 1e3));
+            return Err(Error::new(ErrorKind::Input, message).help(sentences::GIVE_A_CATALOGUE_WITH_STRONGER));
         };
         let geared = motor.geared_to(wanted, efficiency);
         let Some(averaged) = geared.steady_speed(mean) else { return Err(means::no_steady_speed(mean)) };
         let driven = case.with_motor(Some(geared.clone()))?;
-        let regime = Model::of(&driven)?.regime(&[], ACCURACY)?;
-        Ok(Choice {
+        let regime = ReducedModel::of(&driven)?.regime(&[], ACCURACY)?;
+        Ok(MotorChoice {
             peak: resistance.greatest,
             mean,
             wanted,

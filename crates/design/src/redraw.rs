@@ -1,8 +1,9 @@
 //! A drawing with other dimensions: the text of its scenario, changed only where dimensions are.
 
+use crate::sentences;
 use toml_edit::{DocumentMut, InlineTable, Item, TableLike, value};
 
-use crate::task::{Entry, Task};
+use crate::task::{Task, TaskNumber};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::Vec2;
 use linkage::mechanism::{GROUND, Link, LinkId};
@@ -40,7 +41,7 @@ const OWN: [&str; 3] = ["oracle", "formula", "source"];
 #[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the TOML parser")]
 pub fn redrawn(task: &Task, text: &str, values: &[f64], comment: &str) -> Result<String> {
     let mut document: DocumentMut =
-        text.parse().map_err(|error| Error::new(ErrorKind::Input, format!("the file is not valid TOML: {error}")))?;
+        text.parse().map_err(|error| Error::new(ErrorKind::Input, sentences::the_file_is_not_valid_toml(&error)))?;
     let left_out: Vec<&str> = OWN.into_iter().filter(|key| document.remove(key).is_some()).collect();
     let mut mechanism = task.case.mechanism.clone();
     document["name"] = value(task.name.as_str());
@@ -61,7 +62,7 @@ pub fn redrawn(task: &Task, text: &str, values: &[f64], comment: &str) -> Result
         let points = owner.get_mut("points").and_then(Item::as_table_like_mut).ok_or_else(|| foreign(&body.name))?;
         points.insert(&body.points[place.handle.point].name, value(written));
     }
-    if let Entry::Free(index) = task.zero {
+    if let TaskNumber::Free(index) = task.zero {
         let drive = match &mut document["drive"] {
             Item::ArrayOfTables(drives) => drives.get_mut(0).map(|table| table as &mut dyn TableLike),
             item => item.as_table_like_mut(),
@@ -77,12 +78,7 @@ pub fn redrawn(task: &Task, text: &str, values: &[f64], comment: &str) -> Result
     }
     let left_out = match &left_out[..] {
         [] => String::new(),
-        keys => {
-            format!(
-                "\nLeft out of the drawing, because it holds for its own dimensions only: {}.\nComments below are those of the drawing.",
-                keys.join(", ")
-            )
-        }
+        keys => sentences::left_out_of_the_drawing_because(&keys.join(", ")),
     };
     let comment = comment.to_string() + &left_out;
     let comment: String = comment.lines().map(|line| format!("# {line}").trim_end().to_string() + "\n").collect();
@@ -90,8 +86,8 @@ pub fn redrawn(task: &Task, text: &str, values: &[f64], comment: &str) -> Result
 }
 
 fn foreign(name: &str) -> Error {
-    Error::new(ErrorKind::Input, format!("the drawing has no `{name}` where the task has it"))
-        .help("give the text of the scenario that the task names")
+    Error::new(ErrorKind::Input, sentences::the_drawing_has_no_where(&name))
+        .help(sentences::GIVE_THE_TEXT_OF_THE_SCENARIO)
 }
 
 /// The table of a link; the ground has its own table.

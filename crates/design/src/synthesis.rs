@@ -10,8 +10,8 @@ pub mod slider_crank;
 
 pub use achieved::Achieved;
 pub use crank_rocker::CrankRocker;
-pub use draft::Sheet;
-pub use search::{Found, search};
+pub use draft::DraftContents;
+pub use search::{SearchResult, search};
 pub use slider_crank::SliderCrank;
 
 use linkage::error::{Error, ErrorKind};

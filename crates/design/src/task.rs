@@ -3,6 +3,7 @@
 
 mod timing;
 
+use crate::sentences;
 pub use timing::{Phase, Sense, Timing};
 
 use linkage::case::Case;
@@ -12,7 +13,7 @@ use linkage::mechanism::{GroupKind, Handle, LinkId, Mechanism, StartGroup};
 
 /// The output quantity.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Output {
+pub enum OutputQuantity {
     /// The angle of a link (rad, counter-clockwise positive).
     Angle {
         /// The link.
@@ -42,37 +43,37 @@ pub struct Variable {
 
 /// A fixed number or a variable.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Entry {
+pub enum TaskNumber {
     /// Fixed (SI).
     Fixed(f64),
     /// The variable with this index.
     Free(usize),
 }
 
-impl Entry {
+impl TaskNumber {
     /// Its value (SI), given the values of the variables.
     #[inline]
     #[must_use]
     pub fn value(self, values: &[f64]) -> f64 {
         match self {
-            Entry::Fixed(value) => value,
-            Entry::Free(index) => values[index],
+            TaskNumber::Fixed(value) => value,
+            TaskNumber::Free(index) => values[index],
         }
     }
 }
 
 /// The position of a point in its link.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Place {
+pub struct PointPosition {
     /// The point, and the joints that move with it.
     pub handle: Handle,
     /// Point of the same link from which length and angle are measured. Without it the entries are x and y.
     pub from: Option<usize>,
     /// x and y (m), or length (m) and angle (rad) in the link's frame.
-    pub entries: [Entry; 2],
+    pub entries: [TaskNumber; 2],
 }
 
-impl Place {
+impl PointPosition {
     /// Moves the point to the position that `values` define.
     #[inline]
     pub fn apply(&self, values: &[f64], mechanism: &mut Mechanism) {
@@ -87,7 +88,7 @@ impl Place {
 
 /// Effort of the search.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Effort {
+pub struct SearchEffort {
     /// Seed of all random numbers.
     pub seed: u64,
     /// Number of random candidates.
@@ -112,11 +113,11 @@ pub struct Task {
     /// The variable quantities.
     pub variables: Vec<Variable>,
     /// Positions that follow from them, in the order in which they must be set.
-    pub places: Vec<Place>,
+    pub places: Vec<PointPosition>,
     /// World direction of the crank at crank angle zero (rad).
-    pub zero: Entry,
+    pub zero: TaskNumber,
     /// The output quantity.
-    pub output: Output,
+    pub output: OutputQuantity,
     /// Sense of the output that counts as forward: +1 or -1; `None` leaves it to the search.
     pub forward: Option<f64>,
     /// The wanted motion of the output.
@@ -126,7 +127,7 @@ pub struct Task {
     /// Smallest permitted transmission angle of any dyad (rad).
     pub transmission: f64,
     /// Effort of the search.
-    pub effort: Effort,
+    pub effort: SearchEffort,
     /// Mass of the links found, per metre of their length (kg/m). Without it links keep the masses of the drawing.
     pub bar: Option<f64>,
 }
@@ -145,23 +146,23 @@ impl Task {
             Err(Error::new(kind, message).key(key).help(help))
         };
         if !self.case.drives.further().is_empty() {
-            let message = "the mechanism has several drives, but a timing belongs to one crank";
-            return wrong(ErrorKind::Unsupported, "scenario", message, "take a scenario with one `[drive]`");
+            let message = sentences::THE_MECHANISM_HAS_SEVERAL_DRIVES;
+            return wrong(ErrorKind::Unsupported, "scenario", message, sentences::TAKE_A_SCENARIO_WITH_ONE_DRIVE);
         }
         if self.variables.is_empty() {
-            let help = "add a table `[[vary]]` for each length or pivot to be found";
-            return wrong(ErrorKind::Input, "vary", "nothing may vary", help);
+            let help = sentences::ADD_A_TABLE_VARY_FOR_EACH;
+            return wrong(ErrorKind::Input, "vary", sentences::NOTHING_MAY_VARY, help);
         }
         let higher = self.case.structure.groups.iter().any(|group| group.kind == GroupKind::Higher);
         if higher && self.transmission > 0.0 {
-            let message = "a smallest transmission angle is asked for, but higher groups have none";
-            return wrong(ErrorKind::Unsupported, "limits", message, "leave `transmission` out");
+            let message = sentences::A_SMALLEST_TRANSMISSION_ANGLE_IS_ASKED;
+            return wrong(ErrorKind::Unsupported, "limits", message, sentences::LEAVE_TRANSMISSION_OUT);
         }
         let effort = &self.effort;
         let counts = [effort.candidates, effort.refined, effort.evaluations];
         if counts.iter().any(|count| !(1..=MOST).contains(count)) || effort.refined > effort.candidates {
-            let help = "give counts of 1 or more, and no more refinements than candidates";
-            let message = "the search has no candidates, no refinements or no evaluations";
+            let help = sentences::GIVE_COUNTS_OF_OR_MORE_AND_NO_MORE;
+            let message = sentences::THE_SEARCH_HAS_NO_CANDIDATES;
             return wrong(ErrorKind::Input, "search", message, help);
         }
         Ok(())

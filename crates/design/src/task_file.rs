@@ -1,18 +1,19 @@
 //! Synthesis files: the dimensions of a drawing that may vary, and the wanted motion of its output. docs/synthesis.md
 //! describes the format.
 
+use crate::sentences;
 use std::path::Path;
 
-use crate::task::{Effort, Entry, Output, Phase, Place, Sense, Task, Timing, Variable};
+use crate::task::{OutputQuantity, Phase, PointPosition, SearchEffort, Sense, Task, TaskNumber, Timing, Variable};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::unit;
 use linkage::mechanism::{GROUND, Mechanism};
 use scenario::Scenario;
 use scenario::header::{check_format, name};
 use scenario::joints::link;
-use scenario::reader::{Sign, Table};
+use scenario::reader::{Sign, TomlTable};
 use scenario::source::Source;
-use scenario::unit::{ANGLE, Family, LENGTH, MASS_PER_LENGTH};
+use scenario::unit::{ANGLE, LENGTH, MASS_PER_LENGTH, UnitFamily};
 use scenario::words::suggestion;
 
 /// Least displacement of a moving phase (share of the stroke), unless the file states another one.
@@ -35,16 +36,16 @@ impl TaskFile {
     /// [`Scenario::load`] and [`Task::check`].
     pub fn load(path: &Path) -> Result<Self> {
         let text = files::read_text(path).map_err(|error| {
-            Error::new(ErrorKind::Io, format!("the synthesis file {} cannot be read: {error}", path.display()))
-                .help(files::way_out(&error, "give the path of a synthesis file, such as sinker_task.toml"))
+            Error::new(ErrorKind::Io, sentences::the_synthesis_file_cannot_be_read(&path.display(), &error))
+                .help(files::way_out(&error, sentences::GIVE_THE_PATH_OF_A_SYNTHESIS))
         })?;
         let source = Source::new(path, &text);
         let tree = source.tree()?;
-        read(&mut Table::root(&source, &tree)).map_err(|error| source.located(tree.get_ref(), error))
+        read(&mut TomlTable::root(&source, &tree)).map_err(|error| source.located(tree.get_ref(), error))
     }
 }
 
-fn read(root: &mut Table) -> Result<TaskFile> {
+fn read(root: &mut TomlTable) -> Result<TaskFile> {
     check_format(root)?;
     let (own_name, title) = (name(root)?, root.string("title")?);
     let file = root.string("scenario")?;
@@ -60,15 +61,14 @@ fn read(root: &mut Table) -> Result<TaskFile> {
         if error.place().is_some() {
             error
         } else {
-            root.wrong(error.kind(), "scenario", error.message())
-                .help("name the scenario file of the drawing, beside this file")
+            root.wrong(error.kind(), "scenario", error.message()).help(sentences::NAME_THE_SCENARIO_FILE_OF_THE_DRAWING)
         }
     })?;
     let mechanism = &drawing.case.mechanism;
     let timing = timing(phases)?;
     let timing = if follow { timing.followed()? } else { timing };
     let (output, forward) = read_output(output, mechanism)?;
-    let family = if matches!(output, Output::Angle { .. }) { &ANGLE } else { &LENGTH };
+    let family = if matches!(output, OutputQuantity::Angle { .. }) { &ANGLE } else { &LENGTH };
     let (stroke, transmission) = read_limits(limits, family)?;
     let mut variables = Vec::new();
     let mut places = Vec::new();
@@ -77,7 +77,7 @@ fn read(root: &mut Table) -> Result<TaskFile> {
         places.push(found);
     }
     let zero = match zero {
-        None => Entry::Fixed(drawing.case.crank().zero),
+        None => TaskNumber::Fixed(drawing.case.crank().zero),
         Some(mut table) => {
             let bounds = bounds(&mut table, &ANGLE)?;
             table.finish()?;
@@ -104,14 +104,14 @@ fn read(root: &mut Table) -> Result<TaskFile> {
     Ok(TaskFile { task, drawing })
 }
 
-fn timing(tables: Vec<Table>) -> Result<Timing> {
+fn timing(tables: Vec<TomlTable>) -> Result<Timing> {
     let (mut from, mut phases, mut places) = (0.0, Vec::new(), Vec::new());
     for mut table in tables {
         let to = table.quantity("to", &ANGLE, Sign::Positive)?;
         let word = table.string("sense")?;
         let all = [Sense::Dwell, Sense::Forward, Sense::Back];
         let Some(&sense) = all.iter().find(|sense| sense.name() == word) else {
-            let error = table.wrong(ErrorKind::Input, "sense", format!("\"{word}\" is no sense of a phase"));
+            let error = table.wrong(ErrorKind::Input, "sense", sentences::is_no_sense_of_a_phase(&word));
             return Err(error.help(suggestion(&word, all.map(Sense::name), "\"")));
         };
         let (level, least) = (table.optional_number("level")?, table.optional_number("least")?.unwrap_or(LEAST));
@@ -130,13 +130,13 @@ fn timing(tables: Vec<Table>) -> Result<Timing> {
 }
 
 /// Output, and the sense of forward motion.
-fn read_output(mut table: Table, mechanism: &Mechanism) -> Result<(Output, Option<f64>)> {
+fn read_output(mut table: TomlTable, mechanism: &Mechanism) -> Result<(OutputQuantity, Option<f64>)> {
     let forward = match table.optional_string("forward")?.as_deref() {
         None => None,
         Some("positive") => Some(1.0),
         Some("negative") => Some(-1.0),
         Some(other) => {
-            let error = table.wrong(ErrorKind::Input, "forward", format!("\"{other}\" is no sense of an output"));
+            let error = table.wrong(ErrorKind::Input, "forward", sentences::is_no_sense_of_an_output(&other));
             return Err(error.help(suggestion(other, ["positive", "negative"], "\"")));
         }
     };
@@ -145,10 +145,10 @@ fn read_output(mut table: Table, mechanism: &Mechanism) -> Result<(Output, Optio
         (Some(name), None) => {
             let link = link(&mut table, &name, mechanism.links())?;
             if link == GROUND {
-                let error = table.wrong(ErrorKind::Input, "link", "the ground does not turn");
-                return Err(error.help("name the moving link whose angle is watched"));
+                let error = table.wrong(ErrorKind::Input, "link", sentences::THE_GROUND_DOES_NOT_TURN);
+                return Err(error.help(sentences::NAME_THE_MOVING_LINK_WHOSE));
             }
-            Output::Angle { link }
+            OutputQuantity::Angle { link }
         }
         (None, Some(name)) => {
             let along = unit(table.quantity("along", &ANGLE, Sign::Any)?);
@@ -157,15 +157,14 @@ fn read_output(mut table: Table, mechanism: &Mechanism) -> Result<(Output, Optio
                 .find_map(|(link, body)| Some((link, body.points.iter().position(|point| point.name == name)?)));
             let Some((link, point)) = found else {
                 let names = moving().flat_map(|(_, body)| body.points.iter().map(|point| point.name.as_str()));
-                let error = table.wrong(ErrorKind::Input, "point", format!("no moving link has a point \"{name}\""));
+                let error = table.wrong(ErrorKind::Input, "point", sentences::no_moving_link_has_a_point(&name));
                 return Err(error.help(suggestion(&name, names, "\"")));
             };
-            Output::Coordinate { link, point, along }
+            OutputQuantity::Coordinate { link, point, along }
         }
         _ => {
-            let help =
-                "write `link = \"lever\"` for its angle, or `point = \"F\"` and `along_deg = 90` for a coordinate";
-            return Err(table.fault("an output is one link or one point").help(help));
+            let help = sentences::WRITE_LINK_LEVER_FOR_ITS_ANGLE;
+            return Err(table.fault(sentences::AN_OUTPUT_IS_ONE_LINK_OR_ONE_POINT).help(help));
         }
     };
     table.finish()?;
@@ -173,15 +172,12 @@ fn read_output(mut table: Table, mechanism: &Mechanism) -> Result<(Output, Optio
 }
 
 /// Limits of the stroke, a quantity of this family, and the smallest transmission angle.
-fn read_limits(table: Option<Table>, family: &'static Family) -> Result<([f64; 2], f64)> {
+fn read_limits(table: Option<TomlTable>, family: &'static UnitFamily) -> Result<([f64; 2], f64)> {
     let Some(mut table) = table else { return Ok(([0.0, f64::INFINITY], 0.0)) };
     let transmission = table.optional_quantity("transmission", &ANGLE, Sign::NotNegative)?.unwrap_or(0.0);
     if transmission >= std::f64::consts::FRAC_PI_2 {
-        let message =
-            format!("a transmission angle of {:.6} deg cannot be kept over a turn", transmission.to_degrees());
-        return Err(table
-            .wrong(ErrorKind::Input, "transmission", message)
-            .help("give less than 90 deg; 30 to 45 deg are usual"));
+        let message = sentences::a_transmission_angle_of_deg(&transmission.to_degrees());
+        return Err(table.wrong(ErrorKind::Input, "transmission", message).help(sentences::GIVE_LESS_THAN_DEG_TO_DEG));
     }
     let stroke = match table.optional_table("stroke")? {
         None => [0.0, f64::INFINITY],
@@ -195,13 +191,13 @@ fn read_limits(table: Option<Table>, family: &'static Family) -> Result<([f64; 2
     Ok((stroke, transmission))
 }
 
-fn read_effort(mut table: Table) -> Result<Effort> {
+fn read_effort(mut table: TomlTable) -> Result<SearchEffort> {
     let mut count = |key: &str, default: i64| -> Result<u64> {
         let found = table.optional_integer(key)?.unwrap_or(default);
         u64::try_from(found).map_err(|_| {
             table
-                .wrong(ErrorKind::Input, key, format!("found {found}, but a count is not negative"))
-                .help("give a whole number from 0 on")
+                .wrong(ErrorKind::Input, key, sentences::found_but_a_count_is_not_negative(&found))
+                .help(sentences::GIVE_A_WHOLE_NUMBER_FROM_ON)
         })
     };
     let seed = count("seed", 1)?;
@@ -209,48 +205,49 @@ fn read_effort(mut table: Table) -> Result<Effort> {
     let (candidates, refined) = (size(count("candidates", 200_000)?), size(count("refined", 16)?));
     let evaluations = size(count("evaluations", 20_000)?);
     table.finish()?;
-    Ok(Effort { seed, candidates, refined, evaluations })
+    Ok(SearchEffort { seed, candidates, refined, evaluations })
 }
 
 /// `from` and `to` of a quantity (SI).
-fn bounds(table: &mut Table, family: &'static Family) -> Result<[f64; 2]> {
+fn bounds(table: &mut TomlTable, family: &'static UnitFamily) -> Result<[f64; 2]> {
     let (from, to) = (table.quantity("from", family, Sign::Any)?, table.quantity("to", family, Sign::Any)?);
     if !(from <= to) {
-        let error = table.fault("the greatest value is below the least one");
-        return Err(error.help("let `from` be the smaller of the two"));
+        let error = table.fault(sentences::THE_GREATEST_VALUE_IS_BELOW);
+        return Err(error.help(sentences::LET_FROM_BE_THE_SMALLER_OF_THE_TWO));
     }
     Ok([from, to])
 }
 
-fn free(variables: &mut Vec<Variable>, variable: Variable) -> Entry {
+fn free(variables: &mut Vec<Variable>, variable: Variable) -> TaskNumber {
     variables.push(variable);
-    Entry::Free(variables.len() - 1)
+    TaskNumber::Free(variables.len() - 1)
 }
 
 /// One `[[vary]]`: a point, by its coordinates or relative to another point of its link.
-fn place(mut table: Table, mechanism: &Mechanism, variables: &mut Vec<Variable>, before: &[Place]) -> Result<Place> {
+fn place(
+    mut table: TomlTable,
+    mechanism: &Mechanism,
+    variables: &mut Vec<Variable>,
+    before: &[PointPosition],
+) -> Result<PointPosition> {
     let (link_name, point_name) = (table.string("link")?, table.string("point")?);
     let own = link(&mut table, &link_name, mechanism.links())?;
     let points = &mechanism.links()[own].points;
     let names = || points.iter().map(|point| point.name.as_str());
-    let index = |table: &Table, key: &str, name: &str| {
+    let index = |table: &TomlTable, key: &str, name: &str| {
         points.iter().position(|point| point.name == name).ok_or_else(|| {
-            let error = table.wrong(ErrorKind::Input, key, format!("link \"{link_name}\" has no point \"{name}\""));
+            let error = table.wrong(ErrorKind::Input, key, sentences::link_has_no_point(&link_name, &name));
             error.help(suggestion(name, names(), "\""))
         })
     };
     let point = index(&table, "point", &point_name)?;
     let Some(handle) = mechanism.handle(own, point) else {
-        let message = format!(
-            "point \"{point_name}\" of the drawing lies on another point of the link: its joints cannot be told apart"
-        );
-        return Err(table.wrong(ErrorKind::Input, "point", message).help("draw the two points in different places"));
+        let message = sentences::point_of_the_drawing_lies(&point_name);
+        return Err(table.wrong(ErrorKind::Input, "point", message).help(sentences::DRAW_THE_TWO_POINTS_IN_DIFFERENT));
     };
     if before.iter().any(|place| place.handle == handle) {
-        let message = "this point varies already";
-        return Err(table
-            .wrong(ErrorKind::Input, "point", message)
-            .help("put all that varies about a point into one table"));
+        let message = sentences::THIS_POINT_VARIES_ALREADY;
+        return Err(table.wrong(ErrorKind::Input, "point", message).help(sentences::PUT_ALL_THAT_VARIES_ABOUT));
     }
     let from = table.optional_string("from")?.map(|name| index(&table, "from", &name)).transpose()?;
     let drawn = points[point].local;
@@ -258,7 +255,7 @@ fn place(mut table: Table, mechanism: &Mechanism, variables: &mut Vec<Variable>,
         None => (["x", "y"], [drawn.x, drawn.y]),
         Some(arm) => (["length", "angle"], [arm.norm(), arm.y.atan2(arm.x)]),
     };
-    let mut entries = drawn.map(Entry::Fixed);
+    let mut entries = drawn.map(TaskNumber::Fixed);
     for (entry, key) in entries.iter_mut().zip(keys) {
         if let Some(mut own) = table.optional_table(key)? {
             let is_angle = key == "angle";
@@ -269,9 +266,9 @@ fn place(mut table: Table, mechanism: &Mechanism, variables: &mut Vec<Variable>,
         }
     }
     table.finish()?;
-    if entries.iter().all(|entry| matches!(entry, Entry::Fixed(_))) {
+    if entries.iter().all(|entry| matches!(entry, TaskNumber::Fixed(_))) {
         let help = format!("add `{0} = {{ from_mm = ..., to_mm = ... }}`", keys[0]);
-        return Err(table.fault("nothing about this point varies").help(help));
+        return Err(table.fault(sentences::NOTHING_ABOUT_THIS_POINT_VARIES).help(help));
     }
-    Ok(Place { handle, from, entries })
+    Ok(PointPosition { handle, from, entries })
 }

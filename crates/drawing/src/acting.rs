@@ -3,7 +3,7 @@
 use linkage::case::Case;
 use linkage::drive::{Load, On};
 use linkage::math::{Motion, Vec2};
-use linkage::mechanism::Side;
+use linkage::mechanism::JointSide;
 
 /// A load that is drawn as an arrow, at one state.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -69,7 +69,7 @@ pub fn tensions(case: &Case, motions: &[Motion], angles: &[f64]) -> Vec<Tension>
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Weight {
     /// The mass centre.
-    pub at: Side,
+    pub at: JointSide,
     /// The force (N, world axes).
     pub force: Vec2,
 }
@@ -78,7 +78,7 @@ pub struct Weight {
 #[must_use]
 pub fn weights(case: &Case) -> Vec<Weight> {
     let links = case.mechanism.links().entries().skip(1);
-    let all =
-        links.map(|(link, own)| Weight { at: Side { link, local: own.mass_centre }, force: case.gravity * own.mass });
+    let all = links
+        .map(|(link, own)| Weight { at: JointSide { link, local: own.mass_centre }, force: case.gravity * own.mass });
     all.filter(|own| own.force.norm() > 0.0).collect()
 }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::mark::{Mark, Role};
+use super::mark::{Mark, MarkRole};
 use linkage::math::{KeepNan, Vec2, cross, turned, unit};
 use linkage::mechanism::{GROUND, LinkId, Mechanism};
 
@@ -47,26 +47,26 @@ pub fn marks(mechanism: &Mechanism, link: LinkId, unit: f64) -> Vec<Mark> {
     match corners.len() {
         0 | 1 => {}
         2 => {
-            marks.push(Mark::line(Role::Bar, corners.clone()));
+            marks.push(Mark::line(MarkRole::Bar, corners.clone()));
             let along = (corners[1] - corners[0]).normalize();
             let pins = mechanism.joints().iter().filter(|joint| joint.is_pin()).filter_map(|joint| joint.on(link));
             let mut inner: Vec<Vec2> = pins.filter(|at| !corners.contains(at)).collect();
             inner.dedup();
             marks.extend(
-                inner.into_iter().map(|at| Mark::area(Role::Weld, sector(at, WELD * unit, along, 2 * QUARTER))),
+                inner.into_iter().map(|at| Mark::area(MarkRole::Weld, sector(at, WELD * unit, along, 2 * QUARTER))),
             );
         }
-        _ => marks.push(Mark::area(Role::Plate, corners)),
+        _ => marks.push(Mark::area(MarkRole::Plate, corners)),
     }
     marks.extend(traced(mechanism, link).into_iter().flat_map(|at| tracer(at, unit)));
     let body = &mechanism.links()[link];
     if body.mass > 0.0 {
         let (at, radius) = (body.mass_centre, MASS * unit);
-        marks.push(Mark::circle(Role::MassCentre, at, radius));
+        marks.push(Mark::circle(MarkRole::MassCentre, at, radius));
         for side in [1.0, -1.0].map(|side| Vec2::new(side, 0.0)) {
             let mut quarter = sector(at, radius, side, QUARTER);
             quarter.push(at);
-            marks.push(Mark::area(Role::MassQuarter, quarter));
+            marks.push(Mark::area(MarkRole::MassQuarter, quarter));
         }
     }
     marks
@@ -82,7 +82,7 @@ pub fn traced(mechanism: &Mechanism, link: LinkId) -> Vec<Vec2> {
 /// The cross of a traced point.
 pub fn tracer(at: Vec2, unit: f64) -> [Mark; 2] {
     let half = Vec2::new(TRACER, TRACER) * unit;
-    [half, turned(half)].map(|half| Mark::line(Role::Tracer, [at - half, at + half]))
+    [half, turned(half)].map(|half| Mark::line(MarkRole::Tracer, [at - half, at + half]))
 }
 
 /// Points on a circle from the direction `from` on, counter-clockwise, `steps` of 90 deg / [`QUARTER`].

@@ -1,11 +1,11 @@
 //! Prismatic pairs: block on rails, block in a slot, piston in a cylinder.
 
 use super::body::places;
-use super::mark::{Mark, Role};
+use super::mark::{Mark, MarkRole};
 use super::pins::pivots;
 use super::travel::Travels;
 use linkage::math::{KeepNan, Vec2, cross, turned};
-use linkage::mechanism::{GROUND, Guise, Joint, JointId, LinkId, Mechanism, Side};
+use linkage::mechanism::{GROUND, Guise, Joint, JointId, JointSide, LinkId, Mechanism};
 
 /// Half length and half width of a block in a fixed guide, and on a moving one. They differ so that both are visible if
 /// they sit on the same joint.
@@ -30,8 +30,8 @@ const ON_AXIS: f64 = 1e-6;
 
 /// The guide of a joint and what slides on it.
 struct Guide {
-    guide: Side,
-    block: Side,
+    guide: JointSide,
+    block: JointSide,
     /// Unit vectors along the guide, in the frame of its link and in that of the block.
     axes: [Vec2; 2],
     /// Travel of the block from the guide's place (m).
@@ -66,7 +66,7 @@ pub fn marks(mechanism: &Mechanism, travels: &Travels, unit: f64) -> Vec<(LinkId
 
 /// Whether a prismatic pair is a piston in a cylinder: the joint says so, or its names do, or the rod is pinned farther
 /// along the axis and guide and block both move.
-fn is_cylinder(mechanism: &Mechanism, joint: &Joint, guide: Side, block: Side, axis: Vec2) -> bool {
+fn is_cylinder(mechanism: &Mechanism, joint: &Joint, guide: JointSide, block: JointSide, axis: Vec2) -> bool {
     if let Some(guise) = joint.drawn {
         return guise == Guise::Cylinder;
     }
@@ -100,13 +100,13 @@ impl Guide {
         let [long, wide] = self.half;
         let (along, aside) = (self.axes[1] * long, turned(self.axes[1]) * wide);
         let at = self.block.local;
-        let role = if self.is_cylinder { Role::Piston } else { Role::Block };
+        let role = if self.is_cylinder { MarkRole::Piston } else { MarkRole::Block };
         let mut marks =
             vec![Mark::area(role, [along + aside, aside - along, -along - aside, along - aside].map(|arm| at + arm))];
         if self.is_cylinder {
             let ring = |share: f64| {
                 let end = along * (self.head() * share);
-                Mark::line(Role::Piston, [at + end + aside, at + end - aside])
+                Mark::line(MarkRole::Piston, [at + end + aside, at + end - aside])
             };
             marks.extend([0.45, 0.7].map(ring));
         }
@@ -131,8 +131,8 @@ impl Guide {
         let ends = if self.is_cylinder { self.barrel() } else { [from - play, to + play] };
         let strip = self.strip(ends, self.gap());
         let guide = match self.is_cylinder {
-            true => Mark::line(Role::Cylinder, self.open(strip)),
-            false => Mark::area(Role::Slot, strip),
+            true => Mark::line(MarkRole::Cylinder, self.open(strip)),
+            false => Mark::area(MarkRole::Slot, strip),
         };
         self.lead(ends).into_iter().chain([guide]).collect()
     }
@@ -146,17 +146,18 @@ impl Guide {
     fn lead(&self, [from, to]: [f64; 2]) -> Option<Mark> {
         let near = 0.0_f64.clamp(from, to);
         let ends = [0.0, near].map(|way| self.guide.local + self.axes[0] * way);
-        (near != 0.0).then(|| Mark::line(Role::Bar, ends))
+        (near != 0.0).then(|| Mark::line(MarkRole::Bar, ends))
     }
 
     /// Rails or bore of a fixed guide, hatched, and its centre line. Rails leave the pivots free; hatching of two guides
     /// on one axis would fill each other's gaps.
     fn fixed(&self, pivots: &[Vec2], drawn: &mut Vec<[Vec2; 2]>) -> Vec<Mark> {
         let u = self.unit;
-        let (role, ends) = if self.is_cylinder { (Role::Bore, self.barrel()) } else { (Role::Rail, self.covered()) };
+        let (role, ends) =
+            if self.is_cylinder { (MarkRole::Bore, self.barrel()) } else { (MarkRole::Rail, self.covered()) };
         let near = 0.0_f64.clamp(ends[0] - AXIS * u, ends[1] + AXIS * u);
         let centre = [ends[0].smaller(near) - 2.0 * u, ends[1].larger(near) + 2.0 * u];
-        let mut marks = vec![Mark::line(Role::Axis, centre.map(|way| self.guide.local + self.axes[0] * way))];
+        let mut marks = vec![Mark::line(MarkRole::Axis, centre.map(|way| self.guide.local + self.axes[0] * way))];
         let [a, b, c, d] = self.open(self.strip(ends, self.gap()));
         // Their outer sides: on the left of the way from the open end over the head and back, or on the right.
         let walls = if self.is_cylinder { vec![[a, b], [b, c], [c, d]] } else { vec![[a, b], [c, d]] };
@@ -168,7 +169,7 @@ impl Guide {
                 marks.push(Mark::line(role, piece));
                 let along = (piece[1] - piece[0]).normalize();
                 let free = feet(piece, u).filter(|foot| !drawn.iter().any(|other| lies_on(*foot, other, u)));
-                marks.extend(free.map(|foot| Mark::line(Role::Hatch, [foot, foot + (out - along) * (HATCH * u)])));
+                marks.extend(free.map(|foot| Mark::line(MarkRole::Hatch, [foot, foot + (out - along) * (HATCH * u)])));
                 drawn.push(piece);
             }
         }

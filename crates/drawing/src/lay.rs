@@ -2,7 +2,7 @@
 
 mod nearest;
 
-use super::picture::Place;
+use super::picture::LinkPlacement;
 use linkage::error::{Error, ErrorKind};
 use linkage::math::{KeepNan, Vec2, cross, turned, unit};
 use linkage::mechanism::assembly::{configurations, first_choices};
@@ -19,7 +19,7 @@ const SEEN: f64 = 1e-2;
 #[derive(Clone, Debug)]
 pub struct Laid {
     /// Where every link is.
-    pub places: Vec<Place>,
+    pub places: Vec<LinkPlacement>,
     /// Joints that stay open: number, and the two world points (m) that should be one.
     pub gaps: Vec<(JointId, [Vec2; 2])>,
     /// Circles that points of links reach and that do not meet: centres and radii (m).
@@ -27,12 +27,12 @@ pub struct Laid {
     /// What is missing, group by group.
     pub faults: Vec<Error>,
     /// How each group that is placed stands.
-    pub modes: Vec<Standing>,
+    pub modes: Vec<GroupPlacement>,
 }
 
 /// How a group stands.
 #[derive(Clone, Copy, Debug)]
-pub struct Standing {
+pub struct GroupPlacement {
     /// Number of the group.
     pub group: GroupId,
     /// Its mode.
@@ -45,25 +45,25 @@ impl Laid {
     /// A pose that is known.
     #[must_use]
     pub fn whole(pose: impl IntoIterator<Item = LinkPose>) -> Laid {
-        let places = pose.into_iter().map(Place::Here).collect();
+        let places = pose.into_iter().map(LinkPlacement::Here).collect();
         Laid { places, gaps: Vec::new(), reaches: Vec::new(), faults: Vec::new(), modes: Vec::new() }
     }
 
     /// Whether nothing is missing.
     #[must_use]
     pub fn is_whole(&self) -> bool {
-        self.faults.is_empty() && self.places.iter().all(|place| matches!(place, Place::Here(_)))
+        self.faults.is_empty() && self.places.iter().all(|place| matches!(place, LinkPlacement::Here(_)))
     }
 
     fn start(mechanism: &Mechanism, drivers: &[(LinkId, JointId)], angles: &[f64]) -> Laid {
         let mut laid = Laid::whole([]);
-        laid.places = vec![Place::Nowhere; mechanism.links().len()];
-        laid.places[GROUND] = Place::Here(LinkPose::GROUND);
+        laid.places = vec![LinkPlacement::Nowhere; mechanism.links().len()];
+        laid.places[GROUND] = LinkPlacement::Here(LinkPose::GROUND);
         for (&(link, joint), &angle) in drivers.iter().zip(angles) {
             let joint = &mechanism.joints()[joint];
             let base = joint.other(link);
             if let (Some(local), Some(pose)) = (joint.on(link), laid.places[base.link].pose()) {
-                laid.places[link] = Place::Here(LinkPose::through(local, pose.point(base.local), angle));
+                laid.places[link] = LinkPlacement::Here(LinkPose::through(local, pose.point(base.local), angle));
             }
         }
         laid
@@ -78,7 +78,7 @@ impl Laid {
         group.outer.iter().all(|&joint| {
             let joint = &mechanism.joints()[joint];
             let bases = [joint.first.link, joint.second.link].into_iter().filter(|link| !group.links.contains(link));
-            bases.into_iter().all(|link| matches!(self.places[link], Place::Here(_)))
+            bases.into_iter().all(|link| matches!(self.places[link], LinkPlacement::Here(_)))
         })
     }
 }
@@ -102,11 +102,11 @@ pub fn lay(mechanism: &Mechanism, structure: &Structure, angles: &[f64], starts:
         match first_choices(mechanism, &part, angles, &wanted) {
             Ok((pose, choices)) => {
                 for &link in &group.links {
-                    laid.places[link] = Place::Here(pose.0[link]);
+                    laid.places[link] = LinkPlacement::Here(pose.0[link]);
                 }
                 if let Some(choice) = choices.last() {
                     let number = wanted.last().and_then(|own| own.rank).unwrap_or(0);
-                    laid.modes.push(Standing { group: index, mode: choice.mode, number });
+                    laid.modes.push(GroupPlacement { group: index, mode: choice.mode, number });
                 }
                 done = tried;
             }
@@ -131,7 +131,7 @@ pub fn lay_loose(mechanism: &Mechanism, drivers: &[(LinkId, JointId)], angles: &
         let found = configurations(mechanism, &group, &laid.pose());
         let Some(one) = found.ok().and_then(|all| all.into_iter().next()) else { break };
         for (&link, pose) in group.links.iter().zip(one.links) {
-            laid.places[link] = Place::Loose(pose);
+            laid.places[link] = LinkPlacement::Loose(pose);
         }
     }
     close(mechanism, laid)
@@ -170,7 +170,7 @@ fn close(mechanism: &Mechanism, mut laid: Laid) -> Laid {
     let missing: Vec<LinkId> = mechanism.links().ids().filter(|&link| laid.places[link].pose().is_none()).collect();
     if !missing.is_empty() {
         for (link, pose) in nearest::nearest(mechanism, &laid.pose(), &missing) {
-            laid.places[link] = Place::Loose(pose);
+            laid.places[link] = LinkPlacement::Loose(pose);
         }
     }
     let mut gaps = Vec::new();
@@ -234,22 +234,26 @@ pub fn all_modes(
                 for (number, one) in all.into_iter().enumerate().rev() {
                     let mut next = laid.clone();
                     for (&link, pose) in group.links.iter().zip(&one.links) {
-                        next.places[link] = Place::Here(*pose);
+                        next.places[link] = LinkPlacement::Here(*pose);
                     }
-                    next.modes.push(Standing { group: GroupId(index), mode: one.mode, number: number + 1 });
+                    next.modes.push(GroupPlacement { group: GroupId(index), mode: one.mode, number: number + 1 });
                     open.push((next, index + 1));
                 }
             }
             Err(error) => {
                 let placed = (error.kind() == ErrorKind::Unsupported)
                     .then(|| lay(mechanism, structure, angles, starts))
-                    .filter(|own| group.links.iter().all(|&link| matches!(own.places[link], Place::Here(_))));
+                    .filter(|own| group.links.iter().all(|&link| matches!(own.places[link], LinkPlacement::Here(_))));
                 match placed {
                     Some(own) => {
                         for &link in &group.links {
                             laid.places[link] = own.places[link];
                         }
-                        laid.modes.push(Standing { group: GroupId(index), mode: AssemblyMode::Followed, number: 0 });
+                        laid.modes.push(GroupPlacement {
+                            group: GroupId(index),
+                            mode: AssemblyMode::Followed,
+                            number: 0,
+                        });
                     }
                     None => {
                         laid.reaches.extend(reaches(mechanism, group, &laid));

@@ -1,12 +1,12 @@
 //! What a mechanism looks like: marks in the frames of its links, by the rules of ISO 3952.
 //!
-//! A [`Sketch`] is made once. Whoever shows it puts every [`Body`] where its link is, and every [`Stretched`] between
+//! A [`Sketch`] is made once. Whoever shows it puts every [`LinkMarks`] where its link is, and every [`Stretched`] between
 //! its ends:
 //!
 //! ```
 //! # use linkage::fixtures::four_bar;
 //! # use linkage::mechanism::LinkPose;
-//! use drawing::{Sketch, Travels, unit};
+//! use linkproof_drawing::{Sketch, Travels, unit};
 //!
 //! # let mechanism = four_bar();
 //! let sketch = Sketch::of(&mechanism, &Travels::none(&mechanism), unit(&mechanism));
@@ -28,6 +28,7 @@ pub mod palette;
 pub mod paper;
 pub mod picture;
 mod pins;
+mod sentences;
 pub mod sheet;
 mod sign;
 mod sketch;
@@ -36,8 +37,8 @@ mod travel;
 pub mod view;
 
 pub use acting::{Acting, Tension, Weight, acting, tensions, weights};
-pub use mark::{Fill, Ink, Layer, Look, Mark, Role, Shape};
+pub use mark::{Fill, Ink, Layer, Look, Mark, MarkRole, MarkShape};
 pub use sign::{LoadSign, arrow, turning};
-pub use sketch::{Body, Label, Lettering, Sketch, unit};
+pub use sketch::{Lettering, LinkMarks, Sketch, SketchLabel, unit};
 pub use stretched::Stretched;
 pub use travel::Travels;

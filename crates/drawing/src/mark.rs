@@ -9,7 +9,7 @@ const CORNERS: f64 = 32.0;
 
 /// A shape in the frame of a link (m).
 #[derive(Clone, Debug, PartialEq)]
-pub enum Shape {
+pub enum MarkShape {
     /// A line through points, or a polygon.
     Line {
         /// Its corners.
@@ -37,19 +37,19 @@ pub enum Shape {
     },
 }
 
-impl Shape {
-    /// The shape as a line through points, for whoever draws lines only: [closed](Shape::is_closed) or not.
+impl MarkShape {
+    /// The shape as a line through points, for whoever draws lines only: [closed](MarkShape::is_closed) or not.
     #[must_use]
     pub fn points(&self) -> Vec<Vec2> {
         let arc = |centre: Vec2, radius: f64, from: f64, sweep: f64, count: usize| {
             (0..=count).map(move |k| centre + unit(from + sweep * k as f64 / count as f64) * radius)
         };
         match *self {
-            Shape::Line { ref points, .. } => points.clone(),
-            Shape::Circle { centre, radius } => {
+            MarkShape::Line { ref points, .. } => points.clone(),
+            MarkShape::Circle { centre, radius } => {
                 arc(centre, radius, 0.0, TAU, CORNERS as usize).take(CORNERS as usize).collect()
             }
-            Shape::Arc { centre, radius, from, sweep } => {
+            MarkShape::Arc { centre, radius, from, sweep } => {
                 let count = (CORNERS * sweep.abs() / TAU).ceil() as usize;
                 arc(centre, radius, from, sweep, count.max(2)).collect()
             }
@@ -59,7 +59,7 @@ impl Shape {
     /// Whether the last of its points is joined to the first.
     #[must_use]
     pub fn is_closed(&self) -> bool {
-        matches!(self, Shape::Line { closed: true, .. } | Shape::Circle { .. })
+        matches!(self, MarkShape::Line { closed: true, .. } | MarkShape::Circle { .. })
     }
 }
 
@@ -69,15 +69,15 @@ macro_rules! roles {
         linkage::words! {
             /// What a mark stands for.
             #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-            pub enum Role: name { $($(#[$meaning])* $role = $name,)* }
+            pub enum MarkRole: name { $($(#[$meaning])* $role = $name,)* }
         }
 
-        impl Role {
+        impl MarkRole {
             /// How marks of this role are drawn.
             #[must_use]
             pub fn look(self) -> Look {
                 match self {
-                    $(Role::$role => Look { ink: Ink::$ink, fill: Fill::$fill, width: $width, layer: Layer::$layer },)*
+                    $(MarkRole::$role => Look { ink: Ink::$ink, fill: Fill::$fill, width: $width, layer: Layer::$layer },)*
                 }
             }
         }
@@ -201,33 +201,33 @@ pub struct Look {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mark {
     /// The shape, in the frame of its link (m).
-    pub shape: Shape,
+    pub shape: MarkShape,
     /// What it stands for.
-    pub role: Role,
+    pub role: MarkRole,
 }
 
 impl Mark {
     /// An open line.
     #[must_use]
-    pub fn line(role: Role, points: impl Into<Vec<Vec2>>) -> Mark {
-        Mark { role, shape: Shape::Line { points: points.into(), closed: false } }
+    pub fn line(role: MarkRole, points: impl Into<Vec<Vec2>>) -> Mark {
+        Mark { role, shape: MarkShape::Line { points: points.into(), closed: false } }
     }
 
     /// A polygon.
     #[must_use]
-    pub fn area(role: Role, points: impl Into<Vec<Vec2>>) -> Mark {
-        Mark { role, shape: Shape::Line { points: points.into(), closed: true } }
+    pub fn area(role: MarkRole, points: impl Into<Vec<Vec2>>) -> Mark {
+        Mark { role, shape: MarkShape::Line { points: points.into(), closed: true } }
     }
 
     /// A circle.
     #[must_use]
-    pub fn circle(role: Role, centre: Vec2, radius: f64) -> Mark {
-        Mark { role, shape: Shape::Circle { centre, radius } }
+    pub fn circle(role: MarkRole, centre: Vec2, radius: f64) -> Mark {
+        Mark { role, shape: MarkShape::Circle { centre, radius } }
     }
 
     /// A part of a circle: directions of its first end and angle to its last (rad).
     #[must_use]
-    pub fn arc(role: Role, centre: Vec2, radius: f64, [from, sweep]: [f64; 2]) -> Mark {
-        Mark { role, shape: Shape::Arc { centre, radius, from, sweep } }
+    pub fn arc(role: MarkRole, centre: Vec2, radius: f64, [from, sweep]: [f64; 2]) -> Mark {
+        Mark { role, shape: MarkShape::Arc { centre, radius, from, sweep } }
     }
 }

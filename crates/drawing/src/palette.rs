@@ -6,7 +6,7 @@ use linkage::mechanism::LinkId;
 
 /// A colour on light and on dark paper, and what replaces it where there is none.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Paint {
+pub struct PaletteColour {
     /// On light paper, `#rrggbb`: at least 3 : 1 against white.
     pub light: &'static str,
     /// On dark paper, `#rrggbb`: at least 3 : 1 against #16181c.
@@ -16,28 +16,28 @@ pub struct Paint {
 }
 
 /// Colours of links, different in grey scale too (after Okabe and Ito 2008).
-pub const LINKS: [Paint; 7] = [
-    Paint { light: "#0072b2", dark: "#56b4e9", hatch_deg: 45.0 },
-    Paint { light: "#d55e00", dark: "#ff8c42", hatch_deg: -45.0 },
-    Paint { light: "#009e73", dark: "#2ec99a", hatch_deg: 15.0 },
-    Paint { light: "#b0578d", dark: "#e38fc0", hatch_deg: -15.0 },
-    Paint { light: "#b8860b", dark: "#f0c550", hatch_deg: 75.0 },
-    Paint { light: "#4b2e83", dark: "#a991e0", hatch_deg: -75.0 },
-    Paint { light: "#3b8ea5", dark: "#7fd1e6", hatch_deg: 0.0 },
+pub const LINKS: [PaletteColour; 7] = [
+    PaletteColour { light: "#0072b2", dark: "#56b4e9", hatch_deg: 45.0 },
+    PaletteColour { light: "#d55e00", dark: "#ff8c42", hatch_deg: -45.0 },
+    PaletteColour { light: "#009e73", dark: "#2ec99a", hatch_deg: 15.0 },
+    PaletteColour { light: "#b0578d", dark: "#e38fc0", hatch_deg: -15.0 },
+    PaletteColour { light: "#b8860b", dark: "#f0c550", hatch_deg: 75.0 },
+    PaletteColour { light: "#4b2e83", dark: "#a991e0", hatch_deg: -75.0 },
+    PaletteColour { light: "#3b8ea5", dark: "#7fd1e6", hatch_deg: 0.0 },
 ];
 
 /// Colour of text and of what stands still.
-pub const TEXT: Paint = Paint { light: "#1a1a1a", dark: "#eceff4", hatch_deg: 45.0 };
+pub const TEXT: PaletteColour = PaletteColour { light: "#1a1a1a", dark: "#eceff4", hatch_deg: 45.0 };
 /// Colour of the background's lines.
-pub const QUIET: Paint = Paint { light: "#767676", dark: "#9aa0aa", hatch_deg: 45.0 };
+pub const QUIET: PaletteColour = PaletteColour { light: "#767676", dark: "#9aa0aa", hatch_deg: 45.0 };
 /// Colour of loads, springs and dampers.
-pub const LOAD: Paint = Paint { light: "#c1121f", dark: "#ff6b6b", hatch_deg: 45.0 };
+pub const LOAD: PaletteColour = PaletteColour { light: "#c1121f", dark: "#ff6b6b", hatch_deg: 45.0 };
 /// The paper.
-pub const PAPER: Paint = Paint { light: "#ffffff", dark: "#16181c", hatch_deg: 45.0 };
+pub const PAPER: PaletteColour = PaletteColour { light: "#ffffff", dark: "#16181c", hatch_deg: 45.0 };
 
 /// Colour of the link with this number; the ground, number 0, has that of text.
 #[must_use]
-pub fn link(number: LinkId) -> Paint {
+pub fn link(number: LinkId) -> PaletteColour {
     match number.index().checked_sub(1) {
         None => TEXT,
         Some(index) => LINKS[index % LINKS.len()],

@@ -1,13 +1,13 @@
 //! The picture of a sketch on paper: links in their places, names, arrows, dimensions and gaps.
 
 use super::acting::Acting;
-use super::mark::{Fill, Ink, Layer, Look, Mark, Role, Shape};
+use super::mark::{Fill, Ink, Layer, Look, Mark, MarkRole, MarkShape};
 use super::palette::LOAD;
-use super::paper::figure::{Figure, Style, Tint, Type, solid, sub, words};
+use super::paper::figure::{DrawnFigure, Style, Tint, Type, solid, sub, words};
 use super::paper::labels::{self, LETTER, Obstacles, label_size, letter, place_among};
 use super::paper::style::{BLACK, GREY, colour, significant};
 use super::sign::{arrow, turning};
-use super::sketch::{Label, Lettering, Sketch};
+use super::sketch::{Lettering, Sketch, SketchLabel};
 use super::stretched::Stretched;
 use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::{GROUND, LinkId, LinkPose, Mechanism};
@@ -37,7 +37,7 @@ pub const ALARM: &str = "#d11149";
 
 /// Where a link is.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Place {
+pub enum LinkPlacement {
     /// Here.
     Here(LinkPose),
     /// Here, for want of a better place: it is drawn with dashes.
@@ -46,13 +46,13 @@ pub enum Place {
     Nowhere,
 }
 
-impl Place {
+impl LinkPlacement {
     /// The pose, if the link has one.
     #[must_use]
     pub fn pose(&self) -> Option<&LinkPose> {
         match self {
-            Place::Here(pose) | Place::Loose(pose) => Some(pose),
-            Place::Nowhere => None,
+            LinkPlacement::Here(pose) | LinkPlacement::Loose(pose) => Some(pose),
+            LinkPlacement::Nowhere => None,
         }
     }
 }
@@ -60,11 +60,11 @@ impl Place {
 /// A picture being drawn; the world's origin is the figure's origin.
 pub struct Picture<'a> {
     sketch: &'a Sketch,
-    places: &'a [Place],
+    places: &'a [LinkPlacement],
     /// Length in the world of a millimetre on paper (m).
     scale: f64,
     /// What is drawn.
-    pub figure: Figure,
+    pub figure: DrawnFigure,
     /// What labels must not touch.
     pub obstacles: Obstacles,
     written: Vec<Written>,
@@ -73,7 +73,7 @@ pub struct Picture<'a> {
 /// A text that is still to be placed.
 struct Written {
     sort: Sort,
-    label: labels::Label,
+    label: labels::PlacedLabel,
     text: String,
     paint: &'static str,
 }
@@ -88,8 +88,8 @@ enum Sort {
 impl<'a> Picture<'a> {
     /// The links of a sketch in their places, at a scale (m/mm).
     #[must_use]
-    pub fn of(sketch: &'a Sketch, places: &'a [Place], scale: f64) -> Picture<'a> {
-        let (figure, obstacles) = (Figure::default(), Obstacles::default());
+    pub fn of(sketch: &'a Sketch, places: &'a [LinkPlacement], scale: f64) -> Picture<'a> {
+        let (figure, obstacles) = (DrawnFigure::default(), Obstacles::default());
         Picture { sketch, places, scale, figure, obstacles, written: Vec::new() }
     }
 
@@ -126,14 +126,14 @@ impl<'a> Picture<'a> {
     /// Draws a mark of a link: `at` tells where its points are on paper.
     fn put(&mut self, mark: &Mark, link: LinkId, at: impl Fn(Vec2) -> Vec2) {
         let (style, fill) = style(mark.role.look(), link, &self.places[link]);
-        if let Shape::Circle { centre, radius } = mark.shape {
+        if let MarkShape::Circle { centre, radius } = mark.shape {
             let (at, radius) = (at(centre), radius / self.scale);
             self.figure.disc(at, radius, fill.map_or("none", |fill| fill.colour), style);
             self.obstacles.discs.push((at, radius));
             return;
         }
         let (points, closed) = (mark.shape.points().into_iter().map(at).collect::<Vec<_>>(), mark.shape.is_closed());
-        if !matches!(mark.role, Role::Weld | Role::MassQuarter | Role::LoadHead) {
+        if !matches!(mark.role, MarkRole::Weld | MarkRole::MassQuarter | MarkRole::LoadHead) {
             self.obstacles.segments.extend(points.windows(2).map(|pair| [pair[0], pair[1]]));
             if let (true, [first, .., last]) = (closed, &points[..]) {
                 self.obstacles.segments.push([*last, *first]);
@@ -150,7 +150,7 @@ impl<'a> Picture<'a> {
     #[must_use]
     pub fn names(&self, wanted: impl Fn(Lettering) -> bool) -> Vec<(Vec2, String)> {
         let labels = self.sketch.labels.iter().filter(|label| wanted(label.names));
-        let one = |label: &Label| {
+        let one = |label: &SketchLabel| {
             let text = match label.names {
                 Lettering::Point | Lettering::Motor | Lettering::Link => label.text.clone(),
                 Lettering::MassCentre => format!("S{}", sub(label.text.trim_start_matches('S'))),
@@ -179,7 +179,7 @@ impl<'a> Picture<'a> {
         for label in self.sketch.labels.iter().filter(|label| label.names == Lettering::Link) {
             if let Some(at) = self.at(label.at.link, label.at.local) {
                 let size = Vec2::new(2.0 * NUMBER, 2.0 * NUMBER);
-                let place = labels::Label { anchor: at, away: Vec2::zeros(), size, clear: 0.3 };
+                let place = labels::PlacedLabel { anchor: at, away: Vec2::zeros(), size, clear: 0.3 };
                 let (text, paint) = (label.text.clone(), colour(label.at.link));
                 self.written.push(Written { sort: Sort::Number, label: place, text, paint });
             }
@@ -195,7 +195,7 @@ impl<'a> Picture<'a> {
 
     /// A text at a point on paper, in a preferred direction from it, or any.
     pub fn letters(&mut self, anchor: Vec2, away: Vec2, clear: f64, text: String, paint: &'static str) {
-        let label = labels::Label { anchor, away, size: label_size(&text), clear };
+        let label = labels::PlacedLabel { anchor, away, size: label_size(&text), clear };
         self.written.push(Written { sort: Sort::Letters, label, text, paint });
     }
 
@@ -261,7 +261,7 @@ impl<'a> Picture<'a> {
     pub fn draw_reach(&mut self, centre: Vec2, radius: f64, toward: Vec2) {
         let from = toward.y.atan2(toward.x) - REACH;
         let (centre, radius) = (centre / self.scale, radius / self.scale);
-        let points = Shape::Arc { centre, radius, from, sweep: 2.0 * REACH }.points();
+        let points = MarkShape::Arc { centre, radius, from, sweep: 2.0 * REACH }.points();
         self.figure.curve(points, None, Style { colour: GREY, width: 0.3, dash: CONSTRUCTION });
     }
 
@@ -281,9 +281,9 @@ impl<'a> Picture<'a> {
     /// Places all letters and returns the figure, one of so many that are made together: they share the work for
     /// letters.
     #[must_use]
-    pub fn finish(mut self, drawings: usize) -> Figure {
+    pub fn finish(mut self, drawings: usize) -> DrawnFigure {
         self.written.sort_by_key(|own| own.sort);
-        let boxes: Vec<labels::Label> = self.written.iter().map(|own| own.label).collect();
+        let boxes: Vec<labels::PlacedLabel> = self.written.iter().map(|own| own.label).collect();
         let places = place_among(&boxes, &self.obstacles, drawings);
         for (Written { sort, label, text, paint }, at) in self.written.into_iter().zip(places) {
             match sort {
@@ -295,7 +295,7 @@ impl<'a> Picture<'a> {
     }
 }
 
-fn draw_number(figure: &mut Figure, at: Vec2, text: String, paint: &'static str) {
+fn draw_number(figure: &mut DrawnFigure, at: Vec2, text: String, paint: &'static str) {
     figure.disc(at, NUMBER, "white", solid(paint, 0.4));
     let set = Type { anchor: "middle", bold: true, colour: paint, ..words(3.2) };
     figure.text(at - Vec2::new(0.0, 1.15), text, set);
@@ -317,7 +317,7 @@ fn short(value: f64) -> String {
 }
 
 /// Line and fill of a look of a link in its place.
-fn style(look: Look, link: LinkId, place: &Place) -> (Style, Option<Tint>) {
+fn style(look: Look, link: LinkId, place: &LinkPlacement) -> (Style, Option<Tint>) {
     let paint = match look.ink {
         Ink::Link => colour(link),
         Ink::Text => BLACK,
@@ -330,7 +330,7 @@ fn style(look: Look, link: LinkId, place: &Place) -> (Style, Option<Tint>) {
         Fill::Tint => Some(Tint { colour: paint, opacity: TINT }),
         Fill::Ink => Some(Tint::opaque(paint)),
     };
-    let dash = if matches!(place, Place::Loose(_)) && look.layer == Layer::Links { LOOSE } else { "" };
+    let dash = if matches!(place, LinkPlacement::Loose(_)) && look.layer == Layer::Links { LOOSE } else { "" };
     let dash = if look.ink == Ink::Quiet && look.layer == Layer::Ground { CONSTRUCTION } else { dash };
     (Style { colour: paint, width: look.width, dash }, fill)
 }

@@ -1,8 +1,8 @@
 //! Revolute pairs: pins, pivots on the ground, and several pins in one place.
 
-use super::mark::{Mark, Role};
+use super::mark::{Mark, MarkRole};
 use linkage::math::Vec2;
-use linkage::mechanism::{GROUND, LinkId, Mechanism, Side};
+use linkage::mechanism::{GROUND, JointSide, LinkId, Mechanism};
 
 /// Radius of a pin, and distance of the rings around it.
 pub const PIN: f64 = 1.2;
@@ -10,7 +10,7 @@ const RING: f64 = 0.9;
 
 /// Revolute joints in one place: every link with its place there, and the number of joints.
 struct Place {
-    sides: Vec<Side>,
+    sides: Vec<JointSide>,
     joints: usize,
 }
 
@@ -22,7 +22,7 @@ fn shared(mechanism: &Mechanism) -> Vec<Place> {
         let (same, mut rest): (Vec<Place>, Vec<Place>) =
             all.into_iter().partition(|place| place.sides.iter().any(|side| sides.contains(side)));
         let joints = 1 + same.iter().map(|place| place.joints).sum::<usize>();
-        let mut merged: Vec<Side> = same.into_iter().flat_map(|place| place.sides).collect();
+        let mut merged: Vec<JointSide> = same.into_iter().flat_map(|place| place.sides).collect();
         merged.extend(sides.iter().filter(|side| !merged.contains(side)).copied().collect::<Vec<_>>());
         rest.push(Place { sides: merged, joints });
         all = rest;
@@ -44,10 +44,10 @@ pub fn marks(mechanism: &Mechanism, unit: f64) -> Vec<(LinkId, Mark)> {
         if side.link == GROUND {
             marks.extend(pivot(side.local, unit).into_iter().map(|mark| (GROUND, mark)));
         }
-        marks.push((side.link, Mark::circle(Role::Pin, side.local, PIN * unit)));
+        marks.push((side.link, Mark::circle(MarkRole::Pin, side.local, PIN * unit)));
         for ring in 1..place.joints {
             let radius = (PIN + RING * ring as f64) * unit;
-            marks.push((side.link, Mark::circle(Role::CoincidentPin, side.local, radius)));
+            marks.push((side.link, Mark::circle(MarkRole::CoincidentPin, side.local, radius)));
         }
     }
     marks
@@ -57,12 +57,12 @@ pub fn marks(mechanism: &Mechanism, unit: f64) -> Vec<(LinkId, Mark)> {
 pub fn pivot(at: Vec2, unit: f64) -> Vec<Mark> {
     let corner = |x: f64, y: f64| at + Vec2::new(x, y) * unit;
     let mut marks = vec![
-        Mark::area(Role::Pivot, [at, corner(-2.4, -4.4), corner(2.4, -4.4)]),
-        Mark::line(Role::Pivot, [corner(-4.0, -4.4), corner(4.0, -4.4)]),
+        Mark::area(MarkRole::Pivot, [at, corner(-2.4, -4.4), corner(2.4, -4.4)]),
+        Mark::line(MarkRole::Pivot, [corner(-4.0, -4.4), corner(4.0, -4.4)]),
     ];
     marks.extend((0..6).map(|k| {
         let x = -2.7 + 1.25 * f64::from(k);
-        Mark::line(Role::Pivot, [corner(x, -4.4), corner(x - 1.2, -6.0)])
+        Mark::line(MarkRole::Pivot, [corner(x, -4.4), corner(x - 1.2, -6.0)])
     }));
     marks
 }

@@ -1,6 +1,6 @@
 //! Sheets: pictures side by side, each under its heading and above its scale.
 
-use super::paper::figure::{Figure, Type, solid, width, words};
+use super::paper::figure::{DrawnFigure, Type, solid, width, words};
 use super::paper::scale::round_up;
 use super::paper::style::{BLACK, GREY};
 use super::picture::{ALARM, millimetres};
@@ -20,11 +20,11 @@ const LONGEST: f64 = 40.0;
 
 /// One picture of a sheet.
 #[derive(Clone, Debug)]
-pub struct Cell {
+pub struct SheetCell {
     /// Lines above it; the first is bold.
     pub heading: Vec<String>,
     /// The picture.
-    pub figure: Figure,
+    pub figure: DrawnFigure,
     /// Corners of what it may cover (mm): the same for all frames of an animation.
     pub bounds: [Vec2; 2],
     /// Length in the world of a millimetre on paper (m).
@@ -54,14 +54,14 @@ pub fn columns(cells: usize) -> usize {
 
 /// The sheet, with its size (mm). Its upper left corner is the origin; every cell is at least `least` (mm) wide.
 #[must_use]
-pub fn sheet(title: &str, subtitle: &str, cells: &[Cell], least: f64) -> (Figure, [f64; 2]) {
+pub fn sheet(title: &str, subtitle: &str, cells: &[SheetCell], least: f64) -> (DrawnFigure, [f64; 2]) {
     let columns = columns(cells.len());
-    let size = |cell: &Cell| cell.bounds[1] - cell.bounds[0];
+    let size = |cell: &SheetCell| cell.bounds[1] - cell.bounds[0];
     let wide = cells.iter().map(|cell| size(cell).x).fold(least, f64::larger);
     let whole = wide * columns as f64 + GAP * (columns - 1) as f64;
-    let mut sheet = Figure::default();
+    let mut sheet = DrawnFigure::default();
     let mut top = -MARGIN;
-    let mut put = |sheet: &mut Figure, text: &str, set: Type| {
+    let mut put = |sheet: &mut DrawnFigure, text: &str, set: Type| {
         for line in wrapped(text, set.size, whole) {
             top -= LINE * set.size;
             sheet.text(Vec2::new(MARGIN, top), line, set);
@@ -103,7 +103,7 @@ pub fn sheet(title: &str, subtitle: &str, cells: &[Cell], least: f64) -> (Figure
 }
 
 /// A bar of a round length, and that length.
-fn scale(sheet: &mut Figure, at: Vec2, scale: f64) {
+fn scale(sheet: &mut DrawnFigure, at: Vec2, scale: f64) {
     let long = round_up(LONGEST * scale / 2.0);
     let end = at + Vec2::new(long / scale, 0.0);
     sheet.line([at, end], solid(BLACK, 0.5));

@@ -1,9 +1,9 @@
 //! What acts on a mechanism: drives, motors, forces, moments, torsional springs and dampers.
 
-use super::mark::{Mark, Role, Shape};
+use super::mark::{Mark, MarkRole, MarkShape};
 use linkage::drive::{Drive, Load, On};
 use linkage::math::{KeepNan, Vec2, turned, unit};
-use linkage::mechanism::{GROUND, LinkId, Mechanism, Side};
+use linkage::mechanism::{GROUND, JointSide, LinkId, Mechanism};
 use std::f64::consts::{PI, TAU};
 
 /// Radius of the arrow that shows a drive's sense, its angle (rad), and that from its link to its begin.
@@ -29,7 +29,7 @@ pub struct LoadSign {
     /// Number of the load in its case.
     pub load: usize,
     /// Where it is drawn: for a force the point on which it acts, for a moment a pin of the link.
-    pub at: Side,
+    pub at: JointSide,
 }
 
 /// The place at which moments on a link are drawn: its pin on the ground, any pin, any point, or its mass centre.
@@ -42,13 +42,13 @@ fn place_of(mechanism: &Mechanism, link: LinkId) -> Vec2 {
 }
 
 /// The place of two links at which springs and dampers between their angles are drawn.
-fn place_between(mechanism: &Mechanism, links: [LinkId; 2]) -> Side {
+fn place_between(mechanism: &Mechanism, links: [LinkId; 2]) -> JointSide {
     let common = mechanism.joints().iter().find(|joint| links.iter().all(|&link| joint.on(link).is_some()));
     match common.and_then(|joint| joint.on(links[0])) {
-        Some(local) => Side { link: links[0], local },
+        Some(local) => JointSide { link: links[0], local },
         None => {
             let link = if links[0] == GROUND { links[1] } else { links[0] };
-            Side { link, local: place_of(mechanism, link) }
+            JointSide { link, local: place_of(mechanism, link) }
         }
     }
 }
@@ -56,7 +56,7 @@ fn place_between(mechanism: &Mechanism, links: [LinkId; 2]) -> Side {
 /// The arrow of a load; `None` for springs and dampers, which have symbols of their own.
 pub fn of_load(mechanism: &Mechanism, number: usize, load: &Load) -> Option<LoadSign> {
     match load.nature().on {
-        On::Link(link) => Some(LoadSign { load: number, at: Side { link, local: place_of(mechanism, link) } }),
+        On::Link(link) => Some(LoadSign { load: number, at: JointSide { link, local: place_of(mechanism, link) } }),
         On::Point(at) => Some(LoadSign { load: number, at }),
         On::Points(_) | On::Links(_) => None,
     }
@@ -65,22 +65,22 @@ pub fn of_load(mechanism: &Mechanism, number: usize, load: &Load) -> Option<Load
 /// The symbol of a torsional spring or damper, and its link; `None` for other loads.
 pub fn twisted(mechanism: &Mechanism, load: &Load, u: f64) -> Option<(LinkId, Vec<Mark>)> {
     let On::Links(links) = load.nature().on else { return None };
-    let Side { link, local } = place_between(mechanism, links);
+    let JointSide { link, local } = place_between(mechanism, links);
     if !load.is_viscous() {
         let step = |k: usize| {
             let share = k as f64 / STEPS as f64;
             local + unit(TURNS * TAU * share) * ((SPIRAL[0] + (SPIRAL[1] - SPIRAL[0]) * share) * u)
         };
-        return Some((link, vec![Mark::line(Role::TorsionSpring, (0..=STEPS).map(step).collect::<Vec<_>>())]));
+        return Some((link, vec![Mark::line(MarkRole::TorsionSpring, (0..=STEPS).map(step).collect::<Vec<_>>())]));
     }
     let (from, sweep) = (-0.75 * PI, 1.5 * PI);
     let vane = [DRUM - 1.0, DRUM + 1.0].map(|radius| local + unit(PI / 4.0) * (radius * u));
     let ends = [from, from + sweep].map(|angle| {
-        Mark::line(Role::TorsionDamper, [DRUM - 1.0, DRUM].map(|radius| local + unit(angle) * (radius * u)))
+        Mark::line(MarkRole::TorsionDamper, [DRUM - 1.0, DRUM].map(|radius| local + unit(angle) * (radius * u)))
     });
     let [first, last] = ends;
-    let drum = Mark::arc(Role::TorsionDamper, local, DRUM * u, [from, sweep]);
-    Some((link, vec![drum, Mark::line(Role::TorsionDamper, vane), first, last]))
+    let drum = Mark::arc(MarkRole::TorsionDamper, local, DRUM * u, [from, sweep]);
+    Some((link, vec![drum, Mark::line(MarkRole::TorsionDamper, vane), first, last]))
 }
 
 /// The arrow in the sense of a drive, in the frame of the driven link, and the circle of its motor.
@@ -93,21 +93,21 @@ pub fn of_drive(mechanism: &Mechanism, drive: &Drive, u: f64) -> Vec<Mark> {
     let mut marks = Vec::new();
     if drive.has_moment() {
         let [arc, head] = turning(sense, DRIVE * u, arm.y.atan2(arm.x) + sense * AHEAD, u);
-        marks.extend([moved(arc, Role::Drive, pin), moved(head, Role::DriveHead, pin)]);
+        marks.extend([moved(arc, MarkRole::Drive, pin), moved(head, MarkRole::DriveHead, pin)]);
     }
     if drive.motor().is_some() {
-        marks.push(Mark::circle(Role::Motor, pin, MOTOR * u));
+        marks.push(Mark::circle(MarkRole::Motor, pin, MOTOR * u));
     }
     marks
 }
 
-fn moved(mark: Mark, role: Role, by: Vec2) -> Mark {
+fn moved(mark: Mark, role: MarkRole, by: Vec2) -> Mark {
     let shape = match mark.shape {
-        Shape::Line { points, closed } => {
-            Shape::Line { points: points.into_iter().map(|at| at + by).collect(), closed }
+        MarkShape::Line { points, closed } => {
+            MarkShape::Line { points: points.into_iter().map(|at| at + by).collect(), closed }
         }
-        Shape::Circle { centre, radius } => Shape::Circle { centre: centre + by, radius },
-        Shape::Arc { centre, radius, from, sweep } => Shape::Arc { centre: centre + by, radius, from, sweep },
+        MarkShape::Circle { centre, radius } => MarkShape::Circle { centre: centre + by, radius },
+        MarkShape::Arc { centre, radius, from, sweep } => MarkShape::Arc { centre: centre + by, radius, from, sweep },
     };
     Mark { shape, role }
 }
@@ -123,8 +123,8 @@ pub fn arrow(tip: Vec2, unit: f64) -> Vec<Mark> {
     let head = (HEAD * unit).smaller(HEAD_SHARE * length);
     let (base, side) = (tip - along * head, turned(along) * (head * HALF / HEAD));
     vec![
-        Mark::line(Role::Load, [Vec2::zeros(), tip - along * (0.7 * head)]),
-        Mark::area(Role::LoadHead, [tip, base + side, base - side]),
+        Mark::line(MarkRole::Load, [Vec2::zeros(), tip - along * (0.7 * head)]),
+        Mark::area(MarkRole::LoadHead, [tip, base + side, base - side]),
     ]
 }
 
@@ -137,7 +137,7 @@ pub fn turning(sense: f64, radius: f64, from: f64, u: f64) -> [Mark; 2] {
     let tangent = turned(end).normalize() * sense;
     let corner = |along: f64, aside: f64| end + tangent * (along * u) + turned(tangent) * (aside * u);
     [
-        Mark::arc(Role::Load, Vec2::zeros(), radius, [from, sense * SWEEP]),
-        Mark::area(Role::LoadHead, [corner(2.6, 0.0), corner(-0.2, HALF), corner(-0.2, -HALF)]),
+        Mark::arc(MarkRole::Load, Vec2::zeros(), radius, [from, sense * SWEEP]),
+        Mark::area(MarkRole::LoadHead, [corner(2.6, 0.0), corner(-0.2, HALF), corner(-0.2, -HALF)]),
     ]
 }

@@ -1,6 +1,6 @@
 //! The sketch: all marks of a mechanism.
 
-use super::mark::{Layer, Mark, Role};
+use super::mark::{Layer, Mark, MarkRole};
 use super::sign::LoadSign;
 use super::stretched::Stretched;
 use super::travel::Travels;
@@ -8,7 +8,7 @@ use super::{body, guide, pins, sign, stretched};
 use linkage::case::CaseParts;
 use linkage::drive::{Drive, Load};
 use linkage::math::{Vec2, turned};
-use linkage::mechanism::{GROUND, LinkId, Mechanism, Side};
+use linkage::mechanism::{GROUND, JointSide, LinkId, Mechanism};
 
 /// Units in the size of a mechanism, where the size of the picture is not known.
 const UNITS: f64 = 60.0;
@@ -28,18 +28,18 @@ pub struct Sketch {
     /// The length (m) that symbols and line widths are multiples of.
     pub unit: f64,
     /// Every link, in the order of the mechanism; the first is the ground, in world coordinates.
-    pub bodies: Vec<Body>,
+    pub bodies: Vec<LinkMarks>,
     /// Springs and dampers between points.
     pub stretched: Vec<Stretched>,
     /// Forces and moments, drawn as arrows once a state is known.
     pub loads: Vec<LoadSign>,
     /// Names, each with the place that it names.
-    pub labels: Vec<Label>,
+    pub labels: Vec<SketchLabel>,
 }
 
 /// The marks of one link, in its frame.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Body {
+pub struct LinkMarks {
     /// Number of the link.
     pub link: LinkId,
     /// Its marks.
@@ -63,13 +63,13 @@ pub enum Lettering {
 
 /// A text and the place that it names. Where the text stands is left to whoever draws it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Label {
+pub struct SketchLabel {
     /// The text.
     pub text: String,
     /// What it names.
     pub names: Lettering,
     /// The place.
-    pub at: Side,
+    pub at: JointSide,
 }
 
 impl Sketch {
@@ -79,9 +79,9 @@ impl Sketch {
     pub fn of(mechanism: &Mechanism, travels: &Travels, unit: f64) -> Sketch {
         let body = |link| {
             let marks = if link == GROUND { ground(mechanism, unit) } else { body::marks(mechanism, link, unit) };
-            Body { link, marks, size: body::size(mechanism, link) }
+            LinkMarks { link, marks, size: body::size(mechanism, link) }
         };
-        let mut bodies: Vec<Body> = mechanism.links().ids().map(body).collect();
+        let mut bodies: Vec<LinkMarks> = mechanism.links().ids().map(body).collect();
         for (link, mark) in guide::marks(mechanism, travels, unit).into_iter().chain(pins::marks(mechanism, unit)) {
             bodies[link].marks.push(mark);
         }
@@ -101,8 +101,8 @@ impl Sketch {
         for drive in drives {
             self.bodies[drive.link].marks.extend(sign::of_drive(mechanism, drive, self.unit));
             if let (Some(_), Some(local)) = (drive.motor(), mechanism.joints()[drive.joint].on(drive.link)) {
-                let at = Side { link: drive.link, local };
-                self.labels.push(Label { text: "M".into(), names: Lettering::Motor, at });
+                let at = JointSide { link: drive.link, local };
+                self.labels.push(SketchLabel { text: "M".into(), names: Lettering::Motor, at });
             }
         }
         self
@@ -122,7 +122,7 @@ impl Sketch {
             let ground = &mut self.bodies[GROUND].marks;
             ground.retain(|mark| !crosses.contains(mark));
             ground.extend(pins::pivot(at, self.unit));
-            ground.push(Mark::circle(Role::Pin, at, pins::PIN * self.unit));
+            ground.push(Mark::circle(MarkRole::Pin, at, pins::PIN * self.unit));
         }
         for (link, marks) in loads.iter().filter_map(|load| sign::twisted(mechanism, load, self.unit)) {
             self.bodies[link].marks.extend(marks);
@@ -132,7 +132,7 @@ impl Sketch {
 
     /// The same without the marks of some roles.
     #[must_use]
-    pub fn without(mut self, roles: &[Role]) -> Sketch {
+    pub fn without(mut self, roles: &[MarkRole]) -> Sketch {
         for body in &mut self.bodies {
             body.marks.retain(|mark| !roles.contains(&mark.role));
         }
@@ -163,17 +163,17 @@ fn ground(mechanism: &Mechanism, unit: f64) -> Vec<Mark> {
         let (Some(at), Some(axis)) = (joint.on(GROUND), joint.axis_on(GROUND)) else { continue };
         if !pivots.contains(&at) && points.iter().any(|point| point.local == at) {
             let half = turned(axis) * (STOP * unit);
-            marks.push(Mark::line(Role::Stop, [at - half, at + half]));
+            marks.push(Mark::line(MarkRole::Stop, [at - half, at + half]));
         }
     }
     marks
 }
 
-fn labels(mechanism: &Mechanism) -> Vec<Label> {
+fn labels(mechanism: &Mechanism) -> Vec<SketchLabel> {
     let fixed = mechanism.links()[GROUND].points.iter();
-    let fixed = fixed.map(|point| (point.name.as_str(), Side { link: GROUND, local: point.local }));
-    let point = |(name, at): (&str, Side)| Label { text: name.into(), names: Lettering::Point, at };
-    let mut labels: Vec<Label> = fixed.chain(mechanism.moving_points()).map(point).collect();
+    let fixed = fixed.map(|point| (point.name.as_str(), JointSide { link: GROUND, local: point.local }));
+    let point = |(name, at): (&str, JointSide)| SketchLabel { text: name.into(), names: Lettering::Point, at };
+    let mut labels: Vec<SketchLabel> = fixed.chain(mechanism.moving_points()).map(point).collect();
     for (link, body) in mechanism.links().entries().skip(1) {
         let places = body::places(mechanism, link);
         // Nothing is seen of a link without places.
@@ -181,10 +181,14 @@ fn labels(mechanism: &Mechanism) -> Vec<Label> {
             continue;
         }
         let middle = places.iter().sum::<Vec2>() / places.len() as f64;
-        labels.push(Label { text: link.to_string(), names: Lettering::Link, at: Side { link, local: middle } });
+        labels.push(SketchLabel {
+            text: link.to_string(),
+            names: Lettering::Link,
+            at: JointSide { link, local: middle },
+        });
         if body.mass > 0.0 {
-            let at = Side { link, local: body.mass_centre };
-            labels.push(Label { text: format!("S{link}"), names: Lettering::MassCentre, at });
+            let at = JointSide { link, local: body.mass_centre };
+            labels.push(SketchLabel { text: format!("S{link}"), names: Lettering::MassCentre, at });
         }
     }
     labels

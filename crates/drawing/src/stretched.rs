@@ -1,9 +1,9 @@
 //! Springs and dampers: drawings that reach from one point to another, whatever their distance.
 
-use super::mark::{Mark, Role};
+use super::mark::{Mark, MarkRole};
 use linkage::drive::{Load, On};
 use linkage::math::Vec2;
-use linkage::mechanism::Side;
+use linkage::mechanism::JointSide;
 
 /// Width of springs and dampers.
 const WIDTH: f64 = 4.0;
@@ -16,12 +16,12 @@ const COIL: [f64; 2] = [0.18, 0.82];
 /// What reaches from a point of one link to a point of another.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stretched {
-    /// [`Role::Spring`] or [`Role::Damper`].
-    pub role: Role,
+    /// [`MarkRole::Spring`] or [`MarkRole::Damper`].
+    pub role: MarkRole,
     /// Number of the load in its case.
     pub load: usize,
     /// The points.
-    pub ends: [Side; 2],
+    pub ends: [JointSide; 2],
     /// Width (m). Multiply the y of the marks with it, and the x with the distance of the ends.
     pub width: f64,
     /// The drawing from (0, 0) to (1, 0); lines only.
@@ -43,7 +43,7 @@ pub fn of_loads(loads: &[Load], unit: f64) -> Vec<Stretched> {
     let mut all: Vec<Stretched> = Vec::new();
     for (load, own) in loads.iter().enumerate() {
         let On::Points(ends) = own.nature().on else { continue };
-        let role = if own.is_viscous() { Role::Damper } else { Role::Spring };
+        let role = if own.is_viscous() { MarkRole::Damper } else { MarkRole::Spring };
         all.push(Stretched { role, load, ends, width: WIDTH * unit, marks: Vec::new() });
     }
     let same = |a: &Stretched, b: &Stretched| a.ends == b.ends || a.ends == [b.ends[1], b.ends[0]];
@@ -55,7 +55,7 @@ pub fn of_loads(loads: &[Load], unit: f64) -> Vec<Stretched> {
     };
     let asides: Vec<f64> = all.iter().enumerate().map(aside).collect();
     for (own, aside) in all.iter_mut().zip(asides) {
-        own.marks = if own.role == Role::Spring { spring(aside) } else { damper(aside) };
+        own.marks = if own.role == MarkRole::Spring { spring(aside) } else { damper(aside) };
     }
     all
 }
@@ -69,7 +69,7 @@ fn spring(aside: f64) -> Vec<Mark> {
     let mut points = vec![Vec2::zeros(), Vec2::new(0.0, aside), Vec2::new(COIL[0], aside)];
     points.extend((0..TEETH).map(tooth));
     points.extend([Vec2::new(COIL[1], aside), Vec2::new(1.0, aside), Vec2::new(1.0, 0.0)]);
-    vec![Mark::line(Role::Spring, points)]
+    vec![Mark::line(MarkRole::Spring, points)]
 }
 
 /// A cup, open at its end, and a piston with its rod in it.
@@ -82,6 +82,6 @@ fn damper(aside: f64) -> Vec<Mark> {
         vec![at(0.54, 0.36), at(0.54, -0.36)],
         vec![at(0.54, 0.0), at(1.0, 0.0), Vec2::new(1.0, 0.0)],
     ]
-    .map(|points| Mark::line(Role::Damper, points))
+    .map(|points| Mark::line(MarkRole::Damper, points))
     .to_vec()
 }

@@ -2,10 +2,10 @@
 
 use super::acting::Acting;
 use super::lay::Laid;
-use super::mark::Role;
-use super::paper::figure::Figure;
+use super::mark::MarkRole;
+use super::paper::figure::DrawnFigure;
 use super::picture::{AROUND, Picture};
-use super::sheet::{Cell, fit};
+use super::sheet::{SheetCell, fit};
 use super::sketch::{Lettering, Sketch};
 use super::travel::Travels;
 use linkage::drive::{Drive, Load};
@@ -17,7 +17,7 @@ const FREE: f64 = 11.0;
 
 /// What is drawn.
 #[derive(Clone, Copy, Debug)]
-pub struct Subject<'a> {
+pub struct DrawnSubject<'a> {
     /// The mechanism.
     pub mechanism: &'a Mechanism,
     /// What moves it.
@@ -54,35 +54,35 @@ pub type Trace = (LinkId, Vec<Vec2>);
 /// The shots as figures at one scale, in a room of this size (mm), without headings.
 #[must_use]
 pub fn cells(
-    subject: &Subject,
+    subject: &DrawnSubject,
     shots: &[Shot],
     travels: &Travels,
     traces: &[Trace],
     extras: Extras,
     room: Vec2,
-) -> Vec<Cell> {
+) -> Vec<SheetCell> {
     let [low, high] = corners(extent(subject, shots, travels, traces));
     let scale = fit(high - low, room - Vec2::repeat(2.0 * AROUND));
     let sketch = Sketch::of(subject.mechanism, travels, scale)
         .with_drives(subject.mechanism, subject.drives)
         .with_loads(subject.mechanism, subject.loads);
-    let sketch = if extras.loads { sketch } else { sketch.without(&[Role::MassCentre, Role::MassQuarter]) };
+    let sketch = if extras.loads { sketch } else { sketch.without(&[MarkRole::MassCentre, MarkRole::MassQuarter]) };
     let figures: Vec<_> =
         shots.iter().map(|shot| figure(subject, &sketch, shot, traces, extras, scale, shots.len())).collect();
-    let bounds = corners(figures.iter().flat_map(Figure::bounds));
-    let cell = |figure| Cell { heading: Vec::new(), figure, bounds, scale, faults: Vec::new() };
+    let bounds = corners(figures.iter().flat_map(DrawnFigure::bounds));
+    let cell = |figure| SheetCell { heading: Vec::new(), figure, bounds, scale, faults: Vec::new() };
     figures.into_iter().map(cell).collect()
 }
 
 fn figure(
-    subject: &Subject,
+    subject: &DrawnSubject,
     sketch: &Sketch,
     shot: &Shot,
     traces: &[Trace],
     extras: Extras,
     scale: f64,
     drawings: usize,
-) -> Figure {
+) -> DrawnFigure {
     let laid = &shot.laid;
     let mut picture = Picture::of(sketch, &laid.places, scale);
     for (link, path) in traces {
@@ -129,7 +129,7 @@ fn figure(
 }
 
 /// All places that the picture must hold (m).
-fn extent(subject: &Subject, shots: &[Shot], travels: &Travels, traces: &[Trace]) -> Vec<Vec2> {
+fn extent(subject: &DrawnSubject, shots: &[Shot], travels: &Travels, traces: &[Trace]) -> Vec<Vec2> {
     let mechanism = subject.mechanism;
     let mut points: Vec<Vec2> = traces.iter().flat_map(|(_, path)| path.iter().copied()).collect();
     points.extend(mechanism.links()[GROUND].points.iter().map(|point| point.local));

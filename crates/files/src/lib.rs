@@ -4,6 +4,7 @@
 //! the file. So a run that fails or is killed leaves an older file alone, and two runs to one path do not mix.
 
 mod seal;
+mod sentences;
 mod target;
 mod temporary;
 mod text;
@@ -12,7 +13,7 @@ use std::fs::File;
 use std::io;
 
 pub use seal::{is_sealed, sealed};
-pub use target::{Target, may_fill, may_write, size, unwritten};
+pub use target::{OutputTarget, may_fill, may_write, size, unwritten};
 pub use text::{LARGEST, read_named, read_text, text, text_from, visible, visible_lines, way_out};
 
 use target::Place;
@@ -24,7 +25,7 @@ use temporary::{clear, create, directory_of};
 /// # Errors
 /// Those of `fill` and of the file system; [`io::ErrorKind::AlreadyExists`] for what may not be replaced. What is there
 /// is then what it was.
-pub fn replace<E: From<io::Error>>(target: &Target, fill: impl FnOnce(&File) -> Result<(), E>) -> Result<(), E> {
+pub fn replace<E: From<io::Error>>(target: &OutputTarget, fill: impl FnOnce(&File) -> Result<(), E>) -> Result<(), E> {
     let (place, old) = match target.place()? {
         Place::Open(path) => return fill(&File::options().write(true).open(path)?),
         Place::File(place, old) => (place, old),

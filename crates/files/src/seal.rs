@@ -1,9 +1,10 @@
 //! A mark in a file that tells whether this program wrote it, and whether anybody has changed it since.
 
+use crate::sentences;
 use std::path::Path;
 
 /// What stands before the seal's digits.
-const MARK: &str = "made by linkproof, seal ";
+const MARK: &str = sentences::MADE_BY_LINKPROOF_SEAL;
 /// Hexadecimal digits of a seal.
 const DIGITS: usize = 16;
 

@@ -1,5 +1,6 @@
 //! Where files may be written, what they may replace, and what is said if not.
 
+use crate::sentences;
 use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
@@ -14,7 +15,7 @@ const SEEN: u64 = 64 << 20;
 
 /// A file to be written, and what may be replaced there. This is the one place for the rule: a file is replaced only if
 /// the caller named it or this program wrote it, and a symbolic link is followed only where the caller named it.
-pub enum Target<'a> {
+pub enum OutputTarget<'a> {
     /// The caller named this very file.
     Named(&'a Path),
     /// The program made the name up, or a part of it; an older file is replaced if `is_ours` says so of its beginning.
@@ -29,21 +30,21 @@ pub(super) enum Place {
     File(PathBuf, Option<fs::Metadata>),
 }
 
-impl Target<'_> {
+impl OutputTarget<'_> {
     /// Where the content goes.
     ///
     /// # Errors
     /// [`io::ErrorKind::AlreadyExists`] for what may not be replaced, and those of the file system.
     pub(super) fn place(&self) -> io::Result<Place> {
         match *self {
-            Target::Named(path) => {
+            OutputTarget::Named(path) => {
                 let old = fs::metadata(path).ok();
                 if is_open_already(path) || old.as_ref().is_some_and(|old| !old.is_file()) {
                     return Ok(Place::Open(path.to_path_buf()));
                 }
                 Ok(Place::File(followed(path)?, old))
             }
-            Target::Made(path, is_ours) => {
+            OutputTarget::Made(path, is_ours) => {
                 let in_the_way = |what: &str| Err(io::Error::new(io::ErrorKind::AlreadyExists, what));
                 let old = match fs::symlink_metadata(path) {
                     Err(error) if error.kind() == io::ErrorKind::NotFound => None,
@@ -51,15 +52,13 @@ impl Target<'_> {
                 };
                 match &old {
                     None => {}
-                    Some(old) if old.is_symlink() => return in_the_way("a symbolic link that nobody named is there"),
-                    Some(old) if !old.is_file() => return in_the_way("something else than a file is there"),
+                    Some(old) if old.is_symlink() => return in_the_way(sentences::A_SYMBOLIC_LINK_THAT_NOBODY),
+                    Some(old) if !old.is_file() => return in_the_way(sentences::SOMETHING_ELSE_THAN_A_FILE),
                     Some(_) => {
                         let mut bytes = Vec::new();
                         File::open(path)?.take(SEEN).read_to_end(&mut bytes)?;
                         if !is_ours(&bytes) {
-                            return in_the_way(
-                                "a file is there that this program did not write, or that was changed since",
-                            );
+                            return in_the_way(sentences::A_FILE_IS_THERE_THAT_THIS_PROGRAM);
                         }
                     }
                 }
@@ -90,7 +89,7 @@ fn followed(path: &Path) -> io::Result<PathBuf> {
             Err(_) => return Ok(place),
         }
     }
-    Err(io::Error::other(format!("more than {LINKS} symbolic links lead on from there")))
+    Err(io::Error::other(sentences::more_than_symbolic_links_lead(&LINKS)))
 }
 
 /// Tries whether a file can be written at `path`, which the caller named, before any work is done. Nothing is left
@@ -100,22 +99,22 @@ fn followed(path: &Path) -> io::Result<PathBuf> {
 /// What is in the way.
 pub fn may_write(path: &Path) -> Result<(), String> {
     if fs::metadata(path).is_ok_and(|old| old.is_dir()) || path.as_os_str().to_string_lossy().ends_with('/') {
-        return Err("this is a directory; expected a file".into());
+        return Err(sentences::THIS_IS_A_DIRECTORY_EXPECTED.into());
     }
-    let place = match Target::Named(path).place() {
+    let place = match OutputTarget::Named(path).place() {
         // A pipe or a device is opened when there is something to write.
         Ok(Place::Open(_)) => return Ok(()),
         Ok(Place::File(place, _)) => place,
-        Err(error) => return Err(format!("{error}; expected a file")),
+        Err(error) => return Err(sentences::expected_a_file(&error)),
     };
     let directory = directory_of(&place);
     match fs::metadata(directory) {
         Ok(found) if found.is_dir() => try_directory(directory),
-        Ok(_) => Err(format!("{} is no directory; expected a file in a directory", directory.display())),
+        Ok(_) => Err(sentences::is_no_directory_expected_a_file(&directory.display())),
         Err(error) if error.kind() == io::ErrorKind::NotFound => {
-            Err(format!("there is no directory {}; expected one that is there", directory.display()))
+            Err(sentences::there_is_no_directory_expected(&directory.display()))
         }
-        Err(error) => Err(format!("{}: {error}; expected a directory that may be written to", directory.display())),
+        Err(error) => Err(sentences::expected_a_directory_that_may_be_written(&directory.display(), &error)),
     }
 }
 
@@ -128,9 +127,9 @@ pub fn may_fill(directory: &Path) -> Result<(), String> {
     loop {
         match fs::metadata(&there) {
             Ok(found) if found.is_dir() => return try_directory(&there),
-            Ok(_) => return Err(format!("{} is no directory; expected one", there.display())),
+            Ok(_) => return Err(sentences::is_no_directory_expected_one(&there.display())),
             Err(error) if error.kind() == io::ErrorKind::NotFound => there = directory_of(&there).to_path_buf(),
-            Err(error) => return Err(format!("{}: {error}; expected a directory", there.display())),
+            Err(error) => return Err(sentences::expected_a_directory(&there.display(), &error)),
         }
     }
 }
@@ -138,9 +137,7 @@ pub fn may_fill(directory: &Path) -> Result<(), String> {
 fn try_directory(directory: &Path) -> Result<(), String> {
     match create(directory) {
         Ok(_) => Ok(()),
-        Err(error) => {
-            Err(format!("{}: {}; expected a directory that may be written to", directory.display(), why(&error)))
-        }
+        Err(error) => Err(sentences::expected_a_directory_that_may(&directory.display(), &why(&error))),
     }
 }
 
@@ -148,9 +145,9 @@ fn try_directory(directory: &Path) -> Result<(), String> {
 #[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the standard library")]
 fn why(error: &io::Error) -> String {
     match error.kind() {
-        io::ErrorKind::StorageFull => "no room is left on the device".into(),
-        io::ErrorKind::QuotaExceeded => "the quota on the device is used up".into(),
-        io::ErrorKind::FileTooLarge => "a file of this size is not allowed".into(),
+        io::ErrorKind::StorageFull => sentences::NO_ROOM_IS_LEFT_ON_THE_DEVICE.into(),
+        io::ErrorKind::QuotaExceeded => sentences::THE_QUOTA_ON_THE_DEVICE_IS_USED.into(),
+        io::ErrorKind::FileTooLarge => sentences::A_FILE_OF_THIS_SIZE_IS_NOT_ALLOWED.into(),
         _ => error.to_string(),
     }
 }
@@ -160,14 +157,14 @@ fn why(error: &io::Error) -> String {
 #[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the standard library")]
 pub fn unwritten(what: &str, error: &io::Error, needs: Option<u64>, usual: &str) -> Error {
     let way_out = match error.kind() {
-        io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => "make room there, or write to another device",
-        io::ErrorKind::AlreadyExists => "rename or remove what is there, or name another place",
-        io::ErrorKind::FileTooLarge => "raise the limit on the size of files, or ask for fewer instants or channels",
+        io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => sentences::MAKE_ROOM_THERE_OR_WRITE,
+        io::ErrorKind::AlreadyExists => sentences::RENAME_OR_REMOVE_WHAT_IS_THERE,
+        io::ErrorKind::FileTooLarge => sentences::RAISE_THE_LIMIT_ON_THE_SIZE,
         _ => usual,
     };
     let is_room = error.kind() != io::ErrorKind::AlreadyExists && way_out != usual;
-    let needs = needs.filter(|_| is_room).map(|bytes| format!("; {} are needed", size(bytes)));
-    let message = format!("{what} cannot be written: {}{}", why(error), needs.unwrap_or_default());
+    let needs = needs.filter(|_| is_room).map(|bytes| sentences::are_needed(&size(bytes)));
+    let message = sentences::cannot_be_written(&what, &why(error), &needs.unwrap_or_default());
     Error::new(ErrorKind::Io, message).help(way_out)
 }
 

@@ -1,5 +1,6 @@
 //! Files that are read as text, and what is said about those that are none.
 
+use crate::sentences;
 use std::fmt;
 use std::fs::{self, File};
 use std::io::{self, Read};
@@ -55,7 +56,7 @@ pub fn text_from(from: impl Read) -> io::Result<String> {
     let mut bytes = Vec::new();
     from.take(LARGEST + 1).read_to_end(&mut bytes)?;
     if bytes.len() as u64 > LARGEST {
-        return Err(io::Error::other(format!("it has more than {} MiB", LARGEST >> 20)));
+        return Err(io::Error::other(sentences::it_has_more_than_mib(&(LARGEST >> 20))));
     }
     decoded(bytes).map_err(|other| io::Error::new(io::ErrorKind::InvalidData, other))
 }
@@ -65,7 +66,11 @@ pub fn text_from(from: impl Read) -> io::Result<String> {
 /// # Errors
 /// Those of [`read_text`]; also if it is no regular file.
 pub fn read_named(path: &Path) -> io::Result<String> {
-    if fs::metadata(path)?.is_file() { read_text(path) } else { Err(io::Error::other("it is no regular file")) }
+    if fs::metadata(path)?.is_file() {
+        read_text(path)
+    } else {
+        Err(io::Error::other(sentences::IT_IS_NO_REGULAR_FILE))
+    }
 }
 
 /// The text of a file whose name the program made up; `None` if there is no such file.
@@ -83,10 +88,8 @@ pub fn text(path: &Path) -> io::Result<Option<String>> {
 pub fn way_out(error: &io::Error, usual: &str) -> String {
     match error.get_ref().and_then(|inner| inner.downcast_ref::<Encoding>()) {
         None => usual.into(),
-        Some(Encoding { name: None, .. }) => "give a text file in UTF-8".into(),
-        Some(Encoding { name: Some(name), .. }) => {
-            format!("save it as UTF-8 in your editor, or convert it: `iconv -f {name} -t UTF-8 OLD > NEW`")
-        }
+        Some(Encoding { name: None, .. }) => sentences::GIVE_A_TEXT_FILE_IN_UTF.into(),
+        Some(Encoding { name: Some(name), .. }) => sentences::save_it_as_utf_in_your_editor(&name),
     }
 }
 
@@ -107,7 +110,7 @@ impl fmt::Display for Encoding {
 impl std::error::Error for Encoding {}
 
 fn decoded(bytes: Vec<u8>) -> Result<String, Encoding> {
-    let other = |name| Encoding { told: format!("it is written in {name}, but UTF-8 is needed"), name: Some(name) };
+    let other = |name| Encoding { told: sentences::it_is_written_in_but_utf(&name), name: Some(name) };
     match bytes.as_slice() {
         [0xff, 0xfe, 0, 0, ..] | [0, 0, 0xfe, 0xff, ..] => return Err(other("UTF-32")),
         [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => return Err(other("UTF-16")),
@@ -117,17 +120,15 @@ fn decoded(bytes: Vec<u8>) -> Result<String, Encoding> {
         _ => {}
     }
     if let Some(at) = bytes.iter().position(|&byte| byte == 0) {
-        let told = format!("it is no text: byte {} is zero", at + 1);
+        let told = sentences::it_is_no_text_byte_is_zero(&(at + 1));
         return Err(Encoding { told, name: None });
     }
     String::from_utf8(bytes).map_err(|error| {
         let at = error.utf8_error().valid_up_to();
         let bytes = error.as_bytes();
         let (byte, line) = (bytes[at], bytes[..at].iter().filter(|&&byte| byte == b'\n').count() + 1);
-        let told = format!(
-            "it is not written in UTF-8: line {line} has the byte 0x{byte:02X}, in Latin-1 the letter `{}`",
-            char::from(byte).escape_debug()
-        );
+        let told =
+            sentences::it_is_not_written_in_utf(&line, &format_args!("{byte:02X}"), &char::from(byte).escape_debug());
         Encoding { told, name: Some("WINDOWS-1252") }
     })
 }

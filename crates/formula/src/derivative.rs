@@ -1,12 +1,12 @@
 //! Derivatives by the rules of calculus.
 
-use crate::graph::{Graph, Id, Node};
+use crate::graph::{FormulaGraph, Node, NodeId};
 use crate::tree::Function;
 use crate::tree::Operator::{Minus, Over, Plus, Power, Times};
 
-impl Graph {
+impl FormulaGraph {
     /// The derivative of a node with respect to an input.
-    pub fn derivative(&mut self, of: Id, input: usize) -> Id {
+    pub fn derivative(&mut self, of: NodeId, input: usize) -> NodeId {
         // Arguments stand before what they are arguments of: when it comes to a node, its parts are done.
         for id in self.needed_but(&[of], &|id| self.derivatives.contains_key(&(id, input))) {
             let found = self.rule(id, input);
@@ -17,7 +17,7 @@ impl Graph {
 
     /// The rate of change of a node while every input changes at its own: the sum of partial derivatives times the
     /// `rates` of the inputs. Inputs without one do not change.
-    pub fn rate(&mut self, of: Id, rates: &[Option<Id>]) -> Id {
+    pub fn rate(&mut self, of: NodeId, rates: &[Option<NodeId>]) -> NodeId {
         let mut sum = self.whole(0.0);
         for (input, rate) in rates.iter().enumerate() {
             let Some(rate) = *rate else { continue };
@@ -28,8 +28,8 @@ impl Graph {
         sum
     }
 
-    fn rule(&mut self, id: Id, input: usize) -> Id {
-        let of = |graph: &Graph, part: Id| graph.derivatives[&(part, input)];
+    fn rule(&mut self, id: NodeId, input: usize) -> NodeId {
+        let of = |graph: &FormulaGraph, part: NodeId| graph.derivatives[&(part, input)];
         match self.node(id) {
             Node::Input(index) => self.whole(if index == input { 1.0 } else { 0.0 }),
             Node::Number(_) => self.whole(0.0),
@@ -61,7 +61,7 @@ impl Graph {
         }
     }
 
-    fn power(&mut self, id: Id, [base, exponent]: [Id; 2], [a, b]: [Id; 2]) -> Id {
+    fn power(&mut self, id: NodeId, [base, exponent]: [NodeId; 2], [a, b]: [NodeId; 2]) -> NodeId {
         let (zero, one) = (self.whole(0.0), self.whole(1.0));
         let by_base = if a == zero {
             zero
@@ -81,7 +81,7 @@ impl Graph {
         self.pair(Plus, by_base, by_exponent)
     }
 
-    fn call_rule(&mut self, id: Id, function: Function, [x, other]: [Id; 2], [a, b]: [Id; 2]) -> Id {
+    fn call_rule(&mut self, id: NodeId, function: Function, [x, other]: [NodeId; 2], [a, b]: [NodeId; 2]) -> NodeId {
         let (one, two) = (self.whole(1.0), self.whole(2.0));
         if a == self.whole(0.0) && (function.arity() == 1 || a == b) {
             return a;
@@ -138,7 +138,7 @@ impl Graph {
     }
 
     /// Zero, and undefined where `x` is zero: a kink or a jump has no derivative.
-    fn but_at_zero(&mut self, x: Id) -> Id {
+    fn but_at_zero(&mut self, x: NodeId) -> NodeId {
         let zero = self.whole(0.0);
         self.put(Node::Pair(Over, zero, x))
     }

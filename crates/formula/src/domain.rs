@@ -1,32 +1,35 @@
 //! Operations outside their domain, in words.
 
+use crate::sentences;
 use std::fmt::Write;
 
 use crate::rounded::Rounded;
-use crate::tree::{Fault, Function, Operator, Shape, Tree};
+use crate::tree::{FormulaFault, FormulaTree, Function, NodeShape, Operator};
 
-impl Tree {
+impl FormulaTree {
     /// Its value, where `of` gives the values of names.
     ///
     /// # Errors
     /// The first operation that is outside its domain there, with its place.
-    pub fn evaluated(&self, of: &dyn Fn(&str) -> Rounded) -> Result<Rounded, Fault> {
+    pub fn evaluated(&self, of: &dyn Fn(&str) -> Rounded) -> Result<Rounded, FormulaFault> {
         let mut lower: Option<Rounded> = None;
         for tree in self.left_parts().into_iter().rev() {
             let others = &tree.parts()[usize::from(lower.is_some())..];
             let others: Vec<Rounded> = others.iter().map(|part| part.evaluated(of)).collect::<Result<_, _>>()?;
             let parts: Vec<Rounded> = lower.into_iter().chain(others).collect();
             let value = match &tree.shape {
-                Shape::Number(number) => Rounded::decimal(*number),
-                Shape::Name(name) => of(name),
-                Shape::Negative(_) => parts[0].negative(),
-                Shape::Pair(Operator::Minus, own)
+                NodeShape::Number(number) => Rounded::decimal(*number),
+                NodeShape::Name(name) => of(name),
+                NodeShape::Negative(_) => parts[0].negative(),
+                NodeShape::Pair(Operator::Minus, own)
                     if parts[0] == parts[1] && own[0].to_string() == own[1].to_string() =>
                 {
                     Rounded::pair(Operator::Times, Rounded::exact(0.0), parts[0])
                 }
-                Shape::Pair(operator, _) => Rounded::pair(*operator, parts[0], parts[1]),
-                Shape::Call(function, _) => Rounded::call(*function, [parts[0], *parts.last().unwrap_or(&parts[0])]),
+                NodeShape::Pair(operator, _) => Rounded::pair(*operator, parts[0], parts[1]),
+                NodeShape::Call(function, _) => {
+                    Rounded::call(*function, [parts[0], *parts.last().unwrap_or(&parts[0])])
+                }
             };
             if value.is_undefined() {
                 return Err(undefined(tree, &parts));
@@ -38,43 +41,43 @@ impl Tree {
 }
 
 /// The fault of an operation that is undefined for these arguments.
-pub(crate) fn undefined(tree: &Tree, arguments: &[Rounded]) -> Fault {
+pub(crate) fn undefined(tree: &FormulaTree, arguments: &[Rounded]) -> FormulaFault {
     let of = |index: usize| arguments.get(index).map_or_else(|| "?".into(), |number| short(number.value));
     let (what, rule) = match &tree.shape {
-        Shape::Pair(operator, _) => {
+        NodeShape::Pair(operator, _) => {
             let base = if of(0).starts_with('-') { format!("({})", of(0)) } else { of(0) };
             (format!("{base}{}{}", operator.sign(), of(1)), rule_of_operator(*operator))
         }
-        Shape::Call(function, parts) => {
+        NodeShape::Call(function, parts) => {
             let mut call = format!("{}({}", function.name(), of(0));
             if parts.len() > 1 {
                 let _ = write!(call, ", {}", of(1));
             }
             (call + ")", rule_of_function(*function))
         }
-        Shape::Name(name) => (format!("`{name}`"), "what it stands for has no value"),
-        Shape::Number(_) | Shape::Negative(_) => (tree.to_string(), EVERYWHERE),
+        NodeShape::Name(name) => (format!("`{name}`"), sentences::WHAT_IT_STANDS_FOR_HAS_NO_VALUE),
+        NodeShape::Number(_) | NodeShape::Negative(_) => (tree.to_string(), EVERYWHERE),
     };
-    Fault::new(format!("{what} is undefined"), tree.at.clone(), rule)
+    FormulaFault::new(sentences::is_undefined(&what), tree.at.clone(), rule)
 }
 
 /// What is defined for every number.
-const EVERYWHERE: &str = "its parts must have values";
+const EVERYWHERE: &str = sentences::ITS_PARTS_MUST_HAVE_VALUES;
 
 fn rule_of_operator(operator: Operator) -> &'static str {
     match operator {
-        Operator::Over => "a divisor must not be zero",
-        Operator::Power => "a negative base takes a whole exponent, and zero none below zero",
+        Operator::Over => sentences::A_DIVISOR_MUST_NOT_BE_ZERO,
+        Operator::Power => sentences::A_NEGATIVE_BASE_TAKES_A_WHOLE,
         Operator::Plus | Operator::Minus | Operator::Times => EVERYWHERE,
     }
 }
 
 fn rule_of_function(function: Function) -> &'static str {
     match function {
-        Function::Ln => "ln takes a positive number",
-        Function::Sqrt => "sqrt takes zero or a positive number",
-        Function::Asin | Function::Acos => "asin and acos take a number from -1 to 1",
-        Function::Atan2 => "atan2 takes two numbers of which one is not zero",
+        Function::Ln => sentences::LN_TAKES_A_POSITIVE_NUMBER,
+        Function::Sqrt => sentences::SQRT_TAKES_ZERO_OR_A_POSITIVE,
+        Function::Asin | Function::Acos => sentences::ASIN_AND_ACOS_TAKE_A_NUMBER,
+        Function::Atan2 => sentences::ATAN2_TAKES_TWO_NUMBERS_OF_WHICH_ONE_IS_NOT_ZERO,
         Function::Sin
         | Function::Cos
         | Function::Tan

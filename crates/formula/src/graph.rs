@@ -1,18 +1,19 @@
 //! Formulas as a graph: what two of them share stands in it once.
 
+use crate::sentences;
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::domain::undefined;
 use crate::rounded::Rounded;
-use crate::tree::{Fault, Function, Operator, Shape, Tree};
+use crate::tree::{FormulaFault, FormulaTree, Function, NodeShape, Operator};
 
-/// A node of a [`Graph`].
+/// A node of a [`FormulaGraph`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct Id(pub(crate) u32);
+pub struct NodeId(pub(crate) u32);
 
 /// What a node does. Its arguments stand before it, each at a place `P`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Node<P = Id> {
+pub(crate) enum Node<P = NodeId> {
     Input(usize),
     Number(Rounded),
     Negative(P),
@@ -69,24 +70,24 @@ fn key(node: Node) -> Key {
 
 /// Formulas over common inputs.
 #[derive(Clone, Debug, Default)]
-pub struct Graph {
+pub struct FormulaGraph {
     pub(crate) nodes: Vec<Node>,
     /// The values of nodes that no input enters.
     pub(crate) constants: Vec<Option<Rounded>>,
-    known: BTreeMap<Key, Id>,
-    names: BTreeMap<String, Id>,
-    pub(crate) derivatives: BTreeMap<(Id, usize), Id>,
+    known: BTreeMap<Key, NodeId>,
+    names: BTreeMap<String, NodeId>,
+    pub(crate) derivatives: BTreeMap<(NodeId, usize), NodeId>,
     inputs: usize,
     /// Names that were given meanwhile, with what they stood for before.
-    renamed: Vec<(String, Option<Id>)>,
+    renamed: Vec<(String, Option<NodeId>)>,
     is_meanwhile: bool,
 }
 
-impl Graph {
+impl FormulaGraph {
     /// A graph with inputs of these names, as many more `unnamed`, and `pi`.
     #[must_use]
     pub fn new(inputs: &[&str], unnamed: usize) -> Self {
-        let mut graph = Graph { inputs: inputs.len() + unnamed, ..Graph::default() };
+        let mut graph = FormulaGraph { inputs: inputs.len() + unnamed, ..FormulaGraph::default() };
         for (index, name) in inputs.iter().enumerate() {
             let id = graph.put(Node::Input(index));
             graph.name(name, id);
@@ -104,14 +105,14 @@ impl Graph {
     /// # Panics
     /// If there are not as many inputs.
     #[must_use]
-    pub fn input(&self, index: usize) -> Id {
+    pub fn input(&self, index: usize) -> NodeId {
         assert!(index < self.inputs, "there are {} inputs", self.inputs);
         // They were put first.
-        Id(index as u32)
+        NodeId(index as u32)
     }
 
     /// Gives a node a name, which formulas after it may use.
-    pub fn name(&mut self, name: &str, id: Id) {
+    pub fn name(&mut self, name: &str, id: NodeId) {
         let before = self.names.insert(name.into(), id);
         if self.is_meanwhile {
             self.renamed.push((name.into(), before));
@@ -119,7 +120,7 @@ impl Graph {
     }
 
     /// A number that does not change, with its error.
-    pub fn constant(&mut self, number: Rounded) -> Id {
+    pub fn constant(&mut self, number: Rounded) -> NodeId {
         self.put(Node::Number(number))
     }
 
@@ -139,20 +140,20 @@ impl Graph {
     ///
     /// # Errors
     /// A name that is not known, with its place.
-    pub fn add(&mut self, tree: &Tree) -> Result<Id, Fault> {
+    pub fn add(&mut self, tree: &FormulaTree) -> Result<NodeId, FormulaFault> {
         self.added(tree, false)
     }
 
     /// The same for a formula that must have a value.
     ///
     /// # Errors
-    /// Those of [`Graph::add`], and an operation of constants outside its domain, with its place.
-    pub fn add_defined(&mut self, tree: &Tree) -> Result<Id, Fault> {
+    /// Those of [`FormulaGraph::add`], and an operation of constants outside its domain, with its place.
+    pub fn add_defined(&mut self, tree: &FormulaTree) -> Result<NodeId, FormulaFault> {
         self.added(tree, true)
     }
 
-    fn added(&mut self, tree: &Tree, must_be_defined: bool) -> Result<Id, Fault> {
-        let mut lower: Option<Id> = None;
+    fn added(&mut self, tree: &FormulaTree, must_be_defined: bool) -> Result<NodeId, FormulaFault> {
+        let mut lower: Option<NodeId> = None;
         for tree in tree.left_parts().into_iter().rev() {
             let parts = match lower {
                 Some(left) => [Some(left), Some(self.added(&tree.parts()[1], must_be_defined)?)],
@@ -169,18 +170,18 @@ impl Graph {
     }
 
     /// The nodes of the parts of what is no pair.
-    fn parts(&mut self, tree: &Tree, must_be_defined: bool) -> Result<[Option<Id>; 2], Fault> {
+    fn parts(&mut self, tree: &FormulaTree, must_be_defined: bool) -> Result<[Option<NodeId>; 2], FormulaFault> {
         let mut part = |index: usize| tree.parts().get(index).map(|part| self.added(part, must_be_defined)).transpose();
         let first = part(0)?;
         Ok([first, part(1)?.or(first)])
     }
 
     /// The node of an operation on its parts.
-    fn operation(&mut self, tree: &Tree, parts: [Option<Id>; 2]) -> Result<Id, Fault> {
+    fn operation(&mut self, tree: &FormulaTree, parts: [Option<NodeId>; 2]) -> Result<NodeId, FormulaFault> {
         Ok(match (&tree.shape, parts) {
-            (Shape::Number(number), _) => self.put(Node::Number(Rounded::decimal(*number))),
-            (Shape::Negative(_), [Some(part), _]) => self.negative(part),
-            (Shape::Pair(operator, _), [Some(left), Some(right)]) => {
+            (NodeShape::Number(number), _) => self.put(Node::Number(Rounded::decimal(*number))),
+            (NodeShape::Negative(_), [Some(part), _]) => self.negative(part),
+            (NodeShape::Pair(operator, _), [Some(left), Some(right)]) => {
                 match (operator, self.exact(left), self.exact(right)) {
                     // What is less itself is zero, however well it is known, if it is anything.
                     (Operator::Minus, ..) if left == right => {
@@ -193,39 +194,39 @@ impl Graph {
                     _ => self.pair(*operator, left, right),
                 }
             }
-            (Shape::Call(function, _), [Some(first), Some(second)]) => self.call(*function, first, second),
-            (Shape::Name(name), _) => self.named(name, tree)?,
-            (Shape::Negative(_) | Shape::Pair(..) | Shape::Call(..), _) => unreachable!("they have parts"),
+            (NodeShape::Call(function, _), [Some(first), Some(second)]) => self.call(*function, first, second),
+            (NodeShape::Name(name), _) => self.named(name, tree)?,
+            (NodeShape::Negative(_) | NodeShape::Pair(..) | NodeShape::Call(..), _) => unreachable!("they have parts"),
         })
     }
 
     /// The value of a node that no input enters.
     #[must_use]
-    pub fn constant_of(&self, id: Id) -> Option<Rounded> {
+    pub fn constant_of(&self, id: NodeId) -> Option<Rounded> {
         self.constants[id.0 as usize]
     }
 
-    fn named(&self, name: &str, tree: &Tree) -> Result<Id, Fault> {
+    fn named(&self, name: &str, tree: &FormulaTree) -> Result<NodeId, FormulaFault> {
         self.names.get(name).copied().ok_or_else(|| {
-            let help = format!("known are {}", self.names().join(", "));
-            Fault::new(format!("there is no `{name}`"), tree.at.clone(), help)
+            let help = sentences::known_are(&self.names().join(", "));
+            FormulaFault::new(sentences::there_is_no(&name), tree.at.clone(), help)
         })
     }
 
-    pub(crate) fn node(&self, id: Id) -> Node {
+    pub(crate) fn node(&self, id: NodeId) -> Node {
         self.nodes[id.0 as usize]
     }
 
     /// The nodes that these need, themselves included, arguments first. A graph of many formulas is not walked through.
-    pub(crate) fn needed(&self, nodes: &[Id]) -> Vec<Id> {
+    pub(crate) fn needed(&self, nodes: &[NodeId]) -> Vec<NodeId> {
         self.needed_but(nodes, &|_| false)
     }
 
     /// The same without those that are done, and without what only these need: what formulas share is walked through
     /// once.
-    pub(crate) fn needed_but(&self, nodes: &[Id], is_done: &dyn Fn(Id) -> bool) -> Vec<Id> {
-        let mut needed: BTreeSet<Id> = nodes.iter().copied().filter(|id| !is_done(*id)).collect();
-        let mut next: Vec<Id> = needed.iter().copied().collect();
+    pub(crate) fn needed_but(&self, nodes: &[NodeId], is_done: &dyn Fn(NodeId) -> bool) -> Vec<NodeId> {
+        let mut needed: BTreeSet<NodeId> = nodes.iter().copied().filter(|id| !is_done(*id)).collect();
+        let mut next: Vec<NodeId> = needed.iter().copied().collect();
         while let Some(id) = next.pop() {
             let Some(parts) = self.node(id).parts() else { continue };
             next.extend(parts.into_iter().filter(|part| !is_done(*part) && needed.insert(*part)));
@@ -235,7 +236,7 @@ impl Graph {
     }
 
     /// Lets `then` add to the graph, and forgets afterwards what was added, names included.
-    pub fn meanwhile<T>(&mut self, then: impl FnOnce(&mut Graph) -> T) -> T {
+    pub fn meanwhile<T>(&mut self, then: impl FnOnce(&mut FormulaGraph) -> T) -> T {
         let (nodes, derivatives) = (self.nodes.len(), self.derivatives.len());
         self.is_meanwhile = true;
         let result = then(self);
@@ -251,14 +252,14 @@ impl Graph {
         }
         self.is_meanwhile = false;
         if self.derivatives.len() > derivatives {
-            let is_kept = |id: &Id| (id.0 as usize) < nodes;
+            let is_kept = |id: &NodeId| (id.0 as usize) < nodes;
             self.derivatives.retain(|(of, _), id| is_kept(of) && is_kept(id));
         }
         result
     }
 
-    pub(crate) fn put(&mut self, node: Node) -> Id {
-        let next = Id(u32::try_from(self.nodes.len()).expect("formulas are bounded in length"));
+    pub(crate) fn put(&mut self, node: Node) -> NodeId {
+        let next = NodeId(u32::try_from(self.nodes.len()).expect("formulas are bounded in length"));
         let id = *self.known.entry(key(node)).or_insert(next);
         if id == next {
             self.nodes.push(node);
@@ -273,16 +274,16 @@ impl Graph {
         (is_known && !matches!(node, Node::Input(_))).then(|| node.value(&[], of))
     }
 
-    fn exact(&self, id: Id) -> Option<f64> {
+    fn exact(&self, id: NodeId) -> Option<f64> {
         let is_exact = |number: &Rounded| matches!(self.node(id), Node::Number(_)) && number.error == 0.0;
         self.constant_of(id).filter(is_exact).map(|number| number.value)
     }
 
-    pub(crate) fn whole(&mut self, value: f64) -> Id {
+    pub(crate) fn whole(&mut self, value: f64) -> NodeId {
         self.put(Node::Number(Rounded::exact(value)))
     }
 
-    pub(crate) fn negative(&mut self, part: Id) -> Id {
+    pub(crate) fn negative(&mut self, part: NodeId) -> NodeId {
         match self.node(part) {
             Node::Number(number) => self.put(Node::Number(number.negative())),
             Node::Negative(inner) => inner,
@@ -292,7 +293,7 @@ impl Graph {
 
     /// A pair, without the zeros and ones that derivatives leave: what they are multiplied by was there before, and is
     /// judged there.
-    pub(crate) fn pair(&mut self, operator: Operator, left: Id, right: Id) -> Id {
+    pub(crate) fn pair(&mut self, operator: Operator, left: NodeId, right: NodeId) -> NodeId {
         let (a, b) = (self.exact(left), self.exact(right));
         match (operator, a, b) {
             (Operator::Plus, Some(0.0), _) | (Operator::Times, Some(1.0), _) => right,
@@ -314,7 +315,7 @@ impl Graph {
         }
     }
 
-    pub(crate) fn call(&mut self, function: Function, first: Id, second: Id) -> Id {
+    pub(crate) fn call(&mut self, function: Function, first: NodeId, second: NodeId) -> NodeId {
         self.put(Node::Call(function, first, second))
     }
 }

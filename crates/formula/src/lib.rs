@@ -1,22 +1,10 @@
-//! Formulas as they are written down: read, differentiated, and evaluated with a bound on their own rounding.
+#![doc = include_str!("../README.md")]
 //!
-//! - [`Tree`]: what somebody wrote, with the place of every part.
-//! - [`Graph`]: many formulas at once; what two of them share stands in it once. Derivatives are taken here.
+//! - [`FormulaTree`]: what somebody wrote, with the place of every part.
+//! - [`FormulaGraph`]: many formulas at once; what two of them share stands in it once. Derivatives are taken here.
 //! - [`Program`]: the part of a graph that some of its nodes need, to be run for many inputs.
 //! - [`Rounded`]: a number, and how far it may be from the exact one.
-//! - [`Sheet`]: a derivation part by part, for the search of what is wrong in it; [`Products`]: numbers as products.
-//!
-//! ```
-//! use formula::{Graph, Program, Rounded, Tree};
-//!
-//! let mut graph = Graph::new(&["phi", "r"], 0);
-//! let place = graph.add(&Tree::parse("r*cos(phi)")?)?;
-//! let speed = graph.derivative(place, 0);
-//! let mut program = Program::of(&graph, &[place, speed]);
-//! let values = program.run(&[Rounded::exact(0.0), Rounded::exact(2.0)]);
-//! assert_eq!([values[0].value, values[1].value], [2.0, 0.0]);
-//! # Ok::<(), formula::Fault>(())
-//! ```
+//! - [`DerivationSheet`]: a derivation part by part, for the search of what is wrong in it; [`Products`]: numbers as products.
 
 mod derivative;
 mod domain;
@@ -25,14 +13,15 @@ mod parse;
 mod products;
 mod program;
 mod rounded;
+mod sentences;
 mod sheet;
 #[cfg(test)]
 mod tests;
 mod tree;
 
-pub use graph::{Graph, Id};
+pub use graph::{FormulaGraph, NodeId};
 pub use products::{Product, Products, information};
 pub use program::Program;
 pub use rounded::Rounded;
-pub use sheet::{Sheet, Target};
-pub use tree::{Fault, Function, Operator, Shape, Tree};
+pub use sheet::{DerivationSheet, FormulaTarget};
+pub use tree::{FormulaFault, FormulaTree, Function, NodeShape, Operator};

@@ -1,5 +1,6 @@
 //! From text to a tree.
 
+use crate::sentences;
 use std::ops::Range;
 
 use winnow::combinator::{Infix, Prefix, expression};
@@ -7,7 +8,7 @@ use winnow::error::{ErrMode, ParserError};
 use winnow::stream::{LocatingSlice, Location, Stream};
 use winnow::{ModalResult, Parser};
 
-use crate::tree::{Fault, Function, Operator, Shape, Tree};
+use crate::tree::{FormulaFault, FormulaTree, Function, NodeShape, Operator};
 
 /// Longest text of a formula (bytes): a notebook page has some thousand.
 const LONGEST: usize = 20_000;
@@ -18,7 +19,7 @@ type Input<'a> = LocatingSlice<&'a str>;
 
 /// A fault while reading; without one, another alternative may fit.
 #[derive(Debug)]
-struct Found(Option<Fault>);
+struct Found(Option<FormulaFault>);
 
 impl<'a> ParserError<Input<'a>> for Found {
     type Inner = Self;
@@ -35,32 +36,34 @@ impl<'a> ParserError<Input<'a>> for Found {
 type Read<T> = ModalResult<T, Found>;
 
 fn refused<T>(message: impl Into<String>, at: Range<usize>, help: impl Into<String>) -> Read<T> {
-    Err(ErrMode::Cut(Found(Some(Fault::new(message, at, help)))))
+    Err(ErrMode::Cut(Found(Some(FormulaFault::new(message, at, help)))))
 }
 
-impl Tree {
+impl FormulaTree {
     /// Reads a formula: numbers, names (they may contain dots), `+ - * / ^`, parentheses and calls of a [`Function`].
     /// A name with other signs in it, such as a column's, stands between backquotes.
     /// `^` binds to the right, and closer than a minus before it: -x^2 is -(x^2), 2^3^2 is 2^9.
     ///
     /// # Errors
     /// What cannot be read, with its place and the way out.
-    pub fn parse(text: &str) -> Result<Tree, Fault> {
+    pub fn parse(text: &str) -> Result<FormulaTree, FormulaFault> {
         bounded(text)?;
         whole(&mut LocatingSlice::new(text)).map_err(|error| match error {
             ErrMode::Cut(Found(Some(fault))) | ErrMode::Backtrack(Found(Some(fault))) => fault,
-            ErrMode::Cut(Found(None)) | ErrMode::Backtrack(Found(None)) | ErrMode::Incomplete(_) => {
-                Fault::new("this is no formula", 0..text.len(), "write an expression such as a*cos(phi) + b")
-            }
+            ErrMode::Cut(Found(None)) | ErrMode::Backtrack(Found(None)) | ErrMode::Incomplete(_) => FormulaFault::new(
+                sentences::THIS_IS_NO_FORMULA,
+                0..text.len(),
+                sentences::WRITE_AN_EXPRESSION_SUCH_AS_A_COS,
+            ),
         })
     }
 }
 
 /// Whether reading it can use up neither memory nor stack.
-fn bounded(text: &str) -> Result<(), Fault> {
+fn bounded(text: &str) -> Result<(), FormulaFault> {
     if text.len() > LONGEST {
-        let message = format!("the formula has {} bytes, more than {LONGEST}", text.len());
-        return Err(Fault::new(message, LONGEST..text.len(), "divide it: a formula may use those before it by name"));
+        let message = sentences::the_formula_has_bytes_more(&text.len(), &LONGEST);
+        return Err(FormulaFault::new(message, LONGEST..text.len(), sentences::DIVIDE_IT_A_FORMULA_MAY_USE));
     }
     let (mut open, mut signs, mut powers) = (0usize, 0usize, 0usize);
     for (index, byte) in text.bytes().enumerate() {
@@ -74,21 +77,21 @@ fn bounded(text: &str) -> Result<(), Fault> {
             _ => signs = 0,
         }
         if open.max(signs).max(powers) > DEEPEST {
-            let message = format!("the formula is nested deeper than {DEEPEST}");
-            return Err(Fault::new(message, index..index + 1, "divide it: a formula may use those before it by name"));
+            let message = sentences::the_formula_is_nested_deeper(&DEEPEST);
+            return Err(FormulaFault::new(message, index..index + 1, sentences::DIVIDE_IT_A_FORMULA_MAY_USE));
         }
     }
     Ok(())
 }
 
-fn whole(input: &mut Input<'_>) -> Read<Tree> {
+fn whole(input: &mut Input<'_>) -> Read<FormulaTree> {
     let found = sum(input)?;
     let at = input.current_token_start();
     let rest: &str = input;
     match rest.chars().next() {
         None => Ok(found),
-        Some(')') => refused("there is no `(` before this `)`", at..at + 1, "take it out, or open it"),
-        Some('=') => refused("a formula has no `=`", at..at + 1, "write the right side only"),
+        Some(')') => refused(sentences::THERE_IS_NO_BEFORE_THIS, at..at + 1, sentences::TAKE_IT_OUT_OR_OPEN_IT),
+        Some('=') => refused(sentences::A_FORMULA_HAS_NO, at..at + 1, sentences::WRITE_THE_RIGHT_SIDE_ONLY),
         Some(other) => no_operator(other, at),
     }
 }
@@ -97,29 +100,29 @@ fn whole(input: &mut Input<'_>) -> Read<Tree> {
 fn no_operator<T>(sign: char, at: usize) -> Read<T> {
     let own = at..at + sign.len_utf8();
     if sign == ',' {
-        let help = "write numbers with a decimal point, such as 0.5";
-        return refused("a comma stands between arguments of atan2 only", own, help);
+        let help = sentences::WRITE_NUMBERS_WITH_A_DECIMAL;
+        return refused(sentences::A_COMMA_STANDS_BETWEEN_ARGUMENTS, own, help);
     }
     if sign.is_ascii_alphanumeric() || sign == '(' || sign == '_' {
-        let message = format!("an operator is missing before `{sign}`");
-        return refused(message, own, "write a product with `*`, such as 2*phi");
+        let message = sentences::an_operator_is_missing_before(&sign);
+        return refused(message, own, sentences::WRITE_A_PRODUCT_WITH_SUCH_AS_PHI);
     }
     unknown_sign(sign, at)
 }
 
 fn unknown_sign<T>(sign: char, at: usize) -> Read<T> {
     let help = match sign {
-        '·' | '×' | '∙' => "write a product with `*`",
-        '÷' | ':' => "write a quotient with `/`",
-        '²' | '³' => "write a power with `^`, such as x^2",
-        '−' | '–' => "write a minus as `-`",
-        'φ' | 'ϕ' => "write the crank angle as phi",
-        '√' => "write a square root as sqrt(x)",
+        '·' | '×' | '∙' => sentences::WRITE_A_PRODUCT_WITH,
+        '÷' | ':' => sentences::WRITE_A_QUOTIENT_WITH,
+        '²' | '³' => sentences::WRITE_A_POWER_WITH_SUCH_AS,
+        '−' | '–' => sentences::WRITE_A_MINUS_AS,
+        'φ' | 'ϕ' => sentences::WRITE_THE_CRANK_ANGLE_AS_PHI,
+        '√' => sentences::WRITE_A_SQUARE_ROOT_AS_SQRT,
         'π' => "write pi",
-        '[' | '{' => "use parentheses: ( )",
-        _ => "numbers, names, + - * / ^ ( ) and functions make up a formula",
+        '[' | '{' => sentences::USE_PARENTHESES,
+        _ => sentences::NUMBERS_NAMES_AND_FUNCTIONS_MAKE,
     };
-    refused(format!("`{sign}` has no meaning in a formula"), at..at + sign.len_utf8(), help)
+    refused(sentences::has_no_meaning_in_a_formula(&sign), at..at + sign.len_utf8(), help)
 }
 
 fn skip(input: &mut Input<'_>) {
@@ -127,13 +130,13 @@ fn skip(input: &mut Input<'_>) {
     let _ = input.next_slice(spaces);
 }
 
-fn sum(input: &mut Input<'_>) -> Read<Tree> {
+fn sum(input: &mut Input<'_>) -> Read<FormulaTree> {
     skip(input);
     expression(operand).prefix(sign).infix(between).parse_next(input)
 }
 
 /// A minus or plus before a part.
-fn sign<'a>(input: &mut Input<'a>) -> Read<Prefix<Input<'a>, Tree, ErrMode<Found>>> {
+fn sign<'a>(input: &mut Input<'a>) -> Read<Prefix<Input<'a>, FormulaTree, ErrMode<Found>>> {
     let at = input.current_token_start();
     let first = input.chars().next();
     match first {
@@ -145,18 +148,18 @@ fn sign<'a>(input: &mut Input<'a>) -> Read<Prefix<Input<'a>, Tree, ErrMode<Found
             take(input, 1);
             Ok(Prefix(30, |_, part| Ok(part)))
         }
-        Some('*' | '/' | '^') => refused("a part is missing before this operator", at..at + 1, "add it"),
+        Some('*' | '/' | '^') => refused(sentences::A_PART_IS_MISSING_BEFORE_THIS_OPERATOR, at..at + 1, "add it"),
         Some(_) | None => none(),
     }
 }
 
-fn negative(part: Tree) -> Tree {
+fn negative(part: FormulaTree) -> FormulaTree {
     // The minus stands before it, with blanks between at most.
     let at = part.at.start.saturating_sub(1)..part.at.end;
-    Tree { shape: Shape::Negative(Box::new(part)), at }
+    FormulaTree { shape: NodeShape::Negative(Box::new(part)), at }
 }
 
-fn between<'a>(input: &mut Input<'a>) -> Read<Infix<Input<'a>, Tree, ErrMode<Found>>> {
+fn between<'a>(input: &mut Input<'a>) -> Read<Infix<Input<'a>, FormulaTree, ErrMode<Found>>> {
     let text: &str = input;
     let (length, found) = match text.as_bytes() {
         // Python and Fortran write powers like that.
@@ -178,9 +181,9 @@ fn between<'a>(input: &mut Input<'a>) -> Read<Infix<Input<'a>, Tree, ErrMode<Fou
     })
 }
 
-fn pair(operator: Operator, left: Tree, right: Tree) -> Tree {
+fn pair(operator: Operator, left: FormulaTree, right: FormulaTree) -> FormulaTree {
     let at = left.at.start..right.at.end;
-    Tree { shape: Shape::Pair(operator, Box::new([left, right])), at }
+    FormulaTree { shape: NodeShape::Pair(operator, Box::new([left, right])), at }
 }
 
 fn none<T>() -> Read<T> {
@@ -193,7 +196,7 @@ fn take(input: &mut Input<'_>, bytes: usize) {
     skip(input);
 }
 
-fn operand(input: &mut Input<'_>) -> Read<Tree> {
+fn operand(input: &mut Input<'_>) -> Read<FormulaTree> {
     let start = input.current_token_start();
     let text: &str = input;
     match text.chars().next() {
@@ -201,17 +204,21 @@ fn operand(input: &mut Input<'_>) -> Read<Tree> {
         Some(first) if first.is_ascii_digit() || first == '.' => number(input, start),
         Some(first) if first.is_ascii_alphabetic() || first == '_' => name(input, start),
         Some('`') => quoted(input, start),
-        None => refused("the formula ends where a part is missing", start..start, "add a number, a name or a call"),
+        None => {
+            refused(sentences::THE_FORMULA_ENDS_WHERE_A_PART, start..start, sentences::ADD_A_NUMBER_A_NAME_OR_A_CALL)
+        }
         // The minus before a part.
         Some('-' | '+') => none(),
-        Some(sign @ (')' | ',' | '=' | '*' | '/' | '^')) => {
-            refused(format!("a part is missing before `{sign}`"), start..start + 1, "add a number, a name or a call")
-        }
+        Some(sign @ (')' | ',' | '=' | '*' | '/' | '^')) => refused(
+            sentences::a_part_is_missing_before(&sign),
+            start..start + 1,
+            sentences::ADD_A_NUMBER_A_NAME_OR_A_CALL,
+        ),
         Some(other) => unknown_sign(other, start),
     }
 }
 
-fn parentheses(input: &mut Input<'_>, start: usize) -> Read<Tree> {
+fn parentheses(input: &mut Input<'_>, start: usize) -> Read<FormulaTree> {
     take(input, 1);
     let mut inner = sum(input)?;
     closed(input, start)?;
@@ -228,12 +235,12 @@ fn closed(input: &mut Input<'_>, start: usize) -> Read<()> {
             let _ = input.next_slice(1);
             Ok(())
         }
-        None => refused("this `(` is not closed", start..start + 1, "add `)`"),
+        None => refused(sentences::THIS_IS_NOT_CLOSED, start..start + 1, "add `)`"),
         Some(other) => no_operator(other, at),
     }
 }
 
-fn number(input: &mut Input<'_>, start: usize) -> Read<Tree> {
+fn number(input: &mut Input<'_>, start: usize) -> Read<FormulaTree> {
     let text: &str = input;
     let bytes = text.as_bytes();
     let digits = |from: usize| from + bytes[from..].iter().take_while(|byte| byte.is_ascii_digit()).count();
@@ -250,14 +257,14 @@ fn number(input: &mut Input<'_>, start: usize) -> Read<Tree> {
     }
     let written = &text[..end];
     let Some(value) = written.parse::<f64>().ok().filter(|value| value.is_finite()) else {
-        let message = format!("`{written}` is no finite number");
-        return refused(message, start..start + end, "write a number such as 1.5e-3");
+        let message = sentences::is_no_finite_number(&written);
+        return refused(message, start..start + end, sentences::WRITE_A_NUMBER_SUCH_AS);
     };
     take(input, end);
-    Ok(Tree { shape: Shape::Number(value), at: start..start + end })
+    Ok(FormulaTree { shape: NodeShape::Number(value), at: start..start + end })
 }
 
-fn name(input: &mut Input<'_>, start: usize) -> Read<Tree> {
+fn name(input: &mut Input<'_>, start: usize) -> Read<FormulaTree> {
     let text: &str = input;
     let belongs = |byte: &u8| byte.is_ascii_alphanumeric() || matches!(byte, b'_' | b'.');
     let end = text.bytes().take_while(belongs).count();
@@ -268,38 +275,38 @@ fn name(input: &mut Input<'_>, start: usize) -> Read<Tree> {
     match Function::named(name) {
         Some(function) if is_call => call(input, function, at),
         Some(function) => refused(
-            format!("the function `{}` has no argument", function.name()),
+            sentences::the_function_has_no_argument(&function.name()),
             at,
-            format!("write it with parentheses: {}(phi)", function.name()),
+            sentences::write_it_with_parentheses_phi(&function.name()),
         ),
         None if is_call => {
             let known = Function::ALL.map(Function::name).join(", ");
             let help = match name {
                 "arcsin" | "arccos" | "arctan" | "arctan2" => format!("write {}", name.replacen("arc", "a", 1)),
-                "log" => "write ln for the natural logarithm, ln(x)/ln(10) for that to base 10".to_string(),
-                "cot" | "sec" | "csc" => "write it by sin, cos and tan".to_string(),
-                "pow" => "write a power with `^`".to_string(),
-                _ => format!("the functions are {known}; write a product with `*`"),
+                "log" => sentences::WRITE_LN_FOR_THE_NATURAL.to_string(),
+                "cot" | "sec" | "csc" => sentences::WRITE_IT_BY_SIN_COS_AND_TAN.to_string(),
+                "pow" => sentences::WRITE_A_POWER_WITH.to_string(),
+                _ => sentences::the_functions_are_write_a_product(&known),
             };
-            refused(format!("there is no function `{name}`"), at, help)
+            refused(sentences::there_is_no_function(&name), at, help)
         }
-        None => Ok(Tree { shape: Shape::Name(name.into()), at }),
+        None => Ok(FormulaTree { shape: NodeShape::Name(name.into()), at }),
     }
 }
 
 /// A name between backquotes.
-fn quoted(input: &mut Input<'_>, start: usize) -> Read<Tree> {
+fn quoted(input: &mut Input<'_>, start: usize) -> Read<FormulaTree> {
     let text: &str = input;
     let Some(length) = text[1..].find('`').filter(|&length| length > 0) else {
-        return refused("this backquote opens no name", start..start + 1, "close it behind the name: `body 2.x`");
+        return refused(sentences::THIS_BACKQUOTE_OPENS_NO_NAME, start..start + 1, sentences::CLOSE_IT_BEHIND_THE_NAME);
     };
     let name = text[1..=length].to_string();
     let at = start..start + length + 2;
     take(input, length + 2);
-    Ok(Tree { shape: Shape::Name(name), at })
+    Ok(FormulaTree { shape: NodeShape::Name(name), at })
 }
 
-fn call(input: &mut Input<'_>, function: Function, name: Range<usize>) -> Read<Tree> {
+fn call(input: &mut Input<'_>, function: Function, name: Range<usize>) -> Read<FormulaTree> {
     let open = input.current_token_start();
     take(input, 1);
     let mut parts = vec![sum(input)?];
@@ -308,11 +315,11 @@ fn call(input: &mut Input<'_>, function: Function, name: Range<usize>) -> Read<T
         parts.push(sum(input)?);
     }
     if parts.len() < function.arity() {
-        let message = format!("{} needs {} arguments", function.name(), function.arity());
-        return refused(message, name, "write atan2(y, x), with the sine's side first");
+        let message = sentences::needs_arguments(&function.name(), &function.arity());
+        return refused(message, name, sentences::WRITE_ATAN2_WITH_THE_SINE);
     }
     closed(input, open)?;
     let at = name.start..input.previous_token_end();
     skip(input);
-    Ok(Tree { shape: Shape::Call(function, parts), at })
+    Ok(FormulaTree { shape: NodeShape::Call(function, parts), at })
 }

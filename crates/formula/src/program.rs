@@ -1,6 +1,6 @@
 //! The part of a graph that some of its nodes need, to be run for many inputs.
 
-use crate::graph::{Graph, Id, Node};
+use crate::graph::{FormulaGraph, Node, NodeId};
 use crate::rounded::Rounded;
 
 /// Formulas ready to be evaluated: every common part once, in an order in which arguments come first. What no input
@@ -18,9 +18,9 @@ pub struct Program {
 impl Program {
     /// What `nodes` of a graph need.
     #[must_use]
-    pub fn of(graph: &Graph, nodes: &[Id]) -> Self {
+    pub fn of(graph: &FormulaGraph, nodes: &[NodeId]) -> Self {
         let needed = graph.needed(nodes);
-        let place_of = |id: Id| needed.binary_search(&id).expect("arguments are needed too");
+        let place_of = |id: NodeId| needed.binary_search(&id).expect("arguments are needed too");
         let (mut steps, mut values) = (Vec::new(), Vec::new());
         for &id in &needed {
             let node = graph.node(id).map(place_of);

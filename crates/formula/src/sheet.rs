@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use crate::graph::Node;
 use crate::rounded::Rounded;
-use crate::tree::{Operator, Shape, Tree};
+use crate::tree::{FormulaTree, NodeShape, Operator};
 
 /// What stands at a place. Arguments have smaller indices.
 #[derive(Clone, Copy, Debug)]
@@ -17,7 +17,7 @@ enum Part {
 
 /// Formulas of a derivation, part by part, and their values at some instants.
 #[derive(Clone, Debug, Default)]
-pub struct Sheet {
+pub struct DerivationSheet {
     parts: Vec<Part>,
     /// The parts of every formula, each before its arguments.
     formulas: Vec<Vec<usize>>,
@@ -41,7 +41,7 @@ const DIFFERENCE: f64 = 1e-6;
 
 /// What a formula ought to be at an instant.
 #[derive(Clone, Copy, Debug)]
-pub struct Target {
+pub struct FormulaTarget {
     /// The right value.
     pub value: f64,
     /// How far a value may be from it.
@@ -50,7 +50,7 @@ pub struct Target {
     pub turn: Option<f64>,
 }
 
-impl Target {
+impl FormulaTarget {
     /// A value less the right one, for angles without whole turns.
     #[must_use]
     pub fn difference(&self, value: f64) -> f64 {
@@ -59,12 +59,12 @@ impl Target {
     }
 }
 
-impl Sheet {
+impl DerivationSheet {
     /// A sheet without formulas: names of inputs, and their numbers by instant.
     #[must_use]
     pub fn new(names: &[&str], inputs: Vec<Vec<Rounded>>) -> Self {
         let values = vec![Vec::new(); inputs.len()];
-        let mut own = Sheet { inputs, values, ..Sheet::default() };
+        let mut own = DerivationSheet { inputs, values, ..DerivationSheet::default() };
         for (index, name) in names.iter().enumerate() {
             own.put_named(name, Node::Input(index));
         }
@@ -78,7 +78,7 @@ impl Sheet {
     }
 
     /// Adds a formula, which those after it may use by its name. `None` if it uses a name that is not known.
-    pub fn add(&mut self, name: &str, tree: &Tree) -> Option<()> {
+    pub fn add(&mut self, name: &str, tree: &FormulaTree) -> Option<()> {
         let mut order = Vec::new();
         let place = self.read(tree, &mut order)?;
         self.names.insert(name.into(), place);
@@ -91,18 +91,18 @@ impl Sheet {
         self.names.insert(name.into(), place);
     }
 
-    fn read(&mut self, tree: &Tree, order: &mut Vec<usize>) -> Option<usize> {
+    fn read(&mut self, tree: &FormulaTree, order: &mut Vec<usize>) -> Option<usize> {
         let own = order.len();
         order.push(0);
         let part = match &tree.shape {
-            Shape::Number(value) => Part::Own(Node::Number(Rounded::decimal(*value))),
-            Shape::Name(name) => Part::Named(*self.names.get(name)?),
-            Shape::Negative(inner) => Part::Own(Node::Negative(self.read(inner, order)?)),
-            Shape::Pair(operator, parts) => {
+            NodeShape::Number(value) => Part::Own(Node::Number(Rounded::decimal(*value))),
+            NodeShape::Name(name) => Part::Named(*self.names.get(name)?),
+            NodeShape::Negative(inner) => Part::Own(Node::Negative(self.read(inner, order)?)),
+            NodeShape::Pair(operator, parts) => {
                 let left = self.read(&parts[0], order)?;
                 Part::Own(Node::Pair(*operator, left, self.read(&parts[1], order)?))
             }
-            Shape::Call(function, parts) => {
+            NodeShape::Call(function, parts) => {
                 let first = self.read(&parts[0], order)?;
                 let second = parts.get(1).map_or(Some(first), |second| self.read(second, order))?;
                 Part::Own(Node::Call(*function, first, second))
@@ -133,7 +133,7 @@ impl Sheet {
     }
 
     /// Places of the parts of a formula, counted from the first that was added: each before its arguments, as
-    /// [`Tree::parts`] are visited.
+    /// [`FormulaTree::parts`] are visited.
     #[must_use]
     pub fn places(&self, formula: usize) -> &[usize] {
         &self.formulas[formula]
@@ -158,11 +158,11 @@ impl Sheet {
 
     /// A tree that stands for the part at a place, as it is written.
     #[must_use]
-    pub fn placeholder(place: usize) -> Tree {
-        Tree::name(format!("{PLACE}{place}"))
+    pub fn placeholder(place: usize) -> FormulaTree {
+        FormulaTree::name(format!("{PLACE}{place}"))
     }
 
-    /// The place that a name made by [`Sheet::placeholder`] stands for.
+    /// The place that a name made by [`DerivationSheet::placeholder`] stands for.
     #[must_use]
     pub fn placed(name: &str) -> Option<usize> {
         name.strip_prefix(PLACE)?.parse().ok()
@@ -208,8 +208,8 @@ impl Sheet {
     }
 
     /// The value of the last formula at an instant with other trees at some places; `depending` is what
-    /// [`Sheet::depending`] says of these. Names that are not known before a place are NaN.
-    pub fn changed(&mut self, changes: &[(usize, Tree)], depending: &[usize], instant: usize) -> Rounded {
+    /// [`DerivationSheet::depending`] says of these. Names that are not known before a place are NaN.
+    pub fn changed(&mut self, changes: &[(usize, FormulaTree)], depending: &[usize], instant: usize) -> Rounded {
         self.change += 1;
         for &place in depending {
             let value = match changes.iter().find(|(own, _)| *own == place) {
@@ -245,20 +245,20 @@ impl Sheet {
         if change == self.change { value } else { self.values[instant][place] }
     }
 
-    fn small(&mut self, tree: &Tree, place: usize, instant: usize) -> Rounded {
+    fn small(&mut self, tree: &FormulaTree, place: usize, instant: usize) -> Rounded {
         self.operations += 1;
         match &tree.shape {
-            Shape::Number(value) => Rounded::decimal(*value),
-            Shape::Name(name) => match Sheet::placed(name).or_else(|| self.names.get(name).copied()) {
+            NodeShape::Number(value) => Rounded::decimal(*value),
+            NodeShape::Name(name) => match DerivationSheet::placed(name).or_else(|| self.names.get(name).copied()) {
                 Some(own) if own <= place => self.current(own, instant),
                 Some(_) | None => Rounded::exact(f64::NAN),
             },
-            Shape::Negative(part) => self.small(part, place, instant).negative(),
-            Shape::Pair(operator, parts) => {
+            NodeShape::Negative(part) => self.small(part, place, instant).negative(),
+            NodeShape::Pair(operator, parts) => {
                 let left = self.small(&parts[0], place, instant);
                 Rounded::pair(*operator, left, self.small(&parts[1], place, instant))
             }
-            Shape::Call(function, parts) => {
+            NodeShape::Call(function, parts) => {
                 let first = self.small(&parts[0], place, instant);
                 let second = parts.get(1).map_or(first, |part| self.small(part, place, instant));
                 Rounded::call(*function, [first, second])
@@ -268,14 +268,14 @@ impl Sheet {
 
     /// The amount by which the part at a place has to grow (`Plus`), or the factor that it lacks (`Times`), so that
     /// the last formula is right at an instant, and how far that is known. Sought by Newton's method from an amount.
-    /// `None` if there is none. `depending` is what [`Sheet::depending`] says of the place.
+    /// `None` if there is none. `depending` is what [`DerivationSheet::depending`] says of the place.
     pub fn amount(
         &mut self,
         operator: Operator,
         depending: &[usize],
         instant: usize,
         from: f64,
-        target: &Target,
+        target: &FormulaTarget,
     ) -> Option<[f64; 2]> {
         let part = self.value(*depending.first()?, instant);
         let with = |amount: f64| Rounded::pair(operator, part, Rounded::exact(amount));

@@ -2,12 +2,12 @@ use approx::assert_relative_eq;
 use exmex::{Differentiate, Express};
 use proptest::prelude::*;
 
-use crate::{Function, Graph, Operator, Program, Rounded, Shape, Tree};
+use crate::{FormulaGraph, FormulaTree, Function, NodeShape, Operator, Program, Rounded};
 
 /// The value of a formula in x and y, with its error.
 fn at(text: &str, x: Rounded, y: Rounded) -> Rounded {
-    let mut graph = Graph::new(&["x", "y"], 0);
-    let id = graph.add(&Tree::parse(text).unwrap_or_else(|fault| panic!("{text}: {fault}"))).unwrap();
+    let mut graph = FormulaGraph::new(&["x", "y"], 0);
+    let id = graph.add(&FormulaTree::parse(text).unwrap_or_else(|fault| panic!("{text}: {fault}"))).unwrap();
     Program::of(&graph, &[id]).run(&[x, y])[0]
 }
 
@@ -79,15 +79,15 @@ fn what_cannot_be_read_is_told_with_its_place_and_the_way_out() {
         ("1e999", 0..5, "1.5e-3"),
     ];
     for (text, place, way_out) in cases {
-        let fault = Tree::parse(text).expect_err(text);
+        let fault = FormulaTree::parse(text).expect_err(text);
         assert_eq!(fault.at, place, "{text}: {fault}");
         assert!(fault.help.contains(way_out), "{text}: {} / {}", fault.message, fault.help);
     }
     let deep = ["(", "-", "2^", "sin("].map(|part| part.repeat(5000));
     for text in deep.iter().chain([&"x+".repeat(50_000)]) {
-        assert!(Tree::parse(text).is_err());
+        assert!(FormulaTree::parse(text).is_err());
     }
-    let fault = Graph::new(&["phi"], 0).add(&Tree::parse("2*(fi + 1)").unwrap()).unwrap_err();
+    let fault = FormulaGraph::new(&["phi"], 0).add(&FormulaTree::parse("2*(fi + 1)").unwrap()).unwrap_err();
     assert_eq!((fault.at, fault.help.contains("phi")), (3..5, true));
 }
 
@@ -97,39 +97,39 @@ fn a_long_sum_is_read() {
     assert_relative_eq!(value(&vec!["x"; 9999].join("+")), 2999.7, max_relative = 1e-12);
 }
 
-fn tree() -> impl Strategy<Value = Tree> {
+fn tree() -> impl Strategy<Value = FormulaTree> {
     let leaf = prop_oneof![
-        (1u32..40).prop_map(|number| Shape::Number(f64::from(number) / 8.0)),
-        Just(Shape::Name("x".into())),
-        Just(Shape::Name("y".into())),
+        (1u32..40).prop_map(|number| NodeShape::Number(f64::from(number) / 8.0)),
+        Just(NodeShape::Name("x".into())),
+        Just(NodeShape::Name("y".into())),
     ];
-    let whole = |shape| Tree { shape, at: 0..0 };
+    let whole = |shape| FormulaTree { shape, at: 0..0 };
     leaf.prop_map(whole).prop_recursive(5, 40, 2, move |inner| {
         use Operator::{Minus, Over, Plus, Power, Times};
         let operator = prop_oneof![Just(Plus), Just(Minus), Just(Times), Just(Over)];
         let function = (0..Function::ALL.len()).prop_map(|index| Function::ALL[index]);
         prop_oneof![
             (operator, inner.clone(), inner.clone())
-                .prop_map(|(operator, a, b)| Shape::Pair(operator, Box::new([a, b]))),
+                .prop_map(|(operator, a, b)| NodeShape::Pair(operator, Box::new([a, b]))),
             (inner.clone(), 0u32..5).prop_map(move |(base, power)| {
-                let power = Tree::number(f64::from(power));
-                Shape::Pair(Power, Box::new([base, power]))
+                let power = FormulaTree::number(f64::from(power));
+                NodeShape::Pair(Power, Box::new([base, power]))
             }),
             // Of a positive base any power is defined.
             (inner.clone(), inner.clone()).prop_map(move |(base, power)| {
-                Shape::Pair(Power, Box::new([Tree::call(Function::Exp, vec![base]), power]))
+                NodeShape::Pair(Power, Box::new([FormulaTree::call(Function::Exp, vec![base]), power]))
             }),
             (function, inner.clone(), inner.clone()).prop_map(|(function, a, b)| match function.arity() {
-                1 => Shape::Call(function, vec![a]),
-                _ => Shape::Call(function, vec![a, b]),
+                1 => NodeShape::Call(function, vec![a]),
+                _ => NodeShape::Call(function, vec![a, b]),
             }),
-            inner.prop_map(|part| Shape::Negative(Box::new(part))),
+            inner.prop_map(|part| NodeShape::Negative(Box::new(part))),
         ]
         .prop_map(whole)
     })
 }
 
-fn shape_of(tree: &Tree) -> Tree {
+fn shape_of(tree: &FormulaTree) -> FormulaTree {
     let mut bare = tree.clone();
     bare.at = 0..0;
     for part in bare.parts_mut() {
@@ -138,27 +138,27 @@ fn shape_of(tree: &Tree) -> Tree {
     bare
 }
 
-fn graph_of(tree: &Tree) -> (Graph, crate::Id) {
-    let mut graph = Graph::new(&["x", "y"], 0);
+fn graph_of(tree: &FormulaTree) -> (FormulaGraph, crate::NodeId) {
+    let mut graph = FormulaGraph::new(&["x", "y"], 0);
     let id = graph.add(tree).unwrap();
     (graph, id)
 }
 
 /// Written for exmex, in parentheses everywhere: what binds closer is not its business here.
-fn in_parentheses(tree: &Tree) -> String {
+fn in_parentheses(tree: &FormulaTree) -> String {
     match &tree.shape {
-        Shape::Number(number) => format!("{number}"),
-        Shape::Name(name) => name.clone(),
-        Shape::Negative(part) => format!("(0-({}))", in_parentheses(part)),
-        Shape::Pair(operator, parts) => {
+        NodeShape::Number(number) => format!("{number}"),
+        NodeShape::Name(name) => name.clone(),
+        NodeShape::Negative(part) => format!("(0-({}))", in_parentheses(part)),
+        NodeShape::Pair(operator, parts) => {
             format!("(({}){}({}))", in_parentheses(&parts[0]), operator.sign(), in_parentheses(&parts[1]))
         }
-        Shape::Call(function, parts) => format!("{}({})", function.name(), in_parentheses(&parts[0])),
+        NodeShape::Call(function, parts) => format!("{}({})", function.name(), in_parentheses(&parts[0])),
     }
 }
 
 /// A formula, its derivative with respect to x, and the derivative of that with respect to y.
-fn with_derivatives(tree: &Tree, x: f64, y: f64) -> [Rounded; 3] {
+fn with_derivatives(tree: &FormulaTree, x: f64, y: f64) -> [Rounded; 3] {
     let (mut graph, id) = graph_of(tree);
     let first = graph.derivative(id, 0);
     let mixed = graph.derivative(first, 1);
@@ -192,7 +192,7 @@ fn limit_of_differences(function: &dyn Fn(f64) -> Rounded) -> Option<(f64, f64)>
     best.filter(|(limit, error)| *error < 1e-5 * (1.0 + limit.abs()))
 }
 
-fn holds(tree: &Tree, test: &dyn Fn(&Shape) -> bool) -> bool {
+fn holds(tree: &FormulaTree, test: &dyn Fn(&NodeShape) -> bool) -> bool {
     test(&tree.shape) || tree.parts().iter().any(|part| holds(part, test))
 }
 
@@ -201,13 +201,13 @@ proptest! {
     #[test]
     fn a_tree_is_read_as_it_is_written(tree in tree()) {
         let text = tree.to_string();
-        prop_assert_eq!(shape_of(&Tree::parse(&text).unwrap()), shape_of(&tree), "{}", text);
+        prop_assert_eq!(shape_of(&FormulaTree::parse(&text).unwrap()), shape_of(&tree), "{}", text);
     }
 
     /// Any text is read or refused, with a place inside it.
     #[test]
     fn any_text_has_an_answer(text in "[-+*/^(),.0-9a-z φ²=]{0,60}") {
-        if let Err(fault) = Tree::parse(&text) {
+        if let Err(fault) = FormulaTree::parse(&text) {
             prop_assert!(fault.at.start <= fault.at.end && fault.at.end <= text.len(), "{:?}", fault);
             prop_assert!(text.is_char_boundary(fault.at.start) && text.is_char_boundary(fault.at.end));
         }
@@ -217,8 +217,8 @@ proptest! {
     #[test]
     fn derivatives_are_those_of_exmex(tree in tree(), x in 0.1f64..2.0, y in -2.0f64..2.0) {
         // exmex has none of atan2, abs and sign.
-        let unknown = |shape: &Shape| {
-            matches!(shape, Shape::Call(Function::Atan2 | Function::Abs | Function::Sign, _))
+        let unknown = |shape: &NodeShape| {
+            matches!(shape, NodeShape::Call(Function::Atan2 | Function::Abs | Function::Sign, _))
         };
         prop_assume!(!holds(&tree, &unknown));
         let [_, first, mixed] = with_derivatives(&tree, x, y);
@@ -259,7 +259,7 @@ proptest! {
         let other = program.run(&[Rounded::exact(x + share[0] * error), Rounded::exact(y + share[1] * error)])[0];
         prop_assume!(known.value.is_finite() && known.error.is_finite() && other.value.is_finite());
         // The branch cut of atan2 is a jump by a turn; angles are compared modulo a turn.
-        prop_assume!(!holds(&tree, &|shape| matches!(shape, Shape::Call(Function::Atan2, _))));
+        prop_assume!(!holds(&tree, &|shape| matches!(shape, NodeShape::Call(Function::Atan2, _))));
         prop_assert!((known.value - other.value).abs() <= known.error + other.error, "{}: {:?} {:?}", tree, known, other);
     }
 }
@@ -320,18 +320,18 @@ fn a_power_is_known_as_well_as_its_base_and_exponent() {
 /// What two formulas share is evaluated once.
 #[test]
 fn common_parts_are_evaluated_once() {
-    let mut graph = Graph::new(&["x"], 0);
-    let one = graph.add(&Tree::parse("sin(x)^2 + cos(x)").unwrap()).unwrap();
+    let mut graph = FormulaGraph::new(&["x"], 0);
+    let one = graph.add(&FormulaTree::parse("sin(x)^2 + cos(x)").unwrap()).unwrap();
     let alone = Program::of(&graph, &[one]).len();
-    let other = graph.add(&Tree::parse("sin(x)^2 - cos(x)").unwrap()).unwrap();
+    let other = graph.add(&FormulaTree::parse("sin(x)^2 - cos(x)").unwrap()).unwrap();
     assert_eq!(Program::of(&graph, &[one, other]).len(), alone + 1);
 }
 
 /// The rate of x(phi(t), t), twice: w and a are the first and second derivative of phi.
 #[test]
 fn rates_go_through_all_inputs() {
-    let mut graph = Graph::new(&["phi", "t"], 2);
-    let place = graph.add(&Tree::parse("t*sin(phi)").unwrap()).unwrap();
+    let mut graph = FormulaGraph::new(&["phi", "t"], 2);
+    let place = graph.add(&FormulaTree::parse("t*sin(phi)").unwrap()).unwrap();
     let (w, a) = (graph.input(2), graph.input(3));
     let one = graph.constant(Rounded::exact(1.0));
     let rates = [Some(w), Some(one), Some(a), None];
@@ -347,17 +347,17 @@ fn rates_go_through_all_inputs() {
 
 #[test]
 fn what_was_added_meanwhile_is_forgotten() {
-    let mut graph = Graph::new(&["x"], 0);
-    let place = graph.add(&Tree::parse("x^2").unwrap()).unwrap();
+    let mut graph = FormulaGraph::new(&["x"], 0);
+    let place = graph.add(&FormulaTree::parse("x^2").unwrap()).unwrap();
     graph.name("place", place);
     let tried = graph.meanwhile(|graph| {
-        let other = graph.add(&Tree::parse("x^2 + sin(x)").unwrap()).unwrap();
+        let other = graph.add(&FormulaTree::parse("x^2 + sin(x)").unwrap()).unwrap();
         graph.name("place", other);
         graph.derivative(other, 0);
         Program::of(graph, &[other]).run(&[Rounded::exact(2.0)])[0].value
     });
     assert_relative_eq!(tried, 4.0 + 2f64.sin());
-    let again = graph.add(&Tree::parse("place + sin(x)").unwrap()).unwrap();
+    let again = graph.add(&FormulaTree::parse("place + sin(x)").unwrap()).unwrap();
     let speed = graph.derivative(again, 0);
     let found = Program::of(&graph, &[again, speed]).run(&[Rounded::exact(2.0)]).to_vec();
     assert_relative_eq!(found[0].value, 4.0 + 2f64.sin());
@@ -366,24 +366,24 @@ fn what_was_added_meanwhile_is_forgotten() {
 
 #[test]
 fn a_name_with_other_signs_stands_between_backquotes() {
-    let tree = Tree::parse("2*`body 2.x (m)` - a").unwrap();
+    let tree = FormulaTree::parse("2*`body 2.x (m)` - a").unwrap();
     assert_eq!(tree.names().iter().map(|(name, _)| *name).collect::<Vec<_>>(), ["body 2.x (m)", "a"]);
     assert_eq!(tree.to_string(), "2*`body 2.x (m)` - a");
     for open in ["`body", "2*`", "``"] {
-        assert!(Tree::parse(open).unwrap_err().help.starts_with("close it"), "{open}");
+        assert!(FormulaTree::parse(open).unwrap_err().help.starts_with("close it"), "{open}");
     }
 }
 
 /// The place of a node may be taken by another one afterwards: what was known of the first is no derivative of it.
 #[test]
 fn derivatives_taken_meanwhile_are_forgotten() {
-    let mut graph = Graph::new(&["x", "y"], 0);
+    let mut graph = FormulaGraph::new(&["x", "y"], 0);
     graph.constant(Rounded::exact(0.0));
     graph.meanwhile(|graph| {
-        let other = graph.add(&Tree::parse("sin(y)").unwrap()).unwrap();
+        let other = graph.add(&FormulaTree::parse("sin(y)").unwrap()).unwrap();
         graph.derivative(other, 0);
     });
-    let own = graph.add(&Tree::parse("sin(x)").unwrap()).unwrap();
+    let own = graph.add(&FormulaTree::parse("sin(x)").unwrap()).unwrap();
     let slope = graph.derivative(own, 0);
     assert_eq!(Program::of(&graph, &[slope]).run(&[Rounded::exact(0.0)])[0].value, 1.0);
 }
@@ -419,7 +419,7 @@ fn every_rule_of_calculus_is_kept() {
         ("x*sign(y - x)", 1.0, 0.0),
     ];
     for (text, first, mixed) in cases {
-        let found = with_derivatives(&Tree::parse(text).unwrap(), x, y);
+        let found = with_derivatives(&FormulaTree::parse(text).unwrap(), x, y);
         for (found, wanted) in found[1..].iter().zip([first, mixed]) {
             assert!((found.value - wanted).abs() <= 1e-14 * (1.0 + wanted.abs()), "{text}: {found:?} {wanted}");
         }
@@ -433,12 +433,12 @@ fn every_rule_of_calculus_is_kept() {
 #[test]
 fn a_kink_has_no_derivative() {
     for text in ["abs(x)", "x*sign(x)", "abs(x)*abs(x)"] {
-        let [value, slope, _] = with_derivatives(&Tree::parse(text).unwrap(), 0.0, 1.0);
+        let [value, slope, _] = with_derivatives(&FormulaTree::parse(text).unwrap(), 0.0, 1.0);
         assert_eq!((value.value, slope.is_undefined()), (0.0, true), "{text}");
     }
     // Nor has a number that is undefined, though nothing changes in it.
-    assert!(with_derivatives(&Tree::parse("1/0").unwrap(), 0.5, 1.0).iter().all(|own| own.is_undefined()));
-    let slope = with_derivatives(&Tree::parse("abs(x)").unwrap(), -0.5, 1.0)[1];
+    assert!(with_derivatives(&FormulaTree::parse("1/0").unwrap(), 0.5, 1.0).iter().all(|own| own.is_undefined()));
+    let slope = with_derivatives(&FormulaTree::parse("abs(x)").unwrap(), -0.5, 1.0)[1];
     assert!(slope.value == -1.0 && slope.error < 1e-15, "{slope:?}");
 }
 
@@ -499,13 +499,13 @@ fn what_is_undefined_stays_undefined_whatever_it_is_multiplied_by() {
         for context in contexts {
             // Of constants it is refused at once, with the place of the operation.
             let text = context.replace('@', &format!("({operation})"));
-            let fault = Graph::new(&["x"], 0).add_defined(&Tree::parse(&text).unwrap()).expect_err(&text);
+            let fault = FormulaGraph::new(&["x"], 0).add_defined(&FormulaTree::parse(&text).unwrap()).expect_err(&text);
             let first = context.find('@').unwrap();
             assert!(fault.at.start >= first && fault.at.end <= first + operation.len() + 2, "{text}: {fault:?}");
             // With inputs it has no value, and the operation is told as well.
             let varied = context.replace('@', &format!("({varied})"));
-            let tree = Tree::parse(&varied).unwrap_or_else(|fault| panic!("{varied}: {fault}"));
-            let mut graph = Graph::new(&["x"], 0);
+            let tree = FormulaTree::parse(&varied).unwrap_or_else(|fault| panic!("{varied}: {fault}"));
+            let mut graph = FormulaGraph::new(&["x"], 0);
             let id = graph.add(&tree).unwrap();
             let one = Rounded::exact(1.0);
             assert!(Program::of(&graph, &[id]).run(&[one])[0].is_undefined(), "{varied}");

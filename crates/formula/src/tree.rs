@@ -48,72 +48,72 @@ const WHOLE: u8 = 5;
 
 /// What a part of a formula is.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Shape {
+pub enum NodeShape {
     /// A number.
     Number(f64),
     /// A name: an input, or a formula with that name.
     Name(String),
     /// The negative of a part.
-    Negative(Box<Tree>),
+    Negative(Box<FormulaTree>),
     /// Two parts and the operator between them.
-    Pair(Operator, Box<[Tree; 2]>),
+    Pair(Operator, Box<[FormulaTree; 2]>),
     /// A function with its arguments.
-    Call(Function, Vec<Tree>),
+    Call(Function, Vec<FormulaTree>),
 }
 
 /// A formula, or a part of one.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Tree {
+pub struct FormulaTree {
     /// What it is.
-    pub shape: Shape,
+    pub shape: NodeShape,
     /// Bytes of the text where it stands.
     pub at: Range<usize>,
 }
 
-impl Tree {
+impl FormulaTree {
     /// A number that stands in no text.
     #[must_use]
-    pub fn number(value: f64) -> Tree {
-        Tree::of(Shape::Number(value))
+    pub fn number(value: f64) -> FormulaTree {
+        FormulaTree::of(NodeShape::Number(value))
     }
 
     /// A name that stands in no text.
     #[must_use]
-    pub fn name(name: impl Into<String>) -> Tree {
-        Tree::of(Shape::Name(name.into()))
+    pub fn name(name: impl Into<String>) -> FormulaTree {
+        FormulaTree::of(NodeShape::Name(name.into()))
     }
 
     /// Two parts and an operator between them.
     #[must_use]
-    pub fn pair(operator: Operator, left: Tree, right: Tree) -> Tree {
-        Tree::of(Shape::Pair(operator, Box::new([left, right])))
+    pub fn pair(operator: Operator, left: FormulaTree, right: FormulaTree) -> FormulaTree {
+        FormulaTree::of(NodeShape::Pair(operator, Box::new([left, right])))
     }
 
     /// A function of its arguments.
     #[must_use]
-    pub fn call(function: Function, arguments: Vec<Tree>) -> Tree {
-        Tree::of(Shape::Call(function, arguments))
+    pub fn call(function: Function, arguments: Vec<FormulaTree>) -> FormulaTree {
+        FormulaTree::of(NodeShape::Call(function, arguments))
     }
 
     /// The negative of a part; of a negative, what it is the negative of.
     #[must_use]
-    pub fn negative(&self) -> Tree {
+    pub fn negative(&self) -> FormulaTree {
         match &self.shape {
-            Shape::Negative(inner) => (**inner).clone(),
-            Shape::Number(_) | Shape::Name(_) | Shape::Pair(..) | Shape::Call(..) => {
-                Tree::of(Shape::Negative(Box::new(self.clone())))
+            NodeShape::Negative(inner) => (**inner).clone(),
+            NodeShape::Number(_) | NodeShape::Name(_) | NodeShape::Pair(..) | NodeShape::Call(..) => {
+                FormulaTree::of(NodeShape::Negative(Box::new(self.clone())))
             }
         }
     }
 
-    fn of(shape: Shape) -> Tree {
-        Tree { shape, at: 0..0 }
+    fn of(shape: NodeShape) -> FormulaTree {
+        FormulaTree { shape, at: 0..0 }
     }
 
     /// The same with another tree wherever a name stands.
     #[must_use]
-    pub fn with_name(&self, name: &str, other: &Tree) -> Tree {
-        if matches!(&self.shape, Shape::Name(own) if own == name) {
+    pub fn with_name(&self, name: &str, other: &FormulaTree) -> FormulaTree {
+        if matches!(&self.shape, NodeShape::Name(own) if own == name) {
             return other.clone();
         }
         let mut changed = self.clone();
@@ -125,22 +125,22 @@ impl Tree {
 
     /// The parts of the uppermost level.
     #[must_use]
-    pub fn parts(&self) -> &[Tree] {
+    pub fn parts(&self) -> &[FormulaTree] {
         match &self.shape {
-            Shape::Number(_) | Shape::Name(_) => &[],
-            Shape::Negative(part) => std::slice::from_ref(part),
-            Shape::Pair(_, parts) => &parts[..],
-            Shape::Call(_, parts) => parts,
+            NodeShape::Number(_) | NodeShape::Name(_) => &[],
+            NodeShape::Negative(part) => std::slice::from_ref(part),
+            NodeShape::Pair(_, parts) => &parts[..],
+            NodeShape::Call(_, parts) => parts,
         }
     }
 
     /// The same, to be changed.
-    pub fn parts_mut(&mut self) -> &mut [Tree] {
+    pub fn parts_mut(&mut self) -> &mut [FormulaTree] {
         match &mut self.shape {
-            Shape::Number(_) | Shape::Name(_) => &mut [],
-            Shape::Negative(part) => std::slice::from_mut(part),
-            Shape::Pair(_, parts) => &mut parts[..],
-            Shape::Call(_, parts) => parts,
+            NodeShape::Number(_) | NodeShape::Name(_) => &mut [],
+            NodeShape::Negative(part) => std::slice::from_mut(part),
+            NodeShape::Pair(_, parts) => &mut parts[..],
+            NodeShape::Call(_, parts) => parts,
         }
     }
 
@@ -148,7 +148,7 @@ impl Tree {
     pub fn names(&self) -> Vec<(&str, Range<usize>)> {
         let (mut names, mut open) = (Vec::new(), vec![self]);
         while let Some(part) = open.pop() {
-            if let Shape::Name(name) = &part.shape {
+            if let NodeShape::Name(name) = &part.shape {
                 names.push((name.as_str(), part.at.clone()));
             }
             open.extend(part.parts().iter().rev());
@@ -157,20 +157,20 @@ impl Tree {
     }
 
     /// The tree, its left part, the left part of that, and so on. Long sums are deep there, and nowhere else.
-    pub(crate) fn left_parts(&self) -> Vec<&Tree> {
+    pub(crate) fn left_parts(&self) -> Vec<&FormulaTree> {
         std::iter::successors(Some(self), |tree| match &tree.shape {
-            Shape::Pair(_, parts) => Some(&parts[0]),
-            Shape::Number(_) | Shape::Name(_) | Shape::Negative(_) | Shape::Call(..) => None,
+            NodeShape::Pair(_, parts) => Some(&parts[0]),
+            NodeShape::Number(_) | NodeShape::Name(_) | NodeShape::Negative(_) | NodeShape::Call(..) => None,
         })
         .collect()
     }
 
     fn rank(&self) -> u8 {
         match &self.shape {
-            Shape::Number(number) if number.is_sign_negative() => NEGATION,
-            Shape::Number(_) | Shape::Name(_) | Shape::Call(..) => WHOLE,
-            Shape::Negative(_) => NEGATION,
-            Shape::Pair(operator, _) => operator.rank(),
+            NodeShape::Number(number) if number.is_sign_negative() => NEGATION,
+            NodeShape::Number(_) | NodeShape::Name(_) | NodeShape::Call(..) => WHOLE,
+            NodeShape::Negative(_) => NEGATION,
+            NodeShape::Pair(operator, _) => operator.rank(),
         }
     }
 
@@ -180,21 +180,21 @@ impl Tree {
 }
 
 /// Written with the parentheses that it needs, and no others.
-impl fmt::Display for Tree {
+impl fmt::Display for FormulaTree {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.shape {
-            Shape::Number(number) => write!(f, "{number}"),
-            Shape::Name(name)
+            NodeShape::Number(number) => write!(f, "{number}"),
+            NodeShape::Name(name)
                 if name.bytes().all(|byte| byte.is_ascii_alphanumeric() || matches!(byte, b'_' | b'.')) =>
             {
                 write!(f, "{name}")
             }
-            Shape::Name(name) => write!(f, "`{name}`"),
-            Shape::Negative(part) => {
+            NodeShape::Name(name) => write!(f, "`{name}`"),
+            NodeShape::Negative(part) => {
                 write!(f, "-")?;
                 part.write(f, NEGATION)
             }
-            Shape::Pair(operator, parts) => {
+            NodeShape::Pair(operator, parts) => {
                 let rank = operator.rank();
                 // What follows a minus or a stroke, and what stands before a power, needs parentheses on its own rank.
                 let [left, right] = match operator {
@@ -208,7 +208,7 @@ impl fmt::Display for Tree {
                 }
                 parts[1].write(f, right)
             }
-            Shape::Call(function, parts) => {
+            NodeShape::Call(function, parts) => {
                 write!(f, "{}(", function.name())?;
                 for (index, part) in parts.iter().enumerate() {
                     write!(f, "{}{part}", if index > 0 { ", " } else { "" })?;
@@ -289,7 +289,7 @@ impl Function {
 
 /// What is wrong with the text of a formula.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Fault {
+pub struct FormulaFault {
     /// What was found.
     pub message: String,
     /// Bytes of the text that it is about.
@@ -298,17 +298,17 @@ pub struct Fault {
     pub help: String,
 }
 
-impl Fault {
+impl FormulaFault {
     /// A fault with its place and the way out.
     pub(crate) fn new(message: impl Into<String>, at: Range<usize>, help: impl Into<String>) -> Self {
-        Fault { message: message.into(), at, help: help.into() }
+        FormulaFault { message: message.into(), at, help: help.into() }
     }
 }
 
-impl fmt::Display for Fault {
+impl fmt::Display for FormulaFault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}", self.message)
     }
 }
 
-impl std::error::Error for Fault {}
+impl std::error::Error for FormulaFault {}

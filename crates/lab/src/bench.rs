@@ -1,10 +1,7 @@
-//! Work and precision: what every solver, engine and setting costs for the error that it leaves.
+//! Work and precision: error against time and exact effort of every solver, engine and setting.
 //!
-//! Each way of solving a scenario is a [`Point`]: its error against the reference by stage of channels, its times and
-//! its exact effort. Ways that fail stay, with their reason. The reference's own error is the floor of the diagram:
-//! what lies less than a hundred times above it is marked, because there the reference is measured too.
-//!
-//! This room has no clock: times come from the function that it is given.
+//! Each way of solving a scenario is a [`BenchPoint`]. Ways that fail are kept, with their reason. The command line passes the
+//! clock in. See docs/numerics/laboratory.md.
 
 mod effort;
 mod front;
@@ -15,11 +12,11 @@ mod peer;
 mod point;
 mod reference;
 
-pub use effort::Effort;
-pub use front::{Axis, front};
-pub use options::{CLEAR, Clock, Options};
+pub use effort::RunEffort;
+pub use front::{CostAxis, front};
+pub use options::{BenchOptions, CLEAR, Clock};
 pub use peer::{Answer, Peer, Way};
-pub use point::{Errors, Outcome, Party, Point, Run};
+pub use point::{AnsweredRun, BenchOutcome, BenchPoint, Errors, MethodOwner};
 pub use reference::Floor;
 
 use linkage::error::Result;
@@ -46,7 +43,7 @@ pub struct Bench {
     /// Versions of engines and peers, by name.
     pub versions: Vec<(String, String)>,
     /// The points, in the order in which they were made.
-    pub points: Vec<Point>,
+    pub points: Vec<BenchPoint>,
     /// Number of settings that the budget did not allow.
     pub left_out: usize,
     /// Peers that could not be asked at all, with the reason.
@@ -59,7 +56,7 @@ pub struct Bench {
 /// Those of the two sides: without a reference there is no error. Engines and peers that fail are points.
 pub fn bench(
     scenario: &Scenario,
-    options: &Options,
+    options: &BenchOptions,
     peers: &[&dyn Peer],
     clock: Clock,
     progress: &mut dyn FnMut(f64),
@@ -79,8 +76,8 @@ pub fn bench(
     let rounds = options.rounds();
     let desk = measure::Desk { case, reference: &reference, floor: &floor, peers, clock };
     let points = desk.measure(found, rounds, progress, &mut versions);
-    let own = |point: &&Point| point.party == Party::Side && point.is_usual && point.program == "assur";
-    let unit = points.iter().find(own).and_then(Point::seconds).unwrap_or(f64::NAN);
+    let own = |point: &&BenchPoint| point.party == MethodOwner::Side && point.is_usual && point.program == "assur";
+    let unit = points.iter().find(own).and_then(BenchPoint::seconds).unwrap_or(f64::NAN);
     let times = &case.grid.times;
     Ok(Bench {
         scenario: [scenario.name.clone(), scenario.title.clone()],

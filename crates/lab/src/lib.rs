@@ -9,6 +9,7 @@
 pub mod bench;
 pub mod mutate;
 pub mod outside;
+mod sentences;
 pub mod specimens;
 mod steps;
 pub mod stress;

@@ -23,8 +23,8 @@ mod tally;
 #[cfg(test)]
 mod tests;
 
-pub use kinds::{At, Family, Kind, Mistake, Plant, all, named};
-pub use mutant::{Mutant, Mutated, Party, Spoiled};
-pub use plan::{Asked, mutate};
-pub use seen::{Outcome, Sight};
-pub use tally::{End, Share, Tally, tally};
+pub use kinds::{FaultFamily, FaultInstant, FaultKind, Mistake, Plant, all, named};
+pub use mutant::{FaultyParty, Mutant, Mutated, Spoiled};
+pub use plan::{MutationPlan, mutate};
+pub use seen::{FaultyProof, Sight};
+pub use tally::{FaultCounts, FaultTally, Share, tally};

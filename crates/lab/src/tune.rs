@@ -1,10 +1,8 @@
-//! The cheapest settings of an engine that meet a wanted error, found by measurement.
+//! The cheapest settings of an engine that keep a wanted error, found by measurement.
 //!
-//! An engine's error depends on its step, its sweeps, its substeps, its extrapolation, and the route to its reactions.
-//! For every setting of all but the step, runs against the reference find the largest step that meets the wanted error.
-//! The error falls with a power of the step, so a few runs are enough. The step is then priced, and the cheapest
-//! settings win. The error that the engine's own runs at three steps predict, without the reference, is given beside
-//! the measured one.
+//! The error falls with a power of the step, so a few runs against the reference find the largest step of each way. The
+//! error that three runs of the engine predict, without the reference, is given beside the measured one.
+//! See docs/numerics/laboratory.md.
 
 mod bench;
 mod candidate;
@@ -13,6 +11,7 @@ mod price;
 mod search;
 mod ways;
 
+use crate::sentences;
 pub use candidate::{Candidate, Price};
 pub use price::{by_work, price_of};
 
@@ -34,7 +33,7 @@ const BUDGET: f64 = 5e6;
 
 /// The wanted accuracy.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Wish {
+pub struct WantedAccuracy {
     /// Largest error, as a share of each channel's scale (half its range over the run).
     pub within: f64,
     /// Channels by name, or stages (`positions`, `reactions`, ...). If empty: all channels that the scenario wants.
@@ -71,14 +70,14 @@ pub struct Tuning {
 /// with how far each comes; those of the analytic solver.
 pub fn tune(
     scenario: &Scenario,
-    wish: &Wish,
+    wish: &WantedAccuracy,
     options: &Options,
     price: Price,
     progress: &mut dyn FnMut(f64),
 ) -> Result<Tuning> {
     if !(wish.within > 0.0 && wish.within < 1.0) {
-        return Err(Error::new(ErrorKind::Input, format!("an error within {} is wanted", wish.within))
-            .help("give a share of a channel's scale between 0 and 1, such as 1e-4"));
+        return Err(Error::new(ErrorKind::Input, sentences::an_error_within_is_wanted(&wish.within))
+            .help(sentences::GIVE_A_SHARE_OF_A_CHANNEL));
     }
     let wanted = wanted_channels(scenario, wish)?;
     let stages: Vec<Stage> = wanted.iter().map(|channel| channel.kind.stage).collect();
@@ -123,19 +122,15 @@ pub fn tune(
     cheapest.sort_by(by_price);
     let (Some(best), Some(cheapest)) = (by_engine.first().cloned(), cheapest.into_iter().next()) else {
         let tell = |(name, error): &(&str, f64)| match error.is_finite() {
-            true => format!("{name} comes to {}", significant(*error, 2)),
-            false => format!("{name} does not run it"),
+            true => sentences::comes_to(&name, &significant(*error, 2)),
+            false => sentences::does_not_run_it(&name),
         };
         let tells: Vec<String> = too_coarse.iter().map(tell).collect();
-        let message = format!(
-            "no settings meet an error within {} of the scale: {}",
-            significant(wish.within, 6),
-            tells.join(", ")
-        );
+        let message = sentences::no_settings_meet_an_error(&significant(wish.within, 6), &tells.join(", "));
         let error = Error::new(ErrorKind::Numeric, message).help(Advice::WeakerWish);
         return Err(match bench.is_spent {
             true => error
-                .map_message(|message| format!("{message}; the work that was allowed is done"))
+                .map_message(|message| sentences::the_work_that_was_allowed(&message))
                 .or_help(Advice::MoreWork { to: 10.0 * budget }),
             false => error,
         });
@@ -155,7 +150,7 @@ pub fn tune(
 }
 
 /// The channels of a wish.
-fn wanted_channels(scenario: &Scenario, wish: &Wish) -> Result<Vec<Channel>> {
+fn wanted_channels(scenario: &Scenario, wish: &WantedAccuracy) -> Result<Vec<Channel>> {
     let all = scenario.case.channels();
     if wish.channels.is_empty() {
         return Ok(all);
@@ -167,7 +162,7 @@ fn wanted_channels(scenario: &Scenario, wish: &Wish) -> Result<Vec<Channel>> {
         wanted.extend(all.iter().filter(named).cloned());
         if wanted.len() == before {
             let stages = Stage::ALL.map(Stage::name).join(", ");
-            return Err(Error::new(ErrorKind::Input, format!("the scenario wants no channel \"{asked}\""))
+            return Err(Error::new(ErrorKind::Input, sentences::the_scenario_wants_no_channel(&asked))
                 .help(Advice::OtherChannel { groups: stages }));
         }
     }

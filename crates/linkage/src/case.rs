@@ -15,11 +15,11 @@ use std::ops::Deref;
 
 use crate::Result;
 use crate::drive::load::sense_of;
-use crate::drive::{Action, Drive, InputState, Load, Motor, Senses, Setting, Wrench};
+use crate::drive::{Action, Drive, InputState, Load, LoadState, Motor, Senses, Wrench};
 use crate::input::{Input, InputValue};
 use crate::math::{KeepNan, Motion, Vec2};
-use crate::mechanism::{LinkId, Side};
-use crate::trajectory::{CHANNELS, Channel, OfLink, Reading, Stage, Subject};
+use crate::mechanism::{JointSide, LinkId};
+use crate::trajectory::{CHANNELS, Channel, ChannelSubject, OfLink, Reading, Stage};
 
 pub use builder::CaseBuilder;
 pub use grid::Grid;
@@ -163,7 +163,7 @@ impl Case {
     }
 
     fn channels_of(&self, is_wanted: impl Fn(Stage) -> bool) -> Vec<Channel> {
-        let rows = |(subject, of, _): (Subject, &str, Seat)| {
+        let rows = |(subject, of, _): (ChannelSubject, &str, Seat)| {
             let kinds = CHANNELS.iter().filter(|kind| kind.subject == subject && is_wanted(kind.stage));
             kinds.map(|kind| Channel { of: of.to_string(), kind }).collect::<Vec<_>>()
         };
@@ -263,7 +263,7 @@ impl Case {
     }
 
     #[inline]
-    fn act_in(&self, setting: &Setting, load: &Load, put: &mut impl FnMut(Action)) {
+    fn act_in(&self, setting: &LoadState, load: &Load, put: &mut impl FnMut(Action)) {
         match load.nature().senses {
             Senses::Nothing => load.act(setting, put),
             Senses::Link(link) => {
@@ -294,15 +294,15 @@ impl Case {
 
     /// Whether a point of a link moves, by more than the rounding of the mechanism's speeds.
     #[must_use]
-    pub fn moves(&self, motions: &[Motion], at: Side) -> bool {
+    pub fn moves(&self, motions: &[Motion], at: JointSide) -> bool {
         let speed = motions[at.link].point_velocity(at.local).norm();
         speed > STANDSTILL * fastest(motions) * self.mechanism.size()
     }
 
     #[inline]
-    fn setting<'a>(&'a self, motions: &'a [Motion], angles: &'a [f64]) -> Setting<'a> {
+    fn setting<'a>(&'a self, motions: &'a [Motion], angles: &'a [f64]) -> LoadState<'a> {
         let crank = self.input_in(motions, angles);
-        Setting { motions, angles, start: &self.start.0, crank }
+        LoadState { motions, angles, start: &self.start.0, crank }
     }
 
     /// Writes to `out` the resultant of all loads on every link, the ground included: force at the mass centre and

@@ -8,10 +8,10 @@ pub mod load;
 pub mod motion;
 pub mod motor;
 
-pub use branch::Branch;
+pub use branch::MotorBranch;
 pub use course::Course;
 pub use driven::{Drive, DriveMotion};
 pub use drives::Drives;
-pub use load::{Action, Acts, Load, Nature, On, Senses, Setting, Wrench};
+pub use load::{Action, Acts, Load, LoadNature, LoadState, On, Senses, Wrench};
 pub use motion::{InputState, MotionLaw};
 pub use motor::{Motor, MotorLaw, ShaftInertia};

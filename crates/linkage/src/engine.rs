@@ -9,7 +9,7 @@ mod stand_in;
 mod wrapped;
 
 pub use extrapolated::Extrapolated;
-pub use kept::{Kept, plain_runs};
+pub use kept::{CachedEngine, plain_runs};
 pub use rows::Rows;
 pub use settings::{Route, Settings, size_of_step};
 pub use stand_in::StandIn;

@@ -4,6 +4,7 @@
 mod advice;
 mod several;
 
+use crate::sentences;
 pub use advice::{Advice, rounded_up};
 
 use std::fmt;
@@ -54,7 +55,7 @@ impl Place {
 
 /// Part of a mechanism that an error refers to, by name.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Part {
+pub enum ErrorSubject {
     /// A link.
     Link(String),
     /// A joint.
@@ -65,18 +66,18 @@ pub enum Part {
 
 /// The key of a description that an error is about.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Key {
+pub struct KeyPath {
     text: String,
     /// Length of the dotted path in the text.
     path: usize,
     links: Vec<String>,
 }
 
-impl Key {
+impl KeyPath {
     /// The key of the one of several Assur groups under a dotted path that has these links.
     #[must_use]
     pub fn of_group(path: &str, links: Vec<String>) -> Self {
-        Key { text: format!("{path} ({})", links.join(", ")), path: path.len(), links }
+        KeyPath { text: format!("{path} ({})", links.join(", ")), path: path.len(), links }
     }
 
     /// Keys and names from the top of the description, joined by dots: `joints.A`.
@@ -92,10 +93,10 @@ impl Key {
     }
 }
 
-impl<T: Into<String>> From<T> for Key {
+impl<T: Into<String>> From<T> for KeyPath {
     fn from(path: T) -> Self {
         let text: String = path.into();
-        Key { path: text.len(), text, links: Vec::new() }
+        KeyPath { path: text.len(), text, links: Vec::new() }
     }
 }
 
@@ -112,18 +113,18 @@ pub struct Excess {
 
 /// How far a run got before it failed.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Reached {
+pub enum RunReached {
     /// Up to this time (s).
     Time(f64),
     /// Up to this value of the input.
     Input(InputValue),
 }
 
-impl fmt::Display for Reached {
+impl fmt::Display for RunReached {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Reached::Time(t) => write!(f, "the run stands up to t = {t:.6} s"),
-            Reached::Input(at) => write!(f, "the run stands up to {at}"),
+            RunReached::Time(t) => write!(f, "{}", sentences::the_run_stands_up_to_2(&t)),
+            RunReached::Input(at) => write!(f, "{}", sentences::the_run_stands_up_to(&at)),
         }
     }
 }
@@ -136,13 +137,13 @@ pub struct Error(Box<Inner>);
 struct Inner {
     kind: ErrorKind,
     message: String,
-    key: Option<Key>,
+    key: Option<KeyPath>,
     place: Option<Place>,
     time: Option<f64>,
     input: Option<InputValue>,
-    part: Option<Part>,
+    part: Option<ErrorSubject>,
     residual: Option<Excess>,
-    reached: Option<Reached>,
+    reached: Option<RunReached>,
     out_of_reach: bool,
     advice: Vec<Advice>,
     further: Vec<Error>,
@@ -201,21 +202,21 @@ impl Error {
     /// Sets the link that the error is about.
     #[must_use]
     pub fn of_link(mut self, name: impl Into<String>) -> Self {
-        self.0.part = Some(Part::Link(name.into()));
+        self.0.part = Some(ErrorSubject::Link(name.into()));
         self
     }
 
     /// Sets the joint that the error is about.
     #[must_use]
     pub fn of_joint(mut self, name: impl Into<String>) -> Self {
-        self.0.part = Some(Part::Joint(name.into()));
+        self.0.part = Some(ErrorSubject::Joint(name.into()));
         self
     }
 
     /// Sets the Assur group that the error is about, by the names of its links.
     #[must_use]
     pub fn of_group(mut self, names: impl Into<String>) -> Self {
-        self.0.part = Some(Part::Group(names.into()));
+        self.0.part = Some(ErrorSubject::Group(names.into()));
         self
     }
 
@@ -228,7 +229,7 @@ impl Error {
 
     /// Sets how far the run got.
     #[must_use]
-    pub fn after(mut self, reached: Reached) -> Self {
+    pub fn after(mut self, reached: RunReached) -> Self {
         self.0.reached = Some(reached);
         self
     }
@@ -251,7 +252,7 @@ impl Error {
     /// Names the scenario key (dotted path) at fault. A key that is already set is kept, because the innermost caller
     /// knows best.
     #[must_use]
-    pub fn key(mut self, key: impl Into<Key>) -> Self {
+    pub fn key(mut self, key: impl Into<KeyPath>) -> Self {
         self.0.key.get_or_insert_with(|| key.into());
         self
     }
@@ -283,7 +284,7 @@ impl Error {
 
     /// The scenario key at fault, if there is one.
     #[must_use]
-    pub fn key_at_fault(&self) -> Option<&Key> {
+    pub fn key_at_fault(&self) -> Option<&KeyPath> {
         self.0.key.as_ref()
     }
 
@@ -307,7 +308,7 @@ impl Error {
 
     /// Link, joint or group at fault, if known.
     #[must_use]
-    pub fn part(&self) -> Option<&Part> {
+    pub fn part(&self) -> Option<&ErrorSubject> {
         self.0.part.as_ref()
     }
 
@@ -319,7 +320,7 @@ impl Error {
 
     /// How far the run got, if it had begun.
     #[must_use]
-    pub fn reached(&self) -> Option<Reached> {
+    pub fn reached(&self) -> Option<RunReached> {
         self.0.reached
     }
 
@@ -386,11 +387,11 @@ mod tests {
             .at_input(Input::Angle.at(1.5))
             .of_joint("B")
             .beyond(0.2, 0.1, "m")
-            .after(Reached::Time(0.125))
+            .after(RunReached::Time(0.125))
             .help(Advice::SmallerStep { to: None })
             .or_help("check the pose");
         assert_eq!((error.time(), error.input()), (Some(0.25), Some(Input::Angle.at(1.5))));
-        assert_eq!(error.part(), Some(&Part::Joint("B".into())));
+        assert_eq!(error.part(), Some(&ErrorSubject::Joint("B".into())));
         assert_eq!(error.residual(), Some(Excess { value: 0.2, bound: 0.1, unit: "m" }));
         assert_eq!(error.advice(), [Advice::SmallerStep { to: None }, "check the pose".into()]);
         let way_out = "choose a smaller time step, or check the pose; the run stands up to t = 0.125000 s";
@@ -405,11 +406,11 @@ mod tests {
     fn a_key_is_told_in_words_and_carried_as_data() {
         let links = vec!["coupler".to_string(), "rocker".to_string()];
         let error =
-            Error::new(ErrorKind::Geometry, "open").key(Key::of_group("start.groups", links.clone())).key("drive");
+            Error::new(ErrorKind::Geometry, "open").key(KeyPath::of_group("start.groups", links.clone())).key("drive");
         assert_eq!(error.to_string(), "`start.groups (coupler, rocker)`: open");
         let key = error.key_at_fault().unwrap();
         assert_eq!((key.path(), key.links()), ("start.groups", &links[..]));
-        let plain = Key::from("joints.A");
+        let plain = KeyPath::from("joints.A");
         assert_eq!((plain.path(), plain.links().len()), ("joints.A", 0));
     }
 

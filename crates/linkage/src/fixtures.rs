@@ -5,7 +5,8 @@ use crate::case::{Case, CaseParts, Grid, Wanted};
 use crate::drive::{Drive, Drives, MotionLaw};
 use crate::math::Vec2;
 use crate::mechanism::{
-    AssemblyMode, Joint, JointId, JointKind, Link, LinkId, Mechanism, Point, Side, StartGroup, Structure, first_pose,
+    AssemblyMode, Joint, JointId, JointKind, JointSide, Link, LinkId, Mechanism, Point, StartGroup, Structure,
+    first_pose,
 };
 
 /// A massless link from its points.
@@ -24,7 +25,7 @@ pub fn pin(links: &[Link], name: &str, point: &str, first: &str, second: &str) -
     let side = |wanted: &str| {
         let index = links.iter().position(|l| l.name == wanted).unwrap();
         let local = links[index].points.iter().find(|p| p.name == point).unwrap().local;
-        Side { link: LinkId(index), local }
+        JointSide { link: LinkId(index), local }
     };
     Joint { name: name.into(), kind: JointKind::Revolute, first: side(first), second: side(second), drawn: None }
 }

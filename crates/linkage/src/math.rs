@@ -24,7 +24,7 @@ pub type Vec2 = nalgebra::Vector2<f64>;
 pub type Matrix = nalgebra::DMatrix<f64>;
 
 /// Column of any length.
-pub type Column = nalgebra::DVector<f64>;
+pub type ColumnVector = nalgebra::DVector<f64>;
 
 /// z component of the vector product a x b.
 #[inline]

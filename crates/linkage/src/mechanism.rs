@@ -10,14 +10,15 @@ pub mod pose;
 pub mod spanning_tree;
 pub mod structure;
 
+use crate::sentences;
 pub use assembly::{AssemblyMode, StartGroup, first_pose};
-pub use ids::{GroupId, Id, JointId, LinkId, Per, PerGroup, PerJoint, PerLink};
+pub use ids::{GroupId, JointId, LinkId, Ordinal, Per, PerGroup, PerJoint, PerLink};
 pub use name::{LONGEST_NAME, is_sound_name, is_unseen};
 pub use outline::ring;
-pub use parts::{GROUND, Guise, Joint, JointKind, Link, Point, Side};
+pub use parts::{GROUND, Guise, Joint, JointKind, JointSide, Link, Point};
 pub use placing::Handle;
 pub use pose::{LinkPose, Pose};
-pub use spanning_tree::{Branch, Tree};
+pub use spanning_tree::{SpanningTree, TreeBranch};
 pub use structure::{Group, GroupKind, Structure};
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -124,20 +125,20 @@ impl Mechanism {
     /// Guide and block of a joint that slides; `None` for other joints.
     /// The ground is always the guide. Of two moving links the larger is the guide, of equal ones the first.
     #[must_use]
-    pub fn guide_and_block(&self, joint: &Joint) -> Option<[Side; 2]> {
-        let size = |side: Side| if side.link == GROUND { f64::INFINITY } else { self.links[side.link].size() };
+    pub fn guide_and_block(&self, joint: &Joint) -> Option<[JointSide; 2]> {
+        let size = |side: JointSide| if side.link == GROUND { f64::INFINITY } else { self.links[side.link].size() };
         let (first, second) = (joint.first, joint.second);
         joint.slides().then(|| if size(first) >= size(second) { [first, second] } else { [second, first] })
     }
 
     /// Points that move, each name once: the first link that carries the point, and its place there.
-    pub fn moving_points(&self) -> impl Iterator<Item = (&str, Side)> {
+    pub fn moving_points(&self) -> impl Iterator<Item = (&str, JointSide)> {
         let mut seen: BTreeSet<&str> = self.links[GROUND].points.iter().map(|point| point.name.as_str()).collect();
         let mut points = Vec::new();
         for (link, body) in self.links.entries().skip(1) {
             for point in &body.points {
                 if seen.insert(&point.name) {
-                    points.push((point.name.as_str(), Side { link, local: point.local }));
+                    points.push((point.name.as_str(), JointSide { link, local: point.local }));
                 }
             }
         }
@@ -172,16 +173,15 @@ impl Mechanism {
         let points = self.links.iter().flat_map(|link| &link.points).map(|point| &point.name);
         let names = self.links.iter().map(|link| &link.name).chain(self.joints.iter().map(|joint| &joint.name));
         if let Some(name) = names.chain(points).find(|name| !is_sound_name(name)) {
-            let message = format!("\"{}\" cannot be a name", name.chars().take(LONGEST_NAME).collect::<String>());
-            return Err(Error::new(ErrorKind::Input, message)
-                .help("names consist of letters, digits, `_`, `-` and `'`, 100 of them at most"));
+            let message = sentences::cannot_be_a_name(&(name.chars().take(LONGEST_NAME).collect::<String>()));
+            return Err(Error::new(ErrorKind::Input, message).help(sentences::NAMES_CONSIST_OF_LETTERS_DIGITS));
         }
         let mut taken = BTreeSet::new();
         for link in &self.links {
             if !taken.insert(&link.name) {
-                return Err(Error::new(ErrorKind::Input, format!("two links are called \"{}\"", link.name))
+                return Err(Error::new(ErrorKind::Input, sentences::two_links_are_called(&link.name))
                     .key(format!("links.{}", link.name))
-                    .help("give every link its own name (\"ground\" is taken)"));
+                    .help(sentences::GIVE_EVERY_LINK_ITS_OWN_NAME));
             }
         }
         let mut taken = BTreeSet::new();
@@ -190,17 +190,17 @@ impl Mechanism {
                 Err(Error::new(ErrorKind::Input, message).key(format!("joints.{}", joint.name)).help(help))
             };
             if !taken.insert(&joint.name) {
-                return wrong(format!("two joints are called \"{}\"", joint.name), "give every joint its own name");
+                return wrong(sentences::two_joints_are_called(&joint.name), sentences::GIVE_EVERY_JOINT_ITS_OWN);
             }
             if let Some(axes) = joint.kind.axes()
                 && !axes.iter().all(|axis| (axis.norm() - 1.0).abs() <= 1e-12)
             {
-                return wrong("its axis is no unit vector".into(), "give the axis by its angle");
+                return wrong(sentences::ITS_AXIS_IS_NO_UNIT_VECTOR.into(), sentences::GIVE_THE_AXIS_BY_ITS_ANGLE);
             }
             if joint.first.link == joint.second.link {
                 return wrong(
-                    format!("it joins \"{}\" with itself", self.links[joint.first.link].name),
-                    "name two different links",
+                    sentences::it_joins_with_itself(&self.links[joint.first.link].name),
+                    sentences::NAME_TWO_DIFFERENT_LINKS,
                 );
             }
         }
@@ -214,20 +214,19 @@ impl Mechanism {
                 let key = || format!("links.{}.points.{}", body.name, point.name);
                 let others = carriers.entry(&point.name).or_default();
                 if others.contains(&link) {
-                    return Err(Error::new(ErrorKind::Input, "the link has two points of this name").key(key()));
+                    return Err(
+                        Error::new(ErrorKind::Input, sentences::THE_LINK_HAS_TWO_POINTS_OF_THIS_NAME).key(key())
+                    );
                 }
                 if let Some(&other) = others.first()
                     && !self.held_together(&point.name, link, other)
                 {
                     return Err(Error::new(
                         ErrorKind::Input,
-                        format!(
-                            "links \"{}\" and \"{}\" both have a point \"{}\", but no joint holds the two together",
-                            self.links[other].name, body.name, point.name
-                        ),
+                        sentences::links_and_both_have_a_point(&self.links[other].name, &body.name, &point.name),
                     )
                     .key(key())
-                    .help("rename one of the points, or add the joint"));
+                    .help(sentences::RENAME_ONE_OF_THE_POINTS));
                 }
                 others.push(link);
             }
@@ -238,7 +237,7 @@ impl Mechanism {
     /// Whether revolute joints at points with the name `name` connect link `a` with link `b`, directly or through
     /// others.
     fn held_together(&self, name: &str, a: LinkId, b: LinkId) -> bool {
-        let at = |side: Side| self.links[side.link].points.iter().any(|p| p.name == name && p.local == side.local);
+        let at = |side: JointSide| self.links[side.link].points.iter().any(|p| p.name == name && p.local == side.local);
         let mut reached = vec![a];
         let mut next = 0;
         while let Some(&link) = reached.get(next) {
@@ -260,15 +259,15 @@ impl Mechanism {
 
 fn check_masses(link: &Link) -> Result<()> {
     let wrong = |message: String, help: &str| Err(Error::new(ErrorKind::Input, message).help(help));
-    for (what, value) in [("mass", link.mass), ("moment of inertia", link.inertia)] {
+    for (what, value) in [("mass", link.mass), (sentences::MOMENT_OF_INERTIA, link.inertia)] {
         if !(value >= 0.0 && value.is_finite()) {
-            return wrong(format!("the {what} is {value}"), "give a number that is zero or positive");
+            return wrong(sentences::the_is(&what, &value), sentences::GIVE_A_NUMBER_THAT_IS_ZERO);
         }
     }
     if link.mass == 0.0 && link.inertia > 0.0 {
         return wrong(
-            format!("the link has a moment of inertia ({} kg m^2) but no mass", link.inertia),
-            "give the mass too, or leave both out",
+            sentences::the_link_has_a_moment_of_inertia(&link.inertia),
+            sentences::GIVE_THE_MASS_TOO_OR_LEAVE,
         );
     }
     Ok(())

@@ -3,6 +3,7 @@
 mod sampler;
 mod state;
 
+use crate::sentences;
 pub use sampler::Sampler;
 pub use state::State;
 
@@ -79,8 +80,8 @@ pub trait Solver: Send + Sync {
 pub fn check_instants(case: &Case) -> Result<()> {
     match case.grid.times.iter().find(|&&t| t < 0.0) {
         Some(t) if case.is_free() => {
-            let message = format!("the motion is free from t = 0 on, but an instant at {t} s is wanted");
-            Err(Error::new(ErrorKind::Input, message).key("grid").help("let the grid go by time, from 0 s on"))
+            let message = sentences::the_motion_is_free_from_on_but_an_instant(&t);
+            Err(Error::new(ErrorKind::Input, message).key("grid").help(sentences::LET_THE_GRID_GO_BY_TIME_FROM_ON))
         }
         _ => Ok(()),
     }

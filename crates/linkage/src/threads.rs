@@ -92,7 +92,7 @@ pub fn made<T: Sync, R: Send>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::work::{Count, Tally, counted};
+    use crate::work::{Count, WorkTally, counted};
     use std::time::Duration;
 
     #[test]
@@ -103,7 +103,7 @@ mod tests {
             let work = |&item: &u64| {
                 // The first ones take longest.
                 thread::sleep(Duration::from_millis(20 - item));
-                Tally::default().one(Count::Steps);
+                WorkTally::default().one(Count::Steps);
                 item * item
             };
             let (squares, work) = counted(|| made(&items, threads, work, |count| finished.push(count)));

@@ -4,8 +4,9 @@ pub mod channel;
 mod reading;
 mod unit;
 
+use crate::sentences;
 pub use channel::{CHANNELS, Channel, ChannelKind, Stage};
-pub use reading::{OfDrive, OfFrame, OfJoint, OfLink, OfPoint, OfSlider, Reading, Subject};
+pub use reading::{ChannelSubject, OfDrive, OfFrame, OfJoint, OfLink, OfPoint, OfSlider, Reading};
 pub use unit::Unit;
 
 use crate::error::{Error, ErrorKind, Result};
@@ -32,7 +33,7 @@ impl Trajectory {
     pub fn new(times: Vec<f64>, inputs: Vec<f64>, channels: Vec<Channel>, columns: Vec<Vec<f64>>) -> Result<Self> {
         let rows = times.len();
         if inputs.len() != rows || channels.len() != columns.len() || columns.iter().any(|c| c.len() != rows) {
-            return Err(Error::new(ErrorKind::Numeric, "the columns of a trajectory differ in length"));
+            return Err(Error::new(ErrorKind::Numeric, sentences::THE_COLUMNS_OF_A_TRAJECTORY));
         }
         for (channel, column) in channels.iter().zip(&columns) {
             if all_finite(column) {
@@ -41,12 +42,7 @@ impl Trajectory {
             if let Some(row) = column.iter().position(|value| !value.is_finite()) {
                 return Err(Error::new(
                     ErrorKind::Numeric,
-                    format!(
-                        "{channel} is {} at t = {:.6} s, {}",
-                        column[row],
-                        times[row],
-                        Input::default().at(inputs[row])
-                    ),
+                    sentences::is_at(&channel, &column[row], &times[row], &Input::default().at(inputs[row])),
                 ));
             }
         }

@@ -1,8 +1,9 @@
 //! Exact counts of what solvers and engines do.
 //!
-//! Whoever does the work counts it in a [`Tally`] of its own; whoever wants to know asks with [`counted`].
+//! Whoever does the work counts it in a [`WorkTally`] of its own; whoever wants to know asks with [`counted`].
 //! Counts say what a run costs on any machine. They never enter a result.
 
+use crate::sentences;
 use std::cell::Cell;
 
 use crate::error::{Advice, Error, ErrorKind, Result};
@@ -158,15 +159,15 @@ pub fn spend(work: f64) -> Result<()> {
 
 #[cold]
 fn spent(allowed: f64) -> Error {
-    let message = format!("the work that is allowed here, {allowed:.1e} steps, is done before the motion is solved");
+    let message = sentences::the_work_that_is_allowed(&format_args!("{allowed:.1e}"));
     Error::new(ErrorKind::Unsupported, message).or_help(Advice::MoreWork { to: 10.0 * allowed })
 }
 
 /// Counts on behalf of one solver. What it has counted is the thread's when it is dropped.
 #[derive(Debug, Default)]
-pub struct Tally(Work);
+pub struct WorkTally(Work);
 
-impl Tally {
+impl WorkTally {
     /// Counts one more.
     #[inline]
     pub fn one(&mut self, what: Count) {
@@ -181,13 +182,13 @@ impl Tally {
 }
 
 /// A copy begins anew: nothing is counted twice.
-impl Clone for Tally {
+impl Clone for WorkTally {
     fn clone(&self) -> Self {
-        Tally::default()
+        WorkTally::default()
     }
 }
 
-impl Drop for Tally {
+impl Drop for WorkTally {
     fn drop(&mut self) {
         add(&self.0);
     }
@@ -200,12 +201,12 @@ mod tests {
     #[test]
     fn work_is_counted_once_and_also_by_those_around() {
         let ((inner, outer_first), outer) = counted(|| {
-            let mut own = Tally::default();
+            let mut own = WorkTally::default();
             own.many(Count::Steps, 3);
             let copy = own.clone();
             drop((own, copy));
             let inner = counted(|| {
-                let mut own = Tally::default();
+                let mut own = WorkTally::default();
                 own.one(Count::Steps);
                 own.one(Count::Probes);
             });

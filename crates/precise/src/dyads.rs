@@ -3,9 +3,10 @@
 //! The inner joint is where two circles meet, on the side on which the start pose has it. Rates are the projections of
 //! the joints' velocities on the two links. Forces follow from moments about the inner joint.
 
+use crate::sentences;
 use linkage::case::Case;
 use linkage::error::{Error, ErrorKind, Result};
-use linkage::mechanism::{Group, GroupKind, JointId, LinkId, Side};
+use linkage::mechanism::{Group, GroupKind, JointId, JointSide, LinkId};
 use linkage::trajectory::Trajectory;
 
 use super::Long;
@@ -20,7 +21,7 @@ struct Dyad {
     outer: [JointId; 2],
     inner: JointId,
     /// The outer joints' places on the links before.
-    bases: [Side; 2],
+    bases: [JointSide; 2],
     /// The outer joints' places on the dyad's own links, and the inner joint's.
     locals: [[linkage::math::Vec2; 2]; 2],
     /// Whether the inner joint is to the left of the way from the first outer joint to the second.
@@ -42,7 +43,7 @@ pub fn solve(case: &Case) -> Result<Trajectory> {
         instant.crank = task.angle(time);
         instant.frames[task.link] = task.crank(case, instant.crank);
         for dyad in &dyads {
-            dyad.place(&mut instant.frames).ok_or_else(|| stuck(case, row, "a dyad cannot be assembled"))?;
+            dyad.place(&mut instant.frames).ok_or_else(|| stuck(case, row, sentences::A_DYAD_CANNOT_BE_ASSEMBLED))?;
         }
         forces(case, &task, &dyads, &mut instant);
         instants.push(instant);
@@ -52,7 +53,7 @@ pub fn solve(case: &Case) -> Result<Trajectory> {
 
 fn dyad(case: &Case, start: &[Frame], group: &Group) -> Result<Dyad> {
     let (GroupKind::Rrr, [one, two], &[inner]) = (group.kind, group.links.as_slice(), group.inner.as_slice()) else {
-        let message = "no closed form in full precision: a group is no dyad of revolute pairs";
+        let message = sentences::NO_CLOSED_FORM_IN_FULL_PRECISION;
         return Err(Error::new(ErrorKind::Unsupported, message).of_group(group.names(&case.mechanism)));
     };
     let links = [*one, *two];

@@ -1,4 +1,4 @@
-//! Planar mechanisms in double-double arithmetic (some 31 digits): the reference that double precision is judged by.
+#![doc = include_str!("../README.md")]
 //!
 //! [`solve`] takes dyads of revolute pairs in closed form ([`dyads`]) and every other mechanism by all its equations at
 //! once ([`whole`]). Neither shares an equation or code with the analytic sides; only the case is common.
@@ -8,6 +8,7 @@ pub mod dyads;
 mod frame;
 mod long;
 mod readings;
+mod sentences;
 mod task;
 mod vector;
 pub mod whole;
@@ -22,7 +23,7 @@ use linkage::trajectory::Trajectory;
 /// How the numbers were found, in words.
 #[must_use]
 pub fn method(case: &Case) -> &'static str {
-    if are_all_rrr(case) { "closed form in double-double" } else { "all equations in double-double" }
+    if are_all_rrr(case) { sentences::CLOSED_FORM_IN_DOUBLE_DOUBLE } else { sentences::ALL_EQUATIONS_IN_DOUBLE_DOUBLE }
 }
 
 /// All channels of a case on its grid, rounded to doubles at the end.

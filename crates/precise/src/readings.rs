@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 use linkage::case::Case;
 use linkage::error::Result;
 use linkage::math::angle::wrapped;
-use linkage::mechanism::{GROUND, Joint, JointId, LinkId, Side};
+use linkage::mechanism::{GROUND, Joint, JointId, JointSide, LinkId};
 use linkage::trajectory::{Channel, OfDrive, OfFrame, OfJoint, OfLink, OfPoint, OfSlider, Reading, Trajectory};
 
 use super::Long;
@@ -42,7 +42,7 @@ fn keep_turns(values: &mut [f64]) {
 /// Where links, points and joints are, by name.
 struct Places<'a> {
     links: BTreeMap<&'a str, LinkId>,
-    points: BTreeMap<&'a str, Side>,
+    points: BTreeMap<&'a str, JointSide>,
     joints: BTreeMap<&'a str, JointId>,
 }
 

@@ -1,5 +1,6 @@
 //! What this reference takes, and the crank's motion.
 
+use crate::sentences;
 use linkage::case::Case;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::mechanism::{GROUND, JointId, LinkId};
@@ -25,22 +26,22 @@ impl Task {
     /// # Errors
     /// [`ErrorKind::Unsupported`] with what cannot be taken.
     pub(crate) fn of(case: &Case) -> Result<Task> {
-        let refused = |what: &str| Err(Error::new(ErrorKind::Unsupported, format!("no precise numbers: {what}")));
+        let refused = |what: &str| Err(Error::new(ErrorKind::Unsupported, sentences::no_precise_numbers(&what)));
         let drive = case.crank();
         let Some(speed) = drive.constant_speed().filter(|_| !case.is_free()) else {
-            return refused("only a crank at constant speed is taken");
+            return refused(sentences::ONLY_A_CRANK_AT_CONSTANT);
         };
         if case.drives.len() > 1 {
-            return refused("there are several drives");
+            return refused(sentences::THERE_ARE_SEVERAL_DRIVES);
         }
         if drive.passes() {
-            return refused("change points may be passed");
+            return refused(sentences::CHANGE_POINTS_MAY_BE_PASSED);
         }
         if !case.loads.is_empty() {
-            return refused("there are loads");
+            return refused(sentences::THERE_ARE_LOADS);
         }
         if case.grid.times.iter().any(|&t| t < 0.0) {
-            return refused("an instant lies before t = 0");
+            return refused(sentences::AN_INSTANT_LIES_BEFORE);
         }
         Ok(Task { joint: drive.joint, link: drive.link, zero: drive.zero, start: drive.start, speed })
     }
@@ -71,7 +72,7 @@ impl Task {
 
 /// An error at an instant of the grid.
 pub(crate) fn stuck(case: &Case, row: usize, what: &str) -> Error {
-    Error::new(ErrorKind::Geometry, format!("no precise numbers: {what}")).at_input(case.told(case.grid.inputs[row]))
+    Error::new(ErrorKind::Geometry, sentences::no_precise_numbers(&what)).at_input(case.told(case.grid.inputs[row]))
 }
 
 /// Frames of the start pose.

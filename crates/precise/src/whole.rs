@@ -3,6 +3,7 @@
 //! Unknown are the frames of all moving links. The start pose is followed in steps of at most one degree of the crank;
 //! at the wanted instants Newton's method goes on until nothing changes. Dense elimination: for some tens of links.
 
+use crate::sentences;
 use linkage::case::Case;
 use linkage::error::Result;
 use linkage::mechanism::{GROUND, Joint, JointKind, LinkId};
@@ -41,10 +42,10 @@ pub fn solve(case: &Case) -> Result<Trajectory> {
             let at = if step == steps { to } else { time + (to - time) * step as f64 / steps as f64 };
             let settled = if step == steps { SETTLED } else { NEAR };
             let gone = whole.task.angle(at);
-            whole.close(&mut frames, gone, settled).ok_or_else(|| stuck(case, row, "the pose is singular"))?;
+            whole.close(&mut frames, gone, settled).ok_or_else(|| stuck(case, row, sentences::THE_POSE_IS_SINGULAR))?;
         }
         time = to;
-        let instant = whole.instant(&frames).ok_or_else(|| stuck(case, row, "the pose is singular"))?;
+        let instant = whole.instant(&frames).ok_or_else(|| stuck(case, row, sentences::THE_POSE_IS_SINGULAR))?;
         instants[row] = Some(Snapshot { crank: whole.task.angle(to), ..instant });
     }
     let instants: Vec<Snapshot> = instants.into_iter().map(|instant| instant.expect("every row is visited")).collect();

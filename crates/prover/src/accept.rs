@@ -1,13 +1,14 @@
 //! What is kept of a proof to judge later ones by, and what has moved since. Judged within the bounds of both, never by
 //! bytes.
 
+use crate::sentences;
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::compare::{Verdict, overall};
 use crate::proof::Proof;
 use linkage::math::KeepNan;
 use linkage::math::statistics::{rms, share};
-use scenario::accepted::{Accepted, Kept};
+use scenario::accepted::{Accepted, AcceptedChannel};
 
 /// Number of instants at which values are kept, evenly over the grid, its ends included.
 const INSTANTS: usize = 5;
@@ -29,7 +30,7 @@ pub fn figures(proof: &Proof) -> Accepted {
     let rows = rows(trajectory.times().len());
     let pick = |values: &[f64]| -> Vec<f64> { rows.iter().map(|&row| values[row]).collect() };
     let bounded = trajectory.iter().zip(&proof.reference_bounds).filter(|(_, bound)| bound.is_finite());
-    let channels = bounded.map(|((channel, values), bound)| Kept {
+    let channels = bounded.map(|((channel, values), bound)| AcceptedChannel {
         name: channel.to_string(),
         bound: rounded_up(bound * (1.0 + WRITTEN)),
         at: pick(values),
@@ -67,7 +68,7 @@ pub struct Moved {
     /// Name of the channel.
     pub channel: String,
     /// Which of its figures.
-    pub figure: Figure,
+    pub figure: ChannelFigure,
     /// The figure that was accepted, in the channel's unit.
     pub accepted: f64,
     /// The figure found now.
@@ -78,7 +79,7 @@ pub struct Moved {
 
 /// A figure of a channel.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Figure {
+pub enum ChannelFigure {
     /// Value at this time (s).
     At(f64),
     /// Smallest value.
@@ -110,7 +111,7 @@ pub struct Wider {
 
 /// Figures found, beside those that were accepted.
 #[derive(Clone, Debug)]
-pub struct Comparison {
+pub struct FigureComparison {
     /// Number of channels found.
     pub channels: usize,
     /// Figures beyond both bounds, in the order of channels.
@@ -132,7 +133,7 @@ pub struct Comparison {
     pub verdict: Verdict,
 }
 
-impl Comparison {
+impl FigureComparison {
     /// Whether nothing has changed that a file of accepted figures says.
     #[must_use]
     pub fn is_same(&self) -> bool {
@@ -153,7 +154,7 @@ impl Comparison {
 
 /// Compares what a run has found with what was accepted.
 #[must_use]
-pub fn compared(accepted: &Accepted, found: &Accepted) -> Comparison {
+pub fn compared(accepted: &Accepted, found: &Accepted) -> FigureComparison {
     let is_other_grid = !is_same_grid(accepted, found);
     let known = by_name(accepted);
     let (mut moved, mut wider, mut looser, mut new) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
@@ -190,20 +191,23 @@ pub fn compared(accepted: &Accepted, found: &Accepted) -> Comparison {
     let is_open = !wider.is_empty() || !looser.is_empty() || proof.is_some() || found.channels.is_empty();
     let parts = [
         Verdict::Agree { margin: least_margin },
-        if is_other { Verdict::Disagree { place: "not as accepted".into() } } else { AGREE },
-        if is_open { Verdict::open("too little is known, now or when it was accepted") } else { AGREE },
+        if is_other { Verdict::Disagree { place: sentences::NOT_AS_ACCEPTED.into() } } else { AGREE },
+        if is_open { Verdict::open(sentences::TOO_LITTLE_IS_KNOWN_NOW_OR_WHEN) } else { AGREE },
     ];
     let verdict = overall(&parts);
-    Comparison { channels: found.channels.len(), moved, wider, looser, new, gone, is_other_grid, proof, verdict }
+    FigureComparison { channels: found.channels.len(), moved, wider, looser, new, gone, is_other_grid, proof, verdict }
 }
 
 /// Channels by their names.
-fn by_name(accepted: &Accepted) -> BTreeMap<&str, &Kept> {
+fn by_name(accepted: &Accepted) -> BTreeMap<&str, &AcceptedChannel> {
     accepted.channels.iter().map(|kept| (kept.name.as_str(), kept)).collect()
 }
 
 /// What was accepted of a channel, with the same figures.
-fn counterpart<'a>(known: &BTreeMap<&str, &'a Kept>, found: &Kept) -> Option<&'a Kept> {
+fn counterpart<'a>(
+    known: &BTreeMap<&str, &'a AcceptedChannel>,
+    found: &AcceptedChannel,
+) -> Option<&'a AcceptedChannel> {
     known.get(found.name.as_str()).copied().filter(|kept| kept.rms.is_some() == found.rms.is_some())
 }
 
@@ -217,29 +221,35 @@ fn is_same_grid(accepted: &Accepted, found: &Accepted) -> bool {
 }
 
 /// All figures of a channel, accepted and found, on the same grid.
-fn pairs(kept: &Kept, found: &Kept, times: &[f64]) -> Vec<Moved> {
+fn pairs(kept: &AcceptedChannel, found: &AcceptedChannel, times: &[f64]) -> Vec<Moved> {
     // Angles that always differ by the same whole turns are the same motion.
     let turns = match (found.rms, kept.at.first(), found.at.first()) {
         (None, Some(kept), Some(found)) => ((found - kept) / std::f64::consts::TAU).round() * std::f64::consts::TAU,
         _ => 0.0,
     };
-    let pair = |figure: Figure, accepted: f64, own: f64| Moved {
+    let pair = |figure: ChannelFigure, accepted: f64, own: f64| Moved {
         channel: found.name.clone(),
         figure,
         accepted,
         found: own - turns,
         bound: kept.bound + found.bound,
     };
-    let at = times.iter().zip(kept.at.iter().zip(&found.at)).map(|(&t, (&kept, &own))| pair(Figure::At(t), kept, own));
-    let rms = kept.rms.zip(found.rms).map(|(kept, own)| pair(Figure::Rms, kept, own));
-    let ends = [pair(Figure::Least, kept.least, found.least), pair(Figure::Greatest, kept.greatest, found.greatest)];
+    let at = times
+        .iter()
+        .zip(kept.at.iter().zip(&found.at))
+        .map(|(&t, (&kept, &own))| pair(ChannelFigure::At(t), kept, own));
+    let rms = kept.rms.zip(found.rms).map(|(kept, own)| pair(ChannelFigure::Rms, kept, own));
+    let ends = [
+        pair(ChannelFigure::Least, kept.least, found.least),
+        pair(ChannelFigure::Greatest, kept.greatest, found.greatest),
+    ];
     at.chain(ends).chain(rms).collect()
 }
 
 /// What is to be kept after `found`: of channels that have not moved what was accepted, so that a file changes only
 /// where figures have.
 #[must_use]
-pub fn renewed(accepted: &Accepted, found: Accepted, comparison: &Comparison) -> Accepted {
+pub fn renewed(accepted: &Accepted, found: Accepted, comparison: &FigureComparison) -> Accepted {
     if comparison.is_other_grid {
         return found;
     }
@@ -247,7 +257,7 @@ pub fn renewed(accepted: &Accepted, found: Accepted, comparison: &Comparison) ->
     let bounds = comparison.wider.iter().chain(&comparison.looser).map(|own| own.channel.as_str());
     let others: BTreeSet<&str> = moved.chain(bounds).collect();
     let known = by_name(accepted);
-    let kept = |own: Kept| match counterpart(&known, &own) {
+    let kept = |own: AcceptedChannel| match counterpart(&known, &own) {
         Some(kept) if !others.contains(own.name.as_str()) => kept.clone(),
         Some(_) | None => own,
     };

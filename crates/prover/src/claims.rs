@@ -14,12 +14,12 @@ mod terms;
 mod trial;
 mod undefined;
 
-pub use cause::{CUT, Cause, MOST_WORK, Search, cause};
-pub use course::{Course, needed, telling};
+pub use cause::{CUT, CauseSearch, FormulaCause, MOST_WORK, cause};
+pub use course::{KnownTrajectory, needed, telling};
 pub use judge::judge;
-pub use judged::{At, Judged, Outcome};
+pub use judged::{FormulaAtInstant, FormulaOutcome, JudgedFormula};
 pub use missing::Missing;
-pub use slips::{Kind, Slip, planted};
+pub use slips::{FormulaSlip, SlipKind, planted};
 pub use terms::{Term, Wrong, missing_in_numbers};
 pub use undefined::{Undefined, undefined};
 

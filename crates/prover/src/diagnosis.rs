@@ -1,8 +1,5 @@
-//! Diagnosis of a disagreement: which party stands alone, since when and in which channels, and which simple cause
-//! explains it.
-//!
-//! Pure functions of data: trajectories, bounds, and the case with a solver that can try a changed case. Nothing here
-//! knows engines, files or proofs.
+//! Diagnosis of a disagreement: which party is alone, since when and in which channels, and the simple cause that
+//! explains it. Pure functions of data. See docs/numerics/diagnosis.md.
 
 mod alone;
 mod bench;
@@ -21,11 +18,11 @@ mod slips;
 mod tries;
 mod whole;
 
-pub use alone::{Party, Standing, standing};
-pub use cause::{Arm, Axis, Cause, Change, How, Over, Part, Plain, Slip};
+pub use alone::{DiagnosedParty, PartyStanding, standing};
+pub use cause::{Arm, CasePart, Change, DataSlip, DisagreementCause, FrameAxis, Over, PartChange, Plain};
 pub use configurations::{others, reassembled};
 pub(crate) use derived::even;
 pub use diagnose::{Diagnosis, Since, diagnose, since};
 pub use knobs::{at_speed, changed, driven};
-pub use nature::Nature;
-pub use question::{Judged, Question};
+pub use nature::ErrorNature;
+pub use question::{DiagnosisInput, SuspectChannel};

@@ -48,9 +48,9 @@ pub fn with_step(engine: EngineName, step: f64) -> Result<Box<dyn Engine>> {
 #[cfg(not(all(feature = "f32", feature = "simbody")))]
 fn missing(engine: EngineName) -> linkage::Error {
     let (name, feature) = (engine.name(), engine.feature().unwrap_or_default());
-    let message = format!("the engine \"{name}\" is asked for, but this build does not have it");
+    let message = crate::sentences::the_engine_is_asked_for_but_this_build(&name);
     linkage::Error::new(linkage::ErrorKind::Unsupported, message)
-        .help(format!("build with the cargo feature \"{feature}\""))
+        .help(crate::sentences::build_with_the_cargo_feature(&feature))
 }
 
 /// Rotation of the fastest driving link in a step that is usual (rad): a quarter of a degree.

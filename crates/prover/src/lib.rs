@@ -15,6 +15,7 @@ pub mod diagnosis;
 pub mod engines;
 pub mod numbers;
 pub mod proof;
+mod sentences;
 pub mod tables;
 pub mod tolerance;
 pub mod versus;

@@ -35,11 +35,12 @@ mod settle;
 pub mod shifted;
 pub mod solved;
 
+use crate::sentences;
 pub use each_side::{EachSide, Reference};
-pub use engine_proof::{ChannelProof, End, EngineInfo, EngineProof, ForceFault, Search};
-pub use entrants::{Engines, Entrant, Sides, TRUE_SIDES};
+pub use engine_proof::{ChannelProof, EngineInfo, EngineProof, ForceFault, SearchEnd, SettingsSearch};
+pub use entrants::{EngineRole, Entrant, ObservedSides, TRUE_SIDES};
 pub use formulas::{Judgement, checks as formula_checks};
-pub use ledger::{Entry, Ledger};
+pub use ledger::{Ledger, LedgerEntry};
 pub use options::Options;
 pub use parties::Dispute;
 pub use problem::Problem;
@@ -105,7 +106,7 @@ pub struct Proof {
     /// The part of the scenario's case that was solved, and what nothing wanted depends on.
     pub scene: Scene,
     /// What was done, part by part, and what was not needed.
-    pub work: Vec<Entry>,
+    pub work: Vec<LedgerEntry>,
 }
 
 impl Proof {
@@ -185,17 +186,17 @@ fn joined(scenario: &Scenario, engine_case: &Case, options: &Options, progress: 
     let main = options.reference.solver();
     let engines = options.chosen(&scenario.engine, case)?;
     memory::check(case, memory::of_proof(case, engines.len()), options.memory)?;
-    memory::check_input("what [[oracle]] says", memory::of_oracles(&scenario.oracles), options.memory)?;
+    memory::check_input(sentences::WHAT_ORACLE_SAYS, memory::of_oracles(&scenario.oracles), options.memory)?;
     let mut ledger = Ledger::default();
     let budget = options.budget.unwrap_or(settle::BUDGET);
     let (sides, _) =
-        limited(budget.larger(SIDES), || Sides::of(problem, whole, TRUE_SIDES, options.reference, &mut ledger));
+        limited(budget.larger(SIDES), || ObservedSides::of(problem, whole, TRUE_SIDES, options.reference, &mut ledger));
     let sides = sides?;
     let engine_case = match &whole.only {
         Some(only) => engine_case.wanting_only(only).scene()?.case,
         None => engine_case.clone(),
     };
-    let proofs = sides.engines(problem, &Engines::on(&engine_case), engines, &mut ledger, progress)?;
+    let proofs = sides.engines(problem, &EngineRole::on(&engine_case), engines, &mut ledger, progress)?;
     let own = sides.own();
     let disputes = match proofs.len() {
         1 => Vec::new(),
@@ -209,7 +210,7 @@ fn joined(scenario: &Scenario, engine_case: &Case, options: &Options, progress: 
             let (found, is_cut) =
                 limited(DIAGNOSIS * budget, || ledger.done("diagnosis", "something disagrees", examined));
             if is_cut {
-                ledger.skipped("rest of the diagnosis", "its share of the work that was allowed is done");
+                ledger.skipped(sentences::REST_OF_THE_DIAGNOSIS, sentences::ITS_SHARE_OF_THE_WORK_THAT_WAS_ALLOWED);
             }
             (found, is_cut)
         }

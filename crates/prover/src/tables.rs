@@ -5,8 +5,9 @@ mod held;
 mod parquet_file;
 mod source;
 
-pub use columns::Table as Raw;
-pub use held::{At, By, Column, Held, Instants};
+use crate::sentences;
+pub use columns::TextTable as Raw;
+pub use held::{By, Held, Instants, PartyColumn, RowKey};
 pub use source::May;
 
 use std::fs::File;
@@ -41,19 +42,18 @@ pub fn load_within(path: &Path, may: May) -> Result<Raw> {
         (true, Some(size)) => parquet_file::read(path, size, may)?,
         #[cfg(not(feature = "parquet"))]
         (true, Some(_)) => {
-            let message = format!("the table {} is a Parquet file, which this build does not read", path.display());
-            return Err(Error::new(ErrorKind::Unsupported, message)
-                .help("build with the feature `parquet`, or write it as CSV"));
+            let message = sentences::the_table_is_a_parquet_file_which_this_build(&path.display());
+            return Err(Error::new(ErrorKind::Unsupported, message).help(sentences::BUILD_WITH_THE_FEATURE_PARQUET));
         }
         (true, None) => {
-            let message = format!("the table {} is a Parquet file that comes through a pipe", path.display());
-            return Err(Error::new(ErrorKind::Input, message).help("write it to a file first: its end is read first"));
+            let message = sentences::the_table_is_a_parquet_file(&path.display());
+            return Err(Error::new(ErrorKind::Input, message).help(sentences::WRITE_IT_TO_A_FILE_FIRST));
         }
         (false, size) => text(path, first.as_slice().chain(file), size, may)?,
     };
     if raw.is_empty() {
-        let message = format!("{} has no rows of numbers", path.display());
-        return Err(Error::new(ErrorKind::Input, message).help("give a table with a header and one row per instant"));
+        let message = sentences::has_no_rows_of_numbers(&path.display());
+        return Err(Error::new(ErrorKind::Input, message).help(sentences::GIVE_A_TABLE_WITH_A_HEADER));
     }
     Ok(raw)
 }

@@ -1,10 +1,12 @@
 //! Bounds and their justification.
+//! See docs/numerics/bounds.md.
 
+use crate::sentences;
 use std::fmt;
 
 /// How a bound, or the number compared with, is known.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Origin {
+pub enum BoundOrigin {
     /// Claimed by the formula that is judged.
     Claimed,
     /// Derived from given data by a formula.
@@ -21,25 +23,25 @@ pub enum Origin {
     Published,
 }
 
-impl Origin {
+impl BoundOrigin {
     /// Word for reports and scenario files, such as `measured`.
     #[must_use]
     pub fn word(self) -> &'static str {
         match self {
-            Origin::Claimed => "claimed",
-            Origin::Derived => "derived",
-            Origin::Estimated => "estimated",
-            Origin::Measured => "measured",
-            Origin::Wanted => "wanted",
-            Origin::Recomputed => "recomputed",
-            Origin::Published => "published",
+            BoundOrigin::Claimed => "claimed",
+            BoundOrigin::Derived => "derived",
+            BoundOrigin::Estimated => "estimated",
+            BoundOrigin::Measured => "measured",
+            BoundOrigin::Wanted => "wanted",
+            BoundOrigin::Recomputed => "recomputed",
+            BoundOrigin::Published => "published",
         }
     }
 }
 
 /// Why a bound is what it is.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Basis {
+pub enum BoundBasis {
     /// Chosen: wanted of a number that only rounding should keep from zero. The text says why rounding allows this
     /// bound.
     Wanted(&'static str),
@@ -56,12 +58,12 @@ pub enum Basis {
         /// The parts of the bound, safety factors included, in the channel's unit.
         parts: Parts,
         /// How the rounding part is known. The other two parts are estimated.
-        noise: Origin,
+        noise: BoundOrigin,
     },
     /// Half a unit of the last digit of a number, plus the known error of the number, and what its instant leaves open.
     Digits {
         /// How the number is known: published, recomputed or derived.
-        origin: Origin,
+        origin: BoundOrigin,
         /// Number of decimals.
         digits: i32,
         /// Source of the number.
@@ -75,24 +77,24 @@ pub enum Basis {
         claimed: bool,
     },
     /// A basis with a note on the check that uses it.
-    Noted(Box<Basis>, &'static str),
+    Noted(Box<BoundBasis>, &'static str),
 }
 
-impl Basis {
+impl BoundBasis {
     /// How the bound, or the number compared with, is known.
     #[must_use]
-    pub fn origin(&self) -> Origin {
+    pub fn origin(&self) -> BoundOrigin {
         match self {
-            Basis::Wanted(_) => Origin::Wanted,
-            Basis::Truncation { parts, noise, .. } => match parts.largest() {
-                Part::Rounding => *noise,
-                Part::Reference => Origin::Wanted,
-                Part::Discretisation | Part::Iteration => Origin::Estimated,
+            BoundBasis::Wanted(_) => BoundOrigin::Wanted,
+            BoundBasis::Truncation { parts, noise, .. } => match parts.largest() {
+                BoundPart::Rounding => *noise,
+                BoundPart::Reference => BoundOrigin::Wanted,
+                BoundPart::Discretisation | BoundPart::Iteration => BoundOrigin::Estimated,
             },
-            Basis::Digits { origin, .. } => *origin,
-            Basis::Formula { claimed: true } => Origin::Claimed,
-            Basis::Formula { claimed: false } => Origin::Derived,
-            Basis::Noted(basis, _) => basis.origin(),
+            BoundBasis::Digits { origin, .. } => *origin,
+            BoundBasis::Formula { claimed: true } => BoundOrigin::Claimed,
+            BoundBasis::Formula { claimed: false } => BoundOrigin::Derived,
+            BoundBasis::Noted(basis, _) => basis.origin(),
         }
     }
 }
@@ -112,7 +114,7 @@ pub struct Parts {
 
 /// One of the [`Parts`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Part {
+pub enum BoundPart {
     /// See [`Parts::discretisation`].
     Discretisation,
     /// See [`Parts::iteration`].
@@ -132,53 +134,61 @@ impl Parts {
 
     /// The largest part.
     #[must_use]
-    pub fn largest(&self) -> Part {
+    pub fn largest(&self) -> BoundPart {
         let own = self.discretisation + self.iteration + self.rounding;
         if self.reference > own {
-            Part::Reference
+            BoundPart::Reference
         } else if self.rounding >= self.discretisation && self.rounding >= self.iteration {
-            Part::Rounding
+            BoundPart::Rounding
         } else if self.iteration >= self.discretisation {
-            Part::Iteration
+            BoundPart::Iteration
         } else {
-            Part::Discretisation
+            BoundPart::Discretisation
         }
     }
 }
 
-impl fmt::Display for Basis {
+impl fmt::Display for BoundBasis {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Basis::Wanted(why) => write!(f, "wanted: {why}"),
-            Basis::Truncation { observed, formal, resolution, safety, parts, noise } => {
+            BoundBasis::Wanted(why) => write!(f, "wanted: {why}"),
+            BoundBasis::Truncation { observed, formal, resolution, safety, parts, noise } => {
                 let Parts { discretisation, iteration, rounding, reference } = parts;
                 let order = match observed.is_nan() {
-                    true => format!("below round-off, order {formal} assumed"),
-                    false => format!("observed order {observed:.2} (formal {formal})"),
+                    true => sentences::below_round_off_order_assumed(&formal),
+                    false => sentences::observed_order_formal(&observed, &formal),
                 };
                 write!(
                     f,
-                    "{}: truncation, {order} at resolutions {:e}, {resolution:e} and {:e}, safety factor {safety}; \
-                     discretisation {discretisation:.1e}, iteration {iteration:.1e}, rounding {rounding:.1e} ({}), reference {reference:.1e}",
-                    self.origin().word(),
-                    2.0 * resolution,
-                    resolution / 2.0,
-                    noise.word()
+                    "{}",
+                    sentences::truncation_at_resolutions_and_safety(
+                        &self.origin().word(),
+                        &order,
+                        &format_args!("{:e}", 2.0 * resolution),
+                        &format_args!("{resolution:e}"),
+                        &format_args!("{:e}", resolution / 2.0),
+                        &safety,
+                        &format_args!("{discretisation:.1e}"),
+                        &format_args!("{iteration:.1e}"),
+                        &format_args!("{rounding:.1e}"),
+                        &noise.word(),
+                        &format_args!("{reference:.1e}")
+                    )
                 )
             }
-            Basis::Digits { origin, digits, source, instant } => {
-                write!(f, "{} with {digits} decimals: {source}", origin.word())?;
+            BoundBasis::Digits { origin, digits, source, instant } => {
+                write!(f, "{}", sentences::with_decimals(&origin.word(), &digits, &source))?;
                 match *instant > 0.0 {
-                    true => write!(f, "; {instant:.1e} of the bound for the rounding of the instant"),
+                    true => write!(f, "{}", sentences::of_the_bound_for_the_rounding(&format_args!("{instant:.1e}"))),
                     false => Ok(()),
                 }
             }
-            Basis::Formula { claimed } => {
-                let error = if *claimed { "the error that the formula claims, its" } else { "the formula's" };
+            BoundBasis::Formula { claimed } => {
+                let error = if *claimed { sentences::THE_ERROR_THAT_THE_FORMULA } else { "the formula's" };
                 let origin = self.origin().word();
-                write!(f, "{origin}: {error} rounding, passed through its operations, and what the side knows")
+                write!(f, "{}", sentences::rounding_passed_through_its_operations(&origin, &error))
             }
-            Basis::Noted(basis, note) => write!(f, "{basis}; {note}"),
+            BoundBasis::Noted(basis, note) => write!(f, "{basis}; {note}"),
         }
     }
 }
@@ -189,23 +199,23 @@ pub struct Tolerance {
     /// The bound, in the unit of the checked number.
     pub bound: f64,
     /// What the bound rests on.
-    pub basis: Basis,
+    pub basis: BoundBasis,
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn truncation(parts: Parts) -> Basis {
-        let noise = Origin::Measured;
-        Basis::Truncation { observed: 2.0, formal: 2.0, resolution: 1e-3, safety: 1.25, parts, noise }
+    fn truncation(parts: Parts) -> BoundBasis {
+        let noise = BoundOrigin::Measured;
+        BoundBasis::Truncation { observed: 2.0, formal: 2.0, resolution: 1e-3, safety: 1.25, parts, noise }
     }
 
     #[test]
     fn a_bound_that_is_rounding_in_the_main_says_how_its_rounding_is_known() {
         let estimated = truncation(Parts { discretisation: 1.0, rounding: 0.5, ..Parts::default() });
         let measured = truncation(Parts { discretisation: 0.5, rounding: 1.0, ..Parts::default() });
-        assert_eq!([estimated.origin(), measured.origin()], [Origin::Estimated, Origin::Measured]);
+        assert_eq!([estimated.origin(), measured.origin()], [BoundOrigin::Estimated, BoundOrigin::Measured]);
         assert!(estimated.to_string().starts_with("estimated: truncation, observed order 2.00"));
         assert!(measured.to_string().starts_with("measured: "));
         assert!(measured.to_string().ends_with("rounding 1.0e0 (measured), reference 0.0e0"));
@@ -214,15 +224,16 @@ mod tests {
     #[test]
     fn a_bound_is_the_sum_of_all_its_parts() {
         let parts = Parts { discretisation: 1.0, iteration: 2.0, rounding: 4.0, reference: 8.0 };
-        assert_eq!((parts.sum(), parts.largest()), (15.0, Part::Reference));
-        assert_eq!(Parts { reference: 7.0, ..parts }.largest(), Part::Rounding);
+        assert_eq!((parts.sum(), parts.largest()), (15.0, BoundPart::Reference));
+        assert_eq!(Parts { reference: 7.0, ..parts }.largest(), BoundPart::Rounding);
     }
 
     #[test]
     fn every_basis_begins_with_its_origin() {
-        let digits = Basis::Digits { origin: Origin::Recomputed, digits: 3, source: "a table".into(), instant: 0.0 };
-        let noted = Basis::Noted(Box::new(Basis::Wanted("so much")), "a note");
+        let digits =
+            BoundBasis::Digits { origin: BoundOrigin::Recomputed, digits: 3, source: "a table".into(), instant: 0.0 };
+        let noted = BoundBasis::Noted(Box::new(BoundBasis::Wanted("so much")), "a note");
         assert_eq!(digits.to_string(), "recomputed with 3 decimals: a table");
-        assert_eq!((noted.to_string().as_str(), noted.origin()), ("wanted: so much; a note", Origin::Wanted));
+        assert_eq!((noted.to_string().as_str(), noted.origin()), ("wanted: so much; a note", BoundOrigin::Wanted));
     }
 }

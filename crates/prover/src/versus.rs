@@ -13,10 +13,11 @@ mod judge;
 mod pair;
 mod scale;
 
-pub use allowed::How;
+use crate::sentences;
+pub use allowed::ComparisonRule;
 pub use cause::Explained;
-pub use judge::{Compared, Row};
-pub use pair::{Contradiction, Pair};
+pub use judge::{Compared, RowPair};
+pub use pair::{Contradiction, SidePair};
 
 use self::judge::Which;
 use self::pair::Side;
@@ -31,7 +32,7 @@ use scenario::words::choice;
 use std::path::Path;
 
 /// One of the two that are compared.
-pub struct Party {
+pub struct ComparedParty {
     name: String,
     holds: Holds,
 }
@@ -44,11 +45,11 @@ enum Holds {
     Table(Box<Held>),
 }
 
-impl Party {
+impl ComparedParty {
     /// What a recording holds: trajectories by the names of their sides, of which `reference` is analytic. Messages call
     /// it `name`.
-    pub fn recording(name: impl Into<String>, sides: Vec<(String, Trajectory)>) -> Party {
-        Party { name: name.into(), holds: Holds::Recording(sides) }
+    pub fn recording(name: impl Into<String>, sides: Vec<(String, Trajectory)>) -> ComparedParty {
+        ComparedParty { name: name.into(), holds: Holds::Recording(sides) }
     }
 
     /// A table in a file, CSV or Parquet, and which of its columns are which channels. A column that has the name of a
@@ -57,46 +58,46 @@ impl Party {
     /// # Errors
     /// [`ErrorKind::Io`] if it cannot be read, [`ErrorKind::Input`] if it is no table of numbers, or if the mapping does
     /// not fit it, with the place.
-    pub fn table(path: impl AsRef<Path>, mapping: &Mapping) -> Result<Party> {
-        Party::table_within(path, mapping, &|_, _| Ok(()))
+    pub fn table(path: impl AsRef<Path>, mapping: &Mapping) -> Result<ComparedParty> {
+        ComparedParty::table_within(path, mapping, &|_, _| Ok(()))
     }
 
     /// The same where `may` is asked before memory is taken.
     ///
     /// # Errors
-    /// Those of [`Party::table`], and what `may` says.
-    pub fn table_within(path: impl AsRef<Path>, mapping: &Mapping, may: May) -> Result<Party> {
+    /// Those of [`ComparedParty::table`], and what `may` says.
+    pub fn table_within(path: impl AsRef<Path>, mapping: &Mapping, may: May) -> Result<ComparedParty> {
         let path = path.as_ref();
         let held = Held::of_table(&load_within(path, may)?, mapping)?;
-        Ok(Party { name: path.display().to_string(), holds: Holds::Table(Box::new(held)) })
+        Ok(ComparedParty { name: path.display().to_string(), holds: Holds::Table(Box::new(held)) })
     }
 }
 
 /// A scenario, which is solved where the other party has instants.
-impl From<Scenario> for Party {
-    fn from(scenario: Scenario) -> Party {
-        Party { name: scenario.path.display().to_string(), holds: Holds::Scenario(Box::new(scenario)) }
+impl From<Scenario> for ComparedParty {
+    fn from(scenario: Scenario) -> ComparedParty {
+        ComparedParty { name: scenario.path.display().to_string(), holds: Holds::Scenario(Box::new(scenario)) }
     }
 }
 
 /// What another program, or an engine, has found: numbers of which nobody knows the errors.
-impl From<Trajectory> for Party {
-    fn from(trajectory: Trajectory) -> Party {
-        Party::recording("the trajectory", vec![(String::new(), trajectory)])
+impl From<Trajectory> for ComparedParty {
+    fn from(trajectory: Trajectory) -> ComparedParty {
+        ComparedParty::recording("the trajectory", vec![(String::new(), trajectory)])
     }
 }
 
 /// What is read of a table.
-impl From<Held> for Party {
-    fn from(held: Held) -> Party {
-        Party { name: "the table".into(), holds: Holds::Table(Box::new(held)) }
+impl From<Held> for ComparedParty {
+    fn from(held: Held) -> ComparedParty {
+        ComparedParty { name: "the table".into(), holds: Holds::Table(Box::new(held)) }
     }
 }
 
 /// Two parties compared.
-pub struct Comparison {
+pub struct PartyComparison {
     /// One after the other: a recording may have several sides.
-    pub pairs: Vec<Pair>,
+    pub pairs: Vec<SidePair>,
     /// The verdict on all of them.
     pub verdict: Verdict,
 }
@@ -108,10 +109,10 @@ const REFERENCE: &str = "reference";
 ///
 /// # Errors
 /// [`ErrorKind::Input`] if they have no instant or no channel in common, and those of the sides.
-pub fn compare(parties: [Party; 2], how: &How) -> Result<Comparison> {
+pub fn compare(parties: [ComparedParty; 2], how: &ComparisonRule) -> Result<PartyComparison> {
     let names = parties.each_ref().map(|party| party.name.clone());
     let [first, second] = parties.map(|party| party.holds);
-    let beside = |scenario: &Scenario, which: Which, other: Holds| -> Result<Vec<Pair>> {
+    let beside = |scenario: &Scenario, which: Which, other: Holds| -> Result<Vec<SidePair>> {
         sides(other, how)?.into_iter().map(|side| analytic_party::beside(scenario, which, side, how)).collect()
     };
     let pairs = match (first, second) {
@@ -124,12 +125,12 @@ pub fn compare(parties: [Party; 2], how: &How) -> Result<Comparison> {
         }
     };
     how.check_used(pairs.iter().flat_map(|pair| &pair.channels).map(|own| &own.claim))?;
-    let verdicts: Vec<Verdict> = pairs.iter().map(Pair::verdict).collect();
-    Ok(Comparison { verdict: overall(&verdicts), pairs })
+    let verdicts: Vec<Verdict> = pairs.iter().map(SidePair::verdict).collect();
+    Ok(PartyComparison { verdict: overall(&verdicts), pairs })
 }
 
 /// The sides of a party that are asked for.
-fn sides(party: Holds, how: &How) -> Result<Vec<Side>> {
+fn sides(party: Holds, how: &ComparisonRule) -> Result<Vec<Side>> {
     let alone = |held: Held| vec![Side { name: String::new(), held }];
     match party {
         Holds::Scenario(scenario) => Ok(alone(analytic_party::held(&scenario)?)),
@@ -139,7 +140,7 @@ fn sides(party: Holds, how: &How) -> Result<Vec<Side>> {
 }
 
 /// The sides of a recording that are asked for.
-fn asked(all: Vec<(String, Trajectory)>, how: &How) -> Result<Vec<Side>> {
+fn asked(all: Vec<(String, Trajectory)>, how: &ComparisonRule) -> Result<Vec<Side>> {
     let names: Vec<String> = all.iter().map(|(name, _)| name.clone()).collect();
     let is_asked = |name: &str| how.side.as_deref().is_none_or(|side| side == name);
     let held = |(name, own): (String, Trajectory)| {
@@ -157,8 +158,8 @@ fn asked(all: Vec<(String, Trajectory)>, how: &How) -> Result<Vec<Side>> {
     };
     let asked: Vec<Side> = all.into_iter().filter(|(name, _)| is_asked(name)).map(held).collect();
     match (&how.side, asked.is_empty()) {
-        (Some(side), true) => Err(Error::new(ErrorKind::Input, format!("a recording has no side {side}"))
-            .help(format!("it has {}", choice(names.iter().map(String::as_str), "")))),
+        (Some(side), true) => Err(Error::new(ErrorKind::Input, sentences::a_recording_has_no_side(&side))
+            .help(sentences::it_has(&choice(names.iter().map(String::as_str), "")))),
         _ => Ok(asked),
     }
 }
@@ -174,8 +175,8 @@ fn paired<'a>(ones: &'a [Side], others: &'a [Side], names: &[String; 2]) -> Resu
         }
     };
     if pairs.is_empty() {
-        let message = format!("{} and {} have no side of the same name", names[0], names[1]);
-        return Err(Error::new(ErrorKind::Input, message).help("name a side that both have, such as reference"));
+        let message = sentences::and_have_no_side_of_the_same(&names[0], &names[1]);
+        return Err(Error::new(ErrorKind::Input, message).help(sentences::NAME_A_SIDE_THAT_BOTH_HAVE_SUCH_AS_REFERENCE));
     }
     Ok(pairs)
 }

@@ -6,9 +6,10 @@
 //! With the true accelerations the motion is that of the case: (M + M') a = f + M' a is M a = f.
 //! A step knows the accelerations of the step before. The error is of first order, as that of the whole step is.
 //! It decays from step to step, because no added mass is larger than the whole: M' / (M + M') is below 1.
+//! See docs/numerics/twins.md.
 
 use super::masses::added;
-use super::tree::Tree;
+use super::tree::SpanningTree;
 use super::window::Window;
 use linkage::case::Case;
 use linkage::drive::Wrench;
@@ -25,7 +26,7 @@ pub(super) struct Added {
 
 impl Added {
     /// The added masses in a world with this tree; `None` if no link needs one.
-    pub(super) fn of(case: &Case, tree: &Tree) -> Option<Self> {
+    pub(super) fn of(case: &Case, tree: &SpanningTree) -> Option<Self> {
         let masses: Vec<[f64; 2]> = case.mechanism.links().ids().map(|link| added(case, link, tree)).collect();
         let accelerations = vec![[0.0; 3]; masses.len()];
         masses.iter().flatten().any(|&mass| mass > 0.0).then_some(Added { masses, accelerations })

@@ -3,6 +3,7 @@
 //! Near a dead point two assembly modes of a group are close together, and an engine may slip from one to the other
 //! while its loops hardly open. Each mode has its own sign of the determinant of the group's constraints.
 
+use crate::sentences;
 use linkage::case::Case;
 use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::math::dense::Lu;
@@ -70,16 +71,13 @@ impl Branches {
             if own.sense * determinant < -BEYOND * own.largest {
                 let names = case.structure.groups[own.index].names(&case.mechanism);
                 let at = case.told(case.crank().at(t).value);
-                let message = format!(
-                    "the engine has slipped into another assembly mode of the group ({names}) before t = {t:.6} s, \
-                     {at}: it has passed a dead point on the way"
-                );
+                let message = sentences::the_engine_has_slipped_into(&names, &t, &at);
                 return Err(Error::new(ErrorKind::Numeric, message)
                     .at_time(t)
                     .at_input(at)
                     .of_group(names)
                     .help(Advice::SmallerStep { to: None })
-                    .or_help("keep the grid farther from the dead point"));
+                    .or_help(sentences::KEEP_THE_GRID_FARTHER_FROM_THE_DEAD));
             }
         }
         Ok(())
@@ -90,12 +88,9 @@ impl Branches {
 fn turned_back(case: &Case, group: GroupId, t: f64) -> Error {
     let names = case.structure.groups[group].names(&case.mechanism);
     let at = case.told(case.crank().at(t).value);
-    let message = format!(
-        "the engine has not gone on smoothly at the change point of the group ({names}) before t = {t:.6} s, {at}: \
-         velocities have jumped to the other branch"
-    );
+    let message = sentences::the_engine_has_not_gone_on_smoothly(&names, &t, &at);
     let error = Error::new(ErrorKind::Numeric, message).at_time(t).at_input(at).of_group(names);
-    error.help(Advice::SmallerStep { to: None }).or_help("let the grid end before the change point")
+    error.help(Advice::SmallerStep { to: None }).or_help(sentences::LET_THE_GRID_END_BEFORE_THE_CHANGE)
 }
 
 impl Watched {

@@ -2,8 +2,9 @@
 
 use super::newton_euler::NewtonEuler;
 use super::rapier::{Build, Precision, Rapier};
-use super::tree::Tree;
+use super::tree::SpanningTree;
 use super::{noise, run};
+use crate::sentences;
 use linkage::case::Case;
 use linkage::engine::{Engine, Extrapolated, Route, Settings, Statics};
 use linkage::error::Result;
@@ -49,7 +50,7 @@ impl Engine for Rapier {
     }
 
     fn sweeps(&self, case: &Case) -> Option<[usize; 2]> {
-        let alone = case.drives.len() == 1 && Tree::of(&case.mechanism).cut.is_empty();
+        let alone = case.drives.len() == 1 && SpanningTree::of(&case.mechanism).cut.is_empty();
         let reports = self.settings.route == Route::Native;
         let begins = case.is_free() && case.drives.iter().any(|drive| drive.initial_speed() != 0.0);
         match self.build {
@@ -94,17 +95,17 @@ impl Engine for Rapier {
         // Whether results are extrapolated is not known here.
         let Settings { resolution: _, sweeps, substeps, route: _, extrapolated: _ } = self.settings;
         let build = match self.build {
-            Build::Multibody => "spanning tree as multibody, loops closed by impulse joints",
-            Build::Impulse => "bodies of their own, every joint an impulse joint",
+            Build::Multibody => sentences::SPANNING_TREE_AS_MULTIBODY_LOOPS,
+            Build::Impulse => sentences::BODIES_OF_THEIR_OWN_EVERY_JOINT,
         };
         let drive = match self.build {
-            Build::Multibody => "ground-crank motor, force-based, damping 1e30",
-            Build::Impulse => "ground-crank motor, force-based, damping 1e30, speed tan(omega dt) / dt",
+            Build::Multibody => sentences::GROUND_CRANK_MOTOR_FORCE_BASED_DAMPING,
+            Build::Impulse => sentences::GROUND_CRANK_MOTOR_FORCE_BASED,
         };
         vec![
             ("build", build.into()),
             ("drive", drive.into()),
-            ("flywheel", "on driving links: all masses times the square of the largest length".into()),
+            ("flywheel", sentences::ON_DRIVING_LINKS_ALL_MASSES.into()),
             ("sweeps", sweeps.to_string()),
             ("substeps", substeps.to_string()),
             ("reactions", self.how().into()),
@@ -116,13 +117,11 @@ impl Rapier {
     /// Where reactions and moments come from.
     fn how(&self) -> &'static str {
         match (self.settings.route, self.build) {
-            (Route::Differences, _) => "Newton-Euler on centred second differences of the engine's positions",
-            (Route::Native, Build::Multibody) => "the engine's impulses, each joint in a world whose tree is cut there",
-            (Route::Native, Build::Impulse) => "the engine's impulses",
-            (Route::Probe, Build::Multibody) => {
-                "the engine's impulses in tiny steps from its own poses, each joint in a world whose tree is cut there"
-            }
-            (Route::Probe, Build::Impulse) => "the engine's impulses in tiny steps from its own poses",
+            (Route::Differences, _) => sentences::NEWTON_EULER_ON_CENTRED_SECOND,
+            (Route::Native, Build::Multibody) => sentences::THE_ENGINE_IMPULSES_EACH_JOINT,
+            (Route::Native, Build::Impulse) => sentences::THE_ENGINE_IMPULSES,
+            (Route::Probe, Build::Multibody) => sentences::THE_ENGINE_IMPULSES_IN_TINY_STEPS,
+            (Route::Probe, Build::Impulse) => sentences::THE_ENGINE_IMPULSES_IN_TINY,
         }
     }
 }
@@ -142,13 +141,11 @@ impl Solver for Rapier {
     fn provides(&self, channel: &Channel) -> Provision {
         match (channel.kind.stage, self.build) {
             (Stage::Positions, _) => Provision::Computed,
-            (Stage::Velocities, Build::Multibody) => Provision::Derived(
-                "read as generalised velocities, one step old, and carried along the tree; where a drive's speed changes, centred differences of positions",
-            ),
-            (Stage::Velocities, Build::Impulse) => Provision::Derived(
-                "read as the bodies' velocities, one step old; of omega what a step turns by; where a drive's speed changes, centred differences of positions",
-            ),
-            (Stage::Accelerations, _) => Provision::Derived("centred second differences of the engine's positions"),
+            (Stage::Velocities, Build::Multibody) => {
+                Provision::Derived(sentences::READ_AS_GENERALISED_VELOCITIES_ONE_STEP)
+            }
+            (Stage::Velocities, Build::Impulse) => Provision::Derived(sentences::READ_AS_THE_BODIES_VELOCITIES),
+            (Stage::Accelerations, _) => Provision::Derived(sentences::CENTRED_SECOND_DIFFERENCES_OF_THE_ENGINE),
             (Stage::Reactions | Stage::BalancingMoment, _) => Provision::Derived(self.how()),
         }
     }

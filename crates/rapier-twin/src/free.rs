@@ -1,17 +1,19 @@
 //! Motor and loads of a free motion. They are set again before every step, from the engine's own state.
+//! See docs/numerics/twins.md.
 
 use super::added::Added;
 use super::guard::Guard;
 use super::rapier::Precision;
 use super::window::Window;
+use crate::sentences;
 use linkage::case::Case;
 use linkage::drive::load::sense_of;
-use linkage::drive::{Branch, Drive, Load, Wrench};
+use linkage::drive::{Drive, Load, MotorBranch, Wrench};
 use linkage::engine::Settings;
 use linkage::engine::bodies::check_inertias;
 use linkage::error::Result;
 use linkage::math::{KeepNan, Vec2};
-use linkage::mechanism::{GROUND, LinkId, Side};
+use linkage::mechanism::{GROUND, JointSide, LinkId};
 use linkage::solver::State;
 
 /// Rotation (rad) of the fastest free link in the tiny step that makes the start velocities consistent.
@@ -39,7 +41,7 @@ pub(super) struct Acting {
     loads: Vec<Wrench>,
     /// The same with those of added masses.
     relieved: Vec<Wrench>,
-    branch: Option<Branch>,
+    branch: Option<MotorBranch>,
     /// Moment of the motor on the crank (N m) that is among the loads of the step, because Rapier's motor cannot have
     /// it.
     direct: f64,
@@ -53,7 +55,7 @@ impl Acting {
     pub(super) fn new(case: &Case, precision: Precision, worlds: &[Guard]) -> Result<Self> {
         if precision != Precision::Double {
             // Second differences of its positions are rounding and cannot take away what an added mass does.
-            check_inertias(case, "Rapier in single precision")?;
+            check_inertias(case, sentences::RAPIER_IN_SINGLE_PRECISION)?;
         }
         let links = case.mechanism.links().len();
         Ok(Acting {
@@ -77,7 +79,7 @@ impl Acting {
         }
         let motions = &self.state.motions;
         for (swept, load) in self.swept.iter_mut().zip(&case.loads) {
-            let velocity = |at: Side| motions[at.link].point_velocity(at.local);
+            let velocity = |at: JointSide| motions[at.link].point_velocity(at.local);
             let known = load.sensed_point().filter(|_| window.newest() > 0);
             *swept = known.map_or(Vec2::repeat(f64::NAN), velocity);
         }
@@ -167,7 +169,7 @@ impl Acting {
         let Some(motor) = case.crank().moving_motor() else { return [0.0; 2] };
         let sense = case.crank().sense();
         let omega = sense * self.state.motions[case.crank().link].omega;
-        let holds = |branch: &Branch| omega >= branch.speeds[0] && omega < branch.speeds[1];
+        let holds = |branch: &MotorBranch| omega >= branch.speeds[0] && omega < branch.speeds[1];
         let branch = match self.branch {
             Some(branch) if holds(&branch) => branch,
             _ => {

@@ -4,10 +4,11 @@
 //! For a given motion, reactions and driving moment are linear in masses, inertias and loads.
 //! The share of the differences alone is therefore computed and subtracted.
 //! It follows from the Newton-Euler equations with the engine's own accelerations.
+//! See docs/numerics/twins.md.
 
 use super::masses::{added, masses, masses_with_flywheels};
 use super::newton_euler::NewtonEuler;
-use super::tree::Tree;
+use super::tree::SpanningTree;
 use linkage::case::Case;
 use linkage::error::Result;
 use linkage::solver::State;
@@ -24,7 +25,7 @@ impl Ghost {
     /// `None` if there is neither.
     pub(super) fn of(case: &Case, unloaded: bool) -> Option<Self> {
         // A flywheel adds a moment only while it is accelerated.
-        let tree = Tree::none(&case.mechanism);
+        let tree = SpanningTree::none(&case.mechanism);
         let masses = if case.is_steady() { masses(case, &tree) } else { masses_with_flywheels(case, &tree) };
         let links = case.mechanism.links().iter().zip(masses);
         let mut extra: Vec<[f64; 2]> =

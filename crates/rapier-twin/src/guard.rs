@@ -1,11 +1,13 @@
 //! A world under supervision. Any of these becomes an error with its time, crank angle and place:
 //! a loop that opens, a link that turns too far in one step, NaN or infinity, or a panic inside the engine.
+//! See docs/numerics/twins.md.
 
+use crate::sentences;
 use std::fmt;
 
 use super::masses::{Loading, masses};
 use super::rapier::Rapier;
-use super::tree::Tree;
+use super::tree::SpanningTree;
 use super::world::{LinkFrame, World, opening};
 use linkage::case::Case;
 use linkage::drive::{Drive, DriveMotion, Wrench};
@@ -13,10 +15,10 @@ use linkage::engine::Settings;
 use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::input::InputValue;
 use linkage::math::{KeepNan, Vec2};
-use linkage::mechanism::{LinkId, LinkPose, Side};
+use linkage::mechanism::{JointSide, LinkId, LinkPose};
 use linkage::quiet::guarded;
 use linkage::solver::State;
-use linkage::work::{Count, Tally};
+use linkage::work::{Count, WorkTally};
 
 /// Largest opening of a loop before the run is stopped, as a share of the mechanism's size.
 const LARGEST_GAP: f64 = 0.05;
@@ -43,7 +45,7 @@ pub(super) struct Guard<'a> {
     step: f64,
     /// Sweeps in a step, its substeps together.
     sweeps: usize,
-    tally: Tally,
+    tally: WorkTally,
     /// The largest kinetic energy so far (J).
     /// Its lower limit is the energy of all links at one mechanism size from an axis, turning with the fastest drive.
     energy: f64,
@@ -54,7 +56,7 @@ pub(super) struct Guard<'a> {
 impl<'a> Guard<'a> {
     /// Supervises a world in its start pose with the settings that it was built with.
     pub(super) fn new(case: &'a Case, world: Box<dyn World>, settings: &Settings) -> Self {
-        let mut tally = Tally::default();
+        let mut tally = WorkTally::default();
         tally.one(Count::Worlds);
         let size = case.mechanism.size();
         let masses = masses(case, world.tree());
@@ -178,8 +180,7 @@ impl<'a> Guard<'a> {
             // Written so that NaN also stops the run.
             if !(turn <= LARGEST_TURN) {
                 let (name, degrees, place) = (&body.name, turn.to_degrees(), place(before));
-                let message =
-                    format!("the engine's link \"{name}\" has turned by {degrees:.1} deg in one step, {place}");
+                let message = sentences::the_engine_link_has_turned(&name, &degrees, &place);
                 return Err(place.failed(message).of_link(name).beyond(turn, LARGEST_TURN, "rad"));
             }
             let [mass, inertia] = masses[link];
@@ -193,7 +194,7 @@ impl<'a> Guard<'a> {
         let first = std::mem::take(&mut self.first) && energy.is_finite();
         if !first && !(energy <= LARGEST_GROWTH * self.energy) {
             let (growth, place) = (energy / self.energy, place(before));
-            let message = format!("the engine's kinetic energy has grown {growth:.1e} times in one step, {place}");
+            let message = sentences::the_engine_kinetic_energy_has_grown(&format_args!("{growth:.1e}"), &place);
             return Err(place.failed(message).beyond(growth, LARGEST_GROWTH, ""));
         }
         self.energy = self.energy.larger(energy);
@@ -201,7 +202,7 @@ impl<'a> Guard<'a> {
             let gap = opening(frames, &joints[joint], *size);
             if !(gap <= self.largest_gap) {
                 let (name, place) = (&joints[joint].name, place(before));
-                let message = format!("the engine's loop has opened by {gap:.3e} m at joint \"{name}\", {place}");
+                let message = sentences::the_engine_loop_has_opened(&format_args!("{gap:.3e}"), &name, &place);
                 return Err(place.failed(message).of_joint(name).beyond(gap, self.largest_gap, "m"));
             }
         }
@@ -217,22 +218,19 @@ impl<'a> Guard<'a> {
     pub(super) fn check_start(&self) -> Result<()> {
         let case = self.case;
         for ((id, link), pose) in case.mechanism.links().entries().zip(&case.start.0).skip(1) {
-            let off = |local| (self.world.point(Side { link: id, local }) - pose.point(local)).norm();
+            let off = |local| (self.world.point(JointSide { link: id, local }) - pose.point(local)).norm();
             let far = link.points.iter().map(|point| off(point.local)).fold(off(link.mass_centre), f64::larger);
             // Written so that NaN also stops the run.
             if !(far <= self.largest_gap) {
                 let at = case.told(case.crank().start);
-                let message = format!(
-                    "the engine ran up from a few steps before the grid and came back to the start at {at} with link \"{}\" {far:.3e} m off: it has passed a dead point on the way",
-                    link.name
-                );
+                let message = sentences::the_engine_ran_up_from_a_few(&at, &link.name, &format_args!("{far:.3e}"));
                 return Err(Error::new(ErrorKind::Numeric, message)
                     .at_time(0.0)
                     .at_input(at)
                     .of_link(&link.name)
                     .beyond(far, self.largest_gap, "m")
                     .help(Advice::SmallerStep { to: None })
-                    .or_help("begin the grid farther from the dead point"));
+                    .or_help(sentences::BEGIN_THE_GRID_FARTHER_FROM_THE_DEAD));
             }
         }
         Ok(())
@@ -246,7 +244,7 @@ impl<'a> Guard<'a> {
 pub(super) fn guards<'a>(
     engine: &Rapier,
     case: &'a Case,
-    trees: Vec<Tree>,
+    trees: Vec<SpanningTree>,
     loading: Loading,
 ) -> Result<Vec<Guard<'a>>> {
     let world = |tree| Ok(Guard::new(case, engine.world_for(case, tree, loading)?, &engine.settings));
@@ -274,7 +272,7 @@ impl Moment {
     }
 
     fn failed(self, message: String) -> Error {
-        self.error(message).or_help("check that the pose can be assembled there")
+        self.error(message).or_help(sentences::CHECK_THAT_THE_POSE_CAN_BE_ASSEMBLED)
     }
 }
 
@@ -287,7 +285,7 @@ impl fmt::Display for Moment {
 fn panicked(place: Moment, cause: &(dyn std::any::Any + Send)) -> Error {
     let words = cause.downcast_ref::<&str>().copied().or_else(|| cause.downcast_ref::<String>().map(String::as_str));
     let words = words.unwrap_or("no message");
-    place.error(format!("the engine has panicked (\"{words}\"), {place}")).or_help(Advice::OtherEngine)
+    place.error(sentences::the_engine_has_panicked(&words, &place)).or_help(Advice::OtherEngine)
 }
 
 #[cfg(test)]
@@ -310,7 +308,7 @@ mod tests {
     }
 
     impl World for Broken {
-        fn tree(&self) -> &Tree {
+        fn tree(&self) -> &SpanningTree {
             self.world.tree()
         }
         fn step(&mut self) {
@@ -378,7 +376,11 @@ mod tests {
     fn step_after(healthy: usize, build: Build, wrong: fn(&mut dyn World), off: (Vec2, f64)) -> Result<()> {
         let case = turning(four_bar());
         let engine = Rapier::new(build, Precision::Double, 1e-3);
-        let tree = if build == Build::Impulse { Tree::none(&case.mechanism) } else { Tree::of(&case.mechanism) };
+        let tree = if build == Build::Impulse {
+            SpanningTree::none(&case.mechanism)
+        } else {
+            SpanningTree::of(&case.mechanism)
+        };
         let world = engine.world(&case, tree, false).unwrap();
         let frames = world.frames().to_vec();
         let mut guard = Guard::new(&case, Box::new(Broken { world, wrong, off, healthy, frames }), &engine.settings);

@@ -1,8 +1,6 @@
-//! Rapier as an engine, in two builds and two precisions.
+#![doc = include_str!("../README.md")]
 //!
-//! A world takes only these from the case: geometry, masses, drives and the pose at t = 0, nothing later.
-//! It first drives itself backwards to shortly before the first output time, and then forwards.
-//! The transient of the first steps has therefore decayed before anything is read.
+//! See docs/numerics/twins.md.
 
 mod added;
 mod branch;
@@ -20,6 +18,7 @@ mod rapier;
 mod reactions;
 mod ring;
 mod run;
+mod sentences;
 #[cfg(feature = "f32")]
 mod single;
 mod steer;

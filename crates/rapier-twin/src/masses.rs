@@ -1,6 +1,6 @@
 //! Masses of links in Rapier: their own, and what Rapier needs beyond them.
 
-use super::tree::Tree;
+use super::tree::SpanningTree;
 use linkage::case::Case;
 use linkage::engine::bodies::stand_in;
 use linkage::math::KeepNan;
@@ -33,7 +33,7 @@ const FLYWHEEL: f64 = 1.0;
 /// What they add to the reactions is subtracted again ([`Ghost`](super::ghost::Ghost)).
 /// In a free motion the crank also carries rotor and gearbox. Stand-ins depend on the world's tree there, and loads
 /// take away what they do ([`Added`](super::added::Added)).
-pub(super) fn masses(case: &Case, tree: &Tree) -> Vec<[f64; 2]> {
+pub(super) fn masses(case: &Case, tree: &SpanningTree) -> Vec<[f64; 2]> {
     let mut masses = bare_masses(case, tree);
     if case.is_free() {
         return masses;
@@ -48,7 +48,7 @@ pub(super) fn masses(case: &Case, tree: &Tree) -> Vec<[f64; 2]> {
 }
 
 /// The same with nothing added to links that have both.
-fn bare_masses(case: &Case, tree: &Tree) -> Vec<[f64; 2]> {
+fn bare_masses(case: &Case, tree: &SpanningTree) -> Vec<[f64; 2]> {
     let of = |(index, link): (LinkId, &Link)| {
         let [mass, inertia] = if case.is_free() { added(case, index, tree) } else { stand_in(case, index) };
         [link.mass + mass, link.inertia + inertia]
@@ -81,7 +81,7 @@ pub(super) enum Loading {
 }
 
 /// Masses of a world.
-pub(super) fn world_masses(case: &Case, tree: &Tree, loading: Loading) -> Vec<[f64; 2]> {
+pub(super) fn world_masses(case: &Case, tree: &SpanningTree, loading: Loading) -> Vec<[f64; 2]> {
     match loading {
         Loading::Moving if !case.is_free() => with_flywheels(case, even_masses(case)),
         Loading::Moving | Loading::Read => masses_with_flywheels(case, tree),
@@ -90,7 +90,7 @@ pub(super) fn world_masses(case: &Case, tree: &Tree, loading: Loading) -> Vec<[f
 }
 
 /// The links' own masses, with flywheels on the driving links whose speed is prescribed.
-pub(super) fn masses_with_flywheels(case: &Case, tree: &Tree) -> Vec<[f64; 2]> {
+pub(super) fn masses_with_flywheels(case: &Case, tree: &SpanningTree) -> Vec<[f64; 2]> {
     with_flywheels(case, masses(case, tree))
 }
 
@@ -108,7 +108,7 @@ fn with_flywheels(case: &Case, mut masses: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
 
 /// Mass (kg) and moment of inertia (kg m^2) that a link of a free motion gets in addition; 0 where it needs none.
 /// What it needs depends on whether it is in the tree of the world.
-pub(super) fn added(case: &Case, link: LinkId, tree: &Tree) -> [f64; 2] {
+pub(super) fn added(case: &Case, link: LinkId, tree: &SpanningTree) -> [f64; 2] {
     if link == GROUND {
         return [0.0; 2];
     }

@@ -19,6 +19,7 @@
 mod seam;
 mod stages;
 
+use crate::sentences;
 use std::ops::Range;
 
 use linkage::case::Case;
@@ -26,9 +27,9 @@ use linkage::drive::Wrench;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::Vec2;
 use linkage::math::dense::solve_pair;
-use linkage::mechanism::{JointId, Tree};
+use linkage::mechanism::{JointId, SpanningTree};
 use linkage::solver::State;
-use linkage::work::{Count, Tally};
+use linkage::work::{Count, WorkTally};
 use seam::{PAIR, Seam, Stand, Term};
 use stages::{Limb, Row, Stage, stages};
 
@@ -53,7 +54,7 @@ pub struct NewtonEuler {
     loads: Vec<Wrench>,
     /// Share of the loads that is included.
     load_share: f64,
-    tally: Tally,
+    tally: WorkTally,
 }
 
 impl NewtonEuler {
@@ -68,12 +69,12 @@ impl NewtonEuler {
     #[must_use]
     pub fn of(case: &Case, masses: Vec<[f64; 2]>, load_share: f64) -> Self {
         let driven: Vec<JointId> = case.drives.iter().map(|drive| drive.joint).collect();
-        NewtonEuler::along(case, &Tree::with(&case.mechanism, &driven), masses, load_share)
+        NewtonEuler::along(case, &SpanningTree::with(&case.mechanism, &driven), masses, load_share)
     }
 
     /// The same along any tree that contains all links and all driven joints.
     #[must_use]
-    pub fn along(case: &Case, tree: &Tree, masses: Vec<[f64; 2]>, load_share: f64) -> Self {
+    pub fn along(case: &Case, tree: &SpanningTree, masses: Vec<[f64; 2]>, load_share: f64) -> Self {
         let driven: Vec<JointId> = case.drives.iter().map(|drive| drive.joint).collect();
         let mut numbers = vec![None; masses.len()];
         for (number, branch) in tree.branches.iter().enumerate() {
@@ -123,7 +124,7 @@ impl NewtonEuler {
             cut,
             masses,
             load_share,
-            tally: Tally::default(),
+            tally: WorkTally::default(),
         }
     }
 
@@ -136,12 +137,9 @@ impl NewtonEuler {
         self.begin(case, state);
         self.pass_on();
         if !self.find() {
-            return Err(Error::new(
-                ErrorKind::Numeric,
-                format!("the reactions are not determined at t = {t:.6} s (dead point)"),
-            )
-            .at_time(t)
-            .help("shorten the grid to the crank angles before the dead point"));
+            return Err(Error::new(ErrorKind::Numeric, sentences::the_reactions_are_not_determined(&t))
+                .at_time(t)
+                .help(sentences::SHORTEN_THE_GRID_TO_THE_CRANK));
         }
         self.read(state);
         Ok(())

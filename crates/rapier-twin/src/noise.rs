@@ -7,7 +7,7 @@ use linkage::case::Case;
 use linkage::engine::Route;
 use linkage::math::KeepNan;
 use linkage::math::interpolate::lagrange_weights;
-use linkage::trajectory::{ChannelKind, Stage, Subject, Unit};
+use linkage::trajectory::{ChannelKind, ChannelSubject, Stage, Unit};
 
 /// Rounding of a speed in the solver's sweeps, in units in the last place.
 /// 12 were measured on the crank-rocker, 2 on `ov7_base`.
@@ -86,8 +86,8 @@ pub(super) fn bound(case: &Case, engine: &Rapier, channel: &ChannelKind) -> f64 
 /// Lever arm (m) of the forces that make up a moment.
 /// On the driving link they act at its far end, and in a prismatic joint, also on that link, anywhere in the mechanism.
 /// On the frame they are taken about the origin.
-fn lever(case: &Case, reach: f64, subject: Subject) -> f64 {
-    match (subject.is_drive(), subject == Subject::Frame) {
+fn lever(case: &Case, reach: f64, subject: ChannelSubject) -> f64 {
+    match (subject.is_drive(), subject == ChannelSubject::Frame) {
         (true, _) => case.drive_arm(),
         (false, true) => reach,
         (false, false) => case.mechanism.size(),

@@ -18,7 +18,7 @@ use linkage::error::Result;
 use linkage::math::Vec2;
 use linkage::mechanism::{JointId, LinkPose, PerJoint};
 use linkage::solver::State;
-use linkage::work::{Count, Tally};
+use linkage::work::{Count, WorkTally};
 
 /// The worlds that are probed.
 pub(super) struct Probe<'a> {
@@ -29,7 +29,7 @@ pub(super) struct Probe<'a> {
     ghost: Option<Ghost>,
     /// Poses before the tiny step and after it.
     poses: [Vec<LinkPose>; 2],
-    tally: Tally,
+    tally: WorkTally,
 }
 
 impl<'a> Probe<'a> {
@@ -38,7 +38,7 @@ impl<'a> Probe<'a> {
         let cuts: Vec<&[JointId]> = worlds.iter().map(|guard| guard.world().tree().cut.as_slice()).collect();
         let reporters = reporters(case, &cuts);
         let speed = case.drives.top_speed();
-        let (poses, tally) = ([Vec::new(), Vec::new()], Tally::default());
+        let (poses, tally) = ([Vec::new(), Vec::new()], WorkTally::default());
         Probe { reporters, step: turn / speed, ghost: Ghost::of(case, false), worlds, poses, tally }
     }
 

@@ -1,7 +1,7 @@
 //! The engine: how a mechanism is built, in which precision, and settings.
 
 use super::masses::Loading;
-use super::tree::Tree;
+use super::tree::SpanningTree;
 use super::world::World;
 use linkage::case::Case;
 use linkage::engine::{Route, Settings};
@@ -93,12 +93,12 @@ impl Rapier {
     ///
     /// # Errors
     /// [`ErrorKind::Unsupported`](linkage::ErrorKind::Unsupported) if Rapier refuses a joint.
-    pub fn world(&self, case: &Case, tree: Tree, read: bool) -> Result<Box<dyn World>> {
+    pub fn world(&self, case: &Case, tree: SpanningTree, read: bool) -> Result<Box<dyn World>> {
         self.world_for(case, tree, if read { Loading::Bare } else { Loading::Moving })
     }
 
     /// The same for a run.
-    pub(super) fn world_for(&self, case: &Case, tree: Tree, loading: Loading) -> Result<Box<dyn World>> {
+    pub(super) fn world_for(&self, case: &Case, tree: SpanningTree, loading: Loading) -> Result<Box<dyn World>> {
         Ok(match self.precision {
             Precision::Double => Box::new(crate::double::twins::Twin::new(case, tree, &self.settings, loading)?),
             #[cfg(feature = "f32")]

@@ -6,8 +6,9 @@ use super::native::Native;
 use super::newton_euler::NewtonEuler;
 use super::probe::{Probe, probe_turn};
 use super::rapier::{Build, Rapier};
-use super::tree::Tree;
+use super::tree::SpanningTree;
 use super::window::Window;
+use crate::sentences;
 use linkage::case::Case;
 use linkage::engine::{Route, Settings};
 use linkage::error::{Advice, Error, ErrorKind, Result};
@@ -32,14 +33,14 @@ impl<'a> Reactions<'a> {
     pub(super) fn of(engine: &Rapier, case: &'a Case, from: i64) -> Result<(Self, Vec<Guard<'a>>)> {
         let mechanism = &case.mechanism;
         let moving = || match engine.build {
-            Build::Multibody => guards(engine, case, vec![Tree::of(mechanism)], Loading::Moving),
-            Build::Impulse => guards(engine, case, vec![Tree::none(mechanism)], Loading::Moving),
+            Build::Multibody => guards(engine, case, vec![SpanningTree::of(mechanism)], Loading::Moving),
+            Build::Impulse => guards(engine, case, vec![SpanningTree::none(mechanism)], Loading::Moving),
         };
         let reporting = |engine: &Rapier| match engine.build {
             Build::Multibody => {
-                guards(engine, case, Tree::covering(mechanism, &case.wanted_reactions()), Loading::Read)
+                guards(engine, case, SpanningTree::covering(mechanism, &case.wanted_reactions()), Loading::Read)
             }
-            Build::Impulse => guards(engine, case, vec![Tree::none(mechanism)], Loading::Read),
+            Build::Impulse => guards(engine, case, vec![SpanningTree::none(mechanism)], Loading::Read),
         };
         if case.wanted.deepest() < Stage::Reactions {
             return Ok((Reactions::Unwanted, moving()?));
@@ -51,7 +52,7 @@ impl<'a> Reactions<'a> {
                 Ok((Reactions::Native(Native::new(case, &worlds, &engine.settings, from)), worlds))
             }
             Route::Probe if case.is_free() => {
-                let message = "the motion is free, but a probe needs prescribed speeds";
+                let message = sentences::THE_MOTION_IS_FREE_BUT_A_PROBE;
                 let help = Advice::OtherRoute { routes: &["differences", "native"] };
                 Err(Error::new(ErrorKind::Unsupported, message).help(help))
             }

@@ -6,9 +6,10 @@ use super::guard::Guard;
 use super::rapier::Rapier;
 use super::reactions::Reactions;
 use super::window::Window;
+use crate::sentences;
 use linkage::case::Case;
 use linkage::engine::Settings;
-use linkage::error::{Advice, Error, ErrorKind, Reached, Result};
+use linkage::error::{Advice, Error, ErrorKind, Result, RunReached};
 use linkage::math::KeepNan;
 use linkage::solver::{Progress, State, Visit, check_instants};
 
@@ -63,20 +64,23 @@ fn check(settings: &Settings, steps: f64) -> Result<()> {
     let wrong = |message: String, help: &str| Err(Error::new(ErrorKind::Input, message).help(help));
     let Settings { resolution: step, sweeps, substeps, route: _, extrapolated: _ } = *settings;
     if !(step > 0.0 && step.is_finite()) {
-        return wrong(format!("the engine's time step is {step} s"), "give a time step greater than zero");
+        return wrong(sentences::the_engine_time_step_is(&step), sentences::GIVE_A_TIME_STEP_GREATER);
     }
     if sweeps == 0 || substeps == 0 {
         return wrong(
-            format!("the engine has {sweeps} sweeps and {substeps} substeps a step"),
-            "give at least one of each",
+            sentences::the_engine_has_sweeps_and_substeps(&sweeps, &substeps),
+            sentences::GIVE_AT_LEAST_ONE_OF_EACH,
         );
     }
     if !(steps <= MAX_STEPS) {
-        let message =
-            format!("a time step of {step:e} s needs {steps:.3e} steps for this grid, the limit is {MAX_STEPS:e}");
+        let message = sentences::a_time_step_of_needs_steps(
+            &format_args!("{step:e}"),
+            &format_args!("{steps:.3e}"),
+            &format_args!("{:e}", MAX_STEPS),
+        );
         return Err(Error::new(ErrorKind::Input, message)
             .help(Advice::LargerStep { to: None })
-            .or_help("give a shorter grid"));
+            .or_help(sentences::GIVE_A_SHORTER_GRID));
     }
     Ok(())
 }
@@ -184,8 +188,8 @@ impl<'a> Run<'a> {
 fn reached(error: Error, case: &Case, visited: Option<usize>) -> Error {
     let (Some(row), ErrorKind::Numeric) = (visited, error.kind()) else { return error };
     let until = match case.is_free() {
-        true => Reached::Time(case.grid.times[row]),
-        false => Reached::Input(case.told(case.grid.inputs[row])),
+        true => RunReached::Time(case.grid.times[row]),
+        false => RunReached::Input(case.told(case.grid.inputs[row])),
     };
     error.after(until)
 }

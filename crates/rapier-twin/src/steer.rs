@@ -8,12 +8,12 @@
 
 use linkage::math::Vec2;
 use linkage::mechanism::{GROUND, Joint, Mechanism};
-use linkage::mechanism::{LinkId, spanning_tree::Tree};
+use linkage::mechanism::{LinkId, spanning_tree::SpanningTree};
 
 /// The links of a cut pin, the more mobile one first, and the direction of its first row in that link's frame.
 /// `masses` are mass (kg) and moment of inertia (kg m^2) of every link. `None` where there is nothing to choose.
 pub(super) fn steered(
-    tree: &Tree,
+    tree: &SpanningTree,
     mechanism: &Mechanism,
     masses: &[[f64; 2]],
     joint: &Joint,

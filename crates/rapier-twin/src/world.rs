@@ -1,11 +1,12 @@
 //! A mechanism as a Rapier world, independent of build and precision.
+//! See docs/numerics/twins.md.
 
 use std::f64::consts::TAU;
 
-use super::tree::Tree;
+use super::tree::SpanningTree;
 use linkage::drive::Wrench;
 use linkage::math::{KeepNan, Vec2, cross, rotated};
-use linkage::mechanism::{Joint, JointId, LinkId, LinkPose, Side};
+use linkage::mechanism::{Joint, JointId, JointSide, LinkId, LinkPose};
 
 /// What is known of a link's angle (rad, counter-clockwise positive).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -108,7 +109,7 @@ fn own_angle(direction: Vec2) -> f64 {
 /// All numbers are f64, SI, world axes.
 pub trait World {
     /// The spanning tree; without branches every link is a separate body.
-    fn tree(&self) -> &Tree;
+    fn tree(&self) -> &SpanningTree;
 
     /// One time step of Rapier, after which frames can be read. It may fail to close loops, and may panic.
     fn step(&mut self);
@@ -151,7 +152,7 @@ pub trait World {
     }
 
     /// World position of a point of a link (m).
-    fn point(&self, side: Side) -> Vec2 {
+    fn point(&self, side: JointSide) -> Vec2 {
         self.frames()[side.link].point(side.local)
     }
 

@@ -1,5 +1,6 @@
 //! Where a recording goes: in place of an older one of the same run, else beside it.
 
+use crate::sentences;
 use std::collections::BTreeMap;
 use std::fs;
 use std::io;
@@ -22,7 +23,7 @@ const ENGINE: &str = "engine";
 
 /// Where a recording goes.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Place {
+pub struct RecordingPlace {
     /// Its file.
     pub path: PathBuf,
     /// How the recording differs that keeps the usual name; `None` if it has that name itself.
@@ -34,7 +35,7 @@ pub struct Place {
 ///
 /// # Errors
 /// [`ErrorKind::Io`](linkage::ErrorKind::Io) if there are a thousand recordings of other runs.
-pub fn place(directory: &Path, name: &str, text: &str, metadata: &BTreeMap<String, String>) -> Result<Place> {
+pub fn place(directory: &Path, name: &str, text: &str, metadata: &BTreeMap<String, String>) -> Result<RecordingPlace> {
     let mut other = None;
     for number in 1..=MOST {
         let path = match number {
@@ -42,12 +43,12 @@ pub fn place(directory: &Path, name: &str, text: &str, metadata: &BTreeMap<Strin
             _ => directory.join(format!("{name}-{number}.mcap")),
         };
         match difference(&path, text, metadata) {
-            None => return Ok(Place { path, other }),
+            None => return Ok(RecordingPlace { path, other }),
             Some(found) => other = other.or(Some(found)),
         }
     }
-    let message = format!("{} holds {MOST} recordings of other runs of {name}", directory.display());
-    Err(Error::new(ErrorKind::Io, message).help("remove those that are not needed any more, or record elsewhere"))
+    let message = sentences::holds_recordings_of_other_runs(&directory.display(), &MOST, &name);
+    Err(Error::new(ErrorKind::Io, message).help(sentences::REMOVE_THOSE_THAT_ARE_NOT_NEEDED))
 }
 
 /// How the recording at `path` differs from that of a run; `None` if it does not, or if there is none.
@@ -55,12 +56,12 @@ fn difference(path: &Path, text: &str, metadata: &BTreeMap<String, String>) -> O
     match fs::symlink_metadata(path) {
         Err(error) if error.kind() == io::ErrorKind::NotFound => return None,
         Ok(found) if found.is_file() => {}
-        Ok(found) if found.is_symlink() => return Some("it is a symbolic link".into()),
-        Ok(_) | Err(_) => return Some("it is no file".into()),
+        Ok(found) if found.is_symlink() => return Some(sentences::IT_IS_A_SYMBOLIC_LINK.into()),
+        Ok(_) | Err(_) => return Some(sentences::IT_IS_NO_FILE.into()),
     }
-    let Ok(bytes) = fs::read(path) else { return Some("it cannot be read".into()) };
+    let Ok(bytes) = fs::read(path) else { return Some(sentences::IT_CANNOT_BE_READ.into()) };
     let found = described(&bytes).filter(|_| is_ours(&bytes));
-    let Some((old_text, old)) = found else { return Some("it is no recording of a run".into()) };
+    let Some((old_text, old)) = found else { return Some(sentences::IT_IS_NO_RECORDING_OF_A_RUN.into()) };
     let changed = |start: &str| {
         let mut keys =
             old.keys().chain(metadata.keys()).filter(|key| key.starts_with(start) && !key.ends_with("_verdict"));
@@ -68,11 +69,11 @@ fn difference(path: &Path, text: &str, metadata: &BTreeMap<String, String>) -> O
     };
     let key = match ASKED.into_iter().find_map(changed) {
         Some(key) => key,
-        None if old_text != text.as_bytes() => return Some("its scenario has another text".into()),
+        None if old_text != text.as_bytes() => return Some(sentences::ITS_SCENARIO_HAS_ANOTHER_TEXT.into()),
         None => changed(ENGINE)?,
     };
     let told = |all: &BTreeMap<String, String>| all.get(key).map_or("none".into(), |value| format!("\"{value}\""));
-    Some(format!("its {key} is {}, not {}", told(&old), told(metadata)))
+    Some(sentences::its_is_not(&key, &told(&old), &told(metadata)))
 }
 
 /// Whether a file is a recording that this program wrote: its header names the library.

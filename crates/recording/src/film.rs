@@ -1,11 +1,12 @@
 //! A recording read back for viewers that know none of its messages: as a moving picture, or its numbers alone.
 
 use super::extent::{corners, placed};
-use super::recording::Side;
+use super::recording::RecordedSide;
 use super::shapes::rgba;
 use super::table::topic_name;
 use super::view::{Plot, View, plots, turn};
 use super::{beside, messages, read, schema};
+use crate::sentences;
 use crate::viewers::{FrameTransforms, LineType, Pose, SceneEntity, SceneUpdate, Vector3};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::unit;
@@ -27,7 +28,7 @@ pub struct Film {
     /// What to show first.
     pub view: View,
     /// The drawing of every link, in its frame.
-    pub parts: Vec<Part>,
+    pub parts: Vec<DrawnLink>,
     /// Times of the poses.
     pub times: Vec<f64>,
     /// For every frame its place (m) and angle (rad) at these times.
@@ -40,7 +41,7 @@ pub struct Film {
 
 /// The drawing of a link, in the frame of this name.
 #[derive(Clone, Debug, Default)]
-pub struct Part {
+pub struct DrawnLink {
     /// Its frame: of a link, or "world".
     pub frame: String,
     /// Lines: corners (m), thickness (m), colour.
@@ -82,8 +83,8 @@ pub fn film(path: &Path) -> Result<Film> {
         Ok(())
     })?;
     let Some(links) = found.links.filter(|_| !found.frames.is_empty()) else {
-        let message = format!("the recording {} has no picture: no positions were recorded", path.display());
-        return Err(Error::new(ErrorKind::Input, message).help("record the scenario again with its positions"));
+        let message = sentences::the_recording_has_no_picture(&path.display());
+        return Err(Error::new(ErrorKind::Input, message).help(sentences::RECORD_THE_SCENARIO_AGAIN_WITH_ITS_POSITIONS));
     };
     let plots = plotted(&sides, &found.topics);
     let lasts = found.frames.last().map_or(0.0, |(last, _)| *last as f64 * 1e-9);
@@ -162,7 +163,7 @@ fn values(bytes: &[u8], path: &Path, view: &View, time: &dyn Fn(u64) -> f64) -> 
     Ok(values)
 }
 
-fn part(entity: &SceneEntity) -> Part {
+fn part(entity: &SceneEntity) -> DrawnLink {
     let height = |pose: Option<Pose>| pose.and_then(|pose| pose.position).map_or(0.0, |at| at.z);
     let raised = |points: &[Vector3], z: f64| points.iter().map(|at| [at.x, at.y, at.z + z]).collect::<Vec<_>>();
     let at = |pose: Option<Pose>| {
@@ -181,7 +182,7 @@ fn part(entity: &SceneEntity) -> Part {
     let disc =
         |(pose, size, color): (_, Option<Vector3>, _)| (at(pose), size.map_or(0.0, |size| size.x / 2.0), rgba(color));
     let areas = entity.triangles.iter().map(|own| (raised(&own.points, height(own.pose)), rgba(own.color)));
-    Part {
+    DrawnLink {
         frame: entity.frame_id.clone(),
         lines: lines.collect(),
         discs: round.chain(balls).map(disc).collect(),
@@ -220,7 +221,7 @@ pub fn numbers(path: &Path) -> Result<Numbers> {
 
 /// Plots of the sides, and of those errors that have a topic.
 fn plotted(sides: &[(String, Trajectory)], topics: &BTreeSet<String>) -> Vec<Plot> {
-    let named: Vec<Side> = sides.iter().map(|(name, trajectory)| Side { name, trajectory }).collect();
+    let named: Vec<RecordedSide> = sides.iter().map(|(name, trajectory)| RecordedSide { name, trajectory }).collect();
     let errors: Vec<Channel> = (named.first().iter().flat_map(|side| side.trajectory.channels()))
         .filter(|channel| topics.contains(&topic_name("error", channel.kind.subject, &channel.of)))
         .cloned()

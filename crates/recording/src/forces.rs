@@ -1,6 +1,6 @@
 //! Reactions as arrows: the force of each joint's first link on its second, at the joint.
 
-use super::scene::{Placed, Scene, column};
+use super::scene::{PlacedSide, ViewerScene, column};
 use super::shapes::{colour, pose, short, stamp};
 use crate::viewers::{ArrowPrimitive, SceneEntity, SceneUpdate};
 use linkage::math::{KeepNan, Vec2};
@@ -13,17 +13,17 @@ const SHORTEST: f64 = 0.01;
 
 /// The arrows of all sides that have reactions.
 pub struct Forces<'a> {
-    scene: &'a Scene<'a>,
+    scene: &'a ViewerScene<'a>,
     /// Sides with the components of each joint's force.
-    sides: Vec<(&'a Placed<'a>, Vec<[&'a [f64]; 2]>)>,
+    sides: Vec<(&'a PlacedSide<'a>, Vec<[&'a [f64]; 2]>)>,
     /// Length of an arrow per newton (m/N).
     pub scale: f64,
 }
 
 impl<'a> Forces<'a> {
     /// The arrows of a scene; `None` if no side has reactions.
-    pub fn new(scene: &'a Scene<'a>) -> Option<Self> {
-        let of_side = |side: &'a Placed<'a>| {
+    pub fn new(scene: &'a ViewerScene<'a>) -> Option<Self> {
+        let of_side = |side: &'a PlacedSide<'a>| {
             let column = |joint: &Joint, suffix| column(side.trajectory, &format!("joint.{}.{suffix}", joint.name));
             let columns = |joint| Some([column(joint, "fx_N")?, column(joint, "fy_N")?]);
             Some((side, scene.mechanism.joints().iter().map(columns).collect::<Option<Vec<_>>>()?))
@@ -57,7 +57,7 @@ impl<'a> Forces<'a> {
         SceneUpdate { entities }
     }
 
-    fn arrow(&self, side: &Placed, at: Vec2, force: Vec2) -> ArrowPrimitive {
+    fn arrow(&self, side: &PlacedSide, at: Vec2, force: Vec2) -> ArrowPrimitive {
         let size = self.scene.size;
         let length = (self.scale * force.norm()).larger(SHORTEST * size);
         let head = (0.3 * length).smaller(0.06 * size);

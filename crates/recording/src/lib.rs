@@ -39,6 +39,7 @@ mod recording;
 mod reel;
 mod scene;
 mod schema;
+mod sentences;
 mod shapes;
 mod sink;
 mod table;
@@ -47,13 +48,13 @@ mod view;
 mod viewers;
 mod write;
 
-pub use beside::{Place, place};
-pub use film::{Film, Numbers, Part, film, numbers};
+pub use beside::{RecordingPlace, place};
+pub use film::{DrawnLink, Film, Numbers, film, numbers};
 pub use read::{load, read_bytes};
-pub use recording::{Level, LogEntry, Recording, Show, Side};
+pub use recording::{Level, LogEntry, RecordedSide, Recording, Show};
 #[cfg(feature = "live")]
-pub use reel::{Reel, Told, reel};
+pub use reel::{Reel, ReelMessage, reel};
 #[cfg(feature = "live")]
-pub use sink::Kind;
+pub use sink::MessageKind;
 pub use view::{Line, Plot, View, view};
 pub use write::write;

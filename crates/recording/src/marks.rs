@@ -4,7 +4,7 @@ use super::shapes::{colour, extent, pose, vector};
 use crate::viewers::{
     Color, CylinderPrimitive, LinePrimitive, LineType, SceneEntity, TextPrimitive, TriangleListPrimitive,
 };
-use drawing::{Fill, Mark, Role, Shape};
+use drawing::{Fill, Mark, MarkRole, MarkShape};
 use linkage::math::Vec2;
 
 /// Opacity of areas: what lies beneath shows through.
@@ -30,12 +30,12 @@ pub struct Brush {
 impl Brush {
     /// Adds a mark to an entity. Mass centres are left out: in a moving picture they look like joints.
     pub fn put(&self, mark: &Mark, entity: &mut SceneEntity) {
-        if matches!(mark.role, Role::MassCentre | Role::MassQuarter) {
+        if matches!(mark.role, MarkRole::MassCentre | MarkRole::MassQuarter) {
             return;
         }
         let look = mark.role.look();
         let z = self.z + self.step * f64::from(look.layer as u8);
-        if let (Role::Pin, &Shape::Circle { centre, radius }) = (mark.role, &mark.shape) {
+        if let (MarkRole::Pin, &MarkShape::Circle { centre, radius }) = (mark.role, &mark.shape) {
             let radius = radius * self.broad.sqrt();
             let disc = |z, radius: f64, rgba| CylinderPrimitive {
                 pose: pose(centre, z, 0.0),

@@ -4,6 +4,7 @@
 //! memory than there is, or index beyond a record. Here a record is at most as long as the file, or [`SMALL`], and no
 //! other sorts of records are looked into than messages need.
 
+use crate::sentences;
 use std::borrow::Cow;
 use std::path::Path;
 
@@ -28,8 +29,8 @@ pub(super) fn each(
     mut visit: impl FnMut(&Message) -> std::result::Result<(), DecodeError>,
 ) -> Result<()> {
     walk(bytes, &mut visit).map_err(|error| {
-        Error::new(ErrorKind::Io, format!("the recording {} is cut off or damaged: {error}", path.display()))
-            .help("record it again, or save what is left of it with `pymcap-cli recover`")
+        Error::new(ErrorKind::Io, sentences::the_recording_is_cut_off(&path.display(), &error))
+            .help(sentences::RECORD_IT_AGAIN_OR_SAVE_WHAT)
     })
 }
 

@@ -3,7 +3,7 @@
 use super::beside::LIBRARY;
 use super::pour::SECOND;
 use super::recording::{Recording, Show};
-use super::sink::{Kind, Sink};
+use super::sink::{MessageKind, Sink};
 use mcap::records::{MessageHeader, Metadata};
 use mcap::write::NoSeek;
 use mcap::{Attachment, McapError, McapResult, WriteOptions, Writer};
@@ -15,7 +15,7 @@ use std::io::BufWriter;
 const CHUNK: u64 = 768 * 1024;
 
 /// The file being written.
-pub struct Output {
+pub struct RecordingFile {
     writer: Writer<NoSeek<BufWriter<File>>>,
     /// Last flush, in whole seconds of log time.
     flushed: u64,
@@ -23,7 +23,7 @@ pub struct Output {
     pending: usize,
 }
 
-impl Output {
+impl RecordingFile {
     /// Starts the file.
     pub fn create(file: File) -> McapResult<Self> {
         let writer = WriteOptions::new()
@@ -36,7 +36,7 @@ impl Output {
             // open the file.
             .disable_seeking(true)
             .create(NoSeek::new(BufWriter::new(file)))?;
-        Ok(Output { writer, flushed: 0, pending: 0 })
+        Ok(RecordingFile { writer, flushed: 0, pending: 0 })
     }
 
     /// Writes the metadata record and the scenario first, so that a file that is cut off has them too.
@@ -68,8 +68,8 @@ impl Output {
     }
 }
 
-impl Sink for Output {
-    fn topic(&mut self, name: &str, kind: &Kind) -> McapResult<u16> {
+impl Sink for RecordingFile {
+    fn topic(&mut self, name: &str, kind: &MessageKind) -> McapResult<u16> {
         let schema = self.writer.add_schema(&kind.schema, &kind.encoding, &kind.data)?;
         self.writer.add_channel(schema, name, &kind.message, &BTreeMap::new())
     }

@@ -2,10 +2,10 @@
 
 use super::forces::Forces;
 use super::recording::{Level, LogEntry, Recording};
-use super::scene::Scene;
+use super::scene::ViewerScene;
 use super::shapes::stamp;
-use super::sink::{Kind, Sink};
-use super::table::Table;
+use super::sink::{MessageKind, Sink};
+use super::table::ChannelTable;
 use super::urdf;
 use crate::viewers::{FrameTransforms, Log, LogLevel, SceneUpdate};
 use linkage::math::KeepNan;
@@ -24,33 +24,33 @@ enum Event<'a> {
 }
 
 /// What is drawn of a recording.
-pub struct Drawn<'a> {
+pub struct DrawnRecording<'a> {
     /// The moving mechanism, if there are positions.
-    pub scene: &'a Option<Scene<'a>>,
+    pub scene: &'a Option<ViewerScene<'a>>,
     /// Arrows of reactions, if they are asked for and known.
     pub forces: &'a Option<Forces<'a>>,
 }
 
 /// Hands all messages of a recording to a sink, in the order of time.
-pub fn pour(recording: &Recording, drawn: &Drawn, sink: &mut impl Sink) -> McapResult<()> {
-    let &Drawn { scene, forces } = drawn;
+pub fn pour(recording: &Recording, drawn: &DrawnRecording, sink: &mut impl Sink) -> McapResult<()> {
+    let &DrawnRecording { scene, forces } = drawn;
     let start = start(recording);
     let nanoseconds = |time: f64| ((time - start) * recording.show.slow * SECOND as f64).round().larger(0.0) as u64;
 
     let mut tables = Vec::new();
     for side in recording.sides {
-        tables.push(Table::values(sink, side.name, side.trajectory)?);
+        tables.push(ChannelTable::values(sink, side.name, side.trajectory)?);
     }
     if let Some(errors) = recording.errors {
-        tables.push(Table::errors(sink, errors)?);
+        tables.push(ChannelTable::errors(sink, errors)?);
     }
 
     let mut events: Vec<(u64, Event)> = Vec::new();
     if let Some(scene) = scene {
         let links = scene.links();
-        let topic = sink.topic("/mechanism/links", &Kind::viewers::<SceneUpdate>())?;
+        let topic = sink.topic("/mechanism/links", &MessageKind::viewers::<SceneUpdate>())?;
         sink.put(topic, 0, 0, &links.encode_to_vec())?;
-        let topic = sink.topic("/robot_description", &Kind::text())?;
+        let topic = sink.topic("/robot_description", &MessageKind::text())?;
         sink.put(topic, 0, 0, &urdf::message(&urdf::text(recording.name, &links)))?;
         events.extend(scene.times(recording.show.slow).into_iter().map(|time| (nanoseconds(time), Event::Frame(time))));
     }
@@ -63,10 +63,10 @@ pub fn pour(recording: &Recording, drawn: &Drawn, sink: &mut impl Sink) -> McapR
     events.extend(recording.log.iter().map(|entry| (nanoseconds(entry.time), Event::Log(entry))));
     events.sort_by_key(|&(time, _)| time);
 
-    let frames = scene.as_ref().map(|_| sink.topic("/tf", &Kind::viewers::<FrameTransforms>())).transpose()?;
+    let frames = scene.as_ref().map(|_| sink.topic("/tf", &MessageKind::viewers::<FrameTransforms>())).transpose()?;
     let arrows =
-        forces.as_ref().map(|_| sink.topic("/mechanism/forces", &Kind::viewers::<SceneUpdate>())).transpose()?;
-    let log = sink.topic("/log", &Kind::viewers::<Log>())?;
+        forces.as_ref().map(|_| sink.topic("/mechanism/forces", &MessageKind::viewers::<SceneUpdate>())).transpose()?;
+    let log = sink.topic("/log", &MessageKind::viewers::<Log>())?;
     let mut buffer = Vec::new();
     for (time, event) in events {
         match event {

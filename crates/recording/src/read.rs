@@ -1,6 +1,7 @@
 //! From an MCAP file back to trajectories.
 
 use super::{messages, raw, schema};
+use crate::sentences;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::input::Input;
 use linkage::trajectory::{Channel, Trajectory};
@@ -56,11 +57,11 @@ pub(super) fn bytes(path: &Path) -> Result<Vec<u8>> {
     let read = || match fs::metadata(path)?.is_file() {
         true => fs::read(path),
         // It might never end.
-        false => Err(io::Error::other("it is no regular file")),
+        false => Err(io::Error::other(sentences::IT_IS_NO_REGULAR_FILE)),
     };
     read().map_err(|error| {
-        Error::new(ErrorKind::Io, format!("the recording {} cannot be read: {error}", path.display()))
-            .help("check the path")
+        Error::new(ErrorKind::Io, sentences::the_recording_cannot_be_read(&path.display(), &error))
+            .help(sentences::CHECK_THE_PATH)
     })
 }
 
@@ -71,12 +72,8 @@ fn bounded(bytes: &[u8], path: &Path) -> Result<()> {
         return Ok(());
     }
     let [length, told, most] = [bytes.len() as u64, told, most].map(files::size);
-    let message = format!(
-        "the recording {} has {length} and says that it holds {told}; of such a file at most {most} are read",
-        path.display()
-    );
-    Err(Error::new(ErrorKind::Io, message)
-        .help("record it again: recordings of this program hold some three times their size"))
+    let message = sentences::the_recording_has_and_says(&path.display(), &length, &told, &most);
+    Err(Error::new(ErrorKind::Io, message).help(sentences::RECORD_IT_AGAIN_RECORDINGS_OF_THIS_PROGRAM))
 }
 
 /// The same from the bytes of a recording; messages call it `path`.
@@ -85,9 +82,9 @@ fn bounded(bytes: &[u8], path: &Path) -> Result<()> {
 /// Those of [`load`], except that the file cannot be read.
 pub fn read_bytes(bytes: &[u8], path: &Path) -> Result<Vec<(String, Trajectory)>> {
     if !bytes.starts_with(mcap::MAGIC) {
-        let what = if bytes.is_empty() { "is empty" } else { "is no recording: it does not begin as MCAP files do" };
-        return Err(Error::new(ErrorKind::Io, format!("the file {} {what}", path.display()))
-            .help("name a recording (.mcap), which a run leaves"));
+        let what = if bytes.is_empty() { "is empty" } else { sentences::IS_NO_RECORDING_IT_DOES_NOT_BEGIN };
+        return Err(Error::new(ErrorKind::Io, sentences::the_file(&path.display(), &what))
+            .help(sentences::NAME_A_RECORDING_MCAP_WHICH_A_RUN));
     }
     bounded(bytes, path)?;
     let mut topics: HashMap<u16, Option<Topic>> = HashMap::new();
@@ -103,8 +100,8 @@ pub fn read_bytes(bytes: &[u8], path: &Path) -> Result<Vec<(String, Trajectory)>
     let mut sides: Vec<(String, Found)> = sides.into_iter().collect();
     sides.sort_by_key(|(_, found)| found.first);
     if sides.is_empty() {
-        return Err(Error::new(ErrorKind::Input, format!("the recording {} holds no trajectory", path.display()))
-            .help("a side needs a topic `/<side>/grid` with the fields t_s and crank_rad"));
+        return Err(Error::new(ErrorKind::Input, sentences::the_recording_holds_no_trajectory(&path.display()))
+            .help(sentences::A_SIDE_NEEDS_A_TOPIC_SIDE));
     }
     sides.into_iter().map(|(name, found)| assemble(&name, found, path).map(|trajectory| (name, trajectory))).collect()
 }
@@ -154,11 +151,8 @@ fn collect(
 
 fn assemble(name: &str, mut found: Found, path: &Path) -> Result<Trajectory> {
     let incomplete = |what: &dyn Display| {
-        Error::new(
-            ErrorKind::Input,
-            format!("in the recording {}, the side \"{name}\" lacks samples of {what}", path.display()),
-        )
-        .help("every topic of a side needs one message for each of its grid, with the same sequence number")
+        Error::new(ErrorKind::Input, sentences::in_the_recording_the_side(&path.display(), &name, &what))
+            .help(sentences::EVERY_TOPIC_OF_A_SIDE_NEEDS)
     };
     let input = Input::ALL.into_iter().find(|input| found.grid.contains_key(input.key())).unwrap_or_default();
     let mut take = |field: &str| {

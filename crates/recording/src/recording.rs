@@ -17,7 +17,7 @@ pub struct Recording<'a> {
     /// The mechanism that is drawn.
     pub mechanism: &'a Mechanism,
     /// The trajectories: the reference first, then the engines. A side without samples is left out.
-    pub sides: &'a [Side<'a>],
+    pub sides: &'a [RecordedSide<'a>],
     /// Engine minus reference, channel by channel, in SI units. Written for people; not read back.
     pub errors: Option<&'a Trajectory>,
     /// Verdicts and warnings.
@@ -46,7 +46,7 @@ impl Default for Show {
 
 /// One trajectory of a recording.
 #[derive(Clone, Copy, Debug)]
-pub struct Side<'a> {
+pub struct RecordedSide<'a> {
     /// First part of its topics and frames: "reference", "engine". It must be unique, not empty, and without `/`.
     pub name: &'a str,
     /// Its values.

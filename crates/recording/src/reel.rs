@@ -2,9 +2,10 @@
 
 use super::pour::{lasts, pour};
 use super::recording::Recording;
-use super::sink::{Kind, Sink};
+use super::sink::{MessageKind, Sink};
 use super::view::turn;
 use super::write::{as_shown, check};
+use crate::sentences;
 use linkage::error::{Error, ErrorKind, Result};
 use mcap::{McapError, McapResult};
 
@@ -12,7 +13,7 @@ use mcap::{McapError, McapResult};
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reel {
     /// Names of the topics, and what their messages are.
-    pub topics: Vec<(String, Kind)>,
+    pub topics: Vec<(String, MessageKind)>,
     /// How many times slower than the simulation its log times run.
     pub slow: f64,
     /// Log time of one turn of the crank, or of the whole recording if that is less (s).
@@ -25,7 +26,7 @@ pub struct Reel {
 
 /// A message of a reel.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Told<'a> {
+pub struct ReelMessage<'a> {
     /// Log time (ns).
     pub time: u64,
     /// Number of its topic.
@@ -55,7 +56,7 @@ pub fn reel(recording: &Recording) -> Result<Reel> {
         let mut reel = Reel { topics: Vec::new(), slow, turn, entries: Vec::new(), own: Vec::new(), data: Vec::new() };
         pour(recording, drawn, &mut reel).map(|()| reel)
     });
-    poured.map_err(|error| Error::new(ErrorKind::Unsupported, format!("the recording cannot be played: {error}")))
+    poured.map_err(|error| Error::new(ErrorKind::Unsupported, sentences::the_recording_cannot_be_played(&error)))
 }
 
 impl Reel {
@@ -88,15 +89,15 @@ impl Reel {
     /// # Panics
     /// If there are not so many.
     #[must_use]
-    pub fn message(&self, index: usize) -> Told<'_> {
+    pub fn message(&self, index: usize) -> ReelMessage<'_> {
         let Entry { time, topic, end } = self.entries[index];
         let start = if index == 0 { 0 } else { self.entries[index - 1].end };
-        Told { time, topic, data: &self.data[start..end] }
+        ReelMessage { time, topic, data: &self.data[start..end] }
     }
 
     /// The last message of a topic among the first `count` messages.
     #[must_use]
-    pub fn latest(&self, topic: u16, count: usize) -> Option<Told<'_>> {
+    pub fn latest(&self, topic: u16, count: usize) -> Option<ReelMessage<'_>> {
         let own = self.own.get(usize::from(topic))?;
         let before = own.partition_point(|&index| index < count).checked_sub(1)?;
         Some(self.message(own[before]))
@@ -104,7 +105,7 @@ impl Reel {
 }
 
 impl Sink for Reel {
-    fn topic(&mut self, name: &str, kind: &Kind) -> McapResult<u16> {
+    fn topic(&mut self, name: &str, kind: &MessageKind) -> McapResult<u16> {
         let number = u16::try_from(self.topics.len()).map_err(|_| McapError::TooManyChannels)?;
         self.topics.push((name.into(), kind.clone()));
         self.own.push(Vec::new());

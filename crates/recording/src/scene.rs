@@ -1,8 +1,8 @@
 //! The moving mechanism: the positions, the frames and the drawing of each side's links.
 
 use super::marks::{Brush, letter};
-use super::recording::Side;
-use super::shapes::{GREY, Paint, stamp, turn, vector};
+use super::recording::RecordedSide;
+use super::shapes::{GREY, SidePaint, stamp, turn, vector};
 use crate::viewers::{FrameTransform, FrameTransforms, SceneEntity, SceneUpdate};
 use drawing::{Lettering, Sketch, Travels};
 use linkage::math::statistics::ascending;
@@ -16,32 +16,32 @@ const FRAMES: f64 = 400.0;
 const FRAMES_PER_SECOND: f64 = 50.0;
 
 /// Everything that can be drawn of a recording.
-pub struct Scene<'a> {
+pub struct ViewerScene<'a> {
     /// The mechanism.
     pub mechanism: &'a Mechanism,
     /// The sides that have positions.
-    pub sides: Vec<Placed<'a>>,
+    pub sides: Vec<PlacedSide<'a>>,
     /// Length to which all drawing is proportional (m).
     pub size: f64,
     /// What it looks like.
     sketch: Sketch,
 }
 
-impl<'a> Scene<'a> {
+impl<'a> ViewerScene<'a> {
     /// The scene of the sides that have samples and all positions; `None` if there is no such side.
-    pub fn new(mechanism: &'a Mechanism, sides: &[Side<'a>]) -> Option<Self> {
-        let placed = |(number, side): (usize, &Side<'a>)| {
+    pub fn new(mechanism: &'a Mechanism, sides: &[RecordedSide<'a>]) -> Option<Self> {
+        let placed = |(number, side): (usize, &RecordedSide<'a>)| {
             let column = |link: &Link, suffix| column(side.trajectory, &format!("link.{}.{suffix}", link.name));
             let columns = |link| Some([column(link, "angle_rad")?, column(link, "x_m")?, column(link, "y_m")?]);
-            Some(Placed {
+            Some(PlacedSide {
                 name: side.name,
                 trajectory: side.trajectory,
-                paint: Paint::of(number),
+                paint: SidePaint::of(number),
                 rows: ascending(side.trajectory.times()),
                 links: mechanism.links()[1..].iter().map(columns).collect::<Option<_>>()?,
             })
         };
-        let sides: Vec<Placed> = sides
+        let sides: Vec<PlacedSide> = sides
             .iter()
             .enumerate()
             .filter(|(_, side)| !side.trajectory.times().is_empty())
@@ -55,7 +55,7 @@ impl<'a> Scene<'a> {
             }
         }
         let sketch = Sketch::of(mechanism, &travels, drawing::unit(mechanism));
-        (!sides.is_empty()).then_some(Scene { mechanism, sides, size, sketch })
+        (!sides.is_empty()).then_some(ViewerScene { mechanism, sides, size, sketch })
     }
 
     /// Height between the sides in the drawing (m). A viewer's depth test can separate them, but the eye must not: a
@@ -105,7 +105,7 @@ impl<'a> Scene<'a> {
         let brush = Brush { unit: self.sketch.unit, rgba: GREY, broad: 1.0, z: 0.0, step: 0.1 * self.layer() };
         let mut entities = vec![self.lettered(self.entity("world", "ground", &brush, GROUND), GROUND)];
         for (number, side) in self.sides.iter().enumerate() {
-            let Paint { rgba, broad, layer } = side.paint;
+            let SidePaint { rgba, broad, layer } = side.paint;
             let brush = Brush { rgba, broad, z: self.layer() * (1.0 + layer), ..brush };
             for (index, link) in self.mechanism.links().entries().skip(1) {
                 let name = format!("{}/{}", side.name, link.name);
@@ -143,20 +143,20 @@ impl<'a> Scene<'a> {
 }
 
 /// A side with the positions of its links.
-pub struct Placed<'a> {
+pub struct PlacedSide<'a> {
     /// Name of the side.
     pub name: &'a str,
     /// Its values.
     pub trajectory: &'a Trajectory,
     /// Colour, thickness and height of the side in drawings.
-    pub paint: Paint,
+    pub paint: SidePaint,
     /// Rows in ascending order of time.
     rows: Vec<usize>,
     /// Columns for each moving link: angle and coordinates of the mass centre.
     links: Vec<[&'a [f64]; 3]>,
 }
 
-impl Placed<'_> {
+impl PlacedSide<'_> {
     /// Row of the last sample that is not after `time`, or of the first sample.
     pub fn row_at(&self, time: f64) -> usize {
         let times = self.trajectory.times();

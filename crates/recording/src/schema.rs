@@ -3,9 +3,9 @@
 //! Every field has presence (proto3 `optional`). A channel that was not computed is not declared either: some viewers show
 //! a field that is absent as zero.
 
-use super::sink::Kind;
+use super::sink::MessageKind;
 use linkage::input::Input;
-use linkage::trajectory::{CHANNELS, ChannelKind, Subject, Unit};
+use linkage::trajectory::{CHANNELS, ChannelKind, ChannelSubject, Unit};
 use prost::Message;
 use prost::encoding::{WireType, decode_key, double, encode_key, float, skip_field};
 use prost_types::field_descriptor_proto::{Label, Type};
@@ -22,7 +22,7 @@ pub const fn grid_fields(input: Input) -> [&'static str; 3] {
 
 /// What the messages of a subject tell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Told {
+pub enum MessageContent {
     /// Values in SI units.
     Values,
     /// Errors in small units. Single precision is enough: people read three digits.
@@ -30,7 +30,7 @@ pub enum Told {
 }
 
 /// The grid message.
-pub fn grid(input: Input) -> Kind {
+pub fn grid(input: Input) -> MessageKind {
     message("Grid", (1..).zip(grid_fields(input).map(str::to_string)), Type::Double)
 }
 
@@ -116,22 +116,22 @@ pub fn field_names(descriptor: &[u8], full_name: &str) -> Result<BTreeMap<u32, S
 }
 
 /// Channels in the message of a subject. The message of a sliding joint has those of any joint, and more.
-fn kinds(subject: Subject) -> impl Iterator<Item = &'static ChannelKind> {
-    let joint = subject == Subject::Slider;
-    CHANNELS.iter().filter(move |kind| kind.subject == subject || joint && kind.subject == Subject::Joint)
+fn kinds(subject: ChannelSubject) -> impl Iterator<Item = &'static ChannelKind> {
+    let joint = subject == ChannelSubject::Slider;
+    CHANNELS.iter().filter(move |kind| kind.subject == subject || joint && kind.subject == ChannelSubject::Joint)
 }
 
 /// The message of a subject that has these channels, named after it. One that lacks channels has the numbers of its
 /// fields in its name too: two messages of one name with different fields confuse viewers.
-pub fn of_subject(subject: Subject, told: Told, own: &[&ChannelKind]) -> Kind {
-    let word = if subject == Subject::Slider { "slider" } else { subject.word() };
+pub fn of_subject(subject: ChannelSubject, told: MessageContent, own: &[&ChannelKind]) -> MessageKind {
+    let word = if subject == ChannelSubject::Slider { "slider" } else { subject.word() };
     let (suffix, number) = match told {
-        Told::Values => ("", Type::Double),
-        Told::Errors => ("Error", Type::Float),
+        MessageContent::Values => ("", Type::Double),
+        MessageContent::Errors => ("Error", Type::Float),
     };
     let field = |kind: &ChannelKind| match told {
-        Told::Values => kind.suffix.to_string(),
-        Told::Errors => small_unit(kind).0,
+        MessageContent::Values => kind.suffix.to_string(),
+        MessageContent::Errors => small_unit(kind).0,
     };
     let mut name = word[..1].to_uppercase() + &word[1..] + suffix;
     let fields: BTreeMap<u32, String> = own.iter().map(|kind| (tag(kind), field(kind))).collect();
@@ -142,7 +142,7 @@ pub fn of_subject(subject: Subject, told: Told, own: &[&ChannelKind]) -> Kind {
 }
 
 /// A message with these fields, by their numbers.
-fn message(name: &str, fields: impl Iterator<Item = (u32, String)>, kind: Type) -> Kind {
+fn message(name: &str, fields: impl Iterator<Item = (u32, String)>, kind: Type) -> MessageKind {
     let field: Vec<FieldDescriptorProto> = fields
         .enumerate()
         .map(|(index, (tag, field))| FieldDescriptorProto {
@@ -167,7 +167,7 @@ fn message(name: &str, fields: impl Iterator<Item = (u32, String)>, kind: Type) 
         syntax: Some("proto3".into()),
         ..Default::default()
     };
-    Kind::protobuf(format!("linkproof.{name}"), FileDescriptorSet { file: vec![file] }.encode_to_vec())
+    MessageKind::protobuf(format!("linkproof.{name}"), FileDescriptorSet { file: vec![file] }.encode_to_vec())
 }
 
 #[cfg(test)]
@@ -178,7 +178,7 @@ mod tests {
     fn every_channel_has_a_field_of_its_own_name() {
         for kind in &CHANNELS {
             let all: Vec<&ChannelKind> = kinds(kind.subject).collect();
-            let kind_of_all = of_subject(kind.subject, Told::Values, &all);
+            let kind_of_all = of_subject(kind.subject, MessageContent::Values, &all);
             let names = field_names(&kind_of_all.data, &kind_of_all.schema).unwrap();
             assert_eq!(names[&tag(kind)], kind.suffix);
         }
@@ -187,8 +187,10 @@ mod tests {
     /// Viewers would show what was not computed as zero, and mix up messages of one name.
     #[test]
     fn only_what_is_there_is_declared() {
-        let some: Vec<&ChannelKind> = kinds(Subject::Slider).filter(|kind| kind.unit == Unit::Metre).collect();
-        for own in [Told::Values, Told::Errors].map(|told| of_subject(Subject::Slider, told, &some)) {
+        let some: Vec<&ChannelKind> = kinds(ChannelSubject::Slider).filter(|kind| kind.unit == Unit::Metre).collect();
+        for own in
+            [MessageContent::Values, MessageContent::Errors].map(|told| of_subject(ChannelSubject::Slider, told, &some))
+        {
             let names = field_names(&own.data, &own.schema).unwrap();
             assert_eq!(
                 names.keys().copied().collect::<Vec<_>>(),

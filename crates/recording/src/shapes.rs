@@ -8,7 +8,7 @@ use linkage::math::Vec2;
 /// How one side is drawn. Sides lie over each other. The first is broad and pale, each later one is thinner and in
 /// front of it. So two sides that agree show both colours, and two that differ separate.
 #[derive(Clone, Copy)]
-pub struct Paint {
+pub struct SidePaint {
     /// Red, green, blue, opacity, each 0 to 255.
     pub rgba: [u8; 4],
     /// Thickness relative to the first side.
@@ -17,13 +17,13 @@ pub struct Paint {
     pub layer: f64,
 }
 
-impl Paint {
+impl SidePaint {
     /// Paint of the side with number `side`. The colours are those of Okabe and Ito, which colour-blind people can
     /// distinguish.
-    pub fn of(side: usize) -> Paint {
+    pub fn of(side: usize) -> SidePaint {
         const COLOURS: [[u8; 3]; 4] = [[86, 180, 233], [230, 120, 0], [0, 158, 115], [204, 121, 167]];
         let [red, green, blue] = COLOURS[side % COLOURS.len()];
-        Paint { rgba: [red, green, blue, 255], broad: 0.4f64.powi(side.min(3) as i32), layer: side as f64 }
+        SidePaint { rgba: [red, green, blue, 255], broad: 0.4f64.powi(side.min(3) as i32), layer: side as f64 }
     }
 }
 

@@ -1,12 +1,12 @@
 //! Where messages go: a file, or whoever looks on.
 
-use crate::viewers::Known;
+use crate::viewers::ViewerMessage;
 use mcap::McapResult;
 
 /// Takes topics and their messages.
 pub trait Sink {
     /// Number of a topic with this name and kind of message.
-    fn topic(&mut self, name: &str, kind: &Kind) -> McapResult<u16>;
+    fn topic(&mut self, name: &str, kind: &MessageKind) -> McapResult<u16>;
 
     /// Takes one message at a time (ns).
     fn put(&mut self, topic: u16, sequence: u32, time: u64, data: &[u8]) -> McapResult<()>;
@@ -14,7 +14,7 @@ pub trait Sink {
 
 /// What the messages of a topic are.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Kind {
+pub struct MessageKind {
     /// Name of their schema.
     pub schema: String,
     /// How the schema is written.
@@ -25,20 +25,25 @@ pub struct Kind {
     pub message: String,
 }
 
-impl Kind {
+impl MessageKind {
     /// A message in protobuf, with the name and the serialised descriptor set of its schema.
-    pub fn protobuf(schema: impl Into<String>, data: impl Into<Vec<u8>>) -> Kind {
-        Kind { schema: schema.into(), encoding: "protobuf".into(), data: data.into(), message: "protobuf".into() }
+    pub fn protobuf(schema: impl Into<String>, data: impl Into<Vec<u8>>) -> MessageKind {
+        MessageKind {
+            schema: schema.into(),
+            encoding: "protobuf".into(),
+            data: data.into(),
+            message: "protobuf".into(),
+        }
     }
 
     /// One of the viewers' messages.
-    pub fn viewers<M: Known>() -> Kind {
-        Kind::protobuf(M::SCHEMA, M::DESCRIPTOR)
+    pub fn viewers<M: ViewerMessage>() -> MessageKind {
+        MessageKind::protobuf(M::SCHEMA, M::DESCRIPTOR)
     }
 
     /// A text, as robots' programs write it.
-    pub fn text() -> Kind {
+    pub fn text() -> MessageKind {
         let [schema, encoding, data, message] = ["std_msgs/msg/String", "ros2msg", "string data", "cdr"];
-        Kind { schema: schema.into(), encoding: encoding.into(), data: data.into(), message: message.into() }
+        MessageKind { schema: schema.into(), encoding: encoding.into(), data: data.into(), message: message.into() }
     }
 }

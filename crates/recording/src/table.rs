@@ -1,12 +1,12 @@
 //! A trajectory as topics: one for each subject, with one message per row.
 
-use super::schema::{self, Told};
+use super::schema::{self, MessageContent};
 use super::sink::Sink;
-use linkage::trajectory::{ChannelKind, Subject, Trajectory};
+use linkage::trajectory::{ChannelKind, ChannelSubject, Trajectory};
 use mcap::McapResult;
 
 /// A trajectory with the topics of its columns.
-pub struct Table<'a> {
+pub struct ChannelTable<'a> {
     /// Times of its rows (s).
     pub times: &'a [f64],
     /// Its topics.
@@ -45,41 +45,41 @@ impl Topic<'_> {
     }
 }
 
-impl<'a> Table<'a> {
+impl<'a> ChannelTable<'a> {
     /// The grid and the values of a side.
     pub fn values(sink: &mut impl Sink, side: &str, trajectory: &'a Trajectory) -> McapResult<Self> {
         let id = sink.topic(&format!("/{side}/grid"), &schema::grid(trajectory.input()))?;
         let fields = vec![Field::Value(1, trajectory.times()), Field::Value(2, trajectory.inputs()), Field::Row(3)];
-        Table::of(sink, side, trajectory, Told::Values, vec![Topic { id, fields }])
+        ChannelTable::of(sink, side, trajectory, MessageContent::Values, vec![Topic { id, fields }])
     }
 
     /// The errors, in small units.
     pub fn errors(sink: &mut impl Sink, errors: &'a Trajectory) -> McapResult<Self> {
-        Table::of(sink, "error", errors, Told::Errors, Vec::new())
+        ChannelTable::of(sink, "error", errors, MessageContent::Errors, Vec::new())
     }
 
     fn of(
         sink: &mut impl Sink,
         side: &str,
         trajectory: &'a Trajectory,
-        told: Told,
+        told: MessageContent,
         mut topics: Vec<Topic<'a>>,
     ) -> McapResult<Self> {
         for (subject, of, columns) in by_subject(trajectory) {
             let kinds: Vec<&ChannelKind> = columns.iter().map(|&(kind, _)| kind).collect();
             let id = sink.topic(&topic_name(side, subject, of), &schema::of_subject(subject, told, &kinds))?;
             let field = |(kind, column): (&ChannelKind, &'a [f64])| match told {
-                Told::Values => Field::Value(schema::tag(kind), column),
-                Told::Errors => Field::Scaled(schema::tag(kind), column, schema::small_unit(kind).1),
+                MessageContent::Values => Field::Value(schema::tag(kind), column),
+                MessageContent::Errors => Field::Scaled(schema::tag(kind), column, schema::small_unit(kind).1),
             };
             topics.push(Topic { id, fields: columns.into_iter().map(field).collect() });
         }
-        Ok(Table { times: trajectory.times(), topics })
+        Ok(ChannelTable { times: trajectory.times(), topics })
     }
 }
 
 /// Topic of a subject's values on a side, or of their errors on the side "error".
-pub fn topic_name(side: &str, subject: Subject, of: &str) -> String {
+pub fn topic_name(side: &str, subject: ChannelSubject, of: &str) -> String {
     let word = subject.word();
     if of.is_empty() { format!("/{side}/{word}") } else { format!("/{side}/{word}/{of}") }
 }
@@ -88,16 +88,16 @@ type Columns<'a> = Vec<(&'static ChannelKind, &'a [f64])>;
 
 /// The columns of each link, point, joint (all columns of a sliding joint together), of frame and drive, in the order
 /// of their first column.
-fn by_subject(trajectory: &Trajectory) -> Vec<(Subject, &str, Columns<'_>)> {
-    let mut subjects: Vec<(Subject, &str, Columns)> = Vec::new();
+fn by_subject(trajectory: &Trajectory) -> Vec<(ChannelSubject, &str, Columns<'_>)> {
+    let mut subjects: Vec<(ChannelSubject, &str, Columns)> = Vec::new();
     for (channel, column) in trajectory.iter() {
         let (subject, of) = (channel.kind.subject, channel.of.as_str());
-        let same = |own: &(Subject, &str, Columns)| (own.0.word(), own.1) == (subject.word(), of);
+        let same = |own: &(ChannelSubject, &str, Columns)| (own.0.word(), own.1) == (subject.word(), of);
         let place = subjects.iter().position(same).unwrap_or_else(|| {
             subjects.push((subject, of, Vec::new()));
             subjects.len() - 1
         });
-        if subject == Subject::Slider {
+        if subject == ChannelSubject::Slider {
             subjects[place].0 = subject;
         }
         subjects[place].2.push((channel.kind, column));

@@ -2,10 +2,11 @@
 
 use super::extent::corners;
 use super::pour::lasts;
-use super::recording::{Recording, Side};
+use super::recording::{RecordedSide, Recording};
 use super::schema::small_unit;
 use super::table::topic_name;
 use super::write::as_shown;
+use crate::sentences;
 use crate::viewers::FrameTransforms;
 use linkage::math::Vec2;
 use linkage::math::statistics::ends;
@@ -85,13 +86,13 @@ pub(super) fn turn(lasts: f64, trajectory: &Trajectory) -> f64 {
 }
 
 /// Plots of the two channels that tell most, and of their errors where there are some.
-pub(super) fn plots(sides: &[Side], errors: &[Channel]) -> Vec<Plot> {
+pub(super) fn plots(sides: &[RecordedSide], errors: &[Channel]) -> Vec<Plot> {
     let mut plots = Vec::new();
     let Some(first) = sides.first() else { return plots };
     for channel in telling(first.trajectory) {
         let (of, kind) = (&channel.of, channel.kind);
-        let has = |side: &Side| side.trajectory.column(channel).is_some();
-        let line = |(number, side): (usize, &Side)| Line {
+        let has = |side: &RecordedSide| side.trajectory.column(channel).is_some();
+        let line = |(number, side): (usize, &RecordedSide)| Line {
             topic: topic_name(side.name, kind.subject, of),
             field: kind.suffix.into(),
             label: format!("{} {channel}", side.name),
@@ -101,7 +102,7 @@ pub(super) fn plots(sides: &[Side], errors: &[Channel]) -> Vec<Plot> {
         plots.push(Plot { title: channel.to_string(), lines });
         if errors.contains(channel) {
             let field = small_unit(kind).0;
-            let title = format!("error of {}.{field}", channel.subject());
+            let title = sentences::error_of(&channel.subject(), &field);
             let topic = topic_name("error", kind.subject, of);
             plots.push(Plot { lines: vec![Line { topic, field, label: title.clone(), side: None }], title });
         }

@@ -6,7 +6,7 @@ use prost::{Enumeration, Message};
 use prost_types::Timestamp;
 
 /// A message with a schema that viewers know.
-pub trait Known: Message {
+pub trait ViewerMessage: Message {
     /// Name of the schema.
     const SCHEMA: &'static str;
     /// The schema, a `FileDescriptorSet`.
@@ -15,7 +15,7 @@ pub trait Known: Message {
 
 macro_rules! known {
     ($($name:ident)*) => {
-        $(impl Known for $name {
+        $(impl ViewerMessage for $name {
             const SCHEMA: &'static str = concat!("foxglove.", stringify!($name));
             const DESCRIPTOR: &'static [u8] = include_bytes!(concat!("viewers/", stringify!($name), ".bin"));
         })*
@@ -260,7 +260,7 @@ mod tests {
         }
     }
 
-    fn again<S: Message + Default + Encode, K: Known>(ours: &K) {
+    fn again<S: Message + Default + Encode, K: ViewerMessage>(ours: &K) {
         let bytes = ours.encode_to_vec();
         assert_eq!(S::decode(&*bytes).unwrap().encode_to_vec(), bytes, "{}", K::SCHEMA);
         let schema = S::get_schema().unwrap();

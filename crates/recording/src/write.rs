@@ -2,11 +2,12 @@
 
 use super::beside::is_ours;
 use super::forces::Forces;
-use super::output::Output;
-use super::pour::{Drawn, lasts, pour, start};
-use super::recording::{Recording, Show, Side};
-use super::scene::Scene;
-use files::{self, Target};
+use super::output::RecordingFile;
+use super::pour::{DrawnRecording, lasts, pour, start};
+use super::recording::{RecordedSide, Recording, Show};
+use super::scene::ViewerScene;
+use crate::sentences;
+use files::{self, OutputTarget};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::statistics::ascending;
 use linkage::trajectory::Trajectory;
@@ -29,12 +30,12 @@ const EARLY: f64 = 1e-6;
 #[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the MCAP library")]
 pub fn write(recording: &Recording, path: &Path) -> Result<()> {
     check(recording)?;
-    files::replace(&Target::Made(path, &is_ours), |file| fill(recording, file.try_clone()?)).map_err(|error| {
-        let what = format!("the recording {}", path.display());
-        let usual = "check that the directory exists, may be written to and has room, or record elsewhere";
+    files::replace(&OutputTarget::Made(path, &is_ours), |file| fill(recording, file.try_clone()?)).map_err(|error| {
+        let what = sentences::the_recording(&path.display());
+        let usual = sentences::CHECK_THAT_THE_DIRECTORY_EXISTS;
         match error {
             McapError::Io(error) => files::unwritten(&what, &error, None, usual),
-            other => Error::new(ErrorKind::Io, format!("{what} cannot be written: {other}")).help(usual),
+            other => Error::new(ErrorKind::Io, sentences::cannot_be_written(&what, &other)).help(usual),
         }
     })
 }
@@ -43,31 +44,33 @@ pub(super) fn check(recording: &Recording) -> Result<()> {
     for (index, side) in recording.sides.iter().enumerate() {
         let taken = recording.sides[..index].iter().any(|other| other.name == side.name);
         if taken || side.name.is_empty() || side.name.contains('/') || ["error", "mechanism"].contains(&side.name) {
-            let message = format!("a side of a recording cannot be called \"{}\"", side.name);
-            return Err(Error::new(ErrorKind::Input, message)
-                .help("give it a name of its own without `/`; \"error\" and \"mechanism\" are taken"));
+            let message = sentences::a_side_of_a_recording_cannot(&side.name);
+            return Err(Error::new(ErrorKind::Input, message).help(sentences::GIVE_IT_A_NAME_OF_ITS_OWN));
         }
     }
     let Show { slow, hz, forces: _ } = recording.show;
     if let Some(wrong) = [Some(slow), hz].into_iter().flatten().find(|&part| !(part.is_finite() && part > 0.0)) {
-        let message = format!("a recording cannot have a time scale or a number of samples a second of {wrong}");
-        return Err(Error::new(ErrorKind::Input, message).help("give a finite number greater than 0"));
+        let message = sentences::a_recording_cannot_have_a_time(&wrong);
+        return Err(Error::new(ErrorKind::Input, message).help(sentences::GIVE_A_FINITE_NUMBER_GREATER));
     }
     let trajectories = recording.sides.iter().map(|side| side.trajectory).chain(recording.errors);
     if let Some(time) = trajectories.flat_map(Trajectory::times).find(|time| !time.is_finite()) {
-        return Err(Error::new(ErrorKind::Input, format!("a time of the recording's grid is {time} s")));
+        return Err(Error::new(ErrorKind::Input, sentences::a_time_of_the_recording_grid(&time)));
     }
     let lasts = slow * lasts(recording);
     if !(lasts <= LONGEST) {
-        return Err(Error::new(ErrorKind::Input, format!("a recording cannot last {lasts:e} s: viewers count less"))
-            .help("give a smaller time scale"));
+        return Err(Error::new(
+            ErrorKind::Input,
+            sentences::a_recording_cannot_last_viewers(&format_args!("{lasts:e}")),
+        )
+        .help(sentences::GIVE_A_SMALLER_TIME_SCALE));
     }
     Ok(())
 }
 
 fn fill(recording: &Recording, file: File) -> McapResult<()> {
     as_shown(recording, |recording, drawn| {
-        let mut output = Output::create(file)?;
+        let mut output = RecordingFile::create(file)?;
         output.describe(recording, start(recording), drawn.forces.as_ref().map(|forces| forces.scale))?;
         pour(recording, drawn, &mut output)?;
         output.finish()
@@ -75,17 +78,17 @@ fn fill(recording: &Recording, file: File) -> McapResult<()> {
 }
 
 /// Calls `visit` with the samples that are kept and with what is drawn of them.
-pub(super) fn as_shown<T>(recording: &Recording, visit: impl FnOnce(&Recording, &Drawn) -> T) -> T {
+pub(super) fn as_shown<T>(recording: &Recording, visit: impl FnOnce(&Recording, &DrawnRecording) -> T) -> T {
     let thin = |trajectory: &Trajectory| recording.show.hz.map(|hz| thinned(trajectory, hz));
     let fewer: Vec<Option<Trajectory>> = recording.sides.iter().map(|side| thin(side.trajectory)).collect();
     let fewer_errors = recording.errors.and_then(thin);
-    let sides: Vec<Side> = (recording.sides.iter().zip(&fewer))
-        .map(|(side, fewer)| Side { name: side.name, trajectory: fewer.as_ref().unwrap_or(side.trajectory) })
+    let sides: Vec<RecordedSide> = (recording.sides.iter().zip(&fewer))
+        .map(|(side, fewer)| RecordedSide { name: side.name, trajectory: fewer.as_ref().unwrap_or(side.trajectory) })
         .collect();
     let shown = Recording { sides: &sides, errors: fewer_errors.as_ref().or(recording.errors), ..*recording };
-    let scene = Scene::new(shown.mechanism, shown.sides);
+    let scene = ViewerScene::new(shown.mechanism, shown.sides);
     let forces = scene.as_ref().filter(|_| shown.show.forces).and_then(Forces::new);
-    visit(&shown, &Drawn { scene: &scene, forces: &forces })
+    visit(&shown, &DrawnRecording { scene: &scene, forces: &forces })
 }
 
 /// The trajectory with at most `hz` samples a second beside its first and its last.

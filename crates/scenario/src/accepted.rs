@@ -2,13 +2,14 @@
 //!
 //! It is TOML, but not called so: `*.toml` are scenarios.
 
+use crate::sentences;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use toml_edit::Value;
 
 use super::header::check_format;
-use super::reader::Table;
+use super::reader::TomlTable;
 use super::source::Source;
 use linkage::error::{Error, ErrorKind, Result};
 
@@ -24,12 +25,12 @@ pub struct Accepted {
     /// The instants at which values are kept (s), in the order of the grid.
     pub times: Vec<f64>,
     /// Channels, in the order of columns.
-    pub channels: Vec<Kept>,
+    pub channels: Vec<AcceptedChannel>,
 }
 
 /// Figures of one channel, in its unit.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Kept {
+pub struct AcceptedChannel {
     /// Name of the channel.
     pub name: String,
     /// How far every figure is known.
@@ -60,8 +61,8 @@ pub fn beside(scenario: &Path) -> PathBuf {
 /// [`ErrorKind::Io`] if the file cannot be read, [`ErrorKind::Input`] for anything wrong in it, with the place.
 pub fn load(path: &Path, name: &str) -> Result<Option<Accepted>> {
     let text = files::text(path).map_err(|error| {
-        Error::new(ErrorKind::Io, format!("the accepted figures {} cannot be read: {error}", path.display()))
-            .help("restore the file, or delete it and accept the figures anew")
+        Error::new(ErrorKind::Io, sentences::the_accepted_figures_cannot_be_read(&path.display(), &error))
+            .help(sentences::RESTORE_THE_FILE_OR_DELETE)
     })?;
     text.map(|text| parse(&text, path, name)).transpose()
 }
@@ -69,61 +70,72 @@ pub fn load(path: &Path, name: &str) -> Result<Option<Accepted>> {
 fn parse(text: &str, path: &Path, name: &str) -> Result<Accepted> {
     let source = Source::new(path, text);
     let tree = source.tree()?;
-    read(&mut Table::root(&source, &tree), name).map_err(|error| source.located(tree.get_ref(), error))
+    read(&mut TomlTable::root(&source, &tree), name).map_err(|error| source.located(tree.get_ref(), error))
 }
 
-fn read(root: &mut Table, name: &str) -> Result<Accepted> {
+fn read(root: &mut TomlTable, name: &str) -> Result<Accepted> {
     if root.is_empty() {
-        let error = root.fault("the file holds no accepted figures");
-        return Err(error.help("restore the file, or delete it and accept the figures anew"));
+        let error = root.fault(sentences::THE_FILE_HOLDS_NO_ACCEPTED);
+        return Err(error.help(sentences::RESTORE_THE_FILE_OR_DELETE));
     }
     check_format(root)?;
     let scenario = root.string("scenario")?;
     if scenario != name {
-        let message = format!("these are accepted figures of \"{scenario}\", not of \"{name}\"");
-        let help = "move the file to its own scenario; if the scenario was renamed, change the name here too";
+        let message = sentences::these_are_accepted_figures_of_not_of(&scenario, &name);
+        let help = sentences::MOVE_THE_FILE_TO_ITS_OWN;
         return root.refuse("scenario", message, help);
     }
     let verdict = root.string("verdict")?;
     if !["agree", "disagree", "inconclusive"].contains(&verdict.as_str()) {
-        return root.refuse("verdict", format!("\"{verdict}\" is no verdict"), "write agree, disagree or inconclusive");
+        return root.refuse(
+            "verdict",
+            sentences::is_no_verdict(&verdict),
+            sentences::WRITE_AGREE_DISAGREE_OR_INCONCLUSIVE,
+        );
     }
     let instants = root.integer("instants")?;
     let instants = usize::try_from(instants).map_err(|_| {
-        root.wrong(ErrorKind::Input, "instants", format!("found {instants} instants")).help("give their number")
+        root.wrong(ErrorKind::Input, "instants", sentences::found_instants(&instants))
+            .help(sentences::GIVE_THEIR_NUMBER)
     })?;
     let times = root.numbers("times_s")?;
     let tables = root.tables("channels")?.into_iter();
-    let channels: Vec<Kept> = tables.map(|table| kept(table, times.len())).collect::<Result<_>>()?;
+    let channels: Vec<AcceptedChannel> = tables.map(|table| kept(table, times.len())).collect::<Result<_>>()?;
     root.finish()?;
     twice(root, &channels)?;
     Ok(Accepted { scenario, verdict, instants, times, channels })
 }
 
-fn kept(mut table: Table, count: usize) -> Result<Kept> {
+fn kept(mut table: TomlTable, count: usize) -> Result<AcceptedChannel> {
     let name = table.string("name")?;
     let bound = table.number("bound")?;
     if bound < 0.0 {
-        return table.refuse("bound", format!("the bound {bound:e} is negative"), "accept the figures anew");
+        return table.refuse(
+            "bound",
+            sentences::the_bound_is_negative(&format_args!("{bound:e}")),
+            sentences::ACCEPT_THE_FIGURES_ANEW,
+        );
     }
     let at = table.numbers("at")?;
     if at.len() != count {
-        let help = "give one value for each of `times_s`, or accept the figures anew";
-        return table.refuse("at", format!("{} values are kept for {count} instants", at.len()), help);
+        let help = sentences::GIVE_ONE_VALUE_FOR_EACH_OF_TIMES;
+        return table.refuse("at", sentences::values_are_kept_for_instants(&at.len(), &count), help);
     }
     let (least, greatest) = (table.number("least")?, table.number("greatest")?);
     let rms = table.optional_number("rms")?;
     table.finish()?;
-    Ok(Kept { name, bound, at, least, greatest, rms })
+    Ok(AcceptedChannel { name, bound, at, least, greatest, rms })
 }
 
 /// Refuses a channel that stands twice.
-fn twice(root: &Table, channels: &[Kept]) -> Result<()> {
+fn twice(root: &TomlTable, channels: &[AcceptedChannel]) -> Result<()> {
     let mut names: Vec<&str> = channels.iter().map(|own| own.name.as_str()).collect();
     names.sort_unstable();
     match names.windows(2).find(|pair| pair[0] == pair[1]) {
         None => Ok(()),
-        Some(pair) => root.refuse("channels", format!("the channel {} stands twice", pair[0]), "delete one of the two"),
+        Some(pair) => {
+            root.refuse("channels", sentences::the_channel_stands_twice(&pair[0]), sentences::DELETE_ONE_OF_THE_TWO)
+        }
     }
 }
 
@@ -141,7 +153,7 @@ pub fn text(accepted: &Accepted) -> String {
         quoted(verdict),
         list(times, 0.0)
     );
-    for Kept { name, bound, at, least, greatest, rms } in channels {
+    for AcceptedChannel { name, bound, at, least, greatest, rms } in channels {
         let [least, greatest] = [least, greatest].map(|figure| number(*figure, *bound));
         let _ = write!(
             text,
@@ -233,8 +245,14 @@ mod tests {
 
     #[test]
     fn what_is_written_is_read_back() {
-        let kept =
-            |name: &str, rms| Kept { name: name.into(), bound: 1e-9, at: vec![0.5], least: -1.0, greatest: 1.0, rms };
+        let kept = |name: &str, rms| AcceptedChannel {
+            name: name.into(),
+            bound: 1e-9,
+            at: vec![0.5],
+            least: -1.0,
+            greatest: 1.0,
+            rms,
+        };
         let accepted = Accepted {
             scenario: "four_bar".into(),
             verdict: "agree".into(),

@@ -1,17 +1,18 @@
 //! What is asked for in place of the file's own start: assembly modes, and the crank angle at t = 0.
 
 use super::start;
+use crate::sentences;
 use linkage::drive::Drives;
 use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::math::KeepNan;
 use linkage::math::unit;
-use linkage::mechanism::assembly::{Choice, blame, blamed, first_choices, group_of};
+use linkage::mechanism::assembly::{ConfigurationChoice, blame, blamed, first_choices, group_of};
 use linkage::mechanism::pose::SidePoint;
-use linkage::mechanism::{Group, GroupId, GroupKind, LinkId, Mechanism, Pose, Side, StartGroup, Structure};
+use linkage::mechanism::{Group, GroupId, GroupKind, JointSide, LinkId, Mechanism, Pose, StartGroup, Structure};
 
 /// A start other than that of the scenario file. The default asks for nothing.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Asked {
+pub struct StartRequest {
     /// Groups and their modes, each `LINK,LINK=MODE` or `LINK,LINK=NUMBER`.
     /// The links of a group and its mode are named as in the file; in another order of the links, left and right are
     /// exchanged. NUMBER is the place in the list of [`configurations`](linkage::mechanism::assembly::configurations)
@@ -44,7 +45,7 @@ pub struct Undecided {
 /// A mechanism at its start.
 pub(super) struct Placed {
     pub pose: Pose,
-    pub choices: Vec<Choice>,
+    pub choices: Vec<ConfigurationChoice>,
     pub starts: Vec<StartGroup>,
     /// Whether the pose lies on the branch that the file itself starts on.
     pub is_own_branch: bool,
@@ -76,7 +77,7 @@ const STEP: f64 = std::f64::consts::PI / 180.0;
 /// Largest difference of two directions in the same pose.
 const SAME: f64 = 1e-9;
 
-impl Asked {
+impl StartRequest {
     /// The groups and starts asked for.
     pub fn groups(&self, mechanism: &Mechanism, structure: &Structure) -> Result<Vec<(GroupId, StartGroup)>> {
         self.modes.iter().map(|text| start::asked(text, mechanism, structure)).collect()
@@ -176,12 +177,12 @@ impl Start<'_> {
 
     /// The pose of the file's own configuration with the crank at `crank` (rad): straight on, or by the other way round
     /// if there is no way straight on. A dyad keeps its mode, a higher group goes on from step to step.
-    fn followed(&self, own: &(Pose, Vec<Choice>), crank: f64) -> Option<Pose> {
+    fn followed(&self, own: &(Pose, Vec<ConfigurationChoice>), crank: f64) -> Option<Pose> {
         let other = crank - std::f64::consts::TAU.copysign(crank - self.crank);
         self.walked(own, crank).or_else(|| self.walked(own, other))
     }
 
-    fn walked(&self, (pose, choices): &(Pose, Vec<Choice>), crank: f64) -> Option<Pose> {
+    fn walked(&self, (pose, choices): &(Pose, Vec<ConfigurationChoice>), crank: f64) -> Option<Pose> {
         let way = crank - self.crank;
         let has_higher = self.structure.groups.iter().any(|group| group.kind == GroupKind::Higher);
         let steps = if has_higher { (way.abs() / STEP).ceil().larger(1.0) as usize } else { 1 };
@@ -207,7 +208,7 @@ impl Start<'_> {
     fn standing(&self, group: &Group, pose: &Pose) -> StartGroup {
         let of_link = |&link: &LinkId| {
             self.mechanism.links()[link].points.iter().map(move |point| {
-                let side = Side { link, local: point.local };
+                let side = JointSide { link, local: point.local };
                 (SidePoint { name: point.name.clone(), side }, pose.0[link].point(point.local))
             })
         };
@@ -216,12 +217,8 @@ impl Start<'_> {
 
     fn lost(&self, group: &Group, crank: f64) -> Error {
         let names = group.names(self.mechanism);
-        let message = format!(
-            "the configuration of the group ({names}) at the start, crank angle {:.4} deg, cannot be followed to {:.4} deg",
-            self.crank.to_degrees(),
-            crank.to_degrees()
-        );
-        let give = "an angle nearer to the file's start, or ask for a configuration by its number".to_string();
+        let message = sentences::the_configuration_of_the_group(&names, &self.crank.to_degrees(), &crank.to_degrees());
+        let give = sentences::AN_ANGLE_NEARER_TO_THE_FILE.to_string();
         Error::new(ErrorKind::Geometry, message)
             .help(Advice::Configuration { give })
             .key(group.key(self.mechanism))

@@ -1,10 +1,11 @@
 //! What a formula is said to be.
 
-use super::figure::Figure;
+use super::figure::MechanismFigure;
 use super::printed::PrintedChannel;
 use super::reduced::QUANTITIES;
 use super::words::nearest;
-use formula::{Fault, Graph, Operator, Shape, Tree};
+use crate::sentences;
+use formula::{FormulaFault, FormulaGraph, FormulaTree, NodeShape, Operator};
 use linkage::case::Case;
 use linkage::trajectory::Channel;
 
@@ -15,11 +16,11 @@ pub struct Claim {
     pub text: String,
     /// The text as it was read. Its names are those of the channels and figures; what is reduced to the crank stands
     /// there as the arithmetic of channels that it is.
-    pub tree: Tree,
+    pub tree: FormulaTree,
     /// The channels with their names in the tree.
     pub channels: Vec<(String, PrintedChannel)>,
     /// The figures with their names in the tree.
-    pub figures: Vec<(String, Figure)>,
+    pub figures: Vec<(String, MechanismFigure)>,
     /// Unit of its numbers; empty for an arithmetic.
     unit: &'static str,
 }
@@ -29,7 +30,7 @@ impl Claim {
     ///
     /// # Errors
     /// What is wrong, with its place in the text.
-    pub fn parse(text: &str, case: &Case) -> Result<Claim, Fault> {
+    pub fn parse(text: &str, case: &Case) -> Result<Claim, FormulaFault> {
         Claim::read(text, &case.all_channels(), Some(case))
     }
 
@@ -37,26 +38,26 @@ impl Claim {
     ///
     /// # Errors
     /// What is wrong, with its place in the text.
-    pub fn of_channels(text: &str, all: &[Channel]) -> Result<Claim, Fault> {
+    pub fn of_channels(text: &str, all: &[Channel]) -> Result<Claim, FormulaFault> {
         Claim::read(text, all, None)
     }
 
-    fn read(text: &str, all: &[Channel], case: Option<&Case>) -> Result<Claim, Fault> {
+    fn read(text: &str, all: &[Channel], case: Option<&Case>) -> Result<Claim, FormulaFault> {
         let channel = |name: &str| PrintedChannel::named(name).filter(|found| all.contains(&found.channel));
         // A name may have signs in it that mean something in an arithmetic.
         let written = match channel(text) {
-            Some(_) => Tree { shape: Shape::Name(text.into()), at: 0..text.len() },
-            None => Tree::parse(text)?,
+            Some(_) => FormulaTree { shape: NodeShape::Name(text.into()), at: 0..text.len() },
+            None => FormulaTree::parse(text)?,
         };
         let mut claim =
             Claim { text: text.into(), tree: written.clone(), channels: Vec::new(), figures: Vec::new(), unit: "" };
         for (name, at) in written.names() {
-            let fault = |(message, help): (String, String)| Fault { message, at, help };
+            let fault = |(message, help): (String, String)| FormulaFault { message, at, help };
             let quantity = case.and_then(|case| Some((QUANTITIES.iter().find(|own| own.name == name)?, case)));
             let unit = if let Some((quantity, case)) = quantity {
                 claim.tree = claim.tree.with_name(name, &quantity.of(case).map_err(fault)?);
                 quantity.unit
-            } else if let Some(figure) = case.and_then(|case| Figure::claimed(name, case)) {
+            } else if let Some(figure) = case.and_then(|case| MechanismFigure::claimed(name, case)) {
                 let figure = figure.map_err(fault)?;
                 claim.figures.push((name.into(), figure));
                 figure.unit()
@@ -65,7 +66,7 @@ impl Claim {
             } else {
                 return Err(fault(unknown(name, all)));
             };
-            if matches!(written.shape, Shape::Name(_)) {
+            if matches!(written.shape, NodeShape::Name(_)) {
                 claim.unit = unit;
             }
         }
@@ -81,11 +82,15 @@ impl Claim {
         claim.figures.sort_by(|one, other| one.0.cmp(&other.0));
         claim.figures.dedup_by(|one, other| one.0 == other.0);
         if claim.channels.is_empty() && claim.figures.is_empty() {
-            let help = "name a channel, such as link.rocker.angle_deg".to_string();
-            return Err(Fault { message: "the claim names no channel".into(), at: 0..text.len(), help });
+            let help = sentences::NAME_A_CHANNEL_SUCH_AS_LINK.to_string();
+            return Err(FormulaFault {
+                message: sentences::THE_CLAIM_NAMES_NO_CHANNEL.into(),
+                at: 0..text.len(),
+                help,
+            });
         }
         let names = written.names().into_iter().map(|(name, _)| name).collect::<Vec<&str>>();
-        Graph::new(&names, 0).add_defined(&written)?;
+        FormulaGraph::new(&names, 0).add_defined(&written)?;
         Ok(claim)
     }
 
@@ -101,12 +106,12 @@ impl Claim {
     /// A turn in its unit, if it is an angle, or a sum and difference of angles: values a turn apart mean the same.
     #[must_use]
     pub fn turn(&self) -> Option<f64> {
-        fn is_sum(tree: &Tree) -> bool {
+        fn is_sum(tree: &FormulaTree) -> bool {
             match &tree.shape {
-                Shape::Number(_) | Shape::Name(_) => true,
-                Shape::Negative(part) => is_sum(part),
-                Shape::Pair(Operator::Plus | Operator::Minus, parts) => parts.iter().all(is_sum),
-                Shape::Pair(Operator::Times | Operator::Over | Operator::Power, _) | Shape::Call(..) => false,
+                NodeShape::Number(_) | NodeShape::Name(_) => true,
+                NodeShape::Negative(part) => is_sum(part),
+                NodeShape::Pair(Operator::Plus | Operator::Minus, parts) => parts.iter().all(is_sum),
+                NodeShape::Pair(Operator::Times | Operator::Over | Operator::Power, _) | NodeShape::Call(..) => false,
             }
         }
         let turns: Vec<Option<f64>> = self.channels.iter().map(|(_, channel)| channel.turn()).collect();
@@ -120,11 +125,11 @@ impl Claim {
 fn unknown(name: &str, all: &[Channel]) -> (String, String) {
     let known: Vec<String> = all.iter().map(Channel::to_string).collect();
     let reduced = QUANTITIES.iter().map(|own| own.name);
-    let figures: Vec<String> = Figure::claims().collect();
+    let figures: Vec<String> = MechanismFigure::claims().collect();
     let all = known.iter().chain(&figures).map(String::as_str).chain(reduced);
     let help = match nearest(name, all) {
-        Some(near) => format!("did you mean `{near}`?"),
-        None => "name one of this scenario, such as link.rocker.angle_deg or point.B.x_mm".into(),
+        Some(near) => sentences::did_you_mean(&near),
+        None => sentences::NAME_ONE_OF_THIS_SCENARIO.into(),
     };
-    (format!("there is no channel {name} here"), help)
+    (sentences::there_is_no_channel_here(&name), help)
 }

@@ -3,12 +3,13 @@
 pub mod outline;
 pub mod question;
 
+use crate::sentences;
 pub use outline::{Flaw, MOST_CORNERS, Outline};
-pub use question::{Body, Question};
+pub use question::{ClearanceBody, ClearanceQuestion};
 
-use super::keys::key::{Key, Kind, Section, needed, optional};
+use super::keys::key::{FileKey, Section, ValueKind, needed, optional};
 use super::links::{PLACE, place, sound_name};
-use super::reader::{Sign, Table};
+use super::reader::{Sign, TomlTable};
 use super::unit::LENGTH;
 use super::words::suggestion;
 use linkage::error::{Error, ErrorKind, Result};
@@ -16,44 +17,46 @@ use linkage::math::{KeepNan, Vec2};
 use linkage::mechanism::{GROUND, Link, LinkId, Mechanism, Point};
 use question::pairs;
 
-const RADIUS: Key = optional("radius", Kind::LENGTHS.of(Sign::NotNegative), "that of the section; of a polygon 0")
-    .means("radius of the rounding: positive of a line, not negative of a polygon or of a part of the housing");
-const CORNERS: Key = optional("corners", Kind::Tables, "a line")
+const RADIUS: FileKey =
+    optional("radius", ValueKind::LENGTHS.of(Sign::NotNegative), "that of the section; of a polygon 0")
+        .means("radius of the rounding: positive of a line, not negative of a polygon or of a part of the housing");
+const CORNERS: FileKey = optional("corners", ValueKind::Tables, "a line")
     .means("places, three or more: a polygon with its interior, convex or not, in either sense");
-const LINE: Key = optional("line", Kind::Tables, "through the link's points, if there are no corners")
+const LINE: FileKey = optional("line", ValueKind::Tables, "through the link's points, if there are no corners")
     .means("places: capsules from place to place; a single one is a disc");
 
 /// What is told of the keys that are read here.
 pub const SECTIONS: &[Section] = &[
     Section::at("clearance").with(&[
-        optional("radius", Kind::LENGTHS.of(Sign::Positive), "every link needs an outline of its own").means(
+        optional("radius", ValueKind::LENGTHS.of(Sign::Positive), "every link needs an outline of its own").means(
             "radius, positive, of the capsules between the points of every link that has no outline of \
              its own",
         ),
-        optional("wanted", Kind::LENGTHS.of(Sign::NotNegative), "only collisions count")
+        optional("wanted", ValueKind::LENGTHS.of(Sign::NotNegative), "only collisions count")
             .means("distance that no pair may fall to"),
-        optional("tolerance", Kind::LENGTHS.of(Sign::Positive), "a millionth of the mechanism's size")
+        optional("tolerance", ValueKind::LENGTHS.of(Sign::Positive), "a millionth of the mechanism's size")
             .means("error that a smallest distance may have"),
-        optional("area_rel", Kind::Number, "5e-3")
+        optional("area_rel", ValueKind::Number, "5e-3")
             .means("error that a swept area may have, as a share of it; from 1e-5 to 1"),
-        optional("outlines", Kind::Table, "capsules between the points").means("outlines of links by name"),
-        optional("housing", Kind::Tables, "none").means("parts of the housing"),
-        optional("ignore", Kind::Tables, "none").means("pairs that cannot meet, because they lie in different planes"),
+        optional("outlines", ValueKind::Table, "capsules between the points").means("outlines of links by name"),
+        optional("housing", ValueKind::Tables, "none").means("parts of the housing"),
+        optional("ignore", ValueKind::Tables, "none")
+            .means("pairs that cannot meet, because they lie in different planes"),
     ]),
     Section::at("clearance.outlines.*").with(&[CORNERS, LINE, RADIUS]),
     Section::at("clearance.outlines.*.corners").with(PLACE),
     Section::at("clearance.outlines.*.line").with(PLACE),
     Section::at("clearance.housing").with(&[
-        needed("name", Kind::Text).means("name, unique, not that of a link"),
+        needed("name", ValueKind::Text).means("name, unique, not that of a link"),
         CORNERS,
         LINE,
         RADIUS,
     ]),
     Section::at("clearance.housing.corners").with(PLACE),
     Section::at("clearance.housing.line").with(PLACE),
-    Section::at("clearance.ignore").with(&[
-        needed("bodies", Kind::Texts).means("the two that cannot meet; `\"housing\"` stands for all its parts")
-    ]),
+    Section::at("clearance.ignore")
+        .with(&[needed("bodies", ValueKind::Texts)
+            .means("the two that cannot meet; `\"housing\"` stands for all its parts")]),
 ];
 
 /// Share of a swept area that its error may have, unless the file says otherwise.
@@ -69,15 +72,17 @@ const MOST_PARTS: usize = 200;
 const HOUSING: &str = "housing";
 
 /// The question that a file asks about clearance.
-pub fn read(table: &mut Table, mechanism: &Mechanism) -> Result<Question> {
+pub fn read(table: &mut TomlTable, mechanism: &Mechanism) -> Result<ClearanceQuestion> {
     let radius = table.optional_si("radius")?;
     let wanted = table.optional_si("wanted")?;
     let tolerance = table.optional_si("tolerance")?;
     let size = mechanism.size();
     if tolerance.is_some_and(|tolerance| tolerance < FINEST * size) {
-        let message =
-            format!("distances are found to {:.1e} m and no better: {FINEST:e} of the mechanism's size", FINEST * size);
-        return table.refuse("tolerance", message, "give a larger tolerance, or leave it out");
+        let message = sentences::distances_are_found_to_and_no_better(
+            &format_args!("{:.1e}", FINEST * size),
+            &format_args!("{:e}", FINEST),
+        );
+        return table.refuse("tolerance", message, sentences::GIVE_A_LARGER_TOLERANCE_OR_LEAVE);
     }
     let area = area(table)?;
     let (outlines, housing) = (table.optional_table("outlines")?, table.tables("housing")?);
@@ -85,8 +90,8 @@ pub fn read(table: &mut Table, mechanism: &Mechanism) -> Result<Question> {
     table.finish()?;
     let mut bodies = links(table, outlines, radius, mechanism)?;
     if housing.len() > MOST_PARTS {
-        let message = format!("found {} parts of the housing, but at most {MOST_PARTS} are handled", housing.len());
-        return table.refuse(HOUSING, message, "leave out parts that no link comes near");
+        let message = sentences::found_parts_of_the_housing(&housing.len(), &MOST_PARTS);
+        return table.refuse(HOUSING, message, sentences::LEAVE_OUT_PARTS_THAT_NO_LINK);
     }
     for part in housing {
         let body = wall(part, mechanism, &bodies)?;
@@ -94,30 +99,35 @@ pub fn read(table: &mut Table, mechanism: &Mechanism) -> Result<Question> {
     }
     let ground = mechanism.links()[GROUND].points.iter().map(|point| point.local.norm()).fold(0.0, f64::larger);
     if let Some(far) = bodies.iter().find(|body| !(body.outline.extent() <= FARTHEST * (size + ground))) {
-        let message = format!(
-            "the outline of \"{}\" extends to {:.3e} m, the mechanism to {size:.3e} m",
-            far.name,
-            far.outline.extent()
+        let message = sentences::the_outline_of_extends_to_the_mechanism(
+            &far.name,
+            &format_args!("{:.3e}", far.outline.extent()),
+            &format_args!("{size:.3e}"),
         );
-        return Err(table.fault(message).help("check the units of its corners and its radius"));
+        return Err(table.fault(message).help(sentences::CHECK_THE_UNITS_OF_ITS_CORNERS));
     }
     let ignored = ignored.into_iter().map(|pair| ignore(pair, &bodies)).collect::<Result<Vec<_>>>()?.concat();
     let pairs = pairs(mechanism, &bodies, &ignored);
-    Ok(Question { bodies, pairs, wanted, tolerance, area })
+    Ok(ClearanceQuestion { bodies, pairs, wanted, tolerance, area })
 }
 
-fn area(table: &mut Table) -> Result<f64> {
+fn area(table: &mut TomlTable) -> Result<f64> {
     let share = table.optional_number("area_rel")?.unwrap_or(AREA);
     if (SMALLEST_AREA..1.0).contains(&share) {
         return Ok(share);
     }
-    let message = format!("found {share}, but this is the share of a swept area that its error may have");
+    let message = sentences::found_but_this_is_the_share(&share);
     let error = table.wrong(ErrorKind::Input, "area_rel", message);
-    table.instead(share, error.help(format!("give a number from {SMALLEST_AREA:e} to 1, such as 1e-3")))
+    table.instead(share, error.help(sentences::give_a_number_from_to_such_as(&format_args!("{:e}", SMALLEST_AREA))))
 }
 
 /// The moving links with their outlines, in the order of the mechanism.
-fn links(table: &Table, outlines: Option<Table>, radius: Option<f64>, mechanism: &Mechanism) -> Result<Vec<Body>> {
+fn links(
+    table: &TomlTable,
+    outlines: Option<TomlTable>,
+    radius: Option<f64>,
+    mechanism: &Mechanism,
+) -> Result<Vec<ClearanceBody>> {
     let links = mechanism.links();
     let mut given: Vec<Option<Outline>> = vec![None; links.len()];
     if let Some(mut outlines) = outlines {
@@ -126,10 +136,10 @@ fn links(table: &Table, outlines: Option<Table>, radius: Option<f64>, mechanism:
             let found = links.find(|link| link.name == name);
             let Some(link) = found.filter(|&link| link != GROUND) else {
                 let (message, names) = match found {
-                    Some(_) => ("the ground has no outline of its own".into(), "write `[[clearance.housing]]`".into()),
+                    Some(_) => (sentences::THE_GROUND_HAS_NO_OUTLINE.into(), "write `[[clearance.housing]]`".into()),
                     None => {
                         let names = links[1..].iter().map(|link| link.name.as_str());
-                        (format!("there is no link \"{name}\""), suggestion(&name, names, "\""))
+                        (sentences::there_is_no_link(&name), suggestion(&name, names, "\""))
                     }
                 };
                 return Err(own.fault(message).help(names));
@@ -143,25 +153,22 @@ fn links(table: &Table, outlines: Option<Table>, radius: Option<f64>, mechanism:
             (Some(outline), _) => outline,
             (None, Some(radius)) => default(table, points, radius)?,
             (None, None) => {
-                let message = format!("link \"{name}\" has no outline");
-                return Err(table.fault(message).help(format!(
-                    "give all links capsules with `radius_mm` in `[clearance]`, or this one an outline in \
-                     `[clearance.outlines.{name}]`"
-                )));
+                let message = sentences::link_has_no_outline(&name);
+                return Err(table.fault(message).help(sentences::give_all_links_capsules_with_radius(&name)));
             }
         };
-        Ok(Body { name: name.clone(), link, outline })
+        Ok(ClearanceBody { name: name.clone(), link, outline })
     };
     links.ids().zip(given).skip(1).map(body).collect()
 }
 
-fn default(table: &Table, points: &[Point], radius: f64) -> Result<Outline> {
+fn default(table: &TomlTable, points: &[Point], radius: f64) -> Result<Outline> {
     let places: Vec<Vec2> = points.iter().map(|point| point.local).collect();
     Outline::of_points(&places, radius).map_err(|flaw| flawed(table, "radius", flaw))
 }
 
 /// The outline that a link states: corners, a line, or the radius of its capsules alone.
-fn of_link(mut table: Table, default_radius: Option<f64>, link: &Link) -> Result<Outline> {
+fn of_link(mut table: TomlTable, default_radius: Option<f64>, link: &Link) -> Result<Outline> {
     let drawn = drawn(&mut table, &link.points)?;
     let solid = matches!(drawn, Some(("corners", _)));
     // A line without a radius has no interior.
@@ -169,7 +176,7 @@ fn of_link(mut table: Table, default_radius: Option<f64>, link: &Link) -> Result
     let radius = table.optional_quantity("radius", &LENGTH, sign)?;
     table.finish()?;
     let Some(radius) = radius.or(if solid { Some(0.0) } else { default_radius }) else {
-        return Err(table.fault("the outline has no radius").help("add `radius_mm`, or give `corners`"));
+        return Err(table.fault(sentences::THE_OUTLINE_HAS_NO_RADIUS).help(sentences::ADD_RADIUS_MM_OR_GIVE_CORNERS));
     };
     match drawn {
         Some(drawn) => rounded(&table, drawn, radius),
@@ -178,31 +185,31 @@ fn of_link(mut table: Table, default_radius: Option<f64>, link: &Link) -> Result
 }
 
 /// A polygon by its `corners`, or a line, as [`drawn`].
-fn rounded(table: &Table, (key, places): (&'static str, Vec<Vec2>), radius: f64) -> Result<Outline> {
+fn rounded(table: &TomlTable, (key, places): (&'static str, Vec<Vec2>), radius: f64) -> Result<Outline> {
     let outline = if key == "corners" { Outline::polygon(&places, radius) } else { Outline::line(&places, radius) };
     outline.map_err(|flaw| flawed(table, key, flaw))
 }
 
 /// A part of the housing.
-fn wall(mut table: Table, mechanism: &Mechanism, before: &[Body]) -> Result<Body> {
-    let name = sound_name(&mut table, "a part of the housing")?;
+fn wall(mut table: TomlTable, mechanism: &Mechanism, before: &[ClearanceBody]) -> Result<ClearanceBody> {
+    let name = sound_name(&mut table, sentences::A_PART_OF_THE_HOUSING)?;
     if name == HOUSING || before.iter().any(|body| body.name == name) {
-        let message = format!("\"{name}\" is taken");
-        return table.refuse("name", message, "give every part a name of its own; \"housing\" stands for all parts");
+        let message = sentences::is_taken(&name);
+        return table.refuse("name", message, sentences::GIVE_EVERY_PART_A_NAME_OF_ITS_OWN);
     }
     let drawn = drawn(&mut table, &mechanism.links()[GROUND].points)?;
     let radius = table.optional_si("radius")?.unwrap_or(0.0);
     table.finish()?;
     let Some(drawn) = drawn else {
-        let help = "add `corners` of a solid part, or the places of a wall as `line`";
-        return Err(table.fault("this part of the housing has no outline").help(help));
+        let help = sentences::ADD_CORNERS_OF_A_SOLID_PART;
+        return Err(table.fault(sentences::THIS_PART_OF_THE_HOUSING).help(help));
     };
     let outline = rounded(&table, drawn, radius)?;
-    Ok(Body { name, link: GROUND, outline })
+    Ok(ClearanceBody { name, link: GROUND, outline })
 }
 
 /// `corners` of a polygon or the places of a `line`, if there are any; places may count from the points `known`.
-fn drawn(table: &mut Table, known: &[Point]) -> Result<Option<(&'static str, Vec<Vec2>)>> {
+fn drawn(table: &mut TomlTable, known: &[Point]) -> Result<Option<(&'static str, Vec<Vec2>)>> {
     let mut found = None;
     for key in ["corners", "line"] {
         let places = table.tables(key)?;
@@ -210,7 +217,7 @@ fn drawn(table: &mut Table, known: &[Point]) -> Result<Option<(&'static str, Vec
             continue;
         }
         if found.is_some() {
-            return table.refuse(key, "`corners` and `line` are both given", "keep one of the two");
+            return table.refuse(key, sentences::CORNERS_AND_LINE_ARE_BOTH, sentences::KEEP_ONE_OF_THE_TWO);
         }
         if places.len() > MOST_CORNERS {
             return Err(flawed(table, key, Flaw::Many(places.len())));
@@ -222,45 +229,40 @@ fn drawn(table: &mut Table, known: &[Point]) -> Result<Option<(&'static str, Vec
 }
 
 /// The error of a flawed outline.
-fn flawed(table: &Table, key: &str, flaw: Flaw) -> Error {
+fn flawed(table: &TomlTable, key: &str, flaw: Flaw) -> Error {
     let (message, help) = match flaw {
         Flaw::Few(0) if key == "line" => {
-            ("a line needs a place or more".into(), "one place is a disc, two are a capsule")
+            (sentences::A_LINE_NEEDS_A_PLACE_OR_MORE.into(), sentences::ONE_PLACE_IS_A_DISC_TWO_ARE_A_CAPSULE)
         }
-        Flaw::Few(count) => {
-            (format!("found {count} corners, but a polygon has three or more"), "add corners, or write a `line`")
+        Flaw::Few(count) => (sentences::found_corners_but_a_polygon(&count), sentences::ADD_CORNERS_OR_WRITE_A_LINE),
+        Flaw::Many(count) => {
+            (sentences::found_corners_but_at_most(&count, &MOST_CORNERS), sentences::LEAVE_OUT_CORNERS_THAT_CHANGE)
         }
-        Flaw::Many(count) => (
-            format!("found {count} corners, but at most {MOST_CORNERS} are handled"),
-            "leave out corners that change the outline by less than its clearance",
-        ),
-        Flaw::Repeated([a, b]) => (
-            format!("corners {} and {} are in one place", a + 1, b + 1),
-            "give every corner once; the last side closes by itself",
-        ),
-        Flaw::Crossing([a, b]) => (
-            format!("the sides that begin at corners {} and {} touch or cross", a + 1, b + 1),
-            "give the corners in their order around the outline",
-        ),
-        Flaw::Flat => ("all corners lie on one line".into(), "write a `line`, or give corners around an area"),
-        Flaw::NoNumber => ("a coordinate or the radius is no number".into(), "give finite numbers"),
+        Flaw::Repeated([a, b]) => {
+            (sentences::corners_and_are_in_one_place(&(a + 1), &(b + 1)), sentences::GIVE_EVERY_CORNER_ONCE_THE_LAST)
+        }
+        Flaw::Crossing([a, b]) => {
+            (sentences::the_sides_that_begin_at_corners(&(a + 1), &(b + 1)), sentences::GIVE_THE_CORNERS_IN_THEIR)
+        }
+        Flaw::Flat => (sentences::ALL_CORNERS_LIE_ON_ONE_LINE.into(), sentences::WRITE_A_LINE_OR_GIVE_CORNERS),
+        Flaw::NoNumber => (sentences::A_COORDINATE_OR_THE_RADIUS.into(), sentences::GIVE_FINITE_NUMBERS),
     };
     table.wrong(ErrorKind::Input, key, message).help(help)
 }
 
 /// The pairs of bodies that one entry of `ignore` names.
-fn ignore(mut table: Table, bodies: &[Body]) -> Result<Vec<[usize; 2]>> {
+fn ignore(mut table: TomlTable, bodies: &[ClearanceBody]) -> Result<Vec<[usize; 2]>> {
     let names = table.strings("bodies")?;
     table.finish()?;
     let [first, second] = &names[..] else {
         let help = "write `{ bodies = [\"crank\", \"rocker\"] }`";
-        return table.refuse("bodies", format!("found {} names, but a pair has two", names.len()), help);
+        return table.refuse("bodies", sentences::found_names_but_a_pair_has_two(&names.len()), help);
     };
     let numbers = |name: &str| -> Result<Vec<usize>> {
-        let is_named = |body: &Body| body.name == name || (name == HOUSING && !body.moves());
+        let is_named = |body: &ClearanceBody| body.name == name || (name == HOUSING && !body.moves());
         let found: Vec<usize> = (0..bodies.len()).filter(|&body| is_named(&bodies[body])).collect();
         if found.is_empty() {
-            let message = format!("there is no link and no part of the housing \"{name}\"");
+            let message = sentences::there_is_no_link_and_no_part(&name);
             let known = bodies.iter().map(|body| body.name.as_str());
             return table.refuse("bodies", message, suggestion(name, known, "\""));
         }

@@ -2,11 +2,11 @@
 
 use std::path::Path;
 
-use super::asked::Asked;
+use super::asked::StartRequest;
 use super::links::is_somewhere;
-use super::reader::Table;
+use super::reader::TomlTable;
 use super::source::{Source, text_of};
-use super::stated::Stated;
+use super::stated::FileSections;
 use super::{keys, parameter_table, start};
 use linkage::drive::{Drive, Load, MotionLaw};
 use linkage::error::{Error, Result};
@@ -46,7 +46,7 @@ impl Draft {
     ///
     /// # Errors
     /// That the file cannot be read, that it is no TOML or of another version, and what is wrong with the question.
-    pub fn load(path: &Path, asked: &Asked) -> Result<Draft> {
+    pub fn load(path: &Path, asked: &StartRequest) -> Result<Draft> {
         Draft::parse(&text_of(path)?, path, asked)
     }
 
@@ -54,22 +54,22 @@ impl Draft {
     ///
     /// # Errors
     /// Those of [`Draft::load`], except that the file cannot be read.
-    pub fn parse(text: &str, path: &Path, asked: &Asked) -> Result<Draft> {
+    pub fn parse(text: &str, path: &Path, asked: &StartRequest) -> Result<Draft> {
         let plain = Source::new(path, text);
         let tree = plain.tree()?;
-        let table = Table::root(&plain, &tree).optional_table("parameters").unwrap_or_default();
+        let table = TomlTable::root(&plain, &tree).optional_table("parameters").unwrap_or_default();
         let (parameters, fault) = parameter_table::read(table, &asked.set, asked.adds_parameters)?;
         let source = plain.with(parameters, keys::rows);
-        let found = Table::root(&source, &tree).read_on(|root| read(root, asked));
+        let found = TomlTable::root(&source, &tree).read_on(|root| read(root, asked));
         let (draft, mistakes) = found.map_err(|error| source.located(tree.get_ref(), error))?;
         // A parameter may be the cause of all others.
         Ok(Draft { mistakes: fault.or(mistakes), ..draft })
     }
 }
 
-fn read(root: &mut Table, asked: &Asked) -> Result<Draft> {
-    let stated = Stated::read(root, asked)?;
-    let Stated { title, crank, gravity, start, groups, .. } = stated;
+fn read(root: &mut TomlTable, asked: &StartRequest) -> Result<Draft> {
+    let stated = FileSections::read(root, asked)?;
+    let FileSections { title, crank, gravity, start, groups, .. } = stated;
     let mechanism = with_places(&stated.mechanism);
     let is_driven_by_guess = stated.drives.is_none();
     let drives: Vec<Drive> = match &stated.drives {

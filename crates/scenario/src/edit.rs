@@ -1,5 +1,6 @@
 //! Changes a scenario file without touching what people wrote in it.
 
+use crate::sentences;
 use toml_edit::{DocumentMut, Item, Table, value};
 
 use super::engine::{EngineSettings, ROWS, SECTIONS, Slot};
@@ -12,12 +13,14 @@ use linkage::error::{Error, ErrorKind, Result};
 /// [`ErrorKind::Input`] if the text is not TOML, or if `engine` in it is not a section.
 pub fn with_engine(text: &str, engine: EngineSettings) -> Result<String> {
     let mut document: DocumentMut =
-        text.parse().map_err(|error| Error::new(ErrorKind::Input, format!("the file is not valid TOML: {error}")))?;
+        text.parse().map_err(|error| Error::new(ErrorKind::Input, sentences::the_file_is_not_valid_toml(&error)))?;
     if document.get("engine").is_none() {
         document.insert("engine", Item::Table(Table::new()));
     }
     let Some(table) = document.get_mut("engine").and_then(Item::as_table_mut) else {
-        return Err(Error::new(ErrorKind::Input, "`engine` is not a section").help("write it as `[engine]`"));
+        return Err(
+            Error::new(ErrorKind::Input, sentences::ENGINE_IS_NOT_A_SECTION).help(sentences::WRITE_IT_AS_ENGINE)
+        );
     };
     table.clear();
     fill(table, engine);
@@ -52,20 +55,20 @@ fn fill(table: &mut Table, mut engine: EngineSettings) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{EngineName, Setting};
+    use crate::{EngineName, EngineSetting};
 
     #[test]
     fn only_the_engine_section_changes() {
         let text =
             "# mine\nname = 'a'  # kept\n\n[engine]\nstep_deg = 0.5 # coarse\n\n[tolerances]\nengine_rel = 1e-2\n";
         let keys = EngineSettings {
-            engines: Setting::of(vec![EngineName::Impulse]),
-            step: Setting::of(2.5e-4),
-            sweeps: Setting::of(64),
-            extrapolated: Setting::of(1),
+            engines: EngineSetting::of(vec![EngineName::Impulse]),
+            step: EngineSetting::of(2.5e-4),
+            sweeps: EngineSetting::of(64),
+            extrapolated: EngineSetting::of(1),
             ..EngineSettings::default()
         };
-        let stepped = || EngineSettings { step: Setting::of(1.0), ..EngineSettings::default() };
+        let stepped = || EngineSettings { step: EngineSetting::of(1.0), ..EngineSettings::default() };
         let changed = with_engine(text, keys.clone()).unwrap();
         assert!(changed.starts_with("# mine\nname = 'a'  # kept\n\n[engine]\n"), "{changed}");
         assert!(changed.ends_with("[tolerances]\nengine_rel = 1e-2\n"), "{changed}");

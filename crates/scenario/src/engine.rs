@@ -3,12 +3,13 @@
 //! [`ROWS`] is the one place of a setting: reader, writer and argument follow from its row, schema and documents from its
 //! key in [`SECTIONS`].
 
+use crate::sentences;
 use std::fmt;
 use std::ops::RangeInclusive;
 
-use super::keys::key::{Kind, Section, optional};
-use super::reader::{Sign, Table};
-use super::setting::Setting;
+use super::keys::key::{Section, ValueKind, optional};
+use super::reader::{Sign, TomlTable};
+use super::setting::EngineSetting;
 use linkage::drive::Drive;
 use linkage::engine::{Engine, Route, Settings};
 use linkage::error::{ErrorKind, Result};
@@ -73,7 +74,7 @@ macro_rules! settings {
         /// Engines and their settings, as far as they are given.
         #[derive(Clone, Debug, Default, PartialEq)]
         pub struct EngineSettings {
-            $($(#[$doc])* pub $name: Setting<$kind>,)*
+            $($(#[$doc])* pub $name: EngineSetting<$kind>,)*
         }
 
         impl EngineSettings {
@@ -107,20 +108,20 @@ settings! {
 #[derive(Debug)]
 pub enum Slot<'a> {
     /// Engines by name.
-    Engines(&'a mut Setting<Vec<EngineName>>),
+    Engines(&'a mut EngineSetting<Vec<EngineName>>),
     /// A number greater than zero.
-    Positive(&'a mut Setting<f64>),
+    Positive(&'a mut EngineSetting<f64>),
     /// A whole number greater than zero.
-    Count(&'a mut Setting<usize>),
+    Count(&'a mut EngineSetting<usize>),
     /// A route.
-    Route(&'a mut Setting<Route>),
+    Route(&'a mut EngineSetting<Route>),
     /// A number of extrapolations.
-    Times(&'a mut Setting<usize>),
+    Times(&'a mut EngineSetting<usize>),
 }
 
 /// What a setting is called and means.
 #[derive(Debug)]
-pub struct Row {
+pub struct SettingRow {
     /// Its key in [`SECTIONS`], the first where it is stated in two ways; none of a setting that is no matter of a file.
     pub key: Option<&'static str>,
     /// Its argument.
@@ -137,80 +138,75 @@ pub struct Row {
 pub const MOST_TIMES: usize = 8;
 
 /// All settings.
-pub const ROWS: &[Row] = &[
-    Row {
+pub const ROWS: &[SettingRow] = &[
+    SettingRow {
         key: Some("dt"),
         argument: "dt",
         value: "S",
-        help: "Time step of the engine in seconds [default: the scenario's, else `run` finds it, and others take a \
-               quarter of a degree of the crank or less]",
+        help: sentences::TIME_STEP_OF_THE_ENGINE_IN_SECONDS,
         slot: |own| Slot::Positive(&mut own.step),
     },
-    Row {
+    SettingRow {
         key: Some("name"),
         argument: "engine",
         value: "ENGINE",
-        help: "Engine, or `all` to run every one side by side. May be given several times [default: the scenario's, \
-               else the first]",
+        help: sentences::ENGINE_OR_ALL_TO_RUN_EVERY_ONE_SIDE,
         slot: |own| Slot::Engines(&mut own.engines),
     },
-    Row {
+    SettingRow {
         key: None,
         argument: "accuracy",
         value: "ACCURACY",
-        help: "Relative accuracy of an engine that chooses its own steps [default: its tightest]",
+        help: sentences::RELATIVE_ACCURACY_OF_AN_ENGINE,
         slot: |own| Slot::Positive(&mut own.accuracy),
     },
-    Row {
+    SettingRow {
         key: Some("sweeps"),
         argument: "sweeps",
         value: "N",
-        help: "Sweeps of the engine's iteration in a step [default: the scenario's, else `run` finds them, and others \
-               take the engine's]",
+        help: sentences::SWEEPS_OF_THE_ENGINE_ITERATION,
         slot: |own| Slot::Count(&mut own.sweeps),
     },
-    Row {
+    SettingRow {
         key: Some("substeps"),
         argument: "substeps",
         value: "N",
-        help: "Number of substeps into which the engine divides a step",
+        help: sentences::NUMBER_OF_SUBSTEPS_INTO_WHICH_THE_ENGINE,
         slot: |own| Slot::Count(&mut own.substeps),
     },
-    Row {
+    SettingRow {
         key: Some("route"),
         argument: "route",
         value: "ROUTE",
-        help: "Route by which reactions and balancing moment are computed",
+        help: sentences::ROUTE_BY_WHICH_REACTIONS_AND_BALANCING,
         slot: |own| Slot::Route(&mut own.route),
     },
-    Row {
+    SettingRow {
         key: Some("extrapolated"),
         argument: "extrapolate",
         value: "TIMES",
-        help: "Combine runs at the step and at halves of it, so that the leading errors cancel: once if no number is \
-               given [default: the scenario's, else `run` finds it unless the step is given, and others do not \
-               extrapolate]",
+        help: sentences::COMBINE_RUNS_AT_THE_STEP,
         slot: |own| Slot::Times(&mut own.extrapolated),
     },
 ];
 
 /// What is told of the keys that are read here, in the order of the rows.
 pub const SECTIONS: &[Section] = &[Section::at("engine").with(&[
-    optional("dt", Kind::TIMES.of(Sign::Positive), "found by `run`")
+    optional("dt", ValueKind::TIMES.of(Sign::Positive), "found by `run`")
         .means("time step of engines with a fixed step; at most one of `dt` and `step`"),
-    optional("step", Kind::ANGLES.of(Sign::NotZero), "found by `run`")
+    optional("step", ValueKind::ANGLES.of(Sign::NotZero), "found by `run`")
         .means("the same as the angle that the crank turns through in a step"),
-    optional("name", Kind::Text, "the first").means("engine that judges unless another is asked for"),
-    optional("sweeps", Kind::Integer, "found by `run`").means("sweeps of the engine's iteration in a step"),
-    optional("substeps", Kind::Integer, "the engine's")
+    optional("name", ValueKind::Text, "the first").means("engine that judges unless another is asked for"),
+    optional("sweeps", ValueKind::Integer, "found by `run`").means("sweeps of the engine's iteration in a step"),
+    optional("substeps", ValueKind::Integer, "the engine's")
         .means("number of parts into which the engine itself divides a step"),
     optional(
         "route",
-        Kind::Choice(|| Route::ALL.map(Route::name).to_vec()),
+        ValueKind::Choice(|| Route::ALL.map(Route::name).to_vec()),
         "the engine's, and its own forces beside it",
     )
     .means("how reactions and balancing moment are obtained"),
-    optional("extrapolated", Kind::IntegerOrBoolean, "found by `run`; 0 where the step is given").means(
+    optional("extrapolated", ValueKind::IntegerOrBoolean, "found by `run`; 0 where the step is given").means(
         "a number N from 0 to 8: runs at the step, at half of it, ..., at its 2^N-th part are combined, \
          so that the N leading errors drop out; `true` is 1, `false` is 0",
     ),
@@ -223,13 +219,13 @@ impl EngineSettings {
         let Settings { resolution, sweeps, substeps, route, extrapolated } = engine.settings();
         let is_stepped = !engine.controls_error();
         EngineSettings {
-            engines: Setting::from(EngineName::named(engine.name()).map(|name| vec![name])),
-            step: Setting::from(is_stepped.then_some(resolution)),
-            accuracy: Setting::from((!is_stepped).then_some(resolution)),
-            sweeps: Setting::from((sweeps > 0).then_some(sweeps)),
-            substeps: Setting::from(is_stepped.then_some(substeps)),
-            route: Setting::of(route),
-            extrapolated: Setting::from(is_stepped.then_some(extrapolated)),
+            engines: EngineSetting::from(EngineName::named(engine.name()).map(|name| vec![name])),
+            step: EngineSetting::from(is_stepped.then_some(resolution)),
+            accuracy: EngineSetting::from((!is_stepped).then_some(resolution)),
+            sweeps: EngineSetting::from((sweeps > 0).then_some(sweeps)),
+            substeps: EngineSetting::from(is_stepped.then_some(substeps)),
+            route: EngineSetting::of(route),
+            extrapolated: EngineSetting::from(is_stepped.then_some(extrapolated)),
         }
     }
 
@@ -237,7 +233,7 @@ impl EngineSettings {
     #[must_use]
     pub fn of_motion(mut self) -> Self {
         if !self.step.is_free() && self.extrapolated.is_free() {
-            self.extrapolated = Setting::of(0);
+            self.extrapolated = EngineSetting::of(0);
         }
         self
     }
@@ -250,7 +246,7 @@ impl EngineSettings {
 }
 
 /// What the section says.
-pub fn read(table: &mut Table, drive: &Drive) -> Result<EngineSettings> {
+pub fn read(table: &mut TomlTable, drive: &Drive) -> Result<EngineSettings> {
     let mut own = EngineSettings::default();
     let (time, angle) = (table.optional_si("dt")?, table.optional_si("step")?);
     for row in ROWS {
@@ -259,14 +255,20 @@ pub fn read(table: &mut Table, drive: &Drive) -> Result<EngineSettings> {
             // The step is stated in two ways, which are read above.
             Slot::Positive(_) => {}
             Slot::Engines(engines) => {
-                let engine =
-                    table.optional_choice(key, "is no engine", &EngineName::ALL.map(|own| (own.name(), own)))?;
+                let engine = table.optional_choice(
+                    key,
+                    sentences::IS_NO_ENGINE,
+                    &EngineName::ALL.map(|own| (own.name(), own)),
+                )?;
                 *engines = table.given(key, engine.map(|engine| vec![engine]));
             }
             Slot::Count(number) => *number = whole(table, key, 1..=usize::MAX)?,
             Slot::Route(route) => {
-                let found =
-                    table.optional_choice(key, "is no route to reactions", &Route::ALL.map(|own| (own.name(), own)))?;
+                let found = table.optional_choice(
+                    key,
+                    sentences::IS_NO_ROUTE_TO_REACTIONS,
+                    &Route::ALL.map(|own| (own.name(), own)),
+                )?;
                 *route = table.given(key, found);
             }
             Slot::Times(times) if table.is_boolean(key) => {
@@ -282,43 +284,38 @@ pub fn read(table: &mut Table, drive: &Drive) -> Result<EngineSettings> {
         (Some(dt), None) => table.given("dt", Some(dt)),
         (None, Some(angle)) => table.given("step", Some((angle / omega).abs())),
         (Some(_), Some(_)) => {
-            let help = "keep either `dt` (a time) or `step` (a crank angle)";
-            return table.refuse("step", "the engine's step is given twice", help);
+            let help = sentences::KEEP_EITHER_DT_A_TIME_OR_STEP;
+            return table.refuse("step", sentences::THE_ENGINE_STEP_IS_GIVEN, help);
         }
-        (None, None) => Setting::Free,
+        (None, None) => EngineSetting::Free,
     };
     match own.step.get() {
         Some(dt) if !(dt.is_finite() && dt > 0.0) => {
-            let error = table.fault(format!("the engine's step would be {dt} s"));
-            Err(error.help("check the step and `drive.speed`"))
+            let error = table.fault(sentences::the_engine_step_would_be(&dt));
+            Err(error.help(sentences::CHECK_THE_STEP_AND_DRIVE))
         }
         _ => Ok(own),
     }
 }
 
 /// A whole number of a range; one without an end begins at one.
-fn whole(table: &mut Table, key: &str, range: RangeInclusive<usize>) -> Result<Setting<usize>> {
-    let Some(number) = table.optional_integer(key)? else { return Ok(Setting::Free) };
+fn whole(table: &mut TomlTable, key: &str, range: RangeInclusive<usize>) -> Result<EngineSetting<usize>> {
+    let Some(number) = table.optional_integer(key)? else { return Ok(EngineSetting::Free) };
     if let Some(count) = usize::try_from(number).ok().filter(|count| range.contains(count)) {
         return Ok(table.given(key, Some(count)));
     }
     let (message, help) = match *range.end() {
-        usize::MAX => (
-            format!("found {number}, but an engine needs at least one"),
-            "give a whole number greater than zero".into(),
-        ),
-        most => {
-            (format!("found {number} extrapolations"), format!("give a whole number from 0 to {most}, or true for 1"))
-        }
+        usize::MAX => (sentences::found_but_an_engine_needs(&number), sentences::GIVE_A_WHOLE_NUMBER_GREATER.into()),
+        most => (sentences::found_extrapolations(&number), sentences::give_a_whole_number_from_to_or_true(&most)),
     };
     let error = table.wrong(ErrorKind::Input, key, message);
-    table.instead(Setting::Free, error.help(help))
+    table.instead(EngineSetting::Free, error.help(help))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Origin, Scenario, of_repository};
+    use crate::{Scenario, SettingOrigin, of_repository};
 
     fn with(section: &str) -> Result<Scenario> {
         let Scenario { text, path, .. } = of_repository("scenarios/pendulum.toml");
@@ -328,7 +325,9 @@ mod tests {
     #[test]
     fn a_setting_knows_the_line_that_gives_it() {
         let given = with("substeps = 2\nroute = \"native\"").unwrap().engine;
-        let Setting::Given(Route::Native, Origin::Key(key, place)) = &given.route else { panic!("{given:?}") };
+        let EngineSetting::Given(Route::Native, SettingOrigin::Key(key, place)) = &given.route else {
+            panic!("{given:?}")
+        };
         assert_eq!((key.as_str(), &place.text[place.span.clone()]), ("engine.route", "\"native\""));
         assert!(given.step.is_free() && given.substeps.get() == Some(2));
     }
@@ -351,15 +350,19 @@ mod tests {
 
     #[test]
     fn what_is_given_twice_counts_where_it_is_asked_for_last() {
-        let file = EngineSettings { sweeps: Setting::of(7), substeps: Setting::of(2), ..EngineSettings::default() };
-        let asked = EngineSettings { sweeps: Setting::of(9), ..EngineSettings::default() };
+        let file = EngineSettings {
+            sweeps: EngineSetting::of(7),
+            substeps: EngineSetting::of(2),
+            ..EngineSettings::default()
+        };
+        let asked = EngineSettings { sweeps: EngineSetting::of(9), ..EngineSettings::default() };
         let both = asked.or(&file);
         assert_eq!((both.sweeps.get(), both.substeps.get(), both.step.get()), (Some(9), Some(2), None));
     }
 
     #[test]
     fn a_step_that_is_given_is_kept_to() {
-        let given = EngineSettings { step: Setting::of(1e-3), ..EngineSettings::default() }.of_motion();
+        let given = EngineSettings { step: EngineSetting::of(1e-3), ..EngineSettings::default() }.of_motion();
         assert!(!given.extrapolated.is_free() && given.leaves_a_choice());
         assert!(EngineSettings::default().of_motion().extrapolated.is_free());
     }

@@ -1,18 +1,19 @@
 //! Figures of a mechanism: lengths as solved, and quantities over a turn.
 
 use super::printed::{Correction, Printed, number};
-use super::reader::Table;
-use super::unit::{LENGTH, Unit};
+use super::reader::TomlTable;
+use super::unit::{LENGTH, NamedUnit};
 use super::words::suggestion;
+use crate::sentences;
 use linkage::case::Case;
 use linkage::error::Result;
-use linkage::mechanism::{LinkId, Side};
+use linkage::mechanism::{JointSide, LinkId};
 
 /// One figure with the number it must have.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OracleFigure {
     /// Which figure.
-    pub figure: Figure,
+    pub figure: MechanismFigure,
     /// Its name in reports: the name in scenario files, and the subject of the figure.
     pub name: String,
     /// The number as printed.
@@ -34,7 +35,7 @@ pub struct FigureValue {
 
 /// A figure of a mechanism.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Figure {
+pub enum MechanismFigure {
     /// Mean over the turn of the moment of inertia reduced to the crank (kg m^2).
     ReducedInertiaMean,
     /// Mean over the turn of the moment of resistance reduced to the crank (N m).
@@ -44,28 +45,28 @@ pub enum Figure {
     /// Speed of the motor (rad/s) at that speed of the crank.
     SteadyMotorSpeed,
     /// Distance between two points at t = 0 (m).
-    Distance([Side; 2]),
+    Distance([JointSide; 2]),
 }
 
-impl Figure {
+impl MechanismFigure {
     /// SI unit.
     #[must_use]
     pub fn unit(self) -> &'static str {
         match self {
-            Figure::ReducedInertiaMean => "kg m^2",
-            Figure::ReducedResistanceMean => "N m",
-            Figure::SteadyCrankSpeed | Figure::SteadyMotorSpeed => "rad/s",
-            Figure::Distance(_) => "m",
+            MechanismFigure::ReducedInertiaMean => "kg m^2",
+            MechanismFigure::ReducedResistanceMean => "N m",
+            MechanismFigure::SteadyCrankSpeed | MechanismFigure::SteadyMotorSpeed => "rad/s",
+            MechanismFigure::Distance(_) => "m",
         }
     }
 }
 
 /// Figures of the whole mechanism: their names in scenario files, unit included.
-const OF_MECHANISM: [(&str, Figure); 4] = [
-    ("reduced_inertia_mean_kg_m2", Figure::ReducedInertiaMean),
-    ("reduced_resistance_mean_N_m", Figure::ReducedResistanceMean),
-    ("steady_crank_speed_rad_s", Figure::SteadyCrankSpeed),
-    ("steady_motor_speed_rad_s", Figure::SteadyMotorSpeed),
+const OF_MECHANISM: [(&str, MechanismFigure); 4] = [
+    ("reduced_inertia_mean_kg_m2", MechanismFigure::ReducedInertiaMean),
+    ("reduced_resistance_mean_N_m", MechanismFigure::ReducedResistanceMean),
+    ("steady_crank_speed_rad_s", MechanismFigure::SteadyCrankSpeed),
+    ("steady_motor_speed_rad_s", MechanismFigure::SteadyMotorSpeed),
 ];
 
 /// Names of the figures between two points.
@@ -74,7 +75,7 @@ const OF_POINTS: [&str; 2] = ["distance_m", "distance_mm"];
 /// What the name of a figure begins with in a claim.
 const CLAIMED: &str = "figure.";
 
-impl Figure {
+impl MechanismFigure {
     /// The names of all figures that a formula may claim.
     pub(super) fn claims() -> impl Iterator<Item = String> {
         OF_MECHANISM.iter().map(|(name, _)| format!("{CLAIMED}{name}"))
@@ -84,7 +85,7 @@ impl Figure {
     ///
     /// # Errors
     /// A figure that the case does not have: the message, and the way out.
-    pub(super) fn claimed(name: &str, case: &Case) -> Option<std::result::Result<Figure, (String, String)>> {
+    pub(super) fn claimed(name: &str, case: &Case) -> Option<std::result::Result<MechanismFigure, (String, String)>> {
         let name = name.strip_prefix(CLAIMED)?;
         let (_, figure) = OF_MECHANISM.iter().find(|(own, _)| *own == name)?;
         Some(figure.lacks(case).map_or(Ok(*figure), |(message, help)| Err((message.into(), help.into()))))
@@ -93,18 +94,19 @@ impl Figure {
     /// What a case lacks for the figure, and the way out.
     fn lacks(self, case: &Case) -> Option<(&'static str, &'static str)> {
         match self {
-            Figure::SteadyCrankSpeed | Figure::SteadyMotorSpeed if case.crank().motor().is_none() => Some((
-                "a steady speed needs a motor, and the scenario has none",
-                "add a `[motor]` section: its law, and the ratio of the reducer",
-            )),
-            Figure::SteadyCrankSpeed | Figure::SteadyMotorSpeed => None,
-            Figure::ReducedInertiaMean | Figure::ReducedResistanceMean | Figure::Distance(_) => None,
+            MechanismFigure::SteadyCrankSpeed | MechanismFigure::SteadyMotorSpeed if case.crank().motor().is_none() => {
+                Some((sentences::A_STEADY_SPEED_NEEDS_A_MOTOR, sentences::ADD_A_MOTOR_SECTION_ITS_LAW))
+            }
+            MechanismFigure::SteadyCrankSpeed | MechanismFigure::SteadyMotorSpeed => None,
+            MechanismFigure::ReducedInertiaMean
+            | MechanismFigure::ReducedResistanceMean
+            | MechanismFigure::Distance(_) => None,
         }
     }
 }
 
 /// The figures of an oracle.
-pub(super) fn read(table: &mut Table, case: &Case) -> Result<Vec<OracleFigure>> {
+pub(super) fn read(table: &mut TomlTable, case: &Case) -> Result<Vec<OracleFigure>> {
     let mut figures = Vec::new();
     for mut entry in table.tables("figures")? {
         let figure = entry.read(|entry| one(entry, case)).map(Some);
@@ -112,18 +114,18 @@ pub(super) fn read(table: &mut Table, case: &Case) -> Result<Vec<OracleFigure>> 
     }
     if figures.is_empty() {
         let names = suggestion("", names(), "\"");
-        return table.refuse("figures", "there is no figure", names);
+        return table.refuse("figures", sentences::THERE_IS_NO_FIGURE_2, names);
     }
     Ok(figures)
 }
 
-fn one(entry: &mut Table, case: &Case) -> Result<OracleFigure> {
+fn one(entry: &mut TomlTable, case: &Case) -> Result<OracleFigure> {
     let name = entry.string("figure")?;
     let (figure, of) = match OF_MECHANISM.iter().find(|(known, _)| *known == name) {
         Some((_, figure)) => (*figure, String::new()),
         None if OF_POINTS.contains(&name.as_str()) => distance(entry, case)?,
         None => {
-            return entry.refuse("figure", format!("there is no figure \"{name}\""), suggestion(&name, names(), "\""));
+            return entry.refuse("figure", sentences::there_is_no_figure(&name), suggestion(&name, names(), "\""));
         }
     };
     if let Some((message, help)) = figure.lacks(case) {
@@ -133,7 +135,7 @@ fn one(entry: &mut Table, case: &Case) -> Result<OracleFigure> {
     let correction = Correction::read(entry, &printed)?;
     entry.finish()?;
     let unit = LENGTH.unit_of("distance", &name);
-    let si = |value: f64| unit.map_or(value, |unit: &Unit| unit.to_si(value));
+    let si = |value: f64| unit.map_or(value, |unit: &NamedUnit| unit.to_si(value));
     let of_number = |number: &Printed| FigureValue {
         value: si(number.value),
         bound: si(number.half_unit()),
@@ -148,37 +150,36 @@ fn names() -> impl Iterator<Item = &'static str> {
     OF_MECHANISM.into_iter().map(|(name, _)| name).chain(OF_POINTS)
 }
 
-fn distance(entry: &mut Table, case: &Case) -> Result<(Figure, String)> {
+fn distance(entry: &mut TomlTable, case: &Case) -> Result<(MechanismFigure, String)> {
     let names = entry.strings("points")?;
     let [first, second] = names.as_slice() else {
-        let message = format!("a distance lies between two points, found {}", names.len());
+        let message = sentences::a_distance_lies_between_two(&names.len());
         return entry.refuse("points", message, "write `points = [\"A\", \"B\"]`");
     };
     let places = [places(entry, case, first)?, places(entry, case, second)?];
     // On one link a distance is only what the file states. So it is measured between two links, where the solver must
     // bring the two points together.
-    let has = |link: LinkId, of: &[Side]| of.iter().any(|side| side.link == link);
+    let has = |link: LinkId, of: &[JointSide]| of.iter().any(|side| side.link == link);
     let measured = |this: usize| places[this].iter().find(|side| !has(side.link, &places[1 - this])).copied();
     let (Some(first), Some(second)) = (measured(0), measured(1)) else {
-        let message =
-            format!("the distance of {} stands in the file: only one link has both points", names.join(" and "));
-        let help = "name points whose distance follows from how the links stand together";
+        let message = sentences::the_distance_of_stands_in_the_file(&names.join(" and "));
+        let help = sentences::NAME_POINTS_WHOSE_DISTANCE_FOLLOWS;
         return entry.refuse("points", message, help);
     };
-    Ok((Figure::Distance([first, second]), names.join(" ")))
+    Ok((MechanismFigure::Distance([first, second]), names.join(" ")))
 }
 
 /// The point called `name` on every link that has it.
-fn places(entry: &Table, case: &Case, name: &str) -> Result<Vec<Side>> {
+fn places(entry: &TomlTable, case: &Case, name: &str) -> Result<Vec<JointSide>> {
     let links = || case.mechanism.links().entries();
     let on = |(link, body): (LinkId, &linkage::mechanism::Link)| {
         let point = body.points.iter().find(|point| point.name == name)?;
-        Some(Side { link, local: point.local })
+        Some(JointSide { link, local: point.local })
     };
-    let places: Vec<Side> = links().filter_map(on).collect();
+    let places: Vec<JointSide> = links().filter_map(on).collect();
     if places.is_empty() {
         let names = links().flat_map(|(_, body)| body.points.iter().map(|point| point.name.as_str()));
-        return entry.refuse("points", format!("the mechanism has no point \"{name}\""), suggestion(name, names, "\""));
+        return entry.refuse("points", sentences::the_mechanism_has_no_point(&name), suggestion(name, names, "\""));
     }
     Ok(places)
 }

@@ -1,13 +1,14 @@
 //! `[[formula]]`: formulas as they were derived, and the channels that they claim.
 
+use crate::sentences;
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::claim::Claim;
-use super::keys::key::{Kind, Section, needed, optional};
+use super::keys::key::{Section, ValueKind, needed, optional};
 use super::parameters::{INPUTS, Parameter, fault_of_name};
-use super::reader::{Faults, Table};
+use super::reader::{Faults, TomlTable};
 use super::words::suggestion;
-use formula::{Fault, Graph, Id, Rounded, Tree};
+use formula::{FormulaFault, FormulaGraph, FormulaTree, NodeId, Rounded};
 use std::ops::Range;
 
 use linkage::case::Case;
@@ -16,19 +17,19 @@ use linkage::math::KeepNan;
 
 /// What is told of the keys that are read here.
 pub const SECTIONS: &[Section] = &[Section::at("formula").with(&[
-    needed("name", Kind::Text).means("letters, digits and `_`; formulas after it may use it"),
-    needed("expression", Kind::Text).means(
+    needed("name", ValueKind::Text).means("letters, digits and `_`; formulas after it may use it"),
+    needed("expression", ValueKind::Text).means(
         "arithmetic of numbers, `phi`, `t`, `pi`, parameters (in SI, or by their keys as plain numbers) \
          and formulas before it",
     ),
-    optional("channel", Kind::Text, "none: a step of a derivation").means(
+    optional("channel", ValueKind::Text, "none: a step of a derivation").means(
         "what it claims: a channel, with the unit of its name (`link.rocker.angle_deg`, `point.B.x_mm`, \
          `joint.B.f_N`), or an arithmetic of channels; also what is reduced to the crank",
     ),
-    optional("source", Kind::Text, "none").means("where it comes from"),
-    optional("from", Kind::INPUTS, "the whole run").means("first crank angle for which it is claimed"),
-    optional("to", Kind::INPUTS, "the whole run").means("last crank angle for which it is claimed"),
-    optional("error", Kind::Number, "none: it is exact")
+    optional("source", ValueKind::Text, "none").means("where it comes from"),
+    optional("from", ValueKind::INPUTS, "the whole run").means("first crank angle for which it is claimed"),
+    optional("to", ValueKind::INPUTS, "the whole run").means("last crank angle for which it is claimed"),
+    optional("error", ValueKind::Number, "none: it is exact")
         .means("error that it is claimed to have, in the unit of the channel: for series and approximations"),
 ])];
 
@@ -44,7 +45,7 @@ pub struct Formulas {
     pub list: Vec<Formula>,
     /// All of them, over the crank angle (rad, as the scenario states it), the time (s), and without names the crank's
     /// angular velocity (rad/s) and angular acceleration (rad/s^2).
-    pub graph: Graph,
+    pub graph: FormulaGraph,
 }
 
 /// A formula.
@@ -55,9 +56,9 @@ pub struct Formula {
     /// Its text.
     pub text: String,
     /// The text as it was read.
-    pub tree: Tree,
+    pub tree: FormulaTree,
     /// Its node in the graph.
-    pub id: Id,
+    pub id: NodeId,
     /// What it is said to be; `None` for a step of a derivation.
     pub claim: Option<Claim>,
     /// Where it comes from.
@@ -82,7 +83,7 @@ impl Formulas {
     /// Formulas over some parameters: none yet.
     #[must_use]
     pub fn over(parameters: Vec<Parameter>) -> Self {
-        let mut graph = Graph::new(&INPUTS, 2);
+        let mut graph = FormulaGraph::new(&INPUTS, 2);
         for (name, number) in parameters.iter().flat_map(Parameter::names) {
             let id = graph.constant(number);
             graph.name(name, id);
@@ -94,8 +95,8 @@ impl Formulas {
     ///
     /// # Errors
     /// What is wrong, with its place in the text.
-    pub fn add(&mut self, name: &str, text: &str) -> std::result::Result<&mut Formula, Fault> {
-        let tree = Tree::parse(text)?;
+    pub fn add(&mut self, name: &str, text: &str) -> std::result::Result<&mut Formula, FormulaFault> {
+        let tree = FormulaTree::parse(text)?;
         if let Some((name, at)) = tree.names().into_iter().find(|(name, _)| !self.graph.knows(name)) {
             return Err(self.unknown(name, at));
         }
@@ -105,7 +106,7 @@ impl Formulas {
     }
 
     /// Adds a formula to the list, and its node to the graph.
-    fn put(&mut self, mut formula: Formula) -> std::result::Result<(), Fault> {
+    fn put(&mut self, mut formula: Formula) -> std::result::Result<(), FormulaFault> {
         formula.id = self.graph.add(&formula.tree)?;
         self.graph.name(&formula.name, formula.id);
         self.list.push(formula);
@@ -121,20 +122,20 @@ impl Formulas {
             return Err(Error::new(ErrorKind::Input, message).help(help));
         }
         if self.graph.knows(name) {
-            let message = format!("`{name}` is a parameter or a formula already");
-            return Err(Error::new(ErrorKind::Input, message).help("choose another name"));
+            let message = sentences::is_a_parameter_or_a_formula(&name);
+            return Err(Error::new(ErrorKind::Input, message).help(sentences::CHOOSE_ANOTHER_NAME));
         }
         Ok(())
     }
 
     /// The fault of a name that is not known, with the nearest that is.
-    fn unknown(&self, name: &str, at: Range<usize>) -> Fault {
+    fn unknown(&self, name: &str, at: Range<usize>) -> FormulaFault {
         let units = self.parameters.iter().find(|own| own.short() == Some(name));
         let help = match units {
-            Some(own) => format!("write `{name}` or `{}`", own.key),
+            Some(own) => sentences::write_or(&name, &own.key),
             None => suggestion(name, self.graph.names(), "`"),
         };
-        Fault { message: format!("there is no `{name}`"), at, help }
+        FormulaFault { message: sentences::there_is_no(&name), at, help }
     }
 
     /// The indices of the formulas up to `of`, by their names.
@@ -145,7 +146,7 @@ impl Formulas {
     /// The first operation outside its domain where the formula `of` has no value, with the index of the formula in
     /// which it stands: that one, or one that it uses. `inputs` are the crank angle (rad) and the time (s).
     #[must_use]
-    pub fn undefined(&self, of: usize, inputs: [Rounded; 2]) -> Option<(usize, Fault)> {
+    pub fn undefined(&self, of: usize, inputs: [Rounded; 2]) -> Option<(usize, FormulaFault)> {
         let places = self.places(of);
         let mut is_used = vec![false; of + 1];
         is_used[of] = true;
@@ -173,9 +174,9 @@ impl Formulas {
     /// a name is not known.
     pub fn with_trees<T>(
         &mut self,
-        changed: &[(usize, Tree)],
+        changed: &[(usize, FormulaTree)],
         of: usize,
-        then: impl FnOnce(&mut Graph, Id) -> T,
+        then: impl FnOnce(&mut FormulaGraph, NodeId) -> T,
     ) -> Option<T> {
         let first = changed.iter().map(|(index, _)| *index).min()?;
         let list = &self.list;
@@ -229,7 +230,7 @@ impl Formulas {
     /// The same with another tree in the formula `of`: formulas that use it follow. [`OMEGA`] is known there. `None` if
     /// the tree uses a name that is not.
     #[must_use]
-    pub fn with_tree(&self, of: usize, tree: Tree) -> Option<Formulas> {
+    pub fn with_tree(&self, of: usize, tree: FormulaTree) -> Option<Formulas> {
         let mut formulas = Formulas::over(self.parameters.clone());
         if !formulas.graph.knows(OMEGA) {
             let omega = formulas.graph.input(2);
@@ -246,7 +247,7 @@ impl Formulas {
     }
 
     /// A node's rate of change with time, in the graph.
-    pub fn rate(&mut self, of: Id) -> Id {
+    pub fn rate(&mut self, of: NodeId) -> NodeId {
         let one = self.graph.constant(Rounded::exact(1.0));
         let [omega, alpha] = [2, 3].map(|input| self.graph.input(input));
         self.graph.rate(of, &[Some(omega), Some(one), Some(alpha)])
@@ -267,21 +268,21 @@ pub fn fault_of_claim(
     if let [Some(from), Some(to)] = valid
         && !(from <= to)
     {
-        return Some(("to", "the last crank angle is less than the first", "exchange them"));
+        return Some(("to", sentences::THE_LAST_CRANK_ANGLE_IS_LESS, "exchange them"));
     }
     let is_wrong = error.is_some_and(|error| !(error > 0.0) || !error.is_finite());
-    is_wrong.then_some(("error", "a claimed error must be a positive number", "leave it out if the formula is exact"))
+    is_wrong.then_some(("error", sentences::A_CLAIMED_ERROR_MUST_BE_A_POSITIVE, sentences::LEAVE_IT_OUT_IF_THE_FORMULA))
 }
 
 /// An error of a text that is no key of a file, such as an argument: `what` it is.
 #[must_use]
-pub fn refused(what: &str, text: &str, fault: &Fault) -> Error {
+pub fn refused(what: &str, text: &str, fault: &FormulaFault) -> Error {
     let place = Place { file: what.into(), text: text.into(), span: fault.at.clone() };
     Error::new(ErrorKind::Input, fault.message.clone()).at(place).help(fault.help.clone())
 }
 
 /// The formulas of a scenario, but those with mistakes.
-pub(super) fn read(parameters: Vec<Parameter>, tables: Vec<Table>, case: &Case, faults: &mut Faults) -> Formulas {
+pub(super) fn read(parameters: Vec<Parameter>, tables: Vec<TomlTable>, case: &Case, faults: &mut Faults) -> Formulas {
     let mut formulas = Formulas::over(parameters);
     for mut table in tables {
         let read = faults.read(&mut table, |table| formula(table, &mut formulas, case));
@@ -292,7 +293,7 @@ pub(super) fn read(parameters: Vec<Parameter>, tables: Vec<Table>, case: &Case, 
 }
 
 /// Adds one formula.
-fn formula(table: &mut Table, formulas: &mut Formulas, case: &Case) -> Result<()> {
+fn formula(table: &mut TomlTable, formulas: &mut Formulas, case: &Case) -> Result<()> {
     let name = table.string("name")?;
     formulas.check_name(&name).map_err(|error| {
         let wrong = table.wrong(ErrorKind::Input, "name", error.message());
@@ -309,8 +310,8 @@ fn formula(table: &mut Table, formulas: &mut Formulas, case: &Case) -> Result<()
     if claimed.is_none() {
         let of_claim = ["from_deg", "to_deg", "from_rad", "to_rad", "error"];
         if let Some(key) = of_claim.into_iter().find(|key| table.has(key)) {
-            let message = format!("`{key}` belongs to a claim, and this formula claims nothing");
-            return table.refuse(key, message, "add `channel`, or take it out");
+            let message = sentences::belongs_to_a_claim_and_this_formula(&key);
+            return table.refuse(key, message, sentences::ADD_CHANNEL_OR_TAKE_IT_OUT);
         }
     }
     let formula = formulas.add(&name, &text).map_err(|fault| table.fault_in("expression", &fault))?;

@@ -1,23 +1,24 @@
 //! `[grid]`: the instants at which a solution is wanted.
 
+use crate::sentences;
 use std::cmp::Ordering;
 
-use super::keys::key::{Kind, Section, optional};
-use super::reader::{Sign, Table};
-use super::unit::{Family, TIME};
+use super::keys::key::{Section, ValueKind, optional};
+use super::reader::{Sign, TomlTable};
+use super::unit::{TIME, UnitFamily};
 use linkage::case::Grid;
 use linkage::drive::Drive;
 use linkage::error::Result;
 
 /// What is told of the keys that are read here.
 pub const SECTIONS: &[Section] = &[Section::at("grid").with(&[
-    optional("from", Kind::INPUTS_OR_TIMES, "given with `to` and `step`")
+    optional("from", ValueKind::INPUTS_OR_TIMES, "given with `to` and `step`")
         .means("first crank angle, or first time from the start"),
-    optional("to", Kind::INPUTS_OR_TIMES, "given with `from`").means("last one, in the same kind of unit"),
-    optional("step", Kind::INPUTS_OR_TIMES, "given with `from`").means("distance of instants; may be negative"),
-    optional("angles", Kind::LIST_OF_ANGLES, "a range")
+    optional("to", ValueKind::INPUTS_OR_TIMES, "given with `from`").means("last one, in the same kind of unit"),
+    optional("step", ValueKind::INPUTS_OR_TIMES, "given with `from`").means("distance of instants; may be negative"),
+    optional("angles", ValueKind::LIST_OF_ANGLES, "a range")
         .means("crank angles, one by one, in any order; not for a free motion"),
-    optional("times", Kind::LIST_OF_TIMES, "a range").means("times, one by one, in any order"),
+    optional("times", ValueKind::LIST_OF_TIMES, "a range").means("times, one by one, in any order"),
 ])];
 
 /// Largest number of points of a range.
@@ -31,19 +32,19 @@ pub const MOST: usize = 1_000_000;
 /// million points.
 pub fn range(from: f64, to: f64, step: f64) -> std::result::Result<Vec<f64>, String> {
     if ![from, to, step].into_iter().all(f64::is_finite) {
-        return Err(format!("the range from {from} to {to} by {step} is not finite"));
+        return Err(sentences::the_range_from_to_by_is_not_finite(&from, &to, &step));
     }
     if step == 0.0 {
-        return Err("the step must not be zero".into());
+        return Err(sentences::THE_STEP_MUST_NOT_BE_ZERO.into());
     }
     let steps = (to - from) / step;
     if steps < 0.0 {
         let way = if step > 0.0 { "positive" } else { "negative" };
-        return Err(format!("a {way} step leads away from the end of the range"));
+        return Err(sentences::a_step_leads_away_from_the_end(&way));
     }
     let last = (steps + 1e-9).floor();
     if last >= MOST as f64 {
-        return Err(format!("the range has more than {MOST} points"));
+        return Err(sentences::the_range_has_more_than_points(&MOST));
     }
     Ok((0..=last as usize).map(|k| from + k as f64 * step).collect())
 }
@@ -54,23 +55,23 @@ pub fn range(from: f64, to: f64, step: f64) -> std::result::Result<Vec<f64>, Str
 /// A message if there is none, or too many, or one of them stands twice.
 pub fn listed(values: Vec<f64>) -> std::result::Result<Vec<f64>, String> {
     if values.is_empty() {
-        return Err("the list is empty".into());
+        return Err(sentences::THE_LIST_IS_EMPTY.into());
     }
     if values.len() > MOST {
-        return Err(format!("the list has more than {MOST} values"));
+        return Err(sentences::the_list_has_more_than_values(&MOST));
     }
     let mut order: Vec<usize> = (0..values.len()).collect();
     // Stable, so that of equal values the earlier comes first.
     order.sort_by(|&a, &b| values[a].partial_cmp(&values[b]).unwrap_or(Ordering::Equal));
     match order.windows(2).find(|pair| values[pair[0]] == values[pair[1]]) {
-        Some(pair) => Err(format!("values {} and {} of the list are the same", pair[0] + 1, pair[1] + 1)),
+        Some(pair) => Err(sentences::values_and_of_the_list_are_the_same(&(pair[0] + 1), &(pair[1] + 1))),
         None => Ok(values),
     }
 }
 
 /// The grid of a scenario, by crank angle or by time: a range or a list. An empty one if it is not wanted: it is read,
 /// but not checked against the drive.
-pub fn read(table: &mut Table, drive: &Drive, is_replaced: bool) -> Result<Grid> {
+pub fn read(table: &mut TomlTable, drive: &Drive, is_replaced: bool) -> Result<Grid> {
     let mut lists = Vec::new();
     for key in ["angles", "times"] {
         lists.extend(table.optional_si_list(key)?.map(|(family, values)| (key, family, values)));
@@ -78,20 +79,18 @@ pub fn read(table: &mut Table, drive: &Drive, is_replaced: bool) -> Result<Grid>
     let ranged = table.optional_si_of("from")?;
     let (family, points) = match (ranged, lists.as_slice()) {
         (None, [(key, family, values)]) => {
-            let help = "give every instant once, for example `times_s = [0, 0.1, 0.3]`";
+            let help = sentences::GIVE_EVERY_INSTANT_ONCE_FOR_EXAMPLE;
             (*family, listed(values.clone()).or_else(|message| table.refuse(key, message, help))?)
         }
         (Some((family, from)), []) => (family, ranged_points(table, family, from)?),
         (None, []) => {
             let keys = ["from_deg", "from_rad", "from_s", "from_ms", "angles_deg", "angles_rad", "times_s", "times_ms"];
-            let help = "a grid goes by crank angle (`from_deg`, `to_deg`, `step_deg`) or by time (`from_s`, `to_s`, \
-                        `step_s`), or lists its values (`angles_deg`, `times_s`)";
+            let help = sentences::A_GRID_GOES_BY_CRANK_ANGLE;
             return Err(table.lacks(&keys, help));
         }
         (_, [.., (key, _, _)]) => {
-            let help = "keep one of: a range (`from`, `to`, `step`), a list of crank angles (`angles`), a list of times \
-                        (`times`)";
-            return table.refuse(key, "the grid is given twice", help);
+            let help = sentences::KEEP_ONE_OF_A_RANGE_FROM_TO_STEP;
+            return table.refuse(key, sentences::THE_GRID_IS_GIVEN_TWICE, help);
         }
     };
     table.finish()?;
@@ -101,17 +100,17 @@ pub fn read(table: &mut Table, drive: &Drive, is_replaced: bool) -> Result<Grid>
     let by_input = !std::ptr::eq(family, &TIME);
     let grid = if by_input { Grid::of_inputs(drive, points) } else { Grid::of_times(drive, points) };
     let help = match by_input && drive.is_free() {
-        true => "give the grid by time (`from_s`, `to_s`, `step_s`, or a list `times_s`)",
-        false => "check the unit and size of the grid and of `drive.speed`",
+        true => sentences::GIVE_THE_GRID_BY_TIME_FROM_TO_STEP,
+        false => sentences::CHECK_THE_UNIT_AND_SIZE_OF_THE_GRID,
     };
     grid.check(drive).map_err(|message| table.fault(message).help(help))?;
     Ok(grid)
 }
 
-fn ranged_points(table: &mut Table, family: &'static Family, from: f64) -> Result<Vec<f64>> {
+fn ranged_points(table: &mut TomlTable, family: &'static UnitFamily, from: f64) -> Result<Vec<f64>> {
     let to = table.quantity("to", family, Sign::Any)?;
     let step = table.quantity("step", family, Sign::NotZero)?;
-    let help = "check `from`, `to` and the size and sign of `step`";
+    let help = sentences::CHECK_FROM_TO_AND_THE_SIZE;
     range(from, to, step).or_else(|message| table.refuse("step", message, help))
 }
 

@@ -1,6 +1,7 @@
 //! `format` and `name`, which every file has.
 
-use super::reader::Table;
+use super::reader::TomlTable;
+use crate::sentences;
 use linkage::error::{ErrorKind, Result};
 use linkage::mechanism::LONGEST_NAME;
 
@@ -8,16 +9,16 @@ use linkage::mechanism::LONGEST_NAME;
 pub const FORMAT: i64 = 1;
 
 /// Checks the version of the format.
-pub fn check_format(root: &mut Table) -> Result<()> {
+pub fn check_format(root: &mut TomlTable) -> Result<()> {
     if root.is_empty() {
-        let error = root.fault("the file holds no scenario");
-        return Err(error.help("a scenario starts with `format = 1`; docs/scenario.md builds one up step by step"));
+        let error = root.fault(sentences::THE_FILE_HOLDS_NO_SCENARIO);
+        return Err(error.help(sentences::A_SCENARIO_STARTS_WITH_FORMAT));
     }
     match root.integer("format")? {
         FORMAT => Ok(()),
         other => {
-            let message = format!("format {other} is not handled by this version");
-            root.unsupported("format", message, format!("this version reads `format = {FORMAT}`"))
+            let message = sentences::format_is_not_handled_by_this_version(&other);
+            root.unsupported("format", message, sentences::this_version_reads_format(&FORMAT))
         }
     }
 }
@@ -35,15 +36,14 @@ pub fn is_name(name: &str) -> bool {
 }
 
 /// Help for names that cannot be used in file names.
-pub const NAME_HELP: &str =
-    "it names files: use at most 100 lower-case letters, digits and `_`, and no name of a device such as `con`";
+pub const NAME_HELP: &str = sentences::IT_NAMES_FILES_USE_AT_MOST;
 
 /// The scenario's name.
-pub fn name(root: &mut Table) -> Result<String> {
+pub fn name(root: &mut TomlTable) -> Result<String> {
     let name = root.string("name")?;
     if is_name(&name) {
         return Ok(name);
     }
-    let error = root.wrong(ErrorKind::Input, "name", format!("\"{name}\" cannot be the name of a scenario"));
+    let error = root.wrong(ErrorKind::Input, "name", sentences::cannot_be_the_name_of_a_scenario(&name));
     root.instead(name, error.help(NAME_HELP))
 }

@@ -1,44 +1,45 @@
 //! `[[joints]]`: which links are joined, how, and where.
 
+use crate::sentences;
 use std::f64::consts::FRAC_PI_2;
 
-use super::keys::key::{Kind, Section, needed, optional};
+use super::keys::key::{Section, ValueKind, needed, optional};
 use super::links::{is_somewhere, sound_name};
-use super::reader::{Faults, Table};
+use super::reader::{Faults, TomlTable};
 use super::words::{Words, names, suggestion};
 use linkage::error::{ErrorKind, Result};
 use linkage::math::{Vec2, unit};
-use linkage::mechanism::{Guise, Joint, JointKind, Link, LinkId, Side};
+use linkage::mechanism::{Guise, Joint, JointKind, JointSide, Link, LinkId};
 
 /// Reads what a type of joints needs: the kind, and how it is drawn.
-type ReadJoint = fn(&mut Table) -> Result<(JointKind, Option<Guise>)>;
+type ReadJoint = fn(&mut TomlTable) -> Result<(JointKind, Option<Guise>)>;
 
 /// Types of joints, each with its reader.
 const TYPES: Words<ReadJoint> = &[("revolute", revolute), ("prismatic", prismatic)];
 
 /// What is told of the keys that are read here.
 pub const SECTIONS: &[Section] = &[Section::at("joints").with(&[
-    needed("name", Kind::Text).means("name, unique"),
-    needed("type", Kind::Choice(|| names(TYPES))).means("kind of joint"),
-    needed("links", Kind::Texts).means(
+    needed("name", ValueKind::Text).means("name, unique"),
+    needed("type", ValueKind::Choice(|| names(TYPES))).means("kind of joint"),
+    needed("links", ValueKind::Texts).means(
         "first and second link; `\"ground\"` is the frame. The reaction of the joint is what the first \
          exerts on the second",
     ),
-    optional("point", Kind::Text, "the joint's name")
+    optional("point", ValueKind::Text, "the joint's name")
         .means("revolute: the joint is at the point of this name, on both links"),
-    optional("points", Kind::Texts, "required of a prismatic joint").means(
+    optional("points", ValueKind::Texts, "required of a prismatic joint").means(
         "prismatic: `[\"G\", \"B\"]`, a point of the first link and one of the second; the line through \
          the first point along the axis passes through the second point",
     ),
-    optional("axis", Kind::ANGLES, "required of a prismatic joint")
+    optional("axis", ValueKind::ANGLES, "required of a prismatic joint")
         .means("prismatic: direction of sliding in the frame of the first link"),
-    optional("second_axis", Kind::ANGLES, "0: along its x axis").means(
+    optional("second_axis", ValueKind::ANGLES, "0: along its x axis").means(
         "prismatic: the same direction in the frame of the second link; it fixes the angle of the second \
          link to the first",
     ),
     optional(
         "drawn",
-        Kind::Choice(|| Guise::ALL.map(Guise::name).to_vec()),
+        ValueKind::Choice(|| Guise::ALL.map(Guise::name).to_vec()),
         "guessed from names and places: docs/draw.md",
     )
     .means(
@@ -48,7 +49,7 @@ pub const SECTIONS: &[Section] = &[Section::at("joints").with(&[
 ])];
 
 /// The joints, in the order of the file, but those with mistakes and those at points that are nowhere.
-pub fn read(tables: Vec<Table>, links: &[Link], faults: &mut Faults) -> Vec<Joint> {
+pub fn read(tables: Vec<TomlTable>, links: &[Link], faults: &mut Faults) -> Vec<Joint> {
     let mut joints: Vec<Joint> = Vec::new();
     let count = tables.len();
     for mut table in tables {
@@ -60,11 +61,11 @@ pub fn read(tables: Vec<Table>, links: &[Link], faults: &mut Faults) -> Vec<Join
     joints
 }
 
-fn joint(table: &mut Table, links: &[Link], before: &[Joint]) -> Result<Joint> {
+fn joint(table: &mut TomlTable, links: &[Link], before: &[Joint]) -> Result<Joint> {
     let name = sound_name(table, "a joint")?;
     if before.iter().any(|joint| joint.name == name) {
-        let message = format!("two joints are called \"{name}\"");
-        let help = "give every joint its own name; two joints on one pin share the point instead: `point = \"...\"`";
+        let message = sentences::two_joints_are_called(&name);
+        let help = sentences::GIVE_EVERY_JOINT_ITS_OWN;
         return table.refuse("name", message, help);
     }
     let (kind, drawn) = kind(table)?;
@@ -72,30 +73,27 @@ fn joint(table: &mut Table, links: &[Link], before: &[Joint]) -> Result<Joint> {
     let places = places(table, kind, &name)?;
     table.finish()?;
     let [first, second] = &pair[..] else {
-        let message = format!("found {} links, but a joint has two", pair.len());
+        let message = sentences::found_links_but_a_joint_has_two(&pair.len());
         return table.refuse("links", message, "write `links = [\"ground\", \"crank\"]`");
     };
     let (first, second) = (link(table, first, links)?, link(table, second, links)?);
     if first == second {
-        let message = format!("it joins \"{}\" with itself", links[first].name);
-        return table.refuse("links", message, "name two different links");
+        let message = sentences::it_joins_with_itself(&links[first].name);
+        return table.refuse("links", message, sentences::NAME_TWO_DIFFERENT_LINKS);
     }
     if let Some(other) = before.iter().find(|joint| joint.on(first).is_some() && joint.on(second).is_some()) {
-        let message = format!(
-            "joint \"{}\" joins \"{}\" and \"{}\" already; two joints lock two links together",
-            other.name, links[first].name, links[second].name
-        );
-        return table.refuse("links", message, "make the two one link with all their points, or join other links");
+        let message = sentences::joint_joins_and_already_two(&other.name, &links[first].name, &links[second].name);
+        return table.refuse("links", message, sentences::MAKE_THE_TWO_ONE_LINK_WITH_ALL);
     }
-    let side = |link: LinkId, point: &str| -> Result<Side> {
+    let side = |link: LinkId, point: &str| -> Result<JointSide> {
         let points = &links[link].points;
         let found = points.iter().find(|found| found.name == point);
         let local = found.map(|found| found.local).ok_or_else(|| {
-            let message = format!("link \"{}\" has no point \"{point}\"", links[link].name);
+            let message = sentences::link_has_no_point(&links[link].name, &point);
             let near = suggestion(point, points.iter().map(|point| point.name.as_str()), "\"");
             table.wrong(ErrorKind::Input, places.key, message).help(format!("{}; {near}", places.rule))
         })?;
-        Ok(Side { link, local })
+        Ok(JointSide { link, local })
     };
     let [first, second] = [side(first, &places.names[0])?, side(second, &places.names[1])?];
     Ok(Joint { name, kind, first, second, drawn })
@@ -109,45 +107,45 @@ struct Places {
     rule: &'static str,
 }
 
-fn places(table: &mut Table, kind: JointKind, name: &str) -> Result<Places> {
+fn places(table: &mut TomlTable, kind: JointKind, name: &str) -> Result<Places> {
     match kind {
         JointKind::Revolute => pinned(table, name),
         JointKind::Prismatic { .. } => guided(table),
     }
 }
 
-fn pinned(table: &mut Table, name: &str) -> Result<Places> {
-    let rule = "a joint lies at the point of its name, or of its key `point`, on both links";
+fn pinned(table: &mut TomlTable, name: &str) -> Result<Places> {
+    let rule = sentences::A_JOINT_LIES_AT_THE_POINT;
     Ok(match table.optional_string("point")? {
         Some(point) => Places { names: [point.clone(), point], key: "point", rule },
         None => Places { names: [name.to_string(), name.to_string()], key: "name", rule },
     })
 }
 
-fn guided(table: &mut Table) -> Result<Places> {
+fn guided(table: &mut TomlTable) -> Result<Places> {
     let names = table.strings("points")?;
     let [first, second] = &names[..] else {
-        let message = format!("found {} points, but a guide takes two", names.len());
-        return table.refuse("points", message, "write `points = [\"O\", \"B\"]`: a point of the first link on the guide's line, and the point of the second that slides along it");
+        let message = sentences::found_points_but_a_guide(&names.len());
+        return table.refuse("points", message, sentences::WRITE_POINTS_A_POINT_OF_THE_FIRST);
     };
-    let rule = "`points` names a point of the first link and one of the second";
+    let rule = sentences::POINTS_NAMES_A_POINT_OF_THE_FIRST;
     Ok(Places { names: [first.clone(), second.clone()], key: "points", rule })
 }
 
 /// The kind of a joint, and what it is drawn as if the file says so.
-fn kind(table: &mut Table) -> Result<(JointKind, Option<Guise>)> {
-    table.choice("type", "is no type of joint", TYPES)?(table)
+fn kind(table: &mut TomlTable) -> Result<(JointKind, Option<Guise>)> {
+    table.choice("type", sentences::IS_NO_TYPE_OF_JOINT, TYPES)?(table)
 }
 
-fn revolute(_: &mut Table) -> Result<(JointKind, Option<Guise>)> {
+fn revolute(_: &mut TomlTable) -> Result<(JointKind, Option<Guise>)> {
     Ok((JointKind::Revolute, None))
 }
 
-fn prismatic(table: &mut Table) -> Result<(JointKind, Option<Guise>)> {
+fn prismatic(table: &mut TomlTable) -> Result<(JointKind, Option<Guise>)> {
     let first = table.si("axis")?;
     let second = table.optional_si("second_axis")?.unwrap_or(0.0);
     let guises = Guise::ALL.map(|guise| (guise.name(), guise));
-    let drawn = table.optional_choice("drawn", "is not how a prismatic pair is drawn", &guises)?;
+    let drawn = table.optional_choice("drawn", sentences::IS_NOT_HOW_A_PRISMATIC_PAIR, &guises)?;
     Ok((JointKind::Prismatic { axes: [first, second].map(direction) }, drawn))
 }
 
@@ -167,12 +165,12 @@ fn direction(angle: f64) -> Vec2 {
 }
 
 /// Index of the link called `name`. An unknown name is an error of the key `links` or `link` of `table`.
-pub fn link(table: &mut Table, name: &str, links: &[Link]) -> Result<LinkId> {
+pub fn link(table: &mut TomlTable, name: &str, links: &[Link]) -> Result<LinkId> {
     if let Some(found) = links.iter().position(|link| link.name == name) {
         return Ok(LinkId(found));
     }
     let key = if table.has("links") { "links" } else { "link" };
     let names = links.iter().map(|link| link.name.as_str());
-    let error = table.wrong(ErrorKind::Input, key, format!("there is no link \"{name}\""));
+    let error = table.wrong(ErrorKind::Input, key, sentences::there_is_no_link(&name));
     table.unknown_name(LinkId(links.len() - 1), error.help(suggestion(name, names, "\"")))
 }

@@ -5,7 +5,7 @@ pub mod key;
 #[cfg(test)]
 mod tests;
 
-pub use key::{Key, Kind, Section};
+pub use key::{FileKey, Section, ValueKind};
 
 use super::{clearance, engine, formula, grid, joints, links, loads, motion, motor, oracle, settings, start, stated};
 
@@ -30,7 +30,7 @@ pub fn sections() -> impl Iterator<Item = &'static Section> {
 }
 
 /// The keys of the section with a path; none if there is no such section.
-pub(crate) fn rows(path: &str) -> &'static [Key] {
+pub(crate) fn rows(path: &str) -> &'static [FileKey] {
     section(path).map_or(&[], |section| section.keys)
 }
 

@@ -27,6 +27,7 @@ mod parameters;
 mod printed;
 pub mod reader;
 mod reduced;
+mod sentences;
 mod series;
 mod setting;
 mod settings;
@@ -42,28 +43,28 @@ pub mod words;
 
 pub use self::claim::Claim;
 pub use self::formula::{Formula, Formulas};
-pub use asked::{Asked, Undecided};
+pub use asked::{StartRequest, Undecided};
 pub use draft::Draft;
 pub use engine::{EngineName, EngineSettings};
-pub use figure::{Figure, FigureValue, OracleFigure};
+pub use figure::{FigureValue, MechanismFigure, OracleFigure};
 pub use oracle::{Oracle, OracleBasis};
 pub use parameters::{INPUTS, Parameter};
 pub use printed::{Printed, PrintedChannel};
 pub use series::{ExpectedCell, OraclePoint, OracleSeries, When, within};
-pub use setting::{Origin, Setting};
+pub use setting::{EngineSetting, SettingOrigin};
 
 use std::path::{Path, PathBuf};
 
 use self::asked::Lists;
-use self::clearance::Question;
+use self::clearance::ClearanceQuestion;
 use self::header::{NAME_HELP, is_name};
-use self::reader::{Faults, Table};
+use self::reader::{Faults, TomlTable};
 use self::source::{Source, text_of};
-use self::stated::Stated;
+use self::stated::FileSections;
 use linkage::case::{Case, CaseParts, Grid, Wanted};
 use linkage::drive::Drives;
 use linkage::error::{Error, ErrorKind, Result};
-use linkage::mechanism::assembly::{Choice, group_of};
+use linkage::mechanism::assembly::{ConfigurationChoice, group_of};
 use linkage::mechanism::{Mechanism, StartGroup, Structure};
 
 /// A scenario: the problem, the engine's settings, and the published numbers that it is compared with.
@@ -101,11 +102,11 @@ pub struct Scenario {
     /// Formulas over parameters, and what they claim.
     pub formulas: Formulas,
     /// Outlines and what is asked of their distances, if the scenario asks.
-    pub clearance: Option<Question>,
+    pub clearance: Option<ClearanceQuestion>,
     /// The start asked for in the file for each group, in the order of the structure.
     pub starts: Vec<StartGroup>,
     /// How each group was placed at the start, in the order of the structure.
-    pub choices: Vec<Choice>,
+    pub choices: Vec<ConfigurationChoice>,
 }
 
 /// The scenario files (`*.toml`) of a directory, by name.
@@ -114,7 +115,7 @@ pub struct Scenario {
 /// [`ErrorKind::Io`] if the directory cannot be read.
 pub fn files_in(directory: impl AsRef<Path>) -> Result<Vec<PathBuf>> {
     let entries = std::fs::read_dir(directory.as_ref()).map_err(|error| {
-        Error::new(ErrorKind::Io, format!("the directory {} cannot be read: {error}", directory.as_ref().display()))
+        Error::new(ErrorKind::Io, sentences::the_directory_cannot_be_read(&directory.as_ref().display(), &error))
     })?;
     let mut files: Vec<PathBuf> = entries
         .filter_map(|entry| entry.ok().map(|entry| entry.path()))
@@ -141,7 +142,7 @@ impl Scenario {
     /// # Errors
     /// [`ErrorKind::Io`] if a file cannot be read, else as [`Scenario::parse`].
     pub fn load(path: impl AsRef<Path>) -> Result<Scenario> {
-        Scenario::load_as(path, &Asked::default())
+        Scenario::load_as(path, &StartRequest::default())
     }
 
     /// Reads a scenario from its text. Tables of published numbers are searched in the directory of `path`.
@@ -151,7 +152,7 @@ impl Scenario {
     /// taken, [`ErrorKind::Unsupported`] for what this version does not solve, [`ErrorKind::Io`] for a table that
     /// cannot be read; all with the place in the file and the key.
     pub fn parse(text: &str, path: impl AsRef<Path>) -> Result<Scenario> {
-        Ok(parse(text, path.as_ref(), &Asked::default(), Lists::No)?.0)
+        Ok(parse(text, path.as_ref(), &StartRequest::default(), Lists::No)?.0)
     }
 
     /// Reads the scenario file at `path` with another start.
@@ -164,7 +165,7 @@ impl Scenario {
     /// # Errors
     /// Those of [`Scenario::load`], and [`ErrorKind::Input`] without a place in the file if a group, its mode or its
     /// number is not known.
-    pub fn load_as(path: impl AsRef<Path>, asked: &Asked) -> Result<Scenario> {
+    pub fn load_as(path: impl AsRef<Path>, asked: &StartRequest) -> Result<Scenario> {
         Scenario::parse_as(&text_of(path.as_ref())?, path, asked)
     }
 
@@ -172,7 +173,7 @@ impl Scenario {
     ///
     /// # Errors
     /// Those of [`Scenario::load_as`], except that the file cannot be read.
-    pub fn parse_as(text: &str, path: impl AsRef<Path>, asked: &Asked) -> Result<Scenario> {
+    pub fn parse_as(text: &str, path: impl AsRef<Path>, asked: &StartRequest) -> Result<Scenario> {
         Ok(parse(text, path.as_ref(), asked, Lists::No)?.0)
     }
 
@@ -181,7 +182,7 @@ impl Scenario {
     ///
     /// # Errors
     /// Those of [`Scenario::load_as`], except that nothing decides for a group.
-    pub fn load_to_list(path: impl AsRef<Path>, asked: &Asked) -> Result<(Scenario, Vec<Undecided>)> {
+    pub fn load_to_list(path: impl AsRef<Path>, asked: &StartRequest) -> Result<(Scenario, Vec<Undecided>)> {
         Scenario::parse_to_list(&text_of(path.as_ref())?, path, asked)
     }
 
@@ -189,7 +190,11 @@ impl Scenario {
     ///
     /// # Errors
     /// Those of [`Scenario::load_to_list`], except that the file cannot be read.
-    pub fn parse_to_list(text: &str, path: impl AsRef<Path>, asked: &Asked) -> Result<(Scenario, Vec<Undecided>)> {
+    pub fn parse_to_list(
+        text: &str,
+        path: impl AsRef<Path>,
+        asked: &StartRequest,
+    ) -> Result<(Scenario, Vec<Undecided>)> {
         let (scenario, mut undecided) = parse(text, path.as_ref(), asked, Lists::Undecided)?;
         undecided.sort_by_key(|undecided| undecided.group);
         Ok((scenario, undecided))
@@ -202,7 +207,7 @@ impl Scenario {
     /// [`ErrorKind::Input`] for a name with other characters than lower-case letters, digits and `_`.
     pub fn of_case(name: &str, case: Case) -> Result<Scenario> {
         if !is_name(name) {
-            let message = format!("\"{name}\" cannot be the name of a scenario");
+            let message = sentences::cannot_be_the_name_of_a_scenario(&name);
             return Err(Error::new(ErrorKind::Input, message).key("name").help(NAME_HELP));
         }
         Ok(Scenario {
@@ -211,7 +216,11 @@ impl Scenario {
             source: None,
             path: PathBuf::new(),
             text: String::new(),
-            choices: case.modes.iter().map(|&mode| Choice { mode, nearest_m: None, next_m: None }).collect(),
+            choices: case
+                .modes
+                .iter()
+                .map(|&mode| ConfigurationChoice { mode, nearest_m: None, next_m: None })
+                .collect(),
             starts: vec![StartGroup::default(); case.structure.groups.len()],
             case,
             engine: EngineSettings::default(),
@@ -253,11 +262,11 @@ impl Scenario {
     }
 }
 
-fn parse(text: &str, path: &Path, asked: &Asked, lists: Lists) -> Result<(Scenario, Vec<Undecided>)> {
+fn parse(text: &str, path: &Path, asked: &StartRequest, lists: Lists) -> Result<(Scenario, Vec<Undecided>)> {
     let plain = Source::new(path, text);
     let tree = plain.tree()?;
     let (parameters, fault) = parameter_table::read(
-        Table::root(&plain, &tree).optional_table("parameters")?,
+        TomlTable::root(&plain, &tree).optional_table("parameters")?,
         &asked.set,
         asked.adds_parameters,
     )?;
@@ -266,8 +275,8 @@ fn parse(text: &str, path: &Path, asked: &Asked, lists: Lists) -> Result<(Scenar
     }
     let source = plain.with(parameters, keys::rows);
     let in_file = |error| source.located(tree.get_ref(), error);
-    let stated = Table::root(&source, &tree).read(|root| {
-        let stated = Stated::read(root, asked)?;
+    let stated = TomlTable::root(&source, &tree).read(|root| {
+        let stated = FileSections::read(root, asked)?;
         root.sound_so_far()?;
         Ok(stated)
     });
@@ -299,11 +308,11 @@ fn structure(mechanism: &Mechanism, drives: &Drives) -> Result<Structure> {
 
 /// The scenario of a mechanism that stands at its start, and the groups that are not decided.
 fn finished(
-    stated: Stated,
+    stated: FileSections,
     structure: Structure,
     placed: asked::Placed,
     source: &Source,
-    asked: &Asked,
+    asked: &StartRequest,
 ) -> Result<(Scenario, Vec<Undecided>)> {
     let (own_crank, crank) = (stated.crank, asked.crank.unwrap_or(stated.crank));
     let (mechanism, drives) = (stated.mechanism, stated.drives.expect("what is missing has ended the reading"));
@@ -334,10 +343,10 @@ fn finished(
     let series = oracles.iter().flat_map(|oracle| &oracle.series);
     let cranks: Vec<f64> = series.flat_map(OracleSeries::instants).filter_map(When::crank).collect();
     if let Err(message) = Grid::of_inputs(case.crank(), cranks).check(case.crank()) {
-        let error = Error::new(ErrorKind::Input, format!("published numbers: {message}")).key("oracle");
+        let error = Error::new(ErrorKind::Input, sentences::published_numbers(&message)).key("oracle");
         return Err(error.help(match case.crank().is_free() {
-            true => "give the numbers at times (`time_s`)",
-            false => "take the numbers out, or give them at crank angles to which the drive comes",
+            true => sentences::GIVE_THE_NUMBERS_AT_TIMES,
+            false => sentences::TAKE_THE_NUMBERS_OUT_OR_GIVE,
         }));
     }
     let scenario = Scenario {

@@ -1,21 +1,23 @@
 //! `[ground]` and `[links]`: points and masses.
 
+use crate::sentences;
 use std::collections::BTreeSet;
 
-use super::keys::key::{Key, Kind, Section, needed, optional};
-use super::reader::{Faults, Sign, Table};
+use super::keys::key::{FileKey, Section, ValueKind, needed, optional};
+use super::reader::{Faults, Sign, TomlTable};
 use super::words::suggestion;
 use linkage::error::Result;
 use linkage::math::{Vec2, unit};
 use linkage::mechanism::{Link, Point, is_sound_name};
 
 /// A place: coordinates, or distance and direction from an earlier point.
-pub const PLACE: &[Key] = &[
-    optional("x", Kind::LENGTHS, "given with `y`, in place of `from`").means("coordinate along x"),
-    optional("y", Kind::LENGTHS, "given with `x`").means("coordinate along y"),
-    optional("from", Kind::Text, "given in place of `x` and `y`").means("point that stands earlier in the same table"),
-    optional("length", Kind::LENGTHS.of(Sign::NotNegative), "given with `from`").means("distance from that point"),
-    optional("angle", Kind::ANGLES, "given with `from`").means(
+pub const PLACE: &[FileKey] = &[
+    optional("x", ValueKind::LENGTHS, "given with `y`, in place of `from`").means("coordinate along x"),
+    optional("y", ValueKind::LENGTHS, "given with `x`").means("coordinate along y"),
+    optional("from", ValueKind::Text, "given in place of `x` and `y`")
+        .means("point that stands earlier in the same table"),
+    optional("length", ValueKind::LENGTHS.of(Sign::NotNegative), "given with `from`").means("distance from that point"),
+    optional("angle", ValueKind::ANGLES, "given with `from`").means(
         "direction from that point, counted from the x axis of the link; for ground points, from the x axis \
          of the world",
     ),
@@ -23,14 +25,14 @@ pub const PLACE: &[Key] = &[
 
 /// What is told of the keys that are read here.
 pub const SECTIONS: &[Section] = &[
-    Section::at("ground").with(&[needed("points", Kind::Table).means("fixed points by name")]),
+    Section::at("ground").with(&[needed("points", ValueKind::Table).means("fixed points by name")]),
     Section::at("ground.points.*").with(PLACE),
     Section::at("links.*").with(&[
-        needed("points", Kind::Table).means("points in the link's own frame by name, at least one"),
-        optional("mass", Kind::MASSES.of(Sign::NotNegative), "none: a massless link").means("mass, not negative"),
-        optional("mass_centre", Kind::Table, "required with a mass, refused without")
+        needed("points", ValueKind::Table).means("points in the link's own frame by name, at least one"),
+        optional("mass", ValueKind::MASSES.of(Sign::NotNegative), "none: a massless link").means("mass, not negative"),
+        optional("mass_centre", ValueKind::Table, "required with a mass, refused without")
             .means("place of the mass centre in the link's frame; may refer to any point of the link"),
-        optional("inertia", Kind::INERTIAS.of(Sign::NotNegative), "0")
+        optional("inertia", ValueKind::INERTIAS.of(Sign::NotNegative), "0")
             .means("moment of inertia about the mass centre, not negative; needs a mass"),
     ]),
     Section::at("links.*.points.*").with(PLACE),
@@ -47,7 +49,7 @@ pub fn is_somewhere(place: Vec2) -> bool {
 
 /// The ground and all links, in the order of the file. Those with mistakes keep their names and those of their points;
 /// points whose places could not be read are nowhere.
-pub fn read(ground: Option<Table>, links: Option<Table>, faults: &mut Faults) -> Vec<Link> {
+pub fn read(ground: Option<TomlTable>, links: Option<TomlTable>, faults: &mut Faults) -> Vec<Link> {
     let mut points = Vec::new();
     if let Some(mut ground) = ground {
         faults.read(&mut ground, |ground| {
@@ -61,7 +63,7 @@ pub fn read(ground: Option<Table>, links: Option<Table>, faults: &mut Faults) ->
         faults.read(&mut links, |links| {
             let tables = links.all_tables()?;
             match tables.is_empty() {
-                true => Err(links.fault("there is no link").help("add a section `[links.NAME]` for each moving link")),
+                true => Err(links.fault(sentences::THERE_IS_NO_LINK_2).help(sentences::ADD_A_SECTION_LINKS_NAME)),
                 false => Ok(tables),
             }
         })
@@ -78,7 +80,7 @@ pub fn read(ground: Option<Table>, links: Option<Table>, faults: &mut Faults) ->
     all
 }
 
-fn fill(table: &mut Table, link: &mut Link) -> Result<()> {
+fn fill(table: &mut TomlTable, link: &mut Link) -> Result<()> {
     table.part(check_name(table, "link"));
     link.points = named_points(table)?;
     let points = &link.points;
@@ -88,16 +90,16 @@ fn fill(table: &mut Table, link: &mut Link) -> Result<()> {
     let centre = table.part(centre);
     table.finish()?;
     if mass.is_none() && inertia.is_some() {
-        let help = "add `mass_kg`, or leave out the inertia";
-        return table.refuse("inertia", "the link has a moment of inertia but no mass", help);
+        let help = sentences::ADD_MASS_KG_OR_LEAVE_OUT;
+        return table.refuse("inertia", sentences::THE_LINK_HAS_A_MOMENT_OF_INERTIA, help);
     }
     if mass.is_none() && centre.is_some() {
-        let help = "add `mass_kg` (0 is allowed), or leave out the mass centre";
-        return table.refuse("mass_centre", "the link has a mass centre but no mass", help);
+        let help = sentences::ADD_MASS_KG_IS_ALLOWED_OR_LEAVE;
+        return table.refuse("mass_centre", sentences::THE_LINK_HAS_A_MASS_CENTRE, help);
     }
     if mass.is_some() && centre.is_none() {
-        let help = "add `mass_centre = { x_mm = ..., y_mm = ... }`, in the link's frame";
-        return table.refuse("mass", "the link has a mass but no mass centre", help);
+        let help = sentences::ADD_MASS_CENTRE_IN_THE_LINK;
+        return table.refuse("mass", sentences::THE_LINK_HAS_A_MASS_BUT_NO_MASS, help);
     }
     link.mass = mass.unwrap_or(0.0);
     link.mass_centre = centre.unwrap_or_else(Vec2::zeros);
@@ -106,7 +108,7 @@ fn fill(table: &mut Table, link: &mut Link) -> Result<()> {
 }
 
 /// The points of a link. Those with mistakes keep their names.
-fn named_points(link: &mut Table) -> Result<Vec<Point>> {
+fn named_points(link: &mut TomlTable) -> Result<Vec<Point>> {
     let Ok(mut table) = link.table("points") else { return Ok(Vec::new()) };
     let mut points: Vec<Point> = Vec::new();
     let read = table.read(|table| {
@@ -117,7 +119,7 @@ fn named_points(link: &mut Table) -> Result<Vec<Point>> {
             points.push(Point { name, local });
         }
         match points.is_empty() {
-            true => Err(table.fault("there is no point").help("add a point: `A = { x_mm = 0, y_mm = 0 }`")),
+            true => Err(table.fault(sentences::THERE_IS_NO_POINT).help(sentences::ADD_A_POINT_A)),
             false => Ok(()),
         }
     });
@@ -129,11 +131,11 @@ fn named_points(link: &mut Table) -> Result<Vec<Point>> {
 }
 
 /// A place: coordinates, or a distance and an angle from one of the points read before.
-pub fn place(mut table: Table, known: &[Point]) -> Result<Vec2> {
+pub fn place(mut table: TomlTable, known: &[Point]) -> Result<Vec2> {
     table.read(|table| place_of(table, known))
 }
 
-fn place_of(table: &mut Table, known: &[Point]) -> Result<Vec2> {
+fn place_of(table: &mut TomlTable, known: &[Point]) -> Result<Vec2> {
     let from = match table.has_si("length") || table.has_si("angle") {
         true => Some(table.string("from")?),
         false => table.optional_string("from")?,
@@ -143,7 +145,7 @@ fn place_of(table: &mut Table, known: &[Point]) -> Result<Vec2> {
         Some(from) => {
             let names = known.iter().map(|point| point.name.as_str());
             let Some(origin) = known.iter().find(|point| point.name == from) else {
-                let message = format!("no point \"{from}\" stands before this one");
+                let message = sentences::no_point_stands_before_this_one(&from);
                 return table.refuse("from", message, suggestion(&from, names, "\""));
             };
             let length = table.si("length")?;
@@ -156,20 +158,20 @@ fn place_of(table: &mut Table, known: &[Point]) -> Result<Vec2> {
 }
 
 /// The key `name`, if it can be that of `what`.
-pub fn sound_name(table: &mut Table, what: &str) -> Result<String> {
+pub fn sound_name(table: &mut TomlTable, what: &str) -> Result<String> {
     let name = table.string("name")?;
     match is_sound_name(&name) {
         true => Ok(name),
-        false => table.refuse("name", format!("\"{name}\" cannot be the name of {what}"), NAME_HELP),
+        false => table.refuse("name", sentences::cannot_be_the_name_of(&name, &what), NAME_HELP),
     }
 }
 
-fn check_name(table: &Table, what: &str) -> Result<()> {
+fn check_name(table: &TomlTable, what: &str) -> Result<()> {
     if is_sound_name(table.name()) {
         return Ok(());
     }
-    Err(table.fault(format!("\"{}\" cannot be the name of a {what}", table.name())).help(NAME_HELP))
+    Err(table.fault(sentences::cannot_be_the_name_of_a(&table.name(), &what)).help(NAME_HELP))
 }
 
 /// Help for names that are not allowed.
-const NAME_HELP: &str = "names consist of letters, digits, `_`, `-` and `'`, 100 of them at most";
+const NAME_HELP: &str = sentences::NAMES_CONSIST_OF_LETTERS_DIGITS;

@@ -1,13 +1,14 @@
 //! `[[loads]]`: forces, moments, springs and dampers.
 
 use super::joints::link;
-use super::keys::key::{Kind, Section, needed, optional};
-use super::reader::{Faults, Sign, Table};
+use super::keys::key::{Section, ValueKind, needed, optional};
+use super::reader::{Faults, Sign, TomlTable};
 use super::unit::{DAMPING, MOMENT, MOMENT_PER_SPEED, STIFFNESS, TORSIONAL_STIFFNESS};
 use super::words::{Words, names, suggestion};
+use crate::sentences;
 use linkage::drive::{Acts, Course, Load};
 use linkage::error::{Error, ErrorKind, Result};
-use linkage::mechanism::{GROUND, LinkId, Mechanism, Side};
+use linkage::mechanism::{GROUND, JointSide, LinkId, Mechanism};
 use std::f64::consts::TAU;
 
 const ACTS: Words<Acts> =
@@ -22,47 +23,47 @@ const INTERPOLATIONS: Words<bool> = &[("linear", false), ("smooth", true)];
 /// What is told of the keys that are read here.
 pub const SECTIONS: &[Section] = &[
     Section::at("loads").with(&[
-        needed("type", Kind::Choice(|| names(SORTS))).means("kind of load"),
-        optional("link", Kind::Text, "required by the type").means("the loaded link"),
-        optional("point", Kind::Text, "required by the type").means("the loaded point of that link"),
-        optional("links", Kind::Texts, "required by the type")
+        needed("type", ValueKind::Choice(|| names(SORTS))).means("kind of load"),
+        optional("link", ValueKind::Text, "required by the type").means("the loaded link"),
+        optional("point", ValueKind::Text, "required by the type").means("the loaded point of that link"),
+        optional("links", ValueKind::Texts, "required by the type")
             .means("the two links that a spring or damper joins; one may be `\"ground\"`"),
-        optional("points", Kind::Texts, "required by the type").means("a point of each of them"),
-        optional("moment", Kind::MOMENTS, "required by the type, or a table")
+        optional("points", ValueKind::Texts, "required by the type").means("a point of each of them"),
+        optional("moment", ValueKind::MOMENTS, "required by the type, or a table")
             .means("moment, counter-clockwise positive; of a resistance its size, not negative"),
-        optional("acts", Kind::Choice(|| names(ACTS)), "`\"always\"`")
+        optional("acts", ValueKind::Choice(|| names(ACTS)), "`\"always\"`")
             .means("of a moment: the sense of rotation of the link in which it acts"),
-        optional("x", Kind::FORCES, "required by the type, or a table").means("force along x"),
-        optional("y", Kind::FORCES, "required by the type, or a table").means("force along y"),
-        optional("frame", Kind::Choice(|| names(FRAMES)), "`\"world\"`")
+        optional("x", ValueKind::FORCES, "required by the type, or a table").means("force along x"),
+        optional("y", ValueKind::FORCES, "required by the type, or a table").means("force along y"),
+        optional("frame", ValueKind::Choice(|| names(FRAMES)), "`\"world\"`")
             .means("axes of a force: those of the world, or of the link, turning with it"),
-        optional("force", Kind::FORCES.of(Sign::NotNegative), "required by the type")
+        optional("force", ValueKind::FORCES.of(Sign::NotNegative), "required by the type")
             .means("size of a force against the motion of the point, not negative"),
-        optional("stiffness", Kind::STIFFNESSES_OR_TORSIONAL, "required by the type")
+        optional("stiffness", ValueKind::STIFFNESSES_OR_TORSIONAL, "required by the type")
             .means("stiffness of a spring, not negative"),
-        optional("free_length", Kind::LENGTHS.of(Sign::NotNegative), "required by the type")
+        optional("free_length", ValueKind::LENGTHS.of(Sign::NotNegative), "required by the type")
             .means("length of the spring without force, not negative"),
-        optional("free_angle", Kind::ANGLES, "required by the type").means("twist of the spring without moment"),
-        optional("damping", Kind::DAMPINGS_OR_SLOPES, "required by the type").means("damping, not negative"),
-        optional("table", Kind::Tables, "the constants")
+        optional("free_angle", ValueKind::ANGLES, "required by the type").means("twist of the spring without moment"),
+        optional("damping", ValueKind::DAMPINGS_OR_SLOPES, "required by the type").means("damping, not negative"),
+        optional("table", ValueKind::Tables, "the constants")
             .means("the load over the crank angle: crank angles ascending, within one period"),
-        optional("interpolation", Kind::Choice(|| names(INTERPOLATIONS)), "`\"linear\"`").means(
+        optional("interpolation", ValueKind::Choice(|| names(INTERPOLATIONS)), "`\"linear\"`").means(
             "of the table: straight lines, which do not overshoot, or a periodic cubic spline with \
              continuous second derivatives",
         ),
-        optional("turns", Kind::Integer, "1")
+        optional("turns", ValueKind::Integer, "1")
             .means("turns of the crank after which the table repeats; 2 for a four-stroke engine"),
     ]),
     Section::at("loads.table").with(&[
-        needed("crank", Kind::INPUTS).means("crank angle"),
-        optional("moment", Kind::MOMENTS, "of a moment").means("moment there"),
-        optional("x", Kind::FORCES, "of a force").means("force along x there"),
-        optional("y", Kind::FORCES, "of a force").means("force along y there"),
+        needed("crank", ValueKind::INPUTS).means("crank angle"),
+        optional("moment", ValueKind::MOMENTS, "of a moment").means("moment there"),
+        optional("x", ValueKind::FORCES, "of a force").means("force along x there"),
+        optional("y", ValueKind::FORCES, "of a force").means("force along y there"),
     ]),
 ];
 
 /// Sorts of loads, each with its reader. The name is that of [`Load::sort`].
-const SORTS: Words<fn(&mut Table, &Mechanism) -> Result<Load>> = &[
+const SORTS: Words<fn(&mut TomlTable, &Mechanism) -> Result<Load>> = &[
     ("resistance", resistance),
     ("moment", moment),
     ("force", force),
@@ -77,26 +78,26 @@ const SORTS: Words<fn(&mut Table, &Mechanism) -> Result<Load>> = &[
 const MOST_TURNS: i64 = 1000;
 
 /// The loads, but those with mistakes.
-pub fn read(tables: Vec<Table>, mechanism: &Mechanism, faults: &mut Faults) -> Vec<Load> {
+pub fn read(tables: Vec<TomlTable>, mechanism: &Mechanism, faults: &mut Faults) -> Vec<Load> {
     tables.into_iter().filter_map(|mut table| faults.read(&mut table, |table| load(table, mechanism))).collect()
 }
 
-fn load(table: &mut Table, mechanism: &Mechanism) -> Result<Load> {
-    let load = table.choice("type", "is no type of load", SORTS)?(table, mechanism)?;
+fn load(table: &mut TomlTable, mechanism: &Mechanism) -> Result<Load> {
+    let load = table.choice("type", sentences::IS_NO_TYPE_OF_LOAD, SORTS)?(table, mechanism)?;
     table.finish()?;
     Ok(load)
 }
 
-fn resistance(table: &mut Table, mechanism: &Mechanism) -> Result<Load> {
+fn resistance(table: &mut TomlTable, mechanism: &Mechanism) -> Result<Load> {
     let name = table.string("link")?;
     let moment = table.quantity("moment", &MOMENT, Sign::NotNegative)?;
     Ok(Load::Resistance { link: turning(table, &name, mechanism)?, moment })
 }
 
-fn moment(table: &mut Table, mechanism: &Mechanism) -> Result<Load> {
+fn moment(table: &mut TomlTable, mechanism: &Mechanism) -> Result<Load> {
     let name = table.string("link")?;
     let [moment] = courses(table, ["moment"])?;
-    let acts = table.optional_choice("acts", "does not say when the moment acts", ACTS)?.unwrap_or(Acts::Always);
+    let acts = table.optional_choice("acts", sentences::DOES_NOT_SAY_WHEN_THE_MOMENT, ACTS)?.unwrap_or(Acts::Always);
     let link = match acts {
         Acts::Always => moving(table, &name, mechanism)?,
         Acts::CounterClockwise | Acts::Clockwise => turning(table, &name, mechanism)?,
@@ -104,63 +105,67 @@ fn moment(table: &mut Table, mechanism: &Mechanism) -> Result<Load> {
     Ok(Load::Moment { link, moment, acts })
 }
 
-fn force(table: &mut Table, mechanism: &Mechanism) -> Result<Load> {
+fn force(table: &mut TomlTable, mechanism: &Mechanism) -> Result<Load> {
     let point = (table.string("link")?, table.string("point")?);
     let force = courses(table, ["x", "y"])?;
-    let follows = table.optional_choice("frame", "is no frame of a force", FRAMES)?.unwrap_or(false);
+    let follows = table.optional_choice("frame", sentences::IS_NO_FRAME_OF_A_FORCE, FRAMES)?.unwrap_or(false);
     let at = loaded_point(table, mechanism, point)?;
     Ok(Load::Force { at, force, follows })
 }
 
-fn resisting_force(table: &mut Table, mechanism: &Mechanism) -> Result<Load> {
+fn resisting_force(table: &mut TomlTable, mechanism: &Mechanism) -> Result<Load> {
     let point = (table.string("link")?, table.string("point")?);
     let force = table.si("force")?;
     let at = loaded_point(table, mechanism, point)?;
     // The velocity of such a point would be the rounding of zero, and so would the direction of the force.
     let mut pins = mechanism.joints().iter().filter(|joint| joint.is_pin() && joint.on(GROUND).is_some());
     if pins.any(|joint| joint.on(at.link) == Some(at.local)) {
-        return table.refuse("point", "the point does not move: it is hinged to the ground", "name a point that moves");
+        return table.refuse(
+            "point",
+            sentences::THE_POINT_DOES_NOT_MOVE_IT_IS_HINGED,
+            sentences::NAME_A_POINT_THAT_MOVES,
+        );
     }
     Ok(Load::ResistingForce { at, force })
 }
 
-fn spring(table: &mut Table, mechanism: &Mechanism) -> Result<Load> {
+fn spring(table: &mut TomlTable, mechanism: &Mechanism) -> Result<Load> {
     let named = (table.strings("links")?, table.strings("points")?);
     let stiffness = table.quantity("stiffness", &STIFFNESS, Sign::NotNegative)?;
     let free_length = table.si("free_length")?;
     Ok(Load::Spring { ends: ends(table, mechanism, named)?, stiffness, free_length })
 }
 
-fn damper(table: &mut Table, mechanism: &Mechanism) -> Result<Load> {
+fn damper(table: &mut TomlTable, mechanism: &Mechanism) -> Result<Load> {
     let named = (table.strings("links")?, table.strings("points")?);
     let damping = table.quantity("damping", &DAMPING, Sign::NotNegative)?;
     Ok(Load::Damper { ends: ends(table, mechanism, named)?, damping })
 }
 
-fn torsion_spring(table: &mut Table, mechanism: &Mechanism) -> Result<Load> {
+fn torsion_spring(table: &mut TomlTable, mechanism: &Mechanism) -> Result<Load> {
     let names = table.strings("links")?;
     let stiffness = table.quantity("stiffness", &TORSIONAL_STIFFNESS, Sign::NotNegative)?;
     let free_angle = table.si("free_angle")?;
     Ok(Load::TorsionSpring { links: pair(table, mechanism, &names)?, stiffness, free_angle })
 }
 
-fn torsion_damper(table: &mut Table, mechanism: &Mechanism) -> Result<Load> {
+fn torsion_damper(table: &mut TomlTable, mechanism: &Mechanism) -> Result<Load> {
     let names = table.strings("links")?;
     let damping = table.quantity("damping", &MOMENT_PER_SPEED, Sign::NotNegative)?;
     Ok(Load::TorsionDamper { links: pair(table, mechanism, &names)?, damping })
 }
 
 /// Quantities: constants, or columns of a table over the crank angle.
-fn courses<const N: usize>(table: &mut Table, names: [&str; N]) -> Result<[Course; N]> {
+fn courses<const N: usize>(table: &mut TomlTable, names: [&str; N]) -> Result<[Course; N]> {
     let rows = table.tables("table")?;
     let constants = names.map(|name| table.optional_si(name));
-    let smooth = table.optional_choice("interpolation", "is no interpolation", INTERPOLATIONS)?;
+    let smooth = table.optional_choice("interpolation", sentences::IS_NO_INTERPOLATION, INTERPOLATIONS)?;
     let turns = table.optional_integer("turns")?;
     if !table.has("table") {
         for (key, is_given) in [("interpolation", smooth.is_some()), ("turns", turns.is_some())] {
             if is_given {
-                let message = "this belongs to a table over the crank angle, but there is none";
-                return table.refuse(key, message, "add `table`, or leave the key out");
+                let message = sentences::THIS_BELONGS_TO_A_TABLE_OVER;
+                return table.refuse(key, message, sentences::ADD_TABLE_OR_LEAVE_THE_KEY);
             }
         }
         let mut found = [0.0; N];
@@ -174,7 +179,7 @@ fn courses<const N: usize>(table: &mut Table, names: [&str; N]) -> Result<[Cours
     }
     for (constant, name) in constants.into_iter().zip(names) {
         if constant?.is_some() {
-            return table.refuse(name, format!("`{name}` and `table` are both given"), "keep one of the two");
+            return table.refuse(name, sentences::and_table_are_both_given(&name), sentences::KEEP_ONE_OF_THE_TWO);
         }
     }
     let mut points: [Vec<(f64, f64)>; N] = names.map(|_| Vec::new());
@@ -191,104 +196,110 @@ fn courses<const N: usize>(table: &mut Table, names: [&str; N]) -> Result<[Cours
         check_crank(&row, &points[0], turns)?;
     }
     if points[0].is_empty() {
-        let help = "write a constant, or add points";
-        return table.refuse("table", "a table over the crank angle needs a point or more", help);
+        let help = sentences::WRITE_A_CONSTANT_OR_ADD_POINTS;
+        return table.refuse("table", sentences::A_TABLE_OVER_THE_CRANK_ANGLE, help);
     }
     Ok(points.map(|points| Course::table(&points, turns, smooth)))
 }
 
 /// Checks that the last point is after the one before it, and within the table's period.
-fn check_crank(row: &Table, points: &[(f64, f64)], turns: u32) -> Result<()> {
+fn check_crank(row: &TomlTable, points: &[(f64, f64)], turns: u32) -> Result<()> {
     let (&[(first, _), ..], &[.., (last, _)]) = (points, points) else { return Ok(()) };
     let before = points.len().checked_sub(2).map(|index| points[index].0);
     if before.is_some_and(|before| !(last > before)) {
-        let message = "the crank angles of the table do not ascend";
-        return Err(row.fault(message).help("write the points in ascending order of the crank angle, each angle once"));
+        let message = sentences::THE_CRANK_ANGLES_OF_THE_TABLE;
+        return Err(row.fault(message).help(sentences::WRITE_THE_POINTS_IN_ASCENDING));
     }
     // The rounding of degrees into radians must not move a point at the end of the period into the next period.
     if last - first > TAU * f64::from(turns) * (1.0 - 1e-12) {
-        let message = format!("the table is longer than its period, {} deg", 360 * u64::from(turns));
-        return Err(row.fault(message).help(
-            "a table repeats after a turn, or after `turns` of them: leave out its last point if it repeats the first",
-        ));
+        let message = sentences::the_table_is_longer_than_its_period(&(360 * u64::from(turns)));
+        return Err(row.fault(message).help(sentences::A_TABLE_REPEATS_AFTER_A_TURN));
     }
     Ok(())
 }
 
 /// Turns of the crank after which a table repeats.
-fn period(table: &Table, turns: Option<i64>) -> Result<u32> {
+fn period(table: &TomlTable, turns: Option<i64>) -> Result<u32> {
     match turns {
         None => Ok(1),
         Some(turns @ 1..=MOST_TURNS) => Ok(turns as u32),
         Some(other) => {
-            let message = format!("found {other}, but a table repeats after 1 to {MOST_TURNS} turns of the crank");
-            table.refuse("turns", message, "write 2 for a four-stroke engine, else leave it out")
+            let message = sentences::found_but_a_table_repeats(&other, &MOST_TURNS);
+            table.refuse("turns", message, sentences::WRITE_FOR_A_FOUR_STROKE_ENGINE)
         }
     }
 }
 
 /// A moving link.
-fn moving(table: &mut Table, name: &str, mechanism: &Mechanism) -> Result<LinkId> {
+fn moving(table: &mut TomlTable, name: &str, mechanism: &Mechanism) -> Result<LinkId> {
     let link = link(table, name, mechanism.links())?;
     if link == GROUND {
-        return table.refuse("link", "the ground does not move, and bears any load", "name a moving link");
+        return table.refuse("link", sentences::THE_GROUND_DOES_NOT_MOVE, sentences::NAME_A_MOVING_LINK);
     }
     Ok(link)
 }
 
 /// A link that can turn.
-fn turning(table: &mut Table, name: &str, mechanism: &Mechanism) -> Result<LinkId> {
+fn turning(table: &mut TomlTable, name: &str, mechanism: &Mechanism) -> Result<LinkId> {
     let link = link(table, name, mechanism.links())?;
     if link == GROUND {
-        return table.refuse("link", "the ground does not turn", "name a moving link");
+        return table.refuse("link", sentences::THE_GROUND_DOES_NOT_TURN, sentences::NAME_A_MOVING_LINK);
     }
     // The angular velocity of such a link would be the rounding of zero, and so would the sense of the moment.
     if !mechanism.can_turn(link) {
-        let message = format!("link \"{name}\" does not turn: prismatic joints alone connect it with the ground");
-        return table.refuse("link", message, "name a link that turns");
+        let message = sentences::link_does_not_turn_prismatic(&name);
+        return table.refuse("link", message, sentences::NAME_A_LINK_THAT_TURNS);
     }
     Ok(link)
 }
 
 /// `link` and `point`: a point of a moving link.
-fn loaded_point(table: &mut Table, mechanism: &Mechanism, (name, point): (String, String)) -> Result<Side> {
+fn loaded_point(table: &mut TomlTable, mechanism: &Mechanism, (name, point): (String, String)) -> Result<JointSide> {
     let link = moving(table, &name, mechanism)?;
     side(table, mechanism, link, &point, "point")
 }
 
-fn side(table: &Table, mechanism: &Mechanism, link: LinkId, point: &str, key: &str) -> Result<Side> {
+fn side(table: &TomlTable, mechanism: &Mechanism, link: LinkId, point: &str, key: &str) -> Result<JointSide> {
     let body = &mechanism.links()[link];
     let found = body.points.iter().find(|found| found.name == point);
     let missing = || -> Error {
-        let error = table.wrong(ErrorKind::Input, key, format!("link \"{}\" has no point \"{point}\"", body.name));
+        let error = table.wrong(ErrorKind::Input, key, sentences::link_has_no_point_2(&body.name, &point));
         error.help(suggestion(point, body.points.iter().map(|point| point.name.as_str()), "\""))
     };
-    found.map(|found| Side { link, local: found.local }).ok_or_else(missing)
+    found.map(|found| JointSide { link, local: found.local }).ok_or_else(missing)
 }
 
 /// `links`: two links, either of which may be the ground.
-fn pair(table: &mut Table, mechanism: &Mechanism, names: &[String]) -> Result<[LinkId; 2]> {
+fn pair(table: &mut TomlTable, mechanism: &Mechanism, names: &[String]) -> Result<[LinkId; 2]> {
     let [first, second] = names else {
-        let message = format!("found {} links, but this load acts between two", names.len());
+        let message = sentences::found_links_but_this_load(&names.len());
         return table.refuse("links", message, "write `links = [\"ground\", \"rocker\"]`");
     };
     let links = [link(table, first, mechanism.links())?, link(table, second, mechanism.links())?];
     if links[0] == links[1] {
-        return table.refuse("links", format!("it acts between \"{first}\" and itself"), "name two different links");
+        return table.refuse(
+            "links",
+            sentences::it_acts_between_and_itself(&first),
+            sentences::NAME_TWO_DIFFERENT_LINKS,
+        );
     }
     Ok(links)
 }
 
 /// `links` and `points`: a point of either link.
-fn ends(table: &mut Table, mechanism: &Mechanism, (links, points): (Vec<String>, Vec<String>)) -> Result<[Side; 2]> {
+fn ends(
+    table: &mut TomlTable,
+    mechanism: &Mechanism,
+    (links, points): (Vec<String>, Vec<String>),
+) -> Result<[JointSide; 2]> {
     let links = pair(table, mechanism, &links)?;
     let [first, second] = &points[..] else {
-        let help = "write `points = [\"S\", \"B\"]`: a point of the first link and one of the second";
-        return table.refuse("points", format!("found {} points, but this load acts between two", points.len()), help);
+        let help = sentences::WRITE_POINTS_A_POINT_OF_THE_FIRST_LINK;
+        return table.refuse("points", sentences::found_points_but_this_load(&points.len()), help);
     };
     if first == second {
-        let message = format!("a joint holds the two points \"{first}\" together");
-        return table.refuse("points", message, "name two points that move apart");
+        let message = sentences::a_joint_holds_the_two_points(&first);
+        return table.refuse("points", message, sentences::NAME_TWO_POINTS_THAT_MOVE);
     }
     Ok([side(table, mechanism, links[0], first, "points")?, side(table, mechanism, links[1], second, "points")?])
 }

@@ -1,5 +1,6 @@
 //! What is wrong with a text that is no TOML, or no CSV.
 
+use crate::sentences;
 use std::ops::Range;
 
 use toml::de::DeTable;
@@ -20,14 +21,14 @@ pub(super) fn no_toml(text: &str, place: Places, error: &toml::de::Error) -> Err
     }
     if let Some(number) = decimal_comma(text, span.start) {
         let found = &text[number.clone()];
-        return Error::new(ErrorKind::Input, format!("the file is not valid TOML: `{found}` has a decimal comma"))
+        return Error::new(ErrorKind::Input, sentences::the_file_is_not_valid_toml_has_a_decimal(&found))
             .at(place(number.clone()))
-            .help(format!("decimals take a point: write {}", found.replace(',', ".")));
+            .help(sentences::decimals_take_a_point_write(&(found.replace(',', "."))));
     }
     let message = error.message().trim().replace('\n', ", ");
-    Error::new(ErrorKind::Input, format!("the file is not valid TOML: {message}"))
+    Error::new(ErrorKind::Input, sentences::the_file_is_not_valid_toml_2(&message))
         .at(place(span))
-        .help("a key is written `name = value`, a section `[name]`, text stands in \"quotes\"")
+        .help(sentences::A_KEY_IS_WRITTEN_NAME_VALUE)
 }
 
 /// What the parser says of a key that stands twice in its table.
@@ -35,14 +36,13 @@ const DUPLICATE: &str = "duplicate key";
 
 fn duplicate(text: &str, place: Places, span: Range<usize>) -> Error {
     let key = &text[span.clone()];
-    let error =
-        Error::new(ErrorKind::Input, format!("the file is not valid TOML: duplicate key, `{key}` is given twice"));
+    let error = Error::new(ErrorKind::Input, sentences::the_file_is_not_valid_toml_duplicate(&key));
     let first = first_of(text, &span).map(|at| place(at..at + key.len()).line());
     let error = match first {
         None => error,
-        Some(line) => error.map_message(|message| format!("{message}, first in line {line}")),
+        Some(line) => error.map_message(|message| sentences::first_in_line(&message, &line)),
     };
-    error.at(place(span)).help("keep one of the two")
+    error.at(place(span)).help(sentences::KEEP_ONE_OF_THE_TWO)
 }
 
 /// Where the key at `span` stands first. The key before it without which it is no duplicate any more: only that one is

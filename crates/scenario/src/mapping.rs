@@ -1,11 +1,12 @@
 //! Mapping files: which numbers of another program's table are which channels of a mechanism.
 
+use crate::sentences;
 use std::path::Path;
 
-use super::reader::Table;
+use super::reader::TomlTable;
 use super::source::Source;
 use super::words::suggestion;
-use formula::Fault;
+use formula::FormulaFault;
 use linkage::error::{Error, ErrorKind, Place, Result};
 
 /// Which numbers of a table are what.
@@ -93,9 +94,9 @@ impl Mapped {
                 let start = text.len() - text.trim_start().len();
                 Ok(Mapped { name: right.into(), text: left.into(), place, start })
             }
-            _ => Err(Error::new(ErrorKind::Input, "a mapping is an arithmetic over columns, `=`, and a channel")
+            _ => Err(Error::new(ErrorKind::Input, sentences::A_MAPPING_IS_AN_ARITHMETIC)
                 .at(place)
-                .help("write it such as phi3*180/pi=link.rocker.angle_deg")),
+                .help(sentences::WRITE_IT_SUCH_AS_PHI3_PI)),
         }
     }
 
@@ -114,7 +115,7 @@ impl Mapped {
 
     /// An error about its arithmetic.
     #[must_use]
-    pub fn refused(&self, fault: &Fault) -> Error {
+    pub fn refused(&self, fault: &FormulaFault) -> Error {
         let span = self.start + fault.at.start..self.start + fault.at.end;
         let place = Place { span, ..self.place.clone() };
         Error::new(ErrorKind::Input, fault.message.clone()).at(place).help(fault.help.clone())
@@ -134,12 +135,12 @@ impl Mapping {
     /// [`ErrorKind::Io`] if it cannot be read, [`ErrorKind::Input`] for anything wrong in it, with the place.
     pub fn load(path: &Path) -> Result<Self> {
         let text = files::read_text(path).map_err(|error| {
-            Error::new(ErrorKind::Io, format!("the mapping {} cannot be read: {error}", path.display()))
-                .help("give a mapping file, or one column after the other as EXPR=CHANNEL")
+            Error::new(ErrorKind::Io, sentences::the_mapping_cannot_be_read(&path.display(), &error))
+                .help(sentences::GIVE_A_MAPPING_FILE_OR_ONE_COLUMN)
         })?;
         let source = Source::new(path, &text);
         let tree = source.tree()?;
-        read(&mut Table::root(&source, &tree)).map_err(|error| source.located(tree.get_ref(), error))
+        read(&mut TomlTable::root(&source, &tree)).map_err(|error| source.located(tree.get_ref(), error))
     }
 
     /// Adds what another mapping says.
@@ -198,7 +199,7 @@ impl Mapping {
 /// Stands for all channels among tolerances.
 const ALL: &str = "all";
 
-fn read(root: &mut Table) -> Result<Mapping> {
+fn read(root: &mut TomlTable) -> Result<Mapping> {
     let (at, channels) = (root.optional_table("at")?, root.optional_table("channels")?);
     let tolerances = root.optional_table("tolerance")?;
     root.finish()?;
@@ -208,7 +209,7 @@ fn read(root: &mut Table) -> Result<Mapping> {
             let mapped = line(&mut at, &name)?;
             if mapped.instant().is_none() {
                 let help = suggestion(&name, INSTANTS.map(|(name, ..)| name), "`");
-                return at.refuse(&name, format!("rows do not hold at `{name}`"), help);
+                return at.refuse(&name, sentences::rows_do_not_hold_at(&name), help);
             }
             mapping.at.push(mapped);
         }
@@ -227,7 +228,7 @@ fn read(root: &mut Table) -> Result<Mapping> {
             for (key, size) in SIZES {
                 let Some(number) = entry.optional_number(key)? else { continue };
                 if number < 0.0 {
-                    let help = "a difference that is allowed is zero or more";
+                    let help = sentences::A_DIFFERENCE_THAT_IS_ALLOWED;
                     return entry.refuse(key, format!("found {number}"), help);
                 }
                 mapping.allowed.push(Allowed { of: of.clone(), size: size(number) });
@@ -239,9 +240,9 @@ fn read(root: &mut Table) -> Result<Mapping> {
     Ok(mapping)
 }
 
-fn line(table: &mut Table, name: &str) -> Result<Mapped> {
+fn line(table: &mut TomlTable, name: &str) -> Result<Mapped> {
     let text = table.string(name)?;
-    let whole = Fault { message: String::new(), at: 0..text.len(), help: String::new() };
+    let whole = FormulaFault { message: String::new(), at: 0..text.len(), help: String::new() };
     let place = table.fault_in(name, &whole).place().cloned();
     let place = place.unwrap_or_else(|| Place { file: table.source().path.into(), text: "".into(), span: 0..0 });
     Ok(Mapped { name: name.into(), text, start: place.span.start, place })

@@ -3,6 +3,7 @@
 //! A double has sixteen digits. What is so far away, or so heavy, leaves too few of them to everything else: no side
 //! and no engine could say more about the rest of the mechanism than the rounding of that one number.
 
+use crate::sentences;
 use linkage::drive::{Drive, Drives};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::KeepNan;
@@ -25,12 +26,12 @@ pub fn check_speeds(mechanism: &Mechanism, drives: &Drives) -> Result<()> {
         let speed = drive.top_speed().abs().larger(drive.initial_speed().abs());
         let link = &mechanism.links()[drive.link];
         if !(speed * link.size() <= LIGHT) {
-            let message = format!(
-                "at {speed:.3e} rad/s, link \"{}\" of {:.3e} m has points that are faster than light",
-                link.name,
-                link.size()
+            let message = sentences::at_rad_link_of_has_points(
+                &format_args!("{speed:.3e}"),
+                &link.name,
+                &format_args!("{:.3e}", link.size()),
             );
-            let help = "check the units of its speed and of its length";
+            let help = sentences::CHECK_THE_UNITS_OF_ITS_SPEED;
             return Err(Error::new(ErrorKind::Input, message).key("drive").of_link(&link.name).help(help));
         }
     }
@@ -51,15 +52,15 @@ pub fn check(mechanism: &Mechanism, drives: &Drives) -> Result<()> {
         let far = link.points.iter().map(|point| (point.local - link.mass_centre).norm());
         let far = far.fold(f64::INFINITY, f64::smaller);
         if !(far <= FARTHEST * size) {
-            let message = format!(
-                "the mass centre of link \"{}\" is {far:.3e} m away from all its points, {:.1e} times the largest link",
-                link.name,
-                far / size
+            let message = sentences::the_mass_centre_of_link_is_away(
+                &link.name,
+                &format_args!("{far:.3e}"),
+                &format_args!("{:.1e}", far / size),
             );
             return Err(Error::new(ErrorKind::Input, message)
                 .key(format!("links.{}.mass_centre", link.name))
                 .of_link(&link.name)
-                .help("check the unit; a link that is so large has a point there"));
+                .help(sentences::CHECK_THE_UNIT_A_LINK_THAT_IS_SO));
         }
     }
     let inertia = |link: &Link| link.inertia + link.mass * size * size;
@@ -70,16 +71,15 @@ pub fn check(mechanism: &Mechanism, drives: &Drives) -> Result<()> {
     let (own, others) = (inertia(link), others(link));
     if others > 0.0 && !(own <= HEAVIEST * others) {
         let key = if link.inertia > own / 2.0 { "inertia" } else { "mass" };
-        let message = format!(
-            "link \"{}\" has a moment of inertia of {own:.3e} kg m^2, its mass at the length of the largest link \
-             included: {:.1e} times that of everything else",
-            link.name,
-            own / others
+        let message = sentences::link_has_a_moment_of_inertia(
+            &link.name,
+            &format_args!("{own:.3e}"),
+            &format_args!("{:.1e}", own / others),
         );
         return Err(Error::new(ErrorKind::Input, message)
             .key(format!("links.{}.{key}", link.name))
             .of_link(&link.name)
-            .help("check the unit; leave out masses that nothing is asked about"));
+            .help(sentences::CHECK_THE_UNIT_LEAVE_OUT));
     }
     Ok(())
 }

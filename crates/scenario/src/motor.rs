@@ -1,66 +1,68 @@
 //! `[motor]`: the motor's law and the reducer behind it.
 
-use super::keys::key::{Kind, Section, needed, optional};
-use super::reader::{Sign, Table};
+use super::keys::key::{Section, ValueKind, needed, optional};
+use super::reader::{Sign, TomlTable};
 use super::words::{Words, names};
+use crate::sentences;
 use linkage::drive::{Motor, MotorLaw, ShaftInertia};
 use linkage::error::{ErrorKind, Result};
 
 /// What is told of the keys that are read here.
 pub const SECTIONS: &[Section] = &[
     Section::at("motor").with(&[
-        needed("law", Kind::Choice(|| names(LAWS))).means("torque over the motor's own speed"),
-        needed("ratio", Kind::Number).means("speed of the motor over that of the crank; 1 without a reducer"),
-        optional("efficiency", Kind::Number, "1").means(
+        needed("law", ValueKind::Choice(|| names(LAWS))).means("torque over the motor's own speed"),
+        needed("ratio", ValueKind::Number).means("speed of the motor over that of the crank; 1 without a reducer"),
+        optional("efficiency", ValueKind::Number, "1").means(
             "share of the power that the reducer transmits, above 0 and at most 1, the same in both \
              directions",
         ),
-        optional("torque", Kind::MOMENTS.of(Sign::Positive), "required of this law")
+        optional("torque", ValueKind::MOMENTS.of(Sign::Positive), "required of this law")
             .means("constant law: the torque, positive"),
-        optional("torque_at_rest", Kind::MOMENTS.of(Sign::Positive), "required of this law")
+        optional("torque_at_rest", ValueKind::MOMENTS.of(Sign::Positive), "required of this law")
             .means("linear law: torque at rest, positive"),
-        optional("slope", Kind::SLOPES.of(Sign::Negative), "required of this law")
+        optional("slope", ValueKind::SLOPES.of(Sign::Negative), "required of this law")
             .means("linear law: change with the speed, negative"),
-        optional("breakdown_torque", Kind::MOMENTS.of(Sign::Positive), "required of this law")
+        optional("breakdown_torque", ValueKind::MOMENTS.of(Sign::Positive), "required of this law")
             .means("Kloss: largest torque"),
-        optional("synchronous_speed", Kind::SPEEDS.of(Sign::Positive), "required of this law")
+        optional("synchronous_speed", ValueKind::SPEEDS.of(Sign::Positive), "required of this law")
             .means("Kloss: synchronous speed"),
-        optional("breakdown_slip", Kind::Number, "the speed is given").means("Kloss: slip at breakdown, or"),
-        optional("breakdown_speed", Kind::SPEEDS.of(Sign::NotNegative), "the slip is given")
+        optional("breakdown_slip", ValueKind::Number, "the speed is given").means("Kloss: slip at breakdown, or"),
+        optional("breakdown_speed", ValueKind::SPEEDS.of(Sign::NotNegative), "the slip is given")
             .means("Kloss: speed at breakdown"),
-        optional("points", Kind::Tables, "required of this law").means("table: two or more, speeds ascending"),
-        optional("rotor_inertia", Kind::INERTIAS.of(Sign::NotNegative), "0")
+        optional("points", ValueKind::Tables, "required of this law").means("table: two or more, speeds ascending"),
+        optional("rotor_inertia", ValueKind::INERTIAS.of(Sign::NotNegative), "0")
             .means("moment of inertia of the rotor about its shaft"),
-        optional("input_inertia", Kind::INERTIAS.of(Sign::NotNegative), "0")
+        optional("input_inertia", ValueKind::INERTIAS.of(Sign::NotNegative), "0")
             .means("of the reducer's input shaft, which turns with the motor"),
-        optional("intermediate_inertia", Kind::INERTIAS.of(Sign::NotNegative), "0").means("of its intermediate shaft"),
-        optional("intermediate_ratio", Kind::Number, "required with its inertia")
+        optional("intermediate_inertia", ValueKind::INERTIAS.of(Sign::NotNegative), "0")
+            .means("of its intermediate shaft"),
+        optional("intermediate_ratio", ValueKind::Number, "required with its inertia")
             .means("speed of the intermediate shaft over that of the crank"),
-        optional("output_inertia", Kind::INERTIAS.of(Sign::NotNegative), "0")
+        optional("output_inertia", ValueKind::INERTIAS.of(Sign::NotNegative), "0")
             .means("of its output shaft, which turns with the crank"),
     ]),
     Section::at("motor.points").with(&[
-        needed("speed", Kind::SPEEDS).means("speed of the motor"),
-        needed("torque", Kind::MOMENTS).means("its torque"),
+        needed("speed", ValueKind::SPEEDS).means("speed of the motor"),
+        needed("torque", ValueKind::MOMENTS).means("its torque"),
     ]),
 ];
 
 /// Laws, each with its reader.
-const LAWS: Words<fn(&mut Table) -> Result<MotorLaw>> =
+const LAWS: Words<fn(&mut TomlTable) -> Result<MotorLaw>> =
     &[("constant", constant), ("linear", linear), ("kloss", kloss), ("table", points)];
 
 /// The motor.
-pub fn read(table: &mut Table) -> Result<Motor> {
-    let law = table.choice("law", "is no law of a motor", LAWS)?(table)?;
+pub fn read(table: &mut TomlTable) -> Result<Motor> {
+    let law = table.choice("law", sentences::IS_NO_LAW_OF_A_MOTOR, LAWS)?(table)?;
     let ratio = table.number("ratio")?;
     if ratio <= 0.0 {
-        let error = table.wrong(ErrorKind::Input, "ratio", format!("found {ratio}, but a ratio of speeds is positive"));
-        table.instead((), error.help("give the speed of the motor over that of the crank; 1 without a reducer"))?;
+        let error = table.wrong(ErrorKind::Input, "ratio", sentences::found_but_a_ratio_of_speeds(&ratio));
+        table.instead((), error.help(sentences::GIVE_THE_SPEED_OF_THE_MOTOR))?;
     }
     let efficiency = table.optional_number("efficiency")?.unwrap_or(1.0);
     if !(efficiency > 0.0 && efficiency <= 1.0) {
-        let message = format!("found {efficiency}, but an efficiency lies above 0 and at most at 1");
-        let error = table.wrong(ErrorKind::Input, "efficiency", message).help("give a share: 0.92 for 92 %");
+        let message = sentences::found_but_an_efficiency_lies(&efficiency);
+        let error = table.wrong(ErrorKind::Input, "efficiency", message).help(sentences::GIVE_A_SHARE_FOR);
         table.instead((), error)?;
     }
     let inertia = inertia(table)?;
@@ -68,25 +70,25 @@ pub fn read(table: &mut Table) -> Result<Motor> {
     Ok(Motor { law, ratio, efficiency, inertia })
 }
 
-fn constant(table: &mut Table) -> Result<MotorLaw> {
+fn constant(table: &mut TomlTable) -> Result<MotorLaw> {
     Ok(MotorLaw::Constant { torque: table.si("torque")? })
 }
 
-fn linear(table: &mut Table) -> Result<MotorLaw> {
+fn linear(table: &mut TomlTable) -> Result<MotorLaw> {
     let at_rest = table.si("torque_at_rest")?;
     Ok(MotorLaw::Linear { at_rest, slope: table.si("slope")? })
 }
 
 /// The breakdown point is given by its slip or by its speed, whichever the catalogue has.
-fn kloss(table: &mut Table) -> Result<MotorLaw> {
+fn kloss(table: &mut TomlTable) -> Result<MotorLaw> {
     let breakdown_torque = table.si("breakdown_torque")?;
     let synchronous_speed = table.si("synchronous_speed")?;
     let slip = table.optional_number("breakdown_slip")?;
     let speed = table.optional_si("breakdown_speed")?;
-    let help = "give one of the two: `breakdown_slip`, or `breakdown_speed_rpm` or `breakdown_speed_rad_s`";
+    let help = sentences::GIVE_ONE_OF_THE_TWO_BREAKDOWN;
     let breakdown_slip = match (slip, speed) {
         (Some(_), Some(_)) => {
-            return table.refuse("breakdown_slip", "the slip and the speed of breakdown are both given", help);
+            return table.refuse("breakdown_slip", sentences::THE_SLIP_AND_THE_SPEED_OF_BREAKDOWN, help);
         }
         (None, None) => {
             let keys = ["breakdown_slip", "breakdown_speed_rpm", "breakdown_speed_rad_s"];
@@ -94,22 +96,20 @@ fn kloss(table: &mut Table) -> Result<MotorLaw> {
         }
         (Some(slip), None) if slip > 0.0 => slip,
         (Some(slip), None) => {
-            let help = "give (synchronous speed - speed of breakdown) over synchronous speed";
-            let message = format!("found {slip}, but the slip of breakdown is positive");
+            let help = sentences::GIVE_SYNCHRONOUS_SPEED_SPEED_OF_BREAKDOWN;
+            let message = sentences::found_but_the_slip_of_breakdown(&slip);
             return table.refuse("breakdown_slip", message, help);
         }
         (None, Some(speed)) if speed < synchronous_speed => 1.0 - speed / synchronous_speed,
         (None, Some(speed)) => {
-            let message = format!(
-                "the motor breaks down at {speed:.6} rad/s, not below synchronous speed, {synchronous_speed:.6} rad/s"
-            );
-            return Err(table.fault(message).help("check `breakdown_speed` and `synchronous_speed` and their units"));
+            let message = sentences::the_motor_breaks_down_at_rad(&speed, &synchronous_speed);
+            return Err(table.fault(message).help(sentences::CHECK_BREAKDOWN_SPEED_AND_SYNCHRONOUS));
         }
     };
     Ok(MotorLaw::Kloss { breakdown_torque, breakdown_slip, synchronous_speed })
 }
 
-fn points(table: &mut Table) -> Result<MotorLaw> {
+fn points(table: &mut TomlTable) -> Result<MotorLaw> {
     let (mut speeds, mut torques) = (Vec::new(), Vec::new());
     for mut point in table.tables("points")? {
         let (speed, torque) = point.read(|point| {
@@ -122,34 +122,34 @@ fn points(table: &mut Table) -> Result<MotorLaw> {
         if let Some(last) = speeds.last()
             && !(speed > *last)
         {
-            let message = format!("the speeds do not ascend: {speed} rad/s comes after {last} rad/s");
-            return Err(point.fault(message).help("write the points in ascending order of speed, each speed once"));
+            let message = sentences::the_speeds_do_not_ascend(&speed, &last);
+            return Err(point.fault(message).help(sentences::WRITE_THE_POINTS_IN_ASCENDING_ORDER_OF_SPEED));
         }
         speeds.push(speed);
     }
     if speeds.len() < 2 {
         let help = "write `points = [{ speed_rpm = 0, torque_N_m = 4 }, { speed_rpm = 3000, torque_N_m = 0 }]`";
-        let message = format!("a table of torques needs two points or more, found {}", speeds.len());
+        let message = sentences::a_table_of_torques_needs(&speeds.len());
         return table.refuse("points", message, help);
     }
     Ok(MotorLaw::Table { speeds, torques })
 }
 
 /// Moments of inertia that turn with the motor and the reducer; zero without a table.
-fn inertia(table: &mut Table) -> Result<ShaftInertia> {
+fn inertia(table: &mut TomlTable) -> Result<ShaftInertia> {
     let mut shaft = |name: &str| -> Result<f64> { Ok(table.optional_si(name)?.unwrap_or(0.0)) };
     let (rotor, input) = (shaft("rotor_inertia")?, shaft("input_inertia")?);
     let (intermediate, output) = (shaft("intermediate_inertia")?, shaft("output_inertia")?);
     let ratio = table.optional_number("intermediate_ratio")?;
     match ratio {
         Some(ratio) if ratio <= 0.0 => {
-            let message = format!("found {ratio}, but a ratio of speeds is positive");
-            let help = "give the speed of the intermediate shaft over that of the crank";
+            let message = sentences::found_but_a_ratio_of_speeds(&ratio);
+            let help = sentences::GIVE_THE_SPEED_OF_THE_INTERMEDIATE;
             return table.refuse("intermediate_ratio", message, help);
         }
         None if intermediate > 0.0 => {
-            let message = "the intermediate shaft has a moment of inertia, but its speed is not known";
-            let help = "add `intermediate_ratio`: its speed over that of the crank";
+            let message = sentences::THE_INTERMEDIATE_SHAFT_HAS_A_MOMENT;
+            let help = sentences::ADD_INTERMEDIATE_RATIO_ITS_SPEED;
             return table.refuse("intermediate_inertia_kg_m2", message, help);
         }
         _ => {}

@@ -1,59 +1,63 @@
 //! `[[oracle]]`: numbers that the mechanism must reproduce, each with the bound that its digits give.
 
-use super::figure::Figure;
+use super::figure::MechanismFigure;
 use super::figure::{self, OracleFigure};
-use super::keys::key::{Key, Kind, Section, needed, optional};
+use super::keys::key::{FileKey, Section, ValueKind, needed, optional};
 use super::printed::{Correction, Printed, PrintedChannel, number};
-use super::reader::{Faults, Table};
+use super::reader::{Faults, TomlTable};
 use super::series::{ExpectedCell, Known, OraclePoint, OracleSeries, When, instant};
 use super::table_file;
+use crate::sentences;
 use linkage::case::Case;
 use linkage::error::Result;
 
-const NUMBER: &[Key] = &[
-    needed("value", Kind::Number).means("the number, in the printed unit"),
-    needed("digits", Kind::Integer).means("number of printed decimals"),
+const NUMBER: &[FileKey] = &[
+    needed("value", ValueKind::Number).means("the number, in the printed unit"),
+    needed("digits", ValueKind::Integer).means("number of printed decimals"),
 ];
 
-const FINDING: Key = optional("finding", Kind::Text, "the number is right")
+const FINDING: FileKey = optional("finding", ValueKind::Text, "the number is right")
     .means("anchor of the section of `docs/findings.md` that says why the number is wrong");
-const RIGHT: Key =
-    optional("right", Kind::Table, "required with `finding`").means("what is right instead, in the printed unit");
-const VALUE: Key = needed("value", Kind::Number).means("the number, in the unit of the name");
-const DIGITS: Key = needed("digits", Kind::Integer).means("number of printed decimals");
-const CRANK: Key = optional("crank", Kind::INPUTS, "a time is given").means("crank angle");
-const AT_TIME: Key = optional("time", Kind::TIMES, "a crank angle is given").means("time");
+const RIGHT: FileKey =
+    optional("right", ValueKind::Table, "required with `finding`").means("what is right instead, in the printed unit");
+const VALUE: FileKey = needed("value", ValueKind::Number).means("the number, in the unit of the name");
+const DIGITS: FileKey = needed("digits", ValueKind::Integer).means("number of printed decimals");
+const CRANK: FileKey = optional("crank", ValueKind::INPUTS, "a time is given").means("crank angle");
+const AT_TIME: FileKey = optional("time", ValueKind::TIMES, "a crank angle is given").means("time");
 
 /// What is told of the keys that are read here.
 pub const SECTIONS: &[Section] = &[
     Section::at("oracle").with(&[
-        needed("source", Kind::Text).means("author, title, table"),
-        optional("name", Kind::Text, "none").means("name for reports"),
-        optional("basis", Kind::Choice(|| OracleBasis::ALL.map(OracleBasis::word).to_vec()), "`\"published\"`").means(
-            "how the numbers are known: printed in the source, computed anew from what it gives, or a \
+        needed("source", ValueKind::Text).means("author, title, table"),
+        optional("name", ValueKind::Text, "none").means("name for reports"),
+        optional("basis", ValueKind::Choice(|| OracleBasis::ALL.map(OracleBasis::word).to_vec()), "`\"published\"`")
+            .means(
+                "how the numbers are known: printed in the source, computed anew from what it gives, or a \
              formula from given data",
-        ),
-        optional("values", Kind::Tables, "one of `file`, `values` and `figures`").means("numbers at one instant"),
-        optional("figures", Kind::Tables, "one of `file`, `values` and `figures`").means("figures of the mechanism"),
-        optional("file", Kind::Text, "one of `file`, `values` and `figures`")
+            ),
+        optional("values", ValueKind::Tables, "one of `file`, `values` and `figures`").means("numbers at one instant"),
+        optional("figures", ValueKind::Tables, "one of `file`, `values` and `figures`")
+            .means("figures of the mechanism"),
+        optional("file", ValueKind::Text, "one of `file`, `values` and `figures`")
             .means("path of a table, relative to the scenario's directory"),
         CRANK,
-        optional("crank", Kind::Text, "with `file`: the other column is given").means(
+        optional("crank", ValueKind::Text, "with `file`: the other column is given").means(
             "column of the crank angles of the file, as this scenario measures them (ends in `_deg` or \
              `_rad`)",
         ),
         AT_TIME,
-        optional("time", Kind::Text, "with `file`: the other column is given")
+        optional("time", ValueKind::Text, "with `file`: the other column is given")
             .means("column of the times of the file (ends in `_s` or `_ms`)"),
-        optional("columns", Kind::Table, "required with `file`").means("what the columns of the table are, by name"),
-        optional("digits", Kind::Integer, "the printed ones")
+        optional("columns", ValueKind::Table, "required with `file`")
+            .means("what the columns of the table are, by name"),
+        optional("digits", ValueKind::Integer, "the printed ones")
             .means("number of decimals of the table, where trailing zeros are not printed"),
-        optional("slack", Kind::Number, "0")
+        optional("slack", ValueKind::Number, "0")
             .means("known error of the published numbers, in their printed unit, added to their bounds"),
-        optional("why", Kind::Text, "required with `slack`").means("the reason for it"),
+        optional("why", ValueKind::Text, "required with `slack`").means("the reason for it"),
     ]),
     Section::at("oracle.values").with(&[
-        needed("channel", Kind::Text).means("channel, with the printed unit as its ending"),
+        needed("channel", ValueKind::Text).means("channel, with the printed unit as its ending"),
         VALUE,
         DIGITS,
         FINDING,
@@ -61,8 +65,8 @@ pub const SECTIONS: &[Section] = &[
     ]),
     Section::at("oracle.values.right").with(NUMBER),
     Section::at("oracle.figures").with(&[
-        needed("figure", Kind::Text).means("which figure"),
-        optional("points", Kind::Texts, "required of a distance").means("the two points of a distance"),
+        needed("figure", ValueKind::Text).means("which figure"),
+        optional("points", ValueKind::Texts, "required of a distance").means("the two points of a distance"),
         VALUE,
         DIGITS,
         FINDING,
@@ -70,18 +74,19 @@ pub const SECTIONS: &[Section] = &[
     ]),
     Section::at("oracle.figures.right").with(NUMBER),
     Section::at("oracle.columns.*").with(&[
-        needed("channel", Kind::Text).means("channel, with the printed unit as its ending"),
-        optional("offset", Kind::LENGTHS_OR_ANGLES, "0")
+        needed("channel", ValueKind::Text).means("channel, with the printed unit as its ending"),
+        optional("offset", ValueKind::LENGTHS_OR_ANGLES, "0")
             .means("printed = channel + offset; for coordinates and angles"),
-        optional("expect", Kind::Tables, "none").means("cells known to be wrong, by crank angle or time as the table"),
+        optional("expect", ValueKind::Tables, "none")
+            .means("cells known to be wrong, by crank angle or time as the table"),
         FINDING,
         RIGHT,
     ]),
     Section::at("oracle.columns.*.expect").with(&[CRANK, AT_TIME, FINDING, RIGHT]),
     Section::at("oracle.columns.*.expect.right").with(NUMBER),
     Section::at("oracle.columns.*.right").with(&[
-        needed("values", Kind::Numbers).means("one for every row"),
-        needed("digits", Kind::Integer).means("number of printed decimals"),
+        needed("values", ValueKind::Numbers).means("one for every row"),
+        needed("digits", ValueKind::Integer).means("number of printed decimals"),
     ]),
 ];
 
@@ -115,7 +120,7 @@ pub enum OracleBasis {
 impl Oracle {
     /// What holds for a case that starts at another crank angle of the same branch; `None` if nothing does.
     pub(super) fn at_another_start(mut self, case: &Case) -> Option<Oracle> {
-        self.figures.retain(|figure| !matches!(figure.figure, Figure::Distance(_)));
+        self.figures.retain(|figure| !matches!(figure.figure, MechanismFigure::Distance(_)));
         // A motion from another angle is another function of time.
         self.series.retain(|series| series.instants().all(|at| at.time().is_none()));
         // A further drive or a changing speed ties the crank angle to time, and a torsional spring to turns from the
@@ -140,23 +145,25 @@ impl OracleBasis {
     }
 
     /// Reads the key `basis`; published if the key is missing.
-    fn read(table: &mut Table) -> Result<Self> {
+    fn read(table: &mut TomlTable) -> Result<Self> {
         let words = Self::ALL.map(|basis| (basis.word(), basis));
-        Ok(table.optional_choice("basis", "is no way to know numbers", &words)?.unwrap_or(OracleBasis::Published))
+        Ok(table
+            .optional_choice("basis", sentences::IS_NO_WAY_TO_KNOW_NUMBERS, &words)?
+            .unwrap_or(OracleBasis::Published))
     }
 }
 
 /// The oracles of a case, but those with mistakes.
-pub(super) fn read(tables: Vec<Table>, case: &Case, memory: Option<f64>, faults: &mut Faults) -> Vec<Oracle> {
+pub(super) fn read(tables: Vec<TomlTable>, case: &Case, memory: Option<f64>, faults: &mut Faults) -> Vec<Oracle> {
     let (wanted, all) = (case.channels(), case.all_channels());
     let known = Known { channels: &all, wanted: &wanted, digits: None, slack: 0.0, memory };
     let mut inline = 0;
-    let one = |mut table: Table| faults.read(&mut table, |table| oracle(table, &known, case, &mut inline));
+    let one = |mut table: TomlTable| faults.read(&mut table, |table| oracle(table, &known, case, &mut inline));
     tables.into_iter().filter_map(one).collect()
 }
 
 /// One oracle; `inline` counts those with numbers in the scenario itself.
-fn oracle(table: &mut Table, known: &Known, case: &Case, inline: &mut usize) -> Result<Oracle> {
+fn oracle(table: &mut TomlTable, known: &Known, case: &Case, inline: &mut usize) -> Result<Oracle> {
     let source = table.string("source")?;
     let own_name = table.optional_string("name")?;
     let forms = ["file", "values", "figures"].map(|key| table.has(key));
@@ -169,12 +176,12 @@ fn oracle(table: &mut Table, known: &Known, case: &Case, inline: &mut usize) -> 
         [false, true, false] => oracle.series = values(table, known, case)?,
         [false, false, true] => oracle.figures = figure::read(table, case)?,
         [false, false, false] => {
-            return Err(table.lacks(&["file", "values", "figures"], "give the numbers: docs/scenario.md tells how"));
+            return Err(table.lacks(&["file", "values", "figures"], sentences::GIVE_THE_NUMBERS_DOCS_SCENARIO));
         }
         _ => {
             return Err(table
-                .fault("an oracle has exactly one of `file`, `values` and `figures`")
-                .help("split it into several [[oracle]] tables"));
+                .fault(sentences::AN_ORACLE_HAS_EXACTLY_ONE_OF_FILE)
+                .help(sentences::SPLIT_IT_INTO_SEVERAL_ORACLE));
         }
     }
     if !forms[0] {
@@ -189,7 +196,7 @@ fn oracle(table: &mut Table, known: &Known, case: &Case, inline: &mut usize) -> 
 }
 
 /// Numbers at one instant, written in the scenario itself.
-fn values(table: &mut Table, known: &Known, case: &Case) -> Result<Vec<OracleSeries>> {
+fn values(table: &mut TomlTable, known: &Known, case: &Case) -> Result<Vec<OracleSeries>> {
     let at = instant(table, case)?;
     let mut series = Vec::new();
     for mut entry in table.tables("values")? {
@@ -198,13 +205,13 @@ fn values(table: &mut Table, known: &Known, case: &Case) -> Result<Vec<OracleSer
     }
     if series.is_empty() {
         let help = "write `values = [{ channel = \"link.rocker.angle_deg\", value = 82, digits = 3 }]`";
-        return table.refuse("values", "there is no value", help);
+        return table.refuse("values", sentences::THERE_IS_NO_VALUE, help);
     }
     Ok(series)
 }
 
 /// One number at an instant.
-fn value(entry: &mut Table, at: When, known: &Known) -> Result<OracleSeries> {
+fn value(entry: &mut TomlTable, at: When, known: &Known) -> Result<OracleSeries> {
     let (name, channel) = known.channel(entry)?;
     let si = |number: Printed| OraclePoint {
         at,

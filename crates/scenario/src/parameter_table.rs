@@ -1,8 +1,9 @@
 //! `[parameters]`: parameters as a file gives them.
 
 use super::parameters::{Parameter, Parameters, fault_of_name};
-use super::reader::Table;
+use super::reader::TomlTable;
 use super::words::suggestion;
+use crate::sentences;
 use linkage::error::{Error, ErrorKind, Result};
 
 /// Reads the section, with the numbers that are `set` instead of the file's own. Keys that the file does not have are
@@ -11,7 +12,11 @@ use linkage::error::{Error, ErrorKind, Result};
 ///
 /// # Errors
 /// Those of `set`.
-pub(super) fn read(table: Option<Table>, set: &[(String, f64)], may_add: bool) -> Result<(Parameters, Option<Error>)> {
+pub(super) fn read(
+    table: Option<TomlTable>,
+    set: &[(String, f64)],
+    may_add: bool,
+) -> Result<(Parameters, Option<Error>)> {
     let mut parameters = Parameters::default();
     let mut first = None;
     if let Some(mut table) = table {
@@ -36,9 +41,9 @@ pub(super) fn read(table: Option<Table>, set: &[(String, f64)], may_add: bool) -
         }
         if !may_add && first.is_none() {
             let keys = parameters.list().iter().map(|own| own.key.as_str());
-            return Err(wrong(format!("the scenario has no parameter `{key}`")).help(suggestion(key, keys, "`")));
+            return Err(wrong(sentences::the_scenario_has_no_parameter(&key)).help(suggestion(key, keys, "`")));
         } else if let Some((message, _)) = twice(&parameters, &parameter) {
-            return Err(wrong(message).help("set the parameter with the unit that the file gives it"));
+            return Err(wrong(message).help(sentences::SET_THE_PARAMETER_WITH_THE_UNIT));
         } else {
             parameters.push(parameter);
         }
@@ -47,7 +52,7 @@ pub(super) fn read(table: Option<Table>, set: &[(String, f64)], may_add: bool) -
 }
 
 /// The parameter of a key; `before` are those read already.
-fn own(table: &mut Table, key: &str, before: &Parameters) -> Result<Parameter> {
+fn own(table: &mut TomlTable, key: &str, before: &Parameters) -> Result<Parameter> {
     let parameter = Parameter::new(key, table.number_with(key, before)?);
     let faulty = parameter.names().find_map(|(name, _)| fault_of_name(name));
     match faulty.or_else(|| twice(before, &parameter)) {
@@ -59,6 +64,6 @@ fn own(table: &mut Table, key: &str, before: &Parameters) -> Result<Parameter> {
 /// A name of a parameter that another has too.
 fn twice(others: &Parameters, parameter: &Parameter) -> Option<(String, &'static str)> {
     let (name, other) = parameter.names().find_map(|(name, _)| Some((name, others.called(name)?)))?;
-    let message = format!("`{name}` would stand for `{}` and for `{}`", other.key, parameter.key);
-    Some((message, "keep one of the two, or call one otherwise"))
+    let message = sentences::would_stand_for_and_for(&name, &other.key, &parameter.key);
+    Some((message, sentences::KEEP_ONE_OF_THE_TWO_OR_CALL))
 }

@@ -1,8 +1,9 @@
 //! Parameters: numbers with names, for other numbers and for formulas.
 
-use super::unit::{self, Unit};
+use super::unit::{self, NamedUnit};
 use super::words::suggestion;
-use formula::{Fault, Function, Rounded, Tree};
+use crate::sentences;
+use formula::{FormulaFault, FormulaTree, Function, Rounded};
 use std::collections::BTreeMap;
 
 /// A number with a name.
@@ -12,7 +13,7 @@ pub struct Parameter {
     pub key: String,
     /// The number as it was given, in the unit of the key.
     pub given: f64,
-    unit: Option<&'static Unit>,
+    unit: Option<&'static NamedUnit>,
 }
 
 impl Parameter {
@@ -95,8 +96,8 @@ impl Parameters {
 ///
 /// # Errors
 /// What is wrong with the text, with its place.
-pub(super) fn arithmetic(text: &str, key: &str, parameters: &Parameters) -> std::result::Result<f64, Fault> {
-    let tree = Tree::parse(text)?;
+pub(super) fn arithmetic(text: &str, key: &str, parameters: &Parameters) -> std::result::Result<f64, FormulaFault> {
+    let tree = FormulaTree::parse(text)?;
     let wanted = unit::ending(key).map(|(_, unit)| unit);
     let of = |name: &str| {
         let own = parameters.called(name)?;
@@ -113,17 +114,17 @@ pub(super) fn arithmetic(text: &str, key: &str, parameters: &Parameters) -> std:
     let of = |name: &str| if name == "pi" { Some(Rounded::nearly(std::f64::consts::PI)) } else { of(name) };
     if let Some((name, at)) = tree.names().into_iter().find(|(name, _)| of(name).is_none()) {
         let help = match parameters.list.is_empty() {
-            true => "write a number, or give it a name in a section [parameters]".into(),
+            true => sentences::WRITE_A_NUMBER_OR_GIVE_IT_A_NAME.into(),
             false => suggestion(name, parameters.places.keys().map(String::as_str).chain(["pi"]), "`"),
         };
-        return Err(Fault { message: format!("there is no `{name}`"), at, help });
+        return Err(FormulaFault { message: sentences::there_is_no(&name), at, help });
     }
     let found = tree.evaluated(&|name| of(name).unwrap_or(Rounded::UNDEFINED))?;
     if found.error.is_finite() {
         return Ok(found.value);
     }
-    let help = "check its units, and whether a divisor is zero but for rounding".to_string();
-    Err(Fault { message: "nothing is known of its value".into(), at: 0..text.len(), help })
+    let help = sentences::CHECK_ITS_UNITS_AND_WHETHER.to_string();
+    Err(FormulaFault { message: sentences::NOTHING_IS_KNOWN_OF_ITS_VALUE.into(), at: 0..text.len(), help })
 }
 
 /// Names that stand for something else in every formula.
@@ -131,15 +132,15 @@ pub const INPUTS: [&str; 2] = ["phi", "t"];
 
 /// What is wrong with the name of a parameter or formula, and the way out.
 pub(super) fn fault_of_name(name: &str) -> Option<(String, &'static str)> {
-    const HELP: &str = "names begin with a letter and have letters, digits and `_` only";
+    const HELP: &str = sentences::NAMES_BEGIN_WITH_A_LETTER;
     let mut bytes = name.bytes();
     let sound = bytes.next().is_some_and(|first| first.is_ascii_alphabetic())
         && bytes.all(|byte| byte.is_ascii_alphanumeric() || byte == b'_')
         && name.len() <= 100;
     let has_meaning = INPUTS.contains(&name) || name == "pi" || Function::named(name).is_some();
     match (sound, has_meaning) {
-        (false, _) => Some((format!("\"{name}\" cannot be a name in a formula"), HELP)),
-        (true, true) => Some((format!("`{name}` has a meaning in every formula already"), "choose another name")),
+        (false, _) => Some((sentences::cannot_be_a_name_in_a_formula(&name), HELP)),
+        (true, true) => Some((sentences::has_a_meaning_in_every_formula(&name), sentences::CHOOSE_ANOTHER_NAME)),
         (true, false) => None,
     }
 }

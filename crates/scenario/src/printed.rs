@@ -1,9 +1,10 @@
 //! Printed numbers: their value, how far the true value may be from it, and what stands beside those that are known to be
 //! wrong.
 
-use super::reader::Table;
-use super::unit::{ANGLE, Family, LENGTH, Unit};
-use columns::Cell;
+use super::reader::TomlTable;
+use super::unit::{ANGLE, LENGTH, NamedUnit, UnitFamily};
+use crate::sentences;
+use columns::TableCell;
 use formula::Rounded;
 use linkage::error::Result;
 use linkage::trajectory::{self, CHANNELS, Channel, ChannelKind};
@@ -36,9 +37,9 @@ impl Printed {
 
     /// Reads a decimal number with an optional exponent; any other text is refused, and so is a cell without a number.
     #[must_use]
-    pub fn cell(text: &str) -> Option<Cell> {
+    pub fn cell(text: &str) -> Option<TableCell> {
         let begins = text.strip_prefix(['+', '-']).unwrap_or(text);
-        Cell::parse(text).filter(|cell| !begins.starts_with('.') && cell.value().is_finite())
+        TableCell::parse(text).filter(|cell| !begins.starts_with('.') && cell.value().is_finite())
     }
 
     /// Half a unit of the last printed digit, in the printed unit.
@@ -58,7 +59,7 @@ const MAGNITUDE: &str = "f_N";
 const X_OF_MAGNITUDE: &str = "fx_N";
 
 /// The units that a channel is printed in; `None` if only the SI unit is printed.
-fn family(unit: trajectory::Unit) -> Option<&'static Family> {
+fn family(unit: trajectory::Unit) -> Option<&'static UnitFamily> {
     match unit {
         trajectory::Unit::Radian => Some(&ANGLE),
         trajectory::Unit::Metre => Some(&LENGTH),
@@ -88,10 +89,10 @@ pub struct PrintedChannel {
     /// The channel, in SI.
     pub channel: Channel,
     /// Family of the printed unit, if units other than SI are known; without one the numbers are SI.
-    pub family: Option<&'static Family>,
+    pub family: Option<&'static UnitFamily>,
     /// Whether the printed number is the magnitude of a vector; `channel` is then the x component of the vector.
     pub magnitude: bool,
-    unit: Option<&'static Unit>,
+    unit: Option<&'static NamedUnit>,
 }
 
 impl PrintedChannel {
@@ -144,7 +145,7 @@ impl PrintedChannel {
 }
 
 /// `value` and `digits` of a number in the scenario itself. TOML does not keep the printed text.
-pub(super) fn number(entry: &mut Table) -> Result<Printed> {
+pub(super) fn number(entry: &mut TomlTable) -> Result<Printed> {
     let value = entry.number("value")?;
     let digits = digits(entry)?;
     Ok(Printed::with_digits(value, digits))
@@ -158,7 +159,7 @@ pub(super) struct Correction {
 
 impl Correction {
     /// Reads the keys `finding` and `right`, which belong together; `None` without them.
-    pub fn read(entry: &mut Table, printed: &Printed) -> Result<Option<Self>> {
+    pub fn read(entry: &mut TomlTable, printed: &Printed) -> Result<Option<Self>> {
         let Some(finding) = finding(entry)? else { return Ok(None) };
         let mut table = entry.table("right")?;
         let right = table.read(|table| {
@@ -172,10 +173,9 @@ impl Correction {
 }
 
 /// Reads the anchor under the key `finding`, which needs the key `right` beside it.
-pub(super) fn finding(entry: &mut Table) -> Result<Option<String>> {
+pub(super) fn finding(entry: &mut TomlTable) -> Result<Option<String>> {
     let finding = entry.optional_string("finding")?;
-    let help = "a number known to be wrong has a `finding`, which says why, and the number that is `right` instead: \
-                `right = { value = 2.6, digits = 1 }`";
+    let help = sentences::A_NUMBER_KNOWN_TO_BE_WRONG;
     match (finding, entry.has("right")) {
         (Some(finding), true) => Ok(Some(finding)),
         (None, false) => Ok(None),
@@ -185,26 +185,23 @@ pub(super) fn finding(entry: &mut Table) -> Result<Option<String>> {
 }
 
 /// Refuses a correct number so close to the printed one that one number could agree with both.
-pub(super) fn check_apart(entry: &Table, printed: &Printed, right: &Printed) -> Result<()> {
+pub(super) fn check_apart(entry: &TomlTable, printed: &Printed, right: &Printed) -> Result<()> {
     if (printed.value - right.value).abs() > printed.half_unit() + right.half_unit() {
         return Ok(());
     }
-    let message = format!(
-        "{} with {} decimals is not apart from the printed {} with {}",
-        right.value, right.digits, printed.value, printed.digits
-    );
-    let help = "give the right number with more decimals, or take `finding` and `right` out if the printed one holds";
+    let message = sentences::with_decimals_is_not_apart(&right.value, &right.digits, &printed.value, &printed.digits);
+    let help = sentences::GIVE_THE_RIGHT_NUMBER_WITH_MORE;
     entry.refuse("right", message, help)
 }
 
 /// The count of printed decimals under the key `digits`.
-pub(super) fn digits(entry: &mut Table) -> Result<i32> {
+pub(super) fn digits(entry: &mut TomlTable) -> Result<i32> {
     let digits = entry.integer("digits")?;
     match i32::try_from(digits) {
         Ok(digits) if digits.abs() <= MOST_DIGITS => Ok(digits),
         _ => {
-            let help = format!("give the count of printed decimals, from {} to {MOST_DIGITS}", -MOST_DIGITS);
-            entry.refuse("digits", format!("found {digits}, but no number is printed with as many decimals"), help)
+            let help = sentences::give_the_count_of_printed(&(-MOST_DIGITS), &MOST_DIGITS);
+            entry.refuse("digits", sentences::found_but_no_number_is_printed(&digits), help)
         }
     }
 }

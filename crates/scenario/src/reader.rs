@@ -1,12 +1,13 @@
 //! Typed reading of a spanned TOML table. A reader knows its dotted path, returns typed values, remembers the keys that
 //! were asked for, and at the end refuses the keys that nobody asked for.
 //!
-//! A table that is read by [`Table::read`] tells all mistakes of its keys and values at once.
+//! A table that is read by [`TomlTable::read`] tells all mistakes of its keys and values at once.
 
 mod quantity;
 mod several;
 
 pub use super::keys::key::Sign;
+use crate::sentences;
 pub use several::Faults;
 #[cfg(test)]
 pub use several::asked;
@@ -17,12 +18,12 @@ use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::keys::key::Key;
+use super::keys::key::FileKey;
 use super::parameters::{Parameters, arithmetic};
-use super::setting::{Origin, Setting};
+use super::setting::{EngineSetting, SettingOrigin};
 use super::source::Source;
 use super::words::suggested;
-use formula::Fault;
+use formula::FormulaFault;
 use linkage::error::{Advice, Error, ErrorKind, Place, Result};
 
 struct Entry<'a> {
@@ -32,7 +33,7 @@ struct Entry<'a> {
 }
 
 /// A table being read.
-pub struct Table<'a> {
+pub struct TomlTable<'a> {
     source: &'a Source<'a>,
     name: String,
     path: String,
@@ -54,13 +55,13 @@ pub struct Table<'a> {
     /// Keys that lead here, with `*` for names: its section in the table of keys.
     section: String,
     /// The rows of that section.
-    rows: &'static [Key],
+    rows: &'static [FileKey],
 }
 
-impl<'a> Table<'a> {
+impl<'a> TomlTable<'a> {
     /// Reader of the whole file.
     pub fn root(source: &'a Source<'a>, tree: &'a Spanned<DeTable<'a>>) -> Self {
-        Table::new(source, String::new(), 0..0, tree.get_ref())
+        TomlTable::new(source, String::new(), 0..0, tree.get_ref())
     }
 
     fn new(source: &'a Source<'a>, section: String, span: Range<usize>, table: &'a DeTable<'a>) -> Self {
@@ -71,7 +72,7 @@ impl<'a> Table<'a> {
         // The parser moves a table if its header comes after one of its children.
         entries.sort_by_key(|entry| entry.key_span.start);
         let places = entries.iter().enumerate().map(|(place, entry)| (entry.key, place)).collect();
-        Table {
+        TomlTable {
             source,
             name: String::new(),
             path: String::new(),
@@ -137,7 +138,7 @@ impl<'a> Table<'a> {
         Error::new(kind, message).key(key).at(place)
     }
 
-    /// Refuses the value of `key`, as [`Table::wrong`], with the way out.
+    /// Refuses the value of `key`, as [`TomlTable::wrong`], with the way out.
     pub fn refuse<T>(&self, key: &str, message: impl Into<String>, help: impl Into<Advice>) -> Result<T> {
         Err(self.wrong(ErrorKind::Input, key, message).help(help))
     }
@@ -148,10 +149,10 @@ impl<'a> Table<'a> {
     }
 
     /// A setting whose value was read from `key`, if it was.
-    pub fn given<T>(&self, key: &str, value: Option<T>) -> Setting<T> {
-        value.map_or(Setting::Free, |value| {
+    pub fn given<T>(&self, key: &str, value: Option<T>) -> EngineSetting<T> {
+        value.map_or(EngineSetting::Free, |value| {
             let (key, place) = self.spot(key);
-            Setting::Given(value, Origin::Key(key, place))
+            EngineSetting::Given(value, SettingOrigin::Key(key, place))
         })
     }
 
@@ -166,14 +167,14 @@ impl<'a> Table<'a> {
     }
 
     /// An error about a part of the text of `key`.
-    pub fn fault_in(&self, key: &str, fault: &Fault) -> Error {
+    pub fn fault_in(&self, key: &str, fault: &FormulaFault) -> Error {
         match self.entry(key) {
             Some(entry) => self.fault_at(key, entry.value, fault),
             None => self.wrong(ErrorKind::Input, key, fault.message.clone()).help(fault.help.clone()),
         }
     }
 
-    fn fault_at(&self, key: &str, value: &Spanned<DeValue>, fault: &Fault) -> Error {
+    fn fault_at(&self, key: &str, value: &Spanned<DeValue>, fault: &FormulaFault) -> Error {
         let (mut span, text) = (value.span(), value.get_ref().as_str().unwrap_or_default());
         // The text stands there as it is, unless it has escapes.
         if let Some(offset) = self.source.text[span.clone()].find(text) {
@@ -190,7 +191,7 @@ impl<'a> Table<'a> {
     }
 
     fn mistyped(&self, key: &str, value: &Spanned<DeValue>, needed: Needed) -> Error {
-        let message = format!("found {}, but {} is needed", found(self.source, value), needed.words());
+        let message = sentences::found_but_is_needed(&found(self.source, value), &needed.words());
         self.wrong_at(key, value.span(), message).help(needed.help(&self.path_of(key), value.get_ref()))
     }
 
@@ -335,13 +336,13 @@ impl<'a> Table<'a> {
     }
 
     /// Table, if the key is there.
-    pub fn optional_table(&mut self, key: &str) -> Result<Option<Table<'a>>> {
+    pub fn optional_table(&mut self, key: &str) -> Result<Option<TomlTable<'a>>> {
         let Some(value) = self.take(key) else { return Ok(None) };
         self.child(key, self.path_of(key), value).map(Some).or_else(|error| self.instead(None, error))
     }
 
     /// Table.
-    pub fn table(&mut self, key: &str) -> Result<Table<'a>> {
+    pub fn table(&mut self, key: &str) -> Result<TomlTable<'a>> {
         let value = self.take(key);
         let value = self.required(key, value)?;
         self.child(key, self.path_of(key), value).map_err(|error| self.noted(error))
@@ -349,7 +350,7 @@ impl<'a> Table<'a> {
 
     /// Elements of an array of tables; empty if the key is missing. Their paths contain their name if they have one
     /// (`joints.A`), else their number, counted from 1 (`oracle[2]`).
-    pub fn tables(&mut self, key: &str) -> Result<Vec<Table<'a>>> {
+    pub fn tables(&mut self, key: &str) -> Result<Vec<TomlTable<'a>>> {
         let Some(value) = self.take(key) else { return Ok(Vec::new()) };
         let Some(array) = value.get_ref().as_array() else {
             return self.instead(Vec::new(), self.mistyped(key, value, Needed::Tables));
@@ -366,21 +367,21 @@ impl<'a> Table<'a> {
     }
 
     /// A table or an array of tables; empty if the key is missing.
-    pub fn table_or_tables(&mut self, key: &str) -> Result<Vec<Table<'a>>> {
+    pub fn table_or_tables(&mut self, key: &str) -> Result<Vec<TomlTable<'a>>> {
         match self.entry(key).map(|entry| entry.value.get_ref()) {
             Some(DeValue::Array(_)) => self.tables(key),
             _ => Ok(self.optional_table(key)?.into_iter().collect()),
         }
     }
 
-    /// As [`Table::table_or_tables`], with at least one table.
-    pub fn needed_tables(&mut self, key: &str) -> Result<Vec<Table<'a>>> {
+    /// As [`TomlTable::table_or_tables`], with at least one table.
+    pub fn needed_tables(&mut self, key: &str) -> Result<Vec<TomlTable<'a>>> {
         let tables = self.table_or_tables(key)?;
         if tables.is_empty() { Ok(vec![self.table(key)?]) } else { Ok(tables) }
     }
 
     /// All entries, each of which must be a table, in the order of the file.
-    pub fn all_tables(&mut self) -> Result<Vec<Table<'a>>> {
+    pub fn all_tables(&mut self) -> Result<Vec<TomlTable<'a>>> {
         self.used = self.entries.iter().map(|entry| entry.key).collect();
         let child = |entry: &Entry<'a>| self.child(entry.key, self.path_of(entry.key), entry.value);
         let all: Vec<_> = self.entries.iter().map(child).collect();
@@ -388,15 +389,15 @@ impl<'a> Table<'a> {
     }
 
     #[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the TOML parser")]
-    fn child(&self, key: &str, path: String, value: &'a Spanned<DeValue<'a>>) -> Result<Table<'a>> {
+    fn child(&self, key: &str, path: String, value: &'a Spanned<DeValue<'a>>) -> Result<TomlTable<'a>> {
         match value.get_ref() {
             DeValue::Table(table) => {
                 // A key that was not asked for by its name is a name itself.
                 let own = if self.asked.iter().any(|own| own == key) { key } else { "*" };
                 let section = if self.section.is_empty() { own.into() } else { format!("{}.{own}", self.section) };
-                Ok(Table { name: key.into(), path, ..Table::new(self.source, section, value.span(), table) })
+                Ok(TomlTable { name: key.into(), path, ..TomlTable::new(self.source, section, value.span(), table) })
             }
-            _ => Err(self.mistyped(key, value, Needed::Table)),
+            _ => Err(self.mistyped(key, value, Needed::TomlTable)),
         }
     }
 
@@ -431,7 +432,7 @@ enum Needed {
     Numbers,
     WholeNumber,
     Boolean,
-    Table,
+    TomlTable,
     Tables,
 }
 
@@ -439,34 +440,32 @@ impl Needed {
     fn words(self) -> &'static str {
         match self {
             Needed::Text => "text",
-            Needed::Texts => "an array of texts",
+            Needed::Texts => sentences::AN_ARRAY_OF_TEXTS,
             Needed::Number => "a number",
-            Needed::FiniteNumber => "a finite number",
-            Needed::Numbers => "an array of numbers",
-            Needed::WholeNumber => "a whole number",
-            Needed::Boolean => "true or false",
-            Needed::Table => "a table",
-            Needed::Tables => "an array of tables",
+            Needed::FiniteNumber => sentences::A_FINITE_NUMBER,
+            Needed::Numbers => sentences::AN_ARRAY_OF_NUMBERS,
+            Needed::WholeNumber => sentences::A_WHOLE_NUMBER,
+            Needed::Boolean => sentences::TRUE_OR_FALSE,
+            Needed::TomlTable => "a table",
+            Needed::Tables => sentences::AN_ARRAY_OF_TABLES,
         }
     }
 
     /// How to correct what was found instead at a dotted path.
     fn help(self, path: &str, found: &DeValue) -> String {
         let help = match (self, found) {
-            (Needed::Text, DeValue::Integer(_) | DeValue::Float(_)) => "put the text in \"quotes\"",
-            (Needed::Text, _) => "put a text in \"quotes\" there",
-            (Needed::Texts, _) => "write texts in brackets, such as [\"ground\", \"crank\"]",
-            (Needed::Number, _) => "write a decimal number, such as 12.5, without quotes",
-            (Needed::FiniteNumber, _) => "write a decimal number; nan and inf stand for no quantity",
-            (Needed::Numbers, _) => "write numbers in brackets, such as [0, 0.1, 0.3]",
-            (Needed::WholeNumber, _) => "write a whole number, such as 3",
-            (Needed::Boolean, _) => "write `true` or `false`, without quotes",
-            (Needed::Table, DeValue::Array(_)) => return format!("write [{path}]"),
-            (Needed::Table, _) => {
-                "write keys with their values in braces, such as { x_mm = 0, y_mm = 0 }, or a section"
-            }
+            (Needed::Text, DeValue::Integer(_) | DeValue::Float(_)) => sentences::PUT_THE_TEXT_IN_QUOTES,
+            (Needed::Text, _) => sentences::PUT_A_TEXT_IN_QUOTES_THERE,
+            (Needed::Texts, _) => sentences::WRITE_TEXTS_IN_BRACKETS_SUCH_AS_GROUND,
+            (Needed::Number, _) => sentences::WRITE_A_DECIMAL_NUMBER_SUCH_AS_WITHOUT,
+            (Needed::FiniteNumber, _) => sentences::WRITE_A_DECIMAL_NUMBER_NAN,
+            (Needed::Numbers, _) => sentences::WRITE_NUMBERS_IN_BRACKETS_SUCH_AS,
+            (Needed::WholeNumber, _) => sentences::WRITE_A_WHOLE_NUMBER_SUCH_AS,
+            (Needed::Boolean, _) => sentences::WRITE_TRUE_OR_FALSE_WITHOUT,
+            (Needed::TomlTable, DeValue::Array(_)) => return format!("write [{path}]"),
+            (Needed::TomlTable, _) => sentences::WRITE_KEYS_WITH_THEIR_VALUES,
             (Needed::Tables, DeValue::Table(_)) => return format!("write [[{path}]]"),
-            (Needed::Tables, _) => return format!("write a section [[{path}]] for each"),
+            (Needed::Tables, _) => return sentences::write_a_section_for_each(&path),
         };
         help.into()
     }

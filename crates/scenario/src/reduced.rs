@@ -3,7 +3,8 @@
 //! They are twice the kinetic energy, and the balance of powers, of whatever motion a side has found. Each side finds
 //! velocities, accelerations and the drive's moment by equations of its own.
 
-use formula::{Operator, Tree};
+use crate::sentences;
+use formula::{FormulaTree, Operator};
 use linkage::case::Case;
 use linkage::mechanism::{GROUND, Link};
 
@@ -17,7 +18,7 @@ pub(super) struct Quantity {
 }
 
 /// The arithmetic, or what is wrong and the way out.
-type Found = Result<Tree, (String, String)>;
+type Found = Result<FormulaTree, (String, String)>;
 
 /// All of them. Motor, reducer and flywheel are not counted.
 pub(super) const QUANTITIES: [Quantity; 2] = [
@@ -36,41 +37,46 @@ impl Quantity {
         match case.drives.len() {
             1 => (self.tree)(case),
             count => Err((
-                format!("{} is of one crank, but the mechanism has {count} drives", self.name),
-                "take a scenario with one [drive], or claim channels of single links".into(),
+                sentences::is_of_one_crank_but_the_mechanism(&self.name, &count),
+                sentences::TAKE_A_SCENARIO_WITH_ONE_DRIVE.into(),
             )),
         }
     }
 }
 
 fn inertia(case: &Case) -> Found {
-    let square = |link: &Link, word: &str| Tree::pair(Operator::Power, of_link(link, word), Tree::number(2.0));
+    let square =
+        |link: &Link, word: &str| FormulaTree::pair(Operator::Power, of_link(link, word), FormulaTree::number(2.0));
     let energies = masses(case).map(|link| {
-        let across = Tree::pair(Operator::Plus, square(link, "vx_m_s"), square(link, "vy_m_s"));
+        let across = FormulaTree::pair(Operator::Plus, square(link, "vx_m_s"), square(link, "vy_m_s"));
         of_inertias(link, across, square(link, "omega_rad_s"))
     });
     let Some(sum) = sum(energies) else {
-        let help = "give the links mass_kg and inertia_kg_m2; a motor's rotor is not counted".into();
-        return Err(("nothing in the mechanism has a mass, so that no inertia is reduced to the crank".into(), help));
+        let help = sentences::GIVE_THE_LINKS_MASS_KG_AND_INERTIA.into();
+        return Err((sentences::NOTHING_IN_THE_MECHANISM_HAS_A_MASS.into(), help));
     };
-    Ok(Tree::pair(Operator::Over, sum, square(crank(case), "omega_rad_s")))
+    Ok(FormulaTree::pair(Operator::Over, sum, square(crank(case), "omega_rad_s")))
 }
 
 fn moment(case: &Case) -> Found {
     let product = |link: &Link, words: [&str; 2]| {
         let [one, other] = words.map(|word| of_link(link, word));
-        Tree::pair(Operator::Times, one, other)
+        FormulaTree::pair(Operator::Times, one, other)
     };
     let powers = masses(case).map(|link| {
-        let across =
-            Tree::pair(Operator::Plus, product(link, ["vx_m_s", "ax_m_s2"]), product(link, ["vy_m_s", "ay_m_s2"]));
+        let across = FormulaTree::pair(
+            Operator::Plus,
+            product(link, ["vx_m_s", "ax_m_s2"]),
+            product(link, ["vy_m_s", "ay_m_s2"]),
+        );
         of_inertias(link, across, product(link, ["omega_rad_s", "alpha_rad_s2"]))
     });
-    let gained = sum(powers)
-        .map_or(Tree::number(0.0), |sum| Tree::pair(Operator::Over, sum, of_link(crank(case), "omega_rad_s")));
+    let gained = sum(powers).map_or(FormulaTree::number(0.0), |sum| {
+        FormulaTree::pair(Operator::Over, sum, of_link(crank(case), "omega_rad_s"))
+    });
     // A crank that nothing drives has no moment of a drive.
     Ok(match case.drives.with_moment().next() {
-        Some(_) => Tree::pair(Operator::Minus, gained, Tree::name("drive.torque_N_m")),
+        Some(_) => FormulaTree::pair(Operator::Minus, gained, FormulaTree::name("drive.torque_N_m")),
         None => gained,
     })
 }
@@ -86,17 +92,17 @@ fn crank(case: &Case) -> &Link {
 }
 
 /// Mass times one part and moment of inertia times another, without what is zero.
-fn of_inertias(link: &Link, of_mass: Tree, of_inertia: Tree) -> Tree {
+fn of_inertias(link: &Link, of_mass: FormulaTree, of_inertia: FormulaTree) -> FormulaTree {
     let parts = [(link.mass, of_mass), (link.inertia, of_inertia)];
     let parts = parts.into_iter().filter(|(factor, _)| *factor > 0.0);
-    sum(parts.map(|(factor, part)| Tree::pair(Operator::Times, Tree::number(factor), part)))
+    sum(parts.map(|(factor, part)| FormulaTree::pair(Operator::Times, FormulaTree::number(factor), part)))
         .expect("a link with inertia")
 }
 
-fn sum(parts: impl Iterator<Item = Tree>) -> Option<Tree> {
-    parts.reduce(|sum, part| Tree::pair(Operator::Plus, sum, part))
+fn sum(parts: impl Iterator<Item = FormulaTree>) -> Option<FormulaTree> {
+    parts.reduce(|sum, part| FormulaTree::pair(Operator::Plus, sum, part))
 }
 
-fn of_link(link: &Link, word: &str) -> Tree {
-    Tree::name(format!("link.{}.{word}", link.name))
+fn of_link(link: &Link, word: &str) -> FormulaTree {
+    FormulaTree::name(format!("link.{}.{word}", link.name))
 }

@@ -1,11 +1,12 @@
 //! Values of one channel that an oracle has, which channels it may name, and where its numbers hold: at a crank angle, or
 //! at a time.
 
+use crate::sentences;
 use std::fmt;
 
 use super::printed::{self, PrintedChannel};
-use super::reader::Table;
-use super::unit::{ANGLE, TIME, Unit};
+use super::reader::TomlTable;
+use super::unit::{ANGLE, NamedUnit, TIME};
 use super::words::suggestion;
 use formula::Rounded;
 use linkage::case::{Case, Grid};
@@ -132,18 +133,18 @@ impl Known<'_> {
     }
 
     /// The channel under the key `channel` of `table`.
-    pub fn channel(&self, table: &mut Table) -> Result<(String, PrintedChannel)> {
+    pub fn channel(&self, table: &mut TomlTable) -> Result<(String, PrintedChannel)> {
         let name = table.string("channel")?;
         let found = PrintedChannel::named(&name).filter(|found| self.channels.contains(&found.channel));
         let Some(found) = found else {
-            return table.refuse("channel", format!("the mechanism has no channel \"{name}\""), self.help(&name));
+            return table.refuse("channel", sentences::the_mechanism_has_no_channel(&name), self.help(&name));
         };
         let stage = found.channel.kind.stage;
         if self.wanted.contains(&found.channel) {
             return Ok((name, found));
         }
-        let message = format!("this channel is one of the {}, which `channels.want` leaves out", stage.name());
-        let help = format!("add \"{}\" to `want`, or take the published numbers out", stage.name());
+        let message = sentences::this_channel_is_one_of_the_which_channels(&stage.name());
+        let help = sentences::add_to_want_or_take_the_published(&stage.name());
         table.refuse("channel", message, help)
     }
 
@@ -153,7 +154,7 @@ impl Known<'_> {
             let mut names: Vec<&str> =
                 self.channels.iter().filter(|c| c.kind.subject == subject).map(|c| &*c.of).collect();
             names.dedup();
-            return format!("of what moves, {}", suggestion(&found.channel.of, names, "\""));
+            return sentences::of_what_moves(&(suggestion(&found.channel.of, names, "\"")));
         }
         let subject = name.split('.').next().unwrap_or_default();
         let kinds = CHANNELS.iter().filter(|kind| kind.subject.word() == subject);
@@ -162,9 +163,7 @@ impl Known<'_> {
             Some((of, ending)) if !endings.is_empty() => {
                 format!("after `{of}.`, {}", suggestion(ending, endings.iter().map(String::as_str), "`"))
             }
-            _ => "channels are named like \"point.A.x_mm\", \"link.crank.angle_deg\", \"link.crank.omega_rad_s\", \
-                  \"joint.A.fx_N\" or \"drive.torque_N_m\""
-                .into(),
+            _ => sentences::CHANNELS_ARE_NAMED_LIKE_POINT.into(),
         }
     }
 }
@@ -172,10 +171,10 @@ impl Known<'_> {
 /// Share of the last instant by which a time may lie beyond it: the rounding of a number in other units.
 const ROUNDING: f64 = 1e-12;
 
-const HELP: &str = "a number holds at a crank angle (of the nominal motion, where forces decide it) or at a time";
+const HELP: &str = sentences::A_NUMBER_HOLDS_AT_A_CRANK;
 
 /// The instant of a table under `crank` or `time` with a unit.
-pub(super) fn instant(table: &mut Table, case: &Case) -> Result<When> {
+pub(super) fn instant(table: &mut TomlTable, case: &Case) -> Result<When> {
     let crank = table.optional_si("crank")?;
     let time = table.optional_si("time")?;
     match (crank, time) {
@@ -185,7 +184,7 @@ pub(super) fn instant(table: &mut Table, case: &Case) -> Result<When> {
             Ok(When::Time(time))
         }
         (Some(_), Some(_)) => {
-            table.refuse("time", "a crank angle and a time are both given", format!("keep one of the two: {HELP}"))
+            table.refuse("time", sentences::A_CRANK_ANGLE_AND_A_TIME, sentences::keep_one_of_the_two_2(&HELP))
         }
         (None, None) => Err(table.lacks(&["crank_deg", "crank_rad", "time_s", "time_ms"], HELP)),
     }
@@ -197,30 +196,30 @@ pub(super) struct Rows {
     pub column: String,
     /// The key that names it.
     pub key: &'static str,
-    unit: &'static Unit,
+    unit: &'static NamedUnit,
     is_time: bool,
 }
 
 impl Rows {
     /// The column under `crank` or `time`, with its unit as ending.
-    pub fn read(table: &mut Table) -> Result<Self> {
+    pub fn read(table: &mut TomlTable) -> Result<Self> {
         let (crank, time) = (table.optional_string("crank")?, table.optional_string("time")?);
         let (key, column, is_time) = match (crank, time) {
             (Some(column), None) => ("crank", column, false),
             (None, Some(column)) => ("time", column, true),
             (Some(_), Some(_)) => {
-                let message = "a column of crank angles and one of times are both named";
-                return table.refuse("time", message, format!("keep one of the two: {HELP}"));
+                let message = sentences::A_COLUMN_OF_CRANK_ANGLES;
+                return table.refuse("time", message, sentences::keep_one_of_the_two_2(&HELP));
             }
             (None, None) => return Err(table.lacks(&["crank", "time"], COLUMN_HELP)),
         };
         let (units, help) = match is_time {
-            false => (ANGLE.units, "the column of crank angles ends in `_deg` or `_rad`"),
-            true => (TIME.units, "the column of times ends in `_s` or `_ms`"),
+            false => (ANGLE.units, sentences::THE_COLUMN_OF_CRANK_ANGLES),
+            true => (TIME.units, sentences::THE_COLUMN_OF_TIMES_ENDS),
         };
         match units.iter().find(|unit| column.ends_with(&format!("_{}", unit.suffix))) {
             Some(unit) => Ok(Rows { column, key, unit, is_time }),
-            None => table.refuse(key, format!("column \"{column}\" does not say its unit"), help),
+            None => table.refuse(key, sentences::column_does_not_say_its_unit(&column), help),
         }
     }
 
@@ -254,11 +253,10 @@ pub fn within(drive: &Drive, time: f64) -> f64 {
     }
 }
 
-const COLUMN_HELP: &str =
-    "name the column of crank angles (`crank = \"crank_deg\"`) or that of times (`time = \"t_s\"`)";
+const COLUMN_HELP: &str = sentences::NAME_THE_COLUMN_OF_CRANK;
 
 /// The way out for a time that the motion does not have.
-pub(super) const TIME_HELP: &str = "give a time within the run, or let the grid go further";
+pub(super) const TIME_HELP: &str = sentences::GIVE_A_TIME_WITHIN_THE_RUN;
 
 /// The last instant (s) of a motion that forces decide; `None` of another, or where another grid replaces its grid.
 pub(super) fn end(case: &Case) -> Option<f64> {
@@ -272,6 +270,6 @@ fn checked(case: &Case, end: Option<f64>, time: f64) -> std::result::Result<(), 
     let Some(end) = end else { return Ok(()) };
     match (0.0..=end * (1.0 + ROUNDING)).contains(&time) {
         true => Ok(()),
-        false => Err(format!("{time} s is not in the run, which goes from 0 to {end} s")),
+        false => Err(sentences::is_not_in_the_run_which_goes(&time, &end)),
     }
 }

@@ -4,7 +4,7 @@ use linkage::error::{Error, Place};
 
 /// Where a setting was given.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Origin {
+pub enum SettingOrigin {
     /// In a scenario file: the dotted key, and its place.
     Key(String, Place),
     /// As this argument of a command.
@@ -15,28 +15,28 @@ pub enum Origin {
 
 /// A setting.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub enum Setting<T> {
+pub enum EngineSetting<T> {
     /// Found by the proof, or the engine's own.
     #[default]
     Free,
     /// Given, and where.
-    Given(T, Origin),
+    Given(T, SettingOrigin),
 }
 
-impl<T> Setting<T> {
+impl<T> EngineSetting<T> {
     /// Given in code.
     pub fn of(value: T) -> Self {
-        Setting::Given(value, Origin::Code)
+        EngineSetting::Given(value, SettingOrigin::Code)
     }
 
     /// This setting, or the other one if this is free.
-    pub fn or<'a>(&'a self, other: &'a Setting<T>) -> &'a Setting<T> {
+    pub fn or<'a>(&'a self, other: &'a EngineSetting<T>) -> &'a EngineSetting<T> {
         if self.is_free() { other } else { self }
     }
 
     /// The value, if it is given.
     pub fn value(&self) -> Option<&T> {
-        if let Setting::Given(value, _) = self { Some(value) } else { None }
+        if let EngineSetting::Given(value, _) = self { Some(value) } else { None }
     }
 
     /// Whether it is not given.
@@ -47,20 +47,20 @@ impl<T> Setting<T> {
     /// The error with the place where the setting was given.
     pub fn blamed(&self, error: Error) -> Error {
         match self {
-            Setting::Given(_, Origin::Key(key, place)) => error.key(key.as_str()).at(place.clone()),
-            Setting::Given(_, Origin::Argument(name)) => error.key(format!("--{name}")),
-            Setting::Given(_, Origin::Code) | Setting::Free => error,
+            EngineSetting::Given(_, SettingOrigin::Key(key, place)) => error.key(key.as_str()).at(place.clone()),
+            EngineSetting::Given(_, SettingOrigin::Argument(name)) => error.key(format!("--{name}")),
+            EngineSetting::Given(_, SettingOrigin::Code) | EngineSetting::Free => error,
         }
     }
 }
 
-impl<T> From<Option<T>> for Setting<T> {
+impl<T> From<Option<T>> for EngineSetting<T> {
     fn from(value: Option<T>) -> Self {
-        value.map_or(Setting::Free, Setting::of)
+        value.map_or(EngineSetting::Free, EngineSetting::of)
     }
 }
 
-impl<T: Copy> Setting<T> {
+impl<T: Copy> EngineSetting<T> {
     /// The value, if it is given.
     pub fn get(&self) -> Option<T> {
         self.value().copied()

@@ -1,36 +1,37 @@
 //! `[channels]` and `[tolerances]`: the wanted channels and the limits of judgement.
 
-use super::keys::key::{Kind, Section, needed, optional};
-use super::reader::Table;
+use super::keys::key::{Section, ValueKind, needed, optional};
+use super::reader::TomlTable;
 use super::words::{choice, nearest, suggestion};
+use crate::sentences;
 use linkage::case::Case;
 use linkage::error::Result;
 use linkage::trajectory::{Channel, Stage};
 
 /// What is told of the keys that are read here.
 pub const SECTIONS: &[Section] = &[
-    Section::at("channels").with(&[needed("want", Kind::Texts).means("stages, subjects or channels that are wanted")]),
-    Section::at("tolerances").with(&[optional("engine_rel", Kind::Number, "1e-2").means(
+    Section::at("channels")
+        .with(&[needed("want", ValueKind::Texts).means("stages, subjects or channels that are wanted")]),
+    Section::at("tolerances").with(&[optional("engine_rel", ValueKind::Number, "1e-2").means(
         "largest bound on the engine's error, as a share of a channel's scale, at which agreement still \
          proves something; between 0 and 1",
     )]),
 ];
 
 /// The words of `[channels]`; there is one at least.
-pub fn wanted(table: &mut Table) -> Result<Vec<String>> {
+pub fn wanted(table: &mut TomlTable) -> Result<Vec<String>> {
     let names = table.strings("want")?;
     table.finish()?;
     let stages = || Stage::ALL.into_iter().map(Stage::name);
     if names.is_empty() {
-        let help =
-            format!("name at least one, or leave the section out to get all; {}", suggestion("", stages(), "\""));
-        return table.refuse("want", "nothing is wanted", help);
+        let help = sentences::name_at_least_one_or_leave(&(suggestion("", stages(), "\"")));
+        return table.refuse("want", sentences::NOTHING_IS_WANTED, help);
     }
     Ok(names)
 }
 
 /// The case with the channels wanted that the words of `[channels]` ask for.
-pub fn wanting(table: &Table, names: &[String], case: Case) -> Result<Case> {
+pub fn wanting(table: &TomlTable, names: &[String], case: Case) -> Result<Case> {
     let channels = called(&case, names).or_else(|(message, help)| table.refuse("want", message, help))?;
     Ok(case.wanting_only(&channels))
 }
@@ -49,15 +50,14 @@ pub fn called(case: &Case, words: &[String]) -> std::result::Result<Vec<Channel>
             let ends = known.iter().find(|known| known.split_once('.').is_some_and(|(_, name)| name == word));
             let near = ends.map(String::as_str).or_else(|| nearest(word, known.iter().map(String::as_str)));
             let help = match near {
-                Some(near) => format!("did you mean \"{near}\"?"),
-                None => format!(
-                    "ask for {}, for a subject such as \"{}\", for its stage, \"{}.positions\", or for one channel",
-                    choice(stages, "\""),
-                    known[Stage::ALL.len()],
-                    known[Stage::ALL.len()],
+                Some(near) => sentences::did_you_mean_2(&near),
+                None => sentences::ask_for_for_a_subject_such_as_for_its_stage(
+                    &(choice(stages, "\"")),
+                    &known[Stage::ALL.len()],
+                    &known[Stage::ALL.len()],
                 ),
             };
-            return Err((format!("there are no channels \"{word}\""), help));
+            return Err((sentences::there_are_no_channels(&word), help));
         }
         channels.extend(own);
     }
@@ -68,12 +68,12 @@ pub fn called(case: &Case, words: &[String]) -> std::result::Result<Vec<Channel>
 pub const ENGINE_REL: f64 = 1e-2;
 
 /// Largest bound on the error of the engine, as a share of a channel's scale, at which agreement is still a proof.
-pub fn engine_rel(table: &mut Table) -> Result<f64> {
+pub fn engine_rel(table: &mut TomlTable) -> Result<f64> {
     let share = table.optional_number("engine_rel")?.unwrap_or(ENGINE_REL);
     table.finish()?;
     if share > 0.0 && share < 1.0 {
         return Ok(share);
     }
-    let message = format!("found {share}, but this is a share of a channel's scale");
-    table.refuse("engine_rel", message, "give a number between 0 and 1, such as 1e-2")
+    let message = sentences::found_but_this_is_a_share(&share);
+    table.refuse("engine_rel", message, sentences::GIVE_A_NUMBER_BETWEEN_AND_SUCH_AS)
 }

@@ -1,6 +1,7 @@
 //! The file of a scenario: places in it, its spanned tree, and the place of a key that an error of the `linkage` crate
 //! carries.
 
+use crate::sentences;
 use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
@@ -11,7 +12,7 @@ use toml::de::{DeTable, DeValue};
 use super::keys::key;
 use super::malformed;
 use super::parameters::Parameters;
-use linkage::error::{Error, ErrorKind, Key, Place, Result};
+use linkage::error::{Error, ErrorKind, KeyPath, Place, Result};
 use linkage::mechanism::{LONGEST_NAME, is_unseen};
 
 /// Longest text (characters).
@@ -26,13 +27,13 @@ const MOST_VALUES: usize = 2_000_000;
 const MOST_PARTS: usize = 30_000;
 const UNCOUNTED: &str = "oracle";
 
-const UNSEEN_HELP: &str = "take out line breaks, control characters and changes of the writing direction";
+const UNSEEN_HELP: &str = sentences::TAKE_OUT_LINE_BREAKS_CONTROL;
 
 /// The text of the scenario file at `path`.
 pub fn text_of(path: &Path) -> Result<String> {
     files::read_text(path).map_err(|error| {
-        Error::new(ErrorKind::Io, format!("the scenario {} cannot be read: {error}", path.display()))
-            .help(files::way_out(&error, "give the path of a scenario file, such as four_bar.toml"))
+        Error::new(ErrorKind::Io, sentences::the_scenario_cannot_be_read(&path.display(), &error))
+            .help(files::way_out(&error, sentences::GIVE_THE_PATH_OF_A_SCENARIO))
     })
 }
 
@@ -45,7 +46,7 @@ pub struct Source<'a> {
     /// Parameters that its numbers may use.
     pub parameters: Parameters,
     /// The rows of the table of keys for a section, by its path; none of files that are no scenarios.
-    pub rows: fn(&str) -> &'static [key::Key],
+    pub rows: fn(&str) -> &'static [key::FileKey],
     /// The text once more, for places.
     shared: Arc<str>,
 }
@@ -57,7 +58,7 @@ impl<'a> Source<'a> {
     }
 
     /// The same file with parameters, whose sections have these rows.
-    pub fn with(self, parameters: Parameters, rows: fn(&str) -> &'static [key::Key]) -> Self {
+    pub fn with(self, parameters: Parameters, rows: fn(&str) -> &'static [key::FileKey]) -> Self {
         Source { parameters, rows, ..self }
     }
 
@@ -93,10 +94,10 @@ impl<'a> Source<'a> {
     fn check_size(&self) -> Result<()> {
         let mut signs = self.text.bytes().enumerate().filter(|(_, byte)| b",=[{.".contains(byte));
         let Some((at, _)) = signs.nth(MOST_VALUES) else { return Ok(()) };
-        let message = format!("the file has more than {MOST_VALUES} values (signs `,` `=` `[` `{{` `.`)");
+        let message = sentences::the_file_has_more_than_values(&MOST_VALUES);
         Err(Error::new(ErrorKind::Input, message)
             .at(self.place(at..at + 1))
-            .help("divide it, or take a coarser grid; long columns of published numbers belong in a table (`file`)"))
+            .help(sentences::DIVIDE_IT_OR_TAKE_A_COARSER))
     }
 
     /// Checks all keys and texts of a table. No file may hold letters that a reader does not see, or texts of any length.
@@ -108,9 +109,9 @@ impl<'a> Source<'a> {
         for (key, value) in table {
             let name: &str = key.get_ref();
             let wrong = if name.contains(is_unseen) {
-                Some(("a key holds a letter that is not seen".to_string(), UNSEEN_HELP))
+                Some((sentences::A_KEY_HOLDS_A_LETTER_THAT_IS_NOT_SEEN.to_string(), UNSEEN_HELP))
             } else if name.chars().count() > LONGEST_NAME {
-                Some((format!("a key has more than {LONGEST_NAME} letters"), "give it a shorter name"))
+                Some((sentences::a_key_has_more_than_letters(&LONGEST_NAME), sentences::GIVE_IT_A_SHORTER_NAME))
             } else {
                 None
             };
@@ -128,14 +129,14 @@ impl<'a> Source<'a> {
     fn check_value(&self, value: &Spanned<DeValue>, path: &str, parts: &mut usize) -> Result<()> {
         let (message, help) = match value.get_ref() {
             DeValue::String(text) if text.contains(is_unseen) => {
-                ("the text holds a letter that is not seen".into(), UNSEEN_HELP)
+                (sentences::THE_TEXT_HOLDS_A_LETTER_THAT_IS_NOT_SEEN.into(), UNSEEN_HELP)
             }
             DeValue::String(text) if text.chars().count() > LONGEST_TEXT => {
-                (format!("the text has more than {LONGEST_TEXT} letters"), "shorten it")
+                (sentences::the_text_has_more_than_letters(&LONGEST_TEXT), "shorten it")
             }
             DeValue::Table(_) if *parts >= MOST_PARTS => {
-                let parts = "points, links, joints, loads, formulas and other tables";
-                (format!("the file has more than {MOST_PARTS} parts ({parts})"), "divide it into several files")
+                let parts = sentences::POINTS_LINKS_JOINTS_LOADS_FORMULAS;
+                (sentences::the_file_has_more_than_parts(&MOST_PARTS, &parts), sentences::DIVIDE_IT_INTO_SEVERAL_FILES)
             }
             DeValue::Table(own) => {
                 *parts += usize::from(!path.starts_with(UNCOUNTED));
@@ -153,7 +154,7 @@ impl<'a> Source<'a> {
 /// Place of a key, or else of the nearest existing parent. Elements of an array are found by their name (`joints.A`),
 /// Assur groups by their links.
 #[expect(clippy::wildcard_enum_match_arm, reason = "an enum of the TOML parser")]
-fn locate(tree: &DeTable, key: &Key) -> Range<usize> {
+fn locate(tree: &DeTable, key: &KeyPath) -> Range<usize> {
     let mut segments = key.path().split('.');
     let Some(mut found) = segments.next().and_then(|first| tree.get(first)) else { return 0..0 };
     for segment in segments {
@@ -194,8 +195,8 @@ mod tests {
     fn keys_are_found_in_the_file() {
         let source = Source::new(Path::new("x.toml"), TEXT);
         let tree = source.tree().unwrap();
-        let line = |key: Key| source.place(locate(tree.get_ref(), &key)).line();
-        let group = |links: [&str; 2]| line(Key::of_group("start.groups", links.map(String::from).to_vec()));
+        let line = |key: KeyPath| source.place(locate(tree.get_ref(), &key)).line();
+        let group = |links: [&str; 2]| line(KeyPath::of_group("start.groups", links.map(String::from).to_vec()));
         assert_eq!((group(["d", "c"]), group(["a", "d"])), (10, 8));
         let line = |key: &str| line(key.into());
         assert_eq!(line("links.rocker.points.B"), 2);

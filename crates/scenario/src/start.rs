@@ -1,12 +1,13 @@
 //! `[[start.groups]]`: the assembly mode in which each Assur group starts, and the same from the command line.
 
 use super::joints::link;
-use super::keys::key::{Kind, Section, needed, optional};
-use super::reader::{Faults, Table};
+use super::keys::key::{Section, ValueKind, needed, optional};
+use super::reader::{Faults, TomlTable};
 use super::words::{Words, names, suggestion};
+use crate::sentences;
 use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::math::Vec2;
-use linkage::mechanism::{AssemblyMode, Group, GroupId, GroupKind, Mechanism, Side, StartGroup, Structure};
+use linkage::mechanism::{AssemblyMode, Group, GroupId, GroupKind, JointSide, Mechanism, StartGroup, Structure};
 use linkage::mechanism::{LinkId, pose::SidePoint};
 
 const MODES: Words<AssemblyMode> = &[
@@ -19,46 +20,47 @@ const MODES: Words<AssemblyMode> = &[
 /// What is told of the keys that are read here.
 pub const SECTIONS: &[Section] = &[
     Section::at("start").with(&[
-        needed("crank", Kind::INPUTS).means("crank angle at t = 0, of the first drive"),
-        optional("groups", Kind::Tables, "none: a mechanism without groups").means("one table for each Assur group"),
+        needed("crank", ValueKind::INPUTS).means("crank angle at t = 0, of the first drive"),
+        optional("groups", ValueKind::Tables, "none: a mechanism without groups")
+            .means("one table for each Assur group"),
     ]),
     Section::at("start.groups").with(&[
-        needed("links", Kind::Texts).means("all links of the group"),
-        optional("mode", Kind::Choice(|| names(MODES)), "by `near`")
+        needed("links", ValueKind::Texts).means("all links of the group"),
+        optional("mode", ValueKind::Choice(|| names(MODES)), "by `near`")
             .means("which of a dyad's two configurations; below. RPP and PRP dyads have one, and need no table"),
-        optional("near", Kind::TableOrTables, "by `mode`").means(
+        optional("near", ValueKind::TableOrTables, "by `mode`").means(
             "approximate position in the world of one point of the group; or an array of several such \
              tables",
         ),
     ]),
     Section::at("start.groups.near").with(&[
-        needed("point", Kind::Text).means("a point of the group"),
-        needed("x", Kind::LENGTHS).means("coordinate along x in the world"),
-        needed("y", Kind::LENGTHS).means("coordinate along y in the world"),
+        needed("point", ValueKind::Text).means("a point of the group"),
+        needed("x", ValueKind::LENGTHS).means("coordinate along x in the world"),
+        needed("y", ValueKind::LENGTHS).means("coordinate along y in the world"),
     ]),
 ];
 
 /// A table of `[[start.groups]]` as it stands there.
-pub struct Stated<'a> {
-    table: Table<'a>,
+pub struct StatedGroup<'a> {
+    table: TomlTable<'a>,
     links: Vec<LinkId>,
     mode: Option<AssemblyMode>,
-    near: Vec<(Table<'a>, String, Vec2)>,
+    near: Vec<(TomlTable<'a>, String, Vec2)>,
 }
 
 /// The tables of `[[start.groups]]`, but those with mistakes.
-pub fn stated<'a>(tables: Vec<Table<'a>>, mechanism: &Mechanism, faults: &mut Faults) -> Vec<Stated<'a>> {
-    let one = |mut table: Table<'a>| {
+pub fn stated<'a>(tables: Vec<TomlTable<'a>>, mechanism: &Mechanism, faults: &mut Faults) -> Vec<StatedGroup<'a>> {
+    let one = |mut table: TomlTable<'a>| {
         let (links, mode, near) = faults.read(&mut table, |table| {
             let names = table.strings("links")?;
-            let mode = table.optional_choice("mode", "is no assembly mode", MODES)?;
+            let mode = table.optional_choice("mode", sentences::IS_NO_ASSEMBLY_MODE, MODES)?;
             let near = table.table_or_tables("near")?.into_iter().map(rough_place).collect::<Result<_>>();
             let near = table.part(near);
             table.finish()?;
             let links = names.iter().map(|name| link(table, name, mechanism.links())).collect::<Result<_>>()?;
             Ok((links, mode, near))
         })?;
-        Some(Stated { table, links, mode, near })
+        Some(StatedGroup { table, links, mode, near })
     };
     tables.into_iter().filter_map(one).collect()
 }
@@ -66,8 +68,8 @@ pub fn stated<'a>(tables: Vec<Table<'a>>, mechanism: &Mechanism, faults: &mut Fa
 /// The start that the file asks for each group, in the order of the structure. `start` is the table that contains the
 /// groups. Those that are `asked` for elsewhere may be missing.
 pub fn groups(
-    start: &Table,
-    stated: Vec<Stated>,
+    start: &TomlTable,
+    stated: Vec<StatedGroup>,
     mechanism: &Mechanism,
     structure: &Structure,
     asked: &[(GroupId, StartGroup)],
@@ -88,14 +90,14 @@ pub fn groups(
     match missing.iter().find(|group| !modes_of(group.kind).is_empty()) {
         None => Ok(wanted.into_iter().map(Option::unwrap_or_default).collect()),
         Some(first) => Err(start
-            .fault(format!("the assembly mode of the group ({}) is not given", first.names(mechanism)))
-            .help(format!("add, with the right mode:\n{}", ready_to_paste(&missing, mechanism)))
+            .fault(sentences::the_assembly_mode_of_the_group(&first.names(mechanism)))
+            .help(sentences::add_with_the_right_mode(&ready_to_paste(&missing, mechanism)))
             .key("start.groups")),
     }
 }
 
 fn group(
-    Stated { table, links, mode, near }: Stated,
+    StatedGroup { table, links, mode, near }: StatedGroup,
     mechanism: &Mechanism,
     structure: &Structure,
     before: &[Option<StartGroup>],
@@ -104,7 +106,7 @@ fn group(
         return Err(unknown_group(&table, &links, mechanism, structure));
     };
     if before[index].is_some() {
-        return table.refuse("links", "this group is given twice", "keep one of the two");
+        return table.refuse("links", sentences::THIS_GROUP_IS_GIVEN_TWICE, sentences::KEEP_ONE_OF_THE_TWO);
     }
     let group = &structure.groups[index];
     if let Some(asked) = mode
@@ -137,25 +139,25 @@ pub fn asked(text: &str, mechanism: &Mechanism, structure: &Structure) -> Result
         structure.groups.iter().map(example).collect::<Vec<_>>().join(" or ")
     };
     let Some((names, mode)) = text.rsplit_once('=') else {
-        return Err(Error::new(ErrorKind::Input, format!("\"{text}\" names no group and mode"))
-            .help(format!("write the links of a group, `=`, and a mode or a number: {}", examples())));
+        return Err(Error::new(ErrorKind::Input, sentences::names_no_group_and_mode(&text))
+            .help(sentences::write_the_links_of_a_group(&examples())));
     };
     let names: Vec<&str> = names.split(',').map(str::trim).collect();
     let links: Option<Vec<LinkId>> = names.iter().map(|name| mechanism.link_named(name)).collect();
     let Some(index) = links.as_ref().and_then(|links| group_of(links, structure)) else {
-        return Err(Error::new(ErrorKind::Input, format!("the mechanism has no Assur group ({})", names.join(", ")))
-            .help(format!("ask for one of its groups: {}", examples())));
+        return Err(Error::new(ErrorKind::Input, sentences::the_mechanism_has_no_assur(&names.join(", ")))
+            .help(sentences::ask_for_one_of_its_groups(&examples())));
     };
     let (group, mode) = (&structure.groups[index], mode.trim());
     if let Ok(rank) = mode.parse::<usize>() {
         return Ok((index, StartGroup { rank: Some(rank), ..StartGroup::default() }));
     }
     let Some(&found) = modes_of(group.kind).iter().find(|own| own.name() == mode) else {
-        let message = format!("\"{mode}\" is no assembly mode of the group ({})", group.names(mechanism));
+        let message = sentences::is_no_assembly_mode_of_the_group(&mode, &group.names(mechanism));
         let names = modes_of(group.kind).iter().map(|mode| format!("\"{}\", ", mode.name())).collect::<String>();
         let or = if names.is_empty() { "" } else { "or " };
         return Err(Error::new(ErrorKind::Input, message)
-            .help(Advice::Configuration { give: format!("{names}{or}a number from the list of configurations") }));
+            .help(Advice::Configuration { give: sentences::a_number_from_the_list_of_configurations(&names, &or) }));
     };
     let in_order = links.is_some_and(|links| links == group.links);
     let mode = if in_order { found } else { found.swapped() };
@@ -171,18 +173,18 @@ fn modes_of(kind: GroupKind) -> &'static [AssemblyMode] {
     }
 }
 
-fn foreign_mode(table: &Table, asked: AssemblyMode, group: &Group) -> Error {
-    let message = format!("mode \"{}\" does not belong to a group of {}", asked.name(), group.pairs());
+fn foreign_mode(table: &TomlTable, asked: AssemblyMode, group: &Group) -> Error {
+    let message = sentences::mode_does_not_belong_to_a_group(&asked.name(), &group.pairs());
     let help = match modes_of(group.kind) {
-        [one, other] => format!("write \"{}\" or \"{}\"", one.name(), other.name()),
-        _ if group.kind == GroupKind::Higher => "give `near` instead".to_string(),
-        _ => "it has one configuration: leave the mode out".to_string(),
+        [one, other] => sentences::write_or_2(&one.name(), &other.name()),
+        _ if group.kind == GroupKind::Higher => sentences::GIVE_NEAR_INSTEAD.to_string(),
+        _ => sentences::IT_HAS_ONE_CONFIGURATION_LEAVE.to_string(),
     };
     table.wrong(ErrorKind::Input, "mode", message).help(help)
 }
 
 /// A rough place: the table that states it, the name of the point, and the coordinates (m).
-fn rough_place(mut table: Table) -> Result<(Table, String, Vec2)> {
+fn rough_place(mut table: TomlTable) -> Result<(TomlTable, String, Vec2)> {
     let (name, place) = table.read(|table| {
         let name = table.string("point")?;
         let place = Vec2::new(table.si("x")?, table.si("y")?);
@@ -193,12 +195,15 @@ fn rough_place(mut table: Table) -> Result<(Table, String, Vec2)> {
 }
 
 fn side_point(
-    (table, name, place): (Table, String, Vec2),
+    (table, name, place): (TomlTable, String, Vec2),
     mechanism: &Mechanism,
     group: &Group,
 ) -> Result<(SidePoint, Vec2)> {
     let points = group.links.iter().flat_map(|&link| {
-        mechanism.links()[link].points.iter().map(move |point| (point.name.as_str(), Side { link, local: point.local }))
+        mechanism.links()[link]
+            .points
+            .iter()
+            .map(move |point| (point.name.as_str(), JointSide { link, local: point.local }))
     });
     match points.clone().find(|&(point, _)| point == name) {
         Some((_, side)) => Ok((SidePoint { name, side }, place)),
@@ -209,20 +214,20 @@ fn side_point(
                     names.push(point);
                 }
             }
-            let message = format!("no link of the group has a point \"{name}\"");
+            let message = sentences::no_link_of_the_group_has_a_point(&name);
             table.refuse("point", message, suggestion(&name, names, "\""))
         }
     }
 }
 
-fn unknown_group(table: &Table, links: &[LinkId], mechanism: &Mechanism, structure: &Structure) -> Error {
+fn unknown_group(table: &TomlTable, links: &[LinkId], mechanism: &Mechanism, structure: &Structure) -> Error {
     let names: Vec<&str> = links.iter().map(|&link| mechanism.links()[link].name.as_str()).collect();
-    let message = format!("the mechanism has no Assur group ({})", names.join(", "));
+    let message = sentences::the_mechanism_has_no_assur(&names.join(", "));
     let groups: Vec<&Group> = structure.groups.iter().collect();
     let help = if groups.is_empty() {
-        "it has no group at all: take the table out".to_string()
+        sentences::IT_HAS_NO_GROUP_AT_ALL_TAKE.to_string()
     } else {
-        format!("its groups are:\n{}", ready_to_paste(&groups, mechanism))
+        sentences::its_groups_are(&ready_to_paste(&groups, mechanism))
     };
     table.wrong(ErrorKind::Input, "links", message).help(help)
 }
@@ -232,10 +237,10 @@ fn ready_to_paste(groups: &[&Group], mechanism: &Mechanism) -> String {
         let names: Vec<String> =
             group.links.iter().map(|&link| format!("\"{}\"", mechanism.links()[link].name)).collect();
         let mode = match modes_of(group.kind) {
-            [one, other] => format!("mode = \"{}\" # or \"{}\"", one.name(), other.name()),
+            [one, other] => sentences::mode_or(&one.name(), &other.name()),
             _ => "near = { point = \"...\", x_mm = ..., y_mm = ... }".to_string(),
         };
-        format!("[[start.groups]]\nlinks = [{}]\n{mode}", names.join(", "))
+        sentences::start_groups_links(&names.join(", "), &mode)
     };
     let takes_mode = |group: &&&Group| !matches!(group.kind, GroupKind::Rpp | GroupKind::Prp);
     groups.iter().filter(takes_mode).map(entry).collect::<Vec<_>>().join("\n")

@@ -1,11 +1,11 @@
 //! What a scenario file states, before it is asked what that means as a whole.
 
-use super::asked::Asked;
-use super::clearance::Question;
+use super::asked::StartRequest;
+use super::clearance::ClearanceQuestion;
 use super::engine::{self, EngineSettings};
 use super::header::{check_format, name};
-use super::keys::key::{Kind, Section, needed, optional};
-use super::reader::{Faults, Table};
+use super::keys::key::{Section, ValueKind, needed, optional};
+use super::reader::{Faults, TomlTable};
 use super::settings::{self, ENGINE_REL};
 use super::{clearance, grid, joints, links, loads, motion, start};
 use linkage::case::Grid;
@@ -16,32 +16,32 @@ use linkage::mechanism::{Joint, JointId, Link, LinkId, Mechanism};
 
 /// What is told of the keys that are read here.
 pub const SECTIONS: &[Section] = &[Section::at("").with(&[
-    needed("format", Kind::Integer).means("version of this format: 1"),
-    needed("name", Kind::Text).means("short name for file names: `a`-`z`, `0`-`9`, `_`"),
-    needed("title", Kind::Text).means("one line for the reader"),
-    optional("source", Kind::Text, "none").means("where the dimensions come from"),
-    optional("parameters", Kind::Table, "none").means("numbers with names, for other numbers and for formulas"),
-    needed("ground", Kind::Table).means("the frame"),
-    needed("links", Kind::Table).means("moving links by name"),
-    needed("joints", Kind::Tables).means("joints"),
-    needed("drive", Kind::TableOrTables).means("what moves the driving links; the first is the crank"),
-    optional("motor", Kind::Table, "none").means("the motor behind the crank"),
-    optional("gravity", Kind::Table, "none").means("acceleration of gravity"),
-    optional("loads", Kind::Tables, "none").means("forces, moments, springs and dampers"),
-    needed("start", Kind::Table).means("pose at t = 0"),
-    needed("grid", Kind::Table).means("the instants of results"),
-    optional("channels", Kind::Table, "all").means("the results that are wanted"),
-    optional("engine", Kind::Table, "found by `run`").means("settings of the engine"),
-    optional("tolerances", Kind::Table, "its defaults").means("at what bound agreement still proves something"),
-    optional("oracle", Kind::Tables, "none").means("numbers that the mechanism must reproduce"),
-    optional("clearance", Kind::Table, "none")
+    needed("format", ValueKind::Integer).means("version of this format: 1"),
+    needed("name", ValueKind::Text).means("short name for file names: `a`-`z`, `0`-`9`, `_`"),
+    needed("title", ValueKind::Text).means("one line for the reader"),
+    optional("source", ValueKind::Text, "none").means("where the dimensions come from"),
+    optional("parameters", ValueKind::Table, "none").means("numbers with names, for other numbers and for formulas"),
+    needed("ground", ValueKind::Table).means("the frame"),
+    needed("links", ValueKind::Table).means("moving links by name"),
+    needed("joints", ValueKind::Tables).means("joints"),
+    needed("drive", ValueKind::TableOrTables).means("what moves the driving links; the first is the crank"),
+    optional("motor", ValueKind::Table, "none").means("the motor behind the crank"),
+    optional("gravity", ValueKind::Table, "none").means("acceleration of gravity"),
+    optional("loads", ValueKind::Tables, "none").means("forces, moments, springs and dampers"),
+    needed("start", ValueKind::Table).means("pose at t = 0"),
+    needed("grid", ValueKind::Table).means("the instants of results"),
+    optional("channels", ValueKind::Table, "all").means("the results that are wanted"),
+    optional("engine", ValueKind::Table, "found by `run`").means("settings of the engine"),
+    optional("tolerances", ValueKind::Table, "its defaults").means("at what bound agreement still proves something"),
+    optional("oracle", ValueKind::Tables, "none").means("numbers that the mechanism must reproduce"),
+    optional("clearance", ValueKind::Table, "none")
         .means("outlines of links and a housing: do they meet, and how near are they?"),
-    optional("formula", Kind::Tables, "none").means("formulas as they were derived, and what they claim to be"),
+    optional("formula", ValueKind::Tables, "none").means("formulas as they were derived, and what they claim to be"),
 ])];
 
 /// The sections of a file. Those that need the whole case are still tables. What has a mistake is left out, or stands
 /// for itself as nothing does.
-pub struct Stated<'a> {
+pub struct FileSections<'a> {
     pub name: String,
     pub title: String,
     pub source: Option<String>,
@@ -54,24 +54,24 @@ pub struct Stated<'a> {
     pub loads: Vec<Load>,
     pub gravity: Vec2,
     /// The section `[start]`; `None` if it is missing.
-    pub start: Option<Table<'a>>,
-    pub groups: Vec<start::Stated<'a>>,
+    pub start: Option<TomlTable<'a>>,
+    pub groups: Vec<start::StatedGroup<'a>>,
     pub grid: Grid,
     /// The section `[channels]` with its words.
-    pub channels: Option<(Table<'a>, Vec<String>)>,
+    pub channels: Option<(TomlTable<'a>, Vec<String>)>,
     pub engine: EngineSettings,
     pub engine_rel: f64,
-    pub oracles: Vec<Table<'a>>,
-    pub formulas: Vec<Table<'a>>,
-    pub clearance: Option<Question>,
+    pub oracles: Vec<TomlTable<'a>>,
+    pub formulas: Vec<TomlTable<'a>>,
+    pub clearance: Option<ClearanceQuestion>,
 }
 
-impl<'a> Stated<'a> {
+impl<'a> FileSections<'a> {
     /// Reads every section. The mistakes of all of them are noted in `root`.
     ///
     /// # Errors
     /// What this version cannot read at all.
-    pub fn read(root: &mut Table<'a>, asked: &Asked) -> Result<Stated<'a>> {
+    pub fn read(root: &mut TomlTable<'a>, asked: &StartRequest) -> Result<FileSections<'a>> {
         check_format(root)?;
         let (name, title, source) = (name(root), root.string("title"), root.optional_string("source"));
         // All sections are fetched before any is read: a misspelt section is the cause of other errors.
@@ -99,7 +99,7 @@ impl<'a> Stated<'a> {
         let mechanism = mechanism(links, joints, &mut faults);
         let (mut start, mut groups, mut crank) = (start.ok(), Vec::new(), 0.0);
         if let Some(start) = &mut start {
-            let own = |start: &mut Table<'a>| {
+            let own = |start: &mut TomlTable<'a>| {
                 groups = start.tables("groups")?;
                 let crank = start.si("crank")?;
                 start.finish()?;
@@ -125,7 +125,7 @@ impl<'a> Stated<'a> {
             .and_then(|mut grid| faults.read(&mut grid, |grid| grid::read(grid, &crank_drive, asked.without_grid)));
         let engine = engine.and_then(|mut table| faults.read(&mut table, |table| engine::read(table, &crank_drive)));
         root.part(faults.end());
-        Ok(Stated {
+        Ok(FileSections {
             name: name.unwrap_or_default(),
             title: title.unwrap_or_default(),
             source: source.unwrap_or_default(),

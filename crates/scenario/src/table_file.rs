@@ -1,11 +1,12 @@
 //! Tables of published numbers: CSV files with a header, read as text because the printed digits matter.
 
+use crate::sentences;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use super::malformed::has_decimal_comma;
 use super::printed::{Correction, Printed, PrintedChannel, check_apart, digits, finding};
-use super::reader::{Sign, Table};
+use super::reader::{Sign, TomlTable};
 use super::series::{self, ExpectedCell, Known, OraclePoint, OracleSeries, When, instant};
 use super::source::Source;
 use super::words::suggestion;
@@ -22,18 +23,18 @@ const SAME: f64 = 1e-9;
 const OF_ROW: f64 = (size_of::<u32>() + size_of::<(When, f64)>()) as f64;
 /// Memory of a number (bytes): as a cell, as it was printed, and as it is kept.
 const OF_NUMBER: f64 =
-    (size_of::<columns::Cell>() + size_of::<Rounded>() + size_of::<Printed>() + size_of::<OraclePoint>()) as f64;
+    (size_of::<columns::TableCell>() + size_of::<Rounded>() + size_of::<Printed>() + size_of::<OraclePoint>()) as f64;
 /// Memory allowed where nothing is said (bytes), as for a proof.
 const MOST: f64 = 4e9;
 
 /// Name and series of the table that an oracle with the key `file` describes.
-pub fn read(oracle: &mut Table, known: &Known, case: &Case) -> Result<(String, Vec<OracleSeries>)> {
+pub fn read(oracle: &mut TomlTable, known: &Known, case: &Case) -> Result<(String, Vec<OracleSeries>)> {
     let file = oracle.string("file")?;
     let path: PathBuf = oracle.source().path.parent().unwrap_or(Path::new("")).join(&file);
     let text = files::read_named(&path).map_err(|error| {
         oracle
-            .wrong(ErrorKind::Io, "file", format!("the table {} cannot be read: {error}", path.display()))
-            .help(files::way_out(&error, "the path is relative to the scenario's directory"))
+            .wrong(ErrorKind::Io, "file", sentences::the_table_cannot_be_read(&path.display(), &error))
+            .help(files::way_out(&error, sentences::THE_PATH_IS_RELATIVE_TO_THE_SCENARIO))
     })?;
     let source = Source::new(&path, &text);
     let rows = Rows::read(&source).map_err(|error| error.key(oracle.path_of("file")))?;
@@ -44,12 +45,9 @@ pub fn read(oracle: &mut Table, known: &Known, case: &Case) -> Result<(String, V
     let most = known.memory.unwrap_or(MOST);
     if needed > most {
         let [needs, allowed] = [needed, most].map(|bytes| format!("{:.1} GB", bytes / 1e9));
-        let message = format!(
-            "reading {} rows of what [[oracle]] says needs about {needs} of memory; {allowed} are allowed",
-            rows.records.len()
-        );
+        let message = sentences::reading_rows_of_what_oracle(&rows.records.len(), &needs, &allowed);
         let error = oracle.wrong(ErrorKind::Unsupported, "file", message);
-        return Err(error.help("give fewer rows, or fewer columns").or_help(Advice::MoreMemory { to: needed }));
+        return Err(error.help(sentences::GIVE_FEWER_ROWS_OR_FEWER).or_help(Advice::MoreMemory { to: needed }));
     }
     let instants: Vec<(When, f64)> = rows
         .column(&from.column)
@@ -65,15 +63,15 @@ pub fn read(oracle: &mut Table, known: &Known, case: &Case) -> Result<(String, V
         all.extend(oracle.part(series));
     }
     if all.is_empty() {
-        let help = "map at least one column: `P2x_mm = { channel = \"point.2.x_mm\" }`";
-        return Err(columns.fault("there is no column").help(help));
+        let help = sentences::MAP_AT_LEAST_ONE_COLUMN_P2X;
+        return Err(columns.fault(sentences::THERE_IS_NO_COLUMN).help(help));
     }
     let name = path.file_name().map_or(file, |name| name.to_string_lossy().into_owned());
     Ok((name, all))
 }
 
 fn series(
-    table: &mut Table,
+    table: &mut TomlTable,
     rows: &Rows,
     instants: &[(When, f64)],
     known: &Known,
@@ -87,8 +85,8 @@ fn series(
     let whole = whole_column(table, &printed)?;
     let cells = single_cells(table, instants, &printed, case)?;
     if whole.is_some() && !cells.is_empty() {
-        let message = "a column that is wrong as a whole has no single cells that are";
-        return table.refuse("expect", message, "keep either `expect` or `finding`");
+        let message = sentences::A_COLUMN_THAT_IS_WRONG_AS_A_WHOLE;
+        return table.refuse("expect", message, sentences::KEEP_EITHER_EXPECT_OR_FINDING);
     }
     table.finish()?;
     let point = |row: usize, number: &Printed, slack: f64| OraclePoint {
@@ -122,7 +120,7 @@ fn series(
 
 /// The cells under `expect`: their rows, and the correct values there.
 fn single_cells(
-    table: &mut Table,
+    table: &mut TomlTable,
     instants: &[(When, f64)],
     printed: &[Printed],
     case: &Case,
@@ -141,11 +139,11 @@ fn single_cells(
                 When::Crank(_) => ("crank", "crank angle"),
                 When::Time(_) => ("time", "time"),
             };
-            let help = format!("give a {what} that stands in the table");
-            return expect.refuse(key, format!("the table has no row with this {what}"), help);
+            let help = sentences::give_a_that_stands_in_the_table(&what);
+            return expect.refuse(key, sentences::the_table_has_no_row_with_this(&what), help);
         };
         let Some(correction) = Correction::read(&mut expect, &printed[row])? else {
-            return Err(expect.fault("`finding` is missing").help("say which finding calls the cell wrong"));
+            return Err(expect.fault(sentences::FINDING_IS_MISSING).help(sentences::SAY_WHICH_FINDING_CALLS_THE_CELL));
         };
         expect.finish()?;
         cells.push((row, correction));
@@ -154,15 +152,15 @@ fn single_cells(
 }
 
 /// The finding for a whole column and the correct value in every row: under the keys `finding` and `right`.
-fn whole_column(table: &mut Table, printed: &[Printed]) -> Result<Option<(String, Vec<Printed>)>> {
+fn whole_column(table: &mut TomlTable, printed: &[Printed]) -> Result<Option<(String, Vec<Printed>)>> {
     let Some(finding) = finding(table)? else { return Ok(None) };
     let mut right = table.table("right")?;
     let values = right.numbers("values")?;
     let digits = digits(&mut right)?;
     right.finish()?;
     if values.len() != printed.len() {
-        let message = format!("found {} right values for the column's {} rows", values.len(), printed.len());
-        return right.refuse("values", message, "give one value for every row, in their order");
+        let message = sentences::found_right_values_for_the_column(&values.len(), &printed.len());
+        return right.refuse("values", message, sentences::GIVE_ONE_VALUE_FOR_EVERY_ROW);
     }
     let right: Vec<Printed> = values.into_iter().map(|value| Printed::with_digits(value, digits)).collect();
     printed.iter().zip(&right).try_for_each(|(printed, right)| check_apart(table, printed, right))?;
@@ -170,12 +168,10 @@ fn whole_column(table: &mut Table, printed: &[Printed]) -> Result<Option<(String
 }
 
 /// Known error of the published numbers, in the printed unit; the file must explain it.
-fn slack(oracle: &mut Table) -> Result<f64> {
+fn slack(oracle: &mut TomlTable) -> Result<f64> {
     let Some(slack) = oracle.optional_number("slack")? else {
         return match oracle.has("why") {
-            true => {
-                Err(oracle.lacks(&["slack"], "`why` explains `slack`, by which all numbers of the table may be off"))
-            }
+            true => Err(oracle.lacks(&["slack"], sentences::WHY_EXPLAINS_SLACK_BY_WHICH_ALL)),
             false => Ok(0.0),
         };
     };
@@ -183,12 +179,12 @@ fn slack(oracle: &mut Table) -> Result<f64> {
     if slack > 0.0 && !why.trim().is_empty() {
         return Ok(slack);
     }
-    let help = "give a positive number and the reason why the published numbers are as far off";
-    oracle.refuse("slack", format!("found {slack}, explained by \"{why}\""), help)
+    let help = sentences::GIVE_A_POSITIVE_NUMBER_AND_THE_REASON;
+    oracle.refuse("slack", sentences::found_explained_by(&slack, &why), help)
 }
 
 /// Printed values minus the channel, in SI; zero if it is not given.
-fn offset(table: &mut Table, channel: &PrintedChannel) -> Result<f64> {
+fn offset(table: &mut TomlTable, channel: &PrintedChannel) -> Result<f64> {
     match channel.family {
         Some(family) => Ok(table.optional_quantity("offset", family, Sign::Any)?.unwrap_or(0.0)),
         None => Ok(0.0),
@@ -209,26 +205,25 @@ impl<'a> Rows<'a> {
         if let (false, Some(other)) =
             (whole.contains(','), [';', '\t'].into_iter().find(|other| whole.contains(*other)))
         {
-            let message = format!("the header has one cell, because its columns are separated by {other:?}");
-            return Err(wrong(header, message).help("separate cells with commas, and write decimals with a point"));
+            let message = sentences::the_header_has_one_cell_because(&format_args!("{other:?}"));
+            return Err(wrong(header, message).help(sentences::SEPARATE_CELLS_WITH_COMMAS_AND_WRITE));
         }
         let records = Records::of(source.text).map_err(|(at, count)| {
             let expected = whole.split(',').count();
-            let commas = if count == 2 * expected { ": its decimals seem to have commas" } else { "" };
-            wrong(at, format!("the row has {count} cells, but the header has {expected}{commas}")).help(
-                "separate cells with commas and give every row as many cells as the header; decimals take a point",
-            )
+            let commas = if count == 2 * expected { sentences::ITS_DECIMALS_SEEM_TO_HAVE_COMMAS } else { "" };
+            wrong(at, sentences::the_row_has_cells_but_the_header(&count, &expected, &commas))
+                .help(sentences::SEPARATE_CELLS_WITH_COMMAS_AND_GIVE)
         })?;
         if records.header.iter().any(|column| column.contains(is_unseen)) {
-            let error = wrong(0..0, "the header holds a letter that is not seen".into());
-            return Err(error.help("take out line breaks and control characters"));
+            let error = wrong(0..0, sentences::THE_HEADER_HOLDS_A_LETTER.into());
+            return Err(error.help(sentences::TAKE_OUT_LINE_BREAKS_AND_CONTROL));
         }
         if let Some(twice) = Twice::of(&records.header) {
             return Err(wrong(header, twice.to_string()).help(Twice::HELP));
         }
         if records.is_empty() {
-            let error = wrong(0..0, "the table has no rows".into());
-            return Err(error.help("give a header and at least one row"));
+            let error = wrong(0..0, sentences::THE_TABLE_HAS_NO_ROWS.into());
+            return Err(error.help(sentences::GIVE_A_HEADER_AND_AT_LEAST));
         }
         Ok(Rows { source, records })
     }
@@ -236,13 +231,13 @@ impl<'a> Rows<'a> {
     fn column(&self, name: &str) -> Result<usize> {
         let header = &self.records.header;
         header.iter().position(|column| column == name).ok_or_else(|| {
-            Error::new(ErrorKind::Input, format!("the table has no column \"{name}\""))
+            Error::new(ErrorKind::Input, sentences::the_table_has_no_column(&name))
                 .at(self.source.place(line_from(self.source.text, 0)))
                 .help(suggestion(name, header.iter().map(String::as_str), "\""))
         })
     }
 
-    fn numbers(&self, column: usize) -> Result<Vec<columns::Cell>> {
+    fn numbers(&self, column: usize) -> Result<Vec<columns::TableCell>> {
         (0..self.records.len()).map(|row| self.number(row, column)).collect()
     }
 
@@ -258,10 +253,12 @@ impl<'a> Rows<'a> {
     }
 
     /// The other columns that hold numbers, whether the oracle reads them or not.
-    fn others(&self, column: usize) -> impl Iterator<Item = Vec<columns::Cell>> {
+    fn others(&self, column: usize) -> impl Iterator<Item = Vec<columns::TableCell>> {
         let others = (0..self.records.header.len()).filter(move |other| *other != column);
         let rows = || 0..self.records.len();
-        others.filter_map(move |other| rows().map(|row| columns::Cell::parse(&self.records.cell(row, other))).collect())
+        others.filter_map(move |other| {
+            rows().map(|row| columns::TableCell::parse(&self.records.cell(row, other))).collect()
+        })
     }
 
     /// Where the rows hold, and by how much that may be off because it was rounded.
@@ -279,13 +276,13 @@ impl<'a> Rows<'a> {
         numbers.into_iter().enumerate().map(of).collect()
     }
 
-    fn number(&self, row: usize, column: usize) -> Result<columns::Cell> {
+    fn number(&self, row: usize, column: usize) -> Result<columns::TableCell> {
         let text = self.records.cell(row, column);
         Printed::cell(&text).ok_or_else(|| {
-            let comma = if has_decimal_comma(&text) { ", and decimals take a point" } else { "" };
-            Error::new(ErrorKind::Input, format!("found \"{text}\", but a decimal number is needed{comma}"))
+            let comma = if has_decimal_comma(&text) { sentences::AND_DECIMALS_TAKE_A_POINT } else { "" };
+            Error::new(ErrorKind::Input, sentences::found_but_a_decimal_number(&text, &comma))
                 .at(self.place(row, column))
-                .help("write it as printed, with a decimal point; a cell known to be wrong is named under `expect`, with its finding")
+                .help(sentences::WRITE_IT_AS_PRINTED_WITH_A_DECIMAL)
         })
     }
 

@@ -6,7 +6,7 @@ use proptest::prelude::*;
 
 use super::*;
 use linkage::math::Vec2;
-use linkage::mechanism::{AssemblyMode, LinkId, Side};
+use linkage::mechanism::{AssemblyMode, JointSide, LinkId};
 use linkage::trajectory::Channel;
 
 fn scenarios() -> PathBuf {
@@ -105,8 +105,10 @@ fn crank_rocker_starts_where_two_circles_meet() {
     assert!(printed[2].wrong.is_none());
     // O is on the ground and the crank, A on the crank and the coupler: the distance is measured from the ground to the
     // coupler.
-    let [ground, coupler] = [0, 2]
-        .map(|link| Side { link: LinkId(link), local: scenario.case.mechanism.links()[LinkId(link)].points[0].local });
+    let [ground, coupler] = [0, 2].map(|link| JointSide {
+        link: LinkId(link),
+        local: scenario.case.mechanism.links()[LinkId(link)].points[0].local,
+    });
     assert_eq!(printed[0].figure, Figure::Distance([ground, coupler]));
     let known = |index: usize| scenario.oracles[index].basis;
     assert_eq!([0, 2, 4].map(known), [OracleBasis::Derived, OracleBasis::Recomputed, OracleBasis::Published]);

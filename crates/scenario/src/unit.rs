@@ -1,10 +1,11 @@
 //! Units of scenario files. Every key of a physical quantity ends in its unit; inside the program everything is SI.
 
+use crate::sentences;
 use std::f64::consts::{PI, TAU};
 
 /// One unit of a family.
 #[derive(Debug, PartialEq)]
-pub struct Unit {
+pub struct NamedUnit {
     /// Ending of keys in this unit, without the underscore that joins it.
     pub suffix: &'static str,
     factor: f64,
@@ -12,11 +13,11 @@ pub struct Unit {
     divisor: f64,
 }
 
-const fn unit(suffix: &'static str, factor: f64, divisor: f64) -> Unit {
-    Unit { suffix, factor, divisor }
+const fn unit(suffix: &'static str, factor: f64, divisor: f64) -> NamedUnit {
+    NamedUnit { suffix, factor, divisor }
 }
 
-impl Unit {
+impl NamedUnit {
     /// A number in this unit, converted to SI.
     #[must_use]
     pub fn to_si(&self, value: f64) -> f64 {
@@ -26,19 +27,19 @@ impl Unit {
 
 /// Units that measure one quantity, SI first.
 #[derive(Debug)]
-pub struct Family {
+pub struct UnitFamily {
     /// The quantity with its article, for messages.
     pub noun: &'static str,
     /// Units, the SI unit first.
-    pub units: &'static [Unit],
+    pub units: &'static [NamedUnit],
     /// Largest size in SI. It is far beyond anything that is built, and products with others are numbers that both sides
     /// and the engines can still tell apart; a larger one is a slip of the unit.
     pub most: f64,
 }
 
-impl Family {
-    const fn of(noun: &'static str, units: &'static [Unit], most: f64) -> Family {
-        Family { noun, units, most }
+impl UnitFamily {
+    const fn of(noun: &'static str, units: &'static [NamedUnit], most: f64) -> UnitFamily {
+        UnitFamily { noun, units, most }
     }
 
     /// The spellings of a key of this family: `length_m` or `length_mm`.
@@ -49,54 +50,56 @@ impl Family {
 
     /// The unit that `key` ends in, if `key` is `base` and a unit of this family.
     #[must_use]
-    pub fn unit_of(&self, base: &str, key: &str) -> Option<&'static Unit> {
+    pub fn unit_of(&self, base: &str, key: &str) -> Option<&'static NamedUnit> {
         let suffix = key.strip_prefix(base)?.strip_prefix('_')?;
         self.units.iter().find(|unit| unit.suffix == suffix)
     }
 }
 
-const fn si(suffix: &'static str) -> Unit {
+const fn si(suffix: &'static str) -> NamedUnit {
     unit(suffix, 1.0, 1.0)
 }
 
 /// Lengths and coordinates.
-pub static LENGTH: Family = Family::of("a length", &[si("m"), unit("mm", 1.0, 1e3)], 1e9);
+pub static LENGTH: UnitFamily = UnitFamily::of("a length", &[si("m"), unit("mm", 1.0, 1e3)], 1e9);
 /// Angles.
-pub static ANGLE: Family = Family::of("an angle", &[si("rad"), unit("deg", PI / 180.0, 1.0)], 1e9);
+pub static ANGLE: UnitFamily = UnitFamily::of("an angle", &[si("rad"), unit("deg", PI / 180.0, 1.0)], 1e9);
 /// Angular velocities; rpm are turns per minute.
-pub static ANGULAR_SPEED: Family = Family::of("an angular velocity", &[si("rad_s"), unit("rpm", TAU, 60.0)], 1e9);
+pub static ANGULAR_SPEED: UnitFamily =
+    UnitFamily::of(sentences::AN_ANGULAR_VELOCITY, &[si("rad_s"), unit("rpm", TAU, 60.0)], 1e9);
 /// Times.
-pub static TIME: Family = Family::of("a time", &[si("s"), unit("ms", 1.0, 1e3)], 1e12);
+pub static TIME: UnitFamily = UnitFamily::of("a time", &[si("s"), unit("ms", 1.0, 1e3)], 1e12);
 /// Masses.
-pub static MASS: Family = Family::of("a mass", &[si("kg"), unit("g", 1.0, 1e3)], 1e30);
+pub static MASS: UnitFamily = UnitFamily::of("a mass", &[si("kg"), unit("g", 1.0, 1e3)], 1e30);
 /// Moments of inertia.
-pub static INERTIA: Family = Family::of("a moment of inertia", &[si("kg_m2")], 1e30);
+pub static INERTIA: UnitFamily = UnitFamily::of(sentences::A_MOMENT_OF_INERTIA, &[si("kg_m2")], 1e30);
 /// Accelerations.
-pub static ACCELERATION: Family = Family::of("an acceleration", &[si("m_s2")], 1e12);
+pub static ACCELERATION: UnitFamily = UnitFamily::of("an acceleration", &[si("m_s2")], 1e12);
 /// Moments of forces.
-pub static MOMENT: Family = Family::of("a moment", &[si("N_m")], 1e20);
+pub static MOMENT: UnitFamily = UnitFamily::of("a moment", &[si("N_m")], 1e20);
 /// Moments per angular velocity.
-pub static MOMENT_PER_SPEED: Family = Family::of("a change of a moment with an angular velocity", &[si("N_m_s")], 1e20);
+pub static MOMENT_PER_SPEED: UnitFamily =
+    UnitFamily::of(sentences::A_CHANGE_OF_A_MOMENT_WITH_AN_ANGULAR, &[si("N_m_s")], 1e20);
 /// Forces.
-pub static FORCE: Family = Family::of("a force", &[si("N"), unit("kN", 1e3, 1.0)], 1e20);
+pub static FORCE: UnitFamily = UnitFamily::of("a force", &[si("N"), unit("kN", 1e3, 1.0)], 1e20);
 /// Forces per length.
-pub static STIFFNESS: Family = Family::of("a stiffness", &[si("N_m"), unit("N_mm", 1e3, 1.0)], 1e20);
+pub static STIFFNESS: UnitFamily = UnitFamily::of("a stiffness", &[si("N_m"), unit("N_mm", 1e3, 1.0)], 1e20);
 /// Forces per velocity.
-pub static DAMPING: Family = Family::of("a damping", &[si("N_s_m")], 1e20);
+pub static DAMPING: UnitFamily = UnitFamily::of("a damping", &[si("N_s_m")], 1e20);
 /// Moments per angle.
-pub static TORSIONAL_STIFFNESS: Family = Family::of("a torsional stiffness", &[si("N_m_rad")], 1e20);
+pub static TORSIONAL_STIFFNESS: UnitFamily = UnitFamily::of(sentences::A_TORSIONAL_STIFFNESS, &[si("N_m_rad")], 1e20);
 /// Masses of bars per length.
-pub static MASS_PER_LENGTH: Family = Family::of("a mass per length", &[si("kg_per_m")], 1e20);
+pub static MASS_PER_LENGTH: UnitFamily = UnitFamily::of(sentences::A_MASS_PER_LENGTH, &[si("kg_per_m")], 1e20);
 /// Powers.
-pub static POWER: Family = Family::of("a power", &[si("W"), unit("kW", 1e3, 1.0)], 1e20);
+pub static POWER: UnitFamily = UnitFamily::of("a power", &[si("W"), unit("kW", 1e3, 1.0)], 1e20);
 
 /// The units in which inputs are written, whatever they measure.
-pub static INPUTS: [&Family; 1] = [&ANGLE];
+pub static INPUTS: [&UnitFamily; 1] = [&ANGLE];
 /// The same, or times.
-pub static INPUTS_OR_TIMES: [&Family; 2] = [&ANGLE, &TIME];
+pub static INPUTS_OR_TIMES: [&UnitFamily; 2] = [&ANGLE, &TIME];
 
 /// All families.
-pub static ALL: [&Family; 15] = [
+pub static ALL: [&UnitFamily; 15] = [
     &LENGTH,
     &ANGLE,
     &ANGULAR_SPEED,
@@ -116,17 +119,18 @@ pub static ALL: [&Family; 15] = [
 
 /// The unit that a key ends in, the longest that fits, and the family that it is of first.
 #[must_use]
-pub fn ending(key: &str) -> Option<(&'static Family, &'static Unit)> {
+pub fn ending(key: &str) -> Option<(&'static UnitFamily, &'static NamedUnit)> {
     let all = ALL.iter().flat_map(|family| family.units.iter().map(move |unit| (*family, unit)));
-    let ends = |unit: &Unit| key.strip_suffix(unit.suffix).is_some_and(|rest| rest.len() > 1 && rest.ends_with('_'));
+    let ends =
+        |unit: &NamedUnit| key.strip_suffix(unit.suffix).is_some_and(|rest| rest.len() > 1 && rest.ends_with('_'));
     // Of units of the same length the first is kept.
     all.filter(|(_, unit)| ends(unit)).rev().max_by_key(|(_, unit)| unit.suffix.len())
 }
 
 /// Whether two units measure one quantity.
 #[must_use]
-pub fn alike(one: &Unit, other: &Unit) -> bool {
-    let has = |family: &Family, unit: &Unit| family.units.iter().any(|own| own.suffix == unit.suffix);
+pub fn alike(one: &NamedUnit, other: &NamedUnit) -> bool {
+    let has = |family: &UnitFamily, unit: &NamedUnit| family.units.iter().any(|own| own.suffix == unit.suffix);
     ALL.iter().any(|family| has(family, one) && has(family, other))
 }
 
@@ -134,7 +138,7 @@ pub fn alike(one: &Unit, other: &Unit) -> bool {
 mod tests {
     use super::*;
 
-    fn si_of(family: &Family, suffix: &str, value: f64) -> f64 {
+    fn si_of(family: &UnitFamily, suffix: &str, value: f64) -> f64 {
         family.units.iter().find(|unit| unit.suffix == suffix).unwrap().to_si(value)
     }
 

@@ -1,5 +1,6 @@
 //! Words for messages: lists, and the known name nearest to a misspelt one.
 
+use crate::sentences;
 use strsim::osa_distance;
 
 /// Longest word that may be misspelt (letters): the comparison takes the product of both lengths.
@@ -41,12 +42,12 @@ pub fn choice<'a>(words: impl IntoIterator<Item = &'a str>, quote: &str) -> Stri
 pub fn suggestion<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>, quote: &str) -> String {
     let candidates: Vec<&str> = candidates.into_iter().take(MOST + 1).collect();
     if candidates.len() > MOST {
-        return format!("it is none of more than {MOST} names that are allowed here");
+        return sentences::it_is_none_of_more_than_names(&MOST);
     }
     match nearest(word, candidates.iter().copied()) {
-        Some(near) => format!("did you mean {quote}{near}{quote}?"),
-        None if candidates.is_empty() => "there is none that could be named here".into(),
-        None => format!("allowed here: {}", choice(candidates, quote)),
+        Some(near) => sentences::did_you_mean_4(&quote, &near),
+        None if candidates.is_empty() => sentences::THERE_IS_NONE_THAT_COULD.into(),
+        None => sentences::allowed_here_2(&choice(candidates, quote)),
     }
 }
 
@@ -62,8 +63,8 @@ pub fn names<T>(words: Words<T>) -> Vec<&'static str> {
 /// The nearest of a few words, if one is near, and all of them.
 #[must_use]
 pub fn suggested(word: &str, words: &[&str]) -> String {
-    let near = nearest(word, words.iter().copied()).map(|near| format!("did you mean \"{near}\"? "));
-    format!("{}allowed here: {}", near.unwrap_or_default(), choice(words.iter().copied(), "\""))
+    let near = nearest(word, words.iter().copied()).map(|near| sentences::did_you_mean_3(&near));
+    sentences::allowed_here(&near.unwrap_or_default(), &(choice(words.iter().copied(), "\"")))
 }
 
 #[cfg(test)]

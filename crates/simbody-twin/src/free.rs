@@ -1,9 +1,10 @@
 //! A free motion: motor and loads as forces that Simbody requests at every evaluation.
+//! See docs/numerics/twins.md.
 
 use std::cell::RefCell;
 use std::rc::Rc;
 
-use linkproof_simbody::{Act, Run, Settings};
+use linkproof_simbody::{Act, IntegrationSettings, LinkageRun};
 
 use super::model::Linkage;
 use linkage::case::Case;
@@ -17,7 +18,7 @@ use linkage::solver::State;
 ///
 /// # Errors
 /// Those of [`check_inertias`], and whatever prevents Simbody from starting.
-pub(super) fn start(case: &Case, settings: Settings) -> Result<(Linkage, Run)> {
+pub(super) fn start(case: &Case, settings: IntegrationSettings) -> Result<(Linkage, LinkageRun)> {
     check_inertias(case, "Simbody")?;
     // A model driven at the initial speeds gives the rates of all other links.
     let driven = Linkage::new(case, 1.0, None)?;

@@ -1,15 +1,13 @@
 //! Simbody as an engine: bodies on mobilizers, loops closed by constraints, an integrator that controls its error.
-//! It shares no code with the other engines.
-//! None of its results are derived here: motion, reactions and driving moments are Simbody's own.
-//!
-//! It takes only these from the case: geometry, masses, drive and the pose at t = 0, nothing later.
-//! A second run with reversed time covers the instants before t = 0.
+//! It shares no code with the other engines, and takes from the case only geometry, masses, drive and the pose at t = 0.
+//! See docs/numerics/twins.md.
 
 mod free;
 mod model;
 mod noise;
+mod sentences;
 
-use linkproof_simbody::{Failure, Run};
+use linkproof_simbody::{Failure, LinkageRun};
 
 use linkage::case::Case;
 use linkage::drive::{Load, Wrench};
@@ -18,7 +16,7 @@ use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::math::{KeepNan, unit};
 use linkage::solver::{Progress, Provision, Solver, State, Visit, check_instants};
 use linkage::trajectory::{Channel, ChannelKind, Stage};
-use linkage::work::{Count, Tally};
+use linkage::work::{Count, WorkTally};
 use model::Linkage;
 
 /// Largest opening of the start pose as a share of the mechanism's size.
@@ -49,14 +47,13 @@ impl Simbody {
         Simbody { accuracy }
     }
 
-    fn start(self, case: &Case, sense: f64) -> Result<(Linkage, Run)> {
+    fn start(self, case: &Case, sense: f64) -> Result<(Linkage, LinkageRun)> {
         if !(self.accuracy > 0.0 && self.accuracy < 1.0) {
-            let message = format!("the engine's accuracy is {}", self.accuracy);
-            return Err(Error::new(ErrorKind::Input, message).help("give an accuracy between 0 and 1, 1e-8 for one"));
+            let message = sentences::the_engine_accuracy_is(&self.accuracy);
+            return Err(Error::new(ErrorKind::Input, message).help(sentences::GIVE_AN_ACCURACY_BETWEEN_AND_FOR_ONE));
         }
         if let Some(drive) = case.drives.iter().find(|drive| drive.constant_speed().is_none()) {
-            let message =
-                format!("a drive with the law \"{}\" is not handed to Simbody by this version", drive.law_name());
+            let message = sentences::a_drive_with_the_law_is_not_handed(&drive.law_name());
             return Err(Error::new(ErrorKind::Unsupported, message).help(Advice::OtherEngine));
         }
         check_start(case)?;
@@ -69,8 +66,8 @@ impl Simbody {
         Ok((linkage, run))
     }
 
-    fn settings_for(self, case: &Case) -> linkproof_simbody::Settings {
-        linkproof_simbody::Settings {
+    fn settings_for(self, case: &Case) -> linkproof_simbody::IntegrationSettings {
+        linkproof_simbody::IntegrationSettings {
             accuracy: self.accuracy,
             tolerance: tolerance(case),
             time_scale: 1.0 / case.drives.top_speed(),
@@ -136,12 +133,12 @@ impl Engine for Simbody {
 
     fn told(&self) -> Vec<(&'static str, String)> {
         vec![
-            ("build", "spanning tree of pins and sliders, loops closed by two point-in-plane constraints each".into()),
-            ("drive", "prescribed coordinates; under forces, motor and loads at every evaluation".into()),
-            ("integrator", "Runge-Kutta-Merson, every step projected".into()),
+            ("build", sentences::SPANNING_TREE_OF_PINS_AND_SLIDERS.into()),
+            ("drive", sentences::PRESCRIBED_COORDINATES_UNDER_FORCES_MOTOR.into()),
+            ("integrator", sentences::RUNGE_KUTTA_MERSON_EVERY_STEP.into()),
             ("accuracy", format!("{:e}", self.accuracy)),
-            ("constraint tolerance", format!("{:e} of the mechanism's reach", Simbody::TOLERANCE)),
-            ("reactions", "mobilizer reactions and multipliers".into()),
+            ("constraint tolerance", sentences::of_the_mechanism_reach(&format_args!("{:e}", Simbody::TOLERANCE))),
+            ("reactions", sentences::MOBILIZER_REACTIONS_AND_MULTIPLIERS.into()),
         ]
     }
 }
@@ -168,7 +165,7 @@ impl Solver for Simbody {
         // Resistances are forces inside Simbody; the other loads are set wherever reactions are read.
         let others = case.with(|parts| parts.loads = other_loads(case))?;
         let mut wrenches = vec![Wrench::ZERO; case.mechanism.links().len()];
-        let mut tally = Tally::default();
+        let mut tally = WorkTally::default();
         for (sense, rows, end) in [(-1.0, backwards.as_slice(), ends[0]), (1.0, after, ends[1])] {
             if rows.is_empty() {
                 continue;
@@ -193,7 +190,7 @@ impl Solver for Simbody {
                 if !found.loops.iter().all(|closed| closed.gap <= 2.0 * tolerance(case)) {
                     let gaps: Vec<f64> = found.loops.iter().map(|closed| closed.gap).collect();
                     let widest = gaps.iter().copied().fold(0.0, f64::larger);
-                    let message = "a loop is open by more than its tolerance".into();
+                    let message = sentences::A_LOOP_IS_OPEN_BY_MORE_THAN_ITS_TOLERANCE.into();
                     let failure = Failure { message, time: Some(t.abs()), gaps };
                     let error = stopped(failure);
                     return Err(error.beyond(widest, 2.0 * tolerance(case), "m"));
@@ -242,7 +239,7 @@ fn check_start(case: &Case) -> Result<()> {
     let widest = case.mechanism.joints().iter().reduce(|a, b| if gap(a) >= gap(b) { a } else { b });
     let name = widest.map_or("", |joint| joint.name.as_str());
     let (at, bound) = (case.told(case.crank().start), LARGEST_GAP * case.mechanism.size());
-    let message = format!("the pose at t = 0, {at}, is open by {closure:.3e} m, most at joint \"{name}\"");
+    let message = sentences::the_pose_at_is_open_by_most(&at, &format_args!("{closure:.3e}"), &name);
     let error = Error::new(ErrorKind::Geometry, message).at_time(0.0).at_input(at).of_joint(name);
-    Err(error.beyond(closure, bound, "m").help("give a start pose in which all joints are closed"))
+    Err(error.beyond(closure, bound, "m").help(sentences::GIVE_A_START_POSE_IN_WHICH_ALL))
 }

@@ -1,6 +1,9 @@
 //! A mechanism as a Simbody model: the tree of bodies, the joints that close loops, and the prescribed motion.
 
-use linkproof_simbody::{Body, BodyState, Closing, Failure, Inertia, Joint, Law, LoopState, Model};
+use crate::sentences;
+use linkproof_simbody::{
+    BodyState, Failure, Inertia, Law, LoopClosure, LoopState, SimbodyBody, SimbodyJoint, SimbodyModel,
+};
 
 use linkage::case::Case;
 use linkage::drive::{Drive, Load, Wrench};
@@ -10,7 +13,7 @@ use linkage::math::{Vec2, cross};
 use linkage::mechanism;
 use linkage::mechanism::{
     JointId, LinkId,
-    spanning_tree::{Branch, Tree, coordinate},
+    spanning_tree::{SpanningTree, TreeBranch, coordinate},
 };
 use linkage::solver::State;
 
@@ -18,9 +21,9 @@ use linkage::solver::State;
 #[derive(Clone, Debug)]
 pub(super) struct Linkage {
     /// Simbody's model: bodies in the order of the tree's branches, loops in the order of its cuts.
-    pub(super) model: Model,
+    pub(super) model: SimbodyModel,
     /// The spanning tree, which contains all drives.
-    pub(super) tree: Tree,
+    pub(super) tree: SpanningTree,
     /// +1 forwards, -1 backwards in time.
     sense: f64,
     /// Angle of the child minus that of its parent (rad), for every branch whose joint keeps it constant.
@@ -39,12 +42,12 @@ impl Linkage {
     /// Without them, free links turn with their initial speeds, like prescribed ones.
     pub(super) fn new(case: &Case, sense: f64, rates: Option<&[f64]>) -> Result<Self> {
         let wrong = |failure: Failure| {
-            Error::new(ErrorKind::Input, format!("Simbody cannot take the mechanism: {}", failure.message))
+            Error::new(ErrorKind::Input, sentences::simbody_cannot_take_the_mechanism(&failure.message))
         };
         let mechanism = &case.mechanism;
         let driven: Vec<JointId> = case.drives.iter().map(|drive| drive.joint).collect();
-        let tree = Tree::with(mechanism, &driven);
-        let mut model = Model::new(case.gravity.into());
+        let tree = SpanningTree::with(mechanism, &driven);
+        let mut model = SimbodyModel::new(case.gravity.into());
         // Bodies are numbered in the order of the branches; the ground is 0 on both sides.
         let mut numbers = vec![0; mechanism.links().len()];
         let mut twists = Vec::new();
@@ -52,7 +55,7 @@ impl Linkage {
             let found = &mechanism.joints()[branch.joint];
             let [parent, child] = [branch.parent, branch.link].map(|link| case.start.0[link].angle);
             let drive = case.drives.iter().find(|drive| drive.joint == branch.joint);
-            let body = Body {
+            let body = SimbodyBody {
                 parent: numbers[branch.parent],
                 joint: joint(found, branch),
                 inertia: inertia(case, branch.link),
@@ -71,8 +74,10 @@ impl Linkage {
         for &cut in &tree.cut {
             let mechanism::Joint { first, second, .. } = &mechanism.joints()[cut];
             let sides = [first, second];
-            let closing =
-                Closing { bodies: sides.map(|side| numbers[side.link]), places: sides.map(|side| side.local.into()) };
+            let closing = LoopClosure {
+                bodies: sides.map(|side| numbers[side.link]),
+                places: sides.map(|side| side.local.into()),
+            };
             model.close(closing).map_err(wrong)?;
         }
         Ok(Linkage { model, tree, sense, twists })
@@ -135,21 +140,19 @@ impl Linkage {
         // Written so that NaN counts as the largest.
         let widest = failure.gaps.iter().zip(&self.tree.cut).reduce(|a, b| if a.0 >= b.0 { a } else { b });
         let gap = widest.map_or(String::new(), |(gap, &joint)| {
-            format!(", joint \"{}\" open by {gap:.3e} m", case.mechanism.joints()[joint].name)
+            sentences::joint_open_by(&case.mechanism.joints()[joint].name, &format_args!("{gap:.3e}"))
         });
-        let message = format!("Simbody stopped at t = {t:.6} s, {at}{gap}: {}", failure.message);
+        let message = sentences::simbody_stopped_at(&t, &at, &gap, &failure.message);
         let mut error = Error::new(ErrorKind::Numeric, message).at_time(t).at_input(at);
         if let Some((_, &joint)) = widest {
             error = error.of_joint(&case.mechanism.joints()[joint].name);
         }
-        error
-            .help("check that the pose can be assembled there")
-            .or_help("shorten the grid to the crank angles before the dead point")
+        error.help(sentences::CHECK_THAT_THE_POSE_CAN_BE_ASSEMBLED).or_help(sentences::SHORTEN_THE_GRID_TO_THE_CRANK)
     }
 }
 
 /// Rate of a driven coordinate, or `None` if forces move it.
-fn law(case: &Case, branch: &Branch, drive: &Drive, moving: bool) -> Option<f64> {
+fn law(case: &Case, branch: &TreeBranch, drive: &Drive, moving: bool) -> Option<f64> {
     if moving && drive.is_free() {
         return None;
     }
@@ -158,14 +161,14 @@ fn law(case: &Case, branch: &Branch, drive: &Drive, moving: bool) -> Option<f64>
     Some(drive.initial_speed() - parent.map_or(0.0, Drive::initial_speed))
 }
 
-fn joint(found: &mechanism::Joint, branch: &Branch) -> Joint {
+fn joint(found: &mechanism::Joint, branch: &TreeBranch) -> SimbodyJoint {
     let [parent, child] = [branch.parent, branch.link];
     let on = |link: LinkId| found.on(link).expect("the joint is on the link").into();
     match found.kind {
-        mechanism::JointKind::Revolute => Joint::Pin { on_parent: on(parent), on_child: on(child) },
+        mechanism::JointKind::Revolute => SimbodyJoint::Pin { on_parent: on(parent), on_child: on(child) },
         mechanism::JointKind::Prismatic { .. } => {
             let axis = |link: LinkId| found.axis_on(link).expect("the joint is on the link").into();
-            Joint::Slider {
+            SimbodyJoint::Slider {
                 on_parent: on(parent),
                 on_child: on(child),
                 axis_parent: axis(parent),

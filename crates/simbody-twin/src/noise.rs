@@ -7,7 +7,7 @@
 use super::model::inertia;
 use linkage::case::Case;
 use linkage::math::KeepNan;
-use linkage::trajectory::{ChannelKind, Subject, Unit};
+use linkage::trajectory::{ChannelKind, ChannelSubject, Unit};
 
 /// Amplification of a constraint error by the pose: 1 / sin of the angle between two links, which is 10 at 6 degrees.
 const POSE: f64 = 10.0;
@@ -51,6 +51,6 @@ pub(super) fn bound(case: &Case, [tolerance, accuracy]: [f64; 2], channel: &Chan
         Unit::MetrePerSecond => linear(1),
         Unit::MetrePerSecondSquared => linear(2),
         Unit::Newton => force,
-        Unit::NewtonMetre => force * if channel.subject == Subject::Frame { reach } else { size },
+        Unit::NewtonMetre => force * if channel.subject == ChannelSubject::Frame { reach } else { size },
     }
 }

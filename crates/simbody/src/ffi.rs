@@ -1,11 +1,12 @@
 //! The boundary to C++: the only unsafe code. Every declaration repeats one of `shim.h`.
 
+use crate::sentences;
 use std::ffi::{c_char, c_int, c_void};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::ptr::{self, NonNull};
 
-use crate::parts::{Body, Closing, Failure, Joint, Settings};
-use crate::state::{BodyState, LoopState, State};
+use crate::parts::{Failure, IntegrationSettings, LoopClosure, SimbodyBody, SimbodyJoint};
+use crate::state::{BodyState, LoopState, SimbodyState};
 
 /// `linkproof_body`.
 #[repr(C)]
@@ -29,11 +30,11 @@ pub(crate) struct RawBody {
 }
 
 impl RawBody {
-    pub(crate) fn of(body: &Body) -> Self {
+    pub(crate) fn of(body: &SimbodyBody) -> Self {
         let x = [1.0, 0.0];
         let (slides, on_parent, on_child, axis_parent, axis_child) = match body.joint {
-            Joint::Pin { on_parent, on_child } => (0, on_parent, on_child, x, x),
-            Joint::Slider { on_parent, on_child, axis_parent, axis_child } => {
+            SimbodyJoint::Pin { on_parent, on_child } => (0, on_parent, on_child, x, x),
+            SimbodyJoint::Slider { on_parent, on_child, axis_parent, axis_child } => {
                 (1, on_parent, on_child, axis_parent, axis_child)
             }
         };
@@ -79,7 +80,7 @@ unsafe extern "C" {
     fn linkproof_simbody_new(
         bodies: *const RawBody,
         body_count: usize,
-        loops: *const Closing,
+        loops: *const LoopClosure,
         loop_count: usize,
         gravity: &[f64; 2],
         accuracy: f64,
@@ -136,7 +137,7 @@ fn told(call: impl FnOnce(*mut c_char, usize) -> c_int) -> Result<(), Failure> {
 /// Simbody's message in one line, without the source locations of its exceptions.
 fn plain(words: &str) -> String {
     let line = words.split_whitespace().collect::<Vec<_>>().join(" ");
-    let mut parts = line.split("SimTK Exception thrown at ");
+    let mut parts = line.split(sentences::SIMTK_EXCEPTION_THROWN_AT);
     let first = parts.next().unwrap_or_default().to_string();
     parts.fold(first, |told, part| told + part.split_once(": ").map_or(part, |(_, rest)| rest))
 }
@@ -169,22 +170,22 @@ unsafe extern "C" fn acting(user: *mut c_void, bodies: *const BodyState, loads: 
 }
 
 /// A run of a linkage, forwards in time.
-pub struct Run {
+pub struct LinkageRun {
     raw: NonNull<RawRun>,
     /// Kept at a fixed address for Simbody.
     _acting: Option<Box<Acting>>,
-    state: State,
+    state: SimbodyState,
     time: f64,
     /// Internal steps allowed per time scale, and the time scale (s).
     pace: (usize, f64),
 }
 
-impl Run {
+impl LinkageRun {
     pub(crate) fn start(
         bodies: &[RawBody],
-        loops: &[Closing],
+        loops: &[LoopClosure],
         gravity: [f64; 2],
-        settings: Settings,
+        settings: IntegrationSettings,
         act: Option<Act>,
     ) -> Result<Self, Failure> {
         let mut raw = ptr::null_mut();
@@ -192,7 +193,7 @@ impl Run {
         let user = kept.as_mut().map_or(ptr::null_mut(), |kept| ptr::from_mut(kept.as_mut()).cast());
         let call = kept.is_some().then_some(acting as Callback);
         told(|text, size| {
-            let Settings { accuracy, tolerance, time_scale, .. } = settings;
+            let IntegrationSettings { accuracy, tolerance, time_scale, .. } = settings;
             // SAFETY: pointers and counts are those of slices that outlive the call, and the shim copies what it keeps.
             // The model has checked that bodies and loops refer only to bodies before them.
             // The callback's data is kept until the run is freed.
@@ -215,10 +216,12 @@ impl Run {
                 )
             }
         })?;
-        let raw = NonNull::new(raw).ok_or_else(|| Failure::of("Simbody gave no system"))?;
-        let state =
-            State { bodies: vec![BodyState::default(); bodies.len()], loops: vec![LoopState::default(); loops.len()] };
-        let mut run = Run { raw, _acting: kept, state, time: 0.0, pace: (settings.steps, settings.time_scale) };
+        let raw = NonNull::new(raw).ok_or_else(|| Failure::of(sentences::SIMBODY_GAVE_NO_SYSTEM))?;
+        let state = SimbodyState {
+            bodies: vec![BodyState::default(); bodies.len()],
+            loops: vec![LoopState::default(); loops.len()],
+        };
+        let mut run = LinkageRun { raw, _acting: kept, state, time: 0.0, pace: (settings.steps, settings.time_scale) };
         // A free mobilizer without inertia is not an error in Simbody, but it has no finite acceleration.
         run.read(false)?;
         Ok(run)
@@ -230,7 +233,7 @@ impl Run {
     /// A time before the one reached; any failure in Simbody, with its message, the time reached and all gaps there.
     pub fn advance(&mut self, time: f64) -> Result<(), Failure> {
         if !(time >= self.time && time.is_finite()) {
-            return Err(Failure::of(format!("t = {time} s is asked for after t = {} s", self.time)));
+            return Err(Failure::of(sentences::is_asked_for_after(&time, &self.time)));
         }
         let (raw, (steps, time_scale)) = (self.raw.as_ptr(), self.pace);
         // A cast saturates: a number that is too large gives the largest.
@@ -251,10 +254,10 @@ impl Run {
     /// A number of loads that differs from that of the bodies, or a number that is not finite.
     pub fn load(&mut self, loads: &[[f64; 3]]) -> Result<(), Failure> {
         if loads.len() != self.state.bodies.len() {
-            return Err(Failure::of(format!("{} loads are given for {} bodies", loads.len(), self.state.bodies.len())));
+            return Err(Failure::of(sentences::loads_are_given_for_bodies(&loads.len(), &self.state.bodies.len())));
         }
         if !loads.as_flattened().iter().all(|number| number.is_finite()) {
-            return Err(Failure::of("a load is not finite"));
+            return Err(Failure::of(sentences::A_LOAD_IS_NOT_FINITE));
         }
         // SAFETY: the run is alive and nobody else has it; there are three numbers for every body, and the shim copies them.
         unsafe { linkproof_simbody_load(self.raw.as_ptr(), loads.as_ptr().cast()) };
@@ -264,9 +267,9 @@ impl Run {
     /// Reads the state; without `reactions`, no forces.
     ///
     /// # Errors
-    /// Simbody's own, as in [`Run::advance`]: loops that cannot take any force, or a number that is not finite.
-    pub fn read(&mut self, reactions: bool) -> Result<&State, Failure> {
-        let State { bodies, loops } = &mut self.state;
+    /// Simbody's own, as in [`LinkageRun::advance`]: loops that cannot take any force, or a number that is not finite.
+    pub fn read(&mut self, reactions: bool) -> Result<&SimbodyState, Failure> {
+        let SimbodyState { bodies, loops } = &mut self.state;
         let raw = self.raw.as_ptr();
         // SAFETY: the run is alive and nobody else has it.
         // The vectors are as long as the bodies and loops that it was built from, and the shim fills all of them.
@@ -276,7 +279,7 @@ impl Run {
         });
         read.map_err(|failure| self.located(failure))?;
         if !(self.state.bodies.iter().all(BodyState::is_finite) && self.state.loops.iter().all(LoopState::is_finite)) {
-            return Err(self.located(Failure::of("Simbody answered with a number that is not finite")));
+            return Err(self.located(Failure::of(sentences::SIMBODY_ANSWERED_WITH_A_NUMBER)));
         }
         Ok(&self.state)
     }
@@ -301,13 +304,13 @@ impl Run {
     }
 }
 
-impl std::fmt::Debug for Run {
+impl std::fmt::Debug for LinkageRun {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_struct("Run").field("time", &self.time).field("state", &self.state).finish_non_exhaustive()
     }
 }
 
-impl Drop for Run {
+impl Drop for LinkageRun {
     fn drop(&mut self) {
         // SAFETY: the run came from `linkproof_simbody_new` and is freed only here.
         unsafe { linkproof_simbody_free(self.raw.as_ptr()) }
@@ -329,7 +332,7 @@ mod tests {
     fn both_sides_of_the_boundary_have_the_same_structures() {
         let mut sizes = [0; 4];
         linkproof_simbody_sizes(&mut sizes);
-        let own = [size_of::<RawBody>(), size_of::<Closing>(), size_of::<BodyState>(), size_of::<LoopState>()];
+        let own = [size_of::<RawBody>(), size_of::<LoopClosure>(), size_of::<BodyState>(), size_of::<LoopState>()];
         assert_eq!(sizes, own);
     }
 }

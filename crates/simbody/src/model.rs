@@ -1,45 +1,46 @@
 //! The description of a linkage, checked before any part of it reaches C++.
 
-use crate::ffi::{Act, RawBody, Run};
-use crate::parts::{Body, Closing, Failure, Inertia, Joint, Settings};
+use crate::ffi::{Act, LinkageRun, RawBody};
+use crate::parts::{Failure, Inertia, IntegrationSettings, LoopClosure, SimbodyBody, SimbodyJoint};
+use crate::sentences;
 
 /// A planar linkage.
 #[derive(Clone, Debug)]
-pub struct Model {
+pub struct SimbodyModel {
     gravity: [f64; 2],
     bodies: Vec<RawBody>,
-    loops: Vec<Closing>,
+    loops: Vec<LoopClosure>,
 }
 
-impl Model {
+impl SimbodyModel {
     /// A model with the ground only, under the acceleration of gravity `gravity` (m/s^2).
     #[must_use]
     pub fn new(gravity: [f64; 2]) -> Self {
-        Model { gravity, bodies: Vec::new(), loops: Vec::new() }
+        SimbodyModel { gravity, bodies: Vec::new(), loops: Vec::new() }
     }
 
     /// Adds a body and returns its number.
     ///
     /// # Errors
     /// A parent that does not exist, a number that is not finite, a negative mass or inertia, or an axis that is not a unit vector.
-    pub fn add(&mut self, body: Body) -> Result<usize, Failure> {
+    pub fn add(&mut self, body: SimbodyBody) -> Result<usize, Failure> {
         let number = self.bodies.len() + 1;
         let wrong = |what: &str| Err(Failure::of(format!("body {number}: {what}")));
         if body.parent >= number {
-            return wrong(&format!("its parent is {}, which has not been added", body.parent));
+            return wrong(&sentences::its_parent_is_which_has_not_been(&body.parent));
         }
         let raw = RawBody::of(&body);
         if !raw.numbers().all(f64::is_finite) {
-            return wrong("it holds a number that is not finite");
+            return wrong(sentences::IT_HOLDS_A_NUMBER_THAT_IS_NOT_FINITE);
         }
         let Inertia { mass, inertia, extra_mass, extra_inertia, .. } = body.inertia;
         if [mass, inertia, extra_mass, extra_inertia].iter().any(|&value| value < 0.0) {
-            return wrong("a mass or a moment of inertia is negative");
+            return wrong(sentences::A_MASS_OR_A_MOMENT_OF_INERTIA);
         }
-        if let Joint::Slider { axis_parent, axis_child, .. } = body.joint
+        if let SimbodyJoint::Slider { axis_parent, axis_child, .. } = body.joint
             && [axis_parent, axis_child].iter().any(|axis| (axis[0].hypot(axis[1]) - 1.0).abs() > 1e-9)
         {
-            return wrong("the axis of its slider is no unit vector");
+            return wrong(sentences::THE_AXIS_OF_ITS_SLIDER_IS_NO_UNIT);
         }
         self.bodies.push(raw);
         Ok(number)
@@ -49,15 +50,15 @@ impl Model {
     ///
     /// # Errors
     /// A body that does not exist, the same body twice, or a position that is not finite.
-    pub fn close(&mut self, closing: Closing) -> Result<usize, Failure> {
+    pub fn close(&mut self, closing: LoopClosure) -> Result<usize, Failure> {
         let number = self.loops.len();
         let wrong = |what: &str| Err(Failure::of(format!("loop {number}: {what}")));
         let [first, second] = closing.bodies;
         if first.max(second) > self.bodies.len() || first == second {
-            return wrong(&format!("bodies {first} and {second} cannot be joined"));
+            return wrong(&sentences::bodies_and_cannot_be_joined(&first, &second));
         }
         if !closing.places.as_flattened().iter().all(|place| place.is_finite()) {
-            return wrong("it holds a number that is not finite");
+            return wrong(sentences::IT_HOLDS_A_NUMBER_THAT_IS_NOT_FINITE);
         }
         self.loops.push(closing);
         Ok(number)
@@ -68,30 +69,30 @@ impl Model {
     /// # Errors
     /// Settings out of their ranges, and Simbody's own errors.
     /// The model may not assemble from the given coordinates, or a free mobilizer may carry no inertia.
-    pub fn run(&self, settings: Settings) -> Result<Run, Failure> {
+    pub fn run(&self, settings: IntegrationSettings) -> Result<LinkageRun, Failure> {
         self.run_under(settings, None)
     }
 
-    /// Like [`Model::run`], with `act` acting on the bodies.
+    /// Like [`SimbodyModel::run`], with `act` acting on the bodies.
     ///
     /// # Errors
-    /// Those of [`Model::run`].
-    pub fn run_under(&self, settings: Settings, act: Option<Act>) -> Result<Run, Failure> {
-        let Settings { accuracy, tolerance, time_scale, .. } = settings;
+    /// Those of [`SimbodyModel::run`].
+    pub fn run_under(&self, settings: IntegrationSettings, act: Option<Act>) -> Result<LinkageRun, Failure> {
+        let IntegrationSettings { accuracy, tolerance, time_scale, .. } = settings;
         if !(accuracy > 0.0 && accuracy < 1.0) {
-            return Err(Failure::of(format!("the accuracy is {accuracy}, it must lie between 0 and 1")));
+            return Err(Failure::of(sentences::the_accuracy_is_it_must_lie(&accuracy)));
         }
         for (what, value) in [("tolerance", tolerance), ("time scale", time_scale)] {
             if !(value > 0.0 && value.is_finite()) {
-                return Err(Failure::of(format!("the {what} is {value}, it must be greater than 0")));
+                return Err(Failure::of(sentences::the_is_it_must_be_greater(&what, &value)));
             }
         }
         if !self.gravity.iter().all(|component| component.is_finite()) {
-            return Err(Failure::of("gravity is not finite"));
+            return Err(Failure::of(sentences::GRAVITY_IS_NOT_FINITE));
         }
         if self.bodies.is_empty() {
-            return Err(Failure::of("there is no body"));
+            return Err(Failure::of(sentences::THERE_IS_NO_BODY));
         }
-        Run::start(&self.bodies, &self.loops, self.gravity, settings, act)
+        LinkageRun::start(&self.bodies, &self.loops, self.gravity, settings, act)
     }
 }

@@ -8,7 +8,7 @@ pub const GROUND: usize = 0;
 /// The joint between a body and its parent.
 /// Positions (m) and unit vectors of axes are in the frame of the body they belong to.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Joint {
+pub enum SimbodyJoint {
     /// A revolute joint: its coordinate is the angle of the child relative to its parent (rad).
     Pin {
         /// Position on the parent (m).
@@ -56,11 +56,11 @@ pub struct Law {
 
 /// A body of the tree.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Body {
+pub struct SimbodyBody {
     /// The parent body, added before, or [`GROUND`].
     pub parent: usize,
     /// The joint to the parent.
-    pub joint: Joint,
+    pub joint: SimbodyJoint,
     /// Its inertia.
     pub inertia: Inertia,
     /// Constant moment against its rotation (N m), zero while it is at rest.
@@ -77,7 +77,7 @@ pub struct Body {
 /// A revolute joint between two bodies that are in the tree already. It closes a loop. The memory layout is that of C.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Closing {
+pub struct LoopClosure {
     /// First and second body.
     pub bodies: [usize; 2],
     /// The joint's position on each body, in its frame (m).
@@ -86,7 +86,7 @@ pub struct Closing {
 
 /// Accuracy of the integration.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Settings {
+pub struct IntegrationSettings {
     /// Accuracy of the integrator: bound on its weighted local error.
     pub accuracy: f64,
     /// Largest constraint error that projections leave (m).
@@ -98,9 +98,9 @@ pub struct Settings {
     pub steps: usize,
 }
 
-impl Default for Settings {
+impl Default for IntegrationSettings {
     fn default() -> Self {
-        Settings { accuracy: 1e-10, tolerance: 1e-12, time_scale: 0.1, steps: 30_000 }
+        IntegrationSettings { accuracy: 1e-10, tolerance: 1e-12, time_scale: 0.1, steps: 30_000 }
     }
 }
 

@@ -2,7 +2,7 @@
 
 /// Results at one instant: bodies from 1 on, and loops, in the order in which they were added.
 #[derive(Clone, Debug, PartialEq, Default)]
-pub struct State {
+pub struct SimbodyState {
     /// Every body but the ground.
     pub bodies: Vec<BodyState>,
     /// Every loop.

@@ -1,31 +1,33 @@
 //! Linkages whose motion and forces are known in closed form.
 
-use linkproof_simbody::{Body, Closing, GROUND, Inertia, Joint, Law, Model, Settings, version};
+use linkproof_simbody::{
+    GROUND, Inertia, IntegrationSettings, Law, LoopClosure, SimbodyBody, SimbodyJoint, SimbodyModel, version,
+};
 
 const G: f64 = 9.81;
 
-fn pin(on_parent: [f64; 2]) -> Joint {
-    Joint::Pin { on_parent, on_child: [0.0, 0.0] }
+fn pin(on_parent: [f64; 2]) -> SimbodyJoint {
+    SimbodyJoint::Pin { on_parent, on_child: [0.0, 0.0] }
 }
 
 fn rod(mass: f64, length: f64) -> Inertia {
     Inertia { mass, centre: [length / 2.0, 0.0], inertia: mass * length * length / 12.0, ..Inertia::default() }
 }
 
-fn body(parent: usize, joint: Joint, inertia: Inertia, coordinate: f64) -> Body {
-    Body { parent, joint, inertia, resistance: 0.0, coordinate, rate: 0.0, law: None }
+fn body(parent: usize, joint: SimbodyJoint, inertia: Inertia, coordinate: f64) -> SimbodyBody {
+    SimbodyBody { parent, joint, inertia, resistance: 0.0, coordinate, rate: 0.0, law: None }
 }
 
 /// A parallelogram with cranks of length 1 from (0, 0) and (2, 0).
 /// The first crank is driven; the coupler only translates.
 /// The coordinates of coupler and second crank are off by `off` (rad).
-fn parallelogram(coupler: Inertia, start: f64, rate: f64, off: f64) -> Model {
-    let mut model = Model::new([0.0, -G]);
-    let first = Body { law: Some(Law { rate }), ..body(GROUND, pin([0.0, 0.0]), rod(1.0, 1.0), start) };
+fn parallelogram(coupler: Inertia, start: f64, rate: f64, off: f64) -> SimbodyModel {
+    let mut model = SimbodyModel::new([0.0, -G]);
+    let first = SimbodyBody { law: Some(Law { rate }), ..body(GROUND, pin([0.0, 0.0]), rod(1.0, 1.0), start) };
     let first = model.add(first).unwrap();
     let coupler = model.add(body(first, pin([1.0, 0.0]), coupler, -start + off)).unwrap();
     let second = model.add(body(GROUND, pin([2.0, 0.0]), rod(1.0, 1.0), start + off)).unwrap();
-    model.close(Closing { bodies: [coupler, second], places: [[2.0, 0.0], [1.0, 0.0]] }).unwrap();
+    model.close(LoopClosure { bodies: [coupler, second], places: [[2.0, 0.0], [1.0, 0.0]] }).unwrap();
     model
 }
 
@@ -45,7 +47,7 @@ fn forces_in_a_parallelogram_are_those_of_statics() {
     // The shares follow from the moments about its middle and about the second pivot.
     // That crank turns uniformly, and its weight acts at half its length.
     let (start, rate, t) = (0.7, 4.0, 0.2);
-    let mut run = parallelogram(rod(3.0, 2.0), start, rate, 1e-4).run(Settings::default()).unwrap();
+    let mut run = parallelogram(rod(3.0, 2.0), start, rate, 1e-4).run(IntegrationSettings::default()).unwrap();
     run.advance(t).unwrap();
     let state = run.read(true).unwrap();
     let angle = start + rate * t;
@@ -69,11 +71,11 @@ fn forces_in_a_parallelogram_are_those_of_statics() {
 
 #[test]
 fn a_massless_coupler_needs_extra_mass_and_its_reactions_do_not_see_it() {
-    let failure = parallelogram(Inertia::default(), 0.7, 4.0, 0.0).run(Settings::default()).unwrap_err();
+    let failure = parallelogram(Inertia::default(), 0.7, 4.0, 0.0).run(IntegrationSettings::default()).unwrap_err();
     assert!(failure.message.contains("not finite"), "{failure}");
 
     let coupler = Inertia { centre: [0.4, 0.3], extra_mass: 2.0, extra_inertia: 0.7, ..Inertia::default() };
-    let mut run = parallelogram(coupler, 0.7, 4.0, 0.0).run(Settings::default()).unwrap();
+    let mut run = parallelogram(coupler, 0.7, 4.0, 0.0).run(IntegrationSettings::default()).unwrap();
     run.advance(0.2).unwrap();
     let state = run.read(true).unwrap();
     // A massless rod between two joints: one force along it, which supports the weight of the second crank.
@@ -86,14 +88,14 @@ fn a_massless_coupler_needs_extra_mass_and_its_reactions_do_not_see_it() {
 #[test]
 fn no_link_needs_a_mass() {
     let extra = Inertia { extra_mass: 1.0, extra_inertia: 0.1, ..Inertia::default() };
-    let mut model = Model::new([0.0, -G]);
+    let mut model = SimbodyModel::new([0.0, -G]);
     let law = Some(Law { rate: 4.0 });
-    let first = model.add(Body { law, ..body(GROUND, pin([0.0, 0.0]), extra, 0.7) }).unwrap();
+    let first = model.add(SimbodyBody { law, ..body(GROUND, pin([0.0, 0.0]), extra, 0.7) }).unwrap();
     let coupler = model.add(body(first, pin([1.0, 0.0]), extra, -0.7)).unwrap();
-    let loaded = Body { resistance: 6.0, ..body(GROUND, pin([2.0, 0.0]), extra, 0.7) };
+    let loaded = SimbodyBody { resistance: 6.0, ..body(GROUND, pin([2.0, 0.0]), extra, 0.7) };
     let second = model.add(loaded).unwrap();
-    model.close(Closing { bodies: [coupler, second], places: [[2.0, 0.0], [1.0, 0.0]] }).unwrap();
-    let mut run = model.run(Settings::default()).unwrap();
+    model.close(LoopClosure { bodies: [coupler, second], places: [[2.0, 0.0], [1.0, 0.0]] }).unwrap();
+    let mut run = model.run(IntegrationSettings::default()).unwrap();
     run.advance(0.1).unwrap();
     let state = run.read(true).unwrap();
     // The coupler turns the loaded crank against 6 N m with its axial force, and the drive bears the same moment.
@@ -106,11 +108,11 @@ fn a_slider_carries_force_and_moment_across_its_axis() {
     // A block of 2 kg on a guide inclined by 0.3, pushed at 1.5 m/s, with its mass centre away from the joint's point.
     let (angle, axis) = (0.3_f64, [0.3_f64.cos(), 0.3_f64.sin()]);
     let joint =
-        Joint::Slider { on_parent: [0.1, 0.2], on_child: [0.0, 0.1], axis_parent: axis, axis_child: [1.0, 0.0] };
+        SimbodyJoint::Slider { on_parent: [0.1, 0.2], on_child: [0.0, 0.1], axis_parent: axis, axis_child: [1.0, 0.0] };
     let inertia = Inertia { mass: 2.0, centre: [0.5, 0.1], inertia: 0.1, ..Inertia::default() };
-    let mut model = Model::new([0.0, -G]);
-    model.add(Body { law: Some(Law { rate: 1.5 }), ..body(GROUND, joint, inertia, 0.25) }).unwrap();
-    let mut run = model.run(Settings::default()).unwrap();
+    let mut model = SimbodyModel::new([0.0, -G]);
+    model.add(SimbodyBody { law: Some(Law { rate: 1.5 }), ..body(GROUND, joint, inertia, 0.25) }).unwrap();
+    let mut run = model.run(IntegrationSettings::default()).unwrap();
     run.advance(2.0).unwrap();
     let block = run.read(true).unwrap().bodies[0];
     assert_eq!(block.coordinate, 3.25);
@@ -124,10 +126,10 @@ fn a_slider_carries_force_and_moment_across_its_axis() {
 #[test]
 fn resistance_acts_against_the_rotation() {
     for rate in [3.0, -3.0, 0.0] {
-        let mut model = Model::new([0.0, 0.0]);
+        let mut model = SimbodyModel::new([0.0, 0.0]);
         let law = Some(Law { rate });
-        model.add(Body { law, resistance: 5.0, ..body(GROUND, pin([0.0, 0.0]), rod(1.0, 1.0), 0.0) }).unwrap();
-        let mut run = model.run(Settings::default()).unwrap();
+        model.add(SimbodyBody { law, resistance: 5.0, ..body(GROUND, pin([0.0, 0.0]), rod(1.0, 1.0), 0.0) }).unwrap();
+        let mut run = model.run(IntegrationSettings::default()).unwrap();
         run.advance(0.1).unwrap();
         let wanted = if rate == 0.0 { 0.0 } else { 5.0 * f64::signum(rate) };
         assert!((run.read(true).unwrap().bodies[0].drive - wanted).abs() < 1e-12);
@@ -136,12 +138,12 @@ fn resistance_acts_against_the_rotation() {
 
 #[test]
 fn a_linkage_that_cannot_be_closed_is_refused() {
-    let mut model = Model::new([0.0, -G]);
+    let mut model = SimbodyModel::new([0.0, -G]);
     let law = Some(Law { rate: 1.0 });
-    let first = model.add(Body { law, ..body(GROUND, pin([0.0, 0.0]), rod(1.0, 1.0), 0.0) }).unwrap();
+    let first = model.add(SimbodyBody { law, ..body(GROUND, pin([0.0, 0.0]), rod(1.0, 1.0), 0.0) }).unwrap();
     let second = model.add(body(GROUND, pin([5.0, 0.0]), rod(1.0, 1.0), 1.0)).unwrap();
-    model.close(Closing { bodies: [first, second], places: [[1.0, 0.0], [1.0, 0.0]] }).unwrap();
-    let failure = model.run(Settings::default()).unwrap_err();
+    model.close(LoopClosure { bodies: [first, second], places: [[1.0, 0.0], [1.0, 0.0]] }).unwrap();
+    let failure = model.run(IntegrationSettings::default()).unwrap_err();
     assert!(!failure.message.is_empty(), "{failure}");
 }
 
@@ -155,13 +157,13 @@ fn a_dead_point_ends_the_run_where_it_is() {
     let base = (-crank_pin[1]).atan2(3.0 - crank_pin[0]);
     let coupler = base + ((1.5_f64.powi(2) + reach * reach - 1.0) / (3.0 * reach)).acos();
     let end = [crank_pin[0] + 1.5 * coupler.cos(), crank_pin[1] + 1.5 * coupler.sin()];
-    let mut model = Model::new([0.0, -G]);
+    let mut model = SimbodyModel::new([0.0, -G]);
     let law = Some(Law { rate: 1.0 });
-    let first = model.add(Body { law, ..body(GROUND, pin([0.0, 0.0]), rod(1.0, 1.0), start) }).unwrap();
+    let first = model.add(SimbodyBody { law, ..body(GROUND, pin([0.0, 0.0]), rod(1.0, 1.0), start) }).unwrap();
     let second = model.add(body(first, pin([1.0, 0.0]), rod(1.5, 1.5), coupler - start)).unwrap();
     let rocker = model.add(body(GROUND, pin([3.0, 0.0]), rod(1.0, 1.0), end[1].atan2(end[0] - 3.0))).unwrap();
-    model.close(Closing { bodies: [second, rocker], places: [[1.5, 0.0], [1.0, 0.0]] }).unwrap();
-    let mut run = model.run(Settings::default()).unwrap();
+    model.close(LoopClosure { bodies: [second, rocker], places: [[1.5, 0.0], [1.0, 0.0]] }).unwrap();
+    let mut run = model.run(IntegrationSettings::default()).unwrap();
     let failure = run.advance(2.0).unwrap_err();
     let dead = 0.625_f64.acos() - start;
     assert!((failure.time.unwrap() - dead).abs() < 1e-4, "{failure} instead of {dead}");
@@ -171,26 +173,34 @@ fn a_dead_point_ends_the_run_where_it_is() {
 #[test]
 fn wrong_models_are_refused_before_simbody_sees_them() {
     let good = body(GROUND, pin([0.0, 0.0]), rod(1.0, 1.0), 0.0);
-    let refused = |body: Body| Model::new([0.0, 0.0]).add(body).unwrap_err().message;
-    assert!(refused(Body { parent: 1, ..good }).contains("has not been added"));
-    assert!(refused(Body { coordinate: f64::NAN, ..good }).contains("not finite"));
-    assert!(refused(Body { inertia: rod(-1.0, 1.0), ..good }).contains("negative"));
-    let joint =
-        Joint::Slider { on_parent: [0.0; 2], on_child: [0.0; 2], axis_parent: [2.0, 0.0], axis_child: [1.0, 0.0] };
-    assert!(refused(Body { joint, ..good }).contains("unit vector"));
+    let refused = |body: SimbodyBody| SimbodyModel::new([0.0, 0.0]).add(body).unwrap_err().message;
+    assert!(refused(SimbodyBody { parent: 1, ..good }).contains("has not been added"));
+    assert!(refused(SimbodyBody { coordinate: f64::NAN, ..good }).contains("not finite"));
+    assert!(refused(SimbodyBody { inertia: rod(-1.0, 1.0), ..good }).contains("negative"));
+    let joint = SimbodyJoint::Slider {
+        on_parent: [0.0; 2],
+        on_child: [0.0; 2],
+        axis_parent: [2.0, 0.0],
+        axis_child: [1.0, 0.0],
+    };
+    assert!(refused(SimbodyBody { joint, ..good }).contains("unit vector"));
 
-    let mut model = Model::new([0.0, 0.0]);
-    assert!(model.run(Settings::default()).unwrap_err().message.contains("no body"));
+    let mut model = SimbodyModel::new([0.0, 0.0]);
+    assert!(model.run(IntegrationSettings::default()).unwrap_err().message.contains("no body"));
     model.add(good).unwrap();
     for bodies in [[1, 1], [0, 2]] {
         assert!(
-            model.close(Closing { bodies, places: [[0.0; 2]; 2] }).unwrap_err().message.contains("cannot be joined")
+            model
+                .close(LoopClosure { bodies, places: [[0.0; 2]; 2] })
+                .unwrap_err()
+                .message
+                .contains("cannot be joined")
         );
     }
     for (accuracy, tolerance) in [(0.0, 1e-9), (f64::NAN, 1e-9), (1e-9, 0.0)] {
-        assert!(model.run(Settings { accuracy, tolerance, ..Settings::default() }).is_err());
+        assert!(model.run(IntegrationSettings { accuracy, tolerance, ..IntegrationSettings::default() }).is_err());
     }
-    let mut run = model.run(Settings::default()).unwrap();
+    let mut run = model.run(IntegrationSettings::default()).unwrap();
     run.advance(0.5).unwrap();
     assert!(run.advance(0.4).unwrap_err().message.contains("asked for after"));
     assert!(run.advance(f64::NAN).is_err());

@@ -1,5 +1,6 @@
 //! The server: it listens from the start of a proof on, and shows what there is so far.
 
+use crate::sentences;
 use std::net::{SocketAddr, TcpListener, TcpStream};
 use std::path::Path;
 use std::sync::{Arc, mpsc};
@@ -32,9 +33,9 @@ impl Live {
     /// If nobody can listen there.
     pub(super) fn at(address: &str) -> Result<Live> {
         let wrong = |found: &std::io::Error| {
-            Error::new(ErrorKind::Io, format!("viewers cannot be served at {address}: {found}"))
+            Error::new(ErrorKind::Io, sentences::viewers_cannot_be_served_at(&address, &found))
                 .key("--live")
-                .help("name another address as --live=HOST:PORT; port 0 takes a free one")
+                .help(sentences::NAME_ANOTHER_ADDRESS_AS_LIVE)
         };
         let listener = TcpListener::bind(address).map_err(|found| wrong(&found))?;
         let address = listener.local_addr().map_err(|found| wrong(&found))?;
@@ -80,16 +81,10 @@ impl Live {
         let address = self.address();
         let pace = self.stage.shown().reel.map_or(String::new(), |reel| format!(", {}", pace_told(&reel)));
         let layout = match layout {
-            Some(layout) => format!("then Layouts, Import from file: {}", layout.display()),
-            None => "a layout is written beside a recording, so not with --no-record".into(),
+            Some(layout) => sentences::then_layouts_import_from_file(&layout.display()),
+            None => sentences::A_LAYOUT_IS_WRITTEN_BESIDE.into(),
         };
-        format!(
-            "\nlive       {address}{pace}\n           \
-             Lichtblick or Foxglove: Open connection, Foxglove WebSocket, this address;\n           \
-             Foxglove at once: https://app.foxglove.dev/?ds=foxglove-websocket&ds.url={address}\n           \
-             {layout}\n           \
-             Ctrl-C ends it\n"
-        )
+        sentences::live_lichtblick_or_foxglove_open(&address, &pace, &layout)
     }
 
     /// Serves until the user, or the system, ends it; `begin` is called when they can.
@@ -102,7 +97,7 @@ impl Live {
             // Whoever waits is told once; nobody is left to be told again.
             let _ = tell.send(());
         })
-        .map_err(|found| Error::new(ErrorKind::Io, format!("Ctrl-C cannot be waited for: {found}")))?;
+        .map_err(|found| Error::new(ErrorKind::Io, sentences::ctrl_cannot_be_waited_for(&found)))?;
         begin();
         // The handler has the other end for good.
         let _ = told.recv();

@@ -1,6 +1,7 @@
 //! One viewer: what it asks for, and where it is. Each has a clock of its own, so that one that pauses, seeks or is slow
 //! disturbs no other, and one that comes late misses nothing.
 
+use crate::sentences;
 use std::io::ErrorKind;
 use std::net::TcpStream;
 use std::time::{Duration, Instant};
@@ -229,7 +230,7 @@ fn agreed(
     let offered: Vec<&str> = asking.headers().get_all(HEADER).iter().filter_map(|own| own.to_str().ok()).collect();
     let Some(found) = Dialect::of(&offered.join(",")) else {
         let known = [Dialect::Sdk, Dialect::WebSocket].map(Dialect::name).join(" and ");
-        let mut refusal = ErrorResponse::new(Some(format!("linkproof speaks {known}\n")));
+        let mut refusal = ErrorResponse::new(Some(sentences::linkproof_speaks(&known)));
         *refusal.status_mut() = StatusCode::BAD_REQUEST;
         return Err(refusal);
     };

@@ -1,5 +1,6 @@
 //! What `linkproof run` shows and writes.
 
+use crate::sentences;
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -19,7 +20,7 @@ use crate::report::outcomes::Outcomes;
 use crate::report::{explain, json, recorded, text};
 use linkage::error::{Error, Result};
 use linkage::work::Work;
-use prover::proof::{EngineProof, Entry, Proof};
+use prover::proof::{EngineProof, LedgerEntry, Proof};
 use scenario::Scenario;
 
 /// What the command has shown and written so far. It takes the proofs in the order of the files.
@@ -180,10 +181,10 @@ impl<'a> Session<'a> {
 }
 
 /// What the command does about the recording.
-fn recording_told(args: &Args) -> Entry {
-    let why = if args.record.is_off() { "not asked for" } else { "written below" };
+fn recording_told(args: &Args) -> LedgerEntry {
+    let why = if args.record.is_off() { sentences::NOT_ASKED_FOR } else { "written below" };
     let work = (!args.record.is_off()).then_some(Work::NONE);
-    Entry { part: "recording".into(), why, work }
+    LedgerEntry { part: "recording".into(), why, work }
 }
 
 /// Writes the settings of the first engine to the scenario file, if the proof has found them.

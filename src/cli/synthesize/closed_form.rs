@@ -1,12 +1,13 @@
 //! `linkproof synthesize crank-rocker` and `slider-crank`.
 
+use crate::sentences;
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 
 use super::target::{scenario_target, write_scenario};
 use crate::cli::{number, output};
 use crate::report::closed_form::{self as report, Told};
-use design::synthesis::Sheet;
+use design::synthesis::DraftContents;
 use design::synthesis::crank_rocker::{self, CrankRocker};
 use design::synthesis::slider_crank::{Given, SliderCrank};
 use linkage::error::Result;
@@ -31,10 +32,10 @@ struct Target {
 }
 
 impl Target {
-    fn sheet(&self, name: &str, title: &str, comment: String) -> Sheet {
+    fn sheet(&self, name: &str, title: &str, comment: String) -> DraftContents {
         let stem = self.output.as_deref().and_then(Path::file_stem).map_or("-".into(), |stem| stem.to_string_lossy());
         let name = if stem == "-" { name.to_string() } else { stem.to_string() };
-        Sheet { name, title: title.into(), comment, speed: self.rpm * TAU / 60.0, bar: self.bar_kg_per_m }
+        DraftContents { name, title: title.into(), comment, speed: self.rpm * TAU / 60.0, bar: self.bar_kg_per_m }
     }
 
     /// Writes the scenario, if one is wanted. Then writes the other results, unless the scenario went to standard
@@ -54,7 +55,7 @@ impl Target {
 
 /// Two numbers separated by a comma.
 fn pair(text: &str) -> std::result::Result<[f64; 2], String> {
-    const EXPECTED: &str = "two numbers with a comma between them, such as 150,15";
+    const EXPECTED: &str = sentences::TWO_NUMBERS_WITH_A_COMMA;
     let numbers: Vec<f64> =
         text.split(',').map(|part| number::decimal(part, EXPECTED)).collect::<std::result::Result<_, _>>()?;
     <[f64; 2]>::try_from(numbers).map_err(|_| format!("expected {EXPECTED}"))
@@ -91,18 +92,16 @@ pub(super) fn crank_rocker(args: &CrankRockerArgs) -> Result<()> {
         swing: args.swing_deg.to_radians(),
     };
     let found = CrankRocker::of(wish)?;
-    let comment = format!(
-        "linkproof synthesize crank-rocker --crank-pivot-mm {},{} --pivot-mm {},{} --rocker-mm {} --extreme-deg {} --swing-deg {}",
-        args.crank_pivot_mm[0],
-        args.crank_pivot_mm[1],
-        args.pivot_mm[0],
-        args.pivot_mm[1],
-        args.rocker_mm,
-        args.extreme_deg,
-        args.swing_deg
+    let comment = sentences::linkproof_synthesize_crank_rocker_crank(
+        &args.crank_pivot_mm[0],
+        &args.crank_pivot_mm[1],
+        &args.pivot_mm[0],
+        &args.pivot_mm[1],
+        &args.rocker_mm,
+        &args.extreme_deg,
+        &args.swing_deg,
     );
-    let sheet =
-        args.target.sheet("crank_rocker_found", "Crank-rocker from two extreme positions of its rocker", comment);
+    let sheet = args.target.sheet("crank_rocker_found", sentences::CRANK_ROCKER_FROM_TWO_EXTREME, comment);
     args.target.deliver(&found.scenario(&sheet), &report::crank_rocker(&found, wish.rocker))
 }
 
@@ -132,10 +131,7 @@ pub(super) fn slider_crank(args: &SliderCrankArgs) -> Result<()> {
         (None, None) => unreachable!("the parser asks for one of the two"),
     };
     let found = SliderCrank::of(args.stroke_mm / 1e3, args.offset_mm / 1e3, given)?;
-    let comment = format!(
-        "linkproof synthesize slider-crank --stroke-mm {} --offset-mm {} {told}",
-        args.stroke_mm, args.offset_mm
-    );
-    let sheet = args.target.sheet("slider_crank_found", "Slider-crank from stroke and offset", comment);
+    let comment = sentences::linkproof_synthesize_slider_crank_stroke(&args.stroke_mm, &args.offset_mm, &told);
+    let sheet = args.target.sheet("slider_crank_found", sentences::SLIDER_CRANK_FROM_STROKE_AND_OFFSET, comment);
     args.target.deliver(&found.scenario(&sheet), &report::slider_crank(&found))
 }

@@ -1,5 +1,6 @@
 //! `linkproof synthesize search` and `check`.
 
+use crate::sentences;
 use std::path::PathBuf;
 
 use super::target::{scenario_target, write_scenario};
@@ -100,15 +101,14 @@ pub(super) fn search(args: &Args) -> Result<()> {
 /// How the scenario was found, and how good it is.
 fn comment(args: &Args, task: &Task, achieved: &Achieved) -> String {
     let effort = &task.effort;
-    let command = format!(
-        "linkproof synthesize search {} --seed {} --candidates {} --refined {} --evaluations {}",
-        args.file.display(),
-        effort.seed,
-        effort.candidates,
-        effort.refined,
-        effort.evaluations
+    let command = sentences::linkproof_synthesize_search_seed_candidates(
+        &args.file.display(),
+        &effort.seed,
+        &effort.candidates,
+        &effort.refined,
+        &effort.evaluations,
     );
-    format!("Found by: {command}\n{}", report::summary(task, achieved))
+    sentences::found_by(&command, &report::summary(task, achieved))
 }
 
 pub(super) fn check(args: &CheckArgs) -> Result<()> {
@@ -118,10 +118,8 @@ pub(super) fn check(args: &CheckArgs) -> Result<()> {
     let names =
         |scenario: &Scenario| scenario.case.mechanism.links().iter().map(|link| link.name.clone()).collect::<Vec<_>>();
     if names(&scenario) != names(&drawing) || scenario.case.structure != drawing.case.structure {
-        let message =
-            format!("{} has another structure than the drawing of {}", scenario.path.display(), args.file.display());
-        return Err(Error::new(ErrorKind::Input, message)
-            .help("check a scenario with the same links in the same order, such as one that `linkproof synthesize search` wrote"));
+        let message = sentences::has_another_structure_than_the_drawing(&scenario.path.display(), &args.file.display());
+        return Err(Error::new(ErrorKind::Input, message).help(sentences::CHECK_A_SCENARIO_WITH_THE_SAME));
     }
     let task = Task { case: scenario.case, ..task };
     let achieved = Achieved::of_either(&task)?;

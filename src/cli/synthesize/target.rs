@@ -1,5 +1,6 @@
 //! The file that a found scenario is written to.
 
+use crate::sentences;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -10,7 +11,7 @@ use linkage::error::Result;
 pub(super) fn scenario_target(text: &str) -> std::result::Result<PathBuf, String> {
     let path = PathBuf::from(text);
     if text != "-" && path.extension().is_none_or(|extension| extension != "toml") {
-        return Err("a scenario is written to a file that ends in .toml, or to standard output with `-`".into());
+        return Err(sentences::A_SCENARIO_IS_WRITTEN_TO_A_FILE.into());
     }
     output::writable(path)
 }
@@ -22,8 +23,8 @@ pub(super) fn write_scenario(text: &str, to: &Path, sources: &[&Path]) -> Result
         _ => false,
     };
     if let Some(source) = sources.iter().find(|source| same(source)) {
-        let message = format!("the scenario found would overwrite {}, which it comes from", source.display());
-        return output::refused("--output", message, "name another file");
+        let message = sentences::the_scenario_found_would_overwrite(&source.display());
+        return output::refused("--output", message, sentences::NAME_ANOTHER_FILE);
     }
     output::write(text, to)
 }

@@ -6,9 +6,9 @@ use super::markup::{doubles, singles};
 use super::thinned::{Errors, Thinned, is_wide};
 use crate::plain::Tell;
 use crate::report::pretty::list;
-use drawing::{Lettering, Shape, Sketch};
+use drawing::{Lettering, MarkShape, Sketch};
 use linkage::math::Vec2;
-use linkage::mechanism::Side;
+use linkage::mechanism::JointSide;
 use linkage::trajectory::{Channel, Trajectory};
 use prover::proof::{ChannelProof, EngineProof, Proof};
 
@@ -93,8 +93,8 @@ pub(super) fn motion(proof: &Proof, sketch: &Sketch, view: [f64; 4]) -> Value {
     });
     let stretched = list(&sketch.stretched, |own| {
         let lines = own.marks.iter().filter_map(|mark| match &mark.shape {
-            Shape::Line { points, .. } => Some(list(points, |at| pair(*at))),
-            Shape::Circle { .. } | Shape::Arc { .. } => None,
+            MarkShape::Line { points, .. } => Some(list(points, |at| pair(*at))),
+            MarkShape::Circle { .. } | MarkShape::Arc { .. } => None,
         });
         let (ends, lines) = (own.ends.map(side), lines.collect::<Value>());
         json!({ "role": own.role.name(), "ends": ends, "width": own.width / unit, "lines": lines })
@@ -119,6 +119,6 @@ pub(super) fn pair(at: Vec2) -> Value {
 }
 
 /// The number of a link, and a place in its frame (m).
-pub(super) fn side(side: Side) -> Value {
+pub(super) fn side(side: JointSide) -> Value {
     json!([side.link.index(), side.local.x, side.local.y])
 }

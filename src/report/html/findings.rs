@@ -3,6 +3,7 @@
 use super::markup::escaped;
 use crate::plain::judged::{Grade, grade, unproven};
 use crate::plain::{Tell, engines, reasons};
+use crate::sentences;
 use linkage::trajectory::Channel;
 use prover::compare::Verdict;
 use prover::proof::Proof;
@@ -35,7 +36,7 @@ pub(super) fn why(proof: &Proof, tell: Tell) -> String {
 pub(super) fn others(proof: &Proof, tell: Tell) -> String {
     let mut told = String::new();
     if proof.engines.len() > 1 {
-        say!(told, "Engines and reference against each other: {}\n", engines::disputes(proof));
+        say!(told, "{}", sentences::engines_and_reference_against_each(&engines::disputes(proof)));
     }
     // What does not decide the verdict may be open beside an agreement.
     if agrees(proof) {
@@ -44,7 +45,7 @@ pub(super) fn others(proof: &Proof, tell: Tell) -> String {
     let all = grouped(proof, tell);
     write(&all, if agrees(proof) { 0 } else { FIRST }..MOST, &mut told);
     if all.len() > MOST {
-        say!(told, "\nOf {} more, the channels and the table of checks below tell why.", all.len() - MOST);
+        say!(told, "{}", sentences::of_more_the_channels_and_the_table(&(all.len() - MOST)));
     }
     reasons::left_out(proof, None, &mut told);
     reasons::expected(proof, tell, &mut told);
@@ -71,7 +72,7 @@ fn write(all: &[Reason], which: std::ops::Range<usize>, told: &mut String) {
     for reason in all.iter().skip(which.start).take(which.len()) {
         let more = match reason.count {
             1 => String::new(),
-            count => format!(" (and {} more alike)", count - 1),
+            count => sentences::and_more_alike(&(count - 1)),
         };
         say!(told, "\n{}{more}", reason.told);
     }

@@ -1,5 +1,6 @@
 //! What acts on the mechanism besides the reactions, row by row: loads, springs and dampers, drives, weights.
 
+use crate::sentences;
 use serde_json::{Value, json};
 
 use super::data::{pair, side};
@@ -9,7 +10,7 @@ use crate::report::pretty::list;
 use drawing::{Sketch, acting, tensions, weights};
 use linkage::case::{Case, Seat};
 use linkage::drive::{Load, Senses};
-use linkage::mechanism::{GROUND, LinkId, Mechanism, Side};
+use linkage::mechanism::{GROUND, JointSide, LinkId, Mechanism};
 use linkage::trajectory::{Channel, Trajectory};
 
 /// Numbers in single precision that a row takes.
@@ -51,13 +52,13 @@ pub(super) fn of(case: &Case, sketch: &Sketch, placed: &Placed, rows: &[usize], 
         let is_its_moment = |channel: &Channel| seats.of(channel) == Some(Seat::Drive(number));
         // A scenario may want no moments.
         let torque = reference.channels().iter().position(is_its_moment)?;
-        let what = if drive.is_free() { "moment of the motor" } else { "balancing moment" };
-        let at = Side { link: drive.link, local: joint.on(drive.link).expect("a drive's joint is on its link") };
+        let what = if drive.is_free() { sentences::MOMENT_OF_THE_MOTOR } else { "balancing moment" };
+        let at = JointSide { link: drive.link, local: joint.on(drive.link).expect("a drive's joint is on its link") };
         let name = format!("{what} on {}", mechanism.links()[drive.link].name);
         Some(json!({ "name": name, "on": side(at), "torque": torque }))
     });
     let weights = list(weights(case), |own| {
-        let name = format!("weight of {}", mechanism.links()[own.at.link].name);
+        let name = sentences::weight_of_2(&mechanism.links()[own.at.link].name);
         json!({ "name": name, "on": side(own.at), "force": pair(own.force) })
     });
     json!({
@@ -73,7 +74,7 @@ fn name(mechanism: &Mechanism, load: &Load) -> String {
     let (points, links) = (load.points(), load.links());
     match (points.as_slice(), links.as_slice()) {
         ([at], _) => match point(mechanism, *at) {
-            Some(point) => format!("{sort} at {point} on {}", link(at.link)),
+            Some(point) => sentences::at_on(&sort, &point, &link(at.link)),
             None => format!("{sort} on {}", link(at.link)),
         },
         (&[start, end], _) => {
@@ -82,15 +83,15 @@ fn name(mechanism: &Mechanism, load: &Load) -> String {
                 (Some(point), on) => format!("{point} on {}", link(on)),
                 (None, on) => link(on).to_string(),
             });
-            format!("{sort} from {start} to {end}")
+            sentences::from_to(&sort, &start, &end)
         }
-        (_, &[first, second]) => format!("{sort} between {} and {}", link(first), link(second)),
+        (_, &[first, second]) => sentences::between_and(&sort, &link(first), &link(second)),
         (_, on) => format!("{sort} on {}", link(on[0])),
     }
 }
 
 /// The point or joint in this place of a link.
-fn point(mechanism: &Mechanism, at: Side) -> Option<&str> {
+fn point(mechanism: &Mechanism, at: JointSide) -> Option<&str> {
     let points = mechanism.links()[at.link].points.iter();
     let named = points.filter(|own| own.local == at.local).map(|own| own.name.as_str()).next();
     let joints = mechanism.joints().iter();

@@ -3,7 +3,7 @@
 use super::markup::escaped;
 use super::placed::Placed;
 use drawing::palette;
-use drawing::{Fill, Ink, Layer, Mark, Shape, Sketch};
+use drawing::{Fill, Ink, Layer, Mark, MarkShape, Sketch};
 use linkage::math::KeepNan;
 use linkage::mechanism::{GROUND, LinkId, LinkPose};
 
@@ -96,11 +96,11 @@ fn element(mark: &Mark, unit: f64) -> String {
     };
     let class = format!("class=\"{} {ink} {fill}\" stroke-width=\"{}\"", mark.role.name(), number(look.width));
     match &mark.shape {
-        Shape::Circle { centre, radius } => {
+        MarkShape::Circle { centre, radius } => {
             let [x, y, r, ring] = [centre.x, centre.y, *radius, RING * radius].map(|own| number(own / unit));
             format!("<circle {class} cx=\"{x}\" cy=\"{y}\" r=\"{r}\" data-ring=\"{ring}\"/>")
         }
-        Shape::Line { .. } | Shape::Arc { .. } => {
+        MarkShape::Line { .. } | MarkShape::Arc { .. } => {
             let points = mark.shape.points().into_iter().map(|at| [at.x / unit, at.y / unit]);
             format!("<path {class} d=\"{}\"/>", path(points, mark.shape.is_closed()))
         }
@@ -132,7 +132,7 @@ fn of_link(link: LinkId) -> String {
 
 /// Rules for the colours of all links and of what else is drawn: on light paper, or on dark.
 pub(super) fn colours(links: usize, dark: bool) -> String {
-    let rule = |name: &str, paint: palette::Paint| {
+    let rule = |name: &str, paint: palette::PaletteColour| {
         format!("{}:{}", property(name), if dark { paint.dark } else { paint.light })
     };
     let named =

@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use super::markup::column;
 use super::placed::Placed;
 use crate::report::pretty::list;
-use design::diagram::{Plan, Planner, Quantity};
+use design::diagram::{Planner, Quantity, VectorPlan};
 use linkage::case::Case;
 use linkage::solver::State;
 
@@ -33,8 +33,8 @@ pub(super) fn of(case: &Case, placed: &Placed, rows: &[usize]) -> Value {
 
 /// The plan of one quantity. Where a part vanishes, a plan has fewer vectors: every row tells its layout.
 fn course(quantity: Quantity, planner: &Planner, states: &[State]) -> Value {
-    let plans: Vec<Plan> = states.iter().map(|state| planner.plan(quantity, state)).collect();
-    let mut layouts: Vec<&Plan> = Vec::new();
+    let plans: Vec<VectorPlan> = states.iter().map(|state| planner.plan(quantity, state)).collect();
+    let mut layouts: Vec<&VectorPlan> = Vec::new();
     let mut which: Vec<usize> = Vec::new();
     for plan in &plans {
         let place = layouts.iter().position(|own| has_same_layout(own, plan)).unwrap_or(layouts.len());
@@ -54,14 +54,14 @@ fn course(quantity: Quantity, planner: &Planner, states: &[State]) -> Value {
     })
 }
 
-fn has_same_layout(one: &Plan, other: &Plan) -> bool {
+fn has_same_layout(one: &VectorPlan, other: &VectorPlan) -> bool {
     let [tips, others] = [one, other].map(|own| own.tips.iter().map(|tip| &tip.letter));
     let [vectors, other_vectors] =
         [one, other].map(|own| own.vectors.iter().map(|own| (&own.name, &own.from, &own.to)));
     tips.eq(others) && vectors.eq(other_vectors)
 }
 
-fn layout(plan: &Plan) -> Value {
+fn layout(plan: &VectorPlan) -> Value {
     let tips = list(&plan.tips, |tip| json!([tip.letter, tip.kind.word()]));
     let place = |letter: &str| plan.tips.iter().position(|tip| tip.letter == letter);
     let vectors = list(&plan.vectors, |vector| {

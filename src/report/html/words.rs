@@ -1,10 +1,11 @@
 //! What a page says in words: verdict, structure, settings.
 
+use crate::sentences;
 use std::collections::BTreeMap;
 
 use super::markup::escaped;
 use crate::plain::brief;
-use crate::plain::judged::{self, Grade, Judged, Sort, grade};
+use crate::plain::judged::{self, Grade, JudgedNumber, Sort, grade};
 use crate::report::text;
 use linkage::mechanism::{JointId, LinkId, Mechanism};
 use prover::numbers::{error_in, fixed, significant};
@@ -35,7 +36,7 @@ pub(super) fn sentence(proof: &Proof) -> String {
 
 /// Checks, and forces as engines themselves exert them, as a table; what uses most of its bound first.
 pub(super) fn checks(proof: &Proof) -> String {
-    let share = |own: &Judged| if own.bound > 0.0 { own.value / own.bound } else { f64::from(own.value > 0.0) };
+    let share = |own: &JudgedNumber| if own.bound > 0.0 { own.value / own.bound } else { f64::from(own.value > 0.0) };
     let mut all = judged::of(proof);
     all.retain(|own| own.sort != Sort::Channel);
     // Of those that use as much, checks stand first.
@@ -50,7 +51,7 @@ pub(super) fn checks(proof: &Proof) -> String {
         let verdict = format!("<td class=\"{word}\">{word}</td>");
         row(&[escaped(&name), value, bound, escaped(&own.basis)], &verdict)
     });
-    table("Checks", &["check", "value", "bound", "basis of the bound", "verdict"], rows.collect())
+    table("Checks", &["check", "value", "bound", sentences::BASIS_OF_THE_BOUND, "verdict"], rows.collect())
 }
 
 /// Mobility, driving links and groups, links and joints.
@@ -68,7 +69,7 @@ pub(super) fn structure(proof: &Proof) -> String {
             |all: &[JointId]| all.iter().map(|&joint| joint_name(mechanism, joint)).collect::<Vec<_>>().join(", ");
         let [inner, outer] = [&group.inner, &group.outer].map(|all| joints(all));
         let (links, class, order, pairs) = (group.names(mechanism), group.class, group.order(), group.pairs());
-        let head = escaped(&format!("{links}: class {class}, order {order}, {pairs}, mode {}", mode.name()));
+        let head = escaped(&sentences::class_order_mode(&links, &class, &order, &pairs, &mode.name()));
         say!(out, "<li>{head}; inner joints {inner}; outer joints {outer}</li>");
     }
     out.push_str("</ol>\n");
@@ -96,7 +97,7 @@ fn links(mechanism: &Mechanism) -> String {
             "",
         )
     });
-    table("Links", &["no.", "link", "points (mm, its frame)", "mass kg", "inertia kg m²"], rows.collect())
+    table("Links", &["no.", "link", sentences::POINTS_MM_ITS_FRAME, "mass kg", sentences::INERTIA_KG], rows.collect())
 }
 
 fn joints(mechanism: &Mechanism) -> String {
@@ -133,7 +134,7 @@ pub(super) fn settings(told: &BTreeMap<String, String>) -> String {
         format!("<tr><th scope=\"row\">{}</th><td>{}</td></tr>\n", escaped(&key.replace('_', " ")), escaped(value))
     };
     let rows: String = told.iter().map(row).collect();
-    scrolling("Settings and versions", &format!("<tbody>\n{rows}"))
+    scrolling(sentences::SETTINGS_AND_VERSIONS, &format!("<tbody>\n{rows}"))
 }
 
 /// The scenario as it was given.

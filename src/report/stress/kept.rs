@@ -4,7 +4,7 @@
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use lab::stress::{Family, Outcome, fnv};
+use lab::stress::{StressFamily, StressOutcome, fnv};
 
 const SCHEMA: u32 = 1;
 
@@ -27,13 +27,13 @@ struct Sealed<O> {
 }
 
 /// FNV-1a of what a point says, its digest left out.
-fn digest(outcome: &Outcome) -> String {
+fn digest(outcome: &StressOutcome) -> String {
     let bare = Sealed { outcome, digest: String::new() };
     fnv(&serde_json::to_string(&bare).expect("texts and numbers can be written"))
 }
 
 /// The results of a family, in the order given.
-pub(crate) fn json<'a>(family: &Family, seed: u64, outcomes: impl Iterator<Item = &'a Outcome>) -> String {
+pub(crate) fn json<'a>(family: &StressFamily, seed: u64, outcomes: impl Iterator<Item = &'a StressOutcome>) -> String {
     let document = Document {
         schema: SCHEMA,
         family: family.name.into(),
@@ -47,14 +47,14 @@ pub(crate) fn json<'a>(family: &Family, seed: u64, outcomes: impl Iterator<Item 
 
 /// The results that a text holds. A text of another schema, or none of ours, holds none: everything is made anew. So is
 /// a point that was changed since it was written, or that no point could be.
-pub(crate) fn outcomes(text: &str) -> Vec<Outcome> {
+pub(crate) fn outcomes(text: &str) -> Vec<StressOutcome> {
     let document: Option<Document<Value>> = serde_json::from_str(text).ok();
     let points = document.filter(|own| own.schema == SCHEMA).map_or_else(Vec::new, |own| own.points);
-    let sealed = points.into_iter().filter_map(|point| serde_json::from_value::<Sealed<Outcome>>(point).ok());
+    let sealed = points.into_iter().filter_map(|point| serde_json::from_value::<Sealed<StressOutcome>>(point).ok());
     sealed.filter(|own| own.digest == digest(&own.outcome)).map(|own| own.outcome).collect()
 }
 
 /// Whether a file holds results of this family.
-pub(crate) fn is_kept(bytes: &[u8], family: &Family) -> bool {
+pub(crate) fn is_kept(bytes: &[u8], family: &StressFamily) -> bool {
     serde_json::from_slice::<Document<Value>>(bytes).is_ok_and(|own| own.family == family.name)
 }

@@ -5,10 +5,11 @@
 use super::super::chart::{Chart, DASHED, Filling, colour, decades, mark};
 use super::summary::names;
 use crate::plain::cells::distinct;
+use crate::sentences;
 use drawing::paper::document::document;
-use drawing::paper::figure::{Figure, Style, solid, width, words};
+use drawing::paper::figure::{DrawnFigure, Style, solid, width, words};
 use drawing::paper::style::{BLACK, GREY};
-use lab::stress::{End, Family, Group, Outcome};
+use lab::stress::{PointEnd, QuantityGroup, StressFamily, StressOutcome};
 use linkage::math::{KeepNan, Vec2};
 
 /// Size of a panel, and height of the head with the legend (mm).
@@ -25,29 +26,29 @@ const ASIDE: f64 = 0.8;
 const LETTER: f64 = 3.4;
 
 /// The map. Panels are positions, rates and forces.
-pub(crate) fn map(family: &Family, outcomes: &[&Outcome]) -> String {
+pub(crate) fn map(family: &StressFamily, outcomes: &[&StressOutcome]) -> String {
     let names = names(outcomes);
     let title = format!("{}: {}", family.name, family.title);
     let mut sheet = legend(&title, &names);
-    for (row, group) in Group::ALL.into_iter().enumerate() {
+    for (row, group) in QuantityGroup::ALL.into_iter().enumerate() {
         sheet.add(&panel(family, outcomes, &names, group), Vec2::new(0.0, -HEAD - row as f64 * PANEL[1]));
     }
-    document(&sheet, [PANEL[0], HEAD + PANEL[1] * Group::ALL.len() as f64], &title)
+    document(&sheet, [PANEL[0], HEAD + PANEL[1] * QuantityGroup::ALL.len() as f64], &title)
 }
 
-fn filling(verdict: End) -> Filling {
+fn filling(verdict: PointEnd) -> Filling {
     match verdict {
-        End::Agree => Filling::Full,
-        End::Inconclusive => Filling::Hollow,
-        End::Disagree => Filling::Crossed,
-        End::Fails => Filling::Cross,
+        PointEnd::Agree => Filling::Full,
+        PointEnd::Inconclusive => Filling::Hollow,
+        PointEnd::Disagree => Filling::Crossed,
+        PointEnd::Fails => Filling::Cross,
     }
 }
 
-fn legend(title: &str, names: &[&str]) -> Figure {
-    let mut figure = Figure::default();
+fn legend(title: &str, names: &[&str]) -> DrawnFigure {
+    let mut figure = DrawnFigure::default();
     figure.text(Vec2::new(4.0, -6.0), title, words(4.2));
-    let write = |figure: &mut Figure, x: &mut f64, y: f64, text: &str| {
+    let write = |figure: &mut DrawnFigure, x: &mut f64, y: f64, text: &str| {
         figure.text(Vec2::new(*x, y - 1.2), text, words(LETTER));
         *x += width(text, LETTER) + 9.0;
     };
@@ -58,7 +59,7 @@ fn legend(title: &str, names: &[&str]) -> Figure {
         write(&mut figure, &mut x, -13.0, name);
     }
     let mut x = 6.0;
-    for (verdict, text) in End::ALL.into_iter().zip(["agrees", "inconclusive", "disagrees", "fails"]) {
+    for (verdict, text) in PointEnd::ALL.into_iter().zip(["agrees", "inconclusive", "disagrees", "fails"]) {
         mark(&mut figure, Vec2::new(x, -19.5), MARK, 0, filling(verdict));
         x += 3.0;
         write(&mut figure, &mut x, -19.5, text);
@@ -71,7 +72,7 @@ fn legend(title: &str, names: &[&str]) -> Figure {
     figure
 }
 
-fn panel(family: &Family, outcomes: &[&Outcome], names: &[&str], group: Group) -> Figure {
+fn panel(family: &StressFamily, outcomes: &[&StressOutcome], names: &[&str], group: QuantityGroup) -> DrawnFigure {
     let dials = || outcomes.iter().map(|own| own.dial);
     let (low, high) = (dials().fold(f64::INFINITY, f64::smaller), dials().fold(0.0, f64::larger));
     let wide = if high > low { (high / low).powf(0.04) } else { 2.0 };
@@ -79,7 +80,7 @@ fn panel(family: &Family, outcomes: &[&Outcome], names: &[&str], group: Group) -
     let mut chart = Chart::new(PANEL, [along, [ERRORS[0], FAILED[2]]]);
     // Where the dial spans less than a decade, its own values stand below the axis.
     let numbers = if along[1] / along[0] < 10.0 { distinct(dials()) } else { decades(along, 13) };
-    chart.axes([&numbers, &decades(ERRORS, 7)], &format!("{}: error over the scale", group.name()), family.dial);
+    chart.axes([&numbers, &decades(ERRORS, 7)], &sentences::error_over_the_scale(&group.name()), family.dial);
     chart.level(FAILED[0], solid(GREY, 0.3));
     let clipped = |error: f64| if error.is_nan() { ERRORS[1] } else { error.clamp(3.0 * ERRORS[0], ERRORS[1]) };
     let mut is_empty = true;
@@ -92,7 +93,7 @@ fn panel(family: &Family, outcomes: &[&Outcome], names: &[&str], group: Group) -
             // Several samples stand side by side.
             let dial = own.dial * (1.0 + 0.004 * own.sample as f64);
             let Some(reached) = party.reached.iter().find(|own| own.group == group) else {
-                if party.verdict == End::Fails {
+                if party.verdict == PointEnd::Fails {
                     marks.push((chart.at([dial, FAILED[1]]) + Vec2::new(ASIDE * number as f64, 0.0), Filling::Cross));
                 }
                 lines.push(Default::default());
@@ -115,7 +116,7 @@ fn panel(family: &Family, outcomes: &[&Outcome], names: &[&str], group: Group) -
         }
     }
     if is_empty {
-        chart.empty("no solver and no engine has numbers here");
+        chart.empty(sentences::NO_SOLVER_AND_NO_ENGINE_HAS_NUMBERS);
     }
     chart.figure
 }
@@ -130,7 +131,7 @@ mod tests {
     fn regress_a_map_without_numbers_says_so() {
         let family = named("step").unwrap();
         let refused = String::from("no mechanism");
-        let outcome = Outcome { dial: 1.0, sample: 0, key: String::new(), refused, parties: Vec::new() };
-        assert_eq!(map(family, &[&outcome]).matches("nothing to draw").count(), Group::ALL.len());
+        let outcome = StressOutcome { dial: 1.0, sample: 0, key: String::new(), refused, parties: Vec::new() };
+        assert_eq!(map(family, &[&outcome]).matches("nothing to draw").count(), QuantityGroup::ALL.len());
     }
 }

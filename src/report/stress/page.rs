@@ -4,10 +4,10 @@ use super::super::chart::label;
 use super::super::html::filled;
 use super::summary::{Tally, cells, names};
 use crate::plain::cells::marked;
-use lab::stress::{Family, Outcome};
+use lab::stress::{StressFamily, StressOutcome};
 
 /// The page as Markdown. `command` is what makes it, `maps` the directory of the maps as the page names it.
-pub(crate) fn page(families: &[(&Family, Vec<&Outcome>)], command: &str, maps: &str) -> String {
+pub(crate) fn page(families: &[(&StressFamily, Vec<&StressOutcome>)], command: &str, maps: &str) -> String {
     let tally = Tally::of(families.iter().flat_map(|(_, all)| all.iter().copied()));
     let mut text = filled(include_str!("page.md"), &[("command", command), ("verdict", &tally.verdict())]);
     for (family, outcomes) in families {

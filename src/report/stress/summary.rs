@@ -1,12 +1,13 @@
 //! Stability as text, verdict first: where every solver and engine holds to, and what does not.
 
+use crate::sentences;
 use std::collections::BTreeMap;
 
 use linkage::math::KeepNan;
 
 use super::super::chart::label as dial;
 use crate::plain::cells::{distinct, table};
-use lab::stress::{End, Family, Group, Outcome};
+use lab::stress::{PointEnd, QuantityGroup, StressFamily, StressOutcome};
 
 /// Counts over all points.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -17,15 +18,15 @@ pub(crate) struct Tally {
     pub(crate) refused: usize,
     /// Points at which something panicked.
     pub(crate) panics: usize,
-    /// Results of solvers and engines by verdict, in the order of [`End::ALL`].
-    pub(crate) verdicts: [usize; End::ALL.len()],
+    /// Results of solvers and engines by verdict, in the order of [`PointEnd::ALL`].
+    pub(crate) verdicts: [usize; PointEnd::ALL.len()],
     /// Channels beyond their bound that no verdict tells of.
     pub(crate) silent: usize,
 }
 
 impl Tally {
     /// Counts some points.
-    pub(crate) fn of<'a>(outcomes: impl Iterator<Item = &'a Outcome>) -> Self {
+    pub(crate) fn of<'a>(outcomes: impl Iterator<Item = &'a StressOutcome>) -> Self {
         let mut tally = Tally::default();
         for own in outcomes {
             tally.points += 1;
@@ -43,25 +44,29 @@ impl Tally {
     pub(crate) fn verdict(&self) -> String {
         let [agree, open, against, fails] = self.verdicts;
         let silent = match self.silent {
-            0 => "no silent wrong number".to_string(),
+            0 => sentences::NO_SILENT_WRONG_NUMBER.to_string(),
             count => format!("{count} SILENT WRONG NUMBERS"),
         };
         let panics = match self.panics {
             0 => "no panic".to_string(),
             count => format!("{count} PANICS"),
         };
-        format!(
-            "{} points: {silent}, {panics}; of {} results {agree} agree, {open} are inconclusive, {against} disagree, \
-             {fails} fail with a reason; {} points are no mechanism, with a reason",
-            self.points,
-            self.verdicts.iter().sum::<usize>(),
-            self.refused
+        sentences::points_of_results_agree_are_inconclusive(
+            &self.points,
+            &silent,
+            &panics,
+            &(self.verdicts.iter().sum::<usize>()),
+            &agree,
+            &open,
+            &against,
+            &fails,
+            &self.refused,
         )
     }
 }
 
 /// The results of families, as text. `hint` says how a single one is looked at.
-pub(crate) fn text(families: &[(&Family, Vec<&Outcome>)]) -> String {
+pub(crate) fn text(families: &[(&StressFamily, Vec<&StressOutcome>)]) -> String {
     let mut text = String::new();
     let tally = Tally::of(families.iter().flat_map(|(_, all)| all.iter().copied()));
     say!(text, "{}.\n", tally.verdict());
@@ -72,7 +77,7 @@ pub(crate) fn text(families: &[(&Family, Vec<&Outcome>)]) -> String {
 }
 
 /// One family: a table of its parties, and the reasons of what does not agree.
-pub(super) fn body(outcomes: &[&Outcome]) -> String {
+pub(super) fn body(outcomes: &[&StressOutcome]) -> String {
     let mut found =
         table("| agrees at | not | largest error: positions | rates | forces | over bound> | widest bound>");
     let mut reasons = String::new();
@@ -84,21 +89,21 @@ pub(super) fn body(outcomes: &[&Outcome]) -> String {
         }
     }
     for (at, why) in refused(outcomes) {
-        say!(reasons, "  no mechanism at {at}: {why}");
+        say!(reasons, "{}", sentences::no_mechanism_at(&at, &why));
     }
     format!("{found}\n{reasons}")
 }
 
 /// Names of all parties, in the order in which they come.
-pub(super) fn names<'a>(outcomes: &[&'a Outcome]) -> Vec<&'a str> {
+pub(super) fn names<'a>(outcomes: &[&'a StressOutcome]) -> Vec<&'a str> {
     distinct(outcomes.iter().flat_map(|own| &own.parties).map(|party| party.name.as_str()))
 }
 
 /// Where a party agrees, where not, its largest errors where it agrees, and there the largest share of a bound and the
 /// widest bound of a worst channel.
-pub(super) fn cells(outcomes: &[&Outcome], name: &str) -> [String; 7] {
-    let mut by_dial: Vec<(f64, End)> = Vec::new();
-    let mut largest: BTreeMap<Group, f64> = BTreeMap::new();
+pub(super) fn cells(outcomes: &[&StressOutcome], name: &str) -> [String; 7] {
+    let mut by_dial: Vec<(f64, PointEnd)> = Vec::new();
+    let mut largest: BTreeMap<QuantityGroup, f64> = BTreeMap::new();
     let (mut used, mut widest): (f64, f64) = (0.0, 0.0);
     for own in outcomes {
         let Some(party) = own.parties.iter().find(|party| party.name == name) else { continue };
@@ -106,7 +111,7 @@ pub(super) fn cells(outcomes: &[&Outcome], name: &str) -> [String; 7] {
             Some((_, worst)) => *worst = party.verdict.max(*worst),
             None => by_dial.push((own.dial, party.verdict)),
         }
-        if party.verdict == End::Agree {
+        if party.verdict == PointEnd::Agree {
             for own in &party.reached {
                 let most = largest.entry(own.group).or_insert(0.0);
                 *most = most.larger(own.error);
@@ -115,22 +120,22 @@ pub(super) fn cells(outcomes: &[&Outcome], name: &str) -> [String; 7] {
             }
         }
     }
-    let stretches = |wanted: End| stretches(&by_dial, wanted);
-    let others = End::ALL[1..].iter().map(|&end| (end.word(), stretches(end))).filter(|(_, at)| !at.is_empty());
+    let stretches = |wanted: PointEnd| stretches(&by_dial, wanted);
+    let others = PointEnd::ALL[1..].iter().map(|&end| (end.word(), stretches(end))).filter(|(_, at)| !at.is_empty());
     let others: Vec<String> = others.map(|(word, at)| format!("{word} {at}")).collect();
-    let error = |group: Group| largest.get(&group).map_or_else(String::new, |error| format!("{error:.1e}"));
-    let [positions, rates, forces] = Group::ALL.map(error);
+    let error = |group: QuantityGroup| largest.get(&group).map_or_else(String::new, |error| format!("{error:.1e}"));
+    let [positions, rates, forces] = QuantityGroup::ALL.map(error);
     let [used, widest] = [used, widest].map(|value| match largest.is_empty() {
         true => String::new(),
         false => format!("{value:.1e}"),
     });
-    [stretches(End::Agree), others.join("; "), positions, rates, forces, used, widest]
+    [stretches(PointEnd::Agree), others.join("; "), positions, rates, forces, used, widest]
 }
 
 /// Neighbouring values of the dial with one verdict, as `1 .. 100`.
-fn stretches(by_dial: &[(f64, End)], wanted: End) -> String {
+fn stretches(by_dial: &[(f64, PointEnd)], wanted: PointEnd) -> String {
     let same = by_dial.chunk_by(|one, next| one.1 == next.1).filter(|own| own[0].1 == wanted);
-    let one = |own: &[(f64, End)]| match own {
+    let one = |own: &[(f64, PointEnd)]| match own {
         [(only, _)] => dial(*only),
         [(from, _), .., (to, _)] => format!("{} .. {}", dial(*from), dial(*to)),
         [] => String::new(),
@@ -139,12 +144,12 @@ fn stretches(by_dial: &[(f64, End)], wanted: End) -> String {
 }
 
 /// Where a party does not agree, with the reason at the first of these points, by verdict.
-fn told(outcomes: &[&Outcome], name: &str) -> Vec<(&'static str, String, String)> {
+fn told(outcomes: &[&StressOutcome], name: &str) -> Vec<(&'static str, String, String)> {
     let mut found: Vec<(&'static str, String, String)> = Vec::new();
     for own in outcomes {
         let Some(party) = own.parties.iter().find(|party| party.name == name) else { continue };
         let word = party.verdict.word();
-        if party.verdict != End::Agree && !found.iter().any(|(known, ..)| *known == word) {
+        if party.verdict != PointEnd::Agree && !found.iter().any(|(known, ..)| *known == word) {
             found.push((word, dial(own.dial), party.why.clone()));
         }
     }
@@ -152,7 +157,7 @@ fn told(outcomes: &[&Outcome], name: &str) -> Vec<(&'static str, String, String)
 }
 
 /// The points that are no case, by reason.
-fn refused<'a>(outcomes: &[&'a Outcome]) -> Vec<(String, &'a str)> {
+fn refused<'a>(outcomes: &[&'a StressOutcome]) -> Vec<(String, &'a str)> {
     let own = outcomes.iter().filter(|own| !own.refused.is_empty());
     own.map(|own| (dial(own.dial), own.refused.as_str())).collect()
 }

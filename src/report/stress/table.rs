@@ -1,7 +1,7 @@
 //! A family as CSV: one row for every group of channels of every party at every point.
 
 use super::super::table_csv::csv;
-use lab::stress::{Family, Outcome};
+use lab::stress::{StressFamily, StressOutcome};
 use linkage::error::Result;
 
 const HEADER: [&str; 21] = [
@@ -32,7 +32,7 @@ const HEADER: [&str; 21] = [
 ///
 /// # Errors
 /// [`ErrorKind::Io`](linkage::ErrorKind::Io) if the table cannot be written.
-pub(crate) fn rows<'a>(family: &Family, outcomes: impl Iterator<Item = &'a Outcome>) -> Result<String> {
+pub(crate) fn rows<'a>(family: &StressFamily, outcomes: impl Iterator<Item = &'a StressOutcome>) -> Result<String> {
     let mut rows = vec![HEADER.map(String::from).to_vec()];
     let some = |value: Option<f64>| value.map_or_else(String::new, |value| format!("{value:e}"));
     let count = |value: Option<usize>| value.map_or_else(String::new, |value| value.to_string());

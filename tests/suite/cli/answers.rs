@@ -5,19 +5,19 @@ use std::f64::consts::{PI, TAU};
 use std::fs;
 use std::path::Path;
 
-use analytic::range::{At, Extent, Range};
-use analytic::reduced::Model;
+use analytic::range::{Extent, Range, ValueAtCrank};
+use analytic::reduced::ReducedModel;
 use analytic::reduced::means::means_over_turn;
 use analytic::{AssurSolver, NewtonSolver};
 use design::bearings::{Peak, over_range};
 use design::clearance::{Meeting, course, find};
-use design::motor::Choice;
+use design::motor::MotorChoice;
 use linkage::case::{Case, Grid};
 use linkage::drive::{DriveMotion, Load};
 use linkage::math::{KeepNan, Vec2};
 use linkage::solver::Solver;
 use scenario::Scenario;
-use scenario::clearance::Question;
+use scenario::clearance::ClearanceQuestion;
 use serde_json::{Value, json};
 
 use super::tools::{Place, Table};
@@ -121,7 +121,7 @@ fn a_clearance_is_told_in_json_csv_and_text() {
     }
 }
 
-fn in_text(place: &Place, name: &str, asked: &Question, found: &design::clearance::Clearance) {
+fn in_text(place: &Place, name: &str, asked: &ClearanceQuestion, found: &design::clearance::ClearanceResult) {
     let text = place.run(&format!("clearance scenarios/{name}.toml")).stdout;
     let rows: Vec<Vec<&str>> = text.lines().map(|line| line.split_whitespace().collect()).collect();
     for pair in &found.pairs {
@@ -144,7 +144,7 @@ fn in_text(place: &Place, name: &str, asked: &Question, found: &design::clearanc
     }
 }
 
-fn in_table(place: &Place, name: &str, case: &Case, asked: &Question) {
+fn in_table(place: &Place, name: &str, case: &Case, asked: &ClearanceQuestion) {
     let table = Table::of(&place.run(&format!("clearance scenarios/{name}.toml --csv -")).stdout);
     let right = course(case, asked).unwrap();
     assert_eq!((table.column("t_s"), table.column("crank_rad")), (case.grid.times.clone(), right.cranks.clone()));
@@ -191,7 +191,7 @@ fn a_range_is_told_in_json() {
             assert_eq!(row["extremes"], json!(extremes), "{name}");
         }
         for (index, (row, group)) in told["groups"].as_array().unwrap().iter().zip(&range.groups).enumerate() {
-            let At { crank, value } = group.determinant;
+            let ValueAtCrank { crank, value } = group.determinant;
             assert_eq!(row["least_determinant"], json!({"crank_rad": crank, "determinant": value}));
             // The determinant of a dyad is the sine of its transmission angle.
             if let Some(angle) = row["least_transmission_angle_rad"].as_f64() {
@@ -200,7 +200,7 @@ fn a_range_is_told_in_json() {
             let worst = group.condition.as_ref().map(|own| json!({"crank_rad": own.crank, "condition": own.value}));
             assert_eq!(row["largest_condition"], json!(worst));
             let sampled = &told["samples"]["groups"][index];
-            let of = |of: fn(&analytic::range::Measure) -> f64| -> Value {
+            let of = |of: fn(&analytic::range::GroupCondition) -> f64| -> Value {
                 json!(range.samples.iter().map(|own| of(&own.groups[index])).collect::<Vec<f64>>())
             };
             assert_eq!(sampled["determinant"], of(|own| own.determinant), "{name}");
@@ -307,7 +307,7 @@ fn a_drive_is_told_in_json_and_its_run_up_in_csv() {
         let found = sense * told["steady"][key]["omega_rad_s"].as_f64().unwrap();
         assert_within!((found - wanted).abs(), 1e-3, "{name} {key}: {found} {wanted}");
     }
-    let model = Model::of(&scenario.case).unwrap();
+    let model = ReducedModel::of(&scenario.case).unwrap();
     assert_eq!(told["motor_and_reducer_kg_m2"], json!(model.added_inertia()));
 
     // Row by row, with the accelerations that its speeds have.
@@ -382,7 +382,7 @@ fn a_choice_of_a_motor_is_told_in_json() {
     let number = |key: &str| told[key].as_f64().unwrap_or_else(|| panic!("no {key} in {told}"));
     let motors = design::catalogue::load(&catalogue).unwrap();
     let case = scenario(&place, "crank_rocker").nominal().case;
-    let choice = Choice::of(&case, &motors, number("efficiency")).unwrap();
+    let choice = MotorChoice::of(&case, &motors, number("efficiency")).unwrap();
     assert_eq!(told["peak"], json!({"crank_rad": choice.peak.0, "moment_N_m": choice.peak.1}));
     for (key, wanted) in [
         ("wanted_rad_s", choice.wanted),

@@ -7,7 +7,7 @@ use linkage::solver::Provision;
 use linkproof::parts::{ChannelProof, Check, EngineInfo, EngineName, EngineProof};
 use linkproof::report::json::Document;
 use linkproof::{Options, Proof, Scenario, Verdict, prove};
-use prover::proof::{End, prove_against};
+use prover::proof::{SearchEnd, prove_against};
 use serde_json::Value;
 
 use super::tools::Place;
@@ -104,11 +104,11 @@ fn engine(what: &str, row: &Value, own: &EngineProof) {
             ]);
             is_said(what, &row["search"], &search);
             let end = match searched.end {
-                End::Decided => "decided",
-                End::Rounding => "rounding",
-                End::Budget => "budget",
-                End::Pace => "pace",
-                End::Nothing => "nothing left to choose",
+                SearchEnd::Decided => "decided",
+                SearchEnd::Rounding => "rounding",
+                SearchEnd::Budget => "budget",
+                SearchEnd::Pace => "pace",
+                SearchEnd::Nothing => "nothing left to choose",
             };
             assert_eq!(row["search"]["end"].as_str(), Some(end), "{what}");
         }
@@ -201,7 +201,7 @@ fn what_few_proofs_have_is_said_as_it_is() {
     assert!(of("late").reference_trajectory.times()[0] > 0.0);
     assert!(of("disputed").disputes.iter().any(|own| own.odd.is_some()));
     let ends = proofs.iter().filter_map(|(_, proof)| proof.engine().search.as_ref()).map(|search| search.end);
-    let ends: Vec<End> = ends.collect();
-    assert!(ends.contains(&End::Budget) && ends.contains(&End::Decided), "{ends:?}");
+    let ends: Vec<SearchEnd> = ends.collect();
+    assert!(ends.contains(&SearchEnd::Budget) && ends.contains(&SearchEnd::Decided), "{ends:?}");
     assert!(of("some channels").scene.left_out.loads > 0);
 }

@@ -6,10 +6,10 @@ use std::io::Cursor;
 use std::path::Path;
 
 use arbitrary::{Result, Unstructured};
-use formula::{Graph, Program, Rounded, Tree};
+use formula::{FormulaGraph, FormulaTree, Program, Rounded};
 use linkage::math::{Vec2, unit};
 use linkage::mechanism::{
-    GROUND, Joint, JointId, JointKind, Link, LinkId, Mechanism, Point, Side, Structure, is_unseen,
+    GROUND, Joint, JointId, JointKind, JointSide, Link, LinkId, Mechanism, Point, Structure, is_unseen,
 };
 use linkage::trajectory::CHANNELS;
 use linkage::{Error, ErrorKind};
@@ -50,7 +50,7 @@ pub fn explains(error: &Error, text: &str) {
 
 /// The text of a formula: it is read as it is written, differentiated twice and evaluated, or refused with its place.
 pub fn formula(text: &str) {
-    let tree = match Tree::parse(text) {
+    let tree = match FormulaTree::parse(text) {
         Ok(tree) => tree,
         Err(fault) => {
             assert!(!fault.message.is_empty() && !fault.help.is_empty());
@@ -59,8 +59,8 @@ pub fn formula(text: &str) {
         }
     };
     let written = tree.to_string();
-    assert_eq!(Tree::parse(&written).expect(&written).to_string(), written);
-    let mut graph = Graph::new(&["phi", "t"], 0);
+    assert_eq!(FormulaTree::parse(&written).expect(&written).to_string(), written);
+    let mut graph = FormulaGraph::new(&["phi", "t"], 0);
     let Ok(place) = graph.add(&tree) else { return };
     let speed = graph.derivative(place, 0);
     let acceleration = graph.derivative(speed, 0);
@@ -136,7 +136,7 @@ fn mechanism(from: &mut Unstructured) -> Result<std::result::Result<Drawn, Error
     let joints = (0..joints)
         .map(|index| {
             let side = |from: &mut Unstructured, link: LinkId| {
-                Ok(Side { link, local: links[link].points[usize::from(from.arbitrary::<bool>()?)].local })
+                Ok(JointSide { link, local: links[link].points[usize::from(from.arbitrary::<bool>()?)].local })
             };
             // Near links are joined more often than distant ones: otherwise hardly a drawing decomposes.
             let first = from.int_in_range(0..=moving)?;

@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 
-pub use lab::specimens::dyads::{DEAD, REACH, SORTS, Sample, chain, dyad, sample, sort};
+pub use lab::specimens::dyads::{DEAD, DyadSpecimen, REACH, SORTS, chain, dyad, sample, sort};
 use linkage::math::KeepNan;
 use linkage::mechanism::{Group, LinkPose};
 use proptest::test_runner::TestCaseError;
@@ -13,7 +13,7 @@ use super::dial::accepts;
 use super::sketch::Random;
 
 /// Checks that the mode asked for gives the pose that was drawn.
-fn starts_as_drawn(sample: &Sample, drawn: &[LinkPose]) {
+fn starts_as_drawn(sample: &DyadSpecimen, drawn: &[LinkPose]) {
     for (found, drawn) in sample.scenario.case.start.0.iter().zip(drawn) {
         let turn = linkage::math::angle::wrapped(found.angle - drawn.angle);
         let off = (found.origin - drawn.origin).norm().larger(turn.abs());
@@ -23,7 +23,7 @@ fn starts_as_drawn(sample: &Sample, drawn: &[LinkPose]) {
 }
 
 /// Runs `check` on `count` random mechanisms of one to three dyads of all kinds.
-pub fn for_each(count: u32, check: impl Fn(&Sample) -> Result<(), TestCaseError>) {
+pub fn for_each(count: u32, check: impl Fn(&DyadSpecimen) -> Result<(), TestCaseError>) {
     for_each_of(&SORTS, 3, count, check);
 }
 
@@ -33,7 +33,7 @@ pub fn for_each_of(
     allowed: &[[bool; 3]],
     most: usize,
     count: u32,
-    check: impl Fn(&Sample) -> Result<(), TestCaseError>,
+    check: impl Fn(&DyadSpecimen) -> Result<(), TestCaseError>,
 ) {
     let mut random = Random::from_seed(5);
     let (mut checked, mut drawn, mut sorts) = (0, 0, BTreeMap::new());

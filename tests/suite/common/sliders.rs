@@ -10,8 +10,8 @@ use linkage::case::{Case, CaseParts, Grid, Wanted};
 use linkage::drive::{Drive, MotionLaw};
 use linkage::math::{Vec2, rotated, turned, unit};
 use linkage::mechanism::{
-    AssemblyMode, Group, GroupKind, Joint, JointId, JointKind, Link, LinkId, LinkPose, Mechanism, Point, Pose, Side,
-    Structure,
+    AssemblyMode, Group, GroupKind, Joint, JointId, JointKind, JointSide, Link, LinkId, LinkPose, Mechanism, Point,
+    Pose, Structure,
 };
 
 /// Crank speed (rad/s).
@@ -45,7 +45,7 @@ fn link(name: &str, points: &[(&str, Vec2)], [mass, x, y, inertia]: [f64; 4]) ->
 }
 
 fn joint(name: &str, kind: JointKind, first: (usize, Vec2), second: (usize, Vec2)) -> Joint {
-    let [first, second] = [first, second].map(|(link, local)| Side { link: LinkId(link), local });
+    let [first, second] = [first, second].map(|(link, local)| JointSide { link: LinkId(link), local });
     Joint { name: name.into(), kind, first, second, drawn: None }
 }
 

@@ -1,7 +1,7 @@
 //! Faults planted in the engine's case: the whole proof names them.
 
 use super::{Tally, edited, parsed, text};
-use prover::diagnosis::Standing;
+use prover::diagnosis::PartyStanding;
 use prover::proof::{Options, prove_against};
 
 use crate::common::by_night;
@@ -117,7 +117,7 @@ fn tally(faults: &[Fault], what: &str) -> Tally {
             Ok(proof) => {
                 tally.add(&what, proof.diagnosis.as_ref(), expected);
                 let alone = proof.diagnosis.map(|found| found.alone);
-                assert_eq!(alone, Some(Standing::Alone("rapier".into())), "{what}");
+                assert_eq!(alone, Some(PartyStanding::Alone("rapier".into())), "{what}");
             }
             Err(error) => {
                 println!("no proof: {what}: {error}");

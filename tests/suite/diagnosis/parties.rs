@@ -1,7 +1,7 @@
 //! Who stands alone, since when, and in which channels first.
 
 use linkage::trajectory::{Channel, Trajectory};
-use prover::diagnosis::{Judged, Party, Standing, since, standing};
+use prover::diagnosis::{DiagnosedParty, PartyStanding, SuspectChannel, since, standing};
 
 fn trajectory(rows: &[(&str, Vec<f64>)]) -> Trajectory {
     let times: Vec<f64> = (0..rows[0].1.len()).map(|row| row as f64).collect();
@@ -12,9 +12,9 @@ fn trajectory(rows: &[(&str, Vec<f64>)]) -> Trajectory {
 const FORCE: &str = "joint.A.fx_N";
 
 /// How parties of one value and one bound each stand to each other.
-fn of(parties: &[(&str, f64, f64)]) -> Standing {
+fn of(parties: &[(&str, f64, f64)]) -> PartyStanding {
     let all: Vec<Trajectory> = parties.iter().map(|(_, value, _)| trajectory(&[(FORCE, vec![*value])])).collect();
-    let party = |((name, _, bound), trajectory): (&(&'static str, f64, f64), &'static Trajectory)| Party {
+    let party = |((name, _, bound), trajectory): (&(&'static str, f64, f64), &'static Trajectory)| DiagnosedParty {
         name,
         trajectory,
         bounds: vec![(Channel::named(FORCE).unwrap(), *bound)],
@@ -30,22 +30,22 @@ fn of(parties: &[(&str, f64, f64)]) -> Standing {
 
 #[test]
 fn the_one_that_all_others_contradict_stands_alone() {
-    let alone = |name: &str| Standing::Alone(name.into());
+    let alone = |name: &str| PartyStanding::Alone(name.into());
     assert_eq!(of(&[("side 1", 1.0, 1e-9), ("side 2", 1.0, 1e-9), ("engine", 2.0, 0.1)]), alone("engine"));
     assert_eq!(of(&[("side 1", 1.5, 1e-9), ("side 2", 1.0, 1e-9), ("engine", 1.0, 0.1)]), alone("side 1"));
-    assert_eq!(of(&[("side 1", 1.0, 1e-9), ("side 2", 1.0, 1e-9), ("engine", 1.05, 0.1)]), Standing::Together);
+    assert_eq!(of(&[("side 1", 1.0, 1e-9), ("side 2", 1.0, 1e-9), ("engine", 1.05, 0.1)]), PartyStanding::Together);
 }
 
 #[test]
 fn two_camps_and_what_cannot_be_told() {
     let camps = of(&[("a", 1.0, 0.1), ("b", 1.0, 0.1), ("c", 2.0, 0.1), ("d", 2.0, 0.1)]);
     let names = |names: [&str; 2]| names.map(String::from).to_vec();
-    assert_eq!(camps, Standing::Camps([names(["a", "b"]), names(["c", "d"])]));
+    assert_eq!(camps, PartyStanding::Camps([names(["a", "b"]), names(["c", "d"])]));
     // The engine is too coarse to say which of the two sides is wrong.
     let open = of(&[("side 1", 1.0, 1e-9), ("side 2", 1.01, 1e-9), ("engine", 1.0, 0.1)]);
-    assert_eq!(open, Standing::Open(vec![names(["side 1", "side 2"]).try_into().unwrap()]));
-    assert!(matches!(of(&[("a", 1.0, 0.1), ("b", 2.0, 0.1), ("c", 3.0, 0.1)]), Standing::Open(_)));
-    assert!(matches!(of(&[("a", 1.0, 0.1), ("b", 2.0, 0.1)]), Standing::Open(_)));
+    assert_eq!(open, PartyStanding::Open(vec![names(["side 1", "side 2"]).try_into().unwrap()]));
+    assert!(matches!(of(&[("a", 1.0, 0.1), ("b", 2.0, 0.1), ("c", 3.0, 0.1)]), PartyStanding::Open(_)));
+    assert!(matches!(of(&[("a", 1.0, 0.1), ("b", 2.0, 0.1)]), PartyStanding::Open(_)));
 }
 
 #[test]
@@ -62,8 +62,8 @@ fn channels_come_in_the_order_in_which_they_left_their_bounds() {
         ("point.A.x_m", vec![0.0, 0.0, 2.0, 2.0, 2.0]),
         ("point.A.y_m", vec![0.0, 2.0, 0.0, 0.0, 0.5]),
     ]);
-    let judge = |channel: &Channel| Judged { channel: channel.clone(), bound: 1.0, disagrees: true };
-    let judged: Vec<Judged> = right.channels().iter().map(judge).collect();
+    let judge = |channel: &Channel| SuspectChannel { channel: channel.clone(), bound: 1.0, disagrees: true };
+    let judged: Vec<SuspectChannel> = right.channels().iter().map(judge).collect();
     let found = since(&right, &wrong, &judged);
     let told: Vec<(String, f64, usize)> =
         found.iter().map(|one| (one.channel.to_string(), one.time, one.beyond)).collect();

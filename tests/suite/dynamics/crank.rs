@@ -7,7 +7,7 @@ use std::path::Path;
 
 use analytic::AssurSolver;
 use analytic::reduced::means;
-use analytic::reduced::{ACCURACY, End, Model, RunUp, motion};
+use analytic::reduced::{ACCURACY, ReducedModel, RunUp, RunUpEnd, motion};
 use analytic::steady::Averaged;
 use linkage::case::Case;
 use linkage::drive::{DriveMotion, Load, MotionLaw, Motor, MotorLaw, ShaftInertia};
@@ -48,7 +48,7 @@ fn constant_coefficients_have_their_closed_form() {
     let inertia = ShaftInertia { rotor: 1e-3, input: 5e-4, intermediate: 2e-2, intermediate_ratio: 3.0, output: 0.1 };
     let motor = Motor { inertia, ..Motor::ideal(MotorLaw::Linear { at_rest: 4.0, slope: -0.02 }, 10.0) };
     let case = case.with_motor(Some(motor)).unwrap();
-    let model = Model::of(&case).unwrap();
+    let model = ReducedModel::of(&case).unwrap();
     let whole = 0.05 + 1.5e-3 * 100.0 + 2e-2 * 9.0 + 0.1;
     assert_within!((model.added_inertia() + 0.05 - whole).abs(), 1e-15);
     let (moment, damping) = (40.0, 2.0);
@@ -77,14 +77,14 @@ fn the_averaged_model_is_exact_for_constant_coefficients() {
             parts.loads.push(Load::Resistance { link: LinkId(1), moment: 6.0 });
         });
         let case = case.unwrap();
-        let model = Model::of(&case).unwrap();
+        let model = ReducedModel::of(&case).unwrap();
         let means = means::means_over_turn(&case, &AssurSolver).unwrap();
         let averaged = Averaged::of(&motor, means.inertia + model.added_inertia(), speed * means.resistance).unwrap();
         // 40 N m and 2 N m s on the crank without losses.
         assert_within!((averaged.time_constant - 0.48 / (2.0 * efficiency)).abs(), 1e-15, "{averaged:?}");
         assert_within!((averaged.steady_speed - (40.0 * efficiency - 6.0) / (2.0 * efficiency)).abs(), 1e-13);
         let (found, end) = motion(&model, 0.0, &evenly(1.5, 300), 1e-13).unwrap();
-        assert_eq!((found.len(), end), (301, End::Reached));
+        assert_eq!((found.len(), end), (301, RunUpEnd::Reached));
         let mut most = [0.0f64; 2];
         for at in &found {
             let (omega, angle) = (speed * at.omega, speed * (at.crank - case.crank().start));
@@ -131,7 +131,7 @@ fn kloss_runs_up_in_its_known_time() {
     };
     let slips = [0.9, 0.5, 0.2, 0.05, 0.001];
     let times = slips.map(time);
-    let (found, _) = motion(&Model::of(&case).unwrap(), 0.0, &times, ACCURACY).unwrap();
+    let (found, _) = motion(&ReducedModel::of(&case).unwrap(), 0.0, &times, ACCURACY).unwrap();
     for (at, slip) in found.iter().zip(slips) {
         assert_within!((at.omega - synchronous * (1.0 - slip)).abs(), 1e-8, "{at:?} {slip}");
     }
@@ -142,12 +142,12 @@ fn kloss_runs_up_in_its_known_time() {
 fn a_pendulum_swings_in_its_known_time() {
     for degrees in [10.0f64, 90.0, 150.0] {
         let case = bar(0.3, -90.0 + degrees, true);
-        let model = Model::of(&case).unwrap();
+        let model = ReducedModel::of(&case).unwrap();
         let frequency = (2.0 * 9.81 * 0.3 / (0.05 + 2.0 * 0.09f64)).sqrt();
         let period = 4.0 * elliptic((degrees.to_radians() / 2.0).sin()) / frequency;
         let times: Vec<f64> = (0..=20).map(|k| period * f64::from(k) / 2.0).collect();
         let (found, end) = motion(&model, 0.0, &times, 1e-13).unwrap();
-        assert_eq!((found.len(), end), (21, End::Reached));
+        assert_eq!((found.len(), end), (21, RunUpEnd::Reached));
         for (half, at) in found.iter().enumerate() {
             let side = if half % 2 == 0 { 1.0 } else { -1.0 };
             let expected = (-90.0f64).to_radians() + side * degrees.to_radians();
@@ -168,7 +168,7 @@ fn a_pendulum_swings_in_its_known_time() {
 #[test]
 fn a_pendulum_turns_in_its_known_time() {
     let case = bar(0.3, -90.0, true);
-    let model = Model::of(&case).unwrap();
+    let model = ReducedModel::of(&case).unwrap();
     let frequency = (2.0 * 9.81 * 0.3 / (0.05 + 2.0 * 0.09f64)).sqrt();
     for factor in [2.02, 3.0, 10.0] {
         let omega = factor * frequency;
@@ -188,7 +188,7 @@ fn a_pendulum_turns_in_its_known_time() {
 #[test]
 fn reactions_follow_the_true_motion() {
     let case = bar(0.3, 0.0, true);
-    let model = Model::of(&case).unwrap();
+    let model = ReducedModel::of(&case).unwrap();
     let run_up = RunUp::of(&model, 0.0, &evenly(0.3, 30), ACCURACY).unwrap();
     let column = |name: &str| {
         let place = run_up.trajectory.channels().iter().position(|channel| channel.to_string() == name).unwrap();

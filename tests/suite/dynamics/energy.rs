@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 
 use crate::common::{assert_within, centre, centre_velocity, shipped};
 use analytic::PoseSolver;
-use analytic::reduced::{CrankState, End, Model, motion};
+use analytic::reduced::{CrankState, ReducedModel, RunUpEnd, motion};
 use linkage::case::Case;
 use linkage::trajectory::Stage;
 
@@ -28,11 +28,11 @@ fn conservative_mechanisms_keep_their_energy() {
     {
         let case = shipped(&format!("{name}.toml")).case;
         let case = case.with(|parts| parts.loads.clear()).unwrap().with_motor(None).unwrap();
-        let model = Model::of(&case).unwrap();
+        let model = ReducedModel::of(&case).unwrap();
         // Long enough for a hundred turns; the speed varies about its initial value.
         let times: Vec<f64> = (0..=4000).map(|k| f64::from(k) * 0.1 * TAU / f64::abs(speed)).collect();
         let (mut found, end) = motion(&model, speed, &times, 3e-15).unwrap();
-        assert_eq!(end, End::Reached, "{name}");
+        assert_eq!(end, RunUpEnd::Reached, "{name}");
         let start = found[0].crank;
         let turns = |at: &CrankState| (at.crank - start).abs() / TAU;
         assert!(turns(&found[4000]) > 100.0, "{name}: {}", turns(&found[4000]));
@@ -56,10 +56,10 @@ fn conservative_mechanisms_keep_their_energy() {
 #[test]
 fn a_resistance_takes_its_work() {
     let case = shipped("crank_rocker.toml").case.with_motor(None).unwrap();
-    let model = Model::of(&case).unwrap();
+    let model = ReducedModel::of(&case).unwrap();
     let times: Vec<f64> = (0..=20_000).map(|k| f64::from(k) * 1e-4).collect();
     let (found, end) = motion(&model, 60.0, &times, 1e-12).unwrap();
-    let End::Held(t, crank) = end else { panic!("{end:?}") };
+    let RunUpEnd::Held(t, crank) = end else { panic!("{end:?}") };
     assert!(t > 0.1 && crank > TAU, "{t} {crank}");
     let rocker = case.mechanism.link_named("rocker").unwrap();
     let mut poses = PoseSolver::counting_turns(&case).unwrap();
@@ -98,7 +98,7 @@ fn a_resistance_takes_its_work() {
 }
 
 /// Whether a kink lies between two crank angles.
-fn crosses(model: &Model, from: f64, to: f64) -> bool {
+fn crosses(model: &ReducedModel, from: f64, to: f64) -> bool {
     let kinks = model.kinks();
     let period = kinks.period.unwrap();
     kinks.cranks.iter().any(|kink| ((to - kink) / period).floor() > ((from - kink) / period).floor())

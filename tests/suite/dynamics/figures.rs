@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use crate::common::{assert_within, shipped};
 use analytic::reduced::means;
-use analytic::reduced::{ACCURACY, End, Model, RunUp, motion};
+use analytic::reduced::{ACCURACY, ReducedModel, RunUp, RunUpEnd, motion};
 use design::flywheel::Flywheel;
 use linkage::drive::{Load, Motor, MotorLaw};
 use linkage::math::{KeepNan, Vec2};
@@ -33,9 +33,9 @@ fn val_crank_rocker_reduced_means_and_maximum() {
     crank.mass_centre = Vec2::zeros();
     let mechanism = linkage::mechanism::Mechanism::new(links, case.mechanism.joints().to_vec()).unwrap();
     let weightless = case.with(|parts| parts.mechanism = mechanism).unwrap();
-    let [inertia, resistance] = Model::of(&weightless).unwrap().extremes().unwrap();
+    let [inertia, resistance] = ReducedModel::of(&weightless).unwrap().extremes().unwrap();
     assert_within!((resistance.greatest.1 - 37.016_264_0).abs(), 5.1e-8, "{resistance:?}");
-    let [own, _] = Model::of(&case).unwrap().extremes().unwrap();
+    let [own, _] = ReducedModel::of(&case).unwrap().extremes().unwrap();
     assert_within!((inertia.greatest.1 - own.greatest.1).abs(), 1e-13);
     assert_within!((inertia.least.1 - own.least.1).abs(), 1e-13);
 }
@@ -66,7 +66,7 @@ fn val_crank_rocker_printed_means_count_one_position_twice() {
 #[test]
 fn val_crank_rocker_printed_greatest_resistance_has_g_of_9_8() {
     let case = shipped("crank_rocker.toml").case;
-    let greatest = |case: &linkage::case::Case| Model::of(case).unwrap().extremes().unwrap()[1].greatest.1;
+    let greatest = |case: &linkage::case::Case| ReducedModel::of(case).unwrap().extremes().unwrap()[1].greatest.1;
     assert_within!((greatest(&case) - 36.990_825).abs(), 0.5e-6);
     let lighter = case.with(|parts| parts.gravity = Vec2::new(0.0, -9.8)).unwrap();
     assert_within!((greatest(&lighter) - 36.98).abs(), 0.5e-2);
@@ -75,7 +75,7 @@ fn val_crank_rocker_printed_greatest_resistance_has_g_of_9_8() {
 #[test]
 fn val_crank_rocker_steady_motion() {
     let case = shipped("crank_rocker.toml").case;
-    let model = Model::of(&case).unwrap();
+    let model = ReducedModel::of(&case).unwrap();
     assert_eq!(model.added_inertia(), 0.0);
     let regime = model.regime(&[], ACCURACY).unwrap();
     assert_within!((regime.mean_speed - 14.263_883_878_5).abs(), 1e-9, "{}", regime.mean_speed);
@@ -94,9 +94,9 @@ fn val_crank_rocker_steady_motion() {
 #[test]
 fn run_up_in_time_and_steady_motion_over_the_angle_are_one() {
     let case = shipped("crank_rocker.toml").case;
-    let model = Model::of(&case).unwrap();
+    let model = ReducedModel::of(&case).unwrap();
     let (found, end) = motion(&model, 0.0, &times(), ACCURACY).unwrap();
-    assert_eq!((found.len(), end), (501, End::Reached));
+    assert_eq!((found.len(), end), (501, RunUpEnd::Reached));
     // A deviation has decayed after a tenth of a turn: from 0.1 s on the motion is the steady one.
     let late: Vec<_> = found.iter().filter(|at| at.t >= 0.1 && at.crank < TAU).collect();
     assert!(late.len() > 300);
@@ -116,7 +116,7 @@ fn run_up_in_time_and_steady_motion_over_the_angle_are_one() {
 #[test]
 fn run_up_is_exact_to_1e_10() {
     let case = shipped("crank_rocker.toml").case;
-    let model = Model::of(&case).unwrap();
+    let model = ReducedModel::of(&case).unwrap();
     let run_up = RunUp::of(&model, 0.0, &times(), ACCURACY).unwrap();
     let fine: Vec<f64> = (0..=5000).map(|k| f64::from(k) * 1e-4).collect();
     let (tight, _) = motion(&model, 0.0, &fine, ACCURACY / 100.0).unwrap();
@@ -135,7 +135,7 @@ fn run_up_is_exact_to_1e_10() {
 fn slope_of_the_inertia_is_its_derivative() {
     for name in ["crank_rocker", "compressor", "ov7_base", "ov7_new", "six_bar_slider", "quick_return"] {
         let case = shipped(&format!("{name}.toml")).case;
-        let model = Model::of(&case).unwrap();
+        let model = ReducedModel::of(&case).unwrap();
         let step = 1e-5;
         let start = case.crank().start;
         for k in 0..24 {
@@ -156,7 +156,7 @@ fn slope_of_the_inertia_is_its_derivative() {
 #[test]
 fn a_flywheel_does_what_is_asked() {
     let case = shipped("crank_rocker.toml").case;
-    let model = Model::of(&case).unwrap();
+    let model = ReducedModel::of(&case).unwrap();
     for wanted in [0.2, 0.02, 1e-3] {
         let found = Flywheel::of(&model, wanted, ACCURACY).unwrap();
         let again = model.with_flywheel(found.inertia).regime(&[], ACCURACY).unwrap();
@@ -192,12 +192,13 @@ fn a_table_of_a_straight_line_is_the_line() {
     let torques = speeds.iter().map(|&speed| motor.law.torque(speed)).collect();
     let motor = Motor { law: MotorLaw::Table { speeds, torques }, ..motor.clone() };
     let tabled = case.with_motor(Some(motor)).unwrap();
-    let both = [&case, &tabled].map(|case| motion(&Model::of(case).unwrap(), 0.0, &times(), ACCURACY).unwrap().0);
+    let both =
+        [&case, &tabled].map(|case| motion(&ReducedModel::of(case).unwrap(), 0.0, &times(), ACCURACY).unwrap().0);
     for (line, table) in both[0].iter().zip(&both[1]) {
         assert_within!((line.crank - table.crank).abs(), 1e-11);
         assert_within!((line.omega - table.omega).abs(), 1e-10);
     }
-    let regimes = [&case, &tabled].map(|case| Model::of(case).unwrap().regime(&[], ACCURACY).unwrap());
+    let regimes = [&case, &tabled].map(|case| ReducedModel::of(case).unwrap().regime(&[], ACCURACY).unwrap());
     assert_within!((regimes[0].period - regimes[1].period).abs(), 1e-13);
 }
 
@@ -206,7 +207,7 @@ fn losses_of_the_reducer_cost_their_share() {
     let case = shipped("crank_rocker.toml").case;
     let motor = Motor { efficiency: 0.9, ..case.crank().motor().unwrap().clone() };
     let case = case.with_motor(Some(motor)).unwrap();
-    let model = Model::of(&case).unwrap();
+    let model = ReducedModel::of(&case).unwrap();
     let run_up = RunUp::of(&model, 0.0, &times(), ACCURACY).unwrap();
     // Twice per turn the mechanism drives the motor. Then the moment on the crank is 1 / 0.9 of the motor's, otherwise
     // 0.9.
@@ -227,9 +228,9 @@ fn what_a_motor_cannot_move_is_held() {
     // 10 N m against a greatest resistance of 37: the crank moves up to some angle and stops there for good.
     let motor = Motor::ideal(MotorLaw::Constant { torque: 10.0 }, 1.0);
     let case = shipped("crank_rocker.toml").case.with_motor(Some(motor)).unwrap();
-    let model = Model::of(&case).unwrap();
+    let model = ReducedModel::of(&case).unwrap();
     let (found, end) = motion(&model, 0.0, &times(), ACCURACY).unwrap();
-    let End::Held(t, crank) = end else { panic!("{end:?}") };
+    let RunUpEnd::Held(t, crank) = end else { panic!("{end:?}") };
     assert!(found.iter().all(|at| at.t <= t && at.crank <= crank + 1e-12) && found.len() < 501);
     // There the resistance alone exceeds the motor's moment.
     let rows = model.rows(&[crank]).unwrap();
@@ -238,6 +239,6 @@ fn what_a_motor_cannot_move_is_held() {
     assert!(error.message().contains("no stable speed"), "{error}");
     // Without a load the crank is not held.
     let case = case.with(|parts| parts.loads.retain(|load| !matches!(load, Load::Resistance { .. }))).unwrap();
-    let free = Model::of(&case).unwrap();
-    assert_eq!(motion(&free, 0.0, &times(), ACCURACY).unwrap().1, End::Reached);
+    let free = ReducedModel::of(&case).unwrap();
+    assert_eq!(motion(&free, 0.0, &times(), ACCURACY).unwrap().1, RunUpEnd::Reached);
 }

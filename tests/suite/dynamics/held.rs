@@ -6,7 +6,7 @@ use linkage::case::{Case, Grid};
 use linkage::drive::{Acts, Course, DriveMotion, Load};
 use linkage::engine::Settings;
 use linkage::math::{KeepNan, Vec2};
-use linkage::mechanism::{LinkId, Side};
+use linkage::mechanism::{JointSide, LinkId};
 use linkage::trajectory::Trajectory;
 use scenario::Scenario;
 
@@ -30,11 +30,11 @@ fn both(what: &str, case: &Case, bound: f64) -> [Trajectory; 2] {
     found
 }
 
-fn point(case: &Case, link: &str, point: &str) -> Side {
+fn point(case: &Case, link: &str, point: &str) -> JointSide {
     let link = case.mechanism.link_named(link).unwrap();
     let own = &case.mechanism.links()[link];
     let local = own.points.iter().find(|own| own.name == point).unwrap().local;
-    Side { link, local }
+    JointSide { link, local }
 }
 
 fn largest_change(values: &[f64]) -> f64 {

@@ -3,7 +3,7 @@
 use analytic::NewtonSolver;
 use linkage::case::{Case, Grid};
 use linkage::math::KeepNan;
-use linkage::mechanism::{Link, LinkId, Mechanism, Side};
+use linkage::mechanism::{JointSide, Link, LinkId, Mechanism};
 use linkage::solver::Solver;
 use rapier_twin::tree::Tree;
 use rapier_twin::{Build, Precision, Rapier};
@@ -124,7 +124,8 @@ fn regress_54_the_twin_starts_in_the_start_pose() {
                 let twin = moving(&case, build, tree, 1e-3);
                 for (link, body) in case.mechanism.links().entries() {
                     for point in &body.points {
-                        let gap = twin.point(Side { link, local: point.local }) - case.start.0[link].point(point.local);
+                        let gap =
+                            twin.point(JointSide { link, local: point.local }) - case.start.0[link].point(point.local);
                         // A chain of three links, each below half a metre.
                         assert_within!(gap.norm(), 1e-15, "{} {} {}: {gap}", sample.name, body.name, point.name);
                     }

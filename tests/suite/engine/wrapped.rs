@@ -5,10 +5,10 @@ use std::path::Path;
 use super::solve;
 use crate::common::shipped;
 use linkage::case::Case;
-use linkage::engine::{Engine, Hook, Kept, Route, Settings, Wrapped};
+use linkage::engine::{CachedEngine, Engine, Hook, Route, Settings, Wrapped};
 use linkage::mechanism::JointId;
 use linkage::solver::State;
-use linkage::trajectory::Subject;
+use linkage::trajectory::ChannelSubject;
 use prover::engines::{EngineName, is_built, with_step};
 use syn::{Item, TraitItem};
 
@@ -58,7 +58,7 @@ fn an_engine_in_a_wrapper_that_changes_nothing_is_that_engine() {
             for way in ways {
                 let bare = engine.with(way);
                 let wrapped = Wrapped { hook: Idle, inner: engine.with(settings) }.with(way);
-                let kept = Kept::new(wrapped.as_ref()).with(way);
+                let kept = CachedEngine::new(wrapped.as_ref()).with(way);
                 let expected = answers(bare.as_ref(), &case);
                 assert_eq!(answers(wrapped.as_ref(), &case), expected, "{name}");
                 assert_eq!(answers(kept.as_ref(), &case), expected, "{name}, kept");
@@ -77,12 +77,12 @@ fn what_a_hook_changes_is_changed_once_in_every_way() {
     let engine = with_step(EngineName::Rapier, 2e-3).unwrap();
     for extrapolated in [0, 2] {
         let way = Settings { extrapolated, sweeps: 64, ..engine.settings() };
-        let kept = |engine: &dyn Engine| solve(Kept::new(engine).with(way).as_ref(), &case);
+        let kept = |engine: &dyn Engine| solve(CachedEngine::new(engine).with(way).as_ref(), &case);
         let right = kept(engine.as_ref());
         let wrong = kept(&Wrapped { hook: More(5.0), inner: engine.with(engine.settings()) });
         for ((channel, right), (_, wrong)) in right.iter().zip(wrong.iter()) {
             // What acts on the frame is a sum.
-            if channel.kind.subject != Subject::Frame {
+            if channel.kind.subject != ChannelSubject::Frame {
                 let more = if channel.to_string() == "joint.O.fx_N" { 5.0 } else { 0.0 };
                 let is_once = right.iter().zip(wrong).all(|(right, wrong)| (wrong - right - more).abs() <= 1e-9);
                 assert!(is_once, "{channel}, extrapolated {extrapolated}");

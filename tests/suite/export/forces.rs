@@ -11,7 +11,7 @@ use design::export::mjcf::mjcf;
 use linkage::ErrorKind;
 use linkage::case::Case;
 use linkage::drive::{Acts, Course, Load, MotorLaw};
-use linkage::mechanism::{LinkId, Side};
+use linkage::mechanism::{JointSide, LinkId};
 use scenario::Scenario;
 
 fn all_loads() -> Case {
@@ -73,7 +73,7 @@ fn torsional_springs_and_dampers_have_their_moments() {
         let (Load::TorsionSpring { links, .. } | Load::TorsionDamper { links, .. }) = load else { continue };
         let mut moment = 0.0;
         let setting =
-            linkage::drive::Setting { motions: &state.motions, angles: &angles, start: &case.start.0, crank: 0.0 };
+            linkage::drive::LoadState { motions: &state.motions, angles: &angles, start: &case.start.0, crank: 0.0 };
         load.act(&setting, &mut |action| moment = if action.link == links[1] { action.moment } else { moment });
         let name = format!("load.{}", index + 1);
         // One hinge is acted on itself, more make a tendon.
@@ -103,7 +103,7 @@ fn springs_and_dampers_lie_between_their_points() {
     let text = exported(&case, "all_loads");
     let document = Document::parse(&text).unwrap();
     let at = |name: &str, end: &str| numbers(find(&document, "site", &format!("{name}.{end}")), "pos");
-    let check = |name: &str, ends: &[Side; 2], expected: [f64; 3]| {
+    let check = |name: &str, ends: &[JointSide; 2], expected: [f64; 3]| {
         let tendon = find(&document, "spatial", name);
         let found = ["stiffness", "springlength", "damping"].map(|key| numbers(tendon, key)[0]);
         assert_eq!(found, expected, "{name}");
@@ -150,7 +150,7 @@ fn what_mjcf_has_no_words_for_is_refused_by_name() {
     refused(&shipped("loaded_slider.toml").case, &["\"force\"", "table"]);
     let case = all_loads();
     let with = |load: Load| case.with(|parts| parts.loads = vec![load]).unwrap();
-    let at = Side { link: LinkId(2), local: linkage::math::Vec2::new(0.1, 0.0) };
+    let at = JointSide { link: LinkId(2), local: linkage::math::Vec2::new(0.1, 0.0) };
     refused(&with(Load::ResistingForce { at, force: 3.0 }), &["resisting_force"]);
     let moment = Course::Constant(2.0);
     refused(&with(Load::Moment { link: LinkId(2), moment, acts: Acts::Clockwise }), &["\"moment\"", "one sense"]);

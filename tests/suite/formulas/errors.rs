@@ -1,7 +1,7 @@
 //! Wrong formulas of kinds that the search was not built on: every mistake is found, most are called by their cause,
 //! and no cause is made up.
 
-use prover::claims::{Cause, MOST_WORK};
+use prover::claims::{FormulaCause, MOST_WORK};
 use prover::proof::solved::Claimed;
 use scenario::{Claim, Formulas, Scenario};
 
@@ -40,7 +40,7 @@ fn with_error(scenario: &Scenario, error: &Error) -> Scenario {
     changed
 }
 
-fn cause<'a>(found: &'a Claimed, claim: &str) -> Option<&'a Cause> {
+fn cause<'a>(found: &'a Claimed, claim: &str) -> Option<&'a FormulaCause> {
     found.judgement.causes.iter().find(|(name, _)| name == claim).and_then(|(_, cause)| cause.as_ref())
 }
 
@@ -57,10 +57,14 @@ fn shares(list: &[u8]) -> [usize; 4] {
         assert!(is_wrong(&found, claim), "{file}: {step} = {expression} ({mistake}) is not found");
         most = most.max(found.judgement.work);
         let cause = cause(&found, claim);
-        let said = cause.map_or("nothing".into(), Cause::to_string);
+        let said = cause.map_or("nothing".into(), FormulaCause::to_string);
         // That it is nearly right, a constant, or wrong by a factor, says no more than the numbers do.
-        let is_fact =
-            |cause: &Cause| matches!(cause, Cause::Near { .. } | Cause::Constant | Cause::Factor(_) | Cause::Offset(_));
+        let is_fact = |cause: &FormulaCause| {
+            matches!(
+                cause,
+                FormulaCause::Near { .. } | FormulaCause::Constant | FormulaCause::Factor(_) | FormulaCause::Offset(_)
+            )
+        };
         let is_silent = cause.is_none_or(is_fact);
         let word = match (is_named(&said, named), is_silent) {
             (true, _) => 1,

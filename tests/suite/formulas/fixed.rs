@@ -3,13 +3,13 @@
 use std::path::Path;
 
 use linkproof::{Options, prove};
-use prover::claims::Outcome;
+use prover::claims::FormulaOutcome;
 use scenario::Scenario;
 
 use super::{judged, load, rewritten};
 
 /// Whether both sides call a formula right, or wrong, by value.
-fn outcomes(scenario: &Scenario, name: &str) -> Vec<Outcome> {
+fn outcomes(scenario: &Scenario, name: &str) -> Vec<FormulaOutcome> {
     let all = judged(scenario).judgement.sides;
     let own = all.iter().flat_map(|(_, all)| all.iter().flatten()).filter(|own| own.name == name && own.order == 0);
     own.map(|own| own.outcome()).collect()
@@ -25,12 +25,15 @@ fn a_formula_that_is_a_billionth_too_large_is_wrong() {
         for (formula, _) in scenario.formulas.claims().filter(|(formula, _)| formula.error.is_none()) {
             let (name, text) = (&formula.name, &formula.text);
             let right = outcomes(&rewritten(&scenario, name, text), name);
-            assert!(right.iter().all(|own| *own == Outcome::Right), "{file}: {name}: {right:?}");
+            assert!(right.iter().all(|own| *own == FormulaOutcome::Right), "{file}: {name}: {right:?}");
             let more = rewritten(&scenario, name, &format!("({text})*(1 + 1e-9)"));
             let wrong = outcomes(&more, name);
             // What is zero is zero a billionth larger, too.
             let vanishes = ["0", "0.0"].contains(&text.as_str());
-            assert!(vanishes || wrong.iter().all(|own| *own == Outcome::Wrong), "{file}: {name} = {text}: {wrong:?}");
+            assert!(
+                vanishes || wrong.iter().all(|own| *own == FormulaOutcome::Wrong),
+                "{file}: {name} = {text}: {wrong:?}"
+            );
             count += usize::from(!vanishes);
         }
         assert!(count >= 3, "{file}: {count}");
@@ -47,8 +50,8 @@ fn a_formula_in_degrees_is_judged_as_sharply() {
         let whole = std::fs::read_to_string(&path).unwrap() + &more;
         outcomes(&Scenario::parse(&whole, &path).unwrap(), "turned")
     };
-    assert!(claimed("phi*180/pi").iter().all(|own| *own == Outcome::Right));
-    assert!(claimed("phi*180/pi*(1 + 1e-10)").iter().all(|own| *own == Outcome::Wrong));
+    assert!(claimed("phi*180/pi").iter().all(|own| *own == FormulaOutcome::Right));
+    assert!(claimed("phi*180/pi*(1 + 1e-10)").iter().all(|own| *own == FormulaOutcome::Wrong));
 }
 
 /// Digits that cancel: at more and more instants less than six are left. A few do no harm, nine of ten prove nothing.
@@ -63,9 +66,12 @@ fn a_formula_that_loses_its_digits_at_most_instants_proves_nothing() {
         outcomes(&rewritten(&scenario, "x", &text), "x")
     };
     for own in with(36.0) {
-        assert!(matches!(&own, Outcome::Open { reason, .. } if reason.contains("less than six digits")), "{own:?}");
+        assert!(
+            matches!(&own, FormulaOutcome::Open { reason, .. } if reason.contains("less than six digits")),
+            "{own:?}"
+        );
     }
-    assert!(with(340.0).iter().all(|own| *own == Outcome::Right), "{:?}", with(340.0));
+    assert!(with(340.0).iter().all(|own| *own == FormulaOutcome::Right), "{:?}", with(340.0));
 }
 
 /// A wave that vanishes at every instant of the grid hides in the value. Its rate shows it; where a formula is claimed
@@ -76,8 +82,8 @@ fn what_is_right_at_the_instants_alone_is_found_by_its_rate() {
     let scenario = load(&path);
     let orders = |scenario: &Scenario| -> Vec<Vec<(usize, bool)>> {
         let sides = judged(scenario).judgement.sides;
-        let of = |all: &Vec<Vec<prover::claims::Judged>>| {
-            all.iter().flatten().map(|own| (own.order, own.outcome() == Outcome::Right)).collect()
+        let of = |all: &Vec<Vec<prover::claims::JudgedFormula>>| {
+            all.iter().flatten().map(|own| (own.order, own.outcome() == FormulaOutcome::Right)).collect()
         };
         sides.iter().map(|(_, all)| of(all)).collect()
     };

@@ -1,6 +1,6 @@
 use std::collections::BTreeMap;
 
-use prover::claims::Cause;
+use prover::claims::FormulaCause;
 
 use super::{files, is_wrong, judged, load, rewritten};
 
@@ -55,8 +55,8 @@ fn a_spoiled_twin_of_every_claim_disagrees_and_is_explained() {
             let cause =
                 found.judgement.causes.iter().find(|(name, _)| name == formula).and_then(|(_, cause)| cause.clone());
             let words = match &cause {
-                Some(Cause::Slip(slip)) => slip.kind.words().to_string(),
-                Some(Cause::Offset(_)) => "an offset".into(),
+                Some(FormulaCause::Slip(slip)) => slip.kind.words().to_string(),
+                Some(FormulaCause::Offset(_)) => "an offset".into(),
                 Some(other) => other.to_string(),
                 None => "nothing".into(),
             };

@@ -1,6 +1,6 @@
 //! The search for a cause is counted, and ends: whatever is written, and however much of it.
 
-use prover::claims::{CUT, Cause, MOST_WORK};
+use prover::claims::{CUT, FormulaCause, MOST_WORK};
 use prover::proof::solved::Claimed;
 use scenario::{Claim, Formulas, Scenario};
 
@@ -19,7 +19,7 @@ fn with_formulas(formulas: impl Iterator<Item = (String, String)>) -> Scenario {
     scenario
 }
 
-fn cause<'a>(found: &'a Claimed, name: &str) -> Option<&'a Cause> {
+fn cause<'a>(found: &'a Claimed, name: &str) -> Option<&'a FormulaCause> {
     found.judgement.causes.iter().find(|(own, _)| own == name).and_then(|(_, cause)| cause.as_ref())
 }
 
@@ -86,7 +86,7 @@ fn a_wrong_formula_of_a_long_file_is_sought_as_in_a_short_one() {
 fn a_letter_changed_in_a_shipped_file_is_found_with_little_work() {
     let scenario = load(&files()[0].with_file_name("slider_crank_balance.toml"));
     let found = judged(&rewritten(&scenario, "side", "tan(beta)*osc*w^2*k"));
-    assert!(cause(&found, "side").is_some_and(Cause::is_whole), "{:?}", cause(&found, "side"));
+    assert!(cause(&found, "side").is_some_and(FormulaCause::is_whole), "{:?}", cause(&found, "side"));
     assert!(found.judgement.work < 5_000_000, "{}", found.judgement.work);
 }
 

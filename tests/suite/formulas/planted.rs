@@ -1,6 +1,6 @@
-use formula::{Function, Operator, Program, Rounded, Shape, Tree};
+use formula::{FormulaTree, Function, NodeShape, Operator, Program, Rounded};
 use linkage::math::KeepNan;
-use prover::claims::{Cause, Kind};
+use prover::claims::{FormulaCause, SlipKind};
 use scenario::{Formula, Scenario};
 
 use super::{files, is_wrong, judged, load, rewritten};
@@ -8,46 +8,46 @@ use crate::common::draws;
 use crate::common::sketch::Random;
 
 /// A random slip in a part of a formula, with the words for it; `None` if this part has none of that kind.
-fn spoiled(part: &Tree, names: &[String], random: &mut Random) -> Option<(&'static str, Shape)> {
+fn spoiled(part: &FormulaTree, names: &[String], random: &mut Random) -> Option<(&'static str, NodeShape)> {
     use Operator::{Minus, Plus, Power};
-    let call = |function: Function, parts: &[Tree]| Shape::Call(function, parts.to_vec());
-    let whole = |shape: Shape| Tree { shape, at: 0..0 };
-    let number = |value: f64| whole(Shape::Number(value));
+    let call = |function: Function, parts: &[FormulaTree]| NodeShape::Call(function, parts.to_vec());
+    let whole = |shape: NodeShape| FormulaTree { shape, at: 0..0 };
+    let number = |value: f64| whole(NodeShape::Number(value));
     Some(match &part.shape {
-        Shape::Pair(Plus, parts) => ("sign", Shape::Pair(Minus, parts.clone())),
-        Shape::Pair(Minus, parts) => ("sign", Shape::Pair(Plus, parts.clone())),
-        Shape::Pair(Power, parts) => ("square", parts[0].shape.clone()),
-        Shape::Negative(inner) => ("sign", inner.shape.clone()),
-        Shape::Call(Function::Sin, parts) if random.index(2) == 0 => ("function", call(Function::Cos, parts)),
-        Shape::Call(Function::Cos, parts) if random.index(2) == 0 => ("function", call(Function::Sin, parts)),
-        Shape::Call(function @ (Function::Sin | Function::Cos | Function::Tan), parts) => {
+        NodeShape::Pair(Plus, parts) => ("sign", NodeShape::Pair(Minus, parts.clone())),
+        NodeShape::Pair(Minus, parts) => ("sign", NodeShape::Pair(Plus, parts.clone())),
+        NodeShape::Pair(Power, parts) => ("square", parts[0].shape.clone()),
+        NodeShape::Negative(inner) => ("sign", inner.shape.clone()),
+        NodeShape::Call(Function::Sin, parts) if random.index(2) == 0 => ("function", call(Function::Cos, parts)),
+        NodeShape::Call(Function::Cos, parts) if random.index(2) == 0 => ("function", call(Function::Sin, parts)),
+        NodeShape::Call(function @ (Function::Sin | Function::Cos | Function::Tan), parts) => {
             let to_degrees =
-                whole(Shape::Pair(Operator::Over, Box::new([number(180.0), whole(Shape::Name("pi".into()))])));
-            let degrees = Shape::Pair(Operator::Times, Box::new([parts[0].clone(), to_degrees]));
+                whole(NodeShape::Pair(Operator::Over, Box::new([number(180.0), whole(NodeShape::Name("pi".into()))])));
+            let degrees = NodeShape::Pair(Operator::Times, Box::new([parts[0].clone(), to_degrees]));
             ("degrees", call(*function, &[whole(degrees)]))
         }
-        Shape::Call(Function::Sqrt, _) => ("branch", Shape::Negative(Box::new(part.clone()))),
-        Shape::Name(own) if names.contains(own) => {
+        NodeShape::Call(Function::Sqrt, _) => ("branch", NodeShape::Negative(Box::new(part.clone()))),
+        NodeShape::Name(own) if names.contains(own) => {
             let other = &names[random.index(names.len())];
-            ("name", Shape::Name(other.clone()))
+            ("name", NodeShape::Name(other.clone()))
         }
-        Shape::Number(_) | Shape::Name(_) | Shape::Pair(..) | Shape::Call(..) => return None,
+        NodeShape::Number(_) | NodeShape::Name(_) | NodeShape::Pair(..) | NodeShape::Call(..) => return None,
     })
 }
 
 /// What a diagnosis may call a planted slip: -sqrt(x) is another branch and a sign.
-fn of_kind(planted: &str) -> &'static [Kind] {
+fn of_kind(planted: &str) -> &'static [SlipKind] {
     match planted {
-        "sign" => &[Kind::Sign],
-        "square" => &[Kind::Power],
-        "function" => &[Kind::Function],
-        "degrees" => &[Kind::Unit],
-        "branch" => &[Kind::Sign, Kind::Branch],
-        _ => &[Kind::Name, Kind::Exchanged],
+        "sign" => &[SlipKind::Sign],
+        "square" => &[SlipKind::Power],
+        "function" => &[SlipKind::Function],
+        "degrees" => &[SlipKind::Unit],
+        "branch" => &[SlipKind::Sign, SlipKind::Branch],
+        _ => &[SlipKind::Name, SlipKind::Exchanged],
     }
 }
 
-fn places(tree: &Tree) -> Vec<Vec<usize>> {
+fn places(tree: &FormulaTree) -> Vec<Vec<usize>> {
     let inner = tree
         .parts()
         .iter()
@@ -56,7 +56,7 @@ fn places(tree: &Tree) -> Vec<Vec<usize>> {
     [Vec::new()].into_iter().chain(inner).collect()
 }
 
-fn at<'a>(tree: &'a mut Tree, place: &[usize]) -> &'a mut Tree {
+fn at<'a>(tree: &'a mut FormulaTree, place: &[usize]) -> &'a mut FormulaTree {
     place.iter().fold(tree, |tree, &index| &mut tree.parts_mut()[index])
 }
 
@@ -111,7 +111,7 @@ fn planted(seed: u64, count: usize) -> (usize, usize) {
         // Whatever is named makes the formula right everywhere. It is named rightly if it is of the planted kind.
         let cause = found.judgement.causes.iter().find(|(own, _)| own == name).and_then(|(_, cause)| cause.as_ref());
         match cause {
-            Some(Cause::Slip(slip)) if slip.formula == *name && of_kind(kind).contains(&slip.kind) => named += 1,
+            Some(FormulaCause::Slip(slip)) if slip.formula == *name && of_kind(kind).contains(&slip.kind) => named += 1,
             other => println!("{file}: {name} = {text} for {}: {other:?}", formula.text),
         }
     }

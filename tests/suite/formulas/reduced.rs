@@ -4,7 +4,7 @@ use super::{judged, load};
 use crate::cli::tools::Place;
 use crate::common::assert_within;
 use analytic::PoseSolver;
-use analytic::reduced::Model;
+use analytic::reduced::ReducedModel;
 use scenario::{Claim, Formulas, Scenario};
 
 fn scenario(name: &str) -> Scenario {
@@ -30,7 +30,7 @@ fn found(scenario: &Scenario, quantity: &str) -> Vec<[f64; 3]> {
 fn what_is_reduced_to_the_crank_is_that_of_the_equation_of_motion() {
     for name in ["crank_rocker", "crank_rocker_runup", "class3_group", "compressor", "ov7_base", "quick_return"] {
         let scenario = scenario(name);
-        let model = Model::of(&scenario.case).unwrap();
+        let model = ReducedModel::of(&scenario.case).unwrap();
         let mut poses = PoseSolver::new(&scenario.case).unwrap();
         let way = scenario.case.crank().sense();
         for (quantity, is_inertia) in [("drive.reduced_inertia_kg_m2", true), ("drive.reduced_moment_N_m", false)] {

@@ -1,6 +1,6 @@
 //! What is undefined is neither right nor read over, at whatever door it comes in.
 
-use prover::claims::Outcome;
+use prover::claims::FormulaOutcome;
 use prover::proof::Reference;
 use scenario::Scenario;
 
@@ -89,8 +89,8 @@ fn operations_that_leave_their_domain_on_the_way_disagree_with_their_place() {
         }
         let found = super::judged(&scenario);
         for (_, all) in found.judgement.sides.iter() {
-            let outcomes: Vec<Outcome> = all.iter().map(|orders| orders[0].outcome()).collect();
-            assert_eq!(outcomes, [Outcome::Wrong, Outcome::Right], "{text}");
+            let outcomes: Vec<FormulaOutcome> = all.iter().map(|orders| orders[0].outcome()).collect();
+            assert_eq!(outcomes, [FormulaOutcome::Wrong, FormulaOutcome::Right], "{text}");
         }
         let undefined = found.judgement.undefined("formula").unwrap();
         let (formula, operation, at) = (&undefined.formula, &undefined.written, undefined.crank);
@@ -113,14 +113,14 @@ fn poles_between_instants_and_poles_that_rounding_hides() {
     };
     // Instants stand at whole degrees; this divisor crosses zero between 57 and 58.
     let crossing = outcome("phi*180/pi*(phi - 1)/(phi - 1)");
-    assert_eq!((crossing.outcome(), crossing.lost), (Outcome::Right, 0));
+    assert_eq!((crossing.outcome(), crossing.lost), (FormulaOutcome::Right, 0));
     // At 90 and 270 deg nothing is known of a tangent, and whatever it is multiplied by.
     for text in ["phi*180/pi + 0*tan(phi)", "phi*180/pi + 0/cos(phi)"] {
         let pole = outcome(text);
-        assert_eq!((pole.outcome(), pole.lost), (Outcome::Right, 2), "{text}");
+        assert_eq!((pole.outcome(), pole.lost), (FormulaOutcome::Right, 2), "{text}");
     }
     let wrong = outcome("phi*180/pi + 1e-3*tan(phi)");
-    assert_eq!(wrong.outcome(), Outcome::Wrong);
+    assert_eq!(wrong.outcome(), FormulaOutcome::Wrong);
 }
 
 /// A number that a double cannot hold is not undefined: nothing is proven by it, and nothing disproven.
@@ -132,7 +132,7 @@ fn overflow_proves_nothing() {
     formula.claim = Some(claim);
     let found = super::judged(&scenario);
     let outcome = found.judgement.sides[Reference::Assur][0][0].outcome();
-    assert!(matches!(outcome, Outcome::Open { .. }), "{outcome:?}");
+    assert!(matches!(outcome, FormulaOutcome::Open { .. }), "{outcome:?}");
 }
 
 /// A cell without a number is missing; numbers without a result are a mistake, with the row.

@@ -4,7 +4,7 @@ use linkage::math::KeepNan;
 use std::f64::consts::TAU;
 
 use analytic::PoseSolver;
-use analytic::reduced::{CrankState, End, Model, RunUp, motion};
+use analytic::reduced::{CrankState, ReducedModel, RunUp, RunUpEnd, motion};
 use linkage::case::Case;
 use linkage::drive::Load;
 use linkage::error::ErrorKind;
@@ -40,10 +40,10 @@ fn energy(case: &Case, poses: &mut PoseSolver, at: &CrankState) -> f64 {
 fn a_spring_gives_back_what_it_takes() {
     let case = press(|load| matches!(load, Load::Spring { .. }));
     assert_eq!(case.loads.len(), 1);
-    let model = Model::of(&case).unwrap();
+    let model = ReducedModel::of(&case).unwrap();
     let times: Vec<f64> = (0..=2000).map(|k| f64::from(k) * 5e-3).collect();
     let (found, end) = motion(&model, 60.0, &times, 3e-15).unwrap();
-    assert_eq!(end, End::Reached);
+    assert_eq!(end, RunUpEnd::Reached);
     let mut poses = PoseSolver::new(&case).unwrap();
     let first = energy(&case, &mut poses, &found[0]);
     let worst = found.iter().map(|at| (energy(&case, &mut poses, at) - first).abs()).fold(0.0, f64::larger);
@@ -59,7 +59,7 @@ fn the_reduced_moment_of_tables_and_one_sided_moments_is_that_of_the_reactions()
     let acts = linkage::drive::Acts::Clockwise;
     let more = [Load::Moment { link: rod, moment: table, acts }, Load::Resistance { link: rod, moment: 3.0 }];
     let case = case.with(|parts| parts.loads.extend(more)).unwrap();
-    let model = Model::of(&case).unwrap();
+    let model = ReducedModel::of(&case).unwrap();
     // Two turns, because of the table over two turns: it has three points in them, the press's table has nine in each.
     // Where the press's table has points, the rocker reverses.
     assert_eq!((model.kinks().period, model.kinks().cranks.len()), (Some(2.0 * TAU), 3 + 18));
@@ -74,7 +74,7 @@ fn the_reduced_moment_of_tables_and_one_sided_moments_is_that_of_the_reactions()
 fn what_the_reduction_does_not_know_is_refused_by_name() {
     for (keep, word) in [("damper", "size of speeds"), ("torsion_damper", "size of speeds")] {
         let case = press(|load| load.sort() == keep);
-        let error = Model::of(&case).unwrap_err();
+        let error = ReducedModel::of(&case).unwrap_err();
         assert_eq!(error.kind(), ErrorKind::Unsupported);
         assert!(
             error.message().contains(keep) && error.message().contains(word) && error.way_out().is_some(),
@@ -85,7 +85,7 @@ fn what_the_reduction_does_not_know_is_refused_by_name() {
     let loaded = |loads: Vec<Load>| case.with(|parts| parts.loads = loads).unwrap();
     let at = case.mechanism.joint_named("guide").map(|joint| case.mechanism.joints()[joint].second).unwrap();
     let resisted = loaded(vec![Load::ResistingForce { at, force: 1.0 }]);
-    let error = Model::of(&resisted).unwrap_err();
+    let error = ReducedModel::of(&resisted).unwrap_err();
     assert!(error.message().contains("\"resisting_force\" turns with the motion of a point"), "{error}");
     let (link, acts) = (at.link, linkage::drive::Acts::Always);
     let tables = [7, 11, 17].map(|turns| Load::Moment {
@@ -93,8 +93,8 @@ fn what_the_reduction_does_not_know_is_refused_by_name() {
         moment: linkage::drive::Course::table(&[(0.0, 1.0)], turns, true),
         acts,
     });
-    assert!(Model::of(&loaded(tables.into())).unwrap_err().message().contains("after 1309 turns"));
+    assert!(ReducedModel::of(&loaded(tables.into())).unwrap_err().message().contains("after 1309 turns"));
     let crank = case.crank().link;
     let spring = vec![Load::TorsionSpring { links: [LinkId(0), crank], stiffness: 1.0, free_angle: 0.0 }];
-    assert!(Model::of(&loaded(spring)).unwrap_err().message().contains("wound up by every turn"));
+    assert!(ReducedModel::of(&loaded(spring)).unwrap_err().message().contains("wound up by every turn"));
 }

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 use linkage::trajectory::CHANNELS;
-use scenario::keys::{Kind, section};
+use scenario::keys::{ValueKind, section};
 use toml_edit::{Item, TableLike, Value};
 
 use super::{SOURCE, files, loaded};
@@ -70,7 +70,7 @@ fn every_key_unit_and_word_of_a_mechanism_its_drives_motor_and_loads_has_numbers
         for key in own.keys.iter().filter(|key| key.name != DRAWN) {
             let spelled = key.spellings().into_iter().filter(|spelling| !keys.contains(spelling.as_str()));
             missing.extend(spelled.map(|spelling| format!("{path}: {spelling}")));
-            if let Kind::Choice(words) = key.kind {
+            if let ValueKind::Choice(words) = key.kind {
                 let has = |word: &&&str| found.contains(&(key.name.into(), (**word).into()));
                 // A default need not be written.
                 let words = words();

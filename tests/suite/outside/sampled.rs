@@ -5,7 +5,7 @@ use linkage::case::{Case, Wanted};
 use linkage::drive::load::Acts;
 use linkage::drive::{Course, Load};
 use linkage::math::{KeepNan, Vec2, cross};
-use linkage::mechanism::{GROUND, JointId, LinkId, Side};
+use linkage::mechanism::{GROUND, JointId, JointSide, LinkId};
 use linkage::trajectory::{Channel, Trajectory};
 use linkproof::Scenario;
 
@@ -52,7 +52,7 @@ impl Row<'_> {
     }
 
     /// Place and velocity of a point of a link.
-    fn point(&self, at: Side) -> [Vec2; 2] {
+    fn point(&self, at: JointSide) -> [Vec2; 2] {
         let (moving, body) = (self.link(at.link), &self.case.mechanism.links()[at.link]);
         let from = if at.link == GROUND { Vec2::zeros() } else { body.mass_centre };
         let (sin, cos) = moving.turn[0].sin_cos();

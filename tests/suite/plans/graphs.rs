@@ -3,7 +3,7 @@
 use crate::common::assert_within;
 use std::f64::consts::TAU;
 
-use design::diagram::{Graph, Graphs, Mark, draw};
+use design::diagram::{CrankGraph, GraphPoint, Graphs, draw};
 
 /// A cosine about 3 N over one turn from 90 deg on, in the direction `way`.
 fn cosine(amplitude: f64, way: f64) -> Graphs {
@@ -11,9 +11,10 @@ fn cosine(amplitude: f64, way: f64) -> Graphs {
     let points = (0..=360).map(|k| way * TAU * f64::from(k) / 360.0).map(|x| [start + x, 3.0 + amplitude * x.cos()]);
     // The first mark is before the turn that is drawn.
     let marks = [("least", -TAU / 2.0, -1.0), ("greatest", 0.0, 1.0)];
-    let marks = marks.map(|(word, x, side)| Mark { at: [start + way * x, 3.0 + side * amplitude], word });
+    let marks = marks.map(|(word, x, side)| GraphPoint { at: [start + way * x, 3.0 + side * amplitude], word });
     let (points, size) = (points.collect(), 3.0 + amplitude);
-    let graph = Graph { name: "force", symbol: "F_x", unit: "N", points, mean: 3.0, mean_word: "mean", marks, size };
+    let graph =
+        CrankGraph { name: "force", symbol: "F_x", unit: "N", points, mean: 3.0, mean_word: "mean", marks, size };
     Graphs { period: [start, start + way * TAU], graphs: vec![graph], notes: vec!["a < b & c".into()] }
 }
 

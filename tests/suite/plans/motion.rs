@@ -6,14 +6,14 @@ use std::f64::consts::{PI, TAU};
 use analytic::AssurSolver;
 use design::diagram::motion::Method;
 use design::diagram::plan::state_at;
-use design::diagram::{Course, MotionDiagram, draw};
+use design::diagram::{MotionCurve, MotionDiagram, draw};
 
 use super::scenario;
 use crate::common::assert_within;
 
 fn motion(name: &str, channel: &str, divisions: usize) -> MotionDiagram {
     let case = scenario(name).case;
-    let course = Course::named(&case, channel).unwrap();
+    let course = MotionCurve::named(&case, channel).unwrap();
     MotionDiagram::of(&case, &AssurSolver, &course, divisions).unwrap()
 }
 
@@ -158,11 +158,11 @@ fn bad_questions_are_answered_with_the_way_out() {
         ("joint.B.fx_N", "neither a position nor an angle", "point.B.x_m"),
         ("", "no channel", "point.B.x_m"),
     ] {
-        let error = Course::named(&case, channel).unwrap_err();
+        let error = MotionCurve::named(&case, channel).unwrap_err();
         assert!(error.message().contains(message), "{channel}: {error}");
         assert!(error.way_out().unwrap().contains(way_out), "{channel}: {error}");
     }
-    let course = Course::named(&case, "point.B.x_m").unwrap();
+    let course = MotionCurve::named(&case, "point.B.x_m").unwrap();
     for divisions in [0, 3, 1001] {
         let error = MotionDiagram::of(&case, &AssurSolver, &course, divisions).unwrap_err();
         assert!(error.way_out().unwrap().contains("from 4 to 1000"), "{error}");

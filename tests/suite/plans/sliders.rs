@@ -3,7 +3,7 @@
 
 use analytic::{AssurSolver, NewtonSolver};
 use design::diagram::plan::state_at;
-use design::diagram::{Part, TipKind, draw};
+use design::diagram::{TipKind, VectorKind, draw};
 use linkage::case::Case;
 use linkage::math::{KeepNan, Vec2, cross, rotated, turned};
 use linkage::solver::{Solver, State};
@@ -96,10 +96,13 @@ fn sliding_pairs_close_contours_of_their_own() {
             let plans = plans_with(name, solver, degrees_of(name, 67.0));
             for plan in [&plans.velocity, &plans.acceleration] {
                 let mut without = plan.clone();
-                without.vectors.retain(|vector| !matches!(vector.part, Part::Sliding | Part::Coriolis));
+                without.vectors.retain(|vector| !matches!(vector.part, VectorKind::Sliding | VectorKind::Coriolis));
                 assert_eq!(contours(plan).0, contours(&without).0 + 1, "{name}");
                 let (tip, letter) = (plan.tip(&under.to_lowercase()).unwrap(), point.to_lowercase());
-                let parts = plan.vectors.iter().filter(|vector| matches!(vector.part, Part::Sliding | Part::Coriolis));
+                let parts = plan
+                    .vectors
+                    .iter()
+                    .filter(|vector| matches!(vector.part, VectorKind::Sliding | VectorKind::Coriolis));
                 let sum: Vec2 = parts.map(|vector| vector.value).sum();
                 assert_within!((tip + sum - plan.tip(&letter).unwrap()).norm(), 1e-11 * longest(plan), "{name}");
             }
@@ -115,8 +118,12 @@ fn links_that_never_turn_have_no_relative_vectors() {
             let plans = plans_with(name, &NewtonSolver, degrees);
             for plan in [&plans.velocity, &plans.acceleration] {
                 let still = |link: LinkId| plans.scheme.links[link.index() - 1].omega.abs() < 1e-12;
-                let between =
-                    |part: Part| matches!(part, Part::Relative | Part::Normal | Part::Tangential | Part::Coriolis);
+                let between = |part: VectorKind| {
+                    matches!(
+                        part,
+                        VectorKind::Relative | VectorKind::Normal | VectorKind::Tangential | VectorKind::Coriolis
+                    )
+                };
                 let silly = plan.vectors.iter().find(|vector| between(vector.part) && still(vector.link));
                 assert!(silly.is_none(), "{name} at {degrees}: {:?}", silly);
                 let mut letters: Vec<&str> = plan.tips.iter().map(|tip| tip.letter.as_str()).collect();

@@ -9,7 +9,7 @@ use linkage::case::Case;
 use linkage::drive::Wrench;
 use linkage::math::dense::Lu;
 use linkage::math::{KeepNan, Motion, Vec2, cross, turned, unit};
-use linkage::mechanism::{Joint, JointId, Tree};
+use linkage::mechanism::{Joint, JointId, SpanningTree};
 use linkage::solver::State;
 use rapier_twin::newton_euler::NewtonEuler;
 use scenario::Scenario;
@@ -29,17 +29,17 @@ fn shipped() -> Vec<(String, Case)> {
 
 /// The equations along the tree in use, and along every tree of those that together cover all joints, if it has all
 /// links and all driven joints.
-fn along_all_trees(case: &Case) -> Vec<(Tree, NewtonEuler)> {
+fn along_all_trees(case: &Case) -> Vec<(SpanningTree, NewtonEuler)> {
     let driven: Vec<JointId> = case.drives.iter().map(|drive| drive.joint).collect();
     let masses: Vec<[f64; 2]> = case.mechanism.links().iter().map(|link| [link.mass, link.inertia]).collect();
-    let mut trees = vec![Tree::with(&case.mechanism, &driven)];
-    for tree in Tree::covering(&case.mechanism, &case.wanted_reactions()) {
+    let mut trees = vec![SpanningTree::with(&case.mechanism, &driven)];
+    for tree in SpanningTree::covering(&case.mechanism, &case.wanted_reactions()) {
         let whole = tree.branches.len() + 1 == case.mechanism.links().len();
         if whole && driven.iter().all(|joint| !tree.cut.contains(joint)) {
             trees.push(tree);
         }
     }
-    let along = |tree: Tree| (NewtonEuler::along(case, &tree, masses.clone(), 1.0), tree);
+    let along = |tree: SpanningTree| (NewtonEuler::along(case, &tree, masses.clone(), 1.0), tree);
     trees.into_iter().map(along).map(|(equations, tree)| (tree, equations)).collect()
 }
 

@@ -6,7 +6,7 @@ use std::fs;
 use std::path::Path;
 
 use analytic::AssurSolver;
-use drawing::{Mark, Role, Sketch, Travels};
+use drawing::{Mark, MarkRole, Sketch, Travels};
 use foxglove::messages::line_primitive::Type as LineType;
 use foxglove::messages::{SceneEntity, SceneUpdate};
 use linkage::case::Case;
@@ -107,7 +107,8 @@ fn every_mark_is_drawn_in_the_frame_of_its_link() {
             let id = if body.link == GROUND { "ground".into() } else { format!("reference/{link}") };
             let entity = entity(&scene, &id);
             assert_eq!(entity.frame_id, if body.link == GROUND { "world".into() } else { id.clone() });
-            let flat = |mark: &&Mark| !matches!(mark.role, Role::Pin | Role::MassCentre | Role::MassQuarter);
+            let flat =
+                |mark: &&Mark| !matches!(mark.role, MarkRole::Pin | MarkRole::MassCentre | MarkRole::MassQuarter);
             let mut lines = entity.lines.iter();
             for (_, mark) in sketch.in_order().into_iter().filter(|(of, mark)| *of == body.link && flat(mark)) {
                 let (points, closed) = (mark.shape.points(), mark.shape.is_closed());
@@ -120,7 +121,7 @@ fn every_mark_is_drawn_in_the_frame_of_its_link() {
                 }
             }
             assert!(lines.next().is_none(), "{name} {id}");
-            let pins = body.marks.iter().filter(|mark| mark.role == Role::Pin).count();
+            let pins = body.marks.iter().filter(|mark| mark.role == MarkRole::Pin).count();
             // A disc and the hole in it.
             assert_eq!(entity.cylinders.len(), 2 * pins, "{name} {id}");
             let frame = entity.frame_id.as_str();

@@ -5,8 +5,8 @@ use std::path::Path;
 
 use analytic::range::{Extent, FourBarType, Range};
 use analytic::{AssurSolver, NewtonSolver};
-use design::synthesis::Sheet;
-use design::synthesis::crank_rocker::{CrankRocker, Wish};
+use design::synthesis::DraftContents;
+use design::synthesis::crank_rocker::{CrankRocker, CrankRockerSpec};
 use design::synthesis::slider_crank::{Given, SliderCrank};
 use linkage::case::Case;
 use linkage::math::{KeepNan, Vec2};
@@ -15,8 +15,8 @@ use scenario::Scenario;
 use crate::common::{assert_within, shipped, states};
 use linkage::mechanism::{GroupId, LinkId};
 
-fn sheet() -> Sheet {
-    Sheet { name: "found".into(), title: "Found".into(), comment: "two\nlines".into(), speed: 6.0, bar: 2.0 }
+fn sheet() -> DraftContents {
+    DraftContents { name: "found".into(), title: "Found".into(), comment: "two\nlines".into(), speed: 6.0, bar: 2.0 }
 }
 
 fn case(text: &str) -> Case {
@@ -29,8 +29,8 @@ fn same_angle(a: f64, b: f64, within: f64) -> bool {
     apart.smaller(TAU - apart) <= within
 }
 
-fn published() -> Wish {
-    Wish {
+fn published() -> CrankRockerSpec {
+    CrankRockerSpec {
         crank_pivot: Vec2::zeros(),
         rocker_pivot: Vec2::new(0.15, 0.015),
         rocker: 0.25,
@@ -58,7 +58,7 @@ fn crank_rockers_have_their_extreme_positions() {
     for k in 0..200u32 {
         // The values are spread over the whole sensible range, without random numbers.
         let part = |prime: f64| (f64::from(k) * prime.sqrt()).fract();
-        let wish = Wish {
+        let wish = CrankRockerSpec {
             crank_pivot: Vec2::new(0.3 * part(2.0), -0.2 * part(3.0)),
             rocker_pivot: Vec2::new(0.2 + 0.4 * part(5.0), 0.2 - 0.5 * part(7.0)),
             rocker: 0.05 + 0.3 * part(11.0),

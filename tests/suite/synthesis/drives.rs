@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use analytic::{AssurSolver, NewtonSolver};
 use design::synthesis::{Achieved, search};
-use design::task::{Effort, Task};
+use design::task::{SearchEffort, Task};
 use design::task_file::TaskFile;
 use linkage::math::{KeepNan, Vec2, unit};
 use prover::compare::Verdict;
@@ -124,7 +124,7 @@ fn the_published_eyelet_needle_drives_keep_their_timing() {
 #[test]
 fn a_class_three_group_is_searched() {
     let TaskFile { mut task, .. } = TaskFile::load(&top().join("eyelet_needle_task.toml")).unwrap();
-    task.effort = Effort { seed: 1, candidates: 600, refined: 2, evaluations: 400 };
+    task.effort = SearchEffort { seed: 1, candidates: 600, refined: 2, evaluations: 400 };
     let found = search(&task, 2, &mut |_| {}).unwrap();
     assert!(found.candidates[1] > 10 && found.cost < found.refined[1].smaller(found.random_cost) + 1e-15, "{found:?}");
     let mut mechanism = task.case.mechanism.clone();

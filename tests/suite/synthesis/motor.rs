@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use design::catalogue;
-use design::motor::Choice;
+use design::motor::MotorChoice;
 
 use crate::common::{assert_within, shipped};
 
@@ -23,7 +23,7 @@ fn the_peak_without_the_weight_of_the_crank() {
     }
     // The scenario's published masses are an oracle and not needed here.
     let scenario = scenario::Scenario::parse(&text, Path::new("x.toml")).unwrap();
-    let choice = Choice::of(&scenario.case, &motors(), 0.92).unwrap();
+    let choice = MotorChoice::of(&scenario.case, &motors(), 0.92).unwrap();
     assert_within!((choice.peak.1 - 37.016).abs(), 5e-4, "{}", choice.peak.1);
     assert_eq!(choice.motor.power, 550.0);
 }
@@ -31,7 +31,7 @@ fn the_peak_without_the_weight_of_the_crank() {
 #[test]
 fn the_published_motor_comes_out() {
     let scenario = shipped("crank_rocker.toml");
-    let choice = Choice::of(&scenario.case, &motors(), 0.92).unwrap();
+    let choice = MotorChoice::of(&scenario.case, &motors(), 0.92).unwrap();
     eprintln!("{choice:?}");
     // Printed: 36.98 N m * 13.61 1/s = 0.503 kW, over 0.92 it is 0.547 kW.
     assert_within!((choice.power / 1e3 - 0.503).abs(), 0.01, "{}", choice.power);

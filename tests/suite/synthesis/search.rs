@@ -4,9 +4,9 @@ use std::f64::consts::TAU;
 use std::path::PathBuf;
 
 use design::redraw;
-use design::synthesis::crank_rocker::{CrankRocker, Wish};
+use design::synthesis::crank_rocker::{CrankRocker, CrankRockerSpec};
 use design::synthesis::{Achieved, search};
-use design::task::{Effort, Task};
+use design::task::{SearchEffort, Task};
 use design::task_file::TaskFile;
 use linkage::ErrorKind;
 use linkage::math::Vec2;
@@ -64,7 +64,7 @@ fn task(text: &str) -> TaskFile {
 #[test]
 fn the_search_finds_the_lengths_of_the_closed_form() {
     let TaskFile { task, .. } = task(TASK);
-    let wish = Wish {
+    let wish = CrankRockerSpec {
         crank_pivot: Vec2::zeros(),
         rocker_pivot: Vec2::new(0.15, 0.015),
         rocker: 0.25,
@@ -87,7 +87,7 @@ fn the_search_finds_the_lengths_of_the_closed_form() {
 fn results_depend_on_the_seed_and_not_on_the_threads() {
     let TaskFile { mut task, .. } = task(TASK);
     task.stroke = [0.3, 0.9];
-    task.effort = Effort { seed: 7, candidates: 9000, refined: 5, evaluations: 500 };
+    task.effort = SearchEffort { seed: 7, candidates: 9000, refined: 5, evaluations: 500 };
     let mut parts = Vec::new();
     let one = search(&task, 1, &mut |part| parts.push(part)).unwrap();
     assert!(
@@ -207,7 +207,7 @@ fn mistakes_in_the_file_are_answered() {
 #[test]
 fn a_search_that_finds_nothing_says_so() {
     let TaskFile { mut task, .. } = task(TASK);
-    task.effort = Effort { seed: 1, candidates: 500, refined: 2, evaluations: 10 };
+    task.effort = SearchEffort { seed: 1, candidates: 500, refined: 2, evaluations: 10 };
     task.transmission = 1.5;
     let error = search(&task, 1, &mut |_| {}).unwrap_err();
     assert!(error.kind() == ErrorKind::Numeric && error.message().contains("none of 500"), "{error}");

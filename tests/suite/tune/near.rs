@@ -1,7 +1,7 @@
 //! The result of `tune` against all of a space of settings, by the price model: for the tests, and with the whole space
 //! for `benches/tune.rs`.
 
-use lab::tune::{Tuning, Wish, price_of, tune};
+use lab::tune::{Tuning, WantedAccuracy, price_of, tune};
 use linkage::engine::Engine;
 use prover::engines::EngineName;
 use prover::proof::Options;
@@ -14,7 +14,7 @@ pub const FACTOR: f64 = 1.5;
 
 /// Tunes by the price model.
 pub fn tuned(scenario: &Scenario, within: f64, channels: &[&str], options: &Options) -> linkage::Result<Tuning> {
-    let wish = Wish { within, channels: channels.iter().map(|name| name.to_string()).collect() };
+    let wish = WantedAccuracy { within, channels: channels.iter().map(|name| name.to_string()).collect() };
     let mut price = |engine: &dyn Engine, run: &mut dyn FnMut() -> linkage::Result<()>| {
         run()?;
         Ok(price_of(&scenario.case, engine))

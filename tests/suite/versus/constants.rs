@@ -3,10 +3,10 @@
 use super::digits::Format;
 use super::{scenario, solved};
 use prover::tables::load;
-use prover::versus::{Comparison, How};
+use prover::versus::{ComparisonRule, PartyComparison};
 
 /// A scenario's channels in some formats, one column replaced by numbers of another.
-fn compared(name: &str, columns: &[(&str, Format, Option<f64>)]) -> Comparison {
+fn compared(name: &str, columns: &[(&str, Format, Option<f64>)]) -> PartyComparison {
     let scenario = scenario(name);
     let right = solved(&scenario);
     let mut text = format!("t_s,{}\n", columns.iter().map(|(name, ..)| *name).collect::<Vec<_>>().join(","));
@@ -20,7 +20,7 @@ fn compared(name: &str, columns: &[(&str, Format, Option<f64>)]) -> Comparison {
     let directory = tempfile::TempDir::new().unwrap();
     let path = directory.path().join("printed.csv");
     std::fs::write(&path, text).unwrap();
-    super::against(&scenario, &load(&path).unwrap(), &How::default())
+    super::against(&scenario, &load(&path).unwrap(), &ComparisonRule::default())
 }
 
 fn words(name: &str, columns: &[(&str, Format, Option<f64>)]) -> Vec<&'static str> {

@@ -8,7 +8,7 @@ use linkage::math::KeepNan;
 use linkage::trajectory::Trajectory;
 use linkproof::Scenario;
 use prover::tables::{Raw, load};
-use prover::versus::{Comparison, How};
+use prover::versus::{ComparisonRule, PartyComparison};
 
 /// Numbers by chance, the same in every run (SplitMix64).
 pub(crate) struct Random(pub(crate) u64);
@@ -118,8 +118,8 @@ impl Printed {
         load(&path).unwrap()
     }
 
-    fn compared(&self, scenario: &Scenario) -> Comparison {
-        against(scenario, &self.raw(), &How::default())
+    fn compared(&self, scenario: &Scenario) -> PartyComparison {
+        against(scenario, &self.raw(), &ComparisonRule::default())
     }
 }
 

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use super::scenario;
 use linkproof::plain::diagnosis::cause;
 use prover::tables::{Held, load};
-use prover::versus::{Comparison, How, Party, compare};
+use prover::versus::{ComparedParty, ComparisonRule, PartyComparison, compare};
 use scenario::mapping::{Mapped, Mapping};
 
 const FOREIGN: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/foreign");
@@ -26,7 +26,7 @@ fn path(name: &str) -> PathBuf {
 }
 
 /// A table against the scenario of a right one, by its map, with other lines in the place of those for the same channels.
-fn compared(right: &str, table: &str, lines: &[&str]) -> Comparison {
+fn compared(right: &str, table: &str, lines: &[&str]) -> PartyComparison {
     let (map, of, _) = RIGHT.into_iter().find(|(map, ..)| *map == right).unwrap();
     let mut mapping = Mapping::load(&path(&format!("{map}.map.toml"))).unwrap();
     for line in lines {
@@ -36,12 +36,12 @@ fn compared(right: &str, table: &str, lines: &[&str]) -> Comparison {
     }
     let file = path("data").join(table);
     let held = Held::of_table(&load(&file).unwrap(), &mapping).unwrap_or_else(|error| panic!("{table}: {error}"));
-    let parties = [Party::from(scenario(of)), Party::from(held)];
-    let how = How { allowed: mapping.allowed, ..How::default() };
+    let parties = [ComparedParty::from(scenario(of)), ComparedParty::from(held)];
+    let how = ComparisonRule { allowed: mapping.allowed, ..How::default() };
     compare(parties, &how).unwrap_or_else(|error| panic!("{table}: {error}"))
 }
 
-fn causes(found: &Comparison) -> Vec<String> {
+fn causes(found: &PartyComparison) -> Vec<String> {
     let causes = found.pairs.iter().flat_map(|pair| &pair.causes);
     causes.filter_map(|explained| explained.diagnosis.cause.as_ref()).map(cause).collect()
 }

@@ -6,7 +6,7 @@ use super::{against, scenario, solved, table};
 use linkage::case::Case;
 use linkage::trajectory::Trajectory;
 use linkproof::report::versus::why;
-use prover::versus::{Comparison, How};
+use prover::versus::{ComparisonRule, PartyComparison};
 use scenario::mapping::{Allowed, Size};
 
 /// A mistake: what it does to the right columns of a table, and words of the cause that it should be called by.
@@ -41,7 +41,7 @@ impl Columns {
         }
     }
 
-    fn compared(&self, name: &str, how: &How) -> Comparison {
+    fn compared(&self, name: &str, how: &ComparisonRule) -> PartyComparison {
         let mut columns = vec![("t_s", self.time.clone())];
         columns.extend(self.all.iter().map(|(name, values)| (name.as_str(), values.clone())));
         against(&scenario(name), &table(&columns), how)
@@ -111,7 +111,7 @@ const SCENARIOS: [(&str, &str, &str); 5] = [
     ("ov7_base", "rod_57", "rocker_43"),
 ];
 
-fn words(found: &Comparison) -> Vec<String> {
+fn words(found: &PartyComparison) -> Vec<String> {
     found.pairs.iter().flat_map(|pair| &pair.causes).filter_map(why).collect()
 }
 
@@ -122,7 +122,7 @@ fn every_planted_mistake_is_found_and_most_are_named() {
     for (name, link, other) in SCENARIOS {
         let scenario = scenario(name);
         let right = solved(&scenario);
-        let agreed = Columns::of(&right, link, other, &scenario.case).compared(name, &How::default());
+        let agreed = Columns::of(&right, link, other, &scenario.case).compared(name, &ComparisonRule::default());
         assert_eq!(agreed.verdict.word(), "agree", "{name}");
         for (mistake, make, expected) in MISTAKES {
             let mut columns = Columns::of(&right, link, other, &scenario.case);
@@ -133,7 +133,7 @@ fn every_planted_mistake_is_found_and_most_are_named() {
                 continue;
             }
             all += 1;
-            let found = columns.compared(name, &How::default());
+            let found = columns.compared(name, &ComparisonRule::default());
             assert_eq!(found.verdict.word(), "disagree", "{name}: {mistake}");
             let words = words(&found);
             let is_named = words.iter().any(|words| expected.iter().any(|expected| words.contains(expected)));
@@ -169,7 +169,7 @@ fn a_term_that_is_missing_is_named() {
         let mut columns = Columns { all: agreed.all.clone(), time: agreed.time.clone(), other: Vec::new(), speed: 0.0 };
         let (_, values) = columns.all.iter_mut().find(|(name, _)| name.ends_with(suffix)).unwrap();
         values.iter_mut().enumerate().for_each(|(row, value)| *value -= term(row));
-        let found = columns.compared("crank_rocker", &How::default());
+        let found = columns.compared("crank_rocker", &ComparisonRule::default());
         assert_eq!(words(&found), [expected]);
     }
 }
@@ -181,8 +181,8 @@ fn a_mistake_is_named_in_numbers_that_are_not_exact() {
     let right = solved(&scenario);
     let mut columns = Columns::of(&right, "rocker", "coupler", &scenario.case);
     columns.change("angle_rad", |value| (value + 1e-3 * (7.0 * value).sin()).to_degrees());
-    let how = How { allowed: vec![Allowed { of: None, size: Size::Relative(0.01) }], ..How::default() };
-    for how in [How::default(), how] {
+    let how = ComparisonRule { allowed: vec![Allowed { of: None, size: Size::Relative(0.01) }], ..How::default() };
+    for how in [ComparisonRule::default(), how] {
         let found = columns.compared("crank_rocker", &how);
         assert_eq!(found.verdict.word(), "disagree");
         let explained = &found.pairs[0].causes[0];
@@ -197,11 +197,11 @@ fn a_small_error_without_a_simple_cause_is_left_alone() {
     let scenario = scenario("crank_rocker");
     let mut columns = Columns::of(&solved(&scenario), "rocker", "coupler", &scenario.case);
     columns.change("angle_rad", |value| value + 1e-4 * (40.0 * value).sin());
-    let found = columns.compared("crank_rocker", &How::default());
+    let found = columns.compared("crank_rocker", &ComparisonRule::default());
     let told = "the error is smooth, at most 0.036 % of the scale: integration or step";
     assert_eq!((found.verdict.word(), words(&found)), ("disagree", vec![told.to_string()]));
     for (share, verdict) in [(1e-3, "agree"), (1e-5, "disagree")] {
-        let how = How { allowed: vec![Allowed { of: None, size: Size::Relative(share) }], ..How::default() };
+        let how = ComparisonRule { allowed: vec![Allowed { of: None, size: Size::Relative(share) }], ..How::default() };
         assert_eq!(columns.compared("crank_rocker", &how).verdict.word(), verdict, "{share}");
     }
 }

@@ -2,11 +2,11 @@
 
 use super::{against, held, mapping, scenario, solved, table};
 use prover::tables::{By, Held, load};
-use prover::versus::{How, Party, compare as compared};
+use prover::versus::{ComparedParty, ComparisonRule, compare as compared};
 use scenario::mapping::{Allowed, Size};
 
-fn rel(share: f64) -> How {
-    How { allowed: vec![Allowed { of: None, size: Size::Relative(share) }], ..How::default() }
+fn rel(share: f64) -> ComparisonRule {
+    ComparisonRule { allowed: vec![Allowed { of: None, size: Size::Relative(share) }], ..How::default() }
 }
 
 #[test]
@@ -29,8 +29,8 @@ fn a_mapping_bridges_names_units_signs_and_offsets() {
     ];
     let mapping = mapping(&lines);
     let table = Held::of_table(&raw, &mapping).unwrap();
-    let both = [Party::from(scenario), Party::from(table)];
-    let found = compared(both, &How::default()).unwrap();
+    let both = [ComparedParty::from(scenario), ComparedParty::from(table)];
+    let found = compared(both, &ComparisonRule::default()).unwrap();
     assert_eq!((found.verdict.word(), found.pairs[0].channels.len()), ("agree", 4));
     // What it says is written to a file, and read back.
     let text = mapping.text();
@@ -60,8 +60,8 @@ fn a_wrong_mapping_is_refused_with_its_place() {
     }
     // The scenario has no such link.
     let table = Held::of_table(&raw, &mapping(&["phi3=link.roker.angle_rad"])).unwrap();
-    let both = [Party::from(scenario("crank_rocker")), Party::from(table)];
-    let error = compared(both, &How::default()).err().unwrap();
+    let both = [ComparedParty::from(scenario("crank_rocker")), ComparedParty::from(table)];
+    let error = compared(both, &ComparisonRule::default()).err().unwrap();
     assert!(format!("{:?}", error.advice()).contains("link.rocker.angle_rad"), "{:?}", error.advice());
 }
 
@@ -76,12 +76,12 @@ fn digits_of_numbers_and_of_instants_are_in_the_bound() {
     let lines: String = (0..angle.len()).map(row).collect();
     std::fs::write(&path, format!("t_s,link.rocker.angle_deg\n{lines}")).unwrap();
     let raw = load(&path).unwrap();
-    assert_eq!(against(&scenario, &raw, &How::default()).verdict.word(), "agree");
+    assert_eq!(against(&scenario, &raw, &ComparisonRule::default()).verdict.word(), "agree");
     // One number is off by two units of its last digit, beyond what both roundings leave.
     let spoiled =
         lines.replacen(&format!("{:.4}", angle[40].to_degrees()), &format!("{:.4}", angle[40].to_degrees() + 0.01), 1);
     std::fs::write(&path, format!("t_s,link.rocker.angle_deg\n{spoiled}")).unwrap();
-    let found = against(&scenario, &load(&path).unwrap(), &How::default());
+    let found = against(&scenario, &load(&path).unwrap(), &ComparisonRule::default());
     assert_eq!(found.verdict.word(), "disagree");
     let since = found.pairs[0].channels[0].since.unwrap();
     assert!((since.time - right.times()[40]).abs() < 1e-5);
@@ -96,9 +96,10 @@ fn rows_are_brought_together_by_crank_angle_too() {
         ("crank_deg", cranks),
         ("link.rocker.angle_rad", right.named("link.rocker.angle_rad").unwrap().to_vec()),
     ]);
-    let found = against(&scenario, &raw, &How::default());
+    let found = against(&scenario, &raw, &ComparisonRule::default());
     assert!(found.pairs[0].by_crank && found.verdict.word() == "agree");
-    let error = compared([held(&raw), held(&raw)], &How { by: Some(By::Time), ..How::default() }).err().unwrap();
+    let error =
+        compared([held(&raw), held(&raw)], &ComparisonRule { by: Some(By::Time), ..How::default() }).err().unwrap();
     assert!(error.message().contains("no times"), "{}", error.message());
 }
 
@@ -110,9 +111,10 @@ fn two_tables_need_an_allowance() {
         let angle = right.named("link.rocker.angle_rad").unwrap().iter().map(|value| value + more).collect();
         table(&[("t", right.times().to_vec()), ("link.rocker.angle_rad", angle)])
     };
-    let verdict = |more: f64, how: &How| compared([held(&of(0.0)), held(&of(more))], how).unwrap().verdict.word();
-    assert_eq!(verdict(0.0, &How::default()), "agree");
-    assert_eq!(verdict(1e-6, &How::default()), "inconclusive");
+    let verdict =
+        |more: f64, how: &ComparisonRule| compared([held(&of(0.0)), held(&of(more))], how).unwrap().verdict.word();
+    assert_eq!(verdict(0.0, &ComparisonRule::default()), "agree");
+    assert_eq!(verdict(1e-6, &ComparisonRule::default()), "inconclusive");
     assert_eq!([verdict(1e-6, &rel(1e-5)), verdict(1e-4, &rel(1e-5))], ["agree", "disagree"]);
 }
 
@@ -127,7 +129,7 @@ fn interpolation_has_its_error_in_the_bound() {
     };
     let plain = compared([held(&every(3)), held(&every(1))], &rel(0.0)).unwrap();
     assert_eq!((plain.pairs[0].unshared, plain.pairs[0].channels[0].judged), (240, 121));
-    let how = How { interpolates: true, ..rel(0.0) };
+    let how = ComparisonRule { interpolates: true, ..rel(0.0) };
     let found = compared([held(&every(3)), held(&every(1))], &how).unwrap();
     let channel = &found.pairs[0].channels[0];
     assert_eq!((found.verdict.word(), found.pairs[0].unshared, channel.judged), ("agree", 0, 361));
@@ -148,7 +150,7 @@ fn a_crank_angle_that_is_off_by_a_millionth_is_found() {
         let cranks = right.inputs().iter().map(|crank| crank + more).collect();
         let angle = right.named("link.rocker.angle_rad").unwrap().to_vec();
         let raw = table(&[("t", right.times().to_vec()), ("crank_rad", cranks), ("link.rocker.angle_rad", angle)]);
-        against(&scenario, &raw, &How::default()).verdict.word()
+        against(&scenario, &raw, &ComparisonRule::default()).verdict.word()
     };
     assert_eq!([verdict(0.0), verdict(1e-6)], ["agree", "disagree"]);
 }
@@ -166,7 +168,7 @@ fn what_both_tables_leave_open_of_their_instants_is_in_the_bound() {
     };
     for (first, second) in [(1e-4, 1e-9), (1e-9, 1e-4), (1e-4, 1e-4)] {
         for (times, interpolates) in [(&uneven, false), (&between, true)] {
-            let how = How { interpolates, ..rel(0.0) };
+            let how = ComparisonRule { interpolates, ..rel(0.0) };
             let found = compared([of(&uneven, first), of(times, second)], &how).unwrap();
             let bound = found.pairs[0].channels[0].largest.unwrap().bound / (2.0 * (first + second));
             assert!((1.0..1.5).contains(&bound), "{first:e} {second:e} {interpolates}: {bound}");
@@ -182,7 +184,7 @@ fn a_number_is_judged_by_its_own_channel_alone() {
     let known: Vec<&str> = alpha.into_iter().filter(|name| solved(&scenario).named(name).is_some()).collect();
     assert!(known.len() >= 3, "{known:?}");
     for size in [Size::Relative(0.05), Size::OfValue(0.05)] {
-        let how = How { allowed: vec![Allowed { of: None, size }], ..How::default() };
+        let how = ComparisonRule { allowed: vec![Allowed { of: None, size }], ..How::default() };
         let judged = |names: &[&str]| {
             let mut columns = vec![("crank_deg", vec![70.0])];
             columns.extend(names.iter().map(|name| (*name, vec![if *name == alpha[0] { -80.0 } else { 3.0 }])));
@@ -210,7 +212,7 @@ fn a_zero_that_is_rounding_agrees_alone_as_beside_the_others() {
     for columns in [vec![], vec![("point.B.ay_m_s2", right.named("point.B.ay_m_s2").unwrap().to_vec())]] {
         let mut all = vec![("t", right.times().to_vec()), (name, rounded.clone())];
         all.extend(columns);
-        assert_eq!(against(&scenario, &table(&all), &How::default()).verdict.word(), "agree");
+        assert_eq!(against(&scenario, &table(&all), &ComparisonRule::default()).verdict.word(), "agree");
     }
 }
 
@@ -254,13 +256,13 @@ fn two_tables_in_different_units_are_compared_in_one() {
 #[test]
 fn two_models_of_one_mechanism_are_compared() {
     let one = scenario("crank_rocker");
-    let both = |other: linkproof::Scenario| [Party::from(one.clone()), Party::from(other)];
-    let same = compared(both(one.clone()), &How::default()).unwrap();
+    let both = |other: linkproof::Scenario| [ComparedParty::from(one.clone()), ComparedParty::from(other)];
+    let same = compared(both(one.clone()), &ComparisonRule::default()).unwrap();
     assert_eq!(same.verdict.word(), "agree");
     assert_eq!(same.pairs[0].channels.len(), one.case.channels().len());
     let heavier = one.text.replacen("mass_kg = ", "mass_kg = 1", 1);
     let other = linkproof::Scenario::parse(&heavier, &one.path).unwrap();
-    let found = compared(both(other), &How::default()).unwrap();
+    let found = compared(both(other), &ComparisonRule::default()).unwrap();
     assert_eq!(found.verdict.word(), "disagree");
     let off: Vec<&str> =
         found.pairs[0].channels.iter().filter(|own| own.since.is_some()).map(|own| own.claim.text.as_str()).collect();
@@ -277,11 +279,13 @@ fn what_they_do_not_share_is_told() {
         ("link.ghost.angle_rad", right.times().to_vec()),
         ("temperature", right.times().to_vec()),
     ]);
-    let pair = &against(&scenario, &raw, &How::default()).pairs[0];
+    let pair = &against(&scenario, &raw, &ComparisonRule::default()).pairs[0];
     assert_eq!(pair.alone[1], ["link.ghost.angle_rad"]);
-    let missing =
-        How { allowed: vec![Allowed { of: Some("point.B".into()), size: Size::Relative(0.1) }], ..How::default() };
-    let parties = [Party::from(scenario), held(&raw)];
+    let missing = ComparisonRule {
+        allowed: vec![Allowed { of: Some("point.B".into()), size: Size::Relative(0.1) }],
+        ..How::default()
+    };
+    let parties = [ComparedParty::from(scenario), held(&raw)];
     let error = compared(parties, &missing).err().unwrap();
     assert!(error.message().contains("point.B"), "{}", error.message());
 }

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use super::{Make, Sheet, Wrong, link};
 use linkage::drive::{Course, Load};
-use linkage::mechanism::{LinkId, Side};
+use linkage::mechanism::{JointSide, LinkId};
 
 const FOUR_BAR: &[&str] = &[
     "link.coupler.angle_rad",
@@ -98,7 +98,7 @@ pub(super) const TABLES: &[Wrong] = &[
             let body = &parts.mechanism.links()[LinkId(coupler)];
             assert_eq!(body.name, "coupler");
             let lift = Course::Constant(9.81 * body.mass);
-            let at = Side { link: LinkId(coupler), local: body.mass_centre };
+            let at = JointSide { link: LinkId(coupler), local: body.mass_centre };
             parts.loads.push(Load::Force { at, force: [Course::Constant(0.0), lift], follows: false });
         }),
         named: &["weight of coupler: missing"],

@@ -306,7 +306,7 @@ pub(super) const TABLES: &[Wrong] = &[
         make: Make::Case(|parts| {
             let mut weights = Vec::new();
             for (link, body) in parts.mechanism.links().entries().skip(1) {
-                let at = linkage::mechanism::Side { link, local: body.mass_centre };
+                let at = linkage::mechanism::JointSide { link, local: body.mass_centre };
                 let force = [0.0, -9.81 * body.mass].map(linkage::drive::Course::Constant);
                 weights.push(linkage::drive::Load::Force { at, force, follows: false });
             }

@@ -2,7 +2,7 @@
 
 use super::PoseSolver;
 use super::watch::CLEAR;
-use crate::assur::groups::{Clearance, Misfit, OutOfReach, SINGULAR};
+use crate::assur::groups::{Misfit, OutOfReach, SINGULAR, SingularityDistance};
 use linkage::math::KeepNan;
 use linkage::mechanism::GroupId;
 
@@ -87,7 +87,7 @@ impl PoseSolver<'_> {
     /// Searches the smallest clearance of a group between the present crank angle and `target`, by bisection of its
     /// slope. It is refused where it is zero to rounding.
     #[cold]
-    fn search(&mut self, group: GroupId, target: f64, ends: [Clearance; 2]) -> Result<(), OutOfReach> {
+    fn search(&mut self, group: GroupId, target: f64, ends: [SingularityDistance; 2]) -> Result<(), OutOfReach> {
         let ([mut low, mut high], [mut before, mut after]) = ([self.crank, target], ends);
         let sense = target - self.crank;
         if before.rate.is_nan() {

@@ -8,7 +8,7 @@ mod higher;
 mod rrr;
 mod sliding;
 
-use crate::assur::groups::{Plan, Step};
+use crate::assur::groups::{SolutionPlan, Step};
 use body::{Action, Body, Reactions};
 use higher::Higher;
 use linkage::case::Case;
@@ -16,7 +16,7 @@ use linkage::drive::{Drive, Load, Wrench};
 use linkage::math::Vec2;
 use linkage::mechanism::LinkId;
 use linkage::solver::State;
-use linkage::work::{Count, Tally};
+use linkage::work::{Count, WorkTally};
 use rrr::Pinned;
 use sliding::Sliding;
 
@@ -38,12 +38,12 @@ pub(super) struct Kinetostatics {
     loads: Vec<Wrench>,
     /// One load for every loaded link, if all are moments of resistance. They need no place of a link.
     resistances: Option<Vec<(LinkId, Load)>>,
-    tally: Tally,
+    tally: WorkTally,
 }
 
 impl Kinetostatics {
     /// Prepares the groups in reverse order, then the driving link.
-    pub(super) fn of(case: &Case, plan: &Plan) -> Self {
+    pub(super) fn of(case: &Case, plan: &SolutionPlan) -> Self {
         let mut settled = vec![false; case.mechanism.joints().len()];
         let mut parts = Vec::with_capacity(case.structure.groups.len());
         for (step, group) in case.structure.groups.entries().rev() {
@@ -64,14 +64,14 @@ impl Kinetostatics {
         }
         let loads = if case.loads.is_empty() { 0 } else { case.mechanism.links().len() };
         let resistances = case.loads.iter().map(Load::resistance).collect::<Option<Vec<_>>>().map(merged);
-        Kinetostatics { parts, drivers, loads: vec![Wrench::ZERO; loads], resistances, tally: Tally::default() }
+        Kinetostatics { parts, drivers, loads: vec![Wrench::ZERO; loads], resistances, tally: WorkTally::default() }
     }
 
     /// Writes to `state` the reaction in every joint (first link on second) and the balancing moments on the
     /// driving links (N m).
     /// The balancing moments follow from equilibrium about the pivots.
     /// The pose must be the last one that `plan` has solved. Loads may use the state's angles.
-    pub(super) fn solve(&mut self, case: &Case, plan: &Plan, state: &mut State) {
+    pub(super) fn solve(&mut self, case: &Case, plan: &SolutionPlan, state: &mut State) {
         if let Some(resistances) = &self.resistances {
             // What acts on other links stays zero.
             for (link, load) in resistances {
@@ -85,13 +85,13 @@ impl Kinetostatics {
     }
 
     /// The same under the given loads on all links.
-    pub(super) fn solve_under(&mut self, loads: &[Wrench], case: &Case, plan: &Plan, state: &mut State) {
+    pub(super) fn solve_under(&mut self, loads: &[Wrench], case: &Case, plan: &SolutionPlan, state: &mut State) {
         let count = self.loads.len();
         self.loads.copy_from_slice(&loads[..count]);
         self.balance(case, plan, state);
     }
 
-    fn balance(&mut self, case: &Case, plan: &Plan, state: &mut State) {
+    fn balance(&mut self, case: &Case, plan: &SolutionPlan, state: &mut State) {
         self.tally.one(Count::Forces);
         let State { motions, forces, moments, torques, .. } = state;
         let reactions = &mut Reactions { forces, moments, loads: &self.loads };

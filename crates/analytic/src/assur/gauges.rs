@@ -11,8 +11,9 @@
 //!
 //! Bounds are kept for the next steps. They are those of a band that is wider than the step needs, so that they hold
 //! until a gauge leaves it, a step is longer, or the crank has gone far.
+//! See docs/numerics/change_points.md.
 
-use crate::assur::groups::{Bound, Limit, Misfit, OutOfReach, Plan, SINGULAR};
+use crate::assur::groups::{Bound, Limit, Misfit, OutOfReach, SINGULAR, SolutionPlan};
 use linkage::case::Case;
 use linkage::math::{KeepNan, Motion};
 use linkage::mechanism::GroupId;
@@ -63,7 +64,7 @@ struct End {
 }
 
 impl Gauges {
-    pub(super) fn of(case: &Case, plan: &Plan, motions: &[Motion]) -> Self {
+    pub(super) fn of(case: &Case, plan: &SolutionPlan, motions: &[Motion]) -> Self {
         let speeds: Option<Vec<f64>> = case.drives.iter().map(|drive| drive.constant_speed()).collect();
         let ratios = match speeds {
             Some(speeds) => speeds.iter().map(|speed| speed / speeds[0]).collect(),
@@ -104,7 +105,7 @@ impl Gauges {
     /// whether the kept bounds say about this step what they have said about the last; otherwise
     /// [`Gauges::pass_closely`] must.
     #[inline(always)]
-    pub(super) fn pass(&mut self, step: f64, plan: &Plan) -> bool {
+    pub(super) fn pass(&mut self, step: f64, plan: &SolutionPlan) -> bool {
         self.left -= step;
         let mut passes = step <= self.reach && self.left >= 0.0;
         for watched in &mut self.watched {
@@ -131,7 +132,7 @@ impl Gauges {
         &mut self,
         [from, to]: [f64; 2],
         case: &Case,
-        plan: &Plan,
+        plan: &SolutionPlan,
         motions: &[Motion],
     ) -> Result<(), OutOfReach> {
         let (step, begins) = ((to - from).abs(), self.watched.iter().any(|watched| watched.before.is_nan()));
@@ -170,7 +171,7 @@ impl Gauges {
     /// Whether the gauges of all direct groups stay within their ranges between two poses, over steps of this length.
     /// Keeps the bounds that prove it, of bands that leave out this share of what the step leaves. Other groups for
     /// which there is no proof are open.
-    fn prove(&mut self, ends: &[End; 2], plan: &Plan, step: f64, share: f64) -> bool {
+    fn prove(&mut self, ends: &[End; 2], plan: &SolutionPlan, step: f64, share: f64) -> bool {
         let motions = &ends[1].motions;
         (self.reach, self.left) = (-1.0, f64::INFINITY);
         plan.bound_drivers(&self.ratios, &mut self.links);
@@ -197,7 +198,7 @@ impl Gauges {
     }
 
     /// The same for direct groups alone, over a step that may have to be divided.
-    fn divide(&self, case: &Case, plan: &mut Plan, ends: [End; 2]) -> Result<(), OutOfReach> {
+    fn divide(&self, case: &Case, plan: &mut SolutionPlan, ends: [End; 2]) -> Result<(), OutOfReach> {
         let (from, to) = (ends[0].crank, ends[1].crank);
         let step = (to - from).abs();
         let mut links = vec![None; self.links.len()];

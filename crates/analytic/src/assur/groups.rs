@@ -16,8 +16,8 @@ mod rrr;
 pub(in crate::assur) use bounds::{Bound, Bounds, Limit};
 #[cfg(feature = "batch")]
 pub(in crate::assur) use chain::{Arrow, Hangs};
-pub use chain::{Chain, Closing, Node};
-pub use misfit::{Clearance, Misfit, SINGULAR};
+pub use chain::{Chain, ClosingJoint, Node};
+pub use misfit::{Misfit, SINGULAR, SingularityDistance};
 pub use prp::Prp;
 pub use rpp::Rpp;
 pub use rpr::Rpr;
@@ -26,7 +26,7 @@ pub use rrr::Rrr;
 
 use linkage::math::{KeepNan, Motion, Vec2, rotated, turned, unit};
 use linkage::mechanism::{AssemblyMode, GROUND, GroupId, GroupKind, LinkId, Mechanism, PerGroup, Structure};
-use linkage::work::{Count, Tally};
+use linkage::work::{Count, WorkTally};
 
 /// Share of one configuration's squared distance from an expected pose in that of the other, up to which the first is
 /// the one expected.
@@ -102,14 +102,14 @@ impl Step {
         }
     }
 
-    /// Whether the group has a [clearance](Plan::clearances).
+    /// Whether the group has a [clearance](SolutionPlan::clearances).
     pub(crate) fn has_clearance(&self) -> bool {
         self.other().is_some()
     }
 
-    /// How far the group is from a singular pose: see [`Plan::clearances`].
+    /// How far the group is from a singular pose: see [`SolutionPlan::clearances`].
     #[inline]
-    pub(crate) fn clearance(&self, motions: &[Motion]) -> Option<Clearance> {
+    pub(crate) fn clearance(&self, motions: &[Motion]) -> Option<SingularityDistance> {
         match self {
             Step::Rrr(dyad) => Some(dyad.clearance(motions)),
             Step::Rrp(dyad) => Some(dyad.clearance(motions)),
@@ -118,7 +118,7 @@ impl Step {
         }
     }
 
-    /// Sine of the [clearance](Plan::clearances), which positions alone give.
+    /// Sine of the [clearance](SolutionPlan::clearances), which positions alone give.
     #[inline]
     pub(crate) fn sine(&self, motions: &[Motion]) -> Option<f64> {
         match self {
@@ -187,10 +187,10 @@ impl Step {
 
 /// A mechanism prepared to be solved pose after pose without allocation.
 #[derive(Clone, Debug)]
-pub struct Plan {
+pub struct SolutionPlan {
     drivers: Vec<Driver>,
     steps: PerGroup<Step>,
-    tally: Tally,
+    tally: WorkTally,
 }
 
 /// A group that cannot be placed at some crank angle.
@@ -202,7 +202,7 @@ pub struct OutOfReach {
     pub why: Misfit,
 }
 
-impl Plan {
+impl SolutionPlan {
     /// Takes the last pose for that of a driving angle farther on by `way` (rad), some whole turns.
     pub(in crate::assur) fn skip(&mut self, way: f64) {
         for step in &mut self.steps {
@@ -229,7 +229,7 @@ impl Plan {
             GroupKind::Prp => Step::Prp(Prp::of(mechanism, group)),
             GroupKind::Higher => Step::Chain(Chain::of(mechanism, group, structure.drivers.len())),
         });
-        Plan { drivers: drivers.collect(), steps: steps.collect(), tally: Tally::default() }
+        SolutionPlan { drivers: drivers.collect(), steps: steps.collect(), tally: WorkTally::default() }
     }
 
     /// The groups, in the order of [`Structure::groups`].
@@ -262,7 +262,7 @@ impl Plan {
     /// Positions, velocities and accelerations of all links in one pass, with what each of these takes.
     ///
     /// # Errors
-    /// Those of [`Plan::positions`].
+    /// Those of [`SolutionPlan::positions`].
     // A function of its own is faster: inlined into its caller, dyads cost a fifth more time with fewer instructions.
     #[inline(never)]
     pub(crate) fn motions(
@@ -311,7 +311,7 @@ impl Plan {
     /// of the plan.
     ///
     /// # Errors
-    /// Those of [`Plan::positions`]; [`Misfit::Singular`] where two configurations are about equally near.
+    /// Those of [`SolutionPlan::positions`]; [`Misfit::Singular`] where two configurations are about equally near.
     pub(crate) fn positions_like(
         &mut self,
         like: &[Motion],
@@ -353,7 +353,7 @@ impl Plan {
     /// Positions of the driving links and of these groups, which need no other ones.
     ///
     /// # Errors
-    /// Those of [`Plan::positions`].
+    /// Those of [`SolutionPlan::positions`].
     pub(in crate::assur) fn some_positions(
         &mut self,
         groups: impl Iterator<Item = GroupId>,
@@ -407,7 +407,7 @@ impl Plan {
 
     /// How far every group is from a singular pose at which two of its branches meet. Velocities must be known.
     /// `None` for groups that watch the sign of a determinant themselves.
-    pub fn clearances<'a>(&'a self, motions: &'a [Motion]) -> impl Iterator<Item = Option<Clearance>> + 'a {
+    pub fn clearances<'a>(&'a self, motions: &'a [Motion]) -> impl Iterator<Item = Option<SingularityDistance>> + 'a {
         self.steps.iter().map(|step| step.clearance(motions))
     }
 

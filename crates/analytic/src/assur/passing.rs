@@ -6,12 +6,14 @@
 //! and the sign that the closed form keeps is another one on the far side.
 //! Around such an angle (a [`Window`]) nothing is calculated from the equations of the pose, but from polynomials
 //! through poses on both sides of it.
+//! See docs/numerics/change_points.md.
 
 mod forces;
 mod search;
 mod window;
 
-use crate::assur::groups::{Clearance, OutOfReach, Plan};
+use crate::assur::groups::{OutOfReach, SingularityDistance, SolutionPlan};
+use crate::sentences;
 use linkage::case::Case;
 use linkage::error::{Error, ErrorKind};
 use linkage::input::InputValue;
@@ -74,7 +76,7 @@ impl Passing {
     pub(super) fn place(
         &mut self,
         [from, to]: [f64; 2],
-        plan: &mut Plan,
+        plan: &mut SolutionPlan,
         motions: &mut [Motion],
     ) -> Result<(), OutOfReach> {
         if self.enter(to, plan, motions) {
@@ -118,7 +120,7 @@ impl Passing {
     }
 
     /// Places the mechanism by a window, if there is one at this angle.
-    fn enter(&mut self, angle: f64, plan: &Plan, motions: &mut [Motion]) -> bool {
+    fn enter(&mut self, angle: f64, plan: &SolutionPlan, motions: &mut [Motion]) -> bool {
         self.inside = self.windows.iter().position(|window| (angle - window.at).abs() < window.reach);
         if let Some(window) = self.inside() {
             window.positions(angle, motions);
@@ -128,7 +130,7 @@ impl Passing {
     }
 
     /// Looks for change points near a pose that has just been placed.
-    fn look(&mut self, angle: f64, plan: &mut Plan, motions: &[Motion]) -> Result<(), OutOfReach> {
+    fn look(&mut self, angle: f64, plan: &mut SolutionPlan, motions: &[Motion]) -> Result<(), OutOfReach> {
         self.motions.clear();
         self.motions.extend_from_slice(motions);
         plan.velocities(&[1.0], &mut self.motions);
@@ -138,9 +140,9 @@ impl Passing {
             let (now, last) = (plan.determinant(group)?.abs(), dets.get(group.index()).copied().flatten()?.abs());
             (angle != *before).then(|| now * (angle - before) / (now - last))
         };
-        let near = |(group, clearance): (GroupId, Option<Clearance>)| {
+        let near = |(group, clearance): (GroupId, Option<SingularityDistance>)| {
             let ahead = match clearance {
-                Some(Clearance { sine, rate }) => -sine / rate,
+                Some(SingularityDistance { sine, rate }) => -sine / rate,
                 None => -slope(group)?,
             };
             (ahead.abs() < LOOK).then_some((group, ahead))
@@ -187,24 +189,19 @@ impl Passing {
 
 /// The error for reactions at a change point that grow without bound.
 pub(super) fn unbounded(at: InputValue) -> Error {
-    let message = format!(
-        "{at}: this is a change point, and towards it reactions grow without bound: \
-         they must do what the links no longer can"
-    );
+    let message = sentences::this_is_a_change_point_and_towards(&at);
     let error = Error::new(ErrorKind::Numeric, message).at_input(at);
     error.help(WITHOUT_POLE)
 }
 
 /// The way out where reactions have a pole.
-const WITHOUT_POLE: &str = "leave this very instant out by another step or start of the grid, or leave out \
-                                       the reactions: want = [\"positions\", \"velocities\", \"accelerations\"] in \
-                                       [channels]";
+const WITHOUT_POLE: &str = sentences::LEAVE_THIS_VERY_INSTANT_OUT;
 
 /// The way through a pose that may be a change point.
 pub(super) fn way_through(case: &Case) -> &'static str {
     match case.crank().passes() || !case.drives.further().is_empty() {
         // It is passed already, or there are several drives, with which none is passed.
-        true => "let the grid end before it",
-        false => "pass it with `through = \"smooth\"` in [drive], if two branches meet there",
+        true => sentences::LET_THE_GRID_END_BEFORE_IT,
+        false => sentences::PASS_IT_WITH_THROUGH_SMOOTH,
     }
 }

@@ -1,5 +1,6 @@
 //! Pose after pose by Assur groups: the fast part of side 1.
 
+use crate::sentences;
 use std::slice;
 
 use super::forces::Kinetostatics;
@@ -7,7 +8,7 @@ use super::gauges::Gauges;
 use super::passing::{self, Passing, way_through};
 use super::turns::{CLOSED_FORM_STEP, FOLLOWED_STEP, Turns};
 use super::watch::Watch;
-use crate::assur::groups::{Misfit, OutOfReach, Plan};
+use crate::assur::groups::{Misfit, OutOfReach, SolutionPlan};
 use linkage::case::Case;
 use linkage::drive::{Load, Wrench};
 use linkage::error::{Advice, Error, ErrorKind, Result};
@@ -22,13 +23,13 @@ const NUDGE: f64 = 1e-7;
 /// How often a failing step is halved: down to a millionth of it.
 pub(super) const HALVINGS: u32 = 20;
 /// What a singular pose is.
-const MEET: &str = "there the links of the group do not hold it, or two of its branches meet";
+const MEET: &str = sentences::THERE_THE_LINKS_OF_THE_GROUP;
 
 /// Goes from crank angle to crank angle on one branch and solves the pose there, without allocation.
 #[derive(Debug)]
 pub struct PoseSolver<'a> {
     pub(super) case: &'a Case,
-    pub(super) plan: Plan,
+    pub(super) plan: SolutionPlan,
     statics: Kinetostatics,
     pub(super) state: State,
     /// Turns of the links, if the caller or a load needs their angles.
@@ -59,7 +60,7 @@ impl<'a> PoseSolver<'a> {
     /// # Errors
     /// [`ErrorKind::Geometry`] if the start pose is singular.
     pub fn new(case: &'a Case) -> Result<Self> {
-        let plan = Plan::of(&case.mechanism, &case.structure, &case.modes);
+        let plan = SolutionPlan::of(&case.mechanism, &case.structure, &case.modes);
         let step = case.step(if plan.is_closed_form() { CLOSED_FORM_STEP } else { FOLLOWED_STEP });
         let (statics, state) = (Kinetostatics::of(case, &plan), State::at_start(case));
         let inputs = vec![0.0; case.drives.len()];
@@ -339,39 +340,34 @@ impl<'a> PoseSolver<'a> {
     fn unreachable(&self, crank: f64, reach: OutOfReach) -> Error {
         let group = self.case.structure.groups[reach.group].names(&self.case.mechanism);
         let at = self.case.told(crank);
-        let assembled = format!("the group ({group}) cannot be assembled at {at}");
+        let assembled = sentences::the_group_cannot_be_assembled(&group, &at);
         let message = match reach.why {
-            Misfit::Span { distance, reach: [shortest, longest] } => format!(
-                "{assembled}: its outer joints are {distance:.6} m apart, its links span {shortest:.6} to {longest:.6} m"
-            ),
-            Misfit::Guide { distance, length } => format!(
-                "{assembled}: its rod is {length:.6} m long, its outer pin {distance:.6} m from the line on which the other end slides"
-            ),
-            Misfit::Swing { distance, shortest } => format!(
-                "{assembled}: its outer pins are {distance:.6} m apart, its slider holds them at least {shortest:.6} m apart"
-            ),
-            Misfit::Parallel => format!("{assembled}: its two axes are parallel there"),
-            Misfit::Singular => format!("the group ({group}) is singular at {at}: {MEET}"),
+            Misfit::Span { distance, reach: [shortest, longest] } => {
+                sentences::its_outer_joints_are_apart(&assembled, &distance, &shortest, &longest)
+            }
+            Misfit::Guide { distance, length } => sentences::its_rod_is_long_its_outer(&assembled, &length, &distance),
+            Misfit::Swing { distance, shortest } => {
+                sentences::its_outer_pins_are_apart(&assembled, &distance, &shortest)
+            }
+            Misfit::Parallel => sentences::its_two_axes_are_parallel(&assembled),
+            Misfit::Singular => sentences::the_group_is_singular_at(&group, &at, &MEET),
             Misfit::Passed { crank } => {
                 let at = self.case.told(crank);
-                return Error::new(
-                    ErrorKind::Geometry,
-                    format!("the group ({group}) passes a change point at {at}: {MEET}"),
-                )
-                .at_input(at)
-                .of_group(group)
-                .help(Advice::ShortenGrid)
-                .or_help("change a length by a little")
-                .or_help(way_through(self.case));
+                return Error::new(ErrorKind::Geometry, sentences::the_group_passes_a_change(&group, &at, &MEET))
+                    .at_input(at)
+                    .of_group(group)
+                    .help(Advice::ShortenGrid)
+                    .or_help(sentences::CHANGE_A_LENGTH_BY_A_LITTLE)
+                    .or_help(way_through(self.case));
             }
-            Misfit::Lost => format!("the group ({group}) cannot be followed beyond {at}: it has a dead point there"),
+            Misfit::Lost => sentences::the_group_cannot_be_followed(&group, &at),
         };
         let error = Error::new(ErrorKind::Geometry, message)
             .at_input(at)
             .of_group(group)
             .out_of_reach()
             .help(Advice::ShortenGrid)
-            .or_help("check the lengths");
+            .or_help(sentences::CHECK_THE_LENGTHS);
         if matches!(reach.why, Misfit::Singular) { error.or_help(way_through(self.case)) } else { error }
     }
 }

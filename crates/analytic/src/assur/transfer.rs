@@ -4,13 +4,15 @@
 //! v_j and w_j are the first transfer functions of a link's mass centre and angle for driving link j alone.
 //! Then A_ij = sum of m v_i . v_j + J w_i w_j, and A alpha = T + sum of v_i . (F - m a0) + w_i (M - J alpha0).
 //! a0 and alpha0 are the accelerations that remain when no free driving link accelerates.
+//! See docs/numerics/forces.md.
 
 use super::forces::Kinetostatics;
 use super::passing::{self, Passing};
 use super::pose_solver::HALVINGS;
 use super::turns::{CLOSED_FORM_STEP, FOLLOWED_STEP, Turns};
-use crate::assur::groups::{Misfit, OutOfReach, Plan};
+use crate::assur::groups::{Misfit, OutOfReach, SolutionPlan};
 use crate::motion::side::{Held, Inputs, Side, embed, loads_held};
+use crate::sentences;
 use linkage::case::Case;
 use linkage::drive::Wrench;
 use linkage::error::{Error, ErrorKind, Result};
@@ -24,7 +26,7 @@ use linkage::work;
 /// The equations of motion of a case by its Assur groups.
 pub(crate) struct TransferSide<'a> {
     case: &'a Case,
-    plan: Plan,
+    plan: SolutionPlan,
     statics: Kinetostatics,
     state: State,
     turns: Turns,
@@ -56,7 +58,7 @@ impl<'a> TransferSide<'a> {
     /// # Errors
     /// [`ErrorKind::Geometry`] if the start pose is singular.
     pub(crate) fn new(case: &'a Case, share: f64) -> Result<Self> {
-        let plan = Plan::of(&case.mechanism, &case.structure, &case.modes);
+        let plan = SolutionPlan::of(&case.mechanism, &case.structure, &case.modes);
         let step = if plan.is_closed_form() { CLOSED_FORM_STEP } else { FOLLOWED_STEP };
         let (statics, state) = (Kinetostatics::of(case, &plan), State::at_start(case));
         let free: Vec<usize> = case.drives.free().map(|(index, _)| index).collect();
@@ -171,18 +173,16 @@ impl<'a> TransferSide<'a> {
         let group = self.case.structure.groups[reach.group].names(&self.case.mechanism);
         let at = self.case.told(self.case.crank().from_world(self.target[0]));
         let message = match reach.why {
-            Misfit::Lost => format!("the group ({group}) cannot be followed beyond {at}: it has a dead point there"),
-            Misfit::Singular | Misfit::Passed { .. } => {
-                format!("the group ({group}) is singular at {at}: two of its branches meet there")
-            }
+            Misfit::Lost => sentences::the_group_cannot_be_followed(&group, &at),
+            Misfit::Singular | Misfit::Passed { .. } => sentences::the_group_is_singular_at_two(&group, &at),
             Misfit::Span { .. } | Misfit::Guide { .. } | Misfit::Swing { .. } | Misfit::Parallel => {
-                format!("the group ({group}) cannot be assembled at {at}")
+                sentences::the_group_cannot_be_assembled(&group, &at)
             }
         };
         Error::new(ErrorKind::Geometry, message)
             .at_input(at)
             .of_group(group)
-            .help("let the grid end before the motion comes there")
+            .help(sentences::LET_THE_GRID_END_BEFORE_THE_MOTION)
     }
 
     /// Angles of all links, turns kept.
@@ -259,12 +259,12 @@ impl Side for TransferSide<'_> {
         Ok(self.state.motions[link].omega)
     }
 
-    fn velocity(&mut self, inputs: &Inputs, at: mechanism::Side) -> Result<Vec2> {
+    fn velocity(&mut self, inputs: &Inputs, at: mechanism::JointSide) -> Result<Vec2> {
         self.spin(inputs, at.link)?;
         Ok(self.state.motions[at.link].point_velocity(at.local))
     }
 
-    fn acceleration(&self, at: mechanism::Side) -> Vec2 {
+    fn acceleration(&self, at: mechanism::JointSide) -> Vec2 {
         self.state.motions[at.link].point_acceleration(at.local)
     }
 

@@ -4,9 +4,10 @@
 //! clearance falls to zero and rises again.
 //! This is an estimate: how fast the carrying links turn between two poses is taken from the poses. It misses a
 //! clearance that falls to zero, rises and turns again within one step, which is 2 degrees behind a higher group.
+//! See docs/numerics/change_points.md.
 
 use super::gauges::Gauges;
-use crate::assur::groups::{Clearance, Plan};
+use crate::assur::groups::{SingularityDistance, SolutionPlan};
 use linkage::math::{KeepNan, Motion};
 use linkage::mechanism::{PerGroup, PerLink};
 
@@ -24,13 +25,13 @@ pub(super) const CLEAR: f64 = 4.0;
 const FAST: f64 = 16.0;
 
 /// The clearance of a group that has none.
-const NONE: Clearance = Clearance { sine: f64::NAN, rate: f64::NAN };
+const NONE: SingularityDistance = SingularityDistance { sine: f64::NAN, rate: f64::NAN };
 
 /// What is seen of one group. Rates are per unit of the crank angle, NaN if they are not known.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Seen {
-    pub(super) last: Clearance,
-    pub(super) now: Clearance,
+    pub(super) last: SingularityDistance,
+    pub(super) now: SingularityDistance,
     /// Change of the clearance over the last step, without sign.
     fall: f64,
     /// Whether it is watched here.
@@ -59,7 +60,7 @@ pub(super) struct Watch {
 }
 
 impl Watch {
-    pub(super) fn of(plan: &Plan, gauges: &Gauges) -> Self {
+    pub(super) fn of(plan: &SolutionPlan, gauges: &Gauges) -> Self {
         let seen = Seen { last: NONE, now: NONE, fall: f64::NAN, is_watched: false };
         let groups = vec![seen; plan.steps().len()].into();
         let mut watch = Watch { is_needed: false, motions: PerLink::default(), groups, step: 0.0 };
@@ -73,7 +74,7 @@ impl Watch {
     }
 
     /// Watches the groups that gauges prove nothing of.
-    pub(super) fn leave_to(&mut self, gauges: &Gauges, plan: &Plan) {
+    pub(super) fn leave_to(&mut self, gauges: &Gauges, plan: &SolutionPlan) {
         for (seen, step) in self.groups.iter_mut().zip(plan.steps()) {
             seen.is_watched = step.has_clearance();
         }
@@ -103,12 +104,12 @@ impl Watch {
     /// Reads the clearances from the velocities at this angular velocity of the crank. Returns whether a group may have
     /// passed a change point.
     #[inline]
-    pub(super) fn see(&mut self, plan: &Plan, motions: &[Motion], omega: f64, sense: f64) -> bool {
+    pub(super) fn see(&mut self, plan: &SolutionPlan, motions: &[Motion], omega: f64, sense: f64) -> bool {
         let per_unit = 1.0 / omega;
         let mut may_pass = false;
         for (group, seen) in plan.steps().iter().zip(&mut self.groups).filter(|(_, seen)| seen.is_watched) {
             if let Some(found) = group.clearance(motions) {
-                seen.now = Clearance { rate: found.rate * per_unit, ..found };
+                seen.now = SingularityDistance { rate: found.rate * per_unit, ..found };
                 may_pass |= seen.may_pass(sense);
             }
         }
@@ -119,14 +120,14 @@ impl Watch {
     /// On the way through one, the angle between the two links turns by both sines together at least. They must be many
     /// times the change over the last step, as it would be over this one, and more than links ever turn.
     #[inline]
-    pub(super) fn is_far(&mut self, step: f64, plan: &Plan, motions: &[Motion]) -> bool {
+    pub(super) fn is_far(&mut self, step: f64, plan: &SolutionPlan, motions: &[Motion]) -> bool {
         let (steps, mut is_far) = (CLEAR * step / self.step, true);
         for (group, seen) in plan.steps().iter().zip(&mut self.groups).filter(|(_, seen)| seen.is_watched) {
             if let Some(sine) = group.sine(motions) {
                 let both = seen.last.sine + sine;
                 is_far &= both > FAST * step && both > steps * seen.fall;
                 seen.fall = (sine - seen.last.sine).abs();
-                seen.now = Clearance { sine, rate: f64::NAN };
+                seen.now = SingularityDistance { sine, rate: f64::NAN };
             }
         }
         self.step = step;

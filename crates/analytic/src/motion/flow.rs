@@ -1,5 +1,7 @@
 //! The pieces of a free motion: what each keeps constant, and where it ends.
+//! See docs/numerics/forces.md.
 
+use crate::sentences;
 use std::cell::{Cell, RefCell};
 
 use differential_equations::ode::ODE;
@@ -10,22 +12,33 @@ use super::side::{self, Held, Inputs};
 use super::step::Flow;
 use linkage::case::Case;
 use linkage::drive::load::sense_of;
-use linkage::drive::{Branch, Load, Senses};
+use linkage::drive::{Load, MotorBranch, Senses};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::{KeepNan, Vec2, cross, root};
-use linkage::mechanism::{LinkId, Side};
+use linkage::mechanism::{JointSide, LinkId};
 use linkage::solver::State;
-use linkage::work::{Count, Tally};
+use linkage::work::{Count, WorkTally};
 
 /// Largest turn of a driving link within a step (rad). The first trial of a step may lead anywhere; such a trial must
 /// be refused.
 const FARTHEST: f64 = std::f64::consts::PI;
-/// Bounds of the motor's piece, which come after those of the loads: too fast, too slow.
-const OF_MOTOR: usize = 2;
-/// Bounds at the knots of the loads' tables, which come last: behind and ahead.
-const OF_KNOTS: usize = 2;
-/// The first of these bounds.
-const TOO_FAST: usize = 0;
+/// A bound of a piece.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Bound {
+    /// The motion that this load depends on, by its number, turns back.
+    Sense(usize),
+    /// The motor leaves its branch towards higher speeds.
+    TooFast,
+    /// The motor leaves its branch towards lower speeds.
+    TooSlow,
+    /// A knot of the loads' tables behind the crank.
+    KnotBehind,
+    /// A knot of the loads' tables ahead of the crank.
+    KnotAhead,
+}
+
+/// The bounds of every piece. They follow those of the loads.
+const COMMON: [Bound; 4] = [Bound::TooFast, Bound::TooSlow, Bound::KnotBehind, Bound::KnotAhead];
 /// Share of the largest speed so far below which a link or a point is at rest, where a piece ends.
 const AT_REST: f64 = 1e-11;
 /// Turn of a driving link (rad) after which a link or point that starts at its own dead centre shows its sense.
@@ -65,7 +78,7 @@ pub(super) struct Pieces<'a, const N: usize> {
     fastest: RefCell<Vec<f64>>,
     /// Time at which the present piece began (s).
     entered: Cell<f64>,
-    branch: Cell<Option<Branch>>,
+    branch: Cell<Option<MotorBranch>>,
     knots: Knots,
     /// Crank angles (rad) between which the loads' tables are smooth on the present piece.
     smooth: Cell<[f64; 2]>,
@@ -78,7 +91,7 @@ struct Work<'a> {
     inputs: Inputs,
     held: Held,
     fault: Option<Error>,
-    tally: Tally,
+    tally: WorkTally,
 }
 
 impl Held {
@@ -139,7 +152,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
         let inputs = Inputs { angles: zeros(), speeds: zeros(), accelerations: zeros() };
         Pieces {
             case,
-            work: RefCell::new(Work { side, inputs, held, fault: None, tally: Tally::default() }),
+            work: RefCell::new(Work { side, inputs, held, fault: None, tally: WorkTally::default() }),
             sensed: sensed.filter(|(_, senses)| *senses != Senses::Nothing).collect(),
             fastest: RefCell::new(vec![0.0; loads]),
             entered: Cell::new(0.0),
@@ -191,20 +204,28 @@ impl<'a, const N: usize> Pieces<'a, N> {
     /// [`ErrorKind::Numeric`] where a resistance holds a link at rest, and those of the side.
     pub(super) fn enter(&self, place: &mut Place<N>, bound: Option<usize>) -> Result<()> {
         let work = &mut *self.work.borrow_mut();
-        let stood = match bound.map(|bound| (bound, bound.checked_sub(self.case.loads.len()))) {
+        let stood = match bound.map(|bound| self.bound(bound)) {
             None => return self.begin(work, place),
-            Some((_, Some(end))) if end >= OF_MOTOR => Vec::new(),
-            Some((_, Some(end))) => {
-                // Exactly on the bound; otherwise the same piece would be chosen again.
-                let speeds = self.branch.get().map_or([0.0; 2], |branch| branch.speeds);
-                place.y[N / 2] = self.case.crank().sense() * speeds[1 - end];
-                self.choose_branch(place, if end == TOO_FAST { 1.0 } else { -1.0 });
-                Vec::new()
-            }
-            Some((bound, None)) => self.stopped(work, place, bound)?,
+            Some(Bound::Sense(load)) => self.stopped(work, place, load)?,
+            Some(Bound::TooFast) => self.at_branch_end(place, 1, 1.0),
+            Some(Bound::TooSlow) => self.at_branch_end(place, 0, -1.0),
+            Some(Bound::KnotBehind | Bound::KnotAhead) => Vec::new(),
         };
         self.entered.set(place.x);
         self.go_on(work, place, &stood)
+    }
+
+    fn bound(&self, index: usize) -> Bound {
+        index.checked_sub(self.case.loads.len()).map_or(Bound::Sense(index), |common| COMMON[common])
+    }
+
+    /// Puts the crank's speed exactly on this end of the motor's branch and chooses the branch beyond it; otherwise the same
+    /// piece would be chosen again. Nothing stands still there.
+    fn at_branch_end(&self, place: &mut Place<N>, end: usize, towards: f64) -> Vec<Sensed> {
+        let speeds = self.branch.get().map_or([0.0; 2], |branch| branch.speeds);
+        place.y[N / 2] = self.case.crank().sense() * speeds[end];
+        self.choose_branch(place, towards);
+        Vec::new()
     }
 
     /// Chooses senses and branch at the beginning of the motion.
@@ -219,7 +240,7 @@ impl<'a, const N: usize> Pieces<'a, N> {
             if self.branch.get() != forwards {
                 self.go_on(work, place, &stood)?;
                 if self.crank_acceleration(work) > 0.0 {
-                    return Err(self.is_held(place, self.case.crank().link, "the losses of the reducer hold"));
+                    return Err(self.is_held(place, self.case.crank().link, sentences::THE_LOSSES_OF_THE_REDUCER));
                 }
             }
         }
@@ -322,8 +343,8 @@ impl<'a, const N: usize> Pieces<'a, N> {
             (!is_idle && !(second.dot(&work.held.sense(own)) >= 0.0)).then_some(own)
         };
         match stood.iter().enumerate().find_map(is_held) {
-            Some((_, Senses::Link(link) | Senses::Point(Side { link, .. }))) => {
-                Err(self.is_held(place, link, "its resistance holds"))
+            Some((_, Senses::Link(link) | Senses::Point(JointSide { link, .. }))) => {
+                Err(self.is_held(place, link, sentences::ITS_RESISTANCE_HOLDS))
             }
             Some((_, Senses::Nothing)) | None => Ok(()),
         }
@@ -392,11 +413,11 @@ impl<'a, const N: usize> Pieces<'a, N> {
 
     fn is_held(&self, place: &Place<N>, link: LinkId, what: &str) -> Error {
         let name = &self.case.mechanism.links()[link].name;
-        let message = format!("{what} link \"{name}\" at rest at t = {:.6} s", place.x);
+        let message = sentences::link_at_rest_at(&what, &name, &place.x);
         Error::new(ErrorKind::Numeric, message)
             .at_time(place.x)
             .of_link(name)
-            .help("give the motor more torque or the mechanism more speed, or let the grid end before")
+            .help(sentences::GIVE_THE_MOTOR_MORE_TORQUE)
     }
 
     /// The crank angle (rad, as the scenario states it).
@@ -413,15 +434,6 @@ impl<'a, const N: usize> Pieces<'a, N> {
     /// The crank's acceleration in the motor's sense, from the last evaluation.
     fn crank_acceleration(&self, work: &Work) -> f64 {
         self.case.crank().sense() * work.inputs.accelerations[0]
-    }
-
-    /// Distance of the motor's speed from the bounds of its branch, positive inside.
-    fn branch_margin(&self, bound: usize, y: &[f64; N]) -> f64 {
-        let speed = self.crank_speed(y);
-        self.branch.get().map_or(f64::INFINITY, |branch| match bound {
-            TOO_FAST => branch.speeds[1] - speed,
-            _ => speed - branch.speeds[0],
-        })
     }
 }
 
@@ -448,28 +460,31 @@ impl<const N: usize> ODE<f64, [f64; N]> for Pieces<'_, N> {
 
 impl<const N: usize> Flow<N> for Pieces<'_, N> {
     fn bounds(&self) -> usize {
-        self.case.loads.len() + OF_MOTOR + OF_KNOTS
+        self.case.loads.len() + COMMON.len()
     }
 
     fn margin(&self, bound: usize, t: f64, y: &[f64; N]) -> f64 {
-        let Some(load) = self.case.loads.get(bound) else {
-            return match bound - self.case.loads.len() {
-                end if end < OF_MOTOR => self.branch_margin(end, y),
-                OF_MOTOR => self.crank(t, y) - self.smooth.get()[0],
-                _ => self.smooth.get()[1] - self.crank(t, y),
-            };
+        let of_branch = |margin: fn([f64; 2], f64) -> f64| {
+            self.branch.get().map_or(f64::INFINITY, |branch| margin(branch.speeds, self.crank_speed(y)))
         };
-        let senses = sensed(self.case, load);
+        let load = match self.bound(bound) {
+            Bound::Sense(load) => load,
+            Bound::TooFast => return of_branch(|[_, most], speed| most - speed),
+            Bound::TooSlow => return of_branch(|[least, _], speed| speed - least),
+            Bound::KnotBehind => return self.crank(t, y) - self.smooth.get()[0],
+            Bound::KnotAhead => return self.smooth.get()[1] - self.crank(t, y),
+        };
+        let senses = sensed(self.case, &self.case.loads[load]);
         if senses == Senses::Nothing {
             return f64::INFINITY;
         }
         let work = &mut *self.work.borrow_mut();
         self.put(&mut work.inputs, t, y);
-        match work.rate((bound, senses)) {
+        match work.rate((load, senses)) {
             Ok(rate) => {
-                let fastest = &mut self.fastest.borrow_mut()[bound];
+                let fastest = &mut self.fastest.borrow_mut()[load];
                 *fastest = fastest.larger(rate.norm());
-                work.held.sense((bound, senses)).dot(&rate)
+                work.held.sense((load, senses)).dot(&rate)
             }
             Err(error) => {
                 work.fault.get_or_insert(error);

@@ -10,6 +10,7 @@ use super::flow::{self, Pieces};
 use super::march::{MOST_EMPTY, Pace, Place, Stop, march};
 use super::side::Side;
 use super::step::Step;
+use crate::sentences;
 use linkage::case::Case;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::input::InputValue;
@@ -27,12 +28,12 @@ pub(crate) fn check(case: &Case) -> Result<()> {
     check_instants(case)?;
     let free = case.drives.free().count();
     if free > MOST_FREEDOMS {
-        let message = format!("{free} driving links are free, at most {MOST_FREEDOMS} are solved");
-        return Err(Error::new(ErrorKind::Unsupported, message).help("prescribe the motion of some of them"));
+        let message = sentences::driving_links_are_free_at_most(&free, &MOST_FREEDOMS);
+        return Err(Error::new(ErrorKind::Unsupported, message).help(sentences::PRESCRIBE_THE_MOTION_OF_SOME));
     }
     if case.crank().moving_inertia() == 0.0 && case.mechanism.links().iter().all(|link| link.mass == 0.0) {
-        let message = "the motion under forces is asked for, but nothing in the mechanism has a mass";
-        return Err(Error::new(ErrorKind::Input, message).help("give the links masses, or the motor a rotor"));
+        let message = sentences::THE_MOTION_UNDER_FORCES_IS_ASKED;
+        return Err(Error::new(ErrorKind::Input, message).help(sentences::GIVE_THE_LINKS_MASSES_OR_THE_MOTOR));
     }
     Ok(())
 }
@@ -57,10 +58,7 @@ fn located(error: Error, t: f64, at: InputValue) -> Error {
         return error.at_time(t);
     }
     let message = format!("t = {t:.6} s, {at}: {}", error.message());
-    Error::new(error.kind(), message).at_time(t).at_input(at).help(
-        "let the grid end before; where masses nearly vanish at a crank angle, give the crank or the rotor a moment of \
-         inertia",
-    )
+    Error::new(error.kind(), message).at_time(t).at_input(at).help(sentences::LET_THE_GRID_END_BEFORE_WHERE)
 }
 
 fn run<const N: usize>(
@@ -106,10 +104,10 @@ fn run<const N: usize>(
         pace.piece(place.x, last)?;
         empty = if place.x > from { 0 } else { empty + 1 };
         if empty > MOST_EMPTY {
-            let message = format!("the motion does not get away from t = {from:.9} s, where a sense of motion changes");
+            let message = sentences::the_motion_does_not_get_away(&from);
             return Err(Error::new(ErrorKind::Numeric, message)
                 .at_time(from)
-                .help("a load that turns about just there holds and lets go in turn: start a little aside"));
+                .help(sentences::A_LOAD_THAT_TURNS_ABOUT_JUST));
         }
         pieces.enter(&mut place, Some(bound))?;
     }

@@ -5,6 +5,7 @@
 //! The library takes s and 1 - s of C the wrong way round, so that its value at s has C at 1 - s, and is of order 4.
 //! The factor of C is the same at both, so that H(s) + (library(1 - s) - H(1 - s)) is the true value.
 //! A test below holds the order: it fails once the library has mended this.
+//! See docs/numerics/forces.md.
 
 use std::cell::Cell;
 

@@ -6,6 +6,7 @@
 //! A step that leaves its piece is repeated until its end lies on the boundary.
 //! Hairer, Norsett, Wanner, "Solving ordinary differential equations I", II.5 (DOP853) and II.6 (discontinuities).
 
+use crate::sentences;
 use differential_equations::interpolate::Interpolation;
 use differential_equations::methods::ExplicitRungeKutta;
 use differential_equations::ode::OrdinaryNumericalMethod;
@@ -16,7 +17,7 @@ use super::inside::{Course, Remembering, Targets, parts};
 use super::step::{Flow, Method, Step, a_step, checked, lost, rate};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::root;
-use linkage::work::{self, Count, Tally};
+use linkage::work::{self, Count, WorkTally};
 
 /// Relative and absolute error allowed in each step, with the states inside it.
 /// The run-up of `crank_rocker` is then exact to 5e-12 rad, and to 1e-14 at its end.
@@ -98,14 +99,18 @@ pub(crate) fn march<const N: usize, F: Flow<N>>(
     checked(flow, begun, place.x)?;
     let mut begins = known.rate(place.x, &place.y);
     let (mut refused, mut short, mut steps) = (None, 0, 0);
-    let mut tally = Tally::default();
+    let mut tally = WorkTally::default();
     loop {
         steps += 1;
         work::spend(1.0)?;
         let way = place.x - begun_at;
         // Written so that NaN is refused.
         if steps % PREDICTED == 0 && !((last - begun_at) / way * steps as f64 <= MOST_STEPS as f64) {
-            let why = format!("of {steps} steps it is only {:.1e} on, of {:.1e}", way, last - begun_at);
+            let why = sentences::of_steps_it_is_only_on_of(
+                &steps,
+                &format_args!("{way:.1e}"),
+                &format_args!("{:.1e}", last - begun_at),
+            );
             return Err(lost(place.x, &why));
         }
         let (from, wished) = (method.t(), method.h());
@@ -122,7 +127,7 @@ pub(crate) fn march<const N: usize, F: Flow<N>>(
         let is_short = method.h() <= SHORTEST * from.abs().larger(last - begun_at);
         (short, refused) = if is_short { (short + 1, fault.or(refused)) } else { (0, fault) };
         if short > MOST_SHORT {
-            let why = "its steps become too small, as at a singular pose (dead point or change point)";
+            let why = sentences::ITS_STEPS_BECOME_TOO_SMALL;
             return Err(refused.unwrap_or_else(|| lost(from, why)));
         }
         if matches!(method.status(), Status::RejectedStep) {
@@ -235,7 +240,7 @@ fn shortened<const N: usize, F: Flow<N>>(
         }
         Ok(margin)
     })?;
-    best.map(|(taken, _)| taken).ok_or_else(|| lost(x, "no step reaches its bound"))
+    best.map(|(taken, _)| taken).ok_or_else(|| lost(x, sentences::NO_STEP_REACHES_ITS_BOUND))
 }
 
 /// Largest number of pieces of one motion. A hundred turns of a mechanism under tables of loads take some thousand.
@@ -256,10 +261,10 @@ impl Pace {
         self.0 += 1;
         // Written so that NaN is refused.
         if self.0.is_multiple_of(JUDGED) && !(last / x * self.0 as f64 <= MOST_PIECES as f64) {
-            let message = format!("of {last} s the motion has gone {x:.9} s in {} pieces", self.0);
-            return Err(Error::new(ErrorKind::Numeric, message).at_time(x).help(
-                "it runs away, or a load turns about all the time: check loads and motor, or end the grid before",
-            ));
+            let message = sentences::of_the_motion_has_gone_in_pieces(&last, &x, &self.0);
+            return Err(Error::new(ErrorKind::Numeric, message)
+                .at_time(x)
+                .help(sentences::IT_RUNS_AWAY_OR_A_LOAD_TURNS));
         }
         Ok(())
     }

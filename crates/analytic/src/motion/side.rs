@@ -1,13 +1,14 @@
 //! The interface of an analytic side to the integrator: accelerations of the free driving links at their angles and
 //! speeds.
 
+use crate::sentences;
 use linkage::case::Case;
 use linkage::drive::load::sense_of;
 use linkage::drive::{Load, Wrench};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::dense::Lu;
 use linkage::math::{Motion, Vec2};
-use linkage::mechanism::{LinkId, Side as Place};
+use linkage::mechanism::{JointSide as Place, LinkId};
 use linkage::solver::State;
 
 /// The driving links at one instant, in the order of the drives: angles in the world (rad), angular velocities (rad/s)
@@ -56,10 +57,8 @@ pub(crate) fn loads_held(case: &Case, motions: &[Motion], angles: &[f64], held: 
 /// writes them to the inputs.
 pub(crate) fn embed(matrix: &mut Lu, right: &mut [f64], free: &[usize], inputs: &mut Inputs) -> Result<()> {
     if !matrix.factor() {
-        let message = "the equations of motion are singular: a freedom has no inertia at this pose";
-        return Err(
-            Error::new(ErrorKind::Numeric, message).help("give its links, or the motor's rotor, a moment of inertia")
-        );
+        let message = sentences::THE_EQUATIONS_OF_MOTION_ARE_SINGULAR;
+        return Err(Error::new(ErrorKind::Numeric, message).help(sentences::GIVE_ITS_LINKS_OR_THE_MOTOR));
     }
     matrix.solve(right);
     for (&index, &alpha) in free.iter().zip(right.iter()) {

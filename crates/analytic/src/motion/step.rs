@@ -1,5 +1,6 @@
 //! One piece of an equation of motion, and one step of DOP853 on it.
 
+use crate::sentences;
 use differential_equations::methods::{DormandPrince, ExplicitRungeKutta, Ordinary};
 use differential_equations::ode::{ODE, OrdinaryNumericalMethod};
 use differential_equations::status::Status;
@@ -48,7 +49,7 @@ pub(super) fn a_step<const N: usize, F: Flow<N>>(flow: &F, x: f64, y: &[f64; N],
     let taken = method.step(flow);
     checked(flow, taken, x)?;
     if matches!(method.status(), Status::RejectedStep) {
-        return Err(lost(x, "a step onto a kink was refused"));
+        return Err(lost(x, sentences::A_STEP_ONTO_A_KINK_WAS_REFUSED));
     }
     Ok(method)
 }
@@ -65,7 +66,6 @@ pub(super) fn checked<const N: usize, F: Flow<N>, T, E: std::fmt::Debug>(
 
 /// The error of a motion that cannot be followed beyond `x`.
 pub(super) fn lost(x: f64, why: &str) -> Error {
-    Error::new(ErrorKind::Numeric, format!("the equation of motion cannot be integrated beyond {x:.9}: {why}")).help(
-        "where masses nearly vanish at a crank angle it is stiff: give the crank or the rotor a moment of inertia",
-    )
+    Error::new(ErrorKind::Numeric, sentences::the_equation_of_motion_cannot(&x, &why))
+        .help(sentences::WHERE_MASSES_NEARLY_VANISH_AT_A_CRANK)
 }

@@ -13,7 +13,7 @@ use super::system::System;
 use linkage::drive::Drive;
 use linkage::input::Input;
 use linkage::math::{Vec2, turned};
-use linkage::mechanism::{GROUND, Joint, JointId, Side};
+use linkage::mechanism::{GROUND, Joint, JointId, JointSide};
 
 impl System<'_> {
     /// Residual and Jacobian of a drive's equation in `row`: the coordinate of its joint is the input `at`, counted as
@@ -90,7 +90,7 @@ impl System<'_> {
     /// Writes the right-hand side of the equations of the joint with this number for the accelerations.
     #[inline]
     pub(super) fn put_gamma(&mut self, index: JointId, joint: &Joint) {
-        let centripetal = |side: Side| {
+        let centripetal = |side: JointSide| {
             let omega = self.omega(side.link);
             self.arm(side.link, side.local) * (omega * omega)
         };

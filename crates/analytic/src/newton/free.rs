@@ -4,11 +4,13 @@
 //! V = J^-1 E has one column per drive. Then q'' = a0 + V alpha, and V^T J^T lambda = E^T lambda are the moments of the
 //! drives, which motor and rotor give: (V^T M V + added) alpha = T + V^T (Q - M a0).
 //! The multipliers then are the reactions (Haug, chapters 3 and 8).
+//! See docs/numerics/forces.md.
 
 use super::passing::Passing;
 use super::steps::TRACKING_STEP;
 use super::system::System;
 use crate::motion::side::{Held, Inputs, Side, embed, loads_held};
+use crate::sentences;
 use linkage::drive::Wrench;
 use linkage::error::Result;
 use linkage::math::dense::Lu;
@@ -107,7 +109,7 @@ impl<'a> Embedded<'a> {
         for (index, (q, predicted)) in system.q.iter().zip(&system.predicted).enumerate() {
             let allowed = JUMP * if index % 3 == 2 { 1.0 } else { size };
             if !((q - predicted).abs() <= allowed) {
-                return Err(system.lost("the solution has jumped to another branch"));
+                return Err(system.lost(sentences::THE_SOLUTION_HAS_JUMPED_TO_ANOTHER));
             }
         }
         Ok(())
@@ -175,12 +177,12 @@ impl Side for Embedded<'_> {
         Ok(self.link_rates(link)[0])
     }
 
-    fn velocity(&mut self, inputs: &Inputs, at: mechanism::Side) -> Result<Vec2> {
+    fn velocity(&mut self, inputs: &Inputs, at: mechanism::JointSide) -> Result<Vec2> {
         self.spin(inputs, at.link)?;
         Ok(self.system.velocity(at))
     }
 
-    fn acceleration(&self, at: mechanism::Side) -> Vec2 {
+    fn acceleration(&self, at: mechanism::JointSide) -> Vec2 {
         self.system.motion(at.link).0.point_acceleration(at.local)
     }
 

@@ -4,6 +4,7 @@
 //! The way is followed over the crank's angle, with the first and second derivatives of all coordinates by it.
 //! Around a change point (a [`Window`]) no system of equations is solved: the coordinates are an osculating polynomial
 //! through poses on both sides, and velocities and accelerations follow by its derivatives.
+//! See docs/numerics/change_points.md.
 
 mod multipliers;
 mod osculating;
@@ -14,6 +15,7 @@ mod window;
 
 use super::steps::{HALVINGS, TRACKING_STEP};
 use super::system::System;
+use crate::sentences;
 use linkage::error::Result;
 use linkage::math::KeepNan;
 use spot::{Spot, place, walked};
@@ -168,6 +170,4 @@ impl Passing {
 }
 
 /// The way out where reactions have a pole.
-const WITHOUT_POLE: &str = "leave this very instant out by another step or start of the grid, or leave out \
-                                       the reactions: want = [\"positions\", \"velocities\", \"accelerations\"] in \
-                                       [channels]";
+const WITHOUT_POLE: &str = sentences::LEAVE_THIS_VERY_INSTANT_OUT;

@@ -1,6 +1,7 @@
 //! Follows the branch: Newton's method from a prediction, in small turns of the crank, then velocities, accelerations
 //! and multipliers.
 
+use crate::sentences;
 use std::f64::consts::{PI, TAU};
 
 use super::system::System;
@@ -62,7 +63,7 @@ impl System<'_> {
         // A law whose top speed is reached for a moment only has no such bound by itself.
         if !(turn <= 2.0 * Grid::MOST_TURNS * TAU) {
             let turns = turn / TAU;
-            return Err(self.lost(&format!("up to {turns:.1e} turns on the way to {t} s are too many to be followed")));
+            return Err(self.lost(&sentences::up_to_turns_on_the_way_to_are_too(&format_args!("{turns:.1e}"), &t)));
         }
         let parts = (turn / self.case.step(TRACKING_STEP)).ceil().larger(1.0);
         let from = self.time;
@@ -116,7 +117,7 @@ impl System<'_> {
             self.tally.one(Count::Iterations);
             self.tally.one(Count::Factorisations);
             if !self.jacobian.factor() {
-                return Err(self.lost("the Jacobian is singular there (dead point)"));
+                return Err(self.lost(sentences::THE_JACOBIAN_IS_SINGULAR_THERE));
             }
             self.jacobian.solve(&mut self.residual);
             let mut change: f64 = 0.0;
@@ -130,7 +131,7 @@ impl System<'_> {
             }
             last = change;
         }
-        Err(self.lost("Newton's method does not converge there"))
+        Err(self.lost(sentences::NEWTON_METHOD_DOES_NOT_CONVERGE))
     }
 
     /// Residuals of all constraints and their Jacobian at the pose in `q`.
@@ -189,7 +190,7 @@ impl System<'_> {
     /// Refuses a pose beyond a singular one: every block keeps the sign of its determinant.
     pub(super) fn check_signs(&self) -> Result<()> {
         if !self.jacobian.signs().eq(self.branch.iter().copied()) {
-            return Err(self.lost("the mechanism has passed a dead point on the way there"));
+            return Err(self.lost(sentences::THE_MECHANISM_HAS_PASSED_A_DEAD));
         }
         Ok(())
     }
@@ -198,7 +199,7 @@ impl System<'_> {
     pub(super) fn check_singular(&self) -> Result<()> {
         // Written so that NaN is refused too.
         if !(self.jacobian.smallest_share() > SINGULAR) {
-            let error = self.lost("the pose is singular there (dead point or change point)");
+            let error = self.lost(sentences::THE_POSE_IS_SINGULAR_THERE);
             return Err(error.or_help(way_through(self.case)));
         }
         Ok(())
@@ -212,7 +213,7 @@ impl System<'_> {
         for (index, rate) in self.rate.iter().enumerate() {
             let allowed = (dt * rate).abs() + if index % 3 == 2 { TRACKING_STEP } else { size };
             if !((self.q[index] - self.predicted[index]).abs() <= allowed) {
-                return Err(self.lost("the solution has jumped to another branch"));
+                return Err(self.lost(sentences::THE_SOLUTION_HAS_JUMPED_TO_ANOTHER));
             }
         }
         Ok(())
@@ -228,7 +229,7 @@ impl System<'_> {
         for (index, rate) in self.rate.iter().enumerate() {
             let jump = rate - (self.rate_before[index] + 0.5 * dt * (self.second_before[index] + self.second[index]));
             if !(jump.abs() <= VELOCITY_JUMP * largest * unit(index)) {
-                let error = self.lost("velocities jump there (change point)");
+                let error = self.lost(sentences::VELOCITIES_JUMP_THERE_CHANGE_POINT);
                 return Err(error.or_help(way_through(self.case)));
             }
         }
@@ -251,7 +252,9 @@ impl System<'_> {
         let (at, t) = (self.case.told(self.case.crank().from_world(self.inputs[0].value)), self.time);
         // In a free motion only the integrator knows the time.
         if self.case.is_free() {
-            return Error::new(ErrorKind::Numeric, format!("{at}: {why}")).at_input(at).help("let the grid end before");
+            return Error::new(ErrorKind::Numeric, format!("{at}: {why}"))
+                .at_input(at)
+                .help(sentences::LET_THE_GRID_END_BEFORE);
         }
         let message = format!("{at}, t = {t:.6} s: {why}");
         Error::new(ErrorKind::Numeric, message).at_time(t).at_input(at).help(Advice::ShortenGrid)
@@ -262,7 +265,7 @@ impl System<'_> {
 fn way_through(case: &Case) -> &'static str {
     match case.crank().passes() || !case.drives.further().is_empty() {
         // It is passed already, or there are several drives, with which none is passed.
-        true => "let the grid end before it",
-        false => "pass it with `through = \"smooth\"` in [drive], if two branches meet there",
+        true => sentences::LET_THE_GRID_END_BEFORE_IT,
+        false => sentences::PASS_IT_WITH_THROUGH_SMOOTH,
     }
 }

@@ -6,9 +6,9 @@ use super::blocks::Blocks;
 use linkage::case::Case;
 use linkage::drive::{Drive, InputState, Wrench};
 use linkage::math::{Motion, Vec2, rotated, turned, unit};
-use linkage::mechanism::{GROUND, Joint, LinkId, Side};
+use linkage::mechanism::{GROUND, Joint, JointSide, LinkId};
 use linkage::trajectory::Stage;
-use linkage::work::Tally;
+use linkage::work::WorkTally;
 
 /// Change (rad, or share of the size) below which two iterations running end Newton's method.
 const SETTLED: f64 = 1e-9;
@@ -44,7 +44,7 @@ pub(super) struct System<'a> {
     pub(super) loads: Vec<Wrench>,
     /// Change below which Newton's method ends.
     pub(super) settled: f64,
-    pub(super) tally: Tally,
+    pub(super) tally: WorkTally,
 }
 
 impl<'a> System<'a> {
@@ -77,7 +77,7 @@ impl<'a> System<'a> {
             angles: vec![0.0; links.len() + 1],
             loads: vec![Wrench::ZERO; links.len() + 1],
             settled: SETTLED,
-            tally: Tally::default(),
+            tally: WorkTally::default(),
             inputs: case.drives.iter().map(|drive| by_law(drive, 0.0)).collect(),
         }
     }
@@ -141,7 +141,7 @@ impl<'a> System<'a> {
     }
 
     /// Velocity of a joint's place on a link.
-    pub(super) fn velocity(&self, side: Side) -> Vec2 {
+    pub(super) fn velocity(&self, side: JointSide) -> Vec2 {
         if side.link == GROUND {
             return Vec2::zeros();
         }

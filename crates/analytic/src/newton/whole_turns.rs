@@ -2,6 +2,7 @@
 //!
 //! With one drive a pose is a function of the crank angle and the branch. Where one whole turn, followed in small
 //! steps, brings every link back to where it was, the next turns are the same, and are not followed one by one.
+//! See docs/numerics/change_points.md.
 
 use std::f64::consts::TAU;
 

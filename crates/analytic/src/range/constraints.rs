@@ -5,8 +5,8 @@
 //! x and y are divided by the size of the mechanism, so that they compare with angles.
 //! Each kind of joint has one function with its rows.
 
-use linkage::math::{Column, Matrix, Vec2, cross, rotated, unit};
-use linkage::mechanism::{GROUND, Group, Joint, LinkId, LinkPose, Mechanism, Pose, Side};
+use linkage::math::{ColumnVector, Matrix, Vec2, cross, rotated, unit};
+use linkage::mechanism::{GROUND, Group, Joint, JointSide, LinkId, LinkPose, Mechanism, Pose};
 
 /// A driving link that is geared to the crank: its angle follows that of the crank.
 #[derive(Clone, Copy, Debug)]
@@ -35,7 +35,7 @@ pub(super) struct Constraints<'a> {
 /// Residuals and their derivatives by the coordinates.
 #[derive(Debug)]
 pub(super) struct Equations {
-    pub(super) residual: Column,
+    pub(super) residual: ColumnVector,
     pub(super) jacobian: Matrix,
 }
 
@@ -71,8 +71,8 @@ impl<'a> Constraints<'a> {
     }
 
     /// Coordinates of a pose.
-    pub(super) fn coordinates_of(&self, pose: &Pose) -> Column {
-        let mut q = Column::zeros(self.coordinates());
+    pub(super) fn coordinates_of(&self, pose: &Pose) -> ColumnVector {
+        let mut q = ColumnVector::zeros(self.coordinates());
         for (link, place) in pose.0.entries().skip(1) {
             let middle = (place.point(self.middles[link]) - self.origin) / self.size;
             let angle = Self::angle(link);
@@ -82,7 +82,7 @@ impl<'a> Constraints<'a> {
     }
 
     /// The pose for these coordinates.
-    pub(super) fn pose(&self, q: &Column) -> Pose {
+    pub(super) fn pose(&self, q: &ColumnVector) -> Pose {
         let place = |link: LinkId| {
             let angle = Self::angle(link);
             let middle = Vec2::new(q[angle - 2], q[angle - 1]) * self.size + self.origin;
@@ -92,9 +92,9 @@ impl<'a> Constraints<'a> {
     }
 
     /// All equations at the coordinates `q`.
-    pub(super) fn at(&self, q: &Column) -> Equations {
+    pub(super) fn at(&self, q: &ColumnVector) -> Equations {
         let mut equations =
-            Equations { residual: Column::zeros(self.rows()), jacobian: Matrix::zeros(self.rows(), q.len()) };
+            Equations { residual: ColumnVector::zeros(self.rows()), jacobian: Matrix::zeros(self.rows(), q.len()) };
         for (index, joint) in self.mechanism.joints().entries() {
             let row = self.mechanism.rows(index).start;
             match joint.kind.line() {
@@ -122,7 +122,7 @@ impl<'a> Constraints<'a> {
     }
 
     /// p_second - p_first = 0.
-    fn revolute(&self, joint: &Joint, q: &Column, row: usize, equations: &mut Equations) {
+    fn revolute(&self, joint: &Joint, q: &ColumnVector, row: usize, equations: &mut Equations) {
         for (side, sign) in [(joint.first, -1.0), (joint.second, 1.0)] {
             let (place, arm) = self.point(side, q);
             equations.residual[row] += sign * place.x;
@@ -138,7 +138,7 @@ impl<'a> Constraints<'a> {
     }
 
     /// n . (p_second - p_first) = 0 with the normal n of the axis on the first link.
-    fn line(&self, joint: &Joint, axis: Vec2, q: &Column, row: usize, equations: &mut Equations) {
+    fn line(&self, joint: &Joint, axis: Vec2, q: &ColumnVector, row: usize, equations: &mut Equations) {
         let [first, second] = [joint.first, joint.second];
         let axis = if first.link == GROUND { axis } else { rotated(unit(q[Self::angle(first.link)]), axis) };
         let gap = self.point(second, q).0 - self.point(first, q).0;
@@ -160,7 +160,7 @@ impl<'a> Constraints<'a> {
 
     /// Place of one side of a joint, and the vector to it from the middle of its link, in units of the mechanism's
     /// size.
-    fn point(&self, side: Side, q: &Column) -> (Vec2, Vec2) {
+    fn point(&self, side: JointSide, q: &ColumnVector) -> (Vec2, Vec2) {
         if side.link == GROUND {
             return ((side.local - self.origin) / self.size, Vec2::zeros());
         }

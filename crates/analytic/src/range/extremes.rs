@@ -8,7 +8,7 @@ use linkage::mechanism::{GroupId, LinkId};
 use std::f64::consts::TAU;
 
 use super::constraints::Constraints;
-use super::singularity::{At, Kind, Singularity};
+use super::singularity::{Singularity, SingularityKind, ValueAtCrank};
 use super::tracking::{Point, Tracker};
 
 /// Part of the tangent below which it is rounding and not motion, times the square of the smallest singular value.
@@ -18,7 +18,7 @@ const STILL: f64 = 50.0 * f64::EPSILON;
 
 /// Extreme position of a link: its angular velocity changes sign.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Extreme {
+pub struct ExtremePosition {
     /// Crank angle (rad, as the scenario states it), to 1e-9 rad.
     pub crank: f64,
     /// Angle of the link (rad).
@@ -33,13 +33,13 @@ pub struct LinkRange {
     /// The link.
     pub link: LinkId,
     /// Smallest and greatest angle (rad, continued from that of the start pose), with their crank angles.
-    pub angles: [At; 2],
+    pub angles: [ValueAtCrank; 2],
     /// Whole turns of the link until the mechanism is back at its first pose, counter-clockwise positive for a crank
     /// that turns counter-clockwise.
     /// 0 for a link that rocks, or if the crank cannot turn fully.
     pub turns: i32,
     /// Extreme positions in ascending order of the crank angle.
-    pub extremes: Vec<Extreme>,
+    pub extremes: Vec<ExtremePosition>,
 }
 
 /// Ranges of all moving links.
@@ -50,10 +50,10 @@ pub(super) fn links(tracker: &Tracker, points: &[Point], closed: bool, count: us
 fn of_link(tracker: &Tracker, points: &[Point], closed: bool, link: LinkId) -> LinkRange {
     let angle = Constraints::angle(link);
     let rate = |point: &Point| point.tangent[angle];
-    let at = |point: &Point| At { crank: tracker.crank_of(&point.q), value: point.q[angle] };
-    let mut extremes: Vec<Extreme> = Vec::new();
+    let at = |point: &Point| ValueAtCrank { crank: tracker.crank_of(&point.q), value: point.q[angle] };
+    let mut extremes: Vec<ExtremePosition> = Vec::new();
     let mut add = |point: &Point, is_greatest: bool| {
-        extremes.push(Extreme { crank: tracker.crank_of(&point.q), angle: point.q[angle], is_greatest });
+        extremes.push(ExtremePosition { crank: tracker.crank_of(&point.q), angle: point.q[angle], is_greatest });
     };
     // Indices of poses in which the link turns at all. Between two of them with different sense there is one extreme.
     let moving: Vec<usize> =
@@ -76,9 +76,9 @@ fn of_link(tracker: &Tracker, points: &[Point], closed: bool, link: LinkId) -> L
         add(&points[0], rate(&points[end]) > 0.0);
     }
     extremes.sort_by(|a, b| a.crank.total_cmp(&b.crank));
-    let ends = extremes.iter().map(|extreme| At { crank: extreme.crank, value: extreme.angle });
-    let all: Vec<At> = [at(&points[0]), at(&points[last])].into_iter().chain(ends).collect();
-    let by_value = |a: &&At, b: &&At| a.value.total_cmp(&b.value);
+    let ends = extremes.iter().map(|extreme| ValueAtCrank { crank: extreme.crank, value: extreme.angle });
+    let all: Vec<ValueAtCrank> = [at(&points[0]), at(&points[last])].into_iter().chain(ends).collect();
+    let by_value = |a: &&ValueAtCrank, b: &&ValueAtCrank| a.value.total_cmp(&b.value);
     let least = all.iter().min_by(by_value).copied().unwrap_or(all[0]);
     let most = all.iter().max_by(by_value).copied().unwrap_or(all[0]);
     let turns = if closed { ((points[last].q[angle] - points[0].q[angle]) / TAU).round() as i32 } else { 0 };
@@ -135,7 +135,7 @@ pub(super) fn contacts(tracker: &Tracker, points: &[Point], closed: bool, bound:
             if here < before && here <= after && here < 10.0 * bound {
                 let lowest = refined(tracker, points, closed, place, &size);
                 let contact = Singularity {
-                    kind: Kind::BranchContact,
+                    kind: SingularityKind::BranchContact,
                     crank: tracker.crank_of(&lowest.q),
                     group: GroupId(group),
                     determinant: lowest.measures[group].determinant,

@@ -7,6 +7,7 @@
 //! If both sums are equal, all joints can come into one line, where branches cross.
 //! (Grashof 1883; for example Hunt, "Kinematic geometry of mechanisms", 1978, section 4.1.)
 
+use crate::sentences;
 use linkage::case::Case;
 use linkage::mechanism::{GROUND, GroupKind, LinkId};
 
@@ -36,12 +37,12 @@ impl FourBarType {
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
-            FourBarType::CrankRocker => "crank-rocker (Grashof, the driving link is shortest)",
-            FourBarType::RockerCrank => "rocker-crank (Grashof, the output link is shortest: the driving link rocks)",
-            FourBarType::DoubleCrank => "double-crank, drag link (Grashof, the frame is shortest)",
-            FourBarType::DoubleRocker => "double-rocker (Grashof, the coupler is shortest)",
-            FourBarType::TripleRocker => "triple-rocker (non-Grashof, s + l > p + q)",
-            FourBarType::ChangePoint => "change-point mechanism (s + l = p + q)",
+            FourBarType::CrankRocker => sentences::CRANK_ROCKER_GRASHOF_THE_DRIVING,
+            FourBarType::RockerCrank => sentences::ROCKER_CRANK_GRASHOF_THE_OUTPUT,
+            FourBarType::DoubleCrank => sentences::DOUBLE_CRANK_DRAG_LINK_GRASHOF,
+            FourBarType::DoubleRocker => sentences::DOUBLE_ROCKER_GRASHOF_THE_COUPLER,
+            FourBarType::TripleRocker => sentences::TRIPLE_ROCKER_NON_GRASHOF,
+            FourBarType::ChangePoint => sentences::CHANGE_POINT_MECHANISM,
         }
     }
 }

@@ -15,7 +15,7 @@ use linkage::mechanism::{Group, Mechanism, Pose};
 
 /// Determinant and condition number of a group at one pose.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Measure {
+pub struct GroupCondition {
     /// Normalised determinant, from -1 to 1; zero in a singular pose.
     pub determinant: f64,
     /// Condition number (2-norm) of the normalised equations: the factor from relative errors of position to those of
@@ -25,7 +25,7 @@ pub struct Measure {
 }
 
 /// Measures a group at a pose, from its square block of the Jacobian, x and y before the angles.
-pub(super) fn of(block: &Matrix, mechanism: &Mechanism, group: &Group, pose: &Pose) -> Measure {
+pub(super) fn of(block: &Matrix, mechanism: &Mechanism, group: &Group, pose: &Pose) -> GroupCondition {
     let mut joints = group.inner.iter().chain(&group.outer);
     if !joints.all(|&joint| mechanism.joints()[joint].is_pin()) {
         return of_sliding(block, transmission_sine(mechanism, group, pose));
@@ -39,13 +39,13 @@ pub(super) fn of(block: &Matrix, mechanism: &Mechanism, group: &Group, pose: &Po
 
 /// Measures a group with sliders, in which x and y cannot be eliminated. All columns are divided by their lengths.
 /// A dyad keeps its own determinant, the sine of its transmission angle.
-fn of_sliding(block: &Matrix, sine: Option<f64>) -> Measure {
+fn of_sliding(block: &Matrix, sine: Option<f64>) -> GroupCondition {
     let sign = block.determinant().signum();
     let measure = of_columns(block.clone(), sign);
-    Measure { determinant: sine.map_or(measure.determinant, |sine| sign * sine.abs()), ..measure }
+    GroupCondition { determinant: sine.map_or(measure.determinant, |sine| sign * sine.abs()), ..measure }
 }
 
-fn of_columns(mut matrix: Matrix, sign: f64) -> Measure {
+fn of_columns(mut matrix: Matrix, sign: f64) -> GroupCondition {
     for mut column in matrix.column_iter_mut() {
         let norm = column.norm();
         if norm > 0.0 {
@@ -55,7 +55,7 @@ fn of_columns(mut matrix: Matrix, sign: f64) -> Measure {
     let values = matrix.singular_values();
     // For a matrix of zeros the quotient is NaN. Its condition number is then that of any singular matrix.
     let condition = (values.max() / values.min()).smaller_number(f64::MAX);
-    Measure { determinant: sign * values.product(), condition }
+    GroupCondition { determinant: sign * values.product(), condition }
 }
 
 #[cfg(test)]
@@ -92,7 +92,7 @@ mod tests {
     fn the_jacobian_is_the_derivative_of_the_residual() {
         let mechanism = four_bar();
         let constraints = Constraints::of(&mechanism, Vec2::zeros(), Vec::new());
-        let q = linkage::math::Column::from_fn(9, |k, _| 0.3 + 0.7 * k as f64);
+        let q = linkage::math::ColumnVector::from_fn(9, |k, _| 0.3 + 0.7 * k as f64);
         let jacobian = constraints.at(&q).jacobian;
         for k in 0..9 {
             let (mut ahead, mut behind) = (q.clone(), q.clone());

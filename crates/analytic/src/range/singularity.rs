@@ -1,10 +1,11 @@
 //! Singular poses, and values at a crank angle.
 
+use crate::sentences;
 use linkage::mechanism::GroupId;
 
 /// Kind of a singular pose.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum SingularityKind {
     /// Limit of rotation of the crank: two configurations of a group meet, and beyond there is none.
     /// The determinant goes to zero as the square root of the remaining crank angle.
     DeadPoint,
@@ -16,15 +17,15 @@ pub enum Kind {
     BranchContact,
 }
 
-impl Kind {
+impl SingularityKind {
     /// Name, as in reports.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
-            Kind::DeadPoint => "limit of rotation (dead point)",
-            Kind::ChangePoint => "change point",
-            Kind::ParallelAxes => "parallel axes",
-            Kind::BranchContact => "branch contact",
+            SingularityKind::DeadPoint => sentences::LIMIT_OF_ROTATION_DEAD_POINT,
+            SingularityKind::ChangePoint => "change point",
+            SingularityKind::ParallelAxes => "parallel axes",
+            SingularityKind::BranchContact => "branch contact",
         }
     }
 }
@@ -33,7 +34,7 @@ impl Kind {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Singularity {
     /// Its kind.
-    pub kind: Kind,
+    pub kind: SingularityKind,
     /// Crank angle (rad, as the scenario states it), to 1e-9 rad. For a contact, the angle of the smallest determinant.
     pub crank: f64,
     /// The group whose determinant is zero: index in [`Structure::groups`](linkage::mechanism::Structure::groups).
@@ -45,7 +46,7 @@ pub struct Singularity {
 
 /// A crank angle (rad) and the value there.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct At {
+pub struct ValueAtCrank {
     /// Crank angle (rad, as the scenario states it).
     pub crank: f64,
     /// The value.

@@ -8,19 +8,20 @@
 //! The smallest singular value of the Jacobian is a lower bound on the distance to another branch.
 //! Steps are kept below it, so that no step jumps to another branch.
 
+use crate::sentences;
 use std::cell::{OnceCell, RefCell};
 use std::f64::consts::TAU;
 
 use super::constraints::{Constraints, Gearing};
-use super::measure::{self, Measure};
-use super::singularity::{Kind, Singularity};
+use super::measure::{self, GroupCondition};
+use super::singularity::{Singularity, SingularityKind};
 use linkage::case::Case;
 use linkage::drive::Drive;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::input::InputValue;
 use linkage::math::dense::Lu;
 use linkage::math::root::{self, Close};
-use linkage::math::{Column, KeepNan, Matrix, unit};
+use linkage::math::{ColumnVector, KeepNan, Matrix, unit};
 use linkage::mechanism::{GroupId, LinkId};
 use linkage::work;
 
@@ -53,13 +54,13 @@ const MOST_TURNS: i32 = 12;
 /// A pose on the curve.
 #[derive(Clone, Debug)]
 pub(super) struct Point {
-    pub(super) q: Column,
+    pub(super) q: ColumnVector,
     /// Unit vector along the curve.
-    pub(super) tangent: Column,
+    pub(super) tangent: ColumnVector,
     /// Smallest singular value of the equations.
     pub(super) sigma: f64,
     /// Measures of each group.
-    pub(super) measures: Vec<Measure>,
+    pub(super) measures: Vec<GroupCondition>,
 }
 
 /// How a track ends.
@@ -102,7 +103,7 @@ pub(super) struct Tracker<'a> {
     /// Signs that make every group's determinant positive at the start.
     signs: Vec<f64>,
     /// Direction of the smallest singular value of the last pose, from which that of the next is found.
-    weakest: RefCell<Column>,
+    weakest: RefCell<ColumnVector>,
     /// Why no further pose is placed: the work that was allowed is done.
     over: OnceCell<Error>,
 }
@@ -125,7 +126,7 @@ impl<'a> Tracker<'a> {
             weakest: RefCell::new(any_direction(q.len())),
             over: OnceCell::new(),
         };
-        let mut along = Column::zeros(q.len());
+        let mut along = ColumnVector::zeros(q.len());
         along[tracker.crank] = 1.0;
         let rough = tracker.point(q, &along);
         tracker.check_regular(&rough)?;
@@ -160,12 +161,12 @@ impl<'a> Tracker<'a> {
     }
 
     /// Crank angle of a pose as the scenario states it (rad).
-    pub(super) fn crank_of(&self, q: &Column) -> f64 {
+    pub(super) fn crank_of(&self, q: &ColumnVector) -> f64 {
         self.case.crank().from_world(q[self.crank])
     }
 
     /// The error for a pose at which the mechanism cannot be followed.
-    pub(super) fn lost(&self, q: &Column) -> Error {
+    pub(super) fn lost(&self, q: &ColumnVector) -> Error {
         lost(self.case.told(self.crank_of(q)))
     }
 
@@ -178,23 +179,18 @@ impl<'a> Tracker<'a> {
         for (group, measure) in self.case.structure.groups.iter().zip(&start.measures) {
             if !(measure.determinant.abs() > MEET) {
                 let (names, at) = (group.names(&self.case.mechanism), self.case.told(self.case.crank().start));
-                return Err(Error::new(
-                    ErrorKind::Geometry,
-                    format!(
-                        "the start pose at {at:.6} is singular: two configurations of the group ({names}) meet there"
-                    ),
-                )
-                .key("start")
-                .at_input(at)
-                .of_group(names)
-                .help("start at another crank angle, where the configurations are apart"));
+                return Err(Error::new(ErrorKind::Geometry, sentences::the_start_pose_at_is_singular(&at, &names))
+                    .key("start")
+                    .at_input(at)
+                    .of_group(names)
+                    .help(sentences::START_AT_ANOTHER_CRANK_ANGLE));
             }
         }
         Ok(())
     }
 
     /// The pose at `q`, with its tangent in the direction of `along`.
-    fn point(&self, q: Column, along: &Column) -> Point {
+    fn point(&self, q: ColumnVector, along: &ColumnVector) -> Point {
         let jacobian = self.constraints.at(&q).jacobian;
         let tangent = tangent(&jacobian, along);
         let (sigma, rounds) = smallest_singular_value(&bordered(&jacobian, &tangent), &mut self.weakest.borrow_mut());
@@ -204,7 +200,7 @@ impl<'a> Tracker<'a> {
         let pose = self.constraints.pose(&q);
         let measures = groups.map(|(group, sign)| {
             let found = measure::of(&self.constraints.block(&jacobian, group), &self.case.mechanism, group, &pose);
-            Measure { determinant: sign * found.determinant, ..found }
+            GroupCondition { determinant: sign * found.determinant, ..found }
         });
         let measures = measures.collect();
         Point { q, tangent, sigma, measures }
@@ -212,7 +208,14 @@ impl<'a> Tracker<'a> {
 
     /// Newton's method from `q` on all equations and `across . (q - from) = distance`.
     /// `None` if the first correction is longer than `most` or the method does not converge.
-    fn correct(&self, mut q: Column, across: &Column, from: &Column, distance: f64, most: f64) -> Option<Column> {
+    fn correct(
+        &self,
+        mut q: ColumnVector,
+        across: &ColumnVector,
+        from: &ColumnVector,
+        distance: f64,
+        most: f64,
+    ) -> Option<ColumnVector> {
         let mut last = f64::INFINITY;
         for _ in 0..10 {
             self.spend(1)?;
@@ -245,9 +248,9 @@ impl<'a> Tracker<'a> {
 
     /// The pose near `near` with the crank at the world angle `angle` (rad).
     fn at_crank(&self, near: &Point, angle: f64) -> Option<Point> {
-        let mut across = Column::zeros(near.q.len());
+        let mut across = ColumnVector::zeros(near.q.len());
         across[self.crank] = 1.0;
-        let q = self.correct(near.q.clone(), &across, &Column::zeros(near.q.len()), angle, 2.0 * LONGEST)?;
+        let q = self.correct(near.q.clone(), &across, &ColumnVector::zeros(near.q.len()), angle, 2.0 * LONGEST)?;
         Some(self.point(q, &near.tangent))
     }
 
@@ -293,7 +296,7 @@ impl<'a> Tracker<'a> {
             longest = (2.0 * step).smaller(LONGEST * self.extent(&next.q));
             if self.crank_rate(&next) * sense <= 0.0 {
                 let limit = self.zero(here, &next, |point| self.crank_rate(point));
-                let singularity = self.singularity(Kind::DeadPoint, &limit);
+                let singularity = self.singularity(SingularityKind::DeadPoint, &limit);
                 points.push(limit);
                 return Ok(Track { points, end: End::Limit(singularity) });
             }
@@ -327,7 +330,7 @@ impl<'a> Tracker<'a> {
     }
 
     /// Distance of the farthest link from the crank's pivot, in [`NEAR`] sizes of the mechanism; at least 1.
-    fn extent(&self, q: &Column) -> f64 {
+    fn extent(&self, q: &ColumnVector) -> f64 {
         q.iter().enumerate().filter(|(k, _)| k % 3 < 2).fold(1.0, |most, (_, x)| most.larger(x.abs() / NEAR))
     }
 
@@ -373,15 +376,16 @@ impl<'a> Tracker<'a> {
         let last = &points[points.len() - 1];
         let Some(group) = weakest(&last.measures) else { return Err(self.lost(&last.q)) };
         let known = by_determinant(&points, GroupId(group));
-        let known: Vec<(f64, Column)> = known.into_iter().map(|(x, point)| (x, point.q.clone())).collect();
+        let known: Vec<(f64, ColumnVector)> = known.into_iter().map(|(x, point)| (x, point.q.clone())).collect();
         let q = if known.len() < 3 { last.q.clone() } else { neville_at_zero(&known) };
         let moved = (&q - &last.q).norm();
         let q = if moved < 1e-3 { q } else { last.q.clone() };
         // A dead point of several groups at once: the crank stands still on the curve, as at the dead point of a single
         // group.
-        let kind = if self.crank_rate(last).abs() < 1e-3 { Kind::DeadPoint } else { Kind::ChangePoint };
+        let kind =
+            if self.crank_rate(last).abs() < 1e-3 { SingularityKind::DeadPoint } else { SingularityKind::ChangePoint };
         let mut end = Point { q, ..last.clone() };
-        end.measures[group] = Measure { determinant: 0.0, condition: f64::MAX };
+        end.measures[group] = GroupCondition { determinant: 0.0, condition: f64::MAX };
         let singularity = self.singularity(kind, &end);
         points.push(end);
         Ok(Track { points, end: End::Limit(singularity) })
@@ -396,17 +400,17 @@ impl<'a> Tracker<'a> {
         if known.len() < MOST_KNOWN {
             return false;
         }
-        let known: Vec<(f64, Column)> = known.into_iter().map(|(x, point)| (x, self.finite(point))).collect();
+        let known: Vec<(f64, ColumnVector)> = known.into_iter().map(|(x, point)| (x, self.finite(point))).collect();
         let [now, before] = [&known[..], &known[1..]].map(neville_at_zero);
         let keeps_sign = |other: usize| now[other] * last.measures[other].determinant > 0.0;
         (&now - before).amax() < AGREED && (0..last.measures.len()).all(|other| other == group || keeps_sign(other))
     }
 
     /// What stays finite where links go to infinity: determinants of all groups, then angles of all links (rad).
-    fn finite(&self, point: &Point) -> Column {
+    fn finite(&self, point: &Point) -> ColumnVector {
         let angles = self.case.mechanism.links().ids().skip(1).map(|link| point.q[Constraints::angle(link)]);
         let all: Vec<f64> = point.measures.iter().map(|measure| measure.determinant).chain(angles).collect();
-        Column::from_vec(all)
+        ColumnVector::from_vec(all)
     }
 
     /// The end of a track along which a slide grows without bound. The crank angle is a smooth function of the
@@ -418,7 +422,7 @@ impl<'a> Tracker<'a> {
         if known.len() < 3 {
             return Err(self.lost(&last.q));
         }
-        let known: Vec<(f64, Column)> = known.into_iter().map(|(x, point)| (x, self.finite(point))).collect();
+        let known: Vec<(f64, ColumnVector)> = known.into_iter().map(|(x, point)| (x, self.finite(point))).collect();
         let found = neville_at_zero(&known);
         let mut end = last.clone();
         for (measure, determinant) in end.measures.iter_mut().zip(found.iter()) {
@@ -427,16 +431,16 @@ impl<'a> Tracker<'a> {
         for (link, angle) in self.case.mechanism.links().ids().skip(1).zip(found.iter().skip(end.measures.len())) {
             end.q[Constraints::angle(link)] = *angle;
         }
-        end.measures[group] = Measure { determinant: 0.0, condition: f64::MAX };
-        let singularity = self.singularity(Kind::ParallelAxes, &end);
+        end.measures[group] = GroupCondition { determinant: 0.0, condition: f64::MAX };
+        let singularity = self.singularity(SingularityKind::ParallelAxes, &end);
         points.push(end);
         Ok(Track { points, end: End::Limit(singularity) })
     }
 
     /// A singular pose, for the group with the smallest determinant.
-    pub(super) fn singularity(&self, kind: Kind, at: &Point) -> Singularity {
+    pub(super) fn singularity(&self, kind: SingularityKind, at: &Point) -> Singularity {
         let group = weakest(&at.measures).unwrap_or(0);
-        let determinant = if kind == Kind::BranchContact { at.measures[group].determinant } else { 0.0 };
+        let determinant = if kind == SingularityKind::BranchContact { at.measures[group].determinant } else { 0.0 };
         Singularity { kind, crank: self.crank_of(&at.q), group: GroupId(group), determinant }
     }
 
@@ -467,18 +471,18 @@ fn by_determinant(points: &[Point], group: GroupId) -> Vec<(f64, &Point)> {
 }
 
 /// The group with the smallest determinant.
-fn weakest(measures: &[Measure]) -> Option<usize> {
+fn weakest(measures: &[GroupCondition]) -> Option<usize> {
     (0..measures.len()).min_by(|&a, &b| measures[a].determinant.abs().total_cmp(&measures[b].determinant.abs()))
 }
 
 fn lost(at: InputValue) -> Error {
-    Error::new(ErrorKind::Numeric, format!("the poses of the mechanism cannot be followed at {at}"))
+    Error::new(ErrorKind::Numeric, sentences::the_poses_of_the_mechanism(&at))
         .at_input(at)
-        .help("check the lengths, or start at another crank angle")
+        .help(sentences::CHECK_THE_LENGTHS_OR_START)
 }
 
 /// A Jacobian with one more row.
-fn bordered(jacobian: &Matrix, row: &Column) -> Matrix {
+fn bordered(jacobian: &Matrix, row: &ColumnVector) -> Matrix {
     let mut square = jacobian.clone().insert_row(jacobian.nrows(), 0.0);
     square.row_mut(jacobian.nrows()).copy_from(&row.transpose());
     square
@@ -497,19 +501,19 @@ fn factored(matrix: &Matrix) -> Option<Lu> {
 }
 
 /// A direction that is orthogonal to none that occurs.
-fn any_direction(n: usize) -> Column {
-    Column::from_fn(n, |row, _| 1.0 + (row as f64).sin()).normalize()
+fn any_direction(n: usize) -> ColumnVector {
+    ColumnVector::from_fn(n, |row, _| 1.0 + (row as f64).sin()).normalize()
 }
 
 /// Solution for this right-hand side; `None` if the matrix is singular to working precision.
-fn solved(matrix: &Matrix, mut right: Column) -> Option<Column> {
+fn solved(matrix: &Matrix, mut right: ColumnVector) -> Option<ColumnVector> {
     factored(matrix)?.solve(right.as_mut_slice());
     Some(right)
 }
 
 /// Smallest singular value, by inverse iteration, and the number of iterations; 0 for a matrix that is singular to
 /// working precision. The iteration starts from the direction `x` and leaves the one that belongs to the value.
-fn smallest_singular_value(matrix: &Matrix, x: &mut Column) -> (f64, usize) {
+fn smallest_singular_value(matrix: &Matrix, x: &mut ColumnVector) -> (f64, usize) {
     let Some(lu) = factored(matrix) else { return (0.0, 0) };
     // A little of every direction, so that none is missed.
     *x = (&*x + any_direction(matrix.nrows()) * 1e-3).normalize();
@@ -534,8 +538,8 @@ fn smallest_singular_value(matrix: &Matrix, x: &mut Column) -> (f64, usize) {
 }
 
 /// Unit vector that the Jacobian maps to zero, on the side of `along`; `along` itself if there are several.
-fn tangent(jacobian: &Matrix, along: &Column) -> Column {
-    let mut ahead = Column::zeros(along.len());
+fn tangent(jacobian: &Matrix, along: &ColumnVector) -> ColumnVector {
+    let mut ahead = ColumnVector::zeros(along.len());
     ahead[along.len() - 1] = 1.0;
     match solved(&bordered(jacobian, along), ahead) {
         Some(solved) if solved.norm().is_finite() => solved.normalize(),
@@ -544,8 +548,8 @@ fn tangent(jacobian: &Matrix, along: &Column) -> Column {
 }
 
 /// Value at zero of the polynomial through (x, column) pairs with different x.
-fn neville_at_zero(known: &[(f64, Column)]) -> Column {
-    let mut row: Vec<Column> = known.iter().map(|(_, q)| q.clone()).collect();
+fn neville_at_zero(known: &[(f64, ColumnVector)]) -> ColumnVector {
+    let mut row: Vec<ColumnVector> = known.iter().map(|(_, q)| q.clone()).collect();
     for level in 1..known.len() {
         for k in 0..known.len() - level {
             let (x0, x1) = (known[k].0, known[k + level].0);

@@ -9,12 +9,12 @@ use std::cell::{Cell, RefCell};
 
 use differential_equations::ode::ODE;
 
-use super::model::{Model, Piece, Reduced};
+use super::model::{Piece, Reduced, ReducedModel};
 use crate::PoseSolver;
 use crate::motion::step::Flow;
-use linkage::drive::Branch;
+use linkage::drive::MotorBranch;
 use linkage::error::{Error, Result};
-use linkage::work::{Count, Tally};
+use linkage::work::{Count, WorkTally};
 
 /// Largest distance of a stage of a step from the step's beginning (rad). The first trial of a step may lead anywhere;
 /// such a trial must be refused.
@@ -23,7 +23,7 @@ const FARTHEST: f64 = std::f64::consts::TAU;
 /// The evaluation that both forms share.
 #[derive(Debug)]
 pub(crate) struct Forces<'m, 'a> {
-    pub(crate) model: &'m Model<'a>,
+    pub(crate) model: &'m ReducedModel<'a>,
     poses: RefCell<PoseSolver<'a>>,
     fault: RefCell<Option<Error>>,
     /// Crank angle at which the present step began.
@@ -31,12 +31,12 @@ pub(crate) struct Forces<'m, 'a> {
     pub(crate) piece: Cell<Piece>,
     /// Sense of the crank's speed: +1 or -1.
     pub(crate) way: Cell<f64>,
-    pub(crate) branch: Cell<Option<Branch>>,
-    tally: RefCell<Tally>,
+    pub(crate) branch: Cell<Option<MotorBranch>>,
+    tally: RefCell<WorkTally>,
 }
 
 impl<'m, 'a> Forces<'m, 'a> {
-    pub(crate) fn of(model: &'m Model<'a>, piece: Piece, way: f64) -> Result<Self> {
+    pub(crate) fn of(model: &'m ReducedModel<'a>, piece: Piece, way: f64) -> Result<Self> {
         Ok(Forces {
             model,
             poses: RefCell::new(model.guided(PoseSolver::new(model.case)?)),

@@ -1,13 +1,14 @@
 //! The mechanism reduced to its driving link: moment of inertia and moment of resistance
 //! as functions of the crank angle.
 
+use crate::sentences;
 use std::f64::consts::{PI, TAU};
 
 use num_integer::Integer;
 
 use super::turn::FullTurn;
 use crate::PoseSolver;
-use crate::range::{Extent, Kind, Range};
+use crate::range::{Extent, Range, SingularityKind};
 use linkage::case::{Case, Grid, Wanted};
 use linkage::drive::{Course, Load};
 use linkage::error::{Advice, Error, ErrorKind, Result};
@@ -73,7 +74,7 @@ impl Reach {
         let (turns, limits, meets) = match range.extent {
             Extent::FullTurn(turns) => (Some(turns.unsigned_abs()), None, false),
             Extent::Limited(ends) => {
-                (None, Some(ends.map(|end| end.crank)), ends.iter().any(|end| end.kind == Kind::ChangePoint))
+                (None, Some(ends.map(|end| end.crank)), ends.iter().any(|end| end.kind == SingularityKind::ChangePoint))
             }
         };
         let mut poses = PoseSolver::new(case)?;
@@ -98,13 +99,8 @@ impl Reach {
 /// repeat together only after more than a thousand turns.
 pub fn kinks(case: &Case) -> Result<Kinks> {
     if let Some(load) = case.loads.iter().find(|load| load.sensed_point().is_some()) {
-        let message = format!(
-            "reduced quantities are asked for, but a load of type \"{}\" turns with the motion of a point, which the reduction to the crank does not know",
-            load.sort()
-        );
-        return Err(
-            Error::new(ErrorKind::Unsupported, message).help("give it as a table of forces over the crank angle")
-        );
+        let message = sentences::reduced_quantities_are_asked_for_but_a_load(&load.sort());
+        return Err(Error::new(ErrorKind::Unsupported, message).help(sentences::GIVE_IT_AS_A_TABLE_OF_FORCES));
     }
     let is_sensed =
         |link: &LinkId| case.can_turn(*link) && case.loads.iter().any(|load| load.sensed_link() == Some(*link));
@@ -127,12 +123,8 @@ pub fn kinks(case: &Case) -> Result<Kinks> {
     for (_, own) in tables() {
         all = all.map(|all| all.lcm(&own));
         if let Some(turns) = all.filter(|&turns| turns > MOST_TURNS) {
-            let message = format!(
-                "mechanism and tables of loads repeat together after {turns} turns only, the limit is {MOST_TURNS}"
-            );
-            return Err(
-                Error::new(ErrorKind::Unsupported, message).help("give the tables turns that divide each other")
-            );
+            let message = sentences::mechanism_and_tables_of_loads(&turns, &MOST_TURNS);
+            return Err(Error::new(ErrorKind::Unsupported, message).help(sentences::GIVE_THE_TABLES_TURNS_THAT_DIVIDE));
         }
     }
     if let (Some(turns), Some(all)) = (turns, all) {
@@ -200,19 +192,14 @@ pub fn means_over_turn(case: &Case, solver: &dyn Solver) -> Result<Means> {
 /// The error for a question about whole turns of a crank that cannot turn fully.
 pub(crate) fn no_turn(kinks: &Kinks) -> Error {
     let reached = kinks.limits.map_or(String::new(), |[from, to]| {
-        format!(": it can be turned from {:.6} to {:.6} deg only", from.to_degrees(), to.to_degrees())
+        sentences::it_can_be_turned_from_to_deg(&from.to_degrees(), &to.to_degrees())
     });
-    Error::new(
-        ErrorKind::Geometry,
-        format!("means over a turn are asked for, but the crank does not turn fully{reached}"),
-    )
-    .help(Advice::LookAtRange)
+    Error::new(ErrorKind::Geometry, sentences::means_over_a_turn_are_asked(&reached)).help(Advice::LookAtRange)
 }
 
 /// The error for a resistance that no speed of the motor balances.
 #[must_use]
 pub fn no_steady_speed(resistance: f64) -> Error {
-    let message = format!("the motor has no stable speed at which its moment on the crank is {resistance:.6} N m");
-    Error::new(ErrorKind::Numeric, message)
-        .help("choose a stronger motor or a larger ratio; a constant torque balances nothing")
+    let message = sentences::the_motor_has_no_stable_speed(&resistance);
+    Error::new(ErrorKind::Numeric, message).help(sentences::CHOOSE_A_STRONGER_MOTOR_OR_A_LARGER)
 }

@@ -2,8 +2,9 @@
 
 use super::means::{self, Kinks};
 use crate::PoseSolver;
+use crate::sentences;
 use linkage::case::Case;
-use linkage::drive::{Branch, Load, Motor, Setting};
+use linkage::drive::{Load, LoadState, Motor, MotorBranch};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::{Motion, Vec2};
 use linkage::mechanism::{GROUND, LinkId};
@@ -53,7 +54,7 @@ impl Piece {
 /// A mechanism of one degree of freedom under forces: the coefficients of its equation of motion
 /// `omega^2 / 2 dI*/dphi + I* domega/dt = M`, and the crank angles at which they have kinks.
 #[derive(Clone, Debug)]
-pub struct Model<'a> {
+pub struct ReducedModel<'a> {
     pub(crate) case: &'a Case,
     masses: Vec<Mass>,
     /// Loads that change with the sense of a link's rotation, and these links.
@@ -73,7 +74,7 @@ pub struct Model<'a> {
     pub(crate) added: f64,
 }
 
-impl<'a> Model<'a> {
+impl<'a> ReducedModel<'a> {
     /// The model of a case. Its motor drives in the sense of the prescribed speed, which is not used otherwise.
     ///
     /// # Errors
@@ -81,11 +82,8 @@ impl<'a> Model<'a> {
     /// masses, and those of [`Range::of`](crate::range::Range::of).
     pub fn of(case: &'a Case) -> Result<Self> {
         if !case.drives.further().is_empty() {
-            let message = format!(
-                "the motion under forces is asked for, but the mechanism has {} freedoms: this version reduces to one crank",
-                case.drives.len()
-            );
-            return Err(Error::new(ErrorKind::Unsupported, message).help("take a scenario with one `[drive]`"));
+            let message = sentences::the_motion_under_forces_is_asked_for_but_the_mechanism(&case.drives.len());
+            return Err(Error::new(ErrorKind::Unsupported, message).help(sentences::TAKE_A_SCENARIO_WITH_ONE_DRIVE));
         }
         let links = case.mechanism.links().entries();
         let masses = links.filter(|(link, body)| *link != GROUND && (body.mass > 0.0 || body.inertia > 0.0));
@@ -96,7 +94,7 @@ impl<'a> Model<'a> {
         let steady = case.loads.iter().filter(|load| load.sensed_link().is_none()).cloned();
         let sensed = case.loads.iter().filter_map(|load| Some((load.sensed_link()?, load.clone())));
         let sensed = sensed.filter(|&(link, _)| case.can_turn(link));
-        let mut model = Model {
+        let mut model = ReducedModel {
             case,
             masses: masses.collect(),
             sensed: sensed.collect(),
@@ -109,8 +107,8 @@ impl<'a> Model<'a> {
             added: case.crank().motor().map_or(0.0, Motor::inertia_on_crank),
         };
         if model.masses.is_empty() && model.added == 0.0 {
-            let message = "the motion under forces is asked for, but nothing in the mechanism has a mass";
-            return Err(Error::new(ErrorKind::Input, message).help("give the links masses, or the motor a rotor"));
+            let message = sentences::THE_MOTION_UNDER_FORCES_IS_ASKED;
+            return Err(Error::new(ErrorKind::Input, message).help(sentences::GIVE_THE_LINKS_MASSES_OR_THE_MOTOR));
         }
         model.find_senses()?;
         Ok(model)
@@ -125,7 +123,7 @@ impl<'a> Model<'a> {
     /// A negative value takes inertia away; the total must stay positive.
     #[must_use]
     pub fn with_flywheel(&self, inertia: f64) -> Self {
-        Model { added: self.added + inertia, ..self.clone() }
+        ReducedModel { added: self.added + inertia, ..self.clone() }
     }
 
     /// Kinks, period and limits of the reduced quantities.
@@ -233,7 +231,7 @@ impl<'a> Model<'a> {
     /// Moment of inertia reduced to the crank at its start angle, with what turns with the crank (kg m^2).
     ///
     /// # Errors
-    /// Those of [`Model::at`].
+    /// Those of [`ReducedModel::at`].
     pub fn inertia_at_start(&self) -> Result<f64> {
         let mut poses = PoseSolver::new(self.case)?;
         Ok(self.at(&mut poses, self.case.crank().start, self.sense)?.inertia + self.added)
@@ -248,7 +246,7 @@ impl<'a> Model<'a> {
     fn of_pose(&self, state: &State, crank: f64) -> Reduced {
         let mut found = self.of_masses(&state.motions);
         let (motions, angles) = (&*state.motions, &*state.angles);
-        let setting = Setting { motions, angles, start: &self.case.start.0, crank };
+        let setting = LoadState { motions, angles, start: &self.case.start.0, crank };
         for load in &self.steady {
             load.act(&setting, &mut |action| found.applied += action.power(&motions[action.link]));
         }
@@ -272,7 +270,7 @@ impl<'a> Model<'a> {
 
     /// Smooth piece of the motor's moment that is valid while the crank turns with `omega` (rad/s) and accelerates in
     /// the sense of `towards` (rad/s^2).
-    pub(crate) fn branch(&self, omega: f64, towards: f64) -> Option<Branch> {
+    pub(crate) fn branch(&self, omega: f64, towards: f64) -> Option<MotorBranch> {
         let motor = self.motor.as_ref()?;
         Some(motor.branch(self.sense * omega, self.sense * towards))
     }
@@ -281,13 +279,13 @@ impl<'a> Model<'a> {
 /// Checks that the reduction to the crank supports all loads.
 fn check_loads(case: &Case, kinks: &Kinks) -> Result<()> {
     let refuse = |load: &Load, why: &str, help: &str| {
-        let message = format!("the motion under forces is asked for, but a load of type \"{}\" {why}", load.sort());
+        let message = sentences::the_motion_under_forces_is_asked_for_but_a_load(&load.sort(), &why);
         Err(Error::new(ErrorKind::Unsupported, message).help(help))
     };
     for load in &case.loads {
         if load.is_viscous() {
-            let why = "depends on the size of speeds, which this reduction to the crank does not know";
-            return refuse(load, why, "leave it out, or take its part into the motor's law");
+            let why = sentences::DEPENDS_ON_THE_SIZE_OF_SPEEDS;
+            return refuse(load, why, sentences::LEAVE_IT_OUT_OR_TAKE_ITS_PART);
         }
         if let (Some(links), Some(period)) = (load.nature().twist, kinks.period) {
             let (mut poses, start) = (PoseSolver::new(case)?, case.crank().start);
@@ -297,8 +295,8 @@ fn check_loads(case: &Case, kinks: &Kinks) -> Result<()> {
                 Ok(state.angles[links[1]] - state.angles[links[0]])
             };
             if (twist(start + period)? - twist(start)?).abs() > 1.0 {
-                let why = "is wound up by every turn of the crank";
-                return refuse(load, why, "fasten it to links that do not turn against each other");
+                let why = sentences::IS_WOUND_UP_BY_EVERY_TURN;
+                return refuse(load, why, sentences::FASTEN_IT_TO_LINKS_THAT_DO_NOT_TURN);
             }
         }
     }

@@ -1,10 +1,11 @@
 //! Motion in time from a given speed of the crank: run-up, run-down, swinging.
 
 use super::flow::{Forces, InTime};
-use super::model::{Model, Piece};
+use super::model::{Piece, ReducedModel};
 use crate::PoseSolver;
 use crate::motion::march::{MOST_EMPTY, Pace, Place, Stop, march};
 use crate::motion::step::Step;
+use crate::sentences;
 use linkage::case::{Case, Grid};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::KeepNan;
@@ -34,7 +35,7 @@ pub struct CrankState {
 
 /// How a motion ended.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum End {
+pub enum RunUpEnd {
     /// At the last wanted instant.
     Reached,
     /// At a standstill held by loads and losses, at this time (s) and crank angle (rad).
@@ -50,28 +51,25 @@ pub enum End {
 /// # Errors
 /// [`ErrorKind::Input`] for times that do not ascend from 0, [`ErrorKind::Numeric`] where the integration cannot
 /// continue, and those of [`PoseSolver::solve`].
-pub fn motion(model: &Model, omega: f64, times: &[f64], accuracy: f64) -> Result<(Vec<CrankState>, End)> {
+pub fn motion(model: &ReducedModel, omega: f64, times: &[f64], accuracy: f64) -> Result<(Vec<CrankState>, RunUpEnd)> {
     if times.iter().chain(&[omega]).any(|value| !value.is_finite())
         || times.first().is_some_and(|&first| first < 0.0)
         || times.windows(2).any(|pair| !(pair[0] < pair[1]))
     {
-        let error = Error::new(
-            ErrorKind::Input,
-            "the instants of a motion do not ascend from zero, or the speed is not finite",
-        );
-        return Err(error.help("give finite times in ascending order, from 0 s on"));
+        let error = Error::new(ErrorKind::Input, sentences::THE_INSTANTS_OF_A_MOTION);
+        return Err(error.help(sentences::GIVE_FINITE_TIMES_IN_ASCENDING));
     }
     followed(model, omega, times, accuracy, Stage::BalancingMoment)
 }
 
 /// The same up to a stage. Before that of the accelerations they are not found: acceleration and moments are zero.
 pub(crate) fn followed(
-    model: &Model,
+    model: &ReducedModel,
     omega: f64,
     times: &[f64],
     accuracy: f64,
     deepest: Stage,
-) -> Result<(Vec<CrankState>, End)> {
+) -> Result<(Vec<CrankState>, RunUpEnd)> {
     let mut runner = Runner::begin(model, omega, deepest >= Stage::Accelerations)?;
     let mut found = Vec::with_capacity(times.len());
     let end = runner.run(times, accuracy, &mut found)?;
@@ -89,15 +87,15 @@ struct Runner<'m, 'a> {
 }
 
 impl<'m, 'a> Runner<'m, 'a> {
-    fn begin(model: &'m Model<'a>, omega: f64, is_accelerated: bool) -> Result<Self> {
+    fn begin(model: &'m ReducedModel<'a>, omega: f64, is_accelerated: bool) -> Result<Self> {
         let crank = model.case.crank().start;
         let somewhere = Piece::unbounded();
         let flow = InTime(Forces::of(model, somewhere, 1f64.copysign(omega))?);
         Ok(Runner { flow, place: Place { x: 0.0, y: [crank, omega], h: 0.0 }, gone: 0.0, is_accelerated })
     }
 
-    fn run(&mut self, times: &[f64], accuracy: f64, found: &mut Vec<CrankState>) -> Result<End> {
-        let Some(&last) = times.last() else { return Ok(End::Reached) };
+    fn run(&mut self, times: &[f64], accuracy: f64, found: &mut Vec<CrankState>) -> Result<RunUpEnd> {
+        let Some(&last) = times.last() else { return Ok(RunUpEnd::Reached) };
         let (mut empty, mut pace) = (0, Pace::default());
         if let Some(end) = self.enter()? {
             self.held(times, found, end);
@@ -119,9 +117,8 @@ impl<'m, 'a> Runner<'m, 'a> {
             empty = if self.place.x > from { 0 } else { empty + 1 };
             if empty > MOST_EMPTY {
                 let at = self.flow.0.model.case.told(self.place.y[0]);
-                let message = format!("the motion does not get away from {at:.6} at {from:.9} s");
-                return Err(Error::new(ErrorKind::Numeric, message)
-                    .help("a load that turns about just there holds and lets go in turn: start it a little aside"));
+                let message = sentences::the_motion_does_not_get_away_from_at(&at, &from);
+                return Err(Error::new(ErrorKind::Numeric, message).help(sentences::A_LOAD_THAT_TURNS_ABOUT_JUST_THERE));
             }
             if let Stop::Bound(bound) = stop {
                 pace.piece(self.place.x, last)?;
@@ -134,7 +131,7 @@ impl<'m, 'a> Runner<'m, 'a> {
                 break;
             }
         }
-        Ok(End::Reached)
+        Ok(RunUpEnd::Reached)
     }
 
     /// Sets the coordinate that has reached a bound exactly to the bound.
@@ -160,7 +157,7 @@ impl<'m, 'a> Runner<'m, 'a> {
 
     /// Chooses sense, piece and branch for the next part of the motion. Returns the end, if the motion does not
     /// continue.
-    fn enter(&mut self) -> Result<Option<End>> {
+    fn enter(&mut self) -> Result<Option<RunUpEnd>> {
         let (t, [crank, omega]) = (self.place.x, self.place.y);
         // From standstill the crank starts in the direction in which it is accelerated against the resistance of that
         // direction.
@@ -170,7 +167,7 @@ impl<'m, 'a> Runner<'m, 'a> {
                 if omega == 0.0 {
                     continue;
                 }
-                return Ok(Some(End::Limit(t, crank + self.gone)));
+                return Ok(Some(RunUpEnd::Limit(t, crank + self.gone)));
             };
             let forces = &self.flow.0;
             forces.piece.set(piece);
@@ -182,21 +179,18 @@ impl<'m, 'a> Runner<'m, 'a> {
             }
             if omega == 0.0 && way > 0.0 && self.starts_back(crank) {
                 let at = forces.model.case.told(crank + self.gone);
-                let message = format!(
-                    "at t = {t:.6} s, {at}, the crank may start from rest in either sense: a load that acts in one sense \
-                     only drives it"
-                );
+                let message = sentences::at_the_crank_may_start_from_rest(&t, &at);
                 return Err(Error::new(ErrorKind::Unsupported, message)
                     .at_time(t)
                     .at_input(at)
-                    .help("give the crank a speed at t = 0, or let the load act in both senses"));
+                    .help(sentences::GIVE_THE_CRANK_A_SPEED_AT_OR_LET));
             }
             if omega != 0.0 {
                 forces.branch.set(forces.model.branch(omega, alpha));
             }
             return Ok(None);
         }
-        Ok(Some(End::Held(t, crank + self.gone)))
+        Ok(Some(RunUpEnd::Held(t, crank + self.gone)))
     }
 
     /// Whether the crank could start clockwise from rest. Piece, sense and branch stay as they are.
@@ -216,8 +210,8 @@ impl<'m, 'a> Runner<'m, 'a> {
     }
 
     /// Adds the instant at which a motion is held, if it is wanted.
-    fn held(&self, times: &[f64], found: &mut Vec<CrankState>, end: End) {
-        if let End::Held(t, crank) = end
+    fn held(&self, times: &[f64], found: &mut Vec<CrankState>, end: RunUpEnd) {
+        if let RunUpEnd::Held(t, crank) = end
             && times.get(found.len()) == Some(&t)
         {
             // The force that holds the crank balances the motor.
@@ -239,7 +233,7 @@ fn instant(flow: &InTime, t: f64, [crank, omega]: [f64; 2], gone: f64, is_accele
 
 /// Kinetostatics of a motion: the state at every instant, up to the stage that the case wants.
 /// The model is that of the motion; the case may have another grid and want less.
-pub(crate) fn states(model: &Model, case: &Case, motion: &[CrankState], visit: Visit) -> Result<()> {
+pub(crate) fn states(model: &ReducedModel, case: &Case, motion: &[CrankState], visit: Visit) -> Result<()> {
     let mut poses = model.guided(PoseSolver::counting_turns(case)?);
     let deepest = case.wanted.deepest();
     for (row, instant) in motion.iter().enumerate() {
@@ -263,7 +257,7 @@ pub struct RunUp {
     /// the reactions.
     pub trajectory: Trajectory,
     /// How it ended.
-    pub end: End,
+    pub end: RunUpEnd,
     /// Largest reaction times the mechanism's size (N m): the reference for moments where none acts on the crank.
     natural: f64,
 }
@@ -274,7 +268,7 @@ impl RunUp {
     ///
     /// # Errors
     /// Those of [`motion`].
-    pub fn of(model: &Model, omega: f64, times: &[f64], accuracy: f64) -> Result<Self> {
+    pub fn of(model: &ReducedModel, omega: f64, times: &[f64], accuracy: f64) -> Result<Self> {
         let (motion, end) = motion(model, omega, times, accuracy)?;
         let grid = Grid {
             times: motion.iter().map(|instant| instant.t).collect(),

@@ -2,7 +2,7 @@
 
 use crate::PoseSolver;
 use crate::reduced::means::no_turn;
-use crate::reduced::model::Model;
+use crate::reduced::model::ReducedModel;
 use linkage::error::Result;
 use linkage::math::extremum;
 use std::f64::consts::PI;
@@ -12,7 +12,7 @@ const SAMPLE_STEP: f64 = PI / 360.0;
 
 /// The reduced quantities at one crank angle, without motor, reducer and flywheel.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Row {
+pub struct ReducedRow {
     /// Crank angle (rad, as the scenario states it).
     pub crank: f64,
     /// Reduced moment of inertia I* (kg m^2).
@@ -33,21 +33,21 @@ pub struct Extremes {
     pub greatest: (f64, f64),
 }
 
-impl Model<'_> {
+impl ReducedModel<'_> {
     /// The reduced quantities at crank angles (rad).
     ///
     /// # Errors
     /// [`ErrorKind::Geometry`](linkage::error::ErrorKind::Geometry) for crank angles that cannot be reached.
-    pub fn rows(&self, cranks: &[f64]) -> Result<Vec<Row>> {
+    pub fn rows(&self, cranks: &[f64]) -> Result<Vec<ReducedRow>> {
         let mut poses = PoseSolver::new(self.case)?;
         cranks.iter().map(|&crank| self.row(&mut poses, crank)).collect()
     }
 
-    fn row(&self, poses: &mut PoseSolver, crank: f64) -> Result<Row> {
+    fn row(&self, poses: &mut PoseSolver, crank: f64) -> Result<ReducedRow> {
         let found = self.at(poses, crank, self.sense)?;
         // Positive against the motion, whichever way the crank turns.
         let resistance = -self.sense * found.applied;
-        Ok(Row { crank, inertia: found.inertia, slope: found.slope, resistance })
+        Ok(ReducedRow { crank, inertia: found.inertia, slope: found.slope, resistance })
     }
 
     /// Extremes over one period of the reduced moments of inertia and of resistance, refined between samples.
@@ -61,12 +61,12 @@ impl Model<'_> {
     /// Extremes over one period of dI*/dphi, refined between samples.
     ///
     /// # Errors
-    /// As [`Model::extremes`].
+    /// As [`ReducedModel::extremes`].
     pub fn slope_extremes(&self) -> Result<Extremes> {
         Ok(self.extremes_of([|row| row.slope])?[0])
     }
 
-    fn extremes_of<const N: usize>(&self, quantities: [fn(&Row) -> f64; N]) -> Result<[Extremes; N]> {
+    fn extremes_of<const N: usize>(&self, quantities: [fn(&ReducedRow) -> f64; N]) -> Result<[Extremes; N]> {
         let Some(period) = self.kinks().period else { return Err(no_turn(self.kinks())) };
         let count = (period / SAMPLE_STEP).ceil();
         let start = self.case.crank().start;
@@ -75,7 +75,7 @@ impl Model<'_> {
         cranks.extend(&self.kinks().cranks);
         cranks.sort_by(f64::total_cmp);
         let mut poses = PoseSolver::new(self.case)?;
-        let rows = cranks.iter().map(|&crank| self.row(&mut poses, crank)).collect::<Result<Vec<Row>>>()?;
+        let rows = cranks.iter().map(|&crank| self.row(&mut poses, crank)).collect::<Result<Vec<ReducedRow>>>()?;
         let mut found = [Extremes { least: (start, 0.0), greatest: (start, 0.0) }; N];
         for (extremes, of) in found.iter_mut().zip(quantities) {
             let mut end = |sign: f64| -> Result<(f64, f64)> {

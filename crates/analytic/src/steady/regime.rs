@@ -1,5 +1,6 @@
 //! Steady periodic motion: the crank has the same speed after every period.
 
+use crate::sentences;
 use linkage::math::KeepNan;
 use std::f64::consts::TAU;
 
@@ -8,7 +9,7 @@ use crate::motion::march::{MOST_EMPTY, Place, Stop, march};
 use crate::motion::step::{Step, one_step};
 use crate::reduced::flow::{Forces, OverAngle};
 use crate::reduced::means::{self, no_turn};
-use crate::reduced::model::{Model, Piece};
+use crate::reduced::model::{Piece, ReducedModel};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::root;
 
@@ -19,7 +20,7 @@ const CLOSED: f64 = 2e-14;
 
 /// Speed of the crank at a crank angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct At {
+pub struct SpeedAtCrank {
     /// Crank angle (rad, as the scenario states it).
     pub crank: f64,
     /// Angular velocity of the crank (rad/s).
@@ -40,14 +41,14 @@ pub struct Regime {
     /// Angular velocity at the start of the case (rad/s).
     pub start_speed: f64,
     /// Where the crank is fastest.
-    pub fastest: At,
+    pub fastest: SpeedAtCrank,
     /// Where it is slowest.
-    pub slowest: At,
+    pub slowest: SpeedAtCrank,
     /// Share of a small deviation of the energy that remains after a period. Below 1; otherwise the motion would not be
     /// stable.
     pub multiplier: f64,
     /// The crank at the requested crank angles.
-    pub samples: Vec<At>,
+    pub samples: Vec<SpeedAtCrank>,
     /// Energy of the reduced motion at the start of the period (J).
     energy: f64,
 }
@@ -60,7 +61,7 @@ impl Regime {
     }
 }
 
-impl Model<'_> {
+impl ReducedModel<'_> {
     /// The steady periodic motion in the motor's sense.
     /// Newton's method finds the energy at the start of a period; its derivative is integrated along with the motion.
     /// `cranks`: crank angles (rad) of one period from the start of the case, in the order of the motion, at which the
@@ -71,9 +72,8 @@ impl Model<'_> {
     /// [`ErrorKind::Numeric`] if the motor has no stable speed or does not carry the crank over a period.
     pub fn regime(&self, cranks: &[f64], accuracy: f64) -> Result<Regime> {
         let Some(motor) = &self.motor else {
-            let message = "a steady motion is asked for, but there is no motor";
-            return Err(Error::new(ErrorKind::Input, message)
-                .help("add a `[motor]` section: its law, and the ratio of the reducer"));
+            let message = sentences::A_STEADY_MOTION_IS_ASKED;
+            return Err(Error::new(ErrorKind::Input, message).help(sentences::ADD_A_MOTOR_SECTION_ITS_LAW));
         };
         let Some(period) = self.kinks().period else { return Err(no_turn(self.kinks())) };
         let turn = Turn::of(self, period)?;
@@ -94,17 +94,15 @@ impl Model<'_> {
             let next = energy + change / (1.0 - multiplier);
             energy = if next > 0.0 && next.is_finite() { next } else { after };
         }
-        let message =
-            format!("no steady motion was found in {MOST_SHOTS} turns: a deviation is left by {share:.3} after a turn");
-        Err(Error::new(ErrorKind::Numeric, message)
-            .help("follow the run-up instead, and look what the crank's speed does"))
+        let message = sentences::no_steady_motion_was_found(&MOST_SHOTS, &share);
+        Err(Error::new(ErrorKind::Numeric, message).help(sentences::FOLLOW_THE_RUN_UP_INSTEAD))
     }
 
-    /// A steady motion of this model at other crank angles, in the form of [`Model::regime`].
+    /// A steady motion of this model at other crank angles, in the form of [`ReducedModel::regime`].
     /// The motion is followed over one more period; it is not searched for again.
     ///
     /// # Errors
-    /// Those of [`Model::regime`].
+    /// Those of [`ReducedModel::regime`].
     pub fn regime_at(&self, found: &Regime, cranks: &[f64], accuracy: f64) -> Result<Regime> {
         let Some(period) = self.kinks().period else { return Err(no_turn(self.kinks())) };
         Turn::of(self, period)?.described(found.energy, found.multiplier, cranks, accuracy)
@@ -119,7 +117,7 @@ struct Turn<'m, 'a> {
 }
 
 impl<'m, 'a> Turn<'m, 'a> {
-    fn of(model: &'m Model<'a>, period: f64) -> Result<Self> {
+    fn of(model: &'m ReducedModel<'a>, period: f64) -> Result<Self> {
         let flow = OverAngle(Forces::of(model, Piece::unbounded(), model.sense)?);
         Ok(Turn { flow, start: model.sense * model.case.crank().start, period })
     }
@@ -176,10 +174,10 @@ impl<'m, 'a> Turn<'m, 'a> {
         let way = forces.way.get();
         let here = |flow: &OverAngle, x: f64, energy: f64| {
             let omega = flow.speed(x, energy);
-            At { crank: way * x, omega, alpha: flow.0.acceleration(way * x, omega) }
+            SpeedAtCrank { crank: way * x, omega, alpha: flow.0.acceleration(way * x, omega) }
         };
-        let mut extremes: Vec<At> = Vec::new();
-        let mut samples: Vec<At> = Vec::with_capacity(cranks.len());
+        let mut extremes: Vec<SpeedAtCrank> = Vec::new();
+        let mut samples: Vec<SpeedAtCrank> = Vec::with_capacity(cranks.len());
         let last = self.start + self.period;
         let targets: Vec<f64> = cranks.iter().map(|crank| way * crank).collect();
         forces.begin_at(way * self.start);
@@ -201,11 +199,11 @@ impl<'m, 'a> Turn<'m, 'a> {
             let ends = [self.start, last].map(|end| (way * crank - end).abs() < 1e-9);
             samples.push(match at {
                 Some(at) => *at,
-                None if ends.contains(&true) => At { crank, ..first },
+                None if ends.contains(&true) => SpeedAtCrank { crank, ..first },
                 None => return Err(outside(crank)),
             });
         }
-        let by_speed = |a: &&At, b: &&At| a.omega.abs().total_cmp(&b.omega.abs());
+        let by_speed = |a: &&SpeedAtCrank, b: &&SpeedAtCrank| a.omega.abs().total_cmp(&b.omega.abs());
         let fastest = *extremes.iter().max_by(by_speed).unwrap_or(&first);
         let slowest = *extremes.iter().min_by(by_speed).unwrap_or(&first);
         let turns = (self.period / TAU).round();
@@ -219,9 +217,9 @@ impl<'m, 'a> Turn<'m, 'a> {
 fn extreme(
     flow: &OverAngle,
     &[(x, y), (end, _)]: &Step<3>,
-    low: At,
-    here: &dyn Fn(&OverAngle, f64, f64) -> At,
-) -> Result<At> {
+    low: SpeedAtCrank,
+    here: &dyn Fn(&OverAngle, f64, f64) -> SpeedAtCrank,
+) -> Result<SpeedAtCrank> {
     let mut found = low;
     // At an extreme the speed is flat, so half the digits of the angle are enough.
     root::halved([0.0, end - x], 30, |h| -> Result<bool> {
@@ -232,15 +230,11 @@ fn extreme(
 }
 
 fn outside(crank: f64) -> Error {
-    let message =
-        format!("the steady speed is asked for at {:.6} deg, which is not in the first period", crank.to_degrees());
-    Error::new(ErrorKind::Input, message).help("give crank angles from the start on, in the sense of motion")
+    let message = sentences::the_steady_speed_is_asked(&crank.to_degrees());
+    Error::new(ErrorKind::Input, message).help(sentences::GIVE_CRANK_ANGLES_FROM_THE_START)
 }
 
 fn stalled(crank: f64) -> Error {
-    let message = format!(
-        "the motor does not carry the crank over a turn: it comes to a standstill beyond {:.3} deg",
-        crank.to_degrees()
-    );
-    Error::new(ErrorKind::Numeric, message).help("choose a stronger motor or a larger ratio, or add a flywheel")
+    let message = sentences::the_motor_does_not_carry(&crank.to_degrees());
+    Error::new(ErrorKind::Numeric, message).help(sentences::CHOOSE_A_STRONGER_MOTOR_OR_A_LARGER_RATIO)
 }

@@ -13,16 +13,17 @@ pub mod class_change;
 pub mod cramer;
 pub mod linear_system;
 
+use crate::sentences;
 use linkage::case::Case;
 use linkage::drive::Wrench;
 use linkage::error::{Error, ErrorKind};
 use linkage::math::{Motion, Vec2, cross};
-use linkage::mechanism::{Group, JointId, LinkId, Mechanism, Side};
+use linkage::mechanism::{Group, JointId, JointSide, LinkId, Mechanism};
 use linkage::solver::State;
 
 /// One of the three leads of the group.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Lead {
+pub struct TriadLead {
     /// The link.
     pub link: LinkId,
     /// Its outer joint.
@@ -30,7 +31,7 @@ pub struct Lead {
     /// Its joint with the base link.
     pub inner: JointId,
     /// The outer joint on the link that is known before the group.
-    pub support: Side,
+    pub support: JointSide,
     /// The outer joint in the lead's own frame (m).
     pub foot: Vec2,
     /// The inner joint in the lead's own frame (m).
@@ -45,7 +46,7 @@ pub struct Triad {
     /// The link to which all three leads are attached.
     pub base: LinkId,
     /// The leads, in the order of the group's outer joints.
-    pub leads: [Lead; 3],
+    pub leads: [TriadLead; 3],
 }
 
 impl Triad {
@@ -65,7 +66,7 @@ impl Triad {
         let lead = |outer: JointId| {
             let link = group.links.iter().copied().find(|&link| link != base && on(outer, link).is_some())?;
             let inner = group.inner.iter().copied().find(|&joint| on(joint, link).is_some())?;
-            Some(Lead {
+            Some(TriadLead {
                 link,
                 outer,
                 inner,
@@ -103,7 +104,7 @@ impl Triad {
     /// They are gravity and inertia m (g - a) at the mass centre, the moment -J alpha, and loads.
     /// The forces in the joints with later groups are taken from the state.
     #[must_use]
-    pub fn known(&self, case: &Case, state: &State) -> [Known; 4] {
+    pub fn known(&self, case: &Case, state: &State) -> [KnownResultant; 4] {
         let (motions, forces) = (&state.motions, &state.forces);
         let mut loads = vec![Wrench::ZERO; motions.len()];
         case.loads_on(motions, &state.angles, &mut loads);
@@ -113,7 +114,7 @@ impl Triad {
             let at = motion.point(body.mass_centre);
             let inertia = (case.gravity - motion.point_acceleration(body.mass_centre)) * body.mass;
             let Wrench { force, moment } = loads[link];
-            let mut known = Known { force: inertia + force, moment: moment - body.inertia * motion.alpha, at };
+            let mut known = KnownResultant { force: inertia + force, moment: moment - body.inertia * motion.alpha, at };
             for (index, joint) in case.mechanism.joints().entries() {
                 if let (Some(local), false) = (joint.on(link), own(index)) {
                     let force = if joint.second.link == link { forces[index] } else { -forces[index] };
@@ -148,7 +149,7 @@ pub struct Places {
 
 /// Resultant of the known forces on one link.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Known {
+pub struct KnownResultant {
     /// Force (N, world axes).
     pub force: Vec2,
     /// Moment about `at` (N m, counter-clockwise positive).
@@ -157,7 +158,7 @@ pub struct Known {
     pub at: Vec2,
 }
 
-impl Known {
+impl KnownResultant {
     /// Moment about another world point (N m).
     #[must_use]
     pub fn about(&self, pole: Vec2) -> f64 {
@@ -175,9 +176,6 @@ pub struct Reactions {
 }
 
 fn singular(method: &str) -> Error {
-    Error::new(
-        ErrorKind::Numeric,
-        format!("{method}: the lines of the three leads meet in one point or are parallel, the group has a dead point"),
-    )
-    .help("take a crank angle at which the lines of the leads form a triangle")
+    Error::new(ErrorKind::Numeric, sentences::the_lines_of_the_three_leads(&method))
+        .help(sentences::TAKE_A_CRANK_ANGLE_AT_WHICH_THE_LINES)
 }

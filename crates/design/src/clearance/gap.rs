@@ -37,7 +37,7 @@ struct Piece {
 }
 
 /// A solid over a part of the range.
-pub struct Placed {
+pub struct PlacedSolid {
     pose: Pose,
     pieces: Vec<PlacedPiece>,
 }
@@ -77,7 +77,7 @@ impl Solid {
 
     /// Where it is over a part of the range.
     #[must_use]
-    pub fn placed(&self, slice: &Slice) -> Placed {
+    pub fn placed(&self, slice: &Slice) -> PlacedSolid {
         let tube = &slice.tubes[self.link];
         let (origin, direction) = tube.frame();
         let origin = origin / self.scale;
@@ -87,7 +87,7 @@ impl Solid {
             let moves = corners.iter().map(|corner| corner.reach(slice.half)).fold(0.0, f64::larger);
             PlacedPiece { corners, centre: tube.point(piece.centre).at, moves }
         };
-        Placed {
+        PlacedSolid {
             pose: Pose::from_parts(Vector::new(origin.x, origin.y), rotation),
             pieces: self.pieces.iter().map(piece).collect(),
         }
@@ -117,7 +117,7 @@ impl Piece {
 #[must_use]
 pub fn gap(
     [a, b]: [&Solid; 2],
-    places: [&Placed; 2],
+    places: [&PlacedSolid; 2],
     slice: &Slice,
     rounding: f64,
     enough: f64,
@@ -165,7 +165,7 @@ pub fn gap(
 }
 
 /// Nearest points of two pieces at the middle (m); one common place where they meet.
-fn closest(pieces: [&Piece; 2], placed: [&PlacedPiece; 2], places: [&Placed; 2], scale: f64) -> [Vec2; 2] {
+fn closest(pieces: [&Piece; 2], placed: [&PlacedPiece; 2], places: [&PlacedSolid; 2], scale: f64) -> [Vec2; 2] {
     let shapes = pieces.map(|piece| &*piece.shape);
     match query::closest_points(&places[0].pose, shapes[0], &places[1].pose, shapes[1], FAR) {
         Ok(ClosestPoints::WithinMargin(p, q)) => [p, q].map(|point| Vec2::new(point.x, point.y) * scale),

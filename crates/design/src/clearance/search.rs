@@ -7,8 +7,8 @@ use linkage::error::Result;
 use linkage::math::extremum::golden;
 use linkage::math::{KeepNan, Vec2};
 
-use super::gap::{Gap, Placed, Solid, gap};
-use super::tube::{MOST_HALVINGS, Part, Slice, Tubes};
+use super::gap::{Gap, PlacedSolid, Solid, gap};
+use super::tube::{MOST_HALVINGS, RangePart, Slice, Tubes};
 
 /// Steps of golden section that refine the smallest distance found, and how often it may leave its bracket.
 const REFINEMENTS: usize = 30;
@@ -17,7 +17,7 @@ const STRIDES: usize = 8;
 const FURTHER: u32 = 6;
 
 /// A part of the range, whether its bounds are proven, and the bound of every pair that is not done yet (m).
-type Bounds = (Part, bool, Vec<(usize, f64)>);
+type Bounds = (RangePart, bool, Vec<(usize, f64)>);
 
 /// Smallest distance of a pair over the range.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,7 +42,7 @@ pub struct Meeting {
 }
 
 /// What a search needs and what it has cost.
-pub struct Search<'a, 'c> {
+pub struct DistanceSearch<'a, 'c> {
     /// The range.
     pub tubes: &'a mut Tubes<'c>,
     /// All bodies.
@@ -59,13 +59,13 @@ pub struct Search<'a, 'c> {
     pub open: Vec<[f64; 2]>,
 }
 
-impl Search<'_, '_> {
+impl DistanceSearch<'_, '_> {
     fn gap(&mut self, pair: [usize; 2], slice: &Slice, enough: f64) -> Gap {
         let [a, b] = pair.map(|body| &self.solids[body]);
         self.between([a, b], [&a.placed(slice), &b.placed(slice)], slice, enough)
     }
 
-    fn between(&mut self, bodies: [&Solid; 2], places: [&Placed; 2], slice: &Slice, enough: f64) -> Gap {
+    fn between(&mut self, bodies: [&Solid; 2], places: [&PlacedSolid; 2], slice: &Slice, enough: f64) -> Gap {
         self.budget = self.budget.saturating_sub(bodies[0].pieces() * bodies[1].pieces());
         gap(bodies, places, slice, self.tubes.rounding(), enough, &mut self.asked)
     }
@@ -78,14 +78,14 @@ impl Search<'_, '_> {
         let unknown =
             Smallest { distance: f64::INFINITY, least: f64::INFINITY, crank: f64::NAN, points: [Vec2::zeros(); 2] };
         let mut best = vec![unknown; pairs.len()];
-        let mut parts: Vec<(Part, Vec<usize>)> =
+        let mut parts: Vec<(RangePart, Vec<usize>)> =
             self.tubes.parts().map(|part| (part, (0..pairs.len()).collect())).collect();
         while !parts.is_empty() {
             // Every pair's distances at this size first: the smallest of them spares halvings.
             let mut bounds: Vec<Bounds> = Vec::with_capacity(parts.len());
             for (part, alive) in parts {
                 let slice = self.tubes.at(part)?;
-                let placed: Vec<Option<Placed>> = (0..self.solids.len())
+                let placed: Vec<Option<PlacedSolid>> = (0..self.solids.len())
                     .map(|body| {
                         let needed = alive.iter().any(|&pair| pairs[pair].contains(&body));
                         needed.then(|| self.solids[body].placed(&slice))
@@ -136,7 +136,7 @@ impl Search<'_, '_> {
     }
 
     /// Notes a part over which nothing is proven.
-    fn leave(&mut self, part: Part) {
+    fn leave(&mut self, part: RangePart) {
         self.open.push(self.tubes.ends(part));
     }
 
@@ -173,7 +173,7 @@ impl Search<'_, '_> {
     /// Those of a pose.
     pub fn first(&mut self, pair: [usize; 2], threshold: f64) -> Result<Option<Meeting>> {
         let enough = threshold + self.touch;
-        let mut ahead: Vec<Part> = self.tubes.parts().rev().collect();
+        let mut ahead: Vec<RangePart> = self.tubes.parts().rev().collect();
         // End of what is proven.
         let mut clear = None;
         while let Some(part) = ahead.pop() {

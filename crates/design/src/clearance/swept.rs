@@ -12,7 +12,7 @@ use linkage::error::Result;
 use linkage::math::{KeepNan, Vec2, cross, rotated};
 use linkage::mechanism::LinkId;
 
-use super::tube::{MOST_HALVINGS, Part, Track, Tube, Tubes};
+use super::tube::{MOST_HALVINGS, RangePart, Track, Tube, Tubes};
 use scenario::clearance::Outline;
 
 /// Share of a square's half diagonal within which the outline's border moves over a part of the range.
@@ -46,7 +46,7 @@ impl Area {
 
 /// A part of the range with the body's place.
 struct Node {
-    part: Part,
+    part: RangePart,
     half: f64,
     tube: Tube,
     parts: Vec<Vec<Track>>,
@@ -130,7 +130,7 @@ impl<'a, 'c> Sweep<'a, 'c> {
 
     /// The range in parts over which the bounds are proven, as far as such parts can be had.
     fn sound_parts(&mut self) -> Result<Vec<u32>> {
-        let mut ahead: Vec<Part> = self.tubes.parts().rev().collect();
+        let mut ahead: Vec<RangePart> = self.tubes.parts().rev().collect();
         let mut found = Vec::with_capacity(ahead.len());
         while let Some(part) = ahead.pop() {
             let slice = self.tubes.at(part)?;
@@ -158,7 +158,7 @@ impl<'a, 'c> Sweep<'a, 'c> {
         ends
     }
 
-    fn node(&mut self, part: Part, parent: Option<u32>) -> Result<u32> {
+    fn node(&mut self, part: RangePart, parent: Option<u32>) -> Result<u32> {
         let slice = self.tubes.at(part)?;
         let tube = slice.tubes[self.link];
         let of = |corners: &Vec<Vec2>| corners.iter().map(|&corner| tube.point(corner)).collect();
@@ -200,7 +200,7 @@ impl<'a, 'c> Sweep<'a, 'c> {
         Ok(false)
     }
 
-    fn window(&mut self, part: Part) -> Result<Window> {
+    fn window(&mut self, part: RangePart) -> Result<Window> {
         let ([from, to], range) = (self.tubes.ends(part), self.tubes.range());
         let (middle, half) = (f64::midpoint(from, to), WINDOW * (to - from).abs() / 2.0);
         let low = (middle - half).larger(range[0].smaller(range[1]));

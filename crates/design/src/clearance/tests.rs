@@ -43,19 +43,22 @@ fn four_bar() -> Case {
 }
 
 /// All links as capsules, and walls.
-fn question(case: &Case, radius: f64, walls: &[(&str, Outline)]) -> Question {
+fn question(case: &Case, radius: f64, walls: &[(&str, Outline)]) -> ClearanceQuestion {
     let links = case.mechanism.links().entries().skip(1);
-    let mut bodies: Vec<Body> = links
+    let mut bodies: Vec<ClearanceBody> = links
         .map(|(link, own)| {
             let places: Vec<Vec2> = own.points.iter().map(|point| point.local).collect();
-            Body { name: own.name.clone(), link, outline: Outline::of_points(&places, radius).unwrap() }
+            ClearanceBody { name: own.name.clone(), link, outline: Outline::of_points(&places, radius).unwrap() }
         })
         .collect();
-    let wall =
-        |(name, outline): &(&str, Outline)| Body { name: (*name).into(), link: GROUND, outline: outline.clone() };
+    let wall = |(name, outline): &(&str, Outline)| ClearanceBody {
+        name: (*name).into(),
+        link: GROUND,
+        outline: outline.clone(),
+    };
     bodies.extend(walls.iter().map(wall));
     let pairs = pairs(&case.mechanism, &bodies, &[]);
-    Question { bodies, pairs, wanted: None, tolerance: None, area: 2e-3 }
+    ClearanceQuestion { bodies, pairs, wanted: None, tolerance: None, area: 2e-3 }
 }
 
 fn line(places: &[(f64, f64)], radius: f64) -> Outline {
@@ -63,7 +66,7 @@ fn line(places: &[(f64, f64)], radius: f64) -> Outline {
     Outline::line(&places, radius).unwrap()
 }
 
-fn of<'a>(asked: &Question, found: &'a Clearance, names: [&str; 2]) -> &'a PairClearance {
+fn of<'a>(asked: &ClearanceQuestion, found: &'a ClearanceResult, names: [&str; 2]) -> &'a PairClearance {
     let is = |pair: &&PairClearance| pair.bodies.map(|body| asked.bodies[body].name.as_str()) == names;
     found.pairs.iter().find(is).unwrap()
 }
@@ -219,7 +222,8 @@ fn rounding_goes_with_the_farthest_place() {
     let near = question(&case, 0.01, &[]);
     let mut far = question(&case, 0.01, &[("post", line(&[(0.0, 1e3)], 0.01))]);
     far.pairs = vec![[0, 3]];
-    let rounding = |case: &Case, asked: &Question| Tubes::new(case, [0.0, TAU], asked.extent()).unwrap().rounding();
+    let rounding =
+        |case: &Case, asked: &ClearanceQuestion| Tubes::new(case, [0.0, TAU], asked.extent()).unwrap().rounding();
     let least = 1e3 * f64::EPSILON;
     assert!(rounding(&case, &near) < 0.1 * least && rounding(&case, &far) > least);
     far.bodies.swap_remove(3);
@@ -246,7 +250,7 @@ fn pairs_that_cannot_meet_are_not_asked_for() {
     let without = |ignored: [usize; 2]| pairs(&case.mechanism, &asked.bodies, &[ignored]);
     assert_eq!([without([0, 2]), without([2, 0])].map(|own| own == all[1..]), [true; 2]);
     // Four links on one pin, each joined to the next.
-    let place = |link: LinkId| linkage::mechanism::Side { link, local: Vec2::zeros() };
+    let place = |link: LinkId| linkage::mechanism::JointSide { link, local: Vec2::zeros() };
     let links = ["ground", "a", "b", "c", "d", "e"].map(|name| linkage::mechanism::Link {
         name: name.into(),
         points: Vec::new(),
@@ -257,7 +261,7 @@ fn pairs_that_cannot_meet_are_not_asked_for() {
     let joint = |[first, second]: [usize; 2], end: Vec2| linkage::mechanism::Joint {
         name: format!("{first}{second}"),
         kind: linkage::mechanism::JointKind::Revolute,
-        first: linkage::mechanism::Side { link: LinkId(first), local: end },
+        first: linkage::mechanism::JointSide { link: LinkId(first), local: end },
         second: place(LinkId(second)),
         drawn: None,
     };

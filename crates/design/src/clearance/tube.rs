@@ -39,18 +39,18 @@ const KEPT: usize = 20_000;
 
 /// A part of the range: one of the first parts, halved so many times.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Part {
+pub struct RangePart {
     /// Halvings.
     pub halvings: u32,
     /// Number among the parts of this size, in the order of the motion.
     pub index: u64,
 }
 
-impl Part {
+impl RangePart {
     /// Its two halves, in the order of the motion.
     #[must_use]
-    pub fn halves(self) -> [Part; 2] {
-        [0, 1].map(|half| Part { halvings: self.halvings + 1, index: 2 * self.index + half })
+    pub fn halves(self) -> [RangePart; 2] {
+        [0, 1].map(|half| RangePart { halvings: self.halvings + 1, index: 2 * self.index + half })
     }
 }
 
@@ -152,7 +152,7 @@ pub struct Tubes<'a> {
     to: f64,
     first: u64,
     scale: f64,
-    kept: BTreeMap<Part, Rc<Slice>>,
+    kept: BTreeMap<RangePart, Rc<Slice>>,
     /// Poses of side 1 that were computed.
     pub poses: usize,
 }
@@ -185,13 +185,13 @@ impl<'a> Tubes<'a> {
     }
 
     /// The parts that the range begins with.
-    pub fn parts(&self) -> impl DoubleEndedIterator<Item = Part> + use<> {
-        (0..self.first).map(|index| Part { halvings: 0, index })
+    pub fn parts(&self) -> impl DoubleEndedIterator<Item = RangePart> + use<> {
+        (0..self.first).map(|index| RangePart { halvings: 0, index })
     }
 
     /// Both ends of a part (rad), in the order of the motion.
     #[must_use]
-    pub fn ends(&self, part: Part) -> [f64; 2] {
+    pub fn ends(&self, part: RangePart) -> [f64; 2] {
         let count = self.first as f64 * f64::from(part.halvings).exp2();
         [0, 1].map(|end| self.from + (self.to - self.from) * ((part.index + end) as f64 / count))
     }
@@ -218,7 +218,7 @@ impl<'a> Tubes<'a> {
     ///
     /// # Errors
     /// Those of [`PoseSolver::solve`].
-    pub fn at(&mut self, part: Part) -> Result<Rc<Slice>> {
+    pub fn at(&mut self, part: RangePart) -> Result<Rc<Slice>> {
         if let Some(slice) = self.kept.get(&part) {
             return Ok(Rc::clone(slice));
         }

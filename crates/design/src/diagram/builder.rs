@@ -1,8 +1,9 @@
 //! Computes the vectors of a plan from the motions of the links, pair of points by pair of points.
 
-use super::names::{Named, Place, fixed_guide, pair, pivot, primed};
+use super::names::{Named, NamedPoint, fixed_guide, pair, pivot, primed};
 use super::sliding::Slide;
-use super::vectors::{Part, Plan, Quantity, ROOM, Tip, TipKind, Vector};
+use super::vectors::{Quantity, ROOM, Tip, TipKind, Vector, VectorKind, VectorPlan};
+use crate::sentences;
 use drawing::paper::scale::factor;
 use linkage::math::{KeepNan, Motion, Vec2, turned};
 use linkage::mechanism::{LinkId, Mechanism};
@@ -24,7 +25,7 @@ pub(super) struct Builder<'a> {
     quantity: Quantity,
     mechanism: &'a Mechanism,
     state: &'a State,
-    places: &'a [Place],
+    places: &'a [NamedPoint],
     slides: &'a [Slide],
     tips: Vec<Tip>,
     vectors: Vec<Vector>,
@@ -35,14 +36,14 @@ impl<'a> Builder<'a> {
         quantity: Quantity,
         mechanism: &'a Mechanism,
         state: &'a State,
-        places: &'a [Place],
+        places: &'a [NamedPoint],
         slides: &'a [Slide],
     ) -> Self {
         let pole = Tip { letter: quantity.pole().into(), kind: TipKind::Fixed, at: Vec2::zeros() };
         Builder { quantity, mechanism, state, places, slides, tips: vec![pole], vectors: Vec::new() }
     }
 
-    pub(super) fn plan(mut self) -> Plan {
+    pub(super) fn plan(mut self) -> VectorPlan {
         self.absolute();
         self.coincident();
         for link in self.mechanism.links().ids().skip(1) {
@@ -54,7 +55,7 @@ impl<'a> Builder<'a> {
         if self.quantity == Quantity::Acceleration {
             self.split(scale);
         }
-        Plan { quantity: self.quantity, scale, tips: self.tips, vectors: self.vectors }
+        VectorPlan { quantity: self.quantity, scale, tips: self.tips, vectors: self.vectors }
     }
 
     fn of_point(&self, motion: &Motion, local: Vec2) -> Vec2 {
@@ -74,22 +75,22 @@ impl<'a> Builder<'a> {
             self.tips.push(Tip { letter: letter.clone(), kind, at: value });
             if !place.fixed {
                 let meaning = format!("{word} of {name}{}", self.direction(link, name));
-                self.push(format!("{symbol}_{name}"), Part::Absolute, [pole, letter], value, link, meaning);
+                self.push(format!("{symbol}_{name}"), VectorKind::Absolute, [pole, letter], value, link, meaning);
             }
         }
         for (number, link) in self.mechanism.links().entries().skip(1).filter(|(_, link)| link.mass > 0.0) {
             let value = self.of_point(&self.state.motions[number], link.mass_centre);
             let letter = self.tip(format!("s{number}"), TipKind::MassCentre, value);
             let guide = fixed_guide(self.mechanism, number).map_or_else(String::new, |guide| along(&guide.name));
-            let meaning = format!("{word} of the mass centre of link {number} ({}){guide}", link.name);
-            self.push(format!("{symbol}_S{number}"), Part::MassCentre, [pole, &letter], value, number, meaning);
+            let meaning = sentences::of_the_mass_centre_of_link(&word, &number, &link.name, &guide);
+            self.push(format!("{symbol}_S{number}"), VectorKind::MassCentre, [pole, &letter], value, number, meaning);
         }
     }
 
     /// The direction that is known in advance for the vector of a point of `link`.
     fn direction(&self, link: LinkId, name: &str) -> String {
         match (self.quantity, pivot(self.mechanism, link), fixed_guide(self.mechanism, link)) {
-            (Quantity::Velocity, Some((_, pivot)), _) => format!(", perpendicular to {}", pair(&pivot, name)),
+            (Quantity::Velocity, Some((_, pivot)), _) => sentences::perpendicular_to(&pair(&pivot, name)),
             (_, None, Some(guide)) => along(&guide.name),
             _ => String::new(),
         }
@@ -104,11 +105,16 @@ impl<'a> Builder<'a> {
             let value = self.of_point(&self.state.motions[guide], slide.place_under(self.state));
             self.tips.push(Tip { letter: under.letter.clone(), kind: TipKind::Coincident, at: value });
             let direction = self.direction(guide, &under.name);
-            let meaning = format!(
-                "{word} of {}, the point of link {guide} under {}{direction}",
-                under.name, slide.place.named.name
+            let meaning =
+                sentences::of_the_point_of_link_under(&word, &under.name, &guide, &slide.place.named.name, &direction);
+            self.push(
+                format!("{symbol}_{}", under.name),
+                VectorKind::Absolute,
+                [pole, &under.letter],
+                value,
+                guide,
+                meaning,
             );
-            self.push(format!("{symbol}_{}", under.name), Part::Absolute, [pole, &under.letter], value, guide, meaning);
         }
     }
 
@@ -121,11 +127,11 @@ impl<'a> Builder<'a> {
             let value =
                 self.quantity.of(turned(arm) * motion.omega, turned(arm) * motion.alpha - arm * motion.omega.powi(2));
             let (from, to) = (from.named, to.named);
-            let line = format!(", perpendicular to {}", pair(&from.name, &to.name));
+            let line = sentences::perpendicular_to(&pair(&from.name, &to.name));
             let line = self.quantity.of(line.as_str(), "");
-            let meaning = format!("{word} of {} relative to {}{line}", to.name, from.name);
+            let meaning = sentences::of_relative_to_2(&word, &to.name, &from.name, &line);
             let name = format!("{symbol}_{}", pair(&to.name, &from.name));
-            self.push(name, Part::Relative, [&from.letter, &to.letter], value, link, meaning);
+            self.push(name, VectorKind::Relative, [&from.letter, &to.letter], value, link, meaning);
         }
     }
 
@@ -135,16 +141,15 @@ impl<'a> Builder<'a> {
         let mut number = 0;
         for slide in self.slides {
             let Some(under) = &slide.under else { continue };
-            let Place { named: own, fixed, .. } = &slide.place;
+            let NamedPoint { named: own, fixed, .. } = &slide.place;
             let joint = &self.mechanism.joints()[slide.joint].name;
             let (from, link) = (under.letter.as_str(), slide.block.link);
             let to = if *fixed { self.quantity.pole() } else { &own.letter };
             let of = pair(&own.name, &under.name);
             let Some([speed, growth]) = slide.rates(self.mechanism, self.state) else { continue };
-            let meaning =
-                format!("{} of {} relative to {}{}", self.quantity.word(), own.name, under.name, along(joint));
+            let meaning = sentences::of_relative_to(&self.quantity.word(), &own.name, &under.name, &along(joint));
             if self.quantity == Quantity::Velocity {
-                self.push(format!("v_{of}"), Part::Sliding, [from, to], speed, link, meaning);
+                self.push(format!("v_{of}"), VectorKind::Sliding, [from, to], speed, link, meaning);
                 continue;
             }
             let coriolis = turned(speed) * (2.0 * self.state.motions[slide.guide.link].omega);
@@ -153,11 +158,11 @@ impl<'a> Builder<'a> {
             } else {
                 number += 1;
                 let letter = self.tip(format!("k{number}"), TipKind::Coriolis, self.end(from) + coriolis);
-                let meaning = format!("Coriolis part, 2 omega x v, perpendicular to the guide {joint}");
-                self.push(format!("a_{of}^cor"), Part::Coriolis, [from, &letter], coriolis, link, meaning);
+                let meaning = sentences::coriolis_part_omega_perpendicular_to_the_guide(&joint);
+                self.push(format!("a_{of}^cor"), VectorKind::Coriolis, [from, &letter], coriolis, link, meaning);
                 letter
             };
-            self.push(format!("a_{of}^r"), Part::Sliding, [&end, to], growth, link, meaning);
+            self.push(format!("a_{of}^r"), VectorKind::Sliding, [&end, to], growth, link, meaning);
         }
     }
 
@@ -191,11 +196,18 @@ impl<'a> Builder<'a> {
                     number += 1;
                     self.tip(format!("n{number}"), TipKind::Normal, self.end(&from.letter) + normal)
                 };
-                let meaning = format!("normal part along {of}, omega^2 l");
-                self.push(format!("a_{of}^n"), Part::Normal, [start, &end], normal, link, meaning);
+                let meaning = sentences::normal_part_along_omega(&of);
+                self.push(format!("a_{of}^n"), VectorKind::Normal, [start, &end], normal, link, meaning);
                 if !uniform {
-                    let meaning = format!("tangential part, alpha l, perpendicular to {line}");
-                    self.push(format!("a_{of}^t"), Part::Tangential, [&end, &to.letter], tangential, link, meaning);
+                    let meaning = sentences::tangential_part_alpha_perpendicular_to(&line);
+                    self.push(
+                        format!("a_{of}^t"),
+                        VectorKind::Tangential,
+                        [&end, &to.letter],
+                        tangential,
+                        link,
+                        meaning,
+                    );
                 }
             }
         }
@@ -210,7 +222,7 @@ impl<'a> Builder<'a> {
             return Vec::new();
         }
         let places = self.places;
-        let on = |place: &'a Place, local: Vec2| On { named: &place.named, local, fixed: place.fixed };
+        let on = |place: &'a NamedPoint, local: Vec2| On { named: &place.named, local, fixed: place.fixed };
         let moves = |name: &str| places.iter().find(|place| place.named.name == name && !place.fixed);
         let stands = |name: &str| places.iter().find(|place| place.named.name == name && place.fixed);
         let pivot = pivot(self.mechanism, link);
@@ -235,7 +247,15 @@ impl<'a> Builder<'a> {
         pairs
     }
 
-    fn push(&mut self, name: String, part: Part, [from, to]: [&str; 2], value: Vec2, link: LinkId, meaning: String) {
+    fn push(
+        &mut self,
+        name: String,
+        part: VectorKind,
+        [from, to]: [&str; 2],
+        value: Vec2,
+        link: LinkId,
+        meaning: String,
+    ) {
         let start = self.end(from);
         self.vectors.push(Vector { name, part, from: from.into(), to: to.into(), start, value, link, meaning });
     }
@@ -243,5 +263,5 @@ impl<'a> Builder<'a> {
 
 /// The direction along the guide of a joint, as part of a vector's meaning.
 fn along(joint: &str) -> String {
-    format!(", along the guide {joint}")
+    sentences::along_the_guide(&joint)
 }

@@ -4,7 +4,7 @@ use linkage::math::statistics::ends;
 
 /// A marked point of a graph.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Mark {
+pub struct GraphPoint {
     /// Crank angle (rad; any of those a period apart) and value.
     pub at: [f64; 2],
     /// Its meaning, such as "greatest".
@@ -13,7 +13,7 @@ pub struct Mark {
 
 /// One quantity over the crank angle.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Graph {
+pub struct CrankGraph {
     /// Its name.
     pub name: &'static str,
     /// Its symbol, with `_` before a subscript.
@@ -27,13 +27,13 @@ pub struct Graph {
     /// Name of the mean.
     pub mean_word: &'static str,
     /// Its lowest and its highest point on paper.
-    pub marks: [Mark; 2],
+    pub marks: [GraphPoint; 2],
     /// Reference size for the range of its values.
     /// Below a billionth of this size the range is rounding, and the quantity is constant.
     pub size: f64,
 }
 
-impl Graph {
+impl CrankGraph {
     /// Lowest and highest value.
     #[must_use]
     pub fn range(&self) -> [f64; 2] {
@@ -55,7 +55,7 @@ pub struct Graphs {
     /// Crank angle at the start of the period and at its end (rad), in the sense of motion.
     pub period: [f64; 2],
     /// The graphs, from the top.
-    pub graphs: Vec<Graph>,
+    pub graphs: Vec<CrankGraph>,
     /// Lines below the title.
     pub notes: Vec<String>,
 }

@@ -8,12 +8,13 @@
 //! Each starts from its exact first value.
 
 use super::chord::{closed_slopes, integral, slopes};
+use crate::sentences;
 use linkage::case::{Case, Grid, Wanted};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::KeepNan;
 use linkage::math::statistics::{half_range, rms, share};
 use linkage::solver::Solver;
-use linkage::trajectory::{Channel, Stage, Subject};
+use linkage::trajectory::{Channel, ChannelSubject, Stage};
 use std::f64::consts::TAU;
 
 /// Useful numbers of divisions of the turn: fewer do not show the motion, more only cost time.
@@ -31,9 +32,9 @@ const ENDINGS: [[&str; 3]; 3] =
 
 /// A displacement or angle and its two derivatives with respect to time.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Course(pub [Channel; 3]);
+pub struct MotionCurve(pub [Channel; 3]);
 
-impl Course {
+impl MotionCurve {
     /// The course of the channel `name`, which must be a position or an angle of a moving link or point of `case`.
     ///
     /// # Errors
@@ -42,18 +43,18 @@ impl Course {
         let all = case.wanting(Wanted::ALL).channels();
         let wrong = |message: String, help: String| Error::new(ErrorKind::Input, message).help(help);
         let Some(channel) = all.iter().find(|channel| channel.to_string() == name) else {
-            return Err(wrong(format!("the mechanism has no channel \"{name}\""), help(&all, name)));
+            return Err(wrong(sentences::the_mechanism_has_no_channel(&name), help(&all, name)));
         };
         let stem = name.strip_suffix(channel.kind.suffix).unwrap_or(name);
         match ENDINGS.into_iter().find(|endings| endings.contains(&channel.kind.suffix)) {
-            Some(endings) if endings[0] == channel.kind.suffix => Ok(Course(endings.map(|ending| {
+            Some(endings) if endings[0] == channel.kind.suffix => Ok(MotionCurve(endings.map(|ending| {
                 Channel::named(&format!("{stem}{ending}")).expect("links and points have all derivatives")
             }))),
             Some(endings) => Err(wrong(
-                format!("\"{name}\" is a derivative already; a motion diagram starts from a position or an angle"),
-                format!("ask for {stem}{}: its diagram shows this one too", endings[0]),
+                sentences::is_a_derivative_already_a_motion(&name),
+                sentences::ask_for_its_diagram_shows(&stem, &endings[0]),
             )),
-            None => Err(wrong(format!("\"{name}\" is neither a position nor an angle"), help(&all, ""))),
+            None => Err(wrong(sentences::is_neither_a_position_nor(&name), help(&all, ""))),
         }
     }
 }
@@ -62,9 +63,10 @@ impl Course {
 fn help(all: &[Channel], name: &str) -> String {
     let positions = all.iter().filter(|channel| channel.kind.stage == Stage::Positions);
     let parts: Vec<&str> = name.splitn(2, '.').collect();
-    let sort = [Subject::Link, Subject::Point].into_iter().find(|sort| parts.first() == Some(&sort.word()));
+    let sort =
+        [ChannelSubject::Link, ChannelSubject::Point].into_iter().find(|sort| parts.first() == Some(&sort.word()));
     let Some(sort) = sort else {
-        return "channels are named like point.B.x_m, point.B.y_m or link.crank.angle_rad".into();
+        return sentences::CHANNELS_ARE_NAMED_LIKE_POINT.into();
     };
     let of = parts.get(1).and_then(|rest| rest.rsplit_once('.')).map_or("", |(of, _)| of);
     let names: Vec<String> = positions
@@ -74,7 +76,7 @@ fn help(all: &[Channel], name: &str) -> String {
         })
         .map(ToString::to_string)
         .collect();
-    format!("allowed here: {}", names.join(", "))
+    sentences::allowed_here(&names.join(", "))
 }
 
 linkage::words! {
@@ -106,7 +108,7 @@ impl Method {
 
 /// Result of a method, and its error.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Found {
+pub struct MethodResult {
     /// The method.
     pub method: Method,
     /// Rows of [`MotionDiagram::cranks`] that its values belong to.
@@ -131,7 +133,7 @@ pub struct Found {
 #[derive(Clone, Debug, PartialEq)]
 pub struct MotionDiagram {
     /// The channels.
-    pub course: Course,
+    pub course: MotionCurve,
     /// Divisions of the turn.
     pub divisions: usize,
     /// Rows between the two ends of a division, an even number.
@@ -143,7 +145,7 @@ pub struct MotionDiagram {
     /// Exact displacement, velocity, acceleration in every row (SI).
     pub exact: [Vec<f64>; 3],
     /// Results of the methods, in the order of [`Method::ALL`].
-    pub found: Vec<Found>,
+    pub found: Vec<MethodResult>,
 }
 
 impl MotionDiagram {
@@ -153,15 +155,15 @@ impl MotionDiagram {
     /// # Errors
     /// [`ErrorKind::Input`] for a number of divisions outside [`DIVISIONS`].
     /// Those of the solver, if the crank cannot turn fully.
-    pub fn of(case: &Case, solver: &dyn Solver, course: &Course, divisions: usize) -> Result<Self> {
+    pub fn of(case: &Case, solver: &dyn Solver, course: &MotionCurve, divisions: usize) -> Result<Self> {
         if !DIVISIONS.contains(&divisions) {
             let (least, most) = DIVISIONS.into_inner();
-            return Err(Error::new(ErrorKind::Input, format!("a turn cannot be divided into {divisions} parts here"))
-                .help(format!("give from {least} to {most} divisions")));
+            return Err(Error::new(ErrorKind::Input, sentences::a_turn_cannot_be_divided(&divisions))
+                .help(sentences::give_from_to_divisions(&least, &most)));
         }
         if !case.is_steady() {
-            let message = "the chord method divides a turn into equal times, but the drive's speed changes";
-            return Err(Error::new(ErrorKind::Unsupported, message).help("give the drive a constant speed"));
+            let message = sentences::THE_CHORD_METHOD_DIVIDES_A_TURN;
+            return Err(Error::new(ErrorKind::Unsupported, message).help(sentences::GIVE_THE_DRIVE_A_CONSTANT));
         }
         // Divisions, their halves and their quarters all have their midpoints among the rows.
         let stride = 8 * CURVE.div_ceil(8 * divisions);
@@ -173,8 +175,8 @@ impl MotionDiagram {
         let trajectory = solver.solve(&case.on(grid)?.wanting(wanted))?;
         let column = |channel: &Channel| {
             trajectory.column(channel).map(<[f64]>::to_vec).ok_or_else(|| {
-                Error::new(ErrorKind::Unsupported, format!("{} does not provide {channel}", solver.name()))
-                    .help("solve with another solver")
+                Error::new(ErrorKind::Unsupported, sentences::does_not_provide(&solver.name(), &channel))
+                    .help(sentences::SOLVE_WITH_ANOTHER_SOLVER)
             })
         };
         let [x, v, a] = &course.0;
@@ -194,7 +196,7 @@ impl MotionDiagram {
             let [(rows, values), ..] = runs;
             // A curve without any motion has no scale, and no error either.
             let share = share(largest, scale);
-            Found { method, rows, values, largest, rms: size[0], share, orders }
+            MethodResult { method, rows, values, largest, rms: size[0], share, orders }
         });
         let found = found.collect();
         Ok(MotionDiagram { course: course.clone(), divisions, stride, cranks, times, exact, found })

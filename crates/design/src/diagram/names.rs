@@ -2,7 +2,7 @@
 //! The pole has its own letter.
 
 use linkage::math::Vec2;
-use linkage::mechanism::{GROUND, Joint, LinkId, Mechanism, Side};
+use linkage::mechanism::{GROUND, Joint, JointSide, LinkId, Mechanism};
 
 /// A name in the mechanism and its letter in the plans.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,11 +15,11 @@ pub struct Named {
 
 /// A named point of the mechanism, listed once for all links that contain it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Place {
+pub struct NamedPoint {
     /// Its name and letter.
     pub named: Named,
     /// A link that contains it, and its position there. A link on a ground pivot or in a fixed guide is preferred.
-    pub side: Side,
+    pub side: JointSide,
     /// Whether it is a ground point.
     pub fixed: bool,
 }
@@ -40,25 +40,26 @@ pub fn fixed_guide(mechanism: &Mechanism, link: LinkId) -> Option<&Joint> {
 }
 
 /// All named points, those of the ground first, each with a unique letter.
-pub fn places(mechanism: &Mechanism, poles: &[&str]) -> Vec<Place> {
+pub fn places(mechanism: &Mechanism, poles: &[&str]) -> Vec<NamedPoint> {
     let mut taken: Vec<String> = poles.iter().map(ToString::to_string).collect();
     let mut named = |name: &str| {
         let letter = primed(name.to_lowercase(), |letter| taken.iter().any(|other| other == letter));
         taken.push(letter.clone());
         Named { name: name.into(), letter }
     };
-    let mut all: Vec<Place> = Vec::new();
+    let mut all: Vec<NamedPoint> = Vec::new();
     for point in &mechanism.links()[GROUND].points {
-        let side = Side { link: GROUND, local: point.local };
-        all.push(Place { named: named(&point.name), side, fixed: true });
+        let side = JointSide { link: GROUND, local: point.local };
+        all.push(NamedPoint { named: named(&point.name), side, fixed: true });
     }
     for (name, first) in mechanism.moving_points() {
         let carriers = mechanism.links().entries().skip(1).filter_map(|(link, body)| {
-            body.points.iter().find(|point| point.name == name).map(|point| Side { link, local: point.local })
+            body.points.iter().find(|point| point.name == name).map(|point| JointSide { link, local: point.local })
         });
-        let led = |side: &Side| pivot(mechanism, side.link).is_some() || fixed_guide(mechanism, side.link).is_some();
+        let led =
+            |side: &JointSide| pivot(mechanism, side.link).is_some() || fixed_guide(mechanism, side.link).is_some();
         let side = carriers.into_iter().find(led).unwrap_or(first);
-        all.push(Place { named: named(name), side, fixed: false });
+        all.push(NamedPoint { named: named(name), side, fixed: false });
     }
     all
 }
@@ -84,7 +85,7 @@ mod tests {
 
     #[test]
     fn every_point_has_its_own_letter_and_the_pole_too() {
-        let letters = |all: Vec<Place>| all.into_iter().map(|place| place.named.letter).collect::<Vec<_>>();
+        let letters = |all: Vec<NamedPoint>| all.into_iter().map(|place| place.named.letter).collect::<Vec<_>>();
         assert_eq!(letters(places(&four_bar(), &["p"])), ["o", "c", "a", "b"]);
         let links = vec![
             link("ground", &[("O", 0.0, 0.0)]),

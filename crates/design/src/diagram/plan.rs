@@ -16,10 +16,11 @@
 //! No vector is the difference of two others, so the closure of the polygons is a result.
 
 use super::builder::Builder;
-use super::names::{Named, Place, places};
+use super::names::{Named, NamedPoint, places};
 use super::scheme::Scheme;
 use super::sliding::{Slide, slides, travels};
-use super::vectors::{Plan, Quantity};
+use super::vectors::{Quantity, VectorPlan};
+use crate::sentences;
 use linkage::case::{Case, Grid, Wanted};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::mechanism::{LinkId, Mechanism};
@@ -34,9 +35,9 @@ pub struct Plans {
     /// The mechanism.
     pub scheme: Scheme,
     /// The velocity plan.
-    pub velocity: Plan,
+    pub velocity: VectorPlan,
     /// The acceleration plan.
-    pub acceleration: Plan,
+    pub acceleration: VectorPlan,
     /// Points, each with the links that have it.
     points: Vec<(Named, Vec<LinkId>)>,
 }
@@ -78,8 +79,8 @@ impl Plans {
             if letters.len() == before {
                 let points = self.points.iter().map(|(own, _)| own.name.as_str());
                 let all: Vec<&str> = points.chain(self.scheme.links.iter().map(|link| link.name.as_str())).collect();
-                return Err(Error::new(ErrorKind::Input, format!("no point and no link is called \"{name}\""))
-                    .help(format!("name some of {}", all.join(", "))));
+                return Err(Error::new(ErrorKind::Input, sentences::no_point_and_no_link_is_called(&name))
+                    .help(sentences::name_some_of(&all.join(", "))));
             }
         }
         self.velocity.keep(&letters);
@@ -92,7 +93,7 @@ impl Plans {
 #[derive(Debug)]
 pub struct Planner<'a> {
     mechanism: &'a Mechanism,
-    places: Vec<Place>,
+    places: Vec<NamedPoint>,
     slides: Vec<Slide>,
 }
 
@@ -112,7 +113,7 @@ impl<'a> Planner<'a> {
 
     /// The plan of a state that contains motions up to its quantity.
     #[must_use]
-    pub fn plan(&self, quantity: Quantity, state: &State) -> Plan {
+    pub fn plan(&self, quantity: Quantity, state: &State) -> VectorPlan {
         Builder::new(quantity, self.mechanism, state, &self.places, &self.slides).plan()
     }
 }
@@ -124,7 +125,7 @@ impl<'a> Planner<'a> {
 pub fn state_at(case: &Case, solver: &dyn Solver, crank: f64) -> Result<State> {
     let grid = Grid::of_inputs(case.crank(), vec![crank]);
     grid.check(case.crank())
-        .map_err(|message| Error::new(ErrorKind::Input, message).help("give a crank angle in degrees, as 70 or -30"))?;
+        .map_err(|message| Error::new(ErrorKind::Input, message).help(sentences::GIVE_A_CRANK_ANGLE_IN_DEGREES))?;
     let wanted = Wanted::of(&[Stage::Positions, Stage::Velocities, Stage::Accelerations]);
     let case = case.on(grid)?.wanting(wanted);
     let mut found = State::at_start(&case);

@@ -1,10 +1,10 @@
 //! The kinematic diagram: the mechanism drawn to scale.
 
-use super::names::{Place, pivot};
+use super::names::{NamedPoint, pivot};
 use super::singular::SingularPoint;
 use super::sliding::Slide;
 use drawing::paper::scale::factor;
-use drawing::picture::Place::Here;
+use drawing::picture::LinkPlacement::Here;
 use drawing::{Acting, Sketch, Travels, acting};
 use linkage::case::Case;
 use linkage::math::{KeepNan, Motion, Vec2, corners};
@@ -62,14 +62,20 @@ pub struct Scheme {
     /// What the mechanism looks like; its unit is a millimetre on paper.
     pub sketch: Sketch,
     /// Where its links are.
-    pub places: Vec<drawing::picture::Place>,
+    pub places: Vec<drawing::picture::LinkPlacement>,
     /// What its loads do.
     pub acting: Vec<Acting>,
 }
 
 impl Scheme {
     /// The diagram of a state.
-    pub(super) fn of(case: &Case, state: &State, places: &[Place], slides: &[Slide], travels: &[[f64; 2]]) -> Self {
+    pub(super) fn of(
+        case: &Case,
+        state: &State,
+        places: &[NamedPoint],
+        slides: &[Slide],
+        travels: &[[f64; 2]],
+    ) -> Self {
         let mechanism = &case.mechanism;
         let points: Vec<(String, Vec2)> = places
             .iter()

@@ -11,6 +11,7 @@
 //! Along the lead BD (unit vector u), d u = omega5^2 (D - S) u - omega2^2 (B - S) u - omega3^2 |BD|; likewise along CE.
 //! Then a_A + ... + d = a_K + ... is the same construction again.
 
+use crate::sentences;
 use linkage::case::Case;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::{Motion, Vec2, cross, turned};
@@ -55,18 +56,14 @@ impl SingularPoint {
         let [first, second] = &leads;
         let slant = cross(first.along, second.along);
         if !(slant.abs() > PARALLEL) {
-            return Err(wrong(&leads, " and ", |names| {
-                format!("the leads {names} are parallel: their singular point lies at infinity")
-            }));
+            return Err(wrong(&leads, " and ", |names| sentences::the_leads_are_parallel_their(&names)));
         }
         let at = first.ends[0] + first.along * (cross(second.ends[0] - first.ends[0], second.along) / slant);
         let outer = bases.map(|(_, known)| known);
         let arms = outer.map(|joint| at - joint[0]);
         let dead = cross(arms[0], arms[1]) / (arms[0].norm() * arms[1].norm());
         if !(dead.abs() > PARALLEL) {
-            return Err(wrong(&leads, " x ", |names| {
-                format!("the singular point {names} lies in line with the outer joints: a dead point")
-            }));
+            return Err(wrong(&leads, " x ", |names| sentences::the_singular_point_lies_in_line(&names)));
         }
         // turned(arm1) w1 - turned(arm2) w2 = r, multiplied by the arm that eliminates one unknown.
         let spins = |r: Vec2| {
@@ -150,5 +147,5 @@ fn parts(mechanism: &Mechanism, group: &Group, motions: &[Motion]) -> Option<([B
 /// What is wrong with the leads, named side by side with `between`.
 fn wrong(leads: &[Lead; 2], between: &str, message: impl FnOnce(String) -> String) -> Error {
     let names = leads.each_ref().map(|lead| super::names::pair(&lead.names[0], &lead.names[1]));
-    Error::new(ErrorKind::Geometry, message(names.join(between))).help("take a crank angle a little beside this one")
+    Error::new(ErrorKind::Geometry, message(names.join(between))).help(sentences::TAKE_A_CRANK_ANGLE_A_LITTLE)
 }

@@ -1,9 +1,9 @@
 //! Prismatic pairs in plans and drawings: the guide's link, the sliding point, and the point of the guide that coincides with it.
 
-use super::names::{Named, Place, primed};
+use super::names::{Named, NamedPoint, primed};
 use linkage::case::{Case, Wanted};
 use linkage::math::{KeepNan, Vec2, rotated};
-use linkage::mechanism::{GROUND, JointId, Mechanism, Side};
+use linkage::mechanism::{GROUND, JointId, JointSide, Mechanism};
 use linkage::solver::{Solver, State};
 use linkage::trajectory::Stage;
 
@@ -13,11 +13,11 @@ pub struct Slide {
     /// Index of the joint.
     pub joint: JointId,
     /// The guide's link and the joint's point on it.
-    pub guide: Side,
+    pub guide: JointSide,
     /// The block's link and the sliding point on it.
-    pub block: Side,
+    pub block: JointSide,
     /// The sliding point. It may be a ground point too: a rod in a block that only swings.
-    pub place: Place,
+    pub place: NamedPoint,
     /// The coincident point of a moving guide's link; a fixed guide has none.
     pub under: Option<Named>,
 }
@@ -49,7 +49,7 @@ impl Slide {
 }
 
 /// All prismatic pairs. A sliding point without a name gets that of its joint and is added to `places`.
-pub fn slides(mechanism: &Mechanism, places: &mut Vec<Place>) -> Vec<Slide> {
+pub fn slides(mechanism: &Mechanism, places: &mut Vec<NamedPoint>) -> Vec<Slide> {
     let mut all = Vec::new();
     // Mass centres keep their letters.
     let mut unders: Vec<Named> = mechanism
@@ -64,7 +64,7 @@ pub fn slides(mechanism: &Mechanism, places: &mut Vec<Place>) -> Vec<Slide> {
         let point = named.find(|point| point.local == block.local).map(|point| point.name.clone());
         let place = point.and_then(|name| places.iter().find(|place| place.named.name == name).cloned());
         let place = place.unwrap_or_else(|| {
-            let new = Place { named: unused(joint.name.clone(), places, &[]), side: block, fixed: false };
+            let new = NamedPoint { named: unused(joint.name.clone(), places, &[]), side: block, fixed: false };
             places.push(new.clone());
             new
         });
@@ -80,7 +80,7 @@ pub fn slides(mechanism: &Mechanism, places: &mut Vec<Place>) -> Vec<Slide> {
 }
 
 /// `name` and its letter, with as many primes as make both unique.
-fn unused(name: String, places: &[Place], others: &[Named]) -> Named {
+fn unused(name: String, places: &[NamedPoint], others: &[Named]) -> Named {
     let name = primed(name, |name| {
         let letter = name.to_lowercase();
         // The poles of both plans have letters too.

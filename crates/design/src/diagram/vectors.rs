@@ -81,7 +81,7 @@ pub struct Tip {
 linkage::words! {
     /// Kind of a vector.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-    pub enum Part: word {
+    pub enum VectorKind: word {
         /// Absolute vector of a named point.
         Absolute = "absolute",
         /// Absolute vector of a mass centre.
@@ -106,7 +106,7 @@ pub struct Vector {
     /// If A slides on link 3: `v_A3`, `v_A,A3`, `a_A,A3^cor`, `a_A,A3^r`.
     pub name: String,
     /// Kind.
-    pub part: Part,
+    pub part: VectorKind,
     /// Letter of its start point.
     pub from: String,
     /// Letter of its end point.
@@ -123,7 +123,7 @@ pub struct Vector {
 
 /// A velocity or acceleration plan.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Plan {
+pub struct VectorPlan {
     /// The quantity of the plan.
     pub quantity: Quantity,
     /// Scale factor mu_v ((m/s)/mm) or mu_a ((m/s^2)/mm).
@@ -134,7 +134,7 @@ pub struct Plan {
     pub vectors: Vec<Vector>,
 }
 
-impl Plan {
+impl VectorPlan {
     /// Leaves only the vectors, at a scale of their own, between the pole and these letters. Ends of normal and Coriolis parts and coincident
     /// points stay where all their vectors do.
     pub(super) fn keep(&mut self, letters: &[String]) {

@@ -7,7 +7,7 @@
 //!   They are the angle of the child minus that of its parent, and the slide of a prismatic joint as in its channel.
 //! - A joint that closes a loop is a `connect` of two sites.
 //!   Its third row, along z, is zero in a planar mechanism: it costs a little and has no effect.
-//! - A drive is a rotor ([`Model::rotor`]) on the driven hinge, with so much inertia that its speed is practically constant.
+//! - A drive is a rotor ([`MjcfModel::rotor`]) on the driven hinge, with so much inertia that its speed is practically constant.
 //!   It changes by 1e-9, with any integrator and at any step.
 //!   A velocity actuator of that stiffness diverges (`implicitfast` solves the constraints without its damping).
 //!   A softer one lags.
@@ -34,7 +34,7 @@ mod shapes;
 mod write;
 mod xml;
 
-pub use model::Model;
+pub use model::MjcfModel;
 
 use super::first_state;
 use linkage::case::Case;
@@ -50,6 +50,6 @@ use linkage::solver::Solver;
 /// Those of the solver.
 pub fn mjcf(case: &Case, solver: &dyn Solver, name: &str, step: f64) -> Result<String> {
     let start = first_state(case, solver)?;
-    let model = Model::new(case, &start, name, step)?;
+    let model = MjcfModel::new(case, &start, name, step)?;
     Ok(write::document(&model, &forces::forces(&model)?))
 }

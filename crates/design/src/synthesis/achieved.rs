@@ -1,5 +1,6 @@
 //! The achieved motion of a mechanism compared with the wanted motion of its output, on a fine grid of its scenario.
 
+use crate::sentences;
 use linkage::math::KeepNan;
 use linkage::math::statistics::ends;
 use std::f64::consts::TAU;
@@ -60,8 +61,7 @@ impl Achieved {
         let as_drawn = Task { places: Vec::new(), ..task.clone() };
         let mut evaluator = Evaluator::new(&as_drawn);
         evaluator.run(&[], task.case.crank().zero, &turns).map_err(|_| {
-            let message =
-                "the mechanism cannot be assembled over a whole turn of its crank, or its output does not rock";
+            let message = sentences::THE_MECHANISM_CANNOT_BE_ASSEMBLED;
             Error::new(ErrorKind::Geometry, message).help(Advice::LookAtRange)
         })?;
         let curve = &evaluator.curve;

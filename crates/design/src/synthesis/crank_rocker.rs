@@ -4,6 +4,7 @@
 //! With both positions of B given, the two lengths are half the sum and half the difference of the two distances.
 //! Source: Artobolevsky, "Theory of mechanisms and machines", synthesis of the four-bar from two extreme positions.
 
+use crate::sentences;
 use std::f64::consts::{PI, TAU};
 
 use super::{time_ratio, wrong};
@@ -14,7 +15,7 @@ use linkage::mechanism::AssemblyMode;
 
 /// Requirements on a crank-rocker.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Wish {
+pub struct CrankRockerSpec {
     /// Pivot O of the crank (m).
     pub crank_pivot: Vec2,
     /// Pivot C of the rocker (m).
@@ -30,7 +31,7 @@ pub struct Wish {
 
 /// An extreme position.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Extreme {
+pub struct RockerExtreme {
     /// Angle of the rocker C -> B (rad).
     pub rocker: f64,
     /// Angle of the crank O -> A (rad), from 0 to a full turn.
@@ -41,15 +42,15 @@ pub struct Extreme {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CrankRocker {
     /// The requirements.
-    pub wish: Wish,
+    pub wish: CrankRockerSpec,
     /// Length OA of the crank (m).
     pub crank: f64,
     /// Length AB of the coupler (m).
     pub coupler: f64,
     /// Extreme position in which crank and coupler are stretched.
-    pub stretched: Extreme,
+    pub stretched: RockerExtreme,
     /// Extreme position in which they are folded.
-    pub folded: Extreme,
+    pub folded: RockerExtreme,
     /// Assembly mode of the dyad (coupler, rocker).
     pub mode: AssemblyMode,
     /// Smallest transmission angle of the turn (rad), between coupler and rocker at B, at most a right angle.
@@ -66,7 +67,7 @@ impl CrankRocker {
     /// # Errors
     /// [`ErrorKind::Input`] for lengths and angles that make no sense.
     /// [`ErrorKind::Geometry`] if the two positions permit no crank that turns fully, with the distances and the way out.
-    pub fn of(wish: Wish) -> Result<Self> {
+    pub fn of(wish: CrankRockerSpec) -> Result<Self> {
         check(&wish)?;
         let frame = wish.rocker_pivot - wish.crank_pivot;
         let angles = [wish.extreme, wish.extreme + wish.swing];
@@ -75,34 +76,29 @@ impl CrankRocker {
         let distances = arms.map(|arm| arm.norm());
         let (far, near) = if distances[0] >= distances[1] { (0, 1) } else { (1, 0) };
         let (crank, coupler) = ((distances[far] - distances[near]) / 2.0, (distances[far] + distances[near]) / 2.0);
-        let told =
-            format!("O is {:.6} m from B in one extreme position and {:.6} m in the other", distances[0], distances[1]);
+        let told = sentences::is_from_in_one_extreme_position(&distances[0], &distances[1]);
         if !(crank > 1e-9 * coupler) {
-            let message = format!("{told}: a crank of no length would be needed");
-            return Err(Error::new(ErrorKind::Geometry, message)
-                .help("move a pivot, or turn the extreme positions, so that one lies farther from the crank's pivot"));
+            let message = sentences::a_crank_of_no_length_would(&told);
+            return Err(
+                Error::new(ErrorKind::Geometry, message).help(sentences::MOVE_A_PIVOT_OR_TURN_THE_EXTREME_POSITIONS)
+            );
         }
         let sides = arms.map(|arm| cross(frame, arm));
         if !(sides[0] * sides[1] > 0.0) {
-            let message = "the line of the two pivots goes between the two extreme positions, or through one: no crank leads from one to the other \
-                           without taking the dyad apart";
-            return Err(Error::new(ErrorKind::Geometry, message)
-                .help("choose a smaller swing, or pivots whose line leaves both positions of B on one side"));
+            let message = sentences::THE_LINE_OF_THE_TWO_PIVOTS;
+            return Err(Error::new(ErrorKind::Geometry, message).help(sentences::CHOOSE_A_SMALLER_SWING_OR_PIVOTS));
         }
         let lengths = [frame.norm(), crank, coupler, wish.rocker];
         let found = FourBar::of_lengths(lengths).of_type;
         // The triangles O, B, C of both positions make the crank the shortest link, and let it turn fully.
         // Only rounding can put them on one line.
         if found != FourBarType::CrankRocker {
-            let message = format!(
-                "{told}: an extreme position lies on the line of the pivots but for rounding, a {}",
-                found.name()
-            );
-            return Err(Error::new(ErrorKind::Geometry, message)
-                .help("move a pivot, or turn the extreme positions away from the line of the pivots"));
+            let message = sentences::an_extreme_position_lies_on_the_line(&told, &found.name());
+            return Err(Error::new(ErrorKind::Geometry, message).help(sentences::MOVE_A_PIVOT_OR_TURN_THE_EXTREME));
         }
         let direction = |k: usize| arms[k].y.atan2(arms[k].x);
-        let at = |k: usize, turn: f64| Extreme { rocker: angles[k], crank: (direction(k) + turn).rem_euclid(TAU) };
+        let at =
+            |k: usize, turn: f64| RockerExtreme { rocker: angles[k], crank: (direction(k) + turn).rem_euclid(TAU) };
         let (transmission, transmission_at) = transmission(lengths, frame);
         Ok(CrankRocker {
             wish,
@@ -118,21 +114,25 @@ impl CrankRocker {
     }
 }
 
-fn check(wish: &Wish) -> Result<()> {
+fn check(wish: &CrankRockerSpec) -> Result<()> {
     let finite = [wish.crank_pivot.x, wish.crank_pivot.y, wish.rocker_pivot.x, wish.rocker_pivot.y, wish.extreme];
     if !finite.iter().all(|value| value.is_finite()) {
-        return Err(wrong("pivots", "a coordinate or an angle is not finite".into(), "give decimal numbers"));
+        return Err(wrong("pivots", sentences::A_COORDINATE_OR_AN_ANGLE.into(), sentences::GIVE_DECIMAL_NUMBERS));
     }
     if !(wish.rocker > 0.0 && wish.rocker.is_finite()) {
-        let message = format!("the rocker's length is {} m", wish.rocker);
-        return Err(wrong("rocker", message, "give a length greater than zero"));
+        let message = sentences::the_rocker_length_is(&wish.rocker);
+        return Err(wrong("rocker", message, sentences::GIVE_A_LENGTH_GREATER_THAN_ZERO));
     }
     if !(wish.swing != 0.0 && wish.swing.abs() < PI) {
-        let message = format!("the swing is {} deg", wish.swing.to_degrees());
-        return Err(wrong("swing", message, "give an angle between -180 and 180 deg that is not zero"));
+        let message = sentences::the_swing_is_deg(&wish.swing.to_degrees());
+        return Err(wrong("swing", message, sentences::GIVE_AN_ANGLE_BETWEEN_AND_DEG));
     }
     if !((wish.rocker_pivot - wish.crank_pivot).norm() > 0.0) {
-        return Err(wrong("pivots", "both pivots are one point".into(), "give the rocker a pivot of its own"));
+        return Err(wrong(
+            "pivots",
+            sentences::BOTH_PIVOTS_ARE_ONE_POINT.into(),
+            sentences::GIVE_THE_ROCKER_A_PIVOT_OF_ITS_OWN,
+        ));
     }
     Ok(())
 }
@@ -154,8 +154,8 @@ fn transmission([frame, crank, coupler, rocker]: [f64; 4], line: Vec2) -> (f64, 
 mod tests {
     use super::*;
 
-    fn published() -> Wish {
-        Wish {
+    fn published() -> CrankRockerSpec {
+        CrankRockerSpec {
             crank_pivot: Vec2::zeros(),
             rocker_pivot: Vec2::new(0.15, 0.015),
             rocker: 0.25,
@@ -178,10 +178,15 @@ mod tests {
     fn the_order_of_the_extreme_positions_and_a_mirror_change_nothing_else() {
         let wish = published();
         let first = CrankRocker::of(wish).unwrap();
-        let other = CrankRocker::of(Wish { extreme: wish.extreme + wish.swing, swing: -wish.swing, ..wish }).unwrap();
+        let other = CrankRocker::of(CrankRockerSpec { extreme: wish.extreme + wish.swing, swing: -wish.swing, ..wish })
+            .unwrap();
         assert!((first.crank - other.crank).abs() < 1e-16 && (first.time_ratio - other.time_ratio).abs() < 1e-14);
-        let mirrored =
-            Wish { rocker_pivot: Vec2::new(0.15, -0.015), extreme: -wish.extreme, swing: -wish.swing, ..wish };
+        let mirrored = CrankRockerSpec {
+            rocker_pivot: Vec2::new(0.15, -0.015),
+            extreme: -wish.extreme,
+            swing: -wish.swing,
+            ..wish
+        };
         let mirrored = CrankRocker::of(mirrored).unwrap();
         assert!((first.crank - mirrored.crank).abs() < 1e-16 && mirrored.mode == AssemblyMode::Right);
     }
@@ -190,17 +195,17 @@ mod tests {
     fn what_cannot_be_says_so() {
         let wish = published();
         for (bad, kind, words) in [
-            (Wish { swing: 0.0, ..wish }, ErrorKind::Input, "the swing is 0 deg"),
-            (Wish { rocker: -1.0, ..wish }, ErrorKind::Input, "length is -1 m"),
-            (Wish { rocker_pivot: Vec2::zeros(), ..wish }, ErrorKind::Input, "one point"),
-            (Wish { extreme: f64::NAN, ..wish }, ErrorKind::Input, "not finite"),
+            (CrankRockerSpec { swing: 0.0, ..wish }, ErrorKind::Input, "the swing is 0 deg"),
+            (CrankRockerSpec { rocker: -1.0, ..wish }, ErrorKind::Input, "length is -1 m"),
+            (CrankRockerSpec { rocker_pivot: Vec2::zeros(), ..wish }, ErrorKind::Input, "one point"),
+            (CrankRockerSpec { extreme: f64::NAN, ..wish }, ErrorKind::Input, "not finite"),
             // B symmetric about the line of the pivots: equal distances.
             (
-                Wish { rocker_pivot: Vec2::new(0.15, 0.0), extreme: -0.3, swing: 0.6, ..wish },
+                CrankRockerSpec { rocker_pivot: Vec2::new(0.15, 0.0), extreme: -0.3, swing: 0.6, ..wish },
                 ErrorKind::Geometry,
                 "no length",
             ),
-            (Wish { extreme: -0.3, swing: 1.0, ..wish }, ErrorKind::Geometry, "goes between"),
+            (CrankRockerSpec { extreme: -0.3, swing: 1.0, ..wish }, ErrorKind::Geometry, "goes between"),
         ] {
             let error = CrankRocker::of(bad).unwrap_err();
             assert!(error.kind() == kind && error.message().contains(words), "{bad:?}: {error}");

@@ -1,5 +1,6 @@
 //! Scenario files for linkages that were found in closed form.
 
+use crate::sentences;
 use std::fmt::Write;
 
 use super::crank_rocker::CrankRocker;
@@ -7,7 +8,7 @@ use super::slider_crank::SliderCrank;
 
 /// Contents of a scenario besides the dimensions.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Sheet {
+pub struct DraftContents {
     /// Name of the scenario, usable in file names.
     pub name: String,
     /// Title for the reader, in one line.
@@ -20,7 +21,7 @@ pub struct Sheet {
     pub bar: f64,
 }
 
-impl Sheet {
+impl DraftContents {
     fn head(&self) -> String {
         let mut text: String = self.comment.lines().map(|line| format!("# {line}\n")).collect();
         let _ = writeln!(text, "format = 1\nname = {:?}\ntitle = {:?}\n", self.name, self.title);
@@ -53,7 +54,7 @@ impl Sheet {
 /// Pins, each between two links.
 fn pins(all: &[(&str, [&str; 2])]) -> String {
     let pin = |(name, [first, second]): &(&str, [&str; 2])| {
-        format!("[[joints]]\nname = \"{name}\"\ntype = \"revolute\"\nlinks = [\"{first}\", \"{second}\"]\n\n")
+        sentences::joints_name_type_revolute_links(&name, &first, &second)
     };
     all.iter().map(pin).collect()
 }
@@ -61,7 +62,7 @@ fn pins(all: &[(&str, [&str; 2])]) -> String {
 impl CrankRocker {
     /// The scenario file.
     #[must_use]
-    pub fn scenario(&self, sheet: &Sheet) -> String {
+    pub fn scenario(&self, sheet: &DraftContents) -> String {
         let [o, c] = [self.wish.crank_pivot, self.wish.rocker_pivot];
         let mut text = sheet.head();
         let _ = writeln!(
@@ -81,13 +82,9 @@ impl CrankRocker {
 impl SliderCrank {
     /// The scenario file.
     #[must_use]
-    pub fn scenario(&self, sheet: &Sheet) -> String {
+    pub fn scenario(&self, sheet: &DraftContents) -> String {
         let mut text = sheet.head();
-        let _ = writeln!(
-            text,
-            "[ground.points]\nO = {{ x_m = 0, y_m = 0 }}\nG = {{ x_m = 0, y_m = {:?} }} # on the slider's line\n",
-            self.offset
-        );
+        let _ = writeln!(text, "{}", sentences::ground_points_on_the_slider(&format_args!("{:?}", self.offset)));
         text += &sheet.bar("crank", ["O", "A"], self.crank);
         text += &sheet.bar("rod", ["A", "B"], self.rod);
         let mass = sheet.bar * self.crank;
@@ -97,7 +94,7 @@ impl SliderCrank {
              [links.slider.points]\nB = {{ x_m = 0, y_m = 0 }}\n"
         );
         text += &pins(&[("O", ["ground", "crank"]), ("A", ["crank", "rod"]), ("B", ["rod", "slider"])]);
-        text += "[[joints]]\nname = \"guide\"\ntype = \"prismatic\"\nlinks = [\"ground\", \"slider\"]\npoints = [\"G\", \"B\"]\naxis_deg = 0\n\n";
+        text += sentences::JOINTS_NAME_GUIDE_TYPE_PRISMATIC;
         text + &sheet.tail("\"rod\", \"slider\"", "ahead")
     }
 }

@@ -2,8 +2,8 @@
 
 use std::f64::consts::{PI, TAU};
 
-use crate::task::{Output, Task};
-use analytic::assur::groups::{Plan, Step};
+use crate::task::{OutputQuantity, Task};
+use analytic::assur::groups::{SolutionPlan, Step};
 use linkage::math::{KeepNan, Motion, cross, unit};
 use linkage::mechanism::assembly::transmission_sine;
 use linkage::mechanism::{Mechanism, PerLink, Pose, first_pose};
@@ -57,7 +57,7 @@ impl<'a> Evaluator<'a> {
     pub(super) fn run(&mut self, values: &[f64], zero: f64, turns: &[f64]) -> Result<(), f64> {
         self.dimension(values);
         let case = &self.task.case;
-        let plan = Plan::of(&self.mechanism, &case.structure, &case.modes);
+        let plan = SolutionPlan::of(&self.mechanism, &case.structure, &case.modes);
         self.curve.clear();
         self.curve.resize(turns.len(), 0.0);
         self.sine = 1.0;
@@ -72,7 +72,12 @@ impl<'a> Evaluator<'a> {
     }
 
     /// Dyads only: poses do not depend on each other.
-    fn probe_and_place(&mut self, mut plan: Plan, world: &dyn Fn(f64) -> f64, turns: &[f64]) -> Result<(), f64> {
+    fn probe_and_place(
+        &mut self,
+        mut plan: SolutionPlan,
+        world: &dyn Fn(f64) -> f64,
+        turns: &[f64],
+    ) -> Result<(), f64> {
         let last = turns.len() - 1;
         for probe in 0..PROBES {
             // Opposite poses first: 0, 4, 2, 6, 1, 5, 3, 7 eighths of the turn.
@@ -92,7 +97,13 @@ impl<'a> Evaluator<'a> {
     }
 
     /// Higher groups: from the start pose in small steps. After the turn the output must be at its start again.
-    fn follow(&mut self, mut plan: Plan, world: &dyn Fn(f64) -> f64, turns: &[f64], zero: f64) -> Result<(), f64> {
+    fn follow(
+        &mut self,
+        mut plan: SolutionPlan,
+        world: &dyn Fn(f64) -> f64,
+        turns: &[f64],
+        zero: f64,
+    ) -> Result<(), f64> {
         let case = &self.task.case;
         let start = zero + case.crank().start;
         let (pose, _) = first_pose(&self.mechanism, &case.structure, &[start], &self.task.starts).map_err(|_| 0.0)?;
@@ -116,11 +127,11 @@ impl<'a> Evaluator<'a> {
     #[inline]
     fn output(&self) -> f64 {
         match self.task.output {
-            Output::Angle { link } => {
+            OutputQuantity::Angle { link } => {
                 let direction = self.motions[link].direction;
                 direction.y.atan2(direction.x)
             }
-            Output::Coordinate { link, point, along } => {
+            OutputQuantity::Coordinate { link, point, along } => {
                 self.motions[link].point(self.mechanism.links()[link].points[point].local).dot(&along)
             }
         }
@@ -128,7 +139,7 @@ impl<'a> Evaluator<'a> {
 
     /// Updates the smallest transmission sine.
     #[inline]
-    fn watch(&mut self, plan: &Plan) {
+    fn watch(&mut self, plan: &SolutionPlan) {
         let mut placed = false;
         for (group, step) in self.task.case.structure.groups.iter().zip(plan.steps()) {
             let sine = if let Step::Rrr(dyad) = step {
@@ -149,7 +160,7 @@ impl<'a> Evaluator<'a> {
 
     /// Removes jumps by a full turn from angles. An output that is not periodic over the turn is refused.
     fn unwind(&mut self) -> Result<(), f64> {
-        if let Output::Angle { .. } = self.task.output {
+        if let OutputQuantity::Angle { .. } = self.task.output {
             for row in 1..self.curve.len() {
                 let way = self.curve[row] - self.curve[row - 1];
                 self.curve[row] -= TAU * (way / TAU).round();

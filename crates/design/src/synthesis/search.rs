@@ -10,6 +10,7 @@
 mod candidate;
 mod refine;
 
+use crate::sentences;
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::SeedableRng;
 
@@ -39,7 +40,7 @@ const NEAR: f64 = 1.5;
 
 /// Result of a search.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Found {
+pub struct SearchResult {
     /// Values of the variables (SI), in the order of [`Task::variables`].
     pub values: Vec<f64>,
     /// Sense of the output that is forward: +1 or -1.
@@ -59,7 +60,7 @@ pub struct Found {
 ///
 /// # Errors
 /// Those of [`Task::check`]; [`ErrorKind::Numeric`] if no candidate can be assembled over the whole turn.
-pub fn search(task: &Task, threads: usize, progress: &mut dyn FnMut(f64)) -> Result<Found> {
+pub fn search(task: &Task, threads: usize, progress: &mut dyn FnMut(f64)) -> Result<SearchResult> {
     task.check()?;
     let threads = if threads == 0 { cores() } else { threads.min(MOST_THREADS) };
     let effort = task.effort;
@@ -86,7 +87,7 @@ pub fn search(task: &Task, threads: usize, progress: &mut dyn FnMut(f64)) -> Res
     let count = refined.len();
     keep(&mut refined, count);
     let best = &refined[0];
-    Ok(Found {
+    Ok(SearchResult {
         values: values(task, &best.shares),
         forward: best.forward,
         cost: best.cost,
@@ -97,12 +98,8 @@ pub fn search(task: &Task, threads: usize, progress: &mut dyn FnMut(f64)) -> Res
 }
 
 fn none(task: &Task) -> Error {
-    let message = format!(
-        "none of {} candidates can be assembled over a whole turn of the crank with the transmission angle and the stroke asked for",
-        task.effort.candidates
-    );
-    Error::new(ErrorKind::Numeric, message)
-        .help("draw more candidates, narrow the bounds about a drawing that turns fully, or ask for less in `limits`")
+    let message = sentences::none_of_candidates_can_be_assembled(&task.effort.candidates);
+    Error::new(ErrorKind::Numeric, message).help(sentences::DRAW_MORE_CANDIDATES_NARROW_THE_BOUNDS)
 }
 
 /// Keeps the cheapest `count`, in order; of equal ones the first drawn is first.

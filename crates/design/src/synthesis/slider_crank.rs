@@ -9,6 +9,7 @@
 //! The nearer extreme position n along the line solves `n^2 + s n + e^2 - |e| s cot(theta) = 0`.
 //! This follows from the right triangles of the extreme positions.
 
+use crate::sentences;
 use std::f64::consts::{PI, TAU};
 
 use super::{time_ratio, wrong};
@@ -55,11 +56,11 @@ impl SliderCrank {
     /// [`ErrorKind::Input`] for numbers that make no sense, [`ErrorKind::Geometry`] if no crank turns fully, with the limit.
     pub fn of(stroke: f64, offset: f64, given: Given) -> Result<Self> {
         if !(stroke > 0.0 && stroke.is_finite()) {
-            return Err(wrong("stroke", format!("the stroke is {stroke} m"), "give a length greater than zero"));
+            return Err(wrong("stroke", sentences::the_stroke_is(&stroke), sentences::GIVE_A_LENGTH_GREATER_THAN_ZERO));
         }
         if !offset.is_finite() {
-            let help = "give a decimal number; 0 for a central one";
-            return Err(wrong("offset", format!("the offset is {offset} m"), help));
+            let help = sentences::GIVE_A_DECIMAL_NUMBER_FOR_A_CENTRAL;
+            return Err(wrong("offset", sentences::the_offset_is(&offset), help));
         }
         let e = offset.abs();
         let (crank, rod) = match given {
@@ -87,14 +88,12 @@ impl SliderCrank {
 /// The crank for a rod.
 fn crank_of(stroke: f64, e: f64, rod: f64) -> Result<f64> {
     if !(rod > 0.0 && rod.is_finite()) {
-        return Err(wrong("rod", format!("the rod's length is {rod} m"), "give a length greater than zero"));
+        return Err(wrong("rod", sentences::the_rod_length_is(&rod), sentences::GIVE_A_LENGTH_GREATER_THAN_ZERO));
     }
     let shortest = (e + e.hypot(stroke)) / 2.0;
     if !(rod > shortest) {
-        let message = format!(
-            "a rod of {rod:.6} m is too short for a stroke of {stroke:.6} m at an offset of {e:.6} m: the crank could not turn fully"
-        );
-        return Err(impossible(message, format!("give a rod longer than {shortest:.6} m")));
+        let message = sentences::a_rod_of_is_too_short_for_a_stroke(&rod, &stroke, &e);
+        return Err(impossible(message, sentences::give_a_rod_longer_than(&shortest)));
     }
     let (rod, s) = (rod * rod, stroke * stroke);
     Ok((s * (4.0 * (rod - e * e) - s) / (4.0 * (4.0 * rod - s))).sqrt())
@@ -103,25 +102,24 @@ fn crank_of(stroke: f64, e: f64, rod: f64) -> Result<f64> {
 /// Crank and rod for a time ratio.
 fn of_time_ratio(stroke: f64, e: f64, ratio: f64) -> Result<(f64, f64)> {
     if !(ratio >= 1.0 && ratio.is_finite()) {
-        let help = "give the time of the slower stroke over that of the faster one, 1 or more";
-        return Err(wrong("time_ratio", format!("the time ratio is {ratio}"), help));
+        let help = sentences::GIVE_THE_TIME_OF_THE_SLOWER;
+        return Err(wrong("time_ratio", sentences::the_time_ratio_is(&ratio), help));
     }
     let theta = PI * (ratio - 1.0) / (ratio + 1.0);
     let undecided = match (e == 0.0, theta == 0.0) {
-        (true, true) => Some("without an offset any rod gives a time ratio of 1".to_string()),
-        (true, false) => Some(format!("without an offset both strokes take the same time, not {ratio} times as long")),
-        (false, true) => Some("with an offset the two strokes never take the same time".to_string()),
+        (true, true) => Some(sentences::WITHOUT_AN_OFFSET_ANY_ROD.to_string()),
+        (true, false) => Some(sentences::without_an_offset_both_strokes(&ratio)),
+        (false, true) => Some(sentences::WITH_AN_OFFSET_THE_TWO_STROKES.to_string()),
         (false, false) => None,
     };
     if let Some(message) = undecided {
-        return Err(impossible(message, "give the length of the rod instead of the time ratio, or change the offset"));
+        return Err(impossible(message, sentences::GIVE_THE_LENGTH_OF_THE_ROD));
     }
     let rest = e * e - e * stroke / theta.tan();
     if !(rest < 0.0) {
         let most = time_ratio((stroke / e).atan());
-        let message =
-            format!("a time ratio of {ratio} is out of reach with a stroke of {stroke:.6} m at an offset of {e:.6} m");
-        return Err(impossible(message, format!("ask for less than {most:.6}, or choose a smaller offset")));
+        let message = sentences::a_time_ratio_of_is_out_of_reach(&ratio, &stroke, &e);
+        return Err(impossible(message, sentences::ask_for_less_than_or_choose(&most)));
     }
     let near = 2.0 * -rest / (stroke + (stroke * stroke - 4.0 * rest).sqrt());
     let (far, near) = ((near + stroke).hypot(e), near.hypot(e));

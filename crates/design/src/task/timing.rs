@@ -1,5 +1,6 @@
 //! Wanted motion of an output over one turn of the crank: phases of motion in either sense and of dwell.
 
+use crate::sentences;
 use std::f64::consts::TAU;
 
 use linkage::error::{Error, ErrorKind, Result};
@@ -72,36 +73,39 @@ impl Timing {
         };
         if phases.len() < 2 {
             let help = "write `phases = [{ to_deg = 180, sense = \"forward\" }, { to_deg = 360, sense = \"back\" }]`";
-            return of_all(format!("found {} phases, but a motion has two at least", phases.len()), help);
+            return of_all(sentences::found_phases_but_a_motion(&phases.len()), help);
         }
         if phases.len() > MOST_PHASES {
-            let message = format!("found {} phases, more than {MOST_PHASES}", phases.len());
-            return of_all(message, "join phases of one sense");
+            let message = sentences::found_phases_more_than(&phases.len(), &MOST_PHASES);
+            return of_all(message, sentences::JOIN_PHASES_OF_ONE_SENSE);
         }
         let mut from = 0.0;
         for (index, phase) in phases.iter().enumerate() {
             if phase.from != from || !(phase.to > phase.from) {
-                let message =
-                    format!("the phase leads from {:.6} to {:.6} deg", phase.from.to_degrees(), phase.to.to_degrees());
-                return of_one(index, message, "let crank angles ascend from phase to phase; the first begins at 0");
+                let message = sentences::the_phase_leads_from_to_deg(&phase.from.to_degrees(), &phase.to.to_degrees());
+                return of_one(index, message, sentences::LET_CRANK_ANGLES_ASCEND_FROM_PHASE);
             }
             if phase.level.is_some_and(|level| !(0.0..=1.0).contains(&level)) {
-                return of_one(index, "a level is a share of the stroke".into(), "give a number from 0 to 1");
+                return of_one(
+                    index,
+                    sentences::A_LEVEL_IS_A_SHARE_OF_THE_STROKE.into(),
+                    sentences::GIVE_A_NUMBER_FROM_TO,
+                );
             }
             if !(phase.least >= 0.0 && phase.least < 1.0) {
-                let message = "the least displacement is a share of the stroke".into();
-                return of_one(index, message, "give a number from 0 to below 1");
+                let message = sentences::THE_LEAST_DISPLACEMENT_IS_A_SHARE.into();
+                return of_one(index, message, sentences::GIVE_A_NUMBER_FROM_TO_BELOW);
             }
             from = phase.to;
         }
         if (from - TAU).abs() > 1e-9 {
-            let message = format!("the last phase ends at {:.6} deg, not after a whole turn", from.to_degrees());
-            return of_one(phases.len() - 1, message, "let it end at 360 deg");
+            let message = sentences::the_last_phase_ends_at_deg(&from.to_degrees());
+            return of_one(phases.len() - 1, message, sentences::LET_IT_END_AT_DEG);
         }
         for sense in [Sense::Forward, Sense::Back] {
             if !phases.iter().any(|phase| phase.sense == sense) {
-                let message = format!("no phase goes {}: the output would not come round", sense.name());
-                return of_all(message, "an output that rocks goes forward and back in every turn");
+                let message = sentences::no_phase_goes_the_output(&sense.name());
+                return of_all(message, sentences::AN_OUTPUT_THAT_ROCKS_GOES);
             }
         }
         Ok(Timing { levels: levels(&phases), phases, follow: false })
@@ -113,8 +117,8 @@ impl Timing {
     /// [`ErrorKind::Input`] if a level is not known.
     pub fn followed(self) -> Result<Self> {
         if self.levels.is_none() {
-            return Err(wrong("follow", "the curve is to be followed, but not all levels are known".into())
-                .help("give every moving phase its `level`, or leave `follow` out"));
+            return Err(wrong("follow", sentences::THE_CURVE_IS_TO_BE_FOLLOWED.into())
+                .help(sentences::GIVE_EVERY_MOVING_PHASE_ITS_LEVEL));
         }
         Ok(Timing { follow: true, ..self })
     }

@@ -1,11 +1,12 @@
 //! Paints a figure into pixels.
 
+use crate::sentences;
 use tiny_skia::{
     Color, FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, PixmapPaint, Stroke, StrokeDash, Transform,
 };
 
 use super::glyphs::Glyphs;
-use crate::paper::figure::{Figure, Ink, Style, Tint, head};
+use crate::paper::figure::{DrawnFigure, Ink, Style, Tint, head};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::Vec2;
 
@@ -27,14 +28,14 @@ pub struct Bitmap {
 ///
 /// # Errors
 /// [`ErrorKind::Input`] for more than forty million pixels, or none.
-pub fn bitmap(figure: &Figure, [width, height]: [f64; 2], pixels: u32) -> Result<Bitmap> {
+pub fn bitmap(figure: &DrawnFigure, [width, height]: [f64; 2], pixels: u32) -> Result<Bitmap> {
     let scale = f64::from(pixels) / width;
     let rows = (height * scale).round();
     if !(rows >= 1.0 && rows * f64::from(pixels) <= MOST) {
-        let message = format!("a picture of {pixels} by {rows:.0} pixels is asked for");
-        return Err(Error::new(ErrorKind::Input, message).help("give a width between 100 and 4000 pixels"));
+        let message = sentences::a_picture_of_by_pixels_is_asked(&pixels, &rows);
+        return Err(Error::new(ErrorKind::Input, message).help(sentences::GIVE_A_WIDTH_BETWEEN_AND_PIXELS));
     }
-    let none = || Error::new(ErrorKind::Input, "there is no memory for the picture");
+    let none = || Error::new(ErrorKind::Input, sentences::THERE_IS_NO_MEMORY_FOR_THE_PICTURE);
     let mut pixmap = Pixmap::new(pixels, rows as u32).ok_or_else(none)?;
     pixmap.fill(Color::WHITE);
     let mut canvas = Canvas { pixmap, view: Transform::from_scale(scale as f32, scale as f32), glyphs: Glyphs::new() };
@@ -135,7 +136,7 @@ mod tests {
         let square = |from: f64| {
             [(0.0, 0.0), (4.0, 0.0), (4.0, -4.0), (0.0, -4.0)].map(|(x, y)| Vec2::new(x + from, y - 3.0)).to_vec()
         };
-        let (mut group, mut figure) = (Figure::default(), Figure::default());
+        let (mut group, mut figure) = (DrawnFigure::default(), DrawnFigure::default());
         for from in [1.0, 3.0] {
             group.area(square(from), Some(Tint::opaque("#000000")), solid("#000000", 0.0));
         }

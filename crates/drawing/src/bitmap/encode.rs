@@ -1,13 +1,14 @@
 //! Bitmaps as files.
 
 use super::Bitmap;
+use crate::sentences;
 use linkage::error::{Error, ErrorKind, Result};
 
 /// Effort of the palette's search: 1 is best, 30 fastest.
 const PALETTE: i32 = 10;
 
 fn unwritten(what: &str, error: &dyn std::fmt::Display) -> Error {
-    Error::new(ErrorKind::Io, format!("{what} could not be made: {error}"))
+    Error::new(ErrorKind::Io, sentences::could_not_be_made(&what, &error))
 }
 
 /// A PNG.
@@ -17,7 +18,7 @@ fn unwritten(what: &str, error: &dyn std::fmt::Display) -> Error {
 pub fn to_png(bitmap: &Bitmap) -> Result<Vec<u8>> {
     let size = tiny_skia::IntSize::from_wh(bitmap.width, bitmap.height);
     let pixmap = size.and_then(|size| tiny_skia::Pixmap::from_vec(bitmap.rgba.clone(), size));
-    let pixmap = pixmap.ok_or_else(|| unwritten("the PNG", &"it has no pixels"))?;
+    let pixmap = pixmap.ok_or_else(|| unwritten("the PNG", &sentences::IT_HAS_NO_PIXELS))?;
     pixmap.encode_png().map_err(|error| unwritten("the PNG", &error))
 }
 
@@ -29,8 +30,8 @@ pub fn to_png(bitmap: &Bitmap) -> Result<Vec<u8>> {
 pub fn to_gif(frames: &[Bitmap], hundredths: u16) -> Result<Vec<u8>> {
     let Some(first) = frames.first() else { return Ok(Vec::new()) };
     let (Ok(width), Ok(height)) = (u16::try_from(first.width), u16::try_from(first.height)) else {
-        let message = format!("a GIF has at most 65535 pixels in a row, and {} are asked for", first.width);
-        return Err(Error::new(ErrorKind::Input, message).help("give a smaller width"));
+        let message = sentences::a_gif_has_at_most_pixels(&first.width);
+        return Err(Error::new(ErrorKind::Input, message).help(sentences::GIVE_A_SMALLER_WIDTH));
     };
     let failed = |error: gif::EncodingError| unwritten("the GIF", &error);
     let mut bytes = Vec::new();

@@ -1,7 +1,7 @@
 //! Links as near to closed as it goes: the least squares of all gaps, after Levenberg and Marquardt.
 
-use linkage::math::{Column, KeepNan, Matrix, Vec2, cross, rotated, unit};
-use linkage::mechanism::{Joint, LinkId, LinkPose, Mechanism, Pose, Side};
+use linkage::math::{ColumnVector, KeepNan, Matrix, Vec2, cross, rotated, unit};
+use linkage::mechanism::{Joint, JointSide, LinkId, LinkPose, Mechanism, Pose};
 
 /// Weight of joints with links that have their place: what is missing shows between the others.
 const HELD: f64 = 1000.0;
@@ -35,12 +35,12 @@ struct Problem<'a> {
 
 impl Problem<'_> {
     /// The pose of a missing link: its unknowns are x and y in sizes of the mechanism, and its angle.
-    fn pose_of(&self, unknowns: &Column, k: usize) -> LinkPose {
+    fn pose_of(&self, unknowns: &ColumnVector, k: usize) -> LinkPose {
         let origin = Vec2::new(unknowns[3 * k], unknowns[3 * k + 1]) * self.size;
         LinkPose { origin, angle: unknowns[3 * k + 2] }
     }
 
-    fn place(&self, unknowns: &Column, link: LinkId) -> LinkPose {
+    fn place(&self, unknowns: &ColumnVector, link: LinkId) -> LinkPose {
         match self.missing.iter().position(|&own| own == link) {
             Some(k) => self.pose_of(unknowns, k),
             None => self.pose.0[link],
@@ -48,13 +48,13 @@ impl Problem<'_> {
     }
 
     /// Links turned by a multiple of the same angle, each at a neighbour that has a place.
-    fn start(&self, number: usize) -> Column {
-        let mut unknowns = Column::zeros(3 * self.missing.len());
+    fn start(&self, number: usize) -> ColumnVector {
+        let mut unknowns = ColumnVector::zeros(3 * self.missing.len());
         for (k, &link) in self.missing.iter().enumerate() {
             let angle = std::f64::consts::TAU * ((number * (k + 1)) as f64 / STARTS as f64 + 0.01);
             let known = |joint: &&Joint| joint.on(link).is_some() && !self.missing.contains(&joint.other(link).link);
             let at = self.mechanism.joints().iter().find(known).and_then(|joint| {
-                let Side { link: base, local } = joint.other(link);
+                let JointSide { link: base, local } = joint.other(link);
                 Some(LinkPose::through(joint.on(link)?, self.pose.0[base].point(local), angle).origin)
             });
             // What hangs on nothing lies beside the others.
@@ -69,7 +69,7 @@ impl Problem<'_> {
     }
 
     /// Gaps of all joints on missing links, in sizes of the mechanism.
-    fn gaps(&self, unknowns: &Column) -> Column {
+    fn gaps(&self, unknowns: &ColumnVector) -> ColumnVector {
         let mut gaps = Vec::new();
         for joint in self.mechanism.joints() {
             let sides = [joint.first, joint.second];
@@ -89,11 +89,11 @@ impl Problem<'_> {
             };
             gaps.extend(own.map(|part| weight * part));
         }
-        Column::from_vec(gaps)
+        ColumnVector::from_vec(gaps)
     }
 
     /// Unknowns with the least squares of the gaps that are found from a start, and their sum.
-    fn solved(&self, start: usize) -> (Column, f64) {
+    fn solved(&self, start: usize) -> (ColumnVector, f64) {
         let mut at = self.start(start);
         let mut gaps = self.gaps(&at);
         let mut damping = 1e-3;

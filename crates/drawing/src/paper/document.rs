@@ -1,16 +1,17 @@
 //! Writes a drawing as an SVG document.
 
-use super::figure::Figure;
+use super::figure::DrawnFigure;
+use crate::sentences;
 use svg::Document;
 
 /// The document of a figure on white paper: its upper left corner is the figure's origin, its size is in mm.
 #[must_use]
-pub fn document(figure: &Figure, [width, height]: [f64; 2], title: &str) -> String {
+pub fn document(figure: &DrawnFigure, [width, height]: [f64; 2], title: &str) -> String {
     let mut document = Document::new()
         .set("width", format!("{width:.0}mm"))
         .set("height", format!("{height:.0}mm"))
         .set("viewBox", format!("0 0 {width:.0} {height:.0}"))
-        .set("font-family", "Liberation Sans, Arial, Helvetica, sans-serif")
+        .set("font-family", sentences::LIBERATION_SANS_ARIAL_HELVETICA_SANS)
         .set("stroke-linecap", "round")
         .set("stroke-linejoin", "round")
         .add(svg::node::element::Title::new(super::figure::clean(title)))

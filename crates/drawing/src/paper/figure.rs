@@ -144,12 +144,12 @@ pub(crate) enum Ink {
 
 /// A figure, or a part of one.
 #[derive(Clone, Debug, Default)]
-pub struct Figure {
+pub struct DrawnFigure {
     pub(crate) ink: Vec<Ink>,
     low: Option<[Vec2; 2]>,
 }
 
-impl Figure {
+impl DrawnFigure {
     /// A straight line.
     pub fn line(&mut self, ends: [Vec2; 2], style: Style) {
         ends.iter().for_each(|end| self.reach(*end));
@@ -193,7 +193,7 @@ impl Figure {
 
     /// All of another figure as one element of this opacity, with a name that appears when the mouse points at it. What
     /// overlaps in it is no darker.
-    pub fn group(&mut self, other: Figure, opacity: f64, name: String) {
+    pub fn group(&mut self, other: DrawnFigure, opacity: f64, name: String) {
         if let Some(bounds) = other.low {
             bounds.iter().for_each(|corner| self.reach(*corner));
         }
@@ -207,7 +207,7 @@ impl Figure {
     }
 
     /// Adds all of `other` to this figure, moved by `offset`.
-    pub fn add(&mut self, other: &Figure, offset: Vec2) {
+    pub fn add(&mut self, other: &DrawnFigure, offset: Vec2) {
         if let Some(bounds) = other.low {
             bounds.iter().for_each(|corner| self.reach(corner + offset));
         }
@@ -380,7 +380,7 @@ mod tests {
     /// The wall of a cylinder is open at one end, and what lies beneath the cylinder must not be seen in it.
     #[test]
     fn an_open_line_may_cover_what_lies_beneath() {
-        let mut figure = Figure::default();
+        let mut figure = DrawnFigure::default();
         let corners = vec![Vec2::zeros(), Vec2::new(1.0, 0.0), Vec2::new(1.0, 1.0)];
         figure.curve(corners.clone(), Some(Tint::opaque("white")), solid("#000000", 0.5));
         figure.curve(corners.clone(), None, solid("#000000", 0.5));

@@ -1,7 +1,7 @@
 //! Letters at points: they are placed so that they touch neither lines nor each other.
 //! Each label takes the cheapest position around its anchor, in a few rounds.
 
-use super::figure::{Figure, Type, solid, width, words};
+use super::figure::{DrawnFigure, Type, solid, width, words};
 use super::style::GREY;
 use crate::guide::inside;
 use linkage::math::{KeepNan, Vec2};
@@ -30,7 +30,7 @@ const FAR: f64 = 3.2;
 
 /// A label to be placed; paper coordinates (mm), y upwards.
 #[derive(Clone, Copy, Debug)]
-pub struct Label {
+pub struct PlacedLabel {
     /// The point it names.
     pub anchor: Vec2,
     /// Preferred direction from the anchor; zero if there is none.
@@ -52,11 +52,11 @@ pub struct Obstacles {
 
 /// Centres of the labels' boxes in one of so many drawings that are made together and share the work.
 #[must_use]
-pub fn place_among(labels: &[Label], obstacles: &Obstacles, drawings: usize) -> Vec<Vec2> {
+pub fn place_among(labels: &[PlacedLabel], obstacles: &Obstacles, drawings: usize) -> Vec<Vec2> {
     place_within(labels, obstacles, (MOST_COMPARED / drawings.max(1)).max(LEAST_COMPARED))
 }
 
-fn place_within(labels: &[Label], obstacles: &Obstacles, most: usize) -> Vec<Vec2> {
+fn place_within(labels: &[PlacedLabel], obstacles: &Obstacles, most: usize) -> Vec<Vec2> {
     let mut places: Vec<Option<Vec2>> = vec![None; labels.len()];
     // Calls of `cheapest` that are left.
     let each = DIRECTIONS * DISTANCES.len() * (labels.len() + obstacles.segments.len() + obstacles.discs.len());
@@ -82,7 +82,7 @@ fn place_within(labels: &[Label], obstacles: &Obstacles, most: usize) -> Vec<Vec
 /// Lets neighbours exchange positions if that is better for the two together.
 /// A single label would not leave a position that only it can take.
 /// Two of the calls that are `left` are used for each pair.
-fn trade(labels: &[Label], places: &mut [Option<Vec2>], obstacles: &Obstacles, left: &mut usize) {
+fn trade(labels: &[PlacedLabel], places: &mut [Option<Vec2>], obstacles: &Obstacles, left: &mut usize) {
     let both = |a: usize, b: usize, places: &[Option<Vec2>]| {
         let one = |index: usize| places[index].map_or(f64::INFINITY, |at| cost(index, at, labels, places, obstacles));
         one(a) + one(b)
@@ -108,14 +108,14 @@ fn trade(labels: &[Label], places: &mut [Option<Vec2>], obstacles: &Obstacles, l
     }
 }
 
-fn cheapest(index: usize, labels: &[Label], places: &[Option<Vec2>], obstacles: &Obstacles) -> Option<Vec2> {
+fn cheapest(index: usize, labels: &[PlacedLabel], places: &[Option<Vec2>], obstacles: &Obstacles) -> Option<Vec2> {
     candidates(&labels[index])
         .map(|place| (cost(index, place, labels, places, obstacles), place))
         .min_by(|a, b| a.0.total_cmp(&b.0))
         .map(|(_, place)| place)
 }
 
-fn candidates(label: &Label) -> impl Iterator<Item = Vec2> + '_ {
+fn candidates(label: &PlacedLabel) -> impl Iterator<Item = Vec2> + '_ {
     let directions = (0..DIRECTIONS).map(|k| linkage::math::unit(std::f64::consts::TAU * k as f64 / DIRECTIONS as f64));
     directions.flat_map(move |direction| {
         DISTANCES.into_iter().map(move |distance| {
@@ -127,7 +127,7 @@ fn candidates(label: &Label) -> impl Iterator<Item = Vec2> + '_ {
     })
 }
 
-fn cost(index: usize, place: Vec2, labels: &[Label], places: &[Option<Vec2>], obstacles: &Obstacles) -> f64 {
+fn cost(index: usize, place: Vec2, labels: &[PlacedLabel], places: &[Option<Vec2>], obstacles: &Obstacles) -> f64 {
     let label = &labels[index];
     let offset = place - label.anchor;
     let distance = offset.norm();
@@ -181,7 +181,7 @@ pub fn label_size(text: &str) -> Vec2 {
 }
 
 /// A label at its position, with a line to its point if that is far away.
-pub fn letter(figure: &mut Figure, label: &Label, at: Vec2, text: &str, paint: &'static str) {
+pub fn letter(figure: &mut DrawnFigure, label: &PlacedLabel, at: Vec2, text: &str, paint: &'static str) {
     let toward = label.anchor - at;
     let half = label.size / 2.0;
     let edge = (half.x / toward.x.abs().larger(1e-9)).smaller(half.y / toward.y.abs().larger(1e-9));
@@ -197,8 +197,8 @@ pub fn letter(figure: &mut Figure, label: &Label, at: Vec2, text: &str, paint: &
 mod tests {
     use super::*;
 
-    fn label(x: f64, y: f64) -> Label {
-        Label { anchor: Vec2::new(x, y), away: Vec2::new(1.0, 0.0), size: Vec2::new(3.0, 3.0), clear: 0.5 }
+    fn label(x: f64, y: f64) -> PlacedLabel {
+        PlacedLabel { anchor: Vec2::new(x, y), away: Vec2::new(1.0, 0.0), size: Vec2::new(3.0, 3.0), clear: 0.5 }
     }
 
     #[test]
@@ -240,7 +240,7 @@ mod tests {
     #[test]
     fn more_labels_than_there_is_room_for_get_a_place_all_the_same() {
         // Each of 2000 labels with 288 positions against all others, twice for every pair of neighbours: 1e12 and more.
-        let crowd: Vec<Label> = (0..2000).map(|k| label(0.01 * f64::from(k), 0.0)).collect();
+        let crowd: Vec<PlacedLabel> = (0..2000).map(|k| label(0.01 * f64::from(k), 0.0)).collect();
         let places = place_within(&crowd, &Obstacles::default(), 10_000_000);
         assert!(places.iter().zip(&crowd).all(|(at, own)| (at - own.anchor).norm() < 25.0), "{places:?}");
     }

@@ -1,6 +1,6 @@
 //! Tables of a drawing.
 
-use super::figure::{Figure, Style, Type, solid, width, words};
+use super::figure::{DrawnFigure, Style, Type, solid, width, words};
 use super::style::{BLACK, GREY};
 use linkage::math::{KeepNan, Vec2};
 
@@ -12,7 +12,7 @@ const GAP: f64 = 3.0;
 const SAMPLE: f64 = 9.0;
 
 /// A table: a heading, and rows that each start with a sample of the line they explain.
-pub struct Table {
+pub struct LegendTable {
     /// Headings of the columns.
     pub head: Vec<&'static str>,
     /// Rows: the line that each explains, and its cells.
@@ -21,11 +21,11 @@ pub struct Table {
     pub numbers: &'static [usize],
 }
 
-impl Table {
+impl LegendTable {
     /// The table as a figure; its upper left corner is the origin.
     #[must_use]
-    pub fn figure(&self) -> Figure {
-        let mut figure = Figure::default();
+    pub fn figure(&self) -> DrawnFigure {
+        let mut figure = DrawnFigure::default();
         let cells = |column: usize| self.rows.iter().filter_map(move |(_, row)| row.get(column));
         let wide = |column: usize| {
             let head = width(self.head[column], SIZE);

@@ -2,7 +2,7 @@
 
 /// What a run has done, by name: `steps`, `sweeps`, `poses`, `evaluations`, `factorisations`, ...
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Effort(pub Vec<(String, u64)>);
+pub struct RunEffort(pub Vec<(String, u64)>);
 
 /// Counts of which each is one solution of the whole mechanism at one state, the first that there is. A step of a method
 /// of several stages has as many evaluations.
@@ -10,7 +10,7 @@ const SOLUTIONS: [&[&str]; 3] = [&["evaluations"], &["steps", "probes"], &["pose
 /// Counts of the inner work of such a solution, the first that there is.
 const INNER: [&[&str]; 4] = [&["sweeps"], &["factorisations"], &["iterations"], &["groups"]];
 
-impl Effort {
+impl RunEffort {
     /// How often something was done; `None` if nobody counted it.
     #[must_use]
     pub fn of(&self, name: &str) -> Option<u64> {
@@ -41,7 +41,8 @@ mod tests {
 
     #[test]
     fn what_comes_first_counts() {
-        let effort = |counts: &[(&str, u64)]| Effort(counts.iter().map(|&(name, n)| (name.to_string(), n)).collect());
+        let effort =
+            |counts: &[(&str, u64)]| RunEffort(counts.iter().map(|&(name, n)| (name.to_string(), n)).collect());
         let engine = effort(&[("poses", 3), ("steps", 10), ("probes", 2), ("sweeps", 40)]);
         assert_eq!((engine.solutions(), engine.inner()), (Some(12), Some(40)));
         let stages = effort(&[("steps", 10), ("evaluations", 41)]);

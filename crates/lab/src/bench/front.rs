@@ -1,12 +1,12 @@
 //! Pareto fronts: the points that no other beats in cost and error at once.
 
-use super::point::Point;
+use super::point::BenchPoint;
 use linkage::trajectory::Stage;
 
 linkage::words! {
     /// What a point costs.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-    pub enum Axis: name {
+    pub enum CostAxis: name {
         /// Shortest time.
         Time = "time",
         /// Solutions of the whole mechanism.
@@ -16,15 +16,15 @@ linkage::words! {
     }
 }
 
-impl Axis {
+impl CostAxis {
     /// Cost of a point along the axis: seconds, or a count.
     #[must_use]
-    pub fn of(self, point: &Point) -> Option<f64> {
+    pub fn of(self, point: &BenchPoint) -> Option<f64> {
         let effort = || point.run().map(|run| &run.effort);
         match self {
-            Axis::Time => point.seconds(),
-            Axis::Solutions => effort()?.solutions().map(|count| count as f64),
-            Axis::Inner => effort()?.inner().map(|count| count as f64),
+            CostAxis::Time => point.seconds(),
+            CostAxis::Solutions => effort()?.solutions().map(|count| count as f64),
+            CostAxis::Inner => effort()?.inner().map(|count| count as f64),
         }
     }
 }
@@ -32,7 +32,13 @@ impl Axis {
 /// Indices of the points that no other beats in a stage, the cheapest first. What is equal in both stays once.
 /// An error on the floor counts as the floor: below it nobody is better than another.
 #[must_use]
-pub fn front(points: &[Point], stage: Stage, axis: Axis, floor: f64, of: &dyn Fn(&Point) -> bool) -> Vec<usize> {
+pub fn front(
+    points: &[BenchPoint],
+    stage: Stage,
+    axis: CostAxis,
+    floor: f64,
+    of: &dyn Fn(&BenchPoint) -> bool,
+) -> Vec<usize> {
     let place = |index: usize| {
         let point = Some(&points[index]).filter(|point| of(point))?;
         let error = point.error(stage)?.max;
@@ -57,7 +63,7 @@ mod tests {
     use super::super::point::{Errors, Outcome, Party, Run};
     use super::*;
 
-    fn point(seconds: f64, error: f64) -> Point {
+    fn point(seconds: f64, error: f64) -> BenchPoint {
         let errors = Errors { max: error, rms: error, is_limited: false };
         let run = Run {
             errors: [Some(errors); 5],
@@ -66,7 +72,7 @@ mod tests {
             seconds: vec![seconds],
             effort: Effort::default(),
         };
-        Point {
+        BenchPoint {
             program: "p".into(),
             party: Party::Peer,
             way: String::new(),
@@ -87,8 +93,8 @@ mod tests {
         };
         for _ in 0..50 {
             let places: Vec<[f64; 2]> = (0..12).map(|_| [random(), random()]).collect();
-            let points: Vec<Point> = places.iter().map(|&[seconds, error]| point(seconds, error)).collect();
-            let found = front(&points, Stage::Positions, Axis::Time, 0.0, &|_| true);
+            let points: Vec<BenchPoint> = places.iter().map(|&[seconds, error]| point(seconds, error)).collect();
+            let found = front(&points, Stage::Positions, CostAxis::Time, 0.0, &|_| true);
             let beaten =
                 |own: [f64; 2]| places.iter().any(|other| other[0] <= own[0] && other[1] <= own[1] && *other != own);
             let mut expected: Vec<[f64; 2]> = places.iter().copied().filter(|&own| !beaten(own)).collect();
@@ -101,7 +107,7 @@ mod tests {
     #[test]
     fn below_the_floor_nobody_is_better() {
         let points = [point(1.0, 1e-9), point(2.0, 1e-15), point(3.0, 1e-16)];
-        assert_eq!(front(&points, Stage::Positions, Axis::Time, 1e-14, &|_| true), [0, 1]);
-        assert!(front(&points, Stage::Positions, Axis::Solutions, 0.0, &|_| true).is_empty());
+        assert_eq!(front(&points, Stage::Positions, CostAxis::Time, 1e-14, &|_| true), [0, 1]);
+        assert!(front(&points, Stage::Positions, CostAxis::Solutions, 0.0, &|_| true).is_empty());
     }
 }

@@ -1,8 +1,9 @@
 //! The ways that are measured: steps, sweeps, routes and extrapolations of every engine, accuracies of the sides.
 
-use super::options::Options;
+use super::options::BenchOptions;
 use super::peer::Way;
-use super::point::{Outcome, Party, Point};
+use super::point::{BenchOutcome, BenchPoint, MethodOwner};
+use crate::sentences;
 use crate::steps::work_of_run;
 use analytic::reduced::ACCURACY;
 use analytic::{AssurAt, NewtonAt};
@@ -37,28 +38,31 @@ pub(super) enum Runner {
 
 /// A way that is to be measured: its point, which has failed until it has run.
 pub(super) struct Planned {
-    pub(super) point: Point,
+    pub(super) point: BenchPoint,
     pub(super) runner: Runner,
 }
 
 impl Planned {
-    fn new(program: &str, party: Party, resolution: String, runner: Runner) -> Self {
+    fn new(program: &str, party: MethodOwner, resolution: String, runner: Runner) -> Self {
         let (program, way) = (program.to_string(), String::new());
-        let outcome = Outcome::Failed("it was not run".into());
-        Planned { point: Point { program, party, way, resolution, settings: None, is_usual: false, outcome }, runner }
+        let outcome = BenchOutcome::Failed(sentences::IT_WAS_NOT_RUN.into());
+        Planned {
+            point: BenchPoint { program, party, way, resolution, settings: None, is_usual: false, outcome },
+            runner,
+        }
     }
 
     /// A peer's own way.
     pub(super) fn of_peer(index: usize, name: &str, way: Way) -> Self {
         let words = way.name.clone();
-        let mut planned = Planned::new(name, Party::Peer, way.resolution.clone(), Runner::Peer(index, way));
+        let mut planned = Planned::new(name, MethodOwner::Peer, way.resolution.clone(), Runner::Peer(index, way));
         planned.point.way = words;
         planned
     }
 
     fn of_side(solver: Box<dyn Solver>, accuracy: Option<f64>) -> Self {
         let resolution = accuracy.map_or_else(String::new, |accuracy| format!("accuracy {accuracy:e}"));
-        Planned::new(solver.name(), Party::Side, resolution, Runner::Side(solver))
+        Planned::new(solver.name(), MethodOwner::Side, resolution, Runner::Side(solver))
     }
 }
 
@@ -71,7 +75,7 @@ pub(super) struct Plan {
 
 /// The ways of sides and engines. The budget is shared equally by all curves of engines; each takes ever finer steps
 /// until its share is used.
-pub(super) fn plan(case: &Case, options: &Options) -> Plan {
+pub(super) fn plan(case: &Case, options: &BenchOptions) -> Plan {
     let mut points = sides(case, options);
     let names = if options.engines.is_empty() { EngineName::ALL.to_vec() } else { options.engines.clone() };
     let engines: Vec<Box<dyn Engine>> =
@@ -100,7 +104,7 @@ pub(super) fn plan(case: &Case, options: &Options) -> Plan {
                 false => format!("step {resolution:.3e} s"),
             };
             let runner = Runner::Engine(engine.with(settings));
-            let mut planned = Planned::new(engine.name(), Party::Engine, resolution, runner);
+            let mut planned = Planned::new(engine.name(), MethodOwner::Engine, resolution, runner);
             (planned.point.way, planned.point.settings) = (told(engine, &settings, case), Some(settings));
             points.push(planned);
         }
@@ -108,7 +112,7 @@ pub(super) fn plan(case: &Case, options: &Options) -> Plan {
     Plan { points, left_out, versions }
 }
 
-fn sides(case: &Case, options: &Options) -> Vec<Planned> {
+fn sides(case: &Case, options: &BenchOptions) -> Vec<Planned> {
     let make = |accuracy: f64| -> [Box<dyn Solver>; 2] { [Box::new(AssurAt(accuracy)), Box::new(NewtonAt(accuracy))] };
     let told = case.is_free().then_some(ACCURACY);
     let mut points: Vec<Planned> = make(ACCURACY).map(|side| Planned::of_side(side, told)).into();
@@ -123,7 +127,7 @@ fn sides(case: &Case, options: &Options) -> Vec<Planned> {
 }
 
 /// All settings of an engine but its resolution.
-fn curves(engine: &dyn Engine, case: &Case, options: &Options) -> Vec<Settings> {
+fn curves(engine: &dyn Engine, case: &Case, options: &BenchOptions) -> Vec<Settings> {
     let own = engine.settings();
     let has_forces = case.wanted.deepest() >= Stage::Reactions;
     let routes: Vec<Route> = if has_forces { engine.routes().to_vec() } else { vec![own.route] };
@@ -149,7 +153,7 @@ fn curves(engine: &dyn Engine, case: &Case, options: &Options) -> Vec<Settings> 
     curves
 }
 
-fn resolutions(engine: &dyn Engine, usual: f64, options: &Options) -> Vec<f64> {
+fn resolutions(engine: &dyn Engine, usual: f64, options: &BenchOptions) -> Vec<f64> {
     match (engine.controls_error(), options.is_quick) {
         (true, true) => QUICK_ACCURACIES.to_vec(),
         (true, false) => ACCURACIES.to_vec(),
@@ -180,7 +184,7 @@ fn told(engine: &dyn Engine, settings: &Settings, case: &Case) -> String {
         0 => {}
         1 => words.push("extrapolated once".into()),
         2 => words.push("extrapolated twice".into()),
-        times => words.push(format!("extrapolated {times} times")),
+        times => words.push(sentences::extrapolated_times(&times)),
     }
     words.join(", ")
 }

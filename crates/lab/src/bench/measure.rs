@@ -1,12 +1,13 @@
 //! Runs and their times, in rounds: every way once, then every way again, so that what else the machine does falls on
 //! all of them.
 
-use super::effort::Effort;
+use super::effort::RunEffort;
 use super::ladder::{Planned, Runner};
 use super::options::Clock;
 use super::peer::{Answer, Peer};
-use super::point::{Outcome, Point, Run};
+use super::point::{AnsweredRun, BenchOutcome, BenchPoint};
 use super::reference::{Floor, apart};
+use crate::sentences;
 use linkage::case::Case;
 use linkage::error::Error;
 use linkage::math::KeepNan;
@@ -43,17 +44,18 @@ impl Desk<'_> {
         rounds: usize,
         progress: &mut dyn FnMut(f64),
         versions: &mut Vec<(String, String)>,
-    ) -> Vec<Point> {
+    ) -> Vec<BenchPoint> {
         let (count, all) = (planned.len(), (rounds * planned.len()).max(1) as f64);
         for round in 0..rounds {
             for (index, Planned { point, runner }) in planned.iter_mut().enumerate() {
                 progress((round * count + index) as f64 / all);
                 match &mut point.outcome {
-                    Outcome::Answered(run) if round > 0 => self.again(runner, round, run),
-                    Outcome::Answered(_) | Outcome::Failed(_) if round > 0 => {}
-                    outcome @ (Outcome::Answered(_) | Outcome::Failed(_)) => {
+                    BenchOutcome::Answered(run) if round > 0 => self.again(runner, round, run),
+                    BenchOutcome::Answered(_) | BenchOutcome::Failed(_) if round > 0 => {}
+                    outcome @ (BenchOutcome::Answered(_) | BenchOutcome::Failed(_)) => {
                         let found = self.first(runner, versions);
-                        *outcome = found.map_or_else(|reason| Outcome::Failed(short(&reason)), Outcome::Answered);
+                        *outcome =
+                            found.map_or_else(|reason| BenchOutcome::Failed(short(&reason)), BenchOutcome::Answered);
                     }
                 }
             }
@@ -61,7 +63,7 @@ impl Desk<'_> {
         planned.into_iter().map(|own| own.point).collect()
     }
 
-    fn first(&self, runner: &Runner, versions: &mut Vec<(String, String)>) -> Result<Run, String> {
+    fn first(&self, runner: &Runner, versions: &mut Vec<(String, String)>) -> Result<AnsweredRun, String> {
         let told = |error: Error| error.to_string();
         match runner {
             Runner::Side(solver) => self.own(solver.as_ref()).map_err(told),
@@ -79,7 +81,7 @@ impl Desk<'_> {
     }
 
     /// One more round of what answered.
-    fn again(&self, runner: &Runner, round: usize, run: &mut Run) {
+    fn again(&self, runner: &Runner, round: usize, run: &mut AnsweredRun) {
         let is_long = run.seconds.iter().any(|&seconds| seconds > LONG);
         match runner {
             Runner::Side(_) | Runner::Engine(_) | Runner::Peer(..) if is_long && round >= FEW => {}
@@ -113,36 +115,31 @@ impl Desk<'_> {
         Ok((((self.clock)() - since) / times as f64, found, work))
     }
 
-    fn own<S: Solver + ?Sized>(&self, solver: &S) -> Result<Run, Error> {
+    fn own<S: Solver + ?Sized>(&self, solver: &S) -> Result<AnsweredRun, Error> {
         let (seconds, found, work) = self.timed(solver)?;
         let counts = Count::ALL.into_iter().map(|what| (what.name().to_string(), work.of(what)));
-        let effort = Effort(counts.filter(|(_, times)| *times > 0).collect());
+        let effort = RunEffort(counts.filter(|(_, times)| *times > 0).collect());
         let apart = apart(self.reference, &found)?;
         let errors = Stage::ALL
             .map(|stage| self.case.wanted.has(stage).then(|| self.floor.judged(stage, apart[stage as usize])));
-        Ok(Run { errors, failed: Vec::new(), without: Vec::new(), seconds: vec![seconds], effort })
+        Ok(AnsweredRun { errors, failed: Vec::new(), without: Vec::new(), seconds: vec![seconds], effort })
     }
 
     /// A peer's answer as a run; everything that is wrong with it is a reason.
-    fn judged(&self, answer: Answer) -> Result<Run, String> {
+    fn judged(&self, answer: Answer) -> Result<AnsweredRun, String> {
         let column = |name: &str| answer.columns.iter().find(|(own, _)| own == name).map(|(_, values)| values);
-        let times = column("t_s").ok_or("the answer has no column t_s")?;
+        let times = column("t_s").ok_or(sentences::THE_ANSWER_HAS_NO_COLUMN)?;
         let wanted = &self.case.grid.times;
         if times.len() != wanted.len() {
-            return Err(format!("the answer has {} instants, and {} are wanted", times.len(), wanted.len()));
+            return Err(sentences::the_answer_has_instants_and_are_wanted(&times.len(), &wanted.len()));
         }
         let span = wanted.iter().fold(0.0f64, |most, t| most.larger(t.abs()));
         if let Some(row) = (0..times.len()).find(|&row| !((times[row] - wanted[row]).abs() <= SAME * span)) {
-            return Err(format!(
-                "row {} of the answer is at {} s, and {} s is wanted",
-                row + 1,
-                times[row],
-                wanted[row]
-            ));
+            return Err(sentences::row_of_the_answer_is_at_and_is_wanted(&(row + 1), &times[row], &wanted[row]));
         }
         let seconds: Vec<f64> = answer.seconds.iter().copied().filter(|&own| own > 0.0 && own.is_finite()).collect();
         if seconds.is_empty() {
-            return Err("the answer has no time above 0 s".into());
+            return Err(sentences::THE_ANSWER_HAS_NO_TIME_ABOVE.into());
         }
         let (mut errors, mut failed, mut without) = ([None; Stage::ALL.len()], Vec::new(), Vec::new());
         for stage in Stage::ALL.into_iter().filter(|&stage| self.case.wanted.has(stage)) {
@@ -167,20 +164,20 @@ impl Desk<'_> {
         }
         // A run without any channel is no run.
         match (errors.iter().any(Option::is_some), failed.first()) {
-            (true, _) => Ok(Run { errors, failed, without, seconds, effort: answer.effort }),
+            (true, _) => Ok(AnsweredRun { errors, failed, without, seconds, effort: answer.effort }),
             (false, Some((_, reason))) => Err(reason.clone()),
-            (false, None) => Err("the answer has none of the wanted channels".into()),
+            (false, None) => Err(sentences::THE_ANSWER_HAS_NONE_OF_THE_WANTED.into()),
         }
     }
 }
 
 fn and_more(more: usize) -> String {
-    if more == 0 { String::new() } else { format!(" and {more} more") }
+    if more == 0 { String::new() } else { sentences::and_more(&more) }
 }
 
 /// The first line of a reason, not too long for a diagram.
 fn short(reason: &str) -> String {
-    let line = reason.lines().find(|line| !line.trim().is_empty()).unwrap_or("no reason was given").trim();
+    let line = reason.lines().find(|line| !line.trim().is_empty()).unwrap_or(sentences::NO_REASON_WAS_GIVEN).trim();
     match line.char_indices().nth(REASON) {
         Some((end, _)) => format!("{}...", &line[..end]),
         None => line.to_string(),

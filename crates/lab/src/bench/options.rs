@@ -10,7 +10,7 @@ pub const CLEAR: f64 = 100.0;
 
 /// What is measured.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Options {
+pub struct BenchOptions {
     /// Engines; if empty, all of this build.
     pub engines: Vec<EngineName>,
     /// A coarse picture: fewer settings and one round of timing.
@@ -21,7 +21,7 @@ pub struct Options {
     pub rounds: Option<usize>,
 }
 
-impl Options {
+impl BenchOptions {
     /// Work allowed, given or usual.
     pub(super) fn budget(&self) -> f64 {
         self.budget.unwrap_or(if self.is_quick { 3e5 } else { 2e6 })

@@ -1,6 +1,6 @@
 //! Another program that solves the same scenario.
 
-use super::effort::Effort;
+use super::effort::RunEffort;
 
 /// One way in which a peer wants to be run: it chooses its own ladder.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -23,7 +23,7 @@ pub struct Answer {
     /// Times that it has measured itself (s), at least one.
     pub seconds: Vec<f64>,
     /// What it has counted.
-    pub effort: Effort,
+    pub effort: RunEffort,
 }
 
 /// Another program. Reasons are in words: they are shown on the diagram.

@@ -1,6 +1,6 @@
 //! One way of solving a scenario, and what came of it.
 
-use super::effort::Effort;
+use super::effort::RunEffort;
 use linkage::engine::Settings;
 use linkage::math::KeepNan;
 use linkage::trajectory::Stage;
@@ -8,7 +8,7 @@ use linkage::trajectory::Stage;
 linkage::words! {
     /// Whose way it is.
     #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-    pub enum Party: name {
+    pub enum MethodOwner: name {
         /// An analytic side.
         Side = "side",
         /// An engine of this build.
@@ -31,7 +31,7 @@ pub struct Errors {
 
 /// A run that answered.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Run {
+pub struct AnsweredRun {
     /// Errors by stage, in the order of [`Stage::ALL`]; `None` where nothing was wanted, or a peer has no such channel.
     pub errors: [Option<Errors>; Stage::ALL.len()],
     /// Stages in which a peer's numbers are wrong, with what is wrong: they count as failures.
@@ -42,25 +42,25 @@ pub struct Run {
     /// Times of all rounds (s).
     pub seconds: Vec<f64>,
     /// What was done.
-    pub effort: Effort,
+    pub effort: RunEffort,
 }
 
 /// What came of it.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Outcome {
+pub enum BenchOutcome {
     /// It answered.
-    Answered(Run),
+    Answered(AnsweredRun),
     /// It failed, for this reason.
     Failed(String),
 }
 
 /// One way of solving a scenario.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Point {
+pub struct BenchPoint {
     /// Name of solver, engine or peer.
     pub program: String,
     /// Whose it is.
-    pub party: Party,
+    pub party: MethodOwner,
     /// Settings besides the resolution, in words.
     pub way: String,
     /// Step or accuracy, in words.
@@ -70,16 +70,16 @@ pub struct Point {
     /// Whether the settings are those that the program has without being asked. Only sides say so.
     pub is_usual: bool,
     /// What came of it.
-    pub outcome: Outcome,
+    pub outcome: BenchOutcome,
 }
 
-impl Point {
+impl BenchPoint {
     /// The run, if it answered.
     #[must_use]
-    pub fn run(&self) -> Option<&Run> {
+    pub fn run(&self) -> Option<&AnsweredRun> {
         match &self.outcome {
-            Outcome::Answered(run) => Some(run),
-            Outcome::Failed(_) => None,
+            BenchOutcome::Answered(run) => Some(run),
+            BenchOutcome::Failed(_) => None,
         }
     }
 
@@ -100,8 +100,10 @@ impl Point {
     #[must_use]
     pub fn failure(&self, stage: Stage) -> Option<&str> {
         match &self.outcome {
-            Outcome::Failed(reason) => Some(reason),
-            Outcome::Answered(run) => run.failed.iter().find(|(own, _)| *own == stage).map(|(_, what)| what.as_str()),
+            BenchOutcome::Failed(reason) => Some(reason),
+            BenchOutcome::Answered(run) => {
+                run.failed.iter().find(|(own, _)| *own == stage).map(|(_, what)| what.as_str())
+            }
         }
     }
 

@@ -2,6 +2,7 @@
 
 use super::options::CLEAR;
 use super::point::Errors;
+use crate::sentences;
 use analytic::range::explained;
 use analytic::{AssurSolver, NewtonSolver, TIGHT_ASSUR, TIGHT_NEWTON};
 use linkage::case::Case;
@@ -44,16 +45,13 @@ pub(super) fn of(case: &Case) -> Result<(Trajectory, Floor)> {
         let (tight, other) = (solved(&TIGHT_ASSUR)?, solved(&TIGHT_NEWTON)?);
         let (between, left) = (apart(&tight, &other)?, apart(&tight, &solved(&AssurSolver)?)?);
         let errors = std::array::from_fn(|stage| between[stage][0].larger(LEFT * left[stage][0]).larger(f64::EPSILON));
-        let basis = "difference of both sides at the tighter integration, or what the tighter integration leaves";
-        return Ok((
-            tight,
-            Floor { reference: "side 1 (assur), integrated a hundred times as tightly", basis, errors },
-        ));
+        let basis = sentences::DIFFERENCE_OF_BOTH_SIDES_AT_THE_TIGHTER;
+        return Ok((tight, Floor { reference: sentences::SIDE_ASSUR_INTEGRATED_A_HUNDRED, basis, errors }));
     }
     let (first, second) = (solved(&AssurSolver)?, solved(&NewtonSolver)?);
     let between = apart(&first, &second)?;
     let errors = std::array::from_fn(|stage| between[stage][0].larger(f64::EPSILON));
-    Ok((first, Floor { reference: "side 1 (assur)", basis: "difference of the two sides", errors }))
+    Ok((first, Floor { reference: sentences::SIDE_ASSUR, basis: sentences::DIFFERENCE_OF_THE_TWO_SIDES, errors }))
 }
 
 /// Largest error and largest root mean square by stage, over the reference's scales, of the channels that both have.

@@ -1,6 +1,6 @@
 //! What a fault changes in exact answers: a fault that changes nothing is none.
 
-use super::kinds::{At, Plant};
+use super::kinds::{FaultInstant, Plant};
 use super::planted::{Fault, Planted};
 use super::stage::Stage;
 use analytic::AssurSolver;
@@ -42,7 +42,7 @@ fn has_part(case: &Case, fault: Fault) -> Result<bool> {
         Plant::Answer(change) => {
             let mut any = false;
             let mut look = |row: usize, state: &State| {
-                any |= change(At { case, row }, &mut state.clone(), fault.size).is_some();
+                any |= change(FaultInstant { case, row }, &mut state.clone(), fault.size).is_some();
                 Ok(())
             };
             AssurSolver.each(case, &mut look)?;

@@ -3,16 +3,16 @@
 use std::collections::BTreeSet;
 
 use super::effect::{Effect, rounding};
-use super::kinds::{Kind, Mistake};
+use super::kinds::{FaultKind, Mistake};
 use super::mutant::Spoiled;
-use super::seen::{Eyes, Outcome};
+use super::seen::{Eyes, FaultyProof};
 use super::stage::Stage;
-use formula::{Id, Operator, Program, Rounded, Tree};
+use formula::{FormulaTree, NodeId, Operator, Program, Rounded};
 use linkage::error::Result;
 use linkage::math::KeepNan;
 use linkage::math::statistics::share;
 use linkage::trajectory::{Channel, Stage as Of};
-use prover::claims::{Course, planted};
+use prover::claims::{KnownTrajectory, planted};
 use prover::proof::{Judgement, Reference, formula_checks};
 use scenario::{Claim, Formula, Formulas};
 
@@ -53,17 +53,17 @@ impl Stage<'_> {
     /// Work of judging all formulas once, on both sides (in steps of an engine's four-bar).
     pub(super) fn work_of_formulas(&self) -> f64 {
         let formulas = &self.scenario.formulas;
-        let nodes: Vec<Id> = formulas.claims().map(|(formula, _)| formula.id).collect();
+        let nodes: Vec<NodeId> = formulas.claims().map(|(formula, _)| formula.id).collect();
         let operations = Program::of(&formulas.graph, &nodes).len() * self.case.grid.len();
         // By value and twice by derivative.
         OPERATION * 2.0 * 6.0 * operations as f64
     }
 
     /// A mistake in a formula; `None` if it has no place for it.
-    pub(super) fn planting(&self, kind: &Kind, mistake: Mistake, of: usize, size: f64) -> Option<Planting> {
+    pub(super) fn planting(&self, kind: &FaultKind, mistake: Mistake, of: usize, size: f64) -> Option<Planting> {
         let formulas = &self.scenario.formulas;
         let own = &formulas.list[of];
-        let with_tree = |tree: Tree| {
+        let with_tree = |tree: FormulaTree| {
             let wrong = tree.to_string();
             let what = Spoiled { formula: own.name.clone(), right: own.text.clone(), wrong };
             Some(Planting { what, formulas: formulas.with_tree(of, tree)? })
@@ -82,7 +82,7 @@ impl Stage<'_> {
                 with_tree(planted(formulas, of, slip, number)?)
             }
             Mistake::Larger => {
-                let more = Tree::pair(Operator::Times, own.tree.clone(), Tree::number(1.0 + size));
+                let more = FormulaTree::pair(Operator::Times, own.tree.clone(), FormulaTree::number(1.0 + size));
                 with_tree(more)
             }
             Mistake::Subject => {
@@ -112,7 +112,7 @@ impl Stage<'_> {
     /// What a mistake changes: in a value that is claimed, or in what is claimed.
     pub(super) fn formula_effect(&self, own: &Planting) -> Result<Effect> {
         let right = &self.scenario.formulas;
-        self.sides.on_course(&self.case, Reference::Assur, |course: &Course| {
+        self.sides.on_course(&self.case, Reference::Assur, |course: &KnownTrajectory| {
             let [ours, theirs] = [right, &own.formulas].map(|formulas| course.given(formulas));
             let (mut largest, mut beyond, mut unsolved) = (0.0f64, false, false);
             let judged = self.judged_formulas();
@@ -153,12 +153,12 @@ impl Stage<'_> {
     }
 
     /// What both sides make of it.
-    pub(super) fn formula_outcome(&self, own: &Planting) -> Outcome {
+    pub(super) fn formula_outcome(&self, own: &Planting) -> FaultyProof {
         let judged = self.sides.claimed(&self.case, &own.formulas).map(|sides| {
             let judgement = Judgement::of(sides);
             let checks = formula_checks(&judgement);
             Eyes::default().formulas(&judgement, &checks).outcome()
         });
-        judged.unwrap_or_else(|error| Outcome::Refused(error.message().into()))
+        judged.unwrap_or_else(|error| FaultyProof::Refused(error.message().into()))
     }
 }

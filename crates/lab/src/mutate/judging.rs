@@ -2,9 +2,9 @@
 //! A bound that is a thousand times too wide, or a comparison that is left out, fails here.
 
 use super::kinds::kinds;
-use super::mutant::Party;
+use super::mutant::FaultyParty;
 use super::planted::Fault;
-use super::seen::Outcome;
+use super::seen::FaultyProof;
 use super::stage::Stage;
 use linkage::case::Wanted;
 use linkage::math::Vec2;
@@ -98,8 +98,8 @@ fn what_is_wrong_in_a_side_by_a_fixed_size_is_seen_by_every_check_that_must() {
         let stage = Stage::new(&scenario, &options).unwrap();
         assert_eq!(stage.verdict, "agree", "{name}");
         for (_, wrong, channels, must) in IN_A_SIDE.iter().filter(|own| own.0 == name) {
-            let outcome = stage.proven(fault(wrong), Party::Assur);
-            let Outcome::Detected { first, channels: found, checks, .. } = outcome else {
+            let outcome = stage.proven(fault(wrong), FaultyParty::Assur);
+            let FaultyProof::Detected { first, channels: found, checks, .. } = outcome else {
                 panic!("{name}: {wrong}: {outcome:?}")
             };
             let has = |family: &&&str| checks.iter().any(|own| own.starts_with(**family));
@@ -170,7 +170,7 @@ fn a_wrong_speed_that_no_channel_has_is_seen_by_the_balance_of_powers() {
     let scenario = Scenario { case, ..whole };
     let options = Options::default();
     let stage = Stage::new(&scenario, &options).unwrap();
-    let Outcome::Detected { channels, checks, .. } = stage.proven(wrong, Party::Assur) else {
+    let FaultyProof::Detected { channels, checks, .. } = stage.proven(wrong, FaultyParty::Assur) else {
         panic!("it escapes from the sides")
     };
     // The centre's acceleration goes with the square of the speed, and momentum with it.

@@ -17,11 +17,11 @@ mod touch;
 pub(super) use kind::Told;
 #[cfg(test)]
 pub(super) use kind::kinds;
-pub use kind::{At, Family, Kind, Mistake, Plant};
+pub use kind::{FaultFamily, FaultInstant, FaultKind, Mistake, Plant};
 
 /// All kinds, family by family.
-pub fn all() -> impl Iterator<Item = &'static Kind> {
-    let tables: [&'static [Kind]; 11] = [
+pub fn all() -> impl Iterator<Item = &'static FaultKind> {
+    let tables: [&'static [FaultKind]; 11] = [
         geometry::KINDS,
         drives::KINDS,
         masses::KINDS,
@@ -39,6 +39,6 @@ pub fn all() -> impl Iterator<Item = &'static Kind> {
 
 /// The kind called `name`.
 #[must_use]
-pub fn named(name: &str) -> Option<&'static Kind> {
+pub fn named(name: &str) -> Option<&'static FaultKind> {
     all().find(|kind| kind.name == name)
 }

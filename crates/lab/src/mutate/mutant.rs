@@ -1,12 +1,12 @@
 //! Planted faults and what came of them.
 
-use super::kinds::{Kind, Plant};
-use super::seen::Outcome;
+use super::kinds::{FaultKind, Plant};
+use super::seen::FaultyProof;
 
 linkage::words! {
     /// Who gets a fault.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-    pub enum Party: name {
+    pub enum FaultyParty: name {
         /// Side 1.
         Assur = "assur",
         /// Side 2.
@@ -20,11 +20,11 @@ linkage::words! {
     }
 }
 
-impl Party {
+impl FaultyParty {
     /// Whether it can have a fault of a kind.
     #[must_use]
-    pub fn takes(self, kind: &Kind) -> bool {
-        matches!(kind.plant, Plant::Formula(_)) == (self == Party::Formulas)
+    pub fn takes(self, kind: &FaultKind) -> bool {
+        matches!(kind.plant, Plant::Formula(_)) == (self == FaultyParty::Formulas)
     }
 }
 
@@ -43,13 +43,13 @@ pub struct Spoiled {
 #[derive(Clone)]
 pub struct Mutant {
     /// The kind of fault.
-    pub kind: &'static Kind,
+    pub kind: &'static FaultKind,
     /// Where it is planted.
-    pub party: Party,
+    pub party: FaultyParty,
     /// Of a mistake in a formula: which one, and how it reads.
     pub formula: Option<Spoiled>,
     /// What came of it.
-    pub outcome: Outcome,
+    pub outcome: FaultyProof,
     /// Largest change of exact answers, relative to the largest number of a quantity; `None` where there is no answer.
     pub effect: Option<f64>,
     /// Of a fault with a size that is found: the smallest size still found, to a factor of two.

@@ -2,12 +2,13 @@
 
 use super::effect::Effect;
 use super::formulas;
-use super::kinds::{self, Family, Kind, Mistake, Plant};
+use super::kinds::{self, FaultFamily, FaultKind, Mistake, Plant};
 use super::lost::smallest;
-use super::mutant::{Mutant, Mutated, Party};
+use super::mutant::{FaultyParty, Mutant, Mutated};
 use super::planted::Fault;
-use super::seen::Outcome;
+use super::seen::FaultyProof;
 use super::stage::Stage;
+use crate::sentences;
 use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::threads::{cores, made};
 use prover::proof::{BUDGET, Options};
@@ -15,11 +16,11 @@ use scenario::Scenario;
 
 /// What is asked for.
 #[derive(Clone, Debug, Default)]
-pub struct Asked {
+pub struct MutationPlan {
     /// Names of kinds or families; all if empty.
     pub kinds: Vec<String>,
     /// Parties; all if empty.
-    pub parties: Vec<Party>,
+    pub parties: Vec<FaultyParty>,
     /// Whether the size is searched at which a fault is lost.
     pub with_sizes: bool,
     /// Number of threads; as many as there are cores if zero.
@@ -28,17 +29,17 @@ pub struct Asked {
     pub options: Options,
 }
 
-impl Asked {
-    fn kinds(&self) -> Vec<&'static Kind> {
-        let is_asked = |kind: &&Kind| {
+impl MutationPlan {
+    fn kinds(&self) -> Vec<&'static FaultKind> {
+        let is_asked = |kind: &&FaultKind| {
             self.kinds.is_empty() || self.kinds.iter().any(|own| own == kind.name || own == kind.family.name())
         };
-        let takes = |kind: &&Kind| self.parties().iter().any(|party| party.takes(kind));
+        let takes = |kind: &&FaultKind| self.parties().iter().any(|party| party.takes(kind));
         kinds::all().filter(is_asked).filter(takes).collect()
     }
 
-    fn parties(&self) -> Vec<Party> {
-        if self.parties.is_empty() { Party::ALL.to_vec() } else { self.parties.clone() }
+    fn parties(&self) -> Vec<FaultyParty> {
+        if self.parties.is_empty() { FaultyParty::ALL.to_vec() } else { self.parties.clone() }
     }
 }
 
@@ -46,11 +47,11 @@ impl Asked {
 ///
 /// # Errors
 /// Those of the proof without a fault; [`ErrorKind::Input`] if it disagrees.
-pub fn mutate(scenario: &Scenario, asked: &Asked, progress: &mut dyn FnMut(f64)) -> Result<Mutated> {
+pub fn mutate(scenario: &Scenario, asked: &MutationPlan, progress: &mut dyn FnMut(f64)) -> Result<Mutated> {
     let stage = Stage::new(scenario, &asked.options)?;
     if stage.verdict == "disagree" {
-        let message = format!("{} disagrees without a fault, so that every fault would count as found", scenario.name);
-        let help = "prove it without a fault, and mend what disagrees";
+        let message = sentences::disagrees_without_a_fault_so(&scenario.name);
+        let help = sentences::PROVE_IT_WITHOUT_A_FAULT;
         return Err(Error::new(ErrorKind::Input, message).help(help));
     }
     let kinds = asked.kinds();
@@ -66,7 +67,7 @@ pub fn mutate(scenario: &Scenario, asked: &Asked, progress: &mut dyn FnMut(f64))
         }
         mutants.extend(planted);
     }
-    let is_real = |mutant: &Mutant| !matches!(mutant.outcome, Outcome::Equivalent(_));
+    let is_real = |mutant: &Mutant| !matches!(mutant.outcome, FaultyProof::Equivalent(_));
     let instead = if mutants.iter().any(is_real) { Vec::new() } else { families(&stage)? };
     let formulas = stage.formulas().len();
     let Stage { verdict, engine, .. } = stage;
@@ -82,19 +83,19 @@ const SIZES: f64 = 8.0;
 ///
 /// # Errors
 /// [`ErrorKind::Unsupported`] if not, with what it would take.
-fn allowed(stage: &Stage, kinds: &[&'static Kind], asked: &Asked) -> Result<()> {
+fn allowed(stage: &Stage, kinds: &[&'static FaultKind], asked: &MutationPlan) -> Result<()> {
     let [sides, engine] = stage.work;
     let formulas = stage.formulas().len() as f64 * stage.work_of_formulas();
     let (mut faults, mut work) = (0usize, 0.0);
     for kind in kinds {
         for party in asked.parties().into_iter().filter(|party| party.takes(kind)) {
             let once = match party {
-                Party::Assur | Party::Newton | Party::All => sides,
-                Party::Engine => engine,
-                Party::Formulas => formulas,
+                FaultyParty::Assur | FaultyParty::Newton | FaultyParty::All => sides,
+                FaultyParty::Engine => engine,
+                FaultyParty::Formulas => formulas,
             };
-            let is_sized = asked.with_sizes && kind.size.is_some() && party != Party::All;
-            faults += if party == Party::Formulas { stage.formulas().len() } else { 1 };
+            let is_sized = asked.with_sizes && kind.size.is_some() && party != FaultyParty::All;
+            faults += if party == FaultyParty::Formulas { stage.formulas().len() } else { 1 };
             work += once * if is_sized { 1.0 + SIZES } else { 1.0 };
         }
     }
@@ -102,19 +103,20 @@ fn allowed(stage: &Stage, kinds: &[&'static Kind], asked: &Asked) -> Result<()> 
     if work <= PROOFS * budget {
         return Ok(());
     }
-    let message = format!(
-        "{}: planting {faults} faults takes the work of about {work:.1e} steps of a four-bar, {:.1e} are allowed",
-        stage.scenario.name,
-        PROOFS * budget
+    let message = sentences::planting_faults_takes_the_work(
+        &stage.scenario.name,
+        &faults,
+        &format_args!("{work:.1e}"),
+        &format_args!("{:.1e}", PROOFS * budget),
     );
-    let help = "plant fewer of them: some kinds, one party, or no sizes";
+    let help = sentences::PLANT_FEWER_OF_THEM_SOME;
     Err(Error::new(ErrorKind::Unsupported, message).help(help).or_help(Advice::MoreWork { to: work / PROOFS }))
 }
 
 /// Names of the families of which a kind changes something in a scenario.
 fn families(stage: &Stage) -> Result<Vec<&'static str>> {
     let mut names = Vec::new();
-    for family in Family::ALL {
+    for family in FaultFamily::ALL {
         for kind in kinds::all().filter(|kind| kind.family == family) {
             let changes = match kind.plant {
                 Plant::Formula(mistake) => !spoiled(stage, kind, mistake, true)?.is_empty(),
@@ -130,7 +132,7 @@ fn families(stage: &Stage) -> Result<Vec<&'static str>> {
 }
 
 /// A kind at the size that is tried first.
-fn fault(kind: &'static Kind) -> Fault {
+fn fault(kind: &'static FaultKind) -> Fault {
     Fault { kind, size: kind.size.unwrap_or(1.0) }
 }
 
@@ -138,7 +140,7 @@ fn fault(kind: &'static Kind) -> Fault {
 /// something.
 fn spoiled(
     stage: &Stage,
-    kind: &'static Kind,
+    kind: &'static FaultKind,
     mistake: Mistake,
     only_real: bool,
 ) -> Result<Vec<(usize, formulas::Planting, Effect)>> {
@@ -157,26 +159,26 @@ fn spoiled(
     Ok(all)
 }
 
-fn in_formulas(stage: &Stage, kind: &'static Kind, mistake: Mistake, asked: &Asked) -> Result<Vec<Mutant>> {
+fn in_formulas(stage: &Stage, kind: &'static FaultKind, mistake: Mistake, asked: &MutationPlan) -> Result<Vec<Mutant>> {
     let found = |index: usize, size: f64| {
         stage.planting(kind, mistake, index, size).is_some_and(|own| stage.formula_outcome(&own).is_found())
     };
     let mut mutants = Vec::new();
     for (index, own, effect) in spoiled(stage, kind, mistake, false)? {
         let (outcome, effect) = match effect {
-            Effect::Equivalent(change) => (Outcome::Equivalent(change), Some(change)),
+            Effect::Equivalent(change) => (FaultyProof::Equivalent(change), Some(change)),
             Effect::Changes(change) => (stage.formula_outcome(&own), Some(change)),
             Effect::None | Effect::Unsolved => (stage.formula_outcome(&own), None),
         };
         let sized = kind.size.filter(|_| asked.with_sizes).zip(outcome.margin());
         let smallest = sized.map(|(size, margin)| smallest(size, margin, &|size| found(index, size)));
-        mutants.push(Mutant { kind, party: Party::Formulas, formula: Some(own.what), outcome, effect, smallest });
+        mutants.push(Mutant { kind, party: FaultyParty::Formulas, formula: Some(own.what), outcome, effect, smallest });
     }
     Ok(mutants)
 }
 
 /// What came of one kind: nothing where the scenario has no part for it.
-fn of_kind(stage: &Stage, kind: &'static Kind, asked: &Asked) -> Result<Vec<Mutant>> {
+fn of_kind(stage: &Stage, kind: &'static FaultKind, asked: &MutationPlan) -> Result<Vec<Mutant>> {
     if let Plant::Formula(mistake) = kind.plant {
         return in_formulas(stage, kind, mistake, asked);
     }
@@ -188,12 +190,12 @@ fn of_kind(stage: &Stage, kind: &'static Kind, asked: &Asked) -> Result<Vec<Muta
         Effect::Equivalent(change) | Effect::Changes(change) => Some(change),
     };
     let parties = asked.parties().into_iter().filter(|party| party.takes(kind));
-    let one = |party: Party| {
+    let one = |party: FaultyParty| {
         let outcome = match effect {
-            Effect::Equivalent(change) => Outcome::Equivalent(change),
+            Effect::Equivalent(change) => FaultyProof::Equivalent(change),
             Effect::None | Effect::Unsolved | Effect::Changes(_) => stage.proven(fault, party),
         };
-        let sized = asked.with_sizes && kind.size.is_some() && party != Party::All;
+        let sized = asked.with_sizes && kind.size.is_some() && party != FaultyParty::All;
         let is_found = |size: f64| stage.proven(Fault { size, ..fault }, party).is_found();
         let smallest = outcome.margin().filter(|_| sized).map(|margin| smallest(fault.size, margin, &is_found));
         Mutant { kind, party, formula: None, outcome, effect: change, smallest }

@@ -1,6 +1,7 @@
 //! Solvers and engines with one fault.
 
-use super::kinds::{At, Kind, Plant};
+use super::kinds::{FaultInstant, FaultKind, Plant};
+use crate::sentences;
 use linkage::case::Case;
 use linkage::engine::{Hook, Wrapped};
 use linkage::error::{Error, ErrorKind, Result};
@@ -12,7 +13,7 @@ pub(super) type Planted<S> = Wrapped<Fault, S>;
 /// A kind of fault with its size.
 #[derive(Clone, Copy)]
 pub(super) struct Fault {
-    pub(super) kind: &'static Kind,
+    pub(super) kind: &'static FaultKind,
     pub(super) size: f64,
 }
 
@@ -20,7 +21,7 @@ impl Hook for Fault {
     fn case(&self, case: &Case) -> Result<Option<Case>> {
         match self.kind.plant {
             Plant::Case(change) => {
-                let message = || format!("the case with the fault {} cannot be put together", self.kind.name);
+                let message = || sentences::the_case_with_the_fault_cannot(&self.kind.name);
                 change(case, self.size).map(Some).ok_or_else(|| Error::new(ErrorKind::Geometry, message()))
             }
             Plant::Answer(_) | Plant::Formula(_) => Ok(None),
@@ -32,7 +33,7 @@ impl Hook for Fault {
             Plant::Case(_) | Plant::Formula(_) => {}
             Plant::Answer(change) => {
                 // What has no such part stays as it is.
-                let _ = change(At { case, row }, state, self.size);
+                let _ = change(FaultInstant { case, row }, state, self.size);
             }
         }
     }

@@ -1,9 +1,10 @@
 //! Who sees a fault: channels and checks beyond their bounds, since when, by how much.
 
+use crate::sentences;
 use linkage::math::statistics::ascending;
 use linkage::trajectory::Trajectory;
 use prover::compare::{Check, Verdict, differences, overall};
-use prover::proof::{ChannelProof, EngineProof, Judgement, Sides};
+use prover::proof::{ChannelProof, EngineProof, Judgement, ObservedSides};
 
 /// A channel or a check beyond its bound.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,7 +19,7 @@ pub struct Sight {
 
 /// How a proof ended in which one party has a fault.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Outcome {
+pub enum FaultyProof {
     /// Something disagrees.
     Detected {
         /// What sees it first: the earliest instant, and of several the largest margin.
@@ -40,16 +41,16 @@ pub enum Outcome {
     Equivalent(f64),
 }
 
-impl Outcome {
+impl FaultyProof {
     /// Word for tables.
     #[must_use]
     pub fn word(&self) -> &'static str {
         match self {
-            Outcome::Detected { .. } => "detected",
-            Outcome::Refused(_) => "refused",
-            Outcome::Inconclusive(_) => "inconclusive",
-            Outcome::Escaped => "escaped",
-            Outcome::Equivalent(_) => "equivalent",
+            FaultyProof::Detected { .. } => "detected",
+            FaultyProof::Refused(_) => "refused",
+            FaultyProof::Inconclusive(_) => "inconclusive",
+            FaultyProof::Escaped => "escaped",
+            FaultyProof::Equivalent(_) => "equivalent",
         }
     }
 
@@ -57,8 +58,8 @@ impl Outcome {
     #[must_use]
     pub fn is_found(&self) -> bool {
         match self {
-            Outcome::Detected { .. } | Outcome::Refused(_) => true,
-            Outcome::Inconclusive(_) | Outcome::Escaped | Outcome::Equivalent(_) => false,
+            FaultyProof::Detected { .. } | FaultyProof::Refused(_) => true,
+            FaultyProof::Inconclusive(_) | FaultyProof::Escaped | FaultyProof::Equivalent(_) => false,
         }
     }
 
@@ -66,8 +67,11 @@ impl Outcome {
     #[must_use]
     pub fn margin(&self) -> Option<f64> {
         match self {
-            Outcome::Detected { clearest, .. } => Some(clearest.margin),
-            Outcome::Refused(_) | Outcome::Inconclusive(_) | Outcome::Escaped | Outcome::Equivalent(_) => None,
+            FaultyProof::Detected { clearest, .. } => Some(clearest.margin),
+            FaultyProof::Refused(_)
+            | FaultyProof::Inconclusive(_)
+            | FaultyProof::Escaped
+            | FaultyProof::Equivalent(_) => None,
         }
     }
 }
@@ -87,12 +91,12 @@ pub(super) struct Eyes {
 
 impl Eyes {
     /// What the analytic sides see; `is_outside` leaves out what they see in each other.
-    pub(super) fn sides(mut self, sides: &Sides, is_outside: bool) -> Self {
+    pub(super) fn sides(mut self, sides: &ObservedSides, is_outside: bool) -> Self {
         if !is_outside {
             let beyond = sides.beyond();
             self.channels += beyond.len();
             let sights = beyond.into_iter().map(|own| Sight {
-                what: format!("{} (assur against newton)", own.channel),
+                what: sentences::assur_against_newton_2(&own.channel),
                 since: Some(own.since),
                 margin: own.margin,
             });
@@ -113,7 +117,7 @@ impl Eyes {
             && let Some(trajectory) = &own.trajectory
             && proof.added().is_some()
         {
-            self.channels(&own.channels, reference, trajectory, &[], &format!("{name}'s own forces"));
+            self.channels(&own.channels, reference, trajectory, &[], &sentences::own_forces(&name));
         }
         self.checks(proof.checks.iter());
         self.verdicts.push(proof.verdict.clone());
@@ -175,7 +179,7 @@ impl Eyes {
     }
 
     /// The outcome, all verdicts together.
-    pub(super) fn outcome(self) -> Outcome {
+    pub(super) fn outcome(self) -> FaultyProof {
         match overall(&self.verdicts) {
             Verdict::Disagree { place } => {
                 let unnamed = || Sight { what: place.clone(), since: None, margin: f64::INFINITY };
@@ -184,10 +188,10 @@ impl Eyes {
                 let first = self.sights.iter().min_by(earlier).cloned().unwrap_or_else(unnamed);
                 let clearest = self.sights.iter().max_by(|a, b| a.margin.total_cmp(&b.margin));
                 let clearest = clearest.cloned().unwrap_or_else(unnamed);
-                Outcome::Detected { first, clearest, channels: self.channels, checks: self.checks }
+                FaultyProof::Detected { first, clearest, channels: self.channels, checks: self.checks }
             }
-            Verdict::Inconclusive { reason, .. } => Outcome::Inconclusive(reason),
-            Verdict::Agree { .. } | Verdict::Expected { .. } => Outcome::Escaped,
+            Verdict::Inconclusive { reason, .. } => FaultyProof::Inconclusive(reason),
+            Verdict::Agree { .. } | Verdict::Expected { .. } => FaultyProof::Escaped,
         }
     }
 }

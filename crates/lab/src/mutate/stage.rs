@@ -1,14 +1,15 @@
 //! One scenario with its true parties, and proofs in which one of them has a fault.
 
+use crate::sentences;
 use std::sync::OnceLock;
 
 use super::kinds::Plant;
-use super::mutant::Party;
+use super::mutant::FaultyParty;
 use super::planted::{Fault, Planted};
-use super::seen::{Eyes, Outcome};
+use super::seen::{Eyes, FaultyProof};
 use analytic::{AssurSolver, NewtonSolver, TIGHT_ASSUR, TIGHT_NEWTON};
 use linkage::case::Case;
-use linkage::engine::{Engine, Kept};
+use linkage::engine::{CachedEngine, Engine};
 use linkage::error::Result;
 use linkage::math::KeepNan;
 use linkage::solver::Solver;
@@ -16,7 +17,8 @@ use linkage::trajectory::Trajectory;
 use linkage::work::{Count, PLACED, counted, limited};
 use prover::compare::overall;
 use prover::proof::{
-    BUDGET, EachSide, EngineProof, Engines, Entrant, Ledger, Options, Problem, Reference, SIDES, Sides, TRUE_SIDES,
+    BUDGET, EachSide, EngineProof, EngineRole, Entrant, Ledger, ObservedSides, Options, Problem, Reference, SIDES,
+    TRUE_SIDES,
 };
 use scenario::Scenario;
 
@@ -30,13 +32,13 @@ pub(super) struct Stage<'a> {
     pub(super) case: Case,
     options: &'a Options,
     /// The analytic sides without a fault.
-    pub(super) sides: Sides,
+    pub(super) sides: ObservedSides,
     /// Exact answers of side 1, and the error of its integration where forces decide the motion, channel by channel, in
     /// their units.
     pub(super) right: Trajectory,
     pub(super) integration: Vec<f64>,
     /// The engine's runs without a fault.
-    runs: OnceLock<Kept>,
+    runs: OnceLock<CachedEngine>,
     /// Work of both sides, and of the engine, without a fault (in steps of an engine's four-bar).
     pub(super) work: [f64; 2],
     /// Verdict of the proof without a fault, and the engine.
@@ -53,7 +55,7 @@ impl<'a> Stage<'a> {
         let (case, whole) = (scenario.case.scene()?.case, &scenario.case);
         let problem = Problem::of(scenario, &case);
         let allowed = options.budget.unwrap_or(BUDGET).larger(SIDES);
-        let of_sides = || Sides::of(problem, whole, TRUE_SIDES, options.reference, &mut Ledger::default());
+        let of_sides = || ObservedSides::of(problem, whole, TRUE_SIDES, options.reference, &mut Ledger::default());
         let (sides, done) = counted(|| limited(allowed, of_sides).0);
         let sides = sides?;
         // Side 2 counts no groups; it places as many links.
@@ -72,8 +74,8 @@ impl<'a> Stage<'a> {
     }
 
     /// The engine's proof against these sides.
-    fn engine(&self, sides: &Sides, around: Around, own_forces: bool) -> Result<EngineProof> {
-        let how = Engines { case: &self.case, around, own_forces };
+    fn engine(&self, sides: &ObservedSides, around: Around, own_forces: bool) -> Result<EngineProof> {
+        let how = EngineRole { case: &self.case, around, own_forces };
         let engines = self.options.chosen(&self.scenario.engine, &self.case)?;
         let problem = Problem::of(self.scenario, &self.case);
         let mut proofs = sides.engines(problem, &how, engines, &mut Ledger::default(), &mut |_| {})?;
@@ -81,18 +83,18 @@ impl<'a> Stage<'a> {
     }
 
     /// The proof with a fault in one party.
-    pub(super) fn proven(&self, fault: Fault, party: Party) -> Outcome {
+    pub(super) fn proven(&self, fault: Fault, party: FaultyParty) -> FaultyProof {
         let outcome = match party {
-            Party::Assur | Party::Newton => self.in_side(fault, party),
-            Party::Engine => self.in_engine(fault),
-            Party::All => self.in_all(fault),
-            Party::Formulas => Ok(Outcome::Refused("mistakes of formulas are planted in formulas".into())),
+            FaultyParty::Assur | FaultyParty::Newton => self.in_side(fault, party),
+            FaultyParty::Engine => self.in_engine(fault),
+            FaultyParty::All => self.in_all(fault),
+            FaultyParty::Formulas => Ok(FaultyProof::Refused(sentences::MISTAKES_OF_FORMULAS_ARE_PLANTED.into())),
         };
-        outcome.unwrap_or_else(|error| Outcome::Refused(error.message().into()))
+        outcome.unwrap_or_else(|error| FaultyProof::Refused(error.message().into()))
     }
 
-    fn in_side(&self, fault: Fault, party: Party) -> Result<Outcome> {
-        let side = if party == Party::Newton { Reference::Newton } else { Reference::Assur };
+    fn in_side(&self, fault: Fault, party: FaultyParty) -> Result<FaultyProof> {
+        let side = if party == FaultyParty::Newton { Reference::Newton } else { Reference::Assur };
         let sides = self.planted(fault, &[side])?;
         let eyes = Eyes::default().sides(&sides, false);
         if eyes.is_decided() {
@@ -101,7 +103,7 @@ impl<'a> Stage<'a> {
         self.judged(&sides, &|own| kept_in(&self.runs, own))
     }
 
-    fn in_engine(&self, fault: Fault) -> Result<Outcome> {
+    fn in_engine(&self, fault: Fault) -> Result<FaultyProof> {
         let runs = OnceLock::new();
         let around = |own: Box<dyn Engine>| -> Box<dyn Engine> {
             match fault.kind.plant {
@@ -123,12 +125,12 @@ impl<'a> Stage<'a> {
 
     /// The engine against these sides. Its own forces are asked where its motion and their forces agree: no verdict on
     /// them takes a disagreement back.
-    fn judged(&self, sides: &Sides, around: Around) -> Result<Outcome> {
-        let mut last = Outcome::Escaped;
+    fn judged(&self, sides: &ObservedSides, around: Around) -> Result<FaultyProof> {
+        let mut last = FaultyProof::Escaped;
         for own_forces in [false, true] {
             let proof = self.engine(sides, around, own_forces)?;
             if let Some(error) = &proof.failure {
-                return Ok(Outcome::Refused(error.message().into()));
+                return Ok(FaultyProof::Refused(error.message().into()));
             }
             last = Eyes::default().sides(sides, false).engine(&proof, sides.trajectory()).outcome();
             if last.is_found() {
@@ -139,7 +141,7 @@ impl<'a> Stage<'a> {
     }
 
     /// The sides, of which some have a fault.
-    fn planted(&self, fault: Fault, faulty: &[Reference]) -> Result<Sides> {
+    fn planted(&self, fault: Fault, faulty: &[Reference]) -> Result<ObservedSides> {
         let planted = |inner: Box<dyn Solver>| Planted { hook: fault, inner };
         let wrong = EachSide::new(
             [planted(Box::new(AssurSolver)), planted(Box::new(TIGHT_ASSUR))],
@@ -152,9 +154,9 @@ impl<'a> Stage<'a> {
         self.sides(&self.case, &self.scenario.case, entrants)
     }
 
-    fn sides(&self, case: &Case, whole: &Case, entrants: EachSide<Entrant>) -> Result<Sides> {
+    fn sides(&self, case: &Case, whole: &Case, entrants: EachSide<Entrant>) -> Result<ObservedSides> {
         let problem = Problem::of(self.scenario, case);
-        Sides::of(problem, whole, entrants, self.options.reference, &mut Ledger::default())
+        ObservedSides::of(problem, whole, entrants, self.options.reference, &mut Ledger::default())
     }
 
     /// Whether a case differs in its instants only.
@@ -164,10 +166,10 @@ impl<'a> Stage<'a> {
     }
 
     /// The fault in what all parties share: no party can contradict another, and what comes from outside is asked.
-    fn in_all(&self, fault: Fault) -> Result<Outcome> {
+    fn in_all(&self, fault: Fault) -> Result<FaultyProof> {
         let case = match fault.kind.plant {
             Plant::Case(change) => match change(&self.case, fault.size) {
-                None => return Ok(Outcome::Refused("the case cannot be put together".into())),
+                None => return Ok(FaultyProof::Refused(sentences::THE_CASE_CANNOT_BE_PUT_TOGETHER.into())),
                 // Whoever asks names the instants. What is wrong is when the sides take them to be.
                 Some(case) if self.is_late(&case) => None,
                 Some(case) => Some(case),
@@ -183,6 +185,6 @@ impl<'a> Stage<'a> {
 }
 
 /// The engine with the runs that are kept; they are those of the first engine that comes.
-fn kept_in(runs: &OnceLock<Kept>, engine: Box<dyn Engine>) -> Box<dyn Engine> {
-    runs.get_or_init(|| Kept::new(engine.as_ref())).with(engine.settings())
+fn kept_in(runs: &OnceLock<CachedEngine>, engine: Box<dyn Engine>) -> Box<dyn Engine> {
+    runs.get_or_init(|| CachedEngine::new(engine.as_ref())).with(engine.settings())
 }

@@ -1,7 +1,7 @@
 //! Outcomes counted.
 
-use super::mutant::{Mutated, Party};
-use super::seen::Outcome;
+use super::mutant::{FaultyParty, Mutated};
+use super::seen::FaultyProof;
 
 /// Numbers of faults by outcome.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -20,13 +20,13 @@ pub struct Share {
 
 impl Share {
     /// Counts one more.
-    pub fn add(&mut self, outcome: &Outcome) {
+    pub fn add(&mut self, outcome: &FaultyProof) {
         match outcome {
-            Outcome::Detected { .. } => self.detected += 1,
-            Outcome::Refused(_) => self.refused += 1,
-            Outcome::Inconclusive(_) => self.inconclusive += 1,
-            Outcome::Escaped => self.escaped += 1,
-            Outcome::Equivalent(_) => self.equivalent += 1,
+            FaultyProof::Detected { .. } => self.detected += 1,
+            FaultyProof::Refused(_) => self.refused += 1,
+            FaultyProof::Inconclusive(_) => self.inconclusive += 1,
+            FaultyProof::Escaped => self.escaped += 1,
+            FaultyProof::Equivalent(_) => self.equivalent += 1,
         }
     }
 
@@ -45,7 +45,7 @@ impl Share {
 
 /// Counts over scenarios.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Tally {
+pub struct FaultCounts {
     /// Faults in one party.
     pub planted: Share,
     /// Faults in the trunk.
@@ -63,7 +63,7 @@ pub struct Tally {
 
 /// What planted faults come to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum End {
+pub enum FaultTally {
     /// Every fault that changes something is found, in parties and in formulas.
     AllFound,
     /// None escapes, but some prove nothing either way.
@@ -76,26 +76,26 @@ pub enum End {
     Nothing,
 }
 
-impl Tally {
+impl FaultCounts {
     /// What all faults come to. Those in what all share count where no others were planted.
     #[must_use]
-    pub fn end(&self) -> End {
-        let Tally { planted, formulas, trunk_kinds, trunk_found, .. } = self;
+    pub fn end(&self) -> FaultTally {
+        let FaultCounts { planted, formulas, trunk_kinds, trunk_found, .. } = self;
         let of = |count: fn(&Share) -> usize| count(planted) + count(formulas);
         match (of(Share::real), of(|own| own.escaped), of(|own| own.inconclusive)) {
-            (0, _, _) if trunk_kinds.is_empty() => End::Nothing,
-            (0, _, _) if trunk_found.len() < trunk_kinds.len() => End::TrunkOpen,
-            (_, 0, 0) => End::AllFound,
-            (_, 0, _) => End::NoneEscapes,
-            (_, _, _) => End::SomeEscape,
+            (0, _, _) if trunk_kinds.is_empty() => FaultTally::Nothing,
+            (0, _, _) if trunk_found.len() < trunk_kinds.len() => FaultTally::TrunkOpen,
+            (_, 0, 0) => FaultTally::AllFound,
+            (_, 0, _) => FaultTally::NoneEscapes,
+            (_, _, _) => FaultTally::SomeEscape,
         }
     }
 }
 
 /// Counts all outcomes.
 #[must_use]
-pub fn tally(all: &[Mutated]) -> Tally {
-    let mut tally = Tally::default();
+pub fn tally(all: &[Mutated]) -> FaultCounts {
+    let mut tally = FaultCounts::default();
     let put = |names: &mut Vec<&'static str>, name| {
         if !names.contains(&name) {
             names.push(name);
@@ -104,11 +104,11 @@ pub fn tally(all: &[Mutated]) -> Tally {
     for mutant in all.iter().flat_map(|one| &one.mutants) {
         put(&mut tally.kinds, mutant.kind.name);
         match mutant.party {
-            Party::Assur | Party::Newton | Party::Engine => tally.planted.add(&mutant.outcome),
-            Party::Formulas => tally.formulas.add(&mutant.outcome),
-            Party::All => {
+            FaultyParty::Assur | FaultyParty::Newton | FaultyParty::Engine => tally.planted.add(&mutant.outcome),
+            FaultyParty::Formulas => tally.formulas.add(&mutant.outcome),
+            FaultyParty::All => {
                 tally.trunk.add(&mutant.outcome);
-                if !matches!(mutant.outcome, Outcome::Equivalent(_)) {
+                if !matches!(mutant.outcome, FaultyProof::Equivalent(_)) {
                     put(&mut tally.trunk_kinds, mutant.kind.name);
                 }
                 if mutant.outcome.is_found() {

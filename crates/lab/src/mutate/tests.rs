@@ -1,10 +1,10 @@
 use std::collections::BTreeSet;
 
 use super::kinds::{all, named};
-use super::mutant::Party;
-use super::plan::{Asked, mutate};
+use super::mutant::FaultyParty;
+use super::plan::{MutationPlan, mutate};
 use super::planted::Fault;
-use super::seen::Outcome;
+use super::seen::FaultyProof;
 use super::stage::Stage;
 use linkage::drive::load::Acts;
 use linkage::drive::{Course, Load};
@@ -39,7 +39,7 @@ fn runs_that_are_used_again_give_the_outcome_of_new_ones() {
         let used = Stage::new(&scenario, &options).unwrap();
         // The second of these comes too late to find a run made, the first made them.
         for (kind, size) in [("moment", Some(1e-7)), ("angle", None), ("reaction", Some(1e-9)), ("omega", Some(1e-6))] {
-            for party in [Party::Newton, Party::Engine] {
+            for party in [FaultyParty::Newton, FaultyParty::Engine] {
                 let fault = fault(kind, size);
                 let new = Stage::new(&scenario, &options).unwrap();
                 assert_eq!(used.proven(fault, party), new.proven(fault, party), "{name}: {kind} in {}", party.name());
@@ -52,10 +52,10 @@ fn runs_that_are_used_again_give_the_outcome_of_new_ones() {
 #[test]
 fn a_fault_that_changes_no_exact_answer_is_not_counted() {
     let scenario = scenario("crank_rocker");
-    let asked = Asked { kinds: vec!["inertia-crank".into(), "inertia".into()], ..Asked::default() };
+    let asked = MutationPlan { kinds: vec!["inertia-crank".into(), "inertia".into()], ..Asked::default() };
     let found = mutate(&scenario, &asked, &mut |_| {}).unwrap();
     for mutant in &found.mutants {
-        let is_none = matches!(mutant.outcome, Outcome::Equivalent(_));
+        let is_none = matches!(mutant.outcome, FaultyProof::Equivalent(_));
         assert_eq!(is_none, mutant.kind.name == "inertia-crank", "{:?}", mutant.outcome);
     }
 }
@@ -65,10 +65,14 @@ fn a_fault_that_changes_no_exact_answer_is_not_counted() {
 #[test]
 fn regress_what_moves_an_integration_s_steps_only_changes_nothing() {
     let scenario = scenario("n_four_bar_1");
-    let asked = Asked { kinds: vec!["inertia-about-joint".into()], parties: vec![Party::Assur], ..Asked::default() };
+    let asked = MutationPlan {
+        kinds: vec!["inertia-about-joint".into()],
+        parties: vec![FaultyParty::Assur],
+        ..Asked::default()
+    };
     let options = Options::default().budget(1e6);
-    let found = mutate(&scenario, &Asked { options, ..asked }, &mut |_| {}).unwrap();
-    assert!(matches!(found.mutants[0].outcome, Outcome::Equivalent(_)), "{:?}", found.mutants[0].outcome);
+    let found = mutate(&scenario, &MutationPlan { options, ..asked }, &mut |_| {}).unwrap();
+    assert!(matches!(found.mutants[0].outcome, FaultyProof::Equivalent(_)), "{:?}", found.mutants[0].outcome);
 }
 
 /// The smallest size is found to a factor of two: it is found, and half of it is not.
@@ -76,8 +80,9 @@ fn regress_what_moves_an_integration_s_steps_only_changes_nothing() {
 fn the_smallest_size_is_found_and_half_of_it_is_lost() {
     let (scenario, options) = (scenario("crank_rocker"), Options::default());
     let stage = Stage::new(&scenario, &options).unwrap();
-    for (name, party) in [("mass-heaviest", Party::Assur), ("moment", Party::Engine)] {
-        let asked = Asked { kinds: vec![name.into()], parties: vec![party], with_sizes: true, ..Asked::default() };
+    for (name, party) in [("mass-heaviest", FaultyParty::Assur), ("moment", FaultyParty::Engine)] {
+        let asked =
+            MutationPlan { kinds: vec![name.into()], parties: vec![party], with_sizes: true, ..Asked::default() };
         let found = mutate(&scenario, &asked, &mut |_| {}).unwrap();
         let smallest = found.mutants[0].smallest.unwrap();
         assert!(stage.proven(fault(name, Some(smallest)), party).is_found(), "{name}: {smallest:e}");
@@ -91,7 +96,7 @@ fn the_smallest_size_is_found_and_half_of_it_is_lost() {
 fn sliders_on_moving_guides_and_their_moments_are_seen_in_every_party() {
     let kinds = ["coriolis-missing", "velocity-guide", "guide-moment-missing", "guide-moment-sign", "guide-aside"];
     for (name, without) in [("rotary_engine", 0), ("guided_group", 0), ("offset_press", 2)] {
-        let asked = Asked { kinds: kinds.map(String::from).to_vec(), ..Asked::default() };
+        let asked = MutationPlan { kinds: kinds.map(String::from).to_vec(), ..Asked::default() };
         let found = mutate(&scenario(name), &asked, &mut |_| {}).unwrap();
         assert_eq!((found.verdict, found.without.len()), ("agree", without), "{name}: {:?}", found.without);
         for mutant in &found.mutants {
@@ -108,10 +113,10 @@ fn a_moment_for_one_sense_that_acts_always_is_seen_in_every_party() {
     let load = Load::Moment { link: rocker, moment: Course::Constant(-0.5), acts: Acts::Clockwise };
     rocking.case = rocking.case.with(|parts| parts.loads.push(load)).unwrap();
     rocking.oracles.clear();
-    let asked = Asked { kinds: vec!["load-always".into()], ..Asked::default() };
+    let asked = MutationPlan { kinds: vec!["load-always".into()], ..Asked::default() };
     let found = mutate(&rocking, &asked, &mut |_| {}).unwrap();
     assert_eq!((found.verdict, found.mutants.len()), ("agree", 4));
-    for mutant in found.mutants.iter().filter(|mutant| mutant.party != Party::All) {
+    for mutant in found.mutants.iter().filter(|mutant| mutant.party != FaultyParty::All) {
         assert!(mutant.outcome.is_found(), "in {}", mutant.party.name());
     }
 }
@@ -119,10 +124,11 @@ fn a_moment_for_one_sense_that_acts_always_is_seen_in_every_party() {
 /// Nothing inside a proof can see what all parties share; numbers from outside do.
 #[test]
 fn a_wrong_gravity_for_everybody_is_seen_by_numbers_from_outside_only() {
-    let asked = Asked { kinds: vec!["gravity-sign".into()], parties: vec![Party::All], ..Asked::default() };
+    let asked =
+        MutationPlan { kinds: vec!["gravity-sign".into()], parties: vec![FaultyParty::All], ..Asked::default() };
     let with = scenario("quick_return");
     let without = Scenario { oracles: Vec::new(), ..with.clone() };
     let outcome = |scenario: &Scenario| mutate(scenario, &asked, &mut |_| {}).unwrap().mutants.remove(0).outcome;
     assert!(outcome(&with).is_found());
-    assert_eq!(outcome(&without), Outcome::Escaped);
+    assert_eq!(outcome(&without), FaultyProof::Escaped);
 }

@@ -1,10 +1,11 @@
 //! What a peer says: its ways and its answer as JSON, its solution as CSV.
 
+use crate::sentences;
 use std::ops::RangeInclusive;
 
 use serde_json::{Map, Value};
 
-use crate::bench::{Answer, Effort, Way};
+use crate::bench::{Answer, RunEffort, Way};
 use columns::Twice;
 use files::visible;
 
@@ -20,8 +21,8 @@ const TIMES: RangeInclusive<f64> = 1e-12..=1e9;
 /// The last line of a program's output, as JSON: libraries print what they like before it.
 fn last(output: &str) -> Result<Value, String> {
     let line =
-        output.lines().rev().find(|line| !line.trim().is_empty()).ok_or("it wrote nothing to standard output")?;
-    serde_json::from_str(line.trim()).map_err(|error| format!("the last line of its output is no JSON: {error}"))
+        output.lines().rev().find(|line| !line.trim().is_empty()).ok_or(sentences::IT_WROTE_NOTHING_TO_STANDARD)?;
+    serde_json::from_str(line.trim()).map_err(|error| sentences::the_last_line_of_its_output(&error))
 }
 
 fn word(object: &Map<String, Value>, key: &str) -> Option<String> {
@@ -40,17 +41,17 @@ fn refused(value: &Value) -> Option<String> {
 pub(super) fn ways(output: &str) -> Result<Vec<Way>, String> {
     let value = last(output)?;
     if let Some(reason) = refused(&value) {
-        return Err(format!("it refuses: {reason}"));
+        return Err(sentences::it_refuses(&reason));
     }
-    let list = value.as_array().ok_or("its ways are no JSON array")?;
+    let list = value.as_array().ok_or(sentences::ITS_WAYS_ARE_NO_JSON_ARRAY)?;
     if list.is_empty() || list.len() > MOST {
-        return Err(format!("it has {} ways, and 1 to {MOST} are possible", list.len()));
+        return Err(sentences::it_has_ways_and_to_are_possible(&list.len(), &MOST));
     }
     let way = |value: &Value| {
         let object = value.as_object()?;
         Some(Way { name: word(object, "name")?, resolution: word(object, "resolution")?, told: value.to_string() })
     };
-    list.iter().map(|value| way(value).ok_or_else(|| format!("the way {value} has no name or no resolution"))).collect()
+    list.iter().map(|value| way(value).ok_or_else(|| sentences::the_way_has_no_name_or_no_resolution(&value))).collect()
 }
 
 /// A peer's answer, from its output and its table.
@@ -60,15 +61,15 @@ pub(super) fn ways(output: &str) -> Result<Vec<Way>, String> {
 pub(super) fn answer(output: &str, table: impl FnOnce() -> Result<String, String>) -> Result<Answer, String> {
     let value = last(output)?;
     if let Some(reason) = refused(&value) {
-        return Err(format!("it refuses: {reason}"));
+        return Err(sentences::it_refuses(&reason));
     }
-    let object = value.as_object().ok_or("its answer is no JSON object")?;
+    let object = value.as_object().ok_or(sentences::ITS_ANSWER_IS_NO_JSON_OBJECT)?;
     let seconds = match object.get("seconds") {
         Some(Value::Array(times)) => times.iter().map(seconds).collect::<Result<_, _>>()?,
         Some(one) => vec![seconds(one)?],
-        None => return Err("its answer has no \"seconds\"".into()),
+        None => return Err(sentences::ITS_ANSWER_HAS_NO_SECONDS.into()),
     };
-    let effort = Effort(counts(object.get("work"))?);
+    let effort = RunEffort(counts(object.get("work"))?);
     Ok(Answer { version: word(object, "version").unwrap_or_default(), columns: columns(&table()?)?, seconds, effort })
 }
 
@@ -78,20 +79,20 @@ fn seconds(value: &Value) -> Result<f64, String> {
     let found = value.as_f64().filter(|seconds| TIMES.contains(seconds) || *seconds == 0.0);
     found.ok_or_else(|| {
         let [least, most] = [TIMES.start(), TIMES.end()];
-        format!("its time is {value}, and {least:e} s to {most:e} s can be measured")
+        sentences::its_time_is_and_to_can_be_measured(&value, &format_args!("{least:e}"), &format_args!("{most:e}"))
     })
 }
 
 /// What a program has counted; nothing if it says nothing of it.
 fn counts(work: Option<&Value>) -> Result<Vec<(String, u64)>, String> {
     let Some(work) = work.filter(|work| !work.is_null()) else { return Ok(Vec::new()) };
-    let all = work.as_object().ok_or("its \"work\" is no JSON object")?;
+    let all = work.as_object().ok_or(sentences::ITS_WORK_IS_NO_JSON_OBJECT)?;
     if all.len() > COUNTED {
-        return Err(format!("it counts {} things, and at most {COUNTED} are shown", all.len()));
+        return Err(sentences::it_counts_things_and_at_most(&all.len(), &COUNTED));
     }
     let count = |(name, times): (&String, &Value)| match times.as_u64() {
         Some(count) => Ok((visible(name), count)),
-        None => Err(format!("its count of {name} is {times}, which is no whole number")),
+        None => Err(sentences::its_count_of_is_which_is_no_whole(&name, &times)),
     };
     all.iter().map(count).collect()
 }
@@ -99,21 +100,22 @@ fn counts(work: Option<&Value>) -> Result<Vec<(String, u64)>, String> {
 /// The columns of a table.
 fn columns(table: &str) -> Result<Vec<(String, Vec<f64>)>, String> {
     let mut reader = csv::Reader::from_reader(table.as_bytes());
-    let header = reader.headers().map_err(|error| format!("its table cannot be read: {error}"))?.clone();
+    let header = reader.headers().map_err(|error| sentences::its_table_cannot_be_read(&error))?.clone();
     if header.len() > COLUMNS {
-        return Err(format!("its table has {} columns, and at most {COLUMNS} are read", header.len()));
+        return Err(sentences::its_table_has_columns_and_at_most(&header.len(), &COLUMNS));
     }
     if let Some(twice) = Twice::of(&header) {
-        return Err(format!("its table: {twice}"));
+        return Err(sentences::its_table(&twice));
     }
     let mut columns: Vec<(String, Vec<f64>)> =
         header.iter().map(|name| (name.trim().to_string(), Vec::new())).collect();
     for (row, record) in reader.records().enumerate() {
-        let record = record.map_err(|error| format!("row {} of its table: {error}", row + 1))?;
+        let record = record.map_err(|error| sentences::row_of_its_table(&(row + 1), &error))?;
         for ((name, values), text) in columns.iter_mut().zip(&record) {
-            let value = text.trim().parse().map_err(|_| {
-                format!("row {} of {name} is \"{}\"", row + 1, text.chars().take(20).collect::<String>())
-            })?;
+            let value = text
+                .trim()
+                .parse()
+                .map_err(|_| sentences::row_of_is(&(row + 1), &name, &(text.chars().take(20).collect::<String>())))?;
             values.push(value);
         }
     }

@@ -1,5 +1,6 @@
 //! The machine, in words: times mean something only beside it.
 
+use crate::sentences;
 use std::collections::BTreeSet;
 use std::fs;
 
@@ -19,9 +20,9 @@ pub fn machine() -> Vec<(&'static str, String)> {
         ("cores", std::thread::available_parallelism().map_or_else(|_| unknown(), |cores| cores.to_string())),
         ("architecture", std::env::consts::ARCH.into()),
         ("system", format!("{} {} {}", std::env::consts::OS, system.unwrap_or(""), kernel.trim()).trim().into()),
-        ("load at the start", load),
+        (sentences::LOAD_AT_THE_START, load),
         ("linkproof", env!("CARGO_PKG_VERSION").into()),
-        ("build", if cfg!(debug_assertions) { "with debug assertions" } else { "release" }.into()),
+        ("build", if cfg!(debug_assertions) { sentences::WITH_DEBUG_ASSERTIONS } else { "release" }.into()),
     ]
 }
 

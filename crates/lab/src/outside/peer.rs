@@ -1,5 +1,6 @@
 //! A peer: a command that is given a scenario and answers with a solution. docs/peers.md is the protocol.
 
+use crate::sentences;
 use std::cell::RefCell;
 use std::fs;
 use std::path::Path;
@@ -56,7 +57,7 @@ impl<'a> Command<'a> {
     ) -> Result<T, String> {
         let mut place = self.place.borrow_mut();
         if place.is_none() {
-            *place = Some(self.furnished().map_err(|error| format!("no temporary directory: {error}"))?);
+            *place = Some(self.furnished().map_err(|error| sentences::no_temporary_directory(&error))?);
         }
         let directory = place.as_ref().expect("it was made").path();
         let table = directory.join("answer.csv");
@@ -72,7 +73,7 @@ impl<'a> Command<'a> {
             "case": directory.join("case.json"), "csv": table, "way": way,
             "mjcf": mjcf.ok().map(|_| directory.join("model.xml")), "mjcf_refused": mjcf.err(),
         });
-        fs::write(&request, value.to_string()).map_err(|error| format!("the request cannot be written: {error}"))?;
+        fs::write(&request, value.to_string()).map_err(|error| sentences::the_request_cannot_be_written(&error))?;
         let request = request.to_string_lossy();
         let output = process::run(&self.command, &[what, &request], directory, self.limit, self.clock);
         // Whatever it says of its failure is shown to people.

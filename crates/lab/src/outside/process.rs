@@ -1,5 +1,6 @@
 //! A program with a time limit. What it writes goes to files, so that it can neither block nor fill the memory.
 
+use crate::sentences;
 use std::fs::{self, File};
 use std::io::Read;
 use std::path::Path;
@@ -38,7 +39,7 @@ pub(super) fn run(
     shell.stdin(Stdio::null()).stdout(file(&out)?).stderr(file(&err)?);
     #[cfg(unix)]
     std::os::unix::process::CommandExt::process_group(&mut shell, 0);
-    let mut child = shell.spawn().map_err(|error| format!("it cannot be started: {error}"))?;
+    let mut child = shell.spawn().map_err(|error| sentences::it_cannot_be_started(&error))?;
     let status = wait(&mut child, &[&out, &err], limit, clock)?;
     // What it has left running can no longer change its answer while that is read.
     end_group(&child);
@@ -47,8 +48,9 @@ pub(super) fn run(
         return Ok(written);
     }
     let complaint = text(&err).unwrap_or_default();
-    let last = complaint.lines().rev().find(|line| !line.trim().is_empty()).unwrap_or("nothing on standard error");
-    Err(format!("it ended with {status}: {}", last.trim().chars().take(TOLD).collect::<String>()))
+    let last =
+        complaint.lines().rev().find(|line| !line.trim().is_empty()).unwrap_or(sentences::NOTHING_ON_STANDARD_ERROR);
+    Err(sentences::it_ended_with(&status, &(last.trim().chars().take(TOLD).collect::<String>())))
 }
 
 fn wait(child: &mut Child, files: &[&Path], limit: f64, clock: Clock) -> Result<ExitStatus, String> {
@@ -57,13 +59,13 @@ fn wait(child: &mut Child, files: &[&Path], limit: f64, clock: Clock) -> Result<
         match child.try_wait() {
             Ok(Some(status)) => return Ok(status),
             Ok(None) => {}
-            Err(error) => return Err(format!("it cannot be waited for: {error}")),
+            Err(error) => return Err(sentences::it_cannot_be_waited_for(&error)),
         }
         let taken = clock() - since;
         let written = files.iter().filter_map(|file| fs::metadata(file).ok()).map(|found| found.len()).max();
         let reason = match (taken > limit, written > Some(MOST)) {
-            (true, _) => format!("it was stopped after {limit} s without an answer"),
-            (false, true) => format!("it was stopped after {MOST} bytes of output"),
+            (true, _) => sentences::it_was_stopped_after_without(&limit),
+            (false, true) => sentences::it_was_stopped_after_bytes(&MOST),
             (false, false) => {
                 std::thread::sleep(PAUSES[usize::from(taken > 0.1)]);
                 continue;
@@ -94,20 +96,20 @@ fn stop(child: &mut Child) {
 /// Text of a file that a program was to write; bytes that are no text are replaced. A pipe, a device or a link might
 /// never end, or lead elsewhere.
 pub(super) fn text(path: &Path) -> Result<String, String> {
-    let found = fs::symlink_metadata(path).map_err(|error| format!("{} is not there: {error}", name(path)))?;
+    let found = fs::symlink_metadata(path).map_err(|error| sentences::is_not_there(&name(path), &error))?;
     if !found.is_file() {
-        return Err(format!("{} is no regular file", name(path)));
+        return Err(sentences::is_no_regular_file(&name(path)));
     }
-    let file = File::open(path).map_err(|error| format!("{} cannot be read: {error}", name(path)))?;
+    let file = File::open(path).map_err(|error| sentences::cannot_be_read_2(&name(path), &error))?;
     taken(file).map_err(|error| format!("{} {error}", name(path)))
 }
 
 /// Text of what is open, of bounded length.
 fn taken(file: File) -> Result<String, String> {
     let mut bytes = Vec::new();
-    file.take(MOST + 1).read_to_end(&mut bytes).map_err(|error| format!("cannot be read: {error}"))?;
+    file.take(MOST + 1).read_to_end(&mut bytes).map_err(|error| sentences::cannot_be_read(&error))?;
     if bytes.len() as u64 > MOST {
-        return Err(format!("has more than {MOST} bytes"));
+        return Err(sentences::has_more_than_bytes(&MOST));
     }
     Ok(String::from_utf8(bytes).unwrap_or_else(|error| String::from_utf8_lossy(error.as_bytes()).into_owned()))
 }

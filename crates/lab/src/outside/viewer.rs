@@ -1,5 +1,6 @@
 //! Rerun: its recordings, written by its own library for Python, and its viewer.
 
+use crate::sentences;
 use std::fs;
 use std::path::Path;
 use std::process::Command;
@@ -33,10 +34,10 @@ pub fn converted(film: &str, python: &str, clock: Clock) -> Result<Vec<u8>, Stri
 /// # Errors
 /// Why it cannot be started, or how it ended.
 pub fn opened(recording: &Path, python: &str) -> Result<(), String> {
-    let script = format!("exec {python} -m rerun \"$1\"");
+    let script = sentences::exec_rerun(&python);
     let status = Command::new("sh").args(["-c", &script, "rerun"]).arg(recording).status();
     match status.map_err(|error| error.to_string())? {
         status if status.success() => Ok(()),
-        status => Err(format!("it ended with {status}")),
+        status => Err(sentences::it_ended_with_2(&status)),
     }
 }

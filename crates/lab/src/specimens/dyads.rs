@@ -4,7 +4,7 @@ use linkage::math::{KeepNan, cross};
 use linkage::mechanism::assembly::transmission_sine;
 use linkage::mechanism::{GroupKind, JointId, LinkPose, Pose, StartGroup, first_pose};
 
-use super::sketch::{Random, Sketch};
+use super::sketch::{RandomSource, SpecimenSketch};
 use super::spec::{Ask, Dyad, Spec, Start};
 use scenario::Scenario;
 
@@ -20,7 +20,7 @@ pub const SORTS: [[bool; 3]; 5] =
     [[false, false, false], [false, false, true], [false, true, false], [false, true, true], [true, false, true]];
 
 /// A mechanism that can be assembled on its whole grid, away from dead points.
-pub struct Sample {
+pub struct DyadSpecimen {
     /// The mechanism as data.
     pub spec: Spec,
     /// The mechanism as it is read.
@@ -31,7 +31,7 @@ pub struct Sample {
 }
 
 /// Adds a dyad to two links, with its mode.
-pub fn dyad(sketch: &mut Sketch, slides: [bool; 3], bases: [usize; 2]) -> [usize; 2] {
+pub fn dyad(sketch: &mut SpecimenSketch, slides: [bool; 3], bases: [usize; 2]) -> [usize; 2] {
     let hook = sketch.poses[bases[0]].origin + sketch.random.vector(0.1, 0.6);
     let (mut one, mut two) = (sketch.link(hook), sketch.link(hook));
     // Either link may be the earlier one in the mechanism, and so the first of the group.
@@ -72,7 +72,7 @@ pub fn dyad(sketch: &mut Sketch, slides: [bool; 3], bases: [usize; 2]) -> [usize
 }
 
 /// A random kind, with its links in either order.
-pub fn sort(random: &mut Random, allowed: &[[bool; 3]]) -> [bool; 3] {
+pub fn sort(random: &mut RandomSource, allowed: &[[bool; 3]]) -> [bool; 3] {
     let mut slides = allowed[random.index(allowed.len())];
     if random.yes() {
         slides.reverse();
@@ -81,8 +81,8 @@ pub fn sort(random: &mut Random, allowed: &[[bool; 3]]) -> [bool; 3] {
 }
 
 /// A crank and `dyads` dyads, each joined to one of the last links and to any other link or the ground.
-pub fn chain(random: &mut Random, allowed: &[[bool; 3]], dyads: usize) -> (Spec, Vec<LinkPose>) {
-    let mut sketch = Sketch::new(random, [0.1, 1.0]);
+pub fn chain(random: &mut RandomSource, allowed: &[[bool; 3]], dyads: usize) -> (Spec, Vec<LinkPose>) {
+    let mut sketch = SpecimenSketch::new(random, [0.1, 1.0]);
     for _ in 0..dyads {
         let count = sketch.poses.len();
         let moving = count - 1 - sketch.random.index(2.min(count - 1));
@@ -99,7 +99,7 @@ pub fn chain(random: &mut Random, allowed: &[[bool; 3]], dyads: usize) -> (Spec,
 /// Reads a chain and checks that it stays within reach and away from dead points on its grid. The poses come from the
 /// `linkage` crate. A solver would also compute how far the mechanism can be followed, which takes longer than all the
 /// rest.
-pub fn sample(spec: Spec) -> Option<Sample> {
+pub fn sample(spec: Spec) -> Option<DyadSpecimen> {
     let scenario = spec.scenario().ok()?;
     let case = &scenario.case;
     let (mechanism, structure) = (&case.mechanism, &case.structure);
@@ -135,5 +135,5 @@ pub fn sample(spec: Spec) -> Option<Sample> {
         }
         condition /= least;
     }
-    Some(Sample { spec, scenario, condition })
+    Some(DyadSpecimen { spec, scenario, condition })
 }

@@ -6,15 +6,15 @@ use chacha20::rand_core::{Rng, SeedableRng};
 use linkage::math::{KeepNan, Vec2, rotated, unit};
 use linkage::mechanism::LinkPose;
 
-use super::spec::{Body, Guide, Pin, Spec};
+use super::spec::{Guide, Pin, Spec, SpecimenLink};
 
 /// Source of random numbers.
-pub struct Random(ChaCha20Rng);
+pub struct RandomSource(ChaCha20Rng);
 
-impl Random {
+impl RandomSource {
     /// The numbers that follow from `seed`.
     pub fn from_seed(seed: u8) -> Self {
-        Random(ChaCha20Rng::from_seed([seed; 32]))
+        RandomSource(ChaCha20Rng::from_seed([seed; 32]))
     }
 
     /// The numbers of one of many samples that follow from one seed.
@@ -23,7 +23,7 @@ impl Random {
         bytes[..8].copy_from_slice(&seed.to_le_bytes());
         bytes[8..16].copy_from_slice(&index.to_le_bytes());
         bytes[31] = 1;
-        Random(ChaCha20Rng::from_seed(bytes))
+        RandomSource(ChaCha20Rng::from_seed(bytes))
     }
 
     /// A positive number whose logarithm is uniform.
@@ -59,7 +59,7 @@ impl Random {
 
 /// A joint of a drawing.
 #[derive(Clone, Copy, Debug)]
-pub struct Drawn {
+pub struct DrawnJoint {
     /// Its world places on the two links, in the order asked for: one point, or two along the axis.
     pub places: [Vec2; 2],
     /// World direction of a prismatic joint's axis; zero for a revolute joint.
@@ -69,9 +69,9 @@ pub struct Drawn {
 }
 
 /// A mechanism under construction. Link 0 is the ground, link 1 the crank.
-pub struct Sketch<'a> {
+pub struct SpecimenSketch<'a> {
     /// Where its numbers come from.
-    pub random: &'a mut Random,
+    pub random: &'a mut RandomSource,
     /// What is drawn so far.
     pub spec: Spec,
     /// Pose of the ground and of every link.
@@ -84,15 +84,15 @@ pub struct Sketch<'a> {
 /// Largest slide at the start (m).
 const SLIDE: f64 = 0.5;
 
-impl<'a> Sketch<'a> {
+impl<'a> SpecimenSketch<'a> {
     /// A crank on the ground with a length between the given ones (m).
-    pub fn new(random: &'a mut Random, crank: [f64; 2]) -> Self {
+    pub fn new(random: &'a mut RandomSource, crank: [f64; 2]) -> Self {
         let start = random.angle();
         let speed = random.number(0.5, 30.0) * if random.yes() { 1.0 } else { -1.0 };
         let (zero, gravity, guides_first) = (random.angle(), random.vector(0.0, 10.0), random.yes());
         let grid = (start - 0.3, 0.05, 12);
         let spec = Spec { guides_first, speed, zero, start, gravity, grid, dt: Some(1e-3), ..Spec::default() };
-        let mut sketch = Sketch { random, spec, poses: vec![LinkPose::GROUND], turning: vec![0], joints: 0 };
+        let mut sketch = SpecimenSketch { random, spec, poses: vec![LinkPose::GROUND], turning: vec![0], joints: 0 };
         let pivot = sketch.random.vector(0.0, 0.5);
         let crank_link = sketch.link(pivot);
         sketch.poses[crank_link].angle = zero + start;
@@ -114,7 +114,7 @@ impl<'a> Sketch<'a> {
         let index = self.poses.len();
         self.poses.push(LinkPose { origin: at + self.random.vector(0.0, 0.3), angle: self.random.angle() });
         self.turning.push(index);
-        self.spec.links.push(Body { name: format!("link{index}"), points: Vec::new(), mass: None });
+        self.spec.links.push(SpecimenLink { name: format!("link{index}"), points: Vec::new(), mass: None });
         index
     }
 
@@ -140,7 +140,7 @@ impl<'a> Sketch<'a> {
     }
 
     /// Joins links `a` and `b`, either of which may be named first, at the place `at` of `a`.
-    pub fn join(&mut self, slides: bool, a: usize, b: usize, at: Vec2) -> Drawn {
+    pub fn join(&mut self, slides: bool, a: usize, b: usize, at: Vec2) -> DrawnJoint {
         let name = self.next_joint();
         self.joints += 1;
         let is_turned = self.random.yes();
@@ -151,7 +151,7 @@ impl<'a> Sketch<'a> {
             self.put(a, &name, at);
             self.put(b, &name, at);
             self.spec.pins.push(Pin { name, links });
-            return Drawn { places: [at, at], axis: Vec2::zeros(), first };
+            return DrawnJoint { places: [at, at], axis: Vec2::zeros(), first };
         }
         let angle = self.random.angle();
         let slide = self.random.number(-SLIDE, SLIDE);
@@ -167,7 +167,7 @@ impl<'a> Sketch<'a> {
         self.spec.guides.push(Guide { name, links, points, axes });
         let (kept, gone) = (self.turning[a].min(self.turning[b]), self.turning[a].max(self.turning[b]));
         self.turning.iter_mut().filter(|own| **own == gone).for_each(|own| *own = kept);
-        Drawn { places, axis, first }
+        DrawnJoint { places, axis, first }
     }
 
     /// Adds masses with mass centres off all lines, and resistances on some of the links that turn.

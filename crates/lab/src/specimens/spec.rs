@@ -8,7 +8,7 @@ use scenario::Scenario;
 
 /// A link with its own points.
 #[derive(Clone, Debug)]
-pub struct Body {
+pub struct SpecimenLink {
     /// Its name.
     pub name: String,
     /// Names and places of its points, in its frame (m).
@@ -94,7 +94,7 @@ pub struct Spec {
     /// Points of the ground (m).
     pub ground: Vec<(String, Vec2)>,
     /// Moving links; the first is the crank.
-    pub links: Vec<Body>,
+    pub links: Vec<SpecimenLink>,
     /// Revolute joints.
     pub pins: Vec<Pin>,
     /// Prismatic joints.
@@ -286,7 +286,7 @@ impl Spec {
 /// A four-bar O-A-B-C with links along their x axes: crank, coupler and rocker of the given lengths.
 /// Pivots O = (0, 0) and C = (`base`, 0); slender rods of 10 kg/m.
 pub fn four_bar([base, crank, coupler, rocker]: [f64; 4], left: bool) -> Spec {
-    let rod = |name: &str, [from, to]: [&str; 2], length: f64| Body {
+    let rod = |name: &str, [from, to]: [&str; 2], length: f64| SpecimenLink {
         name: name.into(),
         points: vec![(from.into(), Vec2::zeros()), (to.into(), Vec2::new(length, 0.0))],
         mass: Some((10.0 * length, Vec2::new(length / 2.0, 0.0), 10.0 * length.powi(3) / 12.0)),

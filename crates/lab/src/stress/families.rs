@@ -7,10 +7,10 @@ mod random;
 mod settings;
 mod singular;
 
-use super::Family;
+use super::StressFamily;
 
 /// All families.
-pub static FAMILIES: &[Family] = &[
+pub static FAMILIES: &[StressFamily] = &[
     four_bar::MASS_RATIO,
     four_bar::LENGTH_RATIO,
     four_bar::TRANSMISSION,
@@ -28,6 +28,6 @@ pub static FAMILIES: &[Family] = &[
 
 /// The family called `name`.
 #[must_use]
-pub fn named(name: &str) -> Option<&'static Family> {
+pub fn named(name: &str) -> Option<&'static StressFamily> {
     FAMILIES.iter().find(|family| family.name == name)
 }

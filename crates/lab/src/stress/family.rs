@@ -1,11 +1,12 @@
 //! A family: its dial, and what runs at a point of it.
+//! See docs/numerics/laboratory.md.
 
 use linkage::case::Case;
 use linkage::error::Result;
 
 /// What engines do at a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Engines {
+pub enum EngineUse {
     /// None runs: the analytic sides alone.
     None,
     /// They find their settings with this work, in steps without sweeps.
@@ -25,7 +26,7 @@ pub struct Setup {
     /// The case.
     pub case: Case,
     /// What engines do.
-    pub engines: Engines,
+    pub engines: EngineUse,
     /// Whether the sides are held against numbers in double-double.
     pub precise: bool,
 }
@@ -33,7 +34,7 @@ pub struct Setup {
 impl Setup {
     /// A case that engines find their own settings for, with numbers in double-double beside it.
     pub(super) fn usual(case: Case) -> Setup {
-        Setup { case, engines: Engines::Found(WORK), precise: true }
+        Setup { case, engines: EngineUse::Found(WORK), precise: true }
     }
 }
 
@@ -42,7 +43,7 @@ pub const WORK: f64 = 2e5;
 
 /// A family: one dial.
 #[derive(Debug)]
-pub struct Family {
+pub struct StressFamily {
     /// Name, as on the command line and in files.
     pub name: &'static str,
     /// What the dial turns, with its unit.

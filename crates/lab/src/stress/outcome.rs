@@ -7,7 +7,7 @@ linkage::words! {
     /// Quantities that a map shows together.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
     #[serde(rename_all = "lowercase")]
-    pub enum Group: name {
+    pub enum QuantityGroup: name {
         /// Positions and angles.
         Positions = "positions",
         /// Velocities and accelerations.
@@ -21,7 +21,7 @@ linkage::words! {
     /// How a solver or an engine ends at a point, the best first.
     #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
     #[serde(rename_all = "lowercase")]
-    pub enum End: word {
+    pub enum PointEnd: word {
         /// It agrees.
         Agree = "agree",
         /// Nothing is proven either way.
@@ -36,9 +36,9 @@ linkage::words! {
 
 /// The worst channel of a group.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Reached {
+pub struct WorstOfGroup {
     /// The group.
-    pub group: Group,
+    pub group: QuantityGroup,
     /// Largest error, as a share of the channel's scale: half its range over the run.
     #[serde(deserialize_with = "number")]
     pub error: f64,
@@ -58,11 +58,11 @@ fn number<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
 
 /// One solver or engine at a point.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Party {
+pub struct PartyAtPoint {
     /// Its name.
     pub name: String,
     /// How it ends.
-    pub verdict: End,
+    pub verdict: PointEnd,
     /// Reason of a verdict other than agreement.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub why: String,
@@ -71,7 +71,7 @@ pub struct Party {
     pub against: String,
     /// Groups of channels, in order; none if it failed.
     #[serde(rename = "groups")]
-    pub reached: Vec<Reached>,
+    pub reached: Vec<WorstOfGroup>,
     /// Largest opening of a joint over the mechanism's size.
     pub closure: Option<f64>,
     /// Balancing moment from reactions less that from powers, over the moments in the balance.
@@ -96,16 +96,16 @@ pub struct Party {
     pub silent: usize,
 }
 
-impl Party {
+impl PartyAtPoint {
     /// One that has no numbers, with the reason.
-    pub(super) fn failed(name: &str, why: &str) -> Party {
-        Party { name: name.into(), why: why.into(), ..Party::default() }
+    pub(super) fn failed(name: &str, why: &str) -> PartyAtPoint {
+        PartyAtPoint { name: name.into(), why: why.into(), ..Party::default() }
     }
 }
 
 /// A point, done.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Outcome {
+pub struct StressOutcome {
     /// Value of the dial.
     pub dial: f64,
     /// Number of the sample.
@@ -116,7 +116,7 @@ pub struct Outcome {
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub refused: String,
     /// The sides and engines.
-    pub parties: Vec<Party>,
+    pub parties: Vec<PartyAtPoint>,
 }
 
 /// A number as it is kept: four digits, so that it is read back as it was written. NaN stays NaN.

@@ -1,5 +1,6 @@
 //! One point: both sides and all engines on one case.
 
+use crate::sentences;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use linkage::case::Case;
@@ -9,20 +10,20 @@ use linkage::math::statistics::share;
 use linkage::trajectory::{Channel, Stage, Trajectory};
 use linkage::work::{Count, counted};
 
-use super::outcome::{End, Group, Outcome, Party, Reached, rounded};
-use super::{Engines, Family, Setup};
+use super::outcome::{PartyAtPoint, PointEnd, QuantityGroup, StressOutcome, WorstOfGroup, rounded};
+use super::{EngineUse, Setup, StressFamily};
 use prover::compare::{Check, Verdict, difference, scales};
 use prover::engines::{self, EngineName};
-use prover::proof::beside::{Deviation, Side, Sides, sides};
+use prover::proof::beside::{AnalyticSide, BothSides, Deviation, sides};
 use prover::proof::{EngineProof, Options, prove};
 use scenario::Scenario;
 
 /// Solves a family's point with everything that this build has. A panic is a failure of the point like any other.
 #[must_use]
-pub fn run(family: &Family, dial: f64, sample: u64, seed: u64) -> Outcome {
+pub fn run(family: &StressFamily, dial: f64, sample: u64, seed: u64) -> StressOutcome {
     let setup = (family.setup)(dial, sample, seed);
     let key = key(family, setup.as_ref().ok(), seed);
-    let mut outcome = Outcome { dial, sample, key, refused: String::new(), parties: Vec::new() };
+    let mut outcome = StressOutcome { dial, sample, key, refused: String::new(), parties: Vec::new() };
     match setup {
         Err(error) => outcome.refused = told(&error),
         Ok(setup) => match catch_unwind(AssertUnwindSafe(|| parties(family, &setup))) {
@@ -35,12 +36,12 @@ pub fn run(family: &Family, dial: f64, sample: u64, seed: u64) -> Outcome {
 }
 
 /// The key of a point without running it.
-pub(super) fn key_of(family: &Family, dial: f64, sample: u64, seed: u64) -> String {
+pub(super) fn key_of(family: &StressFamily, dial: f64, sample: u64, seed: u64) -> String {
     key(family, (family.setup)(dial, sample, seed).as_ref().ok(), seed)
 }
 
 /// FNV-1a of what the result depends on: the program's version, its engines, and the case with what runs on it.
-fn key(family: &Family, setup: Option<&Setup>, seed: u64) -> String {
+fn key(family: &StressFamily, setup: Option<&Setup>, seed: u64) -> String {
     let engines: Vec<String> =
         built().map(|name| engines::with_step(name, 1.0).map_or_else(|_| String::new(), |own| own.version())).collect();
     let text = format!("{} {} {seed} {engines:?} {setup:?}", env!("CARGO_PKG_VERSION"), family.name);
@@ -64,7 +65,7 @@ fn told(error: &Error) -> String {
     format!("{}{}", error.message(), at.map_or_else(String::new, |at| format!(" at {at}")))
 }
 
-fn parties(family: &Family, setup: &Setup) -> Result<Vec<Party>> {
+fn parties(family: &StressFamily, setup: &Setup) -> Result<Vec<PartyAtPoint>> {
     let case = &setup.case;
     let truth = if setup.precise { Some(precise::solve(case)) } else { None };
     let (truth, without) = match truth {
@@ -75,13 +76,13 @@ fn parties(family: &Family, setup: &Setup) -> Result<Vec<Party>> {
     let found = sides(case, truth.as_ref())?;
     let against = match &truth {
         Some(_) => precise::method(case).to_string(),
-        None if without.is_empty() => "the other side".into(),
-        None => format!("the other side ({without})"),
+        None if without.is_empty() => sentences::THE_OTHER_SIDE_2.into(),
+        None => sentences::the_other_side(&without),
     };
-    let mut all: Vec<Party> = found.sides.iter().map(|side| of_side(side, &found, &against)).collect();
+    let mut all: Vec<PartyAtPoint> = found.sides.iter().map(|side| of_side(side, &found, &against)).collect();
     let reference = truth.as_ref().map(|truth| (truth, against.as_str()));
     let reference = reference.or(found.trajectory.as_ref().map(|own| (own, "side 1")));
-    if setup.engines != Engines::None {
+    if setup.engines != EngineUse::None {
         for name in built() {
             all.push(of_engine(family, setup, name, reference));
         }
@@ -89,12 +90,12 @@ fn parties(family: &Family, setup: &Setup) -> Result<Vec<Party>> {
     Ok(all)
 }
 
-fn of_side(side: &Side, all: &Sides, against: &str) -> Party {
+fn of_side(side: &AnalyticSide, all: &BothSides, against: &str) -> PartyAtPoint {
     if let Some(error) = &side.failure {
-        return Party::failed(side.name, &told(error));
+        return PartyAtPoint::failed(side.name, &told(error));
     }
     let beyond = side.deviations.iter().filter(|own| !(own.used <= 1.0)).count();
-    Party {
+    PartyAtPoint {
         against: if side.deviations.is_empty() { String::new() } else { against.into() },
         reached: reached(&side.deviations),
         closure: side.closure.map(rounded),
@@ -107,39 +108,44 @@ fn of_side(side: &Side, all: &Sides, against: &str) -> Party {
     }
 }
 
-fn of_engine(family: &Family, setup: &Setup, name: EngineName, truth: Option<(&Trajectory, &str)>) -> Party {
+fn of_engine(
+    family: &StressFamily,
+    setup: &Setup,
+    name: EngineName,
+    truth: Option<(&Trajectory, &str)>,
+) -> PartyAtPoint {
     let options = match setup.engines {
-        Engines::None | Engines::Found(_) => Options::default(),
+        EngineUse::None | EngineUse::Found(_) => Options::default(),
         // What a search with free settings would bring is not asked here.
-        Engines::Given { step, sweeps } => Options::default().step(step).sweeps(sweeps).budget(1.0),
+        EngineUse::Given { step, sweeps } => Options::default().step(step).sweeps(sweeps).budget(1.0),
     };
     let options = match setup.engines {
-        Engines::Found(work) => options.budget(work),
-        Engines::None | Engines::Given { .. } => options,
+        EngineUse::Found(work) => options.budget(work),
+        EngineUse::None | EngineUse::Given { .. } => options,
     };
     let scenario = Scenario::of_case(family.name, setup.case.clone());
     let (proof, work) = counted(|| scenario.and_then(|scenario| prove(&scenario, &options.engine(name))));
     let own = [Count::Worlds, Count::Steps, Count::Sweeps, Count::Probes];
     let done = own.map(|what| (what.name().to_string(), work.of(what))).into_iter().filter(|(_, times)| *times > 0);
     let party = match proof {
-        Err(error) => Party::failed(name.name(), &told(&error)),
+        Err(error) => PartyAtPoint::failed(name.name(), &told(&error)),
         // An engine that agrees with a reference which disagrees with itself is not told as agreeing.
         Ok(proof) => of_proof(&setup.case, proof.engine(), &proof.verdict, truth),
     };
-    Party { done: done.collect(), ..party }
+    PartyAtPoint { done: done.collect(), ..party }
 }
 
-fn of_proof(case: &Case, proof: &EngineProof, whole: &Verdict, truth: Option<(&Trajectory, &str)>) -> Party {
+fn of_proof(case: &Case, proof: &EngineProof, whole: &Verdict, truth: Option<(&Trajectory, &str)>) -> PartyAtPoint {
     let name = proof.info.name;
     if let Some(error) = &proof.failure {
-        return Party::failed(name, &told(error));
+        return PartyAtPoint::failed(name, &told(error));
     }
     let (Some(trajectory), Some((truth, against))) = (&proof.trajectory, truth) else {
-        return Party::failed(name, "there is nothing to hold it against");
+        return PartyAtPoint::failed(name, sentences::THERE_IS_NOTHING_TO_HOLD);
     };
     let deviations = match deviations(truth, trajectory, proof) {
         Ok(deviations) => deviations,
-        Err(error) => return Party::failed(name, &told(&error)),
+        Err(error) => return PartyAtPoint::failed(name, &told(&error)),
     };
     let settings = &proof.info.settings;
     let agrees = |verdict: &Verdict| matches!(verdict, Verdict::Agree { .. } | Verdict::Expected { .. });
@@ -154,7 +160,7 @@ fn of_proof(case: &Case, proof: &EngineProof, whole: &Verdict, truth: Option<(&T
     };
     let span = case.grid.times.iter().fold(0.0f64, |last, t| last.larger(t.abs()));
     let fixed = |value: f64| (!proof.info.controls_error).then(|| rounded(value));
-    Party {
+    PartyAtPoint {
         against: against.into(),
         reached: reached(&deviations),
         closure: check("closure"),
@@ -190,20 +196,20 @@ fn deviations(truth: &Trajectory, own: &Trajectory, proof: &EngineProof) -> Resu
     Ok(errors.iter().zip(scales).filter_map(of).collect())
 }
 
-fn group(stage: Stage) -> Group {
+fn group(stage: Stage) -> QuantityGroup {
     match stage {
-        Stage::Positions => Group::Positions,
-        Stage::Velocities | Stage::Accelerations => Group::Rates,
-        Stage::Reactions | Stage::BalancingMoment => Group::Forces,
+        Stage::Positions => QuantityGroup::Positions,
+        Stage::Velocities | Stage::Accelerations => QuantityGroup::Rates,
+        Stage::Reactions | Stage::BalancingMoment => QuantityGroup::Forces,
     }
 }
 
 /// The worst channel of every group.
-fn reached(deviations: &[Deviation]) -> Vec<Reached> {
-    let of = |wanted: Group| {
+fn reached(deviations: &[Deviation]) -> Vec<WorstOfGroup> {
+    let of = |wanted: QuantityGroup| {
         let own = || deviations.iter().filter(|own| group(own.channel.kind.stage) == wanted);
         let worst = own().max_by(|a, b| a.error.total_cmp(&b.error))?;
-        Some(Reached {
+        Some(WorstOfGroup {
             group: wanted,
             error: rounded(worst.error),
             bound: rounded(worst.bound),
@@ -211,15 +217,15 @@ fn reached(deviations: &[Deviation]) -> Vec<Reached> {
             used: rounded(own().map(|own| own.used).fold(0.0, f64::larger)),
         })
     };
-    Group::ALL.into_iter().filter_map(of).collect()
+    QuantityGroup::ALL.into_iter().filter_map(of).collect()
 }
 
 /// A verdict as it is counted. Cases of families have no numbers that are known to be wrong: none is expected.
-fn end(verdict: &Verdict) -> End {
+fn end(verdict: &Verdict) -> PointEnd {
     match verdict {
-        Verdict::Agree { .. } | Verdict::Expected { .. } => End::Agree,
-        Verdict::Disagree { .. } => End::Disagree,
-        Verdict::Inconclusive { .. } => End::Inconclusive,
+        Verdict::Agree { .. } | Verdict::Expected { .. } => PointEnd::Agree,
+        Verdict::Disagree { .. } => PointEnd::Disagree,
+        Verdict::Inconclusive { .. } => PointEnd::Inconclusive,
     }
 }
 

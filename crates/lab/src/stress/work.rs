@@ -2,8 +2,8 @@
 
 use std::ops::ControlFlow;
 
-use super::Family;
-use super::outcome::Outcome;
+use super::StressFamily;
+use super::outcome::StressOutcome;
 use super::point::{key_of, run};
 use linkage::threads::side_by_side;
 
@@ -11,19 +11,19 @@ use linkage::threads::side_by_side;
 #[derive(Clone, Debug)]
 pub struct Job {
     /// The family.
-    pub family: &'static Family,
+    pub family: &'static StressFamily,
     /// Value of its dial.
     pub dial: f64,
     /// Number of the sample.
     pub sample: u64,
     /// The result, if there is one.
-    pub outcome: Option<Outcome>,
+    pub outcome: Option<StressOutcome>,
 }
 
 /// The points of a family, with the results that are kept and still hold. A quick run has its few points and those that
 /// are kept.
 #[must_use]
-pub fn jobs(family: &'static Family, quick: bool, seed: u64, kept: &[Outcome]) -> Vec<Job> {
+pub fn jobs(family: &'static StressFamily, quick: bool, seed: u64, kept: &[StressOutcome]) -> Vec<Job> {
     let all = family.points.iter().flat_map(|&dial| (0..family.samples).map(move |sample| (dial, sample)));
     let job = |(dial, sample): (f64, u64)| {
         let own = kept.iter().find(|own| own.dial == dial && own.sample == sample);
@@ -48,7 +48,7 @@ pub fn run_all<E>(
     let open: Vec<usize> = (0..jobs.len()).filter(|&index| jobs[index].outcome.is_none()).collect();
     let points: Vec<_> = open.iter().map(|&index| (jobs[index].family, jobs[index].dial, jobs[index].sample)).collect();
     let (mut finished, mut failed) = (jobs.len() - open.len(), None);
-    let work = |index: usize, tell: &mut dyn FnMut(Outcome)| {
+    let work = |index: usize, tell: &mut dyn FnMut(StressOutcome)| {
         let (family, dial, sample) = points[index];
         tell(run(family, dial, sample, seed));
     };

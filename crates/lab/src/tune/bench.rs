@@ -8,7 +8,7 @@ use super::search::{Found, largest_step};
 use super::ways::{sweeps, ways};
 use crate::steps::work_of_run;
 use linkage::case::Case;
-use linkage::engine::{Engine, Kept, Settings};
+use linkage::engine::{CachedEngine, Engine, Settings};
 use linkage::error::{ErrorKind, Result};
 use linkage::trajectory::{Channel, Trajectory};
 use prover::compare::{Convergence, Ladder, OtherSweeps, residuals};
@@ -259,7 +259,7 @@ impl Bench<'_> {
             rungs.push(Settings { sweeps: settings.sweeps * 2, ..settings });
         }
         self.runs += rungs.len();
-        let kept = Kept::new(engine);
+        let kept = CachedEngine::new(engine);
         let runs: Result<Vec<Trajectory>> = rungs.iter().map(|&rung| kept.with(rung).solve(self.case)).collect();
         let runs = runs?;
         let [double, single, half] = [0, 1, 2].map(|k| &runs[k]);

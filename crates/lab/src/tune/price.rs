@@ -1,11 +1,11 @@
-//! What a run costs, by the work that its settings mean: the same on every machine and in every run, so that no clock
-//! decides what is found.
+//! The cost of a run, counted as work by its settings, so that no clock decides the result.
+//! See docs/numerics/laboratory.md.
 
 use crate::steps::span;
 use linkage::case::Case;
 use linkage::engine::{Engine, Route};
 use linkage::error::Result;
-use linkage::mechanism::Tree;
+use linkage::mechanism::SpanningTree;
 use linkage::work::{Count, counted};
 use prover::engines::EngineName;
 
@@ -80,7 +80,7 @@ pub fn price_of(case: &Case, engine: &dyn Engine) -> f64 {
     let settings = engine.settings();
     let costs = named(engine);
     let worlds = match engine.name().starts_with("rapier") {
-        true => Tree::covering(&case.mechanism, &case.wanted_reactions()).len() as f64,
+        true => SpanningTree::covering(&case.mechanism, &case.wanted_reactions()).len() as f64,
         false => 1.0,
     };
     let (span, instants) = (span(case), case.grid.len() as f64);

@@ -1,5 +1,6 @@
 //! Builds a case in code. Links have names, not numbers. The build checks them.
 
+use crate::sentences;
 use std::f64::consts::TAU;
 
 use super::{Case, CaseParts, Grid, Wanted};
@@ -7,7 +8,8 @@ use crate::drive::{Drive, DriveMotion, Drives, Load, MotionLaw, Motor};
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::{Vec2, unit};
 use crate::mechanism::{
-    AssemblyMode, GROUND, Joint, JointKind, Link, LinkId, Mechanism, Point, Side, StartGroup, Structure, first_pose,
+    AssemblyMode, GROUND, Joint, JointKind, JointSide, Link, LinkId, Mechanism, Point, StartGroup, Structure,
+    first_pose,
 };
 
 /// A joint by names.
@@ -25,8 +27,8 @@ struct Wish {
 /// The single steps check nothing. [`CaseBuilder::build`] checks everything and names what is wrong.
 ///
 /// ```
-/// use linkage::case::Case;
-/// use linkage::mechanism::AssemblyMode;
+/// use linkproof_linkage::case::Case;
+/// use linkproof_linkage::mechanism::AssemblyMode;
 ///
 /// let four_bar = Case::builder()
 ///     .ground(&[("O", [0.0, 0.0]), ("C", [0.4, 0.0])])
@@ -42,7 +44,7 @@ struct Wish {
 ///     .mode(&["coupler", "rocker"], AssemblyMode::Left)
 ///     .build()?;
 /// assert_eq!(four_bar.grid.len(), 361);
-/// # Ok::<(), linkage::Error>(())
+/// # Ok::<(), linkproof_linkage::Error>(())
 /// ```
 #[derive(Clone, Debug)]
 pub struct CaseBuilder {
@@ -216,7 +218,11 @@ impl CaseBuilder {
     /// Also the errors of [`Mechanism::new`], [`Structure::of`], [`first_pose`] and [`Case::new`].
     pub fn build(mut self) -> Result<Case> {
         if self.links.first().is_none_or(|link| link.name != "ground") {
-            return Err(missing("ground", "the mechanism has no ground", "give its points with `ground`"));
+            return Err(missing(
+                "ground",
+                sentences::THE_MECHANISM_HAS_NO_GROUND,
+                sentences::GIVE_ITS_POINTS_WITH_GROUND,
+            ));
         }
         for (name, mass, centre, inertia) in std::mem::take(&mut self.masses) {
             let index = self.link_of(&name, "masses")?;
@@ -241,13 +247,13 @@ impl CaseBuilder {
 
     fn made(&self, wish: &Wish) -> Result<Joint> {
         let key = format!("joints.{}", wish.name);
-        let side = |[link, name]: &[String; 2]| -> Result<Side> {
+        let side = |[link, name]: &[String; 2]| -> Result<JointSide> {
             let index = self.link_of(link, &key)?;
             let points = &self.links[index].points;
             let point = points.iter().find(|point| point.name == *name).ok_or_else(|| {
-                unknown(&format!("point of link \"{link}\""), name, &key, points.iter().map(|own| own.name.as_str()))
+                unknown(&sentences::point_of_link(&link), name, &key, points.iter().map(|own| own.name.as_str()))
             })?;
-            Ok(Side { link: index, local: point.local })
+            Ok(JointSide { link: index, local: point.local })
         };
         let kind = match wish.axes {
             None => JointKind::Revolute,
@@ -300,8 +306,8 @@ impl CaseBuilder {
             });
         }
         if all.is_empty() {
-            let help = "name the driven joint with `crank`, `driven` or `free`";
-            return Err(missing("drive", "nothing drives the mechanism", help));
+            let help = sentences::NAME_THE_DRIVEN_JOINT_WITH_CRANK;
+            return Err(missing("drive", sentences::NOTHING_DRIVES_THE_MECHANISM, help));
         }
         let crank = all.remove(0);
         let crank = if self.motor.is_some() { crank.with_motor(self.motor.clone()) } else { crank };
@@ -343,8 +349,8 @@ fn bare(name: &str, points: &[(&str, [f64; 2])]) -> Link {
 
 fn unknown<'a>(what: &str, asked: &str, key: &str, known: impl Iterator<Item = &'a str>) -> Error {
     let known: Vec<&str> = known.collect();
-    let error = Error::new(ErrorKind::Input, format!("there is no {what} called \"{asked}\"")).key(key);
-    error.help(format!("use one of: {}", known.join("; ")))
+    let error = Error::new(ErrorKind::Input, sentences::there_is_no_called(&what, &asked)).key(key);
+    error.help(sentences::use_one_of(&(known.join("; "))))
 }
 
 fn missing(key: &str, what: &str, help: &str) -> Error {

@@ -1,5 +1,6 @@
 //! Conditions between the parts of a case.
 
+use crate::sentences;
 use std::f64::consts::TAU;
 
 use super::grid::Grid;
@@ -23,7 +24,7 @@ pub(super) fn all(parts: &CaseParts) -> Result<()> {
     structure(parts)?;
     loads(parts)?;
     if !parts.gravity.iter().all(|value| value.is_finite()) {
-        return Err(wrong("gravity", format!("gravity is ({}, {}) m/s^2", parts.gravity.x, parts.gravity.y)));
+        return Err(wrong("gravity", sentences::gravity_is(&parts.gravity.x, &parts.gravity.y)));
     }
     start(parts)?;
     modes(parts)?;
@@ -34,10 +35,9 @@ pub(super) fn all(parts: &CaseParts) -> Result<()> {
 pub(super) fn grid(grid: &Grid, crank: &Drive) -> Result<()> {
     if grid.times.len() != grid.inputs.len() {
         let [times, cranks] = [grid.times.len(), grid.inputs.len()];
-        return Err(wrong("grid", format!("the grid has {times} times, but {cranks} crank angles")));
+        return Err(wrong("grid", sentences::the_grid_has_times_but_crank(&times, &cranks)));
     }
-    grid.check(crank)
-        .map_err(|message| wrong("grid", message).help("ask for instants and crank angles to which the drive comes"))
+    grid.check(crank).map_err(|message| wrong("grid", message).help(sentences::ASK_FOR_INSTANTS_AND_CRANK))
 }
 
 fn wrong(key: &str, message: impl Into<String>) -> Error {
@@ -50,49 +50,56 @@ fn drives(parts: &CaseParts) -> Result<()> {
         let fault = |kind, message: String| Err(Error::new(kind, message).key("drive"));
         let links = parts.mechanism.links();
         let (Some(joint), Some(link)) = (parts.mechanism.joints().get(drive.joint), links.get(drive.link)) else {
-            let message = format!("drive {index} turns link {} at joint {}", drive.link, drive.joint);
+            let message = sentences::drive_turns_link_at_joint(&index, &drive.link, &drive.joint);
             let [links, joints] = [links.len(), parts.mechanism.joints().len()];
-            return fault(ErrorKind::Input, format!("{message}, but there are {links} links and {joints} joints"));
+            return fault(ErrorKind::Input, sentences::but_there_are_links_and_joints(&message, &links, &joints));
         };
-        let names = format!("the drive of link \"{}\" at joint \"{}\"", link.name, joint.name);
+        let names = sentences::the_drive_of_link_at_joint(&link.name, &joint.name);
         if drive.link == GROUND || joint.on(drive.link).is_none() {
-            return fault(ErrorKind::Input, format!("{names}: the joint does not carry a moving link of that name"));
+            return fault(ErrorKind::Input, sentences::the_joint_does_not_carry(&names));
         }
         if joint.kind.input() != Some(drive.input) {
-            let message = format!("{names}: the joint is {}, but a drive turns", joint.kind.name());
+            let message = sentences::the_joint_is_but_a_drive(&names, &joint.kind.name());
             return fault(ErrorKind::Unsupported, message);
         }
         if moves_nothing(&parts.mechanism, drive) {
-            let message = format!("{names} moves nothing: all joints of the link lie on one point");
+            let message = sentences::moves_nothing_all_joints_of_the_link(&names);
             return Err(Error::new(ErrorKind::Geometry, message)
                 .key(format!("links.{}", link.name))
                 .of_link(&link.name)
-                .help("give the crank a length"));
+                .help(sentences::GIVE_THE_CRANK_A_LENGTH));
         }
         let before = &parts.drives[..index];
         if before.iter().any(|other| other.joint == drive.joint || other.link == drive.link) {
-            return fault(ErrorKind::Input, format!("{names}: joint or link is driven already"));
+            return fault(ErrorKind::Input, sentences::joint_or_link_is_driven_already(&names));
         }
         if !(drive.zero.is_finite() && drive.start.is_finite() && motion_is_sound(&drive.motion)) {
-            return fault(ErrorKind::Input, format!("{names} has a number that is not finite: {drive:?}"));
+            return fault(
+                ErrorKind::Input,
+                sentences::has_a_number_that_is_not_finite(&names, &format_args!("{drive:?}")),
+            );
         }
         let turns = drive.start.abs() / TAU;
         if turns > Grid::MOST_TURNS {
-            let message = format!("{names} starts {turns:.1e} turns away, the limit is {:e}", Grid::MOST_TURNS);
+            let message = sentences::starts_turns_away_the_limit(
+                &names,
+                &format_args!("{turns:.1e}"),
+                &format_args!("{:e}", Grid::MOST_TURNS),
+            );
             return Err(Error::new(ErrorKind::Input, message)
                 .key("start.crank")
-                .help("give the crank angle of the start within a turn"));
+                .help(sentences::GIVE_THE_CRANK_ANGLE_OF_THE_START));
         }
         if several && drive.constant_speed().is_none() {
-            let message = format!("{names} has a speed that changes, beside other drives");
+            let message = sentences::has_a_speed_that_changes(&names);
             return fault(ErrorKind::Unsupported, message);
         }
         if joint.on(GROUND).is_none() && !drive.is_free() {
-            let message = format!("{names} hangs on a moving link, but the motion is prescribed");
+            let message = sentences::hangs_on_a_moving_link_but_the_motion(&names);
             return fault(ErrorKind::Unsupported, message);
         }
         if index > 0 && drive.motor().is_some() {
-            let message = format!("{names} has a motor, but only the crank's is solved");
+            let message = sentences::has_a_motor_but_only_the_crank(&names);
             return fault(ErrorKind::Unsupported, message);
         }
     }
@@ -163,15 +170,15 @@ fn structure(parts: &CaseParts) -> Result<()> {
     let own = Structure::of(&parts.mechanism, &parts.drives.joints())?;
     if own != parts.structure {
         let [own, given] = [&own, &parts.structure].map(|structure| structure.groups.len() + structure.drivers.len());
-        let message = format!("the structure, of {given} parts, is not that of mechanism and drives, of {own}");
-        return Err(wrong("structure", message).help("take `Structure::of` the mechanism and its driven joints"));
+        let message = sentences::the_structure_of_parts_is_not_that_of_mechanism(&given, &own);
+        return Err(wrong("structure", message).help(sentences::TAKE_STRUCTURE_OF_THE_MECHANISM));
     }
     match parts.drives.iter().zip(&own.drivers).find(|(drive, (link, _))| drive.link != *link) {
         None => Ok(()),
         Some((drive, &(link, joint))) => {
             let [said, turned] = [drive.link, link].map(|link| &parts.mechanism.links()[link].name);
             let name = &parts.mechanism.joints()[joint].name;
-            Err(wrong("drive", format!("joint \"{name}\" drives link \"{turned}\", not \"{said}\"")))
+            Err(wrong("drive", sentences::joint_drives_link_not(&name, &turned, &said)))
         }
     }
 }
@@ -182,10 +189,10 @@ fn loads(parts: &CaseParts) -> Result<()> {
         let links = load.links();
         let count = parts.mechanism.links().len();
         if let Some(link) = links.iter().find(|link| link.index() >= count) {
-            return fault(format!("it acts on link {link}, but there are {count} links"));
+            return fault(sentences::it_acts_on_link_but_there(&link, &count));
         }
         if !load.is_sound() {
-            return fault(format!("a number is not finite, or negative where it must not be: {load:?}"));
+            return fault(sentences::a_number_is_not_finite_or_negative(&format_args!("{load:?}")));
         }
     }
     Ok(())
@@ -197,15 +204,15 @@ fn start(parts: &CaseParts) -> Result<()> {
     let (mechanism, poses) = (&parts.mechanism, &parts.start.0);
     let links = mechanism.links();
     if poses.len() != links.len() {
-        let message = format!("the start pose has {} places, but there are {} links", poses.len(), links.len());
+        let message = sentences::the_start_pose_has_places(&poses.len(), &links.len());
         return Err(wrong("start", message));
     }
     if poses[GROUND] != LinkPose::GROUND {
-        return Err(wrong("start", format!("the ground is moved in the start pose: {:?}", poses[GROUND])));
+        return Err(wrong("start", sentences::the_ground_is_moved_in_the_start(&format_args!("{:?}", poses[GROUND]))));
     }
     let is_finite = |pose: &LinkPose| [pose.origin.x, pose.origin.y, pose.angle].iter().all(|value| value.is_finite());
     if let Some((link, pose)) = links.iter().zip(poses).find(|(_, pose)| !is_finite(pose)) {
-        return Err(wrong("start", format!("link \"{}\" has no place in the start pose: {pose:?}", link.name)));
+        return Err(wrong("start", sentences::link_has_no_place_in_the_start(&link.name, &format_args!("{pose:?}"))));
     }
     let at = parts.drives.crank().told(parts.drives.crank().start);
     let reach = poses.iter().fold(mechanism.size(), |most, pose| most.larger(pose.origin.norm()));
@@ -215,8 +222,12 @@ fn start(parts: &CaseParts) -> Result<()> {
         let (gap, turn) = joint.opening(places, sides.map(|side| unit(poses[side.link].angle)));
         // Written this way round so that NaN is refused.
         if !(gap <= LARGEST_OPENING * reach && turn <= LARGEST_OPENING) {
-            let message =
-                format!("joint \"{}\" is open in the start pose, {at}: by {gap:.3e} m and {turn:.3e} rad", joint.name);
+            let message = sentences::joint_is_open_in_the_start(
+                &joint.name,
+                &at,
+                &format_args!("{gap:.3e}"),
+                &format_args!("{turn:.3e}"),
+            );
             return Err(Error::new(ErrorKind::Geometry, message).key("start").help(CLOSED));
         }
     }
@@ -224,26 +235,25 @@ fn start(parts: &CaseParts) -> Result<()> {
         let off = (unit(poses[drive.link].angle) - unit(drive.world_angle(drive.start))).norm();
         if !(off <= LARGEST_OPENING) {
             let name = &links[drive.link].name;
-            let message = format!("link \"{name}\" stands {off:.3e} rad off the angle at which its drive starts");
+            let message = sentences::link_stands_rad_off_the_angle(&name, &format_args!("{off:.3e}"));
             return Err(Error::new(ErrorKind::Geometry, message).key("start").help(CLOSED));
         }
     }
     Ok(())
 }
 
-const CLOSED: &str =
-    "take `first_pose` at the world angles of the drives, or another pose in which all joints are closed";
+const CLOSED: &str = sentences::TAKE_FIRST_POSE_AT_THE_WORLD;
 
 /// Checks that every group has a mode, and that the mode is of the group's kind.
 fn modes(parts: &CaseParts) -> Result<()> {
     let (groups, modes) = (&parts.structure.groups, &parts.modes);
     if groups.len() != modes.len() {
-        let message = format!("there are {} assembly modes, but {} groups", modes.len(), groups.len());
+        let message = sentences::there_are_assembly_modes_but_groups(&modes.len(), &groups.len());
         return Err(wrong("start", message));
     }
     for (group, mode) in groups.iter().zip(modes) {
         if !has_mode(group.kind, *mode) {
-            let message = format!("the mode \"{}\" is none of group {}", mode.name(), group.names(&parts.mechanism));
+            let message = sentences::the_mode_is_none_of_group(&mode.name(), &group.names(&parts.mechanism));
             return Err(wrong("start", message));
         }
     }

@@ -1,5 +1,6 @@
 //! Instants at which a solution is wanted.
 
+use crate::sentences;
 use std::f64::consts::TAU;
 
 use crate::drive::Drive;
@@ -59,29 +60,24 @@ impl Grid {
         let has_angles_alone =
             self.times.iter().all(|t| t.is_nan()) && self.inputs.iter().all(|input| input.is_finite());
         if drive.is_free() && !self.is_empty() && has_angles_alone {
-            return Err("the motion is free: when the crank comes to an angle is a result of the forces".into());
+            return Err(sentences::THE_MOTION_IS_FREE_WHEN_THE_CRANK.into());
         }
         if drive.constant_speed().is_none() {
             let name = drive.law_name();
             if self.times.iter().any(|t| t.is_nan()) && self.inputs.iter().all(|input| input.is_finite()) {
-                return Err(format!(
-                    "the drive's law, \"{name}\", does not come to a {} of the grid at one time",
-                    drive.input.noun()
-                ));
+                return Err(sentences::the_drive_law_does_not_come(&name, &drive.input.noun()));
             }
             // A rounding error beyond the last instant is allowed.
             let end = drive.end().unwrap_or(f64::INFINITY);
             if let Some(t) = self.times.iter().find(|&&t| t < 0.0 || t > end * (1.0 + 1e-12)) {
-                return Err(format!(
-                    "the grid leads to {t} s, but the drive's law, \"{name}\", goes from 0 to {end} s"
-                ));
+                return Err(sentences::the_grid_leads_to_but_the_drive(&t, &name, &end));
             }
         }
         let most = self.inputs.iter().fold(0.0, |most: f64, input| most.larger(input.abs())) / TAU;
         if most <= Self::MOST_TURNS && self.times.iter().chain(&self.inputs).all(|value| value.is_finite()) {
             return Ok(());
         }
-        Err(format!("the grid leads {most:.1e} turns away, the limit is {:e}", Self::MOST_TURNS))
+        Err(sentences::the_grid_leads_turns_away(&format_args!("{most:.1e}"), &format_args!("{:e}", Self::MOST_TURNS)))
     }
 
     /// Rows of the grid in ascending order of time.

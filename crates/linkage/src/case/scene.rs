@@ -1,16 +1,11 @@
-//! The smallest case that has the same values in the wanted channels.
-//!
-//! A mechanism stays one when Assur groups are taken off that no other group hangs on.
-//! Motion is handed on from the drives outwards: a link depends on its own group and those before it.
-//! Forces are handed on inwards: a reaction depends on the motion and the loads of its own group and of those that hang
-//! on it. What is left over is neither placed, nor a body of an engine, nor recorded.
-//! Where forces decide the motion, everything that has a mass counts, and nothing is left out.
+//! The smallest case that has the same values in the wanted channels. See docs/skip.md and docs/numerics/settings.md.
 
 use super::{Case, CaseParts, Seat};
 use crate::drive::{Drive, Drives, Load};
 use crate::error::Result;
 use crate::mechanism::{
-    AssemblyMode, GROUND, Group, GroupId, Id, Joint, JointId, Link, LinkId, Mechanism, PerLink, Pose, Side, Structure,
+    AssemblyMode, GROUND, Group, GroupId, Joint, JointId, JointSide, Link, LinkId, Mechanism, Ordinal, PerLink, Pose,
+    Structure,
 };
 use crate::trajectory::{Channel, Stage};
 
@@ -201,7 +196,7 @@ impl<'a> Needs<'a> {
         let link_number = numbers(self.moves.iter().copied());
         let joint_number = numbers(whole.joints().iter().map(|joint| self.has_joint(joint)));
         let own_joint = |joint: &Joint| {
-            let on = |side: Side| Side { link: link_number[side.link], ..side };
+            let on = |side: JointSide| JointSide { link: link_number[side.link], ..side };
             Joint { first: on(joint.first), second: on(joint.second), ..joint.clone() }
         };
         let joints = whole.joints().iter().filter(|joint| self.has_joint(joint)).map(own_joint).collect();
@@ -242,7 +237,7 @@ impl<'a> Needs<'a> {
         };
         let pinned = |name: &str, [a, b]: [LinkId; 2]| {
             whole.joints().iter().any(|joint| {
-                let at = |side: Side| {
+                let at = |side: JointSide| {
                     whole.links()[side.link].points.iter().any(|own| own.name == name && own.local == side.local)
                 };
                 joint.is_pin() && joint.on(a).is_some() && joint.on(b).is_some() && at(joint.first) && at(joint.second)
@@ -284,7 +279,7 @@ impl<'a> Needs<'a> {
 }
 
 /// New numbers of what stays, in order. Those of what does not stay are never asked for.
-fn numbers<I: Id>(stays: impl Iterator<Item = bool>) -> Vec<I> {
+fn numbers<I: Ordinal>(stays: impl Iterator<Item = bool>) -> Vec<I> {
     let mut next = 0;
     stays
         .map(|stays| {

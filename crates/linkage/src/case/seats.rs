@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use super::Case;
-use crate::mechanism::{JointId, LinkId, Side};
-use crate::trajectory::{Channel, Stage, Subject};
+use crate::mechanism::{JointId, JointSide, LinkId};
+use crate::trajectory::{Channel, ChannelSubject, Stage};
 
 /// Where in a mechanism the subject of a channel sits. It says what its numbers depend on and what they tell about.
 /// A new subject sits on one of these: see [`Case::seats`].
@@ -13,7 +13,7 @@ pub enum Seat {
     /// On the link with this number.
     Link(LinkId),
     /// At a point, on the first link that carries it.
-    Point(Side),
+    Point(JointSide),
     /// In the joint with this number.
     Joint(JointId),
     /// At the drive with this number.
@@ -24,7 +24,7 @@ pub enum Seat {
 
 /// The seats of all subjects of a case, by their names.
 #[derive(Debug)]
-pub struct Seats<'a>(BTreeMap<(Subject, &'a str), Seat>);
+pub struct Seats<'a>(BTreeMap<(ChannelSubject, &'a str), Seat>);
 
 impl Seats<'_> {
     /// The seat of a channel's subject; `None` for a channel that the case does not have.
@@ -36,18 +36,20 @@ impl Seats<'_> {
 
 impl Case {
     /// Everything that has channels, in the order of columns: sort, name, and seat.
-    pub(crate) fn subjects(&self) -> impl Iterator<Item = (Subject, &str, Seat)> {
+    pub(crate) fn subjects(&self) -> impl Iterator<Item = (ChannelSubject, &str, Seat)> {
         let (links, joints) = (self.mechanism.links(), self.mechanism.joints());
-        let links = links.entries().skip(1).map(|(id, link)| (Subject::Link, link.name.as_str(), Seat::Link(id)));
-        let points = self.mechanism.moving_points().map(|(name, side)| (Subject::Point, name, Seat::Point(side)));
+        let links =
+            links.entries().skip(1).map(|(id, link)| (ChannelSubject::Link, link.name.as_str(), Seat::Link(id)));
+        let points =
+            self.mechanism.moving_points().map(|(name, side)| (ChannelSubject::Point, name, Seat::Point(side)));
         let sliders = joints.entries().filter(|(_, joint)| joint.slides());
-        let sliders = sliders.map(|(id, joint)| (Subject::Slider, joint.name.as_str(), Seat::Joint(id)));
-        let frame = std::iter::once((Subject::Frame, "", Seat::Frame));
+        let sliders = sliders.map(|(id, joint)| (ChannelSubject::Slider, joint.name.as_str(), Seat::Joint(id)));
+        let frame = std::iter::once((ChannelSubject::Frame, "", Seat::Frame));
         let moved = self.drives.with_moment().map(|(index, drive)| match index {
-            0 => (Subject::Drive, "", Seat::Drive(0)),
-            _ => (Subject::Motor, joints[drive.joint].name.as_str(), Seat::Drive(index)),
+            0 => (ChannelSubject::Drive, "", Seat::Drive(0)),
+            _ => (ChannelSubject::Motor, joints[drive.joint].name.as_str(), Seat::Drive(index)),
         });
-        let joints = joints.entries().map(|(id, joint)| (Subject::Joint, joint.name.as_str(), Seat::Joint(id)));
+        let joints = joints.entries().map(|(id, joint)| (ChannelSubject::Joint, joint.name.as_str(), Seat::Joint(id)));
         links.chain(points).chain(joints).chain(sliders).chain(frame).chain(moved)
     }
 

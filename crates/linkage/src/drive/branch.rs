@@ -60,7 +60,7 @@ impl Curve {
 
 /// One smooth piece of a motor's moment on the crank.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Branch {
+pub struct MotorBranch {
     curve: Curve,
     ratio: f64,
     /// Share of the static torque that reaches the crank; its inverse where power flows back to the motor.
@@ -69,7 +69,7 @@ pub struct Branch {
     pub speeds: [f64; 2],
 }
 
-impl Branch {
+impl MotorBranch {
     /// The piece of a curve between two speeds of the motor, behind a reducer of this ratio and efficiency.
     /// Torque and speed keep their signs on the piece.
     pub(super) fn of(ratio: f64, efficiency: f64, curve: Curve, ends: [f64; 2]) -> Self {
@@ -81,7 +81,7 @@ impl Branch {
         };
         let drives = curve.torque(inside) * inside >= 0.0;
         let factor = if drives { efficiency } else { 1.0 / efficiency };
-        Branch { curve, ratio, factor, speeds: ends.map(|speed| speed / ratio) }
+        MotorBranch { curve, ratio, factor, speeds: ends.map(|speed| speed / ratio) }
     }
 
     /// Moment on the crank (N m) at the crank's speed `omega` (rad/s).

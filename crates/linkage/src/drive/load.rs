@@ -8,12 +8,12 @@ mod change;
 mod parts;
 mod state;
 
-pub use parts::{Acts, Nature, On, Part, Role, Senses};
-pub use state::{Action, Setting, Wrench};
+pub use parts::{Acts, LoadNature, LoadPart, LoadRole, On, Senses};
+pub use state::{Action, LoadState, Wrench};
 
 use super::course::Course;
 use crate::math::{Motion, Vec2};
-use crate::mechanism::{LinkId, Side};
+use crate::mechanism::{JointSide, LinkId};
 
 /// A load on one link, or between two.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,7 +37,7 @@ pub enum Load {
     /// Force on a point of a link.
     Force {
         /// The point.
-        at: Side,
+        at: JointSide,
         /// Components (N), in world axes or in the axes of the link's frame.
         force: [Course; 2],
         /// Whether the components are in the link's frame, so that the force turns with it.
@@ -46,7 +46,7 @@ pub enum Load {
     /// Force of constant size against the motion of a point of a link, -F v / |v|. Zero while the point stands still.
     ResistingForce {
         /// The point.
-        at: Side,
+        at: JointSide,
         /// Size of the force (N), not negative.
         force: f64,
     },
@@ -54,7 +54,7 @@ pub enum Load {
     /// Where the points coincide the direction is undefined and the force is zero.
     Spring {
         /// The points.
-        ends: [Side; 2],
+        ends: [JointSide; 2],
         /// Stiffness (N/m).
         stiffness: f64,
         /// Length without force (m).
@@ -64,7 +64,7 @@ pub enum Load {
     /// The force is zero where they coincide.
     Damper {
         /// The points.
-        ends: [Side; 2],
+        ends: [JointSide; 2],
         /// Damping (N s/m).
         damping: f64,
     },
@@ -93,7 +93,7 @@ pub enum Load {
 impl Load {
     /// Calls `put` with the action of the load on each of its links, the ground included.
     #[inline]
-    pub fn act(&self, setting: &Setting, put: &mut impl FnMut(Action)) {
+    pub fn act(&self, setting: &LoadState, put: &mut impl FnMut(Action)) {
         let motions = setting.motions;
         match self {
             Load::Moment { link, moment, acts: Acts::Always } => {
@@ -143,70 +143,74 @@ impl Load {
     /// Code that must know a load's variant asks this where it can.
     #[inline]
     #[must_use]
-    pub fn nature(&self) -> Nature<'_> {
+    pub fn nature(&self) -> LoadNature<'_> {
         let plain =
-            |sort, on| Nature { sort, on, senses: Senses::Nothing, is_viscous: false, twist: None, courses: &[] };
+            |sort, on| LoadNature { sort, on, senses: Senses::Nothing, is_viscous: false, twist: None, courses: &[] };
         match self {
             &Load::Resistance { link, moment: _ } => {
-                Nature { senses: Senses::Link(link), ..plain("resistance", On::Link(link)) }
+                LoadNature { senses: Senses::Link(link), ..plain("resistance", On::Link(link)) }
             }
             Load::Moment { link, moment, acts } => {
                 let senses = match acts {
                     Acts::Always => Senses::Nothing,
                     Acts::CounterClockwise | Acts::Clockwise => Senses::Link(*link),
                 };
-                Nature { senses, courses: std::slice::from_ref(moment), ..plain("moment", On::Link(*link)) }
+                LoadNature { senses, courses: std::slice::from_ref(moment), ..plain("moment", On::Link(*link)) }
             }
-            Load::Force { at, force, follows: _ } => Nature { courses: force, ..plain("force", On::Point(*at)) },
+            Load::Force { at, force, follows: _ } => LoadNature { courses: force, ..plain("force", On::Point(*at)) },
             &Load::ResistingForce { at, force: _ } => {
-                Nature { senses: Senses::Point(at), ..plain("resisting_force", On::Point(at)) }
+                LoadNature { senses: Senses::Point(at), ..plain("resisting_force", On::Point(at)) }
             }
             &Load::Spring { ends, stiffness: _, free_length: _ } => plain("spring", On::Points(ends)),
-            &Load::Damper { ends, damping: _ } => Nature { is_viscous: true, ..plain("damper", On::Points(ends)) },
+            &Load::Damper { ends, damping: _ } => LoadNature { is_viscous: true, ..plain("damper", On::Points(ends)) },
             &Load::TorsionSpring { links, stiffness: _, free_angle: _ } => {
-                Nature { twist: Some(links), ..plain("torsion_spring", On::Links(links)) }
+                LoadNature { twist: Some(links), ..plain("torsion_spring", On::Links(links)) }
             }
             &Load::TorsionDamper { links, damping: _ } => {
-                Nature { is_viscous: true, ..plain("torsion_damper", On::Links(links)) }
+                LoadNature { is_viscous: true, ..plain("torsion_damper", On::Links(links)) }
             }
         }
     }
 
     /// Everything that the load is made of, to be read or changed; what it acts on first.
-    pub fn parts(&mut self) -> Vec<Part<'_>> {
-        fn amount<'a>(name: &'static str, value: &'a mut f64) -> Part<'a> {
-            Part::Number { role: Role::Amount, name, value }
+    pub fn parts(&mut self) -> Vec<LoadPart<'_>> {
+        fn amount<'a>(name: &'static str, value: &'a mut f64) -> LoadPart<'a> {
+            LoadPart::Number { role: LoadRole::Amount, name, value }
         }
-        fn size<'a>(name: &'static str, value: &'a mut f64) -> Part<'a> {
-            Part::Number { role: Role::Size, name, value }
+        fn size<'a>(name: &'static str, value: &'a mut f64) -> LoadPart<'a> {
+            LoadPart::Number { role: LoadRole::Size, name, value }
         }
         match self {
-            Load::Resistance { link, moment } => vec![Part::Link(link), size("moment_N_m", moment)],
+            Load::Resistance { link, moment } => vec![LoadPart::Link(link), size("moment_N_m", moment)],
             Load::Moment { link, moment, acts } => {
                 let values = std::slice::from_mut(moment);
-                vec![Part::Link(link), Part::Courses { name: "moment_N_m", values }, Part::Acts(acts)]
+                vec![LoadPart::Link(link), LoadPart::Courses { name: "moment_N_m", values }, LoadPart::Acts(acts)]
             }
             Load::Force { at, force, follows } => {
-                vec![Part::Point(at), Part::Courses { name: "force_N", values: force }, Part::Follows(follows)]
+                vec![
+                    LoadPart::Point(at),
+                    LoadPart::Courses { name: "force_N", values: force },
+                    LoadPart::Follows(follows),
+                ]
             }
-            Load::ResistingForce { at, force } => vec![Part::Point(at), size("force_N", force)],
+            Load::ResistingForce { at, force } => vec![LoadPart::Point(at), size("force_N", force)],
             Load::Spring { ends: [first, second], stiffness, free_length } => vec![
-                Part::Point(first),
-                Part::Point(second),
+                LoadPart::Point(first),
+                LoadPart::Point(second),
                 amount("stiffness_N_m", stiffness),
-                Part::Number { role: Role::Rest { unit: "m" }, name: "free_length_m", value: free_length },
+                LoadPart::Number { role: LoadRole::Rest { unit: "m" }, name: "free_length_m", value: free_length },
             ],
             Load::Damper { ends: [first, second], damping } => {
-                vec![Part::Point(first), Part::Point(second), amount("damping_N_s_m", damping)]
+                vec![LoadPart::Point(first), LoadPart::Point(second), amount("damping_N_s_m", damping)]
             }
             Load::TorsionSpring { links: [first, second], stiffness, free_angle } => vec![
-                Part::Link(first),
-                Part::Link(second),
+                LoadPart::Link(first),
+                LoadPart::Link(second),
                 amount("stiffness_N_m_rad", stiffness),
-                Part::Number { role: Role::Rest { unit: "rad" }, name: "free_angle_rad", value: free_angle },
+                LoadPart::Number { role: LoadRole::Rest { unit: "rad" }, name: "free_angle_rad", value: free_angle },
             ],
             Load::TorsionDamper { links: [first, second], damping } => {
-                vec![Part::Link(first), Part::Link(second), amount("damping_N_m_s_rad", damping)]
+                vec![LoadPart::Link(first), LoadPart::Link(second), amount("damping_N_m_s_rad", damping)]
             }
         }
     }
@@ -223,7 +227,7 @@ impl Load {
 
     /// The point on whose sense of motion the load depends.
     #[must_use]
-    pub fn sensed_point(&self) -> Option<Side> {
+    pub fn sensed_point(&self) -> Option<JointSide> {
         match self.nature().senses {
             Senses::Point(at) => Some(at),
             Senses::Nothing | Senses::Link(_) => None,
@@ -289,7 +293,7 @@ impl Load {
         self.nature().is_viscous
     }
 
-    /// Whether the load depends on [`Setting::angles`] or [`Setting::crank`].
+    /// Whether the load depends on [`LoadState::angles`] or [`LoadState::crank`].
     #[must_use]
     pub fn needs_angles(&self) -> bool {
         self.nature().twist.is_some() || self.courses().any(|course| course.knots().is_some())
@@ -317,7 +321,7 @@ pub fn sense_of(velocity: Vec2) -> Vec2 {
 
 /// World places of two ends and the vector from the first to the second.
 #[inline]
-fn span(motions: &[Motion], ends: [Side; 2]) -> ([Vec2; 2], Vec2) {
+fn span(motions: &[Motion], ends: [JointSide; 2]) -> ([Vec2; 2], Vec2) {
     let places = ends.map(|end| motions[end.link].point(end.local));
     (places, places[1] - places[0])
 }
@@ -325,7 +329,7 @@ fn span(motions: &[Motion], ends: [Side; 2]) -> ([Vec2; 2], Vec2) {
 /// Applies the force `pull` to the first end and its reaction to the second.
 /// `pull` points towards the second end if the two attract each other.
 #[inline]
-fn pull_together(ends: [Side; 2], places: [Vec2; 2], pull: Vec2, put: &mut impl FnMut(Action)) {
+fn pull_together(ends: [JointSide; 2], places: [Vec2; 2], pull: Vec2, put: &mut impl FnMut(Action)) {
     put(Action { link: ends[0].link, force: pull, place: places[0], moment: 0.0 });
     put(Action { link: ends[1].link, force: -pull, place: places[1], moment: 0.0 });
 }

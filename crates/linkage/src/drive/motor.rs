@@ -1,6 +1,6 @@
 //! Motors: torque as a function of speed, and the reducer between motor and crank.
 
-use super::branch::{Branch, Curve};
+use super::branch::{Curve, MotorBranch};
 
 /// Torque of a motor as a function of its own speed. Positive in the sense in which it drives.
 #[derive(Clone, Debug, PartialEq)]
@@ -148,8 +148,8 @@ impl Motor {
     /// Where two pieces meet: the one towards higher speeds for a positive `towards`, otherwise the one towards lower
     /// speeds.
     #[must_use]
-    pub fn branch(&self, omega: f64, towards: f64) -> Branch {
-        let holds = |branch: &&Branch| match towards > 0.0 {
+    pub fn branch(&self, omega: f64, towards: f64) -> MotorBranch {
+        let holds = |branch: &&MotorBranch| match towards > 0.0 {
             true => omega < branch.speeds[1],
             false => omega <= branch.speeds[1],
         };
@@ -158,7 +158,7 @@ impl Motor {
     }
 
     /// All smooth pieces, ascending in speed.
-    fn branches(&self) -> Vec<Branch> {
+    fn branches(&self) -> Vec<MotorBranch> {
         let mut found = Vec::new();
         for ([from, to], curve) in self.law.curves() {
             // The losses change sense with the power, that is where speed or torque changes sign.
@@ -169,8 +169,9 @@ impl Motor {
                 ends.sort_by(f64::total_cmp);
                 ends.dedup();
             }
-            found
-                .extend(ends.windows(2).map(|pair| Branch::of(self.ratio, self.efficiency, curve, [pair[0], pair[1]])));
+            found.extend(
+                ends.windows(2).map(|pair| MotorBranch::of(self.ratio, self.efficiency, curve, [pair[0], pair[1]])),
+            );
         }
         found
     }

@@ -3,6 +3,7 @@
 use crate::case::Case;
 use crate::error::{Advice, Error, ErrorKind, Result};
 use crate::mechanism::LinkId;
+use crate::sentences;
 
 /// Mass (kg) and moment of inertia (kg m^2) that engines add to a link without them; 0 for what the link already has.
 /// The mass is the mean mass of all links.
@@ -26,11 +27,10 @@ pub fn check_inertias(case: &Case, software: &str) -> Result<()> {
     let Some(bare) = case.mechanism.links()[1..].iter().find(|link| !(link.mass > 0.0 && link.inertia > 0.0)) else {
         return Ok(());
     };
-    let message =
-        format!("link \"{}\" has no mass or no moment of inertia: {software} cannot move it under forces", bare.name);
+    let message = sentences::link_has_no_mass_or_no_moment(&bare.name, &software);
     Err(Error::new(ErrorKind::Unsupported, message)
         .key(format!("links.{}", bare.name))
         .of_link(&bare.name)
-        .help("give every link both")
+        .help(sentences::GIVE_EVERY_LINK_BOTH)
         .or_help(Advice::OtherSolver { solver: "newton" }))
 }

@@ -1,10 +1,12 @@
 //! Richardson extrapolation of any engine with a fixed step to step zero (Richardson 1911).
 //! The engine solves at h, h / 2, h / 4, ...; their states are combined so that the leading errors cancel.
+//! See docs/numerics/twins.md.
 
 use super::{Engine, Settings, StandIn};
 use crate::case::Case;
 use crate::error::Result;
 use crate::math::{Motion, Vec2, unit};
+use crate::sentences;
 use crate::solver::{Progress, Provision, Solver, State, Visit};
 use crate::trajectory::{CHANNELS, Channel, ChannelKind, Stage};
 
@@ -116,7 +118,7 @@ impl Solver for Extrapolated {
 
     fn provides(&self, channel: &Channel) -> Provision {
         match self.coarsest().provides(channel) {
-            Provision::Computed => Provision::Derived("extrapolated from runs at the step and at halves of it"),
+            Provision::Computed => Provision::Derived(sentences::EXTRAPOLATED_FROM_RUNS_AT_THE_STEP),
             other @ Provision::Derived(_) => other,
         }
     }
@@ -176,7 +178,7 @@ impl StandIn for Extrapolated {
     fn own_told(&self) -> Vec<(&'static str, String)> {
         let mut told = self.coarsest().told();
         let halves = (0..=self.times()).map(|time| if time == 0 { "h".into() } else { format!("h/{}", 1 << time) });
-        told.push(("extrapolated", format!("from runs at {}", halves.collect::<Vec<String>>().join(", "))));
+        told.push(("extrapolated", sentences::from_runs_at(&(halves.collect::<Vec<String>>().join(", ")))));
         told
     }
 }
@@ -187,7 +189,7 @@ mod tests {
 
     use super::*;
     use crate::case::Grid;
-    use crate::engine::{Kept, Route, Statics};
+    use crate::engine::{CachedEngine, Route, Statics};
     use crate::error::{Error, ErrorKind};
     use crate::fixtures;
     use crate::mechanism::LinkId;
@@ -314,7 +316,7 @@ mod tests {
         let (engine, case) = (counted(None), case());
         let alone: Vec<_> = rungs().map(|rung| run(engine.with(rung).as_ref(), &case).0).into();
         assert_eq!(engine.taken().len(), 8);
-        let kept = Kept::new(engine.with(ASKED).as_ref());
+        let kept = CachedEngine::new(engine.with(ASKED).as_ref());
         let together: Vec<_> = rungs().map(|rung| run(kept.with(rung).as_ref(), &case).0).into();
         assert_eq!(together, alone);
         assert_eq!(alone[0].len(), 3);
@@ -331,7 +333,7 @@ mod tests {
     #[test]
     fn runs_prepared_side_by_side_are_those_made_one_by_one() {
         let (engine, case) = (counted(None), case());
-        let kept = Kept::new(engine.with(ASKED).as_ref());
+        let kept = CachedEngine::new(engine.with(ASKED).as_ref());
         let mut far = 0.0;
         kept.prepare(&case, kept.missing(&case, &rungs()), &mut |part| {
             assert!(part >= far && part <= 1.0 + 1e-12, "{part} after {far}");
@@ -348,7 +350,7 @@ mod tests {
     fn what_is_kept_of_one_case_is_not_given_for_another() {
         let (engine, one) = (counted(None), case());
         let other = one.on(Grid::of_times(one.crank(), vec![0.4, 0.3, 0.5])).unwrap();
-        let kept = Kept::new(engine.with(ASKED).as_ref());
+        let kept = CachedEngine::new(engine.with(ASKED).as_ref());
         for (rung, case) in rungs().into_iter().zip([&one, &other, &one, &one]) {
             assert_eq!(run(kept.with(rung).as_ref(), case).0, run(engine.with(rung).as_ref(), case).0);
         }
@@ -359,7 +361,7 @@ mod tests {
         let case = case();
         for (rung, fails, handed) in [(0, (0.1, 8), 0), (0, (0.05, 8), 1), (1, (0.025, 8), 1), (2, (0.2, 8), 0)] {
             let engine = counted(Some(fails));
-            let kept = Kept::new(engine.with(ASKED).as_ref());
+            let kept = CachedEngine::new(engine.with(ASKED).as_ref());
             for _ in 0..2 {
                 let (together, ended) = run(kept.with(rungs()[rung]).as_ref(), &case);
                 assert!(ended.is_err() && together.len() == handed, "{fails:?}: {together:?}");

@@ -1,4 +1,5 @@
 //! An engine that remembers its runs.
+//! See docs/numerics/settings.md.
 
 use std::ops::ControlFlow;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -13,7 +14,7 @@ use crate::trajectory::Channel;
 /// An engine that makes every run once, and hands out the states it has kept when the run is asked for again.
 /// Engines made from it by [`Engine::with`] share its runs, extrapolated ones too.
 /// Runs are those of one case; a run of another case empties the store.
-pub struct Kept {
+pub struct CachedEngine {
     inner: Box<dyn Engine>,
     store: Arc<Store>,
 }
@@ -50,12 +51,12 @@ impl Store {
     }
 }
 
-impl Kept {
+impl CachedEngine {
     /// Remembers the runs of an engine, whatever its settings.
     #[must_use]
     pub fn new(engine: &dyn Engine) -> Self {
         let plain = Settings { extrapolated: 0, ..engine.settings() };
-        Kept { inner: engine.with(plain), store: Arc::default() }
+        CachedEngine { inner: engine.with(plain), store: Arc::default() }
     }
 
     /// Settings of the plain runs that engines at `settings` are made of and that have not been made yet, each once.
@@ -70,7 +71,7 @@ impl Kept {
         missing
     }
 
-    /// Makes the runs that are [missing](Kept::missing), on as many threads as the machine has cores.
+    /// Makes the runs that are [missing](CachedEngine::missing), on as many threads as the machine has cores.
     /// Their results do not depend on the number of threads. A run that fails is kept with its failure.
     /// `progress` receives the finished share of all of them.
     pub fn prepare(&self, case: &Case, mut missing: Vec<Settings>, progress: Progress) {
@@ -116,7 +117,7 @@ pub fn plain_runs(settings: Settings) -> Vec<Settings> {
         .collect()
 }
 
-impl Solver for Kept {
+impl Solver for CachedEngine {
     fn name(&self) -> &'static str {
         self.inner.name()
     }
@@ -138,14 +139,14 @@ impl Solver for Kept {
     }
 }
 
-impl StandIn for Kept {
+impl StandIn for CachedEngine {
     fn original(&self) -> &dyn Engine {
         self.inner.as_ref()
     }
 
     fn renewed(&self, settings: Settings) -> Box<dyn Engine> {
         let plain = self.inner.with(Settings { extrapolated: 0, ..settings });
-        let kept = Box::new(Kept { inner: plain, store: Arc::clone(&self.store) });
+        let kept = Box::new(CachedEngine { inner: plain, store: Arc::clone(&self.store) });
         match settings.extrapolated {
             times if times > 0 && !self.controls_error() => Box::new(Extrapolated::new(kept, times)),
             _ => kept,

@@ -1,5 +1,6 @@
 //! The remedy for an error, as data. Its text names no option of any program; a program with options adds them.
 
+use crate::sentences;
 use std::fmt;
 
 /// One remedy. Several of them are alternatives.
@@ -143,38 +144,46 @@ impl fmt::Display for Advice {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Advice::Text(words) => f.write_str(words),
-            Advice::SmallerStep { to: None } => f.write_str("choose a smaller time step"),
-            Advice::SmallerStep { to: Some(to) } => write!(f, "choose a smaller time step, such as {to:e} s"),
-            Advice::LargerStep { to: None } => f.write_str("choose a larger time step"),
-            Advice::LargerStep { to: Some(to) } => write!(f, "choose a larger time step, such as {to:e} s"),
-            Advice::TighterAccuracy { to } => write!(f, "choose a tighter accuracy, such as {to:e}"),
-            Advice::LooserAccuracy { to } => write!(f, "choose a looser accuracy, such as {to:e}"),
-            Advice::MoreSweeps { to: None } => f.write_str("raise the number of sweeps"),
-            Advice::MoreSweeps { to: Some(to) } => write!(f, "raise the number of sweeps, such as to {to}"),
-            Advice::FreeSettings => f.write_str("leave out the engine's settings, so that the proof finds them"),
-            Advice::MoreWork { to } => write!(f, "allow more work, such as {to:e} steps"),
-            Advice::FewerInstants => f.write_str("take fewer instants, or fewer channels (`want` in `[channels]`)"),
-            Advice::MoreMemory { to } => write!(f, "allow more memory, such as {:.1} GB", rounded_up(*to / 1e9)),
-            Advice::DoublePrecision => f.write_str("take an engine in double precision"),
-            Advice::OtherEngine => f.write_str("take another engine"),
+            Advice::SmallerStep { to: None } => f.write_str(sentences::CHOOSE_A_SMALLER_TIME_STEP_2),
+            Advice::SmallerStep { to: Some(to) } => {
+                write!(f, "{}", sentences::choose_a_smaller_time_step(&format_args!("{to:e}")))
+            }
+            Advice::LargerStep { to: None } => f.write_str(sentences::CHOOSE_A_LARGER_TIME_STEP_2),
+            Advice::LargerStep { to: Some(to) } => {
+                write!(f, "{}", sentences::choose_a_larger_time_step(&format_args!("{to:e}")))
+            }
+            Advice::TighterAccuracy { to } => {
+                write!(f, "{}", sentences::choose_a_tighter_accuracy_such_as(&format_args!("{to:e}")))
+            }
+            Advice::LooserAccuracy { to } => {
+                write!(f, "{}", sentences::choose_a_looser_accuracy_such_as(&format_args!("{to:e}")))
+            }
+            Advice::MoreSweeps { to: None } => f.write_str(sentences::RAISE_THE_NUMBER_OF_SWEEPS_2),
+            Advice::MoreSweeps { to: Some(to) } => write!(f, "{}", sentences::raise_the_number_of_sweeps(&to)),
+            Advice::FreeSettings => f.write_str(sentences::LEAVE_OUT_THE_ENGINE_SETTINGS),
+            Advice::MoreWork { to } => {
+                write!(f, "{}", sentences::allow_more_work_such_as_steps(&format_args!("{to:e}")))
+            }
+            Advice::FewerInstants => f.write_str(sentences::TAKE_FEWER_INSTANTS_OR_FEWER),
+            Advice::MoreMemory { to } => {
+                write!(f, "{}", sentences::allow_more_memory_such_as_gb(&(rounded_up(*to / 1e9))))
+            }
+            Advice::DoublePrecision => f.write_str(sentences::TAKE_AN_ENGINE_IN_DOUBLE),
+            Advice::OtherEngine => f.write_str(sentences::TAKE_ANOTHER_ENGINE),
             Advice::OtherRoute { routes } => {
-                write!(f, "take another way to the reactions: {}", routes.join(" or "))
+                write!(f, "{}", sentences::take_another_way_to_the_reactions(&routes.join(" or ")))
             }
-            Advice::OtherReference { solver } => write!(f, "take side \"{solver}\" as the reference"),
-            Advice::OtherSolver { solver } => write!(f, "solve the scenario with side \"{solver}\" alone"),
-            Advice::ShortenGrid => {
-                f.write_str("shorten the grid to the crank angles that can be reached on this branch")
-            }
-            Advice::LookAtRange => {
-                f.write_str("the range of motion shows what limits the crank and which links turn fully")
-            }
+            Advice::OtherReference { solver } => write!(f, "{}", sentences::take_side_as_the_reference(&solver)),
+            Advice::OtherSolver { solver } => write!(f, "{}", sentences::solve_the_scenario_with_side(&solver)),
+            Advice::ShortenGrid => f.write_str(sentences::SHORTEN_THE_GRID_TO_THE_CRANK),
+            Advice::LookAtRange => f.write_str(sentences::THE_RANGE_OF_MOTION_SHOWS),
             Advice::Configuration { give } => write!(f, "give {give}"),
-            Advice::SolutionTable => f.write_str("read them off a table of the solution instead"),
+            Advice::SolutionTable => f.write_str(sentences::READ_THEM_OFF_A_TABLE_OF_THE_SOLUTION),
             Advice::OtherChannel { groups } => {
-                write!(f, "name a channel of the solution, such as joint.A.fx_N, or one of: {groups}")
+                write!(f, "{}", sentences::name_a_channel_of_the_solution(&groups))
             }
-            Advice::WeakerWish => f.write_str("ask for a larger error, other channels or further engines"),
-            Advice::AllResults => f.write_str("the complete results have all of them"),
+            Advice::WeakerWish => f.write_str(sentences::ASK_FOR_A_LARGER_ERROR_OTHER),
+            Advice::AllResults => f.write_str(sentences::THE_COMPLETE_RESULTS_HAVE_ALL),
         }
     }
 }

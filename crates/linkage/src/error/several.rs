@@ -1,6 +1,7 @@
 //! Several errors that were found at once: the first of them carries the others.
 
 use super::{Advice, Error};
+use crate::sentences;
 
 /// Most errors that are kept; the others are counted.
 const MOST: usize = 20;
@@ -45,8 +46,8 @@ impl Error {
     pub fn rest(&self) -> Option<String> {
         match self.0.left_out {
             0 => None,
-            1 => Some("1 more mistake is not shown".into()),
-            many => Some(format!("{many} more mistakes are not shown")),
+            1 => Some(sentences::MORE_MISTAKE_IS_NOT_SHOWN.into()),
+            many => Some(sentences::more_mistakes_are_not_shown(&many)),
         }
     }
 

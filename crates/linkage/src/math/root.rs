@@ -37,7 +37,7 @@ pub fn halved<E>(
 }
 
 /// A place and the value there.
-pub type Known = (f64, f64);
+pub type PlaceAndValue = (f64, f64);
 
 /// Searches for a sign change from `from` on: first `width` away, then twice as far each time, up to `most`.
 /// Returns the last two places, between which the sign changes.
@@ -47,11 +47,11 @@ pub type Known = (f64, f64);
 /// # Errors
 /// The first of `value`.
 pub fn widened<E>(
-    from: Known,
+    from: PlaceAndValue,
     mut width: f64,
     most: f64,
     mut value: impl FnMut(f64) -> Result<f64, E>,
-) -> Result<Option<[Known; 2]>, E> {
+) -> Result<Option<[PlaceAndValue; 2]>, E> {
     let mut last = from;
     while width.abs() <= most && width != 0.0 {
         let at = from.0 + width;
@@ -84,7 +84,7 @@ pub struct Close {
 /// # Errors
 /// The first of `value`.
 pub fn regula_falsi<E>(
-    [mut held, mut last]: [Known; 2],
+    [mut held, mut last]: [PlaceAndValue; 2],
     close: Close,
     steps: usize,
     mut value: impl FnMut(f64) -> Result<f64, E>,
@@ -189,7 +189,7 @@ pub fn polished<E>(
 /// # Errors
 /// The first of `value`.
 pub fn secants<E>(
-    mut known: Known,
+    mut known: PlaceAndValue,
     guess: f64,
     steps: usize,
     mut value: impl FnMut(f64) -> Result<f64, E>,

@@ -19,7 +19,7 @@ mod three_leads;
 
 pub use blame::{Blame, blame, blamed, group_of};
 pub use configurations::{configurations, transmission_sine};
-pub use mode::{AssemblyMode, Choice, Configuration, StartGroup};
+pub use mode::{AssemblyMode, Configuration, ConfigurationChoice, StartGroup};
 
 use super::{LinkPose, Mechanism, Pose, Structure};
 use crate::error::{Error, Result};
@@ -54,7 +54,7 @@ pub fn first_choices(
     structure: &Structure,
     drive_angles: &[f64],
     wanted: &[StartGroup],
-) -> Result<(Pose, Vec<Choice>)> {
+) -> Result<(Pose, Vec<ConfigurationChoice>)> {
     let mut pose = Pose(vec![LinkPose::GROUND; mechanism.links().len()].into());
     for (&(link, joint), &angle) in structure.drivers.iter().zip(drive_angles) {
         let joint = &mechanism.joints()[joint];
@@ -107,7 +107,7 @@ mod tests {
             vec![(
                 SidePoint {
                     name: "B".into(),
-                    side: crate::mechanism::Side { link: LinkId(3), local: Vec2::new(3.0, 0.0) },
+                    side: crate::mechanism::JointSide { link: LinkId(3), local: Vec2::new(3.0, 0.0) },
                 },
                 Vec2::new(x, y),
             )]

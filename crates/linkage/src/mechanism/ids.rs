@@ -5,7 +5,7 @@ use std::marker::PhantomData;
 use std::ops::{Deref, DerefMut, Index, IndexMut, RangeFrom};
 
 /// A number that says which of its like is meant.
-pub trait Id: Copy {
+pub trait Ordinal: Copy {
     /// The one at the place `index`, counted from 0.
     fn at(index: usize) -> Self;
 
@@ -29,7 +29,7 @@ macro_rules! ids {
             }
         }
 
-        impl Id for $name {
+        impl Ordinal for $name {
             #[inline]
             fn at(index: usize) -> Self {
                 $name(index)
@@ -99,7 +99,7 @@ ids! {
 /// One value for each link, joint or group, in their order. It takes their numbers only; as a slice it has all else.
 ///
 /// ```
-/// use linkage::mechanism::{LinkId, PerLink};
+/// use linkproof_linkage::mechanism::{LinkId, PerLink};
 /// let masses = PerLink::from(vec![0.0, 2.0]);
 /// assert_eq!(masses[LinkId(1)], 2.0);
 /// ```
@@ -107,7 +107,7 @@ ids! {
 /// A joint's number is not taken for a link's:
 ///
 /// ```compile_fail,E0277
-/// use linkage::mechanism::{JointId, PerLink};
+/// use linkproof_linkage::mechanism::{JointId, PerLink};
 /// let masses = PerLink::from(vec![0.0, 2.0]);
 /// assert_eq!(masses[JointId(1)], 2.0);
 /// ```
@@ -123,7 +123,7 @@ pub type PerJoint<T> = Per<JointId, T>;
 /// One value for each Assur group.
 pub type PerGroup<T> = Per<GroupId, T>;
 
-impl<I: Id, T> Per<I, T> {
+impl<I: Ordinal, T> Per<I, T> {
     /// The numbers, ascending.
     pub fn ids(&self) -> impl DoubleEndedIterator<Item = I> + ExactSizeIterator + Clone + use<I, T> {
         (0..self.0.len()).map(I::at)
@@ -223,7 +223,7 @@ impl<'a, I, T> IntoIterator for &'a mut Per<I, T> {
     }
 }
 
-impl<I: Id, T> Index<I> for Per<I, T> {
+impl<I: Ordinal, T> Index<I> for Per<I, T> {
     type Output = T;
 
     #[inline]
@@ -232,7 +232,7 @@ impl<I: Id, T> Index<I> for Per<I, T> {
     }
 }
 
-impl<I: Id, T> IndexMut<I> for Per<I, T> {
+impl<I: Ordinal, T> IndexMut<I> for Per<I, T> {
     #[inline]
     fn index_mut(&mut self, id: I) -> &mut T {
         &mut self.0[id.index()]

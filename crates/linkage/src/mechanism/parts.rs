@@ -175,7 +175,7 @@ impl Guise {
 
 /// One side of a joint: a point of a link.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Side {
+pub struct JointSide {
     /// Index of the link.
     pub link: LinkId,
     /// Coordinates of the joint in that link's frame (m).
@@ -191,9 +191,9 @@ pub struct Joint {
     /// Kind of pair.
     pub kind: JointKind,
     /// First link and the joint's place on it.
-    pub first: Side,
+    pub first: JointSide,
     /// Second link and the joint's place on it.
-    pub second: Side,
+    pub second: JointSide,
     /// What it is drawn as, if that is said; of prismatic pairs only.
     pub drawn: Option<Guise>,
 }
@@ -207,14 +207,14 @@ impl Joint {
 
     /// The side on the link other than `link`.
     #[must_use]
-    pub fn other(&self, link: LinkId) -> Side {
+    pub fn other(&self, link: LinkId) -> JointSide {
         if self.first.link == link { self.second } else { self.first }
     }
 
     /// Where the joint's reaction acts on `link`, by the side that is known there: a pin's two places are the same
     /// point, and that of other joints is the place on the second link.
     #[must_use]
-    pub fn acts_at(&self, link: LinkId) -> Side {
+    pub fn acts_at(&self, link: LinkId) -> JointSide {
         match self.kind {
             JointKind::Revolute if self.first.link == link => self.first,
             JointKind::Revolute | JointKind::Prismatic { .. } => self.second,

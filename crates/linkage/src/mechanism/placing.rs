@@ -1,6 +1,6 @@
 //! Changes the dimensions of a mechanism: moves a point of a link, and the joints at it.
 
-use super::{Joint, Mechanism, Side};
+use super::{Joint, JointSide, Mechanism};
 use crate::math::Vec2;
 use crate::mechanism::{JointId, LinkId};
 
@@ -35,7 +35,7 @@ impl Mechanism {
         self.links[handle.link].points[handle.point].local = local;
         for &joint in &handle.joints {
             let Joint { first, second, .. } = &mut self.joints[joint];
-            let side: &mut Side = if first.link == handle.link { first } else { second };
+            let side: &mut JointSide = if first.link == handle.link { first } else { second };
             side.local = local;
         }
     }

@@ -1,6 +1,6 @@
 //! Place of every link at one instant.
 
-use super::{Joint, Mechanism, Side};
+use super::{Joint, JointSide, Mechanism};
 use crate::math::{KeepNan, Vec2, cross, rotated, unit};
 use crate::mechanism::{LinkId, PerLink};
 
@@ -71,5 +71,5 @@ pub struct SidePoint {
     /// The point's name.
     pub name: String,
     /// The link and the place of the point on it.
-    pub side: Side,
+    pub side: JointSide,
 }

@@ -14,7 +14,7 @@ use crate::mechanism::{JointId, LinkId};
 
 /// A link that a joint of the tree connects to its parent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Branch {
+pub struct TreeBranch {
     /// The link.
     pub link: LinkId,
     /// The parent link, nearer to the ground.
@@ -25,26 +25,26 @@ pub struct Branch {
 
 /// Branches from the ground, and the remaining joints, which close the loops. Links without a branch are free bodies.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Tree {
+pub struct SpanningTree {
     /// Branches; a parent always comes before its children.
-    pub branches: Vec<Branch>,
+    pub branches: Vec<TreeBranch>,
     /// Joints that close loops.
     pub cut: Vec<JointId>,
 }
 
-impl Tree {
+impl SpanningTree {
     /// No tree: every link is a free body and every joint remains.
     #[must_use]
     pub fn none(mechanism: &Mechanism) -> Self {
-        Tree { branches: Vec::new(), cut: mechanism.joints().ids().collect() }
+        SpanningTree { branches: Vec::new(), cut: mechanism.joints().ids().collect() }
     }
 
     /// Trees such that each of these joints is cut in at least one of them.
-    /// The first is that of [`Tree::of`]. Each further tree cuts as many of the joints as possible that no earlier tree
+    /// The first is that of [`SpanningTree::of`]. Each further tree cuts as many of the joints as possible that no earlier tree
     /// cuts.
     #[must_use]
     pub fn covering(mechanism: &Mechanism, joints: &[JointId]) -> Vec<Self> {
-        let mut trees = vec![Tree::of(mechanism)];
+        let mut trees = vec![SpanningTree::of(mechanism)];
         loop {
             let covered =
                 |joint: &JointId| !joints.contains(joint) || trees.iter().any(|tree| tree.cut.contains(joint));
@@ -52,12 +52,12 @@ impl Tree {
             if wanted.is_empty() {
                 return trees;
             }
-            let mut tree = Tree::along(mechanism, kept.into_iter().chain(wanted.iter().copied()));
+            let mut tree = SpanningTree::along(mechanism, kept.into_iter().chain(wanted.iter().copied()));
             // Links that only the joint in question holds to the ground, such as a crank alone on its pin, are cut off
             // as a whole.
             if !tree.cut.iter().any(|joint| wanted.contains(joint)) {
                 let mut held = vec![GROUND];
-                let (kept, lost): (Vec<Branch>, Vec<Branch>) = tree.branches.into_iter().partition(|branch| {
+                let (kept, lost): (Vec<TreeBranch>, Vec<TreeBranch>) = tree.branches.into_iter().partition(|branch| {
                     let stays = held.contains(&branch.parent) && !wanted.contains(&branch.joint);
                     held.extend(stays.then_some(branch.link));
                     stays
@@ -92,19 +92,19 @@ impl Tree {
                 let found = &mechanism.joints()[joint];
                 let link = found.other(parent).link;
                 if found.on(parent).is_some() && !reached.contains(&link) {
-                    branches.push(Branch { link, parent, joint });
+                    branches.push(TreeBranch { link, parent, joint });
                     reached.push(link);
                 }
             }
         }
-        Tree { branches, cut }
+        SpanningTree { branches, cut }
     }
 
     /// The spanning tree for runs: breadth first. All links that slide on a link are taken along with it, so that only
     /// revolute joints remain to be cut.
     #[must_use]
     pub fn of(mechanism: &Mechanism) -> Self {
-        Tree::with(mechanism, &[])
+        SpanningTree::with(mechanism, &[])
     }
 
     /// The same tree, but with the given joints in it, each with the ground or with a link of the joints before it.
@@ -113,13 +113,13 @@ impl Tree {
     /// The drive would then be cut, although it must be a coordinate of the tree.
     #[must_use]
     pub fn with(mechanism: &Mechanism, joints: &[JointId]) -> Self {
-        let mut tree = Tree { branches: Vec::new(), cut: Vec::new() };
+        let mut tree = SpanningTree { branches: Vec::new(), cut: Vec::new() };
         let mut reached = Vec::new();
         tree.reach(mechanism, GROUND, &mut reached);
         for &joint in joints {
             let [first, second] = [mechanism.joints()[joint].first.link, mechanism.joints()[joint].second.link];
             let (parent, link) = if reached.contains(&first) { (first, second) } else { (second, first) };
-            tree.branches.push(Branch { link, parent, joint });
+            tree.branches.push(TreeBranch { link, parent, joint });
             tree.reach(mechanism, link, &mut reached);
         }
         let mut next = 0;
@@ -128,7 +128,7 @@ impl Tree {
             for (joint, found) in mechanism.joints().entries() {
                 let link = found.other(parent).link;
                 if found.on(parent).is_some() && !reached.contains(&link) {
-                    tree.branches.push(Branch { link, parent, joint });
+                    tree.branches.push(TreeBranch { link, parent, joint });
                     tree.reach(mechanism, link, &mut reached);
                 }
             }
@@ -147,7 +147,7 @@ impl Tree {
         for (joint, found) in mechanism.joints().entries().filter(|(_, found)| found.slides()) {
             let link = found.other(parent).link;
             if found.on(parent).is_some() && !reached.contains(&link) {
-                self.branches.push(Branch { link, parent, joint });
+                self.branches.push(TreeBranch { link, parent, joint });
                 self.reach(mechanism, link, reached);
             }
         }
@@ -158,7 +158,7 @@ impl Tree {
 /// Angle of the child in its parent (rad), or distance along the parent's axis from the place on the parent to that on
 /// the child (m).
 #[must_use]
-pub fn coordinate(joint: &Joint, branch: &Branch, poses: &[LinkPose]) -> f64 {
+pub fn coordinate(joint: &Joint, branch: &TreeBranch, poses: &[LinkPose]) -> f64 {
     let [parent, child] = [branch.parent, branch.link].map(|link| poses[link]);
     let on = |link: LinkId| joint.on(link).expect("a branch's joint is on both links");
     match joint.axis_on(branch.parent) {
@@ -181,24 +181,24 @@ mod tests {
     }
 
     /// Parent and child of every branch.
-    fn pairs(tree: &Tree) -> Vec<(usize, usize)> {
+    fn pairs(tree: &SpanningTree) -> Vec<(usize, usize)> {
         tree.branches.iter().map(|branch| (branch.parent.index(), branch.link.index())).collect()
     }
 
     #[test]
     fn four_bar_is_cut_once() {
-        let tree = Tree::of(&four_bar());
+        let tree = SpanningTree::of(&four_bar());
         assert_eq!(numbers(&tree.cut), [2]);
         assert_eq!(pairs(&tree), [(0, 1), (0, 3), (1, 2)]);
     }
 
     #[test]
     fn every_joint_is_cut_in_one_of_the_covering_trees() {
-        let trees = Tree::covering(&four_bar(), &[JointId(0), JointId(1), JointId(2), JointId(3)]);
+        let trees = SpanningTree::covering(&four_bar(), &[JointId(0), JointId(1), JointId(2), JointId(3)]);
         // One cut per tree, four joints.
         assert_eq!(trees.iter().map(|tree| numbers(&tree.cut)).collect::<Vec<_>>(), [[2], [3], [1], [0]]);
         let class_four = class_four(1.0, 1.0);
-        let trees = Tree::covering(&class_four, &class_four.joints().ids().collect::<Vec<_>>());
+        let trees = SpanningTree::covering(&class_four, &class_four.joints().ids().collect::<Vec<_>>());
         for tree in &trees {
             assert_eq!((tree.branches.len(), tree.cut.len()), (5, 2));
             let mut reached = vec![GROUND];
@@ -216,7 +216,7 @@ mod tests {
     fn only_the_joints_asked_for_need_a_tree() {
         let cuts = |joints: &[usize]| {
             let joints: Vec<JointId> = joints.iter().map(|&joint| JointId(joint)).collect();
-            Tree::covering(&four_bar(), &joints).len()
+            SpanningTree::covering(&four_bar(), &joints).len()
         };
         assert_eq!([cuts(&[]), cuts(&[2]), cuts(&[3]), cuts(&[2, 0])], [1, 1, 2, 2]);
     }
@@ -226,14 +226,14 @@ mod tests {
         let four_bar = four_bar();
         let alone =
             Mechanism::new(four_bar.links().to_vec()[..2].to_vec(), four_bar.joints().to_vec()[..1].to_vec()).unwrap();
-        let trees = Tree::covering(&alone, &[JointId(0)]);
+        let trees = SpanningTree::covering(&alone, &[JointId(0)]);
         assert_eq!(trees.len(), 2);
         assert_eq!((trees[1].branches.len(), numbers(&trees[1].cut)), (0, vec![0]));
     }
 
     #[test]
     fn a_joint_can_be_asked_for() {
-        let asked = Tree::with(&four_bar(), &[JointId(3)]);
+        let asked = SpanningTree::with(&four_bar(), &[JointId(3)]);
         assert_eq!((pairs(&asked), numbers(&asked.cut)), (vec![(0, 3), (0, 1), (3, 2)], vec![1]));
         // If the coupler slides on both cranks, sliding joints alone reach the second crank.
         let kind = JointKind::Prismatic { axes: [Vec2::new(1.0, 0.0); 2] };
@@ -247,10 +247,10 @@ mod tests {
         }
         let mechanism = Mechanism::new(links, joints).unwrap();
         assert_eq!(
-            (pairs(&Tree::of(&mechanism)), numbers(&Tree::of(&mechanism).cut)),
+            (pairs(&SpanningTree::of(&mechanism)), numbers(&SpanningTree::of(&mechanism).cut)),
             (vec![(0, 1), (1, 2), (2, 3)], vec![3])
         );
-        let asked = Tree::with(&mechanism, &[JointId(3)]);
+        let asked = SpanningTree::with(&mechanism, &[JointId(3)]);
         assert_eq!((pairs(&asked), numbers(&asked.cut)), (vec![(0, 3), (3, 2), (2, 1)], vec![0]));
     }
 
@@ -263,7 +263,7 @@ mod tests {
         joints[2] = Joint { kind, ..joints[2].clone() };
         let mut links = four_bar().links().to_vec();
         links[3].points[1].name = "D".into();
-        let tree = Tree::of(&Mechanism::new(links, joints).unwrap());
+        let tree = SpanningTree::of(&Mechanism::new(links, joints).unwrap());
         assert_eq!(numbers(&tree.cut), [1]);
         assert_eq!(pairs(&tree), [(0, 1), (0, 3), (3, 2)]);
     }

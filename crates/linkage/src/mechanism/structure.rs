@@ -13,6 +13,7 @@ mod owners;
 #[cfg(test)]
 mod tests;
 
+use crate::sentences;
 pub use group::{Group, GroupKind};
 
 use super::{GROUND, Mechanism};
@@ -81,10 +82,10 @@ impl Structure {
             let base = joint.other(link).link;
             if base != GROUND && !self.drivers[..index].iter().any(|&(before, _)| before == base) {
                 let name = &mechanism.links()[base].name;
-                let message = format!("joint \"{}\" hangs on link \"{name}\", which is driven later", joint.name);
+                let message = sentences::joint_hangs_on_link_which_is_driven(&joint.name, &name);
                 return Err(Error::new(ErrorKind::Input, message)
                     .key("drive")
-                    .help("give the drives from the ground outwards: that of the carrying link first"));
+                    .help(sentences::GIVE_THE_DRIVES_FROM_THE_GROUND));
             }
         }
         Ok(())
@@ -150,9 +151,9 @@ fn check_connected(mechanism: &Mechanism) -> Result<()> {
         None => Ok(()),
         Some(link) => {
             let name = &mechanism.links()[link].name;
-            Err(Error::new(ErrorKind::Input, "the link is not connected to the ground by any chain of joints")
+            Err(Error::new(ErrorKind::Input, sentences::THE_LINK_IS_NOT_CONNECTED)
                 .key(format!("links.{name}"))
-                .help(format!("join \"{name}\" to another link, or take it out")))
+                .help(sentences::join_to_another_link_or_take(&name)))
         }
     }
 }
@@ -164,9 +165,9 @@ fn check_sliders(mechanism: &Mechanism) -> Result<()> {
     for joint in mechanism.joints().iter().filter(|joint| joint.keeps_angle()) {
         let (a, b) = (part[joint.first.link], part[joint.second.link]);
         if a == b {
-            return Err(Error::new(ErrorKind::Input, "the joint closes a loop of prismatic joints alone")
+            return Err(Error::new(ErrorKind::Input, sentences::THE_JOINT_CLOSES_A_LOOP_OF_PRISMATIC)
                 .key(format!("joints.{}", joint.name))
-                .help("links that are joined by prismatic joints only cannot turn against each other: one joint of the loop must be revolute"));
+                .help(sentences::LINKS_THAT_ARE_JOINED_BY_PRISMATIC));
         }
         part.iter_mut().filter(|own| **own == b).for_each(|own| *own = a);
     }
@@ -176,28 +177,19 @@ fn check_sliders(mechanism: &Mechanism) -> Result<()> {
 fn wrong_mobility(mechanism: &Mechanism, mobility: i64, drives: usize) -> Error {
     let (n, p) = (mechanism.links().len() - 1, mechanism.joints().len());
     let help = if mobility > drives as i64 {
-        "add the missing joints or drives, or take the loose links out"
+        sentences::ADD_THE_MISSING_JOINTS_OR_DRIVES
     } else {
-        "the mechanism is over-constrained: take out the joints or drives that are too many"
+        sentences::THE_MECHANISM_IS_OVER_CONSTRAINED
     };
-    Error::new(
-        ErrorKind::Input,
-        format!("the mobility is W = 3*{n} - 2*{p} = {mobility}, but the number of drives is {drives}"),
-    )
-    .key("joints")
-    .help(help)
+    Error::new(ErrorKind::Input, sentences::the_mobility_is_but_the_number(&n, &p, &mobility, &drives))
+        .key("joints")
+        .help(help)
 }
 
 fn unsupported_drive(mechanism: &Mechanism, joint: JointId) -> Error {
-    Error::new(
-        ErrorKind::Unsupported,
-        format!(
-            "the driven joint \"{}\" does not turn a link against the ground or against another driving link",
-            mechanism.joints()[joint].name
-        ),
-    )
-    .key("drive.joint")
-    .help("drive a link that is hinged to the ground by a revolute joint")
+    Error::new(ErrorKind::Unsupported, sentences::the_driven_joint_does_not_turn(&mechanism.joints()[joint].name))
+        .key("drive.joint")
+        .help(sentences::DRIVE_A_LINK_THAT_IS_HINGED)
 }
 
 /// The group of `links`, where all links marked in `known` are already solved.

@@ -7,9 +7,11 @@ use super::state::State;
 use crate::case::{Case, Seat};
 use crate::error::Result;
 use crate::math::{Motion, Vec2};
-use crate::mechanism::{JointId, LinkId, Side};
+use crate::mechanism::{JointId, JointSide, LinkId};
 use crate::trajectory::channel::rows;
-use crate::trajectory::{Channel, OfDrive, OfFrame, OfJoint, OfLink, OfPoint, OfSlider, Stage, Subject, Trajectory};
+use crate::trajectory::{
+    Channel, ChannelSubject, OfDrive, OfFrame, OfJoint, OfLink, OfPoint, OfSlider, Stage, Trajectory,
+};
 
 /// Rows collected before they are written to their columns.
 /// Each column is a separate block of memory; a whole group of rows needs one access to it.
@@ -20,7 +22,7 @@ const BLOCK: usize = 8;
 #[derive(Debug)]
 pub struct Sampler {
     links: Vec<(LinkId, Mask)>,
-    points: Vec<(Side, Mask)>,
+    points: Vec<(JointSide, Mask)>,
     joints: Vec<(JointId, Mask)>,
     sliders: Vec<(JointId, Mask)>,
     frame: Mask,
@@ -57,8 +59,8 @@ impl Mask {
 }
 
 /// The wanted rows of every subject that has any, by its sort and its name.
-fn masks(channels: &[Channel]) -> BTreeMap<(Subject, &str), Mask> {
-    let mut masks: BTreeMap<(Subject, &str), Mask> = BTreeMap::new();
+fn masks(channels: &[Channel]) -> BTreeMap<(ChannelSubject, &str), Mask> {
+    let mut masks: BTreeMap<(ChannelSubject, &str), Mask> = BTreeMap::new();
     for channel in channels {
         let mask = masks.entry((channel.kind.subject, channel.of.as_str())).or_default();
         mask.add(channel.kind.row(), channel.kind.stage);
@@ -92,7 +94,7 @@ impl Sampler {
             match seat {
                 Seat::Link(link) => sampler.links.push((link, mask)),
                 Seat::Point(side) => sampler.points.push((side, mask)),
-                Seat::Joint(joint) if subject == Subject::Slider => sampler.sliders.push((joint, mask)),
+                Seat::Joint(joint) if subject == ChannelSubject::Slider => sampler.sliders.push((joint, mask)),
                 Seat::Joint(joint) => sampler.joints.push((joint, mask)),
                 Seat::Frame => sampler.frame = mask,
                 Seat::Drive(drive) => sampler.drives.push((drive, mask)),

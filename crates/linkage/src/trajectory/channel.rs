@@ -1,8 +1,9 @@
 //! The only table of channels: which quantities a trajectory can hold, in which unit, and which stage they need.
 
+use crate::sentences;
 use std::fmt;
 
-use super::reading::{OfDrive, OfFrame, OfJoint, OfLink, OfPoint, OfSlider, Reading, Subject};
+use super::reading::{ChannelSubject, OfDrive, OfFrame, OfJoint, OfLink, OfPoint, OfSlider, Reading};
 use super::unit::Unit;
 
 /// How far a solver must compute for a channel. Each stage needs the ones before it.
@@ -42,7 +43,7 @@ impl Stage {
 #[derive(Debug, PartialEq)]
 pub struct ChannelKind {
     /// The subject of `reading`.
-    pub subject: Subject,
+    pub subject: ChannelSubject,
     /// The quantity of the state that the row reads.
     pub reading: Reading,
     /// Last part of the channel's name, unit included.
@@ -92,12 +93,24 @@ const TABLE: [ChannelKind; 26] = {
         ChannelKind { periodic: true, ..row(Link(OfLink::Angle), "angle_rad", "angle", Radian, Positions) },
         row(Link(OfLink::Omega), "omega_rad_s", "angular velocity", RadianPerSecond, Velocities),
         row(Link(OfLink::Alpha), "alpha_rad_s2", "angular acceleration", RadianPerSecondSquared, Accelerations),
-        row(centre(X), "x_m", "mass centre position", Metre, Positions),
-        row(centre(Y), "y_m", "mass centre position", Metre, Positions),
-        row(centre(VelocityX), "vx_m_s", "mass centre velocity", MetrePerSecond, Velocities),
-        row(centre(VelocityY), "vy_m_s", "mass centre velocity", MetrePerSecond, Velocities),
-        row(centre(AccelerationX), "ax_m_s2", "mass centre acceleration", MetrePerSecondSquared, Accelerations),
-        row(centre(AccelerationY), "ay_m_s2", "mass centre acceleration", MetrePerSecondSquared, Accelerations),
+        row(centre(X), "x_m", sentences::MASS_CENTRE_POSITION, Metre, Positions),
+        row(centre(Y), "y_m", sentences::MASS_CENTRE_POSITION, Metre, Positions),
+        row(centre(VelocityX), "vx_m_s", sentences::MASS_CENTRE_VELOCITY, MetrePerSecond, Velocities),
+        row(centre(VelocityY), "vy_m_s", sentences::MASS_CENTRE_VELOCITY, MetrePerSecond, Velocities),
+        row(
+            centre(AccelerationX),
+            "ax_m_s2",
+            sentences::MASS_CENTRE_ACCELERATION,
+            MetrePerSecondSquared,
+            Accelerations,
+        ),
+        row(
+            centre(AccelerationY),
+            "ay_m_s2",
+            sentences::MASS_CENTRE_ACCELERATION,
+            MetrePerSecondSquared,
+            Accelerations,
+        ),
         row(Point(X), "x_m", "point position", Metre, Positions),
         row(Point(Y), "y_m", "point position", Metre, Positions),
         row(Point(VelocityX), "vx_m_s", "point velocity", MetrePerSecond, Velocities),
@@ -125,7 +138,7 @@ const TABLE: [ChannelKind; 26] = {
 };
 
 /// Number of rows of the table that belong to a subject.
-const fn count(subject: Subject) -> usize {
+const fn count(subject: ChannelSubject) -> usize {
     let (mut rows, mut index) = (0, 0);
     while index < TABLE.len() {
         rows += (TABLE[index].subject as usize == subject as usize) as usize;
@@ -137,7 +150,8 @@ const fn count(subject: Subject) -> usize {
 /// The readings of one subject with their stages, in the order of columns. `$any` only initialises the array.
 macro_rules! rows_of {
     ($subject:ident, $of:ty, $any:expr) => {{
-        let mut rows: [($of, Stage); count(Subject::$subject)] = [($any, Stage::Positions); count(Subject::$subject)];
+        let mut rows: [($of, Stage); count(ChannelSubject::$subject)] =
+            [($any, Stage::Positions); count(ChannelSubject::$subject)];
         let (mut found, mut index) = (0, 0);
         while index < TABLE.len() {
             if let Reading::$subject(of) = TABLE[index].reading {
@@ -153,15 +167,20 @@ macro_rules! rows_of {
 /// The table again, sorted by subjects. These are constants: code that reads a whole subject needs no look-up at run
 /// time.
 pub(crate) mod rows {
-    use super::{OfDrive, OfFrame, OfJoint, OfLink, OfPoint, OfSlider, Reading, Stage, Subject, TABLE, count};
+    use super::{ChannelSubject, OfDrive, OfFrame, OfJoint, OfLink, OfPoint, OfSlider, Reading, Stage, TABLE, count};
 
-    pub(crate) const LINK: [(OfLink, Stage); count(Subject::Link)] = rows_of!(Link, OfLink, OfLink::Angle);
-    pub(crate) const POINT: [(OfPoint, Stage); count(Subject::Point)] = rows_of!(Point, OfPoint, OfPoint::X);
-    pub(crate) const JOINT: [(OfJoint, Stage); count(Subject::Joint)] = rows_of!(Joint, OfJoint, OfJoint::ForceX);
-    pub(crate) const SLIDER: [(OfSlider, Stage); count(Subject::Slider)] = rows_of!(Slider, OfSlider, OfSlider::Slide);
-    pub(crate) const FRAME: [(OfFrame, Stage); count(Subject::Frame)] = rows_of!(Frame, OfFrame, OfFrame::ForceX);
-    pub(crate) const DRIVE: [(OfDrive, Stage); count(Subject::Drive)] = rows_of!(Drive, OfDrive, OfDrive::Torque);
-    pub(crate) const MOTOR: [(OfDrive, Stage); count(Subject::Motor)] = rows_of!(Motor, OfDrive, OfDrive::Torque);
+    pub(crate) const LINK: [(OfLink, Stage); count(ChannelSubject::Link)] = rows_of!(Link, OfLink, OfLink::Angle);
+    pub(crate) const POINT: [(OfPoint, Stage); count(ChannelSubject::Point)] = rows_of!(Point, OfPoint, OfPoint::X);
+    pub(crate) const JOINT: [(OfJoint, Stage); count(ChannelSubject::Joint)] =
+        rows_of!(Joint, OfJoint, OfJoint::ForceX);
+    pub(crate) const SLIDER: [(OfSlider, Stage); count(ChannelSubject::Slider)] =
+        rows_of!(Slider, OfSlider, OfSlider::Slide);
+    pub(crate) const FRAME: [(OfFrame, Stage); count(ChannelSubject::Frame)] =
+        rows_of!(Frame, OfFrame, OfFrame::ForceX);
+    pub(crate) const DRIVE: [(OfDrive, Stage); count(ChannelSubject::Drive)] =
+        rows_of!(Drive, OfDrive, OfDrive::Torque);
+    pub(crate) const MOTOR: [(OfDrive, Stage); count(ChannelSubject::Motor)] =
+        rows_of!(Motor, OfDrive, OfDrive::Torque);
 }
 
 /// One channel of a trajectory: a row of [`CHANNELS`] for one link, point, joint or drive.

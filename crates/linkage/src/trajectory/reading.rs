@@ -2,7 +2,7 @@
 
 /// What a channel belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Subject {
+pub enum ChannelSubject {
     /// A link; positions are those of its mass centre.
     Link,
     /// A named point.
@@ -19,13 +19,17 @@ pub enum Subject {
     Motor,
 }
 
-impl Subject {
+impl ChannelSubject {
     /// Whether a mechanism has exactly one of it, so that it needs no name.
     #[must_use]
     pub fn is_whole(self) -> bool {
         match self {
-            Subject::Frame | Subject::Drive => true,
-            Subject::Link | Subject::Point | Subject::Joint | Subject::Slider | Subject::Motor => false,
+            ChannelSubject::Frame | ChannelSubject::Drive => true,
+            ChannelSubject::Link
+            | ChannelSubject::Point
+            | ChannelSubject::Joint
+            | ChannelSubject::Slider
+            | ChannelSubject::Motor => false,
         }
     }
 
@@ -33,8 +37,12 @@ impl Subject {
     #[must_use]
     pub fn is_drive(self) -> bool {
         match self {
-            Subject::Drive | Subject::Motor => true,
-            Subject::Link | Subject::Point | Subject::Joint | Subject::Slider | Subject::Frame => false,
+            ChannelSubject::Drive | ChannelSubject::Motor => true,
+            ChannelSubject::Link
+            | ChannelSubject::Point
+            | ChannelSubject::Joint
+            | ChannelSubject::Slider
+            | ChannelSubject::Frame => false,
         }
     }
 
@@ -42,11 +50,11 @@ impl Subject {
     #[must_use]
     pub fn word(self) -> &'static str {
         match self {
-            Subject::Link => "link",
-            Subject::Point => "point",
-            Subject::Joint | Subject::Slider => "joint",
-            Subject::Frame => "frame",
-            Subject::Drive | Subject::Motor => "drive",
+            ChannelSubject::Link => "link",
+            ChannelSubject::Point => "point",
+            ChannelSubject::Joint | ChannelSubject::Slider => "joint",
+            ChannelSubject::Frame => "frame",
+            ChannelSubject::Drive | ChannelSubject::Motor => "drive",
         }
     }
 }
@@ -74,15 +82,15 @@ pub enum Reading {
 impl Reading {
     /// The subject of the quantity.
     #[must_use]
-    pub const fn subject(self) -> Subject {
+    pub const fn subject(self) -> ChannelSubject {
         match self {
-            Reading::Link(_) => Subject::Link,
-            Reading::Point(_) => Subject::Point,
-            Reading::Joint(_) => Subject::Joint,
-            Reading::Slider(_) => Subject::Slider,
-            Reading::Frame(_) => Subject::Frame,
-            Reading::Drive(_) => Subject::Drive,
-            Reading::Motor(_) => Subject::Motor,
+            Reading::Link(_) => ChannelSubject::Link,
+            Reading::Point(_) => ChannelSubject::Point,
+            Reading::Joint(_) => ChannelSubject::Joint,
+            Reading::Slider(_) => ChannelSubject::Slider,
+            Reading::Frame(_) => ChannelSubject::Frame,
+            Reading::Drive(_) => ChannelSubject::Drive,
+            Reading::Motor(_) => ChannelSubject::Motor,
         }
     }
 }

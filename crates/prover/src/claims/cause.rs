@@ -1,12 +1,13 @@
 //! Why a formula is wrong.
 
+use crate::sentences;
 use std::collections::BTreeSet;
 use std::fmt;
 
-use super::Course;
+use super::KnownTrajectory;
 use super::dimension::Dimensions;
 use super::missing::{Missing, missing};
-use super::slips::{self, Kind, Mended, Slip};
+use super::slips::{self, FormulaSlip, Mended, SlipKind};
 use super::terms::{self, Term};
 use super::trial::{MOST_LEFT, Trial};
 use crate::numbers::{fixed, significant};
@@ -16,9 +17,9 @@ use scenario::{Claim, Formulas};
 
 /// The simplest explanation of a wrong formula: with it granted, nothing is left over, unless it says so.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Cause {
+pub enum FormulaCause {
     /// One slip of the pen.
-    Slip(Slip),
+    FormulaSlip(FormulaSlip),
     /// The same amount too much everywhere, in the unit of the claim.
     Offset(f64),
     /// Too large by the same factor everywhere.
@@ -37,7 +38,7 @@ pub enum Cause {
     /// Several slips explain it equally well, and more that are not told.
     Several {
         /// The simplest.
-        causes: Vec<Cause>,
+        causes: Vec<FormulaCause>,
         /// Number of those that are not told.
         more: usize,
     },
@@ -55,59 +56,58 @@ pub enum Cause {
     /// Nothing simple explains all of it; this explains most.
     Mostly {
         /// What explains most of it.
-        cause: Box<Cause>,
+        cause: Box<FormulaCause>,
         /// Share of the difference that stays over when it is granted.
         left: f64,
     },
 }
 
-impl fmt::Display for Cause {
+impl fmt::Display for FormulaCause {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Cause::Slip(Slip { formula, kind, written, right, everywhere }) => {
-                let wherever = if *everywhere { " wherever it stands" } else { "" };
-                write!(f, "{}, in {formula}: `{right}` instead of `{written}`{wherever}", kind.words())
+            FormulaCause::FormulaSlip(FormulaSlip { formula, kind, written, right, everywhere }) => {
+                let wherever = if *everywhere { sentences::WHEREVER_IT_STANDS } else { "" };
+                write!(f, "{}", sentences::in_instead_of(&kind.words(), &formula, &right, &written, &wherever))
             }
-            Cause::Offset(offset) => write!(f, "{} too much everywhere", significant(*offset, 6)),
-            Cause::Factor(factor) => write!(f, "too large by the factor {} everywhere", significant(*factor, 6)),
-            Cause::Missing(Missing { formula, beside, what, is_factor }) => {
+            FormulaCause::Offset(offset) => write!(f, "{}", sentences::too_much_everywhere(&significant(*offset, 6))),
+            FormulaCause::Factor(factor) => {
+                write!(f, "{}", sentences::too_large_by_the_factor_everywhere(&significant(*factor, 6)))
+            }
+            FormulaCause::Missing(Missing { formula, beside, what, is_factor }) => {
                 let noun = match is_factor {
-                    true if what.starts_with('/') => "divisor, or a factor too many",
+                    true if what.starts_with('/') => sentences::DIVISOR_OR_A_FACTOR_TOO_MANY,
                     true => "factor",
                     false => "term",
                 };
                 let beside = beside.as_ref().map_or(String::new(), |part| format!(" beside `{part}`"));
-                write!(f, "a missing {noun}, in {formula}: `{what}`{beside}")
+                write!(f, "{}", sentences::a_missing_in(&noun, &formula, &what, &beside))
             }
-            Cause::Terms(terms) => {
-                let noun = if terms.len() == 1 { "a missing term" } else { "missing terms" };
+            FormulaCause::Terms(terms) => {
+                let noun = if terms.len() == 1 { sentences::A_MISSING_TERM } else { "missing terms" };
                 let terms: Vec<String> = terms.iter().map(Term::to_string).collect();
                 write!(f, "{noun}, {}", terms.join(" and "))
             }
-            Cause::Leaves { after, before } => {
+            FormulaCause::Leaves { after, before } => {
                 let [after, before] = [after, before].map(|crank| fixed(crank.to_degrees(), 3));
-                write!(
-                    f,
-                    "another branch: it is right up to crank angle {after} deg, and no longer at {before} deg; \
-                     atan2 in place of acos, asin or atan follows it"
-                )
+                write!(f, "{}", sentences::another_branch_it_is_right(&after, &before))
             }
-            Cause::Several { causes, more } => {
-                let told: Vec<String> = causes.iter().map(Cause::to_string).collect();
-                write!(f, "one of several that fit equally: {}", told.join("; or "))?;
-                if *more > 0 { write!(f, "; or {more} more") } else { Ok(()) }
+            FormulaCause::Several { causes, more } => {
+                let told: Vec<String> = causes.iter().map(FormulaCause::to_string).collect();
+                write!(f, "{}", sentences::one_of_several_that_fit_equally(&(told.join("; or "))))?;
+                if *more > 0 { write!(f, "{}", sentences::or_more(&more)) } else { Ok(()) }
             }
-            Cause::Other(channel) => write!(f, "another quantity is claimed: it is {channel}"),
-            Cause::Constant => write!(f, "it is a constant, and what it claims changes with the crank"),
-            Cause::Near { error, share } => write!(
+            FormulaCause::Other(channel) => write!(f, "{}", sentences::another_quantity_is_claimed_it_is(&channel)),
+            FormulaCause::Constant => write!(f, "{}", sentences::IT_IS_A_CONSTANT_AND_WHAT),
+            FormulaCause::Near { error, share } => write!(
                 f,
-                "no single slip or term; it is right to {} % of the largest number, as an approximation or a rounded \
-                 number is: `error = {}` claims it as one",
-                significant(100.0 * share, 2),
-                significant(1.06 * error, 2)
+                "{}",
+                sentences::no_single_slip_or_term_it_is_right(
+                    &significant(100.0 * share, 2),
+                    &significant(1.06 * error, 2)
+                )
             ),
-            Cause::Mostly { cause, left } => {
-                write!(f, "for the most part {cause}; with that, {:.2} % of the difference stays over", 100.0 * left)
+            FormulaCause::Mostly { cause, left } => {
+                write!(f, "{}", sentences::for_the_most_part_with_that_of_the_difference(&cause, &(100.0 * left)))
             }
         }
     }
@@ -124,19 +124,19 @@ impl fmt::Display for Term {
     }
 }
 
-impl Cause {
+impl FormulaCause {
     /// Whether nothing is left over when it is granted.
     #[must_use]
     pub fn is_whole(&self) -> bool {
-        !matches!(self, Cause::Mostly { .. } | Cause::Near { .. } | Cause::Constant)
+        !matches!(self, FormulaCause::Mostly { .. } | FormulaCause::Near { .. } | FormulaCause::Constant)
     }
 }
 
 /// What a search for a cause came to.
 #[derive(Clone, Debug, Default)]
-pub struct Search {
+pub struct CauseSearch {
     /// The cause, if there is a simple one.
-    pub cause: Option<Cause>,
+    pub cause: Option<FormulaCause>,
     /// Whether the search ended because its work was used up, before all was tried.
     pub is_cut: bool,
     /// Operations that it took: evaluations of a part of a formula at an instant, and what costs as much.
@@ -144,7 +144,7 @@ pub struct Search {
 }
 
 /// Why a search has found no cause, where it is cut.
-pub const CUT: &str = "the search ended at its limit of work, before all slips and terms were tried";
+pub const CUT: &str = sentences::THE_SEARCH_ENDED_AT_ITS_LIMIT;
 
 /// Most operations of the search for the cause of one formula.
 pub const MOST_WORK: u64 = 60_000_000;
@@ -158,22 +158,22 @@ const NEAR: f64 = 0.02;
 ///
 /// # Errors
 /// If the course lacks a channel of the claim.
-pub fn cause(formulas: &Formulas, name: &str, course: &Course, limit: u64) -> Result<Search> {
+pub fn cause(formulas: &Formulas, name: &str, course: &KnownTrajectory, limit: u64) -> Result<CauseSearch> {
     if limit == 0 {
-        return Ok(Search { is_cut: true, ..Search::default() });
+        return Ok(CauseSearch { is_cut: true, ..CauseSearch::default() });
     }
-    let Some(index) = formulas.list.iter().position(|own| own.name == name) else { return Ok(Search::default()) };
-    let Some(claim) = &formulas.list[index].claim else { return Ok(Search::default()) };
+    let Some(index) = formulas.list.iter().position(|own| own.name == name) else { return Ok(CauseSearch::default()) };
+    let Some(claim) = &formulas.list[index].claim else { return Ok(CauseSearch::default()) };
     let mut trial = Trial::of(formulas, index, claim, course, limit)?;
     let found = sought(&mut trial, claim, course);
-    Ok(Search {
-        is_cut: trial.is_spent() && !found.as_ref().is_some_and(Cause::is_whole),
+    Ok(CauseSearch {
+        is_cut: trial.is_spent() && !found.as_ref().is_some_and(FormulaCause::is_whole),
         cause: found,
         work: trial.sheet.operations(),
     })
 }
 
-fn sought(trial: &mut Trial, claim: &Claim, course: &Course) -> Option<Cause> {
+fn sought(trial: &mut Trial, claim: &Claim, course: &KnownTrajectory) -> Option<FormulaCause> {
     let rows = trial.rows();
     let number = of_numbers(&rows);
     trial.is_number = number.is_some();
@@ -181,7 +181,7 @@ fn sought(trial: &mut Trial, claim: &Claim, course: &Course) -> Option<Cause> {
     let dimensions = Dimensions::of(&formulas, trial.index, claim);
     let tried = slips::tried(trial, &dimensions);
     let is_sound = |own: &&Mended| !own.rank.0;
-    let is_simple = |own: &&Mended| own.slip.kind != Kind::Value || !own.rank.1;
+    let is_simple = |own: &&Mended| own.slip.kind != SlipKind::Value || !own.rank.1;
     let mut sound: Vec<&Mended> = tried.right.iter().filter(is_sound).filter(is_simple).collect();
     // Where nothing changes, or the formula is wrong by a factor, a number is all that a slip has to meet.
     let is_weak = trial.is_constant() || trial.is_number;
@@ -189,18 +189,18 @@ fn sought(trial: &mut Trial, claim: &Claim, course: &Course) -> Option<Cause> {
         // A sign, a unit, and units that fit together only with it, say more than the number does.
         let own = formulas.list[trial.index].tree.clone();
         let is_natural = match first.slip.kind {
-            Kind::Sign | Kind::Branch | Kind::PerRadian | Kind::PerSecond => true,
-            Kind::Unit => !trial.is_constant(),
-            Kind::Function
-            | Kind::Power
-            | Kind::Name
-            | Kind::Exchanged
-            | Kind::Term
-            | Kind::Reference
-            | Kind::Factor
-            | Kind::Operator
-            | Kind::Parentheses
-            | Kind::Value => !dimensions.are_sound(&[(trial.index, own)]),
+            SlipKind::Sign | SlipKind::Branch | SlipKind::PerRadian | SlipKind::PerSecond => true,
+            SlipKind::Unit => !trial.is_constant(),
+            SlipKind::Function
+            | SlipKind::Power
+            | SlipKind::Name
+            | SlipKind::Exchanged
+            | SlipKind::Term
+            | SlipKind::Reference
+            | SlipKind::Factor
+            | SlipKind::Operator
+            | SlipKind::Parentheses
+            | SlipKind::Value => !dimensions.are_sound(&[(trial.index, own)]),
         };
         let mut kinds = BTreeSet::new();
         let (rank, written) = (first.rank, first.slip.written.clone());
@@ -211,22 +211,22 @@ fn sought(trial: &mut Trial, claim: &Claim, course: &Course) -> Option<Cause> {
                 return own.rank.1 == rank.1 && is_near && !is_same && kinds.insert((own.slip.kind, own.rank.2));
             }
             // By the numbers of a mechanism, one length may be twice another, or a ratio twice its inverse.
-            let is_number = |kind: Kind| kind == Kind::Factor;
+            let is_number = |kind: SlipKind| kind == SlipKind::Factor;
             let is_other = own.rank.1 == rank.1
-                && (matches!(rank.3, Kind::Name | Kind::Exchanged) && is_number(own.slip.kind)
+                && (matches!(rank.3, SlipKind::Name | SlipKind::Exchanged) && is_number(own.slip.kind)
                     || is_number(rank.3) && own.rank.2 && own.rank.3 < rank.3);
             own.rank == rank && own.slip.written == written || is_other && kinds.insert((own.slip.kind, own.rank.2))
         });
-        return one_of(sound.into_iter().map(|own| Cause::Slip(own.slip.clone())).collect());
+        return one_of(sound.into_iter().map(|own| FormulaCause::FormulaSlip(own.slip.clone())).collect());
     }
     // What is missing comes before slips whose units do not fit together.
     let lacks = if trial.is_spent() { Vec::new() } else { missing(trial, &dimensions) };
-    let found: Vec<Cause> = lacks.into_iter().map(Cause::Missing).collect();
+    let found: Vec<FormulaCause> = lacks.into_iter().map(FormulaCause::Missing).collect();
     if !found.is_empty() {
         return one_of(found);
     }
     if let Some(first) = tried.right.first() {
-        return Some(Cause::Slip(first.slip.clone()));
+        return Some(FormulaCause::FormulaSlip(first.slip.clone()));
     }
     if number.is_some() {
         return number;
@@ -234,13 +234,13 @@ fn sought(trial: &mut Trial, claim: &Claim, course: &Course) -> Option<Cause> {
     if !trial.is_spent()
         && let Some(found) = terms::of(trial, course, &dimensions)
     {
-        return Some(Cause::Terms(found));
+        return Some(FormulaCause::Terms(found));
     }
     if let Some(found) = terms::is_other(trial, claim, course) {
-        return Some(Cause::Other(found));
+        return Some(FormulaCause::Other(found));
     }
     if trial.gives_one_number() && !trial.is_constant() {
-        return Some(Cause::Constant);
+        return Some(FormulaCause::Constant);
     }
     // An approximation is right by chance where it crosses.
     let is_exact = trial.formula.error.is_none();
@@ -250,7 +250,8 @@ fn sought(trial: &mut Trial, claim: &Claim, course: &Course) -> Option<Cause> {
     // Of as many that are as simple, one leaves as little at two independent instants by chance.
     let by_chance = |own: &Mended| (CHANCE / own.among as f64).sqrt().smaller(MOST_LEFT);
     let nearest = tried.nearest.filter(|own| !own.rank.0 && !is_weak && own.left <= by_chance(own));
-    let mostly = |own: Mended| Cause::Mostly { cause: Box::new(Cause::Slip(own.slip)), left: own.left };
+    let mostly =
+        |own: Mended| FormulaCause::Mostly { cause: Box::new(FormulaCause::FormulaSlip(own.slip)), left: own.left };
     nearest.map(mostly).or_else(|| near(&rows).filter(|_| is_exact))
 }
 
@@ -258,19 +259,19 @@ fn sought(trial: &mut Trial, claim: &Claim, course: &Course) -> Option<Cause> {
 const CHANCE: f64 = 0.05;
 
 /// One cause, or several that fit equally well.
-fn one_of(mut causes: Vec<Cause>) -> Option<Cause> {
+fn one_of(mut causes: Vec<FormulaCause>) -> Option<FormulaCause> {
     causes.dedup();
     let more = causes.len().saturating_sub(TOLD);
     causes.truncate(TOLD);
-    if causes.len() > 1 { Some(Cause::Several { causes, more }) } else { causes.pop() }
+    if causes.len() > 1 { Some(FormulaCause::Several { causes, more }) } else { causes.pop() }
 }
 
 /// Whether it is right to within a small share of its largest number, as a series or a formula for small angles is.
-fn near(rows: &[Row]) -> Option<Cause> {
+fn near(rows: &[Row]) -> Option<FormulaCause> {
     let largest = |of: &dyn Fn(&Row) -> f64| rows.iter().map(|row| of(row).abs()).fold(0.0, f64::larger);
     let (error, scale) = (largest(&|row| row[2] - row[3]), largest(&|row| row[3]));
     let is_near = rows.len() >= FEWEST && error <= NEAR * scale;
-    is_near.then_some(Cause::Near { error, share: error / scale })
+    is_near.then_some(FormulaCause::Near { error, share: error / scale })
 }
 
 /// Fewest instants that an approximation is recognised by.
@@ -291,7 +292,7 @@ impl Trial<'_> {
 }
 
 /// An offset or a factor, if either is all that is wrong.
-fn of_numbers(rows: &[Row]) -> Option<Cause> {
+fn of_numbers(rows: &[Row]) -> Option<FormulaCause> {
     if rows.len() < 3 || rows.iter().any(|row| !row[2].is_finite()) {
         return None;
     }
@@ -308,17 +309,18 @@ fn of_numbers(rows: &[Row]) -> Option<Cause> {
         let fits = rows.iter().all(|row| (left(row) - coefficient * basis(row)).abs() <= 4.0 * row[4] + slack);
         (coefficient.is_finite() && fits).then_some(coefficient)
     };
-    let offset = by(&|_| 1.0).map(Cause::Offset);
-    offset.or_else(|| by(&|row| row[3]).map(|more| Cause::Factor(1.0 + more)))
+    let offset = by(&|_| 1.0).map(FormulaCause::Offset);
+    offset.or_else(|| by(&|row| row[3]).map(|more| FormulaCause::Factor(1.0 + more)))
 }
 
 /// Right up to somewhere, and wrong from there on.
-fn leaves(rows: &[Row]) -> Option<Cause> {
+fn leaves(rows: &[Row]) -> Option<FormulaCause> {
     let mut order: Vec<&Row> = rows.iter().collect();
     order.sort_by(|a, b| a[0].total_cmp(&b[0]));
     let is_right = |row: &&Row| (row[2] - row[3]).abs() <= row[4];
     let right = order.iter().copied().take_while(is_right).count();
-    (right >= 2 && right < order.len()).then(|| Cause::Leaves { after: order[right - 1][1], before: order[right][1] })
+    (right >= 2 && right < order.len())
+        .then(|| FormulaCause::Leaves { after: order[right - 1][1], before: order[right][1] })
 }
 
 #[cfg(test)]
@@ -339,9 +341,9 @@ mod tests {
             of_numbers(&rows)
         };
         let factor = found(&|right| 1.1 * right, 0.0);
-        assert!(matches!(factor, Some(Cause::Factor(own)) if (own - 1.1).abs() < 1e-12), "{factor:?}");
+        assert!(matches!(factor, Some(FormulaCause::Factor(own)) if (own - 1.1).abs() < 1e-12), "{factor:?}");
         let offset = found(&|right| right + 0.5, 0.0);
-        assert!(matches!(offset, Some(Cause::Offset(own)) if (own - 0.5).abs() < 1e-12), "{offset:?}");
+        assert!(matches!(offset, Some(FormulaCause::Offset(own)) if (own - 0.5).abs() < 1e-12), "{offset:?}");
         for of in [&(|right| 1.1 * right) as &dyn Fn(f64) -> f64, &|right| right + 0.5] {
             assert!(found(of, 2e-12).is_some());
             let over = found(of, 1e-9);

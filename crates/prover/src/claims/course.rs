@@ -1,14 +1,15 @@
 //! What a side found, with how well it knows it.
 
+use crate::sentences;
 use formula::{Function, Operator, Rounded};
 use linkage::case::Case;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::KeepNan;
 use linkage::trajectory::{Channel, OfJoint, OfLink, OfPoint, Reading, Trajectory};
-use scenario::{Claim, Figure, Formula, PrintedChannel};
+use scenario::{Claim, Formula, MechanismFigure, PrintedChannel};
 
 /// A side's trajectory, and how far every number of it is known (by column and row, in its SI unit).
-pub struct Course<'a> {
+pub struct KnownTrajectory<'a> {
     trajectory: &'a Trajectory,
     error: &'a dyn Fn(usize, usize) -> f64,
     crank_name: &'a str,
@@ -17,7 +18,7 @@ pub struct Course<'a> {
     /// Angle of a crank that moves under forces, where the side has it: it is known as well as it was integrated.
     angle: Option<usize>,
     /// Figures of the whole mechanism, in SI.
-    figures: &'a [(Figure, Rounded)],
+    figures: &'a [(MechanismFigure, Rounded)],
     /// How well every channel is known at best, in its SI unit; empty for no such limit.
     least: &'a [f64],
 }
@@ -87,7 +88,7 @@ fn across(channel: &PrintedChannel) -> Option<Channel> {
     Some(Channel { of: channel.channel.of.clone(), kind })
 }
 
-impl<'a> Course<'a> {
+impl<'a> KnownTrajectory<'a> {
     /// What a side found on a case; `error` says how far a number is known, by column and row.
     #[must_use]
     pub fn new(case: &'a Case, trajectory: &'a Trajectory, error: &'a dyn Fn(usize, usize) -> f64) -> Self {
@@ -97,7 +98,7 @@ impl<'a> Course<'a> {
             trajectory.channels().iter().position(|own| *own == channel)
         };
         let angle = case.is_free().then(|| of("angle_rad")).flatten();
-        Course {
+        KnownTrajectory {
             trajectory,
             error,
             crank_name: crank,
@@ -110,14 +111,14 @@ impl<'a> Course<'a> {
 
     /// The same with figures of the whole mechanism, in SI.
     #[must_use]
-    pub fn with_figures(self, figures: &'a [(Figure, Rounded)]) -> Self {
-        Course { figures, ..self }
+    pub fn with_figures(self, figures: &'a [(MechanismFigure, Rounded)]) -> Self {
+        KnownTrajectory { figures, ..self }
     }
 
     /// The same with limits to how well channels are known, in their SI units.
     #[must_use]
     pub fn known_at_least(&'a self, least: &'a [f64]) -> Self {
-        Course { least, ..*self }
+        KnownTrajectory { least, ..*self }
     }
 
     pub(super) fn len(&self) -> usize {
@@ -202,7 +203,7 @@ impl<'a> Course<'a> {
 
     /// The figures of a claim.
     pub(super) fn figures(&self, claim: &Claim) -> Result<Vec<Rounded>> {
-        let of = |(name, figure): &(String, Figure)| {
+        let of = |(name, figure): &(String, MechanismFigure)| {
             let found = self.figures.iter().find(|(own, _)| own == figure);
             found.map(|(_, number)| *number).ok_or_else(|| missing(name))
         };
@@ -244,7 +245,7 @@ impl<'a> Course<'a> {
 }
 
 fn missing(what: &dyn std::fmt::Display) -> Error {
-    Error::new(ErrorKind::Input, format!("{what} was not asked for"))
+    Error::new(ErrorKind::Input, sentences::was_not_asked_for(&what))
 }
 
 #[cfg(test)]
@@ -261,7 +262,7 @@ mod tests {
         let trajectory = analytic::AssurSolver.solve(&case).unwrap();
         let is_own = |channel: &Channel| *channel == claim.channels[0].1.channel;
         let error = |_: usize, row: usize| if row == 7 { 1e-3 } else { 1e-9 };
-        let course = Course::new(&case, &trajectory, &error);
+        let course = KnownTrajectory::new(&case, &trajectory, &error);
         let least: Vec<f64> =
             trajectory.channels().iter().map(|channel| if is_own(channel) { 1e-5 } else { 1.0 }).collect();
         for (course, usual) in [(course.known_at_least(&least), 1e-5), (course.known_at_least(&[]), 1e-9)] {
@@ -281,7 +282,7 @@ mod tests {
         let [x, y] = ["joint.A.fx_N", "joint.A.fy_N"].map(|name| trajectory.named(name).unwrap());
         let is_y = |channel: &Channel| channel.to_string() == "joint.A.fy_N";
         let y_alone = |column: usize, _: usize| if is_y(&trajectory.channels()[column]) { 1e-6 } else { 0.0 };
-        let course = Course::new(&case, &trajectory, &y_alone);
+        let course = KnownTrajectory::new(&case, &trajectory, &y_alone);
         for (row, found) in course.values(&claim).unwrap().into_iter().enumerate() {
             let size = x[row].hypot(y[row]);
             assert!((found.value / size - 1.0).abs() < 1e-14, "{row}: {} {size}", found.value);

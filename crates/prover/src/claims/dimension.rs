@@ -4,7 +4,7 @@
 use std::cell::Cell;
 use std::collections::BTreeMap;
 
-use formula::{Function, Operator, Shape, Tree};
+use formula::{FormulaTree, Function, NodeShape, Operator};
 use scenario::{Claim, Formulas, Parameter};
 
 /// Powers of kilogram, metre and second.
@@ -57,7 +57,7 @@ impl<'a> Dimensions<'a> {
     }
 
     /// Whether nothing contradicts the units with other trees in some of the formulas.
-    pub(super) fn are_sound(&self, changed: &[(usize, Tree)]) -> bool {
+    pub(super) fn are_sound(&self, changed: &[(usize, FormulaTree)]) -> bool {
         let first = changed.iter().map(|(index, _)| *index).min().unwrap_or(self.of);
         let Some(known) = self.written.get(..first) else { return false };
         let mut known = known.to_vec();
@@ -74,7 +74,12 @@ impl<'a> Dimensions<'a> {
     /// Whether a formula with other trees may be what was meant: `Some(true)` if nothing contradicts the units,
     /// `Some(false)` if they do not fit together, and no worse than before, because in the formula `index` a part with
     /// the same dimension was `replaced` by another; `None` if not.
-    pub(super) fn standing(&self, changed: &[(usize, Tree)], index: usize, replaced: [&Tree; 2]) -> Option<bool> {
+    pub(super) fn standing(
+        &self,
+        changed: &[(usize, FormulaTree)],
+        index: usize,
+        replaced: [&FormulaTree; 2],
+    ) -> Option<bool> {
         if self.are_sound(changed) {
             return Some(true);
         }
@@ -84,18 +89,18 @@ impl<'a> Dimensions<'a> {
     }
 
     /// Dimension of a tree of parameters and numbers; `None` if it is not known, or its parts do not fit together.
-    pub(super) fn of_constant(&self, tree: &Tree) -> Known {
+    pub(super) fn of_constant(&self, tree: &FormulaTree) -> Known {
         self.dimension(tree, &self.written).ok().flatten()
     }
 
     /// Whether a factor of a quantity with this unit makes what the formula claims.
-    pub(super) fn is_sound_term(&self, factor: &Tree, unit: &str) -> bool {
+    pub(super) fn is_sound_term(&self, factor: &FormulaTree, unit: &str) -> bool {
         let Ok(Some(factor)) = self.dimension(factor, &[]) else { return false };
         let Some(basis) = of_unit(unit) else { return false };
         self.claimed == Some([0, 1, 2].map(|axis: usize| factor[axis] + basis[axis]))
     }
 
-    fn dimension(&self, tree: &Tree, known: &[Known]) -> Result<Known, Unsound> {
+    fn dimension(&self, tree: &FormulaTree, known: &[Known]) -> Result<Known, Unsound> {
         self.looked.update(|looked| looked + 1);
         of_tree(tree, &|name| {
             self.looked.update(|looked| looked + 1);
@@ -164,26 +169,26 @@ fn same(one: Known, other: Known) -> Result<Known, Unsound> {
 }
 
 /// The number that an exponent is, as `2`, `-2` or `1/2`; `None` for anything else.
-fn number(tree: &Tree) -> Option<f64> {
+fn number(tree: &FormulaTree) -> Option<f64> {
     match &tree.shape {
-        Shape::Number(value) => Some(*value),
-        Shape::Negative(part) => Some(-number(part)?),
-        Shape::Pair(Operator::Over, parts) => Some(number(&parts[0])? / number(&parts[1])?),
-        Shape::Pair(..) | Shape::Name(_) | Shape::Call(..) => None,
+        NodeShape::Number(value) => Some(*value),
+        NodeShape::Negative(part) => Some(-number(part)?),
+        NodeShape::Pair(Operator::Over, parts) => Some(number(&parts[0])? / number(&parts[1])?),
+        NodeShape::Pair(..) | NodeShape::Name(_) | NodeShape::Call(..) => None,
     }
 }
 
-fn of_tree(tree: &Tree, named: &dyn Fn(&str) -> Known) -> Result<Known, Unsound> {
+fn of_tree(tree: &FormulaTree, named: &dyn Fn(&str) -> Known) -> Result<Known, Unsound> {
     let both = |one: Known, other: Known, sign: f64| {
         let [one, other] = [one?, other?];
         Some([0, 1, 2].map(|axis: usize| one[axis] + sign * other[axis]))
     };
     Ok(match &tree.shape {
         // Zero fits everywhere; what is not whole may have a unit of its own, as 9.81.
-        Shape::Number(value) => (*value != 0.0 && (24.0 * value).fract() == 0.0).then_some(NONE),
-        Shape::Name(name) => named(name),
-        Shape::Negative(part) => of_tree(part, named)?,
-        Shape::Pair(operator, parts) => {
+        NodeShape::Number(value) => (*value != 0.0 && (24.0 * value).fract() == 0.0).then_some(NONE),
+        NodeShape::Name(name) => named(name),
+        NodeShape::Negative(part) => of_tree(part, named)?,
+        NodeShape::Pair(operator, parts) => {
             let (left, right) = (of_tree(&parts[0], named)?, of_tree(&parts[1], named)?);
             match (operator, number(&parts[1])) {
                 (Operator::Plus | Operator::Minus, _) => same(left, right)?,
@@ -193,7 +198,7 @@ fn of_tree(tree: &Tree, named: &dyn Fn(&str) -> Known) -> Result<Known, Unsound>
                 (Operator::Power, None) => same(left, Some(NONE))?.and(same(right, Some(NONE))?),
             }
         }
-        Shape::Call(function, arguments) => {
+        NodeShape::Call(function, arguments) => {
             let first = of_tree(&arguments[0], named)?;
             match function {
                 Function::Sqrt => first.map(|own| own.map(|power| power / 2.0)),
@@ -226,7 +231,7 @@ mod tests {
             "a" => Some(NONE),
             _ => None,
         };
-        of_tree(&Tree::parse(text).unwrap(), &named).map_err(|Unsound| ())
+        of_tree(&FormulaTree::parse(text).unwrap(), &named).map_err(|Unsound| ())
     }
 
     #[test]

@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use super::course::{Column, Course};
-use super::judged::{Judged, Pair};
-use formula::{Graph, Id, Program, Rounded};
+use super::course::{Column, KnownTrajectory};
+use super::judged::{JudgedFormula, Pair};
+use formula::{FormulaGraph, NodeId, Program, Rounded};
 use linkage::error::Result;
 use scenario::{Claim, Formula, Formulas};
 
@@ -21,12 +21,12 @@ impl<'a> Claimed<'a> {
     ///
     /// # Errors
     /// If the course lacks a channel of the claim.
-    pub(super) fn of(claim: &Claim, orders: usize, course: &'a Course) -> Result<Self> {
+    pub(super) fn of(claim: &Claim, orders: usize, course: &'a KnownTrajectory) -> Result<Self> {
         let (mut graph, node) = graph_of(claim);
         let (numbers, count) = (claim.figures.len(), claim.channels.len());
         let changes = numbers..numbers + 2 * count;
         let rate = |input: usize| changes.contains(&input).then(|| graph.input(input + count));
-        let rates: Vec<Option<Id>> = (0..numbers + 3 * count).map(rate).collect();
+        let rates: Vec<Option<NodeId>> = (0..numbers + 3 * count).map(rate).collect();
         let mut nodes = vec![node];
         for order in 0..orders {
             let next = graph.rate(nodes[order], &rates);
@@ -55,7 +55,7 @@ impl<'a> Claimed<'a> {
 pub(super) fn pairs(
     formulas: &Formulas,
     (formula, claim): (&Formula, &Claim),
-    course: &Course,
+    course: &KnownTrajectory,
     rows: &[usize],
 ) -> Result<Vec<Pair>> {
     let mut claimed = Claimed::of(claim, 0, course)?;
@@ -69,10 +69,10 @@ pub(super) fn pairs(
 }
 
 /// A claim over its figures, its channels, their rates, and the rates of those.
-pub(super) fn graph_of(claim: &Claim) -> (Graph, Id) {
+pub(super) fn graph_of(claim: &Claim) -> (FormulaGraph, NodeId) {
     let (figures, channels) = (claim.figures.iter().map(|(name, _)| name), claim.channels.iter().map(|(name, _)| name));
     let names: Vec<&str> = figures.chain(channels).map(String::as_str).collect();
-    let mut graph = Graph::new(&names, 2 * claim.channels.len());
+    let mut graph = FormulaGraph::new(&names, 2 * claim.channels.len());
     let node = graph.add(&claim.tree).expect("a claim knows its channels");
     (graph, node)
 }
@@ -84,11 +84,11 @@ struct One<'a> {
     /// Number of its claim among all.
     claimed: usize,
     /// By value, then by every derivative.
-    judged: Vec<Judged>,
+    judged: Vec<JudgedFormula>,
 }
 
 /// Number of derivatives that a formula is judged by.
-fn orders(formula: &Formula, claim: &Claim, course: &Course) -> Result<usize> {
+fn orders(formula: &Formula, claim: &Claim, course: &KnownTrajectory) -> Result<usize> {
     // Neither an approximation nor a number for one instant says anything about derivatives.
     let is_instant = formula.valid[0].is_some() && formula.valid[0] == formula.valid[1];
     let known = course.orders(claim)?;
@@ -100,7 +100,7 @@ fn orders(formula: &Formula, claim: &Claim, course: &Course) -> Result<usize> {
 ///
 /// # Errors
 /// None but those of a course that changes between two calls.
-pub fn judge(formulas: &Formulas, course: &Course) -> Result<Vec<Vec<Judged>>> {
+pub fn judge(formulas: &Formulas, course: &KnownTrajectory) -> Result<Vec<Vec<JudgedFormula>>> {
     let mut derived = formulas.clone();
     let (mut nodes, mut all) = (Vec::new(), Vec::new());
     let (mut claims, mut known) = (Vec::new(), BTreeMap::new());
@@ -119,7 +119,7 @@ pub fn judge(formulas: &Formulas, course: &Course) -> Result<Vec<Vec<Judged>>> {
                 claims.len() - 1
             }
         };
-        let judged = (0..=orders).map(|order| Judged::new((formula, claim), order)).collect();
+        let judged = (0..=orders).map(|order| JudgedFormula::new((formula, claim), order)).collect();
         all.push(One { formula, turn: claim.turn(), claimed, judged });
     }
     // How large its numbers are says how well a formula has to be known.
@@ -156,11 +156,11 @@ pub fn judge(formulas: &Formulas, course: &Course) -> Result<Vec<Vec<Judged>>> {
     Ok(all.into_iter().map(|own| own.judged).collect())
 }
 
-impl Course<'_> {
+impl KnownTrajectory<'_> {
     /// What the formulas that claim something give, each at the instants at which it holds.
     #[must_use]
     pub fn given(&self, formulas: &Formulas) -> Vec<Vec<Rounded>> {
-        let nodes: Vec<Id> = formulas.claims().map(|(formula, _)| formula.id).collect();
+        let nodes: Vec<NodeId> = formulas.claims().map(|(formula, _)| formula.id).collect();
         let mut program = Program::of(&formulas.graph, &nodes);
         let mut all = vec![Vec::new(); nodes.len()];
         for row in 0..self.len() {

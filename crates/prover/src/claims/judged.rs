@@ -1,5 +1,6 @@
 //! A formula's course against that of the mechanism.
 
+use crate::sentences;
 use formula::Rounded;
 use linkage::error::Advice;
 use linkage::math::KeepNan;
@@ -7,7 +8,7 @@ use scenario::{Claim, Formula};
 
 /// An instant, and what stands there.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct At {
+pub struct FormulaAtInstant {
     /// Time (s).
     pub time: f64,
     /// Crank angle (rad, as the scenario states it).
@@ -22,7 +23,7 @@ pub struct At {
     pub bound: f64,
 }
 
-impl At {
+impl FormulaAtInstant {
     /// Difference over bound; infinite for no number.
     #[must_use]
     pub fn used(&self) -> f64 {
@@ -41,7 +42,7 @@ pub(super) struct Pair {
 
 /// What a judgement comes to.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Outcome {
+pub enum FormulaOutcome {
     /// The formula is right, at every instant that was judged.
     Right,
     /// It is not.
@@ -57,7 +58,7 @@ pub enum Outcome {
 
 /// A formula judged by value, or by a derivative.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Judged {
+pub struct JudgedFormula {
     /// Name of the formula.
     pub name: String,
     /// What it claims to be.
@@ -77,9 +78,9 @@ pub struct Judged {
     /// Number of instants at which the formula has no value, though the claim has.
     pub without: usize,
     /// First instant beyond its bound.
-    pub since: Option<At>,
+    pub since: Option<FormulaAtInstant>,
     /// The instant that uses most of its bound.
-    pub worst: Option<At>,
+    pub worst: Option<FormulaAtInstant>,
     /// Largest number of the mechanism.
     pub scale: f64,
 }
@@ -96,16 +97,16 @@ fn has_number(mechanism: Rounded) -> bool {
     mechanism.value.is_finite() && mechanism.error.is_finite()
 }
 
-impl Judged {
+impl JudgedFormula {
     /// A formula with its claim, or a derivative of both, before it is judged.
     pub(super) fn new((formula, claim): (&Formula, &Claim), order: usize) -> Self {
-        Judged {
+        JudgedFormula {
             name: formula.name.clone(),
             claim: claim.text.clone(),
             unit: if order == 0 { claim.unit() } else { "" },
             order,
             claimed: formula.error.is_some(),
-            ..Judged::default()
+            ..JudgedFormula::default()
         }
     }
 
@@ -115,7 +116,7 @@ impl Judged {
         turn: Option<f64>,
         course: impl Iterator<Item = Pair> + Clone,
     ) -> Self {
-        let mut own = Judged::new((formula, claim), 0);
+        let mut own = JudgedFormula::new((formula, claim), 0);
         course.clone().for_each(|pair| own.seen(pair.mechanism));
         course.for_each(|pair| own.put(formula, turn, pair));
         own
@@ -141,7 +142,7 @@ impl Judged {
         // What has no value has no rounding either.
         let rounding = if found.is_undefined() { 0.0 } else { found.error };
         let bound = formula.error.unwrap_or(0.0) + rounding + mechanism.error;
-        let at = At { time, crank, formula: found.value, mechanism: mechanism.value, difference, bound };
+        let at = FormulaAtInstant { time, crank, formula: found.value, mechanism: mechanism.value, difference, bound };
         // What the mechanism itself is hardly known better is not the formula's loss.
         let has_lost = !(found.error <= TELLING * self.scale) && !(found.error <= NO_WORSE * mechanism.error);
         // Where a function ends, as acos at 1, its derivative has no number though the value is right.
@@ -161,25 +162,23 @@ impl Judged {
 
     /// What it comes to.
     #[must_use]
-    pub fn outcome(&self) -> Outcome {
+    pub fn outcome(&self) -> FormulaOutcome {
         if self.since.is_some() {
-            return Outcome::Wrong;
+            return FormulaOutcome::Wrong;
         }
-        let open = |reason: String, advice: &str| Outcome::Open { reason, advice: vec![advice.into()] };
+        let open = |reason: String, advice: &str| FormulaOutcome::Open { reason, advice: vec![advice.into()] };
         let all = self.judged + self.lost;
         match self.worst {
-            None if all == 0 && self.undefined > 0 => open(
-                format!("the claim has no number at any of {} instants: it divides by zero", self.undefined),
-                "claim it where the crank turns",
-            ),
-            None if all == 0 => open(
-                "no instant lies between the crank angles for which the formula is claimed".into(),
-                "let the grid come to them, or claim it for others",
-            ),
-            Some(_) if self.lost as f64 <= MOST_LOST * all as f64 => Outcome::Right,
+            None if all == 0 && self.undefined > 0 => {
+                open(sentences::the_claim_has_no_number_at_any(&self.undefined), sentences::CLAIM_IT_WHERE_THE_CRANK)
+            }
+            None if all == 0 => {
+                open(sentences::NO_INSTANT_LIES_BETWEEN_THE_CRANK.into(), sentences::LET_THE_GRID_COME_TO_THEM)
+            }
+            Some(_) if self.lost as f64 <= MOST_LOST * all as f64 => FormulaOutcome::Right,
             _ => open(
-                format!("rounding leaves the formula less than six digits at {} of {all} instants", self.lost),
-                "write it so that no digits cancel, for example with atan2 in place of acos",
+                sentences::rounding_leaves_the_formula_less(&self.lost, &all),
+                sentences::WRITE_IT_SO_THAT_NO_DIGITS,
             ),
         }
     }
@@ -204,8 +203,8 @@ mod tests {
                 formula: Rounded { value: 2.0, error: 2.0 * error },
                 mechanism: Rounded { value: 2.0, error: 2.0 * own },
             };
-            let judged = Judged::of((&*formula, &claim), None, (0..10).map(of));
-            (judged.outcome() == Outcome::Right, judged.judged, judged.lost)
+            let judged = JudgedFormula::of((&*formula, &claim), None, (0..10).map(of));
+            (judged.outcome() == FormulaOutcome::Right, judged.judged, judged.lost)
         };
         let (right, lost) = ((true, 10, 0), (false, 0, 10));
         let cases =

@@ -12,7 +12,7 @@ use super::dimension::Dimensions;
 use super::slips::{at_every_place, numbered, replaced, used_by};
 use super::trial::Trial;
 use dictionary::{Dictionary, Entry};
-use formula::{Operator, Shape, Tree};
+use formula::{FormulaTree, NodeShape, Operator};
 pub(in crate::claims) use monomials::Monomials;
 
 /// A term or a factor that is missing.
@@ -155,7 +155,7 @@ impl Ratios {
 
 /// Something that may be missing, and the formula with it.
 struct Candidate {
-    changed: Vec<(usize, Tree)>,
+    changed: Vec<(usize, FormulaTree)>,
     /// Number of names in it that the formula does not have.
     strangers: usize,
     missing: Missing,
@@ -168,7 +168,7 @@ impl Candidate {
     }
 
     /// `None` if it would have to know a formula that comes later.
-    fn of(trial: &Trial, [index, number]: [usize; 2], operator: Operator, what: &Tree) -> Option<Self> {
+    fn of(trial: &Trial, [index, number]: [usize; 2], operator: Operator, what: &FormulaTree) -> Option<Self> {
         let later = &trial.formulas.list[index..];
         if what.names().iter().any(|(name, _)| later.iter().any(|own| own.name == *name)) {
             return None;
@@ -194,7 +194,7 @@ fn is_believed(
     monomials: &Monomials,
     dimensions: &Dimensions,
     coefficient: f64,
-    what: &Tree,
+    what: &FormulaTree,
     weight: usize,
     units: f64,
     places: Option<usize>,
@@ -218,10 +218,10 @@ fn before(places: &[(usize, usize)], depth: usize) -> usize {
 }
 
 /// Depths and numbers of all places of a tree at which something may be missing, the whole before its parts.
-fn places(tree: &Tree) -> Vec<(usize, usize)> {
+fn places(tree: &FormulaTree) -> Vec<(usize, usize)> {
     let (mut places, mut number) = (Vec::new(), 0);
     at_every_place(tree, &mut |place, part| {
-        if !matches!(part.shape, Shape::Number(_)) {
+        if !matches!(part.shape, NodeShape::Number(_)) {
             places.push((place.len(), number));
         }
         number += 1;
@@ -231,18 +231,18 @@ fn places(tree: &Tree) -> Vec<(usize, usize)> {
 }
 
 /// A part with a term or factor.
-fn with(operator: Operator, part: Tree, what: Tree) -> Tree {
+fn with(operator: Operator, part: FormulaTree, what: FormulaTree) -> FormulaTree {
     match (operator, what.shape) {
-        (Operator::Plus, Shape::Negative(inner)) => Tree::pair(Operator::Minus, part, *inner),
-        (operator, shape) => Tree::pair(operator, part, Tree { shape, at: 0..0 }),
+        (Operator::Plus, NodeShape::Negative(inner)) => FormulaTree::pair(Operator::Minus, part, *inner),
+        (operator, shape) => FormulaTree::pair(operator, part, FormulaTree { shape, at: 0..0 }),
     }
 }
 
 /// A term with its sign, or a factor with its operator.
-fn signed(operator: Operator, what: &Tree) -> String {
-    let one = Tree::number(1.0);
+fn signed(operator: Operator, what: &FormulaTree) -> String {
+    let one = FormulaTree::number(1.0);
     let whole = match (operator, &what.shape) {
-        (Operator::Times, Shape::Pair(Operator::Over, parts)) if parts[0].shape == one.shape => what.clone(),
+        (Operator::Times, NodeShape::Pair(Operator::Over, parts)) if parts[0].shape == one.shape => what.clone(),
         _ => with(operator, one, what.clone()),
     };
     // As it is written after another part, with the parentheses that it needs there.
@@ -254,8 +254,8 @@ fn signed(operator: Operator, what: &Tree) -> String {
 
 /// A number of times an entry as it may be written, each with its complexity: by a product of known quantities, and for
 /// a constant factor by one less, or more, such a product.
-fn written(monomials: &Monomials, coefficient: f64, entry: &Entry, operator: Operator) -> Vec<(Tree, usize)> {
-    let one = || Tree::number(1.0);
+fn written(monomials: &Monomials, coefficient: f64, entry: &Entry, operator: Operator) -> Vec<(FormulaTree, usize)> {
+    let one = || FormulaTree::number(1.0);
     let mut factors = match (coefficient.abs() - 1.0).abs() <= ACCURACY {
         true => vec![(if coefficient < 0.0 { one().negative() } else { one() }, 0)],
         false => monomials.with_value(coefficient, ACCURACY),
@@ -268,19 +268,19 @@ fn written(monomials: &Monomials, coefficient: f64, entry: &Entry, operator: Ope
 }
 
 /// A factor times an entry, without ones.
-fn product(factor: &Tree, entry: &Tree) -> Tree {
-    let is_one = |tree: &Tree| tree.shape == Shape::Number(1.0);
+fn product(factor: &FormulaTree, entry: &FormulaTree) -> FormulaTree {
+    let is_one = |tree: &FormulaTree| tree.shape == NodeShape::Number(1.0);
     match (&factor.shape, &entry.shape) {
-        (Shape::Negative(size), _) => product(size, entry).negative(),
-        (_, Shape::Number(_)) => factor.clone(),
+        (NodeShape::Negative(size), _) => product(size, entry).negative(),
+        (_, NodeShape::Number(_)) => factor.clone(),
         _ if is_one(factor) => entry.clone(),
-        (_, Shape::Pair(Operator::Over, parts)) if is_one(&parts[0]) => {
-            Tree::pair(Operator::Over, factor.clone(), parts[1].clone())
+        (_, NodeShape::Pair(Operator::Over, parts)) if is_one(&parts[0]) => {
+            FormulaTree::pair(Operator::Over, factor.clone(), parts[1].clone())
         }
-        (_, Shape::Pair(operator @ (Operator::Times | Operator::Over), parts)) => {
-            Tree::pair(*operator, product(factor, &parts[0]), parts[1].clone())
+        (_, NodeShape::Pair(operator @ (Operator::Times | Operator::Over), parts)) => {
+            FormulaTree::pair(*operator, product(factor, &parts[0]), parts[1].clone())
         }
-        _ => Tree::pair(Operator::Times, factor.clone(), entry.clone()),
+        _ => FormulaTree::pair(Operator::Times, factor.clone(), entry.clone()),
     }
 }
 

@@ -12,12 +12,12 @@ mod values;
 
 use super::dimension::Dimensions;
 use super::trial::Trial;
-use formula::{Shape, Sheet, Tree};
+use formula::{DerivationSheet, FormulaTree, NodeShape};
 use places::quantities;
 pub(super) use places::{at_every_place, numbered, replaced, used_by};
 pub(super) use rules::with_parts;
 use scenario::Formulas;
-pub use slip::{Kind, Slip};
+pub use slip::{FormulaSlip, SlipKind};
 pub(super) use slip::{Mended, Tried};
 
 /// Tries every slip, the simplest kinds first, until the trial's work is used up.
@@ -27,7 +27,7 @@ pub(super) fn tried(trial: &mut Trial, dimensions: &Dimensions) -> Tried {
     let known: Vec<&str> = names.iter().map(String::as_str).collect();
     let used = used_by(&formulas, trial.index);
     let mut tried = Tried::default();
-    for kind in Kind::ALL {
+    for kind in SlipKind::ALL {
         for &index in &used {
             let own = &formulas.list[index];
             let mut next = 0;
@@ -37,7 +37,7 @@ pub(super) fn tried(trial: &mut Trial, dimensions: &Dimensions) -> Tried {
                 if trial.is_spent() {
                     return;
                 }
-                let is_whole = matches!(kind, Kind::Exchanged | Kind::Parentheses);
+                let is_whole = matches!(kind, SlipKind::Exchanged | SlipKind::Parentheses);
                 let edited = if is_whole { part.clone() } else { hollow(part, place, &trial.sheet, 2) };
                 let edits = edits::of(&edited, kind, &known, &formulas.parameters);
                 if edits.is_empty() {
@@ -57,7 +57,7 @@ pub(super) fn tried(trial: &mut Trial, dimensions: &Dimensions) -> Tried {
                     let right = filled(&right, &own.tree, trial.sheet.places(index));
                     let changed = vec![(index, replaced(&own.tree, number, &right))];
                     let (formula, written) = (own.name.clone(), part.to_string());
-                    let slip = Slip { formula, kind, written, right: right.to_string(), everywhere: false };
+                    let slip = FormulaSlip { formula, kind, written, right: right.to_string(), everywhere: false };
                     tried.put_standing(trial, dimensions, &changed, [part, &right], slip);
                 }
             });
@@ -70,37 +70,39 @@ pub(super) fn tried(trial: &mut Trial, dimensions: &Dimensions) -> Tried {
 }
 
 /// A part down to some levels, with placeholders for what stands deeper: it need not be copied.
-fn hollow(part: &Tree, place: usize, sheet: &Sheet, levels: usize) -> Tree {
+fn hollow(part: &FormulaTree, place: usize, sheet: &DerivationSheet, levels: usize) -> FormulaTree {
     if part.parts().is_empty() {
         return part.clone();
     }
     if levels == 0 {
-        return Sheet::placeholder(place);
+        return DerivationSheet::placeholder(place);
     }
     let shape = match &part.shape {
-        Shape::Number(_) | Shape::Name(_) => part.shape.clone(),
-        Shape::Negative(inner) => {
-            Shape::Negative(Box::new(hollow(inner, sheet.arguments(place)[0], sheet, levels - 1)))
+        NodeShape::Number(_) | NodeShape::Name(_) => part.shape.clone(),
+        NodeShape::Negative(inner) => {
+            NodeShape::Negative(Box::new(hollow(inner, sheet.arguments(place)[0], sheet, levels - 1)))
         }
-        Shape::Pair(operator, parts) => {
+        NodeShape::Pair(operator, parts) => {
             let arguments = sheet.arguments(place);
             let of = |index: usize| hollow(&parts[index], arguments[index], sheet, levels - 1);
-            Shape::Pair(*operator, Box::new([of(0), of(1)]))
+            NodeShape::Pair(*operator, Box::new([of(0), of(1)]))
         }
-        Shape::Call(function, parts) => {
+        NodeShape::Call(function, parts) => {
             let arguments = sheet.arguments(place);
-            let of = |(part, place): (&Tree, usize)| hollow(part, place, sheet, levels - 1);
-            Shape::Call(*function, parts.iter().zip(arguments).map(of).collect())
+            let of = |(part, place): (&FormulaTree, usize)| hollow(part, place, sheet, levels - 1);
+            NodeShape::Call(*function, parts.iter().zip(arguments).map(of).collect())
         }
     };
-    Tree { shape, at: part.at.clone() }
+    FormulaTree { shape, at: part.at.clone() }
 }
 
 /// A tree with the parts of a formula in place of their placeholders.
-fn filled(tree: &Tree, formula: &Tree, places: &[usize]) -> Tree {
+fn filled(tree: &FormulaTree, formula: &FormulaTree, places: &[usize]) -> FormulaTree {
     let number = match &tree.shape {
-        Shape::Name(name) => Sheet::placed(name).and_then(|own| places.iter().position(|place| *place == own)),
-        Shape::Number(_) | Shape::Negative(_) | Shape::Pair(..) | Shape::Call(..) => None,
+        NodeShape::Name(name) => {
+            DerivationSheet::placed(name).and_then(|own| places.iter().position(|place| *place == own))
+        }
+        NodeShape::Number(_) | NodeShape::Negative(_) | NodeShape::Pair(..) | NodeShape::Call(..) => None,
     };
     if let Some(number) = number {
         return numbered(formula, number).clone();
@@ -115,7 +117,7 @@ fn filled(tree: &Tree, formula: &Tree, places: &[usize]) -> Tree {
 /// A formula with one slip of a kind. What may have been meant by a part is as well what may be written for it: of all
 /// places and ways in which the slip can be made, the one with a `number`, counted round. `None` if it cannot be made.
 #[must_use]
-pub fn planted(formulas: &Formulas, formula: usize, kind: Kind, number: usize) -> Option<Tree> {
+pub fn planted(formulas: &Formulas, formula: usize, kind: SlipKind, number: usize) -> Option<FormulaTree> {
     let tree = &formulas.list[formula].tree;
     let names = quantities(formulas, formula);
     let known: Vec<&str> = names.iter().map(String::as_str).collect();

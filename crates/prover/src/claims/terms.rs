@@ -3,7 +3,7 @@
 
 mod squares;
 
-use super::Course;
+use super::KnownTrajectory;
 use super::dimension::Dimensions;
 use super::judged::Pair;
 use super::missing::Monomials;
@@ -11,7 +11,7 @@ use super::trial::Trial;
 use linkage::math::KeepNan;
 use linkage::trajectory::Channel;
 use scenario::Claim;
-use squares::{Basis, Part, bases, explanations};
+use squares::{TermBasis, WeightedTerm, bases, explanations};
 
 pub use squares::Wrong;
 
@@ -37,7 +37,7 @@ const KNOWN: f64 = 1e-10;
 
 /// One or two terms with which nothing is left over. Their coefficients are products of parameters with the unit that
 /// is missing; only what a sine or cosine has before it may be a number.
-pub(super) fn of(trial: &mut Trial, course: &Course, dimensions: &Dimensions) -> Option<Vec<Term>> {
+pub(super) fn of(trial: &mut Trial, course: &KnownTrajectory, dimensions: &Dimensions) -> Option<Vec<Term>> {
     let rows = course.rows(trial.formula);
     if rows.len() != trial.pairs.len() {
         return None;
@@ -59,7 +59,7 @@ pub(super) fn of(trial: &mut Trial, course: &Course, dimensions: &Dimensions) ->
     // The simplest of what explains all of it.
     let mut whole: Option<(usize, Vec<Term>)> = None;
     explanations(&wrong, &bases, |parts| {
-        let is_named = |(term, basis): &(Term, &Basis)| term.factor.is_some() || basis.unit == "rad";
+        let is_named = |(term, basis): &(Term, &TermBasis)| term.factor.is_some() || basis.unit == "rad";
         // What is much larger than the difference is no part of it: two such terms cancel each other, or the formula.
         if parts.iter().any(|part| part.coefficient.abs() * part.basis.largest() > LARGER * largest) {
             return;
@@ -88,7 +88,7 @@ pub(super) fn of(trial: &mut Trial, course: &Course, dimensions: &Dimensions) ->
 }
 
 /// The channel that a formula is right for, if it is another than the claimed one.
-pub(super) fn is_other(trial: &Trial, claim: &Claim, course: &Course) -> Option<String> {
+pub(super) fn is_other(trial: &Trial, claim: &Claim, course: &KnownTrajectory) -> Option<String> {
     let [(_, claimed)] = claim.channels.as_slice() else { return None };
     let rows = course.rows(trial.formula);
     if rows.len() != trial.pairs.len() || rows.len() < FEWEST || claim.unit().is_empty() {
@@ -115,7 +115,7 @@ const FEWEST: usize = 8;
 
 impl Term {
     /// A term whose coefficient is a number.
-    pub(super) fn plain(part: &Part) -> Term {
+    pub(super) fn plain(part: &WeightedTerm) -> Term {
         Term { coefficient: part.coefficient, factor: None, of: part.basis.text.clone() }
     }
 }
@@ -123,8 +123,8 @@ impl Term {
 /// What a single term explains of numbers that no formula stands behind, or two if nothing is left over: the terms, and
 /// the share of the largest difference that stays over.
 #[must_use]
-pub fn missing_in_numbers(course: &Course, wrong: &Wrong) -> Option<(Vec<Term>, f64)> {
-    let terms = |parts: Vec<Part>| parts.iter().map(Term::plain).collect::<Vec<_>>();
+pub fn missing_in_numbers(course: &KnownTrajectory, wrong: &Wrong) -> Option<(Vec<Term>, f64)> {
+    let terms = |parts: Vec<WeightedTerm>| parts.iter().map(Term::plain).collect::<Vec<_>>();
     let bases = bases(course, wrong);
     let mut whole = None;
     let most = explanations(wrong, &bases, |parts| {
@@ -135,7 +135,7 @@ pub fn missing_in_numbers(course: &Course, wrong: &Wrong) -> Option<(Vec<Term>, 
 }
 
 /// A term as it may be written, and how complicated it is.
-fn written_as(basis: &Basis, coefficient: f64, monomials: &Monomials, dimensions: &Dimensions) -> (Term, usize) {
+fn written_as(basis: &TermBasis, coefficient: f64, monomials: &Monomials, dimensions: &Dimensions) -> (Term, usize) {
     let mut products = monomials.with_value(coefficient, ACCURACY).into_iter();
     let product = products.find(|(tree, _)| dimensions.is_sound_term(tree, basis.unit));
     let weight = product.as_ref().map_or(UNKNOWN_NUMBER, |(_, weight)| *weight);

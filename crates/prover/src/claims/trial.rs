@@ -1,9 +1,9 @@
 //! A wrong formula, and what a change of it would make of it.
 
 use super::judge;
-use super::judged::{Judged, Pair};
-use super::{Course, Outcome};
-use formula::{Program, Rounded, Sheet, Target, Tree};
+use super::judged::{JudgedFormula, Pair};
+use super::{FormulaOutcome, KnownTrajectory};
+use formula::{DerivationSheet, FormulaTarget, FormulaTree, Program, Rounded};
 use linkage::error::Result;
 use linkage::math::KeepNan;
 use scenario::formula::OMEGA;
@@ -36,9 +36,9 @@ pub(super) struct Trial<'a> {
     /// Some of the instants, neither the first nor the last alone: much is zero there.
     pub(super) few: Vec<usize>,
     /// The derivation at the few instants.
-    pub(super) sheet: Sheet,
+    pub(super) sheet: DerivationSheet,
     /// What the formula ought to be at each of the few.
-    pub(super) targets: Vec<Target>,
+    pub(super) targets: Vec<FormulaTarget>,
     /// Numbers of the few, those first at which the formula is worst.
     pub(super) order: Vec<usize>,
     /// The largest difference at the few instants, or the largest number of the mechanism if that is less.
@@ -58,7 +58,7 @@ impl<'a> Trial<'a> {
         formulas: &'a Formulas,
         index: usize,
         claim: &'a Claim,
-        course: &Course,
+        course: &KnownTrajectory,
         limit: u64,
     ) -> Result<Self> {
         let formula = &formulas.list[index];
@@ -72,7 +72,7 @@ impl<'a> Trial<'a> {
         let (index_of_file, (formulas, index)) = (index, formulas.derivation(index, BESIDE));
         let step = pairs.len().div_ceil(FIRST).max(1);
         let mut own = Trial {
-            sheet: Sheet::new(&[], Vec::new()),
+            sheet: DerivationSheet::new(&[], Vec::new()),
             formulas,
             index,
             formula,
@@ -99,7 +99,7 @@ impl<'a> Trial<'a> {
         let largest = |of: &dyn Fn(usize) -> f64| few.iter().map(|&place| of(place)).fold(0.0, f64::larger);
         let numbers = largest(&|place| own.pairs[place].mechanism.value.abs());
         own.before = largest(&size).smaller(numbers);
-        let target = |&place: &usize| Target {
+        let target = |&place: &usize| FormulaTarget {
             value: own.pairs[place].mechanism.value,
             bound: own.bound(place),
             turn: own.claim.turn(),
@@ -107,7 +107,7 @@ impl<'a> Trial<'a> {
         let targets = few.iter().map(target).collect();
         (own.targets, own.order, own.few) = (targets, order, few);
         let instants = own.few.iter().map(|&place| own.inputs[place].to_vec()).collect();
-        own.sheet = Sheet::new(&[INPUTS[0], INPUTS[1], OMEGA], instants);
+        own.sheet = DerivationSheet::new(&[INPUTS[0], INPUTS[1], OMEGA], instants);
         for (name, number) in own.formulas.parameters.iter().flat_map(Parameter::names) {
             own.sheet.constant(name, number);
         }
@@ -154,7 +154,7 @@ impl<'a> Trial<'a> {
 
     /// Whether a change at some places of the sheet makes the formula right at the few instants, or leaves little of
     /// the difference there. `depending` is what depends on the places.
-    pub(super) fn is_promising(&mut self, changes: &[(usize, Tree)], depending: &[usize]) -> bool {
+    pub(super) fn is_promising(&mut self, changes: &[(usize, FormulaTree)], depending: &[usize]) -> bool {
         let claimed = self.formula.error.unwrap_or(0.0);
         self.sheet.count(EDIT);
         (0..self.order.len()).all(|next| {
@@ -168,13 +168,13 @@ impl<'a> Trial<'a> {
 
     /// Whether the formula is right at every instant with these trees in place of those of the file; `slack` more
     /// than its bound is allowed.
-    pub(super) fn fits(&mut self, changed: &[(usize, Tree)], slack: f64) -> bool {
+    pub(super) fn fits(&mut self, changed: &[(usize, FormulaTree)], slack: f64) -> bool {
         self.left(changed, slack) == Some(0.0)
     }
 
     /// What such a change leaves of the difference: zero if the formula is right at every instant, else the largest
     /// difference at some of them over the largest that there was. `None` if it has no value.
-    pub(super) fn left(&mut self, changed: &[(usize, Tree)], slack: f64) -> Option<f64> {
+    pub(super) fn left(&mut self, changed: &[(usize, FormulaTree)], slack: f64) -> Option<f64> {
         let Trial { formulas, index, formula, claim, inputs, pairs, few, .. } = self;
         let after = *index - changed.iter().map(|(own, _)| *own).min().unwrap_or(*index);
         let mut program = formulas.with_trees(changed, *index, |graph, id| Program::of(graph, &[id]))?;
@@ -185,11 +185,11 @@ impl<'a> Trial<'a> {
                 pair
             };
             let pairs: Vec<Pair> = places.map(&mut at).collect();
-            Judged::of((formula, claim), claim.turn(), pairs.into_iter())
+            JudgedFormula::of((formula, claim), claim.turn(), pairs.into_iter())
         };
         let first = judged(&mut few.iter().copied());
         // Where digits cancel, the few instants alone decide nothing.
-        let is_right = first.since.is_none() && judged(&mut (0..inputs.len())).outcome() == Outcome::Right;
+        let is_right = first.since.is_none() && judged(&mut (0..inputs.len())).outcome() == FormulaOutcome::Right;
         let rows = if first.since.is_none() { inputs.len() } else { few.len() };
         let work = (program.len() * (rows + ADDED) + after * ADDED) as u64 + TREE;
         self.sheet.count(work);

@@ -1,11 +1,12 @@
 //! Where a formula has no value.
 
+use crate::sentences;
 use std::fmt;
 
-use super::Course;
+use super::KnownTrajectory;
 use super::trial::Trial;
 use crate::numbers::fixed;
-use formula::Fault;
+use formula::FormulaFault;
 use linkage::error::Result;
 use scenario::Formulas;
 
@@ -15,7 +16,7 @@ pub struct Undefined {
     /// Name of the formula in which the operation stands: the one that was asked about, or one that it uses.
     pub formula: String,
     /// The operation with its arguments, its place in the formula's text (bytes), and what would be in its domain.
-    pub fault: Fault,
+    pub fault: FormulaFault,
     /// The operation as it is written.
     pub written: String,
     /// The crank angle (rad).
@@ -26,10 +27,10 @@ pub struct Undefined {
 
 impl fmt::Display for Undefined {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Undefined { formula, fault: Fault { message, at, help }, written, crank, .. } = self;
+        let Undefined { formula, fault: FormulaFault { message, at, help }, written, crank, .. } = self;
         let crank = fixed(crank.to_degrees(), 3);
-        let place = format!("`{written}` in {formula}, from its letter {}", at.start + 1);
-        write!(f, "{message} at crank angle {crank} deg, {place}: {help}, whatever the result is multiplied by")
+        let place = sentences::in_from_its_letter(&written, &formula, &(at.start + 1));
+        write!(f, "{}", sentences::at_crank_angle_deg_whatever(&message, &crank, &place, &help))
     }
 }
 
@@ -38,7 +39,7 @@ impl fmt::Display for Undefined {
 ///
 /// # Errors
 /// If the course lacks a channel of the claim.
-pub fn undefined(formulas: &Formulas, name: &str, course: &Course) -> Result<(Option<Undefined>, u64)> {
+pub fn undefined(formulas: &Formulas, name: &str, course: &KnownTrajectory) -> Result<(Option<Undefined>, u64)> {
     let Some(index) = formulas.list.iter().position(|own| own.name == name) else { return Ok((None, 0)) };
     let Some(claim) = &formulas.list[index].claim else { return Ok((None, 0)) };
     let trial = Trial::of(formulas, index, claim, course, 0)?;

@@ -8,7 +8,7 @@
 //! can cancel in the differences.
 
 use super::other_sweeps::{self, OtherSweeps};
-use crate::tolerance::{Basis, Origin, Parts, Tolerance};
+use crate::tolerance::{BoundBasis, BoundOrigin, Parts, Tolerance};
 use linkage::error::Result;
 use linkage::math::statistics::{differences, rms};
 use linkage::math::{KeepNan, largest_size};
@@ -141,9 +141,9 @@ impl Convergence {
     /// Bound on the error of the middle run at `resolution`, the sum of `parts`; `noise` says how their rounding is
     /// known.
     #[must_use]
-    pub fn tolerance(&self, resolution: f64, parts: Parts, noise: Origin) -> Tolerance {
+    pub fn tolerance(&self, resolution: f64, parts: Parts, noise: BoundOrigin) -> Tolerance {
         let Convergence { observed, formal, safety, .. } = *self;
-        let basis = Basis::Truncation { observed, formal, resolution, safety, parts, noise };
+        let basis = BoundBasis::Truncation { observed, formal, resolution, safety, parts, noise };
         Tolerance { bound: parts.sum(), basis }
     }
 }

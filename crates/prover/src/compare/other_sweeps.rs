@@ -14,6 +14,8 @@
 //!   the next, and s comes close to r. At most (r - 1) s / (r - s) of the last difference is then left, as long as one
 //!   mode of the iteration decides.
 //! - The slowest position speaks for all channels. Where it grows, nothing can be said.
+//!
+//! See docs/numerics/bounds.md.
 
 use linkage::math::KeepNan;
 use linkage::math::statistics::{largest_difference, share};

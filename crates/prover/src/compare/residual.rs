@@ -1,5 +1,7 @@
 //! Differences between two trajectories, channel by channel.
+//! See docs/numerics/bounds.md.
 
+use crate::sentences;
 use std::collections::BTreeMap;
 
 use linkage::math::{KeepNan, largest_size};
@@ -238,8 +240,8 @@ impl Sizes {
 /// If the grids differ.
 pub fn difference(reference: &Trajectory, other: &Trajectory) -> Result<Trajectory> {
     if reference.times() != other.times() {
-        return Err(Error::new(ErrorKind::Input, "the two trajectories stand on different grids")
-            .help("compare only trajectories that were solved for the same times"));
+        return Err(Error::new(ErrorKind::Input, sentences::THE_TWO_TRAJECTORIES_STAND_ON_DIFFERENT)
+            .help(sentences::COMPARE_ONLY_TRAJECTORIES_THAT_WERE_SOLVED));
     }
     let (mut channels, mut columns) = (Vec::new(), Vec::new());
     for (index, (channel, ours)) in reference.iter().enumerate() {

@@ -1,10 +1,12 @@
 //! The verdict: agree, disagree, expected or inconclusive.
+//! See docs/numerics/bounds.md.
 
+use crate::sentences;
 use std::fmt;
 
 use super::{Convergence, Residual};
 use crate::numbers::{error_in, fixed, percent};
-use crate::tolerance::{Basis, Part, Parts, Tolerance};
+use crate::tolerance::{BoundBasis, BoundPart, Parts, Tolerance};
 use linkage::error::Advice;
 use linkage::math::KeepNan;
 use linkage::math::statistics::share;
@@ -70,7 +72,7 @@ impl Verdict {
             Verdict::Agree { .. } => None,
             Verdict::Expected { finding, .. } => {
                 let place = tell(&Advice::Text(format!("docs/findings.md#{finding}")));
-                Some(format!("expected, see {place}"))
+                Some(sentences::expected_see(&place))
             }
             Verdict::Disagree { place } => Some(place.clone()),
             Verdict::Inconclusive { reason, advice } => Some(match Advice::sentence(advice, tell) {
@@ -111,7 +113,7 @@ impl Verdict {
             let unit = residual.channel.kind.unit.symbol();
             let (error, bound) = (error_in(residual.max, unit), error_in(parts.sum(), unit));
             let (t, crank) = (fixed(t, 6), fixed(crank, 3));
-            format!("{error} is beyond the bound {bound} at t = {t} s, crank angle {crank} deg")
+            sentences::is_beyond_the_bound_at_crank(&error, &bound, &t, &crank)
         };
         Verdict::of_estimate(residual.max, residual.scale, convergence, parts, wanted, place)
     }
@@ -131,8 +133,7 @@ impl Verdict {
         let bound = parts.sum();
         if scale == 0.0 && value > 0.0 {
             // One instant at rest, or no mass and no load at all.
-            let reason = "the reference is zero throughout, without a scale that an error could be measured by; \
-                          masses, loads or more instants would give one";
+            let reason = sentences::THE_REFERENCE_IS_ZERO_THROUGHOUT;
             return Verdict::open(reason);
         }
         let open = |reason: String| {
@@ -140,21 +141,16 @@ impl Verdict {
             Verdict::Inconclusive { reason: reason + why, advice }
         };
         if parts.iteration.is_infinite() {
-            return open("the sweeps have hardly begun to converge here: the error cannot be estimated".into());
+            return open(sentences::THE_SWEEPS_HAVE_HARDLY_BEGUN.into());
         }
         // Runs that hardly differ need no order: see `NEGLIGIBLE`.
         if !convergence.is_trusted() && !(bound <= NEGLIGIBLE * wanted * scale) {
-            return open(format!(
-                "the engine converges with order {:.2} instead of {:.0} here: its error cannot be estimated",
-                convergence.observed, convergence.formal,
-            ));
+            return open(sentences::the_engine_converges_with_order(&convergence.observed, &convergence.formal));
         }
         // Where the bound proves nothing, nothing close to it is disproven.
         if bound > wanted * scale && value <= DISPROVEN * bound {
             let (reached, proves) = (percent(bound / scale), percent(wanted));
-            return open(format!(
-                "the engine's error may reach {reached} of the channel's scale, more than the {proves} that still proves something"
-            ));
+            return open(sentences::the_engine_error_may_reach(&reached, &proves));
         }
         Verdict::of(value, bound, place)
     }
@@ -171,10 +167,12 @@ const DISPROVEN: f64 = 3.0;
 /// The largest part of an engine's error, to be added to a reason, and how to make it smaller.
 fn way_out(parts: Parts) -> (&'static str, Vec<Advice>) {
     match parts.largest() {
-        Part::Rounding => ("; most of it is rounding", vec![Advice::LargerStep { to: None }, Advice::DoublePrecision]),
-        Part::Iteration => ("; most of it is left by the sweeps", vec![Advice::MoreSweeps { to: None }]),
-        Part::Discretisation => ("", vec![Advice::SmallerStep { to: None }]),
-        Part::Reference => ("; most of it is the reference's own", vec![Advice::ShortenGrid]),
+        BoundPart::Rounding => {
+            (sentences::MOST_OF_IT_IS_ROUNDING, vec![Advice::LargerStep { to: None }, Advice::DoublePrecision])
+        }
+        BoundPart::Iteration => (sentences::MOST_OF_IT_IS_LEFT_BY_THE_SWEEPS, vec![Advice::MoreSweeps { to: None }]),
+        BoundPart::Discretisation => ("", vec![Advice::SmallerStep { to: None }]),
+        BoundPart::Reference => (sentences::MOST_OF_IT_IS_THE_REFERENCE, vec![Advice::ShortenGrid]),
     }
 }
 
@@ -192,7 +190,7 @@ pub struct Check {
     /// Unit of both; empty for relative numbers.
     pub unit: &'static str,
     /// What the bound rests on.
-    pub basis: Basis,
+    pub basis: BoundBasis,
     /// For a bound that comes from an engine's own runs: its parts, and how the runs converge.
     pub estimate: Option<(Parts, Convergence)>,
     /// The outcome.
@@ -216,7 +214,7 @@ impl Check {
         value: f64,
         convergence: &Convergence,
         parts: Parts,
-        basis: Basis,
+        basis: BoundBasis,
         wanted: f64,
     ) -> Self {
         let own = Check::new(family, value, Tolerance { bound: parts.sum(), basis }, "");
@@ -246,17 +244,15 @@ impl Check {
     #[must_use]
     pub fn expected(mut self, finding: &str, printed: &Check) -> Self {
         self.verdict = match (self.verdict, &printed.verdict) {
-            (_, Verdict::Agree { .. }) => Verdict::Disagree {
-                place: format!(
-                    "the finding \"{finding}\" says that the printed number is wrong, but it agrees: correct one of the two"
-                ),
-            },
+            (_, Verdict::Agree { .. }) => {
+                Verdict::Disagree { place: sentences::the_finding_says_that_the_printed(&finding) }
+            }
             (Verdict::Agree { .. }, Verdict::Disagree { .. }) => {
                 Verdict::Expected { finding: finding.to_string(), off: printed.value }
             }
-            (Verdict::Disagree { place }, _) => Verdict::Disagree {
-                place: format!("neither the printed number nor the one that \"{finding}\" says is right: {place}"),
-            },
+            (Verdict::Disagree { place }, _) => {
+                Verdict::Disagree { place: sentences::neither_the_printed_number_nor(&finding, &place) }
+            }
             (verdict @ (Verdict::Agree { .. } | Verdict::Expected { .. } | Verdict::Inconclusive { .. }), _) => verdict,
         };
         self
@@ -278,7 +274,7 @@ impl Check {
 
 /// Text of a disagreement: the number and its bound.
 fn beyond(value: f64, bound: f64, unit: &str) -> String {
-    format!("{} is beyond the bound {}", error_in(value, unit), error_in(bound, unit))
+    sentences::is_beyond_the_bound(&error_in(value, unit), &error_in(bound, unit))
 }
 
 /// Verdict on the whole. One disagreement makes it disagree; otherwise one inconclusive verdict leaves it inconclusive.
@@ -351,7 +347,7 @@ mod tests {
     #[test]
     fn a_check_without_a_number_uses_more_of_its_bound_than_any_other() {
         let used = |value: f64, bound: f64| {
-            Check::new("f", value, Tolerance { bound, basis: Basis::Wanted("test") }, "").used()
+            Check::new("f", value, Tolerance { bound, basis: BoundBasis::Wanted("test") }, "").used()
         };
         assert_eq!([used(1.0, 4.0), used(0.0, 0.0), used(3.0, 0.0)], [0.25, 0.0, f64::INFINITY]);
         assert_eq!([used(f64::NAN, 1.0), used(1.0, f64::NAN)], [f64::INFINITY; 2]);
@@ -394,7 +390,7 @@ mod tests {
     fn a_bound_on_a_check_must_be_borne_out_and_small_like_one_on_a_channel() {
         let check = |value: f64, observed: f64, discretisation: f64| {
             let parts = Parts { discretisation, ..Parts::default() };
-            Check::estimated("f", value, &converging(observed), parts, Basis::Wanted("test"), 1e-2).verdict
+            Check::estimated("f", value, &converging(observed), parts, BoundBasis::Wanted("test"), 1e-2).verdict
         };
         assert_eq!(check(1e-4, 2.0, 1e-3).word(), "agree");
         assert_eq!(check(2e-3, 2.0, 1e-3).word(), "disagree");
@@ -407,7 +403,7 @@ mod tests {
     /// A number of which 5 is printed and 7 is correct, each to half a unit.
     fn known_wrong(found: f64) -> Verdict {
         let against = |number: f64| {
-            Check::new("f", (found - number).abs(), Tolerance { bound: 0.5, basis: Basis::Wanted("test") }, "N")
+            Check::new("f", (found - number).abs(), Tolerance { bound: 0.5, basis: BoundBasis::Wanted("test") }, "N")
         };
         against(7.0).expected("why", &against(5.0)).verdict
     }

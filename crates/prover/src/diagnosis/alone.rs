@@ -5,7 +5,7 @@ use linkage::trajectory::{Channel, Trajectory};
 
 /// One party: its results and how wrong they may be.
 #[derive(Clone, Debug)]
-pub struct Party<'a> {
+pub struct DiagnosedParty<'a> {
     /// Name for reports.
     pub name: &'a str,
     /// Its results.
@@ -14,13 +14,13 @@ pub struct Party<'a> {
     pub bounds: Vec<(Channel, f64)>,
 }
 
-impl Party<'_> {
+impl DiagnosedParty<'_> {
     fn bound(&self, channel: &Channel) -> Option<f64> {
         self.bounds.iter().find(|(own, _)| own == channel).map(|(_, bound)| *bound)
     }
 
     /// Whether the two differ in a channel by more than both may be wrong.
-    fn contradicts(&self, other: &Party) -> bool {
+    fn contradicts(&self, other: &DiagnosedParty) -> bool {
         self.trajectory.iter().any(|(channel, ours)| {
             let (Some(own), Some(theirs)) = (self.bound(channel), other.bound(channel)) else { return false };
             let Some(values) = other.trajectory.column(channel) else { return false };
@@ -32,7 +32,7 @@ impl Party<'_> {
 
 /// How the parties stand to each other.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Standing {
+pub enum PartyStanding {
     /// No two of them contradict each other.
     Together,
     /// One contradicts all others, and these do not contradict each other.
@@ -46,7 +46,7 @@ pub enum Standing {
 
 /// How the parties stand to each other.
 #[must_use]
-pub fn standing(parties: &[Party]) -> Standing {
+pub fn standing(parties: &[DiagnosedParty]) -> PartyStanding {
     let count = parties.len();
     let mut apart = vec![vec![false; count]; count];
     let mut pairs = Vec::new();
@@ -58,17 +58,17 @@ pub fn standing(parties: &[Party]) -> Standing {
             }
         }
     }
-    let Some(first) = apart.iter().position(|row| row.contains(&true)) else { return Standing::Together };
+    let Some(first) = apart.iter().position(|row| row.contains(&true)) else { return PartyStanding::Together };
     // The camp of `first` are those that it does not contradict.
     let (own, others): (Vec<usize>, Vec<usize>) = (0..count).partition(|&other| !apart[first][other]);
     let split =
         (0..count).all(|one| (0..count).all(|other| apart[one][other] == (own.contains(&one) != own.contains(&other))));
     if !split || count < 3 {
-        return Standing::Open(pairs);
+        return PartyStanding::Open(pairs);
     }
     let names = |camp: &[usize]| camp.iter().map(|&index| parties[index].name.to_string()).collect::<Vec<_>>();
     match (own.as_slice(), others.as_slice()) {
-        ([one], _) | (_, [one]) => Standing::Alone(parties[*one].name.to_string()),
-        (own, others) => Standing::Camps([names(own), names(others)]),
+        ([one], _) | (_, [one]) => PartyStanding::Alone(parties[*one].name.to_string()),
+        (own, others) => PartyStanding::Camps([names(own), names(others)]),
     }
 }

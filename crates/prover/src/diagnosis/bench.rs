@@ -3,7 +3,7 @@
 use std::cell::Cell;
 use std::rc::Rc;
 
-use super::question::{Judged, Question};
+use super::question::{DiagnosisInput, SuspectChannel};
 use super::slips::KNOWN;
 use crate::compare::{differences, magnitudes};
 use linkage::case::{Case, Grid};
@@ -83,12 +83,12 @@ impl Misfit {
 
 impl<'a> Bench<'a> {
     /// The question at the given rows of its grid. `left` is the number of cases that may still be solved.
-    pub(super) fn new(question: &Question<'a>, rows: &[usize], left: Rc<Cell<usize>>) -> Option<Self> {
+    pub(super) fn new(question: &DiagnosisInput<'a>, rows: &[usize], left: Rc<Cell<usize>>) -> Option<Self> {
         let grid = &question.case.grid;
         let of_rows = |values: &[f64]| rows.iter().map(|&row| values[row]).collect::<Vec<f64>>();
         let case = question.case.on(Grid { times: of_rows(&grid.times), inputs: of_rows(&grid.inputs) }).ok()?;
         let sizes = magnitudes(question.reference);
-        let column = |judged: &Judged| {
+        let column = |judged: &SuspectChannel| {
             let place = question.reference.channels().iter().position(|own| *own == judged.channel)?;
             Some(Column {
                 channel: judged.channel.clone(),
@@ -177,7 +177,7 @@ const INSTANTS: usize = 32;
 const EARLY: f64 = 100.0;
 
 /// Rows of the whole grid, thinned, with the worst instants of the disagreeing channels.
-pub(super) fn thinned(question: &Question) -> Vec<usize> {
+pub(super) fn thinned(question: &DiagnosisInput) -> Vec<usize> {
     let ascending = ascending(question.reference.times());
     let mut rows = spread(&ascending);
     for judged in question.judged.iter().filter(|judged| judged.disagrees) {
@@ -193,7 +193,7 @@ pub(super) fn thinned(question: &Question) -> Vec<usize> {
 }
 
 /// The same, but of a time in which the differences are still small.
-pub(super) fn early(question: &Question) -> Vec<usize> {
+pub(super) fn early(question: &DiagnosisInput) -> Vec<usize> {
     let ascending = ascending(question.reference.times());
     let mut end = ascending.len();
     for judged in question.judged.iter().filter(|judged| judged.disagrees) {
@@ -206,7 +206,7 @@ pub(super) fn early(question: &Question) -> Vec<usize> {
 }
 
 /// What the suspect has more than the reference, by row.
-fn gaps(question: &Question, channel: &Channel) -> Option<Vec<f64>> {
+fn gaps(question: &DiagnosisInput, channel: &Channel) -> Option<Vec<f64>> {
     let (right, found) = (question.reference.column(channel)?, question.suspicious.column(channel)?);
     Some(differences(right, found, channel.kind.periodic))
 }

@@ -4,11 +4,11 @@ use linkage::trajectory::{Channel, Stage};
 
 /// What explains a disagreement.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Cause {
+pub enum DisagreementCause {
     /// The values of some channels are another function of the right values.
     Values {
         /// What was done to them.
-        slip: Slip,
+        slip: DataSlip,
         /// The disagreeing channels that it explains.
         channels: Vec<Channel>,
     },
@@ -55,7 +55,7 @@ plain! {
 
 /// What was done to right values.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Slip {
+pub enum DataSlip {
     /// What needs no number.
     Plain(Plain),
     /// Another unit.
@@ -141,7 +141,7 @@ pub enum Arm {
 
 /// An axis of a link's frame, or of the world.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Axis {
+pub enum FrameAxis {
     /// The first.
     X,
     /// The second.
@@ -152,14 +152,14 @@ pub enum Axis {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Change {
     /// What is different.
-    pub part: Part,
+    pub part: CasePart,
     /// How.
-    pub how: How,
+    pub how: PartChange,
 }
 
 /// A part of a case. Links, joints and groups have their names.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Part {
+pub enum CasePart {
     /// Gravity.
     Gravity,
     /// Masses and moments of inertia of all links as far as they resist acceleration; weights stay.
@@ -181,7 +181,7 @@ pub enum Part {
     /// Mass centre of a link.
     MassCentre(String),
     /// One coordinate of a link's mass centre.
-    MassCentreAlong(String, Axis),
+    MassCentreAlong(String, FrameAxis),
     /// A load: its number in the file, from 1, and its sort.
     Load(usize, &'static str),
     /// Length of a spring without force, or its twist without moment: the load's number in the file, from 1.
@@ -201,12 +201,12 @@ pub enum Part {
     /// Distance of two joints on a link: the joint that is moved, the other one, the link.
     Length(String, String, String),
     /// One coordinate of a joint's place on a link: joint, link, axis of the link's frame.
-    Place(String, String, Axis),
+    Place(String, String, FrameAxis),
 }
 
 /// How a part of a case is different.
 #[derive(Clone, Debug, PartialEq)]
-pub enum How {
+pub enum PartChange {
     /// It is missing.
     Missing,
     /// It has the opposite sign.

@@ -4,11 +4,11 @@ use std::cell::Cell;
 use std::rc::Rc;
 
 use super::bench::{Bench, early, thinned};
-use super::cause::{Cause, Change, Part, Slip};
+use super::cause::{CasePart, Change, DataSlip, DisagreementCause};
 use super::knobs;
 use super::late::late;
 use super::numbers::{confirmed, is_sure, numbers};
-use super::question::{Found, Question, Rank};
+use super::question::{DiagnosisInput, Found, Rank};
 use super::tries::{Candidate, Tries};
 use super::whole::whole_changes;
 
@@ -26,7 +26,7 @@ const CLAIMED: f64 = 1e3;
 const WHOLE: usize = 4 * CONFIRMED;
 
 /// Every change that explains disagreeing channels, and the number of cases that were solved.
-pub(super) fn found(question: &Question) -> (Vec<Found>, usize) {
+pub(super) fn found(question: &DiagnosisInput) -> (Vec<Found>, usize) {
     let links = question.case.mechanism.links().len();
     let most = if question.case.is_free() || links > LINKS { MOST } else { CHEAP * MOST };
     let left = Rc::new(Cell::new(most));
@@ -66,12 +66,12 @@ pub(super) fn found(question: &Question) -> (Vec<Found>, usize) {
         if let Some((knob, values)) = candidate.number.filter(|_| !misfit.fits())
             && let Some((value, better)) = confirmed(&knob, values, &full, &misfit)
         {
-            let cause = Cause::Case(Change { part: knob.part.clone(), how: knob.told(value) });
+            let cause = DisagreementCause::Case(Change { part: knob.part.clone(), how: knob.told(value) });
             found = Found { cause, explained: full.explained(&begin, &better), ..found };
         }
         let is_sure = match &found.cause {
-            Cause::Case(change) => is_sure(change, begin.worst()),
-            Cause::Values { .. } => true,
+            DisagreementCause::Case(change) => is_sure(change, begin.worst()),
+            DisagreementCause::Values { .. } => true,
         };
         if !found.explained.is_empty() && is_sure {
             all.push(found);
@@ -84,12 +84,13 @@ pub(super) fn found(question: &Question) -> (Vec<Found>, usize) {
 fn turned(tries: &Tries, known: &[Candidate], late: &[Candidate]) -> Option<Candidate> {
     let case = &tries.thin.case;
     let by = late.iter().find_map(|one| match one.found.cause {
-        Cause::Values { slip: Slip::Late { by, stage: None, .. }, .. } => Some(by),
-        Cause::Values { .. } | Cause::Case(_) => None,
+        DisagreementCause::Values { slip: DataSlip::Late { by, stage: None, .. }, .. } => Some(by),
+        DisagreementCause::Values { .. } | DisagreementCause::Case(_) => None,
     })?;
     let speed = case.crank().constant_speed().filter(|_| case.is_steady() && case.drives.further().is_empty())?;
-    let is_turn = |part: &Part| matches!(part, Part::StartAngle(_));
-    let is_known = known.iter().any(|one| matches!(&one.found.cause, Cause::Case(change) if is_turn(&change.part)));
+    let is_turn = |part: &CasePart| matches!(part, CasePart::StartAngle(_));
+    let is_known =
+        known.iter().any(|one| matches!(&one.found.cause, DisagreementCause::Case(change) if is_turn(&change.part)));
     let knob = knobs::all(case).into_iter().find(|knob| is_turn(&knob.part)).filter(|_| !is_known)?;
     let value = knob.given - speed * by;
     let misfit = tries.of(&|case| knob.at(case, value))?;

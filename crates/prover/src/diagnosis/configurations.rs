@@ -1,10 +1,10 @@
 //! First poses of changed cases, and the other configurations of a case's groups.
 
-use super::cause::{Change, How, Part};
+use super::cause::{CasePart, Change, PartChange};
 use linkage::case::{Case, CaseParts};
 use linkage::mechanism::assembly::{StartGroup, configurations, first_pose};
 use linkage::mechanism::pose::SidePoint;
-use linkage::mechanism::{AssemblyMode, LinkId, LinkPose, Side};
+use linkage::mechanism::{AssemblyMode, JointSide, LinkId, LinkPose};
 
 /// Puts the mechanism together again after a change of its lengths or of its drives' start angles: dyads in their
 /// modes, higher groups as near as they can be to where they were.
@@ -25,7 +25,7 @@ fn wanted(parts: &CaseParts) -> Vec<StartGroup> {
             let near = group.links.iter().flat_map(|&link| {
                 let points = parts.mechanism.links()[link].points.iter();
                 points.map(move |point| {
-                    let side = Side { link, local: point.local };
+                    let side = JointSide { link, local: point.local };
                     (SidePoint { name: point.name.clone(), side }, parts.start.0[link].point(point.local))
                 })
             });
@@ -61,14 +61,14 @@ pub fn others(case: &Case) -> Vec<(Change, Case)> {
             wanted[index] = StartGroup { rank: Some(number + 1), ..StartGroup::default() };
             let other = assembled(&mut parts, &wanted).and_then(|()| Case::new(parts).ok());
             let how = match one.mode {
-                AssemblyMode::Followed => How::Other(format!("number {}", number + 1)),
+                AssemblyMode::Followed => PartChange::Other(format!("number {}", number + 1)),
                 mode @ (AssemblyMode::Left
                 | AssemblyMode::Right
                 | AssemblyMode::Ahead
                 | AssemblyMode::Behind
-                | AssemblyMode::Only) => How::Other(mode.name().into()),
+                | AssemblyMode::Only) => PartChange::Other(mode.name().into()),
             };
-            let part = Part::Configuration(group.names(&case.mechanism));
+            let part = CasePart::Configuration(group.names(&case.mechanism));
             found.extend(other.map(|other| (Change { part, how }, other)));
         }
     }

@@ -1,8 +1,8 @@
 //! Values that a wrong rule makes of right ones: differences for rates, accelerations without the Coriolis term, moments
 //! about another point.
 
-use super::cause::{Arm, Over, Slip};
-use super::question::{Found, Question, Rank};
+use super::cause::{Arm, DataSlip, Over};
+use super::question::{DiagnosisInput, Found, Rank};
 use super::slips::Wrong;
 use linkage::math::{KeepNan, largest_size};
 use linkage::trajectory::{Channel, OfFrame, OfSlider, Reading, Trajectory, Unit};
@@ -13,30 +13,30 @@ const ROUNDED: f64 = 1e-12;
 const WIDEST: usize = 3;
 
 /// Every rule with the channels that it explains.
-pub(super) fn found(question: &Question, wrong: &[Wrong]) -> Vec<Found> {
+pub(super) fn found(question: &DiagnosisInput, wrong: &[Wrong]) -> Vec<Found> {
     let mut causes = Vec::new();
     let mut put =
-        |slip: Slip, rank: Rank, explained: Vec<Channel>| causes.push(Found::of_values(slip, rank, explained));
+        |slip: DataSlip, rank: Rank, explained: Vec<Channel>| causes.push(Found::of_values(slip, rank, explained));
     let either = (1..=WIDEST).map(Over::Either);
     for over in either.chain([Over::Before, Over::Behind]) {
         let ruled: Vec<(&Wrong, (Channel, usize))> =
             wrong.iter().filter_map(|one| Some((one, differences(question, one, over)?))).collect();
         if let Some((_, (of, order))) = ruled.first().cloned() {
             let explained = ruled.iter().map(|(one, _)| one.channel.clone()).collect();
-            put(Slip::Differences { of, order, over }, Rank::Change, explained);
+            put(DataSlip::Differences { of, order, over }, Rank::Change, explained);
         }
     }
     for joint in question.case.mechanism.joints() {
         let own = wrong.iter().filter(|one| lacks_coriolis(question, one, &joint.name) == Some(true));
         let explained: Vec<Channel> = own.map(|one| one.channel.clone()).collect();
         if !explained.is_empty() {
-            put(Slip::NoCoriolis(joint.name.clone()), Rank::Change, explained);
+            put(DataSlip::NoCoriolis(joint.name.clone()), Rank::Change, explained);
         }
     }
     for one in wrong {
         if let Some(arm) = arm(question, one) {
             let rank = if matches!(arm, Arm::Constant(_)) { Rank::Fitted } else { Rank::Change };
-            put(Slip::About(arm), rank, vec![one.channel.clone()]);
+            put(DataSlip::About(arm), rank, vec![one.channel.clone()]);
         }
     }
     causes
@@ -44,7 +44,7 @@ pub(super) fn found(question: &Question, wrong: &[Wrong]) -> Vec<Found> {
 
 /// The channel whose differences over rows these values are, and the order of the rate. Rows at the ends have no
 /// neighbours, and every program does something else there.
-fn differences(question: &Question, one: &Wrong, over: Over) -> Option<(Channel, usize)> {
+fn differences(question: &DiagnosisInput, one: &Wrong, over: Over) -> Option<(Channel, usize)> {
     let step = even(one.times)?;
     let (count, margin) = (one.times.len(), if let Over::Either(rows) = over { rows } else { 1 });
     let inner = margin..count.checked_sub(margin)?;
@@ -89,7 +89,7 @@ pub(crate) fn even(times: &[f64]) -> Option<f64> {
 }
 
 /// Whether an acceleration lacks twice the guide's angular velocity times the block's speed on it.
-fn lacks_coriolis(question: &Question, one: &Wrong, joint: &str) -> Option<bool> {
+fn lacks_coriolis(question: &DiagnosisInput, one: &Wrong, joint: &str) -> Option<bool> {
     let mechanism = &question.case.mechanism;
     let joint = mechanism.joints().iter().find(|own| own.name == joint)?;
     let link = &mechanism.links()[joint.first.link].name;
@@ -115,7 +115,7 @@ fn lacks_coriolis(question: &Question, one: &Wrong, joint: &str) -> Option<bool>
 }
 
 /// From the point about which a moment should be to the one about which it is.
-fn arm(question: &Question, one: &Wrong) -> Option<Arm> {
+fn arm(question: &DiagnosisInput, one: &Wrong) -> Option<Arm> {
     let reading = one.channel.kind.reading;
     if !matches!(reading, Reading::Slider(OfSlider::Moment) | Reading::Frame(OfFrame::Moment)) {
         return None;

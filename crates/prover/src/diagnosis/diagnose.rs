@@ -1,9 +1,9 @@
 //! The diagnosis as a whole, and since when channels are beyond their bounds.
 
-use super::alone::{Party, Standing, standing};
-use super::cause::{Cause, Change, How};
-use super::nature::{Nature, nature};
-use super::question::{Found, Judged, Question, Rank};
+use super::alone::{DiagnosedParty, PartyStanding, standing};
+use super::cause::{Change, DisagreementCause, PartChange};
+use super::nature::{ErrorNature, nature};
+use super::question::{DiagnosisInput, Found, Rank, SuspectChannel};
 use super::{changes, derived, others, slips};
 use crate::compare::differences;
 use linkage::math::statistics::ascending;
@@ -15,20 +15,20 @@ pub struct Diagnosis {
     /// The party that was examined.
     pub suspect: String,
     /// Which party stands alone.
-    pub alone: Standing,
+    pub alone: PartyStanding,
     /// The channels beyond their bounds, the earliest first.
     pub since: Vec<Since>,
     /// Number of instants of the grid.
     pub instants: usize,
     /// The simplest cause that explains all channels, or, where there is none, the largest part of them. `None`: no
     /// simple cause.
-    pub cause: Option<Cause>,
+    pub cause: Option<DisagreementCause>,
     /// Causes that explain as much, less simple.
-    pub also: Vec<Cause>,
+    pub also: Vec<DisagreementCause>,
     /// Disagreeing channels that the cause leaves unexplained; all of them if there is no cause.
     pub left_over: Vec<Channel>,
     /// What the differences look like, where no cause explains all of them.
-    pub nature: Option<Nature>,
+    pub nature: Option<ErrorNature>,
     /// Number of changed cases that were solved.
     pub solved: usize,
 }
@@ -54,7 +54,7 @@ impl Diagnosis {
 /// The causes are tried in the order of their simplicity. One that explains every disagreeing channel to within its
 /// bound, and spoils no agreeing one, is named; others that do so too are mentioned.
 #[must_use]
-pub fn diagnose(question: &Question, parties: &[Party]) -> Option<Diagnosis> {
+pub fn diagnose(question: &DiagnosisInput, parties: &[DiagnosedParty]) -> Option<Diagnosis> {
     let since = since(question.reference, question.suspicious, question.judged);
     let wrong: Vec<Channel> =
         question.judged.iter().filter(|one| one.disagrees).map(|one| one.channel.clone()).collect();
@@ -78,7 +78,8 @@ pub fn diagnose(question: &Question, parties: &[Party]) -> Option<Diagnosis> {
     let left_over: Vec<Channel> = wrong.iter().filter(|channel| !explained.contains(channel)).cloned().collect();
     // A number that was fitted says no more than a slip that needs none. Partial explanations beside each other would
     // only confuse, unless they are of the same part.
-    let says_more = |one: &Found| one.rank != Rank::Fitted || first.as_ref().is_some_and(|own| own.rank != Rank::Slip);
+    let says_more =
+        |one: &Found| one.rank != Rank::Fitted || first.as_ref().is_some_and(|own| own.rank != Rank::DataSlip);
     let also = named.filter(|one| one.explained == explained && says_more(one)).map(|one| one.cause);
     let also = also.take(MENTIONED).collect();
     let nature = if left_over.is_empty() { None } else { nature(question, &off) };
@@ -96,8 +97,8 @@ pub fn diagnose(question: &Question, parties: &[Party]) -> Option<Diagnosis> {
 }
 
 /// Whether a case has another number, which was fitted.
-fn has_number(cause: &Cause) -> bool {
-    matches!(cause, Cause::Case(Change { how: How::Instead { .. }, .. }))
+fn has_number(cause: &DisagreementCause) -> bool {
+    matches!(cause, DisagreementCause::Case(Change { how: PartChange::Instead { .. }, .. }))
 }
 
 /// Number of causes that are mentioned besides the one that is named.
@@ -123,7 +124,7 @@ pub struct Since {
 /// The first instant beyond its bound of every channel that has one, the earliest first. Of channels that leave their
 /// bounds together, positions stand before rates and forces, and then the one that is farther beyond its bound.
 #[must_use]
-pub fn since(reference: &Trajectory, suspect: &Trajectory, judged: &[Judged]) -> Vec<Since> {
+pub fn since(reference: &Trajectory, suspect: &Trajectory, judged: &[SuspectChannel]) -> Vec<Since> {
     let rows = ascending(reference.times());
     let mut found: Vec<Since> =
         judged.iter().filter_map(|judged| of_channel(reference, suspect, judged, &rows)).collect();
@@ -135,8 +136,8 @@ pub fn since(reference: &Trajectory, suspect: &Trajectory, judged: &[Judged]) ->
     found
 }
 
-fn of_channel(reference: &Trajectory, suspect: &Trajectory, judged: &Judged, rows: &[usize]) -> Option<Since> {
-    let Judged { channel, bound, .. } = judged;
+fn of_channel(reference: &Trajectory, suspect: &Trajectory, judged: &SuspectChannel, rows: &[usize]) -> Option<Since> {
+    let SuspectChannel { channel, bound, .. } = judged;
     let values = differences(reference.column(channel)?, suspect.column(channel)?, channel.kind.periodic);
     // Written so that NaN counts as beyond.
     let is_beyond = |row: &&usize| !(values[**row].abs() <= *bound);

@@ -1,8 +1,10 @@
 //! Parts of a case that one number changes: which there are, and how each is turned.
+//! See docs/numerics/diagnosis.md.
 
+use crate::sentences;
 use std::f64::consts::PI;
 
-use super::cause::{Axis, How, Part};
+use super::cause::{CasePart, FrameAxis, PartChange};
 use super::configurations::reassembled;
 use linkage::case::{Case, CaseParts, Grid};
 use linkage::drive::{Drive, DriveMotion, MotionLaw, Motor, ShaftInertia};
@@ -25,12 +27,12 @@ pub(super) enum Shows {
 
 /// A part of a case that one number changes.
 pub(super) struct Knob {
-    pub(super) part: Part,
+    pub(super) part: CasePart,
     /// Its value in the case, and the unit of its values.
     pub(super) given: f64,
     pub(super) unit: &'static str,
     /// Values with a meaning, the simplest first.
-    pub(super) plain: Vec<(f64, How)>,
+    pub(super) plain: Vec<(f64, PartChange)>,
     /// Change of the value that shows its effect.
     pub(super) nudge: f64,
     pub(super) shows: Shows,
@@ -46,8 +48,8 @@ impl Knob {
     }
 
     /// How the part is different at a value.
-    pub(super) fn told(&self, found: f64) -> How {
-        How::Instead { found, given: self.given, unit: self.unit }
+    pub(super) fn told(&self, found: f64) -> PartChange {
+        PartChange::Instead { found, given: self.given, unit: self.unit }
     }
 
     /// The value with a number of significant digits; angles in degrees.
@@ -57,32 +59,36 @@ impl Knob {
 
     /// A part that counts as `given` and may be multiplied.
     fn amount(
-        part: Part,
+        part: CasePart,
         given: f64,
         unit: &'static str,
         turn: impl Fn(&mut CaseParts, f64) -> Option<()> + 'static,
     ) -> Knob {
-        let plain =
-            vec![(0.0, How::Missing), (-given, How::Reversed), (2.0 * given, How::Twice), (given / 2.0, How::Half)];
+        let plain = vec![
+            (0.0, PartChange::Missing),
+            (-given, PartChange::Reversed),
+            (2.0 * given, PartChange::Twice),
+            (given / 2.0, PartChange::Half),
+        ];
         let (nudge, turn) = (1e-3 * given, Box::new(turn));
         let knob = Knob { part, given, unit, plain, nudge, shows: Shows::Forces, is_far: false, turn };
-        knob.times([(1e3, "as g for kg, or m for mm"), (1e-3, "as kg for g, or mm for m")])
+        knob.times([(1e3, sentences::AS_FOR_KG_OR_FOR_MM), (1e-3, sentences::AS_KG_FOR_OR_MM_FOR)])
     }
 
     /// A place or an angle, whose size has no meaning; `natural` is what it is measured by.
     fn place(
-        part: Part,
+        part: CasePart,
         given: f64,
         natural: f64,
         unit: &'static str,
         turn: impl Fn(&mut CaseParts, f64) -> Option<()> + 'static,
     ) -> Knob {
-        let plain = if given == 0.0 { Vec::new() } else { vec![(-given, How::Reversed)] };
+        let plain = if given == 0.0 { Vec::new() } else { vec![(-given, PartChange::Reversed)] };
         let (nudge, turn) = (1e-4 * natural, Box::new(turn));
         Knob { part, given, unit, plain, nudge, shows: Shows::Motion, is_far: false, turn }
     }
 
-    fn also(mut self, plain: impl IntoIterator<Item = (f64, How)>) -> Knob {
+    fn also(mut self, plain: impl IntoIterator<Item = (f64, PartChange)>) -> Knob {
         self.plain.extend(plain);
         self
     }
@@ -90,7 +96,7 @@ impl Knob {
     /// Also multiplied by numbers with a meaning.
     fn times(self, factors: impl IntoIterator<Item = (f64, &'static str)>) -> Knob {
         let given = self.given;
-        self.also(factors.into_iter().map(|(factor, told)| (factor * given, How::Times(factor, told))))
+        self.also(factors.into_iter().map(|(factor, told)| (factor * given, PartChange::Times(factor, told))))
     }
 
     fn moving(self) -> Knob {
@@ -103,7 +109,7 @@ pub(super) fn all(case: &Case) -> Vec<Knob> {
     let mut knobs = Vec::new();
     let gravity = case.gravity;
     if gravity.norm() > 0.0 {
-        knobs.push(Knob::amount(Part::Gravity, gravity.norm(), "m/s^2", move |parts, value| {
+        knobs.push(Knob::amount(CasePart::Gravity, gravity.norm(), "m/s^2", move |parts, value| {
             parts.gravity = gravity * (value / gravity.norm());
             Some(())
         }));
@@ -114,14 +120,14 @@ pub(super) fn all(case: &Case) -> Vec<Knob> {
     let moving = || case.mechanism.links().entries().skip(1);
     // Of a single link all is the same as this one.
     if moving().filter(|(_, link)| link.mass > 0.0).count() > 1 {
-        knobs.push(share(Part::Masses, |link, factor| link.mass *= factor));
+        knobs.push(share(CasePart::Masses, |link, factor| link.mass *= factor));
     }
     if moving().filter(|(_, link)| link.inertia > 0.0).count() > 1 {
-        knobs.push(share(Part::Inertias, |link, factor| link.inertia *= factor));
+        knobs.push(share(CasePart::Inertias, |link, factor| link.inertia *= factor));
     }
     for (index, link) in moving().filter(|(_, link)| link.mass > 0.0) {
         let turn = move |parts: &mut CaseParts, mass| changed(parts, |links, _| links[index].mass = mass);
-        knobs.push(Knob::amount(Part::Mass(link.name.clone()), link.mass, "kg", turn));
+        knobs.push(Knob::amount(CasePart::Mass(link.name.clone()), link.mass, "kg", turn));
     }
     for (index, link) in moving().filter(|(_, link)| link.inertia > 0.0) {
         knobs.push(inertia(case, index, link));
@@ -130,10 +136,10 @@ pub(super) fn all(case: &Case) -> Vec<Knob> {
         knobs.extend(of_drive(case, index, drive));
     }
     for (index, link) in moving().filter(|(_, link)| link.mass > 0.0) {
-        knobs.extend([Axis::X, Axis::Y].map(|axis| mass_centre(index, link, axis)));
+        knobs.extend([FrameAxis::X, FrameAxis::Y].map(|axis| mass_centre(index, link, axis)));
     }
     for (joint, link) in places(case) {
-        knobs.extend([Axis::X, Axis::Y].map(|axis| place(case, joint, link, axis)));
+        knobs.extend([FrameAxis::X, FrameAxis::Y].map(|axis| place(case, joint, link, axis)));
     }
     knobs.extend(lengths(case));
     knobs
@@ -160,7 +166,7 @@ pub fn changed(parts: &mut CaseParts, change: impl FnOnce(&mut [Link], &mut [Joi
     Some(())
 }
 
-fn share(part: Part, scale: fn(&mut Link, f64)) -> Knob {
+fn share(part: CasePart, scale: fn(&mut Link, f64)) -> Knob {
     Knob::amount(part, 1.0, "", move |parts, factor| {
         changed(parts, |links, _| links.iter_mut().for_each(|link| scale(link, factor)))
     })
@@ -174,11 +180,8 @@ fn load(case: &Case, index: usize) -> Knob {
         parts.loads.splice(index..index, own);
         Some(())
     };
-    Knob::amount(Part::Load(index + 1, sort), 1.0, "", turn).times(ratio.into_iter().flat_map(|ratio| {
-        [
-            (1.0 / ratio, "divided by the reducer's ratio once more"),
-            (ratio, "multiplied by the reducer's ratio once more"),
-        ]
+    Knob::amount(CasePart::Load(index + 1, sort), 1.0, "", turn).times(ratio.into_iter().flat_map(|ratio| {
+        [(1.0 / ratio, sentences::DIVIDED_BY_THE_REDUCER_RATIO), (ratio, sentences::MULTIPLIED_BY_THE_REDUCER_RATIO)]
     }))
 }
 
@@ -191,23 +194,23 @@ fn free(case: &Case, index: usize) -> Option<Knob> {
         Some(())
     };
     let natural = if unit == "m" { case.mechanism.size() } else { 1.0 };
-    let knob = Knob::place(Part::Free(index + 1), given, natural, unit, turn);
-    Some(Knob { shows: Shows::Forces, ..knob }.also([(0.0, How::Missing)]))
+    let knob = Knob::place(CasePart::Free(index + 1), given, natural, unit, turn);
+    Some(Knob { shows: Shows::Forces, ..knob }.also([(0.0, PartChange::Missing)]))
 }
 
 fn inertia(case: &Case, index: LinkId, link: &Link) -> Knob {
     let turn = move |parts: &mut CaseParts, inertia| changed(parts, |links, _| links[index].inertia = inertia);
     let about = case.mechanism.joints().iter().filter_map(|joint| {
         let arm = (joint.on(index)? - link.mass_centre).norm_squared();
-        (arm > 0.0).then(|| (link.inertia + link.mass * arm, How::AboutJoint(joint.name.clone())))
+        (arm > 0.0).then(|| (link.inertia + link.mass * arm, PartChange::AboutJoint(joint.name.clone())))
     });
-    Knob::amount(Part::Inertia(link.name.clone()), link.inertia, "kg m^2", turn).also(about)
+    Knob::amount(CasePart::Inertia(link.name.clone()), link.inertia, "kg m^2", turn).also(about)
 }
 
-fn mass_centre(index: LinkId, link: &Link, axis: Axis) -> Knob {
+fn mass_centre(index: LinkId, link: &Link, axis: FrameAxis) -> Knob {
     let turn =
         move |parts: &mut CaseParts, value| changed(parts, |links, _| links[index].mass_centre[axis as usize] = value);
-    let part = Part::MassCentreAlong(link.name.clone(), axis);
+    let part = CasePart::MassCentreAlong(link.name.clone(), axis);
     let knob = Knob::place(part, link.mass_centre[axis as usize], link.extent(), "m", turn);
     Knob { shows: Shows::Centres, ..knob }
 }
@@ -228,7 +231,7 @@ fn places(case: &Case) -> Vec<(JointId, LinkId)> {
     found
 }
 
-fn place(case: &Case, joint: JointId, link: LinkId, axis: Axis) -> Knob {
+fn place(case: &Case, joint: JointId, link: LinkId, axis: FrameAxis) -> Knob {
     let own = &case.mechanism.joints()[joint];
     let old = own.on(link).expect("the joint is on the link");
     let turn = move |parts: &mut CaseParts, value| {
@@ -236,7 +239,7 @@ fn place(case: &Case, joint: JointId, link: LinkId, axis: Axis) -> Knob {
         new[axis as usize] = value;
         moved(parts, link, old, new)
     };
-    let part = Part::Place(own.name.clone(), case.mechanism.links()[link].name.clone(), axis);
+    let part = CasePart::Place(own.name.clone(), case.mechanism.links()[link].name.clone(), axis);
     Knob::place(part, old[axis as usize], case.mechanism.size(), "m", turn)
 }
 
@@ -265,7 +268,7 @@ fn lengths(case: &Case) -> Vec<Knob> {
             }
             let turn = move |parts: &mut CaseParts, length| moved(parts, link, old, from + arm * (length / arm.norm()));
             let name = |place: &(JointId, LinkId)| case.mechanism.joints()[place.0].name.clone();
-            let part = Part::Length(name(one), name(other), case.mechanism.links()[link].name.clone());
+            let part = CasePart::Length(name(one), name(other), case.mechanism.links()[link].name.clone());
             let knob = Knob::place(part, arm.norm(), case.mechanism.size(), "m", turn);
             knobs.push(Knob { plain: Vec::new(), ..knob });
         }
@@ -281,8 +284,8 @@ fn of_drive(case: &Case, index: usize, drive: &Drive) -> Vec<Knob> {
         reassembled(parts)
     };
     let quarter = [PI / 2.0, -PI / 2.0, PI]
-        .map(|by| (drive.start + by, How::Instead { found: drive.start + by, given: drive.start, unit: "rad" }));
-    let angle = Knob::place(Part::StartAngle(joint.clone()), drive.start, 1.0, "rad", start).also(quarter);
+        .map(|by| (drive.start + by, PartChange::Instead { found: drive.start + by, given: drive.start, unit: "rad" }));
+    let angle = Knob::place(CasePart::StartAngle(joint.clone()), drive.start, 1.0, "rad", start).also(quarter);
     let speed = move |parts: &mut CaseParts, value| {
         driven(parts, index, |drive| match &mut drive.motion {
             DriveMotion::Prescribed { law, .. } => *law = at_speed(law, value),
@@ -291,8 +294,12 @@ fn of_drive(case: &Case, index: usize, drive: &Drive) -> Vec<Knob> {
         Some(())
     };
     let given = if drive.is_free() { drive.initial_speed() } else { drive.top_speed() };
-    let part = if drive.is_free() { Part::InitialSpeed(joint) } else { Part::Speed(joint) };
-    let units = [(30.0 / PI, "as rpm for rad/s"), (PI / 30.0, "as rad/s for rpm"), (PI / 180.0, "as rad/s for deg/s")];
+    let part = if drive.is_free() { CasePart::InitialSpeed(joint) } else { CasePart::Speed(joint) };
+    let units = [
+        (30.0 / PI, sentences::AS_RPM_FOR_RAD),
+        (PI / 30.0, sentences::AS_RAD_FOR_RPM),
+        (PI / 180.0, sentences::AS_RAD_FOR_DEG),
+    ];
     let mut speed = Knob::amount(part, given, "rad/s", speed).moving().times(units);
     if given == 0.0 {
         (speed.plain, speed.nudge) = (Vec::new(), 1e-3 * drive.top_speed());
@@ -326,7 +333,7 @@ pub fn at_speed(law: &MotionLaw, speed: f64) -> MotionLaw {
 /// The motor that moves the crank: its moment, and the inertia of its shafts.
 fn motor(case: &Case) -> Vec<Knob> {
     let Some(motor) = case.crank().moving_motor() else { return Vec::new() };
-    let of_motor = |part: Part, change: fn(&mut Motor, f64)| {
+    let of_motor = |part: CasePart, change: fn(&mut Motor, f64)| {
         let turn = move |parts: &mut CaseParts, factor| {
             let drive = parts.drives.crank_mut();
             let mut motor = drive.moving_motor()?.clone();
@@ -337,18 +344,19 @@ fn motor(case: &Case) -> Vec<Knob> {
         Knob::amount(part, 1.0, "", turn).moving()
     };
     let (ratio, efficiency) = (motor.ratio, motor.efficiency);
-    let mut moment = of_motor(Part::MotorMoment, |motor, factor| motor.law = motor.law.scaled(factor));
+    let mut moment = of_motor(CasePart::MotorMoment, |motor, factor| motor.law = motor.law.scaled(factor));
     if efficiency < 1.0 {
         moment = moment.times([
-            (1.0 / efficiency, "without the efficiency"),
-            (efficiency, "with the efficiency twice"),
-            (1.0 / (efficiency * efficiency), "divided by the efficiency instead of multiplied"),
+            (1.0 / efficiency, sentences::WITHOUT_THE_EFFICIENCY),
+            (efficiency, sentences::WITH_THE_EFFICIENCY_TWICE),
+            (1.0 / (efficiency * efficiency), sentences::DIVIDED_BY_THE_EFFICIENCY_INSTEAD),
         ]);
     }
-    let by_ratio = [(1.0 / ratio, "without the reducer's ratio"), (ratio, "with the reducer's ratio twice")];
+    let by_ratio =
+        [(1.0 / ratio, sentences::WITHOUT_THE_REDUCER_RATIO), (ratio, sentences::WITH_THE_REDUCER_RATIO_TWICE)];
     let mut knobs = vec![moment.times(by_ratio)];
     if motor.inertia_on_crank() > 0.0 {
-        knobs.push(of_motor(Part::RotorInertia, |motor, factor| {
+        knobs.push(of_motor(CasePart::RotorInertia, |motor, factor| {
             let own = &mut motor.inertia;
             let ShaftInertia { rotor, input, intermediate, intermediate_ratio: _, output } = own;
             [rotor, input, intermediate, output].into_iter().for_each(|part| *part *= factor);

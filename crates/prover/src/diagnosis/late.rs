@@ -1,11 +1,12 @@
 //! Values of other instants: late or early, or by a clock that runs too fast.
 
+use crate::sentences;
 use std::ops::RangeInclusive;
 
 use super::bench::{Bench, Column, Misfit};
-use super::cause::{Cause, Slip};
+use super::cause::{DataSlip, DisagreementCause};
 use super::knobs::significant;
-use super::question::{Question, Rank};
+use super::question::{DiagnosisInput, Rank};
 use super::tries::{Candidate, Make};
 use linkage::case::{Case, Grid};
 use linkage::math::KeepNan;
@@ -19,14 +20,14 @@ const NEAR: f64 = 1e-2;
 const PARTS: [f64; 7] = [0.25, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0];
 /// Factors on the time of a row, with their meaning.
 const CLOCKS: [(f64, &str); 4] = [
-    (1e-3, "milliseconds taken for seconds"),
-    (1e3, "seconds taken for milliseconds"),
-    (1.0 / 60.0, "seconds taken for minutes"),
-    (60.0, "minutes taken for seconds"),
+    (1e-3, sentences::MILLISECONDS_TAKEN_FOR_SECONDS),
+    (1e3, sentences::SECONDS_TAKEN_FOR_MILLISECONDS),
+    (1.0 / 60.0, sentences::SECONDS_TAKEN_FOR_MINUTES),
+    (60.0, sentences::MINUTES_TAKEN_FOR_SECONDS),
 ];
 
 /// Values of another instant: of all channels, or of those of one stage; or of a clock that runs too fast.
-pub(super) fn late(question: &Question, bench: &Bench, start: &Misfit) -> Vec<Candidate> {
+pub(super) fn late(question: &DiagnosisInput, bench: &Bench, start: &Misfit) -> Vec<Candidate> {
     let mut stages: Vec<Option<Stage>> = vec![None];
     let stage = |column: &Column| Some(column.channel.kind.stage);
     for column in bench.columns.iter().filter(|column| column.disagrees) {
@@ -48,7 +49,7 @@ pub(super) fn late(question: &Question, bench: &Bench, start: &Misfit) -> Vec<Ca
 }
 
 struct Search<'a, 'b> {
-    question: &'a Question<'b>,
+    question: &'a DiagnosisInput<'b>,
     bench: &'a Bench<'b>,
     start: &'a Misfit,
 }
@@ -89,8 +90,8 @@ impl Search<'_, '_> {
     }
 
     /// All channels, by what those of one stage are late.
-    fn late_by(&self, cause: &Cause) -> Option<Candidate> {
-        let &Cause::Values { slip: Slip::Late { by, steps, .. }, .. } = cause else { return None };
+    fn late_by(&self, cause: &DisagreementCause) -> Option<Candidate> {
+        let &DisagreementCause::Values { slip: DataSlip::Late { by, steps, .. }, .. } = cause else { return None };
         let misfit = self.bench.tried(&shifted(&self.bench.case, by)?)?;
         self.late_candidate(&misfit, by, steps, None)
     }
@@ -185,16 +186,22 @@ impl Search<'_, '_> {
             (None, None) => Rank::Number,
             (None, Some(_)) => Rank::Fitted,
         };
-        self.candidate(misfit, rank, Slip::Late { by, steps, stage }, Box::new(move |case| shifted(case, by)))
+        self.candidate(misfit, rank, DataSlip::Late { by, steps, stage }, Box::new(move |case| shifted(case, by)))
     }
 
     fn clock_candidate(&self, misfit: &Misfit, factor: f64, told: Option<&'static str>) -> Option<Candidate> {
         let rank = if told.is_some() { Rank::Scale } else { Rank::Number };
-        self.candidate(misfit, rank, Slip::Clock { factor, told }, Box::new(move |case| on_clock(case, factor)))
+        self.candidate(misfit, rank, DataSlip::Clock { factor, told }, Box::new(move |case| on_clock(case, factor)))
     }
 
-    fn candidate(&self, misfit: &Misfit, rank: Rank, slip: Slip, make: Make) -> Option<Candidate> {
-        Candidate::of(self.bench, [self.start, misfit], rank, |channels| Cause::Values { slip, channels }, make)
+    fn candidate(&self, misfit: &Misfit, rank: Rank, slip: DataSlip, make: Make) -> Option<Candidate> {
+        Candidate::of(
+            self.bench,
+            [self.start, misfit],
+            rank,
+            |channels| DisagreementCause::Values { slip, channels },
+            make,
+        )
     }
 }
 

@@ -1,6 +1,6 @@
 //! What an error without a simple cause looks like: one that grows with time, a smooth and small one, noise.
 
-use super::question::Question;
+use super::question::DiagnosisInput;
 use super::slips::Wrong;
 use crate::compare::{differences, scales};
 use linkage::math::statistics::{ascending, rms};
@@ -8,7 +8,7 @@ use linkage::math::{KeepNan, largest_size};
 
 /// What errors of numerical methods look like.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Nature {
+pub enum ErrorNature {
     /// It grows with time, about with this power where that can be told.
     Growing(Option<u32>),
     /// It changes smoothly with time, and is at most this share of a channel's scale.
@@ -27,7 +27,7 @@ const SMALL: f64 = 0.02;
 const ORDER: [f64; 2] = [0.15, 0.5];
 
 /// What the differences of all disagreeing channels look like, if that is the same.
-pub(super) fn nature(question: &Question, wrong: &[Wrong]) -> Option<Nature> {
+pub(super) fn nature(question: &DiagnosisInput, wrong: &[Wrong]) -> Option<ErrorNature> {
     let rows = ascending(question.reference.times());
     if rows.len() < 2 * PARTS {
         return None;
@@ -48,7 +48,7 @@ pub(super) fn nature(question: &Question, wrong: &[Wrong]) -> Option<Nature> {
     let powers: Option<Vec<Option<u32>>> = all.iter().map(|(gaps, _)| growth(&times, gaps)).collect();
     if let Some(powers) = powers.filter(|powers| !powers.is_empty()) {
         let first = powers[0];
-        return Some(Nature::Growing(first.filter(|_| powers.iter().all(|own| *own == first))));
+        return Some(ErrorNature::Growing(first.filter(|_| powers.iter().all(|own| *own == first))));
     }
     let share = all.iter().fold(0.0, |most: f64, (gaps, scale)| most.larger(largest_size(gaps) / scale));
     if !(share <= SMALL) {
@@ -56,9 +56,9 @@ pub(super) fn nature(question: &Question, wrong: &[Wrong]) -> Option<Nature> {
     }
     let orders: Vec<f64> = all.iter().map(|(gaps, _)| disorder(gaps)).collect();
     if orders.iter().all(|own| *own <= ORDER[0]) {
-        Some(Nature::Smooth(share))
+        Some(ErrorNature::Smooth(share))
     } else {
-        orders.iter().all(|own| *own >= ORDER[1]).then_some(Nature::Noise(share))
+        orders.iter().all(|own| *own >= ORDER[1]).then_some(ErrorNature::Noise(share))
     }
 }
 

@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use super::bench::{Bench, Misfit};
-use super::cause::{Change, How};
+use super::cause::{Change, PartChange};
 use super::knobs::{self, Knob, Shows, natural};
 use super::question::Rank;
 use super::tries::{Candidate, Tries};
@@ -114,27 +114,42 @@ fn meant(tries: &Tries, knob: &Rc<Knob>, value: f64, found: bool) -> Vec<(Candid
         true => (plain - value).abs() <= 1e-2 * plain.abs().larger(1e-2 * natural(knob)),
         false => (plain - value).abs() <= 0.05 * plain.abs().larger(0.2 * natural(knob)),
     };
-    let anyway = |how: &How| !found && (knob.is_far || (tries.is_free && is_plain(how)));
+    let anyway = |how: &PartChange| !found && (knob.is_far || (tries.is_free && is_plain(how)));
     let plain = knob.plain.iter().filter(|(plain, how)| near(*plain) || anyway(how));
     let tried = plain.filter_map(|(value, how)| {
         let misfit = tries.of(&|case| knob.at(case, *value))?;
-        let rank = if matches!(how, How::Times(..)) { Rank::Scale } else { Rank::Change };
+        let rank = if matches!(how, PartChange::Times(..)) { Rank::Scale } else { Rank::Change };
         Some((of_knob(tries, &misfit, knob, *value, how.clone(), rank)?, misfit.fits()))
     });
     tried.collect()
 }
 
 /// Whether a way of being different is common enough to be tried at any price.
-fn is_plain(how: &How) -> bool {
+fn is_plain(how: &PartChange) -> bool {
     match how {
-        How::Missing | How::Reversed => true,
-        How::Twice | How::Half | How::Times(..) | How::AtJoint(_) | How::AboutJoint(_) => false,
-        How::AtPoint(_) | How::FromJoint(_) | How::Across(_) | How::Middle(_) | How::Turned(_) => false,
-        How::Swapped | How::Other(_) | How::Instead { .. } => false,
+        PartChange::Missing | PartChange::Reversed => true,
+        PartChange::Twice
+        | PartChange::Half
+        | PartChange::Times(..)
+        | PartChange::AtJoint(_)
+        | PartChange::AboutJoint(_) => false,
+        PartChange::AtPoint(_)
+        | PartChange::FromJoint(_)
+        | PartChange::Across(_)
+        | PartChange::Middle(_)
+        | PartChange::Turned(_) => false,
+        PartChange::Swapped | PartChange::Other(_) | PartChange::Instead { .. } => false,
     }
 }
 
-fn of_knob(tries: &Tries, misfit: &Misfit, knob: &Rc<Knob>, value: f64, how: How, rank: Rank) -> Option<Candidate> {
+fn of_knob(
+    tries: &Tries,
+    misfit: &Misfit,
+    knob: &Rc<Knob>,
+    value: f64,
+    how: PartChange,
+    rank: Rank,
+) -> Option<Candidate> {
     let (change, knob) = (Change { part: knob.part.clone(), how }, knob.clone());
     tries.candidate(misfit, rank, change, Box::new(move |case| knob.at(case, value)))
 }
@@ -193,7 +208,7 @@ fn within(knob: &Knob, [low, high]: [f64; 2]) -> Vec<f64> {
 /// known to a small part of its change, because the differences are `excess` times their bounds. Any smooth error is a
 /// tiny change of some number.
 pub(super) fn is_sure(change: &Change, excess: f64) -> bool {
-    let How::Instead { found, given, unit } = change.how else { return true };
+    let PartChange::Instead { found, given, unit } = change.how else { return true };
     let told = if unit == "rad" { found.to_degrees() } else { found };
     // Degrees are rounded on the way.
     let has_few_digits = (knobs::significant(told, FEW_DIGITS) - told).abs() <= 1e-9 * told.abs();
@@ -229,7 +244,7 @@ pub(super) fn confirmed(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::diagnosis::cause::Part;
+    use crate::diagnosis::cause::CasePart;
 
     /// A number that is off by less than a thousandth and has many digits was hardly typed: it counts only where the
     /// difference is a hundred times its bound.
@@ -246,9 +261,9 @@ mod tests {
             (degrees(30.01), degrees(30.0), "rad", 10.0, true),
             (degrees(30.012_345), degrees(30.0), "rad", 10.0, false),
         ] {
-            let change = Change { part: Part::Mass("rod".into()), how: How::Instead { found, given, unit } };
+            let change = Change { part: CasePart::Mass("rod".into()), how: PartChange::Instead { found, given, unit } };
             assert_eq!(is_sure(&change, excess), sure, "{found} instead of {given} {unit}, {excess} times the bound");
         }
-        assert!(is_sure(&Change { part: Part::Mass("rod".into()), how: How::Missing }, 1.0));
+        assert!(is_sure(&Change { part: CasePart::Mass("rod".into()), how: PartChange::Missing }, 1.0));
     }
 }

@@ -1,7 +1,7 @@
 //! Values of other channels: exchanged columns, a neighbour's values, the difference of two angles.
 
-use super::cause::Slip;
-use super::question::{Found, Question, Rank};
+use super::cause::DataSlip;
+use super::question::{DiagnosisInput, Found, Rank};
 use super::slips::{Wrong, settled};
 use crate::compare::differences;
 use linkage::math::statistics::half_range;
@@ -14,37 +14,37 @@ const TELLING: f64 = 5.0;
 const FEW: usize = 16;
 
 /// Every channel with the values of others: of one, or of two that changed places, or the difference of two.
-pub(super) fn found(question: &Question, wrong: &[Wrong]) -> Vec<Found> {
+pub(super) fn found(question: &DiagnosisInput, wrong: &[Wrong]) -> Vec<Found> {
     let mut causes = Vec::new();
     let mut put =
-        |slip: Slip, rank: Rank, explained: Vec<Channel>| causes.push(Found::of_values(slip, rank, explained));
+        |slip: DataSlip, rank: Rank, explained: Vec<Channel>| causes.push(Found::of_values(slip, rank, explained));
     for (index, one) in wrong.iter().enumerate() {
         let is_exchanged = |other: &&Wrong| one.has_values_of(other.right) && other.has_values_of(one.right);
         if let Some(other) = wrong[index + 1..].iter().find(is_exchanged) {
             let both = [one.channel.clone(), other.channel.clone()];
-            put(Slip::Exchanged(both.clone()), Rank::Slip, both.to_vec());
+            put(DataSlip::Exchanged(both.clone()), Rank::DataSlip, both.to_vec());
             continue;
         }
         let others = || question.reference.iter().filter(|(channel, _)| alike(channel, one.channel));
         let own = vec![one.channel.clone()];
         if let Some((channel, _)) = others().find(|(_, values)| one.has_values_of(values)) {
-            put(Slip::Instead(channel.clone()), Rank::Change, own);
+            put(DataSlip::Instead(channel.clone()), Rank::Change, own);
             continue;
         }
         let opposite = |values: &[f64]| one.has_values_of(&values.iter().map(|value| -value).collect::<Vec<f64>>());
         if let Some((channel, _)) = others().find(|(_, values)| opposite(values)) {
-            put(Slip::Opposite(channel.clone()), Rank::Change, own);
+            put(DataSlip::Opposite(channel.clone()), Rank::Change, own);
             continue;
         }
         if let Some(both) = magnitude(question, one) {
-            put(Slip::Magnitude(both), Rank::Change, own);
+            put(DataSlip::Magnitude(both), Rank::Change, own);
             continue;
         }
         let pairs = question.reference.iter().filter(|(channel, _)| channel.kind.suffix == one.channel.kind.suffix);
         // What does not move is no other place to count from.
         let all: Vec<(&Channel, &[f64])> = pairs.filter(|(_, values)| one.varies(values)).collect();
         if let Some(slip) = between(one, &all) {
-            let is_plain = matches!(slip, Slip::Between { offset: 0.0, .. });
+            let is_plain = matches!(slip, DataSlip::Between { offset: 0.0, .. });
             put(slip, if is_plain { Rank::Change } else { Rank::Fitted }, own);
         }
     }
@@ -59,7 +59,7 @@ fn alike(one: &Channel, other: &Channel) -> bool {
 }
 
 /// The two components of a vector, where its magnitude stands in the place of one.
-fn magnitude(question: &Question, one: &Wrong) -> Option<[Channel; 2]> {
+fn magnitude(question: &DiagnosisInput, one: &Wrong) -> Option<[Channel; 2]> {
     let suffix = one.channel.kind.suffix;
     let other = if suffix.contains('y') { suffix.replacen('y', "x", 1) } else { suffix.replacen('x', "y", 1) };
     let other = Channel::named(&format!("{}.{other}", one.channel.subject()))?;
@@ -70,7 +70,7 @@ fn magnitude(question: &Question, one: &Wrong) -> Option<[Channel; 2]> {
 
 /// The difference of two channels of one kind, as relative to another link or point; of angles up to where it is counted
 /// from.
-fn between(one: &Wrong, all: &[(&Channel, &[f64])]) -> Option<Slip> {
+fn between(one: &Wrong, all: &[(&Channel, &[f64])]) -> Option<DataSlip> {
     if !one.varies(one.found) {
         return None;
     }
@@ -89,7 +89,7 @@ fn between(one: &Wrong, all: &[(&Channel, &[f64])]) -> Option<Slip> {
             let is_it = |offset: f64| gaps.iter().all(|gap| (gap - offset).abs() <= one.bound);
             if is_it(offset) && (offset == 0.0 || one.channel.kind.unit == Unit::Radian) {
                 let offset = if offset == 0.0 { 0.0 } else { settled(offset, true, &is_it) };
-                return Some(Slip::Between { of: [(*first).clone(), (*second).clone()], offset });
+                return Some(DataSlip::Between { of: [(*first).clone(), (*second).clone()], offset });
             }
         }
     }

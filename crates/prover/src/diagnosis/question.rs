@@ -1,13 +1,13 @@
 //! What a diagnosis is asked, and the candidates that answer it.
 
-use super::cause::{Cause, Slip};
+use super::cause::{DataSlip, DisagreementCause};
 use linkage::case::Case;
 use linkage::solver::Solver;
 use linkage::trajectory::{Channel, Trajectory};
 
 /// A channel of the suspect that is judged by a bound.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Judged {
+pub struct SuspectChannel {
     /// The channel.
     pub channel: Channel,
     /// Bound on the suspect's error, in the channel's unit.
@@ -17,7 +17,7 @@ pub struct Judged {
 }
 
 /// What is to be diagnosed.
-pub struct Question<'a> {
+pub struct DiagnosisInput<'a> {
     /// Name of the suspect.
     pub suspect: &'a str,
     /// What is held to be right.
@@ -25,7 +25,7 @@ pub struct Question<'a> {
     /// What contradicts it, on the same grid.
     pub suspicious: &'a Trajectory,
     /// All channels whose bounds can be relied on, the agreeing ones too: a cause must not spoil them.
-    pub judged: &'a [Judged],
+    pub judged: &'a [SuspectChannel],
     /// The reference's case, on the grid of both trajectories.
     pub case: &'a Case,
     /// Solver that tries changed cases; accurate to far below the bounds.
@@ -37,7 +37,7 @@ pub struct Question<'a> {
 /// A cause, and what it explains.
 #[derive(Clone, Debug)]
 pub(super) struct Found {
-    pub(super) cause: Cause,
+    pub(super) cause: DisagreementCause,
     /// How simple it is; 0 is the simplest.
     pub(super) rank: Rank,
     /// The disagreeing channels that it explains to within their bounds.
@@ -46,8 +46,8 @@ pub(super) struct Found {
 
 impl Found {
     /// A slip in the values of the channels that it explains.
-    pub(super) fn of_values(slip: Slip, rank: Rank, explained: Vec<Channel>) -> Found {
-        Found { cause: Cause::Values { slip, channels: explained.clone() }, rank, explained }
+    pub(super) fn of_values(slip: DataSlip, rank: Rank, explained: Vec<Channel>) -> Found {
+        Found { cause: DisagreementCause::Values { slip, channels: explained.clone() }, rank, explained }
     }
 }
 
@@ -55,7 +55,7 @@ impl Found {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Rank {
     /// A slip without a free number: sign, unit, twice, half.
-    Slip,
+    DataSlip,
     /// A change of the case without a free number: something missing, or the other way round.
     Change,
     /// A part of the case multiplied by a number with a meaning.

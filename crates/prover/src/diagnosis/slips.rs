@@ -1,10 +1,11 @@
 //! Causes that are seen in the values alone: sign, unit, factor, offset, whole turns.
 
+use crate::sentences;
 use std::f64::consts::{PI, TAU};
 
-use super::cause::{Plain, Slip};
+use super::cause::{DataSlip, Plain};
 use super::knobs::significant_in;
-use super::question::{Found, Judged, Question, Rank};
+use super::question::{DiagnosisInput, Found, Rank, SuspectChannel};
 use crate::compare::{differences, magnitudes};
 use linkage::math::angle::wrapped;
 use linkage::math::{KeepNan, largest_size};
@@ -16,21 +17,21 @@ pub(super) const KNOWN: f64 = 1e-10;
 /// A factor on the values of a channel, and the unit that is meant by it.
 type Mistaken = (f64, &'static str);
 
-const DEGREES: Mistaken = (180.0 / PI, "degrees instead of radians");
-const TWICE_CONVERTED: Mistaken = (PI / 180.0, "radians taken for degrees and converted once more");
-const TURNS: Mistaken = (1.0 / TAU, "turns instead of radians");
-const MILLIMETRES: Mistaken = (1e3, "millimetres instead of metres");
-const FROM_MILLIMETRES: Mistaken = (1e-3, "metres taken for millimetres");
-const CENTIMETRES: Mistaken = (1e2, "centimetres instead of metres");
-const FROM_CENTIMETRES: Mistaken = (1e-2, "metres taken for centimetres");
-const INCHES: Mistaken = (1.0 / 0.0254, "inches instead of metres");
-const FEET: Mistaken = (1.0 / 0.3048, "feet instead of metres");
-const PER_MINUTE: Mistaken = (60.0, "per minute instead of per second");
-const FROM_MINUTE: Mistaken = (1.0 / 60.0, "per second taken for per minute");
-const THOUSANDFOLD: Mistaken = (1e3, "a thousandfold, as g for kg or mN for N");
-const THOUSANDTH: Mistaken = (1e-3, "a thousandth, as kg for g or kN for N");
-const KILOPONDS: Mistaken = (1.0 / G, "kiloponds instead of newtons");
-const FROM_KILOPONDS: Mistaken = (G, "newtons taken for kiloponds");
+const DEGREES: Mistaken = (180.0 / PI, sentences::DEGREES_INSTEAD_OF_RADIANS);
+const TWICE_CONVERTED: Mistaken = (PI / 180.0, sentences::RADIANS_TAKEN_FOR_DEGREES_AND_CONVERTED);
+const TURNS: Mistaken = (1.0 / TAU, sentences::TURNS_INSTEAD_OF_RADIANS);
+const MILLIMETRES: Mistaken = (1e3, sentences::MILLIMETRES_INSTEAD_OF_METRES);
+const FROM_MILLIMETRES: Mistaken = (1e-3, sentences::METRES_TAKEN_FOR_MILLIMETRES);
+const CENTIMETRES: Mistaken = (1e2, sentences::CENTIMETRES_INSTEAD_OF_METRES);
+const FROM_CENTIMETRES: Mistaken = (1e-2, sentences::METRES_TAKEN_FOR_CENTIMETRES);
+const INCHES: Mistaken = (1.0 / 0.0254, sentences::INCHES_INSTEAD_OF_METRES);
+const FEET: Mistaken = (1.0 / 0.3048, sentences::FEET_INSTEAD_OF_METRES);
+const PER_MINUTE: Mistaken = (60.0, sentences::PER_MINUTE_INSTEAD_OF_PER);
+const FROM_MINUTE: Mistaken = (1.0 / 60.0, sentences::PER_SECOND_TAKEN_FOR_PER);
+const THOUSANDFOLD: Mistaken = (1e3, sentences::A_THOUSANDFOLD_AS_FOR_KG);
+const THOUSANDTH: Mistaken = (1e-3, sentences::A_THOUSANDTH_AS_KG_FOR_OR_KN);
+const KILOPONDS: Mistaken = (1.0 / G, sentences::KILOPONDS_INSTEAD_OF_NEWTONS);
+const FROM_KILOPONDS: Mistaken = (G, sentences::NEWTONS_TAKEN_FOR_KILOPONDS);
 /// Standard gravity (m/s^2).
 const G: f64 = 9.806_65;
 /// A pound-force (N).
@@ -48,24 +49,24 @@ fn mistaken(unit: Unit) -> Vec<Mistaken> {
         Unit::RadianPerSecond => (
             &[DEGREES, TWICE_CONVERTED],
             &[
-                (30.0 / PI, "revolutions per minute instead of rad/s"),
-                (PI / 30.0, "rad/s taken for revolutions per minute"),
+                (30.0 / PI, sentences::REVOLUTIONS_PER_MINUTE_INSTEAD_OF_RAD),
+                (PI / 30.0, sentences::RAD_TAKEN_FOR_REVOLUTIONS_PER),
                 TURNS,
                 PER_MINUTE,
                 FROM_MINUTE,
             ],
         ),
         Unit::Metre => (&LENGTHS, &[]),
-        Unit::MetrePerSecond => (&LENGTHS, &[PER_MINUTE, FROM_MINUTE, (3.6, "km/h instead of m/s")]),
-        Unit::MetrePerSecondSquared => (&LENGTHS, &[(1.0 / G, "multiples of standard gravity instead of m/s^2")]),
-        Unit::Newton => (&FORCES, &[(1.0 / POUND, "pounds-force instead of newtons")]),
+        Unit::MetrePerSecond => (&LENGTHS, &[PER_MINUTE, FROM_MINUTE, (3.6, sentences::KM_INSTEAD_OF)]),
+        Unit::MetrePerSecondSquared => (&LENGTHS, &[(1.0 / G, sentences::MULTIPLES_OF_STANDARD_GRAVITY_INSTEAD)]),
+        Unit::Newton => (&FORCES, &[(1.0 / POUND, sentences::POUNDS_FORCE_INSTEAD_OF_NEWTONS)]),
         Unit::NewtonMetre => (
             &FORCES,
             &[
-                (1e2, "N cm instead of N m"),
-                (1e-2, "N m taken for N cm"),
-                (1.0 / (POUND * 0.3048), "pound-feet instead of N m"),
-                (1.0 / (POUND * 0.0254), "pound-inches instead of N m"),
+                (1e2, sentences::CM_INSTEAD_OF),
+                (1e-2, sentences::TAKEN_FOR_CM),
+                (1.0 / (POUND * 0.3048), sentences::POUND_FEET_INSTEAD_OF),
+                (1.0 / (POUND * 0.0254), sentences::POUND_INCHES_INSTEAD_OF),
             ],
         ),
     };
@@ -91,7 +92,7 @@ pub(super) fn found(wrong: &[Wrong]) -> Vec<Found> {
         let explained: Vec<Channel> =
             wrong.iter().filter(|wrong| wrong.is_explained_by(&slip)).map(|wrong| wrong.channel.clone()).collect();
         if !explained.is_empty() {
-            causes.push(Found::of_values(slip, Rank::Slip, explained));
+            causes.push(Found::of_values(slip, Rank::DataSlip, explained));
         }
     }
     for Fitted { slip, number, is_angle } in fitted(wrong) {
@@ -106,10 +107,10 @@ pub(super) fn found(wrong: &[Wrong]) -> Vec<Found> {
 }
 
 /// The disagreeing channels.
-pub(super) fn wrong<'a>(question: &'a Question) -> Vec<Wrong<'a>> {
+pub(super) fn wrong<'a>(question: &'a DiagnosisInput) -> Vec<Wrong<'a>> {
     let sizes = magnitudes(question.reference);
     let speed = question.case.crank().constant_speed().filter(|_| question.case.is_steady());
-    let of = |judged: &'a Judged| {
+    let of = |judged: &'a SuspectChannel| {
         let channel = &judged.channel;
         let place = question.reference.channels().iter().position(|own| own == channel)?;
         let (right, found) = (question.reference.column(channel)?, question.suspicious.column(channel)?);
@@ -120,15 +121,15 @@ pub(super) fn wrong<'a>(question: &'a Question) -> Vec<Wrong<'a>> {
 }
 
 /// Slips without a free number, the simplest first.
-fn plain(wrong: &[Wrong]) -> Vec<Slip> {
-    let mut slips: Vec<Slip> = Plain::ALL.iter().map(|&plain| Slip::Plain(plain)).collect();
+fn plain(wrong: &[Wrong]) -> Vec<DataSlip> {
+    let mut slips: Vec<DataSlip> = Plain::ALL.iter().map(|&plain| DataSlip::Plain(plain)).collect();
     for (factor, told) in wrong.iter().flat_map(|wrong| mistaken(wrong.channel.kind.unit)) {
-        let slip = Slip::Unit { factor, told };
+        let slip = DataSlip::Unit { factor, told };
         if !slips.contains(&slip) {
             slips.push(slip);
         }
     }
-    slips.extend(lonely(wrong).map(Slip::Outlier));
+    slips.extend(lonely(wrong).map(DataSlip::Outlier));
     slips
 }
 
@@ -146,7 +147,7 @@ const MANY: usize = 8;
 
 /// A slip with a number, which has its digits in degrees if it is an angle.
 struct Fitted {
-    slip: fn(f64) -> Slip,
+    slip: fn(f64) -> DataSlip,
     number: f64,
     is_angle: bool,
 }
@@ -165,13 +166,13 @@ fn fitted(wrong: &[Wrong]) -> Vec<Fitted> {
     if gaps.len() >= FEWEST {
         if same_unit {
             let mean = |gaps: &[f64]| gaps.iter().sum::<f64>() / gaps.len() as f64;
-            slips.push(Fitted { slip: Slip::Offset, number: mean(&gaps), is_angle });
+            slips.push(Fitted { slip: DataSlip::Offset, number: mean(&gaps), is_angle });
             let negative: Vec<f64> = worst.right.iter().map(|value| -value).collect();
             let number = mean(&differences(&negative, worst.found, worst.channel.kind.periodic));
-            slips.extend((number.abs() > worst.bound).then_some(Fitted { slip: Slip::Mirrored, number, is_angle }));
+            slips.extend((number.abs() > worst.bound).then_some(Fitted { slip: DataSlip::Mirrored, number, is_angle }));
         }
         if squares > 0.0 {
-            slips.push(Fitted { slip: Slip::Factor, number: products / squares, is_angle: false });
+            slips.push(Fitted { slip: DataSlip::Factor, number: products / squares, is_angle: false });
         }
     }
     slips
@@ -187,23 +188,23 @@ const FEWEST: usize = 4;
 
 impl Wrong<'_> {
     /// Whether the slip, done to the right values, gives those found.
-    fn is_explained_by(&self, slip: &Slip) -> bool {
+    fn is_explained_by(&self, slip: &DataSlip) -> bool {
         let unit = self.channel.kind.unit;
         match *slip {
-            Slip::Plain(plain) => self.is_plainly(plain),
-            Slip::Factor(factor) => self.meets(|value| factor * value),
-            Slip::Offset(by) => self.meets(|value| value + by),
-            Slip::Mirrored(by) => self.meets(|value| by - value),
-            Slip::Unit { factor, told } => {
+            DataSlip::Plain(plain) => self.is_plainly(plain),
+            DataSlip::Factor(factor) => self.meets(|value| factor * value),
+            DataSlip::Offset(by) => self.meets(|value| value + by),
+            DataSlip::Mirrored(by) => self.meets(|value| by - value),
+            DataSlip::Unit { factor, told } => {
                 mistaken(unit).iter().any(|(_, own)| *own == told) && self.meets(|value| factor * value)
             }
-            Slip::Outlier(time) => {
+            DataSlip::Outlier(time) => {
                 (0..self.times.len()).all(|row| self.times[row] == time || self.gap(row).abs() <= self.bound)
             }
             // Need the solution at other instants, or of other channels: see `late`, `others` and `derived`.
-            Slip::Late { .. } | Slip::Clock { .. } | Slip::Instead(_) | Slip::Opposite(_) => false,
-            Slip::Exchanged(_) | Slip::Between { .. } | Slip::Magnitude(_) => false,
-            Slip::Differences { .. } | Slip::NoCoriolis(_) | Slip::About(_) => false,
+            DataSlip::Late { .. } | DataSlip::Clock { .. } | DataSlip::Instead(_) | DataSlip::Opposite(_) => false,
+            DataSlip::Exchanged(_) | DataSlip::Between { .. } | DataSlip::Magnitude(_) => false,
+            DataSlip::Differences { .. } | DataSlip::NoCoriolis(_) | DataSlip::About(_) => false,
         }
     }
 

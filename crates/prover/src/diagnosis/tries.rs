@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use super::bench::{Bench, Misfit};
-use super::cause::{Cause, Change, Slip};
+use super::cause::{Change, DataSlip, DisagreementCause};
 use super::knobs::Knob;
 use super::question::{Found, Rank};
 use linkage::case::Case;
@@ -28,7 +28,7 @@ impl Candidate {
         bench: &Bench,
         [start, misfit]: [&Misfit; 2],
         rank: Rank,
-        cause: impl FnOnce(Vec<Channel>) -> Cause,
+        cause: impl FnOnce(Vec<Channel>) -> DisagreementCause,
         make: Make,
     ) -> Option<Self> {
         let (explained, claim) = (bench.explained(start, misfit), bench.claim(start, misfit));
@@ -39,7 +39,9 @@ impl Candidate {
 
     /// The stage whose channels alone it is about; `None` for all.
     pub(super) fn stage(&self) -> Option<Stage> {
-        let Cause::Values { slip: Slip::Late { stage, .. }, .. } = &self.found.cause else { return None };
+        let DisagreementCause::Values { slip: DataSlip::Late { stage, .. }, .. } = &self.found.cause else {
+            return None;
+        };
         *stage
     }
 }
@@ -68,6 +70,6 @@ impl Tries<'_> {
     }
 
     pub(super) fn candidate(&self, misfit: &Misfit, rank: Rank, change: Change, make: Make) -> Option<Candidate> {
-        Candidate::of(&self.thin, [&self.starts[1], misfit], rank, |_| Cause::Case(change), make)
+        Candidate::of(&self.thin, [&self.starts[1], misfit], rank, |_| DisagreementCause::Case(change), make)
     }
 }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::cause::{Change, How, Part};
+use super::cause::{CasePart, Change, PartChange};
 use super::configurations::others;
 use super::knobs::{changed, remade};
 use super::question::Rank;
@@ -10,7 +10,7 @@ use super::tries::{Candidate, Make, Tries};
 use linkage::case::Case;
 use linkage::drive::{Course, Load};
 use linkage::math::Vec2;
-use linkage::mechanism::{Link, LinkId, Side};
+use linkage::mechanism::{JointSide, Link, LinkId};
 
 /// Changes without a number: another configuration, gravity along another axis, mass centres elsewhere, no weights or
 /// inertia forces, loads at other points.
@@ -28,18 +28,20 @@ pub(super) fn whole_changes(tries: &Tries) -> Vec<Candidate> {
     let gravity = case.gravity;
     if gravity.norm() > 0.0 {
         let turned = [
-            (How::Swapped, Vec2::new(gravity.y, gravity.x)),
-            (How::Turned(FRAC_PI_2), Vec2::new(-gravity.y, gravity.x)),
-            (How::Turned(-FRAC_PI_2), Vec2::new(gravity.y, -gravity.x)),
+            (PartChange::Swapped, Vec2::new(gravity.y, gravity.x)),
+            (PartChange::Turned(FRAC_PI_2), Vec2::new(-gravity.y, gravity.x)),
+            (PartChange::Turned(-FRAC_PI_2), Vec2::new(gravity.y, -gravity.x)),
         ];
         for (how, other) in turned {
-            all.push(change(Part::Gravity, how, move |case| case.with(|parts| parts.gravity = other).ok()));
+            all.push(change(CasePart::Gravity, how, move |case| case.with(|parts| parts.gravity = other).ok()));
         }
     }
     let kinematic = tries.thin.is_moved();
     if !kinematic && !tries.is_free {
         let links: Vec<LinkId> = case.mechanism.links().ids().skip(1).collect();
-        all.push(change(Part::InertiaForces, How::Missing, move |case| without_inertia_forces(case, &links)));
+        all.push(change(CasePart::InertiaForces, PartChange::Missing, move |case| {
+            without_inertia_forces(case, &links)
+        }));
     }
     if !kinematic || tries.is_free {
         all.extend(masses(case));
@@ -53,7 +55,7 @@ pub(super) fn whole_changes(tries: &Tries) -> Vec<Candidate> {
     tried.collect()
 }
 
-fn change(part: Part, how: How, make: impl Fn(&Case) -> Option<Case> + 'static) -> (Change, Make) {
+fn change(part: CasePart, how: PartChange, make: impl Fn(&Case) -> Option<Case> + 'static) -> (Change, Make) {
     (Change { part, how }, Box::new(make))
 }
 
@@ -65,7 +67,8 @@ fn mass_centres(case: &Case) -> Vec<(Change, Make)> {
         let joints = case.mechanism.joints().iter().filter_map(|joint| Some((joint.name.clone(), joint.on(index)?)));
         let joints: Vec<(String, Vec2)> = joints.collect();
         let own = link.mass_centre;
-        let mut places: Vec<(How, Vec2)> = joints.iter().map(|(name, at)| (How::AtJoint(name.clone()), *at)).collect();
+        let mut places: Vec<(PartChange, Vec2)> =
+            joints.iter().map(|(name, at)| (PartChange::AtJoint(name.clone()), *at)).collect();
         for (number, (one, from)) in joints.iter().enumerate() {
             for (other, to) in &joints[number + 1..] {
                 let names = [one.clone(), other.clone()];
@@ -74,9 +77,9 @@ fn mass_centres(case: &Case) -> Vec<(Change, Make)> {
                     continue;
                 }
                 let across = own - from - along * ((own - from).dot(&along) / along.norm_squared());
-                places.push((How::FromJoint(names.clone()), from + to - own));
-                places.push((How::Across(names.clone()), own - 2.0 * across));
-                places.push((How::Middle(names), 0.5 * (from + to)));
+                places.push((PartChange::FromJoint(names.clone()), from + to - own));
+                places.push((PartChange::Across(names.clone()), own - 2.0 * across));
+                places.push((PartChange::Middle(names), 0.5 * (from + to)));
             }
         }
         let mut seen = vec![own];
@@ -85,7 +88,7 @@ fn mass_centres(case: &Case) -> Vec<(Change, Make)> {
                 continue;
             }
             seen.push(at);
-            let part = Part::MassCentre(link.name.clone());
+            let part = CasePart::MassCentre(link.name.clone());
             let moved =
                 move |case: &Case| remade(case, |parts| changed(parts, |links, _| links[index].mass_centre = at));
             found.push(change(part, how, moved));
@@ -101,17 +104,17 @@ fn masses(case: &Case) -> Vec<(Change, Make)> {
     let all: Vec<(LinkId, &Link)> = case.mechanism.links().entries().skip(1).filter(heavy).collect();
     // Of a single link all is the same as this one.
     for &(index, link) in all.iter().filter(|_| all.len() > 1) {
-        let mut put = |part: fn(String) -> Part, make: Make| {
-            found.push((Change { part: part(link.name.clone()), how: How::Missing }, make));
+        let mut put = |part: fn(String) -> CasePart, make: Make| {
+            found.push((Change { part: part(link.name.clone()), how: PartChange::Missing }, make));
         };
         if link.inertia > 0.0 && case.mechanism.can_turn(index) {
-            put(Part::Body, Box::new(move |case| without_masses(case, &[index])));
+            put(CasePart::Body, Box::new(move |case| without_masses(case, &[index])));
         }
         // Without weight, inertia forces are all that a mass does.
         if case.gravity.norm() > 0.0 {
             let lifted = move |case: &Case| case.with(|parts| parts.loads.push(weight(case, index, -1.0))).ok();
-            put(Part::Weight, Box::new(lifted));
-            put(Part::Inert, Box::new(move |case| without_inertia_forces(case, &[index])));
+            put(CasePart::Weight, Box::new(lifted));
+            put(CasePart::Inert, Box::new(move |case| without_inertia_forces(case, &[index])));
         }
     }
     found
@@ -126,7 +129,11 @@ fn loads(case: &Case) -> Vec<(Change, Make)> {
             for point in link.points.iter().filter(|point| point.local != side.local) {
                 let at = point.local;
                 let make = move |case: &Case| case.with(|parts| parts.loads[number].put_point(end, at)).ok();
-                found.push(change(Part::Load(number + 1, load.sort()), How::AtPoint(point.name.clone()), make));
+                found.push(change(
+                    CasePart::Load(number + 1, load.sort()),
+                    PartChange::AtPoint(point.name.clone()),
+                    make,
+                ));
             }
         }
     }
@@ -137,7 +144,7 @@ fn loads(case: &Case) -> Vec<(Change, Make)> {
 fn weight(case: &Case, link: LinkId, factor: f64) -> Load {
     let body = &case.mechanism.links()[link];
     let [x, y] = [case.gravity.x, case.gravity.y].map(|own| Course::Constant(factor * body.mass * own));
-    Load::Force { at: Side { link, local: body.mass_centre }, force: [x, y], follows: false }
+    Load::Force { at: JointSide { link, local: body.mass_centre }, force: [x, y], follows: false }
 }
 
 /// The case with weights, but without some links' resistance to acceleration.

@@ -29,7 +29,7 @@ pub struct Deviation {
 
 /// One analytic side.
 #[derive(Clone, Debug)]
-pub struct Side {
+pub struct AnalyticSide {
     /// Name of the solver.
     pub name: &'static str,
     /// Every channel beside its truth; empty if the side failed, or if there is nothing to hold it against.
@@ -46,9 +46,9 @@ pub struct Side {
 
 /// Both analytic sides.
 #[derive(Clone, Debug)]
-pub struct Sides {
+pub struct BothSides {
     /// Side 1 and side 2.
-    pub sides: [Side; 2],
+    pub sides: [AnalyticSide; 2],
     /// The checks that a proof makes of the sides; none if one failed.
     pub checks: Vec<Check>,
     /// The verdict of these checks. A side that fails leaves it open.
@@ -64,20 +64,20 @@ pub struct Sides {
 ///
 /// # Errors
 /// If `truth` stands on another grid. A side that fails is part of the result.
-pub fn sides(case: &Case, truth: Option<&Trajectory>) -> Result<Sides> {
+pub fn sides(case: &Case, truth: Option<&Trajectory>) -> Result<BothSides> {
     let solve = |side: &dyn Solver| observe(case, side, Watch::Side, &mut |_| {}).map_err(Error::from);
     let found = EachSide::of(|side| counted(|| solve(TRUE_SIDES[side].solver)));
     let solved = |side: Reference| found[side].0.as_ref().ok();
     let bare = |side: Reference| {
         let (name, work) = (side.name(), found[side].1);
-        Side { name, deviations: Vec::new(), closure: None, balance: None, work, failure: None }
+        AnalyticSide { name, deviations: Vec::new(), closure: None, balance: None, work, failure: None }
     };
-    let failed = |side: Reference, error: &Error| Side { failure: Some(error.clone()), ..bare(side) };
+    let failed = |side: Reference, error: &Error| AnalyticSide { failure: Some(error.clone()), ..bare(side) };
     let Some(reference) = Reference::ALL.into_iter().find(|side| solved(*side).is_some()) else {
         let error = |side: Reference| found[side].0.as_ref().expect_err("no side has a trajectory");
         let sides = Reference::ALL.map(|side| failed(side, error(side)));
         let verdict = Verdict::open(sides[0].failure.as_ref().map_or("", Error::message));
-        return Ok(Sides { sides, checks: Vec::new(), verdict, silent: 0, trajectory: None });
+        return Ok(BothSides { sides, checks: Vec::new(), verdict, silent: 0, trajectory: None });
     };
     let solver = TRUE_SIDES[reference].solver;
     let trajectory = |side: Reference| solved(side).map(|own| &own.trajectory);
@@ -109,7 +109,7 @@ pub fn sides(case: &Case, truth: Option<&Trajectory>) -> Result<Sides> {
     let size = case.mechanism.size();
     let mut verdict = None;
     let sides = Reference::ALL.map(|side| match &found[side].0 {
-        Ok(own) => Side {
+        Ok(own) => AnalyticSide {
             deviations: std::mem::take(&mut deviating[side]),
             closure: Some(own.closure() / size.larger(own.reach)),
             balance: (!own.power.is_empty()).then(|| own.two_ways()),
@@ -124,7 +124,7 @@ pub fn sides(case: &Case, truth: Option<&Trajectory>) -> Result<Sides> {
     let beyond = sides.iter().flat_map(|side| &side.deviations).filter(|own| !(own.used <= 1.0)).count();
     let agrees = matches!(verdict, Verdict::Agree { .. } | Verdict::Expected { .. });
     let silent = if agrees && truth.is_some() { beyond } else { 0 };
-    Ok(Sides { sides, checks, verdict, silent, trajectory: Some(own.clone()) })
+    Ok(BothSides { sides, checks, verdict, silent, trajectory: Some(own.clone()) })
 }
 
 /// Every channel of a trajectory beside its truth.

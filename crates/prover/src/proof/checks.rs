@@ -6,7 +6,8 @@ use super::observe::Observed;
 use super::problem::Problem;
 use super::runs::Runs;
 use crate::compare::{Check, Convergence, difference};
-use crate::tolerance::{Basis, Origin, Tolerance};
+use crate::sentences;
+use crate::tolerance::{BoundBasis, BoundOrigin, Tolerance};
 use linkage::case::Case;
 use linkage::engine::{Engine, Route};
 use linkage::math::statistics::{ascending, share};
@@ -25,7 +26,7 @@ fn two_ways(side: &Observed) -> f64 {
 }
 
 pub(super) fn rounding(bound: f64, why: &'static str) -> Tolerance {
-    Tolerance { bound, basis: Basis::Wanted(why) }
+    Tolerance { bound, basis: BoundBasis::Wanted(why) }
 }
 
 /// Checks on the two analytic sides.
@@ -35,17 +36,17 @@ pub(super) fn of_sides(case: &Case, sides: EachSide<&Observed>, known: &Known) -
         Check::new(format!("{what} ({})", side.name()), value, tolerance, "")
     };
     let closure = |(side, own): (Reference, &&Observed)| {
-        let why = "positions are good to a few units in the last place of the largest coordinate";
-        check("closure of all joints", side, own.closure() / size.larger(own.reach), rounding(CLOSURE, why))
+        let why = sentences::POSITIONS_ARE_GOOD_TO_A_FEW;
+        check(sentences::CLOSURE_OF_ALL_JOINTS_2, side, own.closure() / size.larger(own.reach), rounding(CLOSURE, why))
     };
     let powers = |(side, own): (Reference, &&Observed)| {
-        let tolerance = rounding(two_ways(own), "sums of a few forces and powers");
-        let what = "balancing moment from equilibrium and from powers";
+        let tolerance = rounding(two_ways(own), sentences::SUMS_OF_A_FEW_FORCES_AND_POWERS);
+        let what = sentences::BALANCING_MOMENT_FROM_EQUILIBRIUM_AND_FROM_POWERS;
         (!own.power.is_empty()).then(|| check(what, side, own.two_ways(), tolerance))
     };
     let shaking = |(side, own): (Reference, &&Observed)| {
-        let tolerance = rounding(two_ways(own), "sums of as many forces as there are links");
-        let what = "shaking force and moment from reactions and from momentum";
+        let tolerance = rounding(two_ways(own), sentences::SUMS_OF_AS_MANY_FORCES_AS_THERE);
+        let what = sentences::SHAKING_FORCE_AND_MOMENT_FROM_REACTIONS;
         own.unbalance.map(|share| check(what, side, share, tolerance))
     };
     let mut checks: Vec<Check> = sides.iter().map(closure).collect();
@@ -129,11 +130,10 @@ fn between_sides(sides: EachSide<&Observed>, known: &Known) -> Vec<Check> {
     let of_stage = |stage: Stage| {
         let own = all.iter().filter(|worst| worst.channel.kind.stage == stage);
         let worst = own.max_by(|a, b| a.used().total_cmp(&b.used()))?;
-        let why = "two solvers without a common equation, each good to the rounding of its poses and to the error of \
-                   the integration that a tighter run shows";
+        let why = sentences::TWO_SOLVERS_WITHOUT_A_COMMON;
         let tolerance = rounding(worst.allowed, why);
         let check = Check::new(format!("{} against {}", first.name(), second.name()), worst.relative, tolerance, "");
-        Some(check.of(stage.name()).located(|| format!("in {} at {:.3}", worst.channel, reference.told(worst.row))))
+        Some(check.of(stage.name()).located(|| sentences::in_at(&worst.channel, &reference.told(worst.row))))
     };
     Stage::ALL.into_iter().filter_map(of_stage).collect()
 }
@@ -153,12 +153,12 @@ fn closure(problem: Problem, engine: &dyn Engine, runs: &Runs) -> Check {
     let size = problem.case.mechanism.size();
     let kind = Channel::named("point.A.x_m").expect("the table has positions of points").kind;
     Vanishing {
-        family: format!("closure of all joints ({})", engine.name()),
+        family: sentences::closure_of_all_joints(&engine.name()),
         of: &|run: &Observed| run.opening.iter().map(|opening| opening / size).collect(),
         value: runs.single().closure() / size,
         kind,
         noise: 1.0 / size,
-        note: "an opening is all error: it must vanish as its runs say",
+        note: sentences::AN_OPENING_IS_ALL_ERROR_IT_MUST,
     }
     .check(problem, engine, runs)
 }
@@ -172,18 +172,15 @@ fn power_balance(problem: Problem, engine: &dyn Engine, runs: &Runs) -> Check {
     let gaps = |run: &Observed| run.moment_gap().collect::<Vec<f64>>();
     let by_differences = engine.settings().route == Route::Differences;
     Vanishing {
-        family: format!("driving moment from reactions and from powers ({})", engine.name()),
+        family: sentences::driving_moment_from_reactions_and_from_powers(&engine.name()),
         of: &|run: &Observed| gaps(run).into_iter().map(|gap| share(gap, scale)).collect(),
         value: share(largest_size(&gaps(runs.single())), scale),
         kind,
         // Each of the two may have this error.
         noise: if scale == 0.0 { 0.0 } else { 2.0 / scale },
         note: match by_differences {
-            true => {
-                "both from the same accelerations, so that it holds the equations of motion and the speeds of the \
-                 loops, not the accelerations"
-            }
-            false => "reactions and speeds come from the engine each by itself",
+            true => sentences::BOTH_FROM_THE_SAME_ACCELERATIONS,
+            false => sentences::REACTIONS_AND_SPEEDS_COME_FROM_THE_ENGINE,
         },
     }
     .check(problem, engine, runs)
@@ -218,12 +215,12 @@ impl Vanishing<'_> {
         let found = found.extrapolated(engine.settings().extrapolated);
         let parts = found.parts(noise(engine));
         let basis = found.tolerance(resolution, parts, noise_origin(engine)).basis;
-        let basis = Basis::Noted(Box::new(basis), self.note);
+        let basis = BoundBasis::Noted(Box::new(basis), self.note);
         Check::estimated(self.family, self.value, &found, parts, basis, problem.engine_rel)
     }
 }
 
 /// How the rounding of an engine is known.
-pub(super) fn noise_origin(engine: &dyn Engine) -> Origin {
-    if engine.is_noise_measured() { Origin::Measured } else { Origin::Wanted }
+pub(super) fn noise_origin(engine: &dyn Engine) -> BoundOrigin {
+    if engine.is_noise_measured() { BoundOrigin::Measured } else { BoundOrigin::Wanted }
 }

@@ -1,4 +1,5 @@
 //! Which groups the number of a channel depends on: an error of another group does not reach it.
+//! See docs/numerics/bounds.md.
 
 use std::collections::BTreeMap;
 

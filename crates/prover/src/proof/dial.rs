@@ -3,6 +3,7 @@
 use super::{EngineProof, Proof, parties};
 use crate::compare::{Check, Verdict, overall};
 use crate::numbers::error;
+use crate::sentences;
 
 impl Proof {
     /// The same proof, judged with every bound multiplied by `dial`. A value below 1 is stricter; at 0 only an exact
@@ -45,7 +46,7 @@ fn scale(check: &mut Check, dial: f64) {
 fn judge(verdict: &mut Verdict, value: f64, bound: &mut f64, dial: f64) {
     let beyond = !(value <= *bound);
     *bound *= dial;
-    let again = Verdict::of(value, *bound, || format!("{} is beyond the scaled bound {}", error(value), error(*bound)));
+    let again = Verdict::of(value, *bound, || sentences::is_beyond_the_scaled_bound(&error(value), &error(*bound)));
     match (&*verdict, &again) {
         (Verdict::Agree { .. }, _) => *verdict = again,
         (Verdict::Disagree { .. }, _) if beyond => *verdict = again,

@@ -1,12 +1,8 @@
 //! Instants at which channels jump, so that an engine's value depends on the smallest error of its motion.
 //!
-//! Where a drive reverses, or its acceleration jumps, differences over a few steps to either side are not those of the
-//! motion: rates, accelerations and forces are not judged there.
-//! Where a link reverses whose load depends on the sense of its motion, the load may jump: forces are not judged there,
-//! nor accelerations if forces decide the motion. Impulses that are combined from several runs are not judged close to
-//! it. A load that vanishes there does not jump, and nothing is left out.
-//! At a change point itself an engine's equations have many solutions, of which it takes one: its rates there say nothing
-//! about the branch that it is on, and the instants after it say all.
+//! A load may jump where its link reverses; a load that vanishes there does not, and no instant is left out.
+//! At a change point an engine takes one of many solutions: its rates there say nothing about its branch, which the
+//! instants after it show. See docs/numerics/bounds.md.
 
 use linkage::case::Case;
 use linkage::drive::DriveMotion;

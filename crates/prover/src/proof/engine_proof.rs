@@ -1,9 +1,10 @@
 //! One engine's part of a proof.
 
+use crate::sentences;
 use std::fmt::Write;
 
 use crate::compare::{Check, Convergence, Residual, Verdict, overall};
-use crate::tolerance::{Basis, Parts};
+use crate::tolerance::{BoundBasis, Parts};
 use linkage::engine::{Engine, Settings};
 use linkage::error::{Advice, Error};
 use linkage::solver::Provision;
@@ -64,14 +65,14 @@ pub struct ChannelProof {
     /// free motion begins.
     pub left_out: usize,
     /// What the bound rests on.
-    pub basis: Basis,
+    pub basis: BoundBasis,
     /// The outcome.
     pub verdict: Verdict,
 }
 
 /// How the settings of an engine were found.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Search {
+pub struct SettingsSearch {
     /// Number of runs that were made, each at another step or with other sweeps.
     pub runs: usize,
     /// Work done, in steps without sweeps; twenty sweeps count as one step more.
@@ -79,12 +80,12 @@ pub struct Search {
     /// Work that was allowed, in the same unit.
     pub budget: f64,
     /// Why the search ended.
-    pub end: End,
+    pub end: SearchEnd,
 }
 
 /// Why a search of settings ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum End {
+pub enum SearchEnd {
     /// Every channel has the aimed accuracy, or is conclusive and the work for more is spent.
     Decided,
     /// A finer step would add more rounding than it takes away.
@@ -97,7 +98,7 @@ pub enum End {
     Nothing,
 }
 
-impl End {
+impl SearchEnd {
     /// Puts into an inconclusive verdict what the search has tried, in place of advice to try it.
     pub(super) fn tell(self, verdict: &mut Verdict, budget: f64) {
         let Verdict::Inconclusive { reason, advice } = verdict else { return };
@@ -106,13 +107,10 @@ impl End {
         }
         let (why, way_out) = match self {
             // The settings that are given decide, and its own advice holds.
-            End::Decided | End::Nothing => return,
-            End::Rounding => ("a finer step adds more rounding than it takes away", vec![Advice::OtherEngine]),
-            End::Budget => ("the work that was allowed is done", vec![Advice::MoreWork { to: 10.0 * budget }]),
-            End::Pace => (
-                "at the pace of its rounds the work that was allowed would not be enough",
-                vec![Advice::MoreWork { to: 10.0 * budget }],
-            ),
+            SearchEnd::Decided | SearchEnd::Nothing => return,
+            SearchEnd::Rounding => (sentences::A_FINER_STEP_ADDS_MORE_ROUNDING, vec![Advice::OtherEngine]),
+            SearchEnd::Budget => (sentences::THE_WORK_THAT_WAS_ALLOWED, vec![Advice::MoreWork { to: 10.0 * budget }]),
+            SearchEnd::Pace => (sentences::AT_THE_PACE_OF_ITS_ROUNDS, vec![Advice::MoreWork { to: 10.0 * budget }]),
         };
         reason.push_str("; ");
         reason.push_str(why);
@@ -126,7 +124,7 @@ pub struct EngineProof {
     /// The engine.
     pub info: EngineInfo,
     /// How its settings were found; `None` if all were given, or if the engine failed.
-    pub search: Option<Search>,
+    pub search: Option<SettingsSearch>,
     /// Channels, in the order of columns; none if the engine failed.
     pub channels: Vec<ChannelProof>,
     /// Checks on the engine alone; none on its own forces.
@@ -244,10 +242,7 @@ impl EngineProof {
                 let share = change / own.residual.scale;
                 own.sensitivity = Some(share);
                 if let Verdict::Inconclusive { reason, .. } = &mut own.verdict {
-                    let _ = write!(
-                        reason,
-                        "; a millionth more of gravity and motor torque changes the channel by {share:.2} millionths of its scale"
-                    );
+                    let _ = write!(reason, "{}", sentences::a_millionth_more_of_gravity(&share));
                 }
             }
         }

@@ -1,8 +1,9 @@
 //! One engine against the reference: at the settings asked for, or at those that it finds.
 
+use crate::sentences;
 use std::sync::Arc;
 
-use super::engine_proof::{End, EngineInfo, EngineProof};
+use super::engine_proof::{EngineInfo, EngineProof, SearchEnd};
 use super::judge::{Judge, Judged};
 use super::ledger::Ledger;
 use super::observe::{Stopped, Watch};
@@ -34,7 +35,7 @@ pub(super) fn prove(
     let given = chosen.given.clone().of_motion();
     let searches = given.leaves_a_choice() && !engine.controls_error() && is_step;
     let why =
-        if searches { "finds its settings, and its error from its own runs" } else { "its error from its own runs" };
+        if searches { sentences::FINDS_ITS_SETTINGS_AND_ITS_ERROR } else { sentences::ITS_ERROR_FROM_ITS_OWN_RUNS };
     let found = ledger.done(engine.name(), why, || match searches {
         true => {
             let search = Settling::new(judge, &mut bank, engine, &given, chosen.budget);
@@ -52,7 +53,7 @@ pub(super) fn prove(
                     let reason = match error.kind() {
                         ErrorKind::Unsupported => error.message().to_string(),
                         ErrorKind::Numeric | ErrorKind::Geometry | ErrorKind::Input | ErrorKind::Io => {
-                            format!("the work that was allowed is done, and no run stands: {}", error.message())
+                            sentences::the_work_that_was_allowed_is_done(&error.message())
                         }
                     };
                     let most = 10f64.powf(work.log10().ceil());
@@ -66,8 +67,8 @@ pub(super) fn prove(
     };
     let is_open = matches!(proof.verdict, Verdict::Inconclusive { .. });
     if is_open && !given.step.is_free() && !engine.controls_error() {
-        let why = "the given step proves nothing: what a free one would";
-        let advice = ledger.done(format!("{}, other settings", engine.name()), why, || tried(judge, &mut bank, chosen));
+        let why = sentences::THE_GIVEN_STEP_PROVES_NOTHING;
+        let advice = ledger.done(sentences::other_settings(&engine.name()), why, || tried(judge, &mut bank, chosen));
         for verdict in proof.verdicts_mut() {
             if let Verdict::Inconclusive { advice: own, .. } = verdict {
                 own.push(advice.clone());
@@ -81,14 +82,14 @@ pub(super) fn prove(
     // Its runs are dropped before others are made.
     drop(bank);
     let trajectory = Arc::unwrap_or_clone(run).trajectory;
-    let part = format!("{}, own forces", engine.name());
+    let part = sentences::own_forces(&engine.name());
     match own_forces::are_asked(judge, chosen) {
         true => {
             let own = || own_forces::judged(judge, case, chosen, &proof, &mut |part| progress(0.7 + 0.3 * part));
-            let why = "what it exerts itself, beside what follows from its motion";
+            let why = sentences::WHAT_IT_EXERTS_ITSELF_BESIDE;
             proof.own_forces = ledger.done(part, why, own).map(Box::new);
         }
-        false => ledger.skipped(part, "no force is wanted, or its forces are read by its own route"),
+        false => ledger.skipped(part, sentences::NO_FORCE_IS_WANTED_OR_ITS_FORCES),
     }
     if let Some(verdict) = proof.added() {
         proof.verdict = overall([&proof.verdict, verdict]);
@@ -125,7 +126,7 @@ fn at_given(
         true => judged,
         false => match with(&others) {
             Err(stopped) if stopped.error.kind() == ErrorKind::Numeric => {
-                let why = "a run with a quarter of the sweeps fails, so that nobody knows what they leave";
+                let why = sentences::A_RUN_WITH_A_QUARTER_OF_THE_SWEEPS;
                 let mut judged = judged;
                 judged.proof.doubt(why, &Advice::MoreSweeps { to: None });
                 judged
@@ -149,19 +150,16 @@ fn tried(judge: &Judge, bank: &mut Bank, chosen: &Chosen) -> Advice {
     let Ok(Judged { proof, .. }) = found else { return Advice::FreeSettings };
     let Settings { resolution, sweeps, extrapolated, .. } = proof.info.settings;
     let outcome = match (&proof.verdict, proof.search.map(|search| search.end)) {
-        (Verdict::Inconclusive { .. }, Some(End::Budget | End::Pace)) => {
-            "the work allowed is not enough there either".into()
+        (Verdict::Inconclusive { .. }, Some(SearchEnd::Budget | SearchEnd::Pace)) => {
+            sentences::THE_WORK_ALLOWED_IS_NOT_ENOUGH.into()
         }
-        (Verdict::Inconclusive { .. }, _) => "nothing is proven there either".into(),
-        (verdict, _) => format!("the verdict there is {}", verdict.word()),
+        (Verdict::Inconclusive { .. }, _) => sentences::NOTHING_IS_PROVEN_THERE_EITHER.into(),
+        (verdict, _) => sentences::the_verdict_there_is(&verdict.word()),
     };
     let combined = match extrapolated {
         0 => "not extrapolated".into(),
         1 => "extrapolated once".into(),
-        times => format!("extrapolated {times} times"),
+        times => sentences::extrapolated_times(&times),
     };
-    Advice::Text(format!(
-        "leave the step to the proof: it takes {} s and {sweeps} sweeps, {combined}, and {outcome}",
-        error(resolution)
-    ))
+    Advice::Text(sentences::leave_the_step_to_the_proof(&error(resolution), &sweeps, &combined, &outcome))
 }

@@ -1,5 +1,6 @@
 //! Who takes part in a proof, and the two halves of a proof: the analytic sides, and the engines against one of them.
 
+use crate::sentences;
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::checks::{self, Beyond};
@@ -13,7 +14,7 @@ use super::observe::{Observed, Watch, observe};
 use super::options::Chosen;
 use super::problem::Problem;
 use super::{engines, figures, formulas, methods, oracle};
-use crate::claims::{self, Course, Judged, Outcome};
+use crate::claims::{self, FormulaOutcome, JudgedFormula, KnownTrajectory};
 use crate::compare::{Check, Verdict, overall};
 use analytic::{AssurSolver, NewtonSolver, TIGHT_ASSUR, TIGHT_NEWTON};
 use formula::Rounded;
@@ -22,7 +23,7 @@ use linkage::engine::Engine;
 use linkage::error::Result;
 use linkage::solver::Solver;
 use linkage::trajectory::{Channel, Trajectory};
-use scenario::{Figure, Formulas};
+use scenario::{Formulas, MechanismFigure};
 
 /// Share of the progress that the analytic sides are given.
 const SIDES: f64 = 0.1;
@@ -46,7 +47,7 @@ pub const TRUE_SIDES: EachSide<Entrant<'static>> = EachSide::new(
 );
 
 /// How engines take part.
-pub struct Engines<'a> {
+pub struct EngineRole<'a> {
     /// What they solve, on the scenario's instants.
     pub case: &'a Case,
     /// Puts something around each of them.
@@ -55,27 +56,27 @@ pub struct Engines<'a> {
     pub own_forces: bool,
 }
 
-impl<'a> Engines<'a> {
+impl<'a> EngineRole<'a> {
     /// Engines as they are, on a case.
     pub(crate) fn on(case: &'a Case) -> Self {
-        Engines { case, around: &|engine| engine, own_forces: true }
+        EngineRole { case, around: &|engine| engine, own_forces: true }
     }
 }
 
 /// The two analytic sides of a proof, observed and checked.
-pub struct Sides {
+pub struct ObservedSides {
     reference: Reference,
     pub(super) observed: EachSide<Observed>,
     pub(super) known: Known,
     /// Checks on both, published numbers among them.
     pub checks: Vec<Check>,
     /// Figures that formulas claim.
-    figures: EachSide<Vec<(Figure, Rounded)>>,
+    figures: EachSide<Vec<(MechanismFigure, Rounded)>>,
     /// What formulas come to, if any claims something.
     pub(super) judgement: Option<Judgement>,
 }
 
-impl Sides {
+impl ObservedSides {
     /// Both sides on a problem, whose case may be the scene of the `whole`.
     ///
     /// # Errors
@@ -89,34 +90,36 @@ impl Sides {
     ) -> Result<Self> {
         let Problem { case, oracles, formulas: own_formulas, .. } = problem;
         let sides = EachSide::tried(|side| {
-            let why = if side == reference { "the reference" } else { "checks the reference" };
+            let why = if side == reference { "the reference" } else { sentences::CHECKS_THE_REFERENCE };
             ledger.done(side.name(), why, || observe(case, entrants[side].solver, Watch::Side, &mut |_| {}))
         })?;
         let main = entrants[reference].solver;
         let beside = EachSide::of(|side| (entrants[side].tight, &sides[side].trajectory));
         let tighter = || Known::beside(case, reference, main, beside);
         let mut known = match case.is_free() {
-            true => ledger.done("tighter integration", "shows the error that both sides share", tighter)?,
+            true => ledger.done("tighter integration", sentences::SHOWS_THE_ERROR_THAT_BOTH, tighter)?,
             false => {
-                ledger.skipped("integration", "the motion is prescribed");
+                ledger.skipped("integration", sentences::THE_MOTION_IS_PRESCRIBED);
                 tighter()?
             }
         };
         match checks::sides_differ(sides.pair().map(|own| &own.trajectory), &known) {
-            true => ledger.done("condition of every pose", "the sides differ by more than usual", || {
+            true => ledger.done(sentences::CONDITION_OF_EVERY_POSE, sentences::THE_SIDES_DIFFER_BY_MORE, || {
                 known.measure(case, entrants[Reference::Assur].solver)
             })?,
-            false => ledger.skipped("condition of every pose", "the sides differ by usual rounding"),
+            false => ledger.skipped(sentences::CONDITION_OF_EVERY_POSE, sentences::THE_SIDES_DIFFER_BY_USUAL),
         }
         let mut checks = checks::of_sides(case, sides.each_ref(), &known);
         match methods::apply(case) {
-            true => checks.extend(
-                ledger.done("published methods", "others than ours for its triad", || methods::checks(case, main))?,
-            ),
-            false => ledger.skipped("published methods", "there is no triad of class III"),
+            true => {
+                checks.extend(ledger.done("published methods", sentences::OTHERS_THAN_OURS_FOR_ITS_TRIAD, || {
+                    methods::checks(case, main)
+                })?)
+            }
+            false => ledger.skipped("published methods", sentences::THERE_IS_NO_TRIAD_OF_CLASS),
         }
         match oracles.is_empty() {
-            true => ledger.skipped("published numbers", "there are none of wanted channels"),
+            true => ledger.skipped("published numbers", sentences::THERE_ARE_NONE_OF_WANTED),
             false => {
                 let channels = sides[reference].trajectory.channels();
                 let integration = |side: Reference, channel: &Channel| {
@@ -125,15 +128,15 @@ impl Sides {
                 };
                 let solvers = EachSide::of(|side| entrants[side].solver);
                 let numbers = || oracle::checks(problem, whole, solvers, &integration);
-                checks.extend(ledger.done("published numbers", "solved at their own instants", numbers)?);
+                checks.extend(ledger.done("published numbers", sentences::SOLVED_AT_THEIR_OWN_INSTANTS, numbers)?);
             }
         }
         let figures = EachSide::default();
-        let mut own = Sides { reference, observed: sides, known, checks, figures, judgement: None };
+        let mut own = ObservedSides { reference, observed: sides, known, checks, figures, judgement: None };
         match own_formulas.claims().next() {
-            None => ledger.skipped("formulas", "none claims a wanted channel"),
+            None => ledger.skipped("formulas", sentences::NONE_CLAIMS_A_WANTED_CHANNEL),
             Some(_) => {
-                let judged = ledger.done("formulas", "by value and by derivative, on both sides", || {
+                let judged = ledger.done("formulas", sentences::BY_VALUE_AND_BY_DERIVATIVE, || {
                     // As with published figures: means over a turn belong to the nominal motion.
                     let solvers = EachSide::of(|side| entrants[side].solver);
                     own.figures = figures::claimed(own_formulas, &whole.nominal(), solvers)?;
@@ -154,7 +157,7 @@ impl Sides {
         let sides = self.claimed(case, formulas)?;
         let (mut causes, mut undefined) = (Vec::new(), BTreeMap::new());
         let (mut unsought, mut work) = (BTreeSet::new(), 0);
-        let is_wrong = |all: &&Vec<Judged>| all.iter().any(|judged| judged.outcome() == Outcome::Wrong);
+        let is_wrong = |all: &&Vec<JudgedFormula>| all.iter().any(|judged| judged.outcome() == FormulaOutcome::Wrong);
         for index in 0..sides[Reference::Assur].len() {
             // The side that it contradicts, or both: the first of them.
             let all = EachSide::of(|side| &sides[side][index]);
@@ -185,18 +188,23 @@ impl Sides {
     ///
     /// # Errors
     /// Those of [`claims::judge`].
-    pub fn claimed(&self, case: &Case, formulas: &Formulas) -> Result<EachSide<Vec<Vec<Judged>>>> {
+    pub fn claimed(&self, case: &Case, formulas: &Formulas) -> Result<EachSide<Vec<Vec<JudgedFormula>>>> {
         EachSide::tried(|side| self.on_course(case, side, |course| claims::judge(formulas, course)))
     }
 
     /// What one side found on a case, with how well it knows it.
-    pub fn on_course<T>(&self, case: &Case, side: Reference, then: impl FnOnce(&Course) -> Result<T>) -> Result<T> {
+    pub fn on_course<T>(
+        &self,
+        case: &Case,
+        side: Reference,
+        then: impl FnOnce(&KnownTrajectory) -> Result<T>,
+    ) -> Result<T> {
         let trajectory = &self.observed[side].trajectory;
         let error = |column: usize, row: usize| {
             // Both sides have the same channels in the same order.
             self.known.at(side, trajectory.channels()[column].kind.stage, column, row)
         };
-        then(&Course::new(case, trajectory, &error).with_figures(&self.figures[side]))
+        then(&KnownTrajectory::new(case, trajectory, &error).with_figures(&self.figures[side]))
     }
 
     /// What formulas come to, if any claims something.
@@ -242,7 +250,7 @@ impl Sides {
     pub fn engines(
         &self,
         problem: Problem,
-        how: &Engines,
+        how: &EngineRole,
         engines: Vec<Chosen>,
         ledger: &mut Ledger,
         progress: &mut dyn FnMut(f64),

@@ -5,7 +5,7 @@ use super::engine_proof::EngineProof;
 use super::known::Known;
 use super::observe::Observed;
 use crate::compare::{Verdict, largest_difference};
-use crate::diagnosis::{Diagnosis, Judged, Party, Question, Standing, diagnose, standing};
+use crate::diagnosis::{DiagnosedParty, Diagnosis, DiagnosisInput, PartyStanding, SuspectChannel, diagnose, standing};
 use linkage::case::{Case, Grid};
 use linkage::trajectory::{Channel, Trajectory};
 
@@ -34,27 +34,29 @@ pub(super) fn of(
 
     // The bound is on the difference of the two.
     let halves: Vec<_> = between.iter().map(|judged| (judged.channel.clone(), judged.bound / 2.0)).collect();
-    let mut parties: Vec<Party> =
-        own.iter().map(|(side, trajectory)| Party { name: side.name(), trajectory, bounds: halves.clone() }).collect();
+    let mut parties: Vec<DiagnosedParty> = own
+        .iter()
+        .map(|(side, trajectory)| DiagnosedParty { name: side.name(), trajectory, bounds: halves.clone() })
+        .collect();
     parties.extend(ran.iter().map(|(engine, trajectory)| {
         let bounds = judged(engine).into_iter().map(|judged| (judged.channel, judged.bound)).collect();
-        Party { name: engine.info.name, trajectory, bounds }
+        DiagnosedParty { name: engine.info.name, trajectory, bounds }
     }));
     let alone = match standing(&parties) {
-        Standing::Alone(name) => Some(name),
-        Standing::Together | Standing::Camps(_) | Standing::Open(_) => None,
+        PartyStanding::Alone(name) => Some(name),
+        PartyStanding::Together | PartyStanding::Camps(_) | PartyStanding::Open(_) => None,
     };
     let of_side = |suspect: Reference| {
         let (reference, suspicious) = (&own[suspect.other()], &own[suspect]);
         let (solver, suspect, judged) = (suspect.other().solver(), suspect.name(), &between[..]);
-        diagnose(&Question { suspect, reference, suspicious, judged, case, solver, step: None }, &parties)
+        diagnose(&DiagnosisInput { suspect, reference, suspicious, judged, case, solver, step: None }, &parties)
     };
     match (alone, engine) {
         (Some(name), _) if let Some(side) = Reference::named(&name) => of_side(side),
         (_, None) => of_side(main.other()),
         (_, Some(engine)) => {
             let (_, suspicious) = ran.iter().find(|(own, _)| own.info.name == engine.info.name)?;
-            let question = Question {
+            let question = DiagnosisInput {
                 suspect: engine.info.name,
                 reference: &own[main],
                 suspicious,
@@ -73,21 +75,21 @@ fn disagrees(verdict: &Verdict) -> bool {
 }
 
 /// The channels of an engine whose bounds can be relied on. One that is beyond its bound for a known reason is none.
-fn judged(engine: &EngineProof) -> Vec<Judged> {
+fn judged(engine: &EngineProof) -> Vec<SuspectChannel> {
     let channels = engine.channels.iter().filter(|own| own.convergence.is_trusted());
     let judged = channels.map(|own| (own.residual.max, own.bound, &own.residual.channel, disagrees(&own.verdict)));
     let sure = judged.filter(|&(value, bound, _, disagrees)| disagrees || value <= bound);
-    sure.map(|(_, bound, channel, disagrees)| Judged { channel: channel.clone(), bound, disagrees }).collect()
+    sure.map(|(_, bound, channel, disagrees)| SuspectChannel { channel: channel.clone(), bound, disagrees }).collect()
 }
 
 /// Bounds on the difference of the two sides: what they know of their own numbers.
-fn side_bounds(sides: &EachSide<Observed>, known: &Known) -> Vec<Judged> {
+fn side_bounds(sides: &EachSide<Observed>, known: &Known) -> Vec<SuspectChannel> {
     let [one, other] = sides.pair().map(|own| &own.trajectory);
     let of = |(index, channel): (usize, &Channel)| {
         let gap = largest_difference(one.column(channel)?, other.column(channel)?, channel.kind.periodic);
         let bound = known.between(channel.kind.stage, index);
         // Written so that NaN disagrees.
-        Some(Judged { channel: channel.clone(), bound, disagrees: !(gap <= bound) })
+        Some(SuspectChannel { channel: channel.clone(), bound, disagrees: !(gap <= bound) })
     };
     one.channels().iter().enumerate().filter_map(of).collect()
 }
@@ -96,7 +98,7 @@ fn side_bounds(sides: &EachSide<Observed>, known: &Known) -> Vec<Judged> {
 mod tests {
 
     use super::*;
-    use crate::diagnosis::{Cause, Plain, Slip};
+    use crate::diagnosis::{DataSlip, DisagreementCause, Plain};
     use crate::proof::observe::{Watch, observe};
     use crate::proof::{Options, prove};
     use linkage::solver::Solver;
@@ -134,9 +136,9 @@ mod tests {
             let known = Known::of(case, sides.pair().map(|side| &side.trajectory)).unwrap();
             let found = of(case, Reference::Assur, &sides, &known, &right.engines).expect("the sides disagree");
             let wrong = wrong.name();
-            assert_eq!((found.suspect.as_str(), &found.alone), (wrong, &Standing::Alone(wrong.into())));
+            assert_eq!((found.suspect.as_str(), &found.alone), (wrong, &PartyStanding::Alone(wrong.into())));
             assert!(
-                matches!(found.cause, Some(Cause::Values { slip: Slip::Plain(Plain::Sign), .. })),
+                matches!(found.cause, Some(DisagreementCause::Values { slip: DataSlip::Plain(Plain::Sign), .. })),
                 "{:?}",
                 found.cause
             );

@@ -1,14 +1,15 @@
 //! Figures of a mechanism as the analytic sides find them.
 
 use super::each_side::{EachSide, Reference};
+use crate::sentences;
 use analytic::reduced::means::{self as reduced, Means};
 use formula::Rounded;
 use linkage::case::{Case, Grid, Wanted};
 use linkage::error::{Error, ErrorKind, Result};
-use linkage::mechanism::Side;
+use linkage::mechanism::JointSide;
 use linkage::solver::{Solver, State};
 use linkage::trajectory::Stage;
-use scenario::{Figure, Formulas};
+use scenario::{Formulas, MechanismFigure};
 
 /// Relative error of a side's figures. Wanted, because rounding allows it in sums over thousands of poses.
 const KNOWN: f64 = 1e-11;
@@ -21,8 +22,8 @@ pub(super) fn claimed(
     formulas: &Formulas,
     case: &Case,
     solvers: EachSide<&dyn Solver>,
-) -> Result<EachSide<Vec<(Figure, Rounded)>>> {
-    let mut asked: Vec<Figure> = Vec::new();
+) -> Result<EachSide<Vec<(MechanismFigure, Rounded)>>> {
+    let mut asked: Vec<MechanismFigure> = Vec::new();
     for (_, figure) in formulas.claims().flat_map(|(_, claim)| &claim.figures) {
         if !asked.contains(figure) {
             asked.push(*figure);
@@ -58,13 +59,13 @@ impl<'a> Measured<'a> {
     ///
     /// # Errors
     /// Those of the means over a turn, and of a motor that no speed of balances the resistance.
-    pub(super) fn value(&mut self, figure: Figure) -> Result<f64> {
+    pub(super) fn value(&mut self, figure: MechanismFigure) -> Result<f64> {
         Ok(match figure {
-            Figure::ReducedInertiaMean => self.means()?.inertia,
-            Figure::ReducedResistanceMean => self.means()?.resistance,
-            Figure::SteadyCrankSpeed => self.steady()?[0],
-            Figure::SteadyMotorSpeed => self.steady()?[1],
-            Figure::Distance(ends) => self.distance(ends)?,
+            MechanismFigure::ReducedInertiaMean => self.means()?.inertia,
+            MechanismFigure::ReducedResistanceMean => self.means()?.resistance,
+            MechanismFigure::SteadyCrankSpeed => self.steady()?[0],
+            MechanismFigure::SteadyMotorSpeed => self.steady()?[1],
+            MechanismFigure::Distance(ends) => self.distance(ends)?,
         })
     }
 
@@ -81,8 +82,8 @@ impl<'a> Measured<'a> {
     fn steady(&mut self) -> Result<[f64; 2]> {
         let case = self.case;
         // A scenario with this figure has one; a case that is changed afterwards may not.
-        let no_motor = || Error::new(ErrorKind::Input, "the steady speed needs a motor, and the crank has none");
-        let motor = case.crank().motor().ok_or_else(|| no_motor().help("add `[motor]`, or leave the figure out"))?;
+        let no_motor = || Error::new(ErrorKind::Input, sentences::THE_STEADY_SPEED_NEEDS_A_MOTOR);
+        let motor = case.crank().motor().ok_or_else(|| no_motor().help(sentences::ADD_MOTOR_OR_LEAVE_THE_FIGURE))?;
         // The motor acts in the direction in which the crank is driven.
         let sense = case.crank().sense();
         let resistance = sense * self.means()?.resistance;
@@ -94,7 +95,7 @@ impl<'a> Measured<'a> {
     }
 
     /// Distance of two points at t = 0 by this side (m).
-    fn distance(&self, ends: [Side; 2]) -> Result<f64> {
+    fn distance(&self, ends: [JointSide; 2]) -> Result<f64> {
         let base = self.case;
         let grid = Grid::of_times(base.crank(), vec![0.0]);
         let case = base.on(grid)?.wanting(Wanted::of(&[Stage::Positions]));

@@ -1,20 +1,21 @@
 //! Formulas as checks of a proof.
 
+use crate::sentences;
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::each_side::{EachSide, Reference};
-use crate::claims::{At, CUT, Cause, Judged, Outcome, Undefined, WORDS};
+use crate::claims::{CUT, FormulaAtInstant, FormulaCause, FormulaOutcome, JudgedFormula, Undefined, WORDS};
 use crate::compare::{Check, Verdict};
 use crate::numbers::{fixed, significant};
-use crate::tolerance::{Basis, Tolerance};
+use crate::tolerance::{BoundBasis, Tolerance};
 
 /// What formulas come to.
 #[derive(Clone, Debug)]
 pub struct Judgement {
     /// What the sides say of every claim: by value, then by derivative.
-    pub sides: EachSide<Vec<Vec<Judged>>>,
+    pub sides: EachSide<Vec<Vec<JudgedFormula>>>,
     /// The formulas that are wrong by name, each with the cause if it is a simple one.
-    pub causes: Vec<(String, Option<Cause>)>,
+    pub causes: Vec<(String, Option<FormulaCause>)>,
     /// Those of them that somewhere have no value by name, each with the operation that has none.
     pub undefined: BTreeMap<String, Undefined>,
     /// Names of those whose search for a cause ended because its work was used up.
@@ -25,7 +26,7 @@ pub struct Judgement {
 
 impl Judgement {
     /// What both sides say; why a formula is wrong is not sought.
-    pub fn of(sides: EachSide<Vec<Vec<Judged>>>) -> Self {
+    pub fn of(sides: EachSide<Vec<Vec<JudgedFormula>>>) -> Self {
         Judgement { sides, causes: Vec::new(), undefined: BTreeMap::new(), unsought: BTreeSet::new(), work: 0 }
     }
 
@@ -43,18 +44,16 @@ pub fn checks(judgement: &Judgement) -> Vec<Check> {
         .iter()
         .filter_map(|(name, cause)| {
             let words = match cause {
-                Some(cause) if judgement.unsought.contains(name) => {
-                    format!("cause: {cause}; perhaps another: {CUT}")
-                }
+                Some(cause) if judgement.unsought.contains(name) => sentences::cause_perhaps_another(&cause, &CUT),
                 Some(cause) => format!("cause: {cause}"),
-                None if judgement.unsought.contains(name) => format!("cause not found: {CUT}"),
+                None if judgement.unsought.contains(name) => sentences::cause_not_found(&CUT),
                 None => return None,
             };
             Some((name.as_str(), words))
         })
         .collect();
-    let of_side = |(side, all): (Reference, &Vec<Vec<Judged>>)| -> Vec<Check> {
-        let words = |judged: &Judged| {
+    let of_side = |(side, all): (Reference, &Vec<Vec<JudgedFormula>>)| -> Vec<Check> {
+        let words = |judged: &JudgedFormula| {
             let undefined = judgement.undefined(&judged.name).filter(|_| judged.order == 0).map(ToString::to_string);
             let all: Vec<String> = undefined.into_iter().chain(causes.get(judged.name.as_str()).cloned()).collect();
             all.join("; ")
@@ -65,11 +64,11 @@ pub fn checks(judgement: &Judgement) -> Vec<Check> {
 }
 
 /// The check of a judged formula; `why` says why it is wrong, where that is known.
-fn check(side: Reference, judged: &Judged, why: &str) -> Check {
+fn check(side: Reference, judged: &JudgedFormula, why: &str) -> Check {
     let (value, bound) = judged.worst.map_or((0.0, 0.0), |worst| (worst.difference.abs(), worst.bound));
-    let tolerance = Tolerance { bound, basis: Basis::Formula { claimed: judged.claimed } };
+    let tolerance = Tolerance { bound, basis: BoundBasis::Formula { claimed: judged.claimed } };
     let mut check = Check::new(format!("formulas ({side})"), value, tolerance, judged.unit).of(name(judged));
-    if let Outcome::Open { reason, advice } = judged.outcome() {
+    if let FormulaOutcome::Open { reason, advice } = judged.outcome() {
         check.verdict = Verdict::Inconclusive { reason, advice };
     }
     check.located(|| {
@@ -79,7 +78,7 @@ fn check(side: Reference, judged: &Judged, why: &str) -> Check {
 }
 
 /// A formula with its claim, and which derivative.
-fn name(judged: &Judged) -> String {
+fn name(judged: &JudgedFormula) -> String {
     let of = match judged.order {
         0 => String::new(),
         order => format!("{} of ", WORDS[order]),
@@ -88,15 +87,18 @@ fn name(judged: &Judged) -> String {
 }
 
 /// Since when, in words.
-fn place(since: &At) -> String {
-    let At { time, crank, formula, mechanism, .. } = since;
-    let found =
-        if formula.is_nan() { "it has no value".to_string() } else { format!("it gives {}", significant(*formula, 9)) };
-    format!(
-        "first at t = {} s, crank angle {} deg: {found}, the mechanism {}",
-        fixed(*time, 6),
-        fixed(crank.to_degrees(), 3),
-        significant(*mechanism, 9)
+fn place(since: &FormulaAtInstant) -> String {
+    let FormulaAtInstant { time, crank, formula, mechanism, .. } = since;
+    let found = if formula.is_nan() {
+        sentences::IT_HAS_NO_VALUE.to_string()
+    } else {
+        sentences::it_gives(&significant(*formula, 9))
+    };
+    sentences::first_at_crank_angle_deg(
+        &fixed(*time, 6),
+        &fixed(crank.to_degrees(), 3),
+        &found,
+        &significant(*mechanism, 9),
     )
 }
 
@@ -113,7 +115,7 @@ mod tests {
         let claim = Claim::parse("link.crank.angle_deg", &scenario.case).unwrap();
         scenario.formulas.add("late", "phi*180/pi + 0.001*ln(phi - 0.5)").unwrap().claim = Some(claim);
         let judgement = judge(&scenario).unwrap().judgement;
-        let judged: Vec<&Judged> = judgement.sides.iter().flat_map(|(_, all)| all.iter().flatten()).collect();
+        let judged: Vec<&JudgedFormula> = judgement.sides.iter().flat_map(|(_, all)| all.iter().flatten()).collect();
         let checks = checks(&judgement);
         assert_eq!((judged.len(), checks.len()), (6, 6));
         for (judged, check) in judged.into_iter().zip(checks) {

@@ -1,6 +1,7 @@
 //! Judgement of one engine at some settings, by its runs: the estimate of their error, and the verdict channel by
 //! channel.
 
+use crate::sentences;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
@@ -20,7 +21,7 @@ use linkage::engine::{Engine, Settings};
 use linkage::error::{Advice, Result};
 use linkage::math::statistics::half_range;
 use linkage::math::{KeepNan, largest_size};
-use linkage::trajectory::{Channel, ChannelKind, Stage, Subject, Trajectory, Unit};
+use linkage::trajectory::{Channel, ChannelKind, ChannelSubject, Stage, Trajectory, Unit};
 
 /// Steps at the beginning of a free motion whose second differences come from later ones.
 const BEGINNING: f64 = 5.0;
@@ -51,7 +52,7 @@ impl Asks {
     fn has(self, kind: &ChannelKind) -> bool {
         match self {
             Asks::All => true,
-            Asks::OwnForces => kind.stage >= Stage::Reactions && kind.subject != Subject::Frame,
+            Asks::OwnForces => kind.stage >= Stage::Reactions && kind.subject != ChannelSubject::Frame,
         }
     }
 }
@@ -143,7 +144,7 @@ impl<'a> Judge<'a> {
         let [_, run, _] = runs.resolutions;
         let mut proof = EngineProof { channels, checks, kept, ..EngineProof::bare(EngineInfo::of(engine), verdict) };
         if !engine.controls_error() && self.outruns(engine.settings().resolution) {
-            let why = "the motion changes within a fraction of a step, so that no runs at such steps show their error";
+            let why = sentences::THE_MOTION_CHANGES_WITHIN_A_FRACTION;
             proof.doubt(why, &Advice::SmallerStep { to: None });
         }
         Ok(Judged { proof, run, too_coarse })
@@ -270,7 +271,7 @@ impl<'a> Judge<'a> {
         let parts = Parts { reference: self.known.error(kind.stage, index), ..convergence.parts(noise) };
         let basis = convergence.tolerance(resolution, parts, checks::noise_origin(engine)).basis;
         let verdict = match reference.times().is_empty() {
-            true => Verdict::open("a drive or a loaded link reverses at every instant"),
+            true => Verdict::open(sentences::A_DRIVE_OR_A_LOADED_LINK),
             false => Verdict::of_engine(&residual, &convergence, parts, self.problem.engine_rel),
         };
         let verdict = verdict.from_settings(resolution, engine.controls_error(), sweeps);

@@ -1,10 +1,5 @@
-//! How well the analytic sides know their own numbers.
-//!
-//! Rounding grows with the condition of the pose: from positions to velocities once, to accelerations and forces once
-//! more each. A motion under forces has the error of its integration besides, which both sides share: a third, tighter
-//! run shows it.
-//!
-//! No bound on anything else is less than this.
+//! Uncertainty of the analytic sides, which is a part of every bound: rounding by the condition of the pose, and the
+//! error of integration from a third, tighter run. See docs/numerics/bounds.md.
 
 use super::dependence::Dependence;
 use super::each_side::{EachSide, Reference};

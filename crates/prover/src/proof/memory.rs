@@ -2,7 +2,9 @@
 //!
 //! A run holds whole trajectories: 8 bytes for every value. Which runs an engine needs is not known beforehand; the
 //! estimate takes what most searches need. Measured peaks lie between half of it and twice.
+//! See docs/numerics/settings.md.
 
+use crate::sentences;
 use linkage::case::Case;
 use linkage::engine::Rows;
 use linkage::error::{Advice, Error, ErrorKind, Result};
@@ -58,8 +60,8 @@ pub fn of_oracles(oracles: &[Oracle]) -> f64 {
 /// # Errors
 /// [`ErrorKind::Unsupported`] with the ways out.
 pub fn check_input(what: &str, needed: f64, most: Option<f64>) -> Result<()> {
-    let fewer = Advice::Text("give fewer rows, or fewer columns".into());
-    allowed(needed, most, || format!("{what} needs about {} of memory", gigabytes(needed)), fewer)
+    let fewer = Advice::Text(sentences::GIVE_FEWER_ROWS_OR_FEWER.into());
+    allowed(needed, most, || sentences::needs_about_of_memory(&what, &gigabytes(needed)), fewer)
 }
 
 /// Checks that `needed` (bytes) is allowed, with what an error begins with and a way to need less.
@@ -68,7 +70,7 @@ fn allowed(needed: f64, most: Option<f64>, what: impl FnOnce() -> String, fewer:
     if needed <= most {
         return Ok(());
     }
-    let message = format!("{}; {} are allowed", what(), gigabytes(most));
+    let message = sentences::are_allowed(&what(), &gigabytes(most));
     Err(Error::new(ErrorKind::Unsupported, message).help(fewer).or_help(Advice::MoreMemory { to: needed }))
 }
 
@@ -96,7 +98,7 @@ pub fn check(case: &Case, needed: f64, most: Option<f64>) -> Result<()> {
 #[must_use]
 pub fn told(case: &Case, needed: f64) -> String {
     let (instants, channels) = (case.grid.len(), case.channels().len());
-    format!("{instants} instants of {channels} channels need about {} of memory", gigabytes(needed))
+    sentences::instants_of_channels_need_about(&instants, &channels, &gigabytes(needed))
 }
 
 fn gigabytes(bytes: f64) -> String {

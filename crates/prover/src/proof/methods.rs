@@ -2,6 +2,7 @@
 
 use super::checks::rounding;
 use crate::compare::{Check, Verdict};
+use crate::sentences;
 use analytic::witness::triad::class_change::ClassChange;
 use analytic::witness::triad::{Triad, assur_point, cramer, linear_system};
 use linkage::case::Case;
@@ -57,7 +58,7 @@ impl Worst {
         let differences = self.differences.into_iter().zip(scales);
         let shares = differences.map(|((difference, crank), scale)| (share(difference, scale), crank));
         let (value, crank) = shares.max_by(|a, b| a.0.abs().total_cmp(&b.0.abs())).unwrap_or_default();
-        let tolerance = rounding(BOUND, "two methods without a common equation, each good to rounding");
+        let tolerance = rounding(BOUND, sentences::TWO_METHODS_WITHOUT_A_COMMON);
         let check = Check::new(family, value, tolerance, "").of(detail);
         let mut check = check.located(|| format!("at {:.3}", Input::Angle.at(crank)));
         if let Some(error) = self.failure {
@@ -151,14 +152,14 @@ impl Watch {
         let mut checks = Vec::new();
         let mut add = |family: &str, worst: Worst| checks.push(worst.check(family, detail, self.scales));
         if deepest >= Stage::Velocities {
-            add("class III by Cramer's rule", self.cramer);
+            add(sentences::CLASS_III_BY_CRAMER_RULE, self.cramer);
         }
         if let Some((_, worst)) = self.change {
-            add("class III by class change", worst);
+            add(sentences::CLASS_III_BY_CLASS_CHANGE, worst);
         }
         if deepest >= Stage::Reactions {
-            add("class III reactions by the singular Assur point", self.assur_point);
-            add("class III reactions by the group's linear system", self.linear);
+            add(sentences::CLASS_III_REACTIONS_BY_THE_SINGULAR, self.assur_point);
+            add(sentences::CLASS_III_REACTIONS_BY_THE_GROUP, self.linear);
         }
         checks
     }

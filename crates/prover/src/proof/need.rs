@@ -1,13 +1,12 @@
-//! How far an engine's judgement is from being conclusive, which part of its bounds is to blame, and how a search for
-//! its settings gets on: whether it becomes conclusive with the work that is allowed, and what to do where a smaller step
-//! brings it little.
+//! How far an engine's channels are from being conclusive, which part of its bounds dominates, and whether the remaining
+//! work suffices. See docs/numerics/settings.md.
 
 use linkage::math::KeepNan;
 use linkage::math::statistics::share;
 
 use super::judge::Judged;
 use crate::compare::Verdict;
-use crate::tolerance::Part;
+use crate::tolerance::BoundPart;
 
 /// Share of instants that may be left out because they are too close to a reversal for the step.
 pub(super) const MOST_LEFT_OUT: f64 = 0.03;
@@ -62,7 +61,7 @@ const SHARED: f64 = 0.8;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Blame {
     /// Its largest part.
-    pub(super) part: Part,
+    pub(super) part: BoundPart,
     /// Whether that is the sweeps, but the step leaves a good part too: half the step makes both smaller.
     pub(super) is_shared: bool,
 }
@@ -78,7 +77,7 @@ pub(super) fn need(judged: &Judged, wanted: f64) -> (Need, Blame) {
     });
     // A step that leaves out many instants proves nothing about them.
     let (least, of) = if judged.too_coarse > MOST_LEFT_OUT { (LEFT_OUT, Of::Instants) } else { (0.0, Of::Bound) };
-    let none = Blame { part: Part::Discretisation, is_shared: false };
+    let none = Blame { part: BoundPart::Discretisation, is_shared: false };
     let mut worst = (Need { is_vague: false, share: least, of }, none);
     for (parts, scale, convergence, verdict) in channels.chain(checks) {
         let share = share(parts.sum(), wanted * scale);
@@ -90,9 +89,11 @@ pub(super) fn need(judged: &Judged, wanted: f64) -> (Need, Blame) {
         if own > worst.0 {
             // Where no order is seen, the sweeps are to blame as soon as they leave a part that counts.
             let sweeps = is_vague && 10.0 * parts.iteration > parts.discretisation;
-            let part = if sweeps { Part::Iteration } else { parts.largest() };
-            worst =
-                (own, Blame { part, is_shared: part == Part::Iteration && parts.iteration <= SHARED * parts.sum() });
+            let part = if sweeps { BoundPart::Iteration } else { parts.largest() };
+            worst = (
+                own,
+                Blame { part, is_shared: part == BoundPart::Iteration && parts.iteration <= SHARED * parts.sum() },
+            );
         }
     }
     worst
@@ -161,7 +162,7 @@ pub(super) struct Stall {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Next {
     /// It changes what this part depends on.
-    Blames(Part),
+    Blames(BoundPart),
     /// It goes back to as many sweeps, and takes a smaller step.
     Returns(usize),
 }
@@ -170,12 +171,12 @@ impl Stall {
     /// What to do after a round with `sweeps`, by its need and the part that is to blame. Too few sweeps may hide the
     /// order of the step, and what they leave does not always show: where a smaller step brings little, more sweeps are
     /// tried, if they are `free`, and are given up where they bring little too.
-    pub(super) fn look_closer(&mut self, need: Need, blame: Part, sweeps: usize, free: bool) -> Next {
+    pub(super) fn look_closer(&mut self, need: Need, blame: BoundPart, sweeps: usize, free: bool) -> Next {
         self.vague = if need.is_vague { self.vague + 1 } else { 0 };
         let before = self.before.replace(need);
         let tried = self.tried.take();
         self.wait = self.wait.saturating_sub(1);
-        if blame != Part::Discretisation || need.is_of_instants() {
+        if blame != BoundPart::Discretisation || need.is_of_instants() {
             return Next::Blames(blame);
         }
         if let Some((fewer, before)) = tried {
@@ -187,14 +188,14 @@ impl Stall {
         }
         self.wider = if before.is_some_and(|before| before.is_less(0.5, need)) { self.wider + 1 } else { 0 };
         if self.wider >= MOST_WIDER {
-            return Next::Blames(Part::Rounding);
+            return Next::Blames(BoundPart::Rounding);
         }
         let is_stalled = self.vague >= MOST_VAGUE || before.is_some_and(|before| !need.is_less(BRINGS, before));
         if !is_stalled || self.wait > 0 || !free || need.is_within(1.0) {
             return Next::Blames(blame);
         }
         self.tried = Some((sweeps, need));
-        Next::Blames(Part::Iteration)
+        Next::Blames(BoundPart::Iteration)
     }
 }
 
@@ -244,13 +245,14 @@ mod tests {
     /// The rounds of a search: need, blame and sweeps, and what it does next.
     fn follow(rounds: &[(f64, usize)]) -> Vec<Next> {
         let mut stall = Stall::default();
-        let next = |&(share, sweeps): &(f64, usize)| stall.look_closer(need(share), Part::Discretisation, sweeps, true);
+        let next =
+            |&(share, sweeps): &(f64, usize)| stall.look_closer(need(share), BoundPart::Discretisation, sweeps, true);
         rounds.iter().map(next).collect()
     }
 
     #[test]
     fn a_step_that_brings_little_asks_for_sweeps_and_they_stay_if_they_help() {
-        let [step, sweeps] = [Part::Discretisation, Part::Iteration].map(Next::Blames);
+        let [step, sweeps] = [BoundPart::Discretisation, BoundPart::Iteration].map(Next::Blames);
         assert_eq!(
             follow(&[(100.0, 16), (50.0, 16), (45.0, 16), (10.0, 64), (5.0, 64)]),
             [step, step, sweeps, step, step]
@@ -261,9 +263,9 @@ mod tests {
 
     #[test]
     fn bounds_that_grow_with_finer_steps_are_rounding() {
-        let [step, rounding] = [Part::Discretisation, Part::Rounding].map(Next::Blames);
+        let [step, rounding] = [BoundPart::Discretisation, BoundPart::Rounding].map(Next::Blames);
         let mut stall = Stall::default();
-        let mut of = |share: f64| stall.look_closer(need(share), Part::Discretisation, 16, false);
+        let mut of = |share: f64| stall.look_closer(need(share), BoundPart::Discretisation, 16, false);
         assert_eq!([of(10.0), of(3.0), of(7.0), of(30.0)], [step, step, step, rounding]);
     }
 }

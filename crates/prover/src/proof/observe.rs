@@ -7,7 +7,7 @@ use linkage::drive::Load;
 use linkage::error::Error;
 use linkage::math::statistics::share;
 use linkage::math::{KeepNan, Motion, Vec2, largest_size};
-use linkage::mechanism::{LinkId, LinkPose, Pose, Side};
+use linkage::mechanism::{JointSide, LinkId, LinkPose, Pose};
 use linkage::solver::{Sampler, Solver, State};
 use linkage::trajectory::{Stage, Trajectory};
 
@@ -194,7 +194,7 @@ pub(super) fn observe(
 /// The motion whose sense a load depends on (rad/s as the first component, or m/s); zero where it stands still.
 fn sensed(case: &Case, state: &State, load: &Load) -> Option<Vec2> {
     let of_link = |link: LinkId| Vec2::new(case.spin(&state.motions, link), 0.0);
-    let of_point = |at: Side| match case.moves(&state.motions, at) {
+    let of_point = |at: JointSide| match case.moves(&state.motions, at) {
         true => state.motions[at.link].point_velocity(at.local),
         false => Vec2::zeros(),
     };

@@ -3,10 +3,11 @@
 use super::each_side::Reference;
 use super::settle;
 use crate::engines::{self, EngineName};
+use crate::sentences;
 use linkage::case::Case;
 use linkage::engine::{Engine, Route, Settings};
 use linkage::error::{Error, ErrorKind, Result};
-use scenario::{EngineSettings, Scenario, Setting};
+use scenario::{EngineSetting, EngineSettings, Scenario};
 
 /// A method for each setting, which gives it.
 macro_rules! setters {
@@ -14,7 +15,7 @@ macro_rules! setters {
         $(#[$doc])*
         #[must_use]
         pub fn $name(mut self, value: $kind) -> Self {
-            self.settings.$name = Setting::of(value);
+            self.settings.$name = EngineSetting::of(value);
             self
         }
     )*};
@@ -66,7 +67,7 @@ impl Chosen {
 
     /// The same without the forces that the engine itself exerts.
     pub(crate) fn by_motion_alone(mut self) -> Self {
-        self.given.route = Setting::of(self.engine.settings().route);
+        self.given.route = EngineSetting::of(self.engine.settings().route);
         self
     }
 }
@@ -77,7 +78,7 @@ impl Options {
     pub fn engine(mut self, engine: EngineName) -> Self {
         let mut engines = self.settings.engines.value().cloned().unwrap_or_default();
         engines.push(engine);
-        self.settings.engines = Setting::of(engines);
+        self.settings.engines = EngineSetting::of(engines);
         self
     }
 
@@ -91,7 +92,7 @@ impl Options {
     #[must_use]
     pub fn every_engine(mut self) -> Self {
         let built = EngineName::ALL.into_iter().filter(|engine| engines::is_built(*engine));
-        self.settings.engines = Setting::of(built.collect());
+        self.settings.engines = EngineSetting::of(built.collect());
         self
     }
 
@@ -179,10 +180,10 @@ fn set(engine: Box<dyn Engine>, given: &EngineSettings, several: bool) -> Result
         true => given.accuracy.get().unwrap_or(defaults.resolution),
         false => defaults.resolution,
     };
-    let count = |own: &Setting<usize>, default: usize, what: &str| match own.get() {
+    let count = |own: &EngineSetting<usize>, default: usize, what: &str| match own.get() {
         Some(0) => {
-            let error = Error::new(ErrorKind::Input, format!("found 0 {what}, but an engine needs at least one"));
-            Err(own.blamed(error.help("give a whole number greater than zero")))
+            let error = Error::new(ErrorKind::Input, sentences::found_but_an_engine_needs(&what));
+            Err(own.blamed(error.help(sentences::GIVE_A_WHOLE_NUMBER_GREATER)))
         }
         // An engine that does not iterate does not use sweeps.
         Some(_) if default == 0 => Ok(0),
@@ -193,8 +194,8 @@ fn set(engine: Box<dyn Engine>, given: &EngineSettings, several: bool) -> Result
         Some(asked) if engine.routes().contains(&asked) => asked,
         Some(asked) if !several => {
             let offered: Vec<&str> = engine.routes().iter().map(|route| route.name()).collect();
-            let message = format!("there is no route of engine {} called \"{}\"", engine.name(), asked.name());
-            let error = Error::new(ErrorKind::Input, message).help(format!("choose one of: {}", offered.join(", ")));
+            let message = sentences::there_is_no_route_of_engine(&engine.name(), &asked.name());
+            let error = Error::new(ErrorKind::Input, message).help(sentences::choose_one_of(&offered.join(", ")));
             return Err(given.route.blamed(error));
         }
         Some(_) | None => defaults.route,

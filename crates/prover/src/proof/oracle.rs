@@ -1,11 +1,13 @@
 //! Numbers of other sources against both analytic sides.
+//! See docs/numerics/bounds.md.
 
 use super::each_side::{EachSide, Reference};
 use super::figures::Measured;
 use super::problem::Problem;
 use super::shifted::{Along, RoundedInstants, TELLING};
 use crate::compare::{Check, Verdict, magnitudes, scales};
-use crate::tolerance::{Basis, Origin, Tolerance};
+use crate::sentences;
+use crate::tolerance::{BoundBasis, BoundOrigin, Tolerance};
 use linkage::case::{Case, Wanted};
 use linkage::error::{Advice, Error, ErrorKind, Result};
 use linkage::math::KeepNan;
@@ -199,7 +201,7 @@ fn of_one(oracle: &Oracle, series: &OracleSeries, answers: &Answers, side: Refer
         let told = if matches!(point.at, When::Crank(_)) { &nominal } else { &timed };
         told.as_ref().expect("solved at every instant").of(series, point)
     };
-    let against = |family: &str, point: &OraclePoint, origin: Origin| -> Check {
+    let against = |family: &str, point: &OraclePoint, origin: BoundOrigin| -> Check {
         let Found { deviation, bound, instant, .. } = found(point);
         let tolerance = tolerance(oracle, origin, bound, instant, point.digits);
         let check = Check::new(family, deviation, tolerance, series.channel.kind.unit.symbol());
@@ -208,7 +210,7 @@ fn of_one(oracle: &Oracle, series: &OracleSeries, answers: &Answers, side: Refer
     let [family, wrong] = [false, true].map(|wrong| family(oracle, wrong, side.name()));
     let corrected = |cell: &ExpectedCell| -> Check {
         let printed = against(&wrong, &cell.point, origin(oracle));
-        against(&wrong, &cell.right, Origin::Recomputed).expected(&cell.finding, &printed)
+        against(&wrong, &cell.right, BoundOrigin::Recomputed).expected(&cell.finding, &printed)
     };
     // Each cell has its own bound: the worst cell is the one that uses the largest share of it. NaN is the worst.
     let (mut worst, mut open): (Option<(f64, &OraclePoint)>, Option<&OraclePoint>) = (None, None);
@@ -235,12 +237,8 @@ fn of_one(oracle: &Oracle, series: &OracleSeries, answers: &Answers, side: Refer
 
 /// The verdict on a number that may be wrong by as much as its instant is rounded.
 fn unproven(point: &OraclePoint) -> Verdict {
-    let reason = format!(
-        "at {} the rounding of the instant leaves more open than a hundredth of the channel's scale, and the number is \
-         off by more",
-        point.at
-    );
-    let advice = vec![Advice::Text("print the instants with more digits, zeros at their ends included".into())];
+    let reason = sentences::at_the_rounding_of_the_instant(&point.at);
+    let advice = vec![Advice::Text(sentences::PRINT_THE_INSTANTS_WITH_MORE.into())];
     Verdict::Inconclusive { reason, advice }
 }
 
@@ -263,16 +261,16 @@ fn worst_of(checks: impl Iterator<Item = Check>) -> Option<Check> {
 
 /// Bound of a number: half a unit of its last digit, plus the known error of the number, but never less than what the
 /// analytic sides know; and the part of it that the rounding of its instant leaves open.
-fn tolerance(oracle: &Oracle, origin: Origin, bound: f64, instant: f64, digits: i32) -> Tolerance {
-    Tolerance { bound, basis: Basis::Digits { origin, digits, source: oracle.source.clone(), instant } }
+fn tolerance(oracle: &Oracle, origin: BoundOrigin, bound: f64, instant: f64, digits: i32) -> Tolerance {
+    Tolerance { bound, basis: BoundBasis::Digits { origin, digits, source: oracle.source.clone(), instant } }
 }
 
 /// How the numbers of an oracle are known.
-fn origin(oracle: &Oracle) -> Origin {
+fn origin(oracle: &Oracle) -> BoundOrigin {
     match oracle.basis {
-        OracleBasis::Published => Origin::Published,
-        OracleBasis::Recomputed => Origin::Recomputed,
-        OracleBasis::Derived => Origin::Derived,
+        OracleBasis::Published => BoundOrigin::Published,
+        OracleBasis::Recomputed => BoundOrigin::Recomputed,
+        OracleBasis::Derived => BoundOrigin::Derived,
     }
 }
 
@@ -285,8 +283,8 @@ fn channels_of(series: &OracleSeries) -> impl Iterator<Item = Channel> {
 fn values(oracle: &Oracle, series: &OracleSeries, solved: &Trajectory) -> Result<Vec<f64>> {
     let named = |channel: Channel| {
         solved.column(&channel).ok_or_else(|| {
-            Error::new(ErrorKind::Input, format!("oracle {}: there is no channel {channel}", oracle.name))
-                .help("name a link, point or joint of this scenario")
+            Error::new(ErrorKind::Input, sentences::oracle_there_is_no_channel(&oracle.name, &channel))
+                .help(sentences::NAME_A_LINK_POINT_OR_JOINT)
         })
     };
     let components = channels_of(series).map(named).collect::<Result<Vec<&[f64]>>>()?;
@@ -308,15 +306,15 @@ fn of_figures(oracles: &[Oracle], case: &Case, solvers: EachSide<&dyn Solver>) -
             let [value, other] = [values[side][index], values[side.other()][index]];
             let known = ULPS * f64::EPSILON * value.abs() + 2.0 * (value - other).abs();
             let (family, unit) = (family(oracle, figure.wrong.is_some(), side.name()), figure.figure.unit());
-            let against = |number: &FigureValue, origin: Origin| {
+            let against = |number: &FigureValue, origin: BoundOrigin| {
                 let tolerance = tolerance(oracle, origin, number.bound.larger(known), 0.0, number.digits);
                 Check::new(family.as_str(), (value - number.value).abs(), tolerance, unit)
                     .of(&figure.name)
-                    .located(|| format!("given {} {unit}, found {value:.10}", number.value))
+                    .located(|| sentences::given_found(&number.value, &unit, &value))
             };
             let printed = against(&figure.printed, origin(oracle));
             checks.push(match &figure.wrong {
-                Some((finding, right)) => against(right, Origin::Recomputed).expected(finding, &printed),
+                Some((finding, right)) => against(right, BoundOrigin::Recomputed).expected(finding, &printed),
                 None => printed,
             });
         }
@@ -326,7 +324,7 @@ fn of_figures(oracles: &[Oracle], case: &Case, solvers: EachSide<&dyn Solver>) -
 
 /// Heading of the checks of an oracle.
 fn family(oracle: &Oracle, wrong: bool, side: &str) -> String {
-    let known = if wrong { ", known to be wrong" } else { "" };
+    let known = if wrong { sentences::KNOWN_TO_BE_WRONG } else { "" };
     format!("{} {}{known} ({side})", origin(oracle).word(), oracle.name)
 }
 
@@ -337,7 +335,7 @@ mod tests {
     #[test]
     fn what_is_not_as_expected_comes_before_what_uses_most() {
         let check = |value: f64, verdict: Verdict| {
-            let tolerance = Tolerance { bound: 1.0, basis: Basis::Wanted("test") };
+            let tolerance = Tolerance { bound: 1.0, basis: BoundBasis::Wanted("test") };
             Check { verdict, ..Check::new("f", value, tolerance, "") }
         };
         let expected = |value: f64| check(value, Verdict::Expected { finding: "why".into(), off: 1.0 });

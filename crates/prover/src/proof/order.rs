@@ -1,9 +1,10 @@
-//! An engine that keeps converging at a lower order than its method has.
+//! An engine that converges with a lower order than that of its method.
 //!
-//! Half a step is lost somewhere, or a weight is wrong: what is read is not what the method gives. A bound from the
-//! engine's own runs follows such an error down to any step, so that it never disagrees by its size. Five runs tell:
-//! they show the order three times, and it is always the same whole number.
+//! A reading is half a step late, or a weight is wrong. A bound from the engine's runs follows such an error down to any
+//! step, so that the size of the error never shows it. Five runs show the order three times, always the same whole
+//! number. See docs/numerics/bounds.md.
 
+use crate::sentences;
 use linkage::engine::Settings;
 use linkage::error::ErrorKind;
 use linkage::math::KeepNan;
@@ -79,12 +80,11 @@ pub(super) fn look(judge: &Judge, bank: &mut Bank, proof: &mut EngineProof) -> R
             let (convergences, parts) = (rungs.map(|own| own.convergence), rungs[2].parts);
             if let Some(order) = steady(convergences, parts) {
                 let steps = [8.0, 0.5].map(|times| times * finest);
-                let place = format!(
-                    "the runs converge with order {order:.2}, at all of five steps from {} to {} s, where the \
-                     method has {}: what is read or computed is not what the method gives",
-                    error(steps[0]),
-                    error(steps[1]),
-                    convergences[2].formal
+                let place = sentences::the_runs_converge_with_order(
+                    &order,
+                    &error(steps[0]),
+                    &error(steps[1]),
+                    &convergences[2].formal,
                 );
                 proof.channels[index].verdict = Verdict::Disagree { place };
                 is_found = true;

@@ -1,9 +1,7 @@
-//! Forces as an engine itself exerts them, judged besides those that follow from its motion by Newton and Euler.
-//!
-//! A search of its own, by the engine's own routes. It ends as soon as every force is conclusive; coarse runs,
-//! extrapolated, usually are. With a given step no run is finer than those that estimate the error of that step:
-//! coarser ones are extrapolated.
+//! Forces that an engine exerts, judged besides those that follow from its motion by Newton-Euler equations: a second
+//! search, by the engine's routes. See docs/numerics/forces.md.
 
+use crate::sentences;
 use std::sync::Arc;
 
 use super::engine_proof::{EngineInfo, EngineProof};
@@ -19,7 +17,7 @@ use linkage::case::Case;
 use linkage::engine::{Engine, Route, Settings};
 use linkage::error::{Advice, Error, ErrorKind};
 use linkage::trajectory::Stage;
-use scenario::Setting;
+use scenario::EngineSetting;
 
 /// Sweeps to begin with at the most, if the motion has needed as many.
 const ENOUGH: usize = 32;
@@ -44,12 +42,7 @@ pub(super) fn judged(
     let effort = motion.search.as_ref().map_or(0.0, |search| search.effort);
     // Impulses are of a lower order than the motion, and need as many sweeps with the true masses.
     if effort > SHARE * chosen.budget {
-        let told = format!(
-            "the motion has taken the work of {} steps, and the forces that the engine exerts need no less; {} are \
-             allowed for them",
-            error(effort),
-            error(SHARE * chosen.budget)
-        );
+        let told = sentences::the_motion_has_taken_the_work(&error(effort), &error(SHARE * chosen.budget));
         let failure = Error::new(ErrorKind::Unsupported, told);
         return Some(failed(chosen.engine.as_ref(), failure, Some(effort)));
     }
@@ -101,7 +94,7 @@ fn by_route(
     let mut asked = chosen.given.clone();
     let extrapolated = match asked.extrapolated.is_free() {
         true => {
-            asked.step = Setting::Free;
+            asked.step = EngineSetting::Free;
             0
         }
         false => given.extrapolated,

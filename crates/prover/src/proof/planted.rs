@@ -1,11 +1,12 @@
 //! Faults planted in solvers. For every check there is the smallest fault that it must find, and one below its bound
 //! that it must pass.
 
+use crate::sentences;
 use std::path::Path;
 
 use super::each_side::{EachSide, Reference};
 use super::engine_proof::ChannelProof;
-use super::entrants::{Sides, TRUE_SIDES};
+use super::entrants::{ObservedSides, TRUE_SIDES};
 use super::figures::Measured;
 use super::judge::Judge;
 use super::known::Known;
@@ -28,7 +29,7 @@ use linkage::mechanism::{GROUND, JointId, LinkId};
 use linkage::solver::{Solver, State};
 use linkage::trajectory::Channel;
 use rapier_twin::Rapier;
-use scenario::{EngineSettings, Figure, Scenario};
+use scenario::{EngineSettings, MechanismFigure, Scenario};
 
 /// Step of the engines (s).
 const STEP: f64 = 1e-3;
@@ -108,27 +109,27 @@ fn every_check_of_the_two_sides_finds_three_times_its_bound_and_passes_a_fifth()
     let force: Fault = |state, size| state.forces[JointId(0)].x += size;
     let torque: Fault = |state, size| state.torques[0] += size;
     let planted: [(&str, Fault, f64); 8] = [
-        ("closure of all joints (assur)", moved, 1e-13 * case.mechanism.size()),
+        (sentences::CLOSURE_OF_ALL_JOINTS_ASSUR, moved, 1e-13 * case.mechanism.size()),
         (
-            "assur against newton, positions",
+            sentences::ASSUR_AGAINST_NEWTON_POSITIONS,
             |state, size| state.angles[LinkId(2)] += size,
             1e-12 * largest("link.coupler.angle_rad"),
         ),
         (
-            "assur against newton, velocities",
+            sentences::ASSUR_AGAINST_NEWTON_VELOCITIES,
             |state, size| state.motions[LinkId(2)].omega += size,
             1e-11 * largest("link.coupler.omega_rad_s"),
         ),
         (
-            "assur against newton, accelerations",
+            sentences::ASSUR_AGAINST_NEWTON_ACCELERATIONS,
             |state, size| state.motions[LinkId(2)].alpha += size,
             1e-11 * largest("link.coupler.alpha_rad_s2"),
         ),
-        ("assur against newton, reactions", force, 1e-10 * largest("joint.O.fx_N")),
-        ("assur against newton, balancing_moment", torque, 1e-10 * largest("drive.torque_N_m")),
-        ("balancing moment from equilibrium and from powers (assur)", torque, 1e-11 * truth.moment),
+        (sentences::ASSUR_AGAINST_NEWTON_REACTIONS, force, 1e-10 * largest("joint.O.fx_N")),
+        (sentences::ASSUR_AGAINST_NEWTON_BALANCING_MOMENT, torque, 1e-10 * largest("drive.torque_N_m")),
+        (sentences::BALANCING_MOMENT_FROM_EQUILIBRIUM_AND_FROM_POWERS_ASSUR, torque, 1e-11 * truth.moment),
         // An error in the force of the frame's joint is the same error in the shaking force.
-        ("shaking force and moment from reactions and from momentum (assur)", force, 1e-11 * largest("joint.O.fx_N")),
+        (sentences::SHAKING_FORCE_AND_MOMENT_FROM_REACTIONS_AND_FROM_MOMENTUM, force, 1e-11 * largest("joint.O.fx_N")),
     ];
     for (name, fault, bound) in planted {
         for (share, word) in [(3.0, "disagree"), (0.2, "agree")] {
@@ -181,11 +182,11 @@ fn what_is_not_a_number_at_one_instant_disagrees() {
     let known = knowing(&case);
     type Spoil = fn(&mut Observed);
     let spoiled: [(&str, Spoil); 5] = [
-        ("closure of all joints (assur)", |side| side.opening[7] = f64::NAN),
-        ("closure of all joints (assur)", |side| side.reach = f64::NAN),
-        ("balancing moment from equilibrium and from powers (assur)", |side| side.power[7] = f64::NAN),
-        ("balancing moment from equilibrium and from powers (assur)", |side| side.moment = f64::NAN),
-        ("shaking force and moment from reactions and from momentum (assur)", |side| side.unbalance = Some(f64::NAN)),
+        (sentences::CLOSURE_OF_ALL_JOINTS_ASSUR, |side| side.opening[7] = f64::NAN),
+        (sentences::CLOSURE_OF_ALL_JOINTS_ASSUR, |side| side.reach = f64::NAN),
+        (sentences::BALANCING_MOMENT_FROM_EQUILIBRIUM_AND_FROM_POWERS_ASSUR, |side| side.power[7] = f64::NAN),
+        (sentences::BALANCING_MOMENT_FROM_EQUILIBRIUM_AND_FROM_POWERS_ASSUR, |side| side.moment = f64::NAN),
+        (sentences::SHAKING_FORCE_AND_MOMENT_FROM_REACTIONS_AND_FROM_MOMENTUM, |side| side.unbalance = Some(f64::NAN)),
     ];
     for (name, spoil) in spoiled {
         let mut side = truth.clone();
@@ -204,10 +205,10 @@ fn every_class_three_method_finds_a_wrong_group_and_stands_in_the_proof() {
     let scenario = parsed("class3_group", &text("class3_group"));
     let case = &scenario.case;
     let all = [
-        "class III by Cramer's rule",
-        "class III by class change",
-        "class III reactions by the singular Assur point",
-        "class III reactions by the group's linear system",
+        sentences::CLASS_III_BY_CRAMER_RULE,
+        sentences::CLASS_III_BY_CLASS_CHANGE,
+        sentences::CLASS_III_REACTIONS_BY_THE_SINGULAR,
+        sentences::CLASS_III_REACTIONS_BY_THE_GROUP,
     ];
     let right = methods::checks(case, &AssurSolver).unwrap();
     assert_eq!(right.len(), all.len());
@@ -284,7 +285,7 @@ fn the_engine_s_own_checks_find_what_does_not_vanish_with_the_step() {
     let true_one = engine_proof(&scenario, nothing, 0.0);
     assert_eq!(true_one.verdict.word(), "agree");
     let [closure, powers] =
-        ["closure of all joints", "driving moment"].map(|name| named(&true_one.checks, name).clone());
+        [sentences::CLOSURE_OF_ALL_JOINTS_2, "driving moment"].map(|name| named(&true_one.checks, name).clone());
     // The engine's own runs bound the opening at a quarter more than its value.
     assert!(closure.bound <= 1.3 * closure.value && closure.bound < 2e-5, "{closure:?}");
     // An opening is rounded as the places are that it lies between.
@@ -297,7 +298,7 @@ fn the_engine_s_own_checks_find_what_does_not_vanish_with_the_step() {
     let size = scenario.case.mechanism.size();
     let moment = seen(&scenario.case, &AssurSolver).moment;
     let planted = [
-        ("closure of all joints", moved, 2.0 * closure.bound * size),
+        (sentences::CLOSURE_OF_ALL_JOINTS_2, moved, 2.0 * closure.bound * size),
         ("driving moment", torque, 2.0 * powers.bound * moment),
     ];
     for (name, fault, amount) in planted {
@@ -350,7 +351,7 @@ fn a_side_is_known_by_its_own_integration() {
     let scenario = parsed("crank_rocker_runup", &short);
     let problem = Problem::of(&scenario, &scenario.case);
     let known = |reference: Reference| {
-        let sides = Sides::of(problem, &scenario.case, TRUE_SIDES, reference, &mut Ledger::default()).unwrap();
+        let sides = ObservedSides::of(problem, &scenario.case, TRUE_SIDES, reference, &mut Ledger::default()).unwrap();
         Reference::ALL.map(|side| sides.on_course(&scenario.case, side, |course| Ok(course.crank(2).error)).unwrap())
     };
     let [by_first, by_second] = [known(Reference::Assur), known(Reference::Newton)];
@@ -372,7 +373,10 @@ fn what_the_sides_differ_by_is_told_in_times_of_what_is_allowed() {
     let beyond = checks::beyond(EachSide::new(&wrong, &other), &knowing(&case));
     let own = beyond.iter().find(|own| own.channel.to_string() == "joint.O.fx_N").unwrap();
     assert!((2.0..3.5).contains(&own.margin) && own.since.0 == case.grid.times[0], "{own:?}");
-    assert!(beyond.iter().all(|own| own.channel.kind.subject != linkage::trajectory::Subject::Point), "{beyond:?}");
+    assert!(
+        beyond.iter().all(|own| own.channel.kind.subject != linkage::trajectory::ChannelSubject::Point),
+        "{beyond:?}"
+    );
 }
 
 /// A resistance opposes either sense, and weights are lifted as far as they fall.
@@ -382,7 +386,8 @@ fn a_reversed_drive_has_the_reversed_steady_speed() {
         let text = text("crank_rocker").replace("speed_rpm = 130", rpm);
         let scenario = parsed("crank_rocker", &text[..text.find("[[oracle]]").unwrap()]);
         let mut measured = Measured::of(&scenario.case, &AssurSolver);
-        [Figure::SteadyCrankSpeed, Figure::SteadyMotorSpeed].map(|figure| measured.value(figure).unwrap())
+        [MechanismFigure::SteadyCrankSpeed, MechanismFigure::SteadyMotorSpeed]
+            .map(|figure| measured.value(figure).unwrap())
     };
     let [forwards, backwards] = [speeds("speed_rpm = 130"), speeds("speed_rpm = -130")];
     for (one, other) in forwards.into_iter().zip(backwards) {
@@ -423,12 +428,12 @@ fn an_oracle_finds_a_unit_of_its_last_digit() {
     let oracle_checks = |text: &str| by_oracles(&parsed(name, text), &|_, _| 0.0);
     assert!(oracle_checks(&text(name)).iter().all(|check| ["agree", "expected"].contains(&check.verdict.word())));
     let moved = [
-        ("value = 50, digits = 9", "value = 50.000000001, digits = 9", "link.rocker.angle_deg"),
+        (sentences::VALUE_DIGITS_8, sentences::VALUE_DIGITS_7, "link.rocker.angle_deg"),
         ("value = 0.164846", "value = 0.164847", "reduced_inertia_mean_kg_m2"),
         ("value = 17.7778", "value = 17.7779", "reduced_resistance_mean_N_m"),
-        ("value = 14.33204, digits = 5 },", "value = 14.33205, digits = 5 },", "steady_crank_speed_rad_s"),
-        ("value = 302.6266, digits = 4 },", "value = 302.6267, digits = 4 },", "steady_motor_speed_rad_s"),
-        ("value = 0.25, digits = 2", "value = 0.26, digits = 2", "distance_m of C B"),
+        (sentences::VALUE_DIGITS_6, sentences::VALUE_DIGITS_5, "steady_crank_speed_rad_s"),
+        (sentences::VALUE_DIGITS_4, sentences::VALUE_DIGITS_3, "steady_motor_speed_rad_s"),
+        (sentences::VALUE_DIGITS_2, sentences::VALUE_DIGITS, "distance_m of C B"),
         ("value = 0.025995627740", "value = 0.025995627741", "distance_m of O A"),
         ("value = 0.347071931892", "value = 0.347071931893", "distance_m of A B"),
     ];

@@ -1,4 +1,5 @@
 //! What is proven: a case, and what a scenario says of its solution.
+//! See docs/numerics/bounds.md.
 
 use crate::compare::Built;
 use linkage::case::Case;

@@ -1,5 +1,7 @@
 //! An engine's runs, from which its error is estimated, and the room that they need.
+//! See docs/numerics/settings.md.
 
+use crate::sentences;
 use std::sync::Arc;
 
 use super::observe::{Observed, Stopped, Watch, observe};
@@ -7,7 +9,7 @@ use crate::compare::{Ladder, OtherSweeps};
 use crate::numbers::significant;
 use analytic::range::{ASIDE, Extent, reachable};
 use linkage::case::Case;
-use linkage::engine::{Engine, Kept, Settings, plain_runs, size_of_step};
+use linkage::engine::{CachedEngine, Engine, Settings, plain_runs, size_of_step};
 use linkage::error::Advice;
 use linkage::math::KeepNan;
 use linkage::work::limited;
@@ -55,7 +57,7 @@ pub(super) const FEW: usize = 1_000_000;
 /// All runs of one engine on one case. Each is made and observed once, those of many instants as often as needed.
 pub(super) struct Bank<'a> {
     pub(super) case: &'a Case,
-    kept: Kept,
+    kept: CachedEngine,
     seen: Vec<(Settings, Arc<Observed>)>,
     watch: Watch,
     /// Number of plain runs made so far.
@@ -66,7 +68,7 @@ pub(super) struct Bank<'a> {
 
 impl<'a> Bank<'a> {
     pub(super) fn new(case: &'a Case, engine: &dyn Engine, watch: Watch) -> Self {
-        Bank { case, kept: Kept::new(engine), seen: Vec::new(), watch, count: 0, effort: 0.0 }
+        Bank { case, kept: CachedEngine::new(engine), seen: Vec::new(), watch, count: 0, effort: 0.0 }
     }
 
     /// The engine at `settings`. Its runs are those of the bank.
@@ -149,7 +151,7 @@ impl<'a> Bank<'a> {
         let mut auxiliary = |rung: Settings| {
             let what = match rung.sweeps == settings.sweeps {
                 true => format!("at {}{unit}", significant(rung.resolution, 5)),
-                false => format!("with {} sweeps", rung.sweeps),
+                false => sentences::with_sweeps(&rung.sweeps),
             };
             let failed = |stopped| in_ladder(stopped, &what, settings, controls_error);
             self.observed(rung).map_err(failed)
@@ -174,9 +176,7 @@ pub(super) fn rungs(settings: Settings, others: &[usize]) -> Vec<Settings> {
 
 /// The same failure, with a message that says which auxiliary run failed: the user did not ask for that run.
 fn in_ladder(stopped: Stopped, what: &str, asked: Settings, controls_error: bool) -> Stopped {
-    let told = |message: &str| {
-        format!("the run {what}, from which the error of the run asked for is estimated, failed: {message}")
-    };
+    let told = |message: &str| sentences::the_run_from_which_the_error(&what, &message);
     // Values to try start from the settings that the user asked for.
     let advised = |advice: Advice| advice.from_settings(asked.resolution, controls_error, asked.sweeps);
     Stopped { error: stopped.error.map_message(told).map_advice(advised), kept: None, spent: None }

@@ -1,5 +1,6 @@
 //! How strongly a free motion depends on the forces that cause it. This is the condition of the problem, whatever the
 //! solver.
+//! See docs/numerics/bounds.md.
 
 use crate::compare::largest_difference;
 use linkage::case::Case;

@@ -1,24 +1,20 @@
-//! An engine that finds its own settings: coarse first, refined by what is to blame, until every channel is conclusive.
-//!
-//! Each round has one run more, at half the finest step so far. Its runs are combined in all ways: the engine as it is,
-//! extrapolated once, twice, ..., each judged at the step that leaves the finest run to tell the error. The best of
-//! them counts. A channel that is not conclusive blames its step, its sweeps or its rounding.
-//!
-//! Everything is decided by the engine's own runs and by counted work, so that the same input gives the same settings.
+//! Search of an engine's settings: coarse runs first, refined by the dominant part of the bound, until every channel is
+//! conclusive. Only the engine's runs and counted work decide. See docs/numerics/settings.md.
 
 use crate::numbers::error;
+use crate::sentences;
 use linkage::engine::{Engine, Settings};
 use linkage::error::{Advice, Error, ErrorKind};
 use linkage::math::KeepNan;
 use linkage::math::statistics::half_range;
 
-use super::engine_proof::{End, Search};
+use super::engine_proof::{SearchEnd, SettingsSearch};
 use super::judge::{Judge, Judged};
 use super::need::{Blame, MOST_LEFT_OUT, Need, Next, Pace, Stall, need};
 use super::observe::Stopped;
 use super::order;
 use super::runs::{Bank, FEWER, other_sweeps, room, rungs};
-use crate::tolerance::Part;
+use crate::tolerance::BoundPart;
 use scenario::EngineSettings;
 
 /// Work allowed by default, in steps without sweeps.
@@ -42,7 +38,7 @@ const ROOM: f64 = 0.98;
 /// Rounds of a search that is not long.
 const QUICK: i32 = 3;
 /// What is to blame where runs with fewer sweeps fail.
-const SWEEPS: Blame = Blame { part: Part::Iteration, is_shared: false };
+const SWEEPS: Blame = Blame { part: BoundPart::Iteration, is_shared: false };
 /// Factors between numbers of sweeps: far from the end of a search, and near to it.
 const MORE_SWEEPS: [usize; 2] = [4, 2];
 /// Largest bound, over what is wanted, that is near.
@@ -62,11 +58,7 @@ pub(super) fn too_much(
     if first <= most || is_mistake {
         return Ok(());
     }
-    let message = format!(
-        "the first runs of the engine, with all their substeps, take the work of {} steps of a four-bar, {} are allowed",
-        error(first),
-        error(budget)
-    );
+    let message = sentences::the_first_runs_of_the_engine(&error(first), &error(budget));
     let error = Error::new(ErrorKind::Unsupported, message);
     Err(Stopped { error, kept: None, spent: Some(first) })
 }
@@ -175,14 +167,14 @@ impl<'a, 'b> Settling<'a, 'b> {
             let blame = match self.round(round > QUICK, &mut part) {
                 Ok(trial) if trial.need.is_vague && self.makes_room() => {
                     best = best.or(Some(trial));
-                    Part::Discretisation
+                    BoundPart::Discretisation
                 }
                 Ok(mut trial) => {
                     // No step and no sweeps help where the order is wrong.
                     if round > QUICK && order::look(self.judge, self.bank, &mut trial.judged.proof)? {
                         borne_out = trial.judged.proof.against();
                         best = Some(trial);
-                        break End::Decided;
+                        break SearchEnd::Decided;
                     }
                     let now = trial.judged.proof.against();
                     borne_out = now.iter().filter(|name| against.contains(name)).cloned().collect();
@@ -203,7 +195,7 @@ impl<'a, 'b> Settling<'a, 'b> {
                         Next::Blames(part) => part,
                         Next::Returns(fewer) => {
                             self.now.sweeps = fewer;
-                            Part::Discretisation
+                            BoundPart::Discretisation
                         }
                     };
                     if trial.need.is_of_instants() && self.given.step.is_free() {
@@ -219,10 +211,10 @@ impl<'a, 'b> Settling<'a, 'b> {
                     }
                     // A disagreement counts if the next refinement bears it out.
                     if decided && (sharp || thrift) && (!disagrees || !borne_out.is_empty()) {
-                        break End::Decided;
+                        break SearchEnd::Decided;
                     }
                     if is_slow {
-                        break End::Pace;
+                        break SearchEnd::Pace;
                     }
                     blame
                 }
@@ -230,7 +222,7 @@ impl<'a, 'b> Settling<'a, 'b> {
                     failure = Some(stopped);
                     // A run that fails may lack either; most lack a smaller step.
                     failed = if self.makes_room() { 0 } else { failed + 1 };
-                    if failed > 0 && failed % FAILURES == 0 { Part::Iteration } else { Part::Discretisation }
+                    if failed > 0 && failed % FAILURES == 0 { BoundPart::Iteration } else { BoundPart::Discretisation }
                 }
                 Err(stopped) => return Err(stopped),
             };
@@ -239,26 +231,28 @@ impl<'a, 'b> Settling<'a, 'b> {
             }
         };
         progress(1.0);
-        let search = Search { runs: self.bank.count, effort: self.bank.effort, budget: self.budget, end };
+        let search = SettingsSearch { runs: self.bank.count, effort: self.bank.effort, budget: self.budget, end };
         match (best, failure) {
             (Some(mut best), _) => {
                 // At a given step there is no finer run: its own estimate counts.
-                let is_over = matches!(end, End::Budget | End::Pace);
+                let is_over = matches!(end, SearchEnd::Budget | SearchEnd::Pace);
                 let is_cut = self.given.sweeps.is_free() && is_over;
                 if (!self.is_finest() || is_cut) && borne_out.is_empty() {
-                    best.judged.proof.doubt("no finer run bears it out", &Advice::SmallerStep { to: None });
+                    best.judged.proof.doubt(sentences::NO_FINER_RUN_BEARS_IT_OUT, &Advice::SmallerStep { to: None });
                 }
                 // Impulses are of first order, and sweeps leave more in them than in the motion: where the search is
                 // cut off before all are conclusive, none is disproven.
                 if self.conclusive && is_over {
                     best.judged
                         .proof
-                        .doubt("the others are not conclusive", &Advice::MoreWork { to: 10.0 * self.budget });
+                        .doubt(sentences::THE_OTHERS_ARE_NOT_CONCLUSIVE, &Advice::MoreWork { to: 10.0 * self.budget });
                 }
                 best.judged.proof.search = Some(search);
                 Ok(best.judged)
             }
-            (None, Some(stopped)) => Err(Stopped { spent: (end == End::Budget).then_some(self.budget), ..stopped }),
+            (None, Some(stopped)) => {
+                Err(Stopped { spent: (end == SearchEnd::Budget).then_some(self.budget), ..stopped })
+            }
             (None, None) => unreachable!("a round ends with a trial or a failure"),
         }
     }
@@ -295,29 +289,33 @@ impl<'a, 'b> Settling<'a, 'b> {
     }
 
     /// Changes the settings by what is to blame. Returns why it cannot.
-    fn refine(&mut self, blame: Part) -> Option<End> {
+    fn refine(&mut self, blame: BoundPart) -> Option<SearchEnd> {
         let mut next = self.now;
         let factor = MORE_SWEEPS[usize::from(self.conclusive || self.near)];
         match blame {
-            Part::Iteration if self.given.sweeps.is_free() && self.now.sweeps < self.most_sweeps => {
+            BoundPart::Iteration if self.given.sweeps.is_free() && self.now.sweeps < self.most_sweeps => {
                 next.sweeps *= factor
             }
             // At a given step only more sweeps are left, and too few of them spoil the order that the step shows.
-            Part::Discretisation
+            BoundPart::Discretisation
                 if self.is_finest() && self.given.sweeps.is_free() && self.now.sweeps < self.judge.asked.sweeps =>
             {
                 next.sweeps *= factor;
             }
             // Coarser runs, extrapolated more often, have less rounding.
-            Part::Rounding if self.given.step.is_free() && self.coarsest < COARSEST * self.judge.asked.resolution => {
+            BoundPart::Rounding
+                if self.given.step.is_free() && self.coarsest < COARSEST * self.judge.asked.resolution =>
+            {
                 self.coarsest = COARSEST * self.judge.asked.resolution;
                 return None;
             }
             // At a given step no coarser one is left to choose.
-            Part::Rounding | Part::Reference if self.given.step.is_free() => return Some(End::Rounding),
-            Part::Rounding | Part::Reference => return Some(End::Nothing),
-            Part::Discretisation | Part::Iteration if !self.is_finest() => next.resolution *= 0.5,
-            Part::Discretisation | Part::Iteration => return Some(End::Nothing),
+            BoundPart::Rounding | BoundPart::Reference if self.given.step.is_free() => {
+                return Some(SearchEnd::Rounding);
+            }
+            BoundPart::Rounding | BoundPart::Reference => return Some(SearchEnd::Nothing),
+            BoundPart::Discretisation | BoundPart::Iteration if !self.is_finest() => next.resolution *= 0.5,
+            BoundPart::Discretisation | BoundPart::Iteration => return Some(SearchEnd::Nothing),
         }
         if next.sweeps != self.now.sweeps {
             self.bank.keep_sweeps(&[next.sweeps, self.now.sweeps]);
@@ -326,7 +324,7 @@ impl<'a, 'b> Settling<'a, 'b> {
         let previous = std::mem::replace(&mut self.now, next);
         if self.bank.effort + self.bank.missing(&self.rungs()) > self.budget {
             self.now = previous;
-            return Some(End::Budget);
+            return Some(SearchEnd::Budget);
         }
         None
     }
@@ -399,7 +397,7 @@ impl<'a, 'b> Settling<'a, 'b> {
         // A third run tells how fast the sweeps converge, before they are multiplied; and whether they do, before
         // anything is disproven: sweeps that have hardly begun to converge differ little.
         let is_asked =
-            found.blame.part == Part::Iteration && !found.need.is_within(self.aim) && self.given.sweeps.is_free();
+            found.blame.part == BoundPart::Iteration && !found.need.is_within(self.aim) && self.given.sweeps.is_free();
         if others.len() < 2 || (!is_asked && found.judged.proof.against().is_empty()) {
             return Ok(found);
         }

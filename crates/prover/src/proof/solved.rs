@@ -2,14 +2,15 @@
 
 use super::dependence::Dependence;
 use super::each_side::Reference;
-use super::entrants::{Sides, TRUE_SIDES};
+use super::entrants::{ObservedSides, TRUE_SIDES};
 use super::formulas::Judgement;
 use super::known::usual;
 use super::ledger::Ledger;
 use super::problem::Problem;
-use crate::claims::{Cause, Course, MOST_WORK, needed, telling};
+use crate::claims::{FormulaCause, KnownTrajectory, MOST_WORK, needed, telling};
 use crate::compare::{Check, Verdict, magnitudes, magnitudes_by};
-use crate::tolerance::Basis;
+use crate::sentences;
+use crate::tolerance::BoundBasis;
 use analytic::range::explained;
 use linkage::case::{Case, Grid};
 use linkage::error::{Error, ErrorKind, Result};
@@ -48,10 +49,15 @@ pub fn asked(claim: &Claim, case: &Case) -> Vec<Channel> {
 }
 
 /// The part of a case that is needed for some channels, and both sides on it, with what formulas claim.
-fn of_asked(scenario: &Scenario, whole: &Case, asked: &[Channel], formulas: &Formulas) -> Result<(Case, Sides)> {
+fn of_asked(
+    scenario: &Scenario,
+    whole: &Case,
+    asked: &[Channel],
+    formulas: &Formulas,
+) -> Result<(Case, ObservedSides)> {
     let case = whole.wanting_only(asked).scene()?.case;
     let problem = Problem { oracles: &[], formulas, ..Problem::of(scenario, &case) };
-    let sides = Sides::of(problem, whole, TRUE_SIDES, Reference::Assur, &mut Ledger::default());
+    let sides = ObservedSides::of(problem, whole, TRUE_SIDES, Reference::Assur, &mut Ledger::default());
     let sides = sides.map_err(|error| explained(&case, error))?;
     Ok((case, sides))
 }
@@ -60,7 +66,7 @@ fn of_asked(scenario: &Scenario, whole: &Case, asked: &[Channel], formulas: &For
 pub struct Solved {
     /// What was solved: the part of the mechanism that the claims need, at the instants.
     pub case: Case,
-    sides: Sides,
+    sides: ObservedSides,
     /// How well every channel is known at best, whatever else is solved.
     least: Vec<f64>,
 }
@@ -89,7 +95,7 @@ impl Solved {
     ///
     /// # Errors
     /// Those of `then`.
-    pub fn on_course<T>(&self, then: impl FnOnce(&Course) -> Result<T>) -> Result<T> {
+    pub fn on_course<T>(&self, then: impl FnOnce(&KnownTrajectory) -> Result<T>) -> Result<T> {
         self.sides.on_course(&self.case, Reference::Assur, |course| then(&course.known_at_least(&self.least)))
     }
 
@@ -127,17 +133,17 @@ pub fn judge(scenario: &Scenario) -> Result<Claimed> {
         asked.extend(needed(claim, &scenario.case));
     }
     if asked.is_empty() {
-        let message = format!("no formula of the scenario {} claims a channel", scenario.name);
-        return Err(Error::new(ErrorKind::Input, message)
-            .key("formula")
-            .help("add `channel` to a [[formula]], or give a formula as an argument; docs/formulas.md has examples"));
+        let message = sentences::no_formula_of_the_scenario(&scenario.name);
+        return Err(Error::new(ErrorKind::Input, message).key("formula").help(sentences::ADD_CHANNEL_TO_A_FORMULA));
     }
     let (_, mut sides) = of_asked(scenario, &scenario.case, &asked, &scenario.formulas)?;
     let is_open = |own: &Judgement| {
         let mut causes = own.causes.iter();
         // A search that was long is not done once more with more channels.
         own.work <= MOST_WORK
-            && causes.any(|(name, cause)| !cause.as_ref().is_some_and(Cause::is_whole) && !own.unsought.contains(name))
+            && causes.any(|(name, cause)| {
+                !cause.as_ref().is_some_and(FormulaCause::is_whole) && !own.unsought.contains(name)
+            })
     };
     if let Some(own) = sides.judgement.as_mut().filter(|own| is_open(own)) {
         // What is wrong may be a term that the mechanism has and nobody asked for.
@@ -149,10 +155,10 @@ pub fn judge(scenario: &Scenario) -> Result<Claimed> {
     }
     let verdict = sides.verdict();
     let judgement = sides.judgement.ok_or_else(|| {
-        Error::new(ErrorKind::Input, "no claimed channel was solved")
+        Error::new(ErrorKind::Input, sentences::NO_CLAIMED_CHANNEL_WAS_SOLVED)
             .key("formula")
-            .help("claim a channel of the scenario")
+            .help(sentences::CLAIM_A_CHANNEL_OF_THE_SCENARIO)
     })?;
-    let is_own = |check: &Check| !matches!(check.basis, Basis::Formula { .. });
+    let is_own = |check: &Check| !matches!(check.basis, BoundBasis::Formula { .. });
     Ok(Claimed { judgement, verdict, checks: sides.checks.into_iter().filter(is_own).collect() })
 }

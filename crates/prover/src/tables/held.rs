@@ -1,11 +1,12 @@
 //! What a table says of a mechanism: claims of channels, at instants.
 
+use crate::sentences;
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::Raw;
 use columns::{MISSING, UNDEFINED, is_missing};
-use formula::{Fault, Graph, Program, Rounded, Shape, Tree};
+use formula::{FormulaFault, FormulaGraph, FormulaTree, NodeShape, Program, Rounded};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::statistics::ascending;
 use linkage::trajectory::{Channel, Trajectory};
@@ -34,14 +35,14 @@ pub enum By {
 
 /// The instants by which rows are brought together.
 #[derive(Clone, Debug)]
-pub struct At {
+pub struct RowKey {
     /// Times (s), or crank angles (rad).
     pub values: Vec<Rounded>,
     /// Whether they are crank angles.
     pub is_crank: bool,
 }
 
-impl At {
+impl RowKey {
     /// Rows in ascending order of their instants.
     #[must_use]
     pub fn ascending(&self) -> Vec<usize> {
@@ -61,7 +62,7 @@ impl At {
 
 /// What a party says of a channel, or of an arithmetic of channels.
 #[derive(Clone, Debug)]
-pub struct Column {
+pub struct PartyColumn {
     /// The channel in its unit.
     pub claim: Claim,
     /// Its numbers by rows, in the unit of the claim. [`MISSING`] where nothing was measured; another NaN where no
@@ -80,7 +81,7 @@ pub struct Held {
     /// Where its rows hold.
     pub at: Instants,
     /// What it holds there.
-    pub columns: Vec<Column>,
+    pub columns: Vec<PartyColumn>,
     /// Whether an analytic side has found it, so that its errors are known.
     pub is_analytic: bool,
     /// Columns of a table that say nothing of a channel.
@@ -97,7 +98,7 @@ struct Places {
 }
 
 impl Places {
-    fn of(columns: &[Column]) -> Self {
+    fn of(columns: &[PartyColumn]) -> Self {
         let mut places = Places::default();
         for (index, column) in columns.iter().enumerate() {
             places.texts.entry(column.claim.text.clone()).or_insert(index);
@@ -115,7 +116,7 @@ const TIMES: [&str; 2] = ["t_s", "t"];
 impl Held {
     /// What a party that is not analytic holds in some columns.
     #[must_use]
-    pub fn of_columns(at: Instants, columns: Vec<Column>) -> Held {
+    pub fn of_columns(at: Instants, columns: Vec<PartyColumn>) -> Held {
         let places = Places::of(&columns);
         Held { at, columns, is_analytic: false, unused: Vec::new(), places }
     }
@@ -137,7 +138,7 @@ impl Held {
         let own: Vec<Mapped> = if mapping.at.is_empty() { instants_of(raw) } else { Vec::new() };
         for mapped in mapping.at.iter().chain(&own) {
             let (factor, is_crank) =
-                mapped.instant().ok_or_else(|| mapped.wrong("this is no instant", "map a time"))?;
+                mapped.instant().ok_or_else(|| mapped.wrong(sentences::THIS_IS_NO_INSTANT, sentences::MAP_A_TIME))?;
             let printed = reader.column(mapped)?;
             let chosen = if mapped.name == "crank_deg" { columns::degrees_chosen } else { columns::chosen };
             let is_chosen = chosen(&printed);
@@ -145,35 +146,34 @@ impl Held {
             let exact = |own: Rounded| if is_chosen { Rounded::nearly(own.value) } else { own };
             let values: Vec<Rounded> = printed.into_iter().map(|own| exact(scaled(own, factor))).collect();
             if let Some(row) = values.iter().position(|own| !(own.value + own.error).is_finite()) {
-                let message = format!("{} holds at no instant: `{}` is no number there", raw.place(row), mapped.text);
-                return Err(mapped.wrong(&message, "take the row out, or complete it"));
+                let message = sentences::holds_at_no_instant_is_no_number(&raw.place(row), &mapped.text);
+                return Err(mapped.wrong(&message, sentences::TAKE_THE_ROW_OUT_OR_COMPLETE));
             }
             *(if is_crank { &mut at.cranks } else { &mut at.times }) = Some(values);
         }
         if at.times.is_none() && at.cranks.is_none() {
-            let message =
-                format!("nothing says where the rows of the table hold; its columns are {}", some(&raw.names));
-            let help = "map a column to time_s, time_ms, crank_deg or crank_rad, such as time=time_s";
+            let message = sentences::nothing_says_where_the_rows(&some(&raw.names));
+            let help = sentences::MAP_A_COLUMN_TO_TIME_TIME;
             return Err(Error::new(ErrorKind::Input, message).help(help));
         }
         let mapped: BTreeSet<&str> = mapping.channels.iter().map(|mapped| mapped.name.as_str()).collect();
         let is_own = |name: &&String| PrintedChannel::named(name).is_some() && !mapped.contains(name.as_str());
         let channels = raw.names.iter().filter(is_own);
         let own: Vec<Mapped> = channels.map(|name| Mapped::same(name, name)).collect();
-        let mut column = |mapped: &Mapped| -> Result<Column> {
+        let mut column = |mapped: &Mapped| -> Result<PartyColumn> {
             let claim = claim_of(&mapped.name).map_err(|fault| mapped.wrong(&fault.message, &fault.help))?;
-            Ok(Column { claim, values: reader.column(mapped)?, scale: None, mapped: None })
+            Ok(PartyColumn { claim, values: reader.column(mapped)?, scale: None, mapped: None })
         };
         let mut columns = Vec::new();
         for mapped in &mapping.channels {
-            columns.push(Column { mapped: Some(mapped.clone()), ..column(mapped)? });
+            columns.push(PartyColumn { mapped: Some(mapped.clone()), ..column(mapped)? });
         }
         for mapped in &own {
             columns.push(column(mapped)?);
         }
         if columns.is_empty() {
-            let message = format!("no column of the table is a channel; they are {}", some(&raw.names));
-            let help = "map columns to channels, such as phi3*180/pi=link.rocker.angle_deg";
+            let message = sentences::no_column_of_the_table_is_a_channel(&some(&raw.names));
+            let help = sentences::MAP_COLUMNS_TO_CHANNELS_SUCH_AS_PHI3;
             return Err(Error::new(ErrorKind::Input, message).help(help));
         }
         let unused = raw.names.iter().filter(|name| !reader.used.contains(name.as_str())).cloned().collect();
@@ -189,7 +189,7 @@ impl Held {
         let column = |(channel, values): (&Channel, &[f64])| {
             let name = channel.to_string();
             let claim = Claim::of_channels(&name, std::slice::from_ref(channel)).ok()?;
-            Some(Column { claim, values: exact(values), scale: None, mapped: None })
+            Some(PartyColumn { claim, values: exact(values), scale: None, mapped: None })
         };
         let columns = trajectory.iter().filter_map(column).collect();
         Held::of_columns(Instants { times, cranks }, columns)
@@ -199,16 +199,16 @@ impl Held {
     ///
     /// # Errors
     /// [`ErrorKind::Input`] if it lacks what is asked for.
-    pub fn at(&self, by: Option<By>) -> Result<At> {
+    pub fn at(&self, by: Option<By>) -> Result<RowKey> {
         let Instants { times, cranks } = &self.at;
         let is_crank = by.map_or(times.is_none(), |by| by == By::Crank);
         let found = if is_crank { cranks } else { times };
         let [lacks, has] = if is_crank { ["crank angles", "times"] } else { ["times", "crank angles"] };
         let values = found.clone().ok_or_else(|| {
-            Error::new(ErrorKind::Input, format!("the rows of a table have {has}, and no {lacks}"))
-                .help(format!("compare by {has}, or map a column to {lacks}"))
+            Error::new(ErrorKind::Input, sentences::the_rows_of_a_table_have_and_no(&has, &lacks))
+                .help(sentences::compare_by_or_map_a_column(&has, &lacks))
         })?;
-        Ok(At { values, is_crank })
+        Ok(RowKey { values, is_crank })
     }
 
     /// Number of rows.
@@ -246,7 +246,7 @@ impl Held {
     }
 
     /// The column of a claim, and its unit over that of the claim.
-    fn column_of(&self, claim: &Claim) -> Option<(&Column, f64)> {
+    fn column_of(&self, claim: &Claim) -> Option<(&PartyColumn, f64)> {
         if let Some(&index) = self.places.texts.get(&claim.text) {
             return Some((&self.columns[index], 1.0));
         }
@@ -259,7 +259,7 @@ impl Held {
 
 /// The channel of a claim that is no arithmetic.
 fn single(claim: &Claim) -> Option<&PrintedChannel> {
-    matches!(claim.tree.shape, Shape::Name(_)).then(|| &claim.channels[0].1)
+    matches!(claim.tree.shape, NodeShape::Name(_)).then(|| &claim.channels[0].1)
 }
 
 /// The columns that say by their names where the rows hold. One that is called so letter by letter stands before one
@@ -301,11 +301,11 @@ fn in_words(name: &str) -> Option<&'static str> {
 ///
 /// # Errors
 /// What cannot be read, or is no channel.
-fn claim_of(text: &str) -> std::result::Result<Claim, Fault> {
+fn claim_of(text: &str) -> std::result::Result<Claim, FormulaFault> {
     let known = |name: &str| PrintedChannel::named(name).map(|own| own.channel);
     let all: Vec<Channel> = match known(text) {
         Some(channel) => vec![channel],
-        None => Tree::parse(text)?.names().iter().filter_map(|(name, _)| known(name)).collect(),
+        None => FormulaTree::parse(text)?.names().iter().filter_map(|(name, _)| known(name)).collect(),
     };
     Claim::of_channels(text, &all)
 }
@@ -322,7 +322,7 @@ fn some(names: &[String]) -> String {
     let shown = names.iter().take(NAMED).map(String::as_str);
     match names.len().saturating_sub(NAMED) {
         0 => choice(shown, "`"),
-        more => format!("{} and {more} more", shown.map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")),
+        more => sentences::and_more(&(shown.map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")), &more),
     }
 }
 
@@ -332,7 +332,7 @@ const NAMED: usize = 8;
 /// Evaluates arithmetics over the columns of a table.
 struct Reader<'a> {
     raw: &'a Raw,
-    graph: Graph,
+    graph: FormulaGraph,
     /// The first column of each name.
     places: BTreeMap<&'a str, usize>,
     used: BTreeSet<&'a str>,
@@ -345,15 +345,15 @@ impl<'a> Reader<'a> {
         let names: Vec<&str> = raw.names.iter().map(String::as_str).collect();
         let places = names.iter().enumerate().rev().map(|(index, name)| (*name, index)).collect();
         let inputs = vec![Rounded::exact(0.0); raw.columns.len()];
-        Reader { raw, graph: Graph::new(&names, 0), places, used: BTreeSet::new(), inputs }
+        Reader { raw, graph: FormulaGraph::new(&names, 0), places, used: BTreeSet::new(), inputs }
     }
 
     fn column(&mut self, mapped: &Mapped) -> Result<Vec<Rounded>> {
         let (text, names) = (mapped.text.as_str(), &self.raw.names);
         let is_whole = self.places.contains_key(text);
         let tree = match is_whole {
-            true => Ok(Tree { shape: Shape::Name(text.into()), at: 0..text.len() }),
-            false => Tree::parse(text),
+            true => Ok(FormulaTree { shape: NodeShape::Name(text.into()), at: 0..text.len() }),
+            false => FormulaTree::parse(text),
         };
         let tree = tree.map_err(|fault| mapped.refused(&fault))?;
         let named = tree.names();
@@ -381,9 +381,9 @@ impl<'a> Reader<'a> {
             if found.is_undefined() && used.iter().all(|&index| !inputs[index].is_undefined()) {
                 let of = |name: &str| column(name).map_or(Rounded::nearly(std::f64::consts::PI), |own| inputs[own]);
                 if let Err(fault) = tree.evaluated(&of) {
-                    let help = format!("{}; else leave the row out, or its cell empty", fault.help);
+                    let help = sentences::else_leave_the_row_out_or_its_cell(&fault.help);
                     let message = format!("in {} {}", self.raw.place(row), fault.message);
-                    return Err(mapped.refused(&Fault { message, help, ..fault }));
+                    return Err(mapped.refused(&FormulaFault { message, help, ..fault }));
                 }
             }
             Ok(if found.value.is_finite() { found } else { UNDEFINED })
@@ -392,13 +392,13 @@ impl<'a> Reader<'a> {
     }
 
     /// The fault of a name that is not known, with the columns that are.
-    fn unknown(&self, name: &str, at: Range<usize>) -> Fault {
-        let message = format!("the table has no column `{name}`");
+    fn unknown(&self, name: &str, at: Range<usize>) -> FormulaFault {
+        let message = sentences::the_table_has_no_column(&name);
         let help = match nearest(name, self.raw.names.iter().map(String::as_str)) {
-            Some(near) => format!("did you mean `{near}`?"),
-            None => format!("its columns are {}; backquotes hold a name with blanks or signs", some(&self.raw.names)),
+            Some(near) => sentences::did_you_mean(&near),
+            None => sentences::its_columns_are_backquotes_hold(&some(&self.raw.names)),
         };
-        Fault { message, at, help }
+        FormulaFault { message, at, help }
     }
 }
 
@@ -412,7 +412,7 @@ mod tests {
         let names = ["point.B.x_mm", "2*point.B.x_m", "point.B.x_mm", "point.B.x_m", "joint.A.f_N", "joint.B.fx_N"];
         let column = |(index, text): (usize, &&str)| {
             let values = vec![Rounded::exact(1.0 + index as f64)];
-            Column { claim: claim_of(text).unwrap(), values, scale: None, mapped: None }
+            PartyColumn { claim: claim_of(text).unwrap(), values, scale: None, mapped: None }
         };
         let held = Held::of_columns(Instants::default(), names.iter().enumerate().map(column).collect());
         let value = |text: &str| held.values_of(&claim_of(text).unwrap()).map(|values| values[0].value);

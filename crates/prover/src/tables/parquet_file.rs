@@ -3,6 +3,7 @@
 mod announced;
 mod thrift;
 
+use crate::sentences;
 use std::fmt::Display;
 use std::fs::File;
 use std::path::Path;
@@ -15,7 +16,7 @@ use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::schema::types::ColumnDescriptor;
 
 use super::source::May;
-use columns::{MISSING, Table, Twice, UNDEFINED};
+use columns::{MISSING, TextTable, Twice, UNDEFINED};
 use formula::Rounded;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::quiet::guarded;
@@ -25,21 +26,21 @@ const MOST: u64 = 1 << 26;
 /// Values that are read at a time.
 const BATCH: usize = 1 << 12;
 
-pub(super) fn read(path: &Path, size: u64, may: May) -> Result<Table> {
+pub(super) fn read(path: &Path, size: u64, may: May) -> Result<TextTable> {
     let damaged = |error: &dyn Display| {
-        Error::new(ErrorKind::Io, format!("the table {} is cut off or damaged: {error}", path.display()))
-            .help("write it again, as Parquet or as CSV")
+        Error::new(ErrorKind::Io, sentences::the_table_is_cut_off_or_damaged(&path.display(), &error))
+            .help(sentences::WRITE_IT_AGAIN_AS_PARQUET)
     };
     // The reader is given whatever a file claims to be.
     match guarded(|| of_file(path, size, may)) {
         Ok(Ok(read)) => read,
         Ok(Err(error)) => Err(damaged(&error)),
-        Err(_) => Err(damaged(&"its parts contradict each other")),
+        Err(_) => Err(damaged(&sentences::ITS_PARTS_CONTRADICT_EACH_OTHER)),
     }
 }
 
 /// The columns that hold numbers; others, such as names, are passed over.
-fn of_file(path: &Path, size: u64, may: May) -> std::result::Result<Result<Table>, ParquetError> {
+fn of_file(path: &Path, size: u64, may: May) -> std::result::Result<Result<TextTable>, ParquetError> {
     let file = File::open(path)?;
     // An error of the file system would call itself external.
     let wrong = |error: std::io::Error| ParquetError::General(error.to_string());
@@ -48,7 +49,7 @@ fn of_file(path: &Path, size: u64, may: May) -> std::result::Result<Result<Table
     let described = reader.metadata().file_metadata();
     let names: Vec<String> = described.schema().get_fields().iter().map(|field| field.name().to_string()).collect();
     let refused = |message: String, help: &str| {
-        let message = format!("the table {}: {message}", path.display());
+        let message = sentences::the_table(&path.display(), &message);
         Ok(Err(Error::new(ErrorKind::Input, message).help(help.to_string())))
     };
     if let Some(twice) = Twice::of(&names) {
@@ -58,18 +59,18 @@ fn of_file(path: &Path, size: u64, may: May) -> std::result::Result<Result<Table
     if let Some(name) = groups.iter().flat_map(|group| group.columns()).find_map(|part| unread(part.compression())) {
         let help = "write it uncompressed or with Snappy, Zstandard or gzip, or as CSV: \
                     df.to_parquet(FILE, compression=\"zstd\")";
-        return refused(format!("its columns are compressed with {name}, which is not read here"), help);
+        return refused(sentences::its_columns_are_compressed_with_which_is_not_read(&name), help);
     }
     let wanted = described.schema_descr().columns().iter().enumerate().filter(|(_, column)| is_number(column));
     let wanted: Vec<(usize, String)> = wanted.map(|(index, column)| (index, column.name().to_string())).collect();
     // Each group says how many rows it has, and the file how many all have.
     let rows = groups.iter().try_fold(0_u64, |sum, group| sum.checked_add(u64::try_from(group.num_rows()).ok()?));
     let Some(rows) = rows.filter(|&rows| i64::try_from(rows) == Ok(described.num_rows())) else {
-        return Err(ParquetError::General("its groups have other rows than the file says".into()));
+        return Err(ParquetError::General(sentences::ITS_GROUPS_HAVE_OTHER_ROWS.into()));
     };
     let values = rows.saturating_mul(wanted.len() as u64);
     if values > MOST {
-        return refused(format!("it has {values} values, more than {MOST}"), "give fewer rows, or fewer columns");
+        return refused(sentences::it_has_values_more_than(&values, &MOST), sentences::GIVE_FEWER_ROWS_OR_FEWER);
     }
     // What is compressed is unpacked part by part.
     if let Err(error) = may(size as f64 + values as f64 * size_of::<Rounded>() as f64, rows as usize) {
@@ -86,7 +87,7 @@ fn of_file(path: &Path, size: u64, may: May) -> std::result::Result<Result<Table
         names.push(name);
         columns.push(column);
     }
-    Ok(Ok(Table { names, columns, lines: Vec::new() }))
+    Ok(Ok(TextTable { names, columns, lines: Vec::new() }))
 }
 
 /// Name of a compression that is not read.
@@ -166,11 +167,11 @@ where
         levels.clear();
         let (read, _, _) = part.read_records(BATCH.min(end - to.len()), Some(&mut levels), None, &mut values)?;
         if read == 0 {
-            return Err(ParquetError::General("a column has fewer values than there are rows".into()));
+            return Err(ParquetError::General(sentences::A_COLUMN_HAS_FEWER_VALUES_THAN_THERE.into()));
         }
         let mut values = values.iter().map(|&value| number(value));
         let mut next =
-            || values.next().ok_or_else(|| ParquetError::General("a column has fewer values than it says".into()));
+            || values.next().ok_or_else(|| ParquetError::General(sentences::A_COLUMN_HAS_FEWER_VALUES.into()));
         // A column that must have values says nothing about each.
         for level in levels.iter().copied().chain(std::iter::repeat(full)).take(read) {
             to.push(if level == full { next()? } else { MISSING });

@@ -1,9 +1,10 @@
 //! What is asked before a table is read, what is said where it cannot be, and text with separated columns.
 
+use crate::sentences;
 use std::io::{self, Read};
 use std::path::Path;
 
-use columns::{Fault, Table};
+use columns::{TableFault, TextTable};
 use files::LARGEST;
 use linkage::error::{Error, ErrorKind, Place, Result};
 
@@ -14,19 +15,19 @@ pub(super) const MAGIC: [u8; 4] = *b"PAR1";
 pub type May<'a> = &'a dyn Fn(f64, usize) -> Result<()>;
 
 pub(super) fn unread(path: &Path, error: &io::Error) -> Error {
-    Error::new(ErrorKind::Io, format!("the table {} cannot be read: {error}", path.display()))
-        .help("give a scenario (.toml), a recording (.mcap), a table of text (.csv) or a Parquet file")
+    Error::new(ErrorKind::Io, sentences::the_table_cannot_be_read(&path.display(), &error))
+        .help(sentences::GIVE_A_SCENARIO_TOML_A_RECORDING)
 }
 
 /// Reads what is left to read of a text of `size` bytes; `None` of what is no regular file, such as a pipe.
-pub(super) fn text(path: &Path, from: impl Read, size: Option<u64>, may: May) -> Result<Table> {
+pub(super) fn text(path: &Path, from: impl Read, size: Option<u64>, may: May) -> Result<TextTable> {
     // No more is read, whatever there is.
     may(size.unwrap_or(LARGEST).min(LARGEST) as f64, 0)?;
     let text = files::text_from(from).map_err(|error| unread(path, &error))?;
     // At least so many: one line may be a header.
     let rows = text.bytes().filter(|&byte| byte == b'\n').count().saturating_sub(1);
     may(text.len() as f64 + columns::bytes(&text), rows)?;
-    columns::read(&text).map_err(|Fault { at, message, help }| {
+    columns::read(&text).map_err(|TableFault { at, message, help }| {
         let place = Place { file: path.into(), text: text.as_str().into(), span: at };
         Error::new(ErrorKind::Input, message).at(place).help(help)
     })

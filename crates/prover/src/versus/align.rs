@@ -1,12 +1,13 @@
 //! Two tables side by side: rows of the same instants, or the first interpolated at those of the second.
 
+use crate::sentences;
 use std::f64::consts::TAU;
 
-use super::allowed::How;
+use super::allowed::ComparisonRule;
 use super::interpolate::Course;
 use super::judge::{Both, Which};
-use super::pair::{Pair, Side, crank_check};
-use crate::tables::{At, By, Column, Held, Instants};
+use super::pair::{Side, SidePair, crank_check};
+use crate::tables::{By, Held, Instants, PartyColumn, RowKey};
 use columns::MISSING;
 use formula::Rounded;
 use linkage::error::{Error, ErrorKind, Result};
@@ -17,7 +18,7 @@ use scenario::Claim;
 const SAME: f64 = 1e-6;
 
 /// Compares two parties at the instants of the second.
-pub(super) fn beside(one: &Side, other: &Side, how: &How) -> Result<Pair> {
+pub(super) fn beside(one: &Side, other: &Side, how: &ComparisonRule) -> Result<SidePair> {
     let names = [one, other].map(|side| side.name.clone());
     let (one, other) = (&one.held, &other.held);
     // By what both have.
@@ -34,8 +35,8 @@ pub(super) fn beside(one: &Side, other: &Side, how: &How) -> Result<Pair> {
     let alone = [lacks(one, other), lacks(other, one)];
     if claims.is_empty() {
         let some = |names: &[String]| names.iter().take(5).cloned().collect::<Vec<_>>().join(", ");
-        let message = format!("the two have no channel in common: {} against {}", some(&alone[0]), some(&alone[1]));
-        return Err(Error::new(ErrorKind::Input, message).help("map the columns of both to the same channels"));
+        let message = sentences::the_two_have_no_channel_in_common(&some(&alone[0]), &some(&alone[1]));
+        return Err(Error::new(ErrorKind::Input, message).help(sentences::MAP_THE_COLUMNS_OF_BOTH_TO_THE_SAME));
     }
     let places = places(&from, &to, how);
     let unshared = places.iter().filter(|place| matches!(place, Place::Nowhere)).count();
@@ -44,15 +45,14 @@ pub(super) fn beside(one: &Side, other: &Side, how: &How) -> Result<Pair> {
     if shared == 0 || shared == 1 && unshared > 0 {
         let what = if from.is_crank { "crank angle" } else { "time" };
         let which = if shared == 0 { "no" } else { "only one" };
-        let message = format!("{which} {what} of the second party is one of the first");
-        return Err(Error::new(ErrorKind::Input, message)
-            .help("allow interpolation, or give both the same instants; check the units of both"));
+        let message = sentences::of_the_second_party_is_one_of_the_first(&which, &what);
+        return Err(Error::new(ErrorKind::Input, message).help(sentences::ALLOW_INTERPOLATION_OR_GIVE_BOTH));
     }
     let column = |claim: &Claim| {
         let values = at_places(&one.values_of(claim)?, &from, &places, claim.turn());
-        Some(Column { claim: claim.clone(), values, scale: one.scale_of(claim), mapped: None })
+        Some(PartyColumn { claim: claim.clone(), values, scale: one.scale_of(claim), mapped: None })
     };
-    let columns: Vec<Column> = claims.iter().filter_map(column).collect();
+    let columns: Vec<PartyColumn> = claims.iter().filter_map(column).collect();
     let drift = drift(&from, &to, &places);
     let of_claims = columns.iter().map(|own| drift(&own.values, own.claim.turn())).collect();
     let mut first = Held::of_columns(Instants::default(), columns);
@@ -68,7 +68,7 @@ pub(super) fn beside(one: &Side, other: &Side, how: &How) -> Result<Pair> {
         drift: of_claims,
         how,
     };
-    let mut pair = Pair { names, unshared, alone, ..Pair::of(&both, Which::Second, &claims) };
+    let mut pair = SidePair { names, unshared, alone, ..SidePair::of(&both, Which::Second, &claims) };
     if let ([Some(ours), Some(theirs)], false) = ([&one.at.cranks, &other.at.cranks], to.is_crank) {
         let ours = at_places(ours, &from, &places, Some(TAU));
         pair.checks.extend(crank_check(&both, [&ours, theirs], &drift(&ours, Some(TAU))));
@@ -77,10 +77,10 @@ pub(super) fn beside(one: &Side, other: &Side, how: &How) -> Result<Pair> {
 }
 
 /// What the digits of the instants of both leave open in a column of the first at the rows of the second.
-fn drift(from: &At, to: &At, places: &[Place]) -> impl Fn(&[Rounded], Option<f64>) -> Vec<f64> + use<> {
+fn drift(from: &RowKey, to: &RowKey, places: &[Place]) -> impl Fn(&[Rounded], Option<f64>) -> Vec<f64> + use<> {
     let widest = from.values.iter().map(|at| at.error).fold(0.0, f64::larger);
     let of = |(place, own): (&Place, &Rounded)| match place {
-        Place::At(row) => own.error + from.values[*row].error,
+        Place::RowKey(row) => own.error + from.values[*row].error,
         Place::Between(_) => own.error + widest,
         Place::Nowhere => 0.0,
     };
@@ -92,14 +92,14 @@ fn drift(from: &At, to: &At, places: &[Place]) -> impl Fn(&[Rounded], Option<f64
 /// Where an instant of the second party lies among the rows of the first.
 enum Place {
     /// At a row.
-    At(usize),
+    RowKey(usize),
     /// Between two rows, in order to be interpolated.
     Between(f64),
     /// Between two rows, and nothing is interpolated; or beyond all of them.
     Nowhere,
 }
 
-fn places(from: &At, to: &At, how: &How) -> Vec<Place> {
+fn places(from: &RowKey, to: &RowKey, how: &ComparisonRule) -> Vec<Place> {
     let order = from.ascending();
     let at = |index: usize| from.values[order[index]].value;
     let of = |wanted: &Rounded| {
@@ -114,7 +114,7 @@ fn places(from: &At, to: &At, how: &How) -> Vec<Place> {
             (at(*index) - wanted.value).abs() <= slack.larger(SAME * step).larger(1e-9 * wanted.value.abs())
         };
         if let Some(index) = near.into_iter().flatten().find(is_same) {
-            return Place::At(order[index]);
+            return Place::RowKey(order[index]);
         }
         match near {
             [Some(_), Some(_)] if how.interpolates => Place::Between(wanted.value),
@@ -125,13 +125,13 @@ fn places(from: &At, to: &At, how: &How) -> Vec<Place> {
 }
 
 /// The numbers of a claim at some places among the rows that hold at `from`.
-fn at_places(values: &[Rounded], from: &At, places: &[Place], turn: Option<f64>) -> Vec<Rounded> {
+fn at_places(values: &[Rounded], from: &RowKey, places: &[Place], turn: Option<f64>) -> Vec<Rounded> {
     let order = from.ascending();
     let at: Vec<f64> = order.iter().map(|&row| from.values[row].value).collect();
     let sorted: Vec<Rounded> = order.iter().map(|&row| values[row]).collect();
     let course = Course::new(&at, &sorted, turn);
     let of = |place: &Place| match place {
-        Place::At(row) => values[*row],
+        Place::RowKey(row) => values[*row],
         Place::Between(wanted) => course.value(*wanted),
         Place::Nowhere => MISSING,
     };

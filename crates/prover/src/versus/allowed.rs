@@ -1,5 +1,6 @@
 //! What a comparison is asked, and what is allowed besides what is known.
 
+use crate::sentences;
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::tables::By;
@@ -12,7 +13,7 @@ use columns::Allowance;
 
 /// How two parties are compared.
 #[derive(Clone, Debug, Default)]
-pub struct How {
+pub struct ComparisonRule {
     /// Differences that are allowed; of several for one channel the last counts.
     pub allowed: Vec<Allowed>,
     /// By what rows are brought together; `None` for times where both have some.
@@ -27,7 +28,7 @@ pub struct How {
     pub memory: Option<f64>,
 }
 
-impl How {
+impl ComparisonRule {
     /// What is allowed of channels.
     #[must_use]
     pub fn allowances(&self) -> Allowances<'_> {
@@ -77,8 +78,8 @@ impl How {
             None => Ok(()),
             Some((_, word)) => {
                 let all: Vec<&str> = compared.map(|claim| claim.text.as_str()).take(5).collect();
-                let message = format!("no channel that is compared is called {word}");
-                let help = format!("name one of them ({}, ...), a subject or a stage", all.join(", "));
+                let message = sentences::no_channel_that_is_compared(&word);
+                let help = sentences::name_one_of_them_a_subject(&all.join(", "));
                 Err(Error::new(ErrorKind::Input, message).help(help))
             }
         }
@@ -160,9 +161,9 @@ mod tests {
     use super::*;
     use linkage::trajectory::Channel;
 
-    fn how(allowed: &[(Option<&str>, Size)]) -> How {
+    fn how(allowed: &[(Option<&str>, Size)]) -> ComparisonRule {
         let of = |(of, size): &(Option<&str>, Size)| Allowed { of: of.map(Into::into), size: *size };
-        How { allowed: allowed.iter().map(of).collect(), ..How::default() }
+        ComparisonRule { allowed: allowed.iter().map(of).collect(), ..How::default() }
     }
 
     /// Of a channel with a scale of 4, in its unit; of several allowances for one the last of each kind counts.
@@ -205,13 +206,13 @@ mod tests {
             ("point.B.x_m", false),
             ("velocities", false),
         ] {
-            let only = How { only: vec!["point.C".into(), word.into()], ..How::default() };
+            let only = ComparisonRule { only: vec!["point.C".into(), word.into()], ..How::default() };
             assert_eq!(only.asked()(&claim), is_meant, "{word}");
             let said = how(&[(Some("crank"), Size::Absolute(1.0)), (Some(word), Size::Absolute(1.0))]);
             assert_eq!(said.allowances().of(&claim, 1.0).is_some(), is_meant, "{word}");
             let refused = said.check_used([&claim].into_iter()).err();
             assert_eq!(refused.map(|error| error.message().contains(word)), (!is_meant).then_some(true), "{word}");
         }
-        assert!(How::default().asked()(&claim));
+        assert!(ComparisonRule::default().asked()(&claim));
     }
 }

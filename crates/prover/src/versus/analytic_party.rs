@@ -1,16 +1,17 @@
 //! A scenario beside another party: solved at its instants.
 
+use crate::sentences;
 use std::collections::BTreeSet;
 
-use super::allowed::How;
+use super::allowed::ComparisonRule;
 use super::cause;
 use super::instants;
 use super::judge::{Both, Which};
-use super::pair::{Pair, Side, crank_check};
+use super::pair::{Side, SidePair, crank_check};
 use super::scale::Scales;
 use crate::proof::memory;
 use crate::proof::solved::{Solved, asked};
-use crate::tables::{At, Column, Held};
+use crate::tables::{Held, PartyColumn, RowKey};
 use formula::Rounded;
 use linkage::case::Grid;
 use linkage::error::{Error, ErrorKind, Result};
@@ -27,24 +28,24 @@ pub(super) fn held(scenario: &Scenario) -> Result<Held> {
 }
 
 /// What the sides say of claims, `of(row)` being the instant of a row.
-fn columns(solved: &Solved, claims: &[Claim], of: &dyn Fn(usize) -> usize, rows: usize) -> Result<Vec<Column>> {
+fn columns(solved: &Solved, claims: &[Claim], of: &dyn Fn(usize) -> usize, rows: usize) -> Result<Vec<PartyColumn>> {
     let column = |claim: &Claim| {
         let values = solved.on_course(|course| course.values(claim))?;
         let values = (0..rows).map(|row| values[of(row)]).collect();
-        Ok(Column { claim: claim.clone(), values, scale: None, mapped: None })
+        Ok(PartyColumn { claim: claim.clone(), values, scale: None, mapped: None })
     };
     claims.iter().map(column).collect()
 }
 
 /// Compares a scenario, which is this party, with the other, which gives the instants.
-pub(super) fn beside(scenario: &Scenario, which: Which, other: Side, how: &How) -> Result<Pair> {
+pub(super) fn beside(scenario: &Scenario, which: Which, other: Side, how: &ComparisonRule) -> Result<SidePair> {
     let Side { name, held } = other;
     let at = held.at(how.by)?;
     let (claims, alone) = claims(scenario, &held, how)?;
     let asked = claims.iter().flat_map(|claim| asked(claim, &scenario.case));
     let channels: BTreeSet<String> = asked.map(|channel| channel.to_string()).collect();
     let needed = memory::of_comparison(at.values.len(), claims.len(), channels.len());
-    memory::check_input(&format!("comparing {} rows", at.values.len()), needed, how.memory)?;
+    memory::check_input(&sentences::comparing_rows(&at.values.len()), needed, how.memory)?;
     let (grid, rows) = grid(scenario, &at)?;
     let scales = Scales::of(scenario, &grid);
     let solved = Solved::of(scenario, grid, &claims)?.known_at_least(&|channel| scales.known(channel));
@@ -62,11 +63,11 @@ pub(super) fn beside(scenario: &Scenario, which: Which, other: Side, how: &How) 
         drift: drift.claims,
         how,
     };
-    let mut pair = Pair {
+    let mut pair = SidePair {
         names: which.beside(String::new(), name),
         alone: which.beside(Vec::new(), alone),
         checks: solved.checks().to_vec(),
-        ..Pair::of(&both, which.other(), &claims)
+        ..SidePair::of(&both, which.other(), &claims)
     };
     if pair.contradiction.is_none() {
         pair.causes = cause::explained(scenario, which, &both, &pair.channels)?;
@@ -79,7 +80,7 @@ pub(super) fn beside(scenario: &Scenario, which: Which, other: Side, how: &How) 
 }
 
 /// What a party says of channels that the scenario has, and the names of its other ones.
-fn claims(scenario: &Scenario, held: &Held, how: &How) -> Result<(Vec<Claim>, Vec<String>)> {
+fn claims(scenario: &Scenario, held: &Held, how: &ComparisonRule) -> Result<(Vec<Claim>, Vec<String>)> {
     let (mut claims, mut alone) = (Vec::new(), Vec::new());
     let asked = how.asked();
     for column in held.columns.iter().filter(|column| asked(&column.claim)) {
@@ -90,19 +91,19 @@ fn claims(scenario: &Scenario, held: &Held, how: &How) -> Result<(Vec<Claim>, Ve
         }
     }
     if claims.is_empty() && !how.only.is_empty() {
-        let message = format!("no channel that both have is called {}", how.only.join(" or "));
-        return Err(Error::new(ErrorKind::Input, message).help("name a channel, a subject or a stage of both"));
+        let message = sentences::no_channel_that_both_have_is_called(&how.only.join(" or "));
+        return Err(Error::new(ErrorKind::Input, message).help(sentences::NAME_A_CHANNEL_A_SUBJECT));
     }
     if claims.is_empty() {
-        let message = format!("the scenario {} has no channel of the other party", scenario.name);
+        let message = sentences::the_scenario_has_no_channel(&scenario.name);
         let error = Error::new(ErrorKind::Input, message);
-        return Err(error.help("compare the same mechanism, or map columns to channels of the scenario"));
+        return Err(error.help(sentences::COMPARE_THE_SAME_MECHANISM_OR_MAP));
     }
     Ok((claims, alone))
 }
 
 /// The grid of some instants, every one once, and for every row its place in it.
-fn grid(scenario: &Scenario, at: &At) -> Result<(Grid, Vec<usize>)> {
+fn grid(scenario: &Scenario, at: &RowKey) -> Result<(Grid, Vec<usize>)> {
     let mut rows = vec![0; at.values.len()];
     let mut all: Vec<f64> = Vec::with_capacity(rows.len());
     for row in at.ascending() {
@@ -119,10 +120,10 @@ fn grid(scenario: &Scenario, at: &At) -> Result<(Grid, Vec<usize>)> {
     let grid = if at.is_crank { Grid::of_inputs(crank, all) } else { Grid::of_times(crank, all) };
     grid.check(crank).map_err(|message| {
         let help = match at.is_crank && crank.is_free() {
-            true => "give the table a column of times",
-            false => "check the unit of the instants, and where they begin",
+            true => sentences::GIVE_THE_TABLE_A_COLUMN_OF_TIMES,
+            false => sentences::CHECK_THE_UNIT_OF_THE_INSTANTS,
         };
-        Error::new(ErrorKind::Input, format!("the instants of the other party: {message}")).help(help)
+        Error::new(ErrorKind::Input, sentences::the_instants_of_the_other(&message)).help(help)
     })?;
     Ok((grid, rows))
 }

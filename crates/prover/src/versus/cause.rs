@@ -1,15 +1,19 @@
 //! Why a table is off, where that is simple.
 
+use crate::sentences;
 use std::borrow::Cow;
 use std::collections::BTreeSet;
 use std::f64::consts::{PI, TAU};
 
 use super::judge::{Both, Compared, Which};
-use crate::claims::{Course, Term, Wrong, missing_in_numbers};
+use crate::claims::{KnownTrajectory, Term, Wrong, missing_in_numbers};
 use crate::compare::largest_difference;
-use crate::diagnosis::{Cause, Change, Diagnosis, How, Judged, Part, Party, Question, Slip, diagnose, even};
+use crate::diagnosis::{
+    CasePart, Change, DataSlip, DiagnosedParty, Diagnosis, DiagnosisInput, DisagreementCause, PartChange,
+    SuspectChannel, diagnose, even,
+};
 use analytic::AssurSolver;
-use formula::Shape;
+use formula::NodeShape;
 use linkage::case::Grid;
 use linkage::error::Result;
 use linkage::math::KeepNan;
@@ -102,7 +106,7 @@ pub(super) fn explained(
 impl Compared {
     /// Whether it is a channel with numbers on both sides.
     fn is_plain(&self) -> bool {
-        matches!(self.claim.tree.shape, Shape::Name(_)) && self.largest.is_some()
+        matches!(self.claim.tree.shape, NodeShape::Name(_)) && self.largest.is_some()
     }
 
     /// Whether it is off by so much that no method's error explains it.
@@ -115,12 +119,14 @@ impl Compared {
 /// Whether a cause may be named that leaves something over. A number that was fitted may stand for anything then, and
 /// differences resemble values that are late by half a row. A drive that is turned is at constant speed the same as
 /// rows that are late.
-fn may_leave(cause: &Cause) -> bool {
+fn may_leave(cause: &DisagreementCause) -> bool {
     match cause {
-        Cause::Case(Change { part, how: How::Instead { .. } }) => matches!(part, Part::StartAngle(_)),
+        DisagreementCause::Case(Change { part, how: PartChange::Instead { .. } }) => {
+            matches!(part, CasePart::StartAngle(_))
+        }
         // A simulation that bursts ends in rows beside which all others are small.
-        Cause::Values { slip: Slip::Differences { .. } | Slip::Outlier(_), .. } => false,
-        Cause::Case(_) | Cause::Values { .. } => true,
+        DisagreementCause::Values { slip: DataSlip::Differences { .. } | DataSlip::Outlier(_), .. } => false,
+        DisagreementCause::Case(_) | DisagreementCause::Values { .. } => true,
     }
 }
 
@@ -291,7 +297,7 @@ impl Stage {
             right: right.to_vec(),
             few: &few,
         };
-        let (terms, left) = missing_in_numbers(&Course::new(&self.case, &self.right, &|_, _| 0.0), &wrong)?;
+        let (terms, left) = missing_in_numbers(&KnownTrajectory::new(&self.case, &self.right, &|_, _| 0.0), &wrong)?;
         // Some term resembles any smooth difference, and what goes with time is no term of a mechanism.
         let drifts = terms.iter().any(|term| term.of == "t" || term.of == "phi");
         (left == 0.0 && !drifts).then_some(())?;
@@ -306,7 +312,7 @@ impl Stage {
 
     /// The diagnosis of some channels; what a cause may leave over widens their bounds.
     fn diagnosis(&self, of: &[&Compared], left: f64) -> Option<Diagnosis> {
-        let judged: Vec<Judged> = self
+        let judged: Vec<SuspectChannel> = self
             .found
             .channels()
             .iter()
@@ -314,19 +320,20 @@ impl Stage {
             .filter_map(|(channel, (text, bound, agrees))| {
                 if *agrees {
                     // A cause must not spoil it.
-                    return Some(Judged { channel: channel.clone(), bound: *bound, disagrees: false });
+                    return Some(SuspectChannel { channel: channel.clone(), bound: *bound, disagrees: false });
                 }
                 let own = of.iter().find(|own| own.claim.text == *text)?;
                 let largest = own.largest.map_or(0.0, |at| own.claim.channels[0].1.to_si(at.difference.abs()));
-                Some(Judged { channel: channel.clone(), bound: bound.larger(left * largest), disagrees: true })
+                Some(SuspectChannel { channel: channel.clone(), bound: bound.larger(left * largest), disagrees: true })
             })
             .collect();
-        let parties =
-            [("the analytic sides", &self.right), ("the other party", &self.found)].map(|(name, trajectory)| {
+        let parties = [(sentences::THE_ANALYTIC_SIDES, &self.right), (sentences::THE_OTHER_PARTY, &self.found)].map(
+            |(name, trajectory)| {
                 let bounds = judged.iter().map(|judged| (judged.channel.clone(), judged.bound)).collect();
-                Party { name, trajectory, bounds }
-            });
-        let question = Question {
+                DiagnosedParty { name, trajectory, bounds }
+            },
+        );
+        let question = DiagnosisInput {
             suspect: parties[1].name,
             reference: &self.right,
             suspicious: &self.found,

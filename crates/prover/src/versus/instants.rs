@@ -1,9 +1,9 @@
 //! What rounded instants leave open where a scenario can be solved beside them.
 
-use crate::claims::Course;
+use crate::claims::KnownTrajectory;
 use crate::proof::shifted::{Along, grow, is_exact, shifted};
 use crate::proof::solved::Solved;
-use crate::tables::{At, Column};
+use crate::tables::{PartyColumn, RowKey};
 use analytic::AssurSolver;
 use formula::Rounded;
 use linkage::case::Case;
@@ -23,7 +23,7 @@ pub(super) struct Drift {
 
 /// The largest change of every claim within what the digits of the instants leave open: see [`shifted`].
 /// Where it cannot be solved there, the course from row to row must do.
-pub(super) fn drift(solved: &Solved, columns: &[Column], at: &At, rows: &[usize]) -> Drift {
+pub(super) fn drift(solved: &Solved, columns: &[PartyColumn], at: &RowKey, rows: &[usize]) -> Drift {
     let trajectory = solved.trajectory();
     let mut slack = vec![0.0; trajectory.times().len()];
     for (own, &row) in at.values.iter().zip(rows) {
@@ -44,11 +44,12 @@ pub(super) fn drift(solved: &Solved, columns: &[Column], at: &At, rows: &[usize]
     Drift { claims, crank: along(&cranks, None) }
 }
 
-fn by_solving(solved: &Solved, columns: &[Column], at: &At, slack: &[f64]) -> Result<Drift> {
+fn by_solving(solved: &Solved, columns: &[PartyColumn], at: &RowKey, slack: &[f64]) -> Result<Drift> {
     let (case, own) = (&solved.case, solved.trajectory());
     let mut drift = Drift { claims: vec![vec![0.0; slack.len()]; columns.len()], crank: vec![0.0; slack.len()] };
-    let values =
-        |case: &Case, trajectory: &Trajectory, claim: &Claim| Course::new(case, trajectory, &|_, _| 0.0).values(claim);
+    let values = |case: &Case, trajectory: &Trajectory, claim: &Claim| {
+        KnownTrajectory::new(case, trajectory, &|_, _| 0.0).values(claim)
+    };
     let along = if at.is_crank { Along::Crank } else { Along::Time };
     shifted(case, own, along, slack, &AssurSolver, &mut |shifted, found| {
         let claims = columns.iter().map(|own| &own.claim);

@@ -1,13 +1,14 @@
 //! Channel by channel: differences, bounds, verdicts.
 
+use crate::sentences;
 use std::ops::Deref;
 
-use super::allowed::{Allowances, How};
+use super::allowed::{Allowances, ComparisonRule};
 use crate::compare::Verdict;
 use crate::proof::shifted::TELLING;
-use crate::tables::{At, Held};
-use columns::{Beside, Judged, Measure, judge};
-use formula::{Rounded, Shape};
+use crate::tables::{Held, RowKey};
+use columns::{Beside, JudgedColumns, ScaleColumn, judge};
+use formula::{NodeShape, Rounded};
 use linkage::error::Advice;
 use linkage::input::Input;
 use linkage::math::statistics::half_range;
@@ -15,7 +16,7 @@ use linkage::math::{KeepNan, largest_size};
 use linkage::trajectory::Unit;
 use scenario::Claim;
 
-pub use columns::Row;
+pub use columns::RowPair;
 
 /// A channel, or an arithmetic of channels, of both parties.
 #[derive(Clone, Debug)]
@@ -26,7 +27,7 @@ pub struct Compared {
     /// the claim's unit. The same whatever else is compared.
     pub scale: f64,
     /// What the numbers of both come to, in the claim's unit.
-    pub found: Judged,
+    pub found: JudgedColumns,
     /// Whether the bound is what is known of both parties, and nothing is allowed besides.
     pub is_derived: bool,
     /// Agreement within the bounds of all instants.
@@ -34,9 +35,9 @@ pub struct Compared {
 }
 
 impl Deref for Compared {
-    type Target = Judged;
+    type Target = JudgedColumns;
 
-    fn deref(&self) -> &Judged {
+    fn deref(&self) -> &JudgedColumns {
         &self.found
     }
 }
@@ -49,7 +50,7 @@ impl Compared {
     }
 }
 
-fn has_no_number(own: &Judged) -> bool {
+fn has_no_number(own: &JudgedColumns) -> bool {
     own.since.is_some_and(|at| at.difference.is_nan())
 }
 
@@ -74,12 +75,12 @@ impl Which {
 /// Both parties at the same rows.
 pub(super) struct Both<'a> {
     pub parties: [&'a Held; 2],
-    pub at: &'a At,
+    pub at: &'a RowKey,
     /// Times and crank angles of rows as far as somebody knows them.
     pub instants: [Vec<f64>; 2],
     /// What the digits of the instants leave open, claim by claim and row by row; an empty column for nothing.
     pub drift: Vec<Vec<f64>>,
-    pub how: &'a How,
+    pub how: &'a ComparisonRule,
 }
 
 impl Both<'_> {
@@ -95,8 +96,8 @@ impl Both<'_> {
     }
 
     /// The party that is measured by.
-    pub(super) fn measure(&self) -> Measure {
-        Measure::among(self.parties.map(|party| party.is_analytic))
+    pub(super) fn measure(&self) -> ScaleColumn {
+        ScaleColumn::among(self.parties.map(|party| party.is_analytic))
     }
 
     pub(super) fn places(&self) -> [&[f64]; 2] {
@@ -111,7 +112,7 @@ impl Both<'_> {
         let complete = [measure, 1 - measure].into_iter().find_map(|party| self.parties[party].scale_of(claim));
         complete.unwrap_or_else(|| {
             let numbers: Vec<f64> = values.iter().map(|own| own.value).filter(|value| value.is_finite()).collect();
-            let is_coordinate = matches!(claim.tree.shape, Shape::Name(_))
+            let is_coordinate = matches!(claim.tree.shape, NodeShape::Name(_))
                 && matches!(claim.channels[0].1.channel.kind.unit, Unit::Radian | Unit::Metre);
             let share = match (numbers.len(), is_coordinate) {
                 // One instant has no range.
@@ -139,9 +140,9 @@ impl Both<'_> {
         Compared { claim: claim.clone(), scale, is_derived, verdict: self.verdict(&found, scale, is_derived), found }
     }
 
-    fn verdict(&self, own: &Judged, scale: f64, is_derived: bool) -> Verdict {
+    fn verdict(&self, own: &JudgedColumns, scale: f64, is_derived: bool) -> Verdict {
         let Some(worst) = own.worst else {
-            return Verdict::open("at no instant do both have a number");
+            return Verdict::open(sentences::AT_NO_INSTANT_DO_BOTH_HAVE_A_NUMBER);
         };
         let open = |reason: String, advice: &str| Verdict::Inconclusive {
             reason,
@@ -150,17 +151,14 @@ impl Both<'_> {
         let largest = own.largest.map_or(0.0, |largest| largest.difference.abs());
         match own.since {
             Some(_) if is_derived && !self.measure().is_analytic && !has_no_number(own) => open(
-                format!("they differ by up to {largest:.3e}, and neither is analytic, so that no bound is known"),
-                "say what difference is allowed",
+                sentences::they_differ_by_up_to_and_neither(&format_args!("{largest:.3e}")),
+                sentences::SAY_WHAT_DIFFERENCE_IS_ALLOWED,
             ),
             Some(since) => Verdict::Disagree { place: place(&since) },
             // Numbers that are as near as that prove it, whatever their digits leave open.
             None if is_derived && own.widest > TELLING * scale && largest > TELLING * scale => open(
-                format!(
-                    "the numbers are known to {:.1e} of their scale only: digits, instants or interpolation",
-                    own.widest / scale
-                ),
-                "give more digits or closer instants, or say what difference is allowed",
+                sentences::the_numbers_are_known_to_of_their(&format_args!("{:.1e}", own.widest / scale)),
+                sentences::GIVE_MORE_DIGITS_OR_CLOSER,
             ),
             None => Verdict::Agree { margin: 1.0 / worst.used() },
         }
@@ -168,8 +166,8 @@ impl Both<'_> {
 }
 
 /// Where, and what stands there.
-pub(super) fn place(at: &Row) -> String {
-    let Row { time, crank, values: [one, other], .. } = at;
+pub(super) fn place(at: &RowPair) -> String {
+    let RowPair { time, crank, values: [one, other], .. } = at;
     let when = match (time.is_nan(), crank.is_nan()) {
         (false, false) => format!("t = {time:.6} s, {:.3}", Input::Angle.at(*crank)),
         (false, true) => format!("t = {time:.6} s"),
@@ -177,8 +175,8 @@ pub(super) fn place(at: &Row) -> String {
     };
     let told = |value: &f64| if value.is_nan() { "no number".into() } else { format!("{value:.9e}") };
     let way_out = match at.difference.is_nan() {
-        true => "; leave a cell empty where nothing was measured",
+        true => sentences::LEAVE_A_CELL_EMPTY_WHERE,
         false => "",
     };
-    format!("first at {when}: {} against {}{way_out}", told(one), told(other))
+    sentences::first_at_against(&when, &told(one), &told(other), &way_out)
 }

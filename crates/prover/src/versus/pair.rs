@@ -1,12 +1,13 @@
 //! What is known of two sides after they were compared.
 
+use crate::sentences;
 use std::f64::consts::TAU;
 
 use super::cause::Explained;
-use super::judge::{Both, Compared, Row, Which, place};
+use super::judge::{Both, Compared, RowPair, Which, place};
 use crate::compare::{Check, Verdict, overall};
 use crate::tables::Held;
-use crate::tolerance::{Basis, Tolerance};
+use crate::tolerance::{BoundBasis, Tolerance};
 use columns::{Beside, judge};
 use formula::Rounded;
 use linkage::math::statistics::half_range;
@@ -21,7 +22,7 @@ pub(super) struct Side {
 
 /// Two sides compared.
 #[derive(Default)]
-pub struct Pair {
+pub struct SidePair {
     /// What they are called in the recordings; empty for others.
     pub names: [String; 2],
     /// Channel by channel, in the order of the second party.
@@ -34,7 +35,7 @@ pub struct Pair {
     pub unshared: usize,
     /// Channels that only one of the two has.
     pub alone: [Vec<String>; 2],
-    /// The first row whose instant lies back, with the one before: see [`At::turns_back`](crate::tables::At::turns_back).
+    /// The first row whose instant lies back, with the one before: see [`At::turns_back`](crate::tables::RowKey::turns_back).
     pub turns_back: Option<(usize, [f64; 2])>,
     /// Two rows of the party that gives the instants which hold at the same one and contradict each other. No cause is
     /// sought then.
@@ -45,16 +46,16 @@ pub struct Pair {
     pub causes: Vec<Explained>,
 }
 
-impl Pair {
+impl SidePair {
     /// What the claims of both come to; `party` gives the instants.
-    pub(super) fn of(both: &Both, party: Which, claims: &[Claim]) -> Pair {
-        Pair {
+    pub(super) fn of(both: &Both, party: Which, claims: &[Claim]) -> SidePair {
+        SidePair {
             channels: both.judged(claims),
             contradiction: contradiction(both, party, claims),
             instants: both.at.values.len(),
             by_crank: both.at.is_crank,
             turns_back: both.at.turns_back(),
-            ..Pair::default()
+            ..SidePair::default()
         }
     }
 
@@ -74,7 +75,7 @@ impl Pair {
 
     /// The first row at which one of some channels, by their texts, is beyond its bound.
     #[must_use]
-    pub fn since(&self, channels: &[String]) -> Option<Row> {
+    pub fn since(&self, channels: &[String]) -> Option<RowPair> {
         let own = self.channels.iter().filter(|own| channels.contains(&own.claim.text));
         own.filter_map(|own| own.since).min_by(|one, other| one.time.total_cmp(&other.time))
     }
@@ -140,15 +141,14 @@ pub(super) fn crank_check(both: &Both, cranks: [&[Rounded]; 2], drift: &[f64]) -
     allowance.fixed += 4.0 * f64::EPSILON * TAU;
     let found = judge(&Beside { values: cranks, places: both.places(), drift, turn: Some(TAU), allowance, measure });
     let worst = found.worst.filter(|_| both.how.asks_for_crank())?;
-    let basis =
-        Basis::Wanted("both are said to count the crank angle alike: digits, rounding and integration allow this");
+    let basis = BoundBasis::Wanted(sentences::BOTH_ARE_SAID_TO_COUNT_THE_CRANK);
     let tolerance = Tolerance { bound: worst.bound, basis };
     let mut check = Check::new(CRANK, worst.difference.abs(), tolerance, "rad");
     check.verdict = match found.since {
-        Some(_) if !measure.is_analytic && allowed.is_none() => Verdict::open(
-            "the crank angles differ, and neither party is analytic: say by how much the channel crank may differ",
-        ),
-        Some(at) => Verdict::Disagree { place: place(&Row { values: at.values.map(f64::to_degrees), ..at }) },
+        Some(_) if !measure.is_analytic && allowed.is_none() => {
+            Verdict::open(sentences::THE_CRANK_ANGLES_DIFFER_AND_NEITHER)
+        }
+        Some(at) => Verdict::Disagree { place: place(&RowPair { values: at.values.map(f64::to_degrees), ..at }) },
         None => Verdict::Agree { margin: 1.0 / worst.used() },
     };
     Some(check)

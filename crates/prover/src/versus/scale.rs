@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use crate::compare::scales;
 use crate::proof::solved::{known_at_least, known_of_complete};
 use analytic::AssurSolver;
-use formula::Shape;
+use formula::NodeShape;
 use linkage::case::Grid;
 use linkage::math::KeepNan;
 use linkage::solver::Solver;
@@ -53,7 +53,7 @@ impl Scales {
 
     /// The scale of a channel in the unit of its claim; `None` for an arithmetic.
     pub(super) fn of_claim(&self, claim: &Claim) -> Option<f64> {
-        let (Shape::Name(_), Some((_, printed))) = (&claim.tree.shape, claim.channels.first()) else { return None };
+        let (NodeShape::Name(_), Some((_, printed))) = (&claim.tree.shape, claim.channels.first()) else { return None };
         let of = |channel: &Channel| self.0.get(&channel.to_string()).map(|(scale, _)| *scale);
         let across = Channel::named(&format!("joint.{}.fy_N", printed.channel.of)).filter(|_| printed.magnitude);
         let own = of(&printed.channel)?;

@@ -2,7 +2,7 @@
 
 use linkage::case::Case;
 use linkage::math::{Vec2, cross, turned};
-use linkage::mechanism::{JointId, JointKind, LinkId, Side};
+use linkage::mechanism::{JointId, JointKind, JointSide, LinkId};
 use linkage::solver::State;
 
 /// Components that a joint transmits where it stands alone in two equations: those of a pin or of a slide.
@@ -25,7 +25,7 @@ pub(super) enum Pair {
     /// The joint's points relative to the mass centres, in the links' frames (m).
     Pin([Vec2; 2]),
     /// Axis in the frame of the joint's first link, point on the second, and mass centres in the frames of the two links.
-    Slide { axis: Side, place: Side, centres: [Vec2; 2] },
+    Slide { axis: JointSide, place: JointSide, centres: [Vec2; 2] },
 }
 
 /// A joint at one instant: arms from the mass centres of its links to where it acts (m, world axes).
@@ -60,7 +60,7 @@ impl Seam {
         let pair = match found.kind {
             JointKind::Revolute => Pair::Pin([on[0] - centres[0], on[1] - centres[1]]),
             JointKind::Prismatic { axes: [axis, _] } => {
-                Pair::Slide { axis: Side { link: found.first.link, local: axis }, place: found.second, centres }
+                Pair::Slide { axis: JointSide { link: found.first.link, local: axis }, place: found.second, centres }
             }
         };
         let signs = links.map(|link| if link == found.second.link { 1.0 } else { -1.0 });

@@ -2,7 +2,7 @@
 
 use super::rapier::prelude::{JointAxesMask, Multibody, PhysicsWorld, Pose, Rotation};
 use super::{Place, Twin, joints, real, wide};
-use crate::tree::{Tree, coordinate};
+use crate::tree::{SpanningTree, coordinate};
 use crate::world::{LinkAngle, LinkFrame, World};
 use linkage::drive::Wrench;
 use linkage::math::Vec2;
@@ -84,7 +84,7 @@ fn place(pose: &Pose) -> (Vec2, Vec2) {
 }
 
 impl World for Twin {
-    fn tree(&self) -> &Tree {
+    fn tree(&self) -> &SpanningTree {
         &self.tree
     }
 

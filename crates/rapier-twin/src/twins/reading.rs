@@ -28,7 +28,7 @@ impl Twin {
                     (rotated(direction, axis), second - normal * normal.dot(&(second - first)))
                 }
             };
-            let centre = |link: LinkId| self.point(linkage::mechanism::Side { link, local: self.centres[link] });
+            let centre = |link: LinkId| self.point(linkage::mechanism::JointSide { link, local: self.centres[link] });
             let arms = [place - centre(joint.first.link), second - centre(joint.second.link)];
             let start = &mut self.cuts[index].start;
             *start = if share == 1.0 { Frame { axis, arms } } else { start.towards(Frame { axis, arms }, share) };

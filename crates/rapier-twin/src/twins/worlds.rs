@@ -6,6 +6,7 @@ mod motion;
 mod reading;
 
 use super::{Real, parry, rapier, real, wide};
+use crate::sentences;
 
 use rapier::prelude::{
     GenericJoint, ImpulseJointHandle, JointAxis, MultibodyJointHandle, PhysicsWorld, RigidBodyBuilder, RigidBodyHandle,
@@ -13,7 +14,7 @@ use rapier::prelude::{
 
 use crate::masses::{Loading, world_masses};
 use crate::steer::steered;
-use crate::tree::Tree;
+use crate::tree::SpanningTree;
 use crate::world::{LinkAngle, LinkFrame};
 use linkage::case::Case;
 use linkage::engine::Settings;
@@ -67,7 +68,7 @@ struct Place {
 /// The Rapier world of a case.
 pub(crate) struct Twin {
     world: PhysicsWorld,
-    tree: Tree,
+    tree: SpanningTree,
     joints: Vec<Joint>,
     bodies: Vec<RigidBodyHandle>,
     /// The multibodies, each given by one of its links; none if all links are separate bodies. See [`LARGE`].
@@ -97,7 +98,7 @@ impl Twin {
     ///
     /// # Errors
     /// [`ErrorKind::Unsupported`] if Rapier refuses a joint.
-    pub(crate) fn new(case: &Case, tree: Tree, settings: &Settings, loading: Loading) -> Result<Self> {
+    pub(crate) fn new(case: &Case, tree: SpanningTree, settings: &Settings, loading: Loading) -> Result<Self> {
         let mechanism = &case.mechanism;
         let masses = world_masses(case, &tree, loading);
         let read = loading != Loading::Moving;
@@ -132,7 +133,7 @@ impl Twin {
             };
             let Some(own) = own else {
                 let name = &found.name;
-                return Err(Error::new(ErrorKind::Unsupported, format!("Rapier refuses the tree joint \"{name}\"")));
+                return Err(Error::new(ErrorKind::Unsupported, sentences::rapier_refuses_the_tree_joint(&name)));
             };
             home[branch.link] = own;
         }

@@ -7,7 +7,7 @@ use super::outline::Outline;
 
 /// A body: a link, or a part of the housing.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Body {
+pub struct ClearanceBody {
     /// Name for reports.
     pub name: String,
     /// Its link; [`GROUND`] for the housing.
@@ -16,7 +16,7 @@ pub struct Body {
     pub outline: Outline,
 }
 
-impl Body {
+impl ClearanceBody {
     /// Whether it moves.
     #[must_use]
     pub fn moves(&self) -> bool {
@@ -26,9 +26,9 @@ impl Body {
 
 /// A question of clearance.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Question {
+pub struct ClearanceQuestion {
     /// All bodies, in the order of reports.
-    pub bodies: Vec<Body>,
+    pub bodies: Vec<ClearanceBody>,
     /// Pairs of bodies whose distance is wanted, by their numbers.
     pub pairs: Vec<[usize; 2]>,
     /// The distance that no pair may fall to (m), if there is one.
@@ -39,7 +39,7 @@ pub struct Question {
     pub area: f64,
 }
 
-impl Question {
+impl ClearanceQuestion {
     /// Largest distance of a corner from the origin of its frame, with the rounding (m).
     #[must_use]
     pub fn extent(&self) -> f64 {
@@ -49,7 +49,7 @@ impl Question {
 
 /// All pairs of bodies that can meet: links that are not joined, and every link with the housing, but those of `ignored`.
 #[must_use]
-pub fn pairs(mechanism: &Mechanism, bodies: &[Body], ignored: &[[usize; 2]]) -> Vec<[usize; 2]> {
+pub fn pairs(mechanism: &Mechanism, bodies: &[ClearanceBody], ignored: &[[usize; 2]]) -> Vec<[usize; 2]> {
     let mut pairs = Vec::new();
     for second in 1..bodies.len() {
         for first in 0..second {

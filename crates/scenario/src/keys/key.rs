@@ -1,8 +1,8 @@
 //! What is told of a section and of a key.
 
 use crate::unit::{
-    ACCELERATION, ANGLE, ANGULAR_SPEED, DAMPING, FORCE, Family, INERTIA, INPUTS, INPUTS_OR_TIMES, LENGTH, MASS, MOMENT,
-    MOMENT_PER_SPEED, STIFFNESS, TIME, TORSIONAL_STIFFNESS,
+    ACCELERATION, ANGLE, ANGULAR_SPEED, DAMPING, FORCE, INERTIA, INPUTS, INPUTS_OR_TIMES, LENGTH, MASS, MOMENT,
+    MOMENT_PER_SPEED, STIFFNESS, TIME, TORSIONAL_STIFFNESS, UnitFamily,
 };
 
 /// A table of a scenario file.
@@ -11,16 +11,16 @@ pub struct Section {
     /// Keys that lead to it from the top of the file, with dots; `*` stands for any name.
     pub path: &'static str,
     /// Its keys.
-    pub keys: &'static [Key],
+    pub keys: &'static [FileKey],
 }
 
 /// A key.
 #[derive(Clone, Copy, Debug)]
-pub struct Key {
+pub struct FileKey {
     /// Its name, without the unit of a quantity.
     pub name: &'static str,
     /// What stands there.
-    pub kind: Kind,
+    pub kind: ValueKind,
     /// Whether it must be there.
     pub is_needed: bool,
     /// What it means, in one sentence of Markdown.
@@ -31,7 +31,7 @@ pub struct Key {
 
 /// What stands at a key.
 #[derive(Clone, Copy, Debug)]
-pub enum Kind {
+pub enum ValueKind {
     /// Text.
     Text,
     /// One of these words.
@@ -47,9 +47,9 @@ pub enum Kind {
     /// A whole number, `true` or `false`.
     IntegerOrBoolean,
     /// A number whose key ends in a unit of one of these families, and which values it may have.
-    Quantity(&'static [&'static Family], Sign),
+    Quantity(&'static [&'static UnitFamily], Sign),
     /// A list of such numbers.
-    Quantities(&'static [&'static Family]),
+    Quantities(&'static [&'static UnitFamily]),
     /// A table: the section with the path of the key.
     Table,
     /// An array of tables.
@@ -63,24 +63,24 @@ impl Section {
         Section { path, keys: &[] }
     }
 
-    pub(crate) const fn with(self, keys: &'static [Key]) -> Section {
+    pub(crate) const fn with(self, keys: &'static [FileKey]) -> Section {
         Section { keys, ..self }
     }
 }
 
 /// A key that must be there.
-pub(crate) const fn needed(name: &'static str, kind: Kind) -> Key {
-    Key { name, kind, is_needed: true, meaning: "", default: "" }
+pub(crate) const fn needed(name: &'static str, kind: ValueKind) -> FileKey {
+    FileKey { name, kind, is_needed: true, meaning: "", default: "" }
 }
 
 /// A key that may be left out, and what holds then.
-pub(crate) const fn optional(name: &'static str, kind: Kind, default: &'static str) -> Key {
-    Key { is_needed: false, default, ..needed(name, kind) }
+pub(crate) const fn optional(name: &'static str, kind: ValueKind, default: &'static str) -> FileKey {
+    FileKey { is_needed: false, default, ..needed(name, kind) }
 }
 
-impl Key {
-    pub(crate) const fn means(self, meaning: &'static str) -> Key {
-        Key { meaning, ..self }
+impl FileKey {
+    pub(crate) const fn means(self, meaning: &'static str) -> FileKey {
+        FileKey { meaning, ..self }
     }
 
     /// The spellings of the key, units included.
@@ -94,39 +94,40 @@ impl Key {
 }
 
 /// Kinds of quantities.
-impl Kind {
-    pub(crate) const ACCELERATIONS: Kind = Kind::Quantity(&[&ACCELERATION], Sign::Any);
-    pub(crate) const ANGLES: Kind = Kind::Quantity(&[&ANGLE], Sign::Any);
+impl ValueKind {
+    pub(crate) const ACCELERATIONS: ValueKind = ValueKind::Quantity(&[&ACCELERATION], Sign::Any);
+    pub(crate) const ANGLES: ValueKind = ValueKind::Quantity(&[&ANGLE], Sign::Any);
     /// Values of an input, whatever it measures.
-    pub(crate) const INPUTS: Kind = Kind::Quantity(&INPUTS, Sign::Any);
-    pub(crate) const INPUTS_OR_TIMES: Kind = Kind::Quantity(&INPUTS_OR_TIMES, Sign::Any);
-    pub(crate) const DAMPINGS_OR_SLOPES: Kind = Kind::Quantity(&[&DAMPING, &MOMENT_PER_SPEED], Sign::Any);
-    pub(crate) const FORCES: Kind = Kind::Quantity(&[&FORCE], Sign::Any);
-    pub(crate) const INERTIAS: Kind = Kind::Quantity(&[&INERTIA], Sign::Any);
-    pub(crate) const LENGTHS: Kind = Kind::Quantity(&[&LENGTH], Sign::Any);
-    pub(crate) const LENGTHS_OR_ANGLES: Kind = Kind::Quantity(&[&LENGTH, &ANGLE], Sign::Any);
-    pub(crate) const MASSES: Kind = Kind::Quantity(&[&MASS], Sign::Any);
-    pub(crate) const MOMENTS: Kind = Kind::Quantity(&[&MOMENT], Sign::Any);
-    pub(crate) const SLOPES: Kind = Kind::Quantity(&[&MOMENT_PER_SPEED], Sign::Any);
-    pub(crate) const SPEEDS: Kind = Kind::Quantity(&[&ANGULAR_SPEED], Sign::Any);
-    pub(crate) const STIFFNESSES_OR_TORSIONAL: Kind = Kind::Quantity(&[&STIFFNESS, &TORSIONAL_STIFFNESS], Sign::Any);
-    pub(crate) const TIMES: Kind = Kind::Quantity(&[&TIME], Sign::Any);
-    pub(crate) const LIST_OF_ANGLES: Kind = Kind::Quantities(&[&ANGLE]);
-    pub(crate) const LIST_OF_TIMES: Kind = Kind::Quantities(&[&TIME]);
+    pub(crate) const INPUTS: ValueKind = ValueKind::Quantity(&INPUTS, Sign::Any);
+    pub(crate) const INPUTS_OR_TIMES: ValueKind = ValueKind::Quantity(&INPUTS_OR_TIMES, Sign::Any);
+    pub(crate) const DAMPINGS_OR_SLOPES: ValueKind = ValueKind::Quantity(&[&DAMPING, &MOMENT_PER_SPEED], Sign::Any);
+    pub(crate) const FORCES: ValueKind = ValueKind::Quantity(&[&FORCE], Sign::Any);
+    pub(crate) const INERTIAS: ValueKind = ValueKind::Quantity(&[&INERTIA], Sign::Any);
+    pub(crate) const LENGTHS: ValueKind = ValueKind::Quantity(&[&LENGTH], Sign::Any);
+    pub(crate) const LENGTHS_OR_ANGLES: ValueKind = ValueKind::Quantity(&[&LENGTH, &ANGLE], Sign::Any);
+    pub(crate) const MASSES: ValueKind = ValueKind::Quantity(&[&MASS], Sign::Any);
+    pub(crate) const MOMENTS: ValueKind = ValueKind::Quantity(&[&MOMENT], Sign::Any);
+    pub(crate) const SLOPES: ValueKind = ValueKind::Quantity(&[&MOMENT_PER_SPEED], Sign::Any);
+    pub(crate) const SPEEDS: ValueKind = ValueKind::Quantity(&[&ANGULAR_SPEED], Sign::Any);
+    pub(crate) const STIFFNESSES_OR_TORSIONAL: ValueKind =
+        ValueKind::Quantity(&[&STIFFNESS, &TORSIONAL_STIFFNESS], Sign::Any);
+    pub(crate) const TIMES: ValueKind = ValueKind::Quantity(&[&TIME], Sign::Any);
+    pub(crate) const LIST_OF_ANGLES: ValueKind = ValueKind::Quantities(&[&ANGLE]);
+    pub(crate) const LIST_OF_TIMES: ValueKind = ValueKind::Quantities(&[&TIME]);
 
     /// Quantities of these values only.
-    pub(crate) const fn of(self, sign: Sign) -> Kind {
-        if let Kind::Quantity(families, _) = self { Kind::Quantity(families, sign) } else { self }
+    pub(crate) const fn of(self, sign: Sign) -> ValueKind {
+        if let ValueKind::Quantity(families, _) = self { ValueKind::Quantity(families, sign) } else { self }
     }
 
     /// The families of a quantity; none of anything else.
-    pub(crate) const fn families(self) -> &'static [&'static Family] {
-        if let Kind::Quantity(families, _) | Kind::Quantities(families) = self { families } else { &[] }
+    pub(crate) const fn families(self) -> &'static [&'static UnitFamily] {
+        if let ValueKind::Quantity(families, _) | ValueKind::Quantities(families) = self { families } else { &[] }
     }
 
     /// The values that a quantity may have.
     pub(crate) const fn sign(self) -> Sign {
-        if let Kind::Quantity(_, sign) = self { sign } else { Sign::Any }
+        if let ValueKind::Quantity(_, sign) = self { sign } else { Sign::Any }
     }
 }
 

@@ -69,7 +69,7 @@ fn every_key_that_a_reader_asks_for_is_in_the_table() {
             assert!(is_named || path == "parameters", "there is no section `{path}`");
             continue;
         };
-        let known: BTreeSet<String> = section.keys.iter().flat_map(super::Key::spellings).collect();
+        let known: BTreeSet<String> = section.keys.iter().flat_map(super::FileKey::spellings).collect();
         let unknown: Vec<&String> = keys.difference(&known).collect();
         assert!(unknown.is_empty(), "`{path}` lacks {unknown:?}");
     }
@@ -83,7 +83,7 @@ fn every_key_of_the_table_is_asked_for() {
     for section in sections() {
         // Places and printed numbers stand in several sections and have one reader.
         let alike = || sections().filter(|other| names(other) == names(section));
-        for spelling in section.keys.iter().flat_map(super::Key::spellings) {
+        for spelling in section.keys.iter().flat_map(super::FileKey::spellings) {
             if !alike().any(|own| asked.get(own.path).is_some_and(|keys| keys.contains(&spelling))) {
                 never.push(format!("{}.{spelling}", section.path));
             }

@@ -1,24 +1,25 @@
 //! Quantities: numbers whose key ends in their unit.
 
+use crate::sentences;
 use toml::Spanned;
 use toml::de::DeValue;
 
-use super::{Entry, Needed, Sign, Table, found};
-use crate::keys::key::Key;
-use crate::unit::{Family, Unit};
+use super::{Entry, Needed, Sign, TomlTable, found};
+use crate::keys::key::FileKey;
+use crate::unit::{NamedUnit, UnitFamily};
 use crate::words::choice;
 use linkage::error::{Error, ErrorKind, Result};
 
 /// A quantity's family, the index of its entry, and its unit.
-type Spelled = (&'static Family, usize, &'static Unit);
+type Spelled = (&'static UnitFamily, usize, &'static NamedUnit);
 
 /// Smallest size of a quantity in SI whose products with others, and their squares, are numbers.
 const SMALLEST: f64 = 1e-100;
 
-impl<'a> Table<'a> {
+impl<'a> TomlTable<'a> {
     /// The row of a quantity in the table of keys, which has its units and its sign.
-    fn row(&self, key: &str) -> &'static Key {
-        let is_own = |row: &&Key| row.name == key && !row.kind.families().is_empty();
+    fn row(&self, key: &str) -> &'static FileKey {
+        let is_own = |row: &&FileKey| row.name == key && !row.kind.families().is_empty();
         self.rows.iter().find(is_own).unwrap_or_else(|| panic!("section `{}` has no quantity `{key}`", self.section))
     }
 
@@ -33,13 +34,13 @@ impl<'a> Table<'a> {
     }
 
     /// The same with the family that it is of.
-    pub fn optional_si_of(&mut self, key: &str) -> Result<Option<(&'static Family, f64)>> {
+    pub fn optional_si_of(&mut self, key: &str) -> Result<Option<(&'static UnitFamily, f64)>> {
         let row = self.row(key);
         self.quantity_in(key, row.kind.families(), row.kind.sign())
     }
 
     /// A list of quantities in SI, as its row tells, and the family that they are of; `None` if it is not there.
-    pub fn optional_si_list(&mut self, key: &str) -> Result<Option<(&'static Family, Vec<f64>)>> {
+    pub fn optional_si_list(&mut self, key: &str) -> Result<Option<(&'static UnitFamily, Vec<f64>)>> {
         let family = self.row(key).kind.families()[0];
         Ok(self.optional_quantities(key, family)?.map(|values| (family, values)))
     }
@@ -51,12 +52,12 @@ impl<'a> Table<'a> {
     }
 
     /// Quantity under one of the spellings of `base` in `family`, in SI; `None` if there is none.
-    pub fn optional_quantity(&mut self, base: &str, family: &'static Family, sign: Sign) -> Result<Option<f64>> {
+    pub fn optional_quantity(&mut self, base: &str, family: &'static UnitFamily, sign: Sign) -> Result<Option<f64>> {
         Ok(self.quantity_in(base, &[family], sign)?.map(|(_, value)| value))
     }
 
     /// Quantity under one of the spellings of `base` in `family`, in SI.
-    pub fn quantity(&mut self, base: &str, family: &'static Family, sign: Sign) -> Result<f64> {
+    pub fn quantity(&mut self, base: &str, family: &'static UnitFamily, sign: Sign) -> Result<f64> {
         if let Some(value) = self.optional_quantity(base, family, sign)? {
             return Ok(value);
         }
@@ -68,9 +69,9 @@ impl<'a> Table<'a> {
     fn quantity_in(
         &mut self,
         base: &str,
-        families: &[&'static Family],
+        families: &[&'static UnitFamily],
         sign: Sign,
-    ) -> Result<Option<(&'static Family, f64)>> {
+    ) -> Result<Option<(&'static UnitFamily, f64)>> {
         let (family, at, unit) = match self.spelled(base, families) {
             Ok(None) => return Ok(None),
             Ok(Some(found)) => found,
@@ -84,18 +85,18 @@ impl<'a> Table<'a> {
     }
 
     /// The number of an entry in SI, if it is one of those that are allowed.
-    fn allowed(&self, at: usize, unit: &Unit, family: &Family, sign: Sign) -> Result<f64> {
+    fn allowed(&self, at: usize, unit: &NamedUnit, family: &UnitFamily, sign: Sign) -> Result<f64> {
         let entry = &self.entries[at];
         let number = self.finite(entry.key, entry.value)?;
         if let Some((rule, way_out)) = sign.broken_by(number) {
-            let message = format!("found {}, but {} {rule} here", found(self.source, entry.value), family.noun);
+            let message = sentences::found_but_here(&found(self.source, entry.value), &family.noun, &rule);
             return self.refuse(entry.key, message, way_out);
         }
         self.in_range(entry.key, entry.value, unit.to_si(number), family)
     }
 
     /// Array of quantities under one of the spellings of `base` in `family`, in SI; `None` if there is none.
-    fn optional_quantities(&mut self, base: &str, family: &'static Family) -> Result<Option<Vec<f64>>> {
+    fn optional_quantities(&mut self, base: &str, family: &'static UnitFamily) -> Result<Option<Vec<f64>>> {
         let (at, unit) = match self.spelled(base, &[family]) {
             Ok(None) => return Ok(None),
             Ok(Some((_, at, unit))) => (at, unit),
@@ -116,19 +117,25 @@ impl<'a> Table<'a> {
     }
 
     /// A number in SI that a mechanism may have: zero, or of a size between those of its family.
-    fn in_range(&self, key: &str, value: &Spanned<DeValue>, si: f64, family: &Family) -> Result<f64> {
+    fn in_range(&self, key: &str, value: &Spanned<DeValue>, si: f64, family: &UnitFamily) -> Result<f64> {
         if si == 0.0 || (SMALLEST..=family.most).contains(&si.abs()) {
             return Ok(si);
         }
-        let Family { noun, units, most } = family;
+        let UnitFamily { noun, units, most } = family;
         let (found, unit) = (found(self.source, value), units[0].suffix);
-        let message = format!("found {found}, but {noun} is zero or of a size from {SMALLEST:e} to {most:e} {unit}");
-        Err(self.wrong_at(key, value.span(), message).help("check the unit and the exponent"))
+        let message = sentences::found_but_is_zero_or_of_a_size(
+            &found,
+            &noun,
+            &format_args!("{:e}", SMALLEST),
+            &format_args!("{most:e}"),
+            &unit,
+        );
+        Err(self.wrong_at(key, value.span(), message).help(sentences::CHECK_THE_UNIT_AND_THE_EXPONENT))
     }
 
     /// The one entry that spells `base` in a unit of the families: its family, its own index, and the unit. All
     /// spellings are recorded as asked for.
-    fn spelled(&mut self, base: &str, families: &[&'static Family]) -> Result<Option<Spelled>> {
+    fn spelled(&mut self, base: &str, families: &[&'static UnitFamily]) -> Result<Option<Spelled>> {
         let spellings: Vec<String> = families.iter().flat_map(|family| family.keys(base)).collect();
         let mut present: Vec<usize> =
             spellings.iter().filter_map(|spelling| self.places.get(spelling.as_str()).copied()).collect();
@@ -144,10 +151,10 @@ impl<'a> Table<'a> {
         let key = self.entries[at].key;
         if let Some(second) = present.get(1).map(|&second| &self.entries[second]) {
             self.asked.extend(spellings);
-            let message = format!("`{key}` and `{}` are both given", second.key);
-            return self.refuse(second.key, message, "keep one of the two");
+            let message = sentences::and_are_both_given(&key, &second.key);
+            return self.refuse(second.key, message, sentences::KEEP_ONE_OF_THE_TWO);
         }
-        let unit = |&family: &&'static Family| Some((family, at, family.unit_of(base, key)?));
+        let unit = |&family: &&'static UnitFamily| Some((family, at, family.unit_of(base, key)?));
         let found = families.iter().find_map(unit).expect("the key is one of the spellings");
         self.settled.extend_from_slice(&spellings);
         self.asked.extend(spellings);
@@ -155,19 +162,16 @@ impl<'a> Table<'a> {
     }
 
     /// A key that is `base` without its unit or with an unknown unit, and its error.
-    fn misspelt_unit(&self, base: &str, family: &Family, spellings: &[String]) -> Option<(&'a str, Error)> {
+    fn misspelt_unit(&self, base: &str, family: &UnitFamily, spellings: &[String]) -> Option<(&'a str, Error)> {
         let help = format!("write {}", choice(spellings.iter().map(String::as_str), "`"));
         let is_number =
             |entry: &&Entry| !matches!(entry.value.get_ref(), DeValue::Table(_)) && !self.used.contains(&entry.key);
         if let Some(entry) = self.entry(base).filter(is_number) {
-            return Some((
-                entry.key,
-                self.wrong(ErrorKind::Input, base, format!("`{base}` carries no unit")).help(help),
-            ));
+            return Some((entry.key, self.wrong(ErrorKind::Input, base, sentences::carries_no_unit(&base)).help(help)));
         }
         let prefixed = |entry: &&Entry| entry.key.strip_prefix(base).is_some_and(|rest| rest.starts_with('_'));
         let entry = self.entries.iter().filter(is_number).find(prefixed)?;
-        let message = format!("`{}` does not end in a unit that {} has here", entry.key, family.noun);
+        let message = sentences::does_not_end_in_a_unit_that_has_here(&entry.key, &family.noun);
         Some((entry.key, self.wrong(ErrorKind::Input, entry.key, message).help(help)))
     }
 }

@@ -1,8 +1,9 @@
 //! The mistakes of a table, and of several, all at once.
 
+use crate::sentences;
 use toml::de::DeValue;
 
-use super::{Entry, Table};
+use super::{Entry, TomlTable};
 use crate::words::{choice, nearest};
 use linkage::error::{Error, ErrorKind, Result};
 
@@ -26,7 +27,11 @@ impl Faults {
     }
 
     /// What `read` makes of a table; `None` after a mistake, which is noted.
-    pub fn read<'a, T>(&mut self, table: &mut Table<'a>, read: impl FnOnce(&mut Table<'a>) -> Result<T>) -> Option<T> {
+    pub fn read<'a, T>(
+        &mut self,
+        table: &mut TomlTable<'a>,
+        read: impl FnOnce(&mut TomlTable<'a>) -> Result<T>,
+    ) -> Option<T> {
         let (found, own) = table.tried(self.names, read);
         self.all.extend(own);
         match found {
@@ -53,7 +58,7 @@ impl Faults {
     }
 }
 
-impl<'a> Table<'a> {
+impl<'a> TomlTable<'a> {
     /// What `read` makes of the table. All mistakes of its keys and values come together. What `read` says beyond them,
     /// about what the values mean, counts only without them: it might follow from one of them.
     pub fn read<T>(&mut self, read: impl FnOnce(&mut Self) -> Result<T>) -> Result<T> {
@@ -161,22 +166,20 @@ impl<'a> Table<'a> {
     fn missing_by(&self, spellings: &[String], help: Option<&'static str>) -> (Error, Option<&'a str>) {
         let wanted = choice(spellings.iter().map(String::as_str), "`");
         // At the top level there is no table to name.
-        let error = self.fault(format!("{wanted} is missing")).key(spellings[0].clone());
+        let error = self.fault(sentences::is_missing(&wanted)).key(spellings[0].clone());
         let spelling = |key: &str| nearest(key, spellings.iter().map(String::as_str));
         let unread = self.entries.iter().filter(|entry| self.is_unknown(entry));
         match unread.filter_map(|entry| Some((entry, spelling(entry.key)?))).next() {
             Some((entry, spelling)) => {
-                let error = Error::new(ErrorKind::Input, format!("{wanted} is missing"))
+                let error = Error::new(ErrorKind::Input, sentences::is_missing(&wanted))
                     .key(self.path_of(spelling))
                     .at(self.source.place(entry.key_span.clone()))
-                    .help(format!("there is `{}`: did you mean `{spelling}`?", entry.key));
+                    .help(sentences::there_is_did_you_mean(&entry.key, &spelling));
                 (error, Some(entry.key))
             }
             None if help.is_some() => (help.into_iter().fold(error, Error::help), None),
-            None if self.path.is_empty() => {
-                (error.help(format!("add {wanted}; docs/scenario.md describes every key")), None)
-            }
-            None => (error.help(format!("add {wanted} to `{}`", self.path)), None),
+            None if self.path.is_empty() => (error.help(sentences::add_docs_scenario_md_describes(&wanted)), None),
+            None => (error.help(sentences::add_to(&wanted, &self.path)), None),
         }
     }
 
@@ -210,10 +213,10 @@ impl<'a> Table<'a> {
             let is_open = |key: &&str| !self.has(key) && !self.settled.iter().any(|settled| settled == key);
             let near = || nearest(entry.key, asked().filter(is_open));
             let help = match (count < MOST).then(near).flatten() {
-                Some(near) => format!("did you mean `{near}`?"),
-                None => format!("known here: {}", choice(asked(), "`")),
+                Some(near) => sentences::did_you_mean(&near),
+                None => sentences::known_here(&(choice(asked(), "`"))),
             };
-            Error::new(ErrorKind::Input, "this key is not known here")
+            Error::new(ErrorKind::Input, sentences::THIS_KEY_IS_NOT_KNOWN_HERE)
                 .key(self.path_of(entry.key))
                 .at(self.source.place(entry.key_span.clone()))
                 .help(help)

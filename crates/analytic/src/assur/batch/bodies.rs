@@ -4,7 +4,7 @@ use super::poses::Layout;
 use linkage::case::Case;
 use linkage::drive::Load;
 use linkage::math::Vec2;
-use linkage::mechanism::{JointId, LinkId, Side};
+use linkage::mechanism::{JointId, JointSide, LinkId};
 
 /// A joint as it acts on one of its links: `sign` times its reaction, at `arm` from the link's pole, in the link's
 /// frame.
@@ -46,7 +46,7 @@ impl Reader<'_> {
     }
 
     pub(super) fn base(&self, joint: JointId, link: LinkId) -> (Option<usize>, Vec2) {
-        let Side { link, local } = self.case.mechanism.joints()[joint].other(link);
+        let JointSide { link, local } = self.case.mechanism.joints()[joint].other(link);
         (self.layout.link(link), local)
     }
 

@@ -3,7 +3,7 @@
 use super::bodies::{Action, Body, Reader};
 use super::chains::Chain;
 use super::poses::Layout;
-use crate::assur::groups::{Plan, Step};
+use crate::assur::groups::{SolutionPlan, Step};
 use linkage::case::Case;
 use linkage::drive::Load;
 use linkage::math::Vec2;
@@ -69,7 +69,7 @@ impl Groups {
     /// The constants of a case, whose start pose the plan has placed. `None` if a group is of another kind, a driving
     /// link is attached to another driving link, or a load is not a moment of resistance.
     /// Such cases need places and other links, and are solved pose by pose.
-    pub(super) fn of(case: &Case, plan: &Plan, layout: Layout) -> Option<Self> {
+    pub(super) fn of(case: &Case, plan: &SolutionPlan, layout: Layout) -> Option<Self> {
         let groups = &case.structure.groups;
         let simple = |load: &Load| load.resistance().is_some();
         let hinged = |&(link, joint): &(LinkId, JointId)| {

@@ -3,7 +3,7 @@
 use linkage::case::Case;
 use linkage::drive::{Load, Wrench};
 use linkage::math::{Motion, Vec2, cross};
-use linkage::mechanism::{JointId, LinkId, Side};
+use linkage::mechanism::{JointId, JointSide, LinkId};
 
 /// Reactions: what the first link of every joint exerts on the second. Filled in from the last group to the first.
 #[derive(Debug)]
@@ -20,7 +20,7 @@ pub(super) struct Reactions<'a> {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Action {
     pub(super) joint: JointId,
-    side: Side,
+    side: JointSide,
     sign: f64,
     /// Whether the joint carries a moment too.
     slides: bool,

@@ -5,7 +5,7 @@
 //! The forces of the other joints follow from the outermost link inwards.
 
 use super::body::{Action, Body, Reactions};
-use crate::assur::groups::{Chain, Plan, Step};
+use crate::assur::groups::{Chain, SolutionPlan, Step};
 use linkage::case::Case;
 use linkage::math::{Motion, Vec2, cross};
 use linkage::mechanism::GroupId;
@@ -55,7 +55,7 @@ impl Higher {
         }
     }
 
-    pub(super) fn solve(&mut self, case: &Case, plan: &Plan, motions: &[Motion], reactions: &mut Reactions) {
+    pub(super) fn solve(&mut self, case: &Case, plan: &SolutionPlan, motions: &[Motion], reactions: &mut Reactions) {
         let Step::Chain(chain) = &plan.steps()[self.step] else { unreachable!("the step is a chain") };
         match chain.is_sliding() {
             true => self.solve_as::<true>(case, chain, motions, reactions),

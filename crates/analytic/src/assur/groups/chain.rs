@@ -18,14 +18,14 @@ mod rates;
 
 #[cfg(feature = "batch")]
 pub(in crate::assur) use contour::Arrow;
-pub use contour::{Closing, Node};
+pub use contour::{ClosingJoint, Node};
 pub(in crate::assur) use contour::{Contours, Hangs};
 
 use self::predict::{Memory, copy};
 use linkage::math::dense::Lu;
 use linkage::math::{KeepNan, Motion, Vec2, rotated, turned};
-use linkage::mechanism::{GROUND, Group, Mechanism, Side};
-use linkage::work::{Count, Tally};
+use linkage::mechanism::{GROUND, Group, JointSide, Mechanism};
+use linkage::work::{Count, WorkTally};
 
 /// Newton's method from the last pose needs a few iterations. If it needs more, it has lost the branch.
 const MAX_ITERATIONS: usize = 10;
@@ -113,7 +113,7 @@ pub struct Chain {
     /// Largest determinant at a pose so far, without sign.
     largest: f64,
     memory: Memory,
-    tally: Box<Tally>,
+    tally: Box<WorkTally>,
 }
 
 impl Chain {
@@ -125,7 +125,7 @@ impl Chain {
         let none = Vec2::zeros();
         let at = At { arm: none, place: none, velocity: none, acceleration: none };
         // Joints on the ground stay where they are.
-        let root = |side: &Side| At { arm: side.local, place: side.local, ..at };
+        let root = |side: &JointSide| At { arm: side.local, place: side.local, ..at };
         let world = World {
             arrows: vec![none; contours.arrows.len()],
             centripetal: vec![none; contours.arrows.len()],
@@ -165,7 +165,7 @@ impl Chain {
     /// The joints that close its contours.
     #[inline]
     #[must_use]
-    pub fn closings(&self) -> &[Closing] {
+    pub fn closings(&self) -> &[ClosingJoint] {
         &self.contours.closings
     }
 
@@ -305,7 +305,7 @@ impl Chain {
 
     /// Places of the joints on links outside the group.
     fn find_roots(&mut self, motions: &[Motion]) {
-        let moving = |(_, side): &(&mut At, &Side)| side.link != GROUND;
+        let moving = |(_, side): &(&mut At, &JointSide)| side.link != GROUND;
         for (root, side) in self.world.roots.iter_mut().zip(&self.contours.roots).filter(moving) {
             let motion = &motions[side.link];
             root.arm = motion.arm(side.local);

@@ -1,7 +1,7 @@
 //! Outer prismatic pair of a dyad: a link that slides on a known link and turns with it.
 
 use linkage::math::{Motion, Vec2, cross, rotated, turned};
-use linkage::mechanism::{Joint, LinkId, Side};
+use linkage::mechanism::{Joint, JointSide, LinkId};
 
 /// `a` times the conjugate of `b` as complex numbers: the direction of a frame in which the unit vector `b` points
 /// along `a`.
@@ -15,7 +15,7 @@ pub(super) fn turn_between(a: Vec2, b: Vec2) -> Vec2 {
 pub(super) struct Guide {
     pub(super) link: LinkId,
     /// The guide's link and the joint's place on it.
-    pub(super) base: Side,
+    pub(super) base: JointSide,
     /// The axis in the guide's link.
     axis: Vec2,
     /// The joint's place on the sliding link.

@@ -39,7 +39,7 @@ pub enum Misfit {
 
 /// How far a dyad is from a singular pose.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Clearance {
+pub struct SingularityDistance {
     /// Sine of the transmission angle, or what it is for the dyad: from 0 (singular) to about 1.
     pub sine: f64,
     /// Its rate in time (1/s).

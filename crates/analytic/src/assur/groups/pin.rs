@@ -2,14 +2,14 @@
 
 use super::bounds::Bounds;
 use linkage::math::{Motion, Vec2, turned};
-use linkage::mechanism::{Joint, LinkId, Side};
+use linkage::mechanism::{Joint, JointSide, LinkId};
 
 /// A link on its pin.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pin {
     pub(super) link: LinkId,
     /// The known link and the joint's place on it.
-    base: Side,
+    base: JointSide,
     /// The joint's place on the turning link.
     pub(super) own: Vec2,
 }

@@ -9,7 +9,7 @@
 
 use super::bounds::{Bound, Bounds, Limit, of_square};
 use super::guide::turn_between;
-use super::misfit::{Clearance, Misfit, SINGULAR};
+use super::misfit::{Misfit, SINGULAR, SingularityDistance};
 use super::pin::Pin;
 use linkage::math::{Motion, Vec2, cross, rotated, turned};
 use linkage::mechanism::{AssemblyMode, Group, LinkId, Mechanism};
@@ -119,11 +119,11 @@ impl Rpr {
     }
 
     /// How far the dyad is from a singular pose. Velocities must be known.
-    pub(super) fn clearance(&self, motions: &[Motion]) -> Clearance {
+    pub(super) fn clearance(&self, motions: &[Motion]) -> SingularityDistance {
         let (axis, along) = self.along(motions);
         let [v1, v2] = self.pins.map(|pin| pin.velocity(motions));
         let slide = axis.dot(&(v2 - v1)) + motions[self.pins[0].link].omega * self.across;
-        Clearance { sine: along.abs() / self.size, rate: along.signum() * slide / self.size }
+        SingularityDistance { sine: along.abs() / self.size, rate: along.signum() * slide / self.size }
     }
 
     #[inline]

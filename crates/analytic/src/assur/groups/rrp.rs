@@ -10,7 +10,7 @@
 use super::bounds::{Bound, Bounds, Limit, least_product};
 use super::guide::{Guide, turn_between};
 use super::half::of_dyad;
-use super::misfit::{Clearance, Misfit, SINGULAR};
+use super::misfit::{Misfit, SINGULAR, SingularityDistance};
 use super::pin::Pin;
 use linkage::math::{Motion, Vec2, turned};
 use linkage::mechanism::{AssemblyMode, Group, LinkId, Mechanism};
@@ -132,11 +132,11 @@ impl Rrp {
     }
 
     /// How far the dyad is from a singular pose. Velocities must be known.
-    pub(super) fn clearance(&self, motions: &[Motion]) -> Clearance {
+    pub(super) fn clearance(&self, motions: &[Motion]) -> SingularityDistance {
         let (axis, r, length) = (self.guide.axis(motions), motions[self.rod.link].arm(self.span), self.span.norm());
         let turn = motions[self.guide.base.link].omega - motions[self.rod.link].omega;
         let cosine = axis.dot(&r) / length;
-        Clearance { sine: cosine.abs(), rate: cosine.signum() * turned(axis).dot(&r) / length * turn }
+        SingularityDistance { sine: cosine.abs(), rate: cosine.signum() * turned(axis).dot(&r) / length * turn }
     }
 
     #[inline]

@@ -8,16 +8,16 @@
 //! chapter on the kinematics of class II groups.
 
 use super::bounds::{Bound, Bounds, Limit, least_product, of_square};
-use super::misfit::{Clearance, Misfit, SINGULAR};
+use super::misfit::{Misfit, SINGULAR, SingularityDistance};
 use linkage::math::{Motion, Vec2, cross, turned};
-use linkage::mechanism::{AssemblyMode, GROUND, Group, JointId, LinkId, Mechanism, Side};
+use linkage::mechanism::{AssemblyMode, GROUND, Group, JointId, JointSide, LinkId, Mechanism};
 
 /// One of the two links of a dyad.
 #[derive(Clone, Copy, Debug)]
 struct Arm {
     link: LinkId,
     /// The outer joint on the link that is already known.
-    base: Side,
+    base: JointSide,
     /// The outer joint in the link's own frame.
     outer: Vec2,
     /// Whether that is the frame's origin, so that no vector turns with it.
@@ -247,11 +247,11 @@ impl Rrr {
 
     /// How far the dyad is from a singular pose. Velocities must be known.
     #[inline]
-    pub(super) fn clearance(&self, motions: &[Motion]) -> Clearance {
+    pub(super) fn clearance(&self, motions: &[Motion]) -> SingularityDistance {
         let [r1, r2] = self.spans;
         let (sine, cosine) = (self.product * self.inverse_lengths, r1.dot(&r2) * self.inverse_lengths);
         let turn = motions[self.arms[1].link].omega - motions[self.arms[0].link].omega;
-        Clearance { sine: sine.abs(), rate: sine.signum() * cosine * turn }
+        SingularityDistance { sine: sine.abs(), rate: sine.signum() * cosine * turn }
     }
 
     #[inline]

@@ -1,6 +1,6 @@
 //! The search for a change point, from one side.
 
-use crate::assur::groups::{Clearance, Misfit, OutOfReach, Plan};
+use crate::assur::groups::{Misfit, OutOfReach, SingularityDistance, SolutionPlan};
 use crate::assur::turns::FOLLOWED_STEP;
 use linkage::math::{KeepNan, Motion};
 use linkage::mechanism::GroupId;
@@ -24,7 +24,7 @@ const MOST_STEPS: usize = 200;
 /// A pose from which a search begins.
 pub(super) struct Start<'a> {
     pub(super) angle: f64,
-    pub(super) plan: &'a Plan,
+    pub(super) plan: &'a SolutionPlan,
     pub(super) motions: &'a [Motion],
 }
 
@@ -39,7 +39,7 @@ pub(super) fn change_point(start: &Start, group: GroupId, ahead: f64) -> Result<
     let mut before: Option<(f64, f64)> = None;
     for _ in 0..MOST_STEPS {
         let (sine, towards) = match (whole, clearance(&mut plan, &mut motions, group)) {
-            (None, Some(Clearance { sine, rate })) => (sine, -rate * way),
+            (None, Some(SingularityDistance { sine, rate })) => (sine, -rate * way),
             (None, None) => return Err(angle),
             // The determinant of a higher group, by secants.
             (Some(whole), _) => {
@@ -70,13 +70,17 @@ pub(super) fn change_point(start: &Start, group: GroupId, ahead: f64) -> Result<
 }
 
 /// Clearance of a group at the last pose of a plan.
-pub(super) fn clearance(plan: &mut Plan, motions: &mut [Motion], group: GroupId) -> Option<Clearance> {
+pub(super) fn clearance(
+    plan: &mut SolutionPlan,
+    motions: &mut [Motion],
+    group: GroupId,
+) -> Option<SingularityDistance> {
     plan.velocities(&[1.0], motions);
     plan.clearances(motions).nth(group.index()).flatten()
 }
 
 /// Places a plan at an angle, from the last one. Higher groups are followed in small steps.
-pub(super) fn walk(plan: &mut Plan, motions: &mut [Motion], [from, to]: [f64; 2]) -> Result<(), OutOfReach> {
+pub(super) fn walk(plan: &mut SolutionPlan, motions: &mut [Motion], [from, to]: [f64; 2]) -> Result<(), OutOfReach> {
     if plan.is_closed_form() {
         return plan.positions(&[to], motions);
     }

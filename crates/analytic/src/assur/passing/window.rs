@@ -10,7 +10,7 @@
 use std::f64::consts::PI;
 
 use super::search::{Start, clearance, walk};
-use crate::assur::groups::{Misfit, OutOfReach, Plan};
+use crate::assur::groups::{Misfit, OutOfReach, SolutionPlan};
 use linkage::math::{KeepNan, Motion, Vec2};
 use linkage::mechanism::{GroupId, LinkId};
 
@@ -39,7 +39,7 @@ const ULPS: f64 = 16.0;
 pub(super) struct Node {
     /// Distance from the change point (rad).
     pub(super) offset: f64,
-    pub(super) plan: Plan,
+    pub(super) plan: SolutionPlan,
     pub(super) motions: Vec<Motion>,
 }
 
@@ -113,7 +113,7 @@ impl Window {
         let (mut plan, mut motions) = (start.plan.clone(), start.motions.to_vec());
         let mut nodes: Vec<Node> = Vec::with_capacity(2 * SIDE);
         let mut sines = Vec::with_capacity(2 * SIDE);
-        let put = |offset: f64, plan: &mut Plan, motions: &[Motion]| {
+        let put = |offset: f64, plan: &mut SolutionPlan, motions: &[Motion]| {
             let mut own = motions.to_vec();
             let sine = clearance(plan, &mut own, group).map_or(f64::NAN, |clearance| clearance.sine);
             let sine = plan.determinant(group).unwrap_or(sine);
@@ -249,7 +249,13 @@ impl Window {
     /// Velocities and accelerations of all links with the driving link at an angle, from its angular velocity (rad/s)
     /// and acceleration (rad/s^2).
     /// Those of the driving link itself are exact.
-    pub(in crate::assur) fn rates(&self, angle: f64, [omega, alpha]: [f64; 2], plan: &Plan, motions: &mut [Motion]) {
+    pub(in crate::assur) fn rates(
+        &self,
+        angle: f64,
+        [omega, alpha]: [f64; 2],
+        plan: &SolutionPlan,
+        motions: &mut [Motion],
+    ) {
         let weights = weights(&self.offsets(), angle - self.at);
         for (link, motion) in motions.iter_mut().enumerate() {
             let mut own = Motion { direction: motion.direction, origin: motion.origin, ..Motion::REST };

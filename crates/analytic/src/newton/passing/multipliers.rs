@@ -6,6 +6,7 @@
 use super::WITHOUT_POLE;
 use super::window::{Window, neville};
 use crate::newton::system::System;
+use crate::sentences;
 use linkage::drive::Wrench;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::{KeepNan, Motion};
@@ -42,7 +43,7 @@ impl Window {
             system.q.copy_from_slice(&spot.q);
             system.assemble();
             if !system.jacobian.factor() {
-                return Err(system.lost("the Jacobian is singular there (dead point)"));
+                return Err(system.lost(sentences::THE_JACOBIAN_IS_SINGULAR_THERE));
             }
             let mut at = |system: &mut System, alpha: f64| {
                 for (i, (slope, curve)) in spot.slope.iter().zip(&spot.curve).enumerate() {
@@ -67,7 +68,7 @@ impl Window {
         let found = self.beside(x, &all);
         let Some(found) = found else {
             let at = system.case.told(system.case.crank().from_world(angle));
-            let message = format!("{at}: this is a change point, and towards it reactions grow without bound");
+            let message = sentences::this_is_a_change_point_and_towards_it_reactions(&at);
             return Err(Error::new(ErrorKind::Numeric, message).at_input(at).help(WITHOUT_POLE));
         };
         system.lambda = found;

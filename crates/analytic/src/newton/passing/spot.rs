@@ -2,6 +2,7 @@
 
 use crate::newton::steps::TRACKING_STEP;
 use crate::newton::system::System;
+use crate::sentences;
 use linkage::error::Result;
 
 /// A pose on the way: the crank's angle in the world (rad), all coordinates, and their derivatives by that angle.
@@ -39,7 +40,7 @@ pub(super) fn place(system: &mut System, spot: &Spot) -> Result<()> {
     system.assemble();
     match system.jacobian.factor() {
         true => Ok(()),
-        false => Err(system.lost("the Jacobian is singular there (dead point)")),
+        false => Err(system.lost(sentences::THE_JACOBIAN_IS_SINGULAR_THERE)),
     }
 }
 
@@ -63,7 +64,7 @@ pub(super) fn settled(system: &mut System, angle: f64, expected: &[f64]) -> Resu
     for (index, (q, expected)) in system.q.iter().zip(expected).enumerate() {
         let allowed = TRACKING_STEP * if index % 3 == 2 { 1.0 } else { size };
         if !((q - expected).abs() <= allowed) {
-            return Err(system.lost("the solution has jumped to another branch"));
+            return Err(system.lost(sentences::THE_SOLUTION_HAS_JUMPED_TO_ANOTHER));
         }
     }
     let mut found = spot(system);

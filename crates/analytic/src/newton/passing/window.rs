@@ -5,6 +5,7 @@
 //! derivative of the osculating one, and the one through the second derivatives at all sixteen poses.
 //! Rounding at the distance x grows as 1 / x^3 in second derivatives, the error of the polynomials with the width.
 
+use crate::sentences;
 use std::f64::consts::{PI, TAU};
 
 use super::osculating::Osculating;
@@ -111,9 +112,8 @@ impl Window {
             _ => {
                 let at = system.case.told(system.case.crank().from_world(at));
                 let why = failed.map_or(String::new(), |error| format!(" ({})", error.message()));
-                let message =
-                    format!("{at}: beside this change point the branch on which velocities go on is not clear{why}");
-                Err(Error::new(ErrorKind::Numeric, message).at_input(at).help("let the grid end before"))
+                let message = sentences::beside_this_change_point_the_branch(&at, &why);
+                Err(Error::new(ErrorKind::Numeric, message).at_input(at).help(sentences::LET_THE_GRID_END_BEFORE))
             }
         }
     }
@@ -153,7 +153,7 @@ impl Window {
         let passes = |block: &usize| inner[0].shares[*block] * inner[1].shares[*block] < 0.0;
         for other in (0..spots[0].shares.len()).filter(passes) {
             if !crossing(&spots, other).is_some_and(|own| (own - at).abs() < APART * CORE * reach) {
-                return Err(system.lost("there are two change points close together"));
+                return Err(system.lost(sentences::THERE_ARE_TWO_CHANGE_POINTS));
             }
         }
         let all: Vec<(f64, [&[f64]; 3])> = [&spots[..SIDE], &spots[SIDE..]]
@@ -221,7 +221,7 @@ fn check_slopes(system: &System, found: &Spot, expected: &[f64]) -> Result<()> {
     let largest = expected.iter().enumerate().fold(1.0f64, |most, (i, slope)| most.larger(slope.abs() / unit(i)));
     for (index, (slope, expected)) in found.slope.iter().zip(expected).enumerate() {
         if !((slope - expected).abs() <= 0.05 * largest * unit(index)) {
-            return Err(system.lost("velocities jump there (change point)"));
+            return Err(system.lost(sentences::VELOCITIES_JUMP_THERE_CHANGE_POINT));
         }
     }
     Ok(())

@@ -9,7 +9,8 @@
 //! Of the three Assur points, that of the two leads nearest to a right angle is used: parallel leads have theirs at
 //! infinity.
 
-use super::{Known, Places, Reactions, singular};
+use super::{KnownResultant, Places, Reactions, singular};
+use crate::sentences;
 use linkage::error::Result;
 use linkage::math::{Vec2, cross, turned};
 
@@ -47,7 +48,7 @@ pub fn best(places: &Places) -> AssurPoint {
 ///
 /// # Errors
 /// [`ErrorKind::Numeric`](linkage::ErrorKind::Numeric) at a dead point of the group.
-pub fn reactions(places: &Places, known: &[Known; 4]) -> Result<Reactions> {
+pub fn reactions(places: &Places, known: &[KnownResultant; 4]) -> Result<Reactions> {
     let along = lines(places);
     let across = [0, 1, 2].map(|k| {
         let length = (places.feet[k] - places.heads[k]).norm();
@@ -71,7 +72,7 @@ pub fn reactions(places: &Places, known: &[Known; 4]) -> Result<Reactions> {
     feet[k] += along[k] * axial_k;
     let heads = [0, 1, 2].map(|lead| feet[lead] + known[lead].force);
     let finite = feet.iter().chain(&heads).all(|force| force.x.is_finite() && force.y.is_finite());
-    if finite { Ok(Reactions { feet, heads }) } else { Err(singular("singular Assur point")) }
+    if finite { Ok(Reactions { feet, heads }) } else { Err(singular(sentences::SINGULAR_ASSUR_POINT)) }
 }
 
 #[cfg(test)]
@@ -79,8 +80,8 @@ mod tests {
     use super::*;
     use linkage::ErrorKind;
 
-    fn known(force: Vec2, at: Vec2) -> Known {
-        Known { force, moment: 0.0, at }
+    fn known(force: Vec2, at: Vec2) -> KnownResultant {
+        KnownResultant { force, moment: 0.0, at }
     }
 
     /// A beam of length 2 on two upright leads and one level lead at its left end. Forces calculated by hand.

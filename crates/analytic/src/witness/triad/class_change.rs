@@ -28,6 +28,7 @@
 mod chain;
 
 use super::Triad;
+use crate::sentences;
 use chain::{Chain, Grounded, Place, along};
 use linkage::case::Case;
 use linkage::error::{Advice, Error, ErrorKind, Result};
@@ -168,8 +169,7 @@ impl ClassChange {
         }
         if halvings == 0 {
             let (names, at) = (&self.names, self.input.at(target));
-            let message =
-                format!("class change: the group ({names}) cannot be followed beyond {at}: it has a dead point there");
+            let message = sentences::class_change_the_group_cannot(&names, &at);
             return Err(Error::new(ErrorKind::Geometry, message)
                 .at_input(at)
                 .of_group(names)
@@ -278,10 +278,8 @@ fn unsupported(case: &Case, triad: &Triad) -> Error {
     let links = case.mechanism.links();
     let supports = triad.leads.map(|lead| links[lead.support.link].name.as_str()).join(", ");
     let (names, crank) = (names(case, triad), &links[case.crank().link].name);
-    let message = format!(
-        "class change asks for a group with two leads on the ground and one on the driving link \"{crank}\", turning about the ground; the leads of the group ({names}) hang on: {supports}"
-    );
-    Error::new(ErrorKind::Unsupported, message).help("use Cramer's rule, which takes any supports")
+    let message = sentences::class_change_asks_for_a_group(&crank, &names, &supports);
+    Error::new(ErrorKind::Unsupported, message).help(sentences::USE_CRAMER_RULE_WHICH_TAKES)
 }
 
 #[cfg(test)]

@@ -6,7 +6,8 @@
 //! that all rows are forces.
 //! The system is solved without any order among the links.
 
-use super::{Known, Places, Reactions, singular};
+use super::{KnownResultant, Places, Reactions, singular};
+use crate::sentences;
 use linkage::error::Result;
 use linkage::math::dense::Lu;
 use linkage::math::{KeepNan, Vec2, cross};
@@ -15,7 +16,7 @@ use linkage::math::{KeepNan, Vec2, cross};
 ///
 /// # Errors
 /// [`ErrorKind::Numeric`](linkage::ErrorKind::Numeric) at a dead point of the group.
-pub fn reactions(places: &Places, known: &[Known; 4]) -> Result<Reactions> {
+pub fn reactions(places: &Places, known: &[KnownResultant; 4]) -> Result<Reactions> {
     let mut system = System { matrix: Lu::new(12), right: [0.0; 12] };
     let Places { feet, heads } = places;
     for lead in 0..3 {
@@ -30,12 +31,12 @@ pub fn reactions(places: &Places, known: &[Known; 4]) -> Result<Reactions> {
         system.force(3, 3 + lead, 1.0, (heads[lead] - heads[0]) / length);
     }
     if !system.matrix.factor() {
-        return Err(singular("linear system of the group"));
+        return Err(singular(sentences::LINEAR_SYSTEM_OF_THE_GROUP));
     }
     system.matrix.solve(&mut system.right);
     let force = |unknown: usize| Vec2::new(system.right[2 * unknown], system.right[2 * unknown + 1]);
     if !system.right.iter().all(|value| value.is_finite()) {
-        return Err(singular("linear system of the group"));
+        return Err(singular(sentences::LINEAR_SYSTEM_OF_THE_GROUP));
     }
     Ok(Reactions { feet: [0, 1, 2].map(force), heads: [3, 4, 5].map(force) })
 }
@@ -47,7 +48,7 @@ struct System {
 
 impl System {
     /// Adds the known forces on a link to the right-hand side.
-    fn known(&mut self, link: usize, known: &Known, pole: Vec2, length: f64) {
+    fn known(&mut self, link: usize, known: &KnownResultant, pole: Vec2, length: f64) {
         let values = [known.force.x, known.force.y, known.about(pole) / length];
         (0..3).for_each(|row| self.right[3 * link + row] = -values[row]);
     }
@@ -74,7 +75,8 @@ mod tests {
             feet: [at(0.0, -1.0), at(2.5, -1.0), at(-1.0, 0.5)],
             heads: [at(0.0, 0.0), at(2.0, 0.0), at(0.0, 1.0)],
         };
-        let known = [1.0, -2.0, 0.5, 4.0].map(|x| Known { force: at(x, 1.0 - x), moment: 0.3 * x, at: at(x, x * x) });
+        let known =
+            [1.0, -2.0, 0.5, 4.0].map(|x| KnownResultant { force: at(x, 1.0 - x), moment: 0.3 * x, at: at(x, x * x) });
         let Reactions { feet, heads } = reactions(&places, &known).unwrap();
         for k in 0..3 {
             let moment = known[k].about(places.heads[k]) + cross(places.feet[k] - places.heads[k], feet[k]);

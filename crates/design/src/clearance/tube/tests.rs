@@ -2,7 +2,7 @@
 //! every term of a bound is the largest somewhere.
 
 use linkage::math::unit;
-use linkage::mechanism::{JointKind, LinkId, Side};
+use linkage::mechanism::{JointKind, JointSide, LinkId};
 
 use super::*;
 
@@ -77,7 +77,7 @@ impl Sample {
         let half = 0.1 * random.number().abs();
         let mut tubes = [tube(random, half), tube(random, half)];
         let locals = tubes.map(|tube| tube.centre + random.vector(1.0));
-        let sides = [0, 1].map(|link| Side { link: LinkId(link), local: locals[link] });
+        let sides = [0, 1].map(|link| JointSide { link: LinkId(link), local: locals[link] });
         let slides = random.yes();
         let axis = unit(4.0 * random.number());
         if slides {
@@ -94,7 +94,13 @@ impl Sample {
         Sample::with(JointKind::Revolute, sides, tubes, half, random)
     }
 
-    fn with(kind: JointKind, [first, second]: [Side; 2], tubes: [Tube; 2], half: f64, random: &mut Random) -> Sample {
+    fn with(
+        kind: JointKind,
+        [first, second]: [JointSide; 2],
+        tubes: [Tube; 2],
+        half: f64,
+        random: &mut Random,
+    ) -> Sample {
         let joint = Joint { name: "j".into(), kind, first, second, drawn: None };
         let own = if random.yes() { [true, random.yes()] } else { [false, true] };
         Sample { joint, tubes, own, half }

@@ -1,7 +1,7 @@
 //! Axes with round numbers.
 
 use drawing::paper::document::document;
-use drawing::paper::figure::{Figure, Style, Type, rectangle, solid, words};
+use drawing::paper::figure::{DrawnFigure, Style, Type, rectangle, solid, words};
 use drawing::paper::scale::{factor, round_up};
 use drawing::paper::style::BLACK;
 use linkage::math::{KeepNan, Vec2};
@@ -23,8 +23,8 @@ pub struct Room {
 }
 
 /// A sheet of diagrams below each other, with a title and notes above.
-pub fn stacked(title: &str, notes: &[String], room: &Room, panels: impl Iterator<Item = Figure>) -> String {
-    let mut sheet = Figure::default();
+pub fn stacked(title: &str, notes: &[String], room: &Room, panels: impl Iterator<Item = DrawnFigure>) -> String {
+    let mut sheet = DrawnFigure::default();
     sheet.text(Vec2::new(MARGIN, -MARGIN - 4.0), title, Type { bold: true, ..words(5.0) });
     let mut top = -MARGIN - 10.0;
     for note in notes {
@@ -41,14 +41,14 @@ pub fn stacked(title: &str, notes: &[String], room: &Room, panels: impl Iterator
 }
 
 /// A sheet with its upper left corner at the origin as a document, with a margin (mm) on the right and below.
-pub fn framed(sheet: &Figure, margin: f64, title: &str) -> String {
+pub fn framed(sheet: &DrawnFigure, margin: f64, title: &str) -> String {
     let [low, high] = sheet.bounds();
     document(sheet, [(high.x + margin).ceil(), (margin - low.y).ceil()], title)
 }
 
 /// A vertical axis between two round values.
 #[derive(Clone, Copy, Debug)]
-pub struct Axis {
+pub struct ValueAxis {
     /// Its ends, in steps.
     bottom: f64,
     up: f64,
@@ -58,12 +58,12 @@ pub struct Axis {
     pub scale: f64,
 }
 
-impl Axis {
+impl ValueAxis {
     /// The axis for values from `low` to `high`, at most `room` (mm) long.
     pub fn of([low, high]: [f64; 2], room: f64) -> Self {
         let step = if high > low { round_up((high - low) / 6.0) } else { 1.0 };
         let (bottom, up) = ((low / step).floor(), (high / step).ceil().larger((low / step).floor() + 1.0));
-        Axis { bottom, up, step, scale: factor((up - bottom) * step, room) }
+        ValueAxis { bottom, up, step, scale: factor((up - bottom) * step, room) }
     }
 
     /// Height (mm) of a value above the lower end.
@@ -77,7 +77,7 @@ impl Axis {
     }
 
     /// Grid lines at round values, `long` (mm) in length, and their numbers on the left.
-    pub fn draw(&self, figure: &mut Figure, long: f64) {
+    pub fn draw(&self, figure: &mut DrawnFigure, long: f64) {
         let step = self.step;
         for k in 0..=(self.up - self.bottom).round() as i32 {
             let value = (self.bottom + f64::from(k)) * step;
@@ -90,7 +90,7 @@ impl Axis {
 }
 
 /// The frame of a diagram; its lower left corner is the origin.
-pub fn frame(figure: &mut Figure, size: Vec2, colour: &'static str) {
+pub fn frame(figure: &mut DrawnFigure, size: Vec2, colour: &'static str) {
     figure.area(rectangle([Vec2::zeros(), size]), None, solid(colour, 0.25));
 }
 

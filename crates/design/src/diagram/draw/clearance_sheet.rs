@@ -1,18 +1,19 @@
 //! Clearance as a drawing: the housing, what every link sweeps over the range, the mechanism with its outlines where the
 //! smallest distance or the first collision is.
 
-use crate::clearance::{Clearance, PairClearance, poses};
+use crate::clearance::{ClearanceResult, PairClearance, poses};
+use crate::sentences;
 use drawing::paper::document::document;
-use drawing::paper::figure::{Figure, Tint, solid};
+use drawing::paper::figure::{DrawnFigure, Tint, solid};
 use drawing::paper::style::{GREY, colour, significant};
-use drawing::picture::{ALARM, Picture, Place};
-use drawing::sheet::{Cell, fit, sheet};
-use drawing::{Lettering, Role, Sketch, Travels};
+use drawing::picture::{ALARM, LinkPlacement, Picture};
+use drawing::sheet::{SheetCell, fit, sheet};
+use drawing::{Lettering, MarkRole, Sketch, Travels};
 use linkage::case::Case;
 use linkage::error::Result;
 use linkage::math::{KeepNan, Motion, Vec2};
 use linkage::mechanism::LinkPose;
-use scenario::clearance::{Outline, Question};
+use scenario::clearance::{ClearanceQuestion, Outline};
 
 /// Room of the drawing (mm).
 const ROOM: Vec2 = Vec2::new(150.0, 150.0);
@@ -28,7 +29,7 @@ const THIN: f64 = 0.2;
 ///
 /// # Errors
 /// Those of a pose.
-pub fn clearance(case: &Case, name: &str, asked: &Question, found: &Clearance) -> Result<String> {
+pub fn clearance(case: &Case, name: &str, asked: &ClearanceQuestion, found: &ClearanceResult) -> Result<String> {
     let [from, to] = found.range;
     let cranks: Vec<f64> = (0..=POSITIONS).map(|k| from + (to - from) * (k as f64 / POSITIONS as f64)).collect();
     let smallest = found.smallest().filter(|pair| pair.smallest.distance.is_finite());
@@ -46,33 +47,33 @@ pub fn clearance(case: &Case, name: &str, asked: &Question, found: &Clearance) -
     }
     let scale = fit(extent(asked, &all), ROOM);
     let sketch = Sketch::of(&case.mechanism, &travels, scale).with_drives(&case.mechanism, &case.drives);
-    let sketch = sketch.without(&[Role::MassCentre, Role::MassQuarter]);
+    let sketch = sketch.without(&[MarkRole::MassCentre, MarkRole::MassQuarter]);
     // The walls of a housing are where they are; a guide's mark would stand for them elsewhere.
     let has_housing = asked.bodies.iter().any(|body| !body.moves());
-    let sketch = if has_housing { sketch.without(&[Role::Bore, Role::Rail, Role::Hatch]) } else { sketch };
-    let places: Vec<Place> = here.iter().map(|own| Place::Here(pose_of(own))).collect();
+    let sketch = if has_housing { sketch.without(&[MarkRole::Bore, MarkRole::Rail, MarkRole::Hatch]) } else { sketch };
+    let places: Vec<LinkPlacement> = here.iter().map(|own| LinkPlacement::Here(pose_of(own))).collect();
     let mut picture = Picture::of(&sketch, &places, scale);
     for body in asked.bodies.iter().filter(|body| body.moves()) {
-        let mut swept = Figure::default();
+        let mut swept = DrawnFigure::default();
         all.iter().for_each(|pose| draw(&mut swept, &body.outline, &pose[body.link], colour(body.link), scale));
-        picture.figure.group(swept, SWEPT, format!("swept by {}", body.name));
+        picture.figure.group(swept, SWEPT, sentences::swept_by(&body.name));
     }
     for body in &asked.bodies {
         let (pose, paint, opacity) = match body.moves() {
             true => (&here[body.link], colour(body.link), OUTLINE),
             false => (&Motion::REST, GREY, 1.0),
         };
-        let mut own = Figure::default();
+        let mut own = DrawnFigure::default();
         draw(&mut own, &body.outline, pose, paint, scale);
         picture.figure.group(own, opacity, body.name.clone());
     }
     picture.draw_marks();
     picture.number_links();
-    let crank = format!("crank angle {} deg", significant(shown.to_degrees()));
+    let crank = sentences::crank_angle_deg(&significant(shown.to_degrees()));
     let names = |pair: &PairClearance| pair.bodies.map(|body| asked.bodies[body].name.as_str()).join(" and ");
     let words = if let Some((pair, meeting)) = collision {
         picture.figure.disc(meeting.place / scale, 2.2, "none", solid(ALARM, 0.8));
-        format!("first collision: {} at {crank}", names(pair))
+        sentences::first_collision_at(&names(pair), &crank)
     } else if let Some(pair) = smallest {
         let ends = pair.smallest.points.map(|point| point / scale);
         picture.figure.line(ends, solid(ALARM, 0.8));
@@ -80,21 +81,21 @@ pub fn clearance(case: &Case, name: &str, asked: &Question, found: &Clearance) -
         let distance = format!("{} mm", significant(1e3 * pair.smallest.distance));
         let middle = (ends[0] + ends[1]) / 2.0;
         picture.letters(middle, Vec2::zeros(), 1.2, distance.clone(), ALARM);
-        format!("smallest distance {distance}: {} at {crank}", names(pair))
+        sentences::smallest_distance_at(&distance, &names(pair), &crank)
     } else {
         crank
     };
     picture.name(picture.names(|what| matches!(what, Lettering::Point | Lettering::Motor)));
     let figure = picture.finish(1);
     let bounds = figure.bounds();
-    let cell = Cell { heading: Vec::new(), figure, bounds, scale, faults: Vec::new() };
+    let cell = SheetCell { heading: Vec::new(), figure, bounds, scale, faults: Vec::new() };
     let title = format!("{name}: clearance");
     let (page, size) = sheet(&title, &words, &[cell], ROOM.x);
     Ok(document(&page, size, &title))
 }
 
 /// How far all outlines reach over all poses (m).
-fn extent(asked: &Question, all: &[Vec<Motion>]) -> Vec2 {
+fn extent(asked: &ClearanceQuestion, all: &[Vec<Motion>]) -> Vec2 {
     let (mut low, mut high) = (Vec2::repeat(f64::INFINITY), Vec2::repeat(f64::NEG_INFINITY));
     for body in &asked.bodies {
         let radius = Vec2::repeat(body.outline.radius());
@@ -110,7 +111,7 @@ fn pose_of(motion: &Motion) -> LinkPose {
 }
 
 /// An outline: its rounding is the width of a line with round joins.
-fn draw(figure: &mut Figure, outline: &Outline, pose: &Motion, paint: &'static str, scale: f64) {
+fn draw(figure: &mut DrawnFigure, outline: &Outline, pose: &Motion, paint: &'static str, scale: f64) {
     let mut corners: Vec<Vec2> = outline.corners().iter().map(|&corner| pose.point(corner) / scale).collect();
     // A single place is a line to itself.
     if let [only] = corners[..] {

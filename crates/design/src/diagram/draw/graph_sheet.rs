@@ -1,8 +1,9 @@
 //! The sheet of graphs over the crank angle, arranged vertically.
 
-use super::axes::{Axis, GRID, Room, frame, stacked};
-use crate::diagram::graphs::{Graph, Graphs};
-use drawing::paper::figure::{Figure, Style, Type, scripted, solid, words};
+use super::axes::{GRID, Room, ValueAxis, frame, stacked};
+use crate::diagram::graphs::{CrankGraph, Graphs};
+use crate::sentences;
+use drawing::paper::figure::{DrawnFigure, Style, Type, scripted, solid, words};
 use drawing::paper::style::{COLOURS, GREY, significant};
 use linkage::math::{KeepNan, Vec2};
 
@@ -26,15 +27,15 @@ pub fn graphs(graphs: &Graphs, title: &str) -> String {
 }
 
 /// One graph; the lower left corner of its frame is the origin.
-fn panel(graph: &Graph, [start, end]: [f64; 2]) -> Figure {
-    let mut figure = Figure::default();
+fn panel(graph: &CrankGraph, [start, end]: [f64; 2]) -> DrawnFigure {
+    let mut figure = DrawnFigure::default();
     let constant = graph.is_constant();
     // Rounding errors relative to the quantity's size are shown as zero.
     let clear = |value: f64| if value.abs() <= 1e-9 * graph.size.abs() { 0.0 } else { value };
     let mean = clear(graph.mean);
     let [low, high] = if constant { [mean.smaller(0.0), mean.larger(0.0)] } else { graph.range() };
     let room = if constant { 0.0 } else { ASIDES * (high - low) };
-    let axis = Axis::of([low - room, high + room], HIGH);
+    let axis = ValueAxis::of([low - room, high + room], HIGH);
     let share = |crank: f64| (crank - start) / (end - start);
     axis.draw(&mut figure, LONG);
     angles(&mut figure, [start, end], axis.height());
@@ -63,13 +64,13 @@ fn panel(graph: &Graph, [start, end]: [f64; 2]) -> Figure {
     }
     let [symbol, unit] = [graph.symbol, graph.unit].map(scripted);
     let per = if graph.unit.contains([' ', '/']) { format!("({unit})/mm") } else { format!("{unit}/mm") };
-    let heading = format!("{} {symbol}, {unit}; scale factor {} {per}", graph.name, axis.scale);
+    let heading = sentences::scale_factor(&graph.name, &symbol, &unit, &axis.scale, &per);
     figure.text(Vec2::new(0.0, axis.height() + 3.0), heading, Type { bold: true, ..words(3.6) });
     figure
 }
 
 /// Grid lines at round crank angles, their numbers, and the axis title.
-fn angles(figure: &mut Figure, [start, end]: [f64; 2], height: f64) {
+fn angles(figure: &mut DrawnFigure, [start, end]: [f64; 2], height: f64) {
     let (from, to) = (start.to_degrees(), end.to_degrees());
     let every = 30.0 * ((to - from).abs() / 360.0).ceil().larger(1.0);
     // An angle beyond an end by rounding counts as the end.
@@ -80,5 +81,5 @@ fn angles(figure: &mut Figure, [start, end]: [f64; 2], height: f64) {
         figure.line([Vec2::new(x, 0.0), Vec2::new(x, height)], GRID);
         figure.text(Vec2::new(x, -4.0), format!("{degrees}°"), Type { anchor: "middle", ..words(2.8) });
     }
-    figure.text(Vec2::new(LONG / 2.0, -8.4), "crank angle φ, deg", Type { anchor: "middle", ..words(2.8) });
+    figure.text(Vec2::new(LONG / 2.0, -8.4), sentences::CRANK_ANGLE_DEG_2, Type { anchor: "middle", ..words(2.8) });
 }

@@ -1,8 +1,9 @@
 //! The sheet of motion diagrams: displacement, velocity and acceleration over the crank angle, arranged vertically.
 
-use super::axes::{Axis, GRID, Room, frame, stacked};
-use crate::diagram::motion::{Found, Method, MotionDiagram};
-use drawing::paper::figure::{Figure, Style, Type, solid, sub, words};
+use super::axes::{GRID, Room, ValueAxis, frame, stacked};
+use crate::diagram::motion::{Method, MethodResult, MotionDiagram};
+use crate::sentences;
+use drawing::paper::figure::{DrawnFigure, Style, Type, solid, sub, words};
 use drawing::paper::style::{BLACK, COLOURS, GREY, significant};
 use linkage::math::Vec2;
 use linkage::math::statistics::ends;
@@ -23,19 +24,16 @@ const POINTS: usize = 361;
 /// The diagrams as an SVG document; `title` is written above them.
 #[must_use]
 pub fn motion(diagram: &MotionDiagram, title: &str) -> String {
-    let note = format!(
-        "chord method and graphical integration, {} divisions of the turn; errors as shares of half the range of the exact curve",
-        diagram.divisions
-    );
+    let note = sentences::chord_method_and_graphical_integration(&diagram.divisions);
     stacked(title, &[note], &ROOM, (0..3).map(|which| panel(diagram, which)))
 }
 
 /// One diagram; the lower left corner of its frame is the origin.
-fn panel(diagram: &MotionDiagram, which: usize) -> Figure {
-    let mut figure = Figure::default();
+fn panel(diagram: &MotionDiagram, which: usize) -> DrawnFigure {
+    let mut figure = DrawnFigure::default();
     let exact = &diagram.exact[which];
-    let found: Vec<&Found> = diagram.found.iter().filter(|found| found.method.gives() == which).collect();
-    let axis = Axis::of(ends(exact.iter().chain(found.iter().flat_map(|found| &found.values)).copied()), HIGH);
+    let found: Vec<&MethodResult> = diagram.found.iter().filter(|found| found.method.gives() == which).collect();
+    let axis = ValueAxis::of(ends(exact.iter().chain(found.iter().flat_map(|found| &found.values)).copied()), HIGH);
     let rows = exact.len() - 1;
     let at = |row: usize, value: f64| Vec2::new(LONG * row as f64 / rows as f64, axis.y(value));
     let (height, scale) = (axis.height(), axis.scale);
@@ -55,19 +53,22 @@ fn panel(diagram: &MotionDiagram, which: usize) -> Figure {
     let symbol = ["s", "v", "a"][which];
     let unit = channel.kind.unit.symbol().replace("s^2", "s²");
     let per = if unit.contains('/') { format!("({unit})/mm") } else { format!("{unit}/mm") };
-    let heading = format!("{channel}, scale factor μ{} = {scale} {per}", sub(symbol));
+    let heading = sentences::scale_factor_2(&channel, &sub(symbol), &scale, &per);
     figure.text(Vec2::new(0.0, height + 8.0), heading, Type { bold: true, ..words(3.8) });
     let middle = Type { anchor: "middle", ..words(TEXT) };
-    figure.text(Vec2::new(LONG / 2.0, -9.0), "crank angle, deg", middle);
+    figure.text(Vec2::new(LONG / 2.0, -9.0), sentences::CRANK_ANGLE_DEG_3, middle);
     figure.text(Vec2::new(0.0, height + 2.5), format!("{symbol}, {unit}"), Type { anchor: "end", ..middle });
     caption(&mut figure, &found, which, &unit);
     figure
 }
 
 /// The legend: the method of each mark, and its error relative to the curve.
-fn caption(figure: &mut Figure, found: &[&Found], which: usize, unit: &str) {
+fn caption(figure: &mut DrawnFigure, found: &[&MethodResult], which: usize, unit: &str) {
     let mut line = -14.5;
-    let lines = [(solid(BLACK, 0.45), "exact, by the solver"), (CHORDS, "chords whose slopes give the velocity")];
+    let lines = [
+        (solid(BLACK, 0.45), sentences::EXACT_BY_THE_SOLVER),
+        (CHORDS, sentences::CHORDS_WHOSE_SLOPES_GIVE_THE_VELOCITY),
+    ];
     for (style, text) in lines.into_iter().take(if which == 0 { 2 } else { 1 }) {
         figure.line([Vec2::new(0.0, line + 1.0), Vec2::new(6.0, line + 1.0)], style);
         figure.text(Vec2::new(8.0, line), text, words(TEXT));
@@ -76,19 +77,20 @@ fn caption(figure: &mut Figure, found: &[&Found], which: usize, unit: &str) {
     for one in found {
         mark(figure, one.method, Vec2::new(3.0, line + 1.0));
         let orders = one.orders.map(|order| order.map_or_else(|| "–".into(), |order| format!("{order:.2}"))).join(", ");
-        let text = format!(
-            "{}: largest error {} {unit} ({:.2} %), rms {} {unit}, observed order {orders}",
-            one.method.words(),
-            significant(one.largest),
-            one.share * 100.0,
-            significant(one.rms)
+        let text = sentences::largest_error_rms_observed_order(
+            &one.method.words(),
+            &significant(one.largest),
+            &unit,
+            &(one.share * 100.0),
+            &significant(one.rms),
+            &orders,
         );
         figure.text(Vec2::new(8.0, line), text, words(TEXT));
         line -= LINE;
     }
 }
 
-fn mark(figure: &mut Figure, method: Method, at: Vec2) {
+fn mark(figure: &mut DrawnFigure, method: Method, at: Vec2) {
     let corner = |x: f64, y: f64| at + Vec2::new(x, y);
     match method {
         Method::ChordVelocity | Method::ChordAcceleration => figure.disc(at, 0.95, "white", solid(COLOURS[0], 0.4)),
@@ -100,7 +102,7 @@ fn mark(figure: &mut Figure, method: Method, at: Vec2) {
 }
 
 /// Frame, grid lines at round values and at the divisions of the turn, and their numbers.
-fn axes(figure: &mut Figure, diagram: &MotionDiagram, axis: &Axis) {
+fn axes(figure: &mut DrawnFigure, diagram: &MotionDiagram, axis: &ValueAxis) {
     let height = axis.height();
     axis.draw(figure, LONG);
     let every = diagram.divisions.div_ceil(24);

@@ -4,12 +4,13 @@
 use super::scheme_figure;
 use crate::diagram::builder::NOTHING;
 use crate::diagram::plan::Plans;
-use crate::diagram::vectors::{Part, Plan, Tip, TipKind, Vector};
+use crate::diagram::vectors::{Tip, TipKind, Vector, VectorKind, VectorPlan};
+use crate::sentences;
 use drawing::paper::document::document;
-use drawing::paper::figure::{Figure, Style, Type, scripted, solid, sub, words};
-use drawing::paper::labels::{Label, Obstacles, label_size, letter, place_among};
+use drawing::paper::figure::{DrawnFigure, Style, Type, scripted, solid, sub, words};
+use drawing::paper::labels::{Obstacles, PlacedLabel, label_size, letter, place_among};
 use drawing::paper::style::{BLACK, GREY, colour, significant};
-use drawing::paper::table::Table;
+use drawing::paper::table::LegendTable;
 use linkage::math::{KeepNan, Vec2, cross, turned};
 
 /// Margin of the sheet, distance between plans, and distance between a figure and its table (mm).
@@ -31,9 +32,9 @@ const POINT: f64 = 0.15;
 #[must_use]
 pub fn plans(plans: &Plans, name: &str, title: &str) -> String {
     let heading = |words: &str, symbol: &str, index: &str, scale: f64, unit: &str| {
-        (words.to_string(), format!("scale factor {symbol}{} = {scale} {}", sub(index), scripted(unit)))
+        (words.to_string(), sentences::scale_factor_3(&symbol, &sub(index), &scale, &scripted(unit)))
     };
-    let of_plan = |plan: &Plan, words: &str| {
+    let of_plan = |plan: &VectorPlan, words: &str| {
         let unit = format!("({})/mm", plan.quantity.unit());
         let unit = unit.replace("s^2", "s²");
         (heading(words, "μ", plan.quantity.symbol(), plan.scale, &unit), figure(plan), table(plan))
@@ -48,12 +49,12 @@ pub fn plans(plans: &Plans, name: &str, title: &str) -> String {
         of_plan(&plans.velocity, "Velocity plan"),
         of_plan(&plans.acceleration, "Acceleration plan"),
     ];
-    let mut sheet = Figure::default();
+    let mut sheet = DrawnFigure::default();
     let large = Type { bold: true, ..words(5.5) };
-    sheet.text(Vec2::new(MARGIN, -MARGIN - 4.0), format!("{name}, crank at {}°", degrees(plans.crank)), large);
+    sheet.text(Vec2::new(MARGIN, -MARGIN - 4.0), sentences::crank_at(&name, &degrees(plans.crank)), large);
     sheet.text(Vec2::new(MARGIN, -MARGIN - 10.0), title, words(3.6));
     let columns = columns.map(|(heading, figure, table)| (heading, figure, table.figure()));
-    let wide = |figure: &Figure| figure.bounds()[1].x - figure.bounds()[0].x;
+    let wide = |figure: &DrawnFigure| figure.bounds()[1].x - figure.bounds()[0].x;
     let widest = columns.iter().map(|(_, figure, table)| wide(figure).larger(wide(table))).fold(0.0, f64::larger);
     let mut top = -MARGIN - TITLE;
     for ((name, scale), figure, table) in &columns {
@@ -80,29 +81,29 @@ fn degrees(angle: f64) -> String {
 /// Line style of each kind of vector.
 fn style(vector: &Vector) -> Style {
     match vector.part {
-        Part::Absolute => solid(BLACK, 0.5),
-        Part::MassCentre => Style { colour: GREY, width: 0.3, dash: "2 0.9" },
-        Part::Relative => solid(colour(vector.link), 0.5),
-        Part::Normal => Style { colour: colour(vector.link), width: 0.35, dash: "1.8 1.1" },
-        Part::Tangential => Style { colour: colour(vector.link), width: 0.35, dash: "0.5 1" },
-        Part::Sliding => solid(colour(vector.link), 0.5),
-        Part::Coriolis => Style { colour: colour(vector.link), width: 0.35, dash: "3 0.9 0.5 0.9" },
+        VectorKind::Absolute => solid(BLACK, 0.5),
+        VectorKind::MassCentre => Style { colour: GREY, width: 0.3, dash: "2 0.9" },
+        VectorKind::Relative => solid(colour(vector.link), 0.5),
+        VectorKind::Normal => Style { colour: colour(vector.link), width: 0.35, dash: "1.8 1.1" },
+        VectorKind::Tangential => Style { colour: colour(vector.link), width: 0.35, dash: "0.5 1" },
+        VectorKind::Sliding => solid(colour(vector.link), 0.5),
+        VectorKind::Coriolis => Style { colour: colour(vector.link), width: 0.35, dash: "3 0.9 0.5 0.9" },
     }
 }
 
 /// The plan; its pole is the origin.
-fn figure(plan: &Plan) -> Figure {
-    let mut figure = Figure::default();
+fn figure(plan: &VectorPlan) -> DrawnFigure {
+    let mut figure = DrawnFigure::default();
     let mut obstacles = Obstacles::default();
     let mut drawn: Vec<[Vec2; 2]> = Vec::new();
     let order = [
-        Part::MassCentre,
-        Part::Absolute,
-        Part::Relative,
-        Part::Sliding,
-        Part::Normal,
-        Part::Tangential,
-        Part::Coriolis,
+        VectorKind::MassCentre,
+        VectorKind::Absolute,
+        VectorKind::Relative,
+        VectorKind::Sliding,
+        VectorKind::Normal,
+        VectorKind::Tangential,
+        VectorKind::Coriolis,
     ];
     for vector in order.into_iter().flat_map(|part| plan.vectors.iter().filter(move |vector| vector.part == part)) {
         let ends = [vector.start, vector.start + vector.value].map(|end| end / plan.scale);
@@ -122,10 +123,10 @@ fn figure(plan: &Plan) -> Figure {
         obstacles.discs.push((*at, radius));
     }
     let centre = marks.iter().map(|(at, _)| *at).sum::<Vec2>() / marks.len() as f64;
-    let labels: Vec<Label> = marks
+    let labels: Vec<PlacedLabel> = marks
         .iter()
         .enumerate()
-        .map(|(index, (at, text))| Label {
+        .map(|(index, (at, text))| PlacedLabel {
             anchor: *at,
             away: if index == 0 { -centre } else { *at },
             size: label_size(text),
@@ -157,7 +158,7 @@ fn beside(ends: [Vec2; 2], drawn: &[[Vec2; 2]]) -> [Vec2; 2] {
 }
 
 /// Points of the plan on paper, with the letters of all points that coincide there; the pole is first.
-fn marks(plan: &Plan) -> Vec<(Vec2, String)> {
+fn marks(plan: &VectorPlan) -> Vec<(Vec2, String)> {
     let mut marks: Vec<(Vec2, String)> = Vec::new();
     for tip in &plan.tips {
         let at = tip.at / plan.scale;
@@ -182,7 +183,7 @@ fn letters(tip: &Tip) -> String {
 }
 
 /// All vectors of the plan with their magnitudes.
-fn table(plan: &Plan) -> Table {
+fn table(plan: &VectorPlan) -> LegendTable {
     let letter = |name: &String| plan.tips.iter().find(|tip| tip.letter == *name).map_or_else(|| name.clone(), letters);
     let rows = plan.vectors.iter().map(|vector| {
         let meaning = vector.meaning.replace(", perpendicular to the ", " ⊥ ").replace(", along the ", " ∥ ");
@@ -200,5 +201,9 @@ fn table(plan: &Plan) -> Table {
         (style(vector), cells)
     });
     let unit = if plan.quantity.unit() == "m/s" { "m/s" } else { "m/s²" };
-    Table { head: vec!["vector", "from → to", unit, "mm", "meaning"], rows: rows.collect(), numbers: &[2, 3] }
+    LegendTable {
+        head: vec!["vector", sentences::FROM_TO, unit, "mm", "meaning"],
+        rows: rows.collect(),
+        numbers: &[2, 3],
+    }
 }

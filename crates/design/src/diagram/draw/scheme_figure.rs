@@ -2,11 +2,11 @@
 
 use crate::diagram::scheme::{Scheme, SchemeLink};
 use crate::diagram::singular::SingularPoint;
-use drawing::paper::figure::{Figure, Style, solid, sub};
+use drawing::paper::figure::{DrawnFigure, Style, solid, sub};
 use drawing::paper::style::{BLACK, GREY, colour, significant};
-use drawing::paper::table::Table;
+use drawing::paper::table::LegendTable;
 use drawing::picture::Picture;
-use drawing::{Lettering, Mark, Role};
+use drawing::{Lettering, Mark, MarkRole};
 use linkage::math::Vec2;
 
 /// Share of the natural scale below which an angular velocity or acceleration is rounding.
@@ -15,7 +15,7 @@ const ROUNDING: f64 = 1e-12;
 const NEAR: f64 = 120.0;
 
 /// The mechanism; the world's origin is the figure's origin.
-pub fn scheme(scheme: &Scheme) -> Figure {
+pub fn scheme(scheme: &Scheme) -> DrawnFigure {
     let mut picture = Picture::of(&scheme.sketch, &scheme.places, scheme.scale);
     for (at, leads) in scheme.singular.iter().filter_map(|point| lines_through(scheme, point)) {
         for ends in leads {
@@ -37,7 +37,7 @@ pub fn scheme(scheme: &Scheme) -> Figure {
     let mut names: Vec<(Vec2, String)> = scheme.points.iter().map(point).collect();
     names.extend(picture.names(|what| matches!(what, Lettering::MassCentre | Lettering::Motor)));
     picture.name(names);
-    let is_arc = |mark: &&Mark| mark.role == Role::Drive;
+    let is_arc = |mark: &&Mark| mark.role == MarkRole::Drive;
     if let Some(arc) = scheme.sketch.bodies[scheme.driver].marks.iter().find(is_arc) {
         let line = arc.shape.points();
         let middle = picture.at(scheme.driver, line[line.len() / 2]);
@@ -64,7 +64,7 @@ fn lines_through(scheme: &Scheme, point: &SingularPoint) -> Option<(Vec2, [[Vec2
 }
 
 /// The links with their numbers, angular velocities and angular accelerations.
-pub fn table(scheme: &Scheme) -> Table {
+pub fn table(scheme: &Scheme) -> LegendTable {
     let driver = scheme.links.iter().find(|link| link.number == scheme.driver).map_or(0.0, |link| link.omega.abs());
     // At a dead point only rounding is left, relative to the crank's speed and its square.
     let shown = |value: f64, scale: f64| significant(if value.abs() > ROUNDING * scale { value } else { 0.0 });
@@ -74,5 +74,5 @@ pub fn table(scheme: &Scheme) -> Table {
         (solid(colour(link.number), 0.9), cells)
     };
     let head = vec!["link", "name", "ω, rad/s", "α, rad/s²"];
-    Table { head, rows: scheme.links.iter().map(row).collect(), numbers: &[2, 3] }
+    LegendTable { head, rows: scheme.links.iter().map(row).collect(), numbers: &[2, 3] }
 }

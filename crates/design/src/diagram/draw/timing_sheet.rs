@@ -1,10 +1,11 @@
 //! The sheet of a timing diagram.
 
+use crate::sentences;
 use std::f64::consts::TAU;
 
 use super::axes::{GRID, frame, framed};
 use crate::diagram::timing::TimingDiagram;
-use drawing::paper::figure::{Figure, Style, Tint, Type, rectangle, solid, words};
+use drawing::paper::figure::{DrawnFigure, Style, Tint, Type, rectangle, solid, words};
 use drawing::paper::style::{BLACK, COLOURS, GREY};
 use linkage::math::Vec2;
 
@@ -25,7 +26,7 @@ const REST: &str = "#e3edf4";
 /// The diagram as an SVG document; `title` is written above it.
 #[must_use]
 pub fn timing(diagram: &TimingDiagram, title: &str) -> String {
-    let mut figure = Figure::default();
+    let mut figure = DrawnFigure::default();
     let x = |crank: f64| LONG * crank / TAU;
     let at = |[crank, share]: [f64; 2]| Vec2::new(x(crank), HIGH * share);
     for stretch in &diagram.stretches {
@@ -56,7 +57,7 @@ pub fn timing(diagram: &TimingDiagram, title: &str) -> String {
     }
     figure.curve(diagram.curve.iter().copied().map(at).collect(), None, solid(COLOURS[0], 0.5));
     legend(&mut figure, diagram);
-    let mut sheet = Figure::default();
+    let mut sheet = DrawnFigure::default();
     let [low, high] = figure.bounds();
     sheet.text(Vec2::new(MARGIN, -MARGIN), title, Type { bold: true, ..words(4.4) });
     sheet.add(&figure, Vec2::new(MARGIN + LEFT, -MARGIN - 6.0 - high.y));
@@ -70,7 +71,7 @@ pub fn timing(diagram: &TimingDiagram, title: &str) -> String {
 }
 
 /// Frame, grid and numbers.
-fn axes(figure: &mut Figure, x: &dyn Fn(f64) -> f64) {
+fn axes(figure: &mut DrawnFigure, x: &dyn Fn(f64) -> f64) {
     for share in 0..=4 {
         let y = HIGH * f64::from(share) / 4.0;
         figure.line([Vec2::new(0.0, y), Vec2::new(LONG, y)], GRID);
@@ -85,13 +86,13 @@ fn axes(figure: &mut Figure, x: &dyn Fn(f64) -> f64) {
     frame(figure, Vec2::new(LONG, HIGH), BLACK);
 }
 
-fn legend(figure: &mut Figure, diagram: &TimingDiagram) {
+fn legend(figure: &mut DrawnFigure, diagram: &TimingDiagram) {
     let mut left = 0.0;
     let mut entry = |style: Style, text: &str| {
         figure.line([Vec2::new(left, -9.0), Vec2::new(left + 8.0, -9.0)], style);
         figure.text(Vec2::new(left + 10.0, -10.0), text, words(2.8));
         left += 62.0;
     };
-    entry(solid(COLOURS[0], 0.5), "achieved, share of the stroke");
-    entry(WANTED, if diagram.wanted.is_empty() { "wanted: rest, or at least so far" } else { "wanted, cycloidal" });
+    entry(solid(COLOURS[0], 0.5), sentences::ACHIEVED_SHARE_OF_THE_STROKE);
+    entry(WANTED, if diagram.wanted.is_empty() { sentences::WANTED_REST_OR_AT_LEAST_SO } else { "wanted, cycloidal" });
 }

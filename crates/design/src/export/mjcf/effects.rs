@@ -1,14 +1,15 @@
 //! Motors and loads in the document: sites, tendons, actuators.
 
+use crate::sentences;
 use std::fmt::Write;
 
 use quick_xml::escape::escape;
 
 use super::forces::{Actuator, Forces, Target};
-use super::model::Model;
+use super::model::MjcfModel;
 use super::xml::{Xml, flat, number, numbers};
 use linkage::math::Vec2;
-use linkage::mechanism::{GROUND, LinkId, Side};
+use linkage::mechanism::{GROUND, JointSide, LinkId};
 
 /// Site on the ground to which forces in world axes refer.
 const AXES: &str = "world.axes";
@@ -25,13 +26,13 @@ pub(super) fn sites(xml: &mut Xml, forces: &Forces, link: LinkId) {
     }
     let is_world = |target: &Target| matches!(target, Target::Place { follows: false, .. });
     if link == GROUND && forces.actuators.iter().any(|own| is_world(&own.target)) {
-        xml.comment("Forces in world axes refer to it.");
+        xml.comment(sentences::FORCES_IN_WORLD_AXES_REFER);
         site(xml, AXES, Vec2::zeros());
     }
 }
 
 /// Tendons: sums of angles that frictions and actuators act on, and springs and dampers between points.
-pub(super) fn tendons<'a>(xml: &mut Xml, model: &Model, forces: &'a Forces) {
+pub(super) fn tendons<'a>(xml: &mut Xml, model: &MjcfModel, forces: &'a Forces) {
     let long: Vec<_> = model.frictions.iter().filter(|friction| !friction.own_hinge).collect();
     let sum = |own: &'a Actuator| match &own.target {
         Target::Sum(sum) => Some((&own.name, sum)),
@@ -48,13 +49,13 @@ pub(super) fn tendons<'a>(xml: &mut Xml, model: &Model, forces: &'a Forces) {
         for friction in long {
             let name = escape(model.case.mechanism.links()[friction.link].name.as_str());
             let loss = number(friction.moment);
-            xml.comment("Its length is the link's angle.");
+            xml.comment(sentences::ITS_LENGTH_IS_THE_LINK_ANGLE);
             xml.nest(format_args!(r#"fixed name="{name}" frictionloss="{loss}""#), |xml| {
                 friction.hinges.iter().for_each(|&branch| hinge(xml, branch, 1.0));
             });
         }
         for (name, sum) in sums {
-            xml.comment("Its length is the angle that the load depends on.");
+            xml.comment(sentences::ITS_LENGTH_IS_THE_ANGLE_THAT_THE_LOAD);
             xml.nest(format_args!(r#"fixed name="{name}""#), |xml| {
                 sum.iter().for_each(|&(branch, factor)| hinge(xml, branch, factor));
             });
@@ -73,7 +74,7 @@ pub(super) fn tendons<'a>(xml: &mut Xml, model: &Model, forces: &'a Forces) {
 }
 
 /// Name of the joint of a branch.
-fn joint<'a>(model: &'a Model, branch: usize) -> std::borrow::Cow<'a, str> {
+fn joint<'a>(model: &'a MjcfModel, branch: usize) -> std::borrow::Cow<'a, str> {
     escape(model.case.mechanism.joints()[model.tree.branches[branch].joint].name.as_str())
 }
 
@@ -85,7 +86,7 @@ fn end(load: &str, index: usize) -> String {
 /// Places at which loads act on a link, with the names of their sites.
 fn places(forces: &Forces, link: LinkId) -> Vec<(String, Vec2)> {
     let ends = forces.tendons.iter().flat_map(|tendon| {
-        let named = |(index, side): (usize, &Side)| (*side, end(&tendon.name, index));
+        let named = |(index, side): (usize, &JointSide)| (*side, end(&tendon.name, index));
         tendon.ends.iter().enumerate().map(named).collect::<Vec<_>>()
     });
     let pushed = forces.actuators.iter().filter_map(|own| match own.target {
@@ -96,7 +97,7 @@ fn places(forces: &Forces, link: LinkId) -> Vec<(String, Vec2)> {
 }
 
 /// Motors and loads: no control enters, the force is `biasprm[0] + biasprm[1] length + biasprm[2] rate`.
-pub(super) fn actuators(xml: &mut Xml, model: &Model, forces: &Forces) {
+pub(super) fn actuators(xml: &mut Xml, model: &MjcfModel, forces: &Forces) {
     if forces.actuators.is_empty() {
         return;
     }

@@ -1,11 +1,11 @@
 //! Motors and loads as MuJoCo has them: actuators, and tendons with springs and dampers.
 
 use super::limits::line;
-use super::model::Model;
+use super::model::MjcfModel;
 use linkage::drive::{Course, Load, Motor};
 use linkage::error::Result;
 use linkage::math::{Vec2, angle};
-use linkage::mechanism::{LinkId, Side};
+use linkage::mechanism::{JointSide, LinkId};
 
 /// Forces that are large enough never to be reached.
 const ENDLESS: f64 = 1e30;
@@ -20,7 +20,7 @@ pub(super) enum Target {
     /// A place of a link with a force (N).
     Place {
         /// The place.
-        at: Side,
+        at: JointSide,
         /// The force.
         force: Vec2,
         /// Whether it is given in the axes of the link; else in those of the world.
@@ -41,7 +41,7 @@ pub(super) struct Actuator {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Tendon {
     pub name: String,
-    pub ends: [Side; 2],
+    pub ends: [JointSide; 2],
     pub stiffness: f64,
     pub free_length: f64,
     pub damping: f64,
@@ -55,7 +55,7 @@ pub(super) struct Forces {
 }
 
 /// Forces of all motors and loads; those of resistances are [frictions](super::model::Friction).
-pub(super) fn forces(model: &Model) -> Result<Forces> {
+pub(super) fn forces(model: &MjcfModel) -> Result<Forces> {
     let mut found = Forces::default();
     for drive in model.case.drives.iter() {
         let joint = &model.case.mechanism.joints()[drive.joint].name;

@@ -1,10 +1,11 @@
 //! What MJCF has no words for, refused by name.
 
+use crate::sentences;
 use linkage::drive::{Acts, Drive, Load, MotorLaw};
 use linkage::error::{Error, ErrorKind, Result};
 
 fn refused(what: String, help: &'static str) -> Error {
-    Error::new(ErrorKind::Unsupported, format!("{what} cannot be written to a model for MuJoCo")).help(help)
+    Error::new(ErrorKind::Unsupported, sentences::cannot_be_written_to_a_model(&what)).help(help)
 }
 
 /// Checks that a load can be written.
@@ -12,18 +13,18 @@ fn refused(what: String, help: &'static str) -> Error {
 /// # Errors
 /// [`ErrorKind::Unsupported`] for one that MJCF has no words for, by its name.
 pub(super) fn check(load: &Load) -> Result<()> {
-    const ALONE: &str = "leave it out of the scenario, and add it to the model by hand";
+    const ALONE: &str = sentences::LEAVE_IT_OUT_OF_THE_SCENARIO;
     let sort = load.sort();
     if load.courses().any(|course| course.knots().is_some()) {
-        return Err(refused(format!("a load of type \"{sort}\" with a table over the crank angle"), ALONE));
+        return Err(refused(sentences::a_load_of_type_with_a_table(&sort), ALONE));
     }
     if let Load::Moment { acts: Acts::CounterClockwise | Acts::Clockwise, .. } = load {
-        return Err(refused(format!("a load of type \"{sort}\" that acts in one sense of rotation only"), ALONE));
+        return Err(refused(sentences::a_load_of_type_that_acts(&sort), ALONE));
     }
     let has_words = matches!(load, Load::Resistance { .. } | Load::Moment { .. } | Load::Force { .. })
         || matches!(load, Load::Spring { .. } | Load::Damper { .. })
         || matches!(load, Load::TorsionSpring { .. } | Load::TorsionDamper { .. });
-    if has_words { Ok(()) } else { Err(refused(format!("a load of type \"{sort}\""), ALONE)) }
+    if has_words { Ok(()) } else { Err(refused(sentences::a_load_of_type(&sort), ALONE)) }
 }
 
 /// Checks that a drive can be written.
@@ -37,9 +38,7 @@ pub(super) fn check_drive(drive: &Drive) -> Result<()> {
     // A rotor keeps a constant speed and permits no other law.
     match drive.constant_speed() {
         Some(_) => Ok(()),
-        None => {
-            Err(refused(format!("a drive with the law \"{}\"", drive.law_name()), "give the drive a constant speed"))
-        }
+        None => Err(refused(sentences::a_drive_with_the_law(&drive.law_name()), sentences::GIVE_THE_DRIVE_A_CONSTANT)),
     }
 }
 
@@ -51,5 +50,5 @@ pub(super) fn line(law: &MotorLaw) -> Result<[f64; 2]> {
         MotorLaw::Kloss { .. } => "kloss",
         MotorLaw::Table { .. } => "table",
     };
-    Err(refused(format!("a motor with the law \"{name}\""), "give the motor the law \"linear\" or \"constant\""))
+    Err(refused(sentences::a_motor_with_the_law(&name), sentences::GIVE_THE_MOTOR_THE_LAW_LINEAR))
 }

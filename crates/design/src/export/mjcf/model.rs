@@ -2,11 +2,12 @@
 
 use super::limits;
 use super::names;
+use crate::sentences;
 use linkage::case::Case;
 use linkage::drive::Load;
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::{KeepNan, Vec2, rotated, unit};
-use linkage::mechanism::{Branch, GROUND, JointId, JointKind, LinkId, PerLink, Tree};
+use linkage::mechanism::{GROUND, JointId, JointKind, LinkId, PerLink, SpanningTree, TreeBranch};
 use linkage::solver::State;
 
 /// Inertia of a drive's rotor divided by the largest moment of inertia that the mechanism could have about one of its points.
@@ -38,25 +39,25 @@ pub(super) struct Friction {
 
 /// A mechanism as a MuJoCo model.
 #[derive(Debug)]
-pub struct Model<'a> {
+pub struct MjcfModel<'a> {
     pub(super) case: &'a Case,
     pub(super) name: &'a str,
     pub(super) step: f64,
-    pub(super) tree: Tree,
+    pub(super) tree: SpanningTree,
     /// One for each branch of the tree.
     pub(super) bodies: Vec<Body>,
     pub(super) frictions: Vec<Friction>,
 }
 
-impl<'a> Model<'a> {
+impl<'a> MjcfModel<'a> {
     /// The model of a case whose state at t = 0 is `start`; see [`mjcf`](super::mjcf).
     ///
     /// # Errors
     /// Those of [`mjcf`](super::mjcf), without the solver's.
     pub fn new(case: &'a Case, start: &State, name: &'a str, step: f64) -> Result<Self> {
         if !(step > 0.0 && step.is_finite()) {
-            return Err(Error::new(ErrorKind::Input, format!("the time step is {step} s, but must be positive"))
-                .help("give a step such as 1e-3"));
+            return Err(Error::new(ErrorKind::Input, sentences::the_time_step_is_but_must(&step))
+                .help(sentences::GIVE_A_STEP_SUCH_AS));
         }
         names::check(&case.mechanism)?;
         for drive in case.drives.iter() {
@@ -65,9 +66,9 @@ impl<'a> Model<'a> {
         for load in &case.loads {
             limits::check(load)?;
         }
-        let tree = Tree::of(&case.mechanism);
+        let tree = SpanningTree::of(&case.mechanism);
         let bodies = tree.branches.iter().map(|branch| body(case, start, branch)).collect();
-        let mut model = Model { case, name, step, tree, bodies, frictions: Vec::new() };
+        let mut model = MjcfModel { case, name, step, tree, bodies, frictions: Vec::new() };
         model.frictions = model.frictions();
         Ok(model)
     }
@@ -196,7 +197,7 @@ pub(super) struct Body {
 }
 
 /// The body of a branch. Poses are those of the case at t = 0, rates those of `start`.
-pub(super) fn body(case: &Case, start: &State, branch: &Branch) -> Body {
+pub(super) fn body(case: &Case, start: &State, branch: &TreeBranch) -> Body {
     let joint = &case.mechanism.joints()[branch.joint];
     let [parent, child] = [branch.parent, branch.link].map(|link| case.start.0[link]);
     let offset = rotated(unit(-parent.angle), child.origin - parent.origin);

@@ -1,5 +1,6 @@
 //! Names in the file: those of the scenario wherever MuJoCo accepts them.
 
+use crate::sentences;
 use std::collections::BTreeSet;
 
 use linkage::error::{Error, ErrorKind, Result};
@@ -21,16 +22,16 @@ pub(super) fn side(joint: &Joint, link: LinkId) -> String {
 pub(super) fn check(mechanism: &Mechanism) -> Result<()> {
     let unsupported = |message: String, key: String| {
         let error = Error::new(ErrorKind::Unsupported, message).key(key);
-        Err(error.help("give it another name in the scenario"))
+        Err(error.help(sentences::GIVE_IT_ANOTHER_NAME_IN_THE_SCENARIO))
     };
     if mechanism.links()[1..].iter().any(|link| link.name == WORLD) {
-        let message = "MuJoCo calls the ground \"world\" and takes no other body of that name".to_string();
+        let message = sentences::MUJOCO_CALLS_THE_GROUND_WORLD.to_string();
         return unsupported(message, format!("links.{WORLD}"));
     }
     let links = mechanism.links()[1..].iter().map(|link| ("links", &link.name));
     for (table, name) in links.chain(mechanism.joints().iter().map(|joint| ("joints", &joint.name))) {
         if name.is_empty() || name.chars().any(char::is_control) {
-            let message = "MuJoCo takes no empty names and none with control characters".to_string();
+            let message = sentences::MUJOCO_TAKES_NO_EMPTY_NAMES.to_string();
             return unsupported(message, format!("{table}.{name}"));
         }
     }
@@ -40,7 +41,7 @@ pub(super) fn check(mechanism: &Mechanism) -> Result<()> {
     let points = mechanism.moving_points().map(|(name, _)| name.to_string());
     for name in sides.chain(points) {
         if !sites.insert(name.clone()) {
-            let message = format!("the file would have two sites called \"{name}\"");
+            let message = sentences::the_file_would_have_two_sites(&name);
             return unsupported(message, format!("points.{name}"));
         }
     }

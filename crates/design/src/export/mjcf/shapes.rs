@@ -1,15 +1,15 @@
 //! Simple shapes for display: they have no mass and no contacts.
 
-use super::model::Model;
+use super::model::MjcfModel;
 use super::xml::{Xml, about_z, flat, number, numbers};
 use linkage::math::{Vec2, rotated, unit};
-use linkage::mechanism::{GROUND, LinkId, Side};
+use linkage::mechanism::{GROUND, JointSide, LinkId};
 
 /// Thickness of the shapes as a share of the mechanism's size.
 const THICKNESS: f64 = 0.012;
 
 /// Shapes of a link: rods between its joints, and a block or a guide where it slides.
-pub(super) fn draw(xml: &mut Xml, model: &Model, link: LinkId, colour: &str) {
+pub(super) fn draw(xml: &mut Xml, model: &MjcfModel, link: LinkId, colour: &str) {
     let mechanism = &model.case.mechanism;
     let thick = THICKNESS * model.size();
     let rod = |xml: &mut Xml, [from, to]: [Vec2; 2], radius: f64| {
@@ -48,7 +48,7 @@ pub(super) fn draw(xml: &mut Xml, model: &Model, link: LinkId, colour: &str) {
 }
 
 /// Start position of a guide's block along the guide's axis (m).
-fn along(model: &Model, sides: [Side; 2], axis: Vec2) -> f64 {
+fn along(model: &MjcfModel, sides: [JointSide; 2], axis: Vec2) -> f64 {
     let [guide, block] = sides.map(|side| model.case.start.0[side.link]);
     rotated(unit(guide.angle), axis).dot(&(block.point(sides[1].local) - guide.point(sides[0].local)))
 }

@@ -1,12 +1,13 @@
 //! The XML document.
 
+use crate::sentences;
 use std::fmt::Write;
 
 use quick_xml::escape::escape;
 
 use super::effects;
 use super::forces::Forces;
-use super::model::{Freedom, Model};
+use super::model::{Freedom, MjcfModel};
 use super::names::side;
 use super::shapes;
 use super::xml::{Xml, about_z, flat, number, numbers};
@@ -28,7 +29,7 @@ const COLOURS: [&str; 6] = [
 ];
 
 /// The whole document.
-pub(super) fn document(model: &Model, forces: &Forces) -> String {
+pub(super) fn document(model: &MjcfModel, forces: &Forces) -> String {
     let mut xml = Xml::new();
     xml.nest(format_args!(r#"mujoco model="{}""#, escape(model.name)), |xml| {
         xml.comment(concat!(
@@ -47,7 +48,7 @@ pub(super) fn document(model: &Model, forces: &Forces) -> String {
     xml.text
 }
 
-fn options(xml: &mut Xml, model: &Model) {
+fn options(xml: &mut Xml, model: &MjcfModel) {
     xml.leaf(r#"compiler angle="radian" autolimits="false" inertiafromgeom="false""#);
     // MuJoCo scales its tolerance with the trace of the inertia matrix, which contains the rotor: only zero is small enough.
     // Newton's method needs two iterations; 20 are a limit in case rounding keeps it going.
@@ -65,7 +66,7 @@ fn options(xml: &mut Xml, model: &Model) {
         // View from above: x right, y up.
         xml.leaf(r#"global azimuth="90" elevation="-90""#);
     });
-    xml.comment("As stiff as a step allows: the time constant is raised to twice the time step, whatever that is.");
+    xml.comment(sentences::AS_STIFF_AS_A_STEP_ALLOWS);
     xml.nest("default", |xml| {
         xml.leaf(format_args!(r#"equality solref="{STIFF}" solimp="{HARD}""#));
         let friction = format!(r#"solreffriction="{STIFF}" solimpfriction="{HARD}""#);
@@ -76,7 +77,7 @@ fn options(xml: &mut Xml, model: &Model) {
     });
 }
 
-fn world(xml: &mut Xml, model: &Model, forces: &Forces) {
+fn world(xml: &mut Xml, model: &MjcfModel, forces: &Forces) {
     let above = numbers([0.0, 0.0, 10.0 * model.size()]);
     xml.leaf(format_args!(r#"light pos="{above}" dir="0 0 -1" type="directional""#));
     shapes::draw(xml, model, GROUND, "0.45 0.45 0.45 1");
@@ -86,7 +87,7 @@ fn world(xml: &mut Xml, model: &Model, forces: &Forces) {
     }
 }
 
-fn body(xml: &mut Xml, model: &Model, forces: &Forces, link: LinkId) {
+fn body(xml: &mut Xml, model: &MjcfModel, forces: &Forces, link: LinkId) {
     let index = model.branch_of(link).expect("every moving link is in the tree");
     let own = &model.bodies[index];
     let data = &model.case.mechanism.links()[link];
@@ -94,7 +95,7 @@ fn body(xml: &mut Xml, model: &Model, forces: &Forces, link: LinkId) {
     xml.nest(format_args!(r#"body name="{name}" pos="{at}" axisangle="{turn}""#), |xml| {
         let (mass, inertia) = model.inertial(link);
         if model.is_lent(link) {
-            xml.comment("It has no mass or no inertia: MuJoCo gets a small one.");
+            xml.comment(sentences::IT_HAS_NO_MASS_OR_NO_INERTIA);
         }
         // Three equal moments satisfy the triangle inequality; those about x and y have no effect in planar motion.
         let (centre, mass, inertia) = (flat(data.mass_centre), number(mass), numbers([inertia; 3]));
@@ -108,7 +109,7 @@ fn body(xml: &mut Xml, model: &Model, forces: &Forces, link: LinkId) {
     });
 }
 
-fn joint(xml: &mut Xml, model: &Model, index: usize) {
+fn joint(xml: &mut Xml, model: &MjcfModel, index: usize) {
     let (own, branch) = (&model.bodies[index], &model.tree.branches[index]);
     let name = escape(model.case.mechanism.joints()[branch.joint].name.as_str());
     let freedom = match own.freedom {
@@ -119,8 +120,8 @@ fn joint(xml: &mut Xml, model: &Model, index: usize) {
     if let Some(inertia) = model.armature(branch.joint) {
         let _ = write!(tag, r#" armature="{}""#, number(inertia));
         xml.comment(match model.case.drives.iter().any(|drive| drive.joint == branch.joint && drive.is_free()) {
-            true => "Rotor and reducer of the motor.",
-            false => "Drive: a rotor so heavy that its speed stays what it is at the start.",
+            true => sentences::ROTOR_AND_REDUCER_OF_THE_MOTOR,
+            false => sentences::DRIVE_A_ROTOR_SO_HEAVY_THAT_ITS_SPEED,
         });
     }
     if let Some(found) = model.frictions.iter().find(|friction| friction.link == branch.link && friction.own_hinge) {
@@ -130,7 +131,7 @@ fn joint(xml: &mut Xml, model: &Model, index: usize) {
 }
 
 /// Sites of a link: at its joints, its points, and where loads act.
-fn sites(xml: &mut Xml, model: &Model, forces: &Forces, link: LinkId) {
+fn sites(xml: &mut Xml, model: &MjcfModel, forces: &Forces, link: LinkId) {
     let mechanism = &model.case.mechanism;
     for joint in mechanism.joints() {
         if let Some(place) = joint.on(link) {
@@ -143,7 +144,7 @@ fn sites(xml: &mut Xml, model: &Model, forces: &Forces, link: LinkId) {
     effects::sites(xml, forces, link);
 }
 
-fn loops(xml: &mut Xml, model: &Model) {
+fn loops(xml: &mut Xml, model: &MjcfModel) {
     if model.tree.cut.is_empty() {
         return;
     }
@@ -158,10 +159,8 @@ fn loops(xml: &mut Xml, model: &Model) {
 }
 
 /// Reactions in the joints of the tree, and moments where there are any.
-fn sensors(xml: &mut Xml, model: &Model) {
-    xml.comment(
-        "What acts on the body in the joint that carries it, in the body's frame; moments about the joint's place, without frictionloss.",
-    );
+fn sensors(xml: &mut Xml, model: &MjcfModel) {
+    xml.comment(sentences::WHAT_ACTS_ON_THE_BODY_IN_THE_JOINT);
     xml.nest("sensor", |xml| {
         for branch in &model.tree.branches {
             let joint = &model.case.mechanism.joints()[branch.joint];
@@ -175,7 +174,7 @@ fn sensors(xml: &mut Xml, model: &Model) {
     });
 }
 
-fn keyframe(xml: &mut Xml, model: &Model) {
+fn keyframe(xml: &mut Xml, model: &MjcfModel) {
     let coordinates = numbers(model.in_order().iter().map(|body| body.coordinate));
     let rates = numbers(model.in_order().iter().map(|body| body.rate));
     xml.nest("keyframe", |xml| {

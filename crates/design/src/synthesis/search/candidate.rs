@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use chacha20::ChaCha8Rng;
 use chacha20::rand_core::Rng;
 
-use crate::task::{Entry, Task, Variable};
+use crate::task::{Task, TaskNumber, Variable};
 use linkage::mechanism::GroupKind;
 
 /// A candidate and its cost.
@@ -40,7 +40,7 @@ pub(super) fn of_share(share: f64, variable: &Variable) -> f64 {
 /// The variable that is the crank's zero, if its bounds span a full turn and no group is a higher one.
 /// It is then periodic, and shifts the motion along the crank angle.
 pub(super) fn free_zero(task: &Task) -> Option<usize> {
-    let Entry::Free(index) = task.zero else { return None };
+    let TaskNumber::Free(index) = task.zero else { return None };
     let [low, high] = task.variables[index].bounds;
     let closed_form = task.case.structure.groups.iter().all(|group| group.kind != GroupKind::Higher);
     (closed_form && (high - low - TAU).abs() < 1e-9).then_some(index)

@@ -1,9 +1,9 @@
 //! Mistakes in formulas: those that a diagnosis knows, made on purpose, and claims of something else.
 
-use super::kind::{Family, Kind, Mistake, Plant};
-use prover::claims::Kind as Slip;
+use super::kind::{FaultFamily, FaultKind, Mistake, Plant};
+use prover::claims::SlipKind as Slip;
 
-pub(super) const KINDS: &[Kind] = &[
+pub(super) const KINDS: &[FaultKind] = &[
     slip("formula-sign", "a sign of a formula is wrong", Slip::Sign),
     slip("formula-branch", "another branch of a square root or of an inverse function", Slip::Branch),
     slip("formula-unit", "degrees for radians, turns a minute, millimetres, and the like", Slip::Unit),
@@ -23,10 +23,10 @@ pub(super) const KINDS: &[Kind] = &[
     of("formula-channel", "another quantity with the same unit is claimed", Mistake::Quantity),
 ];
 
-const fn slip(name: &'static str, says: &'static str, slip: Slip) -> Kind {
+const fn slip(name: &'static str, says: &'static str, slip: Slip) -> FaultKind {
     of(name, says, Mistake::Slip(slip))
 }
 
-const fn of(name: &'static str, says: &'static str, mistake: Mistake) -> Kind {
-    Kind { name, says, family: Family::Formula, size: None, plant: Plant::Formula(mistake) }
+const fn of(name: &'static str, says: &'static str, mistake: Mistake) -> FaultKind {
+    FaultKind { name, says, family: FaultFamily::Formula, size: None, plant: Plant::Formula(mistake) }
 }

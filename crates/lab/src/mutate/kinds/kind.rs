@@ -2,12 +2,12 @@
 
 use linkage::case::Case;
 use linkage::solver::State;
-use prover::claims::Kind as Slip;
+use prover::claims::SlipKind as Slip;
 
 linkage::words! {
     /// What a fault is in.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-    pub enum Family: name {
+    pub enum FaultFamily: name {
         /// Lengths, guides and configurations.
         Geometry = "geometry",
         /// Angles and speeds of driving links, and instants.
@@ -35,7 +35,7 @@ linkage::words! {
 
 /// One answered state among all of a run.
 #[derive(Clone, Copy)]
-pub struct At<'a> {
+pub struct FaultInstant<'a> {
     /// The case that was asked.
     pub case: &'a Case,
     /// Row of the grid.
@@ -48,7 +48,7 @@ pub enum Plant {
     /// In the case that a party gets. `None` where the case has no such part.
     Case(fn(&Case, f64) -> Option<Case>),
     /// In every state that a party answers. `None` where the state has no such part.
-    Answer(fn(At, &mut State, f64) -> Option<()>),
+    Answer(fn(FaultInstant, &mut State, f64) -> Option<()>),
     /// In a formula of the scenario.
     Formula(Mistake),
 }
@@ -68,23 +68,23 @@ pub enum Mistake {
 
 /// A kind of fault.
 #[derive(Clone, Copy)]
-pub struct Kind {
+pub struct FaultKind {
     /// Name, as on the command line.
     pub name: &'static str,
     /// What is wrong, in words.
     pub says: &'static str,
     /// What it is in.
-    pub family: Family,
+    pub family: FaultFamily,
     /// Its size at first, if it has one that can be made smaller.
     pub size: Option<f64>,
     /// How it is planted.
     pub plant: Plant,
 }
 
-impl Kind {
+impl FaultKind {
     /// The same with a size that can be made smaller.
-    pub(in crate::mutate) const fn sized(self, size: f64) -> Kind {
-        Kind { size: Some(size), ..self }
+    pub(in crate::mutate) const fn sized(self, size: f64) -> FaultKind {
+        FaultKind { size: Some(size), ..self }
     }
 }
 

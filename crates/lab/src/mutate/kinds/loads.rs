@@ -33,7 +33,7 @@ kinds! { Load, Case:
     "load-place": "the first force acts at the mass centre", |case, _| changed(case, &|load| {
         let Load::Force { at, force, follows } = load else { return None };
         let centre = case.mechanism.links()[at.link].mass_centre;
-        let at = linkage::mechanism::Side { link: at.link, local: centre };
+        let at = linkage::mechanism::JointSide { link: at.link, local: centre };
         Some(Load::Force { at, force: force.clone(), follows: *follows })
     });
     "load-components": "x and y of the first force are exchanged", |case, _| changed(case, &|load| {

@@ -5,7 +5,7 @@ use linkage::error::Result;
 use linkage::mechanism::AssemblyMode;
 
 use super::four_bar::SPEED_OF_ALL;
-use crate::stress::{Engines, Family, Setup};
+use crate::stress::{EngineUse, Setup, StressFamily};
 
 /// Length of the bars (m) and distance of their pivots (m).
 const BAR: f64 = 0.5;
@@ -49,7 +49,7 @@ pub(in crate::stress) fn chain(count: usize, speed: f64) -> Result<Case> {
 }
 
 /// Chains.
-pub(super) const CHAIN: Family = Family {
+pub(super) const CHAIN: StressFamily = StressFamily {
     name: "chain",
     dial: "number of four-bars in the chain",
     title: "a chain of as many as 1000 four-bars, each driven by the rocker before",
@@ -58,7 +58,7 @@ pub(super) const CHAIN: Family = Family {
     samples: 1,
     setup: |count, _, _| {
         let usual = Setup::usual(chain(count as usize, SPEED_OF_ALL)?);
-        let engines = if count as usize > MOST_ENGINES { Engines::None } else { usual.engines };
+        let engines = if count as usize > MOST_ENGINES { EngineUse::None } else { usual.engines };
         Ok(Setup { engines, ..usual })
     },
 };

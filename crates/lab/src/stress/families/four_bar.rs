@@ -4,7 +4,7 @@ use linkage::case::{Case, CaseBuilder};
 use linkage::error::Result;
 use linkage::mechanism::AssemblyMode;
 
-use crate::stress::{Family, Setup};
+use crate::stress::{Setup, StressFamily};
 
 /// Instants of a turn.
 const INSTANTS: usize = 36;
@@ -49,7 +49,7 @@ fn usual(lengths: [f64; 4], masses: [f64; 3], speed: f64) -> Result<Setup> {
 }
 
 /// Masses of neighbours.
-pub(super) const MASS_RATIO: Family = Family {
+pub(super) const MASS_RATIO: StressFamily = StressFamily {
     name: "mass_ratio",
     dial: "mass of the rocker over that of the coupler",
     title: "a crank-rocker whose rocker is up to 1e8 times as heavy as its coupler",
@@ -60,7 +60,7 @@ pub(super) const MASS_RATIO: Family = Family {
 };
 
 /// Lengths of neighbours.
-pub(super) const LENGTH_RATIO: Family = Family {
+pub(super) const LENGTH_RATIO: StressFamily = StressFamily {
     name: "length_ratio",
     dial: "length of the coupler over that of the crank",
     title: "a crank-rocker whose crank is up to 1e4 times as short as its coupler",
@@ -74,7 +74,7 @@ pub(super) const LENGTH_RATIO: Family = Family {
 };
 
 /// Nearness of a dead point.
-pub(super) const TRANSMISSION: Family = Family {
+pub(super) const TRANSMISSION: StressFamily = StressFamily {
     name: "transmission_angle",
     dial: "least transmission angle of the turn (deg)",
     title: "a crank-rocker that comes as near to a dead point as 0.01 deg of its transmission angle",
@@ -92,7 +92,7 @@ pub(super) const TRANSMISSION: Family = Family {
 };
 
 /// Speeds.
-pub(super) const SPEED: Family = Family {
+pub(super) const SPEED: StressFamily = StressFamily {
     name: "speed",
     dial: "speed of the crank (rad/s)",
     title: "a crank-rocker under gravity, from a turn in 17 hours to 95 000 rpm",
@@ -103,7 +103,7 @@ pub(super) const SPEED: Family = Family {
 };
 
 /// Sizes.
-pub(super) const SIZE: Family = Family {
+pub(super) const SIZE: StressFamily = StressFamily {
     name: "size",
     dial: "length of the base (m)",
     title: "a crank-rocker of one density, from 1 um to 1 km",

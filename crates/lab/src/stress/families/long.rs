@@ -6,7 +6,7 @@ use linkage::case::Case;
 use linkage::error::Result;
 
 use super::four_bar::{LENGTHS, SPEED_OF_ALL, builder, rods};
-use crate::stress::{Engines, Family, Setup};
+use crate::stress::{EngineUse, Setup, StressFamily};
 
 /// Instants of the last turn.
 const INSTANTS: usize = 12;
@@ -25,7 +25,7 @@ fn last_turn(turns: f64) -> Result<Case> {
 }
 
 /// Steps of a run.
-pub(super) const STEPS: Family = Family {
+pub(super) const STEPS: StressFamily = StressFamily {
     name: "steps",
     dial: "steps of one degree until the last instant",
     title: "a crank-rocker over as many as 1e6 steps at 16 sweeps, held against its last turn",
@@ -35,17 +35,17 @@ pub(super) const STEPS: Family = Family {
     setup: |steps, _, _| {
         let step = STEP_OF_ALL.to_radians() / SPEED_OF_ALL;
         let case = last_turn(steps * STEP_OF_ALL / 360.0)?;
-        Ok(Setup { engines: Engines::Given { step, sweeps: SWEEPS_OF_ALL }, ..Setup::usual(case) })
+        Ok(Setup { engines: EngineUse::Given { step, sweeps: SWEEPS_OF_ALL }, ..Setup::usual(case) })
     },
 };
 
 /// Turns.
-pub(super) const TURNS: Family = Family {
+pub(super) const TURNS: StressFamily = StressFamily {
     name: "turns",
     dial: "turns of the crank until the last instant",
     title: "a crank-rocker after as many as 1e5 turns, by the analytic sides",
     points: &[1.0, 10.0, 1e2, 1e3, 1e4, 1e5],
     quick: &[1.0, 1e2],
     samples: 1,
-    setup: |turns, _, _| Ok(Setup { engines: Engines::None, ..Setup::usual(last_turn(turns)?) }),
+    setup: |turns, _, _| Ok(Setup { engines: EngineUse::None, ..Setup::usual(last_turn(turns)?) }),
 };

@@ -3,8 +3,8 @@
 use linkage::error::{Error, ErrorKind, Result};
 
 use crate::specimens::dyads::{SORTS, chain, sample};
-use crate::specimens::sketch::Random;
-use crate::stress::{Family, Setup};
+use crate::specimens::sketch::RandomSource;
+use crate::stress::{Setup, StressFamily};
 
 /// Drawings until one keeps away from dead points.
 const MOST_DRAWN: usize = 100_000;
@@ -13,7 +13,7 @@ const STEP: f64 = 0.05;
 const STEPS: usize = 12;
 
 /// Random mechanisms.
-pub(super) const RANDOM: Family = Family {
+pub(super) const RANDOM: StressFamily = StressFamily {
     name: "random",
     dial: "links, the ground among them",
     title: "random mechanisms of dyads with revolute and prismatic pairs, at least 10 deg from dead points",
@@ -25,7 +25,7 @@ pub(super) const RANDOM: Family = Family {
 
 /// The mechanism of `dyads` dyads with this number of a seed.
 fn drawn(dyads: usize, number: u64, seed: u64) -> Result<Setup> {
-    let mut random = Random::of_sample(seed, 1000 * dyads as u64 + number);
+    let mut random = RandomSource::of_sample(seed, 1000 * dyads as u64 + number);
     for _ in 0..MOST_DRAWN {
         let (mut spec, _) = chain(&mut random, &SORTS, dyads);
         // Moments that jump where a link reverses have a family of tests of their own; numbers in double-double have

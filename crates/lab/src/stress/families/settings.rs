@@ -2,7 +2,7 @@
 
 use super::chain::chain;
 use super::four_bar::{LENGTHS, SPEED_OF_ALL, builder, rods};
-use crate::stress::{Engines, Family, Setup};
+use crate::stress::{EngineUse, Setup, StressFamily};
 
 /// Sweeps where the step is the dial.
 const SWEEPS_OF_ALL: usize = 64;
@@ -14,7 +14,7 @@ fn step_of(degrees: f64) -> f64 {
 }
 
 /// Steps.
-pub(super) const STEP: Family = Family {
+pub(super) const STEP: StressFamily = StressFamily {
     name: "step",
     dial: "step of the engine (deg of the crank)",
     title: "a crank-rocker at a given step and 64 sweeps, until an engine blows up",
@@ -23,13 +23,13 @@ pub(super) const STEP: Family = Family {
     samples: 1,
     setup: |degrees, _, _| {
         let case = builder(LENGTHS, rods(LENGTHS), SPEED_OF_ALL).build()?;
-        let engines = Engines::Given { step: step_of(degrees), sweeps: SWEEPS_OF_ALL };
+        let engines = EngineUse::Given { step: step_of(degrees), sweeps: SWEEPS_OF_ALL };
         Ok(Setup { engines, ..Setup::usual(case) })
     },
 };
 
 /// Sweeps of the iteration.
-pub(super) const SWEEPS: Family = Family {
+pub(super) const SWEEPS: StressFamily = StressFamily {
     name: "sweeps",
     dial: "sweeps of the iteration in a step",
     title: "a chain of three four-bars at a step of half a degree, with few to many sweeps",
@@ -37,7 +37,7 @@ pub(super) const SWEEPS: Family = Family {
     quick: &[1.0, 16.0, 256.0],
     samples: 1,
     setup: |sweeps, _, _| {
-        let engines = Engines::Given { step: step_of(STEP_OF_ALL), sweeps: sweeps as usize };
+        let engines = EngineUse::Given { step: step_of(STEP_OF_ALL), sweeps: sweeps as usize };
         Ok(Setup { engines, ..Setup::usual(chain(3, SPEED_OF_ALL)?) })
     },
 };

@@ -4,13 +4,13 @@ use linkage::case::Case;
 use linkage::mechanism::AssemblyMode;
 
 use super::four_bar::{SPEED_OF_ALL, builder, rods};
-use crate::stress::{Family, Setup};
+use crate::stress::{Setup, StressFamily};
 
 /// Lengths of a parallelogram (m).
 const PARALLELOGRAM: [f64; 4] = [0.4, 0.1, 0.4, 0.1];
 
 /// Nearness of a change point.
-pub(super) const CHANGE_POINT: Family = Family {
+pub(super) const CHANGE_POINT: StressFamily = StressFamily {
     name: "change_point",
     dial: "share by which the crank is shorter than the rocker",
     title: "a parallelogram whose crank is shorter by a share, so that it just misses its change points",
@@ -25,7 +25,7 @@ pub(super) const CHANGE_POINT: Family = Family {
 };
 
 /// More links than needed.
-pub(super) const REDUNDANT: Family = Family {
+pub(super) const REDUNDANT: StressFamily = StressFamily {
     name: "redundant",
     dial: "number of bars that the parallelogram does not need, plus one",
     title: "a parallelogram that passes its change points, with bars beside it that fit but are not needed",

@@ -4,7 +4,7 @@ use crate::case::{Case, CaseParts, Grid};
 use crate::drive::{Drive, DriveMotion, Drives, Load, MotionLaw, Motor, MotorLaw};
 use crate::fixtures::{class_four, four_bar, turning};
 use crate::math::Vec2;
-use crate::mechanism::{AssemblyMode, JointId, LinkId, LinkPose, Side, Structure};
+use crate::mechanism::{AssemblyMode, JointId, JointSide, LinkId, LinkPose, Structure};
 use crate::{Error, ErrorKind};
 
 /// The error of the four-bar with one part changed.
@@ -162,7 +162,7 @@ fn a_structure_is_that_of_the_mechanism() {
 
 #[test]
 fn loads_act_on_links_with_numbers() {
-    let at = |link: LinkId| Side { link, local: Vec2::zeros() };
+    let at = |link: LinkId| JointSide { link, local: Vec2::zeros() };
     let wrong = [
         (Load::Resistance { link: LinkId(4), moment: 1.0 }, "link 4"),
         (Load::ResistingForce { at: at(LinkId(7)), force: 1.0 }, "link 7"),

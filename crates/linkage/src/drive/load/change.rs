@@ -1,9 +1,9 @@
 //! What follows from the parts of a load: where it acts, and the same load elsewhere or of another amount.
 
-use super::{Acts, Load, On, Part, Role};
+use super::{Acts, Load, LoadPart, LoadRole, On};
 use crate::drive::Course;
 use crate::math::Vec2;
-use crate::mechanism::{LinkId, Side};
+use crate::mechanism::{JointSide, LinkId};
 
 impl Load {
     /// The links that the load acts on, and on whose motion it depends: one or two, by their numbers.
@@ -19,7 +19,7 @@ impl Load {
 
     /// The points that it acts on; none of a moment.
     #[must_use]
-    pub fn points(&self) -> Vec<Side> {
+    pub fn points(&self) -> Vec<JointSide> {
         match self.nature().on {
             On::Point(at) => vec![at],
             On::Points(ends) => ends.to_vec(),
@@ -33,8 +33,8 @@ impl Load {
         let mut load = self.clone();
         for part in load.parts() {
             match part {
-                Part::Link(link) | Part::Point(Side { link, .. }) => *link = number(*link),
-                Part::Number { .. } | Part::Courses { .. } | Part::Acts(_) | Part::Follows(_) => {}
+                LoadPart::Link(link) | LoadPart::Point(JointSide { link, .. }) => *link = number(*link),
+                LoadPart::Number { .. } | LoadPart::Courses { .. } | LoadPart::Acts(_) | LoadPart::Follows(_) => {}
             }
         }
         load
@@ -43,8 +43,12 @@ impl Load {
     /// Moves the point of this number among [`Load::points`] to another place of its link (m).
     pub fn put_point(&mut self, number: usize, local: Vec2) {
         let mut points = self.parts().into_iter().filter_map(|part| match part {
-            Part::Point(side) => Some(side),
-            Part::Link(_) | Part::Number { .. } | Part::Courses { .. } | Part::Acts(_) | Part::Follows(_) => None,
+            LoadPart::Point(side) => Some(side),
+            LoadPart::Link(_)
+            | LoadPart::Number { .. }
+            | LoadPart::Courses { .. }
+            | LoadPart::Acts(_)
+            | LoadPart::Follows(_) => None,
         });
         if let Some(side) = points.nth(number) {
             side.local = local;
@@ -54,9 +58,9 @@ impl Load {
     /// The number at which it vanishes, a free length or angle, with its unit (m or rad).
     pub fn rest(&mut self) -> Option<(&mut f64, &'static str)> {
         self.parts().into_iter().find_map(|part| match part {
-            Part::Number { role: Role::Rest { unit }, name: _, value } => Some((value, unit)),
-            Part::Number { .. } | Part::Courses { .. } => None,
-            Part::Link(_) | Part::Point(_) | Part::Acts(_) | Part::Follows(_) => None,
+            LoadPart::Number { role: LoadRole::Rest { unit }, name: _, value } => Some((value, unit)),
+            LoadPart::Number { .. } | LoadPart::Courses { .. } => None,
+            LoadPart::Link(_) | LoadPart::Point(_) | LoadPart::Acts(_) | LoadPart::Follows(_) => None,
         })
     }
 
@@ -64,10 +68,10 @@ impl Load {
     #[must_use]
     pub fn is_sound(&self) -> bool {
         self.clone().parts().into_iter().all(|part| match part {
-            Part::Point(side) => side.local.iter().all(|value| value.is_finite()),
-            Part::Number { role, name: _, value } => value.is_finite() && (role != Role::Size || *value >= 0.0),
-            Part::Courses { name: _, values } => values.iter().all(Course::is_sound),
-            Part::Link(_) | Part::Acts(_) | Part::Follows(_) => true,
+            LoadPart::Point(side) => side.local.iter().all(|value| value.is_finite()),
+            LoadPart::Number { role, name: _, value } => value.is_finite() && (role != LoadRole::Size || *value >= 0.0),
+            LoadPart::Courses { name: _, values } => values.iter().all(Course::is_sound),
+            LoadPart::Link(_) | LoadPart::Acts(_) | LoadPart::Follows(_) => true,
         })
     }
 
@@ -88,11 +92,11 @@ impl Load {
         let mut load = self.clone();
         for part in load.parts() {
             match part {
-                Part::Number { role: Role::Size, .. } if factor < 0.0 => return None,
-                Part::Number { role: Role::Size | Role::Amount, name: _, value } => *value *= factor,
-                Part::Courses { name: _, values } => values.iter_mut().for_each(|own| *own = own.times(factor)),
-                Part::Number { role: Role::Rest { .. }, .. } => {}
-                Part::Link(_) | Part::Point(_) | Part::Acts(_) | Part::Follows(_) => {}
+                LoadPart::Number { role: LoadRole::Size, .. } if factor < 0.0 => return None,
+                LoadPart::Number { role: LoadRole::Size | LoadRole::Amount, name: _, value } => *value *= factor,
+                LoadPart::Courses { name: _, values } => values.iter_mut().for_each(|own| *own = own.times(factor)),
+                LoadPart::Number { role: LoadRole::Rest { .. }, .. } => {}
+                LoadPart::Link(_) | LoadPart::Point(_) | LoadPart::Acts(_) | LoadPart::Follows(_) => {}
             }
         }
         Some(vec![load])

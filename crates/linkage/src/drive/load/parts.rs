@@ -1,7 +1,7 @@
 //! What can be asked of every load, whatever its sort.
 
 use crate::drive::Course;
-use crate::mechanism::{LinkId, Side};
+use crate::mechanism::{JointSide, LinkId};
 
 /// The sense of rotation of the link for which a moment acts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,7 +23,7 @@ pub enum Senses {
     /// On the sense of rotation of a link.
     Link(LinkId),
     /// On the sense of motion of a point.
-    Point(Side),
+    Point(JointSide),
 }
 
 /// Where a load acts.
@@ -32,16 +32,16 @@ pub enum On {
     /// A moment on a link.
     Link(LinkId),
     /// A force on a point.
-    Point(Side),
+    Point(JointSide),
     /// A force between two points: it pulls them together or pushes them apart.
-    Points([Side; 2]),
+    Points([JointSide; 2]),
     /// A moment between two links: on the second one the opposite of that on the first.
     Links([LinkId; 2]),
 }
 
 /// What a load is called, where it acts, and the quantities it depends on: see [`Load::nature`](super::Load::nature).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Nature<'a> {
+pub struct LoadNature<'a> {
     /// Name of its sort in scenario files.
     pub sort: &'static str,
     /// Where it acts.
@@ -50,7 +50,7 @@ pub struct Nature<'a> {
     pub senses: Senses,
     /// Whether it depends on the size of speeds, not only on their senses.
     pub is_viscous: bool,
-    /// The two links whose [`Setting::twist`](super::Setting::twist) it depends on.
+    /// The two links whose [`Setting::twist`](super::LoadState::twist) it depends on.
     pub twist: Option<[LinkId; 2]>,
     /// Its quantities that may depend on the crank angle.
     pub courses: &'a [Course],
@@ -58,7 +58,7 @@ pub struct Nature<'a> {
 
 /// What a number of a load means.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Role {
+pub enum LoadRole {
     /// The load is proportional to it.
     Amount,
     /// The load is proportional to it, and it must not be negative.
@@ -72,15 +72,15 @@ pub enum Role {
 
 /// A part of a load, to be read or changed: see [`Load::parts`](super::Load::parts).
 #[derive(Debug, PartialEq)]
-pub enum Part<'a> {
+pub enum LoadPart<'a> {
     /// A link that it acts on.
     Link(&'a mut LinkId),
     /// A point that it acts on.
-    Point(&'a mut Side),
+    Point(&'a mut JointSide),
     /// A number.
     Number {
         /// What it means.
-        role: Role,
+        role: LoadRole,
         /// Its name in output, with its unit.
         name: &'static str,
         /// The number, in SI units.

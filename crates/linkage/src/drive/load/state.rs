@@ -5,7 +5,7 @@ use crate::mechanism::{LinkId, LinkPose};
 
 /// The state that loads depend on. Slices have one entry per link.
 #[derive(Clone, Copy, Debug)]
-pub struct Setting<'a> {
+pub struct LoadState<'a> {
     /// Motions of all links. Loads do not use the accelerations.
     pub motions: &'a [Motion],
     /// Angles of all links (rad), turns kept. Only torsional springs use them.
@@ -16,7 +16,7 @@ pub struct Setting<'a> {
     pub crank: f64,
 }
 
-impl Setting<'_> {
+impl LoadState<'_> {
     /// Twist between two links (rad): see [`Load::TorsionSpring`](super::Load::TorsionSpring).
     #[must_use]
     pub fn twist(&self, [first, second]: [LinkId; 2]) -> f64 {

@@ -20,12 +20,12 @@ fn act(load: &Load, motions: &[Motion], angles: &[f64], crank: f64) -> Vec<Actio
         |motion: &Motion| LinkPose { origin: motion.origin, angle: motion.direction.y.atan2(motion.direction.x) };
     let start: Vec<LinkPose> = motions.iter().map(pose).collect();
     let mut found = Vec::new();
-    load.act(&Setting { motions, angles, start: &start, crank }, &mut |action| found.push(action));
+    load.act(&LoadState { motions, angles, start: &start, crank }, &mut |action| found.push(action));
     found
 }
 
-fn side(link: LinkId, x: f64, y: f64) -> Side {
-    Side { link, local: Vec2::new(x, y) }
+fn side(link: LinkId, x: f64, y: f64) -> JointSide {
+    JointSide { link, local: Vec2::new(x, y) }
 }
 
 #[test]
@@ -116,7 +116,7 @@ fn a_torsion_spring_counts_turns_from_the_start() {
         assert!((ground.moment - 2.0 * (angle - 0.5)).abs() < 1e-13 && link.moment == -ground.moment, "{turns}");
     }
     let start = [LinkPose::GROUND, LinkPose { origin: Vec2::zeros(), angle: 2.0 + 2.0 * PI }];
-    let setting = Setting { motions: &still, angles: &[0.0, 2.5 + 2.0 * PI], start: &start, crank: 0.0 };
+    let setting = LoadState { motions: &still, angles: &[0.0, 2.5 + 2.0 * PI], start: &start, crank: 0.0 };
     assert!(
         (setting.twist([LinkId(0), LinkId(1)]) - 2.5).abs() < 1e-15 * 8.0
             && (setting.twist([LinkId(1), LinkId(0)]) + 2.5).abs() < 1e-15 * 8.0

@@ -1,8 +1,9 @@
 //! Which group is to blame if one cannot be placed: perhaps not that one, but an earlier one in the wrong configuration.
 
 use super::{StartGroup, configurations, first_choices};
-use crate::error::{Advice, Error, ErrorKind, Part};
+use crate::error::{Advice, Error, ErrorKind, ErrorSubject};
 use crate::mechanism::{AssemblyMode, Group, GroupId, Mechanism, Structure};
+use crate::sentences;
 
 /// A group whose configuration leaves no place for a later one.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,8 +20,8 @@ pub struct Blame {
 #[must_use]
 pub fn group_of(mechanism: &Mechanism, structure: &Structure, error: &Error) -> Option<GroupId> {
     match error.part() {
-        Some(Part::Group(names)) => structure.groups.find(|group| group.names(mechanism) == *names),
-        Some(Part::Link(_) | Part::Joint(_)) | None => None,
+        Some(ErrorSubject::Group(names)) => structure.groups.find(|group| group.names(mechanism) == *names),
+        Some(ErrorSubject::Link(_) | ErrorSubject::Joint(_)) | None => None,
     }
 }
 
@@ -90,7 +91,7 @@ pub fn blamed(mechanism: &Mechanism, structure: &Structure, blame: &Blame, error
     let names = |group: &Group| group.names(mechanism);
     let own = names(&structure.groups[blame.group]);
     let later = match error.part() {
-        Some(Part::Group(names) | Part::Link(names) | Part::Joint(names)) => names.clone(),
+        Some(ErrorSubject::Group(names) | ErrorSubject::Link(names) | ErrorSubject::Joint(names)) => names.clone(),
         None => String::new(),
     };
     let fits = match blame.mode {
@@ -99,11 +100,8 @@ pub fn blamed(mechanism: &Mechanism, structure: &Structure, blame: &Blame, error
             format!("mode \"{}\"", blame.mode.name())
         }
     };
-    let message = format!(
-        "this configuration of the group ({own}) leaves no place for the group ({later}), but {fits} does: {}",
-        error.message()
-    );
-    let give = format!("{fits} of the group ({own}), or check the lengths and rough places of ({later})");
+    let message = sentences::this_configuration_of_the_group(&own, &later, &fits, &error.message());
+    let give = sentences::of_the_group_or_check_the_lengths(&fits, &own, &later);
     Error::new(error.kind(), message)
         .help(Advice::Configuration { give })
         .key(structure.groups[blame.group].key(mechanism))

@@ -1,14 +1,20 @@
 //! The configuration of a group at the start: that of the required mode, number or rough places.
 
 use super::configurations::configurations;
-use super::mode::{AssemblyMode, Choice, Configuration, StartGroup};
+use super::mode::{AssemblyMode, Configuration, ConfigurationChoice, StartGroup};
 use super::{four_link, rough};
 use crate::error::{Advice, Error, ErrorKind, Result};
 use crate::math::KeepNan;
 use crate::mechanism::{Group, GroupKind, Mechanism, Pose};
+use crate::sentences;
 
 /// Poses the links of a group as required.
-pub(super) fn place(mechanism: &Mechanism, group: &Group, wanted: &StartGroup, pose: &mut Pose) -> Result<Choice> {
+pub(super) fn place(
+    mechanism: &Mechanism,
+    group: &Group,
+    wanted: &StartGroup,
+    pose: &mut Pose,
+) -> Result<ConfigurationChoice> {
     let all_known = group.kind != GroupKind::Higher || four_link::is_handled(mechanism, group, pose);
     if !all_known && wanted.rank.is_none() && !wanted.near.is_empty() {
         return rough::place(mechanism, group, &wanted.near, pose);
@@ -18,7 +24,7 @@ pub(super) fn place(mechanism: &Mechanism, group: &Group, wanted: &StartGroup, p
     for (&link, &place) in group.links.iter().zip(&chosen.links) {
         pose.0[link] = place;
     }
-    Ok(Choice { mode: chosen.mode, nearest_m, next_m })
+    Ok(ConfigurationChoice { mode: chosen.mode, nearest_m, next_m })
 }
 
 fn choose<'a>(
@@ -47,10 +53,10 @@ fn choose<'a>(
 
 fn out_of_range(rank: usize, count: usize) -> Error {
     let message = match count {
-        1 => format!("configuration {rank} is asked for, but the group has 1 here"),
-        _ => format!("configuration {rank} is asked for, but the group has {count} here"),
+        1 => sentences::configuration_is_asked_for_but_the_group_has_here(&rank),
+        _ => sentences::configuration_is_asked_for_but_the_group(&rank, &count),
     };
-    Error::new(ErrorKind::Input, message).help(Advice::Configuration { give: format!("a number from 1 to {count}") })
+    Error::new(ErrorKind::Input, message).help(Advice::Configuration { give: sentences::a_number_from_to(&count) })
 }
 
 fn nothing_asked(group: &Group) -> Error {
@@ -61,13 +67,10 @@ fn nothing_asked(group: &Group) -> Error {
         GroupKind::Rpp | GroupKind::Prp | GroupKind::Higher => None,
     };
     match modes {
-        Some([one, other]) => {
-            Error::new(ErrorKind::Input, "neither an assembly mode nor a rough place is given for this group")
-                .help(format!("add `mode = \"{}\"` or `mode = \"{}\"`, or {near}", one.name(), other.name()))
-        }
+        Some([one, other]) => Error::new(ErrorKind::Input, sentences::NEITHER_AN_ASSEMBLY_MODE_NOR)
+            .help(sentences::add_mode_or_mode_or(&one.name(), &other.name(), &near)),
         None => {
-            Error::new(ErrorKind::Input, "no rough place is given for this group, which has up to six configurations")
-                .help(format!("add {near}"))
+            Error::new(ErrorKind::Input, sentences::NO_ROUGH_PLACE_IS_GIVEN_FOR_THIS_GROUP).help(format!("add {near}"))
         }
     }
 }
@@ -76,16 +79,15 @@ fn nothing_asked(group: &Group) -> Error {
 fn rough_places(wanted: &StartGroup) -> String {
     let names: Vec<String> = wanted.near.iter().map(|(point, _)| format!("\"{}\"", point.name)).collect();
     match &names[..] {
-        [one] => format!("the rough place of point {one} is"),
-        [first @ .., last] => format!("the rough places of points {} and {last} are", first.join(", ")),
-        [] => "the rough place is".into(),
+        [one] => sentences::the_rough_place_of_point(&one),
+        [first @ .., last] => sentences::the_rough_places_of_points(&first.join(", "), &last),
+        [] => sentences::THE_ROUGH_PLACE_IS.into(),
     }
 }
 
 fn contradiction(wanted: &StartGroup, mode: AssemblyMode) -> Error {
-    let message = format!("{} nearer to another configuration than to mode {}", rough_places(wanted), mode.name());
-    Error::new(ErrorKind::Geometry, message)
-        .help("correct the mode or the rough place; the wrong branch is never chosen silently")
+    let message = sentences::nearer_to_another_configuration_than_to_mode(&rough_places(wanted), &mode.name());
+    Error::new(ErrorKind::Geometry, message).help(sentences::CORRECT_THE_MODE_OR_THE_ROUGH)
 }
 
 /// Largest distance of a configuration's points from their rough places (m).
@@ -115,26 +117,24 @@ fn nearest<'a>(
     {
         return Err(Error::new(
             ErrorKind::Geometry,
-            format!(
-                "{} {first:.4} m from the {} and {second:.4} m from the {} configuration: it does not tell them apart",
-                rough_places(wanted),
-                named(a.mode, "nearest"),
-                named(b.mode, "next")
+            sentences::from_the_and_from_the_configuration(
+                &rough_places(wanted),
+                &first,
+                &named(a.mode, "nearest"),
+                &second,
+                &named(b.mode, "next"),
             ),
         )
-        .help(Advice::Configuration { give: "a place nearer to the configuration you mean, or its mode".into() }));
+        .help(Advice::Configuration { give: sentences::A_PLACE_NEARER_TO_THE_CONFIGURATION.into() }));
     }
     let next = order.get(1).map(|&(distance, _)| distance);
     match order[..] {
         [(first, one), ..] if first <= mechanism.size() => Ok((one, first, next)),
         [(first, _), ..] => Err(Error::new(
             ErrorKind::Geometry,
-            format!(
-                "{} {first:.4} m from the nearest configuration, farther than the longest link",
-                rough_places(wanted)
-            ),
+            sentences::from_the_nearest_configuration_farther(&rough_places(wanted), &first),
         )
-        .help("check its coordinates and their unit")),
+        .help(sentences::CHECK_ITS_COORDINATES_AND_THEIR)),
         [] => unreachable!("a group without configurations is an error before"),
     }
 }

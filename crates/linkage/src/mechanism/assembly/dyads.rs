@@ -12,6 +12,7 @@ use super::mode::{AssemblyMode, Configuration};
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::{Vec2, cross, rotated, turned, unit};
 use crate::mechanism::{Group, GroupKind, Joint, LinkId, LinkPose, Mechanism, Pose};
+use crate::sentences;
 
 /// Sine of the angle between two axes below which they count as parallel. Rounding of their directions would then move
 /// the links by more than a ten-thousandth of the mechanism.
@@ -140,16 +141,13 @@ fn configuration(members: &[Member; 2], mode: AssemblyMode, poses: [(LinkId, Lin
 }
 
 fn out_of_reach(what: String) -> Error {
-    Error::new(ErrorKind::Geometry, format!("the dyad cannot be assembled: {what}"))
-        .help("check the lengths and the ground points, or start at a crank angle that can be reached")
+    Error::new(ErrorKind::Geometry, sentences::the_dyad_cannot_be_assembled_2(&what))
+        .help(sentences::CHECK_THE_LENGTHS_AND_THE_GROUND)
 }
 
 fn parallel(sine: f64) -> Error {
-    Error::new(
-        ErrorKind::Geometry,
-        format!("the dyad cannot be assembled: the axes of its two prismatic joints are parallel (sine {sine:.1e})"),
-    )
-    .help("check the axes, or start at a crank angle at which they cross")
+    Error::new(ErrorKind::Geometry, sentences::the_dyad_cannot_be_assembled(&format_args!("{sine:.1e}")))
+        .help(sentences::CHECK_THE_AXES_OR_START_AT_A_CRANK)
 }
 
 /// The inner joint lies where the circles about the outer joints meet.
@@ -161,10 +159,10 @@ fn rrr(members: &[Member; 2]) -> Result<Vec<Configuration>> {
     let along = (distance * distance + radius_1 * radius_1 - radius_2 * radius_2) / (2.0 * distance);
     let across_squared = (radius_1 - along) * (radius_1 + along);
     if !(across_squared >= 0.0 && distance > 0.0) {
-        return Err(out_of_reach(format!(
-            "its outer joints are {distance:.6} m apart, its links span {:.6} to {:.6} m",
-            (radius_1 - radius_2).abs(),
-            radius_1 + radius_2
+        return Err(out_of_reach(sentences::its_outer_joints_are_apart_its_links(
+            &distance,
+            &(radius_1 - radius_2).abs(),
+            &(radius_1 + radius_2),
         )));
     }
     let direction = base / distance;
@@ -187,10 +185,7 @@ fn rrp(members: &[Member; 2]) -> Result<Vec<Configuration>> {
     let height = cross(axis, slider.hook() + rotated(unit(angle), slider.span()) - pin);
     let along_squared = (length - height) * (length + height);
     if !(along_squared >= 0.0) {
-        return Err(out_of_reach(format!(
-            "its inner joint slides along a line that passes its outer pin at {:.6} m, its rod spans {length:.6} m",
-            height.abs()
-        )));
+        return Err(out_of_reach(sentences::its_inner_joint_slides_along(&height.abs(), &length)));
     }
     let one = |mode: AssemblyMode, along: f64| {
         let inner = pin + axis * along + turned(axis) * height;
@@ -214,10 +209,7 @@ fn rpr(members: &[Member; 2]) -> Result<Vec<Configuration>> {
     let distance = base.norm();
     let along_squared = (distance - across) * (distance + across);
     if !(along_squared >= 0.0 && distance > 0.0) {
-        return Err(out_of_reach(format!(
-            "its outer joints are {distance:.6} m apart, but its links hold them {:.6} m apart across the axis of its prismatic joint",
-            across.abs()
-        )));
+        return Err(out_of_reach(sentences::its_outer_joints_are_apart(&distance, &across.abs())));
     }
     let one = |mode: AssemblyMode, along: f64| {
         let axis = rotated(Vec2::new(along, -across), base) / (distance * distance);

@@ -7,11 +7,12 @@
 //! The leads are the two binary links and the links before the group, taken as one body.
 
 use super::mode::{AssemblyMode, Configuration};
-use super::three_leads::{Conditions, End, Lead, Pair};
+use super::three_leads::{Conditions, LeadPair, PairEnd, PlatformLead};
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::angle::wrapped;
 use crate::math::{Vec2, rotated, unit};
 use crate::mechanism::{Group, JointId, LinkId, LinkPose, Mechanism, Pose};
+use crate::sentences;
 use std::f64::consts::TAU;
 
 #[cfg(test)]
@@ -29,7 +30,7 @@ enum Body {
 struct Layout {
     frame: Body,
     base: LinkId,
-    leads: [(Body, Lead); 3],
+    leads: [(Body, PlatformLead); 3],
 }
 
 impl Layout {
@@ -54,10 +55,10 @@ impl Layout {
             let side = [joint.first, joint.second].into_iter().find(|side| body_of(side.link) == body)?;
             let axis = joint.axis_on(side.link).unwrap_or_else(Vec2::zeros);
             Some(match body {
-                Body::Link(_) => End { place: side.local, axis },
+                Body::Link(_) => PairEnd { place: side.local, axis },
                 Body::World => {
                     let hung_on = pose.0[side.link];
-                    End { place: hung_on.point(side.local), axis: rotated(unit(hung_on.angle), axis) }
+                    PairEnd { place: hung_on.point(side.local), axis: rotated(unit(hung_on.angle), axis) }
                 }
             })
         };
@@ -70,9 +71,9 @@ impl Layout {
         let lead = |body: Body| {
             let pair = |other: Body| {
                 let joint = between(body, other)?;
-                Some(Pair { slides: joints[joint].slides(), lead: end(joint, body)?, body: end(joint, other)? })
+                Some(LeadPair { slides: joints[joint].slides(), lead: end(joint, body)?, body: end(joint, other)? })
             };
-            Some((body, Lead { near: pair(frame)?, far: pair(Body::Link(base))? }))
+            Some((body, PlatformLead { near: pair(frame)?, far: pair(Body::Link(base))? }))
         };
         let bodies = group.links.iter().map(|&link| Body::Link(link)).chain([Body::World]);
         let mut bodies = bodies.filter(|&body| body != frame && body != Body::Link(base));
@@ -118,15 +119,11 @@ pub(super) fn is_handled(mechanism: &Mechanism, group: &Group, pose: &Pose) -> b
 pub(super) fn configurations(mechanism: &Mechanism, group: &Group, pose: &Pose) -> Result<Vec<Configuration>> {
     let layout = Layout::of(mechanism, group, pose).ok_or_else(|| {
         let (links, class) = (group.links.len(), group.class);
-        Error::new(
-            ErrorKind::Unsupported,
-            format!("the configurations of a group of {links} links of class {class} are not all known"),
-        )
-        .help("start from a rough drawing: give `near` for enough points; or drive another link, which may split the group")
+        Error::new(ErrorKind::Unsupported, sentences::the_configurations_of_a_group(&links, &class))
+            .help(sentences::START_FROM_A_ROUGH_DRAWING)
     })?;
     let singular = || {
-        Error::new(ErrorKind::Geometry, "the group can move while its outer joints are held: its lengths are singular")
-            .help("check the lengths and axes: two links of the group may be parallel and equal by mistake")
+        Error::new(ErrorKind::Geometry, sentences::THE_GROUP_CAN_MOVE_WHILE).help(sentences::CHECK_THE_LENGTHS_AND_AXES)
     };
     let conditions = Conditions::of(&layout.leads.each_ref().map(|(_, lead)| *lead));
     let mut all = Vec::new();
@@ -135,8 +132,8 @@ pub(super) fn configurations(mechanism: &Mechanism, group: &Group, pose: &Pose) 
         all.push(Configuration { mode: AssemblyMode::Followed, links });
     }
     if all.is_empty() {
-        return Err(Error::new(ErrorKind::Geometry, "the group cannot be assembled: it has no real configuration")
-            .help("check the lengths and the ground points, or start at a crank angle that can be reached"));
+        return Err(Error::new(ErrorKind::Geometry, sentences::THE_GROUP_CANNOT_BE_ASSEMBLED)
+            .help(sentences::CHECK_THE_LENGTHS_AND_THE_GROUND));
     }
     let index = group.links.iter().position(|&link| link == layout.base).expect("the base is a link of the group");
     // Counted from just below zero, so that an angle that is zero to rounding has a unique place in the order.

@@ -69,7 +69,7 @@ pub struct StartGroup {
 
 /// The configuration of a group at the start, and how clear the choice was.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Choice {
+pub struct ConfigurationChoice {
     /// Its assembly mode.
     pub mode: AssemblyMode,
     /// Largest distance of its points from their approximate places (m), if any were given.

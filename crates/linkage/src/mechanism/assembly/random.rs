@@ -1,12 +1,14 @@
 //! Random mechanisms for the tests of this module, the same in every run.
 
 use crate::math::{KeepNan, Vec2, rotated, unit};
-use crate::mechanism::{Group, GroupKind, Joint, JointId, JointKind, Link, LinkId, LinkPose, Mechanism, Pose, Side};
+use crate::mechanism::{
+    Group, GroupKind, Joint, JointId, JointKind, JointSide, Link, LinkId, LinkPose, Mechanism, Pose,
+};
 
 /// Linear congruential generator (Knuth's MMIX), upper bits.
-pub struct Random(pub u64);
+pub struct Lcg(pub u64);
 
-impl Random {
+impl Lcg {
     pub fn number(&mut self, from: f64, to: f64) -> f64 {
         self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         from + (to - from) * (self.0 >> 11) as f64 / (1u64 << 53) as f64
@@ -27,7 +29,7 @@ impl Random {
     /// A joint between links `a` and `b`, in random order, at random places.
     pub fn joint(&mut self, name: &str, slides: bool, a: LinkId, b: LinkId) -> Joint {
         let [first, second] = if self.yes() { [a, b] } else { [b, a] };
-        let side = |link, local| Side { link, local };
+        let side = |link, local| JointSide { link, local };
         let axes = [self.number(-3.1, 3.1), self.number(-3.1, 3.1)].map(unit);
         let kind = if slides { JointKind::Prismatic { axes } } else { JointKind::Revolute };
         Joint {

@@ -6,13 +6,14 @@
 //! (J^T J + lambda) dx = -J^T f with the gaps f of all joints, as many as unknowns.
 
 use super::dyads::turn;
-use super::mode::{AssemblyMode, Choice};
+use super::mode::{AssemblyMode, ConfigurationChoice};
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::angle::wrapped;
 use crate::math::dense::Lu;
 use crate::math::{KeepNan, Vec2, cross, rotated, turned, unit};
 use crate::mechanism::pose::SidePoint;
 use crate::mechanism::{Group, Joint, LinkId, LinkPose, Mechanism, Pose};
+use crate::sentences;
 
 #[cfg(test)]
 mod tests;
@@ -26,13 +27,13 @@ const CLOSED: f64 = 1e-13;
 const STEPS: usize = 200;
 
 /// Poses the links of the group near the rough places `near`.
-pub(super) fn place(mechanism: &Mechanism, group: &Group, near: &Near, pose: &mut Pose) -> Result<Choice> {
+pub(super) fn place(mechanism: &Mechanism, group: &Group, near: &Near, pose: &mut Pose) -> Result<ConfigurationChoice> {
     let mut drawn = pose.clone();
     lay_out(mechanism, group, near, &mut drawn)?;
     let system = System { mechanism, group, size: mechanism.size() };
     system.close(&mut drawn).ok_or_else(|| {
-        Error::new(ErrorKind::Geometry, "no configuration of the group is found from the rough places")
-            .help("give places nearer to the configuration you mean, or more of them; or check the lengths")
+        Error::new(ErrorKind::Geometry, sentences::NO_CONFIGURATION_OF_THE_GROUP)
+            .help(sentences::GIVE_PLACES_NEARER_TO_THE_CONFIGURATION)
     })?;
     let mut farthest: f64 = 0.0;
     for (point, guess) in near {
@@ -41,17 +42,14 @@ pub(super) fn place(mechanism: &Mechanism, group: &Group, near: &Near, pose: &mu
         if !(distance <= half) {
             return Err(Error::new(
                 ErrorKind::Geometry,
-                format!(
-                    "the configuration found from the rough places has point \"{}\" {distance:.4} m away from its own, more than half a link ({half:.4} m)",
-                    point.name
-                ),
+                sentences::the_configuration_found_from_the_rough(&point.name, &distance, &half),
             )
-            .help("give places nearer to the configuration you mean, or more of them; or check the lengths"));
+            .help(sentences::GIVE_PLACES_NEARER_TO_THE_CONFIGURATION));
         }
         farthest = farthest.larger(distance);
     }
     *pose = drawn;
-    Ok(Choice { mode: AssemblyMode::Followed, nearest_m: Some(farthest), next_m: None })
+    Ok(ConfigurationChoice { mode: AssemblyMode::Followed, nearest_m: Some(farthest), next_m: None })
 }
 
 /// Half the length of the shortest link of the group that carries the point and has a length, otherwise of the longest
@@ -75,11 +73,8 @@ fn lay_out(mechanism: &Mechanism, group: &Group, near: &Near, pose: &mut Pose) -
         });
         let Some((index, place)) = laid else {
             let name = &mechanism.links()[left[0]].name;
-            return Err(Error::new(
-                ErrorKind::Input,
-                format!("the rough places do not tell where link \"{name}\" of the group lies"),
-            )
-            .help("give `near` for two points of the link, or for one if it has a joint with a link that is placed already"));
+            return Err(Error::new(ErrorKind::Input, sentences::the_rough_places_do_not_tell(&name))
+                .help(sentences::GIVE_NEAR_FOR_TWO_POINTS));
         };
         pose.0[left.remove(index)] = place;
     }

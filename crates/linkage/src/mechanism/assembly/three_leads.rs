@@ -17,7 +17,7 @@
 
 mod condition;
 
-pub(super) use condition::{End, Lead, Pair};
+pub(super) use condition::{LeadPair, PairEnd, PlatformLead};
 
 use crate::math::dense::Lu;
 use crate::math::{KeepNan, Vec2, cross, harmonic, turned, unit};
@@ -36,7 +36,7 @@ pub(super) struct Conditions {
 }
 
 impl Conditions {
-    pub(super) fn of(leads: &[Lead; 3]) -> Self {
+    pub(super) fn of(leads: &[PlatformLead; 3]) -> Self {
         let (frame, base) = (leads[0].near.body.place, leads[0].far.body.place);
         let all = leads.each_ref().map(|lead| Condition::of(lead, frame, base));
         let size = all.iter().map(Condition::size).fold(f64::MIN_POSITIVE, f64::larger);

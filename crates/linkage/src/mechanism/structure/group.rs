@@ -1,7 +1,8 @@
 //! An Assur group and its kind.
 
-use crate::error::Key;
+use crate::error::KeyPath;
 use crate::mechanism::{JointId, LinkId, Mechanism};
+use crate::sentences;
 
 /// Kind of Assur group.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -78,10 +79,9 @@ impl Group {
     /// Letters of a dyad's pairs ("RRP"); for higher groups the number of pairs.
     #[must_use]
     pub fn pairs(&self) -> String {
-        self.kind.letters().map_or_else(
-            || format!("{} inner and {} outer pairs", self.inner.len(), self.outer.len()),
-            ToString::to_string,
-        )
+        self.kind
+            .letters()
+            .map_or_else(|| sentences::inner_and_outer_pairs(&self.inner.len(), &self.outer.len()), ToString::to_string)
     }
 
     /// The group's links by name, for messages: `coupler, rocker`.
@@ -93,8 +93,8 @@ impl Group {
 
     /// The group's key in a description: the one of `start.groups` with its links.
     #[must_use]
-    pub fn key(&self, mechanism: &Mechanism) -> Key {
+    pub fn key(&self, mechanism: &Mechanism) -> KeyPath {
         let links = self.links.iter().map(|&link| mechanism.links()[link].name.clone());
-        Key::of_group("start.groups", links.collect())
+        KeyPath::of_group("start.groups", links.collect())
     }
 }

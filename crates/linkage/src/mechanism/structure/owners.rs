@@ -1,5 +1,6 @@
 //! Ownership of equations: every equation of a joint or drive goes to one of the two links it touches, three per link.
 
+use crate::sentences;
 use petgraph::algo::tarjan_scc;
 use petgraph::graph::{DiGraph, NodeIndex};
 
@@ -146,10 +147,7 @@ impl Owners {
 fn over_constrained(mechanism: &Mechanism, links: &[bool]) -> Error {
     let names: Vec<&str> =
         mechanism.links().iter().zip(links).filter(|&(_, &is)| is).map(|(link, _)| link.name.as_str()).collect();
-    Error::new(
-        ErrorKind::Input,
-        format!("the links {} are over-constrained, while other links are free to move", names.join(", ")),
-    )
-    .key("joints")
-    .help("the count of joints is right as a whole, but they are not where they are needed: move a joint")
+    Error::new(ErrorKind::Input, sentences::the_links_are_over_constrained(&names.join(", ")))
+        .key("joints")
+        .help(sentences::THE_COUNT_OF_JOINTS_IS_RIGHT)
 }

@@ -2,7 +2,7 @@
 
 use crate::claims::slips::{at_every_place, with_parts};
 use crate::claims::trial::Trial;
-use formula::{Function, Operator, Program, Shape, Tree};
+use formula::{FormulaTree, Function, NodeShape, Operator, Program};
 use linkage::math::KeepNan;
 
 /// Most angles that functions are taken of.
@@ -13,7 +13,7 @@ const STEPS: usize = 60;
 /// An expression that changes with the crank.
 #[derive(Clone, Debug)]
 pub(super) struct Entry {
-    pub(super) tree: Tree,
+    pub(super) tree: FormulaTree,
     /// How complicated it is.
     pub(super) weight: usize,
     /// Its values at the trial's few instants.
@@ -25,7 +25,7 @@ pub(super) struct Entry {
 impl Entry {
     /// Whether it is the one that a constant is a multiple of.
     pub(super) fn is_one(&self) -> bool {
-        matches!(self.tree.shape, Shape::Number(_))
+        matches!(self.tree.shape, NodeShape::Number(_))
     }
 }
 
@@ -47,10 +47,10 @@ const OF_ANGLE: &str = "cos(x)*sin(x): 2; cos(x)^2: 2; cos(x)^3: 2; 1/cos(x): 2;
                         cos(x): 0; sin(x): 0; tan(x): 1";
 
 /// Expressions with letters, and their weights.
-fn read(text: &str) -> Vec<(Tree, usize)> {
+fn read(text: &str) -> Vec<(FormulaTree, usize)> {
     let one = |own: &str| {
         let (tree, weight) = own.split_once(':').expect("an expression has a weight");
-        (Tree::parse(tree.trim()).expect("it is a formula"), weight.trim().parse().expect("it is a number"))
+        (FormulaTree::parse(tree.trim()).expect("it is a formula"), weight.trim().parse().expect("it is a number"))
     };
     text.split(';').map(one).collect()
 }
@@ -59,7 +59,8 @@ impl Dictionary {
     /// What may be missing in the formula of a trial, made of all that stands before it.
     pub(super) fn of(trial: &Trial) -> Self {
         let before = trial.index.saturating_sub(STEPS)..trial.index;
-        let steps: Vec<Tree> = trial.formulas.list[before].iter().map(|own| Tree::name(own.name.as_str())).collect();
+        let steps: Vec<FormulaTree> =
+            trial.formulas.list[before].iter().map(|own| FormulaTree::name(own.name.as_str())).collect();
         let steps = valued(trial, steps.into_iter().map(|tree| (tree, 1)));
         let is_constant = |entry: &Entry| {
             let size = entry.values.iter().fold(0.0, |size: f64, value| size.larger(value.abs()));
@@ -67,18 +68,18 @@ impl Dictionary {
         };
         let (fixed, steps): (Vec<Entry>, Vec<Entry>) = steps.into_iter().partition(is_constant);
         let constants = fixed.iter().map(|own| (own.tree.to_string(), own.values[0])).collect();
-        let steps: Vec<Tree> = steps.into_iter().map(|own| own.tree).collect();
+        let steps: Vec<FormulaTree> = steps.into_iter().map(|own| own.tree).collect();
         let [of_step, of_steps, of_angles, of_both, of_angle] =
             [OF_STEP, OF_STEPS, OF_ANGLES, OF_BOTH, OF_ANGLE].map(read);
-        let mut all: Vec<(Tree, usize)> = vec![(Tree::number(1.0), 0)];
-        let mut put = |of: &[(Tree, usize)], parts: &[(&str, &Tree)], more: usize| {
+        let mut all: Vec<(FormulaTree, usize)> = vec![(FormulaTree::number(1.0), 0)];
+        let mut put = |of: &[(FormulaTree, usize)], parts: &[(&str, &FormulaTree)], more: usize| {
             all.extend(of.iter().map(|(tree, weight)| (with_parts(tree, parts), weight + more)));
         };
         for (index, step) in steps.iter().enumerate() {
             put(&of_step, &[("a", step)], 0);
             steps[index + 1..].iter().for_each(|other| put(&of_steps, &[("a", step), ("b", other)], 0));
         }
-        put(&[(Tree::name("phi"), 2), (Tree::name("t"), 2)], &[], 0);
+        put(&[(FormulaTree::name("phi"), 2), (FormulaTree::name("t"), 2)], &[], 0);
         let angles = angles(trial);
         for (angle, weight) in &angles {
             for (other, more) in angles.iter().filter(|(other, _)| other.to_string() != angle.to_string()) {
@@ -98,46 +99,48 @@ impl Dictionary {
 
 /// Angles of the derivation, with the weight of a function of them: the crank angle, what stands within a sine or
 /// cosine, and differences of two of these.
-fn angles(trial: &Trial) -> Vec<(Tree, usize)> {
-    let mut names: Vec<Tree> = vec![Tree::name("phi")];
+fn angles(trial: &Trial) -> Vec<(FormulaTree, usize)> {
+    let mut names: Vec<FormulaTree> = vec![FormulaTree::name("phi")];
     let known = &trial.formulas.list[..trial.index];
     let mut put = |name: &str| {
         let is_new = names.iter().all(|own| own.to_string() != name);
         if is_new && names.len() < ANGLES && known.iter().any(|step| step.name == name) {
-            names.push(Tree::name(name));
+            names.push(FormulaTree::name(name));
         }
     };
     for own in trial.formulas.list.iter().rev() {
         at_every_place(&own.tree, &mut |_, part| {
-            let Shape::Call(Function::Sin | Function::Cos | Function::Tan, arguments) = &part.shape else { return };
+            let NodeShape::Call(Function::Sin | Function::Cos | Function::Tan, arguments) = &part.shape else { return };
             arguments[0].names().iter().for_each(|(name, _)| put(name));
         });
     }
     // Steps that are angles, though nothing takes a function of them.
     known.iter().rev().filter(|own| is_angle(&own.tree)).for_each(|own| put(&own.name));
-    let multiple = |factor: f64| Tree::pair(Operator::Times, Tree::number(factor), Tree::name("phi"));
+    let multiple =
+        |factor: f64| FormulaTree::pair(Operator::Times, FormulaTree::number(factor), FormulaTree::name("phi"));
     let pairs = (0..names.len()).flat_map(|first| (first + 1..names.len()).map(move |second| (first, second)));
-    let minus =
-        |(first, second): (usize, usize)| (Tree::pair(Operator::Minus, names[first].clone(), names[second].clone()), 4);
-    let differences: Vec<(Tree, usize)> = pairs.map(minus).collect();
+    let minus = |(first, second): (usize, usize)| {
+        (FormulaTree::pair(Operator::Minus, names[first].clone(), names[second].clone()), 4)
+    };
+    let differences: Vec<(FormulaTree, usize)> = pairs.map(minus).collect();
     let single = names.into_iter().map(|name| (name, 2));
     single.chain([2.0, 3.0].map(|factor| (multiple(factor), 3))).chain(differences).collect()
 }
 
 /// Whether a formula is an angle by its form.
-fn is_angle(tree: &Tree) -> bool {
+fn is_angle(tree: &FormulaTree) -> bool {
     match &tree.shape {
-        Shape::Call(Function::Asin | Function::Acos | Function::Atan | Function::Atan2, _) => true,
-        Shape::Negative(part) => is_angle(part),
-        Shape::Pair(_, parts) => parts.iter().any(is_angle),
-        Shape::Number(_) | Shape::Name(_) | Shape::Call(..) => false,
+        NodeShape::Call(Function::Asin | Function::Acos | Function::Atan | Function::Atan2, _) => true,
+        NodeShape::Negative(part) => is_angle(part),
+        NodeShape::Pair(_, parts) => parts.iter().any(is_angle),
+        NodeShape::Number(_) | NodeShape::Name(_) | NodeShape::Call(..) => false,
     }
 }
 
 /// Expressions with their values at the trial's few instants.
-fn valued(trial: &Trial, all: impl Iterator<Item = (Tree, usize)>) -> Vec<Entry> {
+fn valued(trial: &Trial, all: impl Iterator<Item = (FormulaTree, usize)>) -> Vec<Entry> {
     let mut graph = trial.formulas.graph.clone();
-    let all: Vec<(Tree, usize)> = all.collect();
+    let all: Vec<(FormulaTree, usize)> = all.collect();
     let ids: Vec<_> = all.iter().map(|(tree, _)| graph.add(tree).expect("made of names that are known")).collect();
     let mut program = Program::of(&graph, &ids);
     let mut values = vec![Vec::with_capacity(trial.few.len()); all.len()];
@@ -145,7 +148,7 @@ fn valued(trial: &Trial, all: impl Iterator<Item = (Tree, usize)>) -> Vec<Entry>
         let found = program.run(&trial.inputs(place));
         values.iter_mut().zip(found).for_each(|(values, found)| values.push(found.value));
     }
-    let after = |tree: &Tree| {
+    let after = |tree: &FormulaTree| {
         let index_of = |name: &str| trial.formulas.list.iter().position(|own| own.name == name);
         tree.names().into_iter().filter_map(|(name, _)| index_of(name)).map(|index| index + 1).max().unwrap_or(0)
     };

@@ -1,7 +1,7 @@
 //! Products of powers of known quantities, as they may be written.
 
 use crate::claims::dimension::{Dimensions, Known};
-use formula::{Function, Operator, Product, Products, Shape, Tree, information};
+use formula::{FormulaTree, Function, NodeShape, Operator, Product, Products, information};
 use scenario::Formulas;
 
 /// Most quantities that products are made of.
@@ -11,7 +11,7 @@ const SIMPLEST: usize = 100;
 
 /// All products, by their value.
 pub(in crate::claims) struct Monomials {
-    quantities: Vec<(Tree, f64)>,
+    quantities: Vec<(FormulaTree, f64)>,
     products: Products,
 }
 
@@ -25,11 +25,11 @@ impl Monomials {
     ) -> Self {
         let known = |own: &scenario::Parameter| {
             let (_, number) = own.names().find(|(name, _)| *name == own.quantity())?;
-            Some((Tree::name(own.quantity()), number.value))
+            Some((FormulaTree::name(own.quantity()), number.value))
         };
-        let mut quantities: Vec<(Tree, f64)> = vec![(Tree::name("pi"), std::f64::consts::PI)];
+        let mut quantities: Vec<(FormulaTree, f64)> = vec![(FormulaTree::name("pi"), std::f64::consts::PI)];
         quantities.extend(formulas.parameters.iter().filter_map(known));
-        quantities.extend(steps.iter().map(|(name, value)| (Tree::name(name.as_str()), *value)));
+        quantities.extend(steps.iter().map(|(name, value)| (FormulaTree::name(name.as_str()), *value)));
         quantities.extend(calls(formulas, formula));
         quantities.retain(|(_, value)| *value != 0.0);
         quantities.truncate(MOST);
@@ -44,7 +44,7 @@ impl Monomials {
     }
 
     /// Products with this value, to this relative accuracy, with their complexity; the simplest first, and not too many.
-    pub(in crate::claims) fn with_value(&self, value: f64, accuracy: f64) -> Vec<(Tree, usize)> {
+    pub(in crate::claims) fn with_value(&self, value: f64, accuracy: f64) -> Vec<(FormulaTree, usize)> {
         let near = self.products.near(value.abs(), accuracy).into_iter().take(SIMPLEST);
         near.map(|own| (self.tree(own, own.is_negative != (value < 0.0)), own.weight)).collect()
     }
@@ -62,15 +62,15 @@ impl Monomials {
         (alike, alike as f64 * (-information(value, accuracy)).exp2())
     }
 
-    fn tree(&self, product: &Product, is_negative: bool) -> Tree {
+    fn tree(&self, product: &Product, is_negative: bool) -> FormulaTree {
         let power = |&(index, exponent): &(u8, i8)| {
             let own = self.quantities[usize::from(index)].0.clone();
             match exponent.abs() {
                 1 => own,
-                size => Tree::pair(Operator::Power, own, Tree::number(f64::from(size))),
+                size => FormulaTree::pair(Operator::Power, own, FormulaTree::number(f64::from(size))),
             }
         };
-        let times = |one: Tree, other: Tree| Tree::pair(Operator::Times, one, other);
+        let times = |one: FormulaTree, other: FormulaTree| FormulaTree::pair(Operator::Times, one, other);
         let of = |is_above: bool| {
             let powers = product.powers.iter().filter(move |(_, exponent)| (*exponent > 0) == is_above);
             powers.map(power)
@@ -79,25 +79,27 @@ impl Monomials {
         let is_whole = |below: &f64| (below * product.number).fract() == 0.0;
         let below = [1.0, 2.0, 3.0, 4.0, 8.0].into_iter().find(is_whole).unwrap_or(1.0);
         let above = below * product.number;
-        let number = |value: f64| (value != 1.0).then(|| Tree::number(value));
-        let above = number(above).into_iter().chain(of(true)).reduce(times).unwrap_or(Tree::number(1.0));
-        let size =
-            number(below).into_iter().chain(of(false)).fold(above, |tree, part| Tree::pair(Operator::Over, tree, part));
+        let number = |value: f64| (value != 1.0).then(|| FormulaTree::number(value));
+        let above = number(above).into_iter().chain(of(true)).reduce(times).unwrap_or(FormulaTree::number(1.0));
+        let size = number(below)
+            .into_iter()
+            .chain(of(false))
+            .fold(above, |tree, part| FormulaTree::pair(Operator::Over, tree, part));
         if is_negative { size.negative() } else { size }
     }
 }
 
 /// Sine and cosine of names that do not change, as formulas up to this one have them.
-fn calls(formulas: &Formulas, formula: usize) -> Vec<(Tree, f64)> {
-    let mut found: std::collections::BTreeMap<String, Tree> = std::collections::BTreeMap::new();
-    let mut put = |part: &Tree| {
+fn calls(formulas: &Formulas, formula: usize) -> Vec<(FormulaTree, f64)> {
+    let mut found: std::collections::BTreeMap<String, FormulaTree> = std::collections::BTreeMap::new();
+    let mut put = |part: &FormulaTree| {
         found.entry(part.to_string()).or_insert_with(|| part.clone());
     };
     for own in &formulas.list[..=formula] {
         crate::claims::slips::at_every_place(&own.tree, &mut |_, part| {
             // A long argument is no angle of a drawing.
-            if let Shape::Call(Function::Sin | Function::Cos, arguments) = &part.shape
-                && matches!(arguments[0].shape, Shape::Name(_))
+            if let NodeShape::Call(Function::Sin | Function::Cos, arguments) = &part.shape
+                && matches!(arguments[0].shape, NodeShape::Name(_))
             {
                 put(part);
             }
@@ -105,11 +107,11 @@ fn calls(formulas: &Formulas, formula: usize) -> Vec<(Tree, f64)> {
     }
     // Angles of the file, not only those that formulas take the cosine of.
     for own in formulas.parameters.iter().filter(|own| own.is_angle()) {
-        put(&Tree::call(Function::Cos, vec![Tree::name(own.quantity())]));
-        put(&Tree::call(Function::Sin, vec![Tree::name(own.quantity())]));
+        put(&FormulaTree::call(Function::Cos, vec![FormulaTree::name(own.quantity())]));
+        put(&FormulaTree::call(Function::Sin, vec![FormulaTree::name(own.quantity())]));
     }
     let mut graph = formulas.graph.clone();
-    let constant = |tree: Tree| {
+    let constant = |tree: FormulaTree| {
         let id = graph.add(&tree).ok()?;
         let value = graph.constant_of(id)?.value;
         value.is_finite().then_some((tree, value))

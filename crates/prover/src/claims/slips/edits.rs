@@ -1,9 +1,9 @@
 //! Slips at one place of a formula: what may have been meant by a part.
 
 use super::rules::with_slips;
-use super::slip::Kind;
+use super::slip::SlipKind;
 use formula::Operator::{Minus, Over, Plus, Power, Times};
-use formula::{Shape, Tree};
+use formula::{FormulaTree, NodeShape};
 use scenario::Parameter;
 
 /// Values of the acceleration of gravity (m/s^2), as they are written.
@@ -11,17 +11,19 @@ pub(super) const GRAVITY: [f64; 5] = [9.81, 9.806_65, 9.8, 9.807, 10.0];
 
 /// What may have been meant by a part, where it is wrong by one kind of slip. `names` are those of quantities. What no
 /// rule can say comes before what rules say.
-pub(super) fn of(part: &Tree, kind: Kind, names: &[&str], parameters: &[Parameter]) -> Vec<Tree> {
-    let other_than = |numbers: &[f64], own: f64| -> Vec<Tree> {
-        numbers.iter().filter(|other| **other != own).map(|other| Tree::number(*other)).collect()
+pub(super) fn of(part: &FormulaTree, kind: SlipKind, names: &[&str], parameters: &[Parameter]) -> Vec<FormulaTree> {
+    let other_than = |numbers: &[f64], own: f64| -> Vec<FormulaTree> {
+        numbers.iter().filter(|other| **other != own).map(|other| FormulaTree::number(*other)).collect()
     };
     let mut edits = match (kind, &part.shape) {
-        (Kind::Name, _) => others(part, names, parameters),
-        (Kind::Exchanged, _) => exchanged(part, names),
-        (Kind::Unit, Shape::Number(own)) if GRAVITY.contains(own) => other_than(&GRAVITY, *own),
-        (Kind::Unit, _) => quantity(part, parameters).map(Tree::name).into_iter().collect(),
-        (Kind::Factor, Shape::Number(own)) if !is_unit(*own) => other_than(&[1.0, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0], *own),
-        (Kind::Parentheses, _) => regrouped(part).into_iter().collect(),
+        (SlipKind::Name, _) => others(part, names, parameters),
+        (SlipKind::Exchanged, _) => exchanged(part, names),
+        (SlipKind::Unit, NodeShape::Number(own)) if GRAVITY.contains(own) => other_than(&GRAVITY, *own),
+        (SlipKind::Unit, _) => quantity(part, parameters).map(FormulaTree::name).into_iter().collect(),
+        (SlipKind::Factor, NodeShape::Number(own)) if !is_unit(*own) => {
+            other_than(&[1.0, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0], *own)
+        }
+        (SlipKind::Parentheses, _) => regrouped(part).into_iter().collect(),
         _ => Vec::new(),
     };
     let has_gravity = parameters.iter().any(|own| own.unit() == Some("m_s2"));
@@ -35,22 +37,22 @@ fn is_unit(value: f64) -> bool {
 }
 
 /// The quantity whose plain number a name stands for.
-fn quantity<'a>(part: &Tree, parameters: &'a [Parameter]) -> Option<&'a str> {
-    let Shape::Name(own) = &part.shape else { return None };
+fn quantity<'a>(part: &FormulaTree, parameters: &'a [Parameter]) -> Option<&'a str> {
+    let NodeShape::Name(own) = &part.shape else { return None };
     parameters.iter().find(|parameter| parameter.key == *own).and_then(Parameter::short)
 }
 
 /// The other names that may have been meant by one.
-fn others(part: &Tree, names: &[&str], parameters: &[Parameter]) -> Vec<Tree> {
-    let Shape::Name(own) = &part.shape else { return Vec::new() };
+fn others(part: &FormulaTree, names: &[&str], parameters: &[Parameter]) -> Vec<FormulaTree> {
+    let NodeShape::Name(own) = &part.shape else { return Vec::new() };
     let quantity = quantity(part, parameters);
     let is_other = |other: &&&str| own != "pi" && **other != own.as_str() && Some(**other) != quantity;
-    names.iter().filter(is_other).map(|other| Tree::name(*other)).collect()
+    names.iter().filter(is_other).map(|other| FormulaTree::name(*other)).collect()
 }
 
 /// A sum, difference, product or quotient of two quantities with these exchanged, wherever they stand in it.
-fn exchanged(part: &Tree, names: &[&str]) -> Vec<Tree> {
-    let Shape::Pair(Plus | Minus | Over | Times, _) = part.shape else { return Vec::new() };
+fn exchanged(part: &FormulaTree, names: &[&str]) -> Vec<FormulaTree> {
+    let NodeShape::Pair(Plus | Minus | Over | Times, _) = part.shape else { return Vec::new() };
     let mut own: Vec<&str> = part.names().into_iter().map(|(name, _)| name).filter(|own| names.contains(own)).collect();
     own.sort_unstable();
     own.dedup();
@@ -63,8 +65,8 @@ fn exchanged(part: &Tree, names: &[&str]) -> Vec<Tree> {
     pairs.map(with_exchanged).collect()
 }
 
-fn rename(tree: &mut Tree, [one, other]: [&str; 2]) {
-    if let Shape::Name(own) = &mut tree.shape {
+fn rename(tree: &mut FormulaTree, [one, other]: [&str; 2]) {
+    if let NodeShape::Name(own) = &mut tree.shape {
         if own == one {
             *own = other.into();
         } else if own == other {
@@ -78,31 +80,31 @@ fn rename(tree: &mut Tree, [one, other]: [&str; 2]) {
 
 /// The same signs in the same order, grouped otherwise, where a rule cannot say it: a*b + c + d for a*(b + c + d),
 /// a/b + c for a/(b + c), sin(a) + b for sin(a + b), sin(a^2) for sin(a)^2.
-fn regrouped(part: &Tree) -> Option<Tree> {
+fn regrouped(part: &FormulaTree) -> Option<FormulaTree> {
     let first = first_of(part);
     match (&part.shape, &first.shape) {
-        (Shape::Pair(Plus | Minus, _), Shape::Pair(operator @ (Times | Over), pair)) => {
-            Some(Tree::pair(*operator, pair[0].clone(), with_first(part, &pair[1])))
+        (NodeShape::Pair(Plus | Minus, _), NodeShape::Pair(operator @ (Times | Over), pair)) => {
+            Some(FormulaTree::pair(*operator, pair[0].clone(), with_first(part, &pair[1])))
         }
-        (Shape::Pair(Plus | Minus, _), Shape::Call(function, arguments)) if function.arity() == 1 => {
-            Some(Tree::call(*function, vec![with_first(part, &arguments[0])]))
+        (NodeShape::Pair(Plus | Minus, _), NodeShape::Call(function, arguments)) if function.arity() == 1 => {
+            Some(FormulaTree::call(*function, vec![with_first(part, &arguments[0])]))
         }
-        (Shape::Call(function, arguments), _) => {
-            let [Tree { shape: Shape::Pair(Power, pair), .. }] = arguments.as_slice() else { return None };
-            Some(Tree::pair(Power, Tree::call(*function, vec![pair[0].clone()]), pair[1].clone()))
+        (NodeShape::Call(function, arguments), _) => {
+            let [FormulaTree { shape: NodeShape::Pair(Power, pair), .. }] = arguments.as_slice() else { return None };
+            Some(FormulaTree::pair(Power, FormulaTree::call(*function, vec![pair[0].clone()]), pair[1].clone()))
         }
         _ => None,
     }
 }
 
 /// The first term of a sum.
-fn first_of(tree: &Tree) -> &Tree {
-    let Shape::Pair(Plus | Minus, parts) = &tree.shape else { return tree };
+fn first_of(tree: &FormulaTree) -> &FormulaTree {
+    let NodeShape::Pair(Plus | Minus, parts) = &tree.shape else { return tree };
     first_of(&parts[0])
 }
 
 /// A sum with another first term.
-fn with_first(tree: &Tree, first: &Tree) -> Tree {
-    let Shape::Pair(operator @ (Plus | Minus), parts) = &tree.shape else { return first.clone() };
-    Tree::pair(*operator, with_first(&parts[0], first), parts[1].clone())
+fn with_first(tree: &FormulaTree, first: &FormulaTree) -> FormulaTree {
+    let NodeShape::Pair(operator @ (Plus | Minus), parts) = &tree.shape else { return first.clone() };
+    FormulaTree::pair(*operator, with_first(&parts[0], first), parts[1].clone())
 }

@@ -2,10 +2,10 @@
 
 use super::edits;
 use super::places::at_every_place;
-use super::slip::{Kind, Slip, Tried};
+use super::slip::{FormulaSlip, SlipKind, Tried};
 use crate::claims::dimension::Dimensions;
 use crate::claims::trial::Trial;
-use formula::{Function, Operator, Shape, Sheet, Tree};
+use formula::{DerivationSheet, FormulaTree, Function, NodeShape, Operator};
 use scenario::Formulas;
 
 /// Tries every quantity and every function mended wherever it stands: in the first of the formulas `used`, then in all
@@ -15,7 +15,7 @@ pub(super) fn tried(trial: &mut Trial, used: &[usize], names: &[&str], dimension
     let formulas = trial.formulas.clone();
     for scope in [&used[..1], used] {
         let trees = scope.iter().map(|&index| &formulas.list[index].tree);
-        let mut found: Vec<&str> = trees.flat_map(Tree::names).map(|(name, _)| name).collect();
+        let mut found: Vec<&str> = trees.flat_map(FormulaTree::names).map(|(name, _)| name).collect();
         found.sort_unstable();
         let several: Vec<&str> =
             found.chunk_by(|one, other| one == other).filter(|own| own.len() > 1).map(|own| own[0]).collect();
@@ -24,38 +24,39 @@ pub(super) fn tried(trial: &mut Trial, used: &[usize], names: &[&str], dimension
             if search.trial.is_spent() {
                 return;
             }
-            let places = search.places(&formulas, &|part| part.shape == Shape::Name(name.into()));
+            let places = search.places(&formulas, &|part| part.shape == NodeShape::Name(name.into()));
             let depending = search.depending(&places);
             for (kind, right) in of_name(name, names, &formulas) {
                 if search.trial.is_spent() {
                     return;
                 }
-                let changes: Vec<(usize, Tree)> = places.iter().map(|(place, _)| (*place, right.clone())).collect();
-                let change = |tree: &Tree| tree.with_name(name, &right);
-                search.mended(kind, [&Tree::name(name), &right], &changes, &depending, &change);
+                let changes: Vec<(usize, FormulaTree)> =
+                    places.iter().map(|(place, _)| (*place, right.clone())).collect();
+                let change = |tree: &FormulaTree| tree.with_name(name, &right);
+                search.mended(kind, [&FormulaTree::name(name), &right], &changes, &depending, &change);
             }
         }
         for swaps in [&[(Sin, Cos)][..], &[(Cos, Sin)], &[(Tan, Sin)], &[(Sin, Cos), (Cos, Sin)]] {
             let other = |own: Function| swaps.iter().find(|(from, _)| *from == own).map_or(own, |(_, other)| *other);
-            let is_meant = |part: &Tree| matches!(&part.shape, Shape::Call(own, _) if other(*own) != *own);
+            let is_meant = |part: &FormulaTree| matches!(&part.shape, NodeShape::Call(own, _) if other(*own) != *own);
             let places = search.places(&formulas, &is_meant);
             if places.is_empty() {
                 continue;
             }
             let depending = search.depending(&places);
-            let change = |&(place, part): &(usize, &Tree)| {
-                let Shape::Call(own, _) = &part.shape else { return None };
-                let argument = Sheet::placeholder(search.trial.sheet.arguments(place)[0]);
-                Some((place, Tree::call(other(*own), vec![argument])))
+            let change = |&(place, part): &(usize, &FormulaTree)| {
+                let NodeShape::Call(own, _) = &part.shape else { return None };
+                let argument = DerivationSheet::placeholder(search.trial.sheet.arguments(place)[0]);
+                Some((place, FormulaTree::call(other(*own), vec![argument])))
             };
-            let changes: Vec<(usize, Tree)> = places.iter().filter_map(change).collect();
+            let changes: Vec<(usize, FormulaTree)> = places.iter().filter_map(change).collect();
             let text = |of: &dyn Fn(&(Function, Function)) -> Function| {
                 let names: Vec<&str> = swaps.iter().map(|swap| of(swap).name()).collect();
-                Tree::name(names.join(" and "))
+                FormulaTree::name(names.join(" and "))
             };
             let [written, right] = [text(&|swap| swap.0), text(&|swap| swap.1)];
-            let change = |tree: &Tree| with_function(tree, &other);
-            search.mended(Kind::Function, [&written, &right], &changes, &depending, &change);
+            let change = |tree: &FormulaTree| with_function(tree, &other);
+            search.mended(SlipKind::Function, [&written, &right], &changes, &depending, &change);
         }
     }
 }
@@ -71,7 +72,11 @@ struct Search<'a, 'b> {
 
 impl Search<'_, '_> {
     /// The parts that are meant, with their places.
-    fn places<'t>(&mut self, formulas: &'t Formulas, is_meant: &dyn Fn(&Tree) -> bool) -> Vec<(usize, &'t Tree)> {
+    fn places<'t>(
+        &mut self,
+        formulas: &'t Formulas,
+        is_meant: &dyn Fn(&FormulaTree) -> bool,
+    ) -> Vec<(usize, &'t FormulaTree)> {
         let mut found = Vec::new();
         for &index in self.scope {
             let places = self.trial.sheet.places(index).to_vec();
@@ -85,48 +90,49 @@ impl Search<'_, '_> {
         found
     }
 
-    fn depending(&mut self, places: &[(usize, &Tree)]) -> Vec<usize> {
+    fn depending(&mut self, places: &[(usize, &FormulaTree)]) -> Vec<usize> {
         self.trial.sheet.depending(&places.iter().map(|(place, _)| *place).collect::<Vec<usize>>())
     }
 
     /// Tries a slip mended by `changes` of the sheet, and of trees by `change`.
     fn mended(
         &mut self,
-        kind: Kind,
-        replaced: [&Tree; 2],
-        changes: &[(usize, Tree)],
+        kind: SlipKind,
+        replaced: [&FormulaTree; 2],
+        changes: &[(usize, FormulaTree)],
         depending: &[usize],
-        change: &dyn Fn(&Tree) -> Tree,
+        change: &dyn Fn(&FormulaTree) -> FormulaTree,
     ) {
         self.tried.count += 1;
         if self.trial.is_spent() || !self.trial.is_promising(changes, depending) {
             return;
         }
         let list = &self.trial.formulas.list;
-        let changed: Vec<(usize, Tree)> = self.scope.iter().map(|&index| (index, change(&list[index].tree))).collect();
+        let changed: Vec<(usize, FormulaTree)> =
+            self.scope.iter().map(|&index| (index, change(&list[index].tree))).collect();
         let [written, right] = replaced.map(|tree| tree.to_string().trim_matches('`').to_string());
-        let slip = Slip { formula: list[self.trial.index].name.clone(), kind, written, right, everywhere: true };
+        let slip = FormulaSlip { formula: list[self.trial.index].name.clone(), kind, written, right, everywhere: true };
         self.tried.put_standing(self.trial, self.dimensions, &changed, replaced, slip);
     }
 }
 
 /// What may have been meant by a name wherever it stands.
-fn of_name(name: &str, names: &[&str], formulas: &Formulas) -> Vec<(Kind, Tree)> {
-    let own = Tree::name(name);
-    let of = |operator: Operator, right: Tree| Tree::pair(operator, own.clone(), right);
-    let kinds = [Kind::Sign, Kind::Unit, Kind::Reference, Kind::Name];
+fn of_name(name: &str, names: &[&str], formulas: &Formulas) -> Vec<(SlipKind, FormulaTree)> {
+    let own = FormulaTree::name(name);
+    let of = |operator: Operator, right: FormulaTree| FormulaTree::pair(operator, own.clone(), right);
+    let kinds = [SlipKind::Sign, SlipKind::Unit, SlipKind::Reference, SlipKind::Name];
     let several =
-        |kind: Kind| edits::of(&own, kind, names, &formulas.parameters).into_iter().map(move |own| (kind, own));
-    let mut found: Vec<(Kind, Tree)> = kinds.into_iter().flat_map(several).collect();
-    found.push((Kind::Power, of(Operator::Power, Tree::number(2.0))));
-    found.push((Kind::Factor, of(Operator::Times, Tree::number(2.0))));
-    found.push((Kind::Factor, of(Operator::Over, Tree::number(2.0))));
+        |kind: SlipKind| edits::of(&own, kind, names, &formulas.parameters).into_iter().map(move |own| (kind, own));
+    let mut found: Vec<(SlipKind, FormulaTree)> = kinds.into_iter().flat_map(several).collect();
+    found.push((SlipKind::Power, of(Operator::Power, FormulaTree::number(2.0))));
+    found.push((SlipKind::Factor, of(Operator::Times, FormulaTree::number(2.0))));
+    found.push((SlipKind::Factor, of(Operator::Over, FormulaTree::number(2.0))));
     found
 }
 
-fn with_function(tree: &Tree, other: &dyn Fn(Function) -> Function) -> Tree {
+fn with_function(tree: &FormulaTree, other: &dyn Fn(Function) -> Function) -> FormulaTree {
     let mut changed = tree.clone();
-    if let Shape::Call(function, _) = &mut changed.shape {
+    if let NodeShape::Call(function, _) = &mut changed.shape {
         *function = other(*function);
     }
     for part in changed.parts_mut() {

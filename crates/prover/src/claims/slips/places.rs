@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use formula::Tree;
+use formula::FormulaTree;
 use scenario::Formulas;
 
 /// Names of parameters (in SI), and of the steps before a formula: they stand for quantities.
@@ -31,8 +31,8 @@ pub(in crate::claims) fn used_by(formulas: &Formulas, formula: usize) -> Vec<usi
 }
 
 /// Visits every part of a tree with its place, the whole first.
-pub(in crate::claims) fn at_every_place<'a>(tree: &'a Tree, visit: &mut dyn FnMut(&[usize], &'a Tree)) {
-    fn go<'a>(tree: &'a Tree, place: &mut Vec<usize>, visit: &mut dyn FnMut(&[usize], &'a Tree)) {
+pub(in crate::claims) fn at_every_place<'a>(tree: &'a FormulaTree, visit: &mut dyn FnMut(&[usize], &'a FormulaTree)) {
+    fn go<'a>(tree: &'a FormulaTree, place: &mut Vec<usize>, visit: &mut dyn FnMut(&[usize], &'a FormulaTree)) {
         visit(place, tree);
         for (index, part) in tree.parts().iter().enumerate() {
             place.push(index);
@@ -44,7 +44,7 @@ pub(in crate::claims) fn at_every_place<'a>(tree: &'a Tree, visit: &mut dyn FnMu
 }
 
 /// The part with a number, as [`at_every_place`] visits them.
-pub(in crate::claims) fn numbered(tree: &Tree, number: usize) -> &Tree {
+pub(in crate::claims) fn numbered(tree: &FormulaTree, number: usize) -> &FormulaTree {
     let (mut found, mut next) = (tree, 0);
     at_every_place(tree, &mut |_, part| {
         if next == number {
@@ -56,7 +56,7 @@ pub(in crate::claims) fn numbered(tree: &Tree, number: usize) -> &Tree {
 }
 
 /// A tree with another part in place of the one with a number.
-pub(in crate::claims) fn replaced(tree: &Tree, number: usize, other: &Tree) -> Tree {
+pub(in crate::claims) fn replaced(tree: &FormulaTree, number: usize, other: &FormulaTree) -> FormulaTree {
     let (mut at, mut next) = (Vec::new(), 0);
     at_every_place(tree, &mut |place, _| {
         if next == number {

@@ -2,15 +2,15 @@
 
 use crate::claims::dimension::Dimensions;
 use crate::claims::trial::Trial;
-use formula::Tree;
+use formula::FormulaTree;
 
 /// A slip of the pen.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Slip {
+pub struct FormulaSlip {
     /// The formula that it is in.
     pub formula: String,
     /// What kind it is.
-    pub kind: Kind,
+    pub kind: SlipKind,
     /// What is written, and what would be right.
     pub written: String,
     /// See `written`.
@@ -22,7 +22,7 @@ pub struct Slip {
 linkage::words! {
     /// Kinds of slips, the simplest first.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-    pub enum Kind: words {
+    pub enum SlipKind: words {
         /// A sign.
         Sign = "a sign",
         /// Another branch of a square root or of an inverse function.
@@ -58,11 +58,11 @@ linkage::words! {
 
 /// The simplest has the least: whether units contradict it, whether it is made in many places, whether it is in a step,
 /// and its kind.
-type Rank = (bool, bool, bool, Kind);
+type Rank = (bool, bool, bool, SlipKind);
 
 /// A slip mended.
 pub(in crate::claims) struct Mended {
-    pub(in crate::claims) slip: Slip,
+    pub(in crate::claims) slip: FormulaSlip,
     pub(in crate::claims) rank: Rank,
     /// Share of the largest difference that it leaves; zero if the formula is right with it.
     pub(in crate::claims) left: f64,
@@ -83,7 +83,7 @@ pub(in crate::claims) struct Tried {
 
 impl Tried {
     /// Judges a slip that was mended, and keeps it if the formula is right with it, or nearer than before.
-    pub(super) fn put(&mut self, trial: &mut Trial, changed: &[(usize, Tree)], slip: Slip, rank: Rank) {
+    pub(super) fn put(&mut self, trial: &mut Trial, changed: &[(usize, FormulaTree)], slip: FormulaSlip, rank: Rank) {
         let Some(left) = trial.left(changed, 0.0) else { return };
         let mended = Mended { slip, rank, left, among: self.count };
         // A simpler one that leaves hardly more is nearer.
@@ -99,9 +99,9 @@ impl Tried {
         &mut self,
         trial: &mut Trial,
         dimensions: &Dimensions,
-        changed: &[(usize, Tree)],
-        replaced: [&Tree; 2],
-        slip: Slip,
+        changed: &[(usize, FormulaTree)],
+        replaced: [&FormulaTree; 2],
+        slip: FormulaSlip,
     ) {
         let standing = dimensions.standing(changed, changed[0].0, replaced);
         trial.sheet.count(dimensions.work());

@@ -8,9 +8,9 @@ use std::collections::BTreeSet;
 
 use super::edits;
 use super::places::{at_every_place, numbered, replaced};
-use super::slip::{Kind, Slip, Tried};
+use super::slip::{FormulaSlip, SlipKind, Tried};
 use crate::claims::trial::Trial;
-use formula::{Operator, Shape, Tree, information};
+use formula::{FormulaTree, NodeShape, Operator, information};
 use linkage::math::KeepNan;
 
 /// Most digits of a number that somebody writes.
@@ -33,9 +33,9 @@ pub(super) fn tried(trial: &mut Trial, used: &[usize], tried: &mut Tried) {
         let Some(place) = trial.sheet.named(name) else { continue };
         tried.count += 1;
         let Some((right, is_confused)) = meant(trial, place, own.given) else { continue };
-        let number = Tree::number(if own.given == 0.0 { right } else { number * (right / own.given) });
+        let number = FormulaTree::number(if own.given == 0.0 { right } else { number * (right / own.given) });
         let change = |index: &usize| (*index, formulas.list[*index].tree.with_name(name, &number));
-        let changed: Vec<(usize, Tree)> = used.iter().map(change).collect();
+        let changed: Vec<(usize, FormulaTree)> = used.iter().map(change).collect();
         let text = |value: f64| format!("{} = {value}", own.key);
         put(trial, tried, &changed, "[parameters]", [text(own.given), text(right)], is_confused);
     }
@@ -44,7 +44,7 @@ pub(super) fn tried(trial: &mut Trial, used: &[usize], tried: &mut Tried) {
         let mut numbers = Vec::new();
         let mut next = 0;
         at_every_place(&own.tree, &mut |_, part| {
-            if let Shape::Number(value) = part.shape {
+            if let NodeShape::Number(value) = part.shape {
                 numbers.push((next, value));
             }
             next += 1;
@@ -53,7 +53,7 @@ pub(super) fn tried(trial: &mut Trial, used: &[usize], tried: &mut Tried) {
             let place = trial.sheet.places(index)[number];
             tried.count += 1;
             let Some((right, is_confused)) = meant(trial, place, value) else { continue };
-            let changed = vec![(index, replaced(&own.tree, number, &Tree::number(right)))];
+            let changed = vec![(index, replaced(&own.tree, number, &FormulaTree::number(right)))];
             let written = numbered(&own.tree, number).to_string();
             put(trial, tried, &changed, &own.name, [written, right.to_string()], is_confused);
         }
@@ -63,15 +63,15 @@ pub(super) fn tried(trial: &mut Trial, used: &[usize], tried: &mut Tried) {
 fn put(
     trial: &mut Trial,
     tried: &mut Tried,
-    changed: &[(usize, Tree)],
+    changed: &[(usize, FormulaTree)],
     formula: &str,
     texts: [String; 2],
     is_confused: bool,
 ) {
     let [written, right] = texts;
-    let slip = Slip { formula: formula.into(), kind: Kind::Value, written, right, everywhere: false };
+    let slip = FormulaSlip { formula: formula.into(), kind: SlipKind::Value, written, right, everywhere: false };
     // A number changes no unit. What digits do not tell comes after what is missing.
-    let rank = (false, !is_confused, changed[0].0 != trial.index, Kind::Value);
+    let rank = (false, !is_confused, changed[0].0 != trial.index, SlipKind::Value);
     tried.put(trial, changed, slip, rank);
 }
 

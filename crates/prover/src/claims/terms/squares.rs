@@ -1,8 +1,8 @@
 //! What is missing in numbers, by least squares over what the mechanism has: sines and cosines of its links' angles, the
 //! squares of their speeds, their accelerations.
 
-use crate::claims::Course;
-use linkage::math::{Column, KeepNan, Matrix};
+use crate::claims::KnownTrajectory;
+use linkage::math::{ColumnVector, KeepNan, Matrix};
 
 /// Numbers that are wrong.
 pub struct Wrong<'a> {
@@ -19,7 +19,7 @@ pub struct Wrong<'a> {
 }
 
 /// A quantity of the mechanism by instants.
-pub struct Basis {
+pub struct TermBasis {
     /// What it is; empty for a constant.
     pub text: String,
     /// Its unit.
@@ -27,7 +27,7 @@ pub struct Basis {
     values: Vec<f64>,
 }
 
-impl Basis {
+impl TermBasis {
     /// Its largest value over the instants.
     pub fn largest(&self) -> f64 {
         self.values.iter().fold(0.0, |largest: f64, value| largest.larger(value.abs()))
@@ -35,9 +35,9 @@ impl Basis {
 }
 
 /// A quantity with its coefficient.
-pub struct Part<'a> {
+pub struct WeightedTerm<'a> {
     /// The quantity.
-    pub basis: &'a Basis,
+    pub basis: &'a TermBasis,
     /// Its coefficient, in the unit of the wrong numbers.
     pub coefficient: f64,
 }
@@ -45,7 +45,7 @@ pub struct Part<'a> {
 /// What explains the difference.
 pub struct Explanation<'a> {
     /// One quantity or two.
-    pub parts: Vec<Part<'a>>,
+    pub parts: Vec<WeightedTerm<'a>>,
     /// Share of the largest difference that stays over; zero if nothing does.
     pub left: f64,
 }
@@ -61,15 +61,15 @@ const PROMISING: f64 = 1e-6;
 /// returns the one that leaves least, if there is one.
 pub fn explanations<'a>(
     wrong: &Wrong,
-    bases: &'a [Basis],
-    mut whole: impl FnMut(Vec<Part<'a>>),
+    bases: &'a [TermBasis],
+    mut whole: impl FnMut(Vec<WeightedTerm<'a>>),
 ) -> Option<Explanation<'a>> {
     let Wrong { differences, few, .. } = wrong;
     if differences.len() < FEWEST || differences.iter().any(|own| !own.is_finite()) {
         return None;
     }
     let parts = |chosen: &[usize], coefficients: &[f64]| {
-        let part = |(&one, &coefficient): (&usize, &f64)| Part { basis: &bases[one], coefficient };
+        let part = |(&one, &coefficient): (&usize, &f64)| WeightedTerm { basis: &bases[one], coefficient };
         chosen.iter().zip(coefficients).map(part).collect::<Vec<_>>()
     };
     let singles = (0..bases.len()).map(|one| vec![one]);
@@ -99,14 +99,14 @@ pub fn explanations<'a>(
 }
 
 /// What the chosen quantities explain at an instant.
-fn explained(bases: &[Basis], chosen: &[usize], coefficients: &[f64], place: usize) -> f64 {
+fn explained(bases: &[TermBasis], chosen: &[usize], coefficients: &[f64], place: usize) -> f64 {
     chosen.iter().zip(coefficients).map(|(&one, own)| own * bases[one].values[place]).sum()
 }
 
 /// Coefficients of the chosen quantities at some instants, and the share of the difference that they leave.
-fn fitted(bases: &[Basis], chosen: &[usize], differences: &[f64], places: &[usize]) -> Option<(Vec<f64>, f64)> {
+fn fitted(bases: &[TermBasis], chosen: &[usize], differences: &[f64], places: &[usize]) -> Option<(Vec<f64>, f64)> {
     let matrix = Matrix::from_fn(places.len(), chosen.len(), |row, column| bases[chosen[column]].values[places[row]]);
-    let right = Column::from_iterator(places.len(), places.iter().map(|&place| differences[place]));
+    let right = ColumnVector::from_iterator(places.len(), places.iter().map(|&place| differences[place]));
     // Normalised columns: speeds squared and cosines differ by powers of ten.
     let sizes: Vec<f64> = matrix.column_iter().map(|column| column.norm()).collect();
     if sizes.iter().any(|size| !(*size > 0.0)) {
@@ -120,7 +120,7 @@ fn fitted(bases: &[Basis], chosen: &[usize], differences: &[f64], places: &[usiz
 }
 
 /// Whether nothing is left over at any instant.
-fn explains(wrong: &Wrong, bases: &[Basis], chosen: &[usize], coefficients: &[f64]) -> bool {
+fn explains(wrong: &Wrong, bases: &[TermBasis], chosen: &[usize], coefficients: &[f64]) -> bool {
     let largest = |values: &[f64]| values.iter().fold(0.0, |largest: f64, value| largest.larger(value.abs()));
     let known: f64 =
         chosen.iter().zip(coefficients).map(|(&one, own)| KNOWN * own.abs() * largest(&bases[one].values)).sum();
@@ -130,12 +130,12 @@ fn explains(wrong: &Wrong, bases: &[Basis], chosen: &[usize], coefficients: &[f6
 }
 
 /// What the mechanism has, the simplest first.
-pub fn bases(course: &Course, wrong: &Wrong) -> Vec<Basis> {
+pub fn bases(course: &KnownTrajectory, wrong: &Wrong) -> Vec<TermBasis> {
     let rows = wrong.rows;
     let mut all = Vec::new();
     let mut put = |text: &str, unit: &'static str, of: &dyn Fn(usize) -> f64| {
         let values: Vec<f64> = rows.iter().map(|&row| of(row)).collect();
-        all.push(Basis { text: text.into(), unit, values });
+        all.push(TermBasis { text: text.into(), unit, values });
     };
     let crank = |row: usize| course.cranks()[row];
     put("", "rad", &|_| 1.0);
@@ -161,15 +161,15 @@ pub fn bases(course: &Course, wrong: &Wrong) -> Vec<Basis> {
         put(&channel.to_string(), channel.kind.unit.symbol(), &|row| values[row]);
     }
     // What does not change says the same as the constant.
-    let changes = |own: &Basis| {
+    let changes = |own: &TermBasis| {
         let largest = own.values.iter().fold(0.0, |largest: f64, value| largest.larger(value.abs()));
         own.text.is_empty() || own.values.iter().any(|value| (value - own.values[0]).abs() > 1e-6 * largest)
     };
     all.retain(changes);
     // The claim itself, or what goes with it, explains nothing.
-    let claimed = Column::from_column_slice(&wrong.right);
-    let is_claim = |own: &Basis| {
-        let values = Column::from_column_slice(&own.values);
+    let claimed = ColumnVector::from_column_slice(&wrong.right);
+    let is_claim = |own: &TermBasis| {
+        let values = ColumnVector::from_column_slice(&own.values);
         values.dot(&claimed).abs() >= (1.0 - 1e-12) * values.norm() * claimed.norm()
     };
     all.retain(|own| own.text.is_empty() || !is_claim(own));

@@ -1,6 +1,7 @@
 //! What a Parquet file announces of its sizes, looked at before its reader takes memory for them: it takes as much as
 //! a file says.
 
+use crate::sentences;
 use std::fs::File;
 use std::io::{self, BufReader, Read, Seek, SeekFrom};
 
@@ -41,7 +42,7 @@ pub(super) fn check_description(file: &File) -> io::Result<()> {
     let [length, magic] = [&tail[..4], &tail[4..]].map(|part| <[u8; 4]>::try_from(part).expect("four bytes"));
     let length = u64::from(u32::from_le_bytes(length));
     if magic != MAGIC || length + TAIL > whole {
-        return Err(wrong("its end is not that of a Parquet file"));
+        return Err(wrong(sentences::ITS_END_IS_NOT_THAT_OF_A_PARQUET));
     }
     from.seek(SeekFrom::Start(whole - TAIL - length))?;
     let (mut own, mut open, mut columns) = (0, Vec::<i64>::new(), 0_u64);
@@ -53,7 +54,7 @@ pub(super) fn check_description(file: &File) -> io::Result<()> {
             // A group has no more columns than there are bytes.
             (CHILDREN, Found::Number(count)) if (0..=length.cast_signed()).contains(&count) => own = count,
             (CHILDREN, Found::Number(_) | Found::Other) => {
-                return Err(wrong("it announces columns that are not there"));
+                return Err(wrong(sentences::IT_ANNOUNCES_COLUMNS_THAT_ARE_NOT_THERE));
             }
             (_, Found::End) => {
                 columns += 1;
@@ -68,7 +69,7 @@ pub(super) fn check_description(file: &File) -> io::Result<()> {
                 }
                 own = 0;
                 if open.len() > DEEPEST {
-                    return Err(wrong(format!("more than {DEEPEST} of its columns are within each other")));
+                    return Err(wrong(sentences::more_than_of_its_columns(&DEEPEST)));
                 }
             }
             (_, Found::Number(_) | Found::Other) => {}
@@ -102,11 +103,11 @@ impl Page {
             };
             match found {
                 Found::Number(number) => {
-                    let size = u32::try_from(number).map_err(|_| wrong(format!("a page announces {number} bytes")))?;
+                    let size = u32::try_from(number).map_err(|_| wrong(sentences::a_page_announces_bytes(&number)))?;
                     *slot = Some(size.into());
                     Ok(())
                 }
-                Found::Other => Err(wrong("the size of a page is no number")),
+                Found::Other => Err(wrong(sentences::THE_SIZE_OF_A_PAGE_IS_NO_NUMBER)),
                 Found::End => Ok(()),
             }
         };
@@ -124,23 +125,25 @@ pub(super) fn check_pages(file: &File, rows: u64, column: &ColumnChunkMetaData) 
     let mut values = 0;
     while left > 0 {
         let (page, header) = Page::read(&mut from)?;
-        let (Some(held), Some(stored)) = (page.held, page.stored) else { return Err(wrong("a page has no size")) };
-        left = left.checked_sub(header + stored).ok_or_else(|| wrong("a page is longer than its column"))?;
+        let (Some(held), Some(stored)) = (page.held, page.stored) else {
+            return Err(wrong(sentences::A_PAGE_HAS_NO_SIZE));
+        };
+        left = left.checked_sub(header + stored).ok_or_else(|| wrong(sentences::A_PAGE_IS_LONGER_THAN_ITS_COLUMN))?;
         let own = page.data.unwrap_or(0);
         values += own;
         if values > rows {
-            return Err(wrong(format!("its pages have more values than the {rows} rows of their group")));
+            return Err(wrong(sentences::its_pages_have_more_values(&rows)));
         }
         let most = match page.dictionary {
             // Every value of a dictionary stands there, with four bytes at least.
             Some(count) if count > held / 4 => {
-                return Err(wrong(format!("a dictionary of {held} bytes has {count} values")));
+                return Err(wrong(sentences::a_dictionary_of_bytes_has_values(&held, &count)));
             }
             Some(_) => DICTIONARY,
             None => own * WIDEST + BESIDE,
         };
         if held > most {
-            return Err(wrong(format!("a page announces {held} bytes; such a page has {most} at most")));
+            return Err(wrong(sentences::a_page_announces_bytes_such_a_page(&held, &most)));
         }
         let mut body = from.by_ref().take(stored);
         let unpacked = match column.compression() {
@@ -150,7 +153,7 @@ pub(super) fn check_pages(file: &File, rows: u64, column: &ColumnChunkMetaData) 
             Compression::BROTLI(_) | Compression::LZ4 | Compression::LZ4_RAW | Compression::LZO => 0,
         };
         if unpacked > held {
-            return Err(wrong(format!("a page holds more than the {held} bytes that it announces")));
+            return Err(wrong(sentences::a_page_holds_more_than_the_bytes(&held)));
         }
         io::copy(&mut body, &mut io::sink())?;
     }

@@ -1,5 +1,6 @@
 //! The compact protocol of Thrift, in which a Parquet file describes itself: a walk over it that takes no memory.
 
+use crate::sentences;
 use std::io::{self, Read};
 
 /// Most elements of all lists together: the reader takes memory for as many as a list announces.
@@ -59,7 +60,7 @@ impl<R: Read> Walk<R> {
 
     fn value(&mut self, kind: u8, depth: usize, at: [i64; 2], tell: Tell) -> io::Result<()> {
         if depth > DEEPEST {
-            return Err(wrong(format!("more than {DEEPEST} of its parts are within each other")));
+            return Err(wrong(sentences::more_than_of_its_parts_are_within(&DEEPEST)));
         }
         if let 4..=6 = kind {
             let number = self.number()?;
@@ -86,7 +87,7 @@ impl<R: Read> Walk<R> {
                 }
             },
             12 => self.structure(depth + 1, at[1], tell),
-            _ => Err(wrong(format!("it has a part of the unknown kind {kind}"))),
+            _ => Err(wrong(sentences::it_has_a_part_of_the_unknown(&kind))),
         }
     }
 
@@ -94,7 +95,7 @@ impl<R: Read> Walk<R> {
     fn each(&mut self, count: u64, kinds: &[u8], depth: usize, at: [i64; 2], tell: Tell) -> io::Result<()> {
         self.elements = self.elements.saturating_add(count);
         if self.elements > MOST {
-            return Err(wrong(format!("it is described by more than {MOST} parts")));
+            return Err(wrong(sentences::it_is_described_by_more_than_parts(&MOST)));
         }
         for _ in 0..count {
             for &kind in kinds {
@@ -120,7 +121,7 @@ impl<R: Read> Walk<R> {
                 return Ok(value);
             }
         }
-        Err(wrong("it has a number without an end"))
+        Err(wrong(sentences::IT_HAS_A_NUMBER_WITHOUT_AN_END))
     }
 
     /// A whole number: its sign is its last bit.

@@ -2,7 +2,7 @@
 
 use crate::assur::groups::guide::turn_between;
 use linkage::math::{Motion, Vec2};
-use linkage::mechanism::{Group, Joint, JointId, JointKind, LinkId, Mechanism, PerJoint, Side};
+use linkage::mechanism::{Group, Joint, JointId, JointKind, JointSide, LinkId, Mechanism, PerJoint};
 
 /// How the parent guides a link with a prismatic joint to it.
 #[derive(Clone, Copy, Debug)]
@@ -24,7 +24,7 @@ pub struct Node {
     pub own: Vec2,
     pub(super) at_origin: bool,
     /// That joint on the parent.
-    pub parent: Side,
+    pub parent: JointSide,
     /// Position of the parent among the nodes; `None` for a link outside the group.
     pub parent_node: Option<usize>,
     /// Position of the node whose unknown is this link's angle.
@@ -114,20 +114,20 @@ pub(in crate::assur) struct Stretch {
 
 /// A joint that closes a contour.
 #[derive(Clone, Debug)]
-pub struct Closing {
+pub struct ClosingJoint {
     /// The joint.
     pub joint: JointId,
     /// Nodes of the joint's first and second link; `None` for a link outside the group.
     pub nodes: [Option<usize>; 2],
     /// The joint on its second link.
-    place: Side,
+    place: JointSide,
     /// Known joints from which the two ways start, by number: second with sign +1, first with -1.
     pub(in crate::assur) ends: [(usize, f64); 2],
     /// Arrows along both ways.
     pub(in crate::assur) ways: Vec<Stretch>,
 }
 
-impl Closing {
+impl ClosingJoint {
     /// World place of the joint.
     #[inline]
     #[must_use]
@@ -142,9 +142,9 @@ pub(in crate::assur) struct Contours {
     /// The group's links, parents before children.
     pub(in crate::assur) nodes: Vec<Node>,
     /// The remaining joints.
-    pub(in crate::assur) closings: Vec<Closing>,
+    pub(in crate::assur) closings: Vec<ClosingJoint>,
     /// Joints on links outside the group.
-    pub(in crate::assur) roots: Vec<Side>,
+    pub(in crate::assur) roots: Vec<JointSide>,
     /// All vectors from joint to joint.
     pub(in crate::assur) arrows: Vec<Arrow>,
 }
@@ -182,7 +182,7 @@ impl Contours {
     }
 
     /// The number of a joint on a link outside the group.
-    fn root(&mut self, side: Side) -> usize {
+    fn root(&mut self, side: JointSide) -> usize {
         self.roots.iter().position(|&known| known == side).unwrap_or_else(|| {
             self.roots.push(side);
             self.roots.len() - 1
@@ -202,9 +202,9 @@ impl Contours {
     }
 
     /// The way to a closing joint over both of its links.
-    fn closing(&mut self, found: &Joint, joint: JointId) -> Closing {
+    fn closing(&mut self, found: &Joint, joint: JointId) -> ClosingJoint {
         let mut ways = Vec::new();
-        let mut way = |side: Side, sign: f64| {
+        let mut way = |side: JointSide, sign: f64| {
             // Where sliders carry all links, an outer pin remains too. The way to it over the link outside is empty.
             let node = self.nodes.iter().position(|node| node.link == side.link);
             let (mut next, mut to) = (node, side);
@@ -227,6 +227,6 @@ impl Contours {
             Stretch { arrow: number, sign, carrier, spin, slide: local.is_none().then_some(node) }
         };
         let ways = ways.into_iter().map(stretch).collect();
-        Closing { joint, place: found.second, nodes: [first, second], ends: [second_end, first_end], ways }
+        ClosingJoint { joint, place: found.second, nodes: [first, second], ends: [second_end, first_end], ways }
     }
 }

@@ -1,4 +1,4 @@
-use super::super::random::{Random, group, mechanism, size};
+use super::super::random::{Lcg, group, mechanism, size};
 use super::super::transmission_sine;
 use super::*;
 use crate::math::KeepNan;
@@ -13,7 +13,7 @@ struct Case {
     pose: Pose,
 }
 
-fn case(random: &mut Random, kind: GroupKind) -> Case {
+fn case(random: &mut Lcg, kind: GroupKind) -> Case {
     let letters: Vec<bool> = kind.letters().unwrap().chars().map(|letter| letter == 'P').collect();
     let outer = if random.yes() { [letters[0], letters[2]] } else { [letters[2], letters[0]] };
     let joints = vec![
@@ -148,7 +148,7 @@ impl Case {
 fn random_dyads_of_every_kind() {
     let kinds = [GroupKind::Rrr, GroupKind::Rrp, GroupKind::Rpr, GroupKind::Rpp, GroupKind::Prp];
     for kind in kinds {
-        let mut random = Random(kind as u64 + 1);
+        let mut random = Lcg(kind as u64 + 1);
         let (mut some, mut worst) = (0, 0.0f64);
         for _ in 0..CASES {
             let case = case(&mut random, kind);
@@ -203,7 +203,7 @@ fn random_dyads_of_every_kind() {
 #[test]
 fn parallel_axes_are_refused() {
     for kind in [GroupKind::Rpp, GroupKind::Prp] {
-        let mut random = Random(77);
+        let mut random = Lcg(77);
         for _ in 0..1000 {
             let mut case = case(&mut random, kind);
             let (Some(joint), Some(other)) = (0..3)
@@ -245,7 +245,7 @@ fn parallel_axes_are_refused() {
 
 #[test]
 fn what_does_not_reach_is_told_in_metres() {
-    let mut random = Random(5);
+    let mut random = Lcg(5);
     let mut told = [false; 2];
     while told != [true; 2] {
         for (index, kind) in [GroupKind::Rrp, GroupKind::Rpr].into_iter().enumerate() {

@@ -1,11 +1,11 @@
-use super::super::random::{Random, group, mechanism, size};
+use super::super::random::{Lcg, group, mechanism, size};
 use super::*;
 use crate::math::KeepNan;
-use crate::mechanism::{GroupKind, LinkId, Side};
+use crate::mechanism::{GroupKind, JointSide, LinkId};
 
 /// Two base links 6 and 5, pinned to each other, each on two leads: a group of six links and nine joints, closed in the
 /// pose.
-fn case(random: &mut Random, slides: impl Fn(&mut Random) -> bool) -> (Mechanism, Group, Pose) {
+fn case(random: &mut Lcg, slides: impl Fn(&mut Lcg) -> bool) -> (Mechanism, Group, Pose) {
     let mut pose = Pose((0..7).map(|_| random.pose()).collect());
     pose.0[LinkId(0)] = LinkPose::GROUND;
     let ends = [[0, 1], [0, 2], [3, 0], [4, 0], [1, 5], [5, 2], [3, 6], [6, 4], [5, 6]];
@@ -21,11 +21,11 @@ fn case(random: &mut Random, slides: impl Fn(&mut Random) -> bool) -> (Mechanism
 }
 
 /// All points of the group's links, moved at random by up to `by` in each coordinate.
-fn drawing(random: &mut Random, mechanism: &Mechanism, group: &Group, pose: &Pose, by: f64) -> Vec<(SidePoint, Vec2)> {
+fn drawing(random: &mut Lcg, mechanism: &Mechanism, group: &Group, pose: &Pose, by: f64) -> Vec<(SidePoint, Vec2)> {
     let mut near = Vec::new();
     for &link in &group.links {
         for point in &mechanism.links()[link].points {
-            let side = Side { link, local: point.local };
+            let side = JointSide { link, local: point.local };
             near.push((
                 SidePoint { name: point.name.clone(), side },
                 pose.0[link].point(point.local) + random.place() * by,
@@ -37,7 +37,7 @@ fn drawing(random: &mut Random, mechanism: &Mechanism, group: &Group, pose: &Pos
 
 #[test]
 fn the_jacobian_is_the_derivative_of_the_gaps() {
-    let mut random = Random(21);
+    let mut random = Lcg(21);
     for _ in 0..20 {
         let (mechanism, group, mut pose) = case(&mut random, |random| random.yes());
         // Far from the closed pose, where all terms count.
@@ -63,7 +63,7 @@ fn the_jacobian_is_the_derivative_of_the_gaps() {
 /// A drawing that is right to two hundredths leads to the pose from which it was drawn, and that pose closes.
 #[test]
 fn a_rough_drawing_finds_its_configuration() {
-    let mut random = Random(22);
+    let mut random = Lcg(22);
     let (mut found, mut refused) = (0, 0);
     for number in 0..500 {
         let sliding = number % 2 == 1;
@@ -79,7 +79,7 @@ fn a_rough_drawing_finds_its_configuration() {
                     near.iter().map(|(point, guess)| (posed.0[point.side.link].point(point.side.local) - guess).norm());
                 assert_eq!(
                     choice,
-                    Choice {
+                    ConfigurationChoice {
                         mode: AssemblyMode::Followed,
                         nearest_m: Some(farthest.fold(0.0, f64::larger)),
                         next_m: None
@@ -102,7 +102,7 @@ fn a_rough_drawing_finds_its_configuration() {
 
 #[test]
 fn too_few_places_name_the_link() {
-    let mut random = Random(23);
+    let mut random = Lcg(23);
     let (mechanism, group, pose) = case(&mut random, |_| false);
     let near = drawing(&mut random, &mechanism, &group, &pose, 0.0);
     let error = place(&mechanism, &group, &near[..1], &mut pose.clone()).unwrap_err();
@@ -119,7 +119,7 @@ fn too_few_places_name_the_link() {
 
 #[test]
 fn a_drawing_far_from_any_configuration_is_refused() {
-    let mut random = Random(24);
+    let mut random = Lcg(24);
     let (mechanism, group, pose) = case(&mut random, |_| false);
     let mut near = drawing(&mut random, &mechanism, &group, &pose, 0.0);
     near.iter_mut().for_each(|(_, place)| *place += Vec2::new(9.0, 0.0));

@@ -7,26 +7,26 @@ use crate::mechanism::LinkPose;
 
 /// One side of a pair: its place and, if it slides, its axis in the body's frame.
 #[derive(Clone, Copy, Debug)]
-pub struct End {
+pub struct PairEnd {
     pub place: Vec2,
     pub axis: Vec2,
 }
 
 /// A pair of a lead with the frame or the base.
 #[derive(Clone, Copy, Debug)]
-pub struct Pair {
+pub struct LeadPair {
     pub slides: bool,
     /// On the lead.
-    pub lead: End,
+    pub lead: PairEnd,
     /// On the frame or the base.
-    pub body: End,
+    pub body: PairEnd,
 }
 
 /// A link between frame and base.
 #[derive(Clone, Copy, Debug)]
-pub struct Lead {
-    pub near: Pair,
-    pub far: Pair,
+pub struct PlatformLead {
+    pub near: LeadPair,
+    pub far: LeadPair,
 }
 
 /// The condition of a lead on the base.
@@ -54,7 +54,7 @@ pub enum Locus {
 
 impl Condition {
     /// The condition of a lead, with the frame's origin at `frame` and the base's at `base`.
-    pub fn of(lead: &Lead, frame: Vec2, base: Vec2) -> Self {
+    pub fn of(lead: &PlatformLead, frame: Vec2, base: Vec2) -> Self {
         let (near, far) = (lead.near, lead.far);
         let span = far.lead.place - near.lead.place;
         let (a, w) = (near.body.place - frame, far.body.place - base);
@@ -117,7 +117,7 @@ impl Condition {
     }
 }
 
-impl Lead {
+impl PlatformLead {
     /// Pose in the frame, once the base has its own; `None` if the lead can slide freely.
     pub fn pose(&self, base: &LinkPose) -> Option<LinkPose> {
         let (near, far) = (self.near, self.far);

@@ -13,7 +13,7 @@ use std::convert::Infallible;
 use std::f64::consts::{PI, TAU};
 
 use crate::math::{Vec2, cross, extremum, root, rotated, turned, unit};
-use crate::mechanism::assembly::three_leads::{Lead, Pair};
+use crate::mechanism::assembly::three_leads::{LeadPair, PlatformLead};
 
 /// Halvings of an interval with a zero, and steps of golden section about an extremum. Both reach rounding.
 const STEPS: usize = 60;
@@ -38,12 +38,12 @@ enum Locus {
 }
 
 /// Follows the definition of the pairs literally: the lead is placed, then the base's far joint is put on the lead's.
-fn locus(lead: &Lead, b: Vec2) -> Option<Locus> {
+fn locus(lead: &PlatformLead, b: Vec2) -> Option<Locus> {
     let (near, far) = (lead.near, lead.far);
     let span = far.lead.place - near.lead.place;
     let arm = rotated(b, far.body.place);
     // Direction of the lead that turns its axis of a pair onto `axis`.
-    let onto = |pair: Pair, axis: Vec2| rotated(Vec2::new(pair.lead.axis.x, -pair.lead.axis.y), axis);
+    let onto = |pair: LeadPair, axis: Vec2| rotated(Vec2::new(pair.lead.axis.x, -pair.lead.axis.y), axis);
     match (near.slides, far.slides) {
         (false, false) => Some(Locus::Circle(near.body.place - arm, span.norm())),
         (true, false) => {
@@ -140,7 +140,7 @@ fn least(f: &dyn Fn(f64) -> f64, low: f64, high: f64) -> f64 {
 }
 
 /// Counts the configurations. `None` if a lead fixes the base's angle, so that there is nothing to scan.
-pub fn scanned(leads: &[Lead; 3]) -> Option<Scan> {
+pub fn scanned(leads: &[PlatformLead; 3]) -> Option<Scan> {
     let at =
         |beta: f64| Some([locus(&leads[0], unit(beta))?, locus(&leads[1], unit(beta))?, locus(&leads[2], unit(beta))?]);
     let circle = at(0.0)?.iter().position(|locus| matches!(locus, Locus::Circle(..)));
