@@ -10,7 +10,7 @@ use linkage::case::{Case, Grid, Wanted};
 use linkage::engine::{Engine, Settings};
 use linkage::mechanism::LinkId;
 use linkage::solver::Solver;
-use rapier_twin::tree::Tree;
+use rapier_twin::tree::SpanningTree;
 use rapier_twin::{Build, Precision, Rapier};
 use scenario::Scenario;
 
@@ -32,7 +32,8 @@ fn seconds(run: impl FnOnce()) -> f64 {
 
 /// The shortest program that only does the steps.
 fn bare(engine: &Rapier, build: Build, case: &Case, steps: usize) {
-    let tree = if build == Build::Impulse { Tree::none(&case.mechanism) } else { Tree::of(&case.mechanism) };
+    let tree =
+        if build == Build::Impulse { SpanningTree::none(&case.mechanism) } else { SpanningTree::of(&case.mechanism) };
     let mut world = engine.world(case, tree, false).expect("Rapier takes the mechanism");
     for (index, drive) in case.drives.iter().enumerate() {
         world.set_drive(index, drive.at(0.0).rate);

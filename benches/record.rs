@@ -14,7 +14,7 @@ use linkage::trajectory::Trajectory;
 use linkproof::{Options, prove};
 use mcap::records::MessageHeader;
 use mcap::{Channel, MessageStream, WriteOptions};
-use recording::{Recording, Show, Side, write};
+use recording::{RecordedSide, Recording, Show, write};
 use scenario::Scenario;
 
 /// Timings, of which the shortest counts: other activity of the machine only adds time.
@@ -45,7 +45,7 @@ fn shortest(mut work: impl FnMut()) -> f64 {
 }
 
 /// Records sides as a run does.
-fn record(scenario: &Scenario, sides: &[Side], errors: Option<&Trajectory>, path: &Path) {
+fn record(scenario: &Scenario, sides: &[RecordedSide], errors: Option<&Trajectory>, path: &Path) {
     let recording = Recording {
         name: &scenario.name,
         scenario_text: &scenario.text,
@@ -116,13 +116,13 @@ fn main() {
         let proof = prove(&own, &Options::default()).unwrap();
         let proving = shortest(|| drop(prove(&own, &Options::default()).unwrap()));
         let engine = proof.engine();
-        let reference = Side { name: "reference", trajectory: &proof.reference_trajectory };
-        let other = engine.trajectory.as_ref().map(|trajectory| Side { name: "engine", trajectory });
-        let sides: Vec<Side> = std::iter::once(reference).chain(other).collect();
+        let reference = RecordedSide { name: "reference", trajectory: &proof.reference_trajectory };
+        let other = engine.trajectory.as_ref().map(|trajectory| RecordedSide { name: "engine", trajectory });
+        let sides: Vec<RecordedSide> = std::iter::once(reference).chain(other).collect();
         let recording = shortest(|| record(&own, &sides, engine.errors.as_ref(), &ours));
 
         let solved = prover::proof::solve(&long).unwrap();
-        let sides = ["reference", "engine"].map(|name| Side { name, trajectory: &solved });
+        let sides = ["reference", "engine"].map(|name| RecordedSide { name, trajectory: &solved });
         let writing = shortest(|| record(&own, &sides, None, &ours));
         let bytes = fs::read(&ours).unwrap();
         let messages = messages(&bytes);

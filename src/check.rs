@@ -34,7 +34,7 @@ const WORDS: Words = Words { formula: "formula", channel: "channel", step: "step
 impl FormulaQuestion {
     /// Whether `formula` is `channel`.
     pub fn of(formula: impl Into<String>, channel: impl Into<String>) -> FormulaQuestion {
-        FormulaQuestion { formula: formula.into(), channel: channel.into(), ..Question::default() }
+        FormulaQuestion { formula: formula.into(), channel: channel.into(), ..FormulaQuestion::default() }
     }
 
     /// The scenario that asks this, and nothing of what its file claims.

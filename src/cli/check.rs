@@ -92,6 +92,6 @@ fn asked(args: &Args) -> Result<Scenario> {
         valid: [args.from_deg, args.to_deg].map(|degrees| degrees.map(f64::to_radians)),
         error: args.error,
     };
-    let besides = StartRequest { adds_parameters: true, ..Asked::default() };
+    let besides = StartRequest { adds_parameters: true, ..StartRequest::default() };
     question.of_scenario(args.start.load_as(&args.file, &args.grid, besides)?, &WORDS)
 }

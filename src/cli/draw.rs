@@ -100,7 +100,7 @@ pub(super) fn draw(args: &Args) -> Result<u8> {
         seconds: args.seconds,
         traces_key: Some("--trace"),
     };
-    let asked = StartRequest { modes: args.mode.clone(), set: args.set.clone(), ..Asked::default() };
+    let asked = StartRequest { modes: args.mode.clone(), set: args.set.clone(), ..StartRequest::default() };
     let drawn = |file: &PathBuf| match load::as_asked(file, &asked) {
         Ok(scenario) => Drawn::of(scenario, &wish, medium).map_err(|error| error.key("--crank-deg")),
         // What is wrong with the text itself is told by the reading of the draft.

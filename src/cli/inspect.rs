@@ -39,7 +39,7 @@ pub(super) struct Args {
 }
 
 pub(super) fn inspect(args: &Args) -> Result<()> {
-    let asked = StartRequest { modes: args.mode.clone(), ..Asked::default() };
+    let asked = StartRequest { modes: args.mode.clone(), ..StartRequest::default() };
     // A list of configurations is wanted above all where the file does not decide between them.
     let (scenario, undecided) = match args.modes {
         true => load::to_list(&args.file, &asked)?,

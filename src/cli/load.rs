@@ -66,7 +66,7 @@ pub(super) fn plain(file: &Path) -> Result<Scenario> {
 
 /// Reads a scenario and starts its groups in the given `modes`.
 pub(super) fn load(file: &Path, modes: &[String]) -> Result<Scenario> {
-    as_asked(file, &StartRequest { modes: modes.to_vec(), ..Asked::default() })
+    as_asked(file, &StartRequest { modes: modes.to_vec(), ..StartRequest::default() })
 }
 
 pub(super) fn as_asked(file: &Path, asked: &StartRequest) -> Result<Scenario> {

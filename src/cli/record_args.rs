@@ -11,7 +11,7 @@ use files::{self, OutputTarget};
 use linkage::error::{Error, ErrorKind, Result};
 use linkage::math::KeepNan;
 use prover::proof::Proof;
-use recording::{self, Recording, RecordingPlace, Show, Side};
+use recording::{self, RecordedSide, Recording, RecordingPlace, Show};
 use scenario::Scenario;
 #[cfg(feature = "live")]
 use {
@@ -148,7 +148,7 @@ impl RecordArgs {
             scenario_text: &scenario.text,
             metadata: &BTreeMap::new(),
             mechanism: &case.mechanism,
-            sides: &[Side { name: REFERENCE, trajectory: reference }],
+            sides: &[RecordedSide { name: REFERENCE, trajectory: reference }],
             errors: None,
             log: &[LogEntry { time, level: Level::Info, text: text.into() }],
             show: self.show(),
@@ -183,11 +183,11 @@ impl RecordArgs {
 }
 
 /// The reference, then the engines.
-fn sides(proof: &Proof) -> Vec<Side<'_>> {
-    let mut sides = vec![Side { name: REFERENCE, trajectory: &proof.reference_trajectory }];
+fn sides(proof: &Proof) -> Vec<RecordedSide<'_>> {
+    let mut sides = vec![RecordedSide { name: REFERENCE, trajectory: &proof.reference_trajectory }];
     for engine in &proof.engines {
         let name = if proof.engines.len() == 1 { "engine" } else { engine.info.name };
-        sides.extend(engine.trajectory.as_ref().map(|trajectory| Side { name, trajectory }));
+        sides.extend(engine.trajectory.as_ref().map(|trajectory| RecordedSide { name, trajectory }));
     }
     sides
 }

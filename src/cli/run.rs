@@ -69,7 +69,7 @@ fn prove_file(
     if args.write {
         load::refuse_writing(file)?;
     }
-    let besides = StartRequest { memory: Some(args.engine.memory.bytes()), ..Asked::default() };
+    let besides = StartRequest { memory: Some(args.engine.memory.bytes()), ..StartRequest::default() };
     let scenario = load::only(args.start.load_as(file, &args.grid, besides)?, &args.only)?;
     let options = args.engine.options(args.reference);
     let needed = memory::of_proof(&scenario.case, options.engine_count()) + memory::of_oracles(&scenario.oracles);

@@ -473,6 +473,38 @@ fn no_files_know_each_other_in_a_circle() {
     nothing(circle.map(told).collect());
 }
 
+/// A type's name says what it is without its path.
+#[test]
+fn no_public_type_name_stands_twice() {
+    let mut places: BTreeMap<String, Vec<String>> = BTreeMap::new();
+    for (_, root) in roots() {
+        for file in rust_files(root.parent().unwrap()) {
+            let place = file.strip_prefix(top()).unwrap().display().to_string();
+            for item in syn::parse_file(&fs::read_to_string(&file).unwrap()).unwrap().items {
+                let (name, seen) = match item {
+                    syn::Item::Struct(item) => (item.ident, item.vis),
+                    syn::Item::Enum(item) => (item.ident, item.vis),
+                    syn::Item::Trait(item) => (item.ident, item.vis),
+                    syn::Item::Type(item) => (item.ident, item.vis),
+                    _ => continue,
+                };
+                if matches!(seen, syn::Visibility::Public(_)) {
+                    places.entry(name.to_string()).or_default().push(place.clone());
+                }
+            }
+        }
+    }
+    assert!(places.len() > 300, "{} public types are too few to be all", places.len());
+    places.retain(|_, places| places.len() > 1);
+    nothing(places.into_iter().map(|(name, places)| format!("`{name}` in {}", places.join(", "))).collect());
+}
+
+#[test]
+fn a_module_with_files_below_it_stands_beside_them() {
+    let old = roots().into_iter().flat_map(|(_, root)| rust_files(root.parent().unwrap()));
+    nothing(old.filter(|file| file.ends_with("mod.rs")).map(|file| file.display().to_string()).collect());
+}
+
 #[test]
 fn what_has_a_home_stays_there() {
     let mut wrong = Vec::new();

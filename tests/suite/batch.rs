@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 
 use crate::common::higher::{Among, FAMILIES, mechanism};
 use crate::common::random::{for_each, within};
-use crate::common::sketch::Random;
+use crate::common::sketch::RandomSource;
 use crate::common::{assert_within, shipped};
 use analytic::PoseSolver;
 use analytic::assur::batch::{Batch, Poses};
@@ -222,10 +222,10 @@ fn pieces_of_a_turn_on_threads_have_the_bits_of_the_whole() {
     }
 }
 
-/// Random groups of four and six links, alone and with dyads. Most of them end at a dead point on their way round.
+/// RandomSource groups of four and six links, alone and with dyads. Most of them end at a dead point on their way round.
 #[test]
 fn random_higher_groups_agree_and_fail_alike() {
-    let (mut random, mut solved, mut ended) = (Random::from_seed(23), 0, 0);
+    let (mut random, mut solved, mut ended) = (RandomSource::from_seed(23), 0, 0);
     for among in [Among::Alone, Among::BehindADyad, Among::CarryingADyad] {
         for family in FAMILIES.iter().filter(|family| matches!(family.topology.links, 4 | 6)) {
             for _ in 0..12 {

@@ -21,7 +21,7 @@ fn measured(scenario: &Scenario, peers: &[&dyn Peer]) -> Bench {
         now.set(now.get() + 1.0);
         now.get()
     };
-    let options = BenchOptions { is_quick: true, engines: vec![EngineName::Rapier], ..Options::default() };
+    let options = BenchOptions { is_quick: true, engines: vec![EngineName::Rapier], ..BenchOptions::default() };
     bench(scenario, &options, peers, &clock, &mut |_| {}).unwrap()
 }
 

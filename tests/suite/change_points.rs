@@ -10,7 +10,7 @@ use linkage::trajectory::Stage;
 use scenario::Scenario;
 
 use crate::common::higher::{Among, FAMILIES, mechanism};
-use crate::common::sketch::Random;
+use crate::common::sketch::RandomSource;
 
 /// Numbers of steps on the way: few, many, and some that share no factor with the others.
 const STEPS: [usize; 12] = [1, 2, 3, 5, 7, 12, 24, 37, 90, 101, 360, 1009];
@@ -63,7 +63,7 @@ fn six_bar(
 /// coupler and rocker are just as long.
 #[test]
 fn no_step_passes_over_the_change_point_of_a_four_bar() {
-    let mut random = Random::from_seed(41);
+    let mut random = RandomSource::from_seed(41);
     for _ in 0..40 {
         let [crank, frame] = [random.number(0.1, 1.0), random.number(1.1, 3.0)];
         let rocker = random.number(0.5, 2.0).larger(crank).smaller(frame);
@@ -96,7 +96,7 @@ fn no_step_passes_over_the_change_point_of_a_four_bar() {
 /// There it has a change point if its links are just that long.
 #[test]
 fn no_step_passes_over_the_change_point_of_a_dyad_on_a_dyad() {
-    let mut random = Random::from_seed(43);
+    let mut random = RandomSource::from_seed(43);
     let lengths = [0.3, 1.1, 0.8, 1.0];
     for _ in 0..24 {
         let (at, pivot) = (random.vector(0.3, 1.2), Vec2::new(1.0, 0.0) + random.vector(1.0, 3.0));
@@ -154,12 +154,12 @@ fn moved(spec: &lab::specimens::spec::Spec, by: f64) -> Option<Scenario> {
     spec.scenario().ok()
 }
 
-/// Random higher groups whose ground is moved until they just pass, or just no longer pass, a dead point. In whatever
+/// RandomSource higher groups whose ground is moved until they just pass, or just no longer pass, a dead point. In whatever
 /// steps they come there, they end where the finest steps end, or say that they do not.
 #[test]
 fn higher_groups_do_not_change_their_branch_in_silence() {
     const WAY: f64 = 1.5;
-    let (mut random, mut tried, mut ended, mut refused) = (Random::from_seed(47), 0, 0, 0);
+    let (mut random, mut tried, mut ended, mut refused) = (RandomSource::from_seed(47), 0, 0, 0);
     for family in &FAMILIES {
         for among in [Among::Alone, Among::BehindADyad] {
             for _ in 0..6 {

@@ -14,7 +14,7 @@ use scenario::Scenario;
 use scenario::clearance::question::{are_joined, pairs};
 use scenario::clearance::{ClearanceBody, ClearanceQuestion, Outline};
 
-use crate::common::sketch::Random;
+use crate::common::sketch::RandomSource;
 use crate::common::specimens::specimen;
 use crate::common::{assert_within, draws, shipped, states};
 
@@ -83,7 +83,7 @@ fn at(case: &Case, cranks: &[f64]) -> Vec<State> {
 }
 
 /// All links with outlines of random width, every third a random polygon, and a housing of pins and plates.
-fn asked(random: &mut Random, case: &Case) -> ClearanceQuestion {
+fn asked(random: &mut RandomSource, case: &Case) -> ClearanceQuestion {
     let mechanism = &case.mechanism;
     let size = mechanism.size();
     let mut bodies = Vec::new();
@@ -181,7 +181,7 @@ fn shipped_mechanisms_against_brute_force() {
         ["crank_rocker", "quick_return", "scotch_yoke", "six_bar_slider", "class3_group", "fourth_class", "ov7_base"];
     for (index, name) in names.into_iter().chain(["five_bar", "cycloidal_start", "tangent"]).enumerate() {
         let case = shipped(&format!("{name}.toml")).case;
-        let mut random = Random::of_sample(11, index as u64);
+        let mut random = RandomSource::of_sample(11, index as u64);
         let asked = asked(&mut random, &case);
         let found = find(&case, &asked, &mut |_| ()).unwrap_or_else(|error| panic!("{name}: {error}"));
         check(&case, &asked, &found, &mut seen, name);
@@ -201,7 +201,7 @@ fn random_mechanisms_against_brute_force() {
             continue;
         }
         used += 1;
-        let mut random = Random::of_sample(30, index);
+        let mut random = RandomSource::of_sample(30, index);
         let asked = asked(&mut random, &case);
         let found = find(&case, &asked, &mut |_| ()).unwrap_or_else(|error| panic!("{index}: {error}"));
         check(&case, &asked, &found, &mut seen, &format!("{index} ({})", own.sort));
@@ -219,7 +219,7 @@ fn planted_thin_crossings_are_found() {
     {
         let case = shipped(&format!("{name}.toml")).case;
         let size = case.mechanism.size();
-        let mut random = Random::of_sample(5, index as u64);
+        let mut random = RandomSource::of_sample(5, index as u64);
         let [from, to] = [case.grid.inputs[0], case.grid.inputs[case.grid.len() - 1]];
         for _ in 0..4 {
             let crank = from + (to - from) * random.number(0.05, 0.95);
@@ -329,7 +329,7 @@ fn the_crankcase_is_clear() {
 #[test]
 fn motions_under_forces() {
     let case = shipped("crank_rocker_runup.toml").case;
-    let asked = asked(&mut Random::of_sample(3, 1), &case);
+    let asked = asked(&mut RandomSource::of_sample(3, 1), &case);
     let found = find(&case, &asked, &mut |_| ()).unwrap();
     let solved = analytic::AssurSolver.solve(&case).unwrap();
     let reached = solved.inputs().iter().copied().fold(f64::NEG_INFINITY, f64::larger);

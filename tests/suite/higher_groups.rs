@@ -1,9 +1,9 @@
-//! Random higher groups, with and without sliders, alone and together with dyads. Both analytic sides must agree: side
+//! RandomSource higher groups, with and without sliders, alone and together with dyads. Both analytic sides must agree: side
 //! 1 uses contours, angles and slides, side 2 absolute coordinates.
 
 use crate::common::assert_within;
 use crate::common::higher::{Among, FAMILIES, Family, mechanism};
-use crate::common::sketch::Random;
+use crate::common::sketch::RandomSource;
 use analytic::{AssurSolver, NewtonSolver};
 use linkage::ErrorKind;
 use linkage::math::KeepNan;
@@ -32,7 +32,7 @@ fn nearness(trajectory: &Trajectory, crank: f64) -> f64 {
 /// Largest difference of the two sides for each stage, as a share of the mechanism's size; then the numbers of
 /// mechanisms that were solved and that began as drawn.
 fn worst(family: &Family, among: Among, tries: usize) -> ([f64; 5], usize, usize) {
-    let mut random = Random::from_seed(7);
+    let mut random = RandomSource::from_seed(7);
     let (mut worst, mut solved, mut as_drawn) = ([0.0f64; 5], 0, 0);
     for _ in 0..tries {
         let (spec, drawn) = mechanism(&mut random, family, among);

@@ -6,7 +6,7 @@ mod balance;
 mod symmetry;
 mod turns;
 
-use crate::common::random::{REACH, Sample, for_each, within};
+use crate::common::random::{DyadSpecimen, REACH, for_each, within};
 use crate::common::{centre, centre_acceleration, centre_velocity, states};
 use linkage::math::{KeepNan, Vec2};
 use linkage::solver::{Solver, State};
@@ -31,7 +31,7 @@ struct Around {
 }
 
 impl Around {
-    fn of(solver: &dyn Solver, sample: &Sample, t: f64) -> Self {
+    fn of(solver: &dyn Solver, sample: &DyadSpecimen, t: f64) -> Self {
         let case = &sample.scenario.case;
         let spacing = TURN / case.crank().at(0.0).rate.abs();
         let times = [-4.0, -2.0, -1.0, 0.0, 1.0, 2.0, 4.0].map(|k| t + k * spacing);

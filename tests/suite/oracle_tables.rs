@@ -13,7 +13,7 @@ use prover::proof::{Options, prove};
 use prover::tolerance::BoundBasis;
 use scenario::Scenario;
 
-use crate::versus::digits::{Format, Random};
+use crate::versus::digits::{Format, RandomSource};
 
 /// A column of instants: format, size of its unit, name.
 type Instants = (Format, f64, &'static str);
@@ -52,7 +52,7 @@ struct Table {
 
 impl Table {
     /// Some channels at instants of no plain step, in units and formats by chance.
-    fn of(case: &Case, instants: Instants, random: &mut Random) -> Table {
+    fn of(case: &Case, instants: Instants, random: &mut RandomSource) -> Table {
         let name = instants.2;
         let (rows, last) = (40, case.grid.times.iter().copied().fold(0.0, KeepNan::larger));
         let grid = match name.starts_with("crank") {
@@ -89,7 +89,12 @@ impl Table {
     }
 }
 
-fn column(channel: &Channel, values: &[f64], right: &Trajectory, random: &mut Random) -> (String, Format, Vec<f64>) {
+fn column(
+    channel: &Channel,
+    values: &[f64],
+    right: &Trajectory,
+    random: &mut RandomSource,
+) -> (String, Format, Vec<f64>) {
     let name = channel.to_string();
     let other = [("angle_rad", "angle_deg", 180.0 / std::f64::consts::PI), ("x_m", "x_mm", 1e3), ("y_m", "y_mm", 1e3)];
     let in_other = other.iter().find(|(si, ..)| name.ends_with(&format!(".{si}")) && random.index(2) == 0);
@@ -161,7 +166,7 @@ fn right_tables_are_never_refused_by_time_or_crank_angle() {
         let scenario = text(path);
         let case = Scenario::parse(&scenario, Path::new("x.toml")).unwrap_or_else(|error| panic!("{error}")).case;
         let by_crank: &[Instants] = if case.is_steady() && !case.is_free() { &CRANKS } else { &[] };
-        let mut random = Random(seed as u64);
+        let mut random = RandomSource(seed as u64);
         let of = |&instants| Table::of(&case, instants, &mut random);
         let tables: Vec<Table> = TIMES.iter().chain(by_crank).map(of).collect();
         for check in checks(&scenario, &tables) {
@@ -186,7 +191,7 @@ fn a_wrong_number_is_found_among_rounded_instants() {
         let speed = case.crank().constant_speed().unwrap();
         let mut tables = Vec::new();
         for instants in TIMES.into_iter().chain(CRANKS) {
-            let mut table = Table::of(&case, instants, &mut Random(0));
+            let mut table = Table::of(&case, instants, &mut RandomSource(0));
             let is_crank = instants.2.starts_with("crank");
             let own = match is_crank {
                 true => Grid::of_inputs(case.crank(), table.at.clone()),
@@ -218,7 +223,7 @@ fn a_wrong_number_is_found_among_rounded_instants() {
 fn instants_that_leave_too_much_open_prove_nothing_wrong_right() {
     let scenario = text("scenarios/crank_rocker.toml");
     let case = Scenario::parse(&scenario, Path::new("x.toml")).unwrap().case;
-    let mut table = Table::of(&case, (Format::Fixed(2), 1.0, "t_s"), &mut Random(3));
+    let mut table = Table::of(&case, (Format::Fixed(2), 1.0, "t_s"), &mut RandomSource(3));
     let grid = Grid::of_times(case.crank(), table.at.clone());
     let right = analytic::AssurSolver.solve(&case.on(grid).unwrap()).unwrap();
     let omega = right.named("link.rocker.omega_rad_s").unwrap().to_vec();
@@ -236,7 +241,7 @@ fn a_column_of_zeros_is_exact_where_the_other_columns_leave_zeros_out() {
     let scenario = text("scenarios/crank_rocker.toml");
     let case = Scenario::parse(&scenario, Path::new("x.toml")).unwrap().case;
     let verdicts = |name: &str, zero: Format| {
-        let mut table = Table::of(&case, (Format::General(9), 1.0, "t_s"), &mut Random(3));
+        let mut table = Table::of(&case, (Format::General(9), 1.0, "t_s"), &mut RandomSource(3));
         let grid = Grid::of_times(case.crank(), table.at.clone());
         let right = analytic::AssurSolver.solve(&case.on(grid).unwrap()).unwrap();
         let column = |name: &str| (name.to_string(), Format::General(9), right.named(name).unwrap().to_vec());
@@ -263,7 +268,7 @@ fn angles_may_be_whole_turns_apart() {
     ];
     let mut tables = Vec::new();
     for instants in [(Format::General(15), 1.0, "t_s"), (Format::Shortest, 1.0, "crank_rad")] {
-        let mut table = Table::of(&case, instants, &mut Random(3));
+        let mut table = Table::of(&case, instants, &mut RandomSource(3));
         let grid = match instants.2 {
             "t_s" => Grid::of_times(case.crank(), table.at.clone()),
             _ => Grid::of_inputs(case.crank(), table.at.clone()),

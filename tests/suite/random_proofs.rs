@@ -6,7 +6,7 @@ use std::path::Path;
 use crate::common::draws;
 use crate::common::higher::{Among, FAMILIES, mechanism};
 use crate::common::random::{SORTS, for_each_of};
-use crate::common::sketch::Random;
+use crate::common::sketch::RandomSource;
 use prover::proof::{Options, prove};
 use scenario::{EngineSetting, Scenario};
 
@@ -78,7 +78,7 @@ const WORK: f64 = 2e4;
 fn regress_random_higher_groups_never_disagree() {
     let mut counts = std::collections::BTreeMap::new();
     for (index, family) in FAMILIES.iter().enumerate() {
-        let mut random = Random::from_seed(30 + index as u8);
+        let mut random = RandomSource::from_seed(30 + index as u8);
         let all = [Among::Alone, Among::BehindADyad, Among::CarryingADyad, Among::Alone];
         for among in (0..draws(1).min(all.len())).map(|k| all[(index + k) % all.len()]) {
             let mut drawn = std::iter::repeat_with(|| mechanism(&mut random, family, among).0.scenario()).take(100);

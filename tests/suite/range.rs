@@ -71,7 +71,7 @@ fn started(lengths: [f64; 4], left: bool) -> Option<Spec> {
 
 #[test]
 fn limits_of_random_four_bars_are_those_of_the_law_of_cosines() {
-    let mut random = four_link::Random::from_seed(11);
+    let mut random = four_link::RandomSource::from_seed(11);
     let (mut limited, mut full, mut worst) = (0, 0, 0.0f64);
     for _ in 0..400 {
         let lengths = [0; 4].map(|_| random.number(0.1, 1.0));
@@ -97,7 +97,7 @@ fn limits_of_random_four_bars_are_those_of_the_law_of_cosines() {
 /// link.
 #[test]
 fn grashof_types_agree_with_turns_that_were_followed() {
-    let mut random = four_link::Random::from_seed(12);
+    let mut random = four_link::RandomSource::from_seed(12);
     let mut counts = [0; 5];
     for _ in 0..300 {
         let lengths = [0; 4].map(|_| random.number(0.1, 1.0));
@@ -285,7 +285,7 @@ fn two_groups_with_one_dead_point() {
 /// two fewer beyond the limit.
 #[test]
 fn groups_of_four_links_lose_two_configurations_at_their_limits() {
-    let mut random = four_link::Random::from_seed(13);
+    let mut random = four_link::RandomSource::from_seed(13);
     for triad in [true, false] {
         let (mut limits_seen, mut full) = (0, 0);
         for _ in 0..150 {

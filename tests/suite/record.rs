@@ -7,7 +7,7 @@ use linkage::ErrorKind;
 use linkage::math::{Motion, Vec2, cross, turned, unit};
 use linkage::mechanism::{Joint, JointKind, JointSide as On, Link, LinkId, Mechanism, Point};
 use linkage::trajectory::{CHANNELS, Channel, ChannelSubject, Stage, Trajectory};
-use recording::{JointSide, Level, LogEntry, Recording, Show, load, write};
+use recording::{Level, LogEntry, RecordedSide, Recording, Show, load, write};
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 use std::fs;
@@ -204,13 +204,13 @@ impl Run {
 
     fn write(&self, path: &Path) -> linkage::Result<()> {
         let sides = [
-            JointSide { name: "reference", trajectory: &self.reference },
-            JointSide { name: "engine", trajectory: &self.engine },
+            RecordedSide { name: "reference", trajectory: &self.reference },
+            RecordedSide { name: "engine", trajectory: &self.engine },
         ];
         write(&self.recording(&sides), path)
     }
 
-    fn recording<'a>(&'a self, sides: &'a [JointSide<'a>]) -> Recording<'a> {
+    fn recording<'a>(&'a self, sides: &'a [RecordedSide<'a>]) -> Recording<'a> {
         Recording {
             name: "four_bar",
             scenario_text: "name = \"four_bar\"\n",
@@ -396,7 +396,7 @@ fn names_that_would_mix_topics_are_refused() {
     let directory = tempfile::tempdir().unwrap();
     let run = Run::over(turn(3));
     for names in [["", "b"], ["a/b", "c"], ["a", "a"], ["error", "b"], ["mechanism", "b"]] {
-        let sides = names.map(|name| JointSide { name, trajectory: &run.reference });
+        let sides = names.map(|name| RecordedSide { name, trajectory: &run.reference });
         let error = write(&run.recording(&sides), &directory.path().join("x.mcap")).unwrap_err();
         assert_eq!(error.kind(), ErrorKind::Input, "{names:?}");
     }

@@ -28,7 +28,7 @@ fn numbers(proof: &Proof) -> Vec<(f64, f64, String)> {
     proof.engine().channels.iter().map(of).collect()
 }
 
-/// Random correct mechanisms of all ten kinds of shape, with masses over four decades, without any setting.
+/// RandomSource correct mechanisms of all ten kinds of shape, with masses over four decades, without any setting.
 #[test]
 fn random_mechanisms_end_in_agreement_by_themselves() {
     let mut open = Vec::new();

@@ -3,7 +3,7 @@
 
 use crate::common::higher::{Among, FAMILIES, mechanism};
 use crate::common::random::for_each;
-use crate::common::sketch::Random;
+use crate::common::sketch::RandomSource;
 use crate::common::sliders;
 use crate::common::spec::{Spec, four_bar};
 use crate::common::{assert_within, shipped, states};
@@ -276,7 +276,7 @@ fn nearness(case: &Case, truth: &Trajectory) -> f64 {
 fn random_higher_groups_agree() {
     let mut solved = 0;
     for (index, family) in FAMILIES.iter().enumerate() {
-        let mut random = Random::from_seed(60 + index as u8);
+        let mut random = RandomSource::from_seed(60 + index as u8);
         for among in [Among::Alone, Among::BehindADyad, Among::CarryingADyad] {
             let (spec, _) = mechanism(&mut random, family, among);
             let Ok(scenario) = spec.scenario() else { continue };

@@ -95,6 +95,6 @@ fn another_start_leaves_numbers_at_times_out() {
         series.filter(|series| series.instants().any(|at| at.time().is_some())).count()
     };
     assert!(timed(&Scenario::load(&path).unwrap()) > 30);
-    let asked = StartRequest { crank: Some(0.1), ..Asked::default() };
+    let asked = StartRequest { crank: Some(0.1), ..StartRequest::default() };
     assert_eq!(timed(&Scenario::load_as(&path, &asked).unwrap()), 0);
 }

@@ -105,7 +105,7 @@ fn numbers_at_a_time_see_the_course_of_a_run_up() {
     for (text, is_seen) in [(disc(REDUCER) + &oracle, true), (disc(REDUCER), false)] {
         let scenario = Scenario::parse(&text, Path::new("flywheel.toml")).unwrap_or_else(|error| panic!("{error}"));
         let kinds = COURSE.map(String::from).to_vec();
-        let asked = MutationPlan { kinds, parties: vec![FaultyParty::All], ..Asked::default() };
+        let asked = MutationPlan { kinds, parties: vec![FaultyParty::All], ..MutationPlan::default() };
         let found = mutate(&scenario, &asked, &mut |_| {}).unwrap();
         assert_eq!(found.mutants.len(), COURSE.len(), "{:?}", found.without);
         for mutant in &found.mutants {

@@ -75,7 +75,7 @@ fn regress_the_range_of_a_large_mechanism_is_work() {
 fn regress_faults_are_planted_within_the_work_that_is_allowed() {
     let chain = named("chain").expect("there are chains");
     let large = Scenario::of_case("chain", (chain.setup)(100.0, 0, 0).unwrap().case).unwrap();
-    let asked = MutationPlan { options: Options::default().budget(1e4), ..Asked::default() };
+    let asked = MutationPlan { options: Options::default().budget(1e4), ..MutationPlan::default() };
     let (found, work) = counted(|| mutate(&large, &asked, &mut |_| {}));
     let error = found.err().expect("600 faults in 100 four-bars are too many");
     assert!(error.message().contains("planting") && error.message().contains("1.0e5 are allowed"), "{error}");

@@ -268,7 +268,8 @@ fn a_drift_is_no_number_of_the_case() {
         }),
         named: &[],
     };
-    let how = ComparisonRule { allowed: vec![Allowed { of: None, size: Size::Relative(1e-5) }], ..How::default() };
+    let how =
+        ComparisonRule { allowed: vec![Allowed { of: None, size: Size::Relative(1e-5) }], ..ComparisonRule::default() };
     let found = wrong.compared_by(&how, |_| ());
     let told = "the error grows with time, about with its power of 2: integration, or the step of it";
     assert_eq!(words(&found), [(vec![told.to_string()], None)]);

@@ -97,7 +97,7 @@ fn crank_rocker_starts_where_two_circles_meet() {
             "Newton and Euler at 70 deg"
         ]
     );
-    assert_eq!(scenario.oracles[2].figures[0].figure, Figure::ReducedInertiaMean);
+    assert_eq!(scenario.oracles[2].figures[0].figure, MechanismFigure::ReducedInertiaMean);
     let printed = &scenario.oracles[4].figures;
     assert_eq!((printed[0].printed.value, printed[0].printed.bound), (0.013, 0.0005 * (1.0 + 1e-9)));
     let (finding, right) = printed[0].wrong.as_ref().unwrap();
@@ -109,7 +109,7 @@ fn crank_rocker_starts_where_two_circles_meet() {
         link: LinkId(link),
         local: scenario.case.mechanism.links()[LinkId(link)].points[0].local,
     });
-    assert_eq!(printed[0].figure, Figure::Distance([ground, coupler]));
+    assert_eq!(printed[0].figure, MechanismFigure::Distance([ground, coupler]));
     let known = |index: usize| scenario.oracles[index].basis;
     assert_eq!([0, 2, 4].map(known), [OracleBasis::Derived, OracleBasis::Recomputed, OracleBasis::Published]);
 }
@@ -169,8 +169,8 @@ fn links_keep_the_order_of_the_file_when_their_points_come_first() {
     let text = "[links.b.points]\n[links.a]\n[links.b]\n[links.c]\n";
     let source = Source::new(Path::new("x.toml"), text);
     let tree = source.tree().unwrap();
-    let links = Table::root(&source, &tree).table("links").unwrap().all_tables().unwrap();
-    let names: Vec<&str> = links.iter().map(Table::name).collect();
+    let links = TomlTable::root(&source, &tree).table("links").unwrap().all_tables().unwrap();
+    let names: Vec<&str> = links.iter().map(TomlTable::name).collect();
     // The order of the headers counts, as for a reader of the file.
     assert_eq!(names, ["a", "b", "c"]);
 }

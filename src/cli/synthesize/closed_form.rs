@@ -84,7 +84,7 @@ pub(super) struct CrankRockerArgs {
 
 pub(super) fn crank_rocker(args: &CrankRockerArgs) -> Result<()> {
     let place = |[x, y]: [f64; 2]| Vec2::new(x / 1e3, y / 1e3);
-    let wish = crank_rocker::Wish {
+    let wish = crank_rocker::CrankRockerSpec {
         crank_pivot: place(args.crank_pivot_mm),
         rocker_pivot: place(args.pivot_mm),
         rocker: args.rocker_mm / 1e3,

@@ -5,7 +5,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
-use super::sketch::Random;
+use super::sketch::RandomSource;
 use super::specimens::specimen;
 
 /// A damaged scenario: the path that it is read as, its text, and what was done to it.
@@ -36,7 +36,7 @@ pub static SHIPPED: LazyLock<Vec<(PathBuf, String)>> = LazyLock::new(|| {
 
 /// The damaged scenario with this number of a seed.
 pub fn damaged(seed: u64, index: u64) -> Damaged {
-    let mut random = Random::of_sample(seed, index);
+    let mut random = RandomSource::of_sample(seed, index);
     let (path, mut text) = match random.index(3) {
         0 => {
             let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/random.toml");
@@ -122,7 +122,7 @@ const TEXTS: [&str; 24] = [
     "\"revolute\"",
 ];
 
-fn damage(random: &mut Random, text: &mut String) -> String {
+fn damage(random: &mut RandomSource, text: &mut String) -> String {
     let lines = |text: &str| text.lines().map(String::from).collect::<Vec<String>>();
     match random.index(16) {
         0..=4 => {
@@ -223,7 +223,7 @@ fn damage(random: &mut Random, text: &mut String) -> String {
 }
 
 /// Another grid: reversed, empty, of one instant, far, fine, or of a list.
-fn grid(random: &mut Random, text: &mut String) -> String {
+fn grid(random: &mut RandomSource, text: &mut String) -> String {
     const GRIDS: [&str; 14] = [
         "from_deg = 360\nto_deg = 0\nstep_deg = 1",
         "from_deg = 360\nto_deg = 0\nstep_deg = -90",
@@ -251,7 +251,7 @@ fn grid(random: &mut Random, text: &mut String) -> String {
     format!("grid {new:?}")
 }
 
-fn one(random: &mut Random, all: Vec<Range<usize>>) -> Option<Range<usize>> {
+fn one(random: &mut RandomSource, all: Vec<Range<usize>>) -> Option<Range<usize>> {
     (!all.is_empty()).then(|| all[random.index(all.len())].clone())
 }
 
@@ -308,7 +308,7 @@ fn words(text: &str, is_own: impl Fn(char) -> bool) -> Vec<Range<usize>> {
     found
 }
 
-fn misspelt(random: &mut Random, key: &str) -> String {
+fn misspelt(random: &mut RandomSource, key: &str) -> String {
     let mut letters: Vec<char> = key.chars().collect();
     let place = random.index(letters.len());
     match random.index(5) {

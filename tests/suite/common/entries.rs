@@ -115,10 +115,10 @@ pub fn structure(bytes: &[u8]) -> Result<()> {
     Ok(())
 }
 
-type Drawn = (Mechanism, Vec<JointId>);
+type DrawnJoint = (Mechanism, Vec<JointId>);
 
 /// Up to 64 links with joints between any two of them, and up to four drives.
-fn mechanism(from: &mut Unstructured) -> Result<std::result::Result<Drawn, Error>> {
+fn mechanism(from: &mut Unstructured) -> Result<std::result::Result<DrawnJoint, Error>> {
     let moving = from.int_in_range(1..=63usize)?;
     let drives = from.int_in_range(1..=4usize)?;
     // Half of the drawings have the number of joints that the mobility asks for.

@@ -1,19 +1,19 @@
-//! Random mechanisms with one group of four links, the same in every run.
+//! RandomSource mechanisms with one group of four links, the same in every run.
 
 use std::fmt::Write;
 use std::path::Path;
 
 use scenario::Scenario;
 
-pub use super::sketch::Random;
+pub use super::sketch::RandomSource;
 
-fn place(random: &mut Random) -> [f64; 2] {
+fn place(random: &mut RandomSource) -> [f64; 2] {
     [random.number(-0.5, 0.5), random.number(-0.5, 0.5)]
 }
 
 /// A link whose frame has its origin in its first point and the world's axes. So its points are differences of
 /// coordinates.
-fn link(text: &mut String, random: &mut Random, name: &str, points: &[(&str, [f64; 2])]) {
+fn link(text: &mut String, random: &mut RandomSource, name: &str, points: &[(&str, [f64; 2])]) {
     let origin = points[0].1;
     let local = |p: [f64; 2]| format!("{{ x_m = {:?}, y_m = {:?} }}", p[0] - origin[0], p[1] - origin[1]);
     let (mass, inertia, centre) = (random.number(0.2, 3.0), random.number(0.01, 0.1), place(random));
@@ -28,7 +28,7 @@ fn link(text: &mut String, random: &mut Random, name: &str, points: &[(&str, [f6
 }
 
 /// A mechanism with one group of four links, described in a pose that it can take: links, joints, ground points.
-pub fn scenario(random: &mut Random, triad: bool) -> Scenario {
+pub fn scenario(random: &mut RandomSource, triad: bool) -> Scenario {
     let mut text = String::from("format = 1\nname = \"random\"\ntitle = \"random\"\n[ground.points]\n");
     let places: Vec<[f64; 2]> = (0..8).map(|_| place(random)).collect();
     let at = |k: usize| places[k];

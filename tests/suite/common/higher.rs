@@ -1,9 +1,9 @@
-//! Random mechanisms with a higher group, alone or together with dyads; any joint of the group may be prismatic.
+//! RandomSource mechanisms with a higher group, alone or together with dyads; any joint of the group may be prismatic.
 
 use linkage::math::Vec2;
 
 use super::random::{SORTS, dyad, sort};
-use super::sketch::{Drawn, Random, Sketch};
+use super::sketch::{DrawnJoint, RandomSource, SpecimenSketch};
 use super::spec::{Ask, Spec, Start};
 
 /// End of a joint: a link of the group, or the link that the group is joined to.
@@ -141,8 +141,12 @@ pub enum Among {
 const ROUGH: f64 = 0.01;
 
 /// A mechanism with such a group; its start is given by rough places of its joints.
-pub fn mechanism(random: &mut Random, family: &Family, among: Among) -> (Spec, Vec<linkage::mechanism::LinkPose>) {
-    let mut sketch = Sketch::new(random, [0.02, 0.05]);
+pub fn mechanism(
+    random: &mut RandomSource,
+    family: &Family,
+    among: Among,
+) -> (Spec, Vec<linkage::mechanism::LinkPose>) {
+    let mut sketch = SpecimenSketch::new(random, [0.02, 0.05]);
     sketch.spec.grid = (sketch.spec.start - 0.25, 0.05, 10);
     let mut driver = 1;
     if among == Among::BehindADyad {
@@ -160,8 +164,9 @@ pub fn mechanism(random: &mut Random, family: &Family, among: Among) -> (Spec, V
 }
 
 /// Draws the group, joined to `driver`, and asks for its start.
-fn links(sketch: &mut Sketch, family: &Family, driver: usize) -> Vec<usize> {
-    let place = |sketch: &mut Sketch| Vec2::new(sketch.random.number(-0.5, 0.5), sketch.random.number(-0.5, 0.5));
+fn links(sketch: &mut SpecimenSketch, family: &Family, driver: usize) -> Vec<usize> {
+    let place =
+        |sketch: &mut SpecimenSketch| Vec2::new(sketch.random.number(-0.5, 0.5), sketch.random.number(-0.5, 0.5));
     let mut own = Vec::new();
     for _ in 0..family.topology.links {
         let at = place(sketch);
@@ -178,7 +183,7 @@ fn links(sketch: &mut Sketch, family: &Family, driver: usize) -> Vec<usize> {
         let at = if is_on_crank { sketch.crank_end() } else { place(sketch) };
         let slides = family.slides.contains(&k);
         let name = sketch.next_joint();
-        let Drawn { places, .. } = sketch.join(slides, index(a), index(b), at);
+        let DrawnJoint { places, .. } = sketch.join(slides, index(a), index(b), at);
         for ((end, place), side) in [a, b].into_iter().zip(places).zip(["A", "B"]) {
             if matches!(end, Own(_)) && (slides || side == "B") {
                 let point = if slides { format!("{side}{name}") } else { name.clone() };

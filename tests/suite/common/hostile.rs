@@ -4,7 +4,7 @@
 mod spoil;
 
 use super::damage::{NUMBERS, SHIPPED, damaged};
-use super::sketch::Random;
+use super::sketch::RandomSource;
 use spoil::{announced, lengths, spoil, wide};
 
 /// The doors through which something comes in that nobody vouches for.
@@ -79,7 +79,7 @@ const MAPPING: &str = "[channels]\n\"point.B.x_mm\" = \"point.B.x_m*1000\"\n\n[t
 /// The attack with this number of a seed.
 pub fn attack(seed: u64, index: u64, good: &Good) -> Attack {
     let door = index as usize % DOORS.len();
-    let random = &mut Random::of_sample(seed, index);
+    let random = &mut RandomSource::of_sample(seed, index);
     let mut what = Vec::new();
     let (mut files, mut standard_input, mut may) = (Vec::new(), Vec::new(), Vec::new());
     // Each command has its turn at each door.
@@ -341,7 +341,7 @@ const COMMANDS: [&str; 36] = [
 ];
 
 /// A scenario, damaged as text, or with a number of parts that nobody writes by hand.
-fn scenario(random: &mut Random, seed: u64, index: u64, what: &mut Vec<String>) -> Vec<u8> {
+fn scenario(random: &mut RandomSource, seed: u64, index: u64, what: &mut Vec<String>) -> Vec<u8> {
     if random.index(4) > 0 {
         let bad = damaged(seed, index);
         what.extend(bad.what);
@@ -397,7 +397,7 @@ fn scenario(random: &mut Random, seed: u64, index: u64, what: &mut Vec<String>) 
 }
 
 /// A formula: a nest, a chain, a number, or anything.
-fn expression(random: &mut Random, what: &mut Vec<String>) -> String {
+fn expression(random: &mut RandomSource, what: &mut Vec<String>) -> String {
     let deep = [3, 10, 100, 1000, 20_000, 200_000][random.index(6)];
     let inner = ["phi", "t", "k1", "1e308", "0", "1/0", "ln(-1)", "x", "", "pi*phi^2"][random.index(10)];
     let kind = random.index(12);
@@ -426,7 +426,7 @@ fn expression(random: &mut Random, what: &mut Vec<String>) -> String {
 }
 
 /// A peer: what it says, what it writes, and how it ends.
-fn peer(random: &mut Random, good: &Good, what: &mut Vec<String>) -> Vec<(String, Vec<u8>)> {
+fn peer(random: &mut RandomSource, good: &Good, what: &mut Vec<String>) -> Vec<(String, Vec<u8>)> {
     let mut ways = br#"[{"name": "as it is", "resolution": "none", "dt": 0.001}]"#.to_vec();
     let mut answer =
         br#"{"version": "MuJoCo 4.0", "seconds": [0.0102, 0.0101], "work": {"steps": 4000, "sweeps": 16361}}"#.to_vec();

@@ -1,10 +1,10 @@
-//! Random loads of all sorts, as text of a scenario.
+//! RandomSource loads of all sorts, as text of a scenario.
 
 use linkage::case::Case;
 use linkage::mechanism::LinkId;
 use std::fmt::Write;
 
-use super::sketch::Random;
+use super::sketch::RandomSource;
 
 /// Natural magnitudes of a mechanism; those of loads are multiples of them from 0.2 to 2.
 #[derive(Clone, Copy, Debug)]
@@ -18,7 +18,7 @@ pub struct Sizes {
 }
 
 /// `count` loads of random sorts.
-pub fn loads(random: &mut Random, case: &Case, count: usize, sizes: Sizes) -> String {
+pub fn loads(random: &mut RandomSource, case: &Case, count: usize, sizes: Sizes) -> String {
     let Sizes { force, length, speed } = sizes;
     let links = case.mechanism.links();
     let mut text = String::new();
@@ -90,8 +90,8 @@ pub fn loads(random: &mut Random, case: &Case, count: usize, sizes: Sizes) -> St
 }
 
 /// A table over two turns of the crank, of values up to `size`.
-fn table(random: &mut Random, names: &[&str], size: f64) -> String {
-    let row = |random: &mut Random, k: usize| {
+fn table(random: &mut RandomSource, names: &[&str], size: f64) -> String {
+    let row = |random: &mut RandomSource, k: usize| {
         let mut row = format!("crank_deg = {:?}", -400.0 + 110.0 * k as f64 + random.number(0.0, 100.0));
         for name in names {
             write!(row, ", {name} = {:?}", size * random.number(-1.0, 1.0)).unwrap();

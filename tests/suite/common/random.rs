@@ -1,4 +1,4 @@
-//! Random mechanisms of dyads of all five kinds, the same in every run.
+//! RandomSource mechanisms of dyads of all five kinds, the same in every run.
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -10,7 +10,7 @@ use proptest::test_runner::TestCaseError;
 
 use super::assert_within;
 use super::dial::accepts;
-use super::sketch::Random;
+use super::sketch::RandomSource;
 
 /// Checks that the mode asked for gives the pose that was drawn.
 fn starts_as_drawn(sample: &DyadSpecimen, drawn: &[LinkPose]) {
@@ -35,7 +35,7 @@ pub fn for_each_of(
     count: u32,
     check: impl Fn(&DyadSpecimen) -> Result<(), TestCaseError>,
 ) {
-    let mut random = Random::from_seed(5);
+    let mut random = RandomSource::from_seed(5);
     let (mut checked, mut drawn, mut sorts) = (0, 0, BTreeMap::new());
     while checked < count {
         drawn += 1;

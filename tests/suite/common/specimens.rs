@@ -1,4 +1,4 @@
-//! Random correct mechanisms of all kinds, as scenario text, from a seed and a number.
+//! RandomSource correct mechanisms of all kinds, as scenario text, from a seed and a number.
 //!
 //! Sizes are from 1 mm to 10 m, masses spread over four decades within a mechanism, speeds are from 0.1 to 3000 rpm of
 //! either sense. Motions are prescribed or free. Loads are of all sorts, each of the size of inertia forces and weight.
@@ -17,7 +17,7 @@ use linkage::math::{KeepNan, Vec2, unit};
 use linkage::solver::{Solver, State};
 
 use super::loads::{Sizes, loads};
-use super::sketch::Random;
+use super::sketch::RandomSource;
 use super::spec::Spec;
 use shapes::{Shape, short};
 
@@ -41,7 +41,7 @@ impl Specimen {
 
 /// The specimen with this number of a seed. `dropped` counts the drawings that were not used, by reason.
 pub fn specimen(seed: u64, index: u64, dropped: &mut BTreeMap<String, usize>) -> Specimen {
-    let mut random = Random::of_sample(seed, index);
+    let mut random = RandomSource::of_sample(seed, index);
     // Decided here: a free drawing is dropped more often than another.
     let is_free = random.number(0.0, 1.0) < 0.4;
     loop {
@@ -55,7 +55,7 @@ pub fn specimen(seed: u64, index: u64, dropped: &mut BTreeMap<String, usize>) ->
     }
 }
 
-fn drawn(random: &mut Random, index: u64, is_free: bool) -> Result<Specimen, String> {
+fn drawn(random: &mut RandomSource, index: u64, is_free: bool) -> Result<Specimen, String> {
     let Shape { sort, spec, safe } = shapes::shape(random, index)?;
     let unscaled = spec.scenario().map_err(|error| short(error.message()))?.case.mechanism.size();
     let size = random.decades(1e-3, 10.0);
@@ -110,7 +110,7 @@ fn drawn(random: &mut Random, index: u64, is_free: bool) -> Result<Specimen, Str
 
 /// Masses over four decades, mass centres off all lines. A few links of prescribed motions have no mass, or are point
 /// masses.
-fn masses(random: &mut Random, spec: &mut Spec, size: f64, bare: bool) {
+fn masses(random: &mut RandomSource, spec: &mut Spec, size: f64, bare: bool) {
     let heaviest = 100.0 * size * size * random.decades(0.3, 3.0);
     for body in &mut spec.links {
         let middle = body.points.iter().map(|(_, at)| at).sum::<Vec2>() / body.points.len() as f64;

@@ -1,4 +1,4 @@
-//! Random faults of the case: one number of one part changed by a random share.
+//! RandomSource faults of the case: one number of one part changed by a random share.
 
 use super::{Outcome, examined, outcome, parsed, text, told};
 use linkage::case::{Case, CaseParts, Grid};
@@ -6,9 +6,9 @@ use linkage::mechanism::{AssemblyMode, Link, LinkId, Mechanism, StartGroup, firs
 use linkage::solver::Solver;
 
 /// Numbers from 0 to 1, the same in every run.
-struct Random(u64);
+struct RandomSource(u64);
 
-impl Random {
+impl RandomSource {
     fn next(&mut self) -> f64 {
         self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 11) as f64 / (1u64 << 53) as f64
@@ -32,7 +32,7 @@ fn with_links(parts: &mut CaseParts, change: impl FnOnce(&mut [Link])) {
 }
 
 /// A case with a random fault, and the words that name it.
-fn planted(case: &Case, random: &mut Random) -> Option<(Case, String)> {
+fn planted(case: &Case, random: &mut RandomSource) -> Option<(Case, String)> {
     let mut parts = case.clone().into_parts();
     let link = LinkId(1 + random.below(parts.mechanism.links().len() - 1));
     let name = parts.mechanism.links()[link].name.clone();
@@ -115,7 +115,7 @@ fn random_faults_are_named() {
         "pendulum",
         "crank_rocker_runup",
     ];
-    let (mut random, mut counts, mut lines) = (Random(7), [0; 4], Vec::new());
+    let (mut random, mut counts, mut lines) = (RandomSource(7), [0; 4], Vec::new());
     for name in names {
         let case = parsed(name, &text(name)).case;
         let mut done = 0;

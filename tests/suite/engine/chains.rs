@@ -9,14 +9,14 @@ use prover::compare::residuals;
 
 use super::solve;
 use crate::common::assert_within;
-use crate::common::spec::{Body, Dyad, Pin, Spec, four_bar};
+use crate::common::spec::{Dyad, Pin, Spec, SpecimenLink, four_bar};
 
 /// A four-bar and four more dyads behind it. Each dyad is a parallelogram except that its coupler is a little longer.
 /// With the ground there are twelve links.
 fn twelve_links() -> Spec {
     let (base, coupler, rocker) = (0.45, 0.47, 0.3);
     let mut spec = four_bar([0.4, 0.1, 0.35, rocker], true);
-    let rod = |name: &str, [from, to]: [&str; 2], length: f64| Body {
+    let rod = |name: &str, [from, to]: [&str; 2], length: f64| SpecimenLink {
         name: name.into(),
         points: vec![(from.into(), Vec2::zeros()), (to.into(), Vec2::new(length, 0.0))],
         mass: Some((10.0 * length, Vec2::new(length / 2.0, 0.0), 10.0 * length.powi(3) / 12.0)),

@@ -3,7 +3,7 @@
 use analytic::AssurSolver;
 use linkage::case::Case;
 use linkage::math::{KeepNan, Vec2};
-use rapier_twin::tree::Tree;
+use rapier_twin::tree::SpanningTree;
 use rapier_twin::world::World;
 use rapier_twin::{Build, Precision, Rapier};
 
@@ -24,7 +24,7 @@ struct Reading {
 }
 
 /// The multibody's world of a case in its start pose, with its drives at their speeds.
-pub fn moving(case: &Case, build: Build, tree: Tree, dt: f64) -> Box<dyn World> {
+pub fn moving(case: &Case, build: Build, tree: SpanningTree, dt: f64) -> Box<dyn World> {
     let mut world = Rapier::new(build, Precision::Double, dt).world(case, tree, true).unwrap();
     for (index, drive) in case.drives.iter().enumerate() {
         world.set_drive(index, drive.at(0.0).rate);
@@ -33,7 +33,7 @@ pub fn moving(case: &Case, build: Build, tree: Tree, dt: f64) -> Box<dyn World> 
 }
 
 /// Readings after every step up to `end` (s).
-fn read(case: &Case, build: Build, tree: &Tree, dt: f64, end: f64) -> Vec<Reading> {
+fn read(case: &Case, build: Build, tree: &SpanningTree, dt: f64, end: f64) -> Vec<Reading> {
     let mut world = moving(case, build, tree.clone(), dt);
     let mut readings = Vec::new();
     for n in 1..=(end / dt).round() as usize {
@@ -46,16 +46,18 @@ fn read(case: &Case, build: Build, tree: &Tree, dt: f64, end: f64) -> Vec<Readin
 }
 
 /// Every build with a tree for it; for the multibody, trees that together cut every joint.
-fn builds(case: &Case) -> Vec<(Build, Tree)> {
-    let mut builds = vec![(Build::Impulse, Tree::none(&case.mechanism))];
+fn builds(case: &Case) -> Vec<(Build, SpanningTree)> {
+    let mut builds = vec![(Build::Impulse, SpanningTree::none(&case.mechanism))];
     builds.extend(
-        Tree::covering(&case.mechanism, &case.wanted_reactions()).into_iter().map(|tree| (Build::Multibody, tree)),
+        SpanningTree::covering(&case.mechanism, &case.wanted_reactions())
+            .into_iter()
+            .map(|tree| (Build::Multibody, tree)),
     );
     builds
 }
 
 /// Largest errors of forces and torque after the settling steps, relative to the largest values.
-fn errors(case: &Case, (build, tree): &(Build, Tree), dt: f64, end: f64, from: f64) -> [f64; 2] {
+fn errors(case: &Case, (build, tree): &(Build, SpanningTree), dt: f64, end: f64, from: f64) -> [f64; 2] {
     let readings = read(case, *build, tree, dt, end);
     let readings = &readings[SETTLED.max((from / dt) as usize)..];
     let times: Vec<f64> = readings.iter().map(|reading| reading.time - dt).collect();
@@ -97,7 +99,7 @@ fn regress_10_a_weight_at_rest_is_reported_in_world_axes_whichever_body_is_first
             // At this speed the first-order error, about the turn in one step, is 1e-9; 6e-10 and 3e-9 were measured.
             found.iter().for_each(|error| assert_within!(*error, 1e-8, "{build:?}: {found:?}"));
         }
-        let joint = Tree::of(&case.mechanism).cut[0];
+        let joint = SpanningTree::of(&case.mechanism).cut[0];
         let first = case.mechanism.joints()[joint].first.link;
         assert!(case.start.0[first].angle.sin().abs() > 0.1 && case.start.0[first].angle.cos().abs() > 0.1);
     }
@@ -130,7 +132,7 @@ fn regress_11_native_force_and_torque_converge_with_first_order() {
 #[test]
 fn regress_12_velocities_are_one_step_late() {
     let case = four_bar([0.4, 0.1, 0.35, 0.3], true).scenario().unwrap().case;
-    let (dt, tree) = (1e-3, Tree::of(&case.mechanism));
+    let (dt, tree) = (1e-3, SpanningTree::of(&case.mechanism));
     let readings = read(&case, Build::Multibody, &tree, dt, 0.6);
     let readings = &readings[SETTLED..];
     let error = |late: f64| {
@@ -158,7 +160,7 @@ fn regress_13_fast_cranks_are_not_capped() {
     let mut spec = four_bar([0.4, 0.1, 0.35, 0.3], true);
     spec.speed = 900.0;
     let case = spec.scenario().unwrap().case;
-    let mut world = moving(&case, Build::Impulse, Tree::none(&case.mechanism), 1e-3);
+    let mut world = moving(&case, Build::Impulse, SpanningTree::none(&case.mechanism), 1e-3);
     let start = world.angle(case.crank().link);
     world.step();
     let turned = world.angle(case.crank().link) - start;

@@ -5,7 +5,7 @@ use linkage::case::{Case, Grid};
 use linkage::math::KeepNan;
 use linkage::mechanism::{JointSide, Link, LinkId, Mechanism};
 use linkage::solver::Solver;
-use rapier_twin::tree::Tree;
+use rapier_twin::tree::SpanningTree;
 use rapier_twin::{Build, Precision, Rapier};
 
 use super::native::moving;
@@ -45,7 +45,7 @@ fn regress_51_slide_speeds_are_one_step_late() {
             let steps = (case.grid.times.last().unwrap() / dt) as usize;
             let times: Vec<f64> = (0..=steps).map(|n| n as f64 * dt).collect();
             let truth = states(&NewtonSolver, &case, &times).unwrap();
-            let tree = Tree::of(&case.mechanism);
+            let tree = SpanningTree::of(&case.mechanism);
             let mut twin = moving(&case, Build::Multibody, tree.clone(), dt);
             let (mut now, mut late, mut size) = (0.0f64, 0.0f64, 0.0f64);
             for n in 1..=steps {
@@ -119,8 +119,11 @@ fn regress_54_the_twin_starts_in_the_start_pose() {
     for sample in sliders::all() {
         for case in [sample.case.clone(), swapped(&sample.case)] {
             for build in [Build::Multibody, Build::Impulse] {
-                let tree =
-                    if build == Build::Impulse { Tree::none(&case.mechanism) } else { Tree::of(&case.mechanism) };
+                let tree = if build == Build::Impulse {
+                    SpanningTree::none(&case.mechanism)
+                } else {
+                    SpanningTree::of(&case.mechanism)
+                };
                 let twin = moving(&case, build, tree, 1e-3);
                 for (link, body) in case.mechanism.links().entries() {
                     for point in &body.points {

@@ -5,10 +5,10 @@ use scenario::{Formula, Scenario};
 
 use super::{files, is_wrong, judged, load, rewritten};
 use crate::common::draws;
-use crate::common::sketch::Random;
+use crate::common::sketch::RandomSource;
 
 /// A random slip in a part of a formula, with the words for it; `None` if this part has none of that kind.
-fn spoiled(part: &FormulaTree, names: &[String], random: &mut Random) -> Option<(&'static str, NodeShape)> {
+fn spoiled(part: &FormulaTree, names: &[String], random: &mut RandomSource) -> Option<(&'static str, NodeShape)> {
     use Operator::{Minus, Plus, Power};
     let call = |function: Function, parts: &[FormulaTree]| NodeShape::Call(function, parts.to_vec());
     let whole = |shape: NodeShape| FormulaTree { shape, at: 0..0 };
@@ -80,7 +80,7 @@ fn change(right: &Scenario, wrong: &Scenario, name: &str) -> f64 {
 /// Plants mistakes in exact formulas of the library. All that change a value are found; how many are called by name?
 fn planted(seed: u64, count: usize) -> (usize, usize) {
     let scenarios: Vec<Scenario> = files().iter().map(|path| load(path)).filter(|own| !own.case.is_free()).collect();
-    let mut random = Random::of_sample(seed, 0);
+    let mut random = RandomSource::of_sample(seed, 0);
     let (mut all, mut named) = (0, 0);
     while all < count {
         let scenario = &scenarios[random.index(scenarios.len())];

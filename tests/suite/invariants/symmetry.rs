@@ -9,7 +9,7 @@ use linkage::solver::{Solver, State};
 use proptest::test_runner::TestCaseError;
 
 use super::COUNT;
-use crate::common::random::{Sample, for_each, within};
+use crate::common::random::{DyadSpecimen, for_each, within};
 use crate::common::spec::{Spec, Start};
 use crate::common::states;
 
@@ -18,7 +18,7 @@ use crate::common::states;
 const ROUNDING: f64 = 1e-12;
 
 /// States of both problems over the grid of the first, at equal crank angles times `sense`.
-fn pairs(solver: &dyn Solver, sample: &Sample, two: &Case, sense: f64) -> Vec<(State, State)> {
+fn pairs(solver: &dyn Solver, sample: &DyadSpecimen, two: &Case, sense: f64) -> Vec<(State, State)> {
     let one = &sample.scenario.case;
     let times = one.grid.inputs.iter().map(|crank| two.crank().time_of(crank * sense));
     let ours = states(solver, one, &one.grid.times).expect("solvable");
@@ -43,7 +43,7 @@ fn case_of(spec: &Spec) -> Case {
     spec.scenario().unwrap_or_else(|error| panic!("{error}")).case
 }
 
-fn check(sample: &Sample, other: &Spec, sense: f64, expected: &Expected) -> Result<(), TestCaseError> {
+fn check(sample: &DyadSpecimen, other: &Spec, sense: f64, expected: &Expected) -> Result<(), TestCaseError> {
     let other = case_of(other);
     for solver in analytic::all() {
         for (ours, theirs) in pairs(solver, sample, &other, sense) {
@@ -54,7 +54,7 @@ fn check(sample: &Sample, other: &Spec, sense: f64, expected: &Expected) -> Resu
 }
 
 fn compare(
-    sample: &Sample,
+    sample: &DyadSpecimen,
     other: &Case,
     [ours, theirs]: [&State; 2],
     expected: &Expected,

@@ -1,4 +1,4 @@
-//! Random mechanisms of dyads of all kinds under random loads of all kinds.
+//! RandomSource mechanisms of dyads of all kinds under random loads of all kinds.
 
 use linkage::math::KeepNan;
 
@@ -11,23 +11,23 @@ use scenario::Scenario;
 
 use crate::common::loads::Sizes;
 use crate::common::random::{for_each, within};
-use crate::common::sketch::Random;
+use crate::common::sketch::RandomSource;
 use crate::common::{self, assert_within, shipped, states};
 
 /// Six loads of random sorts, as text.
-pub fn loads(random: &mut Random, case: &Case) -> String {
+pub fn loads(random: &mut RandomSource, case: &Case) -> String {
     common::loads::loads(random, case, 6, Sizes { force: 50.0, length: 1.0, speed: 1.0 })
 }
 
 /// The scenario of a sample under other loads.
-pub fn loaded(random: &mut Random, scenario: &Scenario) -> Scenario {
+pub fn loaded(random: &mut RandomSource, scenario: &Scenario) -> Scenario {
     let text = format!("{}\n{}", scenario.text, loads(random, &scenario.case));
     Scenario::parse(&text, &scenario.path).unwrap_or_else(|error| panic!("{error}\n{text}"))
 }
 
 #[test]
 fn reactions_balance_powers_and_momentum_on_both_sides() {
-    let random = std::cell::RefCell::new(Random::from_seed(71));
+    let random = std::cell::RefCell::new(RandomSource::from_seed(71));
     let sorts = std::cell::RefCell::new(std::collections::BTreeMap::new());
     for_each(128, |sample| {
         let scenario = loaded(&mut random.borrow_mut(), &sample.scenario);
@@ -67,7 +67,7 @@ fn reactions_balance_powers_and_momentum_on_both_sides() {
 
 #[test]
 fn higher_groups_bear_loads_too() {
-    let mut random = Random::from_seed(72);
+    let mut random = RandomSource::from_seed(72);
     for name in ["fourth_class.toml", "ov7_new.toml", "five_bar.toml"] {
         for _ in 0..4 {
             let scenario = loaded(&mut random, &shipped(name));

@@ -11,7 +11,7 @@ use linkage::math::{KeepNan, Motion, Vec2, rotated, unit};
 use linkage::trajectory::{Stage, Trajectory};
 use mcap::records::Record;
 use prost::Message;
-use recording::{Level, LogEntry, Show, Side, film, load, place, view};
+use recording::{Level, LogEntry, RecordedSide, Show, film, load, place, view};
 
 use super::{OMEGA, Run, floats, motions, reactions, turn};
 use crate::common::assert_within;
@@ -247,8 +247,10 @@ fn a_film_is_the_motion_the_forces_and_the_curves_of_its_recording() {
 #[test]
 fn a_view_begins_with_what_tells_most_and_holds_all_that_is_drawn() {
     let run = run();
-    let sides =
-        [Side { name: "reference", trajectory: &run.reference }, Side { name: "engine", trajectory: &run.engine }];
+    let sides = [
+        RecordedSide { name: "reference", trajectory: &run.reference },
+        RecordedSide { name: "engine", trajectory: &run.engine },
+    ];
     let (_directory, path, bytes) = written(&run);
     let links = said::<SceneUpdate>(&bytes, "/mechanism/links").remove(0).1;
     // Ends of everything that is drawn, link by link over all instants.

@@ -15,7 +15,7 @@ use linkage::mechanism::{GROUND, LinkPose};
 use linkage::solver::Solver;
 use linkage::trajectory::Trajectory;
 use prost::Message;
-use recording::{Recording, Show, Side, load, write};
+use recording::{RecordedSide, Recording, Show, load, write};
 use scenario::Scenario;
 
 const SLIDERS: [&str; 5] = ["compressor", "six_bar_slider", "quick_return", "scotch_yoke", "tangent"];
@@ -27,7 +27,7 @@ fn recorded(name: &str) -> (Case, Trajectory, Vec<u8>, Trajectory) {
     let trajectory = AssurSolver.solve(&case).unwrap();
     let directory = tempfile::tempdir().unwrap();
     let file = directory.path().join("slider.mcap");
-    let sides = [Side { name: "reference", trajectory: &trajectory }];
+    let sides = [RecordedSide { name: "reference", trajectory: &trajectory }];
     let recording = Recording {
         name,
         scenario_text: "",

@@ -11,9 +11,9 @@ use prover::tables::{Raw, load};
 use prover::versus::{ComparisonRule, PartyComparison};
 
 /// Numbers by chance, the same in every run (SplitMix64).
-pub(crate) struct Random(pub(crate) u64);
+pub(crate) struct RandomSource(pub(crate) u64);
 
-impl Random {
+impl RandomSource {
     pub(crate) fn index(&mut self, count: usize) -> usize {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut mixed = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -79,7 +79,7 @@ struct Printed {
 
 impl Printed {
     /// Some channels of a trajectory, in formats by chance.
-    fn of(right: &Trajectory, random: &mut Random, times: (Format, f64, &'static str), every: usize) -> Self {
+    fn of(right: &Trajectory, random: &mut RandomSource, times: (Format, f64, &'static str), every: usize) -> Self {
         let rows = (0..right.times().len()).step_by(every);
         let mut columns = Vec::new();
         for (channel, values) in right.iter() {
@@ -152,7 +152,7 @@ fn right_tables_are_never_refused_whatever_digits_each_column_has() {
         let scenario = scenario(name);
         let right = solved(&scenario);
         for (seed, times) in TIMES.into_iter().enumerate() {
-            let mut random = Random(100 * number as u64 + seed as u64);
+            let mut random = RandomSource(100 * number as u64 + seed as u64);
             // Whole tables, thin ones and those of a few rows.
             let every = [1, 3, right.times().len() / 4][seed % 3];
             let printed = Printed::of(&right, &mut random, times, every);
@@ -173,7 +173,7 @@ fn right_tables_are_never_refused_whatever_digits_each_column_has() {
 /// Three units of the last digit are told from half of one: at instants that are exact.
 #[test]
 fn a_number_that_is_wrong_by_three_units_of_its_last_digit_is_found() {
-    let (mut planted, mut random) = (0, Random(7));
+    let (mut planted, mut random) = (0, RandomSource(7));
     for name in ["crank_rocker", "offset_press", "quick_return", "compressor", "ov7_base", "scotch_yoke"] {
         let scenario = scenario(name);
         let right = solved(&scenario);

@@ -37,7 +37,7 @@ fn compared(right: &str, table: &str, lines: &[&str]) -> PartyComparison {
     let file = path("data").join(table);
     let held = Held::of_table(&load(&file).unwrap(), &mapping).unwrap_or_else(|error| panic!("{table}: {error}"));
     let parties = [ComparedParty::from(scenario(of)), ComparedParty::from(held)];
-    let how = ComparisonRule { allowed: mapping.allowed, ..How::default() };
+    let how = ComparisonRule { allowed: mapping.allowed, ..ComparisonRule::default() };
     compare(parties, &how).unwrap_or_else(|error| panic!("{table}: {error}"))
 }
 

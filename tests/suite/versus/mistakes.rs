@@ -181,7 +181,8 @@ fn a_mistake_is_named_in_numbers_that_are_not_exact() {
     let right = solved(&scenario);
     let mut columns = Columns::of(&right, "rocker", "coupler", &scenario.case);
     columns.change("angle_rad", |value| (value + 1e-3 * (7.0 * value).sin()).to_degrees());
-    let how = ComparisonRule { allowed: vec![Allowed { of: None, size: Size::Relative(0.01) }], ..How::default() };
+    let how =
+        ComparisonRule { allowed: vec![Allowed { of: None, size: Size::Relative(0.01) }], ..ComparisonRule::default() };
     for how in [ComparisonRule::default(), how] {
         let found = columns.compared("crank_rocker", &how);
         assert_eq!(found.verdict.word(), "disagree");
@@ -201,7 +202,10 @@ fn a_small_error_without_a_simple_cause_is_left_alone() {
     let told = "the error is smooth, at most 0.036 % of the scale: integration or step";
     assert_eq!((found.verdict.word(), words(&found)), ("disagree", vec![told.to_string()]));
     for (share, verdict) in [(1e-3, "agree"), (1e-5, "disagree")] {
-        let how = ComparisonRule { allowed: vec![Allowed { of: None, size: Size::Relative(share) }], ..How::default() };
+        let how = ComparisonRule {
+            allowed: vec![Allowed { of: None, size: Size::Relative(share) }],
+            ..ComparisonRule::default()
+        };
         assert_eq!(columns.compared("crank_rocker", &how).verdict.word(), verdict, "{share}");
     }
 }

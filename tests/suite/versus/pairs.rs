@@ -6,7 +6,7 @@ use prover::versus::{ComparedParty, ComparisonRule, compare as compared};
 use scenario::mapping::{Allowed, Size};
 
 fn rel(share: f64) -> ComparisonRule {
-    ComparisonRule { allowed: vec![Allowed { of: None, size: Size::Relative(share) }], ..How::default() }
+    ComparisonRule { allowed: vec![Allowed { of: None, size: Size::Relative(share) }], ..ComparisonRule::default() }
 }
 
 #[test]
@@ -98,8 +98,9 @@ fn rows_are_brought_together_by_crank_angle_too() {
     ]);
     let found = against(&scenario, &raw, &ComparisonRule::default());
     assert!(found.pairs[0].by_crank && found.verdict.word() == "agree");
-    let error =
-        compared([held(&raw), held(&raw)], &ComparisonRule { by: Some(By::Time), ..How::default() }).err().unwrap();
+    let error = compared([held(&raw), held(&raw)], &ComparisonRule { by: Some(By::Time), ..ComparisonRule::default() })
+        .err()
+        .unwrap();
     assert!(error.message().contains("no times"), "{}", error.message());
 }
 
@@ -184,7 +185,7 @@ fn a_number_is_judged_by_its_own_channel_alone() {
     let known: Vec<&str> = alpha.into_iter().filter(|name| solved(&scenario).named(name).is_some()).collect();
     assert!(known.len() >= 3, "{known:?}");
     for size in [Size::Relative(0.05), Size::OfValue(0.05)] {
-        let how = ComparisonRule { allowed: vec![Allowed { of: None, size }], ..How::default() };
+        let how = ComparisonRule { allowed: vec![Allowed { of: None, size }], ..ComparisonRule::default() };
         let judged = |names: &[&str]| {
             let mut columns = vec![("crank_deg", vec![70.0])];
             columns.extend(names.iter().map(|name| (*name, vec![if *name == alpha[0] { -80.0 } else { 3.0 }])));
@@ -283,7 +284,7 @@ fn what_they_do_not_share_is_told() {
     assert_eq!(pair.alone[1], ["link.ghost.angle_rad"]);
     let missing = ComparisonRule {
         allowed: vec![Allowed { of: Some("point.B".into()), size: Size::Relative(0.1) }],
-        ..How::default()
+        ..ComparisonRule::default()
     };
     let parties = [ComparedParty::from(scenario), held(&raw)];
     let error = compared(parties, &missing).err().unwrap();

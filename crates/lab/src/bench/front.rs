@@ -59,27 +59,27 @@ pub fn front(
 
 #[cfg(test)]
 mod tests {
-    use super::super::effort::Effort;
-    use super::super::point::{Errors, Outcome, Party, Run};
+    use super::super::effort::RunEffort;
+    use super::super::point::{AnsweredRun, BenchOutcome, Errors, MethodOwner};
     use super::*;
 
     fn point(seconds: f64, error: f64) -> BenchPoint {
         let errors = Errors { max: error, rms: error, is_limited: false };
-        let run = Run {
+        let run = AnsweredRun {
             errors: [Some(errors); 5],
             failed: Vec::new(),
             without: Vec::new(),
             seconds: vec![seconds],
-            effort: Effort::default(),
+            effort: RunEffort::default(),
         };
         BenchPoint {
             program: "p".into(),
-            party: Party::Peer,
+            party: MethodOwner::Peer,
             way: String::new(),
             resolution: String::new(),
             settings: None,
             is_usual: false,
-            outcome: Outcome::Answered(run),
+            outcome: BenchOutcome::Answered(run),
         }
     }
 

@@ -52,7 +52,7 @@ fn runs_that_are_used_again_give_the_outcome_of_new_ones() {
 #[test]
 fn a_fault_that_changes_no_exact_answer_is_not_counted() {
     let scenario = scenario("crank_rocker");
-    let asked = MutationPlan { kinds: vec!["inertia-crank".into(), "inertia".into()], ..Asked::default() };
+    let asked = MutationPlan { kinds: vec!["inertia-crank".into(), "inertia".into()], ..MutationPlan::default() };
     let found = mutate(&scenario, &asked, &mut |_| {}).unwrap();
     for mutant in &found.mutants {
         let is_none = matches!(mutant.outcome, FaultyProof::Equivalent(_));
@@ -68,7 +68,7 @@ fn regress_what_moves_an_integration_s_steps_only_changes_nothing() {
     let asked = MutationPlan {
         kinds: vec!["inertia-about-joint".into()],
         parties: vec![FaultyParty::Assur],
-        ..Asked::default()
+        ..MutationPlan::default()
     };
     let options = Options::default().budget(1e6);
     let found = mutate(&scenario, &MutationPlan { options, ..asked }, &mut |_| {}).unwrap();
@@ -81,8 +81,12 @@ fn the_smallest_size_is_found_and_half_of_it_is_lost() {
     let (scenario, options) = (scenario("crank_rocker"), Options::default());
     let stage = Stage::new(&scenario, &options).unwrap();
     for (name, party) in [("mass-heaviest", FaultyParty::Assur), ("moment", FaultyParty::Engine)] {
-        let asked =
-            MutationPlan { kinds: vec![name.into()], parties: vec![party], with_sizes: true, ..Asked::default() };
+        let asked = MutationPlan {
+            kinds: vec![name.into()],
+            parties: vec![party],
+            with_sizes: true,
+            ..MutationPlan::default()
+        };
         let found = mutate(&scenario, &asked, &mut |_| {}).unwrap();
         let smallest = found.mutants[0].smallest.unwrap();
         assert!(stage.proven(fault(name, Some(smallest)), party).is_found(), "{name}: {smallest:e}");
@@ -96,7 +100,7 @@ fn the_smallest_size_is_found_and_half_of_it_is_lost() {
 fn sliders_on_moving_guides_and_their_moments_are_seen_in_every_party() {
     let kinds = ["coriolis-missing", "velocity-guide", "guide-moment-missing", "guide-moment-sign", "guide-aside"];
     for (name, without) in [("rotary_engine", 0), ("guided_group", 0), ("offset_press", 2)] {
-        let asked = MutationPlan { kinds: kinds.map(String::from).to_vec(), ..Asked::default() };
+        let asked = MutationPlan { kinds: kinds.map(String::from).to_vec(), ..MutationPlan::default() };
         let found = mutate(&scenario(name), &asked, &mut |_| {}).unwrap();
         assert_eq!((found.verdict, found.without.len()), ("agree", without), "{name}: {:?}", found.without);
         for mutant in &found.mutants {
@@ -113,7 +117,7 @@ fn a_moment_for_one_sense_that_acts_always_is_seen_in_every_party() {
     let load = Load::Moment { link: rocker, moment: Course::Constant(-0.5), acts: Acts::Clockwise };
     rocking.case = rocking.case.with(|parts| parts.loads.push(load)).unwrap();
     rocking.oracles.clear();
-    let asked = MutationPlan { kinds: vec!["load-always".into()], ..Asked::default() };
+    let asked = MutationPlan { kinds: vec!["load-always".into()], ..MutationPlan::default() };
     let found = mutate(&rocking, &asked, &mut |_| {}).unwrap();
     assert_eq!((found.verdict, found.mutants.len()), ("agree", 4));
     for mutant in found.mutants.iter().filter(|mutant| mutant.party != FaultyParty::All) {
@@ -125,7 +129,7 @@ fn a_moment_for_one_sense_that_acts_always_is_seen_in_every_party() {
 #[test]
 fn a_wrong_gravity_for_everybody_is_seen_by_numbers_from_outside_only() {
     let asked =
-        MutationPlan { kinds: vec!["gravity-sign".into()], parties: vec![FaultyParty::All], ..Asked::default() };
+        MutationPlan { kinds: vec!["gravity-sign".into()], parties: vec![FaultyParty::All], ..MutationPlan::default() };
     let with = scenario("quick_return");
     let without = Scenario { oracles: Vec::new(), ..with.clone() };
     let outcome = |scenario: &Scenario| mutate(scenario, &asked, &mut |_| {}).unwrap().mutants.remove(0).outcome;

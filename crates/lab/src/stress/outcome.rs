@@ -99,7 +99,7 @@ pub struct PartyAtPoint {
 impl PartyAtPoint {
     /// One that has no numbers, with the reason.
     pub(super) fn failed(name: &str, why: &str) -> PartyAtPoint {
-        PartyAtPoint { name: name.into(), why: why.into(), ..Party::default() }
+        PartyAtPoint { name: name.into(), why: why.into(), ..PartyAtPoint::default() }
     }
 }
 

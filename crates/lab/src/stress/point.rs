@@ -104,7 +104,7 @@ fn of_side(side: &AnalyticSide, all: &BothSides, against: &str) -> PartyAtPoint 
         why: reason(&all.verdict),
         done: side.work.iter().map(|(what, times)| (what.name().into(), times)).collect(),
         silent: if all.silent > 0 { beyond } else { 0 },
-        ..Party::failed(side.name, "")
+        ..PartyAtPoint::failed(side.name, "")
     }
 }
 
@@ -174,7 +174,7 @@ fn of_proof(case: &Case, proof: &EngineProof, whole: &Verdict, truth: Option<(&T
         runs: proof.search.as_ref().map(|search| search.runs),
         work: proof.search.as_ref().map(|search| rounded(search.effort)),
         silent,
-        ..Party::failed(name, "")
+        ..PartyAtPoint::failed(name, "")
     }
 }
 

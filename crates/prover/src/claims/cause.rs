@@ -19,7 +19,7 @@ use scenario::{Claim, Formulas};
 #[derive(Clone, Debug, PartialEq)]
 pub enum FormulaCause {
     /// One slip of the pen.
-    FormulaSlip(FormulaSlip),
+    Slip(FormulaSlip),
     /// The same amount too much everywhere, in the unit of the claim.
     Offset(f64),
     /// Too large by the same factor everywhere.
@@ -65,7 +65,7 @@ pub enum FormulaCause {
 impl fmt::Display for FormulaCause {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            FormulaCause::FormulaSlip(FormulaSlip { formula, kind, written, right, everywhere }) => {
+            FormulaCause::Slip(FormulaSlip { formula, kind, written, right, everywhere }) => {
                 let wherever = if *everywhere { sentences::WHEREVER_IT_STANDS } else { "" };
                 write!(f, "{}", sentences::in_instead_of(&kind.words(), &formula, &right, &written, &wherever))
             }
@@ -217,7 +217,7 @@ fn sought(trial: &mut Trial, claim: &Claim, course: &KnownTrajectory) -> Option<
                     || is_number(rank.3) && own.rank.2 && own.rank.3 < rank.3);
             own.rank == rank && own.slip.written == written || is_other && kinds.insert((own.slip.kind, own.rank.2))
         });
-        return one_of(sound.into_iter().map(|own| FormulaCause::FormulaSlip(own.slip.clone())).collect());
+        return one_of(sound.into_iter().map(|own| FormulaCause::Slip(own.slip.clone())).collect());
     }
     // What is missing comes before slips whose units do not fit together.
     let lacks = if trial.is_spent() { Vec::new() } else { missing(trial, &dimensions) };
@@ -226,7 +226,7 @@ fn sought(trial: &mut Trial, claim: &Claim, course: &KnownTrajectory) -> Option<
         return one_of(found);
     }
     if let Some(first) = tried.right.first() {
-        return Some(FormulaCause::FormulaSlip(first.slip.clone()));
+        return Some(FormulaCause::Slip(first.slip.clone()));
     }
     if number.is_some() {
         return number;
@@ -250,8 +250,7 @@ fn sought(trial: &mut Trial, claim: &Claim, course: &KnownTrajectory) -> Option<
     // Of as many that are as simple, one leaves as little at two independent instants by chance.
     let by_chance = |own: &Mended| (CHANCE / own.among as f64).sqrt().smaller(MOST_LEFT);
     let nearest = tried.nearest.filter(|own| !own.rank.0 && !is_weak && own.left <= by_chance(own));
-    let mostly =
-        |own: Mended| FormulaCause::Mostly { cause: Box::new(FormulaCause::FormulaSlip(own.slip)), left: own.left };
+    let mostly = |own: Mended| FormulaCause::Mostly { cause: Box::new(FormulaCause::Slip(own.slip)), left: own.left };
     nearest.map(mostly).or_else(|| near(&rows).filter(|_| is_exact))
 }
 

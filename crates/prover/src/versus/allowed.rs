@@ -163,7 +163,7 @@ mod tests {
 
     fn how(allowed: &[(Option<&str>, Size)]) -> ComparisonRule {
         let of = |(of, size): &(Option<&str>, Size)| Allowed { of: of.map(Into::into), size: *size };
-        ComparisonRule { allowed: allowed.iter().map(of).collect(), ..How::default() }
+        ComparisonRule { allowed: allowed.iter().map(of).collect(), ..ComparisonRule::default() }
     }
 
     /// Of a channel with a scale of 4, in its unit; of several allowances for one the last of each kind counts.
@@ -206,7 +206,7 @@ mod tests {
             ("point.B.x_m", false),
             ("velocities", false),
         ] {
-            let only = ComparisonRule { only: vec!["point.C".into(), word.into()], ..How::default() };
+            let only = ComparisonRule { only: vec!["point.C".into(), word.into()], ..ComparisonRule::default() };
             assert_eq!(only.asked()(&claim), is_meant, "{word}");
             let said = how(&[(Some("crank"), Size::Absolute(1.0)), (Some(word), Size::Absolute(1.0))]);
             assert_eq!(said.allowances().of(&claim, 1.0).is_some(), is_meant, "{word}");

@@ -2,10 +2,10 @@
 
 use super::super::damage::NUMBERS;
 use super::super::parquet::Announced;
-use super::super::sketch::Random;
+use super::super::sketch::RandomSource;
 
 /// Lengths and sizes in a recording that are not what is there.
-pub fn lengths(random: &mut Random, bytes: &mut [u8], what: &mut Vec<String>) {
+pub fn lengths(random: &mut RandomSource, bytes: &mut [u8], what: &mut Vec<String>) {
     let mut places = Vec::new();
     let mut at = mcap::MAGIC.len();
     while at + 9 < bytes.len() {
@@ -24,7 +24,7 @@ pub fn lengths(random: &mut Random, bytes: &mut [u8], what: &mut Vec<String>) {
 }
 
 /// Does something to bytes that whoever wrote them would not.
-pub fn spoil(random: &mut Random, bytes: &mut Vec<u8>, what: &mut Vec<String>) {
+pub fn spoil(random: &mut RandomSource, bytes: &mut Vec<u8>, what: &mut Vec<String>) {
     /// Most bytes of an input: more are refused at every door.
     const MOST: usize = 8 << 20;
     if random.yes() {
@@ -120,7 +120,7 @@ pub fn spoil(random: &mut Random, bytes: &mut Vec<u8>, what: &mut Vec<String>) {
 }
 
 /// A slip of whoever writes by hand: one other digit, a line twice, one line less, or two of them exchanged.
-fn slip(random: &mut Random, bytes: &mut Vec<u8>, what: &mut Vec<String>) {
+fn slip(random: &mut RandomSource, bytes: &mut Vec<u8>, what: &mut Vec<String>) {
     let kind = random.index(4);
     if kind == 0 {
         let digits: Vec<usize> = (0..bytes.len()).filter(|&at| bytes[at].is_ascii_digit()).collect();
@@ -142,7 +142,7 @@ fn slip(random: &mut Random, bytes: &mut Vec<u8>, what: &mut Vec<String>) {
 }
 
 /// Puts something in the place of a number.
-fn number(random: &mut Random, bytes: &mut Vec<u8>, new: &[u8]) {
+fn number(random: &mut RandomSource, bytes: &mut Vec<u8>, new: &[u8]) {
     let starts = |at: &usize| bytes[*at].is_ascii_digit() && (*at == 0 || !bytes[at - 1].is_ascii_alphanumeric());
     let all: Vec<usize> = (0..bytes.len()).filter(starts).collect();
     if all.is_empty() {
@@ -161,7 +161,7 @@ pub fn wide(table: &[u8], columns: usize) -> Vec<u8> {
 }
 
 /// A Parquet file with some of its numbers exchanged for large ones.
-pub fn announced(random: &mut Random, what: &mut Vec<String>) -> Vec<u8> {
+pub fn announced(random: &mut RandomSource, what: &mut Vec<String>) -> Vec<u8> {
     let rows = [0, 1, 100, 100_000, 1 << 20, 60_000_000][random.index(6)];
     let mut own = if rows > 1 << 20 || random.yes() { Announced::run(rows) } else { Announced::zeros(rows) };
     let large = [0, -1, 1, 5000, 1 << 20, 1 << 26, (1 << 31) - 1, 1 << 40, i64::MAX, i64::MIN][random.index(10)];

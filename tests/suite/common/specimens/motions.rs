@@ -10,7 +10,7 @@ use linkage::math::KeepNan;
 use linkage::solver::{Solver, State};
 use linkage::trajectory::Stage;
 
-use super::super::sketch::Random;
+use super::super::sketch::RandomSource;
 use super::super::spec::Spec;
 use super::shapes::{Safe, short};
 
@@ -18,7 +18,7 @@ use super::shapes::{Safe, short};
 const FARTHEST: f64 = 3.0 * TAU;
 
 /// A constant speed: over all of a limited range or a part of it, over up to more than a turn otherwise.
-pub fn constant(random: &mut Random, spec: &mut Spec, safe: Safe) -> &'static str {
+pub fn constant(random: &mut RandomSource, spec: &mut Spec, safe: Safe) -> &'static str {
     let (mut from, mut to) = (safe.from, safe.to);
     if safe.full {
         let span = TAU * random.number(0.3, 1.2);
@@ -37,7 +37,7 @@ pub fn constant(random: &mut Random, spec: &mut Spec, safe: Safe) -> &'static st
 }
 
 /// A motion law from rest, with the size of the speed as its top speed, towards the side with more room.
-pub fn law(random: &mut Random, spec: &mut Spec, safe: Safe) -> &'static str {
+pub fn law(random: &mut RandomSource, spec: &mut Spec, safe: Safe) -> &'static str {
     let (top, start) = (spec.speed.abs(), spec.start);
     let room = if safe.full {
         TAU * random.number(0.3, 1.0) * spec.speed.signum()
@@ -80,7 +80,7 @@ pub fn law(random: &mut Random, spec: &mut Spec, safe: Safe) -> &'static str {
 
 /// A free motion: let go at rest, or from a speed or under a motor. Motors have the size of `moment` (N m), that of
 /// inertia and weight on the crank at the nominal speed.
-pub fn free(random: &mut Random, spec: &mut Spec, moment: f64, falls: bool) -> &'static str {
+pub fn free(random: &mut RandomSource, spec: &mut Spec, moment: f64, falls: bool) -> &'static str {
     let speed = spec.speed;
     let kind = if falls { 0 } else { 1 + random.index(3) };
     let initial = match kind {
@@ -97,7 +97,7 @@ pub fn free(random: &mut Random, spec: &mut Spec, moment: f64, falls: bool) -> &
 }
 
 /// A motor whose torque is of the size of `moment` on a crank at `speed`.
-fn motor(random: &mut Random, speed: f64, moment: f64) -> String {
+fn motor(random: &mut RandomSource, speed: f64, moment: f64) -> String {
     let ratio = if random.yes() { 1.0 } else { random.number(2.0, 30.0) };
     let efficiency = if random.yes() { 1.0 } else { random.number(0.6, 1.0) };
     let torque = moment * random.number(0.3, 1.5) / ratio;

@@ -13,7 +13,7 @@ use linkage::trajectory::Stage;
 
 use super::super::higher::{Among, FAMILIES, mechanism};
 use super::super::random::{DEAD, REACH, SORTS, chain};
-use super::super::sketch::Random;
+use super::super::sketch::RandomSource;
 use super::super::spec::{Spec, four_bar};
 
 /// Largest condition number of a higher group; that of a dyad is 11.4 at a transmission angle of 10 degrees.
@@ -46,7 +46,7 @@ impl Safe {
 }
 
 /// The shape with this number; the kinds follow each other in a circle of ten.
-pub fn shape(random: &mut Random, index: u64) -> Result<Shape, String> {
+pub fn shape(random: &mut RandomSource, index: u64) -> Result<Shape, String> {
     let round = (index / 10) as usize;
     let (sort, mut spec) = match index % 10 {
         kind @ 0..=2 => four_bar_of(random, (3 * round + kind as usize) % 8),
@@ -83,7 +83,7 @@ pub fn short(message: &str) -> String {
 }
 
 /// A four-bar of one of Grashof's types: four types, and those without a link that turns fully, by their longest link.
-fn four_bar_of(random: &mut Random, kind: usize) -> (String, Spec) {
+fn four_bar_of(random: &mut RandomSource, kind: usize) -> (String, Spec) {
     use FourBarType::{CrankRocker, DoubleCrank, DoubleRocker, RockerCrank, TripleRocker};
     let types = [CrankRocker, RockerCrank, DoubleCrank, DoubleRocker];
     let wanted = types.get(kind).copied().unwrap_or(TripleRocker);

@@ -110,10 +110,10 @@ impl Told<()> for () {
 /// where it can be made smaller.
 macro_rules! kinds {
     ($family:ident, $plant:ident: $($name:literal $(($size:literal))?: $says:literal, |$($given:pat_param),*| $change:expr;)*) => {
-        pub(super) const KINDS: &[$crate::mutate::kinds::Kind] = &[$($crate::mutate::kinds::Kind {
+        pub(super) const KINDS: &[$crate::mutate::kinds::FaultKind] = &[$($crate::mutate::kinds::FaultKind {
             name: $name,
             says: $says,
-            family: $crate::mutate::kinds::Family::$family,
+            family: $crate::mutate::kinds::FaultFamily::$family,
             size: None,
             plant: $crate::mutate::kinds::Plant::$plant(|$($given),*| $crate::mutate::kinds::Told::told($change)),
         }$(.sized($size))?),*];
